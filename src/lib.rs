@@ -1,0 +1,10 @@
+//! A headless GPU path tracer that proves its pictures against a CPU reference.
+//!
+//! ```text
+//! scene file ─▶ Scene ─▶ FlatScene ─▶ Plan ─▶ wavefront stages (GPU) ─▶ Film ─▶ EXR / PNG / stats
+//!                 └────────────────▶ reference integrator (CPU, f64) ────┘
+//! ```
+
+pub mod film;
+pub mod render;
+pub mod scene;

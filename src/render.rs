@@ -1,0 +1,94 @@
+//! What every renderer, GPU or CPU, takes and gives back.
+
+use std::ops::Range;
+
+use crate::film::Band;
+
+/// Which device renders (`--device`).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum DeviceChoice {
+    /// Discrete, integrated, then software Vulkan; with no adapter at all, the CPU integrator.
+    Auto,
+    /// As `Auto`, but the CPU integrator is no way out.
+    Gpu,
+    /// The reference integrator.
+    Cpu,
+    /// The adapter whose name contains this, ignoring case.
+    Named(String),
+}
+
+/// The part of a render that is wanted: all pixels of `rows`, the samples with these absolute indices.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RenderRequest {
+    pub rows: Range<u32>,
+    pub samples: Range<u32>,
+}
+
+/// Is told how far a render is, and says whether it should go on. Called from the rendering thread, several times a second.
+pub trait Observer: Sync {
+    /// `done` of `total` samples (pixels × spp) are finished.
+    fn progress(&self, done: u64, total: u64);
+    /// True: stop soon, deliver what is done.
+    fn stop_requested(&self) -> bool;
+}
+
+/// An observer that shows nothing and never stops.
+pub struct Silent;
+
+impl Observer for Silent {
+    fn progress(&self, _done: u64, _total: u64) {}
+    fn stop_requested(&self) -> bool {
+        false
+    }
+}
+
+/// What a render did, for `--stats`.
+#[derive(Debug, Clone, Default)]
+pub struct RenderReport {
+    /// The device as people call it, for example `llvmpipe (LLVM 15.0.6, 256 bits)` or `CPU reference`.
+    pub device: String,
+    /// Camera, bounce and shadow rays traced.
+    pub rays: u64,
+    /// Samples finished, over all pixels.
+    pub samples: u64,
+    /// Samples that were not finite and that the film refused.
+    pub non_finite_samples: u64,
+    /// Most bytes allocated on the device at once (0 for the CPU).
+    pub peak_device_bytes: u64,
+    /// Seconds spent building acceleration structures and packing the scene.
+    pub build_seconds: f64,
+    /// Seconds spent making shaders and pipelines.
+    pub compile_seconds: f64,
+    pub render_seconds: f64,
+    /// The observer asked to stop before all samples were done.
+    pub interrupted: bool,
+}
+
+/// Why a render could not be done or finished.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    #[error("no usable device: {0}")]
+    NoDevice(String),
+    /// Needs and limits are part of the message.
+    #[error("the scene does not fit the device: {0}")]
+    DoesNotFit(String),
+    #[error("the device was lost: {0}")]
+    DeviceLost(String),
+    #[error("{0}")]
+    Internal(String),
+    /// The receiver of the bands failed (a full disk, say).
+    #[error(transparent)]
+    Output(#[from] std::io::Error),
+}
+
+/// A scene made ready on one device.
+pub trait Renderer {
+    /// Renders the request and hands over finished bands in order from the top, each once. When the observer stops it, bands hold
+    /// what was done so far: `samples` of a band says how many, rows never begun are not delivered.
+    fn render(
+        &mut self,
+        request: &RenderRequest,
+        observer: &dyn Observer,
+        on_band: &mut dyn FnMut(Band) -> std::io::Result<()>,
+    ) -> Result<RenderReport, RenderError>;
+}

@@ -1,0 +1,67 @@
+//! Where the picture is taken from.
+
+use glam::DVec3;
+
+/// A camera in world space. It looks along `look_at - position`; `up` is made orthogonal to that.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Camera {
+    pub position: DVec3,
+    pub look_at: DVec3,
+    pub up: DVec3,
+    pub projection: Projection,
+    /// None: a pinhole.
+    pub aperture: Option<Aperture>,
+    /// Distance along the viewing direction of the plane in focus; used with an aperture.
+    pub focus_distance: f64,
+    /// Times at which the shutter opens and closes.
+    pub shutter: [f64; 2],
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self {
+            position: DVec3::new(0.0, 0.0, 1.0),
+            look_at: DVec3::ZERO,
+            up: DVec3::Y,
+            projection: Projection::Perspective { vertical_fov_degrees: 40.0 },
+            aperture: None,
+            focus_distance: 1.0,
+            shutter: [0.0, 1.0],
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Projection {
+    Perspective {
+        vertical_fov_degrees: f64,
+    },
+    /// Parallel rays over a window `height` scene units high.
+    Orthographic {
+        height: f64,
+    },
+}
+
+/// The lens opening of a thin-lens camera.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Aperture {
+    pub shape: ApertureShape,
+    /// Radius of the opening's circumscribed circle (disk, polygon) or half its side (square).
+    pub radius: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ApertureShape {
+    Disk,
+    Square,
+    Polygon { blades: u32, rotation_degrees: f64 },
+}
+
+impl Camera {
+    /// Orthonormal camera frame: right, up, backward (the camera looks along -backward).
+    pub fn frame(&self) -> [DVec3; 3] {
+        let backward = (self.position - self.look_at).normalize();
+        let right = self.up.cross(backward).normalize();
+        [right, backward.cross(right), backward]
+    }
+}

@@ -1,0 +1,138 @@
+//! `[film]` and `[render]`: how large the picture is and how it is estimated.
+
+/// The picture's size and reconstruction filter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FilmSettings {
+    /// Width and height in pixels, both at least 1.
+    pub size: [u32; 2],
+    pub filter: Filter,
+}
+
+impl Default for FilmSettings {
+    fn default() -> Self {
+        Self { size: [512, 512], filter: Filter::default() }
+    }
+}
+
+/// Reconstruction filter; samples are drawn from it, so every sample has weight 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Filter {
+    pub kind: FilterKind,
+    /// Half the filter's width, in pixels.
+    pub radius: f64,
+}
+
+impl Default for Filter {
+    fn default() -> Self {
+        Self { kind: FilterKind::Box, radius: 0.5 }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FilterKind {
+    Box,
+    Tent,
+    Gaussian,
+    BlackmanHarris,
+}
+
+/// How radiance is estimated. The scene file sets the defaults, the command line overrides them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RenderSettings {
+    /// Samples per pixel, at least 1.
+    pub spp: u32,
+    /// Path edges: 1 = only light seen directly, 2 = plus direct lighting, 0 = unlimited (Russian roulette ends paths).
+    pub max_depth: u32,
+    pub sampler: SamplerKind,
+    /// The sampler of the pixel's own two dimensions; `None` in the inner value means the pixel's centre (aliased).
+    pub pixel_sampler: PixelSampler,
+    pub estimator: Estimator,
+    pub heuristic: MisHeuristic,
+    /// First depth at which Russian roulette may end a path; 0 = never.
+    pub roulette_depth: u32,
+    /// Key of every random number of the render.
+    pub seed: u32,
+    pub hemisphere: HemisphereSampling,
+    pub light_sampling: LightSampling,
+    pub blend: BlendMode,
+}
+
+impl Default for RenderSettings {
+    fn default() -> Self {
+        Self {
+            spp: 256,
+            max_depth: 16,
+            sampler: SamplerKind::Halton,
+            pixel_sampler: PixelSampler::SameAsPath,
+            estimator: Estimator::Mis,
+            heuristic: MisHeuristic::Power,
+            roulette_depth: 5,
+            seed: 0,
+            hemisphere: HemisphereSampling::Cosine,
+            light_sampling: LightSampling::Cone,
+            blend: BlendMode::Mixture,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SamplerKind {
+    Independent,
+    Stratified,
+    Halton,
+    Sobol,
+}
+
+/// Which sampler draws the position inside the pixel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PixelSampler {
+    /// The path's own sampler.
+    SameAsPath,
+    /// Another sampler than the path's.
+    Other(SamplerKind),
+    /// Always the pixel's centre: aliased, for comparison.
+    Centre,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Estimator {
+    /// Next event estimation and BSDF sampling combined by multiple importance sampling.
+    Mis,
+    /// Next event estimation alone; emitters met by a BSDF sample count only where light sampling cannot produce them.
+    Nee,
+    /// BSDF sampling alone.
+    Bsdf,
+}
+
+/// How multiple importance sampling weighs the two strategies (Veach 1997, section 9.2).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MisHeuristic {
+    /// Power heuristic with β = 2.
+    Power,
+    Balance,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum HemisphereSampling {
+    Cosine,
+    Uniform,
+}
+
+/// How a point on a sphere light is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LightSampling {
+    /// Uniform in the cone of directions that meet the sphere.
+    Cone,
+    /// Uniform over the half of the surface that faces the point.
+    Visible,
+    /// Uniform over the whole surface.
+    Area,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BlendMode {
+    /// Every lobe of a blend is evaluated, one is sampled.
+    Mixture,
+    /// One material is chosen per hit, as in the thesis.
+    Pick,
+}

@@ -1,0 +1,70 @@
+//! Where surfaces are.
+
+use std::sync::Arc;
+
+use glam::{DVec3, Vec2, Vec3};
+
+use super::MaterialId;
+use super::transform::Transform;
+
+/// One surface: geometry in its own space, where it stands, and what it is made of.
+#[derive(Debug, Clone)]
+pub struct Shape {
+    /// How errors and reports call it: its type and place in the file, or an object's name.
+    pub label: String,
+    pub geometry: Geometry,
+    /// The material of the whole shape; a mesh may carry one per face instead.
+    pub material: MaterialId,
+    /// From the shape's own space to the world at shutter time 0.
+    pub transform: Transform,
+    /// Steps reached at shutter time 1, applied after `transform`; None: at rest.
+    pub motion: Option<Transform>,
+    /// Sample this shape's directions as if it were a light, emitting or not.
+    pub portal: bool,
+}
+
+#[derive(Debug, Clone)]
+pub enum Geometry {
+    Mesh(Arc<Mesh>),
+    /// Normal outward.
+    Sphere {
+        center: DVec3,
+        radius: f64,
+    },
+    /// Parallelogram; normal along edge_u × edge_v. UV (0,0) at `corner`, u along edge_u.
+    Rectangle {
+        corner: DVec3,
+        edge_u: DVec3,
+        edge_v: DVec3,
+    },
+    Disk {
+        center: DVec3,
+        normal: DVec3,
+        radius: f64,
+    },
+    /// Axis-aligned in its own space; normals outward.
+    Box {
+        min: DVec3,
+        max: DVec3,
+    },
+    /// Infinite; never a light.
+    Plane {
+        point: DVec3,
+        normal: DVec3,
+    },
+}
+
+/// Triangles with shared vertices. Front faces are counter-clockwise.
+#[derive(Debug, Clone, Default)]
+pub struct Mesh {
+    pub positions: Vec<Vec3>,
+    /// One per position, or empty.
+    pub normals: Vec<Vec3>,
+    /// One per position, or empty.
+    pub uvs: Vec<Vec2>,
+    pub faces: Vec<[u32; 3]>,
+    /// One material per face, or empty: then the shape's material is that of every face.
+    pub face_materials: Vec<MaterialId>,
+    /// Interpolate normals over the faces (needs `normals`); false: flat facets.
+    pub smooth: bool,
+}
