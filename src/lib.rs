@@ -7,4 +7,5 @@
 
 pub mod film;
 pub mod render;
+pub mod sampling;
 pub mod scene;
