@@ -6,6 +6,7 @@
 //! ```
 
 pub mod film;
+pub mod gpu;
 pub mod render;
 pub mod sampling;
 pub mod scene;
