@@ -83,6 +83,10 @@ pub enum RenderError {
 
 /// A scene made ready on one device.
 pub trait Renderer {
+    /// The device as people call it; the same text as [`RenderReport::device`], known before the render because picture files
+    /// carry it in their header.
+    fn device(&self) -> &str;
+
     /// Renders the request and hands over finished bands in order from the top, each once. When the observer stops it, bands hold
     /// what was done so far: `samples` of a band says how many, rows never begun are not delivered.
     fn render(
