@@ -19,7 +19,7 @@ pub use light::{Environment, EnvironmentRadiance, Light};
 pub use material::{ConductorFresnel, Emission, Heuristic, Material, MaterialKind, MicrofacetDistribution};
 pub use settings::{
     BlendMode, Estimator, FilmSettings, Filter, FilterKind, HemisphereSampling, LightSampling, MisHeuristic, PixelSampler,
-    RenderSettings, SamplerKind,
+    RenderSettings, SamplerKind, setting_name,
 };
 pub use shape::{Geometry, Mesh, Shape};
 pub use texture::{ColorInput, ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap};

@@ -1,5 +1,7 @@
 //! `[film]` and `[render]`: how large the picture is and how it is estimated.
 
+use clap::ValueEnum;
+
 /// The picture's size and reconstruction filter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FilmSettings {
@@ -75,7 +77,7 @@ impl Default for RenderSettings {
     }
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum SamplerKind {
     Independent,
     Stratified,
@@ -94,7 +96,7 @@ pub enum PixelSampler {
     Centre,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Estimator {
     /// Next event estimation and BSDF sampling combined by multiple importance sampling.
     Mis,
@@ -105,21 +107,21 @@ pub enum Estimator {
 }
 
 /// How multiple importance sampling weighs the two strategies (Veach 1997, section 9.2).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum MisHeuristic {
     /// Power heuristic with β = 2.
     Power,
     Balance,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum HemisphereSampling {
     Cosine,
     Uniform,
 }
 
 /// How a point on a sphere light is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum LightSampling {
     /// Uniform in the cone of directions that meet the sphere.
     Cone,
@@ -129,10 +131,15 @@ pub enum LightSampling {
     Area,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum BlendMode {
     /// Every lobe of a blend is evaluated, one is sampled.
     Mixture,
     /// One material is chosen per hit, as in the thesis.
     Pick,
+}
+
+/// The name by which scene files, the command line and picture headers call a setting's value.
+pub fn setting_name<T: ValueEnum>(value: T) -> String {
+    value.to_possible_value().map(|possible| possible.get_name().to_owned()).unwrap_or_default()
 }
