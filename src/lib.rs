@@ -5,8 +5,10 @@
 //!                 └────────────────▶ reference integrator (CPU, f64) ────┘
 //! ```
 
+pub mod compare;
 pub mod film;
 pub mod gpu;
+pub mod output;
 pub mod render;
 pub mod sampling;
 pub mod scene;

@@ -1,0 +1,5 @@
+//! How far two pictures are apart.
+
+mod metrics;
+
+pub use metrics::{Comparison, Extreme, Metric, MetricValue, SizeMismatch, compare};

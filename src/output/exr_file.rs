@@ -1,0 +1,90 @@
+//! OpenEXR pictures: f32 RGB scan lines, lossless, written block by block.
+
+use std::io::{Seek, SeekFrom, Write};
+
+use exr::block::UncompressedBlock;
+use exr::block::writer::{ChunkWriter, ChunksWriter};
+use exr::meta::MetaData;
+use exr::meta::attribute::{AttributeValue, ChannelDescription, Chromaticities, LineOrder, SampleType, Text};
+use exr::meta::header::Header;
+use exr::meta::{BlockDescription, Headers};
+use exr::prelude::{Compression, Vec2};
+
+use super::PictureSpec;
+use super::provenance::Entry;
+use super::rows::Rows;
+
+/// Scan lines that ZIP compresses together.
+const ROWS_PER_BLOCK: usize = 16;
+/// Bytes before the header in every file: the magic number and the version.
+const PREAMBLE_BYTES: u64 = 8;
+
+/// Encodes all rows of the picture. The error is a sentence.
+pub(super) fn write<W: Write + Seek>(mut writer: W, mut rows: Rows, spec: &PictureSpec) -> Result<(), String> {
+    let wanted = spec.provenance.settings.spp;
+    let headers: Headers = [header(spec, wanted)].into_iter().collect();
+    exr::block::write(&mut writer, headers, true, |meta, chunks| write_blocks(&meta, chunks, &mut rows))
+        .map_err(|error| error.to_string())?;
+
+    // The header went out before the samples were counted. Its numbers have a fixed length, so it is written again in place.
+    let samples = rows.fewest_samples();
+    if samples != wanted {
+        writer.seek(SeekFrom::Start(PREAMBLE_BYTES)).map_err(|error| error.to_string())?;
+        Header::write_all(&[header(spec, samples)], &mut writer, false).map_err(|error| error.to_string())?;
+    }
+    writer.flush().map_err(|error| error.to_string())
+}
+
+fn write_blocks<W: Write + Seek>(meta: &MetaData, chunks: &mut ChunkWriter<W>, rows: &mut Rows) -> exr::error::UnitResult {
+    let header = &meta.headers[0];
+    let mut compressor = chunks.sequential_blocks_compressor(meta);
+    for (index, index_in_layer) in meta.enumerate_ordered_header_block_indices() {
+        let size = index_in_layer.pixel_size;
+        let mut data = Vec::with_capacity(size.area() * header.channels.bytes_per_pixel);
+        for _ in 0..size.height() {
+            let row = rows.next_row().map_err(|_| exr::error::Error::Aborted)?;
+            // Channels lie one after another in a scan line, in the alphabetical order of their names.
+            for channel in [2, 1, 0] {
+                data.extend(row.iter().flat_map(|pixel| pixel[channel].to_ne_bytes()));
+            }
+        }
+        compressor.compress_block(index, UncompressedBlock { index: index_in_layer, data })?;
+    }
+    rows.wait_for_finish().map_err(|_| exr::error::Error::Aborted)
+}
+
+fn header(spec: &PictureSpec, samples: u32) -> Header {
+    let channels = ["B", "G", "R"].map(|name| ChannelDescription::new(name, SampleType::F32, false));
+    let size = Vec2(spec.width as usize, spec.height as usize);
+    let mut header = Header::new(Text::from("gpt"), size, channels.into_iter().collect()).with_encoding(
+        Compression::ZIP16,
+        BlockDescription::ScanLines,
+        LineOrder::Increasing,
+    );
+    debug_assert_eq!(header.compression.scan_lines_per_block(), ROWS_PER_BLOCK);
+    // A part's name is for files of several parts; some readers would put it before the channels' names.
+    header.own_attributes.layer_name = None;
+    header.own_attributes.software_name = Some(Text::from(concat!("gpt ", env!("CARGO_PKG_VERSION"))));
+    for (key, entry) in spec.provenance.entries(samples) {
+        header.own_attributes.other.insert(Text::from(key), attribute(entry));
+    }
+    header.shared_attributes.chromaticities = Some(REC_709);
+    header
+}
+
+fn attribute(entry: Entry) -> AttributeValue {
+    match entry {
+        Entry::Text(text) => AttributeValue::Text(header_text(&text)),
+        Entry::Number(number) => AttributeValue::I32(i32::try_from(number).unwrap_or(i32::MAX)),
+    }
+}
+
+/// The header's text is Latin-1; other characters become question marks.
+fn header_text(text: &str) -> Text {
+    let known: String = text.chars().map(|character| if u32::from(character) < 256 { character } else { '?' }).collect();
+    Text::new_or_none(known).unwrap_or_else(|| Text::from("?"))
+}
+
+/// Primaries and white point (D65) of Rec. ITU-R BT.709, CIE 1931 xy.
+const REC_709: Chromaticities =
+    Chromaticities { red: Vec2(0.64, 0.33), green: Vec2(0.3, 0.6), blue: Vec2(0.15, 0.06), white: Vec2(0.3127, 0.329) };

@@ -1,0 +1,116 @@
+//! The bands of a render, put back into single rows for the file formats.
+
+use std::sync::Arc;
+use std::sync::mpsc::Receiver;
+
+use crate::film::Band;
+
+/// What the render tells a file's writer.
+pub(super) enum Message {
+    Band(Arc<Band>),
+    /// No more bands; the file is to be finished with what came.
+    Finish,
+}
+
+/// Rows from the top, each once. Rows that never came are black and count 0 samples.
+pub(super) struct Rows {
+    messages: Receiver<Message>,
+    band: Arc<Band>,
+    finished: bool,
+    next_row: u32,
+    fewest_samples: u32,
+    blank: Vec<[f32; 3]>,
+}
+
+/// The render ended without a word, so the file must not be finished.
+#[derive(Debug)]
+pub(super) struct Abandoned;
+
+impl Rows {
+    pub(super) fn new(messages: Receiver<Message>, width: u32) -> Self {
+        Self {
+            messages,
+            band: Arc::default(),
+            finished: false,
+            next_row: 0,
+            fewest_samples: u32::MAX,
+            blank: vec![[0.0; 3]; width as usize],
+        }
+    }
+
+    /// The next row's pixels.
+    pub(super) fn next_row(&mut self) -> Result<&[[f32; 3]], Abandoned> {
+        let row = self.next_row;
+        self.next_row += 1;
+        while !self.finished && row >= self.band.first_row + self.band.rows {
+            match self.messages.recv() {
+                Ok(Message::Band(band)) => self.band = band,
+                Ok(Message::Finish) => self.finished = true,
+                Err(_) => return Err(Abandoned),
+            }
+        }
+        if row < self.band.first_row || row >= self.band.first_row + self.band.rows {
+            self.fewest_samples = 0;
+            return Ok(&self.blank);
+        }
+        self.fewest_samples = self.fewest_samples.min(self.band.samples);
+        let width = self.blank.len();
+        let start = (row - self.band.first_row) as usize * width;
+        Ok(&self.band.mean[start..start + width])
+    }
+
+    /// Waits until the render said that it is over.
+    pub(super) fn wait_for_finish(&mut self) -> Result<(), Abandoned> {
+        while !self.finished {
+            match self.messages.recv() {
+                Ok(Message::Band(_)) => {}
+                Ok(Message::Finish) => self.finished = true,
+                Err(_) => return Err(Abandoned),
+            }
+        }
+        Ok(())
+    }
+
+    /// Samples that the least finished pixel of the rows so far received.
+    pub(super) fn fewest_samples(&self) -> u32 {
+        self.fewest_samples
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::channel;
+
+    use super::*;
+
+    fn band(first_row: u32, rows: u32, samples: u32) -> Message {
+        let mean = (0..rows * 2).map(|index| [(first_row * 2 + index) as f32; 3]).collect();
+        Message::Band(Arc::new(Band { first_row, width: 2, rows, samples, mean, second_moment: vec![0.0; rows as usize * 2] }))
+    }
+
+    #[test]
+    fn rows_come_in_order_and_missing_ones_are_black() {
+        let (sender, receiver) = channel();
+        for message in [band(0, 2, 8), band(2, 1, 8), band(4, 1, 3), Message::Finish] {
+            sender.send(message).unwrap();
+        }
+        let mut rows = Rows::new(receiver, 2);
+        let firsts: Vec<f32> = (0..4).map(|_| rows.next_row().unwrap()[0][0]).collect();
+        assert_eq!(firsts, [0.0, 2.0, 4.0, 0.0], "the fourth row was never rendered");
+        assert_eq!(rows.fewest_samples(), 0);
+        assert_eq!(rows.next_row().unwrap(), [[8.0; 3], [9.0; 3]]);
+        assert_eq!(rows.next_row().unwrap(), [[0.0; 3]; 2]);
+    }
+
+    #[test]
+    fn a_render_that_breaks_off_is_no_finished_one() {
+        let (sender, receiver) = channel();
+        sender.send(band(0, 1, 8)).unwrap();
+        drop(sender);
+        let mut rows = Rows::new(receiver, 2);
+        assert!(rows.next_row().is_ok());
+        assert_eq!(rows.fewest_samples(), 8);
+        assert!(rows.next_row().is_err());
+        assert!(rows.wait_for_finish().is_err());
+    }
+}
