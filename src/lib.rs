@@ -9,6 +9,7 @@ pub mod compare;
 pub mod film;
 pub mod gpu;
 pub mod output;
+pub mod reference;
 pub mod render;
 pub mod sampling;
 pub mod scene;

@@ -11,4 +11,4 @@ pub mod sampler;
 
 pub use alias::AliasTable;
 pub use dimension::{BounceDimension, CameraDimension, Dimension};
-pub use sampler::PathSampler;
+pub use sampler::{PathSampler, SequencePoint};

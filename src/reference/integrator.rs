@@ -1,0 +1,198 @@
+//! The path tracing estimator (Kajiya 1986; Veach 1997).
+//!
+//! Radiance that arrives along a ray leaves the surface it came from: L = Le + ∫ f(wo, wi) L(wi) |cosθi| dwi. The integral is
+//! estimated at every surface by at most two samples: one direction towards a light (next event estimation), which finds emission
+//! only, and one direction drawn from the BSDF, along which the path goes on. The product of all weights f·|cosθ| / density so far
+//! is the path's throughput. Emission that both samples can find is shared out by multiple importance sampling, see
+//! [`super::mis`].
+
+use glam::DVec3;
+
+use super::bsdf::{Bsdf, BsdfSample, Density};
+use super::camera::PinholeCamera;
+use super::intersect::{Ray, Surface, World};
+use super::lights::{Lights, emitted};
+use super::trace::{LightConnection, PathVisitor};
+use super::{mis, support};
+use crate::render::RenderError;
+use crate::sampling::{BounceDimension, CameraDimension, Dimension, PathSampler};
+use crate::scene::{Estimator, Scene};
+
+/// Edges from which on Russian roulette always has a chance to end the path, whatever its throughput.
+const CERTAIN_ROULETTE_EDGE: u32 = 64;
+/// Largest probability of surviving from there on.
+const LARGEST_SURVIVAL: f64 = 0.999;
+
+/// A scene made ready for tracing paths.
+#[derive(Debug, Clone)]
+pub struct Integrator {
+    scene: Scene,
+    world: World,
+    lights: Lights,
+    camera: PinholeCamera,
+}
+
+/// A path under construction.
+struct Path {
+    ray: Ray,
+    /// Product of f·|cosθ| / density over the surfaces so far, roulette included.
+    throughput: DVec3,
+    /// What the path has found.
+    radiance: DVec3,
+    /// Product of eta² over the refractions so far: undoes the scaling of radiance, so that roulette does not end paths for being
+    /// inside glass.
+    eta_scale: f64,
+    /// How the ray's direction was sampled.
+    previous: Density,
+}
+
+impl Integrator {
+    /// Fails on what the reference cannot render.
+    pub fn new(scene: &Scene) -> Result<Self, RenderError> {
+        support::check(scene)?;
+        let world = World::new(scene)?;
+        let lights = Lights::new(scene, &world);
+        let camera = PinholeCamera::new(&scene.camera, &scene.film)?;
+        Ok(Self { scene: scene.clone(), world, lights, camera })
+    }
+
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The radiance one sample of one pixel sees. `visitor` is told everything that happens.
+    pub fn radiance<V: PathVisitor>(&self, x: u32, y: u32, sampler: &PathSampler, visitor: &mut V) -> DVec3 {
+        let pixel = |dimension| sampler.uniform(Dimension::camera(dimension));
+        let film_x = f64::from(x) + pixel(CameraDimension::PixelX);
+        let film_y = f64::from(y) + pixel(CameraDimension::PixelY);
+        let mut path = Path {
+            ray: self.camera.ray(film_x, film_y),
+            throughput: DVec3::ONE,
+            radiance: DVec3::ZERO,
+            eta_scale: 1.0,
+            previous: Density::Delta,
+        };
+        for edge in 1.. {
+            if !self.extend(&mut path, edge, sampler, visitor) {
+                break;
+            }
+        }
+        path.radiance
+    }
+
+    /// Follows the path's ray to the next surface, adds the light found there, and chooses the next ray. False where the path ends.
+    fn extend<V: PathVisitor>(&self, path: &mut Path, edge: u32, sampler: &PathSampler, visitor: &mut V) -> bool {
+        let random = |dimension| sampler.uniform(Dimension::bounce(edge - 1, dimension));
+        visitor.ray(&path.ray);
+        let Some(hit) = self.world.closest(path.ray) else {
+            self.add_environment(path, visitor);
+            return false;
+        };
+        let surface = self.world.surface(&path.ray, &hit);
+        let wo = -path.ray.direction;
+        visitor.surface(edge, &surface, wo, path.throughput);
+        self.add_emission(path, &surface, wo, visitor);
+        if edge == self.scene.render.max_depth {
+            return false;
+        }
+        let bsdf = Bsdf::new(&self.scene, &surface, wo);
+        visitor.view(&bsdf.view);
+        self.add_direct_light(path, edge, &surface, &bsdf, sampler, visitor);
+        let (u1, u2) = (random(BounceDimension::BsdfU), random(BounceDimension::BsdfV));
+        let Some(scattered) = bsdf.sample(random(BounceDimension::Lobe), u1, u2) else { return false };
+        visitor.scattered(&scattered);
+        let BsdfSample { wi, weight, density, eta } = scattered;
+        path.throughput *= weight;
+        path.eta_scale *= eta * eta;
+        path.previous = density;
+        path.ray = Ray { origin: surface.point.leave_towards(wi), direction: wi };
+        self.survives_roulette(path, edge, random(BounceDimension::Roulette), visitor)
+    }
+
+    /// A ray that left the scene finds the environment. Light sampling chooses it only where no BSDF sample may count it (`nee`),
+    /// so the weight is all or nothing.
+    fn add_environment<V: PathVisitor>(&self, path: &mut Path, visitor: &mut V) {
+        let delta = path.previous == Density::Delta;
+        let weight = if !delta && self.lights.environment_is_sampled() { 0.0 } else { 1.0 };
+        let contribution = path.throughput * self.lights.environment() * weight;
+        path.radiance += contribution;
+        visitor.escaped(self.lights.environment(), weight, contribution);
+    }
+
+    /// Emission found by following the path, shared with the light sample of the surface before.
+    fn add_emission<V: PathVisitor>(&self, path: &mut Path, surface: &Surface, wo: DVec3, visitor: &mut V) {
+        let radiance = emitted(&self.scene, surface, wo);
+        if radiance == DVec3::ZERO {
+            return;
+        }
+        let weight = match (path.previous, self.scene.render.estimator) {
+            (Density::Delta, _) | (_, Estimator::Bsdf) => 1.0,
+            (Density::Smooth(pdf), estimator) => {
+                let light_pdf = self.lights.pdf(&self.world, path.ray.origin, surface);
+                match estimator {
+                    _ if light_pdf == 0.0 => 1.0,
+                    Estimator::Nee => 0.0,
+                    Estimator::Mis | Estimator::Bsdf => mis::weight(self.scene.render.heuristic, pdf, light_pdf),
+                }
+            }
+        };
+        let contribution = path.throughput * radiance * weight;
+        path.radiance += contribution;
+        visitor.emission(radiance, weight, contribution);
+    }
+
+    /// Next event estimation: one light, one direction to it, f·|cosθ|·L / (probability · density), if nothing is in between.
+    fn add_direct_light<V: PathVisitor>(
+        &self,
+        path: &mut Path,
+        edge: u32,
+        surface: &Surface,
+        bsdf: &Bsdf,
+        sampler: &PathSampler,
+        visitor: &mut V,
+    ) {
+        let settings = &self.scene.render;
+        if settings.estimator == Estimator::Bsdf || self.lights.is_empty() || !bsdf.has_smooth_lobe() {
+            return;
+        }
+        let dimension = |dimension| Dimension::bounce(edge - 1, dimension);
+        let bits = sampler.bits(dimension(BounceDimension::LightChoice));
+        let u1 = sampler.uniform(dimension(BounceDimension::LightU));
+        let u2 = sampler.uniform(dimension(BounceDimension::LightV));
+        let reference = surface.point.leave_towards(bsdf.view.wo);
+        let Some(light) = self.lights.sample(&self.scene, &self.world, reference, bits, u1, u2) else { return };
+        let scattering = bsdf.evaluate(light.wi);
+        if scattering.value == DVec3::ZERO {
+            return;
+        }
+        // A point light is found by no BSDF sample; with `nee`, BSDF samples leave all emission to this one.
+        let weight = if light.delta || settings.estimator == Estimator::Nee {
+            1.0
+        } else {
+            mis::weight(settings.heuristic, light.pdf, scattering.pdf)
+        };
+        let ray = Ray { origin: reference, direction: light.wi };
+        visitor.ray(&ray);
+        let visible = !self.world.blocked(ray, light.distance, light.target);
+        let unshadowed = path.throughput * scattering.value * light.radiance * (weight / light.pdf);
+        let contribution = if visible { unshadowed } else { DVec3::ZERO };
+        path.radiance += contribution;
+        visitor.light(&LightConnection { light, bsdf_pdf: scattering.pdf, weight, visible, contribution });
+    }
+
+    /// Russian roulette: the path goes on with probability q and then counts 1/q times as much, which leaves the mean as it is.
+    fn survives_roulette<V: PathVisitor>(&self, path: &mut Path, edge: u32, u: f64, visitor: &mut V) -> bool {
+        let first = self.scene.render.roulette_depth;
+        if first == 0 || edge < first {
+            return true;
+        }
+        let largest = if edge < CERTAIN_ROULETTE_EDGE { 1.0 } else { LARGEST_SURVIVAL };
+        let survival = (path.throughput * path.eta_scale).max_element().min(largest);
+        visitor.roulette(survival, u < survival);
+        if u >= survival {
+            return false;
+        }
+        path.throughput /= survival;
+        true
+    }
+}

@@ -1,0 +1,175 @@
+//! A bounding volume hierarchy, built by `obvhs` over boxes rounded outward to f32 and traversed in f64.
+
+use std::time::Duration;
+
+use glam::{DVec3, Vec3, Vec3A};
+use obvhs::BvhBuildParams;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::builder::build_bvh2;
+
+use super::Ray;
+
+/// A ray with what intersection tests need of it over and over.
+#[derive(Debug, Clone, Copy)]
+pub struct PreparedRay {
+    pub ray: Ray,
+    inverse_direction: DVec3,
+    /// Axes in an order that makes the direction's largest component the last one and keeps the handedness.
+    axes: [usize; 3],
+    /// Shear that takes the direction to the last axis.
+    shear: [f64; 2],
+}
+
+impl PreparedRay {
+    pub fn new(ray: Ray) -> Self {
+        let d = ray.direction;
+        let last = d.abs().max_position();
+        let (mut first, mut second) = ((last + 1) % 3, (last + 2) % 3);
+        if d[last] < 0.0 {
+            std::mem::swap(&mut first, &mut second);
+        }
+        // A component of zero becomes a huge finite number, so that 0 times it is 0 and not NaN: an origin on a box's face is inside.
+        let inverse_direction = d.map(|component| (1.0 / component).clamp(-1e300, 1e300));
+        Self { ray, inverse_direction, axes: [first, second, last], shear: [d[first] / d[last], d[second] / d[last]] }
+    }
+
+    /// A point in the coordinates in which the ray starts at the origin and runs along the last axis.
+    pub fn shear(&self, point: DVec3) -> DVec3 {
+        let p = point - self.ray.origin;
+        let [first, second, last] = self.axes;
+        DVec3::new(p[first] - self.shear[0] * p[last], p[second] - self.shear[1] * p[last], p[last])
+    }
+
+    /// Where the ray enters the box, if it meets it in [0, limit]. Errs on the side of a hit: a rounding bound for the three
+    /// operations of each slab (Ize 2013) widens the exit.
+    fn enter(&self, node: &Node, limit: f64) -> Option<f64> {
+        let low = (node.min.as_dvec3() - self.ray.origin) * self.inverse_direction;
+        let high = (node.max.as_dvec3() - self.ray.origin) * self.inverse_direction;
+        let (near, far) = (low.min(high), low.max(high));
+        let enter = near.max_element().max(0.0);
+        let exit = far.min_element() * (1.0 + 8.0 * f64::EPSILON);
+        (enter <= exit && enter <= limit).then_some(enter)
+    }
+}
+
+/// A box and either two neighbouring children or a run of primitives.
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    min: Vec3,
+    /// First child, or first primitive.
+    first: u32,
+    max: Vec3,
+    /// Number of primitives; 0: an inner node.
+    count: u32,
+}
+
+/// The tree. Primitives are numbered in leaf order, see [`Hierarchy::build`].
+#[derive(Debug, Clone)]
+pub struct Hierarchy {
+    nodes: Vec<Node>,
+}
+
+impl Hierarchy {
+    /// Builds the tree over finite boxes `[min, max]`, and says which box stands at each place of the leaf order.
+    pub fn build(boxes: &[[DVec3; 2]]) -> (Self, Vec<u32>) {
+        if boxes.is_empty() {
+            return (Self { nodes: Vec::new() }, Vec::new());
+        }
+        let rounded: Vec<Aabb> = boxes
+            .iter()
+            .map(|[min, max]| {
+                Aabb::new(Vec3A::from(min.as_vec3().map(f32::next_down)), Vec3A::from(max.as_vec3().map(f32::next_up)))
+            })
+            .collect();
+        let tree = build_bvh2(&rounded, BvhBuildParams::medium_build(), &mut Duration::default());
+        let nodes = tree
+            .nodes
+            .iter()
+            .map(|node| Node {
+                min: node.aabb().min.into(),
+                first: node.first_index,
+                max: node.aabb().max.into(),
+                count: node.prim_count,
+            })
+            .collect();
+        (Self { nodes }, tree.primitive_indices)
+    }
+
+    /// Calls `visit` for every primitive, by its place in leaf order, whose box the ray may meet in [0, limit], nearer boxes first.
+    /// `visit` gives back the limit from there on; a negative one ends the search.
+    pub fn traverse(&self, ray: &PreparedRay, mut limit: f64, mut visit: impl FnMut(usize, f64) -> f64) {
+        let Some(root) = self.nodes.first().filter(|root| ray.enter(root, limit).is_some()) else {
+            return;
+        };
+        let mut waiting = Stack::default();
+        let mut node = root;
+        loop {
+            if node.count > 0 {
+                for place in node.first..node.first + node.count {
+                    limit = visit(place as usize, limit);
+                }
+            } else {
+                let children = [node.first, node.first + 1];
+                let [left, right] = children.map(|child| ray.enter(&self.nodes[child as usize], limit));
+                match (left, right) {
+                    (Some(left), Some(right)) => {
+                        let (near, far, far_entry) =
+                            if left <= right { (children[0], children[1], right) } else { (children[1], children[0], left) };
+                        waiting.push((far, far_entry));
+                        node = &self.nodes[near as usize];
+                        continue;
+                    }
+                    (Some(_), None) => {
+                        node = &self.nodes[children[0] as usize];
+                        continue;
+                    }
+                    (None, Some(_)) => {
+                        node = &self.nodes[children[1] as usize];
+                        continue;
+                    }
+                    (None, None) => {}
+                }
+            }
+            node = loop {
+                match waiting.pop() {
+                    None => return,
+                    Some((next, entry)) if entry <= limit => break &self.nodes[next as usize],
+                    Some(_) => {}
+                }
+            };
+        }
+    }
+}
+
+/// Nodes to visit later and where the ray enters them. Deeper trees than any seen in practice go on the heap.
+struct Stack {
+    fixed: [(u32, f64); 48],
+    length: usize,
+    overflow: Vec<(u32, f64)>,
+}
+
+impl Default for Stack {
+    fn default() -> Self {
+        Self { fixed: [(0, 0.0); 48], length: 0, overflow: Vec::new() }
+    }
+}
+
+impl Stack {
+    fn push(&mut self, item: (u32, f64)) {
+        match self.fixed.get_mut(self.length) {
+            Some(slot) => {
+                *slot = item;
+                self.length += 1;
+            }
+            None => self.overflow.push(item),
+        }
+    }
+
+    fn pop(&mut self) -> Option<(u32, f64)> {
+        if let Some(item) = self.overflow.pop() {
+            return Some(item);
+        }
+        self.length = self.length.checked_sub(1)?;
+        Some(self.fixed[self.length])
+    }
+}

@@ -1,0 +1,58 @@
+//! Triangles, watertight.
+
+use glam::{DVec2, DVec3, Vec3};
+
+use super::primitive::Local;
+use super::{PreparedRay, SurfacePoint, primitive::plane_distance};
+
+/// Three corners, counter-clockwise seen from the front. They are stored as they are, in f32; all arithmetic is f64, where
+/// differences and products of such numbers are all but exact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Triangle {
+    pub corners: [Vec3; 3],
+}
+
+impl Triangle {
+    /// The watertight test of Woop, Benthin and Wald (2013): the triangle is sheared so that the ray becomes the z axis, and the
+    /// origin's place is decided by the signs of three edge functions. Neighbours evaluate the function of a shared edge on the same
+    /// numbers and get opposite signs, so no ray slips between them; a zero counts as inside for both.
+    pub fn intersect(&self, ray: &PreparedRay, limit: f64) -> Option<(f64, Local)> {
+        let [a, b, c] = self.corners.map(|corner| ray.shear(corner.as_dvec3()));
+        let weight_a = c.x * b.y - c.y * b.x;
+        let weight_b = a.x * c.y - a.y * c.x;
+        let weight_c = b.x * a.y - b.y * a.x;
+        let any_negative = weight_a < 0.0 || weight_b < 0.0 || weight_c < 0.0;
+        let any_positive = weight_a > 0.0 || weight_b > 0.0 || weight_c > 0.0;
+        let sum = weight_a + weight_b + weight_c;
+        if (any_negative && any_positive) || sum == 0.0 {
+            return None;
+        }
+        // The distance comes from the plane and not from the sheared corners: a point that was moved off the surface then lies on
+        // its side for certain, however the ray grazes.
+        let distance = plane_distance(&ray.ray, self.corners[0].as_dvec3(), self.scaled_normal(), limit)?;
+        Some((distance, DVec2::new(weight_b, weight_c) / sum))
+    }
+
+    pub fn point(&self, local: Local) -> SurfacePoint {
+        let [a, b, c] = self.corners.map(|corner| corner.as_dvec3());
+        let position = a + (b - a) * local.x + (c - a) * local.y;
+        let magnitude = a.abs().max(b.abs()).max(c.abs()).max_element();
+        // A degenerate triangle has no normal; none is ever hit.
+        SurfacePoint::new(position, self.scaled_normal().normalize_or_zero(), magnitude)
+    }
+
+    /// The front normal, as long as twice the area.
+    pub fn scaled_normal(&self) -> DVec3 {
+        let [a, b, c] = self.corners.map(|corner| corner.as_dvec3());
+        (b - a).cross(c - a)
+    }
+
+    pub fn area(&self) -> f64 {
+        0.5 * self.scaled_normal().length()
+    }
+
+    pub fn bounds(&self) -> [DVec3; 2] {
+        let [a, b, c] = self.corners;
+        [a.min(b).min(c).as_dvec3(), a.max(b).max(c).as_dvec3()]
+    }
+}

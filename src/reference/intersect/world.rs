@@ -1,0 +1,299 @@
+//! The scene's surfaces in world space.
+
+use glam::{DMat3, DVec2, DVec3, Vec3};
+
+use super::primitive::{Disk, Local, Parallelogram, Plane, Primitive, Sphere};
+use super::{Hierarchy, PreparedRay, Ray, SurfacePoint, Triangle};
+use crate::reference::frame::Frame;
+use crate::render::RenderError;
+use crate::scene::{Geometry, MaterialId, MaterialKind, Mesh, Scene, Shape};
+
+/// Which of the world's surfaces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SurfaceId {
+    /// Place in the hierarchy's leaf order.
+    Primitive(usize),
+    Plane(usize),
+}
+
+/// Where a primitive comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Owner {
+    /// Index into the scene's shapes.
+    pub shape: usize,
+    /// Face of a mesh, face of a box (−x +x −y +y −z +z); 0 for shapes of one primitive.
+    pub part: usize,
+    pub material: MaterialId,
+}
+
+/// A ray's closest crossing.
+#[derive(Debug, Clone, Copy)]
+pub struct Hit {
+    pub surface: SurfaceId,
+    pub distance: f64,
+    local: Local,
+}
+
+/// All there is to know of a surface at a point, whichever way it is looked at.
+#[derive(Debug, Clone, Copy)]
+pub struct Surface {
+    pub id: SurfaceId,
+    pub owner: Owner,
+    pub point: SurfacePoint,
+    /// Interpolated over the faces of smooth meshes, else the geometric normal.
+    pub shading_normal: DVec3,
+    pub uv: DVec2,
+}
+
+/// Surfaces that exist for rays. Those of a `pass` material do not, and are left out.
+#[derive(Debug, Clone)]
+pub struct World {
+    hierarchy: Hierarchy,
+    primitives: Vec<Primitive>,
+    owners: Vec<Owner>,
+    /// Leaf-order places of the primitives, in the order of the scene file.
+    scene_order: Vec<usize>,
+    planes: Vec<(Plane, Owner)>,
+    shapes: Vec<ShapeData>,
+}
+
+/// What shading needs of a shape besides its primitives.
+#[derive(Debug, Clone, Default)]
+struct ShapeData {
+    /// World-space vertex normals of a smooth mesh, else empty.
+    normals: Vec<Vec3>,
+    mesh: Option<std::sync::Arc<Mesh>>,
+    /// The transform mirrors: the last two corners of every face are exchanged.
+    mirrored: bool,
+    /// Takes world directions to the shape's own space, up to a factor.
+    to_local: DMat3,
+}
+
+impl World {
+    /// The scene has been checked by [`crate::reference::support::check`].
+    pub fn new(scene: &Scene) -> Result<Self, RenderError> {
+        let mut collected = Collected::default();
+        for (index, shape) in scene.shapes.iter().enumerate() {
+            collected.add(scene, index, shape)?;
+        }
+        let boxes: Vec<[DVec3; 2]> = collected.primitives.iter().map(|(primitive, _)| primitive.bounds()).collect();
+        let reach = boxes.iter().flatten().fold(0.0, |reach: f64, corner| reach.max(corner.abs().max_element()));
+        // The hierarchy's builder squares lengths in f32.
+        if !boxes.iter().flatten().all(|corner| corner.is_finite()) || reach > 1e18 {
+            return Err(RenderError::Internal("a shape lies farther than 1e18 from the origin".into()));
+        }
+        let (hierarchy, leaf_order) = Hierarchy::build(&boxes);
+        let mut scene_order = vec![0; leaf_order.len()];
+        for (place, &original) in leaf_order.iter().enumerate() {
+            scene_order[original as usize] = place;
+        }
+        let in_leaf_order = |original: &u32| collected.primitives[*original as usize].clone();
+        let (primitives, owners) = leaf_order.iter().map(in_leaf_order).unzip();
+        Ok(Self { hierarchy, primitives, owners, scene_order, planes: collected.planes, shapes: collected.shapes })
+    }
+
+    /// Leaf-order places of all primitives, in the order of the scene file; planes are not among them.
+    pub fn places_in_scene_order(&self) -> &[usize] {
+        &self.scene_order
+    }
+
+    pub fn primitive(&self, place: usize) -> &Primitive {
+        &self.primitives[place]
+    }
+
+    pub fn owner(&self, id: SurfaceId) -> Owner {
+        match id {
+            SurfaceId::Primitive(place) => self.owners[place],
+            SurfaceId::Plane(plane) => self.planes[plane].1,
+        }
+    }
+
+    /// The first surface the ray meets.
+    pub fn closest(&self, ray: Ray) -> Option<Hit> {
+        let prepared = PreparedRay::new(ray);
+        let mut closest = None;
+        let mut limit = f64::INFINITY;
+        for (index, (plane, _)) in self.planes.iter().enumerate() {
+            if let Some(distance) = plane.intersect(&ray, limit) {
+                limit = distance;
+                closest = Some(Hit { surface: SurfaceId::Plane(index), distance, local: Local::ZERO });
+            }
+        }
+        self.hierarchy.traverse(&prepared, limit, |place, limit| match self.primitives[place].intersect(&prepared, limit) {
+            Some((distance, local)) => {
+                closest = Some(Hit { surface: SurfaceId::Primitive(place), distance, local });
+                distance
+            }
+            None => limit,
+        });
+        closest
+    }
+
+    /// Whether the ray meets anything but `target` before `limit`. `target` is the place of the primitive the ray ends on.
+    pub fn blocked(&self, ray: Ray, limit: f64, target: Option<usize>) -> bool {
+        if self.planes.iter().any(|(plane, _)| plane.intersect(&ray, limit).is_some()) {
+            return true;
+        }
+        let prepared = PreparedRay::new(ray);
+        let mut blocked = false;
+        self.hierarchy.traverse(&prepared, limit, |place, limit| {
+            if Some(place) != target && self.primitives[place].intersect(&prepared, limit).is_some() {
+                blocked = true;
+                return -1.0;
+            }
+            limit
+        });
+        blocked
+    }
+
+    /// The surface at a hit of `ray`.
+    pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
+        let owner = self.owner(hit.surface);
+        match hit.surface {
+            SurfaceId::Primitive(place) => {
+                let point = self.primitives[place].point(ray, hit.distance, hit.local);
+                self.surface_at(place, point, hit.local)
+            }
+            SurfaceId::Plane(index) => {
+                let point = self.planes[index].0.point(ray.at(hit.distance));
+                Surface { id: hit.surface, owner, point, shading_normal: point.normal, uv: DVec2::ZERO }
+            }
+        }
+    }
+
+    /// The surface at a point of a primitive that is already known.
+    pub fn surface_at(&self, place: usize, point: SurfacePoint, local: Local) -> Surface {
+        let owner = self.owners[place];
+        let shape = &self.shapes[owner.shape];
+        let (shading_normal, uv) = match &self.primitives[place] {
+            Primitive::Triangle(_) => shape.interpolate(owner.part, local, point.normal),
+            Primitive::Sphere(_) => (point.normal, Sphere::uv((shape.to_local * point.normal).normalize_or_zero())),
+            Primitive::Parallelogram(parallelogram) => (point.normal, parallelogram.uv(local)),
+            Primitive::Disk(_) => (point.normal, DVec2::ZERO),
+        };
+        Surface { id: SurfaceId::Primitive(place), owner, point, shading_normal, uv }
+    }
+}
+
+impl ShapeData {
+    /// Normal and texture coordinates on a face of a mesh.
+    fn interpolate(&self, face: usize, local: Local, geometric_normal: DVec3) -> (DVec3, DVec2) {
+        let Some(mesh) = &self.mesh else { return (geometric_normal, DVec2::ZERO) };
+        let [a, b, c] = face_corners(mesh, face, self.mirrored);
+        let weights = [1.0 - local.x - local.y, local.x, local.y];
+        let normal = if self.normals.is_empty() {
+            geometric_normal
+        } else {
+            let corners = [a, b, c].map(|corner| self.normals[corner].as_dvec3());
+            let sum = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
+            sum.try_normalize().unwrap_or(geometric_normal)
+        };
+        if mesh.uvs.is_empty() {
+            return (normal, DVec2::ZERO);
+        }
+        let corners = [a, b, c].map(|corner| mesh.uvs[corner].as_dvec2());
+        (normal, corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2])
+    }
+}
+
+/// Corner indices, counter-clockwise seen from the front once the transform has been applied.
+fn face_corners(mesh: &Mesh, face: usize, mirrored: bool) -> [usize; 3] {
+    let [a, b, c] = mesh.faces[face].map(|corner| corner as usize);
+    if mirrored { [a, c, b] } else { [a, b, c] }
+}
+
+/// The primitives found so far, in the order of the scene file.
+#[derive(Default)]
+struct Collected {
+    primitives: Vec<(Primitive, Owner)>,
+    planes: Vec<(Plane, Owner)>,
+    shapes: Vec<ShapeData>,
+}
+
+impl Collected {
+    fn add(&mut self, scene: &Scene, index: usize, shape: &Shape) -> Result<(), RenderError> {
+        let to_world = shape.transform.to_affine();
+        let linear = to_world.matrix3;
+        let mirrored = linear.determinant() < 0.0;
+        self.shapes.push(ShapeData { mirrored, to_local: linear.inverse(), ..ShapeData::default() });
+        if let Geometry::Mesh(mesh) = &shape.geometry {
+            self.add_mesh(scene, index, shape, mesh);
+            return Ok(());
+        }
+        let exists = !matches!(scene.materials[shape.material].kind, MaterialKind::Pass);
+        let owner = |part| Owner { shape: index, part, material: shape.material };
+        // Normals are transformed by the inverse transpose, so that they stay perpendicular and on their side.
+        let normal_to_world = |normal: DVec3| (linear.inverse().transpose() * normal).normalize();
+        let scale = || {
+            let message = || format!("{}: spheres and disks cannot be scaled unevenly", shape.label);
+            shape.transform.uniform_scale().ok_or_else(|| RenderError::Internal(message()))
+        };
+        let mut push = |part, primitive| {
+            if exists {
+                self.primitives.push((primitive, owner(part)));
+            }
+        };
+        match shape.geometry {
+            Geometry::Mesh(_) => {}
+            Geometry::Sphere { center, radius } => {
+                push(0, Primitive::Sphere(Sphere { center: to_world.transform_point3(center), radius: radius * scale()? }));
+            }
+            Geometry::Disk { center, normal, radius } => {
+                let frame = Frame::around(normal_to_world(normal));
+                let center = to_world.transform_point3(center);
+                push(0, Primitive::Disk(Box::new(Disk { center, radius: radius * scale()?, frame })));
+            }
+            Geometry::Rectangle { corner, edge_u, edge_v } => {
+                let corner = to_world.transform_point3(corner);
+                let face = Parallelogram::new(corner, linear * edge_u, linear * edge_v, mirrored);
+                face.into_iter().for_each(|face| push(0, Primitive::Parallelogram(Box::new(face))));
+            }
+            Geometry::Box { min, max } => {
+                for (part, [corner, edge_u, edge_v]) in box_faces(min, max).into_iter().enumerate() {
+                    let corner = to_world.transform_point3(corner);
+                    let face = Parallelogram::new(corner, linear * edge_u, linear * edge_v, mirrored);
+                    face.into_iter().for_each(|face| push(part, Primitive::Parallelogram(Box::new(face))));
+                }
+            }
+            Geometry::Plane { point, normal } => {
+                let plane = Plane { point: to_world.transform_point3(point), normal: normal_to_world(normal) };
+                if exists {
+                    self.planes.push((plane, owner(0)));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Vertices are transformed in f64 and rounded to f32: what a mesh file can say, and what a device stores.
+    fn add_mesh(&mut self, scene: &Scene, index: usize, shape: &Shape, mesh: &std::sync::Arc<Mesh>) {
+        let to_world = shape.transform.to_affine();
+        let normal_matrix = to_world.matrix3.inverse().transpose();
+        let positions: Vec<Vec3> =
+            mesh.positions.iter().map(|position| to_world.transform_point3(position.as_dvec3()).as_vec3()).collect();
+        let data = &mut self.shapes[index];
+        if mesh.smooth {
+            let to_normal = |normal: &Vec3| (normal_matrix * normal.as_dvec3()).normalize_or_zero().as_vec3();
+            data.normals = mesh.normals.iter().map(to_normal).collect();
+        }
+        data.mesh = Some(mesh.clone());
+        for face in 0..mesh.faces.len() {
+            let material = mesh.face_materials.get(face).copied().unwrap_or(shape.material);
+            if matches!(scene.materials[material].kind, MaterialKind::Pass) {
+                continue;
+            }
+            let corners = face_corners(mesh, face, data.mirrored).map(|corner| positions[corner]);
+            self.primitives.push((Primitive::Triangle(Triangle { corners }), Owner { shape: index, part: face, material }));
+        }
+    }
+}
+
+/// Corner and edges of the faces −x +x −y +y −z +z, normals (first edge × second edge) outward.
+fn box_faces(min: DVec3, max: DVec3) -> [[DVec3; 3]; 6] {
+    let extent = max - min;
+    std::array::from_fn(|face| {
+        let axis = face / 2;
+        let edge = |axis: usize| DVec3::AXES[axis % 3] * extent[axis % 3];
+        if face % 2 == 0 { [min, edge(axis + 2), edge(axis + 1)] } else { [min + edge(axis), edge(axis + 1), edge(axis + 2)] }
+    })
+}

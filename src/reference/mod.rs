@@ -1,0 +1,23 @@
+//! The reference integrator: one readable loop in f64, on the CPU, over the scene as it stands.
+//!
+//! It draws the same random numbers as the device and takes the same decisions, so that the two agree path by path, and it renders
+//! where there is no device. The way of a sample: [`camera`] makes a ray, [`integrator`] follows it from surface to surface,
+//! [`intersect`] says which surface it meets, [`bsdf`] how that scatters, [`lights`] where light is looked for, [`mis`] how the
+//! two ways of finding light share it.
+
+pub mod bsdf;
+pub mod camera;
+pub mod frame;
+pub mod integrator;
+pub mod intersect;
+pub mod lights;
+pub mod mis;
+mod renderer;
+mod support;
+pub mod texture;
+pub mod trace;
+pub mod warp;
+
+pub use integrator::Integrator;
+pub use renderer::ReferenceRenderer;
+pub use trace::{PathTrace, PathVertex};

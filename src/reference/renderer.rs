@@ -1,0 +1,224 @@
+//! Renders a film with the reference integrator, on all cores.
+
+use std::ops::Range;
+use std::time::{Duration, Instant};
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::integrator::Integrator;
+use super::lights::luminance;
+use super::trace::{PathTrace, PathVisitor, RayCounter};
+use crate::film::Band;
+use crate::render::{Observer, RenderError, RenderReport, RenderRequest, Renderer};
+use crate::sampling::{PathSampler, SequencePoint};
+use crate::scene::Scene;
+
+/// Rows of a band.
+const BAND_ROWS: u32 = 64;
+/// Pictures up to this many pixels are rendered in several passes over all bands, so that an interrupted render has every pixel;
+/// larger ones band by band, so that memory stays bounded.
+const PIXELS_IN_MEMORY: u64 = 1 << 22;
+/// A pass over one band should take this long: the observer is asked after each.
+const PASS_DURATION: Duration = Duration::from_millis(150);
+/// Most samples per pixel of one pass, which bounds the table of the sequence's points.
+const SAMPLES_PER_PASS: u32 = 1024;
+
+/// The reference integrator as a renderer.
+#[derive(Debug, Clone)]
+pub struct ReferenceRenderer {
+    integrator: Integrator,
+    build_seconds: f64,
+    /// Passes done and how long they took, to size the next.
+    timed_samples: f64,
+    timed_seconds: f64,
+}
+
+/// Sums over the samples of one pixel. In f64, a million samples leave a relative error below 1e-10.
+#[derive(Debug, Clone, Copy, Default)]
+struct PixelSum {
+    radiance: DVec3,
+    squared_luminance: f64,
+}
+
+/// Rows in the making.
+struct BandSums {
+    first_row: u32,
+    rows: u32,
+    samples: u32,
+    pixels: Vec<PixelSum>,
+}
+
+/// What a pass counted.
+#[derive(Debug, Clone, Copy, Default)]
+struct Tally {
+    rays: u64,
+    non_finite: u64,
+}
+
+impl ReferenceRenderer {
+    /// Builds what is needed to trace paths. Fails on what the reference cannot render.
+    pub fn new(scene: &Scene) -> Result<Self, RenderError> {
+        let start = Instant::now();
+        let integrator = Integrator::new(scene)?;
+        Ok(Self { integrator, build_seconds: start.elapsed().as_secs_f64(), timed_samples: 0.0, timed_seconds: 0.0 })
+    }
+
+    /// What one sample of one pixel sees, as it is before the film refuses what is not finite.
+    pub fn radiance_of_sample(&self, x: u32, y: u32, sample: u32) -> [f64; 3] {
+        self.follow(x, y, sample, &mut RayCounter::default()).to_array()
+    }
+
+    /// One path with all that happened along it.
+    pub fn trace(&self, x: u32, y: u32, sample: u32) -> PathTrace {
+        let mut trace = PathTrace::default();
+        trace.radiance = self.follow(x, y, sample, &mut trace);
+        trace
+    }
+
+    fn follow<V: PathVisitor>(&self, x: u32, y: u32, sample: u32, visitor: &mut V) -> DVec3 {
+        let Scene { film, render, .. } = self.integrator.scene();
+        let sampler = PathSampler::new(render.sampler, render.seed, y.wrapping_mul(film.size[0]).wrapping_add(x), sample);
+        self.integrator.radiance(x, y, &sampler, visitor)
+    }
+
+    /// Adds one sample of a pixel per point to its sum.
+    fn sample_pixel(&self, x: u32, y: u32, points: &[SequencePoint], sum: &mut PixelSum) -> Tally {
+        let Scene { film, render, .. } = self.integrator.scene();
+        let mut counter = RayCounter::default();
+        let mut non_finite = 0;
+        for point in points {
+            let pixel = y.wrapping_mul(film.size[0]).wrapping_add(x);
+            let sampler = PathSampler::at_point(render.sampler, render.seed, pixel, point);
+            let radiance = self.integrator.radiance(x, y, &sampler, &mut counter);
+            if is_acceptable(radiance) {
+                sum.radiance += radiance;
+                sum.squared_luminance += luminance(radiance).powi(2);
+            } else {
+                non_finite += 1;
+            }
+        }
+        Tally { rays: counter.0, non_finite }
+    }
+
+    /// One pass over a band.
+    fn sample_band(&mut self, band: &mut BandSums, points: &[SequencePoint]) -> Tally {
+        let start = Instant::now();
+        let width = self.integrator.scene().film.size[0] as usize;
+        let this = &*self;
+        let tally = band
+            .pixels
+            .par_chunks_mut(width)
+            .zip(band.first_row..band.first_row + band.rows)
+            .flat_map_iter(|(row, y)| row.iter_mut().zip(0..).map(move |(sum, x)| this.sample_pixel(x, y, points, sum)))
+            .reduce(Tally::default, |a, b| Tally { rays: a.rays + b.rays, non_finite: a.non_finite + b.non_finite });
+        band.samples += points.len() as u32;
+        self.timed_samples += band.pixels.len() as f64 * points.len() as f64;
+        self.timed_seconds += start.elapsed().as_secs_f64();
+        tally
+    }
+
+    /// The points of the next pass over bands of `pixels` pixels, which starts at sample `first`.
+    fn next_points(&self, pixels: usize, first: u32, end: u32) -> Vec<SequencePoint> {
+        let rate = if self.timed_seconds > 0.0 { self.timed_samples / self.timed_seconds } else { 0.0 };
+        let fitting = rate * PASS_DURATION.as_secs_f64() / pixels.max(1) as f64;
+        let count = (fitting as u32).clamp(1, SAMPLES_PER_PASS).min(end - first);
+        let seed = self.integrator.scene().render.seed;
+        (first..first + count).map(|sample| SequencePoint::new(seed, sample)).collect()
+    }
+
+    /// Renders all samples of a group of bands, pass by pass. False when the observer asked to stop.
+    fn render_group(&mut self, bands: &mut [BandSums], samples: &Range<u32>, progress: &mut Progress) -> bool {
+        let mut next = samples.start;
+        while next < samples.end {
+            let largest = bands.iter().map(|band| band.pixels.len()).max().unwrap_or(0);
+            let points = self.next_points(largest, next, samples.end);
+            for band in bands.iter_mut() {
+                let tally = self.sample_band(band, &points);
+                if !progress.add(tally, band.pixels.len() as u64 * points.len() as u64) {
+                    return false;
+                }
+            }
+            next += points.len() as u32;
+        }
+        true
+    }
+}
+
+/// What is done so far, and who is told.
+struct Progress<'a> {
+    observer: &'a dyn Observer,
+    total: u64,
+    report: RenderReport,
+}
+
+impl Progress<'_> {
+    /// False: stop.
+    fn add(&mut self, tally: Tally, samples: u64) -> bool {
+        self.report.rays += tally.rays;
+        self.report.non_finite_samples += tally.non_finite;
+        self.report.samples += samples;
+        self.observer.progress(self.report.samples, self.total);
+        self.report.interrupted = self.report.samples < self.total && self.observer.stop_requested();
+        !self.report.interrupted
+    }
+}
+
+/// A film takes radiance that is finite, in f32 too, and not negative.
+fn is_acceptable(radiance: DVec3) -> bool {
+    radiance.as_vec3().is_finite() && radiance.min_element() >= 0.0
+}
+
+impl BandSums {
+    fn finish(&self, width: u32) -> Band {
+        let scale = 1.0 / f64::from(self.samples.max(1));
+        Band {
+            first_row: self.first_row,
+            width,
+            rows: self.rows,
+            samples: self.samples,
+            mean: self.pixels.iter().map(|sum| (sum.radiance * scale).as_vec3().to_array()).collect(),
+            second_moment: self.pixels.iter().map(|sum| (sum.squared_luminance * scale) as f32).collect(),
+        }
+    }
+}
+
+impl Renderer for ReferenceRenderer {
+    fn device(&self) -> &str {
+        "CPU reference"
+    }
+
+    fn render(
+        &mut self,
+        request: &RenderRequest,
+        observer: &dyn Observer,
+        on_band: &mut dyn FnMut(Band) -> std::io::Result<()>,
+    ) -> Result<RenderReport, RenderError> {
+        let start = Instant::now();
+        let [width, height] = self.integrator.scene().film.size;
+        let RenderRequest { rows, samples } = request;
+        if rows.end > height {
+            return Err(RenderError::Internal(format!("rows up to {} of a picture of {height} rows", rows.end)));
+        }
+        let pixels = u64::from(width) * rows.len() as u64;
+        let report = RenderReport { device: self.device().into(), build_seconds: self.build_seconds, ..RenderReport::default() };
+        let mut progress = Progress { observer, total: pixels * samples.len() as u64, report };
+        let first_rows: Vec<u32> = rows.clone().step_by(BAND_ROWS as usize).collect();
+        let bands_at_once = if pixels <= PIXELS_IN_MEMORY { first_rows.len() } else { 1 };
+        for group in first_rows.chunks(bands_at_once.max(1)) {
+            let new_band = |&first_row: &u32| {
+                let band_rows = BAND_ROWS.min(rows.end - first_row);
+                let pixels = vec![PixelSum::default(); width as usize * band_rows as usize];
+                BandSums { first_row, rows: band_rows, samples: 0, pixels }
+            };
+            let mut bands: Vec<BandSums> = group.iter().map(new_band).collect();
+            let completed = self.render_group(&mut bands, samples, &mut progress);
+            bands.iter().filter(|band| band.samples > 0).try_for_each(|band| on_band(band.finish(width)))?;
+            if !completed {
+                break;
+            }
+        }
+        progress.report.render_seconds = start.elapsed().as_secs_f64();
+        Ok(progress.report)
+    }
+}

@@ -1,0 +1,166 @@
+//! What the reference integrator renders. What it does not, it refuses by name.
+
+use crate::render::RenderError;
+use crate::scene::{
+    ColorInput, EnvironmentRadiance, FilterKind, Geometry, HemisphereSampling, Light, LightSampling, Material, MaterialId,
+    MaterialKind, Mesh, PixelSampler, SamplerKind, Scene, Shape, TextureId, TextureKind,
+};
+
+/// Checks that every index of the scene is in range and that nothing is used that the reference cannot render.
+pub fn check(scene: &Scene) -> Result<(), RenderError> {
+    settings(scene).map_err(RenderError::Internal)?;
+    scene.materials.iter().try_for_each(|m| material(scene, m)).map_err(RenderError::Internal)?;
+    scene.shapes.iter().try_for_each(|s| shape(scene, s)).map_err(RenderError::Internal)?;
+    scene.lights.iter().try_for_each(light).map_err(RenderError::Internal)
+}
+
+/// What is wrong, in words.
+type Check = Result<(), String>;
+
+fn refuse(what: &str) -> Check {
+    Err(format!("the CPU reference cannot render {what} yet"))
+}
+
+fn settings(scene: &Scene) -> Check {
+    let settings = &scene.render;
+    if scene.film.size.contains(&0) {
+        return Err("the picture has no pixels".into());
+    }
+    if scene.film.filter.kind != FilterKind::Box || scene.film.filter.radius != 0.5 {
+        return refuse("filters other than the box of radius 0.5");
+    }
+    if !matches!(settings.sampler, SamplerKind::Independent | SamplerKind::Halton) {
+        return refuse("with samplers other than independent and halton");
+    }
+    if settings.pixel_sampler != PixelSampler::SameAsPath {
+        return refuse("with a pixel sampler of its own");
+    }
+    if settings.hemisphere != HemisphereSampling::Cosine || settings.light_sampling != LightSampling::Cone {
+        return refuse("with other than cosine and cone sampling");
+    }
+    if settings.max_depth == 0 && settings.roulette_depth == 0 {
+        return Err("paths never end: max_depth and roulette_depth are both 0".into());
+    }
+    Ok(())
+}
+
+fn material(scene: &Scene, material: &Material) -> Check {
+    if material.normal_map.is_some() {
+        return refuse("normal maps");
+    }
+    if let Some(emission) = &material.emission {
+        color(scene, &emission.radiance)?;
+    }
+    match &material.kind {
+        MaterialKind::Diffuse { reflectance } | MaterialKind::Mirror { reflectance } => color(scene, reflectance),
+        MaterialKind::Glass { ior, reflectance, transmittance } => {
+            if !(ior.is_finite() && *ior > 0.0) {
+                return Err(format!("{}: the index of refraction must be positive", material.name));
+            }
+            color(scene, reflectance)?;
+            color(scene, transmittance)
+        }
+        MaterialKind::Emissive | MaterialKind::Pass => Ok(()),
+        MaterialKind::Glossy { .. } | MaterialKind::Phong { .. } => refuse("glossy and phong materials"),
+        MaterialKind::RoughGlass { .. } | MaterialKind::Conductor { .. } => refuse("rough glass and conductors"),
+        MaterialKind::Blend { .. } => refuse("blends"),
+    }
+}
+
+fn color(scene: &Scene, input: &ColorInput) -> Check {
+    match input {
+        ColorInput::Constant(_) => Ok(()),
+        ColorInput::Texture(id) | ColorInput::ScaledTexture(id, _) => texture(scene, *id),
+    }
+}
+
+fn texture(scene: &Scene, id: TextureId) -> Check {
+    let texture = scene.textures.get(id).ok_or_else(|| format!("there is no texture {id}"))?;
+    let TextureKind::Image(texture) = &texture.kind else { return refuse("textures other than images") };
+    let image = &texture.image;
+    let texels = u64::from(image.width) * u64::from(image.height);
+    if texels == 0 || texels != image.texels.len() as u64 {
+        return Err(format!("texture {id} has {} texels and not {} × {}", image.texels.len(), image.width, image.height));
+    }
+    Ok(())
+}
+
+fn shape(scene: &Scene, shape: &Shape) -> Check {
+    if shape.motion.is_some() {
+        return refuse("motion");
+    }
+    if shape.portal {
+        return refuse("portals");
+    }
+    if !(shape.transform.to_affine().matrix3.determinant().abs() > 0.0) {
+        return Err(format!("{}: the transform is singular", shape.label));
+    }
+    let has_uv = match &shape.geometry {
+        Geometry::Mesh(mesh) => {
+            indices(&shape.label, mesh)?;
+            mesh.face_materials.iter().try_for_each(|&id| material_exists(scene, shape, id))?;
+            !mesh.uvs.is_empty()
+        }
+        Geometry::Disk { .. } | Geometry::Plane { .. } => false,
+        Geometry::Sphere { .. } | Geometry::Rectangle { .. } | Geometry::Box { .. } => true,
+    };
+    material_exists(scene, shape, shape.material)?;
+    if !has_uv && materials_of(shape).into_iter().any(|id| is_textured(&scene.materials[id])) {
+        return Err(format!("{}: a textured material needs texture coordinates", shape.label));
+    }
+    Ok(())
+}
+
+fn material_exists(scene: &Scene, shape: &Shape, id: MaterialId) -> Check {
+    if id < scene.materials.len() { Ok(()) } else { Err(format!("{}: there is no material {id}", shape.label)) }
+}
+
+fn materials_of(shape: &Shape) -> Vec<MaterialId> {
+    match &shape.geometry {
+        Geometry::Mesh(mesh) if !mesh.face_materials.is_empty() => {
+            let mut ids = mesh.face_materials.clone();
+            ids.sort_unstable();
+            ids.dedup();
+            ids
+        }
+        _ => vec![shape.material],
+    }
+}
+
+fn is_textured(material: &Material) -> bool {
+    let varies = |input: &ColorInput| !matches!(input, ColorInput::Constant(_));
+    let emits_texture = material.emission.as_ref().is_some_and(|emission| varies(&emission.radiance));
+    emits_texture
+        || match &material.kind {
+            MaterialKind::Diffuse { reflectance } | MaterialKind::Mirror { reflectance } => varies(reflectance),
+            MaterialKind::Glass { reflectance, transmittance, .. } => varies(reflectance) || varies(transmittance),
+            _ => false,
+        }
+}
+
+/// Every list of a mesh is as long as the others need it.
+fn indices(label: &str, mesh: &Mesh) -> Check {
+    let vertices = mesh.positions.len();
+    if mesh.faces.iter().flatten().any(|&vertex| vertex as usize >= vertices) {
+        return Err(format!("{label}: a face names a vertex beyond the last, {}", vertices.saturating_sub(1)));
+    }
+    let fits = |length: usize, needed: usize| length == 0 || length == needed;
+    if !fits(mesh.normals.len(), vertices) || !fits(mesh.uvs.len(), vertices) {
+        return Err(format!("{label}: normals and uvs must be as many as positions"));
+    }
+    if !fits(mesh.face_materials.len(), mesh.faces.len()) {
+        return Err(format!("{label}: face materials must be as many as faces"));
+    }
+    Ok(())
+}
+
+fn light(light: &Light) -> Check {
+    match light {
+        Light::Point { .. } => Ok(()),
+        Light::Environment(environment) => match environment.radiance {
+            EnvironmentRadiance::Constant(_) => Ok(()),
+            EnvironmentRadiance::Map(_) | EnvironmentRadiance::Sky { .. } => refuse("environment maps and skies"),
+        },
+        Light::Spot { .. } | Light::Directional { .. } => refuse("spot and directional lights"),
+    }
+}

@@ -1,0 +1,121 @@
+//! Colours that vary over a surface.
+
+use glam::{DVec2, DVec3};
+
+use crate::scene::{ColorInput, ImageData, ImageTexture, Scene, TextureFilter, TextureKind, TextureWrap};
+
+/// The colour at `uv`. Textures are image textures: the scene has been checked by [`super::support::check`].
+pub fn evaluate(scene: &Scene, input: &ColorInput, uv: DVec2) -> DVec3 {
+    match *input {
+        ColorInput::Constant(color) => color,
+        ColorInput::Texture(texture) => look_up(scene, texture, |image| sample(image, uv)),
+        ColorInput::ScaledTexture(texture, factor) => factor * look_up(scene, texture, |image| sample(image, uv)),
+    }
+}
+
+/// The colour's mean over all texels.
+pub fn mean(scene: &Scene, input: &ColorInput) -> DVec3 {
+    let mean_of = |image: &ImageTexture| {
+        let texels = &image.image.texels;
+        texels.iter().map(|texel| texel.as_dvec3()).sum::<DVec3>() / texels.len().max(1) as f64
+    };
+    match *input {
+        ColorInput::Constant(color) => color,
+        ColorInput::Texture(texture) => look_up(scene, texture, mean_of),
+        ColorInput::ScaledTexture(texture, factor) => factor * look_up(scene, texture, mean_of),
+    }
+}
+
+fn look_up(scene: &Scene, texture: usize, of_image: impl Fn(&ImageTexture) -> DVec3) -> DVec3 {
+    match &scene.textures[texture].kind {
+        TextureKind::Image(image) => of_image(image),
+        // Refused before rendering; a colour nobody asked for shows if that is ever forgotten.
+        TextureKind::Checker { .. } | TextureKind::Perlin { .. } | TextureKind::Worley { .. } => DVec3::new(1.0, 0.0, 1.0),
+    }
+}
+
+/// Texel centres are at half-integers; v points up, rows run down.
+fn sample(texture: &ImageTexture, uv: DVec2) -> DVec3 {
+    let image = &*texture.image;
+    let uv = uv * DVec2::from(texture.scale) + DVec2::from(texture.offset);
+    let position = DVec2::new(uv.x, 1.0 - uv.y) * DVec2::new(f64::from(image.width), f64::from(image.height));
+    match texture.filter {
+        TextureFilter::Nearest => texel(image, texture.wrap, position.floor()),
+        TextureFilter::Bilinear => {
+            let low = (position - 0.5).floor();
+            let fraction = position - 0.5 - low;
+            let row = |y: f64| {
+                let left = texel(image, texture.wrap, low + DVec2::new(0.0, y));
+                left.lerp(texel(image, texture.wrap, low + DVec2::new(1.0, y)), fraction.x)
+            };
+            row(0.0).lerp(row(1.0), fraction.y)
+        }
+    }
+}
+
+fn texel(image: &ImageData, wrap: TextureWrap, position: DVec2) -> DVec3 {
+    let x = wrapped(position.x, image.width, wrap);
+    let y = wrapped(position.y, image.height, wrap);
+    image.texels[y * image.width as usize + x].as_dvec3()
+}
+
+/// An index in 0..size.
+fn wrapped(index: f64, size: u32, wrap: TextureWrap) -> usize {
+    // Far beyond any picture, the conversion saturates; NaN becomes 0.
+    let (index, size) = (index as i64, i64::from(size));
+    let inside = match wrap {
+        TextureWrap::Repeat => index.rem_euclid(size),
+        TextureWrap::Clamp => index.clamp(0, size - 1),
+        TextureWrap::Mirror => {
+            let period = index.rem_euclid(2 * size);
+            period.min(2 * size - 1 - period)
+        }
+    };
+    inside as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use glam::Vec3;
+
+    use super::*;
+
+    /// Red grows to the right: 0 1 2; green grows downward: 0 10.
+    fn ramp(wrap: TextureWrap, filter: TextureFilter) -> ImageTexture {
+        let texels = (0..6).map(|i| Vec3::new((i % 3) as f32, (i / 3 * 10) as f32, 0.0)).collect();
+        let image = Arc::new(ImageData { width: 3, height: 2, texels, has_alpha: false });
+        ImageTexture { image, wrap, filter, scale: [1.0, 1.0], offset: [0.0, 0.0] }
+    }
+
+    #[test]
+    fn texel_centres_give_the_texels_and_midpoints_the_means() {
+        let texture = ramp(TextureWrap::Clamp, TextureFilter::Bilinear);
+        let at = |u: f64, v: f64| sample(&texture, DVec2::new(u, v));
+        // v = 0 is the bottom row.
+        assert!((at(0.5 / 3.0, 0.25) - DVec3::new(0.0, 10.0, 0.0)).length() < 1e-12);
+        assert!((at(2.5 / 3.0, 0.75) - DVec3::new(2.0, 0.0, 0.0)).length() < 1e-12);
+        assert!((at(1.0 / 3.0, 0.5) - DVec3::new(0.5, 5.0, 0.0)).length() < 1e-12);
+        assert!((at(-9.0, 9.0) - DVec3::ZERO).length() < 1e-12);
+    }
+
+    #[test]
+    fn wrapping_covers_every_integer() {
+        let all = |wrap| (-4..7).map(|i| wrapped(f64::from(i), 3, wrap)).collect::<Vec<_>>();
+        assert_eq!(all(TextureWrap::Repeat), [2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0]);
+        assert_eq!(all(TextureWrap::Mirror), [2, 2, 1, 0, 0, 1, 2, 2, 1, 0, 0]);
+        assert_eq!(all(TextureWrap::Clamp), [0, 0, 0, 0, 0, 1, 2, 2, 2, 2, 2]);
+        assert_eq!(wrapped(f64::INFINITY, 3, TextureWrap::Mirror), wrapped(i64::MAX as f64, 3, TextureWrap::Mirror));
+        assert!(wrapped(f64::NAN, 3, TextureWrap::Repeat) < 3);
+    }
+
+    #[test]
+    fn nearest_does_not_blend_and_scale_repeats() {
+        let mut texture = ramp(TextureWrap::Repeat, TextureFilter::Nearest);
+        assert_eq!(sample(&texture, DVec2::new(0.34, 0.9)), DVec3::new(1.0, 0.0, 0.0));
+        texture.scale = [2.0, 1.0];
+        texture.offset = [0.5, 0.0];
+        assert_eq!(sample(&texture, DVec2::new(0.6, 0.4)), DVec3::new(2.0, 10.0, 0.0));
+    }
+}

@@ -1,0 +1,149 @@
+//! Watching a path: what happened at each surface, and why.
+
+use glam::DVec3;
+
+use super::bsdf::{BsdfSample, View};
+use super::intersect::{Ray, Surface};
+use super::lights::LightSample;
+use crate::scene::MaterialId;
+
+/// Next event estimation at one surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LightConnection {
+    pub light: LightSample,
+    /// Density of BSDF sampling for the same direction, per steradian.
+    pub bsdf_pdf: f64,
+    /// Weight by multiple importance sampling.
+    pub weight: f64,
+    pub visible: bool,
+    /// What was added to the path's radiance.
+    pub contribution: DVec3,
+}
+
+/// Is told what happens along a path, in this order. Those that do not care leave the methods as they are, at no cost.
+pub trait PathVisitor {
+    /// A path or shadow ray is traced.
+    fn ray(&mut self, _ray: &Ray) {}
+    /// The path met a surface; `throughput` is that of the path up to it, `edge` counts from 1.
+    fn surface(&mut self, _edge: u32, _surface: &Surface, _wo: DVec3, _throughput: DVec3) {}
+    /// The surface emits towards the path.
+    fn emission(&mut self, _radiance: DVec3, _weight: f64, _contribution: DVec3) {}
+    /// The surface scatters, seen like this.
+    fn view(&mut self, _view: &View) {}
+    /// A light was sampled and could contribute.
+    fn light(&mut self, _connection: &LightConnection) {}
+    fn scattered(&mut self, _sample: &BsdfSample) {}
+    fn roulette(&mut self, _survival: f64, _survived: bool) {}
+    /// The path left the scene.
+    fn escaped(&mut self, _radiance: DVec3, _weight: f64, _contribution: DVec3) {}
+}
+
+/// Counts rays.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct RayCounter(pub u64);
+
+impl PathVisitor for RayCounter {
+    fn ray(&mut self, _ray: &Ray) {
+        self.0 += 1;
+    }
+}
+
+/// Emission or environment radiance that a path found by itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FoundLight {
+    pub radiance: DVec3,
+    /// Weight by multiple importance sampling.
+    pub weight: f64,
+    pub contribution: DVec3,
+}
+
+/// One surface of a traced path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PathVertex {
+    /// Path edges up to here; the first surface has 1.
+    pub edge: u32,
+    pub position: DVec3,
+    /// Front side.
+    pub geometric_normal: DVec3,
+    /// On wo's side; none where the path ended before scattering.
+    pub shading_normal: Option<DVec3>,
+    pub wo: DVec3,
+    /// Indices into the scene.
+    pub shape: usize,
+    /// Face of a mesh or box.
+    pub part: usize,
+    pub material: MaterialId,
+    /// The path's throughput up to here.
+    pub throughput: DVec3,
+    pub emission: Option<FoundLight>,
+    pub light: Option<LightConnection>,
+    pub scattered: Option<BsdfSample>,
+    /// Probability of surviving Russian roulette, and whether the path did.
+    pub roulette: Option<(f64, bool)>,
+}
+
+/// Everything that happened along one path.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct PathTrace {
+    /// Path and shadow rays as traced.
+    pub rays: Vec<Ray>,
+    pub vertices: Vec<PathVertex>,
+    pub escaped: Option<FoundLight>,
+    pub radiance: DVec3,
+}
+
+impl PathTrace {
+    fn at_last_vertex(&mut self, note: impl FnOnce(&mut PathVertex)) {
+        if let Some(vertex) = self.vertices.last_mut() {
+            note(vertex);
+        }
+    }
+}
+
+impl PathVisitor for PathTrace {
+    fn ray(&mut self, ray: &Ray) {
+        self.rays.push(*ray);
+    }
+
+    fn surface(&mut self, edge: u32, surface: &Surface, wo: DVec3, throughput: DVec3) {
+        self.vertices.push(PathVertex {
+            edge,
+            position: surface.point.position,
+            geometric_normal: surface.point.normal,
+            shading_normal: None,
+            wo,
+            shape: surface.owner.shape,
+            part: surface.owner.part,
+            material: surface.owner.material,
+            throughput,
+            emission: None,
+            light: None,
+            scattered: None,
+            roulette: None,
+        });
+    }
+
+    fn emission(&mut self, radiance: DVec3, weight: f64, contribution: DVec3) {
+        self.at_last_vertex(|vertex| vertex.emission = Some(FoundLight { radiance, weight, contribution }));
+    }
+
+    fn view(&mut self, view: &View) {
+        self.at_last_vertex(|vertex| vertex.shading_normal = Some(view.normal()));
+    }
+
+    fn light(&mut self, connection: &LightConnection) {
+        self.at_last_vertex(|vertex| vertex.light = Some(*connection));
+    }
+
+    fn scattered(&mut self, sample: &BsdfSample) {
+        self.at_last_vertex(|vertex| vertex.scattered = Some(*sample));
+    }
+
+    fn roulette(&mut self, survival: f64, survived: bool) {
+        self.at_last_vertex(|vertex| vertex.roulette = Some((survival, survived)));
+    }
+
+    fn escaped(&mut self, radiance: DVec3, weight: f64, contribution: DVec3) {
+        self.escaped = Some(FoundLight { radiance, weight, contribution });
+    }
+}

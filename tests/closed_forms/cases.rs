@@ -1,0 +1,160 @@
+//! The family of closed forms that hold on average.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+use gpt::scene::*;
+
+use super::scenes::*;
+
+/// A scene all of whose pixels have the same expectation.
+pub struct Case {
+    pub name: String,
+    pub scene: Scene,
+    pub expected: [f64; 3],
+}
+
+const ALL: [Estimator; 3] = [Estimator::Mis, Estimator::Nee, Estimator::Bsdf];
+/// Those that see point lights.
+const WITH_LIGHT_SAMPLING: [Estimator; 2] = [Estimator::Mis, Estimator::Nee];
+
+pub fn all() -> Vec<Case> {
+    let mut cases = Vec::new();
+    furnaces(&mut cases);
+    inward_spheres(&mut cases);
+    environments(&mut cases);
+    sphere_lights(&mut cases);
+    triangle_lights(&mut cases);
+    cases
+}
+
+fn push(cases: &mut Vec<Case>, name: &str, scene: &Scene, expected: DVec3, estimators: &[Estimator]) {
+    for &estimator in estimators {
+        let mut scene = scene.clone();
+        scene.render.estimator = estimator;
+        cases.push(Case { name: format!("{name}, {estimator:?}"), scene, expected: expected.to_array() });
+    }
+}
+
+/// Off the centre, looking askew.
+fn inside() -> Camera {
+    camera(DVec3::new(0.2, -0.3, 0.1), DVec3::new(1.0, 0.5, -0.7), 60.0)
+}
+
+/// Closed Lambert surface of albedo ρ that emits Le = 1 everywhere: 1/(1−ρ); direct light alone: 1 + ρ.
+fn furnaces(cases: &mut Vec<Case>) {
+    let unit_box = Geometry::Box { min: -DVec3::ONE, max: DVec3::ONE };
+    let rooms = [("sphere", sphere(DVec3::ZERO, 1.0)), ("box", unit_box), ("mesh", cube_mesh())];
+    for (name, room) in rooms {
+        for albedo in [0.5, 0.8] {
+            let mut scene = scene(64, inside());
+            // Roulette adds noise and waits, lest it hide 1 %: the longer, the brighter the walls.
+            scene.render.roulette_depth = if albedo > 0.5 { 12 } else { 6 };
+            let walls = glowing(&mut scene, albedo, 1.0);
+            shape(&mut scene, room.clone(), walls);
+            // Where emitting walls meet at an edge, light sampling alone has infinite variance.
+            let estimators = if name == "sphere" { &ALL[..] } else { &[Estimator::Mis, Estimator::Bsdf] };
+            push(cases, &format!("furnace {name}, albedo {albedo}"), &scene, DVec3::splat(1.0 / (1.0 - albedo)), estimators);
+            if name == "sphere" {
+                scene.render.max_depth = 2;
+                push(cases, &format!("furnace {name}, albedo {albedo}, direct"), &scene, DVec3::splat(1.0 + albedo), &ALL);
+                scene.render.heuristic = MisHeuristic::Balance;
+                push(
+                    cases,
+                    &format!("the same, balance, albedo {albedo}"),
+                    &scene,
+                    DVec3::splat(1.0 + albedo),
+                    &[Estimator::Mis],
+                );
+            }
+        }
+    }
+}
+
+/// Unit sphere seen from inside, albedo ½: (I/r²)(ρ/π)/(1−ρ) with point lights in the centre, Le/(1−ρ) where it glows.
+fn inward_spheres(cases: &mut Vec<Case>) {
+    for count in [1, 4] {
+        let mut scene = scene(128, inside());
+        let walls = diffuse(&mut scene, 0.5);
+        shape(&mut scene, sphere(DVec3::ZERO, 1.0), walls);
+        let light = Light::Point { position: DVec3::ZERO, intensity: DVec3::splat(PI / f64::from(count)) };
+        scene.lights = vec![light; count as usize];
+        push(cases, &format!("{count} point lights in a sphere"), &scene, DVec3::ONE, &WITH_LIGHT_SAMPLING);
+    }
+    let mut scene = scene(128, inside());
+    let walls = glowing(&mut scene, 0.5, 0.5);
+    shape(&mut scene, sphere(DVec3::ZERO, 1.0), walls);
+    push(cases, "glowing sphere from inside", &scene, DVec3::ONE, &ALL);
+}
+
+/// Under an environment of 1 all round, a lossless surface shows 1, a Lambert surface its albedo, a mirror its tint.
+fn environments(cases: &mut Vec<Case>) {
+    let tint = DVec3::new(0.9, 0.5, 0.25);
+    let input = ColorInput::Constant(tint);
+    let one = ColorInput::grey(1.0);
+    let kinds = [
+        ("Lambert", MaterialKind::Diffuse { reflectance: input }, tint),
+        ("mirror", MaterialKind::Mirror { reflectance: input }, tint),
+        ("glass 1.5", MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one }, DVec3::ONE),
+        ("glass 1/1.5", MaterialKind::Glass { ior: 1.0 / 1.5, reflectance: one, transmittance: one }, DVec3::ONE),
+    ];
+    for (name, kind, expected) in kinds {
+        // To within about a degree of the sphere's silhouette, at asin(1/3) = 19.47° from its middle.
+        let mut scene = scene(64, camera(DVec3::new(0.0, 0.0, 3.0), DVec3::new(0.6, 0.0, 0.0), 12.0));
+        let material = material(&mut scene, kind, None);
+        shape(&mut scene, sphere(DVec3::ZERO, 1.0), material);
+        environment(&mut scene, 1.0);
+        push(cases, &format!("{name} sphere under an environment"), &scene, expected, &ALL);
+    }
+}
+
+/// A camera that sees so little of the floor around the origin that its radiance is the same in all pixels, to 10⁻⁶.
+fn at_the_origin() -> Camera {
+    camera(DVec3::new(1.5, 0.8, 1.1), DVec3::ZERO, 0.02)
+}
+
+/// A sphere of radius R and radiance L straight above: irradiance πL(R/d)².
+fn sphere_lights(cases: &mut Vec<Case>) {
+    let (radius, distance, albedo) = (0.6, 1.0, 0.5);
+    let radiance = DVec3::new(1.0, 2.0, 4.0);
+    let up = DVec3::Y;
+    let grounds = [
+        ("rectangle", floor(20.0)),
+        ("plane", Geometry::Plane { point: DVec3::ZERO, normal: up }),
+        ("disk", Geometry::Disk { center: DVec3::ZERO, normal: up, radius: 20.0 }),
+    ];
+    for (name, ground) in grounds {
+        let mut scene = scene(256, at_the_origin());
+        // Further edges would add light that came off the floor and hit nothing but black: none. They only cost time.
+        scene.render.max_depth = 2;
+        let white = diffuse(&mut scene, albedo);
+        shape(&mut scene, ground, white);
+        let light = emissive(&mut scene, radiance);
+        shape(&mut scene, sphere(up * distance, radius), light);
+        let expected = radiance * albedo * (radius / distance).powi(2);
+        push(cases, &format!("sphere light over a {name}"), &scene, expected, &ALL);
+    }
+}
+
+/// A triangle light over a floor of albedo ½ (nori's fifth assignment; Lambert's formula).
+fn triangle_lights(cases: &mut Vec<Case>) {
+    let table: [([[f32; 3]; 3], f64); 5] = [
+        ([[-0.443432, 0.596366, 0.495985], [-0.320397, 0.0677699, -0.229359], [0.0341197, 0.11415, -0.343049]], 0.0898393),
+        ([[0.461963, 0.397843, 0.412747], [-0.0381582, 0.851323, -0.156872], [0.195443, 0.891957, -0.260672]], 0.0229200),
+        ([[0.100871, 0.289075, -0.422609], [-0.308386, 0.629587, 0.423966], [-0.373132, 0.237287, 0.351592]], 0.0534195),
+        ([[-0.17575, 0.639397, 0.151268], [0.318604, 0.732996, 0.459771], [0.139095, 0.294498, 0.478556]], 0.0205314),
+        ([[-0.17487, 0.447916, 0.367201], [-0.405259, 0.249607, -0.354079], [0.356029, 0.0918984, -0.132271]], 0.2617399),
+    ];
+    for (index, (corners, expected)) in table.into_iter().enumerate() {
+        // The camera looks from below the light, where no triangle is in its way.
+        let mut scene = scene(1024, camera(DVec3::new(1.0, 0.02, 1.0), DVec3::ZERO, 0.001));
+        scene.render.max_depth = 2;
+        let white = diffuse(&mut scene, 0.5);
+        shape(&mut scene, floor(20.0), white);
+        let light = emissive(&mut scene, DVec3::ONE);
+        shape(&mut scene, triangle(corners), light);
+        // BSDF samples seldom meet the dim ones: they would need many samples to see 1 %.
+        let estimators = if expected > 0.08 { &ALL[..] } else { &WITH_LIGHT_SAMPLING };
+        push(cases, &format!("triangle light {index}"), &scene, DVec3::splat(expected), estimators);
+    }
+}

@@ -1,0 +1,89 @@
+//! Pictures whose every pixel has a value known in closed form, on every device and by every estimator that can see the light.
+//!
+//! All pixels of a scene here have the same expectation. Each pixel shifts the Halton sequence by a hash of its own, so pixels are
+//! independent replications, and Student's t-test judges their mean; the level is shared out over the whole family (Šidák). Every
+//! case must also fail, by the same test, with 1 % of energy added.
+
+mod cases;
+mod exact;
+mod scenes;
+
+use std::io;
+
+use gpt::film::Band;
+use gpt::reference::ReferenceRenderer;
+use gpt::render::{RenderRequest, Renderer, Silent};
+use gpt::scene::Scene;
+use gpt::statistics::{Moments, one_sample_t_test_beyond, sidak};
+
+use cases::Case;
+
+/// Pixels along each side of the pictures.
+pub const SIDE: u32 = 12;
+/// Probability that the whole family fails a program that is right.
+const ALPHA: f64 = 0.01;
+/// Seeds of the replications.
+const SEEDS: std::ops::Range<u32> = 0..2;
+
+/// Renders a scene by its own settings: pixels row by row from the top.
+pub type Render = fn(&Scene) -> Vec<[f32; 3]>;
+
+/// What is tested: a name, how it renders, and the relative error its arithmetic may have.
+pub const DEVICES: [(&str, Render, f64); 1] = [("cpu", render_on_cpu, 2e-6)];
+
+fn render_on_cpu(scene: &Scene) -> Vec<[f32; 3]> {
+    collect(&mut ReferenceRenderer::new(scene).expect("the scene is supported"), scene)
+}
+
+fn collect(renderer: &mut dyn Renderer, scene: &Scene) -> Vec<[f32; 3]> {
+    let mut pixels = Vec::new();
+    let request = RenderRequest { rows: 0..scene.film.size[1], samples: 0..scene.render.spp };
+    let mut on_band = |band: Band| -> io::Result<()> {
+        assert_eq!(band.samples, scene.render.spp);
+        pixels.extend(band.mean);
+        Ok(())
+    };
+    let report = renderer.render(&request, &Silent, &mut on_band).expect("rendering succeeds");
+    assert_eq!(report.non_finite_samples, 0);
+    assert_eq!(pixels.len() as u32, scene.film.size[0] * scene.film.size[1]);
+    pixels
+}
+
+/// Moments of each channel over all pixels of all replications.
+fn observe(render: Render, case: &Case) -> [Moments; 3] {
+    let mut moments = [Moments::default(); 3];
+    for seed in SEEDS {
+        let mut scene = case.scene.clone();
+        scene.render.seed = seed;
+        for pixel in render(&scene) {
+            for (channel, value) in moments.iter_mut().zip(pixel) {
+                channel.push(f64::from(value));
+            }
+        }
+    }
+    moments
+}
+
+#[test]
+fn closed_forms_hold() {
+    let cases = cases::all();
+    let level = sidak(ALPHA, cases.len() * 3 * DEVICES.len());
+    let mut failures = Vec::new();
+    for (device, render, margin) in DEVICES {
+        for case in &cases {
+            let moments = observe(render, case);
+            for (channel, observed) in moments.iter().enumerate() {
+                let expected = case.expected[channel];
+                let rejects = |truth: f64| one_sample_t_test_beyond(observed, truth, margin * expected).p_value < level;
+                let (mean, error) = (observed.mean(), observed.standard_error());
+                let what = format!("{device}, {}, channel {channel}: {mean} ± {error}, expected {expected}", case.name);
+                if rejects(expected) {
+                    failures.push(what);
+                } else if !rejects(expected / 1.01) {
+                    failures.push(format!("{what}; would pass with 1 % of energy added"));
+                }
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
