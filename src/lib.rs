@@ -7,10 +7,13 @@
 
 pub mod compare;
 pub mod film;
+pub mod flat;
 pub mod gpu;
 pub mod output;
+pub mod plan;
 pub mod reference;
 pub mod render;
 pub mod sampling;
 pub mod scene;
+pub mod shader;
 pub mod statistics;

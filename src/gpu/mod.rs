@@ -1,5 +1,13 @@
 //! The wavefront renderer on wgpu.
 
 pub mod adapters;
+pub mod buffers;
+pub mod device;
+pub mod kernels;
+pub mod parameters;
+pub mod passes;
+pub mod renderer;
 
 pub use adapters::{AdapterSummary, list_devices, select_adapter};
+pub use device::Device;
+pub use renderer::GpuRenderer;

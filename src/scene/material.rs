@@ -96,3 +96,20 @@ pub enum Heuristic {
         of: Box<Heuristic>,
     },
 }
+
+impl MaterialKind {
+    /// Every parameter that may come from a texture.
+    pub fn colors(&self) -> impl Iterator<Item = ColorInput> {
+        let inputs: Vec<ColorInput> = match self {
+            Self::Diffuse { reflectance } | Self::Mirror { reflectance } => vec![*reflectance],
+            Self::Glossy { reflectance, exponent } => vec![*reflectance, *exponent],
+            Self::Phong { diffuse, specular, exponent } => vec![*diffuse, *specular, *exponent],
+            Self::Glass { reflectance, transmittance, .. } => vec![*reflectance, *transmittance],
+            Self::RoughGlass { alpha, reflectance, transmittance, .. } => vec![*alpha, *reflectance, *transmittance],
+            Self::Conductor { fresnel: ConductorFresnel::Reflectance(reflectance), alpha } => vec![*reflectance, *alpha],
+            Self::Conductor { alpha, .. } => vec![*alpha],
+            Self::Emissive | Self::Blend { .. } | Self::Pass => Vec::new(),
+        };
+        inputs.into_iter()
+    }
+}

@@ -68,3 +68,34 @@ pub struct Mesh {
     /// Interpolate normals over the faces (needs `normals`); false: flat facets.
     pub smooth: bool,
 }
+
+impl Shape {
+    /// The transform turns left hands into right hands. Fronts stay on the side of the material they are on in the shape's own
+    /// space: see [`Shape::world_faces`]; a rectangle's normal is then along `−(edge_u × edge_v)` of the transformed edges.
+    pub fn is_mirrored(&self) -> bool {
+        self.transform.to_affine().matrix3.determinant() < 0.0
+    }
+
+    /// A mesh's vertices in the world at shutter time 0, computed in double precision and rounded once; empty for other shapes.
+    pub fn world_positions(&self) -> Vec<Vec3> {
+        let Geometry::Mesh(mesh) = &self.geometry else { return Vec::new() };
+        let map = self.transform.to_affine();
+        mesh.positions.iter().map(|&position| map.transform_point3(position.as_dvec3()).as_vec3()).collect()
+    }
+
+    /// A mesh's unit vertex normals in the world, by the inverse transpose; empty where the mesh has none. They stay on the side
+    /// they are on in the shape's own space, as the front does.
+    pub fn world_normals(&self) -> Vec<Vec3> {
+        let Geometry::Mesh(mesh) = &self.geometry else { return Vec::new() };
+        let map = self.transform.to_affine().matrix3.inverse().transpose();
+        mesh.normals.iter().map(|&normal| (map * normal.as_dvec3()).normalize_or(DVec3::Y).as_vec3()).collect()
+    }
+
+    /// A mesh's faces, whose front in the world is where they are counter-clockwise. A mirroring transform would turn fronts into
+    /// backs, so the order of corners is then reversed (the first corner stays the first).
+    pub fn world_faces(&self) -> Vec<[u32; 3]> {
+        let Geometry::Mesh(mesh) = &self.geometry else { return Vec::new() };
+        let mirrored = self.is_mirrored();
+        mesh.faces.iter().map(|&[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] }).collect()
+    }
+}

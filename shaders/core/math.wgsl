@@ -1,0 +1,74 @@
+// Small mathematics that every kernel shares.
+
+const PI: f32 = 3.14159265358979323846;
+const INVERSE_PI: f32 = 0.31830988618379067154;
+const TWO_PI: f32 = 6.28318530717958647692;
+const INFINITY_DISTANCE: f32 = 3.0e38;
+const NONE: u32 = 0xffffffffu;
+
+// Relative size of the error of a computed surface point: some 16 rounding errors of f32 (2^-24 each).
+const POINT_ERROR: f32 = 1.0e-6;
+
+fn luminance(color: vec3<f32>) -> f32 {
+    return dot(color, vec3<f32>(0.2126, 0.7152, 0.0722));
+}
+
+fn max_component(v: vec3<f32>) -> f32 {
+    return max(v.x, max(v.y, v.z));
+}
+
+fn square(x: f32) -> f32 {
+    return x * x;
+}
+
+// WGSL lets a compiler assume that NaN and infinity never happen; their bit patterns can still be told.
+fn is_finite(x: f32) -> bool {
+    return (bitcast<u32>(x) & 0x7f800000u) != 0x7f800000u;
+}
+
+// Sine and cosine of `turns` whole turns, turns in [0, 1]: the same accuracy (1e-7) on every driver, which the built-in
+// functions do not promise.
+fn sin_cos_turns(turns: f32) -> vec2<f32> {
+    let quarter = round(turns * 4.0);
+    let x = (turns - quarter * 0.25) * TWO_PI;
+    let x2 = x * x;
+    let sine = x * (1.0 + x2 * (-1.6666667e-1 + x2 * (8.3333333e-3 + x2 * (-1.9841270e-4 + x2 * 2.7557319e-6))));
+    let cosine = 1.0 + x2 * (-0.5 + x2 * (4.1666667e-2 + x2 * (-1.3888889e-3 + x2 * 2.4801587e-5)));
+    let q = u32(quarter) & 3u;
+    let swapped = select(vec2<f32>(sine, cosine), vec2<f32>(cosine, sine), (q & 1u) == 1u);
+    let signs = vec2<f32>(select(1.0, -1.0, q >= 2u), select(1.0, -1.0, q == 1u || q == 2u));
+    return swapped * signs;
+}
+
+struct Frame {
+    tangent: vec3<f32>,
+    bitangent: vec3<f32>,
+    normal: vec3<f32>,
+}
+
+// Orthonormal basis around a unit normal (Duff et al. 2017). The sign changes at z = -0.2137, not at 0, so that normals with
+// z = +0 and -0 get the same basis in f32 and f64.
+fn frame_from_normal(n: vec3<f32>) -> Frame {
+    let s = select(1.0, -1.0, n.z < -0.2137);
+    let a = -1.0 / (s + n.z);
+    let b = n.x * n.y * a;
+    return Frame(vec3<f32>(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3<f32>(b, s + n.y * n.y * a, -n.y), n);
+}
+
+fn frame_to_world(frame: Frame, local: vec3<f32>) -> vec3<f32> {
+    return frame.tangent * local.x + frame.bitangent * local.y + frame.normal * local.z;
+}
+
+struct Ray {
+    origin: vec3<f32>,
+    direction: vec3<f32>,
+}
+
+// What a ray meets first: `primitive` is NONE where it meets nothing. (u, v) are barycentric coordinates of the second and third
+// vertex, the coordinates along a quad's edges, and unused for other primitives.
+struct Hit {
+    t: f32,
+    primitive: u32,
+    u: f32,
+    v: f32,
+}

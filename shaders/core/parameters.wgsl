@@ -1,0 +1,40 @@
+// What the host tells a kernel beside the scene. Layouts are held against src/gpu/parameters.rs by a test.
+
+// One pass: a run of consecutive pixels of the band, each with the same samples.
+struct PassParameters {
+    // First pixel of the pass, counted over the whole film (y * width + x), and counted within the band.
+    first_pixel: u32,
+    first_pixel_in_band: u32,
+    pixel_count: u32,
+    // Absolute index of the pass's first sample, and how many samples each pixel gets.
+    first_sample: u32,
+    sample_count: u32,
+    // Not 0 until each pixel of the band has its first samples: the film holds nothing yet.
+    film_is_empty: u32,
+    // Always 0. Adding it to a number's bits hides the number from the optimiser, which then cannot cancel terms.
+    opaque_zero: u32,
+    seed: u32,
+}
+
+// Which edge of its path a dispatch extends: 1 is the camera ray.
+struct EdgeParameters {
+    edge: u32,
+    // Which half of the queues is read; the other is written.
+    queue: u32,
+    padding: vec2<u32>,
+}
+
+// The camera and what lies outside the scene.
+struct View {
+    position: vec4<f32>,
+    // A ray through film position (x, y) goes along corner + x * step_x + y * step_y.
+    corner: vec4<f32>,
+    step_x: vec4<f32>,
+    step_y: vec4<f32>,
+    environment: vec4<f32>,
+}
+
+@group(0) @binding(0) var<uniform> pass_parameters: PassParameters;
+@group(0) @binding(1) var<uniform> edge_parameters: EdgeParameters;
+@group(0) @binding(2) var<uniform> halton_points: array<vec4<u32>, HALTON_POINTS>;
+@group(0) @binding(3) var<uniform> view: View;

@@ -1,0 +1,65 @@
+// Randomness as a pure function of (seed, pixel, sample index, named dimension): the device's half of src/sampling.
+#import core/math.wgsl
+#import core/parameters.wgsl
+
+const GOLDEN: u32 = 0x9e3779b9u;
+
+fn mix_bits(value: u32) -> u32 {
+    var x = value;
+    x ^= x >> 16u;
+    x *= 0x21f0aaadu;
+    x ^= x >> 15u;
+    x *= 0xd35a2d97u;
+    return x ^ (x >> 15u);
+}
+
+fn mix_bits4(value: vec4<u32>) -> vec4<u32> {
+    var x = value;
+    x ^= x >> vec4<u32>(16u);
+    x *= 0x21f0aaadu;
+    x ^= x >> vec4<u32>(15u);
+    x *= 0xd35a2d97u;
+    return x ^ (x >> vec4<u32>(15u));
+}
+
+// `pixel` is y * width + x over the whole film.
+fn pixel_key(pixel: u32) -> u32 {
+    return mix_bits(mix_bits(pixel * GOLDEN) + mix_bits(pass_parameters.seed ^ 0x2545f491u));
+}
+
+fn path_key(key_of_pixel: u32, sample: u32) -> u32 {
+    return mix_bits(key_of_pixel ^ mix_bits(sample + 0x6a09e667u));
+}
+
+// The bits of four successive dimensions under a key.
+fn dimension_bits4(key: u32, first_dimension: u32) -> vec4<u32> {
+    let dimensions = vec4<u32>(1u, 2u, 3u, 4u) + first_dimension;
+    return mix_bits4(vec4<u32>(key) + dimensions * GOLDEN);
+}
+
+// Bits of dimensions 4·block .. 4·block + 3 of a path. Block 0 is the camera's, bounce b has blocks 2 + 2b and 3 + 2b.
+fn random_block(pixel: u32, sample_in_pass: u32, block: u32) -> vec4<u32> {
+    let key = pixel_key(pixel);
+#if SAMPLER_HALTON
+    if block < HALTON_BLOCKS {
+        return halton_points[sample_in_pass * HALTON_BLOCKS + block] + dimension_bits4(key, block * 4u);
+    }
+#endif
+    return dimension_bits4(path_key(key, pass_parameters.first_sample + sample_in_pass), block * 4u);
+}
+
+// [0, 1), a multiple of 2^-24.
+fn uniform_float(bits: u32) -> f32 {
+    return f32(bits >> 8u) * 5.9604644775390625e-8;
+}
+
+// The upper 32 bits of a 64-bit product.
+fn multiply_high(a: u32, b: u32) -> u32 {
+    let a_low = a & 0xffffu;
+    let a_high = a >> 16u;
+    let b_low = b & 0xffffu;
+    let b_high = b >> 16u;
+    let middle = a_high * b_low + ((a_low * b_low) >> 16u);
+    let middle_low = (middle & 0xffffu) + a_low * b_high;
+    return a_high * b_high + (middle >> 16u) + (middle_low >> 16u);
+}

@@ -1,0 +1,141 @@
+// Closest hit and occlusion through a four-wide hierarchy with 8-bit boxes, three vec4<u32> a node (src/flat/bvh4.rs):
+//   (origin x, y, z; exponents x, y, z and which children are inner nodes (4 bits) and exist (4 bits))
+//   (first inner child; first primitive (24 bits) and leaf sizes less one (2 bits each); low x of 4 children; low y)
+//   (low z; high x; high y; high z)
+#import geometry/stored.wgsl
+
+const LEAF: u32 = 0x80000000u;
+
+struct NodeHits {
+    // Entry distance per child; INFINITY_DISTANCE where the ray misses it.
+    t: vec4<f32>,
+    // Inner child: node index. Leaf: LEAF | (size - 1) << 24 | first primitive.
+    entry: vec4<u32>,
+}
+
+fn unpack_bytes(word: u32) -> vec4<f32> {
+    return vec4<f32>((vec4<u32>(word) >> vec4<u32>(0u, 8u, 16u, 24u)) & vec4<u32>(255u));
+}
+
+fn intersect_node(node: u32, origin: vec3<f32>, inverse_direction: vec3<f32>, t_max: f32) -> NodeHits {
+    let n0 = nodes[node * 3u];
+    let n1 = nodes[node * 3u + 1u];
+    let n2 = nodes[node * 3u + 2u];
+    let exponents = vec3<u32>(n0.w, n0.w >> 8u, n0.w >> 16u) & vec3<u32>(255u);
+    let scale = bitcast<vec3<f32>>(exponents << vec3<u32>(23u)) * inverse_direction;
+    let offset = (bitcast<vec3<f32>>(n0.xyz) - origin) * inverse_direction;
+
+    let low_x = unpack_bytes(n1.z) * scale.x + offset.x;
+    let low_y = unpack_bytes(n1.w) * scale.y + offset.y;
+    let low_z = unpack_bytes(n2.x) * scale.z + offset.z;
+    let high_x = unpack_bytes(n2.y) * scale.x + offset.x;
+    let high_y = unpack_bytes(n2.z) * scale.y + offset.y;
+    let high_z = unpack_bytes(n2.w) * scale.z + offset.z;
+    let near = max(max(min(low_x, high_x), min(low_y, high_y)), max(min(low_z, high_z), vec4<f32>(0.0)));
+    let far = min(min(max(low_x, high_x), max(low_y, high_y)), min(max(low_z, high_z), vec4<f32>(t_max)));
+
+    let flags = n0.w >> 24u;
+    let child_bit = vec4<u32>(1u, 2u, 4u, 8u);
+    let exists = (vec4<u32>(flags >> 4u) & child_bit) != vec4<u32>(0u);
+    // Widening the far side covers the rounding of both distances (Ize 2013).
+    let met = exists & (near <= far * 1.000001);
+
+    let inner = (vec4<u32>(flags) & child_bit) != vec4<u32>(0u);
+    let inner_rank = vec4<u32>(0u, flags & 1u, countOneBits(flags & 3u), countOneBits(flags & 7u));
+    let sizes = (vec4<u32>(n1.y >> 24u) >> vec4<u32>(0u, 2u, 4u, 6u)) & vec4<u32>(3u);
+    let counts = select(sizes + 1u, vec4<u32>(0u), inner);
+    let starts = vec4<u32>(0u, counts.x, counts.x + counts.y, counts.x + counts.y + counts.z) + (n1.y & 0x00ffffffu);
+    let leaf_entry = starts | (sizes << vec4<u32>(24u)) | vec4<u32>(LEAF);
+
+    return NodeHits(select(vec4<f32>(INFINITY_DISTANCE), near, met), select(leaf_entry, inner_rank + n1.x, inner));
+}
+
+// A direction whose components are never 0, for reciprocals that stay finite. The change is far below rounding.
+fn safe_inverse(direction: vec3<f32>) -> vec3<f32> {
+    let tiny = vec3<f32>(1.0e-18);
+    let signed_tiny = select(tiny, -tiny, direction < vec3<f32>(0.0));
+    return 1.0 / select(direction, signed_tiny, abs(direction) < tiny);
+}
+
+fn closest_hit(traced: Ray, t_max: f32) -> Hit {
+    let ray = prepare_ray(traced);
+    let inverse_direction = safe_inverse(traced.direction);
+    var hit = Hit(t_max, NONE, 0.0, 0.0);
+#if PLANES
+    for (var plane = FIRST_PLANE; plane < PRIMITIVE_COUNT; plane++) {
+        intersect_stored(ray, plane, &hit);
+    }
+#endif
+    var stack: array<u32, STACK_SIZE>;
+    var depth = 0u;
+    var current = 0u;
+    loop {
+        if (current & LEAF) != 0u {
+            let first = current & 0x00ffffffu;
+            let end = first + ((current >> 24u) & 3u) + 1u;
+            for (var index = first; index < end; index++) {
+                intersect_stored(ray, index, &hit);
+            }
+        } else {
+            let children = intersect_node(current, traced.origin, inverse_direction, hit.t);
+            // Sorted by distance with a network of five exchanges; the nearest is visited next, the others wait, farthest deepest.
+            var t = children.t;
+            var e = children.entry;
+            if t.y < t.x { t = t.yxzw; e = e.yxzw; }
+            if t.w < t.z { t = t.xywz; e = e.xywz; }
+            if t.z < t.x { t = t.zyxw; e = e.zyxw; }
+            if t.w < t.y { t = t.xwzy; e = e.xwzy; }
+            if t.z < t.y { t = t.xzyw; e = e.xzyw; }
+            if t.x < INFINITY_DISTANCE {
+                if t.w < INFINITY_DISTANCE { stack[depth] = e.w; depth++; }
+                if t.z < INFINITY_DISTANCE { stack[depth] = e.z; depth++; }
+                if t.y < INFINITY_DISTANCE { stack[depth] = e.y; depth++; }
+                current = e.x;
+                continue;
+            }
+        }
+        if depth == 0u {
+            break;
+        }
+        depth--;
+        current = stack[depth];
+    }
+    return hit;
+}
+
+// Whether anything lies between the origin and t_max. Stops at the first primitive found.
+fn occluded(traced: Ray, t_max: f32) -> bool {
+    let ray = prepare_ray(traced);
+    let inverse_direction = safe_inverse(traced.direction);
+    var hit = Hit(t_max, NONE, 0.0, 0.0);
+#if PLANES
+    for (var plane = FIRST_PLANE; plane < PRIMITIVE_COUNT; plane++) {
+        intersect_stored(ray, plane, &hit);
+    }
+#endif
+    var stack: array<u32, STACK_SIZE>;
+    var depth = 0u;
+    var current = 0u;
+    while hit.primitive == NONE {
+        if (current & LEAF) != 0u {
+            let first = current & 0x00ffffffu;
+            let end = first + ((current >> 24u) & 3u) + 1u;
+            for (var index = first; index < end; index++) {
+                intersect_stored(ray, index, &hit);
+            }
+        } else {
+            let children = intersect_node(current, traced.origin, inverse_direction, t_max);
+            let t = children.t;
+            if t.x < INFINITY_DISTANCE { stack[depth] = children.entry.x; depth++; }
+            if t.y < INFINITY_DISTANCE { stack[depth] = children.entry.y; depth++; }
+            if t.z < INFINITY_DISTANCE { stack[depth] = children.entry.z; depth++; }
+            if t.w < INFINITY_DISTANCE { stack[depth] = children.entry.w; depth++; }
+        }
+        if depth == 0u {
+            break;
+        }
+        depth--;
+        current = stack[depth];
+    }
+    return hit.primitive != NONE;
+}

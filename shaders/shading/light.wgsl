@@ -1,0 +1,216 @@
+// Light sampling and its densities.
+#import core/math.wgsl
+#import core/sampler.wgsl
+#import geometry/scene.wgsl
+#import shading/surface.wgsl
+#if TEXTURES
+#import shading/texture.wgsl
+#endif
+
+const LIGHT_TRIANGLE: u32 = 0u;
+const LIGHT_QUAD: u32 = 1u;
+const LIGHT_SPHERE: u32 = 2u;
+const LIGHT_DISK: u32 = 3u;
+const LIGHT_POINT: u32 = 4u;
+const LIGHT_ENVIRONMENT: u32 = 5u;
+
+const LIGHT_TWO_SIDED: u32 = 256u;
+
+// A light takes five vec4 of the tables:
+//   (kind and flags; alias threshold; alias; probability of being chosen)
+//   (first point; area or radius), (second; emission texture or NONE), (third; attributes or NONE), (radiance or intensity; -)
+fn light_word(light: u32, word: u32) -> vec4<f32> {
+    return tables[FIRST_LIGHT_WORD + light * 5u + word];
+}
+
+struct LightSample {
+    wi: vec3<f32>,
+    // Distance at which the shadow ray ends, just before the light.
+    distance: f32,
+    // 0 where the light does not reach the point.
+    radiance: vec3<f32>,
+    // Density of wi, the choice of the light included; negative for a delta light.
+    pdf_solid_angle: f32,
+}
+
+// A shadow ray ends this much of its length early, on top of the light's own error: one rounding error of its distance.
+const SHADOW_SHORTENING: f32 = 0.999999;
+
+#if LIGHTS
+// Constant time; the same choice in integers on every device (AliasTable::choose).
+fn choose_light(bits: u32) -> u32 {
+#if ONE_LIGHT
+    return 0u;
+#else
+    let entry = multiply_high(bits, LIGHT_COUNT);
+    let remainder = bits * LIGHT_COUNT;
+    let word = bitcast<vec4<u32>>(light_word(entry, 0u));
+    return select(word.z, entry, remainder < word.y);
+#endif
+}
+
+fn no_light() -> LightSample {
+    return LightSample(vec3<f32>(0.0, 0.0, 1.0), 0.0, vec3<f32>(0.0), 1.0);
+}
+
+// A point on a flat light, seen from `reference`: density by area turned into density by solid angle.
+fn flat_light_sample(
+    reference: vec3<f32>, point: vec3<f32>, normal: vec3<f32>, area: f32, error: f32, radiance: vec3<f32>, two_sided: bool, pmf: f32
+) -> LightSample {
+    let to_light = point - reference;
+    let distance2 = dot(to_light, to_light);
+    let distance = sqrt(distance2);
+    let wi = to_light / distance;
+    let cosine = -dot(wi, normal);
+    if distance2 == 0.0 || cosine == 0.0 || (cosine < 0.0 && !two_sided) {
+        return no_light();
+    }
+    // Along wi, the light's error is its error along the normal over the cosine; never more than the distance.
+    let early = min(error / abs(cosine), 0.5 * distance);
+    return LightSample(wi, (distance - early) * SHADOW_SHORTENING, radiance, pmf * distance2 / (abs(cosine) * area));
+}
+
+#if SPHERE_LIGHTS
+fn sphere_light_sample(
+    reference: vec3<f32>, center: vec3<f32>, radius: f32, radiance: vec3<f32>, two_sided: bool, pmf: f32, u: f32, v: f32
+) -> LightSample {
+    let to_center = center - reference;
+    let center_distance2 = dot(to_center, to_center);
+    let circle = sin_cos_turns(v);
+    let error = POINT_ERROR * (max_component(abs(center)) + radius);
+    if center_distance2 <= radius * radius {
+        // From inside, light comes from everywhere.
+        if !two_sided {
+            return no_light();
+        }
+        let cosine = 1.0 - 2.0 * u;
+        let sine = sqrt(max(0.0, (1.0 - cosine) * (1.0 + cosine)));
+        let wi = vec3<f32>(sine * circle.y, sine * circle.x, cosine);
+        let along = dot(to_center, wi);
+        let across = to_center - along * wi;
+        let distance = along + sqrt(max(0.0, radius * radius - dot(across, across)));
+        return LightSample(wi, max(0.0, distance * SHADOW_SHORTENING - 4.0 * error), radiance, pmf * 0.25 * INVERSE_PI);
+    }
+    let center_distance = sqrt(center_distance2);
+    let sin2_max = radius * radius / center_distance2;
+    let one_minus_cos_max = sin2_max / (1.0 + sqrt(max(0.0, 1.0 - sin2_max)));
+    let one_minus_cos = u * one_minus_cos_max;
+    let sin2 = one_minus_cos * (2.0 - one_minus_cos);
+    let cosine = 1.0 - one_minus_cos;
+    let sine = sqrt(sin2);
+    let frame = frame_from_normal(to_center / center_distance);
+    let wi = frame_to_world(frame, vec3<f32>(sine * circle.y, sine * circle.x, cosine));
+    let half_chord = sqrt(max(0.0, radius * radius - center_distance2 * sin2));
+    let distance = center_distance * cosine - half_chord;
+    // At grazing angles the chord is short and its end ill defined along wi: stay away from it by the error over the cosine there.
+    let early = min(error * radius / max(half_chord, 1.0e-3 * radius), 0.5 * distance);
+    return LightSample(wi, (distance - early) * SHADOW_SHORTENING, radiance, pmf / (TWO_PI * one_minus_cos_max));
+}
+#endif
+
+fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
+    let light = choose_light(bits.x);
+    let u = uniform_float(bits.y);
+    let v = uniform_float(bits.z);
+    let l0 = light_word(light, 0u);
+    let l1 = light_word(light, 1u);
+    let l4 = light_word(light, 4u);
+    let kind_flags = bitcast<u32>(l0.x);
+    let kind = kind_flags & 255u;
+    let two_sided = (kind_flags & LIGHT_TWO_SIDED) != 0u;
+    let pmf = l0.w;
+    switch kind {
+#if FLAT_LIGHTS
+        case LIGHT_TRIANGLE, LIGHT_QUAD, LIGHT_DISK: {
+            let l2 = light_word(light, 2u);
+            let l3 = light_word(light, 3u);
+            let perpendicular = cross(l2.xyz, l3.xyz);
+            let normal = normalize(perpendicular);
+            var a = u;
+            var b = v;
+            if kind == LIGHT_TRIANGLE {
+                let root = sqrt(u);
+                a = 1.0 - root;
+                b = v * root;
+            }
+            if kind == LIGHT_DISK {
+                // The second and third words span the disk's bounding square: radii along two axes.
+                let circle = sin_cos_turns(v);
+                let r = sqrt(u);
+                a = r * circle.y;
+                b = r * circle.x;
+            }
+            let point = l1.xyz + a * l2.xyz + b * l3.xyz;
+            let error = POINT_ERROR * dot(abs(normal), abs(l1.xyz) + abs(l2.xyz) + abs(l3.xyz));
+            var radiance = l4.xyz;
+#if TEXTURES
+            let texture = bitcast<u32>(l2.w);
+            if texture != NONE {
+                var uv = vec2<f32>(a, b);
+                let first = bitcast<u32>(l3.w);
+                if first != NONE {
+                    let a3 = attributes[first * 4u + 3u];
+                    let uv0 = vec2<f32>(attributes[first * 4u].w, attributes[first * 4u + 1u].w);
+                    let uv1 = vec2<f32>(attributes[first * 4u + 2u].w, a3.x);
+                    uv = (1.0 - a - b) * uv0 + a * uv1 + b * a3.yz;
+                }
+                radiance *= texture_color(texture, uv);
+            }
+#endif
+            return flat_light_sample(reference, point, normal, l1.w, error, radiance, two_sided, pmf);
+        }
+#endif
+#if SPHERE_LIGHTS
+        case LIGHT_SPHERE: {
+            return sphere_light_sample(reference, l1.xyz, l1.w, l4.xyz, two_sided, pmf, u, v);
+        }
+#endif
+#if POINT_LIGHTS
+        case LIGHT_POINT: {
+            let to_light = l1.xyz - reference;
+            let distance2 = dot(to_light, to_light);
+            if distance2 == 0.0 {
+                return no_light();
+            }
+            let distance = sqrt(distance2);
+            return LightSample(to_light / distance, distance * SHADOW_SHORTENING, l4.xyz / (distance2 * pmf), -1.0);
+        }
+#endif
+#if ENVIRONMENT_LIGHT
+        case LIGHT_ENVIRONMENT: {
+            let cosine = 1.0 - 2.0 * u;
+            let sine = sqrt(max(0.0, (1.0 - cosine) * (1.0 + cosine)));
+            let circle = sin_cos_turns(v);
+            let wi = vec3<f32>(sine * circle.y, sine * circle.x, cosine);
+            return LightSample(wi, INFINITY_DISTANCE, l4.xyz, pmf * 0.25 * INVERSE_PI);
+        }
+#endif
+        default: {
+            return no_light();
+        }
+    }
+}
+
+// Density with which light sampling from `ray.origin` would have drawn the direction that met this emitting surface, the choice of
+// the light included; 0 where light sampling cannot.
+fn light_pdf_solid_angle(ray: Ray, surface: Surface) -> f32 {
+    if surface.light == NONE {
+        return 0.0;
+    }
+    let pmf = light_word(surface.light, 0u).w;
+#if SPHERE_LIGHTS
+    if surface.area == 0.0 {
+        let to_center = surface.sphere.xyz - ray.origin;
+        let center_distance2 = dot(to_center, to_center);
+        let radius2 = surface.sphere.w * surface.sphere.w;
+        if center_distance2 <= radius2 {
+            return pmf * 0.25 * INVERSE_PI;
+        }
+        let sin2_max = radius2 / center_distance2;
+        return pmf * (1.0 + sqrt(max(0.0, 1.0 - sin2_max))) / (TWO_PI * sin2_max);
+    }
+#endif
+    let to_light = surface.position - ray.origin;
+    return pmf * dot(to_light, to_light) / (abs(dot(ray.direction, surface.facing_normal)) * surface.area);
+}
+#endif

@@ -1,0 +1,148 @@
+// One vertex of a path: what every stage and the fused kernel agree on. src/reference/integrator.rs is the same estimator in f64.
+#import core/math.wgsl
+#import core/parameters.wgsl
+#import core/sampler.wgsl
+#import shading/surface.wgsl
+#import shading/bsdf.wgsl
+#import shading/light.wgsl
+#import shading/mis.wgsl
+
+struct Path {
+    ray: Ray,
+    throughput: vec3<f32>,
+    // Density of the ray's direction by solid angle; negative after the camera or a delta lobe.
+    pdf_solid_angle: f32,
+    // Product of the squared index ratios of all refractions so far; Russian roulette looks past them.
+    eta_scale: f32,
+    // Pixel over the whole film, and the sample's index within the pass.
+    pixel: u32,
+    sample_in_pass: u32,
+}
+
+struct ShadowRay {
+    ray: Ray,
+    distance: f32,
+    // What the path gains if nothing is in the way; all 0: there is no shadow ray.
+    radiance: vec3<f32>,
+}
+
+struct Vertex {
+    // The path goes on along its new ray.
+    alive: bool,
+    // Radiance found at this vertex, already times throughput and weight.
+    radiance: vec3<f32>,
+    shadow: ShadowRay,
+}
+
+// Weight of emission met by a ray of the given density, where light sampling has density `pdf_light`.
+fn emission_weight(pdf_solid_angle: f32, pdf_light: f32) -> f32 {
+    if pdf_solid_angle < 0.0 || pdf_light == 0.0 {
+        return 1.0;
+    }
+#if ESTIMATOR_MIS
+    return mis_weight(pdf_solid_angle, pdf_light);
+#else
+#if ESTIMATOR_NEE
+    return 0.0;
+#else
+    return 1.0;
+#endif
+#endif
+}
+
+fn no_shadow() -> ShadowRay {
+    return ShadowRay(Ray(vec3<f32>(0.0), vec3<f32>(0.0, 0.0, 1.0)), 0.0, vec3<f32>(0.0));
+}
+
+// Radiance that a path gains where its ray leaves the scene.
+fn escaped_radiance(path: Path) -> vec3<f32> {
+#if ENVIRONMENT
+#if ENVIRONMENT_LIGHT
+    // Under `nee` the environment is a light of its own, found by light sampling alone.
+    if path.pdf_solid_angle >= 0.0 {
+        return vec3<f32>(0.0);
+    }
+#endif
+    return path.throughput * view.environment.xyz;
+#else
+    return vec3<f32>(0.0);
+#endif
+}
+
+#if LIGHTS
+fn next_event(path: Path, surface: Surface, bsdf: Bsdf, random: vec4<u32>) -> ShadowRay {
+    let origin = surface.position + surface.error * surface.facing_normal;
+    let light = sample_light(origin, random);
+    let value = evaluate_bsdf(bsdf, surface, light.wi);
+    var radiance = path.throughput * value.value * light.radiance;
+    if light.pdf_solid_angle >= 0.0 {
+        radiance = radiance / light.pdf_solid_angle;
+#if ESTIMATOR_MIS
+        radiance *= mis_weight(light.pdf_solid_angle, value.pdf_solid_angle);
+#endif
+    }
+    return ShadowRay(Ray(origin, light.wi), light.distance, radiance);
+}
+#endif
+
+// Extends a path whose ray met `hit` at the end of its edge number `edge`: reads and replaces `path`, returns what was found.
+fn shade_vertex(path: ptr<function, Path>, hit: Hit, edge: u32) -> Vertex {
+    let incoming = *path;
+    var vertex = Vertex(false, vec3<f32>(0.0), no_shadow());
+    if hit.primitive == NONE {
+        vertex.radiance = escaped_radiance(incoming);
+        return vertex;
+    }
+    let surface = hit_surface(incoming.ray, hit);
+    let wo = -incoming.ray.direction;
+
+#if EMISSION
+    let emitted = emitted_radiance(surface);
+    if max_component(emitted) > 0.0 {
+#if LIGHTS
+        let weight = emission_weight(incoming.pdf_solid_angle, light_pdf_solid_angle(incoming.ray, surface));
+#else
+        let weight = 1.0;
+#endif
+        vertex.radiance = incoming.throughput * emitted * weight;
+    }
+#endif
+
+    if edge == MAX_DEPTH {
+        return vertex;
+    }
+    let bsdf = load_bsdf(surface);
+    let first_block = 2u * edge;
+    let random = random_block(incoming.pixel, incoming.sample_in_pass, first_block);
+#if LIGHTS
+    if has_smooth_lobe(bsdf) {
+        vertex.shadow = next_event(incoming, surface, bsdf, random);
+    }
+#endif
+
+    let more_random = random_block(incoming.pixel, incoming.sample_in_pass, first_block + 1u);
+    let sampled = sample_bsdf(
+        bsdf, surface, wo, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)
+    );
+    var throughput = incoming.throughput * sampled.weight;
+    if max_component(throughput) <= 0.0 {
+        return vertex;
+    }
+    let eta_scale = incoming.eta_scale * sampled.eta_scale;
+#if ROULETTE
+    if edge >= ROULETTE_DEPTH {
+        // Past edge 64 even a lossless path ends some day.
+        let survive = min(max_component(throughput) * eta_scale, select(1.0, 0.999, edge >= 64u));
+        if uniform_float(more_random.z) >= survive {
+            return vertex;
+        }
+        throughput /= survive;
+    }
+#endif
+    vertex.alive = true;
+    (*path).ray = Ray(offset_origin(surface, sampled.wi), sampled.wi);
+    (*path).throughput = throughput;
+    (*path).pdf_solid_angle = sampled.pdf_solid_angle;
+    (*path).eta_scale = eta_scale;
+    return vertex;
+}

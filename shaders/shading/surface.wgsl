@@ -1,0 +1,97 @@
+// What a hit is: position, normals, texture coordinates, material.
+#import core/math.wgsl
+#import geometry/scene.wgsl
+
+struct Surface {
+    position: vec3<f32>,
+    // The geometric normal on wo's side.
+    facing_normal: vec3<f32>,
+    // The shading normal on wo's side.
+    shading_normal: vec3<f32>,
+    uv: vec2<f32>,
+    // wo is on the side where the normal points.
+    front: bool,
+    // How far along its normal the true surface can lie from `position`.
+    error: f32,
+    material: u32,
+    // Index of the light that this primitive is, or NONE.
+    light: u32,
+    // For densities of light sampling: area, or 0 for a sphere; center and radius of a sphere.
+    area: f32,
+    sphere: vec4<f32>,
+}
+
+fn hit_surface(ray: Ray, hit: Hit) -> Surface {
+    let p0 = primitives[hit.primitive * 3u];
+    let p1 = primitives[hit.primitive * 3u + 1u];
+    let p2 = primitives[hit.primitive * 3u + 2u];
+    let kind = primitive_kind(p0.w);
+    let wo = -ray.direction;
+
+    // Quads and triangles alike: the point is found from the corners, not along the ray, so that its error does not grow with the
+    // distance travelled.
+    let edge_u = select(p1.xyz - p0.xyz, p1.xyz, kind == KIND_QUAD);
+    let edge_v = select(p2.xyz - p0.xyz, p2.xyz, kind == KIND_QUAD);
+    let perpendicular = cross(edge_u, edge_v);
+    let twice_area = length(perpendicular);
+    var normal = perpendicular / twice_area;
+    var position = p0.xyz + hit.u * edge_u + hit.v * edge_v;
+    var size = abs(p0.xyz) + abs(edge_u) + abs(edge_v);
+    var area = select(0.5 * twice_area, twice_area, kind == KIND_QUAD);
+    var sphere = vec4<f32>(0.0);
+    var uv = vec2<f32>(hit.u, hit.v);
+
+#if SPHERES
+    if kind == KIND_SPHERE {
+        normal = normalize(ray.origin + hit.t * ray.direction - p0.xyz);
+        position = p0.xyz + p1.x * normal;
+        size = abs(p0.xyz) + p1.x;
+        area = 0.0;
+        sphere = vec4<f32>(p0.xyz, p1.x);
+    }
+#endif
+#if FLAT_ROUND
+    // Disks and planes: the point along the ray is put back onto the plane.
+    if kind == KIND_DISK || kind == KIND_PLANE {
+        normal = p1.xyz;
+        let along = ray.origin + hit.t * ray.direction;
+        position = along + normal * dot(normal, p0.xyz - along);
+        size = abs(p0.xyz) + abs(position);
+        area = PI * p2.x * p2.x;
+    }
+#endif
+
+    let front = dot(wo, normal) > 0.0;
+    let facing_normal = select(-normal, normal, front);
+    var shading_normal = facing_normal;
+#if ATTRIBUTES
+    let first = bitcast<u32>(p2.w);
+    if first != NONE {
+        let a0 = attributes[first * 4u];
+        let a1 = attributes[first * 4u + 1u];
+        let a2 = attributes[first * 4u + 2u];
+        let a3 = attributes[first * 4u + 3u];
+        let w = 1.0 - hit.u - hit.v;
+        let interpolated = w * a0.xyz + hit.u * a1.xyz + hit.v * a2.xyz;
+        uv = w * vec2<f32>(a0.w, a1.w) + hit.u * vec2<f32>(a2.w, a3.x) + hit.v * a3.yz;
+        if dot(interpolated, interpolated) > 0.0 {
+            shading_normal = normalize(interpolated);
+            shading_normal = select(-shading_normal, shading_normal, dot(shading_normal, facing_normal) > 0.0);
+            if dot(shading_normal, wo) <= 0.0 {
+                shading_normal = facing_normal;
+            }
+        }
+    }
+#endif
+    let error = POINT_ERROR * dot(abs(facing_normal), size);
+    return Surface(
+        position, facing_normal, shading_normal, uv, front, error,
+        primitive_material(p0.w), bitcast<u32>(p1.w), area, sphere
+    );
+}
+
+// The surface point moved off the surface to the side of `toward`, past its error.
+fn offset_origin(surface: Surface, toward: vec3<f32>) -> vec3<f32> {
+    let side = select(-surface.error, surface.error, dot(toward, surface.facing_normal) > 0.0);
+    return surface.position + side * surface.facing_normal;
+}

@@ -1,0 +1,18 @@
+// Adds the finished samples of a pass to the film.
+#import stages/film.wgsl
+#import stages/wavefront.wgsl
+
+// Reads the paths' radiance. Adds each pixel's samples to the film in a fixed order, so the picture does not depend on the order in
+// which queues were filled. Leaves everything else alone.
+@compute @workgroup_size(WORKGROUP)
+fn accumulate(@builtin(global_invocation_id) id: vec3<u32>) {
+    let pixel_count = pass_parameters.pixel_count;
+    if id.x >= pixel_count {
+        return;
+    }
+    var sum = empty_pixel_sum();
+    for (var sample = 0u; sample < pass_parameters.sample_count; sample++) {
+        add_sample(&sum, path_state[PLANE_RADIANCE + sample * pixel_count + id.x].xyz);
+    }
+    add_to_film(pass_parameters.first_pixel_in_band + id.x, sum, pass_parameters.sample_count);
+}

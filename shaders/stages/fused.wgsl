@@ -1,0 +1,54 @@
+// All stages in one kernel, for scenes so simple that storing paths between stages costs more than tracing them.
+#import core/camera.wgsl
+#import geometry/closest.wgsl
+#import shading/path.wgsl
+#import stages/film.wgsl
+
+const WORKGROUP: u32 = 64u;
+
+fn start_path(pixel: u32, sample_in_pass: u32) -> Path {
+    let ray = camera_ray(pixel, random_block(pixel, sample_in_pass, 0u));
+    return Path(ray, vec3<f32>(1.0), -1.0, 1.0, pixel, sample_in_pass);
+}
+
+// Reads the pass's parameters. One invocation traces all samples of one pixel, starting the next path where one ends so that no
+// lane waits for its neighbours' longer paths, and adds them to the film.
+@compute @workgroup_size(WORKGROUP)
+fn trace_paths(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= pass_parameters.pixel_count {
+        return;
+    }
+    let pixel = pass_parameters.first_pixel + id.x;
+    var sum = empty_pixel_sum();
+    var rays = 0u;
+    var edge = 1u;
+    var radiance = vec3<f32>(0.0);
+    var path = start_path(pixel, 0u);
+    loop {
+        let hit = closest_hit(path.ray, INFINITY_DISTANCE);
+        let vertex = shade_vertex(&path, hit, edge);
+        radiance += vertex.radiance;
+        rays++;
+#if LIGHTS
+        if any(vertex.shadow.radiance != vec3<f32>(0.0)) {
+            rays++;
+            if !occluded(vertex.shadow.ray, vertex.shadow.distance) {
+                radiance += vertex.shadow.radiance;
+            }
+        }
+#endif
+        edge++;
+        if !vertex.alive {
+            add_sample(&sum, radiance);
+            let next_sample = path.sample_in_pass + 1u;
+            if next_sample >= pass_parameters.sample_count {
+                break;
+            }
+            radiance = vec3<f32>(0.0);
+            edge = 1u;
+            path = start_path(pixel, next_sample);
+        }
+    }
+    add_to_film(pass_parameters.first_pixel_in_band + id.x, sum, pass_parameters.sample_count);
+    count_rays(rays);
+}

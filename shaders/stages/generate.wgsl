@@ -1,0 +1,19 @@
+// Starts the paths of a pass.
+#import core/camera.wgsl
+#import stages/wavefront.wgsl
+
+// Reads the pass's parameters. Writes every path's state (radiance 0) and puts all slots into queue 0.
+// Leaves hits, shadow rays and counts alone; the host sets the counts of a new pass.
+@compute @workgroup_size(WORKGROUP)
+fn generate(@builtin(global_invocation_id) id: vec3<u32>) {
+    let slot = id.x;
+    if slot >= pass_parameters.pixel_count * pass_parameters.sample_count {
+        return;
+    }
+    let sample_in_pass = slot / pass_parameters.pixel_count;
+    let pixel = pass_parameters.first_pixel + slot - sample_in_pass * pass_parameters.pixel_count;
+    let ray = camera_ray(pixel, random_block(pixel, sample_in_pass, 0u));
+    store_path(slot, Path(ray, vec3<f32>(1.0), -1.0, 1.0, pixel, sample_in_pass));
+    path_state[PLANE_RADIANCE + slot] = vec4<f32>(0.0);
+    queues[slot] = slot;
+}

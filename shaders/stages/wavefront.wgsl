@@ -1,0 +1,50 @@
+// State of the paths in flight, and the queues that say which of them still live.
+#import core/math.wgsl
+#import core/parameters.wgsl
+#import shading/path.wgsl
+
+// Five planes of PATH_CAPACITY vec4 each:
+//   ray origin and pixel within the pass | sample in the pass << 24; ray direction and its density; throughput and eta scale;
+//   radiance; hit
+@group(0) @binding(9) var<storage, read_write> path_state: array<vec4<f32>>;
+// Three planes of PATH_CAPACITY vec4: origin and distance; direction and path slot; radiance.
+@group(0) @binding(10) var<storage, read_write> shadow_rays: array<vec4<f32>>;
+// Two queues of PATH_CAPACITY path slots: one is read while the other is filled.
+@group(0) @binding(11) var<storage, read_write> queues: array<u32>;
+// Paths in queue 0 and 1, shadow rays of edges that read queue 0 and 1.
+@group(0) @binding(12) var<storage, read_write> counts: array<atomic<u32>, 4>;
+
+const PLANE_ORIGIN: u32 = 0u;
+const PLANE_DIRECTION: u32 = PATH_CAPACITY;
+const PLANE_THROUGHPUT: u32 = 2u * PATH_CAPACITY;
+const PLANE_RADIANCE: u32 = 3u * PATH_CAPACITY;
+const PLANE_HIT: u32 = 4u * PATH_CAPACITY;
+
+const SHADOW_ORIGIN: u32 = 0u;
+const SHADOW_DIRECTION: u32 = PATH_CAPACITY;
+const SHADOW_RADIANCE: u32 = 2u * PATH_CAPACITY;
+
+const WORKGROUP: u32 = 64u;
+
+fn load_ray(slot: u32) -> Ray {
+    return Ray(path_state[PLANE_ORIGIN + slot].xyz, path_state[PLANE_DIRECTION + slot].xyz);
+}
+
+fn load_path(slot: u32) -> Path {
+    let p0 = path_state[PLANE_ORIGIN + slot];
+    let p1 = path_state[PLANE_DIRECTION + slot];
+    let p2 = path_state[PLANE_THROUGHPUT + slot];
+    let identity = bitcast<u32>(p0.w);
+    return Path(
+        Ray(p0.xyz, p1.xyz), p2.xyz, p1.w, p2.w,
+        pass_parameters.first_pixel + (identity & 0x00ffffffu), identity >> 24u
+    );
+}
+
+// Writes all but the radiance and the hit.
+fn store_path(slot: u32, path: Path) {
+    let identity = (path.pixel - pass_parameters.first_pixel) | (path.sample_in_pass << 24u);
+    path_state[PLANE_ORIGIN + slot] = vec4<f32>(path.ray.origin, bitcast<f32>(identity));
+    path_state[PLANE_DIRECTION + slot] = vec4<f32>(path.ray.direction, path.pdf_solid_angle);
+    path_state[PLANE_THROUGHPUT + slot] = vec4<f32>(path.throughput, path.eta_scale);
+}

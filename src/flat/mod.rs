@@ -1,0 +1,136 @@
+//! The scene as packed arrays for the device: pure data, built and checked without a GPU.
+//!
+//! Orders matter. Lights stand in the order in which the scene names them, so that a random choice picks the same light on the CPU;
+//! primitives stand in the order of the hierarchy's leaves, infinite planes behind them.
+
+pub mod bvh4;
+pub mod light;
+pub mod primitive;
+pub mod tables;
+pub mod validate;
+pub mod world;
+
+use glam::{DVec3, Vec3};
+
+use crate::scene::{Estimator, Light, Projection, Scene};
+use bvh4::Bvh4;
+use light::FlatLight;
+use primitive::{Primitive, TriangleAttributes};
+use tables::{FlatMaterial, FlatTexture};
+
+pub use validate::FlatError;
+
+/// "No index" in every array.
+pub const NONE: u32 = u32::MAX;
+
+/// A scene ready for upload.
+#[derive(Debug, Clone, Default)]
+pub struct FlatScene {
+    /// In leaf order; the planes, which no hierarchy can bound, are last.
+    pub primitives: Vec<Primitive>,
+    /// Index of the first plane in `primitives`.
+    pub first_plane: u32,
+    pub attributes: Vec<TriangleAttributes>,
+    pub bvh: Bvh4,
+    pub materials: Vec<FlatMaterial>,
+    /// Lights that are sampled; empty where the estimator never asks.
+    pub lights: Vec<FlatLight>,
+    pub textures: Vec<FlatTexture>,
+    /// Linear Rec.709 texels of all images, three floats each.
+    pub texels: Vec<f32>,
+    pub view: View,
+}
+
+/// The camera and what lies outside the scene; `View` in `shaders/core/parameters.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct View {
+    pub position: [f32; 4],
+    /// A ray through film position (x, y), in pixels, goes along corner + x·step_x + y·step_y.
+    pub corner: [f32; 4],
+    pub step_x: [f32; 4],
+    pub step_y: [f32; 4],
+    /// Radiance of a constant environment.
+    pub environment: [f32; 4],
+}
+
+impl FlatScene {
+    /// Packs a scene.
+    ///
+    /// # Errors
+    /// [`FlatError`] where something is too large for the packed form or came out inconsistent.
+    pub fn new(scene: &Scene) -> Result<Self, FlatError> {
+        let mut world = world::collect(scene);
+        let lights = light::collect(scene, &mut world.primitives);
+        let (bvh, order) = Bvh4::build(&world.primitives)?;
+        let planes = world.primitives.iter().enumerate().filter(|(_, p)| p.is_plane()).map(|(index, _)| index);
+        let order: Vec<usize> = order.into_iter().chain(planes).collect();
+        let primitives: Vec<Primitive> = order.iter().map(|&index| world.primitives[index].pack()).collect();
+        let (textures, texels) = tables::pack_textures(scene)?;
+        let flat = Self {
+            first_plane: bvh.primitive_count,
+            primitives,
+            attributes: world.attributes,
+            bvh,
+            materials: scene.materials.iter().map(FlatMaterial::new).collect(),
+            lights,
+            textures,
+            texels,
+            view: view(scene),
+        };
+        flat.validate()?;
+        Ok(flat)
+    }
+
+    /// Materials, lights and textures as one array of vec4, and where the lights and the textures begin in it.
+    pub fn tables(&self) -> (Vec<[f32; 4]>, u32, u32) {
+        let mut words: Vec<[f32; 4]> = bytemuck::cast_slice(&self.materials).to_vec();
+        let first_light = words.len() as u32;
+        words.extend_from_slice(bytemuck::cast_slice(&self.lights));
+        let first_texture = words.len() as u32;
+        words.extend_from_slice(bytemuck::cast_slice(&self.textures));
+        (words, first_light, first_texture)
+    }
+}
+
+fn extend(v: DVec3) -> [f32; 4] {
+    v.as_vec3().extend(0.0).to_array()
+}
+
+fn view(scene: &Scene) -> View {
+    let camera = &scene.camera;
+    let [right, up, backward] = camera.frame();
+    let [width, height] = scene.film.size.map(f64::from);
+    let half_height = match camera.projection {
+        Projection::Perspective { vertical_fov_degrees } => (0.5 * vertical_fov_degrees).to_radians().tan(),
+        Projection::Orthographic { height } => 0.5 * height,
+    };
+    let half_width = half_height * width / height;
+    let environment: DVec3 = scene
+        .lights
+        .iter()
+        .map(|light| match light {
+            Light::Environment(environment) => environment.constant_radiance().unwrap_or(DVec3::ZERO),
+            _ => DVec3::ZERO,
+        })
+        .sum();
+    View {
+        position: extend(camera.position),
+        corner: extend(up * half_height - right * half_width - backward),
+        step_x: extend(right * (2.0 * half_width / width)),
+        step_y: extend(up * (-2.0 * half_height / height)),
+        environment: extend(environment),
+    }
+}
+
+/// Whether the environment is a light that next event estimation samples. Under `mis` a constant environment is left to BSDF
+/// sampling, which covers it without a shadow ray.
+pub fn environment_is_sampled(scene: &Scene) -> bool {
+    scene.render.estimator == Estimator::Nee
+}
+
+/// Rounded to f32, and grown by two rounding errors on every side.
+pub(crate) fn outward(min: DVec3, max: DVec3) -> (Vec3, Vec3) {
+    let margin = min.abs().max(max.abs()) * 2.4e-7;
+    ((min - margin).as_vec3(), (max + margin).as_vec3())
+}

@@ -1,0 +1,69 @@
+//! What must hold of a packed scene before a kernel may read it.
+
+use super::{FlatScene, NONE};
+
+/// Why a scene could not be packed.
+#[derive(Debug, thiserror::Error)]
+pub enum FlatError {
+    #[error("the scene has {found} primitives; the hierarchy can number {limit}")]
+    TooManyPrimitives { found: usize, limit: usize },
+    #[error("the scene's textures have {found} texels, more than can be numbered")]
+    TooManyTexels { found: usize },
+    #[error("not supported on the device: {what}")]
+    Unsupported { what: String },
+    /// A mistake of this program, not of the scene.
+    #[error("the packed scene is inconsistent: {0}")]
+    Inconsistent(String),
+}
+
+impl FlatScene {
+    /// Every index points into its array, every leaf's primitives exist, each exactly once.
+    pub fn validate(&self) -> Result<(), FlatError> {
+        let fail = |message: String| Err(FlatError::Inconsistent(message));
+        for (index, primitive) in self.primitives.iter().enumerate() {
+            if primitive.material() as usize >= self.materials.len() {
+                return fail(format!("primitive {index} has material {}", primitive.material()));
+            }
+            if primitive.light != NONE && primitive.light as usize >= self.lights.len() {
+                return fail(format!("primitive {index} is light {}", primitive.light));
+            }
+            if primitive.attributes != NONE && primitive.attributes as usize >= self.attributes.len() {
+                return fail(format!("primitive {index} has attributes {}", primitive.attributes));
+            }
+        }
+        for texture in &self.textures {
+            let end = texture.first_texel as usize + 3 * texture.width as usize * texture.height as usize;
+            if texture.width == 0 || texture.height == 0 || end > self.texels.len() {
+                return fail(format!("a texture of {} × {} ends at {end}", texture.width, texture.height));
+            }
+        }
+        self.validate_hierarchy()
+    }
+
+    fn validate_hierarchy(&self) -> Result<(), FlatError> {
+        let fail = |message: String| Err(FlatError::Inconsistent(message));
+        let mut seen = vec![false; self.bvh.primitive_count as usize];
+        for (index, node) in self.bvh.nodes.iter().enumerate() {
+            for child in self.bvh.children(node) {
+                match child {
+                    Ok(inner) if inner <= index || inner >= self.bvh.nodes.len() => {
+                        return fail(format!("node {index} has the child {inner}"));
+                    }
+                    Ok(_) => {}
+                    Err((first, count)) => {
+                        for primitive in first..first + count {
+                            match seen.get_mut(primitive as usize) {
+                                Some(seen) if !*seen => *seen = true,
+                                _ => return fail(format!("node {index} holds primitive {primitive}, missing or held twice")),
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        match seen.iter().position(|seen| !seen) {
+            Some(missing) => fail(format!("primitive {missing} is in no leaf")),
+            None => Ok(()),
+        }
+    }
+}

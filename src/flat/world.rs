@@ -1,0 +1,104 @@
+//! Shapes to primitives in world space, in the order in which the scene names them.
+
+use glam::{DAffine3, DVec3, Vec2, Vec3};
+
+use super::primitive::{PrimitiveGeometry, TriangleAttributes, WorldPrimitive};
+use crate::scene::{ColorInput, Geometry, MaterialKind, Mesh, Scene, Shape};
+
+/// All primitives of a scene, and the attributes of those that have some.
+#[derive(Debug, Default)]
+pub struct WorldGeometry {
+    pub primitives: Vec<WorldPrimitive>,
+    pub attributes: Vec<TriangleAttributes>,
+}
+
+/// Surfaces made of `pass` are left out: to every ray they are not there.
+pub fn collect(scene: &Scene) -> WorldGeometry {
+    let mut world = WorldGeometry::default();
+    for shape in &scene.shapes {
+        let transform = shape.transform.to_affine();
+        if let Geometry::Mesh(mesh) = &shape.geometry {
+            add_mesh(scene, shape, mesh, &mut world);
+        } else if !is_pass(scene, shape.material) {
+            add_analytic(shape, &transform, &mut world.primitives);
+        }
+    }
+    world
+}
+
+fn is_pass(scene: &Scene, material: usize) -> bool {
+    matches!(scene.materials[material].kind, MaterialKind::Pass)
+}
+
+fn add_analytic(shape: &Shape, transform: &DAffine3, primitives: &mut Vec<WorldPrimitive>) {
+    let point = |p: DVec3| transform.transform_point3(p);
+    let vector = |v: DVec3| transform.transform_vector3(v);
+    let normal = |n: DVec3| (transform.matrix3.inverse().transpose() * n).normalize();
+    // Checked when the scene was read: spheres and disks are scaled evenly.
+    let scale = transform.matrix3.determinant().abs().cbrt();
+    let mut push = |geometry| primitives.push(WorldPrimitive::new(geometry, shape.material));
+    // A mirroring transform would turn fronts into backs; walking along edge u the other way keeps them.
+    let quad = |corner: DVec3, edge_u: DVec3, edge_v: DVec3| {
+        let (corner, edge_u) = if shape.is_mirrored() { (corner + edge_u, -edge_u) } else { (corner, edge_u) };
+        PrimitiveGeometry::Quad { corner: point(corner), edge_u: vector(edge_u), edge_v: vector(edge_v) }
+    };
+    match shape.geometry {
+        // Added by its own function.
+        Geometry::Mesh(_) => {}
+        Geometry::Sphere { center, radius } => {
+            push(PrimitiveGeometry::Sphere { center: point(center), radius: radius * scale });
+        }
+        Geometry::Rectangle { corner, edge_u, edge_v } => {
+            push(quad(corner, edge_u, edge_v));
+        }
+        Geometry::Disk { center, normal: n, radius } => {
+            push(PrimitiveGeometry::Disk { center: point(center), normal: normal(n), radius: radius * scale });
+        }
+        Geometry::Plane { point: p, normal: n } => push(PrimitiveGeometry::Plane { point: point(p), normal: normal(n) }),
+        Geometry::Box { min, max } => {
+            for [corner, edge_u, edge_v] in box_faces(min, max) {
+                if edge_u.cross(edge_v) != DVec3::ZERO {
+                    push(quad(corner, edge_u, edge_v));
+                }
+            }
+        }
+    }
+}
+
+/// Corner and edges of the faces −x, +x, −y, +y, −z, +z, with edge_u × edge_v outward.
+fn box_faces(min: DVec3, max: DVec3) -> [[DVec3; 3]; 6] {
+    let extent = max - min;
+    let axis = |a: usize| DVec3::AXES[a % 3] * extent[a % 3];
+    [0, 1, 2, 3, 4, 5].map(|face| {
+        let a = face / 2;
+        if face % 2 == 0 { [min, axis(a + 2), axis(a + 1)] } else { [min + axis(a), axis(a + 1), axis(a + 2)] }
+    })
+}
+
+fn add_mesh(scene: &Scene, shape: &Shape, mesh: &Mesh, world: &mut WorldGeometry) {
+    let positions = shape.world_positions();
+    let normals = if mesh.smooth && !mesh.normals.is_empty() { shape.world_normals() } else { Vec::new() };
+    for (index, face) in shape.world_faces().into_iter().enumerate() {
+        let material = mesh.face_materials.get(index).copied().unwrap_or(shape.material);
+        if is_pass(scene, material) {
+            continue;
+        }
+        let corners = face.map(|corner| corner as usize);
+        let mut primitive = WorldPrimitive::new(PrimitiveGeometry::Triangle(corners.map(|c| positions[c])), material);
+        let textured = uses_texture(scene, material) && !mesh.uvs.is_empty();
+        if !normals.is_empty() || textured {
+            primitive.attributes = world.attributes.len() as u32;
+            let corner_normals = if normals.is_empty() { [Vec3::ZERO; 3] } else { corners.map(|c| normals[c]) };
+            let corner_uvs = if mesh.uvs.is_empty() { [Vec2::ZERO; 3] } else { corners.map(|c| mesh.uvs[c]) };
+            world.attributes.push(TriangleAttributes::new(corner_normals, corner_uvs));
+        }
+        world.primitives.push(primitive);
+    }
+}
+
+/// Whether a material looks anything up by texture coordinates.
+pub fn uses_texture(scene: &Scene, material: usize) -> bool {
+    let material = &scene.materials[material];
+    let emission = material.emission.map(|emission| emission.radiance);
+    material.kind.colors().chain(emission).any(|input| !matches!(input, ColorInput::Constant(_)))
+}

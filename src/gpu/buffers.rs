@@ -1,0 +1,165 @@
+//! Every buffer and texture of a render, by binding number.
+
+use std::collections::BTreeMap;
+
+use wgpu::util::DeviceExt;
+use wgpu::{BufferUsages, TextureFormat};
+
+use super::device::Device;
+use super::parameters::{EdgeParameters, PassParameters};
+use crate::flat::FlatScene;
+use crate::plan::{FilmStorage, GeometryPlacement, MAX_SAMPLES_PER_PASS, Plan, StageMode, memory, switches::HALTON_BLOCKS};
+
+/// Edges that one submission can hold; longer paths take further submissions.
+pub const EDGES_PER_SUBMISSION: u32 = 32;
+/// Distance between the parameters of successive edges: the largest alignment a device may ask for.
+const EDGE_STRIDE: usize = 256;
+
+/// Binding numbers as in `shaders/`.
+pub mod binding {
+    pub const PASS: u32 = 0;
+    pub const EDGE: u32 = 1;
+    pub const HALTON: u32 = 2;
+    pub const VIEW: u32 = 3;
+    pub const PRIMITIVES: u32 = 4;
+    pub const TABLES: u32 = 5;
+    pub const NODES: u32 = 6;
+    pub const ATTRIBUTES: u32 = 7;
+    pub const TEXELS: u32 = 8;
+    pub const PATH_STATE: u32 = 9;
+    pub const SHADOW_RAYS: u32 = 10;
+    pub const QUEUES: u32 = 11;
+    pub const COUNTS: u32 = 12;
+    pub const DISPATCH_SIZES: u32 = 13;
+    pub const STATISTICS: u32 = 14;
+    pub const FILM_SUM: u32 = 15;
+    pub const FILM_COMPENSATION: u32 = 16;
+}
+
+/// One of the two halves of the film.
+pub enum FilmHalf {
+    Texture(wgpu::Texture),
+    Buffer(wgpu::Buffer),
+}
+
+/// All device memory of a render.
+pub struct Buffers {
+    buffers: BTreeMap<u32, wgpu::Buffer>,
+    pub film: [FilmHalf; 2],
+    film_views: [Option<wgpu::TextureView>; 2],
+    pub bytes: u64,
+}
+
+impl Buffers {
+    /// Uploads the scene and makes room for the paths and the film of one band.
+    pub fn new(device: &Device, flat: &FlatScene, plan: &Plan, width: u32) -> Self {
+        let mut buffers = BTreeMap::new();
+        let scene_usage = if plan.uniform_scene { BufferUsages::UNIFORM } else { BufferUsages::STORAGE };
+        let (tables, ..) = flat.tables();
+        let mut upload = |number, label, bytes: &[u8], usage| {
+            // A binding may not be empty.
+            let padded = if bytes.is_empty() { vec![0; 48] } else { bytes.to_vec() };
+            let descriptor = wgpu::util::BufferInitDescriptor { label: Some(label), contents: &padded, usage };
+            buffers.insert(number, device.device.create_buffer_init(&descriptor));
+        };
+        upload(binding::PRIMITIVES, "primitives", bytemuck::cast_slice(&flat.primitives), scene_usage);
+        upload(binding::TABLES, "tables", bytemuck::cast_slice(&tables), scene_usage);
+        upload(binding::VIEW, "view", bytemuck::bytes_of(&flat.view), BufferUsages::UNIFORM);
+        upload(binding::EDGE, "edges", &edge_parameters(1), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
+        if plan.geometry == GeometryPlacement::Hierarchy {
+            upload(binding::NODES, "hierarchy", bytemuck::cast_slice(&flat.bvh.nodes), BufferUsages::STORAGE);
+        }
+        if crate::plan::has_attributes(flat) {
+            upload(binding::ATTRIBUTES, "attributes", bytemuck::cast_slice(&flat.attributes), BufferUsages::STORAGE);
+        }
+        if !flat.texels.is_empty() {
+            upload(binding::TEXELS, "texels", bytemuck::cast_slice(&flat.texels), BufferUsages::STORAGE);
+        }
+
+        let mut make = |number, label, size: u64, usage| {
+            let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false };
+            buffers.insert(number, device.device.create_buffer(&descriptor));
+        };
+        let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+        make(binding::PASS, "pass", size_of::<PassParameters>() as u64, uniform);
+        make(binding::HALTON, "halton points", 16 * u64::from(HALTON_BLOCKS * MAX_SAMPLES_PER_PASS), uniform);
+        let storage = BufferUsages::STORAGE;
+        make(binding::STATISTICS, "statistics", 16, storage | BufferUsages::COPY_SRC | BufferUsages::COPY_DST);
+        if plan.stages == StageMode::Wavefront {
+            let paths = u64::from(plan.path_capacity);
+            make(binding::PATH_STATE, "path state", paths * memory::PATH_STATE_BYTES, storage);
+            make(binding::QUEUES, "queues", paths * memory::QUEUE_BYTES, storage);
+            make(binding::COUNTS, "counts", 16, storage | BufferUsages::COPY_DST | BufferUsages::COPY_SRC);
+            make(binding::DISPATCH_SIZES, "dispatch sizes", 24, storage | BufferUsages::INDIRECT);
+            if plan.samples_lights() {
+                make(binding::SHADOW_RAYS, "shadow rays", paths * memory::SHADOW_RAY_BYTES, storage);
+            }
+        }
+        let film = ["film sum", "film compensation"].map(|label| film_half(device, plan, width, label));
+        let film_views = film.each_ref().map(|half| match half {
+            FilmHalf::Texture(texture) => Some(texture.create_view(&Default::default())),
+            FilmHalf::Buffer(_) => None,
+        });
+        let film_bytes = u64::from(width) * u64::from(plan.band_rows) * memory::FILM_BYTES;
+        let bytes = buffers.values().map(wgpu::Buffer::size).sum::<u64>() + film_bytes;
+        Self { buffers, film, film_views, bytes }
+    }
+
+    /// The buffer bound at `number`; None for what this plan does not have.
+    pub fn buffer(&self, number: u32) -> Option<&wgpu::Buffer> {
+        self.buffers.get(&number)
+    }
+
+    /// What a bind group needs for binding `number`.
+    pub fn resource(&self, number: u32) -> Option<wgpu::BindingResource<'_>> {
+        if let Some(half) = number.checked_sub(binding::FILM_SUM).filter(|half| *half < 2) {
+            return Some(match (&self.film[half as usize], &self.film_views[half as usize]) {
+                (FilmHalf::Buffer(buffer), _) => buffer.as_entire_binding(),
+                (FilmHalf::Texture(_), view) => wgpu::BindingResource::TextureView(view.as_ref()?),
+            });
+        }
+        let buffer = self.buffers.get(&number)?;
+        if number == binding::EDGE {
+            let size = wgpu::BufferSize::new(size_of::<EdgeParameters>() as u64);
+            return Some(wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size }));
+        }
+        Some(buffer.as_entire_binding())
+    }
+}
+
+/// Dynamic offset of the parameters of the submission's edge number `index`, from 0.
+pub fn edge_offset(index: u32) -> u32 {
+    index * EDGE_STRIDE as u32
+}
+
+/// Parameters of a submission's edges, the first of which is `first_edge`.
+pub fn edge_parameters(first_edge: u32) -> Vec<u8> {
+    let mut bytes = vec![0; EDGE_STRIDE * EDGES_PER_SUBMISSION as usize];
+    for (index, slot) in bytes.chunks_mut(EDGE_STRIDE).enumerate() {
+        let edge = first_edge + index as u32;
+        let parameters = EdgeParameters { edge, queue: (edge - 1) % 2, padding: [0; 2] };
+        slot[..size_of::<EdgeParameters>()].copy_from_slice(bytemuck::bytes_of(&parameters));
+    }
+    bytes
+}
+
+fn film_half(device: &Device, plan: &Plan, width: u32, label: &'static str) -> FilmHalf {
+    match plan.film {
+        FilmStorage::Texture => FilmHalf::Texture(device.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(label),
+            size: wgpu::Extent3d { width, height: plan.band_rows, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: TextureFormat::Rgba32Float,
+            usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        })),
+        FilmStorage::Buffer => FilmHalf::Buffer(device.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size: u64::from(width) * u64::from(plan.band_rows) * memory::FILM_BYTES / 2,
+            usage: BufferUsages::STORAGE | BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        })),
+    }
+}

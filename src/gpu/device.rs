@@ -1,0 +1,102 @@
+//! An open device, and what went wrong on it.
+
+use std::sync::{Arc, Mutex};
+
+use crate::plan::DeviceLimits;
+use crate::render::{DeviceChoice, RenderError};
+
+/// A device with its queue, and the first error it reported.
+pub struct Device {
+    pub name: String,
+    pub limits: DeviceLimits,
+    pub device: wgpu::Device,
+    pub queue: wgpu::Queue,
+    failure: Arc<Mutex<Option<Failure>>>,
+}
+
+enum Failure {
+    Lost(String),
+    OutOfMemory(String),
+    Other(String),
+}
+
+impl Device {
+    /// Opens the adapter that `choice` means, with the limits it has and no feature beyond what the renderer can use.
+    ///
+    /// # Errors
+    /// [`RenderError::NoDevice`] where there is no such adapter or it cannot be opened.
+    pub fn open(choice: &DeviceChoice) -> Result<Self, RenderError> {
+        let adapter = super::select_adapter(choice)?;
+        let limits = DeviceLimits::of(&adapter);
+        let mut features = wgpu::Features::empty();
+        if limits.read_write_rgba32float {
+            features |= wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES;
+        }
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("gpt"),
+            required_features: features,
+            required_limits: adapter.limits(),
+            ..Default::default()
+        };
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
+            .map_err(|error| RenderError::NoDevice(format!("{} cannot be opened: {error}", adapter.get_info().name)))?;
+        let failure = Arc::new(Mutex::new(None));
+        let seen = Arc::clone(&failure);
+        device.on_uncaptured_error(Arc::new(move |error| {
+            let failure = match error {
+                wgpu::Error::OutOfMemory { source } => Failure::OutOfMemory(source.to_string()),
+                other => Failure::Other(other.to_string()),
+            };
+            remember(&seen, failure);
+        }));
+        let seen = Arc::clone(&failure);
+        device.set_device_lost_callback(move |reason, message| {
+            if reason != wgpu::DeviceLostReason::Destroyed {
+                remember(&seen, Failure::Lost(message));
+            }
+        });
+        Ok(Self { name: adapter.get_info().name, limits, device, queue, failure })
+    }
+
+    /// The first error since the device was opened.
+    pub fn check(&self) -> Result<(), RenderError> {
+        let failure = self.failure.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        match &*failure {
+            None => Ok(()),
+            Some(Failure::Lost(message)) => Err(RenderError::DeviceLost(message.clone())),
+            Some(Failure::OutOfMemory(message)) => {
+                Err(RenderError::DoesNotFit(format!("{} ran out of memory: {message}", self.name)))
+            }
+            Some(Failure::Other(message)) => Err(RenderError::Internal(message.clone())),
+        }
+    }
+
+    /// Submits commands and waits until they are done.
+    pub fn submit_and_wait(&self, commands: wgpu::CommandBuffer) -> Result<(), RenderError> {
+        self.queue.submit([commands]);
+        self.wait()
+    }
+
+    /// Waits for everything submitted.
+    pub fn wait(&self) -> Result<(), RenderError> {
+        let polled = self.device.poll(wgpu::PollType::wait_indefinitely());
+        self.check()?;
+        polled.map(|_| ()).map_err(|error| RenderError::DeviceLost(error.to_string()))
+    }
+
+    /// Reads a whole buffer that can be mapped, once everything submitted is done.
+    pub fn read(&self, buffer: &wgpu::Buffer) -> Result<Vec<u8>, RenderError> {
+        buffer.map_async(wgpu::MapMode::Read, .., |_| {});
+        self.wait()?;
+        let view = buffer.get_mapped_range(..).map_err(|error| RenderError::Internal(error.to_string()))?;
+        let bytes = view.to_vec();
+        drop(view);
+        buffer.unmap();
+        Ok(bytes)
+    }
+}
+
+fn remember(slot: &Mutex<Option<Failure>>, failure: Failure) {
+    let mut slot = slot.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    slot.get_or_insert(failure);
+}

@@ -1,0 +1,29 @@
+//! What the host tells kernels beside the scene; layouts of `shaders/core/parameters.wgsl`.
+
+/// One pass: a run of consecutive pixels of the band, each with the same samples.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct PassParameters {
+    /// Over the whole film.
+    pub first_pixel: u32,
+    pub first_pixel_in_band: u32,
+    pub pixel_count: u32,
+    /// Absolute index.
+    pub first_sample: u32,
+    pub sample_count: u32,
+    /// 1 until each pixel of the band has its first samples.
+    pub film_is_empty: u32,
+    /// Always 0.
+    pub opaque_zero: u32,
+    pub seed: u32,
+}
+
+/// Which edge of its path a dispatch extends, from 1.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct EdgeParameters {
+    pub edge: u32,
+    /// Which half of the queues is read.
+    pub queue: u32,
+    pub padding: [u32; 2],
+}

@@ -1,0 +1,63 @@
+//! What the plan has to know of a device.
+
+use super::FilmStorage;
+
+/// Limits in bytes unless the name says otherwise.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DeviceLimits {
+    pub max_storage_binding: u64,
+    pub max_uniform_binding: u32,
+    pub max_buffer: u64,
+    /// In pixels.
+    pub max_texture_side: u32,
+    pub max_workgroups: u32,
+    pub read_write_rgba32float: bool,
+    /// The device is the CPU in disguise: its memory is the machine's, and its caches reward small working sets.
+    pub software: bool,
+}
+
+impl Default for DeviceLimits {
+    /// What WebGPU guarantees.
+    fn default() -> Self {
+        Self {
+            max_storage_binding: 128 << 20,
+            max_uniform_binding: 64 << 10,
+            max_buffer: 256 << 20,
+            max_texture_side: 8192,
+            max_workgroups: 65_535,
+            read_write_rgba32float: false,
+            software: false,
+        }
+    }
+}
+
+impl DeviceLimits {
+    pub fn of(adapter: &wgpu::Adapter) -> Self {
+        let limits = adapter.limits();
+        let features = adapter.get_texture_format_features(wgpu::TextureFormat::Rgba32Float);
+        let specific = adapter.features().contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
+        Self {
+            max_storage_binding: limits.max_storage_buffer_binding_size,
+            max_uniform_binding: limits.max_uniform_buffer_binding_size.min(64 << 10) as u32,
+            max_buffer: limits.max_buffer_size,
+            max_texture_side: limits.max_texture_dimension_2d,
+            max_workgroups: limits.max_compute_workgroups_per_dimension,
+            read_write_rgba32float: specific && features.flags.contains(wgpu::TextureFormatFeatureFlags::STORAGE_READ_WRITE),
+            software: adapter.get_info().device_type == wgpu::DeviceType::Cpu,
+        }
+    }
+
+    /// Paths in flight: enough to fill the device, few enough for its caches and for the largest binding.
+    pub fn path_capacity(&self) -> u32 {
+        let wanted: u64 = if self.software { 1 << 18 } else { 1 << 20 };
+        let bound = self.max_storage_binding.min(self.max_buffer) / super::memory::PATH_STATE_BYTES;
+        wanted.min(bound).min(u64::from(self.max_workgroups) * 64) as u32
+    }
+
+    /// Rows per band so that a band's film stays below 16 MiB a texture and within the device's limits.
+    pub fn band_rows(&self, size: [u32; 2], film: FilmStorage) -> u32 {
+        let [width, height] = size;
+        let texture_rows = if film == FilmStorage::Texture { self.max_texture_side } else { u32::MAX };
+        ((1 << 20) / width).clamp(1, texture_rows).min(height)
+    }
+}

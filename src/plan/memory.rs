@@ -1,0 +1,83 @@
+//! How much device memory a plan takes, array by array.
+
+use std::fmt;
+
+use super::{GeometryPlacement, Plan, StageMode, has_attributes, limits::DeviceLimits};
+use crate::flat::FlatScene;
+use crate::render::RenderError;
+
+/// Bytes of state per path: ray, throughput, radiance, hit (`shaders/stages/wavefront.wgsl`).
+pub const PATH_STATE_BYTES: u64 = 5 * 16;
+/// Bytes per shadow ray.
+pub const SHADOW_RAY_BYTES: u64 = 3 * 16;
+/// Two queues of one word each.
+pub const QUEUE_BYTES: u64 = 2 * 4;
+/// Bytes of film per pixel of a band: sum and compensation.
+pub const FILM_BYTES: u64 = 2 * 16;
+
+/// Named arrays and their sizes in bytes.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Memory {
+    pub arrays: Vec<(&'static str, u64)>,
+}
+
+impl Memory {
+    pub fn new(flat: &FlatScene, plan: &Plan, width: u32) -> Self {
+        let (tables, ..) = flat.tables();
+        let pixels = u64::from(width) * u64::from(plan.band_rows);
+        let mut arrays = vec![
+            ("primitives", 48 * flat.primitives.len() as u64),
+            ("tables", 16 * tables.len() as u64),
+            ("film sum", pixels * FILM_BYTES / 2),
+            ("film compensation", pixels * FILM_BYTES / 2),
+        ];
+        if plan.geometry == GeometryPlacement::Hierarchy {
+            arrays.push(("hierarchy", 48 * flat.bvh.nodes.len() as u64));
+        }
+        if has_attributes(flat) {
+            arrays.push(("normals and texture coordinates", 64 * flat.attributes.len() as u64));
+        }
+        if !flat.texels.is_empty() {
+            arrays.push(("texels", 4 * flat.texels.len() as u64));
+        }
+        if plan.stages == StageMode::Wavefront {
+            let paths = u64::from(plan.path_capacity);
+            arrays.push(("path state", paths * PATH_STATE_BYTES));
+            arrays.push(("queues", paths * QUEUE_BYTES));
+            if plan.samples_lights() {
+                arrays.push(("shadow rays", paths * SHADOW_RAY_BYTES));
+            }
+        }
+        Self { arrays }
+    }
+
+    pub fn total(&self) -> u64 {
+        self.arrays.iter().map(|(_, bytes)| bytes).sum()
+    }
+
+    /// # Errors
+    /// [`RenderError::DoesNotFit`] for the first array larger than the device can bind.
+    pub fn check(&self, limits: &DeviceLimits) -> Result<(), RenderError> {
+        let limit = limits.max_storage_binding.min(limits.max_buffer);
+        match self.arrays.iter().find(|(_, bytes)| *bytes > limit) {
+            Some((name, bytes)) => Err(RenderError::DoesNotFit(format!(
+                "its {name} need {}, and the device can bind {} at once",
+                megabytes(*bytes),
+                megabytes(limit)
+            ))),
+            None => Ok(()),
+        }
+    }
+}
+
+fn megabytes(bytes: u64) -> String {
+    format!("{:.1} MiB", bytes as f64 / f64::from(1 << 20))
+}
+
+impl fmt::Display for Memory {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", megabytes(self.total()))?;
+        let parts: Vec<String> = self.arrays.iter().map(|(name, bytes)| format!("{name} {}", megabytes(*bytes))).collect();
+        write!(f, " ({})", parts.join(", "))
+    }
+}

@@ -1,0 +1,176 @@
+//! What a scene needs of the device, and what is skipped.
+//!
+//! The plan looks at a packed scene and the device's limits, and decides where geometry lives, which stages run, how many paths are in
+//! flight, and which parts of the shaders are compiled at all. `gpt check` prints it.
+
+pub mod limits;
+pub mod memory;
+pub mod switches;
+pub mod unroll;
+
+use std::fmt;
+
+use crate::flat::{FlatScene, NONE};
+use crate::render::RenderError;
+use crate::scene::Scene;
+use crate::shader::Switches;
+
+pub use limits::DeviceLimits;
+pub use memory::Memory;
+
+/// Primitives up to which geometry is written into the kernels as constants.
+pub const UNROLL_LIMIT: usize = 64;
+/// Samples of one pixel in one pass.
+pub const MAX_SAMPLES_PER_PASS: u32 = 64;
+
+/// Where the geometry lives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GeometryPlacement {
+    /// Every primitive is code with constant coordinates; there is no hierarchy.
+    Unrolled,
+    /// A four-wide hierarchy in storage buffers.
+    Hierarchy,
+}
+
+/// How the stages run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StageMode {
+    /// Separate kernels over queues: generate, extend, shade, connect, accumulate.
+    Wavefront,
+    /// One kernel traces whole paths.
+    Fused,
+}
+
+/// Where the film's sums live.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FilmStorage {
+    /// rgba32float storage textures, where the device can read and write them.
+    Texture,
+    /// Storage buffers: works everywhere.
+    Buffer,
+}
+
+/// Choices forced from outside, for tests and measurements. None: the plan decides.
+#[derive(Debug, Clone, Default)]
+pub struct PlanOptions {
+    pub geometry: Option<GeometryPlacement>,
+    pub stages: Option<StageMode>,
+    pub film: Option<FilmStorage>,
+    pub path_capacity: Option<u32>,
+    /// Keep naga's bounds checks and loop bounds in the kernels.
+    pub checked_shaders: bool,
+}
+
+/// The decisions for one scene on one device.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    pub geometry: GeometryPlacement,
+    /// Primitives and tables are small enough for uniform buffers, whose loads cost less.
+    pub uniform_scene: bool,
+    pub stages: StageMode,
+    pub film: FilmStorage,
+    /// Paths in flight at most.
+    pub path_capacity: u32,
+    /// Rows of a band at most.
+    pub band_rows: u32,
+    pub switches: Switches,
+    pub memory: Memory,
+    pub checked_shaders: bool,
+}
+
+impl Plan {
+    /// Decides.
+    ///
+    /// # Errors
+    /// [`RenderError::DoesNotFit`] where an array is larger than the device can bind, naming both sizes.
+    pub fn new(scene: &Scene, flat: &FlatScene, limits: &DeviceLimits, options: &PlanOptions) -> Result<Self, RenderError> {
+        let geometry = options.geometry.unwrap_or(if flat.primitives.len() <= UNROLL_LIMIT {
+            GeometryPlacement::Unrolled
+        } else {
+            GeometryPlacement::Hierarchy
+        });
+        let stages = options.stages.unwrap_or(match geometry {
+            GeometryPlacement::Unrolled => StageMode::Fused,
+            GeometryPlacement::Hierarchy => StageMode::Wavefront,
+        });
+        let width = scene.film.size[0];
+        let film = options.film.unwrap_or(if limits.read_write_rgba32float && width <= limits.max_texture_side {
+            FilmStorage::Texture
+        } else {
+            FilmStorage::Buffer
+        });
+        let (tables, ..) = flat.tables();
+        let uniform_limit = u64::from(limits.max_uniform_binding);
+        let uniform_scene = 48 * flat.primitives.len() as u64 <= uniform_limit && 16 * tables.len() as u64 <= uniform_limit;
+        let path_capacity = options.path_capacity.unwrap_or_else(|| limits.path_capacity());
+        let band_rows = limits.band_rows(scene.film.size, film);
+        let mut plan = Self {
+            geometry,
+            uniform_scene,
+            stages,
+            film,
+            path_capacity,
+            band_rows,
+            switches: Switches::default(),
+            memory: Memory::default(),
+            checked_shaders: options.checked_shaders,
+        };
+        plan.switches = switches::choose(scene, flat, &plan);
+        if geometry == GeometryPlacement::Unrolled {
+            plan.switches.generated.insert("geometry/unrolled.wgsl", unroll::closest_hit(flat));
+        }
+        plan.memory = Memory::new(flat, &plan, width);
+        plan.memory.check(limits)?;
+        Ok(plan)
+    }
+
+    /// The shader files whose entry points run, in the order of the data's way.
+    pub fn stage_files(&self) -> &'static [(&'static str, &'static str)] {
+        match self.stages {
+            StageMode::Fused => &[("stages/fused.wgsl", "trace_paths")],
+            StageMode::Wavefront => &[
+                ("stages/generate.wgsl", "generate"),
+                ("stages/extend.wgsl", "extend"),
+                ("stages/shade.wgsl", "shade"),
+                ("stages/prepare.wgsl", "prepare"),
+                ("stages/connect.wgsl", "connect"),
+                ("stages/accumulate.wgsl", "accumulate"),
+            ],
+        }
+    }
+
+    /// Whether any shadow ray is ever traced.
+    pub fn samples_lights(&self) -> bool {
+        self.switches.enabled.contains("LIGHTS")
+    }
+}
+
+/// Whether some primitive carries normals or texture coordinates.
+pub(crate) fn has_attributes(flat: &FlatScene) -> bool {
+    flat.primitives.iter().any(|primitive| primitive.attributes != NONE)
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let geometry = match self.geometry {
+            GeometryPlacement::Unrolled => "written into the kernels as constants",
+            GeometryPlacement::Hierarchy => "four-wide hierarchy with 8-bit boxes in storage buffers",
+        };
+        writeln!(f, "geometry       {geometry}")?;
+        let arrays = if self.uniform_scene { "uniform buffers" } else { "storage buffers" };
+        writeln!(f, "scene arrays   {arrays}")?;
+        let stages: Vec<&str> = self.stage_files().iter().map(|(_, entry)| *entry).collect();
+        writeln!(f, "stages         {}", stages.join(", "))?;
+        let film = match self.film {
+            FilmStorage::Texture => "rgba32float storage textures",
+            FilmStorage::Buffer => "storage buffers",
+        };
+        writeln!(f, "film           {film}, bands of {} rows", self.band_rows)?;
+        let features: Vec<&str> = self.switches.enabled.iter().copied().collect();
+        writeln!(f, "compiled in    {}", features.join(" "))?;
+        let skipped: Vec<&str> = switches::ALL.iter().copied().filter(|name| !self.switches.enabled.contains(name)).collect();
+        writeln!(f, "left out       {}", skipped.join(" "))?;
+        writeln!(f, "paths          {} in flight", self.path_capacity)?;
+        write!(f, "device memory  {}", self.memory)
+    }
+}

@@ -1,0 +1,106 @@
+//! Which parts of the shaders a scene compiles.
+
+use super::{FilmStorage, GeometryPlacement, MAX_SAMPLES_PER_PASS, Plan, has_attributes};
+use crate::flat::FlatScene;
+use crate::flat::light::LightKind;
+use crate::flat::primitive::PrimitiveKind;
+use crate::flat::tables::FlatMaterialKind;
+use crate::sampling::halton::HALTON_DIMENSIONS;
+use crate::scene::{Estimator, MisHeuristic, SamplerKind, Scene};
+use crate::shader::Switches;
+
+/// Every switch that the shaders know.
+pub const ALL: &[&str] = &[
+    "ATTRIBUTES",
+    "BVH",
+    "DISKS",
+    "EMISSION",
+    "ENVIRONMENT",
+    "ENVIRONMENT_LIGHT",
+    "ESTIMATOR_MIS",
+    "ESTIMATOR_NEE",
+    "FILM_TEXTURE",
+    "FLAT_LIGHTS",
+    "FLAT_ROUND",
+    "GLASS",
+    "HEURISTIC_POWER",
+    "LIGHTS",
+    "MIRROR",
+    "ONE_LIGHT",
+    "ONLY_TRIANGLES",
+    "PLANES",
+    "POINT_LIGHTS",
+    "QUADS",
+    "ROULETTE",
+    "SAMPLER_HALTON",
+    "SPHERES",
+    "SPHERE_LIGHTS",
+    "TEXTURES",
+    "TRIANGLES",
+    "UNIFORM_SCENE",
+];
+
+/// Blocks of four dimensions that the Halton table holds per sample.
+pub const HALTON_BLOCKS: u32 = HALTON_DIMENSIONS / 4;
+
+pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
+    let mut switches = Switches::default();
+    let render = &scene.render;
+
+    let has_kind = |kind: PrimitiveKind| flat.primitives.iter().any(|primitive| primitive.kind() == kind as u32);
+    let [triangles, quads, spheres, disks, planes] =
+        [PrimitiveKind::Triangle, PrimitiveKind::Quad, PrimitiveKind::Sphere, PrimitiveKind::Disk, PrimitiveKind::Plane]
+            .map(has_kind);
+    switches.enable("TRIANGLES", triangles);
+    switches.enable("QUADS", quads);
+    switches.enable("SPHERES", spheres);
+    switches.enable("DISKS", disks);
+    switches.enable("PLANES", planes);
+    switches.enable("FLAT_ROUND", disks || planes);
+    switches.enable("ONLY_TRIANGLES", triangles && !(quads || spheres || disks || planes));
+    switches.enable("BVH", plan.geometry == GeometryPlacement::Hierarchy);
+    switches.enable("UNIFORM_SCENE", plan.uniform_scene);
+    switches.enable("ATTRIBUTES", has_attributes(flat));
+    switches.enable("TEXTURES", !flat.textures.is_empty());
+
+    let has_material = |kind: FlatMaterialKind| flat.materials.iter().any(|material| material.kind == kind as u32);
+    switches.enable("MIRROR", has_material(FlatMaterialKind::Mirror));
+    switches.enable("GLASS", has_material(FlatMaterialKind::Glass));
+    switches.enable("EMISSION", flat.materials.iter().any(|material| material.emission_flags != 0));
+
+    let has_light = |kind: LightKind| flat.lights.iter().any(|light| light.kind_and_flags & 255 == kind as u32);
+    switches.enable("LIGHTS", !flat.lights.is_empty() && render.max_depth != 1);
+    switches.enable("ONE_LIGHT", flat.lights.len() == 1);
+    switches.enable("FLAT_LIGHTS", [LightKind::Triangle, LightKind::Quad, LightKind::Disk].into_iter().any(has_light));
+    switches.enable("SPHERE_LIGHTS", has_light(LightKind::Sphere));
+    switches.enable("POINT_LIGHTS", has_light(LightKind::Point));
+    switches.enable("ENVIRONMENT_LIGHT", has_light(LightKind::Environment));
+    switches.enable("ENVIRONMENT", flat.view.environment[..3].iter().any(|&channel| channel > 0.0));
+
+    switches.enable("ESTIMATOR_MIS", render.estimator == Estimator::Mis);
+    switches.enable("ESTIMATOR_NEE", render.estimator == Estimator::Nee);
+    switches.enable("HEURISTIC_POWER", render.heuristic == MisHeuristic::Power);
+    switches.enable("ROULETTE", render.roulette_depth > 0);
+    switches.enable("SAMPLER_HALTON", render.sampler == SamplerKind::Halton);
+    switches.enable("FILM_TEXTURE", plan.film == FilmStorage::Texture);
+
+    let (tables, first_light, first_texture) = flat.tables();
+    switches.constants.extend([
+        ("FILM_WIDTH", scene.film.size[0]),
+        ("FIRST_LIGHT_WORD", first_light),
+        ("FIRST_PLANE", flat.first_plane),
+        ("FIRST_TEXTURE_WORD", first_texture),
+        ("HALTON_BLOCKS", HALTON_BLOCKS),
+        ("HALTON_POINTS", HALTON_BLOCKS * MAX_SAMPLES_PER_PASS),
+        ("LIGHT_COUNT", flat.lights.len() as u32),
+        // Depth 0 means no limit: an edge that is never reached.
+        ("MAX_DEPTH", if render.max_depth == 0 { u32::MAX } else { render.max_depth }),
+        ("PATH_CAPACITY", plan.path_capacity),
+        ("PRIMITIVE_COUNT", flat.primitives.len() as u32),
+        ("PRIMITIVE_WORDS", (3 * flat.primitives.len() as u32).max(1)),
+        ("ROULETTE_DEPTH", render.roulette_depth),
+        ("STACK_SIZE", flat.bvh.stack_size),
+        ("TABLE_WORDS", (tables.len() as u32).max(1)),
+    ]);
+    switches
+}

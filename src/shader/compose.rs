@@ -1,0 +1,175 @@
+//! Joins WGSL files: `#import file`, `#if SWITCH` / `#if !SWITCH` / `#else` / `#endif`, and a map from lines back to files.
+//!
+//! A file is included once, where it is first imported. Switches and constants come from the plan, so that a scene's kernels hold
+//! only what the scene uses.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+
+/// Compile-time choices: which `#if`s hold, and constants that are declared before the first line.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Switches {
+    pub enabled: BTreeSet<&'static str>,
+    pub constants: BTreeMap<&'static str, u32>,
+    /// Generated files that may be imported like those of `shaders/`.
+    pub generated: BTreeMap<&'static str, String>,
+}
+
+impl Switches {
+    pub fn enable(&mut self, name: &'static str, on: bool) {
+        if on {
+            self.enabled.insert(name);
+        }
+    }
+}
+
+/// WGSL text, and where each of its lines came from.
+#[derive(Debug, Clone)]
+pub struct ComposedShader {
+    pub text: String,
+    /// File and line (from 1) of every line of `text`.
+    pub origin: Vec<(&'static str, u32)>,
+}
+
+impl ComposedShader {
+    /// `file:line` of a line (from 1) of the composed text.
+    pub fn locate(&self, line: u32) -> String {
+        match self.origin.get(line.saturating_sub(1) as usize) {
+            Some((file, line)) => format!("shaders/{file}:{line}"),
+            None => format!("line {line}"),
+        }
+    }
+
+    /// Parses and validates with naga, and says in the words of the source files what is wrong.
+    pub fn validate(&self) -> Result<(naga::Module, naga::valid::ModuleInfo), ComposeError> {
+        let module = naga::front::wgsl::parse_str(&self.text).map_err(|error| {
+            let line = error.location(&self.text).map_or(0, |location| location.line_number);
+            ComposeError::Invalid { place: self.locate(line), message: error.emit_to_string(&self.text) }
+        })?;
+        let mut validator = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::all());
+        let info = validator.validate(&module).map_err(|error| {
+            let line = error.location(&self.text).map_or(0, |location| location.line_number);
+            ComposeError::Invalid { place: self.locate(line), message: error.emit_to_string(&self.text) }
+        })?;
+        Ok((module, info))
+    }
+}
+
+/// A mistake in the shader sources.
+#[derive(Debug, thiserror::Error)]
+pub enum ComposeError {
+    #[error("shaders/{file}:{line}: {message}")]
+    Directive { file: &'static str, line: u32, message: String },
+    #[error("{place}: {message}")]
+    Invalid { place: String, message: String },
+}
+
+/// Composes the file `root` with all that it imports.
+pub fn compose(root: &'static str, switches: &Switches) -> Result<ComposedShader, ComposeError> {
+    let mut composer =
+        Composer { switches, included: BTreeSet::new(), out: ComposedShader { text: String::new(), origin: Vec::new() } };
+    for (name, value) in &switches.constants {
+        composer.push("(constants of the plan)", 1, &format!("const {name}: u32 = {value}u;"));
+    }
+    composer.include(root, root, 0)?;
+    Ok(composer.out)
+}
+
+struct Composer<'a> {
+    switches: &'a Switches,
+    included: BTreeSet<&'static str>,
+    out: ComposedShader,
+}
+
+impl Composer<'_> {
+    fn push(&mut self, file: &'static str, line: u32, text: &str) {
+        let _ = writeln!(self.out.text, "{text}");
+        self.out.origin.push((file, line));
+    }
+
+    fn find(&self, name: &str) -> Option<(&'static str, String)> {
+        let generated = self.switches.generated.get_key_value(name).map(|(name, text)| (*name, text.clone()));
+        generated.or_else(|| {
+            super::sources::FILES.iter().find(|(file, _)| *file == name).map(|(name, text)| (*name, (*text).to_owned()))
+        })
+    }
+
+    fn include(&mut self, name: &str, from: &'static str, from_line: u32) -> Result<(), ComposeError> {
+        let Some((file, text)) = self.find(name) else {
+            return Err(ComposeError::Directive { file: from, line: from_line, message: format!("no file {name} to import") });
+        };
+        if !self.included.insert(file) {
+            return Ok(());
+        }
+        // One entry per open #if: whether its present branch holds.
+        let mut conditions: Vec<bool> = Vec::new();
+        for (index, line) in text.lines().enumerate() {
+            let number = index as u32 + 1;
+            let fail = |message: &str| Err(ComposeError::Directive { file, line: number, message: message.to_owned() });
+            let holds = conditions.iter().all(|&holds| holds);
+            let trimmed = line.trim_start();
+            if let Some(condition) = trimmed.strip_prefix("#if ") {
+                let condition = condition.trim();
+                conditions.push(match condition.strip_prefix('!') {
+                    Some(name) => !self.switches.enabled.contains(name),
+                    None => self.switches.enabled.contains(condition),
+                });
+            } else if trimmed.starts_with("#else") {
+                match conditions.last_mut() {
+                    Some(holds) => *holds = !*holds,
+                    None => return fail("#else without #if"),
+                }
+            } else if trimmed.starts_with("#endif") {
+                if conditions.pop().is_none() {
+                    return fail("#endif without #if");
+                }
+            } else if let Some(import) = trimmed.strip_prefix("#import ") {
+                if holds {
+                    self.include(import.trim(), file, number)?;
+                }
+            } else if trimmed.starts_with('#') {
+                return fail("unknown directive");
+            } else if holds {
+                self.push(file, number, line);
+            }
+        }
+        match conditions.is_empty() {
+            true => Ok(()),
+            false => {
+                Err(ComposeError::Directive { file, line: text.lines().count() as u32, message: "#if without #endif".into() })
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn switches(files: &[(&'static str, &str)]) -> Switches {
+        Switches { generated: files.iter().map(|(name, text)| (*name, (*text).to_owned())).collect(), ..Switches::default() }
+    }
+
+    #[test]
+    fn conditions_nest_and_files_are_included_once() {
+        let mut switches = switches(&[
+            ("a", "#import b\n#import b\n#if X\nx\n#if Y\nxy\n#else\nx only\n#endif\n#else\nno x\n#endif"),
+            ("b", "b"),
+        ]);
+        assert_eq!(compose("a", &switches).unwrap().text, "b\nno x\n");
+        switches.enable("X", true);
+        let composed = compose("a", &switches).unwrap();
+        assert_eq!(composed.text, "b\nx\nx only\n");
+        assert_eq!(composed.locate(3), "shaders/a:8");
+    }
+
+    #[test]
+    fn mistakes_name_file_and_line() {
+        let message = |files| compose("a", &switches(files)).unwrap_err().to_string();
+        assert_eq!(message(&[("a", "\n#import c")]), "shaders/a:2: no file c to import");
+        assert_eq!(message(&[("a", "#if X")]), "shaders/a:1: #if without #endif");
+        assert_eq!(message(&[("a", "#endif")]), "shaders/a:1: #endif without #if");
+        let invalid = compose("a", &switches(&[("a", "\nfn f() -> u32 { return 1.0; }")])).unwrap();
+        assert!(invalid.validate().unwrap_err().to_string().starts_with("shaders/a:2: "));
+    }
+}

@@ -1,0 +1,41 @@
+//! The files of `shaders/`, embedded.
+
+macro_rules! shader_files {
+    ($($name:literal),* $(,)?) => {
+        /// Name within `shaders/` and text of every file.
+        pub const FILES: &[(&str, &str)] = &[$(($name, include_str!(concat!("../../shaders/", $name)))),*];
+    };
+}
+
+shader_files![
+    "core/camera.wgsl",
+    "core/math.wgsl",
+    "core/parameters.wgsl",
+    "core/sampler.wgsl",
+    "geometry/bvh4.wgsl",
+    "geometry/closest.wgsl",
+    "geometry/primitives.wgsl",
+    "geometry/scene.wgsl",
+    "geometry/stored.wgsl",
+    "shading/bsdf.wgsl",
+    "shading/light.wgsl",
+    "shading/mis.wgsl",
+    "shading/path.wgsl",
+    "shading/surface.wgsl",
+    "shading/texture.wgsl",
+    "stages/accumulate.wgsl",
+    "stages/connect.wgsl",
+    "stages/extend.wgsl",
+    "stages/film.wgsl",
+    "stages/fused.wgsl",
+    "stages/generate.wgsl",
+    "stages/prepare.wgsl",
+    "stages/shade.wgsl",
+    "stages/statistics.wgsl",
+    "stages/wavefront.wgsl",
+];
+
+/// The text of a file, by its name within `shaders/`.
+pub fn file(name: &str) -> Option<&'static str> {
+    FILES.iter().find(|(file, _)| *file == name).map(|(_, text)| *text)
+}
