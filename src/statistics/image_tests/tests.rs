@@ -125,10 +125,9 @@ fn common_noise_hides_an_error_from_the_independent_test() {
 
 #[test]
 fn rounding_is_within_the_margin_and_noiseless_errors_are_not() {
-    let first = vec![[2.0f32, 2.0, 0.0]; SIZE];
-    let compare = |second: [f32; 3]| {
-        compare_paired(picture(&first), picture(&vec![second; SIZE]), &TileSettings::default()).unwrap().agrees()
-    };
+    let first = [[2.0f32, 2.0, 0.0]; SIZE];
+    let compare =
+        |second: [f32; 3]| compare_paired(picture(&first), picture(&[second; SIZE]), &TileSettings::default()).unwrap().agrees();
     assert!(compare([2.0, 2.0, 0.0]));
     assert!(compare([2.000_01, 1.999_99, 0.0]));
     assert!(!compare([2.02, 2.0, 0.0]));
@@ -160,7 +159,7 @@ fn tiles_cover_each_pixel_once() {
 
 #[test]
 fn pictures_that_cannot_be_compared() {
-    let pixels = vec![[1.0f32; 3]; 12];
+    let pixels = [[1.0f32; 3]; 12];
     let of = |width, count: usize| Picture { width, pixels: &pixels[..count] };
     let compare = |a, b| compare_paired(a, b, &TileSettings::default()).map(|compared| compared.agrees());
     assert_eq!(compare(of(4, 12), of(4, 12)), Ok(true));
