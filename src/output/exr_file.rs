@@ -1,9 +1,11 @@
 //! OpenEXR pictures: f32 RGB scan lines, lossless, written block by block.
 
 use std::io::{Seek, SeekFrom, Write};
+use std::thread::available_parallelism;
 
 use exr::block::UncompressedBlock;
-use exr::block::writer::{ChunkWriter, ChunksWriter};
+use exr::block::writer::{ChunkWriter, ChunksWriter, ParallelBlocksCompressor};
+use exr::error::{Error, UnitResult};
 use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, ChannelDescription, Chromaticities, LineOrder, SampleType, Text};
 use exr::meta::header::Header;
@@ -14,8 +16,8 @@ use super::PictureSpec;
 use super::provenance::Entry;
 use super::rows::Rows;
 
-/// Scan lines that ZIP compresses together.
-const ROWS_PER_BLOCK: usize = 16;
+/// Blocks compressed at once. Each takes 32 rows of memory, so more would be felt at 8K.
+const COMPRESSING_THREADS: usize = 4;
 /// Bytes before the header in every file: the magic number and the version.
 const PREAMBLE_BYTES: u64 = 8;
 
@@ -35,33 +37,42 @@ pub(super) fn write<W: Write + Seek>(mut writer: W, mut rows: Rows, spec: &Pictu
     writer.flush().map_err(|error| error.to_string())
 }
 
-fn write_blocks<W: Write + Seek>(meta: &MetaData, chunks: &mut ChunkWriter<W>, rows: &mut Rows) -> exr::error::UnitResult {
-    let header = &meta.headers[0];
-    let mut compressor = chunks.sequential_blocks_compressor(meta);
-    for (index, index_in_layer) in meta.enumerate_ordered_header_block_indices() {
-        let size = index_in_layer.pixel_size;
-        let mut data = Vec::with_capacity(size.area() * header.channels.bytes_per_pixel);
-        for _ in 0..size.height() {
-            let row = rows.next_row().map_err(|_| exr::error::Error::Aborted)?;
+fn write_blocks<W: Write + Seek>(meta: &MetaData, chunks: &mut ChunkWriter<W>, rows: &mut Rows) -> UnitResult {
+    let threads = available_parallelism().map_or(1, usize::from).min(COMPRESSING_THREADS);
+    let pool = || rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    if let Some(mut compressor) = ParallelBlocksCompressor::new_with_thread_pool(meta, chunks, pool) {
+        for_each_block(meta, rows, |index, block| compressor.add_block_to_compression_queue(index, block))
+    } else {
+        let mut compressor = chunks.sequential_blocks_compressor(meta);
+        for_each_block(meta, rows, |index, block| compressor.compress_block(index, block))
+    }
+}
+
+/// Packs the rows as the file wants them, block by block from the top.
+fn for_each_block(meta: &MetaData, rows: &mut Rows, mut write: impl FnMut(usize, UncompressedBlock) -> UnitResult) -> UnitResult {
+    let bytes_per_pixel = meta.headers[0].channels.bytes_per_pixel;
+    for (index_in_file, index) in meta.enumerate_ordered_header_block_indices() {
+        let mut data = Vec::with_capacity(index.pixel_size.area() * bytes_per_pixel);
+        for _ in 0..index.pixel_size.height() {
+            let row = rows.next_row().map_err(|_| Error::Aborted)?;
             // Channels lie one after another in a scan line, in the alphabetical order of their names.
             for channel in [2, 1, 0] {
                 data.extend(row.iter().flat_map(|pixel| pixel[channel].to_ne_bytes()));
             }
         }
-        compressor.compress_block(index, UncompressedBlock { index: index_in_layer, data })?;
+        write(index_in_file, UncompressedBlock { index, data })?;
     }
-    rows.wait_for_finish().map_err(|_| exr::error::Error::Aborted)
+    rows.wait_for_finish().map_err(|_| Error::Aborted)
 }
 
 fn header(spec: &PictureSpec, samples: u32) -> Header {
     let channels = ["B", "G", "R"].map(|name| ChannelDescription::new(name, SampleType::F32, false));
     let size = Vec2(spec.width as usize, spec.height as usize);
     let mut header = Header::new(Text::from("gpt"), size, channels.into_iter().collect()).with_encoding(
-        Compression::ZIP16,
+        Compression::PIZ,
         BlockDescription::ScanLines,
         LineOrder::Increasing,
     );
-    debug_assert_eq!(header.compression.scan_lines_per_block(), ROWS_PER_BLOCK);
     // A part's name is for files of several parts; some readers would put it before the channels' names.
     header.own_attributes.layer_name = None;
     header.own_attributes.software_name = Some(Text::from(concat!("gpt ", env!("CARGO_PKG_VERSION"))));

@@ -27,7 +27,8 @@ pub struct PictureSpec {
 pub struct PictureFile {
     file: AtomicFile,
     messages: SyncSender<Message>,
-    encoder: JoinHandle<Result<(), String>>,
+    /// None once it was joined.
+    encoder: Option<JoinHandle<Result<(), String>>>,
     rows_taken: u32,
     spec: PictureSpec,
 }
@@ -47,14 +48,13 @@ impl PictureFile {
             PictureFormat::Exr => exr_file::write(writer, rows, &encoder_spec),
             PictureFormat::Png => png_file::write(writer, rows, &encoder_spec),
         });
-        Ok(Self { file, messages, encoder, rows_taken: 0, spec: spec.clone() })
+        Ok(Self { file, messages, encoder: Some(encoder), rows_taken: 0, spec: spec.clone() })
     }
 
     /// Takes the next band; waits while the encoder is behind.
     ///
     /// # Errors
-    /// A band of another width, one that overlaps an earlier one, or an encoder that gave up: its own error comes from
-    /// [`PictureFile::finish`].
+    /// A band of another width, one that overlaps an earlier one, or an encoder that gave up, with what it said.
     pub fn write_band(&mut self, band: &Arc<Band>) -> Result<(), Error> {
         let pixels = u64::from(band.width) * u64::from(band.rows);
         let end = band.first_row.checked_add(band.rows);
@@ -63,21 +63,32 @@ impl PictureFile {
             return Err(Error::other(format!("the band at row {} does not fit the picture", band.first_row)));
         }
         self.rows_taken = band.first_row + band.rows;
-        let gone = |_| Error::other(format!("writing {} failed", self.file.path().display()));
-        self.messages.send(Message::Band(band.clone())).map_err(gone)
+        let sent = self.messages.send(Message::Band(band.clone()));
+        sent.map_err(|_| {
+            Error::other(self.join_encoder().err().unwrap_or_else(|| self.encode_error("the encoder stopped early")))
+        })
     }
 
     /// Finishes the file with what came, black where nothing came, and puts it in its place.
     ///
     /// # Errors
     /// What the encoder or the file system said.
-    pub fn finish(self) -> Result<(), OutputError> {
+    pub fn finish(mut self) -> Result<(), OutputError> {
         // An encoder that is gone has an error to tell, which joining it brings.
         let _ = self.messages.send(Message::Finish);
-        drop(self.messages);
-        let encoded = self.encoder.join().unwrap_or_else(|_| Err("the encoder panicked".to_owned()));
-        encoded.map_err(|what| OutputError::Encode { path: self.file.path().to_owned(), what })?;
+        self.join_encoder()?;
         self.file.commit()
+    }
+
+    /// Waits for the encoder, which must be about to end, and tells how it went.
+    fn join_encoder(&mut self) -> Result<(), OutputError> {
+        let encoder = self.encoder.take().ok_or_else(|| self.encode_error("writing failed before"))?;
+        let encoded = encoder.join().unwrap_or_else(|_| Err("the encoder panicked".to_owned()));
+        encoded.map_err(|what| self.encode_error(&what))
+    }
+
+    fn encode_error(&self, what: &str) -> OutputError {
+        OutputError::Encode { path: self.file.path().to_owned(), what: what.to_owned() }
     }
 }
 

@@ -7,14 +7,17 @@
 //! name says so, colours linear Rec.709 RGB, radiance in W·sr⁻¹·m⁻².
 
 pub mod camera;
+mod digest;
 pub mod light;
 pub mod material;
 pub mod settings;
 pub mod shape;
+mod summary;
 pub mod texture;
 pub mod transform;
 
 pub use camera::{Aperture, ApertureShape, Camera, Projection};
+pub use digest::digest;
 pub use light::{Environment, EnvironmentRadiance, Light};
 pub use material::{ConductorFresnel, Emission, Heuristic, Material, MaterialKind, MicrofacetDistribution};
 pub use settings::{
@@ -22,6 +25,7 @@ pub use settings::{
     RenderSettings, SamplerKind, setting_name,
 };
 pub use shape::{Geometry, Mesh, Shape};
+pub use summary::SceneSummary;
 pub use texture::{ColorInput, ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap};
 pub use transform::{Transform, TransformStep};
 

@@ -1,0 +1,122 @@
+//! A fingerprint of what a scene shows.
+
+use std::fmt::{self, Write};
+use std::sync::Arc;
+
+use glam::{Vec2, Vec3};
+use sha2::{Digest, Sha256};
+
+use super::{EnvironmentRadiance, Geometry, ImageData, Light, Mesh, Scene, TextureKind};
+
+/// SHA-256, in hexadecimal, of everything that decides what the scene looks like: shapes, materials, textures, lights and camera.
+/// Its name, the picture's size and the way of estimating are left out, since a picture's header states them by themselves.
+pub fn digest(scene: &Scene) -> String {
+    let mut hash = Sha256::new();
+    // Bulk data is hashed as bytes, since printing millions of numbers takes seconds; the rest by how it prints.
+    let mut rest = scene.clone();
+    for shape in &mut rest.shapes {
+        shape.label.clear();
+        if let Geometry::Mesh(mesh) = &mut shape.geometry {
+            hash_mesh(&mut hash, mesh);
+            *mesh = Arc::default();
+        }
+    }
+    for texture in &mut rest.textures {
+        if let TextureKind::Image(image) = &mut texture.kind {
+            image.image = hash_image(&mut hash, &image.image);
+        }
+    }
+    for light in &mut rest.lights {
+        if let Light::Environment(environment) = light
+            && let EnvironmentRadiance::Map(image) = &mut environment.radiance
+        {
+            *image = hash_image(&mut hash, image);
+        }
+    }
+    let printed =
+        write!(HashWriter(&mut hash), "{:?}", (&rest.camera, &rest.textures, &rest.materials, &rest.shapes, &rest.lights));
+    debug_assert!(printed.is_ok(), "hashing cannot fail");
+    hash.finalize().iter().fold(String::new(), |mut hexadecimal, byte| {
+        let _ = write!(hexadecimal, "{byte:02x}");
+        hexadecimal
+    })
+}
+
+struct HashWriter<'a>(&'a mut Sha256);
+
+impl Write for HashWriter<'_> {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.0.update(text);
+        Ok(())
+    }
+}
+
+fn hash_mesh(hash: &mut Sha256, mesh: &Mesh) {
+    hash_items(hash, &mesh.positions, Vec3::to_array);
+    hash_items(hash, &mesh.normals, Vec3::to_array);
+    hash_items(hash, &mesh.uvs, Vec2::to_array);
+    hash_items(hash, &mesh.faces, |face| face.map(f32::from_bits));
+    hash_items(hash, &mesh.face_materials, |material| [f32::from_bits(*material as u32)]);
+    hash.update([u8::from(mesh.smooth)]);
+}
+
+/// Hashes the texels and returns the image without them.
+fn hash_image(hash: &mut Sha256, image: &ImageData) -> Arc<ImageData> {
+    hash_items(hash, &image.texels, Vec3::to_array);
+    Arc::new(ImageData { texels: Vec::new(), ..image.clone() })
+}
+
+/// Hashes an array's length and the bits of its items' words.
+fn hash_items<T, const WORDS: usize>(hash: &mut Sha256, items: &[T], words: impl Fn(&T) -> [f32; WORDS]) {
+    hash.update((items.len() as u64).to_le_bytes());
+    let mut bytes = Vec::new();
+    for chunk in items.chunks(4096) {
+        bytes.clear();
+        bytes.extend(chunk.iter().flat_map(&words).flat_map(|word| word.to_bits().to_le_bytes()));
+        hash.update(&bytes);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Shape, Transform};
+
+    fn scene() -> Scene {
+        let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], faces: vec![[0, 1, 2]], ..Mesh::default() };
+        let shape = Shape {
+            label: "shape 1".to_owned(),
+            geometry: Geometry::Mesh(Arc::new(mesh)),
+            material: 0,
+            transform: Transform::default(),
+            motion: None,
+            portal: false,
+        };
+        Scene { shapes: vec![shape], ..Scene::default() }
+    }
+
+    #[test]
+    fn equal_scenes_have_equal_digests_whatever_they_are_called() {
+        let mut other = scene();
+        other.name = "other".to_owned();
+        other.film.size = [1, 2];
+        other.shapes[0].label = "shape 7".to_owned();
+        assert_eq!(digest(&scene()), digest(&other));
+        assert_eq!(digest(&scene()).len(), 64);
+    }
+
+    #[test]
+    fn every_part_counts() {
+        let first = digest(&scene());
+        let mut moved = scene();
+        let Geometry::Mesh(mesh) = &mut moved.shapes[0].geometry else { unreachable!("the scene is made of a mesh") };
+        Arc::make_mut(mesh).positions[1].z = f32::MIN_POSITIVE;
+        let mut turned = scene();
+        turned.camera.up.x = 1e-12;
+        let mut other_material = scene();
+        other_material.shapes[0].material = 1;
+        for other in [moved, turned, other_material] {
+            assert_ne!(digest(&other), first);
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! A scene in numbers, for `gpt check`.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use serde::Serialize;
+
+use super::{EnvironmentRadiance, Geometry, Light, Material, MaterialKind, Scene, Shape, TextureKind, setting_name};
+
+/// What a scene consists of. Maps go from the scene file's name of a type to how often it occurs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SceneSummary {
+    pub name: String,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    pub spp: u32,
+    pub max_depth: u32,
+    pub sampler: String,
+    pub estimator: String,
+    pub heuristic: String,
+    pub shapes: BTreeMap<&'static str, usize>,
+    /// Over all meshes.
+    pub triangles: usize,
+    pub moving_shapes: usize,
+    /// Shapes that send out light, meshes counted once.
+    pub emitting_shapes: usize,
+    pub materials: BTreeMap<&'static str, usize>,
+    pub lights: BTreeMap<&'static str, usize>,
+    pub textures: BTreeMap<&'static str, usize>,
+    /// Texels of all image textures.
+    pub texels: usize,
+}
+
+impl SceneSummary {
+    /// Counts what is in the scene.
+    pub fn of(scene: &Scene) -> Self {
+        let render = &scene.render;
+        Self {
+            name: scene.name.clone(),
+            size: scene.film.size,
+            spp: render.spp,
+            max_depth: render.max_depth,
+            sampler: setting_name(render.sampler),
+            estimator: setting_name(render.estimator),
+            heuristic: setting_name(render.heuristic),
+            shapes: count(scene.shapes.iter().map(|shape| shape_type(&shape.geometry))),
+            triangles: scene.shapes.iter().map(triangles).sum(),
+            moving_shapes: scene.shapes.iter().filter(|shape| shape.motion.is_some()).count(),
+            emitting_shapes: scene.shapes.iter().filter(|shape| shape_emits(scene, shape)).count(),
+            materials: count(scene.materials.iter().map(|material| material_type(&material.kind))),
+            lights: count(scene.lights.iter().map(light_type)),
+            textures: count(scene.textures.iter().map(|texture| texture_type(&texture.kind))),
+            texels: scene.textures.iter().map(|texture| texels(&texture.kind)).sum(),
+        }
+    }
+}
+
+impl fmt::Display for SceneSummary {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [width, height] = self.size;
+        let depth = if self.max_depth == 0 { "unlimited depth".to_owned() } else { format!("depth {}", self.max_depth) };
+        writeln!(out, "scene      {}", self.name)?;
+        writeln!(out, "film       {width}x{height}, {} spp", self.spp)?;
+        writeln!(
+            out,
+            "render     {depth}, {} sampler, {} estimator, {} heuristic",
+            self.sampler, self.estimator, self.heuristic
+        )?;
+        writeln!(out, "shapes     {}", list(&self.shapes))?;
+        writeln!(
+            out,
+            "           {} triangles, {} emitting, {} moving",
+            self.triangles, self.emitting_shapes, self.moving_shapes
+        )?;
+        writeln!(out, "materials  {}", list(&self.materials))?;
+        writeln!(out, "lights     {}", list(&self.lights))?;
+        writeln!(out, "textures   {}, {} texels", list(&self.textures), self.texels)
+    }
+}
+
+fn list(counts: &BTreeMap<&'static str, usize>) -> String {
+    if counts.is_empty() {
+        return "none".to_owned();
+    }
+    let words: Vec<_> = counts.iter().map(|(name, count)| format!("{count} {name}")).collect();
+    words.join(", ")
+}
+
+fn count(names: impl Iterator<Item = &'static str>) -> BTreeMap<&'static str, usize> {
+    let mut counts = BTreeMap::new();
+    for name in names {
+        *counts.entry(name).or_default() += 1;
+    }
+    counts
+}
+
+fn triangles(shape: &Shape) -> usize {
+    match &shape.geometry {
+        Geometry::Mesh(mesh) => mesh.faces.len(),
+        _ => 0,
+    }
+}
+
+fn shape_emits(scene: &Scene, shape: &Shape) -> bool {
+    let emits = |id: usize| scene.materials.get(id).is_some_and(|material| material_emits(scene, material));
+    match &shape.geometry {
+        Geometry::Mesh(mesh) if !mesh.face_materials.is_empty() => mesh.face_materials.iter().any(|id| emits(*id)),
+        _ => emits(shape.material),
+    }
+}
+
+fn material_emits(scene: &Scene, material: &Material) -> bool {
+    let child_emits = |id: &usize| scene.materials.get(*id).is_some_and(|child| material_emits(scene, child));
+    match &material.kind {
+        MaterialKind::Blend { materials, .. } if material.emission.is_none() => materials.iter().any(child_emits),
+        _ => material.emission.is_some(),
+    }
+}
+
+fn shape_type(geometry: &Geometry) -> &'static str {
+    match geometry {
+        Geometry::Mesh(_) => "mesh",
+        Geometry::Sphere { .. } => "sphere",
+        Geometry::Rectangle { .. } => "rectangle",
+        Geometry::Disk { .. } => "disk",
+        Geometry::Box { .. } => "box",
+        Geometry::Plane { .. } => "plane",
+    }
+}
+
+fn material_type(kind: &MaterialKind) -> &'static str {
+    match kind {
+        MaterialKind::Diffuse { .. } => "diffuse",
+        MaterialKind::Mirror { .. } => "mirror",
+        MaterialKind::Glossy { .. } => "glossy",
+        MaterialKind::Phong { .. } => "phong",
+        MaterialKind::Glass { .. } => "glass",
+        MaterialKind::RoughGlass { .. } => "rough_glass",
+        MaterialKind::Conductor { .. } => "conductor",
+        MaterialKind::Emissive => "emissive",
+        MaterialKind::Blend { .. } => "blend",
+        MaterialKind::Pass => "pass",
+    }
+}
+
+fn light_type(light: &Light) -> &'static str {
+    match light {
+        Light::Environment(environment) => match environment.radiance {
+            EnvironmentRadiance::Constant(_) | EnvironmentRadiance::Map(_) => "environment",
+            EnvironmentRadiance::Sky { .. } => "sky",
+        },
+        Light::Point { .. } => "point",
+        Light::Spot { .. } => "spot",
+        Light::Directional { .. } => "directional",
+    }
+}
+
+fn texture_type(kind: &TextureKind) -> &'static str {
+    match kind {
+        TextureKind::Image(_) => "image",
+        TextureKind::Checker { .. } => "checker",
+        TextureKind::Perlin { .. } => "perlin",
+        TextureKind::Worley { .. } => "worley",
+    }
+}
+
+fn texels(kind: &TextureKind) -> usize {
+    match kind {
+        TextureKind::Image(texture) => texture.image.texels.len(),
+        _ => 0,
+    }
+}
