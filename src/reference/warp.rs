@@ -72,3 +72,6 @@ fn direction(cos_theta: f64, sin_theta: f64, u: f64) -> DVec3 {
     let (sin_phi, cos_phi) = (TAU * u).sin_cos();
     DVec3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta)
 }
+
+#[cfg(test)]
+mod tests;

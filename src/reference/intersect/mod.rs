@@ -54,3 +54,6 @@ impl SurfacePoint {
         self.position + self.normal * self.error.copysign(direction.dot(self.normal))
     }
 }
+
+#[cfg(test)]
+mod tests;
