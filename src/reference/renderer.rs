@@ -222,3 +222,6 @@ impl Renderer for ReferenceRenderer {
         Ok(progress.report)
     }
 }
+
+#[cfg(test)]
+mod tests;

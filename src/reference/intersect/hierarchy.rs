@@ -42,6 +42,7 @@ impl PreparedRay {
 
     /// Where the ray enters the box, if it meets it in [0, limit]. Errs on the side of a hit: a rounding bound for the three
     /// operations of each slab (Ize 2013) widens the exit.
+    #[inline]
     fn enter(&self, node: &Node, limit: f64) -> Option<f64> {
         let low = (node.min.as_dvec3() - self.ray.origin) * self.inverse_direction;
         let high = (node.max.as_dvec3() - self.ray.origin) * self.inverse_direction;
@@ -108,54 +109,50 @@ impl Hierarchy {
                 for place in node.first..node.first + node.count {
                     limit = visit(place as usize, limit);
                 }
-            } else {
-                let children = [node.first, node.first + 1];
-                let [left, right] = children.map(|child| ray.enter(&self.nodes[child as usize], limit));
-                match (left, right) {
-                    (Some(left), Some(right)) => {
-                        let (near, far, far_entry) =
-                            if left <= right { (children[0], children[1], right) } else { (children[1], children[0], left) };
-                        waiting.push((far, far_entry));
-                        node = &self.nodes[near as usize];
-                        continue;
-                    }
-                    (Some(_), None) => {
-                        node = &self.nodes[children[0] as usize];
-                        continue;
-                    }
-                    (None, Some(_)) => {
-                        node = &self.nodes[children[1] as usize];
-                        continue;
-                    }
-                    (None, None) => {}
-                }
+            } else if let Some(near) = self.descend(node, ray, limit, &mut waiting) {
+                node = near;
+                continue;
             }
             node = loop {
                 match waiting.pop() {
                     None => return,
-                    Some((next, entry)) if entry <= limit => break &self.nodes[next as usize],
+                    Some((next, entry)) if f64::from(entry) <= limit => break &self.nodes[next as usize],
                     Some(_) => {}
                 }
             };
         }
     }
-}
 
-/// Nodes to visit later and where the ray enters them. Deeper trees than any seen in practice go on the heap.
-struct Stack {
-    fixed: [(u32, f64); 48],
-    length: usize,
-    overflow: Vec<(u32, f64)>,
-}
-
-impl Default for Stack {
-    fn default() -> Self {
-        Self { fixed: [(0, 0.0); 48], length: 0, overflow: Vec::new() }
+    /// The child the ray enters first; the other one, if it is entered too, has to wait.
+    fn descend(&self, node: &Node, ray: &PreparedRay, limit: f64, waiting: &mut Stack) -> Option<&Node> {
+        let (left, right) = (&self.nodes[node.first as usize], &self.nodes[node.first as usize + 1]);
+        match (ray.enter(left, limit), ray.enter(right, limit)) {
+            (Some(to_left), Some(to_right)) if to_left <= to_right => {
+                waiting.push(node.first + 1, to_right);
+                Some(left)
+            }
+            (Some(to_left), Some(_)) => {
+                waiting.push(node.first, to_left);
+                Some(right)
+            }
+            (Some(_), None) => Some(left),
+            (None, Some(_)) => Some(right),
+            (None, None) => None,
+        }
     }
 }
 
+/// Nodes to visit later and where the ray enters them, rounded down. Trees deeper than any seen in practice go on the heap.
+#[derive(Default)]
+struct Stack {
+    fixed: [(u32, f32); 32],
+    length: usize,
+    overflow: Vec<(u32, f32)>,
+}
+
 impl Stack {
-    fn push(&mut self, item: (u32, f64)) {
+    fn push(&mut self, node: u32, entry: f64) {
+        let item = (node, (entry as f32).next_down());
         match self.fixed.get_mut(self.length) {
             Some(slot) => {
                 *slot = item;
@@ -165,7 +162,7 @@ impl Stack {
         }
     }
 
-    fn pop(&mut self) -> Option<(u32, f64)> {
+    fn pop(&mut self) -> Option<(u32, f32)> {
         if let Some(item) = self.overflow.pop() {
             return Some(item);
         }
