@@ -67,6 +67,26 @@ pub enum ConductorFresnel {
     Reflectance(ColorInput),
 }
 
+impl Material {
+    /// The material itself, not those it blends, looks up a texture.
+    pub fn uses_texture(&self) -> bool {
+        let weight = matches!(&self.kind, MaterialKind::Blend { weight, .. } if weight.uses_texture());
+        let own = weight || self.kind.colors().any(|input| input.is_texture());
+        own || self.normal_map.is_some() || self.emission.is_some_and(|emission| emission.radiance.is_texture())
+    }
+}
+
+impl Heuristic {
+    /// The weight comes from a texture at some depth.
+    pub fn uses_texture(&self) -> bool {
+        match self {
+            Self::Texture { .. } => true,
+            Self::Reverse { of } | Self::Threshold { of, .. } => of.uses_texture(),
+            Self::Constant { .. } | Self::Facing { .. } | Self::Fresnel { .. } => false,
+        }
+    }
+}
+
 /// The weight w0 of a blend's first material.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Heuristic {

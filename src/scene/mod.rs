@@ -6,18 +6,30 @@
 //! Conventions: right-handed, +Y up by default, lengths in scene units, angles in degrees as written and in radians where a
 //! name says so, colours linear Rec.709 RGB, radiance in W·sr⁻¹·m⁻².
 
+mod builtin;
 pub mod camera;
 mod digest;
+mod error;
+mod file;
+mod framing;
+mod image_file;
 pub mod light;
 pub mod material;
+mod mesh;
+mod obj;
 pub mod settings;
 pub mod shape;
+mod source;
 mod summary;
 pub mod texture;
 pub mod transform;
 
+pub use builtin::{builtin_names, builtin_text};
 pub use camera::{Aperture, ApertureShape, Camera, Projection};
 pub use digest::digest;
+pub use error::SceneError;
+pub use file::{json_schema, load_toml_str};
+pub use image_file::{read_image, srgb_to_linear};
 pub use light::{Environment, EnvironmentRadiance, Light};
 pub use material::{ConductorFresnel, Emission, Heuristic, Material, MaterialKind, MicrofacetDistribution};
 pub use settings::{
@@ -25,6 +37,7 @@ pub use settings::{
     RenderSettings, SamplerKind, setting_name,
 };
 pub use shape::{Geometry, Mesh, Shape};
+pub use source::{SceneSource, load};
 pub use summary::SceneSummary;
 pub use texture::{ColorInput, ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap};
 pub use transform::{Transform, TransformStep};
@@ -47,4 +60,51 @@ pub struct Scene {
     pub shapes: Vec<Shape>,
     /// Lights that are not surfaces. Surfaces emit through their material.
     pub lights: Vec<Light>,
+    /// What could not be taken as written and was replaced or left out, in sentences that name the file.
+    pub warnings: Vec<String>,
+}
+
+impl Scene {
+    /// Something gives light: a light, or a surface whose material emits.
+    pub fn has_light(&self) -> bool {
+        let emits = |shape: &Shape| match &shape.geometry {
+            Geometry::Mesh(mesh) if !mesh.face_materials.is_empty() => mesh.face_materials.iter().any(|&id| self.emits(id)),
+            _ => self.emits(shape.material),
+        };
+        !self.lights.is_empty() || self.shapes.iter().any(emits)
+    }
+
+    /// The material emits, by itself or through a part of it.
+    pub fn emits(&self, material: MaterialId) -> bool {
+        self.any_part(material, &|part| part.emission.is_some())
+    }
+
+    /// The material or a part of it looks up a texture.
+    pub fn uses_texture(&self, material: MaterialId) -> bool {
+        self.any_part(material, &|part| part.uses_texture())
+    }
+
+    /// Whether the material or one of those it blends, at any depth, is as `wanted`.
+    fn any_part(&self, material: MaterialId, wanted: &dyn Fn(&Material) -> bool) -> bool {
+        let mut seen = vec![false; self.materials.len()];
+        let mut to_visit = vec![material];
+        while let Some(id) = to_visit.pop() {
+            let part = &self.materials[id];
+            if wanted(part) {
+                return true;
+            }
+            if let MaterialKind::Blend { materials, .. } = &part.kind
+                && !std::mem::replace(&mut seen[id], true)
+            {
+                to_visit.extend_from_slice(materials);
+            }
+        }
+        false
+    }
+}
+
+/// A file's name without folder and ending.
+fn stem(name: &str) -> String {
+    let path = std::path::Path::new(name);
+    path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned())
 }

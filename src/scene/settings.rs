@@ -1,6 +1,8 @@
 //! `[film]` and `[render]`: how large the picture is and how it is estimated.
 
 use clap::ValueEnum;
+use schemars::JsonSchema;
+use serde::Deserialize;
 
 /// The picture's size and reconstruction filter.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,7 +79,8 @@ impl Default for RenderSettings {
     }
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum SamplerKind {
     Independent,
     Stratified,
@@ -96,7 +99,8 @@ pub enum PixelSampler {
     Centre,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Estimator {
     /// Next event estimation and BSDF sampling combined by multiple importance sampling.
     Mis,
@@ -107,7 +111,8 @@ pub enum Estimator {
 }
 
 /// How multiple importance sampling weighs the two strategies (Veach 1997, section 9.2).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum MisHeuristic {
     /// Power heuristic with β = 2.
     Power,

@@ -19,6 +19,11 @@ impl ColorInput {
     pub fn grey(value: f64) -> Self {
         Self::Constant(DVec3::splat(value))
     }
+
+    /// The value varies over the surface.
+    pub fn is_texture(&self) -> bool {
+        !matches!(self, Self::Constant(_))
+    }
 }
 
 #[derive(Debug, Clone)]

@@ -1,0 +1,141 @@
+//! What is wrong with a scene, and where.
+
+use std::fmt;
+use std::ops::Range;
+use std::path::Path;
+
+use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
+
+/// One mistake in a scene file or in a file it names. Displays as `file:line:column: key: message`; miette adds the lines around it.
+#[derive(Debug, Clone)]
+pub struct SceneError(Box<Details>);
+
+#[derive(Debug, Clone)]
+struct Details {
+    file: String,
+    message: String,
+    help: Option<String>,
+    key: Option<String>,
+    place: Option<Place>,
+}
+
+#[derive(Debug, Clone)]
+struct Place {
+    line: usize,
+    column: usize,
+    /// The bytes in question and the text they are in; None where the text is too large to be worth keeping.
+    snippet: Option<(Range<usize>, NamedSource<String>)>,
+}
+
+impl SceneError {
+    /// A mistake that concerns the file as a whole: it is missing, it is not an image.
+    pub fn in_file(file: impl fmt::Display, message: impl Into<String>) -> Self {
+        let file = file.to_string();
+        Self(Box::new(Details { file, message: message.into(), help: None, key: None, place: None }))
+    }
+
+    /// A mistake in a line of a file whose text is not shown. Lines count from 1.
+    pub fn in_line(file: impl fmt::Display, line: usize, message: impl Into<String>) -> Self {
+        let mut error = Self::in_file(file, message);
+        error.0.place = Some(Place { line, column: 1, snippet: None });
+        error
+    }
+
+    /// A mistake at the bytes `span` of `text`.
+    pub fn in_text(file: &str, text: &str, span: Range<usize>, message: impl Into<String>) -> Self {
+        let start = floor_char_boundary(text, span.start);
+        let end = floor_char_boundary(text, span.end.max(start));
+        let before = &text[..start];
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let line = before.matches('\n').count() + 1;
+        let column = text[line_start..start].chars().count() + 1;
+        let source = NamedSource::new(file, text.to_owned()).with_language("toml");
+        let mut error = Self::in_file(file, message);
+        error.0.place = Some(Place { line, column, snippet: Some((start..end, source)) });
+        error
+    }
+
+    /// Names the key that is wrong, as `material[2].reflectance`.
+    pub fn with_key(mut self, key: impl Into<String>) -> Self {
+        self.0.key = Some(key.into()).filter(|key| !key.is_empty());
+        self
+    }
+
+    /// Says what would be right.
+    pub fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.0.help = Some(help.into());
+        self
+    }
+
+    /// The file as the user named it, or a built-in scene's name.
+    pub fn file(&self) -> &str {
+        &self.0.file
+    }
+
+    /// Line, counted from 1.
+    pub fn line(&self) -> Option<usize> {
+        self.0.place.as_ref().map(|place| place.line)
+    }
+
+    /// Column in characters, counted from 1.
+    pub fn column(&self) -> Option<usize> {
+        self.0.place.as_ref().map(|place| place.column)
+    }
+
+    /// Dotted path of the key.
+    pub fn key(&self) -> Option<&str> {
+        self.0.key.as_deref()
+    }
+
+    /// What was wrong, without the place.
+    pub fn message(&self) -> &str {
+        &self.0.message
+    }
+
+    /// What would be right: valid choices, a likely spelling.
+    pub fn help_text(&self) -> Option<&str> {
+        self.0.help.as_deref()
+    }
+}
+
+/// The file's name as errors show it.
+pub(crate) fn show(path: &Path) -> String {
+    path.display().to_string()
+}
+
+fn floor_char_boundary(text: &str, at: usize) -> usize {
+    (0..=at.min(text.len())).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0)
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let details = &self.0;
+        write!(f, "{}", details.file)?;
+        if let Some(place) = &details.place {
+            write!(f, ":{}:{}", place.line, place.column)?;
+        }
+        if let Some(key) = &details.key {
+            write!(f, ": {key}")?;
+        }
+        write!(f, ": {}", details.message)
+    }
+}
+
+impl std::error::Error for SceneError {}
+
+impl Diagnostic for SceneError {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.0.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        let (_, source) = self.0.place.as_ref()?.snippet.as_ref()?;
+        Some(source)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let (span, _) = self.0.place.as_ref()?.snippet.as_ref()?;
+        let label = LabeledSpan::new_with_span(Some("here".to_owned()), span.clone());
+        Some(Box::new(std::iter::once(label)))
+    }
+}

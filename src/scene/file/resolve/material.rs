@@ -1,0 +1,208 @@
+//! `[[material]]`
+
+use super::Resolver;
+use crate::scene::file::syntax::{
+    AlphaKeys, Blend, CommonMaterial, ConductorMaterial, HeuristicEntry, MaterialEntry, MicrofacetEntry, RoughGlassMaterial,
+};
+use crate::scene::file::value::{Colour, Located, Scalar};
+use crate::scene::{
+    ColorInput, ConductorFresnel, Emission, Heuristic, Material, MaterialId, MaterialKind, MicrofacetDistribution, SceneError,
+    TextureId,
+};
+
+/// Index of refraction where none is written: common glass.
+const DEFAULT_IOR: f64 = 1.5;
+
+impl Resolver<'_> {
+    pub(super) fn materials(&mut self, written: &[MaterialEntry]) -> Result<(), SceneError> {
+        self.material_names = self.register("material", written.iter().map(|entry| entry.common().name))?;
+        for entry in written {
+            let common = entry.common();
+            let material = Material {
+                name: common.name.value.clone(),
+                kind: self.kind(entry)?,
+                normal_map: common.normal_map.map(|name| self.normal_map(name)).transpose()?,
+                emission: self.emission(entry, &common)?,
+            };
+            self.scene.materials.push(material);
+        }
+        for entry in written {
+            if let MaterialEntry::Blend(blend) = entry {
+                self.check_blend_ends(blend)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn kind(&self, entry: &MaterialEntry) -> Result<MaterialKind, SceneError> {
+        Ok(match entry {
+            MaterialEntry::Diffuse(diffuse) => MaterialKind::Diffuse { reflectance: self.colour(&diffuse.reflectance)? },
+            MaterialEntry::Mirror(mirror) => MaterialKind::Mirror { reflectance: self.colour_or_white(&mirror.reflectance)? },
+            MaterialEntry::Glossy(glossy) => {
+                MaterialKind::Glossy { reflectance: self.colour(&glossy.reflectance)?, exponent: self.scalar(&glossy.exponent)? }
+            }
+            MaterialEntry::Phong(phong) => {
+                self.check_sum(&phong.diffuse, &phong.specular)?;
+                MaterialKind::Phong {
+                    diffuse: self.colour(&phong.diffuse)?,
+                    specular: self.colour(&phong.specular.value)?,
+                    exponent: self.scalar(&phong.exponent)?,
+                }
+            }
+            MaterialEntry::Glass(glass) => MaterialKind::Glass {
+                ior: glass.ior.map_or(DEFAULT_IOR, |ior| ior.0),
+                reflectance: self.colour_or_white(&glass.reflectance)?,
+                transmittance: self.colour_or_white(&glass.transmittance)?,
+            },
+            MaterialEntry::RoughGlass(glass) => self.rough_glass(glass)?,
+            MaterialEntry::Conductor(conductor) => self.conductor(conductor)?,
+            MaterialEntry::Emissive(_) => MaterialKind::Emissive,
+            MaterialEntry::Blend(blend) => MaterialKind::Blend {
+                materials: [self.material_id(&blend.materials[0])?, self.material_id(&blend.materials[1])?],
+                weight: self.heuristic(&blend.weight.value)?,
+            },
+            MaterialEntry::Pass(_) => MaterialKind::Pass,
+        })
+    }
+
+    /// Diffuse plus specular above 1 would make energy.
+    fn check_sum<R>(&self, diffuse: &Colour<R>, specular: &Located<Colour<R>>) -> Result<(), SceneError> {
+        if let (Colour::Constant(diffuse), Colour::Constant(specular_colour)) = (diffuse, &specular.value) {
+            let sum = diffuse.0 + specular_colour.0;
+            if sum.max_element() > 1.0 + 1e-9 {
+                let message = format!("diffuse + specular is at most 1 per channel, found {}", sum.max_element());
+                return Err(self.error(&specular.span, message));
+            }
+        }
+        Ok(())
+    }
+
+    fn rough_glass(&self, glass: &RoughGlassMaterial) -> Result<MaterialKind, SceneError> {
+        let written = glass.distribution.as_ref().map(|name| name.value);
+        let name_span = glass.distribution.as_ref().map(|name| &name.span);
+        let (alpha, distribution) = match (&glass.exponent, written) {
+            (Some(exponent), None | Some(MicrofacetEntry::Phong)) => {
+                if let Some(other) = glass.alpha.as_ref().or(glass.roughness.as_ref()) {
+                    return Err(self.error(&other.span, "either `exponent` or one of `alpha` and `roughness`"));
+                }
+                (self.scalar(&exponent.value)?, MicrofacetDistribution::Phong)
+            }
+            (Some(exponent), Some(MicrofacetEntry::Ggx)) => {
+                return Err(self.error(&exponent.span, "`exponent` belongs to distribution = \"phong\""));
+            }
+            (None, Some(MicrofacetEntry::Phong)) => {
+                let span = name_span.unwrap_or(&glass.name.span);
+                return Err(self.error(span, "distribution = \"phong\" needs the key `exponent`"));
+            }
+            (None, None | Some(MicrofacetEntry::Ggx)) => {
+                let keys = AlphaKeys { alpha: glass.alpha.as_ref(), roughness: glass.roughness.as_ref() };
+                let Some(alpha) = self.alpha(keys)? else {
+                    return Err(self.error(&glass.name.span, "rough_glass needs one of `alpha`, `roughness` and `exponent`"));
+                };
+                (alpha, MicrofacetDistribution::Ggx)
+            }
+        };
+        Ok(MaterialKind::RoughGlass {
+            ior: glass.ior.map_or(DEFAULT_IOR, |ior| ior.0),
+            alpha,
+            distribution,
+            reflectance: self.colour_or_white(&glass.reflectance)?,
+            transmittance: self.colour_or_white(&glass.transmittance)?,
+        })
+    }
+
+    fn conductor(&self, written: &ConductorMaterial) -> Result<MaterialKind, SceneError> {
+        let fresnel = match (&written.eta, &written.k, &written.reflectance) {
+            (Some(eta), Some(k), None) => ConductorFresnel::Complex { eta: eta.value.0, k: k.value.0 },
+            (None, None, Some(reflectance)) => ConductorFresnel::Reflectance(self.colour(&reflectance.value)?),
+            _ => return Err(self.error(&written.name.span, "a conductor needs both `eta` and `k`, or `reflectance` alone")),
+        };
+        let keys = AlphaKeys { alpha: written.alpha.as_ref(), roughness: written.roughness.as_ref() };
+        let alpha = self.alpha(keys)?.unwrap_or(ColorInput::grey(0.0));
+        Ok(MaterialKind::Conductor { fresnel, alpha })
+    }
+
+    /// The GGX width from whichever of the two keys is written.
+    fn alpha(&self, keys: AlphaKeys<'_>) -> Result<Option<ColorInput>, SceneError> {
+        match (keys.alpha, keys.roughness) {
+            (Some(_), Some(roughness)) => Err(self.error(&roughness.span, "either `alpha` or `roughness`")),
+            (Some(alpha), None) => self.scalar(&alpha.value).map(Some),
+            (None, Some(roughness)) => match &roughness.value {
+                Scalar::Constant(value) => Ok(Some(ColorInput::grey(value.0 * value.0))),
+                Scalar::Texture(name) => {
+                    Err(self.error(&name.span, "a texture of `roughness` is not supported; give a texture of `alpha`"))
+                }
+            },
+            (None, None) => Ok(None),
+        }
+    }
+
+    fn normal_map(&self, name: &Located<String>) -> Result<TextureId, SceneError> {
+        let id = self.texture_id(name)?;
+        if self.linear_textures[id] {
+            return Ok(id);
+        }
+        let message = format!("a normal map holds directions, not colours: `{}` needs color_space = \"linear\"", name.value);
+        Err(self.error(&name.span, message))
+    }
+
+    fn emission(&self, entry: &MaterialEntry, common: &CommonMaterial<'_>) -> Result<Option<Emission>, SceneError> {
+        let (radiance, two_sided) = match (entry, common.emission) {
+            (MaterialEntry::Emissive(_) | MaterialEntry::Pass(_), Some(emission)) => {
+                let message = "`emission` is for materials that reflect; an emissive one has `radiance`, and pass emits nothing";
+                return Err(self.error(&emission.span, message));
+            }
+            (MaterialEntry::Emissive(emissive), None) => (self.colour(&emissive.radiance)?, emissive.two_sided.unwrap_or(false)),
+            (_, Some(emission)) => {
+                (self.colour(&emission.value)?, common.emission_two_sided.is_some_and(|two_sided| two_sided.value))
+            }
+            (_, None) => {
+                return match common.emission_two_sided {
+                    Some(written) => Err(self.error(&written.span, "`emission_two_sided` needs the key `emission`")),
+                    None => Ok(None),
+                };
+            }
+        };
+        let dark = matches!(radiance, ColorInput::Constant(radiance) if radiance.max_element() == 0.0);
+        Ok((!dark).then_some(Emission { radiance, two_sided }))
+    }
+
+    fn heuristic(&self, written: &HeuristicEntry) -> Result<Heuristic, SceneError> {
+        Ok(match written {
+            HeuristicEntry::Constant(constant) => Heuristic::Constant { value: constant.value.0 },
+            HeuristicEntry::Facing(facing) => Heuristic::Facing { power: facing.power.map_or(1.0, |power| power.0) },
+            HeuristicEntry::Fresnel(fresnel) => {
+                Heuristic::Fresnel { ior: fresnel.ior.map_or(DEFAULT_IOR, |ior| ior.0), exact: fresnel.exact }
+            }
+            HeuristicEntry::Texture(texture) => Heuristic::Texture { texture: self.texture_id(&texture.texture)? },
+            HeuristicEntry::Reverse(reverse) => Heuristic::Reverse { of: Box::new(self.heuristic(&reverse.of)?) },
+            HeuristicEntry::Threshold(threshold) => {
+                Heuristic::Threshold { tau: threshold.tau.0, of: Box::new(self.heuristic(&threshold.of)?) }
+            }
+        })
+    }
+
+    /// A blend whose parts lead back to itself has no meaning.
+    fn check_blend_ends(&self, blend: &Blend) -> Result<(), SceneError> {
+        let start = self.material_id(&blend.name)?;
+        let mut seen = vec![false; self.scene.materials.len()];
+        let mut to_visit = self.parts(start).to_vec();
+        while let Some(id) = to_visit.pop() {
+            if id == start {
+                let message = format!("the blend `{}` contains itself", blend.name.value);
+                return Err(self.error(&blend.materials[0].span, message));
+            }
+            if !std::mem::replace(&mut seen[id], true) {
+                to_visit.extend_from_slice(self.parts(id));
+            }
+        }
+        Ok(())
+    }
+
+    fn parts(&self, material: MaterialId) -> &[MaterialId] {
+        match &self.scene.materials[material].kind {
+            MaterialKind::Blend { materials, .. } => materials,
+            _ => &[],
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! `[[texture]]`
+
+use std::collections::HashMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::Resolver;
+use crate::scene::error::show;
+use crate::scene::file::syntax::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
+use crate::scene::file::value::{Checked, Colour, Located, Number, Positive, Scalar};
+use crate::scene::image_file::read_image;
+use crate::scene::{
+    ColorInput, ColorSpace, ImageData, ImageTexture, SceneError, Texture, TextureFilter, TextureKind, TextureWrap,
+};
+
+/// Images by file and by how their values are read, so that each is decoded once.
+pub type ImageCache = HashMap<(PathBuf, Option<ColorSpace>), Arc<ImageData>>;
+
+impl Resolver<'_> {
+    pub(super) fn textures(&mut self, written: &[TextureEntry]) -> Result<(), SceneError> {
+        self.texture_names = self.register("texture", written.iter().map(TextureEntry::name))?;
+        for entry in written {
+            let kind = match entry {
+                TextureEntry::Image(image) => TextureKind::Image(self.image_texture(image)?),
+                TextureEntry::Checker(checker) => {
+                    TextureKind::Checker { a: checker.a.0, b: checker.b.0, scale: factors(checker.scale) }
+                }
+                TextureEntry::Perlin(perlin) => {
+                    let octaves = perlin.octaves.as_ref().map_or(1, |octaves| octaves.value.get());
+                    if let Some(written) = &perlin.octaves
+                        && octaves > 16
+                    {
+                        return Err(self.error(&written.span, "at most 16 octaves"));
+                    }
+                    let (scale, seed) = (factor(perlin.scale), perlin.seed.unwrap_or(0));
+                    TextureKind::Perlin { scale, octaves, a: perlin.a.0, b: perlin.b.0, seed }
+                }
+                TextureEntry::Worley(worley) => {
+                    let (scale, seed) = (factor(worley.scale), worley.seed.unwrap_or(0));
+                    TextureKind::Worley { scale, a: worley.a.0, b: worley.b.0, seed }
+                }
+            };
+            self.linear_textures
+                .push(matches!(entry, TextureEntry::Image(ImageEntry { color_space: Some(ColorSpaceEntry::Linear), .. })));
+            self.scene.textures.push(Texture { name: entry.name().value.clone(), kind });
+        }
+        Ok(())
+    }
+
+    fn image_texture(&mut self, written: &ImageEntry) -> Result<ImageTexture, SceneError> {
+        let color_space = written.color_space.map(|space| match space {
+            ColorSpaceEntry::Srgb => ColorSpace::Srgb,
+            ColorSpaceEntry::Linear => ColorSpace::Linear,
+        });
+        Ok(ImageTexture {
+            image: self.image(&written.file, color_space)?,
+            wrap: match written.wrap {
+                None | Some(WrapEntry::Repeat) => TextureWrap::Repeat,
+                Some(WrapEntry::Clamp) => TextureWrap::Clamp,
+                Some(WrapEntry::Mirror) => TextureWrap::Mirror,
+            },
+            filter: match written.filter {
+                None | Some(TextureFilterEntry::Bilinear) => TextureFilter::Bilinear,
+                Some(TextureFilterEntry::Nearest) => TextureFilter::Nearest,
+            },
+            scale: factors(written.scale),
+            offset: [0.0, 0.0],
+        })
+    }
+
+    /// Reads the image file that a key names.
+    pub(super) fn image(&mut self, file: &Located<String>, space: Option<ColorSpace>) -> Result<Arc<ImageData>, SceneError> {
+        let path = self.path(&file.value);
+        let key = (path, space);
+        if let Some(image) = self.images.get(&key) {
+            return Ok(image.clone());
+        }
+        let read = read_image(&key.0, space);
+        let image = Arc::new(read.map_err(|reason| self.error(&file.span, format!("{}: {reason}", show(&key.0))))?);
+        self.images.insert(key, image.clone());
+        Ok(image)
+    }
+
+    pub(super) fn colour<R>(&self, written: &Colour<R>) -> Result<ColorInput, SceneError> {
+        match written {
+            Colour::Constant(colour) => Ok(ColorInput::Constant(colour.0)),
+            Colour::Texture(name) => self.texture_id(name).map(ColorInput::Texture),
+        }
+    }
+
+    pub(super) fn colour_or_white<R>(&self, written: &Option<Colour<R>>) -> Result<ColorInput, SceneError> {
+        written.as_ref().map_or(Ok(ColorInput::grey(1.0)), |colour| self.colour(colour))
+    }
+
+    pub(super) fn scalar<R>(&self, written: &Scalar<R>) -> Result<ColorInput, SceneError> {
+        match written {
+            Scalar::Constant(value) => Ok(ColorInput::grey(value.0)),
+            Scalar::Texture(name) => self.texture_id(name).map(ColorInput::Texture),
+        }
+    }
+}
+
+fn factor(written: Option<Checked<Positive>>) -> f64 {
+    written.map_or(1.0, |scale| scale.0)
+}
+
+fn factors(written: Option<[Number; 2]>) -> [f64; 2] {
+    written.map_or([1.0, 1.0], |scale| scale.map(|factor| factor.0))
+}

@@ -1,0 +1,75 @@
+//! `transform` and `motion`
+
+use std::ops::Range;
+
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::Resolver;
+use crate::scene::file::syntax::{StepEntry, TransformEntry};
+use crate::scene::file::value::{Located, Number, vector};
+use crate::scene::{SceneError, Transform, TransformStep};
+
+impl Resolver<'_> {
+    pub(super) fn transform(&self, written: &Located<TransformEntry>) -> Result<Transform, SceneError> {
+        let steps = match &written.value {
+            TransformEntry::Steps(steps) => {
+                steps.iter().map(|step| self.step(&step.span, &step.value)).collect::<Result<_, _>>()?
+            }
+            TransformEntry::Single(step) => vec![self.step(&written.span, step)?],
+        };
+        let transform = Transform { steps };
+        let map = transform.to_affine();
+        if !map.is_finite() || is_singular(map.matrix3) {
+            return Err(self.error(&written.span, "the transform flattens the shape or leaves the range of numbers"));
+        }
+        Ok(transform)
+    }
+
+    fn step(&self, span: &Range<usize>, written: &StepEntry) -> Result<TransformStep, SceneError> {
+        if let Some(degrees) = &written.degrees
+            && written.rotate.is_none()
+        {
+            return Err(self.error(&degrees.span, "`degrees` belongs to `rotate`, which is missing"));
+        }
+        let mut steps = Vec::with_capacity(1);
+        if let Some(scale) = &written.scale {
+            if scale.value.0.abs().min_element() == 0.0 {
+                return Err(self.error(&scale.span, "a scale of 0 flattens the shape"));
+            }
+            steps.push(TransformStep::Scale(scale.value.0));
+        }
+        if let Some(axis) = &written.rotate {
+            let Some(degrees) = &written.degrees else {
+                return Err(self.error(span, "`rotate` needs the key `degrees`"));
+            };
+            steps.push(TransformStep::Rotate { axis: self.direction(axis)?, degrees: degrees.value.0 });
+        }
+        if let Some(offset) = written.translate {
+            steps.push(TransformStep::Translate(vector(offset)));
+        }
+        if let Some(matrix) = &written.matrix {
+            steps.push(TransformStep::Matrix(self.matrix(matrix)?));
+        }
+        match steps[..] {
+            [step] => Ok(step),
+            _ => Err(self
+                .error(span, format!("a step has one of `scale`, `rotate`, `translate`, `matrix`; this has {}", steps.len()))
+                .with_help("write several steps as several tables: they are applied in the order of the array")),
+        }
+    }
+
+    fn matrix(&self, written: &Located<[Number; 16]>) -> Result<DAffine3, SceneError> {
+        let rows = written.value.map(|number| number.0);
+        if rows[12..] != [0.0, 0.0, 0.0, 1.0] {
+            return Err(self.error(&written.span, "the last row of a matrix is 0, 0, 0, 1 (numbers are row by row)"));
+        }
+        let column = |index: usize| DVec3::new(rows[index], rows[4 + index], rows[8 + index]);
+        Ok(DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) })
+    }
+}
+
+/// The columns are so nearly dependent that nothing of the volume is left.
+fn is_singular(matrix: DMat3) -> bool {
+    let lengths = matrix.x_axis.length() * matrix.y_axis.length() * matrix.z_axis.length();
+    matrix.determinant().abs() <= 1e-12 * lengths
+}

@@ -1,0 +1,148 @@
+//! The scene file as it is written: one type per table. The JSON Schema is generated from these types.
+//!
+//! A table whose shape depends on a key (`type` mostly) is an enum with one struct per value of that key. Serde would read such an
+//! enum through a buffer that forgets where things were written; instead [`super::document`] rewrites
+//! `{ type = "mirror", … }` to `{ mirror = { … } }` before reading, which serde reads directly.
+
+mod light;
+mod material;
+mod shape;
+mod texture;
+
+use std::num::NonZeroU32;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+pub use light::{EnvironmentLight, LightEntry, SpotLight};
+pub use material::{
+    AlphaKeys, Blend, CommonMaterial, ConductorMaterial, HeuristicEntry, MaterialEntry, MicrofacetEntry, RoughGlassMaterial,
+};
+pub use shape::{BoxShape, MeshShape, RectangleShape, ShapeEntry, StepEntry, TransformEntry};
+pub use texture::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
+
+use super::value::{Checked, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
+use crate::scene::{Estimator, MisHeuristic, SamplerKind};
+
+/// A scene of the path tracer gpt. Lengths in scene units, angles in degrees, colours linear Rec.709, radiance in W·sr⁻¹·m⁻².
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a scene")]
+#[schemars(title = "gpt scene")]
+pub struct SceneFile {
+    #[serde(default)]
+    pub film: FilmTable,
+    #[serde(default)]
+    pub render: RenderTable,
+    pub camera: CameraTable,
+    #[serde(default)]
+    pub texture: Vec<TextureEntry>,
+    #[serde(default)]
+    pub material: Vec<MaterialEntry>,
+    #[serde(default)]
+    pub shape: Vec<Located<ShapeEntry>>,
+    #[serde(default)]
+    pub light: Vec<Located<LightEntry>>,
+}
+
+/// The picture.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct FilmTable {
+    /// Width and height in pixels, 512 × 512 when left out.
+    pub size: Option<Located<[NonZeroU32; 2]>>,
+    pub filter: Option<FilterEntry>,
+}
+
+/// How samples become pixels.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(tag = "type")]
+pub enum FilterEntry {
+    Box(FilterKeys),
+    Tent(FilterKeys),
+    Gaussian(FilterKeys),
+    BlackmanHarris(FilterKeys),
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct FilterKeys {
+    /// Half the filter's width in pixels; 0.5 for a box, 1 for a tent, 1.5 for gaussian and 2 for blackman_harris when left out.
+    pub radius: Option<Checked<FilterRadius>>,
+}
+
+/// How radiance is estimated. Command-line flags override these.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct RenderTable {
+    /// Samples per pixel, 256 when left out.
+    pub spp: Option<NonZeroU32>,
+    /// Path edges: 1 = only light seen directly, 2 = plus direct lighting, 0 = unlimited (Russian roulette ends paths). 16 when
+    /// left out.
+    pub max_depth: Option<u32>,
+    pub sampler: Option<SamplerKind>,
+    pub estimator: Option<Estimator>,
+    pub heuristic: Option<MisHeuristic>,
+    /// First depth at which Russian roulette may end a path, 0 = never. 5 when left out.
+    pub roulette_depth: Option<Located<u32>>,
+    /// Key of every random number, 0 when left out.
+    pub seed: Option<u32>,
+}
+
+/// Where the picture is taken from.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct CameraTable {
+    pub position: Vector,
+    /// The camera looks along `look_at - position`.
+    pub look_at: Located<Vector>,
+    /// [0, 1, 0] when left out.
+    pub up: Option<Located<Vector>>,
+    /// Vertical field of view in degrees; with `projection = "perspective"`.
+    pub vfov: Option<Located<Checked<FieldOfView>>>,
+    /// "perspective" when left out.
+    pub projection: Option<Located<ProjectionName>>,
+    /// Height of the window in scene units; with `projection = "orthographic"`.
+    pub height: Option<Located<Checked<Positive>>>,
+    /// The lens opening; a pinhole when left out.
+    pub aperture: Option<Located<ApertureEntry>>,
+    /// Distance along the viewing direction of the plane in focus; needed with an aperture.
+    pub focus_distance: Option<Checked<Positive>>,
+    /// Times at which the shutter opens and closes, [0, 1] when left out.
+    pub shutter: Option<Located<[Number; 2]>>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ProjectionName {
+    Perspective,
+    Orthographic,
+}
+
+/// The opening of a thin lens.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(tag = "shape")]
+pub enum ApertureEntry {
+    Disk(RoundAperture),
+    Square(RoundAperture),
+    Polygon(PolygonAperture),
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct RoundAperture {
+    /// Radius of a disk, half the side of a square.
+    pub radius: Checked<NonNegative>,
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct PolygonAperture {
+    /// Radius of the circle through the corners.
+    pub radius: Checked<NonNegative>,
+    /// Number of corners, at least 3; 6 when left out.
+    pub blades: Option<Located<u32>>,
+    /// Degrees, 0 when left out.
+    pub rotation: Option<Number>,
+}

@@ -1,0 +1,126 @@
+//! What a scene file may ask for and the renderers do not do yet. This is the one place that knows: what comes to work is taken out
+//! here.
+
+use super::document::Step;
+use super::document::Step::{Index, Key};
+use crate::scene::{
+    EnvironmentRadiance, FilterKind, Light, Material, MaterialKind, PixelSampler, Projection, SamplerKind, Scene, TextureKind,
+};
+
+/// Something that is refused: where it is written and what it is called.
+pub struct Refusal {
+    pub path: Vec<Step>,
+    pub feature: String,
+}
+
+/// The first thing in the scene that no renderer does.
+pub fn find(scene: &Scene) -> Option<Refusal> {
+    settings(scene)
+        .or_else(|| camera(scene))
+        .or_else(|| textures(scene))
+        .or_else(|| materials(scene))
+        .or_else(|| shapes(scene))
+        .or_else(|| lights(scene))
+}
+
+fn refuse(path: impl Into<Vec<Step>>, feature: impl Into<String>) -> Option<Refusal> {
+    Some(Refusal { path: path.into(), feature: feature.into() })
+}
+
+fn settings(scene: &Scene) -> Option<Refusal> {
+    let filter = scene.film.filter;
+    let filter_path = [Key("film"), Key("filter")];
+    match filter.kind {
+        FilterKind::Box if filter.radius == 0.5 => {}
+        FilterKind::Box => return refuse(filter_path, "a box filter of another radius than 0.5"),
+        FilterKind::Tent => return refuse(filter_path, "the filter `tent`"),
+        FilterKind::Gaussian => return refuse(filter_path, "the filter `gaussian`"),
+        FilterKind::BlackmanHarris => return refuse(filter_path, "the filter `blackman_harris`"),
+    }
+    let sampler_path = [Key("render"), Key("sampler")];
+    if scene.render.pixel_sampler != PixelSampler::SameAsPath {
+        return refuse(sampler_path, "a sampler of its own for the pixel");
+    }
+    match scene.render.sampler {
+        SamplerKind::Independent | SamplerKind::Halton => None,
+        SamplerKind::Stratified => refuse(sampler_path, "the sampler `stratified`"),
+        SamplerKind::Sobol => refuse(sampler_path, "the sampler `sobol`"),
+    }
+}
+
+fn camera(scene: &Scene) -> Option<Refusal> {
+    if scene.camera.aperture.is_some() {
+        return refuse([Key("camera"), Key("aperture")], "an aperture");
+    }
+    match scene.camera.projection {
+        Projection::Perspective { .. } => None,
+        Projection::Orthographic { .. } => refuse([Key("camera"), Key("projection")], "the projection `orthographic`"),
+    }
+}
+
+fn textures(scene: &Scene) -> Option<Refusal> {
+    scene.textures.iter().enumerate().find_map(|(index, texture)| {
+        let kind = match &texture.kind {
+            TextureKind::Image(_) => return None,
+            TextureKind::Checker { .. } => "checker",
+            TextureKind::Perlin { .. } => "perlin",
+            TextureKind::Worley { .. } => "worley",
+        };
+        refuse([Key("texture"), Index(index), Key("type")], format!("the texture type `{kind}`"))
+    })
+}
+
+fn materials(scene: &Scene) -> Option<Refusal> {
+    scene.materials.iter().enumerate().find_map(|(index, material)| self::material(index, material))
+}
+
+fn material(index: usize, material: &Material) -> Option<Refusal> {
+    let path = |key| [Key("material"), Index(index), Key(key)];
+    let kind = match &material.kind {
+        MaterialKind::Diffuse { .. } | MaterialKind::Emissive | MaterialKind::Pass => None,
+        MaterialKind::Mirror { reflectance } => {
+            return reflectance.is_texture().then(|| refuse(path("reflectance"), "a texture of a mirror's reflectance"))?;
+        }
+        MaterialKind::Glass { reflectance, transmittance, .. } => {
+            let textured = reflectance.is_texture() || transmittance.is_texture();
+            return textured.then(|| refuse(path("type"), "a texture of glass"))?;
+        }
+        MaterialKind::Glossy { .. } => Some("glossy"),
+        MaterialKind::Phong { .. } => Some("phong"),
+        MaterialKind::RoughGlass { .. } => Some("rough_glass"),
+        MaterialKind::Conductor { .. } => Some("conductor"),
+        MaterialKind::Blend { .. } => Some("blend"),
+    };
+    if let Some(kind) = kind {
+        return refuse(path("type"), format!("the material type `{kind}` (of `{}`)", material.name));
+    }
+    material.normal_map.and_then(|_| refuse(path("normal_map"), "a normal map"))
+}
+
+fn shapes(scene: &Scene) -> Option<Refusal> {
+    scene.shapes.iter().enumerate().find_map(|(index, shape)| {
+        let path = |key| [Key("shape"), Index(index), Key(key)];
+        if shape.motion.is_some() {
+            return refuse(path("motion"), "motion");
+        }
+        shape.portal.then(|| refuse(path("portal"), "a portal"))?
+    })
+}
+
+fn lights(scene: &Scene) -> Option<Refusal> {
+    scene.lights.iter().enumerate().find_map(|(index, light)| {
+        let kind = match light {
+            Light::Point { .. } => return None,
+            Light::Environment(environment) => match environment.radiance {
+                EnvironmentRadiance::Constant(_) => return None,
+                EnvironmentRadiance::Map(_) => {
+                    return refuse([Key("light"), Index(index), Key("file")], "an environment from a file");
+                }
+                EnvironmentRadiance::Sky { .. } => "sky",
+            },
+            Light::Spot { .. } => "spot",
+            Light::Directional { .. } => "directional",
+        };
+        refuse([Key("light"), Index(index), Key("type")], format!("the light type `{kind}`"))
+    })
+}

@@ -1,0 +1,310 @@
+//! The values of a scene file. A type says which values are possible, so that reading a file checks every range at the place where
+//! the value is written, and the JSON Schema carries the same ranges.
+
+use std::borrow::Cow;
+use std::fmt;
+use std::marker::PhantomData;
+use std::ops::Range;
+
+use glam::DVec3;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
+
+/// Largest magnitude of any number: its square is still finite in single precision, which is what the device computes in.
+pub const LARGEST: f64 = 1e18;
+
+/// Which numbers are possible.
+pub trait Rule: 'static {
+    /// In words, to follow "expected".
+    const WORDS: &'static str;
+    const NAME: &'static str;
+    const MINIMUM: f64;
+    const MAXIMUM: f64 = LARGEST;
+    /// The minimum itself is not possible.
+    const ABOVE_MINIMUM: bool = false;
+
+    fn accepts(value: f64) -> bool {
+        let high_enough = if Self::ABOVE_MINIMUM { value > Self::MINIMUM } else { value >= Self::MINIMUM };
+        high_enough && value <= Self::MAXIMUM
+    }
+}
+
+macro_rules! rules {
+    ($($name:ident $words:literal { $($item:tt)* })*) => {$(
+        #[doc = concat!("Marks ", $words, ".")]
+        #[derive(Debug, Clone, Copy)]
+        pub enum $name {}
+        impl Rule for $name {
+            const WORDS: &'static str = $words;
+            const NAME: &'static str = stringify!($name);
+            $($item)*
+        }
+    )*};
+}
+
+rules! {
+    Any "a number of magnitude at most 1e18" { const MINIMUM: f64 = -LARGEST; }
+    NonNegative "a number from 0 to 1e18" { const MINIMUM: f64 = 0.0; }
+    Positive "a number above 0" { const MINIMUM: f64 = 0.0; const ABOVE_MINIMUM: bool = true; }
+    Fraction "a number from 0 to 1" { const MINIMUM: f64 = 0.0; const MAXIMUM: f64 = 1.0; }
+    FilterRadius "a number from 0.5 to 16 (pixels)" { const MINIMUM: f64 = 0.5; const MAXIMUM: f64 = 16.0; }
+    FieldOfView "an angle from 0.001 to 179 (degrees)" { const MINIMUM: f64 = 0.001; const MAXIMUM: f64 = 179.0; }
+    HalfAngle "an angle above 0, at most 90 (degrees)" {
+        const MINIMUM: f64 = 0.0; const MAXIMUM: f64 = 90.0; const ABOVE_MINIMUM: bool = true;
+    }
+    IndexOfRefraction "an index of refraction from 0.1 to 10" { const MINIMUM: f64 = 0.1; const MAXIMUM: f64 = 10.0; }
+}
+
+/// A number that keeps `R`.
+#[derive(Debug)]
+pub struct Checked<R>(pub f64, PhantomData<R>);
+
+impl<R> Clone for Checked<R> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<R> Copy for Checked<R> {}
+
+impl<R: Rule> Checked<R> {
+    fn new<E: Error>(value: f64) -> Result<Self, E> {
+        if R::accepts(value) {
+            Ok(Self(value, PhantomData))
+        } else {
+            Err(E::custom(format_args!("expected {}, found {value}", R::WORDS)))
+        }
+    }
+}
+
+/// Any finite number.
+pub type Number = Checked<Any>;
+
+/// Three numbers.
+pub type Vector = [Number; 3];
+
+/// The numbers as a vector.
+pub fn vector<R>(values: [Checked<R>; 3]) -> DVec3 {
+    DVec3::from_array(values.map(|value| value.0))
+}
+
+impl<'de, R: Rule> Deserialize<'de> for Checked<R> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct NumberVisitor<R>(PhantomData<R>);
+        impl<R: Rule> Visitor<'_> for NumberVisitor<R> {
+            type Value = Checked<R>;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str(R::WORDS)
+            }
+            fn visit_f64<E: Error>(self, value: f64) -> Result<Self::Value, E> {
+                Checked::new(value)
+            }
+            fn visit_i64<E: Error>(self, value: i64) -> Result<Self::Value, E> {
+                Checked::new(value as f64)
+            }
+            fn visit_u64<E: Error>(self, value: u64) -> Result<Self::Value, E> {
+                Checked::new(value as f64)
+            }
+        }
+        deserializer.deserialize_any(NumberVisitor(PhantomData))
+    }
+}
+
+impl<R: Rule> JsonSchema for Checked<R> {
+    fn schema_name() -> Cow<'static, str> {
+        R::NAME.into()
+    }
+    fn inline_schema() -> bool {
+        true
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let mut schema = json_schema!({ "type": "number" });
+        let minimum = if R::ABOVE_MINIMUM { "exclusiveMinimum" } else { "minimum" };
+        if R::MINIMUM > -LARGEST {
+            schema.insert(minimum.to_owned(), R::MINIMUM.into());
+        }
+        if R::MAXIMUM < LARGEST {
+            schema.insert("maximum".to_owned(), R::MAXIMUM.into());
+        }
+        schema
+    }
+}
+
+/// A value and the bytes of the file it was written in.
+#[derive(Debug, Clone)]
+pub struct Located<T> {
+    pub value: T,
+    pub span: Range<usize>,
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Located<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let spanned = toml::Spanned::<T>::deserialize(deserializer)?;
+        Ok(Self { span: spanned.span(), value: spanned.into_inner() })
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for Located<T> {
+    fn schema_name() -> Cow<'static, str> {
+        T::schema_name()
+    }
+    fn schema_id() -> Cow<'static, str> {
+        T::schema_id()
+    }
+    fn inline_schema() -> bool {
+        T::inline_schema()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        T::json_schema(generator)
+    }
+}
+
+/// `[r, g, b]` or one number for grey.
+#[derive(Debug, Clone)]
+pub struct Rgb<R>(pub DVec3, PhantomData<R>);
+
+/// `[r, g, b]`, one number for grey, or `{ texture = "name" }`.
+#[derive(Debug, Clone)]
+pub enum Colour<R> {
+    Constant(Rgb<R>),
+    Texture(Located<String>),
+}
+
+/// One number or `{ texture = "name" }`, whose red channel counts.
+#[derive(Debug, Clone)]
+pub enum Scalar<R> {
+    Constant(Checked<R>),
+    Texture(Located<String>),
+}
+
+/// `{ texture = "name" }`
+#[derive(Debug, Clone, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table with the key `texture`")]
+struct TextureReference {
+    /// A `[[texture]]`'s name.
+    texture: Located<String>,
+}
+
+/// What may stand where a colour can: the forms a visitor meets.
+enum Form<R> {
+    Number(Checked<R>),
+    Triple([Checked<R>; 3]),
+    Texture(Located<String>),
+}
+
+struct FormVisitor<R> {
+    words: &'static str,
+    triple: bool,
+    texture: bool,
+    rule: PhantomData<R>,
+}
+
+impl<'de, R: Rule> Visitor<'de> for FormVisitor<R> {
+    type Value = Form<R>;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{} ({})", self.words, R::WORDS)
+    }
+    fn visit_f64<E: Error>(self, value: f64) -> Result<Self::Value, E> {
+        Checked::new(value).map(Form::Number)
+    }
+    fn visit_i64<E: Error>(self, value: i64) -> Result<Self::Value, E> {
+        self.visit_f64(value as f64)
+    }
+    fn visit_u64<E: Error>(self, value: u64) -> Result<Self::Value, E> {
+        self.visit_f64(value as f64)
+    }
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Self::Value, A::Error> {
+        if !self.triple {
+            return Err(Error::invalid_type(serde::de::Unexpected::Seq, &self));
+        }
+        let mut values = Vec::with_capacity(3);
+        while let Some(value) = seq.next_element::<Checked<R>>()? {
+            values.push(value);
+        }
+        let length = values.len();
+        let triple = values.try_into().map_err(|_| Error::invalid_length(length, &"3 numbers, [r, g, b]"))?;
+        Ok(Form::Triple(triple))
+    }
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+        if !self.texture {
+            return Err(Error::invalid_type(serde::de::Unexpected::Map, &self));
+        }
+        let reference = <TextureReference as Deserialize>::deserialize(MapAccessDeserializer::new(map))?;
+        Ok(Form::Texture(reference.texture))
+    }
+}
+
+impl<R: Rule> Rgb<R> {
+    /// Reads three numbers or one that stands for all three; `words` say what is expected.
+    pub fn deserialize_as<'de, D: Deserializer<'de>>(deserializer: D, words: &'static str) -> Result<DVec3, D::Error> {
+        let visitor = FormVisitor::<R> { words, triple: true, texture: false, rule: PhantomData };
+        match deserializer.deserialize_any(visitor)? {
+            Form::Triple(triple) => Ok(vector(triple)),
+            Form::Number(number) => Ok(DVec3::splat(number.0)),
+            Form::Texture(_) => Err(Error::custom("a texture is not possible here")),
+        }
+    }
+}
+
+impl<'de, R: Rule> Deserialize<'de> for Rgb<R> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Ok(Self(Self::deserialize_as(deserializer, "a colour: [r, g, b] or one number")?, PhantomData))
+    }
+}
+
+impl<'de, R: Rule> Deserialize<'de> for Colour<R> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let words = "a colour: [r, g, b], one number or { texture = \"name\" }";
+        let visitor = FormVisitor::<R> { words, triple: true, texture: true, rule: PhantomData };
+        Ok(match deserializer.deserialize_any(visitor)? {
+            Form::Number(value) => Self::Constant(Rgb(DVec3::splat(value.0), PhantomData)),
+            Form::Triple(values) => Self::Constant(Rgb(vector(values), PhantomData)),
+            Form::Texture(name) => Self::Texture(name),
+        })
+    }
+}
+
+impl<'de, R: Rule> Deserialize<'de> for Scalar<R> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let visitor =
+            FormVisitor::<R> { words: "one number or { texture = \"name\" }", triple: false, texture: true, rule: PhantomData };
+        match deserializer.deserialize_any(visitor)? {
+            Form::Number(value) => Ok(Self::Constant(value)),
+            Form::Texture(name) => Ok(Self::Texture(name)),
+            Form::Triple(_) => Err(Error::custom("a colour is not possible here, expected one number")),
+        }
+    }
+}
+
+/// The schema of a value that may take any of these forms.
+pub fn any_of(forms: Vec<Schema>) -> Schema {
+    json_schema!({ "anyOf": forms })
+}
+
+impl<R: Rule> JsonSchema for Rgb<R> {
+    fn schema_name() -> Cow<'static, str> {
+        format!("ConstantColour{}", R::NAME).into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        any_of(vec![generator.subschema_for::<[Checked<R>; 3]>(), generator.subschema_for::<Checked<R>>()])
+    }
+}
+
+impl<R: Rule> JsonSchema for Colour<R> {
+    fn schema_name() -> Cow<'static, str> {
+        format!("Colour{}", R::NAME).into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        any_of(vec![generator.subschema_for::<Rgb<R>>(), generator.subschema_for::<TextureReference>()])
+    }
+}
+
+impl<R: Rule> JsonSchema for Scalar<R> {
+    fn schema_name() -> Cow<'static, str> {
+        format!("Scalar{}", R::NAME).into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        any_of(vec![generator.subschema_for::<Checked<R>>(), generator.subschema_for::<TextureReference>()])
+    }
+}
