@@ -1,18 +1,15 @@
-#!/usr/bin/env python3
 """Turns a scene file of gpt into a scene of Mitsuba 3.
 
 Only what both renderers define alike is translated; every other key, type or value is refused by name, so that a comparison never
 compares two different scenes.
 
-    export_mitsuba.py SCENE.toml OUT.xml     writes Mitsuba's own format
-    export_mitsuba.load(path)                gives the dictionary that mitsuba.load_dict takes
+`load(path)` gives the dictionary that mitsuba.load_dict takes; one of Mitsuba's variants must be set before.
 
 Conventions that agree and need no translation: linear Rec.709 colours, radiance, max_depth (path edges: 1 = emitters seen directly,
 2 = direct lighting), the box filter of one pixel, one-sided emission to the side the normal points to. What differs is translated
 here: Mitsuba's field of view (its axis is named), one-sided reflection (`twosided`), shapes given by matrices.
 """
 
-import sys
 import tomllib
 from pathlib import Path
 
@@ -20,7 +17,7 @@ import mitsuba as mi
 import numpy as np
 
 
-class Refused(Exception):
+class Refused(ValueError):
     """The scene uses something that is not translated."""
 
 
@@ -215,17 +212,3 @@ def light(table):
         raise Refused(f"{table.where}: type `{kind}` is not translated")
     table.finish()
     return result
-
-
-def main():
-    if len(sys.argv) != 3:
-        sys.exit("usage: export_mitsuba.py SCENE.toml OUT.xml")
-    mi.set_variant("scalar_rgb")
-    try:
-        mi.xml.dict_to_xml(load(sys.argv[1]), sys.argv[2])
-    except (Refused, OSError, tomllib.TOMLDecodeError) as error:
-        sys.exit(f"export_mitsuba.py: {error}")
-
-
-if __name__ == "__main__":
-    main()

@@ -82,8 +82,8 @@ def tile_means(pictures):
     )
 
 
-def rejected(first, second, alpha, offset=1e-4):
-    """Which of the means differ by more than chance (Welch's t, Šidák over all): p-values, level.
+def p_values(first, second, alpha, offset=1e-4):
+    """Welch's t on the replications (first axis): the p-value of each mean, and the level below which Šidák's correction rejects it.
 
     Differences up to a share `offset` of the mean are rounding and not judged."""
     a, b = first.mean(axis=0), second.mean(axis=0)
@@ -98,8 +98,8 @@ def rejected(first, second, alpha, offset=1e-4):
 
 def disagreements(ours, theirs, alpha):
     """Counts of rejected channels and of rejected tiles × channels, after printing what was found."""
-    whole, level = rejected(ours.mean(axis=(1, 2)), theirs.mean(axis=(1, 2)), alpha)
-    tiles, tile_level = rejected(tile_means(ours), tile_means(theirs), alpha)
+    whole, level = p_values(ours.mean(axis=(1, 2)), theirs.mean(axis=(1, 2)), alpha)
+    tiles, tile_level = p_values(tile_means(ours), tile_means(theirs), alpha)
     print(f"  whole picture: p = {', '.join(f'{p:.3g}' for p in whole)}; rejected below {level:.2g}")
     print(f"  {tiles.size} tiles × channels: least p = {tiles.min():.2g}; rejected below {tile_level:.2g}: {(tiles < tile_level).sum()}")
     return (whole < level).sum(), (tiles < tile_level).sum()
@@ -168,7 +168,7 @@ def main():
     options = arguments()
     try:
         sys.exit(compare(options))
-    except (OSError, subprocess.CalledProcessError) as error:
+    except (OSError, ValueError, subprocess.CalledProcessError) as error:
         sys.exit(f"mitsuba_ogre.py: {error}")
 
 
