@@ -17,3 +17,4 @@ pub mod sampling;
 pub mod scene;
 pub mod shader;
 pub mod statistics;
+pub mod verify;

@@ -6,12 +6,13 @@ use std::sync::Arc;
 use super::Verdict;
 use crate::film::Band;
 use crate::output::{OutputError, PictureFile, PictureFormat, PictureSpec, Provenance};
+use crate::scene::Scene;
 
 /// Writes `SCENE-gpu.exr`, `SCENE-cpu.exr`, `SCENE-difference.exr` (gpu − cpu) and `SCENE-heat.png` into a folder.
 ///
 /// # Errors
 /// What writing reports.
-pub fn write(folder: &Path, verdict: &Verdict) -> Result<Vec<PathBuf>, OutputError> {
+pub fn write(folder: &Path, scene: &Scene, verdict: &Verdict) -> Result<Vec<PathBuf>, OutputError> {
     let difference: Vec<[f32; 3]> =
         verdict.gpu.iter().zip(&verdict.cpu).map(|(a, b)| [a[0] - b[0], a[1] - b[1], a[2] - b[2]]).collect();
     let heat: Vec<[f32; 3]> = difference.iter().zip(&verdict.cpu).map(|(d, reference)| heat_color(d, reference)).collect();
@@ -24,7 +25,7 @@ pub fn write(folder: &Path, verdict: &Verdict) -> Result<Vec<PathBuf>, OutputErr
     let mut written = Vec::new();
     for (ending, format, pixels) in pictures {
         let path = folder.join(format!("{}-{ending}", verdict.scene));
-        write_picture(&path, format, verdict, pixels)?;
+        write_picture(&path, format, (scene, verdict), pixels)?;
         written.push(path);
     }
     Ok(written)
@@ -40,8 +41,19 @@ fn heat_color(difference: &[f32; 3], reference: &[f32; 3]) -> [f32; 3] {
     [ramp(2.0, 4.0), ramp(4.0, 6.0), blue]
 }
 
-fn write_picture(path: &Path, format: PictureFormat, verdict: &Verdict, pixels: Vec<[f32; 3]>) -> Result<(), OutputError> {
-    let provenance = Provenance { scene: verdict.scene.clone(), device: verdict.device.clone(), ..Provenance::default() };
+fn write_picture(
+    path: &Path,
+    format: PictureFormat,
+    (scene, verdict): (&Scene, &Verdict),
+    pixels: Vec<[f32; 3]>,
+) -> Result<(), OutputError> {
+    let provenance = Provenance {
+        scene: verdict.scene.clone(),
+        scene_hash: String::new(),
+        settings: scene.render.clone(),
+        first_sample: 0,
+        device: verdict.device.clone(),
+    };
     let spec = PictureSpec { width: verdict.width, height: verdict.height, exposure: 0.0, provenance };
     let mut file = PictureFile::create(path, format, &spec)?;
     let band = Band {
@@ -52,6 +64,6 @@ fn write_picture(path: &Path, format: PictureFormat, verdict: &Verdict, pixels: 
         second_moment: vec![0.0; pixels.len()],
         mean: pixels,
     };
-    file.write_band(&Arc::new(band)).map_err(|error| OutputError::Encode { path: path.into(), what: error.to_string() })?;
+    file.write_band(&Arc::new(band)).map_err(|source| OutputError::Write { path: path.into(), source })?;
     file.finish()
 }

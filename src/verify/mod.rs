@@ -84,12 +84,7 @@ pub fn verify(scene: &Scene, choice: &DeviceChoice, options: &PlanOptions) -> Re
 }
 
 /// As [`verify`], for any two renderers of the scene.
-pub fn compare(
-    scene: &Scene,
-    device: String,
-    gpu: &mut dyn Renderer,
-    cpu: &mut dyn Renderer,
-) -> Result<Verdict, RenderError> {
+pub fn compare(scene: &Scene, device: String, gpu: &mut dyn Renderer, cpu: &mut dyn Renderer) -> Result<Verdict, RenderError> {
     let [width, height] = scene.film.size;
     let spp = scene.render.spp;
     let pixels = width as usize * height as usize;

@@ -1,0 +1,177 @@
+//! Every shader combination is valid WGSL and its layouts are those of the Rust side. No device is needed.
+
+use std::collections::BTreeSet;
+
+use gpt::gpu::kernels::used_bindings;
+use gpt::plan::switches::ALL;
+use gpt::shader::{ComposeError, Switches, compose};
+
+const STAGES: [(&str, &str); 7] = [
+    ("stages/fused.wgsl", "trace_paths"),
+    ("stages/generate.wgsl", "generate"),
+    ("stages/extend.wgsl", "extend"),
+    ("stages/shade.wgsl", "shade"),
+    ("stages/prepare.wgsl", "prepare"),
+    ("stages/connect.wgsl", "connect"),
+    ("stages/accumulate.wgsl", "accumulate"),
+];
+
+/// A set of switches that some plan can make: implications of `plan::switches::choose` hold.
+fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
+    if wanted.contains("ONLY_TRIANGLES") {
+        wanted.insert("TRIANGLES");
+        for other in ["QUADS", "SPHERES", "DISKS", "PLANES"] {
+            wanted.remove(other);
+        }
+    }
+    if wanted.contains("DISKS") || wanted.contains("PLANES") {
+        wanted.insert("FLAT_ROUND");
+    }
+    if wanted.contains("TEXTURES") {
+        wanted.insert("ATTRIBUTES");
+    }
+    if wanted.contains("SPHERE_LIGHTS") {
+        wanted.insert("SPHERES");
+    }
+    let lights = ["FLAT_LIGHTS", "SPHERE_LIGHTS", "POINT_LIGHTS", "ENVIRONMENT_LIGHT", "ONE_LIGHT"];
+    if !wanted.contains("LIGHTS") {
+        for light in lights {
+            wanted.remove(light);
+        }
+    }
+    if wanted.contains("ENVIRONMENT_LIGHT") {
+        wanted.insert("ESTIMATOR_NEE");
+    }
+    if wanted.contains("ESTIMATOR_NEE") {
+        wanted.remove("ESTIMATOR_MIS");
+    }
+    let constants = [
+        "FILM_WIDTH",
+        "FIRST_LIGHT_WORD",
+        "FIRST_PLANE",
+        "FIRST_TEXTURE_WORD",
+        "HALTON_BLOCKS",
+        "HALTON_POINTS",
+        "LIGHT_COUNT",
+        "MAX_DEPTH",
+        "PATH_CAPACITY",
+        "PRIMITIVE_COUNT",
+        "PRIMITIVE_WORDS",
+        "ROULETTE_DEPTH",
+        "STACK_SIZE",
+        "TABLE_WORDS",
+    ];
+    let unrolled = "#import geometry/primitives.wgsl\n#import geometry/scene.wgsl\n\
+                    fn closest_hit(traced: Ray, t_max: f32) -> Hit { return Hit(t_max, NONE, 0.0, 0.0); }\n\
+                    fn occluded(traced: Ray, t_max: f32) -> bool { return false; }\n";
+    Switches {
+        enabled: wanted,
+        constants: constants.into_iter().map(|name| (name, 7)).collect(),
+        generated: [("geometry/unrolled.wgsl", unrolled.to_owned())].into(),
+    }
+}
+
+fn validate_all(switches: &Switches) -> Result<(), (String, ComposeError)> {
+    for (file, entry) in STAGES {
+        let describe = |error| (format!("{entry} with {:?}", switches.enabled), error);
+        let composed = compose(file, switches).map_err(describe)?;
+        composed.validate().map_err(describe)?;
+    }
+    Ok(())
+}
+
+/// All, none, each alone, each missing, and every pair: a switch that needs another, or excludes one, shows here.
+#[test]
+fn every_pair_of_switches_composes_to_valid_shaders() {
+    let everything: BTreeSet<&'static str> = ALL.iter().copied().collect();
+    let mut sets: BTreeSet<BTreeSet<&'static str>> = [everything.clone(), BTreeSet::new()].into();
+    for first in ALL {
+        let mut missing = everything.clone();
+        missing.remove(first);
+        sets.insert(missing);
+        sets.extend(ALL.iter().map(|second| BTreeSet::from([*first, *second])));
+    }
+    let shipped: BTreeSet<BTreeSet<&'static str>> = sets.into_iter().map(|set| shippable(set).enabled).collect();
+    assert!(shipped.len() > 150, "{} combinations", shipped.len());
+    for set in shipped {
+        if let Err((what, error)) = validate_all(&shippable(set)) {
+            panic!("{what}: {error}");
+        }
+    }
+}
+
+#[test]
+fn a_planted_mistake_is_found() {
+    let mut switches = shippable(ALL.iter().copied().collect());
+    switches.constants.remove("STACK_SIZE");
+    assert!(validate_all(&switches).is_err());
+}
+
+/// Sizes and offsets of structs and array strides in WGSL, by naga, against Rust's.
+#[test]
+fn layouts_match_between_wgsl_and_rust() {
+    use gpt::flat::View;
+    use gpt::gpu::parameters::{EdgeParameters, PassParameters};
+    use std::mem::offset_of;
+
+    let mut wanted: BTreeSet<&'static str> = ALL.iter().copied().collect();
+    wanted.remove("ONLY_TRIANGLES");
+    let composed = compose("stages/shade.wgsl", &shippable(wanted)).unwrap();
+    let (module, _) = composed.validate().unwrap();
+    let members = |name: &str| {
+        let (_, found) = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name)).expect("the struct exists");
+        let naga::TypeInner::Struct { members, span } = &found.inner else { panic!("{name} is no struct") };
+        let members: Vec<(String, u32)> =
+            members.iter().map(|member| (member.name.clone().unwrap_or_default(), member.offset)).collect();
+        (members, *span as usize)
+    };
+    macro_rules! check {
+        ($rust:ty, $wgsl:literal, $($field:ident),*) => {
+            let expected = vec![$((stringify!($field).to_owned(), offset_of!($rust, $field) as u32)),*];
+            assert_eq!(members($wgsl), (expected, size_of::<$rust>()), $wgsl);
+        };
+    }
+    check!(
+        PassParameters,
+        "PassParameters",
+        first_pixel,
+        first_pixel_in_band,
+        pixel_count,
+        first_sample,
+        sample_count,
+        film_is_empty,
+        opaque_zero,
+        seed
+    );
+    check!(EdgeParameters, "EdgeParameters", edge, queue, padding);
+    check!(View, "View", position, corner, step_x, step_y, environment);
+}
+
+/// Packed records are whole numbers of vec4: the shaders index them in words of 16 bytes.
+#[test]
+fn packed_records_are_the_words_that_shaders_count() {
+    use gpt::flat::{bvh4::Node, light::FlatLight, primitive::*, tables::*};
+    assert_eq!(size_of::<Primitive>(), 3 * 16);
+    assert_eq!(size_of::<TriangleAttributes>(), 4 * 16);
+    assert_eq!(size_of::<Node>(), 3 * 16);
+    assert_eq!(size_of::<FlatMaterial>(), 4 * 16);
+    assert_eq!(size_of::<FlatLight>(), 5 * 16);
+    assert_eq!(size_of::<FlatTexture>(), 2 * 16);
+}
+
+/// WebGPU promises eight storage buffers a stage; no stage may need more.
+#[test]
+fn no_stage_needs_more_storage_buffers_than_webgpu_promises() {
+    let mut wanted: BTreeSet<&'static str> = ALL.iter().copied().collect();
+    for absent in ["ONLY_TRIANGLES", "UNIFORM_SCENE", "FILM_TEXTURE"] {
+        wanted.remove(absent);
+    }
+    for (file, entry) in STAGES {
+        let (module, info) = compose(file, &shippable(wanted.clone())).unwrap().validate().unwrap();
+        let storage = used_bindings(&module, &info, entry)
+            .iter()
+            .filter(|used| matches!(used.kind, wgpu::BindingType::Buffer { ty: wgpu::BufferBindingType::Storage { .. }, .. }))
+            .count();
+        assert!(storage <= 8, "{entry} uses {storage} storage buffers");
+    }
+}
