@@ -5,7 +5,8 @@ use std::sync::{Arc, Mutex};
 use crate::plan::DeviceLimits;
 use crate::render::{DeviceChoice, RenderError};
 
-/// A device with its queue, and the first error it reported.
+/// A device with its queue, and the first error it reported. Clones are the same device.
+#[derive(Clone)]
 pub struct Device {
     pub name: String,
     pub limits: DeviceLimits,

@@ -43,7 +43,15 @@ impl GpuRenderer {
     /// # Errors
     /// [`RenderError::NoDevice`], or [`RenderError::DoesNotFit`] where the scene is too large for the device.
     pub fn new(scene: &Scene, choice: &DeviceChoice, options: &PlanOptions) -> Result<Self, RenderError> {
-        let device = Device::open(choice)?;
+        Self::on(&Device::open(choice)?, scene, options)
+    }
+
+    /// As [`GpuRenderer::new`], on a device that is already open.
+    ///
+    /// # Errors
+    /// [`RenderError::DoesNotFit`] where the scene is too large for the device.
+    pub fn on(device: &Device, scene: &Scene, options: &PlanOptions) -> Result<Self, RenderError> {
+        let device = device.clone();
         let start = Instant::now();
         let flat = FlatScene::new(scene).map_err(|error| RenderError::DoesNotFit(error.to_string()))?;
         let plan = Plan::new(scene, &flat, &device.limits, options)?;

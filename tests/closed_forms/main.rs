@@ -10,29 +10,57 @@ mod scenes;
 
 use std::io;
 
+use std::sync::LazyLock;
+
 use gpt::film::Band;
+use gpt::gpu::{Device, GpuRenderer};
+use gpt::plan::{GeometryPlacement, PlanOptions, StageMode};
 use gpt::reference::ReferenceRenderer;
-use gpt::render::{RenderRequest, Renderer, Silent};
+use gpt::render::{DeviceChoice, RenderRequest, Renderer, Silent};
 use gpt::scene::Scene;
 use gpt::statistics::{Moments, one_sample_t_test_beyond, sidak};
 
 use cases::Case;
 
 /// Pixels along each side of the pictures.
-pub const SIDE: u32 = 12;
+pub const SIDE: u32 = 20;
 /// Probability that the whole family fails a program that is right.
 const ALPHA: f64 = 0.01;
 /// Seeds of the replications.
-const SEEDS: std::ops::Range<u32> = 0..2;
+const SEEDS: std::ops::Range<u32> = 0..1;
 
 /// Renders a scene by its own settings: pixels row by row from the top.
 pub type Render = fn(&Scene) -> Vec<[f32; 3]>;
 
 /// What is tested: a name, how it renders, and the relative error its arithmetic may have.
-pub const DEVICES: [(&str, Render, f64); 1] = [("cpu", render_on_cpu, 2e-6)];
+pub const DEVICES: [(&str, Render, f64); 3] =
+    [("cpu", render_on_cpu, 2e-6), ("gpu, fused", render_fused, 2e-5), ("gpu, wavefront", render_by_wavefront, 2e-5)];
 
 fn render_on_cpu(scene: &Scene) -> Vec<[f32; 3]> {
     collect(&mut ReferenceRenderer::new(scene).expect("the scene is supported"), scene)
+}
+
+/// One device for all cases: opening it costs more than a case.
+static DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| match std::env::var("GPT_TEST_GPU").as_deref() {
+    Ok("skip") => None,
+    _ => Some(Device::open(&DeviceChoice::Gpu).expect("a graphics adapter; GPT_TEST_GPU=skip tests the CPU alone")),
+});
+
+/// What the plan chooses for such small scenes: unrolled geometry, one kernel.
+fn render_fused(scene: &Scene) -> Vec<[f32; 3]> {
+    render_on_gpu(scene, &PlanOptions::default())
+}
+
+/// What the plan chooses for large scenes: a hierarchy, a kernel per stage.
+fn render_by_wavefront(scene: &Scene) -> Vec<[f32; 3]> {
+    let (geometry, stages) = (Some(GeometryPlacement::Hierarchy), Some(StageMode::Wavefront));
+    render_on_gpu(scene, &PlanOptions { geometry, stages, ..PlanOptions::default() })
+}
+
+/// The CPU's picture again where the tests were told to go without a GPU.
+fn render_on_gpu(scene: &Scene, options: &PlanOptions) -> Vec<[f32; 3]> {
+    let Some(device) = &*DEVICE else { return render_on_cpu(scene) };
+    collect(&mut GpuRenderer::on(device, scene, options).expect("the scene fits"), scene)
 }
 
 fn collect(renderer: &mut dyn Renderer, scene: &Scene) -> Vec<[f32; 3]> {
