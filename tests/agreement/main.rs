@@ -1,0 +1,113 @@
+//! The GPU's picture against the reference's, path by path, for every built-in scene and every way to run it.
+
+use std::sync::LazyLock;
+
+use gpt::gpu::{Device, GpuRenderer};
+use gpt::plan::{FilmStorage, GeometryPlacement, PlanOptions, StageMode};
+use gpt::reference::ReferenceRenderer;
+use gpt::render::DeviceChoice;
+use gpt::scene::{self, Estimator, MisHeuristic, SamplerKind, Scene};
+use gpt::verify::{self, Verdict};
+
+/// One device for all tests. None: the tests were told to go without.
+static DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| match std::env::var("GPT_TEST_GPU").as_deref() {
+    Ok("skip") => None,
+    _ => Some(Device::open(&DeviceChoice::Gpu).expect("a graphics adapter; GPT_TEST_GPU=skip tests the CPU alone")),
+});
+
+/// A built-in scene, small.
+fn small(name: &str, side: u32, spp: u32) -> Scene {
+    let mut scene = scene::load(Some(name)).expect("built-in scenes load");
+    verify::shrink(&mut scene, side);
+    scene.render.spp = spp;
+    scene
+}
+
+fn compare(scene: &Scene, options: &PlanOptions) -> Option<Verdict> {
+    let device = DEVICE.as_ref()?;
+    let mut gpu = GpuRenderer::on(device, scene, options).expect("the scene fits");
+    let mut cpu = ReferenceRenderer::new(scene).expect("the scene is supported");
+    Some(verify::compare(scene, device.name.clone(), &mut gpu, &mut cpu).expect("both render"))
+}
+
+fn assert_agrees(what: &str, scene: &Scene, options: &PlanOptions) {
+    let Some(verdict) = compare(scene, options) else { return };
+    println!(
+        "{what}: {:.4} % of {} paths match, rms {:.1e}, largest {:.1e}",
+        100.0 * verdict.matching_share(),
+        verdict.paths,
+        verdict.rms_difference,
+        verdict.largest_difference
+    );
+    assert!(verdict.agrees, "{what}: {verdict:#?}");
+}
+
+#[test]
+fn every_built_in_scene_agrees_path_by_path() {
+    for name in scene::builtin_names() {
+        assert_agrees(name, &small(name, 64, 16), &PlanOptions::default());
+    }
+}
+
+#[test]
+fn every_way_to_run_agrees() {
+    let hierarchy = Some(GeometryPlacement::Hierarchy);
+    let ways = [
+        ("unrolled wavefront", PlanOptions { stages: Some(StageMode::Wavefront), ..PlanOptions::default() }),
+        ("hierarchy, fused", PlanOptions { geometry: hierarchy, stages: Some(StageMode::Fused), ..PlanOptions::default() }),
+        (
+            "hierarchy, wavefront",
+            PlanOptions { geometry: hierarchy, stages: Some(StageMode::Wavefront), ..PlanOptions::default() },
+        ),
+        ("film in buffers", PlanOptions { film: Some(FilmStorage::Buffer), ..PlanOptions::default() }),
+        ("checked shaders", PlanOptions { checked_shaders: true, ..PlanOptions::default() }),
+    ];
+    for (way, options) in ways {
+        assert_agrees(way, &small("spheres", 48, 4), &options);
+    }
+}
+
+#[test]
+fn every_estimator_sampler_and_heuristic_agrees() {
+    for estimator in [Estimator::Mis, Estimator::Nee, Estimator::Bsdf] {
+        for (sampler, heuristic) in
+            [(SamplerKind::Halton, MisHeuristic::Power), (SamplerKind::Independent, MisHeuristic::Balance)]
+        {
+            let mut scene = small("spheres", 48, 4);
+            scene.render.estimator = estimator;
+            scene.render.sampler = sampler;
+            scene.render.heuristic = heuristic;
+            scene.render.seed = 7;
+            assert_agrees(&format!("{estimator:?} {sampler:?} {heuristic:?}"), &scene, &PlanOptions::default());
+        }
+    }
+}
+
+#[test]
+fn unlimited_depth_agrees() {
+    let mut scene = small("furnace-box", 24, 4);
+    scene.render.max_depth = 0;
+    scene.render.roulette_depth = 2;
+    assert_agrees("unlimited, fused", &scene, &PlanOptions::default());
+    let wavefront = PlanOptions { stages: Some(StageMode::Wavefront), ..PlanOptions::default() };
+    assert_agrees("unlimited, wavefront", &scene, &wavefront);
+}
+
+/// The same test must notice a device that adds 1 % of energy to one material.
+#[test]
+fn a_planted_error_is_noticed() {
+    let Some(device) = DEVICE.as_ref() else { return };
+    let scene = small("cornell", 48, 16);
+    let mut faulty = scene.clone();
+    for material in &mut faulty.materials {
+        if let Some(emission) = &mut material.emission {
+            if let scene::ColorInput::Constant(radiance) = &mut emission.radiance {
+                *radiance *= 1.01;
+            }
+        }
+    }
+    let mut gpu = GpuRenderer::on(device, &faulty, &PlanOptions::default()).expect("the scene fits");
+    let mut cpu = ReferenceRenderer::new(&scene).expect("the scene is supported");
+    let verdict = verify::compare(&scene, device.name.clone(), &mut gpu, &mut cpu).expect("both render");
+    assert!(!verdict.agrees && !verdict.rejections.is_empty(), "{verdict:#?}");
+}
