@@ -13,6 +13,7 @@ pub mod output;
 pub mod plan;
 pub mod reference;
 pub mod render;
+pub mod renderer;
 pub mod sampling;
 pub mod scene;
 pub mod shader;

@@ -9,6 +9,7 @@ use exr::meta::MetaData;
 use exr::prelude::{ReadChannels, ReadLayers, f16};
 
 use super::{MAX_PIXELS, MAX_SIDE};
+use crate::scene::srgb_to_linear;
 
 /// A picture in memory, linear.
 #[derive(Debug, Clone, PartialEq)]
@@ -134,11 +135,6 @@ fn check_size(width: u64, height: u64) -> Result<(), String> {
         ));
     }
     Ok(())
-}
-
-/// The inverse of the sRGB curve (IEC 61966-2-1), from 0..1 to 0..1.
-fn srgb_to_linear(encoded: f32) -> f32 {
-    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
 #[cfg(test)]

@@ -1,0 +1,219 @@
+//! What can be typed, as clap reads it.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use gpt::compare::Metric;
+use gpt::output::{MAX_PIXELS, MAX_SIDE};
+use gpt::render::DeviceChoice;
+use gpt::scene::{BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeuristic, SamplerKind};
+
+/// Sample indices stay below this, because picture headers hold signed 32-bit numbers.
+pub const MAX_SAMPLES: u32 = i32::MAX as u32;
+
+/// A headless GPU path tracer that proves its pictures against a CPU reference.
+#[derive(Debug, Parser)]
+#[command(name = "gpt", version)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Render a scene to picture files
+    Render(Box<RenderArguments>),
+    /// Measure how far two pictures are apart; exit code 7 if they differ
+    Compare(CompareArguments),
+    /// Parse and validate a scene, and say what is in it
+    Check(CheckArguments),
+    /// List the graphics adapters, their limits, and which one `--device auto` takes
+    Devices(DevicesArguments),
+}
+
+#[derive(Debug, Args)]
+pub struct RenderArguments {
+    /// A .toml scene, an .obj model, or the name of a built-in scene [default: cornell]
+    pub scene: Option<String>,
+    /// Picture to write: .exr (linear float) or .png (sRGB preview); may be given several times [default: SCENE-name.exr]
+    #[arg(short, long = "output", value_name = "FILE")]
+    pub outputs: Vec<PathBuf>,
+    #[command(flatten)]
+    pub estimate: EstimateArguments,
+    /// auto (discrete, integrated, then software GPU; the CPU integrator if there is none), gpu, cpu, or part of an adapter's name
+    #[arg(long, default_value = "auto", value_parser = parse_device)]
+    pub device: DeviceChoice,
+    /// Stops by which PNG previews are brightened
+    #[arg(long, value_name = "EV", default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_exposure)]
+    pub exposure: f32,
+    /// Write what the render did and how long it took as JSON
+    #[arg(long, value_name = "FILE.json")]
+    pub stats: Option<PathBuf>,
+    /// No progress on stderr
+    #[arg(short, long)]
+    pub quiet: bool,
+    /// Exit with code 6 if a sample was not finite
+    #[arg(long)]
+    pub strict: bool,
+}
+
+/// What overrides the scene's own `[film]` and `[render]`.
+#[derive(Debug, Default, Args)]
+pub struct EstimateArguments {
+    /// Samples per pixel
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
+    pub spp: Option<u32>,
+    /// Absolute index of the first sample: 0 and 128, with --spp 128 each, together are the samples of --spp 256
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..i64::from(MAX_SAMPLES)))]
+    pub first_sample: u32,
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+    /// Longest path in edges: 1 = only light seen directly, 2 = plus direct lighting, 0 = unlimited
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=i64::from(MAX_SAMPLES)))]
+    pub max_depth: Option<u32>,
+    /// Where random numbers come from
+    #[arg(long)]
+    pub sampler: Option<SamplerKind>,
+    /// How light sampling and BSDF sampling are used
+    #[arg(long)]
+    pub estimator: Option<Estimator>,
+    /// How multiple importance sampling weighs the two
+    #[arg(long)]
+    pub heuristic: Option<MisHeuristic>,
+    /// Key of every random number of the render
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u32>,
+    /// How directions over a diffuse surface are drawn
+    #[arg(long)]
+    pub hemisphere: Option<HemisphereSampling>,
+    /// How a point on a sphere light is drawn
+    #[arg(long)]
+    pub light_sampling: Option<LightSampling>,
+    /// The sampler of the position inside the pixel; none: always the pixel's centre
+    #[arg(long, value_name = "SAMPLER")]
+    pub pixel_sampler: Option<PixelSamplerName>,
+    /// Whether a blend evaluates every lobe or picks one material per hit
+    #[arg(long)]
+    pub blend: Option<BlendMode>,
+}
+
+/// What `--pixel-sampler` takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PixelSamplerName {
+    Independent,
+    Stratified,
+    Halton,
+    Sobol,
+    None,
+}
+
+#[derive(Debug, Args)]
+pub struct CompareArguments {
+    /// The picture
+    #[arg(value_name = "A")]
+    pub picture: PathBuf,
+    /// Its reference
+    #[arg(value_name = "B")]
+    pub reference: PathBuf,
+    /// Show this metric only, and judge by it
+    #[arg(long)]
+    pub metric: Option<Metric>,
+    /// What still counts as equal: the metric at most this (psnr: at least); without --metric the largest difference of a value
+    #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = parse_tolerance)]
+    pub tolerance: Option<f64>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct CheckArguments {
+    /// A .toml scene, an .obj model, or the name of a built-in scene
+    #[arg(required_unless_present = "schema")]
+    pub scene: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Print the JSON Schema of scene files instead
+    #[arg(long, conflicts_with_all = ["scene", "json"])]
+    pub schema: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct DevicesArguments {
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+fn parse_device(text: &str) -> Result<DeviceChoice, String> {
+    match text {
+        "" => Err("name a device; `gpt devices` lists them".to_owned()),
+        "auto" => Ok(DeviceChoice::Auto),
+        "gpu" => Ok(DeviceChoice::Gpu),
+        "cpu" => Ok(DeviceChoice::Cpu),
+        name => Ok(DeviceChoice::Named(name.to_owned())),
+    }
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let parts = text.split_once(['x', 'X']).ok_or("expected WIDTHxHEIGHT, for example 640x480")?;
+    let side = |part: &str| part.parse::<u32>().map_err(|_| format!("`{part}` is no number of pixels"));
+    let size = [side(parts.0)?, side(parts.1)?];
+    check_size(size)?;
+    Ok(size)
+}
+
+/// Whether a picture of this size can be rendered; the error is a sentence.
+pub fn check_size([width, height]: [u32; 2]) -> Result<(), String> {
+    if width == 0 || height == 0 {
+        return Err("width and height must be at least 1".to_owned());
+    }
+    if width > MAX_SIDE || height > MAX_SIDE || u64::from(width) * u64::from(height) > MAX_PIXELS {
+        return Err(format!("{width}x{height} is too big: at most {MAX_SIDE} pixels on a side and {MAX_PIXELS} in all"));
+    }
+    Ok(())
+}
+
+fn parse_exposure(text: &str) -> Result<f32, String> {
+    let exposure: f32 = text.parse().map_err(|_| "expected a number of stops".to_owned())?;
+    if exposure.abs() <= 100.0 { Ok(exposure) } else { Err("expected a number from -100 to 100".to_owned()) }
+}
+
+fn parse_tolerance(text: &str) -> Result<f64, String> {
+    let tolerance: f64 = text.parse().map_err(|_| "expected a number".to_owned())?;
+    if tolerance.is_nan() { Err("expected a number".to_owned()) } else { Ok(tolerance) }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn sizes_are_two_numbers_within_limits() {
+        assert_eq!(parse_size("640x480"), Ok([640, 480]));
+        assert_eq!(parse_size("16384X16384"), Ok([16384, 16384]));
+        for bad in ["640", "0x0", "0x5", "5x0", "-1x5", "x", "4.5x3", "32769x1", "32768x32768", "99999999999x1", "3x3x3"] {
+            assert!(parse_size(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn devices_and_exposures_are_read() {
+        assert_eq!(parse_device("cpu"), Ok(DeviceChoice::Cpu));
+        assert_eq!(parse_device("GeForce"), Ok(DeviceChoice::Named("GeForce".to_owned())));
+        assert!(parse_device("").is_err());
+        assert_eq!(parse_exposure("-1.5"), Ok(-1.5));
+        for bad in ["nan", "inf", "1e9", "bright"] {
+            assert!(parse_exposure(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! Exit codes and the errors that lead to them.
+
+use std::process::ExitCode;
+
+use gpt::compare::SizeMismatch;
+use gpt::output::{OutputError, ReadError};
+use gpt::render::RenderError;
+use gpt::scene::SceneError;
+use miette::Diagnostic;
+
+/// What a run came to; other programs rely on the numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Exit {
+    Done = 0,
+    OtherFailure = 1,
+    Usage = 2,
+    /// A scene or another input file is wrong.
+    Input = 3,
+    /// No usable device, or the scene does not fit it.
+    Device = 4,
+    DeviceLost = 5,
+    /// Samples that are not finite, with `--strict`.
+    NonFinite = 6,
+    /// `compare` or `verify` found a difference.
+    Difference = 7,
+    /// What was rendered is saved.
+    Interrupted = 130,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(exit as u8)
+    }
+}
+
+/// Everything that ends a command with one error message.
+#[derive(Debug, thiserror::Error, Diagnostic)]
+pub enum Failure {
+    #[error("{message}")]
+    Usage {
+        message: String,
+        #[help]
+        help: Option<String>,
+    },
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Scene(#[from] SceneError),
+    #[error(transparent)]
+    Picture(#[from] ReadError),
+    #[error(transparent)]
+    Sizes(#[from] SizeMismatch),
+    #[error("{0}")]
+    BadScene(String),
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    #[error("{0}")]
+    Other(String),
+}
+
+impl Failure {
+    /// A usage error without further advice.
+    pub fn usage(message: impl Into<String>) -> Self {
+        Self::Usage { message: message.into(), help: None }
+    }
+}
+
+impl From<&Failure> for Exit {
+    fn from(failure: &Failure) -> Self {
+        match failure {
+            Failure::Usage { .. } => Self::Usage,
+            Failure::Scene(_) | Failure::Picture(_) | Failure::Sizes(_) | Failure::BadScene(_) => Self::Input,
+            Failure::Render(RenderError::NoDevice(_) | RenderError::DoesNotFit(_)) => Self::Device,
+            Failure::Render(RenderError::DeviceLost(_)) => Self::DeviceLost,
+            Failure::Render(RenderError::Internal(_) | RenderError::Output(_)) => Self::OtherFailure,
+            Failure::Output(_) | Failure::Other(_) => Self::OtherFailure,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn render_errors_have_the_contracts_numbers() {
+        let code = |error: RenderError| Exit::from(&Failure::from(error)) as u8;
+        assert_eq!(code(RenderError::Internal(String::new())), 1);
+        assert_eq!(code(RenderError::Output(std::io::Error::other("full"))), 1);
+        assert_eq!(code(RenderError::NoDevice(String::new())), 4);
+        assert_eq!(code(RenderError::DoesNotFit(String::new())), 4);
+        assert_eq!(code(RenderError::DeviceLost(String::new())), 5);
+    }
+
+    #[test]
+    fn other_errors_have_the_contracts_numbers() {
+        assert_eq!(Exit::from(&Failure::usage("x")) as u8, 2);
+        assert_eq!(Exit::from(&Failure::from(SizeMismatch { sizes: [[1, 1], [2, 2]] })) as u8, 3);
+        assert_eq!(Exit::from(&Failure::BadScene(String::new())) as u8, 3);
+        let write = OutputError::BadTarget { path: "a".into(), what: "b" };
+        assert_eq!(Exit::from(&Failure::from(write)) as u8, 1);
+        let numbers = [Exit::Done, Exit::NonFinite, Exit::Difference, Exit::Interrupted].map(|exit| exit as u8);
+        assert_eq!(numbers, [0, 6, 7, 130]);
+    }
+}

@@ -1,0 +1,49 @@
+//! The command line: arguments in, exit code out.
+
+mod arguments;
+mod check;
+mod compare;
+mod devices;
+mod exit;
+mod interrupt;
+mod pictures;
+mod progress;
+mod render;
+mod settings;
+mod stats;
+mod terminal;
+mod unsupported;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use arguments::{Arguments, Command};
+use exit::Exit;
+
+/// Parses the program's arguments, does what they say and turns the outcome into the process's exit code.
+pub fn run() -> ExitCode {
+    terminal::install_error_style();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version are answers, not errors, though clap hands them over the same way. A closed stdout has no reader.
+            let _ = error.print();
+            return if error.use_stderr() { Exit::Usage.into() } else { Exit::Done.into() };
+        }
+    };
+    let outcome = match arguments.command {
+        Command::Render(arguments) => render::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Devices(arguments) => devices::run(&arguments),
+    };
+    match outcome {
+        Ok(exit) => exit.into(),
+        Err(failure) => {
+            let exit = Exit::from(&failure);
+            terminal::print_error(failure.into());
+            exit.into()
+        }
+    }
+}

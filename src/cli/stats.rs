@@ -1,0 +1,100 @@
+//! `--stats`: what a render did, as JSON for other programs.
+
+use gpt::render::RenderReport;
+use gpt::scene::{Scene, setting_name};
+use serde::Serialize;
+
+/// Everything in the file. Keys stay as they are; new ones may be added.
+#[derive(Debug, Serialize)]
+pub struct Stats {
+    pub scene: String,
+    pub scene_hash: String,
+    pub device: String,
+    pub width: u32,
+    pub height: u32,
+    /// Samples per pixel that were asked for.
+    pub spp: u32,
+    pub first_sample: u32,
+    pub seed: u32,
+    pub max_depth: u32,
+    pub sampler: String,
+    pub estimator: String,
+    pub heuristic: String,
+    pub seconds: Seconds,
+    /// Samples finished, over all pixels.
+    pub samples: u64,
+    pub samples_per_second: f64,
+    pub rays: u64,
+    pub rays_per_second: f64,
+    pub non_finite_samples: u64,
+    pub peak_device_bytes: u64,
+    /// Largest resident set of the process so far; null where the system does not say.
+    pub peak_host_bytes: Option<u64>,
+    /// Mean radiance of the picture.
+    pub mean: [f64; 3],
+    pub interrupted: bool,
+    pub outputs: Vec<String>,
+    pub version: &'static str,
+}
+
+#[derive(Debug, Default, Serialize)]
+pub struct Seconds {
+    /// Reading the scene and the files it names.
+    pub load: f64,
+    /// Acceleration structures and packing.
+    pub build: f64,
+    /// Shaders and pipelines.
+    pub compile: f64,
+    pub render: f64,
+    /// Waiting for the picture files.
+    pub write: f64,
+    /// From the program's start to the last picture's place in its folder.
+    pub total: f64,
+}
+
+impl Stats {
+    /// What the scene and the renderer know; the rest starts empty.
+    pub fn new(scene: &Scene, report: &RenderReport) -> Self {
+        let [width, height] = scene.film.size;
+        let per_second = |count: u64| if report.render_seconds > 0.0 { count as f64 / report.render_seconds } else { 0.0 };
+        Self {
+            scene: scene.name.clone(),
+            scene_hash: String::new(),
+            device: report.device.clone(),
+            width,
+            height,
+            spp: scene.render.spp,
+            first_sample: 0,
+            seed: scene.render.seed,
+            max_depth: scene.render.max_depth,
+            sampler: setting_name(scene.render.sampler),
+            estimator: setting_name(scene.render.estimator),
+            heuristic: setting_name(scene.render.heuristic),
+            seconds: Seconds {
+                build: report.build_seconds,
+                compile: report.compile_seconds,
+                render: report.render_seconds,
+                ..Seconds::default()
+            },
+            samples: report.samples,
+            samples_per_second: per_second(report.samples),
+            rays: report.rays,
+            rays_per_second: per_second(report.rays),
+            non_finite_samples: report.non_finite_samples,
+            peak_device_bytes: report.peak_device_bytes,
+            peak_host_bytes: peak_host_bytes(),
+            mean: [0.0; 3],
+            interrupted: report.interrupted,
+            outputs: Vec::new(),
+            version: env!("CARGO_PKG_VERSION"),
+        }
+    }
+}
+
+/// The kernel's high-water mark of this process's resident memory, in bytes (Linux).
+fn peak_host_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kibibytes * 1024)
+}

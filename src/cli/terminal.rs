@@ -1,0 +1,80 @@
+//! How messages look: colours and line art on a terminal, plain text elsewhere.
+
+use std::io::{self, ErrorKind, IsTerminal, Write};
+
+use miette::{GraphicalTheme, MietteHandlerOpts, Report};
+
+use super::exit::Failure;
+
+/// Chooses how errors are drawn. Messages are never wrapped, so that paths in them can be copied and searched for.
+pub fn install_error_style() {
+    let style = |_: &(dyn miette::Diagnostic + 'static)| error_style();
+    // Fails only if a style was chosen before, and this is called once.
+    let _ = miette::set_hook(Box::new(style));
+}
+
+fn error_style() -> Box<dyn miette::ReportHandler> {
+    let options = MietteHandlerOpts::new().wrap_lines(false).terminal_links(false);
+    let on_a_terminal = io::stderr().is_terminal();
+    Box::new(if on_a_terminal { options } else { options.graphical_theme(GraphicalTheme::none()) }.build())
+}
+
+/// Prints one error to stderr.
+pub fn print_error(report: Report) {
+    let _ = writeln!(io::stderr(), "Error: {report:?}");
+}
+
+/// Prints a warning to stderr.
+pub fn warn(message: &str) {
+    let _ = writeln!(io::stderr(), "warning: {message}");
+}
+
+/// Prints something worth knowing to stderr.
+pub fn note(message: &str) {
+    let _ = writeln!(io::stderr(), "{message}");
+}
+
+/// Writes a command's answer to stdout. A reader that went away (`| head`) is no failure.
+///
+/// # Errors
+/// Other failures to write, a full disk for example.
+pub fn answer(text: &str) -> Result<(), Failure> {
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::Other(format!("cannot write to stdout: {error}"))),
+        _ => Ok(()),
+    }
+}
+
+/// As [`answer`], with a value as indented JSON.
+///
+/// # Errors
+/// As [`answer`].
+pub fn answer_json(value: &impl serde::Serialize) -> Result<(), Failure> {
+    let json = serde_json::to_string_pretty(value).map_err(|error| Failure::Other(error.to_string()))?;
+    answer(&(json + "\n"))
+}
+
+/// A number with three or more digits, a unit prefix where it is large, and its unit: `1.50 Msample/s`.
+pub fn with_unit(number: f64, unit: &str) -> String {
+    let (scaled, prefix) = match number.abs() {
+        large if large >= 1e9 => (number / 1e9, "G"),
+        large if large >= 1e6 => (number / 1e6, "M"),
+        large if large >= 1e3 => (number / 1e3, "k"),
+        _ => return format!("{number:.0} {unit}").trim_end().to_owned(),
+    };
+    format!("{scaled:.2} {prefix}{unit}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn large_numbers_get_a_prefix() {
+        assert_eq!(with_unit(12.0, "ray"), "12 ray");
+        assert_eq!(with_unit(12.0, ""), "12");
+        assert_eq!(with_unit(1_500_000.0, ""), "1.50 M");
+        assert_eq!(with_unit(2.5e9, "sample/s"), "2.50 Gsample/s");
+    }
+}

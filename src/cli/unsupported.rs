@@ -1,0 +1,66 @@
+//! Values of the command line that are part of the language but do not work yet. They are refused by name, never ignored.
+
+use clap::ValueEnum;
+use gpt::scene::setting_name;
+
+use super::arguments::EstimateArguments;
+use super::exit::Failure;
+
+/// Flag and value of everything refused.
+const UNSUPPORTED: &[(&str, &str)] = &[
+    ("--sampler", "stratified"),
+    ("--sampler", "sobol"),
+    ("--hemisphere", "uniform"),
+    ("--light-sampling", "visible"),
+    ("--light-sampling", "area"),
+    ("--pixel-sampler", "independent"),
+    ("--pixel-sampler", "stratified"),
+    ("--pixel-sampler", "halton"),
+    ("--pixel-sampler", "sobol"),
+    ("--pixel-sampler", "none"),
+    ("--blend", "pick"),
+];
+
+/// Refuses the first flag whose value is not supported.
+///
+/// # Errors
+/// A usage error that names the flag, the value and the values that work.
+pub fn refuse(arguments: &EstimateArguments) -> Result<(), Failure> {
+    check("--sampler", arguments.sampler)?;
+    check("--estimator", arguments.estimator)?;
+    check("--heuristic", arguments.heuristic)?;
+    check("--hemisphere", arguments.hemisphere)?;
+    check("--light-sampling", arguments.light_sampling)?;
+    check("--pixel-sampler", arguments.pixel_sampler)?;
+    check("--blend", arguments.blend)
+}
+
+fn check<T: ValueEnum>(flag: &'static str, value: Option<T>) -> Result<(), Failure> {
+    let Some(value) = value else { return Ok(()) };
+    let name = setting_name(value);
+    let refused = |name: &str| UNSUPPORTED.contains(&(flag, name));
+    if !refused(&name) {
+        return Ok(());
+    }
+    let working: Vec<_> =
+        T::value_variants().iter().map(|value| setting_name(value.clone())).filter(|name| !refused(name)).collect();
+    let help = (!working.is_empty()).then(|| format!("values that work: {}", working.join(", ")));
+    Err(Failure::Usage { message: format!("`{flag} {name}` is not supported yet"), help })
+}
+
+#[cfg(test)]
+mod tests {
+    use gpt::scene::SamplerKind;
+
+    use super::*;
+
+    #[test]
+    fn what_does_not_work_is_refused_with_what_does() {
+        let refused = EstimateArguments { sampler: Some(SamplerKind::Sobol), ..EstimateArguments::default() };
+        let Err(Failure::Usage { message, help }) = refuse(&refused) else { panic!("not refused") };
+        assert_eq!(message, "`--sampler sobol` is not supported yet");
+        assert_eq!(help.as_deref(), Some("values that work: independent, halton"));
+        let accepted = EstimateArguments { sampler: Some(SamplerKind::Halton), ..EstimateArguments::default() };
+        assert!(refuse(&accepted).is_ok());
+    }
+}

@@ -1,0 +1,430 @@
+//! The program as its users meet it: exit codes, messages and files.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use gpt::output::{Image, read_image};
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// A scene that renders fast on the CPU: a lit sphere over nothing.
+const SCENE: &str = r#"
+[film]
+size = [24, 16]
+[render]
+spp = 8
+[camera]
+position = [0, 0, 4]
+look_at = [0, 0, 0]
+vfov = 40
+[[material]]
+name = "grey"
+type = "diffuse"
+reflectance = 0.5
+[[shape]]
+type = "sphere"
+center = [0, 0, 0]
+radius = 1
+material = "grey"
+[[light]]
+type = "point"
+position = [3, 4, 5]
+intensity = [40, 30, 20]
+"#;
+
+/// An empty folder with the scene `scene.toml`; the program runs in it.
+struct Workplace(TempDir);
+
+impl Workplace {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        fs::write(folder.path().join("scene.toml"), SCENE).expect("the scene file");
+        Self(folder)
+    }
+
+    fn path(&self, name: &str) -> std::path::PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn command(&self, arguments: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_gpt"));
+        command.args(arguments.split_whitespace()).current_dir(self.0.path()).env_remove("NO_COLOR");
+        command
+    }
+
+    fn run(&self, arguments: &str) -> Output {
+        self.command(arguments).output().expect("the program starts")
+    }
+
+    /// Runs, expects this exit code, and returns what went to stderr.
+    fn expect(&self, code: i32, arguments: &str) -> String {
+        let output = self.run(arguments);
+        let stderr = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "gpt {arguments}\n{stderr}");
+        stderr
+    }
+
+    fn files(&self) -> Vec<String> {
+        let mut names: Vec<_> = fs::read_dir(self.0.path())
+            .expect("the folder")
+            .map(|entry| entry.expect("an entry").file_name().into_string().expect("plain names"))
+            .collect();
+        names.sort();
+        names
+    }
+
+    fn image(&self, name: &str) -> Image {
+        read_image(&self.path(name)).expect("a readable picture")
+    }
+
+    fn stats(&self, name: &str) -> Value {
+        serde_json::from_slice(&fs::read(self.path(name)).expect("the stats file")).expect("JSON")
+    }
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("UTF-8")
+}
+
+/// The EXR header's integer of this name.
+fn header_number(path: &Path, key: &str) -> i32 {
+    use exr::prelude::{AttributeValue, MetaData, Text};
+    let meta = MetaData::read_from_file(path, true).expect("a valid EXR header");
+    match meta.headers[0].own_attributes.other.get(&Text::from(key)) {
+        Some(AttributeValue::I32(number)) => *number,
+        other => panic!("{key} is {other:?}"),
+    }
+}
+
+#[test]
+fn a_render_writes_its_files_whole_and_says_nothing_on_stdout() {
+    let place = Workplace::new();
+    let output = place.run("render scene.toml --device cpu -o a.exr -o a.png --stats stats.json");
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_eq!(text(&output.stdout), "");
+    assert!(text(&output.stderr).contains("a.exr, a.png: 24x16, 8 spp"), "{}", text(&output.stderr));
+    assert_eq!(place.files(), ["a.exr", "a.png", "scene.toml", "stats.json"]);
+
+    let image = place.image("a.exr");
+    assert_eq!((image.width, image.height), (24, 16));
+    let centre = image.pixels[8 * 24 + 12];
+    assert!(centre[0] > centre[2] && centre[2] > 0.0, "the light is warm, but the sphere is {centre:?}");
+    assert_eq!(image.pixels[0], [0.0; 3], "nothing is behind the sphere");
+    assert_eq!(header_number(&place.path("a.exr"), "gpt:samples"), 8);
+    assert_eq!(header_number(&place.path("a.exr"), "gpt:complete"), 1);
+    let preview = place.image("a.png");
+    assert!((preview.pixels[8 * 24 + 12][0] - centre[0]).abs() < 0.01);
+}
+
+#[test]
+fn stats_have_the_keys_that_other_programs_rely_on() {
+    let place = Workplace::new();
+    place.expect(0, "render scene.toml --device cpu --spp 4 --size 10x6 --seed 9 --stats stats.json -q");
+    let stats = place.stats("stats.json");
+    for key in ["load", "build", "compile", "render", "write"] {
+        assert!(stats["seconds"][key].is_number(), "seconds.{key}");
+    }
+    for key in ["samples_per_second", "rays", "rays_per_second", "non_finite_samples", "peak_device_bytes"] {
+        assert!(stats[key].is_number(), "{key}");
+    }
+    assert_eq!(stats["scene"], "scene");
+    assert_eq!(stats["device"], "CPU reference");
+    assert_eq!((&stats["width"], &stats["height"], &stats["spp"]), (&10.into(), &6.into(), &4.into()));
+    assert_eq!(stats["samples"], 240);
+    assert_eq!(stats["seed"], 9);
+    assert_eq!(stats["interrupted"], false);
+    assert_eq!(stats["version"], env!("CARGO_PKG_VERSION"));
+    assert!(stats["rays"].as_u64() >= Some(240), "a sample is at least one ray");
+}
+
+#[test]
+fn the_default_picture_lies_in_the_current_folder() {
+    let place = Workplace::new();
+    place.expect(0, "render scene.toml --device cpu --spp 1");
+    assert_eq!(place.files(), ["scene.exr", "scene.toml"]);
+    place.expect(0, "render --device cpu --spp 1 --size 8x8");
+    assert_eq!(place.files(), ["cornell.exr", "scene.exr", "scene.toml"]);
+}
+
+#[test]
+fn quiet_means_quiet() {
+    let place = Workplace::new();
+    let output = place.run("render scene.toml --device cpu --quiet");
+    assert_eq!((text(&output.stdout), text(&output.stderr)), (String::new(), String::new()));
+}
+
+#[test]
+fn two_halves_of_the_samples_make_the_whole() {
+    let place = Workplace::new();
+    place.expect(0, "render scene.toml --device cpu -q --spp 8 -o whole.exr");
+    place.expect(0, "render scene.toml --device cpu -q --spp 4 -o first.exr");
+    place.expect(0, "render scene.toml --device cpu -q --spp 4 --first-sample 4 -o second.exr");
+    assert_eq!(header_number(&place.path("second.exr"), "gpt:firstSample"), 4);
+    let [whole, first, second] = ["whole.exr", "first.exr", "second.exr"].map(|name| place.image(name));
+    let mut differing_halves = 0;
+    for ((whole, first), second) in whole.pixels.iter().zip(&first.pixels).zip(&second.pixels) {
+        differing_halves += u32::from(first != second);
+        for channel in 0..3 {
+            let mean = 0.5 * (first[channel] + second[channel]);
+            assert!(
+                (whole[channel] - mean).abs() <= 1e-5 * (1.0 + mean),
+                "{whole:?} is not the mean of {first:?} and {second:?}"
+            );
+        }
+    }
+    assert!(differing_halves > 20, "the halves are not the same samples");
+}
+
+#[test]
+fn usage_errors_are_refused_before_anything_happens() {
+    let place = Workplace::new();
+    for (arguments, words) in [
+        ("", "Usage"),
+        ("paint", "paint"),
+        ("render --spp 0", "--spp"),
+        ("render --spp -3", "-3"),
+        ("render --spp many", "many"),
+        ("render --size 0x0", "at least 1"),
+        ("render --size 12", "WIDTHxHEIGHT"),
+        ("render --size 40000x10", "too big"),
+        ("render --size 32768x32768", "too big"),
+        ("render --seed -1", "-1"),
+        ("render --sampler dice", "halton"),
+        ("render --sampler sobol", "`--sampler sobol` is not supported yet"),
+        ("render --sampler stratified", "independent, halton"),
+        ("render --hemisphere uniform", "`--hemisphere uniform` is not supported yet"),
+        ("render --light-sampling area", "not supported yet"),
+        ("render --pixel-sampler none", "not supported yet"),
+        ("render --blend pick", "`--blend pick` is not supported yet"),
+        ("render --estimator guess", "mis"),
+        ("render --exposure nan", "--exposure"),
+        ("render --first-sample 2147483600 --device cpu", "--first-sample"),
+        ("render -o picture.jpg", ".exr"),
+        ("render -o picture", "picture"),
+        ("render -o a.exr -o ./a.exr", "twice"),
+        ("render --nonsense", "--nonsense"),
+        ("compare one.exr", "<B>"),
+        ("compare a.exr b.exr --metric taste", "relmse"),
+        ("compare a.exr b.exr --tolerance -1", "--tolerance"),
+        ("check", "SCENE"),
+    ] {
+        let stderr = place.expect(2, arguments);
+        assert!(stderr.contains(words), "gpt {arguments}: `{words}` is not in\n{stderr}");
+        assert_eq!(place.files(), ["scene.toml"], "gpt {arguments}");
+    }
+}
+
+#[test]
+fn help_and_version_are_answers() {
+    let place = Workplace::new();
+    for (arguments, words) in [
+        ("--help", "render"),
+        ("--version", env!("CARGO_PKG_VERSION")),
+        ("render --help", "--max-depth"),
+        ("help compare", "--json"),
+    ] {
+        let output = place.run(arguments);
+        assert_eq!(output.status.code(), Some(0));
+        assert!(text(&output.stdout).contains(words), "gpt {arguments}");
+        assert_eq!(text(&output.stderr), "");
+    }
+}
+
+#[test]
+fn input_errors_name_the_file() {
+    let place = Workplace::new();
+    fs::write(place.path("broken.toml"), "[film\n").expect("a file");
+    fs::write(place.path("broken.exr"), "no picture").expect("a file");
+    place.expect(0, "render scene.toml --device cpu --spp 1 -o a.exr");
+    for (arguments, words) in [
+        ("render missing.toml", "missing.toml"),
+        ("render no-such-builtin", "no-such-builtin"),
+        ("render broken.toml", "broken.toml"),
+        ("check broken.toml", "broken.toml"),
+        ("compare a.exr missing.exr", "missing.exr"),
+        ("compare broken.exr a.exr", "broken.exr"),
+        ("compare a.exr scene.toml", "scene.toml"),
+    ] {
+        let stderr = place.expect(3, arguments);
+        assert!(stderr.contains(words), "gpt {arguments}: `{words}` is not in\n{stderr}");
+        assert_eq!(stderr.matches("Error").count(), 1, "one error: {stderr}");
+        assert!(!stderr.contains('\u{1b}'), "no colours where stderr is no terminal: {stderr:?}");
+    }
+}
+
+#[test]
+fn an_unknown_device_is_answered_with_what_there_is() {
+    let place = Workplace::new();
+    let stderr = place.expect(4, "render scene.toml --device Abacus");
+    assert!(stderr.contains("Abacus") && stderr.contains("cpu"), "{stderr}");
+    assert_eq!(place.files(), ["scene.toml"]);
+}
+
+#[test]
+fn impossible_targets_are_found_before_rendering() {
+    let place = Workplace::new();
+    // Rendering these would take days.
+    let endless = "render scene.toml --device cpu --size 8192x8192 --spp 1000000";
+    for (target, words) in [("-o nowhere/a.exr", "nowhere"), ("--stats nowhere/s.json", "nowhere"), ("-o folder.exr", "folder")] {
+        fs::create_dir_all(place.path("folder.exr")).expect("a folder");
+        let stderr = place.expect(1, &format!("{endless} {target}"));
+        assert!(stderr.contains(words), "{stderr}");
+    }
+    assert_eq!(place.files(), ["folder.exr", "scene.toml"]);
+}
+
+#[test]
+fn a_black_picture_is_worth_a_warning() {
+    let place = Workplace::new();
+    let looking_away = SCENE.replace("look_at = [0, 0, 0]", "look_at = [0, 0, 9]");
+    fs::write(place.path("away.toml"), looking_away).expect("a file");
+    assert!(place.expect(0, "render away.toml --device cpu").contains("every pixel is black"));
+    assert!(!place.expect(0, "render scene.toml --device cpu").contains("black"));
+}
+
+#[test]
+fn compare_judges_by_difference_metric_and_tolerance() {
+    let place = Workplace::new();
+    place.expect(0, "render scene.toml --device cpu -o a.exr");
+    place.expect(0, "render scene.toml --device cpu -o again.exr");
+    place.expect(0, "render scene.toml --device cpu --seed 1 -o other.exr");
+    place.expect(0, "render scene.toml --device cpu --size 24x15 -o small.exr");
+    place.expect(0, "compare a.exr again.exr");
+    place.expect(7, "compare a.exr other.exr");
+    place.expect(0, "compare a.exr other.exr --tolerance 1000");
+    place.expect(0, "compare a.exr other.exr --metric mse --tolerance 1000");
+    place.expect(7, "compare a.exr other.exr --metric mse");
+    place.expect(0, "compare a.exr again.exr --metric psnr");
+    place.expect(7, "compare a.exr other.exr --metric psnr --tolerance 200");
+    place.expect(0, "compare a.exr other.exr --metric psnr --tolerance 1");
+    let stderr = place.expect(3, "compare a.exr small.exr");
+    assert!(stderr.contains("24x16") && stderr.contains("24x15"), "{stderr}");
+
+    let output = place.run("compare a.exr other.exr --json");
+    let verdict: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(verdict["equal"], false);
+    let [mse, mae] = ["mse", "mae"].map(|metric| verdict[metric]["all"].as_f64().expect("a number"));
+    assert!(mse > 0.0 && mae > 0.0 && mae * mae <= mse * 1.000_001, "Jensen: {mae}² ≤ {mse}");
+    let one_metric = text(&place.run("compare a.exr other.exr --metric mae").stdout);
+    assert!(one_metric.contains("mae") && !one_metric.contains("relmse"), "{one_metric}");
+}
+
+#[test]
+fn check_says_what_is_in_the_scene() {
+    let place = Workplace::new();
+    let output = place.run("check scene.toml");
+    assert_eq!(output.status.code(), Some(0));
+    let report = text(&output.stdout);
+    for words in ["24x16", "8 spp", "1 sphere", "1 diffuse", "1 point"] {
+        assert!(report.contains(words), "`{words}` is not in\n{report}");
+    }
+    let summary: Value = serde_json::from_slice(&place.run("check scene.toml --json").stdout).expect("JSON");
+    assert_eq!(summary["shapes"]["sphere"], 1);
+    let schema: Value = serde_json::from_slice(&place.run("check --schema").stdout).expect("JSON");
+    assert!(schema["properties"]["camera"].is_object(), "{schema}");
+}
+
+#[test]
+fn devices_always_has_the_cpu_and_one_automatic_choice() {
+    let place = Workplace::new();
+    let output = place.run("devices");
+    assert_eq!(output.status.code(), Some(0));
+    let list = text(&output.stdout);
+    assert!(list.contains("CPU reference"), "{list}");
+    assert_eq!(list.matches("<- auto").count(), 1, "{list}");
+    let json: Value = serde_json::from_slice(&place.run("devices --json").stdout).expect("JSON");
+    let adapters = json.as_array().expect("a list");
+    assert!(adapters.iter().filter(|adapter| adapter["chosen_by_auto"] == true).count() <= 1);
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_failure() {
+    let place = Workplace::new();
+    let mut child = place.command("check --schema").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("a process");
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("an end");
+    assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()));
+}
+
+#[cfg(unix)]
+mod on_unix {
+    use std::process::Child;
+    use std::time::{Duration, Instant};
+
+    use super::*;
+
+    fn interrupt(child: &Child) {
+        let status = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill");
+        assert!(status.success(), "the render had ended before it was interrupted");
+    }
+
+    /// A render of hours, after its temporary files appeared.
+    fn start_endless_render(place: &Workplace) -> Child {
+        let mut command =
+            place.command("render scene.toml --device cpu --size 64x64 --spp 100000000 -o a.exr -o a.png --stats s.json");
+        let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("a process");
+        let deadline = Instant::now() + Duration::from_secs(60);
+        while place.files().iter().filter(|name| name.ends_with(".part")).count() < 2 {
+            assert!(Instant::now() < deadline, "the render never began its files");
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        child
+    }
+
+    #[test]
+    fn the_first_interrupt_saves_what_is_rendered() {
+        let place = Workplace::new();
+        let child = start_endless_render(&place);
+        // Long enough for the first samples of every pixel.
+        std::thread::sleep(Duration::from_secs(2));
+        interrupt(&child);
+        let output = child.wait_with_output().expect("an end");
+        let stderr = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(130), "{stderr}");
+        assert!(stderr.contains("interrupted"), "{stderr}");
+        assert_eq!(place.files(), ["a.exr", "a.png", "s.json", "scene.toml"]);
+        let image = place.image("a.exr");
+        assert!(image.pixels.iter().any(|pixel| pixel[0] > 0.0), "nothing was saved");
+        assert_eq!(header_number(&place.path("a.exr"), "gpt:complete"), 0);
+        let samples = header_number(&place.path("a.exr"), "gpt:samples");
+        assert!((0..100_000_000).contains(&samples), "{samples}");
+        let stats = place.stats("s.json");
+        assert_eq!(stats["interrupted"], true);
+        assert!(stats["samples"].as_u64() > Some(0));
+    }
+
+    #[test]
+    fn the_second_interrupt_quits_at_once_and_leaves_nothing_half_written() {
+        let place = Workplace::new();
+        let mut child = start_endless_render(&place);
+        interrupt(&child);
+        while child.try_wait().expect("a process").is_none() {
+            // Refused once the process is gone, which is what is waited for.
+            let _ = Command::new("kill").args(["-INT", &child.id().to_string()]).stderr(Stdio::null()).status();
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        assert_eq!(child.wait().expect("a process").code(), Some(130));
+        assert!(place.files().iter().all(|name| !name.ends_with(".part")), "{:?}", place.files());
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn no_color_is_honoured_on_a_terminal() {
+        let place = Workplace::new();
+        // `script` gives the program a terminal.
+        let on_a_terminal = |no_color: bool| {
+            let mut command = Command::new("script");
+            command.args(["-qec", concat!(env!("CARGO_BIN_EXE_gpt"), " render missing.toml"), "/dev/null"]);
+            command.current_dir(place.0.path()).env("TERM", "xterm-256color").env_remove("NO_COLOR").stdin(Stdio::null());
+            if no_color {
+                command.env("NO_COLOR", "1");
+            }
+            let output = command.output().expect("util-linux's `script`");
+            assert_eq!(output.status.code(), Some(3));
+            text(&output.stdout)
+        };
+        assert!(on_a_terminal(false).contains('\u{1b}'), "colours where nothing forbids them");
+        assert!(!on_a_terminal(true).contains('\u{1b}'), "no colours with NO_COLOR");
+    }
+}
