@@ -100,7 +100,7 @@ fn environments(cases: &mut Vec<Case>) {
     ];
     for (name, kind, expected) in kinds {
         // To within about a degree of the sphere's silhouette, at asin(1/3) = 19.47° from its middle.
-        let mut scene = scene(64, camera(DVec3::new(0.0, 0.0, 3.0), DVec3::new(0.6, 0.0, 0.0), 12.0));
+        let mut scene = scene(256, camera(DVec3::new(0.0, 0.0, 3.0), DVec3::new(0.6, 0.0, 0.0), 12.0));
         let material = material(&mut scene, kind, None);
         shape(&mut scene, sphere(DVec3::ZERO, 1.0), material);
         environment(&mut scene, 1.0);

@@ -5,12 +5,12 @@ use std::sync::Arc;
 use glam::{DVec3, Vec2, Vec3};
 use gpt::scene::*;
 
+use super::devices;
 use super::scenes::*;
-use super::{DEVICES, Render};
 
 fn assert_every_pixel(name: &str, scene: &Scene, expected: DVec3) {
     let estimators = [Estimator::Mis, Estimator::Nee, Estimator::Bsdf];
-    for (device, render, _) in DEVICES as [(&str, Render, f64); _] {
+    for &(device, render, _) in devices() {
         for estimator in estimators {
             let mut scene = scene.clone();
             scene.render.estimator = estimator;
@@ -85,7 +85,7 @@ fn total_internal_reflection_is_total() {
     };
     assert_every_pixel("total internal reflection", &from(3.0), floor_radiance);
     // At 31° most of the light comes through from the sky, squeezed by ior².
-    let through = DEVICES[0].1(&from(5.0));
+    let through = devices()[0].1(&from(5.0));
     let mean = through.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>() / through.len() as f64;
     assert!(mean > 2.0 && mean < 2.25, "{mean}");
 }
@@ -106,7 +106,7 @@ fn emission_follows_its_texture() {
     let mesh = Mesh { positions, uvs, faces: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() };
     shape(&mut scene, Geometry::Mesh(Arc::new(mesh)), light);
     let [width, _] = scene.film.size;
-    for (device, render, _) in DEVICES as [(&str, Render, f64); _] {
+    for &(device, render, _) in devices() {
         for (index, pixel) in (0..).zip(render(&scene)) {
             let expected = if index % width < width / 2 { 0.0 } else { 3.0 };
             assert_eq!(pixel, [expected; 3], "{device}, pixel {index}");

@@ -110,8 +110,8 @@ pub struct Parallelogram {
     pub edge_u: DVec3,
     pub edge_v: DVec3,
     pub normal: DVec3,
-    /// The edges were exchanged, to keep the front in front under a reflection; texture coordinates undo that.
-    pub exchanged: bool,
+    /// The first edge runs backwards, to keep the front in front under a reflection; texture coordinates undo that.
+    pub reversed: bool,
     /// Dual basis: the coordinate along edge_u is the offset from the corner dotted with `dual_u`, and so for v.
     dual_u: DVec3,
     dual_v: DVec3,
@@ -121,9 +121,9 @@ pub struct Parallelogram {
 }
 
 impl Parallelogram {
-    /// None where the area is zero.
-    pub fn new(corner: DVec3, edge_u: DVec3, edge_v: DVec3, exchanged: bool) -> Option<Self> {
-        let (edge_u, edge_v) = if exchanged { (edge_v, edge_u) } else { (edge_u, edge_v) };
+    /// Corner and edges as transformed, by a reflection or not. None where the area is zero.
+    pub fn new(corner: DVec3, edge_u: DVec3, edge_v: DVec3, reversed: bool) -> Option<Self> {
+        let (corner, edge_u) = if reversed { (corner + edge_u, -edge_u) } else { (corner, edge_u) };
         let cross = edge_u.cross(edge_v);
         let squared = cross.length_squared();
         let (dual_u, dual_v) = (edge_v.cross(cross) / squared, cross.cross(edge_u) / squared);
@@ -133,7 +133,7 @@ impl Parallelogram {
             edge_u,
             edge_v,
             normal: cross.normalize(),
-            exchanged,
+            reversed,
             dual_u,
             dual_v,
             slack: DVec2::new(dual_u.length(), dual_v.length()) * rounding,
@@ -156,7 +156,7 @@ impl Parallelogram {
 
     /// (0, 0) at the corner, u along the first edge as written.
     pub fn uv(&self, local: Local) -> DVec2 {
-        if self.exchanged { DVec2::new(local.y, local.x) } else { local }
+        if self.reversed { DVec2::new(1.0 - local.x, local.y) } else { local }
     }
 
     pub fn area(&self) -> f64 {

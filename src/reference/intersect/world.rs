@@ -1,5 +1,7 @@
 //! The scene's surfaces in world space.
 
+use std::sync::Arc;
+
 use glam::{DMat3, DVec2, DVec3, Vec3};
 
 use super::primitive::{Disk, Local, Parallelogram, Plane, Primitive, Sphere};
@@ -62,9 +64,9 @@ pub struct World {
 struct ShapeData {
     /// World-space vertex normals of a smooth mesh, else empty.
     normals: Vec<Vec3>,
-    mesh: Option<std::sync::Arc<Mesh>>,
-    /// The transform mirrors: the last two corners of every face are exchanged.
-    mirrored: bool,
+    mesh: Option<Arc<Mesh>>,
+    /// Faces of a mesh, counter-clockwise seen from the front in the world.
+    faces: Vec<[u32; 3]>,
     /// Takes world directions to the shape's own space, up to a factor.
     to_local: DMat3,
 }
@@ -179,7 +181,7 @@ impl ShapeData {
     /// Normal and texture coordinates on a face of a mesh.
     fn interpolate(&self, face: usize, local: Local, geometric_normal: DVec3) -> (DVec3, DVec2) {
         let Some(mesh) = &self.mesh else { return (geometric_normal, DVec2::ZERO) };
-        let [a, b, c] = face_corners(mesh, face, self.mirrored);
+        let [a, b, c] = self.faces[face].map(|corner| corner as usize);
         let weights = [1.0 - local.x - local.y, local.x, local.y];
         let normal = if self.normals.is_empty() {
             geometric_normal
@@ -196,12 +198,6 @@ impl ShapeData {
     }
 }
 
-/// Corner indices, counter-clockwise seen from the front once the transform has been applied.
-fn face_corners(mesh: &Mesh, face: usize, mirrored: bool) -> [usize; 3] {
-    let [a, b, c] = mesh.faces[face].map(|corner| corner as usize);
-    if mirrored { [a, c, b] } else { [a, b, c] }
-}
-
 /// The primitives found so far, in the order of the scene file.
 #[derive(Default)]
 struct Collected {
@@ -214,8 +210,7 @@ impl Collected {
     fn add(&mut self, scene: &Scene, index: usize, shape: &Shape) -> Result<(), RenderError> {
         let to_world = shape.transform.to_affine();
         let linear = to_world.matrix3;
-        let mirrored = linear.determinant() < 0.0;
-        self.shapes.push(ShapeData { mirrored, to_local: linear.inverse(), ..ShapeData::default() });
+        self.shapes.push(ShapeData { to_local: linear.inverse(), ..ShapeData::default() });
         if let Geometry::Mesh(mesh) = &shape.geometry {
             self.add_mesh(scene, index, shape, mesh);
             return Ok(());
@@ -233,7 +228,13 @@ impl Collected {
                 self.primitives.push((primitive, owner(part)));
             }
         };
+        let parallelogram = |[corner, edge_u, edge_v]: [DVec3; 3]| {
+            let corner = to_world.transform_point3(corner);
+            Parallelogram::new(corner, linear * edge_u, linear * edge_v, shape.is_mirrored())
+                .map(|parallelogram| Primitive::Parallelogram(Box::new(parallelogram)))
+        };
         match shape.geometry {
+            // Added by a function of its own.
             Geometry::Mesh(_) => {}
             Geometry::Sphere { center, radius } => {
                 push(0, Primitive::Sphere(Sphere { center: to_world.transform_point3(center), radius: radius * scale()? }));
@@ -244,15 +245,11 @@ impl Collected {
                 push(0, Primitive::Disk(Box::new(Disk { center, radius: radius * scale()?, frame })));
             }
             Geometry::Rectangle { corner, edge_u, edge_v } => {
-                let corner = to_world.transform_point3(corner);
-                let face = Parallelogram::new(corner, linear * edge_u, linear * edge_v, mirrored);
-                face.into_iter().for_each(|face| push(0, Primitive::Parallelogram(Box::new(face))));
+                parallelogram([corner, edge_u, edge_v]).into_iter().for_each(|face| push(0, face));
             }
             Geometry::Box { min, max } => {
-                for (part, [corner, edge_u, edge_v]) in box_faces(min, max).into_iter().enumerate() {
-                    let corner = to_world.transform_point3(corner);
-                    let face = Parallelogram::new(corner, linear * edge_u, linear * edge_v, mirrored);
-                    face.into_iter().for_each(|face| push(part, Primitive::Parallelogram(Box::new(face))));
+                for (part, face) in box_faces(min, max).into_iter().enumerate() {
+                    parallelogram(face).into_iter().for_each(|face| push(part, face));
                 }
             }
             Geometry::Plane { point, normal } => {
@@ -265,26 +262,19 @@ impl Collected {
         Ok(())
     }
 
-    /// Vertices are transformed in f64 and rounded to f32: what a mesh file can say, and what a device stores.
-    fn add_mesh(&mut self, scene: &Scene, index: usize, shape: &Shape, mesh: &std::sync::Arc<Mesh>) {
-        let to_world = shape.transform.to_affine();
-        let normal_matrix = to_world.matrix3.inverse().transpose();
-        let positions: Vec<Vec3> =
-            mesh.positions.iter().map(|position| to_world.transform_point3(position.as_dvec3()).as_vec3()).collect();
-        let data = &mut self.shapes[index];
-        if mesh.smooth {
-            let to_normal = |normal: &Vec3| (normal_matrix * normal.as_dvec3()).normalize_or_zero().as_vec3();
-            data.normals = mesh.normals.iter().map(to_normal).collect();
-        }
-        data.mesh = Some(mesh.clone());
-        for face in 0..mesh.faces.len() {
-            let material = mesh.face_materials.get(face).copied().unwrap_or(shape.material);
-            if matches!(scene.materials[material].kind, MaterialKind::Pass) {
-                continue;
+    fn add_mesh(&mut self, scene: &Scene, index: usize, shape: &Shape, mesh: &Arc<Mesh>) {
+        let positions = shape.world_positions();
+        let faces = shape.world_faces();
+        for (part, face) in faces.iter().enumerate() {
+            let material = mesh.face_materials.get(part).copied().unwrap_or(shape.material);
+            if !matches!(scene.materials[material].kind, MaterialKind::Pass) {
+                let corners = face.map(|corner| positions[corner as usize]);
+                self.primitives.push((Primitive::Triangle(Triangle { corners }), Owner { shape: index, part, material }));
             }
-            let corners = face_corners(mesh, face, data.mirrored).map(|corner| positions[corner]);
-            self.primitives.push((Primitive::Triangle(Triangle { corners }), Owner { shape: index, part: face, material }));
         }
+        let normals = if mesh.smooth { shape.world_normals() } else { Vec::new() };
+        let data = &mut self.shapes[index];
+        (data.mesh, data.faces, data.normals) = (Some(mesh.clone()), faces, normals);
     }
 }
 
