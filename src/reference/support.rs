@@ -92,7 +92,8 @@ fn shape(scene: &Scene, shape: &Shape) -> Check {
     if shape.portal {
         return refuse("portals");
     }
-    if !(shape.transform.to_affine().matrix3.determinant().abs() > 0.0) {
+    let determinant = shape.transform.to_affine().matrix3.determinant();
+    if determinant == 0.0 || !determinant.is_finite() {
         return Err(format!("{}: the transform is singular", shape.label));
     }
     let has_uv = match &shape.geometry {

@@ -37,7 +37,8 @@ fn sphere_mesh(rings: u32, segments: u32) -> Mesh {
     let mut positions = vec![Vec3::Y, -Vec3::Y];
     for ring in 1..rings {
         for segment in 0..segments {
-            let (theta, phi) = (ring as f32 / rings as f32 * 3.141_592_7, segment as f32 / segments as f32 * 6.283_185_5);
+            let theta = ring as f32 / rings as f32 * std::f32::consts::PI;
+            let phi = segment as f32 / segments as f32 * std::f32::consts::TAU;
             positions.push(Vec3::new(theta.sin() * phi.sin(), theta.cos(), theta.sin() * phi.cos()));
         }
     }
