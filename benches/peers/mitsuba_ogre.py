@@ -89,9 +89,9 @@ def p_values(first, second, alpha, offset=1e-4):
     a, b = first.mean(axis=0), second.mean(axis=0)
     spreads = [pictures.var(axis=0, ddof=1) / len(pictures) for pictures in (first, second)]
     variance = spreads[0] + spreads[1]
-    degrees = variance**2 / sum(spread**2 / (len(p) - 1) for spread, p in zip(spreads, (first, second)))
     excess = np.maximum(np.abs(a - b) - offset * np.maximum(np.abs(a), np.abs(b)), 0)
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):  # no scatter at all, as in the sky: judged by the excess alone
+        degrees = variance**2 / sum(spread**2 / (len(p) - 1) for spread, p in zip(spreads, (first, second)))
         p = np.where(variance > 0, 2 * stats.t.sf(excess / np.sqrt(variance), degrees), np.where(excess > 0, 0.0, 1.0))
     return p, -np.expm1(np.log1p(-alpha) / p.size)
 
