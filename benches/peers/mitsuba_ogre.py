@@ -93,6 +93,7 @@ def p_values(first, second, alpha, offset=1e-4):
     with np.errstate(divide="ignore", invalid="ignore"):  # no scatter at all, as in the sky: judged by the excess alone
         degrees = variance**2 / sum(spread**2 / (len(p) - 1) for spread, p in zip(spreads, (first, second)))
         p = np.where(variance > 0, 2 * stats.t.sf(excess / np.sqrt(variance), degrees), np.where(excess > 0, 0.0, 1.0))
+    p = np.where(np.isfinite(excess), p, 0.0)  # what is not a number never passes
     return p, -np.expm1(np.log1p(-alpha) / p.size)
 
 
