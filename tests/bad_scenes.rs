@@ -92,7 +92,7 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
         ("material = \"grey\"", "", "test.toml:14:1: shape[0]: the key `material` is missing"),
         ("vfov = 40", "", "test.toml:8:11: camera.look_at: the camera needs the key `vfov`"),
         ("radius = 1", "", "test.toml:14:1: shape[0]: the key `radius` is missing"),
-        ("spp = 1", "spp = 1\nspp = 2", "test.toml:6:1: render.spp: duplicate key"),
+        ("spp = 1", "spp = 1\nspp = 2", "test.toml:6:1: duplicate key `spp`"),
         // Wrong types.
         (
             "spp = 1",

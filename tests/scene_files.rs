@@ -23,7 +23,7 @@ radiance = 1
 "#;
 
 fn read_in(folder: &Path, rest: &str) -> Scene {
-    let text = format!("{CAMERA_AND_LIGHT}{rest}");
+    let text = format!("{rest}\n{CAMERA_AND_LIGHT}");
     scene::load_toml_str(&text, "folder/test.toml", folder).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -100,9 +100,7 @@ fn every_shape_and_supported_material_is_read() {
             { type = "plane", point = [0, -1, 0], normal = [0, 3, 0], material = "e" },
             { type = "mesh", positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], faces = [[0, 1, 2]], material = "a" },
         ]
-        "#
-        .replace("\n        material", "\nmaterial")
-        .as_str(),
+        "#,
     );
     assert_eq!(scene.shapes.len(), 6);
     let emission = material(&scene, "a").emission.unwrap_or_else(|| panic!("a emits"));

@@ -54,7 +54,11 @@ impl<'a> Document<'a> {
 
     fn translate(self, error: &toml::de::Error) -> SceneError {
         let span = error.span().unwrap_or(0..self.text.len().min(1));
-        let (message, help) = wording::in_plain_words(error.message());
+        let (mut message, help) = wording::in_plain_words(error.message());
+        if message == "duplicate key" {
+            // A text that does not parse has no tree to find the key in.
+            message = format!("duplicate key `{}`", self.text.get(span.clone()).unwrap_or_default());
+        }
         let located = self.error(span, message);
         match help {
             Some(help) => located.with_help(help),
