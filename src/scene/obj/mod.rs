@@ -56,8 +56,7 @@ pub fn load(path: &Path, with_materials: bool) -> Result<ObjFile, SceneError> {
 }
 
 fn parse(name: &str, text: &str, libraries: &mtl::Libraries) -> Result<ObjFile, SceneError> {
-    let options =
-        LoadOptions { triangulate: true, single_index: true, ignore_points: true, ignore_lines: true, ..LoadOptions::default() };
+    let options = LoadOptions { triangulate: true, single_index: true, ignore_points: true, ignore_lines: true };
     // Every library of the file was read already: the first `mtllib` stands for them all.
     let given = RefCell::new(false);
     let materials = |_: &Path| match given.replace(true) {
