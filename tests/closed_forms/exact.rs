@@ -8,10 +8,12 @@ use gpt::scene::*;
 use super::devices;
 use super::scenes::*;
 
+/// To a camera ray all estimators are one; that they are is tried on spheres, as each costs the device a set of kernels.
 fn assert_every_pixel(name: &str, scene: &Scene, expected: DVec3) {
-    let estimators = [Estimator::Mis, Estimator::Nee, Estimator::Bsdf];
+    let all = [Estimator::Mis, Estimator::Nee, Estimator::Bsdf];
+    let estimators = if name == "sphere" { &all[..] } else { &all[..1] };
     for &(device, render, _) in devices() {
-        for estimator in estimators {
+        for &estimator in estimators {
             let mut scene = scene.clone();
             scene.render.estimator = estimator;
             let expected = expected.as_vec3().to_array();
