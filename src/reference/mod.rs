@@ -13,7 +13,7 @@ pub mod intersect;
 pub mod lights;
 pub mod mis;
 mod renderer;
-mod support;
+pub mod support;
 pub mod texture;
 pub mod trace;
 pub mod warp;
