@@ -1,0 +1,115 @@
+//! What the device's film holds: precision over many samples, samples that add up, bands that cover the picture.
+
+use std::sync::LazyLock;
+
+use gpt::film::Band;
+use gpt::gpu::{Device, GpuRenderer};
+use gpt::plan::{FilmStorage, PlanOptions, StageMode};
+use gpt::render::{DeviceChoice, RenderRequest, Renderer, Silent};
+use gpt::scene::{self, Scene};
+use gpt::verify;
+use std::ops::Range;
+use std::path::Path;
+
+static DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| match std::env::var("GPT_TEST_GPU").as_deref() {
+    Ok("skip") => None,
+    _ => Some(Device::open(&DeviceChoice::Gpu).expect("a graphics adapter; GPT_TEST_GPU=skip tests the CPU alone")),
+});
+
+fn render(scene: &Scene, options: &PlanOptions, samples: Range<u32>) -> Option<Vec<Band>> {
+    let mut renderer = GpuRenderer::on(DEVICE.as_ref()?, scene, options).expect("the scene fits");
+    let mut bands = Vec::new();
+    let request = RenderRequest { rows: 0..scene.film.size[1], samples };
+    let mut on_band = |band| {
+        bands.push(band);
+        Ok(())
+    };
+    renderer.render(&request, &Silent, &mut on_band).expect("rendering succeeds");
+    Some(bands)
+}
+
+fn ways() -> [PlanOptions; 3] {
+    let stages = |mode| PlanOptions { stages: Some(mode), ..PlanOptions::default() };
+    let buffer = PlanOptions { film: Some(FilmStorage::Buffer), ..stages(StageMode::Wavefront) };
+    [stages(StageMode::Fused), stages(StageMode::Wavefront), buffer]
+}
+
+/// A light that fills the view: every sample of every pixel is the same number, the hardest case for a sum in f32, because every
+/// addition rounds the same way.
+const LIGHT: [f64; 3] = [0.1, 1.0 / 3.0, 0.7];
+
+fn light_in_view() -> Scene {
+    let text = format!(
+        "[film]\nsize = [4, 4]\n[camera]\nposition = [0, 0, 1]\nlook_at = [0, 0, 0]\nvfov = 40\n\
+         [[material]]\nname = \"light\"\ntype = \"emissive\"\nradiance = {LIGHT:?}\n\
+         [[shape]]\ntype = \"rectangle\"\ncorner = [-9, -9, 0]\nedge_u = [18, 0, 0]\nedge_v = [0, 18, 0]\nmaterial = \"light\"\n"
+    );
+    scene::load_toml_str(&text, "light", Path::new(".")).expect("the scene is valid")
+}
+
+#[test]
+fn sums_hold_their_precision_at_65536_samples() {
+    const SPP: u32 = 65_536;
+    let scene = light_in_view();
+    for options in ways() {
+        let Some(bands) = render(&scene, &options, 0..SPP) else { return };
+        for pixel in &bands[0].mean {
+            for (value, expected) in pixel.iter().zip(LIGHT) {
+                let error = (f64::from(*value) / expected - 1.0).abs();
+                assert!(error <= 1e-6, "{options:?}: {value} instead of {expected}");
+            }
+        }
+        assert_eq!(bands[0].samples, SPP);
+        let luminance: f64 = LIGHT.iter().zip([0.2126, 0.7152, 0.0722]).map(|(l, weight)| l * weight).sum();
+        let second = f64::from(bands[0].second_moment[0]);
+        assert!((second / (luminance * luminance) - 1.0).abs() < 1e-4, "{second}");
+    }
+    // The control: a plain f32 sum of the same samples misses the same bound.
+    let plain: f32 = std::iter::repeat_n(LIGHT[0] as f32, SPP as usize).sum();
+    assert!((f64::from(plain) / f64::from(SPP) / LIGHT[0] - 1.0).abs() > 1e-6);
+}
+
+#[test]
+fn two_halves_of_the_samples_make_the_whole_picture() {
+    let mut scene = scene::load(Some("cornell")).expect("it is built in");
+    verify::shrink(&mut scene, 32);
+    for options in ways() {
+        let (Some(first), Some(second), Some(whole)) =
+            (render(&scene, &options, 0..128), render(&scene, &options, 128..256), render(&scene, &options, 0..256))
+        else {
+            return;
+        };
+        for ((a, b), both) in first[0].mean.iter().zip(&second[0].mean).zip(&whole[0].mean) {
+            for channel in 0..3 {
+                let mean = 0.5 * (f64::from(a[channel]) + f64::from(b[channel]));
+                let error = (mean - f64::from(both[channel])).abs();
+                assert!(error <= 1e-6 * mean, "{options:?}: {mean} against {both:?}");
+            }
+        }
+        assert_ne!(first[0].mean, second[0].mean, "the halves are different samples");
+    }
+}
+
+/// The same picture, whether it is made in one band or in many, with passes of any size.
+#[test]
+fn bands_cover_the_picture_and_do_not_show() {
+    let mut scene = scene::load(Some("spheres")).expect("it is built in");
+    scene.film.size = [1500, 1000];
+    scene.render.max_depth = 3;
+    let Some(bands) = render(&scene, &PlanOptions::default(), 0..1) else { return };
+    assert!(bands.len() > 1, "the picture is larger than a band");
+    let small_pool = PlanOptions { stages: Some(StageMode::Wavefront), path_capacity: Some(10_007), ..PlanOptions::default() };
+    let Some(other) = render(&scene, &small_pool, 0..1) else { return };
+    let mut next_row = 0;
+    for (band, same) in bands.iter().zip(&other) {
+        assert_eq!((band.first_row, band.samples), (next_row, 1));
+        next_row += band.rows;
+        let differing = band
+            .mean
+            .iter()
+            .zip(&same.mean)
+            .filter(|(a, b)| a.iter().zip(b.iter()).any(|(x, y)| (x - y).abs() > 1e-4 * x.abs().max(y.abs())));
+        assert!(differing.count() * 1000 < band.mean.len());
+    }
+    assert_eq!(next_row, 1000);
+}
