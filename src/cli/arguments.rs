@@ -25,7 +25,9 @@ pub enum Command {
     Render(Box<RenderArguments>),
     /// Measure how far two pictures are apart; exit code 7 if they differ
     Compare(CompareArguments),
-    /// Parse and validate a scene, and say what is in it
+    /// Render on the GPU and by the CPU reference with the same random numbers; exit code 7 if they differ
+    Verify(VerifyArguments),
+    /// Parse and validate a scene, and say what it needs and what is skipped
     Check(CheckArguments),
     /// List the graphics adapters, their limits, and which one `--device auto` takes
     Devices(DevicesArguments),
@@ -125,6 +127,30 @@ pub struct CompareArguments {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct VerifyArguments {
+    /// A .toml scene, an .obj model, or the name of a built-in scene [default: every built-in scene]
+    pub scene: Option<String>,
+    /// Samples per pixel [default: 16]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]
+    pub spp: Option<u32>,
+    /// Picture size in pixels [default: the scene's, shrunk to 128 pixels along the longer side]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+    /// Key of every random number [default: the scene's]
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u32>,
+    /// auto, gpu, or part of an adapter's name
+    #[arg(long, default_value = "gpu", value_parser = parse_device)]
+    pub device: DeviceChoice,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Folder for the pictures that show a difference; made where there is one
+    #[arg(long, value_name = "FOLDER", default_value = "gpt-verify")]
+    pub evidence: PathBuf,
 }
 
 #[derive(Debug, Args)]

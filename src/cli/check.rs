@@ -1,5 +1,9 @@
 //! `gpt check`.
 
+use gpt::flat::FlatScene;
+use gpt::gpu::select_adapter;
+use gpt::plan::{DeviceLimits, Plan, PlanOptions};
+use gpt::render::{DeviceChoice, RenderError};
 use gpt::scene::{self, SceneSummary};
 
 use super::arguments::CheckArguments;
@@ -19,8 +23,16 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
     let summary = SceneSummary::of(&scene);
     if arguments.json {
         terminal::answer_json(&summary)?;
-    } else {
-        terminal::answer(&summary.to_string())?;
+        return Ok(Exit::Done);
     }
+    terminal::answer(&summary.to_string())?;
+    let flat = FlatScene::new(&scene).map_err(|error| RenderError::DoesNotFit(error.to_string()))?;
+    // Without an adapter the plan is the one for a device that has just what WebGPU promises.
+    let (device, limits) = match select_adapter(&DeviceChoice::Auto) {
+        Ok(adapter) => (adapter.get_info().name, DeviceLimits::of(&adapter)),
+        Err(_) => ("a device with the limits that WebGPU promises".to_owned(), DeviceLimits::default()),
+    };
+    let plan = Plan::new(&scene, &flat, &limits, &PlanOptions::default())?;
+    terminal::answer(&format!("\nplan for {device}\n{plan}\n"))?;
     Ok(Exit::Done)
 }
