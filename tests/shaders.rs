@@ -18,14 +18,17 @@ const STAGES: [(&str, &str); 7] = [
 
 /// A set of switches that some plan can make: implications of `plan::switches::choose` hold.
 fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
-    if wanted.contains("ONLY_TRIANGLES") {
-        wanted.insert("TRIANGLES");
-        for other in ["QUADS", "SPHERES", "DISKS", "PLANES"] {
+    if wanted.contains("ONLY_TRIANGLES_IN_HIERARCHY") {
+        wanted.insert("TRIANGLES_IN_HIERARCHY");
+        for other in ["QUADS_IN_HIERARCHY", "SPHERES_IN_HIERARCHY", "DISKS_IN_HIERARCHY"] {
             wanted.remove(other);
         }
     }
-    if wanted.contains("DISKS") || wanted.contains("PLANES") {
+    if wanted.contains("DISKS_IN_HIERARCHY") {
         wanted.insert("FLAT_ROUND");
+    }
+    if wanted.contains("SPHERES_IN_HIERARCHY") {
+        wanted.insert("SPHERES");
     }
     if wanted.contains("TEXTURES") {
         wanted.insert("ATTRIBUTES");
@@ -48,26 +51,26 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
     let constants = [
         "FILM_WIDTH",
         "FIRST_LIGHT_WORD",
-        "FIRST_PLANE",
         "FIRST_TEXTURE_WORD",
         "HALTON_BLOCKS",
         "HALTON_POINTS",
         "LIGHT_COUNT",
         "MAX_DEPTH",
         "PATH_CAPACITY",
-        "PRIMITIVE_COUNT",
         "PRIMITIVE_WORDS",
         "ROULETTE_DEPTH",
         "STACK_SIZE",
         "TABLE_WORDS",
+        "TOP_NODES",
+        "TOP_WORDS",
     ];
-    let unrolled = "#import geometry/primitives.wgsl\n#import geometry/scene.wgsl\n\
-                    fn closest_hit(traced: Ray, t_max: f32) -> Hit { return Hit(t_max, NONE, 0.0, 0.0); }\n\
-                    fn occluded(traced: Ray, t_max: f32) -> bool { return false; }\n";
+    let geometry = "#import geometry/primitives.wgsl\n#import geometry/scene.wgsl\n\
+                    fn closest_of_constants(ray: PreparedRay, hit: ptr<function, Hit>) {}\n\
+                    fn any_of_constants(ray: PreparedRay, t_max: f32) -> bool { return false; }\n";
     Switches {
         enabled: wanted,
         constants: constants.into_iter().map(|name| (name, 7)).collect(),
-        generated: [("geometry/unrolled.wgsl", unrolled.to_owned())].into(),
+        generated: [("geometry/constants.wgsl", geometry.to_owned())].into(),
     }
 }
 
@@ -115,7 +118,7 @@ fn layouts_match_between_wgsl_and_rust() {
     use std::mem::offset_of;
 
     let mut wanted: BTreeSet<&'static str> = ALL.iter().copied().collect();
-    wanted.remove("ONLY_TRIANGLES");
+    wanted.remove("ONLY_TRIANGLES_IN_HIERARCHY");
     let composed = compose("stages/shade.wgsl", &shippable(wanted)).unwrap();
     let (module, _) = composed.validate().unwrap();
     let members = |name: &str| {
@@ -163,7 +166,7 @@ fn packed_records_are_the_words_that_shaders_count() {
 #[test]
 fn no_stage_needs_more_storage_buffers_than_webgpu_promises() {
     let mut wanted: BTreeSet<&'static str> = ALL.iter().copied().collect();
-    for absent in ["ONLY_TRIANGLES", "UNIFORM_SCENE", "FILM_TEXTURE"] {
+    for absent in ["ONLY_TRIANGLES_IN_HIERARCHY", "UNIFORM_SCENE", "FILM_TEXTURE"] {
         wanted.remove(absent);
     }
     for (file, entry) in STAGES {

@@ -3,6 +3,7 @@
 //   (first inner child; first primitive (24 bits) and leaf sizes less one (2 bits each); low x of 4 children; low y)
 //   (low z; high x; high y; high z)
 #import geometry/stored.wgsl
+#import geometry/constants.wgsl
 
 const LEAF: u32 = 0x80000000u;
 
@@ -13,26 +14,56 @@ struct NodeHits {
     entry: vec4<u32>,
 }
 
+// The bytes go through i32: software drivers convert signed integers in one instruction, unsigned ones in seven.
 fn unpack_bytes(word: u32) -> vec4<f32> {
-    return vec4<f32>((vec4<u32>(word) >> vec4<u32>(0u, 8u, 16u, 24u)) & vec4<u32>(255u));
+    return vec4<f32>(vec4<i32>((vec4<u32>(word) >> vec4<u32>(0u, 8u, 16u, 24u)) & vec4<u32>(255u)));
+}
+
+// Without the care for NaN that min and max take: there is none here, because reciprocals are finite.
+fn smaller(a: vec4<f32>, b: vec4<f32>) -> vec4<f32> {
+    return select(a, b, b < a);
+}
+
+fn larger(a: vec4<f32>, b: vec4<f32>) -> vec4<f32> {
+    return select(a, b, b > a);
 }
 
 fn intersect_node(node: u32, origin: vec3<f32>, inverse_direction: vec3<f32>, t_max: f32) -> NodeHits {
+#if TOP_IN_UNIFORM
+    var n0: vec4<u32>;
+    var n1: vec4<u32>;
+    var n2: vec4<u32>;
+    if node < TOP_NODES {
+        n0 = top_nodes[node * 3u];
+        n1 = top_nodes[node * 3u + 1u];
+        n2 = top_nodes[node * 3u + 2u];
+    } else {
+        n0 = nodes[node * 3u];
+        n1 = nodes[node * 3u + 1u];
+        n2 = nodes[node * 3u + 2u];
+    }
+#else
     let n0 = nodes[node * 3u];
     let n1 = nodes[node * 3u + 1u];
     let n2 = nodes[node * 3u + 2u];
+#endif
     let exponents = vec3<u32>(n0.w, n0.w >> 8u, n0.w >> 16u) & vec3<u32>(255u);
     let scale = bitcast<vec3<f32>>(exponents << vec3<u32>(23u)) * inverse_direction;
     let offset = (bitcast<vec3<f32>>(n0.xyz) - origin) * inverse_direction;
 
-    let low_x = unpack_bytes(n1.z) * scale.x + offset.x;
-    let low_y = unpack_bytes(n1.w) * scale.y + offset.y;
-    let low_z = unpack_bytes(n2.x) * scale.z + offset.z;
-    let high_x = unpack_bytes(n2.y) * scale.x + offset.x;
-    let high_y = unpack_bytes(n2.z) * scale.y + offset.y;
-    let high_z = unpack_bytes(n2.w) * scale.z + offset.z;
-    let near = max(max(min(low_x, high_x), min(low_y, high_y)), max(min(low_z, high_z), vec4<f32>(0.0)));
-    let far = min(min(max(low_x, high_x), max(low_y, high_y)), min(max(low_z, high_z), vec4<f32>(t_max)));
+    // The ray's direction says which planes it meets first, for all four children at once.
+    let backward = inverse_direction < vec3<f32>(0.0);
+    let low = vec3<u32>(n1.z, n1.w, n2.x);
+    let near_words = select(low, n2.yzw, backward);
+    let far_words = select(n2.yzw, low, backward);
+    let near = larger(
+        larger(unpack_bytes(near_words.x) * scale.x + offset.x, unpack_bytes(near_words.y) * scale.y + offset.y),
+        larger(unpack_bytes(near_words.z) * scale.z + offset.z, vec4<f32>(0.0))
+    );
+    let far = smaller(
+        smaller(unpack_bytes(far_words.x) * scale.x + offset.x, unpack_bytes(far_words.y) * scale.y + offset.y),
+        smaller(unpack_bytes(far_words.z) * scale.z + offset.z, vec4<f32>(t_max))
+    );
 
     let flags = n0.w >> 24u;
     let child_bit = vec4<u32>(1u, 2u, 4u, 8u);
@@ -61,11 +92,7 @@ fn closest_hit(traced: Ray, t_max: f32) -> Hit {
     let ray = prepare_ray(traced);
     let inverse_direction = safe_inverse(traced.direction);
     var hit = Hit(t_max, NONE, 0.0, 0.0);
-#if PLANES
-    for (var plane = FIRST_PLANE; plane < PRIMITIVE_COUNT; plane++) {
-        intersect_stored(ray, plane, &hit);
-    }
-#endif
+    closest_of_constants(ray, &hit);
     var stack: array<u32, STACK_SIZE>;
     var depth = 0u;
     var current = 0u;
@@ -106,13 +133,11 @@ fn closest_hit(traced: Ray, t_max: f32) -> Hit {
 // Whether anything lies between the origin and t_max. Stops at the first primitive found.
 fn occluded(traced: Ray, t_max: f32) -> bool {
     let ray = prepare_ray(traced);
+    if any_of_constants(ray, t_max) {
+        return true;
+    }
     let inverse_direction = safe_inverse(traced.direction);
     var hit = Hit(t_max, NONE, 0.0, 0.0);
-#if PLANES
-    for (var plane = FIRST_PLANE; plane < PRIMITIVE_COUNT; plane++) {
-        intersect_stored(ray, plane, &hit);
-    }
-#endif
     var stack: array<u32, STACK_SIZE>;
     var depth = 0u;
     var current = 0u;

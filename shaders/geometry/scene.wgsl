@@ -12,6 +12,10 @@
 #endif
 #if BVH
 @group(0) @binding(6) var<storage, read> nodes: array<vec4<u32>>;
+#if TOP_IN_UNIFORM
+// The first nodes once more, where rays spend most of their steps and a uniform buffer's words cost less.
+@group(0) @binding(17) var<uniform> top_nodes: array<vec4<u32>, TOP_WORDS>;
+#endif
 #endif
 #if ATTRIBUTES
 // Normals and texture coordinates of triangles, four vec4 each:

@@ -1,4 +1,4 @@
-// A ray against primitive `index` of the arrays.
+// A ray against primitive `index` of the hierarchy. Kinds that it does not hold are left out; planes never are in it.
 #import geometry/primitives.wgsl
 #import geometry/scene.wgsl
 
@@ -9,33 +9,28 @@ fn intersect_stored(ray: PreparedRay, index: u32, hit: ptr<function, Hit>) {
     let p2 = primitives[index * 3u + 2u];
     var found = vec3<f32>(-1.0, 0.0, 0.0);
     let t_max = (*hit).t;
-#if ONLY_TRIANGLES
+#if ONLY_TRIANGLES_IN_HIERARCHY
     found = intersect_triangle(ray, t_max, p0.xyz, p1.xyz, p2.xyz);
 #else
     switch primitive_kind(p0.w) {
-#if TRIANGLES
+#if TRIANGLES_IN_HIERARCHY
         case KIND_TRIANGLE: {
             found = intersect_triangle(ray, t_max, p0.xyz, p1.xyz, p2.xyz);
         }
 #endif
-#if QUADS
+#if QUADS_IN_HIERARCHY
         case KIND_QUAD: {
             found = intersect_quad(ray, t_max, p0.xyz, p1.xyz, p2.xyz);
         }
 #endif
-#if SPHERES
+#if SPHERES_IN_HIERARCHY
         case KIND_SPHERE: {
             found.x = intersect_sphere(ray, t_max, p0.xyz, p1.x);
         }
 #endif
-#if DISKS
-        case KIND_DISK: {
-            found.x = intersect_disk(ray, t_max, p0.xyz, p1.xyz, p2.x);
-        }
-#endif
         default: {
-#if PLANES
-            found.x = intersect_plane(ray, t_max, p0.xyz, p1.xyz);
+#if DISKS_IN_HIERARCHY
+            found.x = intersect_disk(ray, t_max, p0.xyz, p1.xyz, p2.x);
 #endif
         }
     }

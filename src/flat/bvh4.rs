@@ -3,17 +3,23 @@
 //! What a traversal step costs on software Vulkan is the number of words it loads, so four children's boxes are quantised to bytes
 //! on a grid of the node's own (as in Ylitie, Karras and Laine 2017). Boxes only ever grow.
 
-use glam::{DVec3, Vec3};
+use std::collections::VecDeque;
+
+use glam::Vec3;
 use obvhs::bvh2::{Bvh2, builder::build_bvh2};
 use obvhs::{Boundable, BvhBuildParams, aabb::Aabb};
 
-use super::primitive::WorldPrimitive;
+use super::primitive::{PrimitiveKind, WorldPrimitive};
 use super::validate::FlatError;
 
 /// Leaves hold at most this many primitives: their size takes two bits.
 const MAX_LEAF: u32 = 4;
 /// First primitive of a node's leaves: 24 bits.
 pub const MAX_PRIMITIVES: usize = 1 << 24;
+/// Shapes other than triangles that stay outside of the hierarchy, at most.
+const MAX_OUTSIDE: usize = 16;
+/// Planes are code, one by one.
+const MAX_PLANES: usize = 256;
 /// Grid lines of a node. One is kept free at either end as a margin, so that rounding never cuts a box.
 const GRID: f64 = 253.0;
 
@@ -34,7 +40,7 @@ pub struct Node {
     pub high: [u32; 3],
 }
 
-/// The hierarchy over all primitives but planes.
+/// The hierarchy, and how many primitives it holds.
 #[derive(Debug, Clone, Default)]
 pub struct Bvh4 {
     /// Node 0 is the root. It has no children where there is nothing to bound.
@@ -62,27 +68,41 @@ struct Child {
 }
 
 impl Bvh4 {
-    /// Builds the hierarchy. The second value is the order in which primitives have to stand.
+    /// Builds the hierarchy. The second value is the order in which primitives have to stand: the leaves' first, then those that it
+    /// does not hold, which kernels test one by one: planes, which nothing bounds, and other shapes where they are few, so that a
+    /// model on a ground under a lamp needs a hierarchy of triangles alone.
+    ///
+    /// # Errors
+    /// [`FlatError`] for more primitives or planes than can be held.
     pub fn build(primitives: &[WorldPrimitive]) -> Result<(Self, Vec<usize>), FlatError> {
-        let (indices, bounds): (Vec<usize>, Vec<Bounds>) = primitives
+        let is_triangle = |primitive: &WorldPrimitive| primitive.kind() == PrimitiveKind::Triangle;
+        let others = primitives.iter().filter(|primitive| !is_triangle(primitive)).count();
+        let few_others = others <= MAX_OUTSIDE && others < primitives.len();
+        let (inside, outside): (Vec<usize>, Vec<usize>) = (0..primitives.len()).partition(|&index| {
+            let primitive = &primitives[index];
+            is_triangle(primitive) || !(few_others || primitive.is_plane())
+        });
+        if outside.len() > MAX_PLANES {
+            return Err(FlatError::TooManyPlanes { found: outside.len(), limit: MAX_PLANES });
+        }
+        let bounds: Vec<Bounds> = inside
             .iter()
-            .enumerate()
-            .filter_map(|(index, primitive)| primitive.bounds().map(|b| (index, b)))
-            .map(|(index, (low, high))| (index, Bounds(Aabb::new(low.into(), high.into()))))
-            .unzip();
+            .filter_map(|&index| primitives[index].bounds())
+            .map(|(low, high)| Bounds(Aabb::new(low.into(), high.into())))
+            .collect();
         if bounds.len() > MAX_PRIMITIVES {
             return Err(FlatError::TooManyPrimitives { found: bounds.len(), limit: MAX_PRIMITIVES });
         }
         let mut bvh = Self { nodes: vec![Node::default()], stack_size: 1, primitive_count: bounds.len() as u32 };
         if bounds.is_empty() {
-            return Ok((bvh, Vec::new()));
+            return Ok((bvh, outside));
         }
         let parameters =
             BvhBuildParams { max_prims_per_leaf: MAX_LEAF, collapse_traversal_cost: 1.0, ..BvhBuildParams::medium_build() };
         let binary = build_bvh2(&bounds, parameters, &mut std::time::Duration::default());
         let mut collapse = Collapse { binary: &binary, nodes: &mut bvh.nodes, order: Vec::with_capacity(bounds.len()) };
         collapse.root();
-        let order = collapse.order.into_iter().map(|index| indices[index]).collect();
+        let order = collapse.order.into_iter().map(|index| inside[index]).chain(outside).collect();
         bvh.stack_size = bvh.deepest_stack();
         Ok((bvh, order))
     }
@@ -136,8 +156,10 @@ impl Collapse<'_> {
 
     fn root(&mut self) {
         let root = &self.binary.nodes[0];
-        let mut pending = vec![(0_usize, if root.is_leaf() { vec![self.child(0)] } else { self.widen(0) })];
-        while let Some((slot, children)) = pending.pop() {
+        // First in, first out: nodes stand level by level, so that the first ones are those that rays visit most.
+        let children = if root.is_leaf() { vec![self.child(0)] } else { self.widen(0) };
+        let mut pending = VecDeque::from([(0_usize, children)]);
+        while let Some((slot, children)) = pending.pop_front() {
             let first_child = self.nodes.len() as u32;
             let first_primitive = self.order.len() as u32;
             let mut node = quantise(&children);
@@ -153,7 +175,7 @@ impl Collapse<'_> {
                     node.first_primitive_and_sizes |= (binary.prim_count - 1) << (24 + 2 * place);
                 } else {
                     node.exponents_and_flags |= 1 << (24 + place);
-                    pending.push((self.nodes.len(), self.widen(child.node)));
+                    pending.push_back((self.nodes.len(), self.widen(child.node)));
                     self.nodes.push(Node::default());
                 }
             }
@@ -192,7 +214,7 @@ fn quantise(children: &[Child]) -> Node {
         node.origin[axis] = origin.to_bits();
         node.exponents_and_flags |= ((exponent as i32 + 127) as u32) << (8 * axis);
         for (place, child) in children.iter().enumerate() {
-            let line = |x: f32| (DVec3::splat(f64::from(x)).x - f64::from(origin)) / spacing;
+            let line = |x: f32| (f64::from(x) - f64::from(origin)) / spacing;
             let below = (line(child.low[axis]) - 0.01).floor().clamp(0.0, 255.0) as u32;
             let above = (line(child.high[axis]) + 0.01).ceil().clamp(0.0, 255.0) as u32;
             node.low[axis] |= below << (8 * place);

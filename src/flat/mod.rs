@@ -1,7 +1,7 @@
 //! The scene as packed arrays for the device: pure data, built and checked without a GPU.
 //!
 //! Orders matter. Lights stand in the order in which the scene names them, so that a random choice picks the same light on the CPU;
-//! primitives stand in the order of the hierarchy's leaves, infinite planes behind them.
+//! primitives stand in the order of the hierarchy's leaves, those outside of it behind them.
 
 pub mod bvh4;
 pub mod light;
@@ -26,10 +26,8 @@ pub const NONE: u32 = u32::MAX;
 /// A scene ready for upload.
 #[derive(Debug, Clone, Default)]
 pub struct FlatScene {
-    /// In leaf order; the planes, which no hierarchy can bound, are last.
+    /// In leaf order; behind them those that the hierarchy does not hold.
     pub primitives: Vec<Primitive>,
-    /// Index of the first plane in `primitives`.
-    pub first_plane: u32,
     pub attributes: Vec<TriangleAttributes>,
     pub bvh: Bvh4,
     pub materials: Vec<FlatMaterial>,
@@ -63,12 +61,9 @@ impl FlatScene {
         let mut world = world::collect(scene);
         let lights = light::collect(scene, &mut world.primitives);
         let (bvh, order) = Bvh4::build(&world.primitives)?;
-        let planes = world.primitives.iter().enumerate().filter(|(_, p)| p.is_plane()).map(|(index, _)| index);
-        let order: Vec<usize> = order.into_iter().chain(planes).collect();
         let primitives: Vec<Primitive> = order.iter().map(|&index| world.primitives[index].pack()).collect();
         let (textures, texels) = tables::pack_textures(scene)?;
         let flat = Self {
-            first_plane: bvh.primitive_count,
             primitives,
             attributes: world.attributes,
             bvh,

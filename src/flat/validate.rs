@@ -7,6 +7,8 @@ use super::{FlatScene, NONE};
 pub enum FlatError {
     #[error("the scene has {found} primitives; the hierarchy can number {limit}")]
     TooManyPrimitives { found: usize, limit: usize },
+    #[error("the scene has {found} infinite planes; {limit} are possible")]
+    TooManyPlanes { found: usize, limit: usize },
     #[error("the scene's textures have {found} texels, more than can be numbered")]
     TooManyTexels { found: usize },
     #[error("not supported on the device: {what}")]

@@ -34,6 +34,7 @@ pub mod binding {
     pub const STATISTICS: u32 = 14;
     pub const FILM_SUM: u32 = 15;
     pub const FILM_COMPENSATION: u32 = 16;
+    pub const TOP_NODES: u32 = 17;
 }
 
 /// One of the two halves of the film.
@@ -68,6 +69,10 @@ impl Buffers {
         upload(binding::EDGE, "edges", &edge_parameters(1), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
         if plan.geometry == GeometryPlacement::Hierarchy {
             upload(binding::NODES, "hierarchy", bytemuck::cast_slice(&flat.bvh.nodes), BufferUsages::STORAGE);
+            if plan.top_nodes > 0 {
+                let top = &flat.bvh.nodes[..plan.top_nodes as usize];
+                upload(binding::TOP_NODES, "top of the hierarchy", bytemuck::cast_slice(top), BufferUsages::UNIFORM);
+            }
         }
         if crate::plan::has_attributes(flat) {
             upload(binding::ATTRIBUTES, "attributes", bytemuck::cast_slice(&flat.attributes), BufferUsages::STORAGE);

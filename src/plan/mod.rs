@@ -67,6 +67,8 @@ pub struct Plan {
     pub geometry: GeometryPlacement,
     /// Primitives and tables are small enough for uniform buffers, whose loads cost less.
     pub uniform_scene: bool,
+    /// Nodes at the top of the hierarchy that also stand in a uniform buffer.
+    pub top_nodes: u32,
     pub stages: StageMode,
     pub film: FilmStorage,
     /// Paths in flight at most.
@@ -89,9 +91,10 @@ impl Plan {
         } else {
             GeometryPlacement::Hierarchy
         });
+        // Software devices move words one by one: there, state kept in registers beats queues whatever the geometry.
         let stages = options.stages.unwrap_or(match geometry {
-            GeometryPlacement::Unrolled => StageMode::Fused,
-            GeometryPlacement::Hierarchy => StageMode::Wavefront,
+            GeometryPlacement::Hierarchy if !limits.software => StageMode::Wavefront,
+            _ => StageMode::Fused,
         });
         let width = scene.film.size[0];
         let film = options.film.unwrap_or(if limits.read_write_rgba32float && width <= limits.max_texture_side {
@@ -102,11 +105,18 @@ impl Plan {
         let (tables, ..) = flat.tables();
         let uniform_limit = u64::from(limits.max_uniform_binding);
         let uniform_scene = 48 * flat.primitives.len() as u64 <= uniform_limit && 16 * tables.len() as u64 <= uniform_limit;
+        // Real GPUs serialise divergent reads of uniform buffers; software ones read them faster than storage.
+        let top_nodes = if limits.software && geometry == GeometryPlacement::Hierarchy {
+            (flat.bvh.nodes.len() as u32).min(limits.max_uniform_binding / 48)
+        } else {
+            0
+        };
         let path_capacity = options.path_capacity.unwrap_or_else(|| limits.path_capacity());
         let band_rows = limits.band_rows(scene.film.size, film);
         let mut plan = Self {
             geometry,
             uniform_scene,
+            top_nodes,
             stages,
             film,
             path_capacity,
@@ -116,9 +126,11 @@ impl Plan {
             checked_shaders: options.checked_shaders,
         };
         plan.switches = switches::choose(scene, flat, &plan);
-        if geometry == GeometryPlacement::Unrolled {
-            plan.switches.generated.insert("geometry/unrolled.wgsl", unroll::closest_hit(flat));
-        }
+        let first_constant = match geometry {
+            GeometryPlacement::Unrolled => 0,
+            GeometryPlacement::Hierarchy => flat.bvh.primitive_count as usize,
+        };
+        plan.switches.generated.insert("geometry/constants.wgsl", unroll::constants(flat, first_constant));
         plan.memory = Memory::new(flat, &plan, width);
         plan.memory.check(limits)?;
         Ok(plan)
@@ -154,9 +166,12 @@ impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let geometry = match self.geometry {
             GeometryPlacement::Unrolled => "written into the kernels as constants",
-            GeometryPlacement::Hierarchy => "four-wide hierarchy with 8-bit boxes in storage buffers",
+            GeometryPlacement::Hierarchy => "triangles in a four-wide hierarchy with 8-bit boxes; few other shapes as constants",
         };
         writeln!(f, "geometry       {geometry}")?;
+        if self.top_nodes > 0 {
+            writeln!(f, "               its first {} nodes in a uniform buffer", self.top_nodes)?;
+        }
         let arrays = if self.uniform_scene { "uniform buffers" } else { "storage buffers" };
         writeln!(f, "scene arrays   {arrays}")?;
         let stages: Vec<&str> = self.stage_files().iter().map(|(_, entry)| *entry).collect();

@@ -3,7 +3,7 @@
 use super::{FilmStorage, GeometryPlacement, MAX_SAMPLES_PER_PASS, Plan, has_attributes};
 use crate::flat::FlatScene;
 use crate::flat::light::LightKind;
-use crate::flat::primitive::PrimitiveKind;
+use crate::flat::primitive::{Primitive, PrimitiveKind};
 use crate::flat::tables::FlatMaterialKind;
 use crate::sampling::halton::HALTON_DIMENSIONS;
 use crate::scene::{Estimator, MisHeuristic, SamplerKind, Scene};
@@ -13,7 +13,7 @@ use crate::shader::Switches;
 pub const ALL: &[&str] = &[
     "ATTRIBUTES",
     "BVH",
-    "DISKS",
+    "DISKS_IN_HIERARCHY",
     "EMISSION",
     "ENVIRONMENT",
     "ENVIRONMENT_LIGHT",
@@ -27,16 +27,17 @@ pub const ALL: &[&str] = &[
     "LIGHTS",
     "MIRROR",
     "ONE_LIGHT",
-    "ONLY_TRIANGLES",
-    "PLANES",
+    "ONLY_TRIANGLES_IN_HIERARCHY",
     "POINT_LIGHTS",
-    "QUADS",
+    "QUADS_IN_HIERARCHY",
     "ROULETTE",
     "SAMPLER_HALTON",
     "SPHERES",
+    "SPHERES_IN_HIERARCHY",
     "SPHERE_LIGHTS",
     "TEXTURES",
-    "TRIANGLES",
+    "TOP_IN_UNIFORM",
+    "TRIANGLES_IN_HIERARCHY",
     "UNIFORM_SCENE",
 ];
 
@@ -47,18 +48,21 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     let mut switches = Switches::default();
     let render = &scene.render;
 
-    let has_kind = |kind: PrimitiveKind| flat.primitives.iter().any(|primitive| primitive.kind() == kind as u32);
-    let [triangles, quads, spheres, disks, planes] =
-        [PrimitiveKind::Triangle, PrimitiveKind::Quad, PrimitiveKind::Sphere, PrimitiveKind::Disk, PrimitiveKind::Plane]
-            .map(has_kind);
-    switches.enable("TRIANGLES", triangles);
-    switches.enable("QUADS", quads);
-    switches.enable("SPHERES", spheres);
-    switches.enable("DISKS", disks);
-    switches.enable("PLANES", planes);
-    switches.enable("FLAT_ROUND", disks || planes);
-    switches.enable("ONLY_TRIANGLES", triangles && !(quads || spheres || disks || planes));
+    let has = |primitives: &[Primitive], kind: PrimitiveKind| primitives.iter().any(|primitive| primitive.kind() == kind as u32);
+    let (in_hierarchy, _) = flat.primitives.split_at(flat.bvh.primitive_count as usize);
+    let [triangles, quads, spheres, disks] =
+        [PrimitiveKind::Triangle, PrimitiveKind::Quad, PrimitiveKind::Sphere, PrimitiveKind::Disk]
+            .map(|kind| has(in_hierarchy, kind));
+    switches.enable("TRIANGLES_IN_HIERARCHY", triangles);
+    switches.enable("QUADS_IN_HIERARCHY", quads);
+    switches.enable("SPHERES_IN_HIERARCHY", spheres);
+    switches.enable("DISKS_IN_HIERARCHY", disks);
+    switches.enable("ONLY_TRIANGLES_IN_HIERARCHY", triangles && !(quads || spheres || disks));
+    let has_kind = |kind: PrimitiveKind| has(&flat.primitives, kind);
+    switches.enable("SPHERES", has_kind(PrimitiveKind::Sphere));
+    switches.enable("FLAT_ROUND", has_kind(PrimitiveKind::Disk) || has_kind(PrimitiveKind::Plane));
     switches.enable("BVH", plan.geometry == GeometryPlacement::Hierarchy);
+    switches.enable("TOP_IN_UNIFORM", plan.top_nodes > 0);
     switches.enable("UNIFORM_SCENE", plan.uniform_scene);
     switches.enable("ATTRIBUTES", has_attributes(flat));
     switches.enable("TEXTURES", !flat.textures.is_empty());
@@ -88,7 +92,6 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     switches.constants.extend([
         ("FILM_WIDTH", scene.film.size[0]),
         ("FIRST_LIGHT_WORD", first_light),
-        ("FIRST_PLANE", flat.first_plane),
         ("FIRST_TEXTURE_WORD", first_texture),
         ("HALTON_BLOCKS", HALTON_BLOCKS),
         ("HALTON_POINTS", HALTON_BLOCKS * MAX_SAMPLES_PER_PASS),
@@ -96,10 +99,11 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
         // Depth 0 means no limit: an edge that is never reached.
         ("MAX_DEPTH", if render.max_depth == 0 { u32::MAX } else { render.max_depth }),
         ("PATH_CAPACITY", plan.path_capacity),
-        ("PRIMITIVE_COUNT", flat.primitives.len() as u32),
         ("PRIMITIVE_WORDS", (3 * flat.primitives.len() as u32).max(1)),
         ("ROULETTE_DEPTH", render.roulette_depth),
         ("STACK_SIZE", flat.bvh.stack_size),
+        ("TOP_NODES", plan.top_nodes),
+        ("TOP_WORDS", (3 * plan.top_nodes).max(1)),
         ("TABLE_WORDS", (tables.len() as u32).max(1)),
     ]);
     switches

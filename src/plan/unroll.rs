@@ -10,39 +10,33 @@ use glam::{DVec3, Vec3};
 use crate::flat::FlatScene;
 use crate::flat::primitive::{Primitive, PrimitiveKind};
 
-/// WGSL with `closest_hit` and `occluded` for exactly these primitives.
-pub fn closest_hit(flat: &FlatScene) -> String {
+/// WGSL with `closest_of_constants` and `any_of_constants` for the primitives from `first` on.
+pub fn constants(flat: &FlatScene, first: usize) -> String {
     let mut closest = String::new();
     let mut any = String::new();
-    for (index, primitive) in flat.primitives.iter().enumerate() {
-        let test = test(primitive);
+    for (index, primitive) in flat.primitives.iter().enumerate().skip(first) {
+        let test = test_for(primitive, "best.t");
         // Selects instead of branches: every lane runs every test anyway.
         let _ = writeln!(
             closest,
-            "    {{ let f = {test}; let met = f.x > 0.0; hit.t = select(hit.t, f.x, met); \
-             hit.primitive = select(hit.primitive, {index}u, met); hit.u = select(hit.u, f.y, met); \
-             hit.v = select(hit.v, f.z, met); }}"
+            "    {{ let f = {test}; let met = f.x > 0.0; best.t = select(best.t, f.x, met); \
+             best.primitive = select(best.primitive, {index}u, met); best.u = select(best.u, f.y, met); \
+             best.v = select(best.v, f.z, met); }}"
         );
-        let any_test = test_for(primitive, "t_max");
-        let _ = writeln!(any, "    blocked = blocked || ({any_test}).x > 0.0;");
+        let _ = writeln!(any, "    blocked = blocked || ({}).x > 0.0;", test_for(primitive, "t_max"));
     }
     format!(
         "#import geometry/primitives.wgsl\n#import geometry/scene.wgsl\n\n\
-         fn closest_hit(traced: Ray, t_max: f32) -> Hit {{\n    let ray = prepare_ray(traced);\n    \
-         var hit = Hit(t_max, NONE, 0.0, 0.0);\n{closest}    return hit;\n}}\n\n\
-         fn occluded(traced: Ray, t_max: f32) -> bool {{\n    let ray = prepare_ray(traced);\n    \
+         fn closest_of_constants(ray: PreparedRay, hit: ptr<function, Hit>) {{\n    \
+         var best = *hit;\n{closest}    *hit = best;\n}}\n\n\
+         fn any_of_constants(ray: PreparedRay, t_max: f32) -> bool {{\n    \
          var blocked = false;\n{any}    return blocked;\n}}\n"
     )
-}
-
-fn test(primitive: &Primitive) -> String {
-    test_for(primitive, "hit.t")
 }
 
 /// An expression of type vec3<f32>: (t or -1, u, v).
 fn test_for(primitive: &Primitive, t_max: &str) -> String {
     let [p0, p1, p2] = [primitive.p0, primitive.p1, primitive.p2].map(Vec3::from);
-    let radius = |x: f32| literal(x);
     let kind = primitive.kind();
     if kind == PrimitiveKind::Triangle as u32 {
         format!("intersect_triangle(ray, {t_max}, {}, {}, {})", vector(p0), vector(p1), vector(p2))
@@ -54,9 +48,9 @@ fn test_for(primitive: &Primitive, t_max: &str) -> String {
             [normal / squared.sqrt(), edge_v.cross(normal) / squared, normal.cross(edge_u) / squared].map(DVec3::as_vec3);
         format!("intersect_quad_constant(ray, {t_max}, {}, {}, {}, {})", vector(p0), vector(unit), vector(dual_u), vector(dual_v))
     } else if kind == PrimitiveKind::Sphere as u32 {
-        format!("vec3<f32>(intersect_sphere(ray, {t_max}, {}, {}), 0.0, 0.0)", vector(p0), radius(p1.x))
+        format!("vec3<f32>(intersect_sphere(ray, {t_max}, {}, {}), 0.0, 0.0)", vector(p0), literal(p1.x))
     } else if kind == PrimitiveKind::Disk as u32 {
-        format!("vec3<f32>(intersect_disk(ray, {t_max}, {}, {}, {}), 0.0, 0.0)", vector(p0), vector(p1), radius(p2.x))
+        format!("vec3<f32>(intersect_disk(ray, {t_max}, {}, {}, {}), 0.0, 0.0)", vector(p0), vector(p1), literal(p2.x))
     } else {
         format!("vec3<f32>(intersect_plane(ray, {t_max}, {}, {}), 0.0, 0.0)", vector(p0), vector(p1))
     }

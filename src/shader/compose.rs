@@ -75,6 +75,12 @@ pub fn compose(root: &'static str, switches: &Switches) -> Result<ComposedShader
     Ok(composer.out)
 }
 
+/// The embedded text, or that of the same file in the folder that `GPT_SHADERS` names: for work on kernels without compiling Rust.
+fn current_text(name: &str, embedded: &str) -> String {
+    let folder = std::env::var_os("GPT_SHADERS").map(std::path::PathBuf::from);
+    folder.and_then(|folder| std::fs::read_to_string(folder.join(name)).ok()).unwrap_or_else(|| embedded.to_owned())
+}
+
 struct Composer<'a> {
     switches: &'a Switches,
     included: BTreeSet<&'static str>,
@@ -90,7 +96,7 @@ impl Composer<'_> {
     fn find(&self, name: &str) -> Option<(&'static str, String)> {
         let generated = self.switches.generated.get_key_value(name).map(|(name, text)| (*name, text.clone()));
         generated.or_else(|| {
-            super::sources::FILES.iter().find(|(file, _)| *file == name).map(|(name, text)| (*name, (*text).to_owned()))
+            super::sources::FILES.iter().find(|(file, _)| *file == name).map(|(name, text)| (*name, current_text(name, text)))
         })
     }
 

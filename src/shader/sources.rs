@@ -17,6 +17,7 @@ shader_files![
     "geometry/primitives.wgsl",
     "geometry/scene.wgsl",
     "geometry/stored.wgsl",
+    "geometry/unrolled.wgsl",
     "shading/bsdf.wgsl",
     "shading/light.wgsl",
     "shading/mis.wgsl",
