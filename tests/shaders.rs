@@ -58,6 +58,7 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
         "MAX_DEPTH",
         "PATH_CAPACITY",
         "PRIMITIVE_WORDS",
+        "RAYS_PER_INVOCATION",
         "ROULETTE_DEPTH",
         "STACK_SIZE",
         "TABLE_WORDS",

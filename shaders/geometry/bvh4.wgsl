@@ -88,79 +88,128 @@ fn safe_inverse(direction: vec3<f32>) -> vec3<f32> {
     return 1.0 / select(direction, signed_tiny, abs(direction) < tiny);
 }
 
-fn closest_hit(traced: Ray, t_max: f32) -> Hit {
-    let ray = prepare_ray(traced);
-    let inverse_direction = safe_inverse(traced.direction);
-    var hit = Hit(t_max, NONE, 0.0, 0.0);
-    closest_of_constants(ray, &hit);
-    var stack: array<u32, STACK_SIZE>;
-    var depth = 0u;
-    var current = 0u;
-    loop {
-        if (current & LEAF) != 0u {
-            let first = current & 0x00ffffffu;
-            let end = first + ((current >> 24u) & 3u) + 1u;
-            for (var index = first; index < end; index++) {
-                intersect_stored(ray, index, &hit);
-            }
-        } else {
-            let children = intersect_node(current, traced.origin, inverse_direction, hit.t);
-            // Sorted by distance with a network of five exchanges; the nearest is visited next, the others wait, farthest deepest.
-            var t = children.t;
-            var e = children.entry;
-            if t.y < t.x { t = t.yxzw; e = e.yxzw; }
-            if t.w < t.z { t = t.xywz; e = e.xywz; }
-            if t.z < t.x { t = t.zyxw; e = e.zyxw; }
-            if t.w < t.y { t = t.xwzy; e = e.xwzy; }
-            if t.z < t.y { t = t.xzyw; e = e.xzyw; }
-            if t.x < INFINITY_DISTANCE {
-                if t.w < INFINITY_DISTANCE { stack[depth] = e.w; depth++; }
-                if t.z < INFINITY_DISTANCE { stack[depth] = e.z; depth++; }
-                if t.y < INFINITY_DISTANCE { stack[depth] = e.y; depth++; }
-                current = e.x;
-                continue;
-            }
-        }
-        if depth == 0u {
-            break;
-        }
-        depth--;
-        current = stack[depth];
-    }
-    return hit;
+// A ray on its way through the hierarchy. Its stack is a variable beside it, because arrays in structs are copied.
+struct Traversal {
+    ray: PreparedRay,
+    inverse_direction: vec3<f32>,
+    hit: Hit,
+    // The entry to visit next, and how many wait on the stack.
+    current: u32,
+    depth: u32,
 }
 
-// Whether anything lies between the origin and t_max. Stops at the first primitive found.
-fn occluded(traced: Ray, t_max: f32) -> bool {
-    let ray = prepare_ray(traced);
-    if any_of_constants(ray, t_max) {
-        return true;
+// Nothing is left to visit. No leaf has this entry: its size would be above any.
+const FINISHED: u32 = 0xffffffffu;
+
+fn begin_traversal(traced: Ray, t_max: f32) -> Traversal {
+    return Traversal(prepare_ray(traced), safe_inverse(traced.direction), Hit(t_max, NONE, 0.0, 0.0), 0u, 0u);
+}
+
+fn visit_leaf(traversal: ptr<function, Traversal>) {
+    let first = (*traversal).current & 0x00ffffffu;
+    let end = first + (((*traversal).current >> 24u) & 3u) + 1u;
+    var hit = (*traversal).hit;
+    for (var index = first; index < end; index++) {
+        intersect_stored((*traversal).ray, index, &hit);
     }
-    let inverse_direction = safe_inverse(traced.direction);
-    var hit = Hit(t_max, NONE, 0.0, 0.0);
+    (*traversal).hit = hit;
+}
+
+fn pop(traversal: ptr<function, Traversal>, stack: ptr<function, array<u32, STACK_SIZE>>) {
+    if (*traversal).depth == 0u {
+        (*traversal).current = FINISHED;
+    } else {
+        (*traversal).depth--;
+        (*traversal).current = (*stack)[(*traversal).depth];
+    }
+}
+
+// Visits one node or leaf, nearest first.
+fn step_closest(traversal: ptr<function, Traversal>, stack: ptr<function, array<u32, STACK_SIZE>>) {
+    if ((*traversal).current & LEAF) != 0u {
+        visit_leaf(traversal);
+        pop(traversal, stack);
+        return;
+    }
+    let children = intersect_node(
+        (*traversal).current, (*traversal).ray.origin, (*traversal).inverse_direction, (*traversal).hit.t
+    );
+    // Sorted by distance with a network of five exchanges; the nearest is visited next, the others wait, farthest deepest.
+    var t = children.t;
+    var e = children.entry;
+    if t.y < t.x { t = t.yxzw; e = e.yxzw; }
+    if t.w < t.z { t = t.xywz; e = e.xywz; }
+    if t.z < t.x { t = t.zyxw; e = e.zyxw; }
+    if t.w < t.y { t = t.xwzy; e = e.xwzy; }
+    if t.z < t.y { t = t.xzyw; e = e.xzyw; }
+    if t.x < INFINITY_DISTANCE {
+        var depth = (*traversal).depth;
+        if t.w < INFINITY_DISTANCE { (*stack)[depth] = e.w; depth++; }
+        if t.z < INFINITY_DISTANCE { (*stack)[depth] = e.z; depth++; }
+        if t.y < INFINITY_DISTANCE { (*stack)[depth] = e.y; depth++; }
+        (*traversal).depth = depth;
+        (*traversal).current = e.x;
+    } else {
+        pop(traversal, stack);
+    }
+}
+
+// Visits one node or leaf in any order, and finishes at the first primitive met.
+fn step_any(traversal: ptr<function, Traversal>, stack: ptr<function, array<u32, STACK_SIZE>>) {
+    if ((*traversal).current & LEAF) != 0u {
+        visit_leaf(traversal);
+        if (*traversal).hit.primitive != NONE {
+            (*traversal).current = FINISHED;
+            return;
+        }
+    } else {
+        let children = intersect_node(
+            (*traversal).current, (*traversal).ray.origin, (*traversal).inverse_direction, (*traversal).hit.t
+        );
+        let t = children.t;
+        var depth = (*traversal).depth;
+        if t.x < INFINITY_DISTANCE { (*stack)[depth] = children.entry.x; depth++; }
+        if t.y < INFINITY_DISTANCE { (*stack)[depth] = children.entry.y; depth++; }
+        if t.z < INFINITY_DISTANCE { (*stack)[depth] = children.entry.z; depth++; }
+        if t.w < INFINITY_DISTANCE { (*stack)[depth] = children.entry.w; depth++; }
+        (*traversal).depth = depth;
+    }
+    pop(traversal, stack);
+}
+
+// The constants first: what they meet shortens the way through the hierarchy.
+fn begin_closest(traced: Ray, t_max: f32) -> Traversal {
+    var traversal = begin_traversal(traced, t_max);
+    var hit = traversal.hit;
+    closest_of_constants(traversal.ray, &hit);
+    traversal.hit = hit;
+    return traversal;
+}
+
+fn begin_any(traced: Ray, t_max: f32) -> Traversal {
+    var traversal = begin_traversal(traced, t_max);
+    if any_of_constants(traversal.ray, t_max) {
+        traversal.hit.primitive = 0u;
+        traversal.current = FINISHED;
+    }
+    return traversal;
+}
+
+fn closest_hit(traced: Ray, t_max: f32) -> Hit {
     var stack: array<u32, STACK_SIZE>;
-    var depth = 0u;
-    var current = 0u;
-    while hit.primitive == NONE {
-        if (current & LEAF) != 0u {
-            let first = current & 0x00ffffffu;
-            let end = first + ((current >> 24u) & 3u) + 1u;
-            for (var index = first; index < end; index++) {
-                intersect_stored(ray, index, &hit);
-            }
-        } else {
-            let children = intersect_node(current, traced.origin, inverse_direction, t_max);
-            let t = children.t;
-            if t.x < INFINITY_DISTANCE { stack[depth] = children.entry.x; depth++; }
-            if t.y < INFINITY_DISTANCE { stack[depth] = children.entry.y; depth++; }
-            if t.z < INFINITY_DISTANCE { stack[depth] = children.entry.z; depth++; }
-            if t.w < INFINITY_DISTANCE { stack[depth] = children.entry.w; depth++; }
-        }
-        if depth == 0u {
-            break;
-        }
-        depth--;
-        current = stack[depth];
+    var traversal = begin_closest(traced, t_max);
+    while traversal.current != FINISHED {
+        step_closest(&traversal, &stack);
     }
-    return hit.primitive != NONE;
+    return traversal.hit;
+}
+
+// Whether anything lies between the origin and t_max.
+fn occluded(traced: Ray, t_max: f32) -> bool {
+    var stack: array<u32, STACK_SIZE>;
+    var traversal = begin_any(traced, t_max);
+    while traversal.current != FINISHED {
+        step_any(&traversal, &stack);
+    }
+    return traversal.hit.primitive != NONE;
 }

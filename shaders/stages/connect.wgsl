@@ -4,17 +4,46 @@
 
 // Reads the shadow rays and their count. Adds to the radiance of the paths that see their light; a path has at most one shadow ray
 // at a time, so no two invocations touch the same radiance. Leaves everything else alone.
+// An invocation takes several rays, as in `extend`.
 @compute @workgroup_size(WORKGROUP)
-fn connect(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= atomicLoad(&counts[2u + edge_parameters.queue]) {
-        return;
+fn connect(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>) {
+    let count = atomicLoad(&counts[2u + edge_parameters.queue]);
+    let stride = workgroups.x * WORKGROUP;
+    var next = id.x;
+#if BVH
+    var stack: array<u32, STACK_SIZE>;
+    var traversal: Traversal;
+    traversal.current = FINISHED;
+    var place = NONE;
+    loop {
+        if traversal.current == FINISHED {
+            if place != NONE && traversal.hit.primitive == NONE {
+                add_light(place);
+            }
+            if next >= count {
+                break;
+            }
+            place = next;
+            next += stride;
+            let s0 = shadow_rays[SHADOW_ORIGIN + place];
+            traversal = begin_any(Ray(s0.xyz, shadow_rays[SHADOW_DIRECTION + place].xyz), s0.w);
+        }
+        if traversal.current != FINISHED {
+            step_any(&traversal, &stack);
+        }
     }
-    let s0 = shadow_rays[SHADOW_ORIGIN + id.x];
-    let s1 = shadow_rays[SHADOW_DIRECTION + id.x];
-    if occluded(Ray(s0.xyz, s1.xyz), s0.w) {
-        return;
+#else
+    for (; next < count; next += stride) {
+        let s0 = shadow_rays[SHADOW_ORIGIN + next];
+        if !occluded(Ray(s0.xyz, shadow_rays[SHADOW_DIRECTION + next].xyz), s0.w) {
+            add_light(next);
+        }
     }
-    let slot = bitcast<u32>(s1.w);
-    let gained = shadow_rays[SHADOW_RADIANCE + id.x].xyz;
+#endif
+}
+
+fn add_light(place: u32) {
+    let slot = bitcast<u32>(shadow_rays[SHADOW_DIRECTION + place].w);
+    let gained = shadow_rays[SHADOW_RADIANCE + place].xyz;
     path_state[PLANE_RADIANCE + slot] = vec4<f32>(path_state[PLANE_RADIANCE + slot].xyz + gained, 0.0);
 }

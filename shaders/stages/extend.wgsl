@@ -3,13 +3,40 @@
 #import stages/wavefront.wgsl
 
 // Reads the queue, its count and the paths' rays. Writes the paths' hits. Leaves everything else alone.
+// An invocation takes several rays, the next one as soon as the last is done: lanes do not wait for each other's longer ways.
 @compute @workgroup_size(WORKGROUP)
-fn extend(@builtin(global_invocation_id) id: vec3<u32>) {
+fn extend(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>) {
     let queue = edge_parameters.queue;
-    if id.x >= atomicLoad(&counts[queue]) {
-        return;
+    let count = atomicLoad(&counts[queue]);
+    let stride = workgroups.x * WORKGROUP;
+    var next = id.x;
+#if BVH
+    var stack: array<u32, STACK_SIZE>;
+    var traversal: Traversal;
+    traversal.current = FINISHED;
+    var slot = NONE;
+    loop {
+        if traversal.current == FINISHED {
+            if slot != NONE {
+                store_hit(slot, traversal.hit);
+            }
+            if next >= count {
+                break;
+            }
+            slot = queues[queue * PATH_CAPACITY + next];
+            next += stride;
+            traversal = begin_closest(load_ray(slot), INFINITY_DISTANCE);
+        }
+        step_closest(&traversal, &stack);
     }
-    let slot = queues[queue * PATH_CAPACITY + id.x];
-    let hit = closest_hit(load_ray(slot), INFINITY_DISTANCE);
+#else
+    for (; next < count; next += stride) {
+        let slot = queues[queue * PATH_CAPACITY + next];
+        store_hit(slot, closest_hit(load_ray(slot), INFINITY_DISTANCE));
+    }
+#endif
+}
+
+fn store_hit(slot: u32, hit: Hit) {
     path_state[PLANE_HIT + slot] = vec4<f32>(hit.t, bitcast<f32>(hit.primitive), hit.u, hit.v);
 }

@@ -2,9 +2,15 @@
 #import core/parameters.wgsl
 #import stages/wavefront.wgsl
 
-// Workgroups of the next extend and shade, then of connect: x, y, z each.
-@group(0) @binding(13) var<storage, read_write> dispatch_sizes: array<u32, 6>;
+// Workgroups of the next shade, of the next extend, and of connect: x, y, z each.
+@group(0) @binding(13) var<storage, read_write> dispatch_sizes: array<u32, 9>;
 #import stages/statistics.wgsl
+
+fn set_dispatch_size(first: u32, workgroups: u32) {
+    dispatch_sizes[first] = workgroups;
+    dispatch_sizes[first + 1u] = 1u;
+    dispatch_sizes[first + 2u] = 1u;
+}
 
 // One invocation. Reads the counts after `shade` of an edge. Writes dispatch_sizes, counts the rays about to be traced, and empties
 // the queue just read and the other edge's shadow rays.
@@ -13,12 +19,10 @@ fn prepare() {
     let queue = edge_parameters.queue;
     let living = atomicLoad(&counts[1u - queue]);
     let shadows = atomicLoad(&counts[2u + queue]);
-    dispatch_sizes[0] = (living + WORKGROUP - 1u) / WORKGROUP;
-    dispatch_sizes[1] = 1u;
-    dispatch_sizes[2] = 1u;
-    dispatch_sizes[3] = (shadows + WORKGROUP - 1u) / WORKGROUP;
-    dispatch_sizes[4] = 1u;
-    dispatch_sizes[5] = 1u;
+    let rays_per_workgroup = WORKGROUP * RAYS_PER_INVOCATION;
+    set_dispatch_size(0u, (living + WORKGROUP - 1u) / WORKGROUP);
+    set_dispatch_size(3u, (living + rays_per_workgroup - 1u) / rays_per_workgroup);
+    set_dispatch_size(6u, (shadows + rays_per_workgroup - 1u) / rays_per_workgroup);
     count_rays(living + shadows);
     atomicStore(&counts[queue], 0u);
     atomicStore(&counts[3u - queue], 0u);

@@ -95,7 +95,7 @@ impl Buffers {
             make(binding::PATH_STATE, "path state", paths * memory::PATH_STATE_BYTES, storage);
             make(binding::QUEUES, "queues", paths * memory::QUEUE_BYTES, storage);
             make(binding::COUNTS, "counts", 16, storage | BufferUsages::COPY_DST | BufferUsages::COPY_SRC);
-            make(binding::DISPATCH_SIZES, "dispatch sizes", 24, storage | BufferUsages::INDIRECT);
+            make(binding::DISPATCH_SIZES, "dispatch sizes", 36, storage | BufferUsages::INDIRECT);
             if plan.samples_lights() {
                 make(binding::SHADOW_RAYS, "shadow rays", paths * memory::SHADOW_RAY_BYTES, storage);
             }

@@ -179,20 +179,22 @@ impl GpuRenderer {
         let [extend, shade, prepare] = ["extend", "shade", "prepare"].map(|entry| self.kernel(entry).ok_or_else(missing));
         let (extend, shade, prepare) = (extend?, shade?, prepare?);
         let sizes = self.buffers.buffer(binding::DISPATCH_SIZES).ok_or_else(missing)?;
+        // The first edge's queue holds all paths of the pass; later sizes come from `prepare`: shade's, extend's, connect's.
+        let rays = 64 * self.plan.rays_per_invocation;
         for index in 0..edges {
-            for kernel in [extend, shade] {
+            for (kernel, size_offset, per_workgroup) in [(extend, 12, rays), (shade, 0, 64)] {
                 kernel.set(compute, index);
                 if first_edge + index == 1 {
-                    compute.dispatch_workgroups(paths.div_ceil(64), 1, 1);
+                    compute.dispatch_workgroups(paths.div_ceil(per_workgroup), 1, 1);
                 } else {
-                    compute.dispatch_workgroups_indirect(sizes, 0);
+                    compute.dispatch_workgroups_indirect(sizes, size_offset);
                 }
             }
             prepare.set(compute, index);
             compute.dispatch_workgroups(1, 1, 1);
             if let Some(connect) = self.kernel("connect") {
                 connect.set(compute, index);
-                compute.dispatch_workgroups_indirect(sizes, 12);
+                compute.dispatch_workgroups_indirect(sizes, 24);
             }
         }
         Ok(())

@@ -73,6 +73,8 @@ pub struct Plan {
     pub film: FilmStorage,
     /// Paths in flight at most.
     pub path_capacity: u32,
+    /// Rays that one invocation of extend or connect traces, one after the other.
+    pub rays_per_invocation: u32,
     /// Rows of a band at most.
     pub band_rows: u32,
     pub switches: Switches,
@@ -91,10 +93,9 @@ impl Plan {
         } else {
             GeometryPlacement::Hierarchy
         });
-        // Software devices move words one by one: there, state kept in registers beats queues whatever the geometry.
         let stages = options.stages.unwrap_or(match geometry {
-            GeometryPlacement::Hierarchy if !limits.software => StageMode::Wavefront,
-            _ => StageMode::Fused,
+            GeometryPlacement::Unrolled => StageMode::Fused,
+            GeometryPlacement::Hierarchy => StageMode::Wavefront,
         });
         let width = scene.film.size[0];
         let film = options.film.unwrap_or(if limits.read_write_rgba32float && width <= limits.max_texture_side {
@@ -120,6 +121,7 @@ impl Plan {
             stages,
             film,
             path_capacity,
+            rays_per_invocation: if limits.software { 32 } else { 1 },
             band_rows,
             switches: Switches::default(),
             memory: Memory::default(),

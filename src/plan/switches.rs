@@ -100,6 +100,7 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
         ("MAX_DEPTH", if render.max_depth == 0 { u32::MAX } else { render.max_depth }),
         ("PATH_CAPACITY", plan.path_capacity),
         ("PRIMITIVE_WORDS", (3 * flat.primitives.len() as u32).max(1)),
+        ("RAYS_PER_INVOCATION", plan.rays_per_invocation),
         ("ROULETTE_DEPTH", render.roulette_depth),
         ("STACK_SIZE", flat.bvh.stack_size),
         ("TOP_NODES", plan.top_nodes),

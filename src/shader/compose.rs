@@ -175,7 +175,7 @@ mod tests {
         assert_eq!(message(&[("a", "\n#import c")]), "shaders/a:2: no file c to import");
         assert_eq!(message(&[("a", "#if X")]), "shaders/a:1: #if without #endif");
         assert_eq!(message(&[("a", "#endif")]), "shaders/a:1: #endif without #if");
-        let invalid = compose("a", &switches(&[("a", "\nfn f() -> u32 { return 1.0; }")])).unwrap();
+        let invalid = compose("a", &switches(&[("a", "\nfn f() -> u32 { return missing; }")])).unwrap();
         assert!(invalid.validate().unwrap_err().to_string().starts_with("shaders/a:2: "));
     }
 }

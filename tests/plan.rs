@@ -1,0 +1,95 @@
+//! Plans: what fits a device, and what is refused with sizes named. No device is needed.
+
+use gpt::flat::FlatScene;
+use gpt::plan::{DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanOptions, StageMode};
+use gpt::render::RenderError;
+use gpt::scene::{self, Scene};
+use std::path::Path;
+
+fn plan(scene: &Scene, limits: &DeviceLimits) -> Result<Plan, RenderError> {
+    let flat = FlatScene::new(scene).expect("the scene packs");
+    Plan::new(scene, &flat, limits, &PlanOptions::default())
+}
+
+/// A grid of triangles, `side` quads along each side, under an environment.
+fn grid(side: usize) -> Scene {
+    let positions: Vec<String> =
+        (0..=side).flat_map(|y| (0..=side).map(move |x| format!("[{x}, {}, {y}]", (x * 7 + y * 3) % 5))).collect();
+    let at = |x: usize, y: usize| y * (side + 1) + x;
+    let faces: Vec<String> = (0..side)
+        .flat_map(|y| (0..side).map(move |x| (x, y)))
+        .map(|(x, y)| {
+            let [a, b, c, d] = [at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)];
+            format!("[{a}, {c}, {b}], [{b}, {c}, {d}]")
+        })
+        .collect();
+    let text = format!(
+        "[camera]\nposition = [0, 9, 20]\nlook_at = [5, 0, 5]\nvfov = 40\n\
+         [[material]]\nname = \"grey\"\ntype = \"diffuse\"\nreflectance = 0.5\n\
+         [[shape]]\ntype = \"mesh\"\nmaterial = \"grey\"\npositions = [{}]\nfaces = [{}]\n\
+         [[light]]\ntype = \"environment\"\nradiance = 1.0\n",
+        positions.join(", "),
+        faces.join(", ")
+    );
+    scene::load_toml_str(&text, "grid", Path::new(".")).expect("the scene is valid")
+}
+
+#[test]
+fn small_scenes_are_constants_and_large_ones_a_hierarchy() {
+    let limits = DeviceLimits::default();
+    let cornell = plan(&scene::load(Some("cornell")).expect("it is built in"), &limits).expect("it fits");
+    assert_eq!((cornell.geometry, cornell.stages), (GeometryPlacement::Unrolled, StageMode::Fused));
+    let grid = plan(&grid(20), &limits).expect("it fits");
+    assert_eq!((grid.geometry, grid.stages), (GeometryPlacement::Hierarchy, StageMode::Wavefront));
+}
+
+#[test]
+fn an_array_beyond_the_largest_binding_is_refused_with_both_sizes() {
+    let scene = grid(60);
+    let limits = DeviceLimits { max_storage_binding: 100 << 10, ..DeviceLimits::default() };
+    match plan(&scene, &limits) {
+        Err(RenderError::DoesNotFit(message)) => {
+            assert_eq!(message, "its primitives need 0.3 MiB, and the device can bind 0.1 MiB at once");
+        }
+        other => panic!("{other:?}"),
+    }
+    assert!(plan(&scene, &DeviceLimits::default()).is_ok());
+}
+
+#[test]
+fn the_film_goes_into_buffers_where_textures_cannot_be_read_and_written() {
+    let scene = scene::load(Some("spheres")).expect("it is built in");
+    let with = DeviceLimits { read_write_rgba32float: true, ..DeviceLimits::default() };
+    assert_eq!(plan(&scene, &with).expect("it fits").film, FilmStorage::Texture);
+    assert_eq!(plan(&scene, &DeviceLimits::default()).expect("it fits").film, FilmStorage::Buffer);
+    let narrow = DeviceLimits { max_texture_side: 256, ..with };
+    assert_eq!(plan(&scene, &narrow).expect("it fits").film, FilmStorage::Buffer);
+}
+
+/// Device memory does not grow with the picture beyond one band.
+#[test]
+fn an_8k_picture_needs_no_more_device_memory_than_one_band() {
+    let mut scene = scene::load(Some("cornell")).expect("it is built in");
+    let small = plan(&scene, &DeviceLimits::default()).expect("it fits").memory.total();
+    scene.film.size = [7680, 4320];
+    let large = plan(&scene, &DeviceLimits::default()).expect("it fits").memory.total();
+    assert!(large <= small.max(40 << 20), "{small} and {large} bytes");
+}
+
+/// The stack a traversal needs is found from the tree; every tree of these grids fits what is compiled in.
+#[test]
+fn the_stack_covers_the_deepest_way() {
+    for side in [1, 6, 30, 90] {
+        let flat = FlatScene::new(&grid(side)).expect("the scene packs");
+        // Walk every path with the pushes of the kernel: all children on, one off.
+        let mut deepest = 0;
+        let mut pending = vec![(0_usize, 0_u32)];
+        while let Some((node, waiting)) = pending.pop() {
+            let children = flat.bvh.children(&flat.bvh.nodes[node]);
+            deepest = deepest.max(waiting + children.len() as u32);
+            let others = waiting + (children.len() as u32).saturating_sub(1);
+            pending.extend(children.iter().filter_map(|child| child.ok()).map(|inner| (inner, others)));
+        }
+        assert!(deepest <= flat.bvh.stack_size, "{deepest} entries, room for {}", flat.bvh.stack_size);
+    }
+}
