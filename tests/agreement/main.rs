@@ -100,10 +100,8 @@ fn a_planted_error_is_noticed() {
     let scene = small("cornell", 48, 16);
     let mut faulty = scene.clone();
     for material in &mut faulty.materials {
-        if let Some(emission) = &mut material.emission {
-            if let scene::ColorInput::Constant(radiance) = &mut emission.radiance {
-                *radiance *= 1.01;
-            }
+        if let Some(scene::Emission { radiance: scene::ColorInput::Constant(radiance), .. }) = &mut material.emission {
+            *radiance *= 1.01;
         }
     }
     let mut gpu = GpuRenderer::on(device, &faulty, &PlanOptions::default()).expect("the scene fits");
