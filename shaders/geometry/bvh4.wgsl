@@ -166,13 +166,20 @@ fn step_any(traversal: ptr<function, Traversal>, stack: ptr<function, array<u32,
         let children = intersect_node(
             (*traversal).current, (*traversal).ray.origin, (*traversal).inverse_direction, (*traversal).hit.t
         );
+        // The last child met is visited next without a detour over the stack.
         let t = children.t;
+        let e = children.entry;
         var depth = (*traversal).depth;
-        if t.x < INFINITY_DISTANCE { (*stack)[depth] = children.entry.x; depth++; }
-        if t.y < INFINITY_DISTANCE { (*stack)[depth] = children.entry.y; depth++; }
-        if t.z < INFINITY_DISTANCE { (*stack)[depth] = children.entry.z; depth++; }
-        if t.w < INFINITY_DISTANCE { (*stack)[depth] = children.entry.w; depth++; }
+        var next = NONE;
+        if t.x < INFINITY_DISTANCE { next = e.x; }
+        if t.y < INFINITY_DISTANCE { if next != NONE { (*stack)[depth] = next; depth++; } next = e.y; }
+        if t.z < INFINITY_DISTANCE { if next != NONE { (*stack)[depth] = next; depth++; } next = e.z; }
+        if t.w < INFINITY_DISTANCE { if next != NONE { (*stack)[depth] = next; depth++; } next = e.w; }
         (*traversal).depth = depth;
+        if next != NONE {
+            (*traversal).current = next;
+            return;
+        }
     }
     pop(traversal, stack);
 }

@@ -3,11 +3,14 @@
 // Primitives, three vec4 each (src/flat/primitive.rs):
 //   (first point, kind and material), (second, light or NONE), (third, attributes or NONE)
 // Tables, vec4s: materials, then lights, then textures (src/flat/tables.rs).
-#if UNIFORM_SCENE
+#if UNIFORM_PRIMITIVES
 @group(0) @binding(4) var<uniform> primitives: array<vec4<f32>, PRIMITIVE_WORDS>;
-@group(0) @binding(5) var<uniform> tables: array<vec4<f32>, TABLE_WORDS>;
 #else
 @group(0) @binding(4) var<storage, read> primitives: array<vec4<f32>>;
+#endif
+#if UNIFORM_TABLES
+@group(0) @binding(5) var<uniform> tables: array<vec4<f32>, TABLE_WORDS>;
+#else
 @group(0) @binding(5) var<storage, read> tables: array<vec4<f32>>;
 #endif
 #if BVH

@@ -55,7 +55,7 @@ impl Buffers {
     /// Uploads the scene and makes room for the paths and the film of one band.
     pub fn new(device: &Device, flat: &FlatScene, plan: &Plan, width: u32) -> Self {
         let mut buffers = BTreeMap::new();
-        let scene_usage = if plan.uniform_scene { BufferUsages::UNIFORM } else { BufferUsages::STORAGE };
+        let usage = |uniform| if uniform { BufferUsages::UNIFORM } else { BufferUsages::STORAGE };
         let (tables, ..) = flat.tables();
         let mut upload = |number, label, bytes: &[u8], usage| {
             // A binding may not be empty.
@@ -63,8 +63,8 @@ impl Buffers {
             let descriptor = wgpu::util::BufferInitDescriptor { label: Some(label), contents: &padded, usage };
             buffers.insert(number, device.device.create_buffer_init(&descriptor));
         };
-        upload(binding::PRIMITIVES, "primitives", bytemuck::cast_slice(&flat.primitives), scene_usage);
-        upload(binding::TABLES, "tables", bytemuck::cast_slice(&tables), scene_usage);
+        upload(binding::PRIMITIVES, "primitives", bytemuck::cast_slice(&flat.primitives), usage(plan.uniform_primitives));
+        upload(binding::TABLES, "tables", bytemuck::cast_slice(&tables), usage(plan.uniform_tables));
         upload(binding::VIEW, "view", bytemuck::bytes_of(&flat.view), BufferUsages::UNIFORM);
         upload(binding::EDGE, "edges", &edge_parameters(1), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
         if plan.geometry == GeometryPlacement::Hierarchy {

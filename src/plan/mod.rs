@@ -65,8 +65,10 @@ pub struct PlanOptions {
 #[derive(Debug, Clone)]
 pub struct Plan {
     pub geometry: GeometryPlacement,
-    /// Primitives and tables are small enough for uniform buffers, whose loads cost less.
-    pub uniform_scene: bool,
+    /// Primitives are few enough for a uniform buffer, whose loads cost less.
+    pub uniform_primitives: bool,
+    /// So are the tables of materials, lights and textures.
+    pub uniform_tables: bool,
     /// Nodes at the top of the hierarchy that also stand in a uniform buffer.
     pub top_nodes: u32,
     pub stages: StageMode,
@@ -93,9 +95,11 @@ impl Plan {
         } else {
             GeometryPlacement::Hierarchy
         });
+        // Software devices move every word on its own: there, paths kept in registers beat queues whatever the geometry
+        // (BENCHMARKS.md).
         let stages = options.stages.unwrap_or(match geometry {
-            GeometryPlacement::Unrolled => StageMode::Fused,
-            GeometryPlacement::Hierarchy => StageMode::Wavefront,
+            GeometryPlacement::Hierarchy if !limits.software => StageMode::Wavefront,
+            _ => StageMode::Fused,
         });
         let width = scene.film.size[0];
         let film = options.film.unwrap_or(if limits.read_write_rgba32float && width <= limits.max_texture_side {
@@ -105,7 +109,8 @@ impl Plan {
         });
         let (tables, ..) = flat.tables();
         let uniform_limit = u64::from(limits.max_uniform_binding);
-        let uniform_scene = 48 * flat.primitives.len() as u64 <= uniform_limit && 16 * tables.len() as u64 <= uniform_limit;
+        let uniform_primitives = 48 * flat.primitives.len() as u64 <= uniform_limit;
+        let uniform_tables = 16 * tables.len() as u64 <= uniform_limit;
         // Real GPUs serialise divergent reads of uniform buffers; software ones read them faster than storage.
         let top_nodes = if limits.software && geometry == GeometryPlacement::Hierarchy {
             (flat.bvh.nodes.len() as u32).min(limits.max_uniform_binding / 48)
@@ -116,7 +121,8 @@ impl Plan {
         let band_rows = limits.band_rows(scene.film.size, film);
         let mut plan = Self {
             geometry,
-            uniform_scene,
+            uniform_primitives,
+            uniform_tables,
             top_nodes,
             stages,
             film,
@@ -174,8 +180,9 @@ impl fmt::Display for Plan {
         if self.top_nodes > 0 {
             writeln!(f, "               its first {} nodes in a uniform buffer", self.top_nodes)?;
         }
-        let arrays = if self.uniform_scene { "uniform buffers" } else { "storage buffers" };
-        writeln!(f, "scene arrays   {arrays}")?;
+        let buffers = |uniform| if uniform { "uniform buffer" } else { "storage buffer" };
+        writeln!(f, "primitives     {}", buffers(self.uniform_primitives))?;
+        writeln!(f, "tables         {}", buffers(self.uniform_tables))?;
         let stages: Vec<&str> = self.stage_files().iter().map(|(_, entry)| *entry).collect();
         writeln!(f, "stages         {}", stages.join(", "))?;
         let film = match self.film {

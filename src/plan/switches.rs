@@ -38,7 +38,8 @@ pub const ALL: &[&str] = &[
     "TEXTURES",
     "TOP_IN_UNIFORM",
     "TRIANGLES_IN_HIERARCHY",
-    "UNIFORM_SCENE",
+    "UNIFORM_PRIMITIVES",
+    "UNIFORM_TABLES",
 ];
 
 /// Blocks of four dimensions that the Halton table holds per sample.
@@ -63,7 +64,8 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     switches.enable("FLAT_ROUND", has_kind(PrimitiveKind::Disk) || has_kind(PrimitiveKind::Plane));
     switches.enable("BVH", plan.geometry == GeometryPlacement::Hierarchy);
     switches.enable("TOP_IN_UNIFORM", plan.top_nodes > 0);
-    switches.enable("UNIFORM_SCENE", plan.uniform_scene);
+    switches.enable("UNIFORM_PRIMITIVES", plan.uniform_primitives);
+    switches.enable("UNIFORM_TABLES", plan.uniform_tables);
     switches.enable("ATTRIBUTES", has_attributes(flat));
     switches.enable("TEXTURES", !flat.textures.is_empty());
 
