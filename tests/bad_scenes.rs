@@ -417,3 +417,24 @@ fn deep_nesting_is_an_error_not_a_stack_overflow() {
     let inline = format!("weight = {}1{}", "{ of = ".repeat(100_000), " }".repeat(100_000));
     assert!(scene::load_toml_str(&GOOD.replace("reflectance = 0.5", &inline), "test.toml", "".as_ref()).is_err());
 }
+
+#[test]
+fn textures_that_have_no_coordinates_yet_are_refused() {
+    let folder = folder_with(&[("t.png", &png_bytes([9, 90, 200]))]);
+    let text = |shape: &str| {
+        format!(
+            "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvfov = 40\n\
+             [[light]]\ntype = \"environment\"\nradiance = 1\n\
+             [[texture]]\nname = \"t\"\ntype = \"image\"\nfile = \"t.png\"\n\
+             [[material]]\nname = \"m\"\ntype = \"diffuse\"\nreflectance = {{ texture = \"t\" }}\n\
+             [[shape]]\nmaterial = \"m\"\n{shape}\n"
+        )
+    };
+    let load = |shape: &str| scene::load_toml_str(&text(shape), "test", folder.path());
+    let rectangle = "type = \"rectangle\"\ncorner = [0, 0, 0]\nedge_u = [1, 0, 0]\nedge_v = [0, 1, 0]";
+    assert!(load(rectangle).is_ok());
+    let mirrored = load(&format!("{rectangle}\ntransform = [{{ scale = [-1, 1, 1] }}]")).expect_err("mirrored");
+    assert!(mirrored.to_string().contains("mirrored rectangle"), "{mirrored}");
+    let sphere = load("type = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1").expect_err("a sphere");
+    assert!(sphere.to_string().contains("a texture on a sphere"), "{sphere}");
+}

@@ -30,9 +30,6 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
     if wanted.contains("SPHERES_IN_HIERARCHY") {
         wanted.insert("SPHERES");
     }
-    if wanted.contains("TEXTURES") {
-        wanted.insert("ATTRIBUTES");
-    }
     if wanted.contains("SPHERE_LIGHTS") {
         wanted.insert("SPHERES");
     }

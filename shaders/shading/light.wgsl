@@ -147,6 +147,7 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
             let texture = bitcast<u32>(l2.w);
             if texture != NONE {
                 var uv = vec2<f32>(a, b);
+#if ATTRIBUTES
                 let first = bitcast<u32>(l3.w);
                 if first != NONE {
                     let a3 = attributes[first * 4u + 3u];
@@ -154,6 +155,7 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
                     let uv1 = vec2<f32>(attributes[first * 4u + 2u].w, a3.x);
                     uv = (1.0 - a - b) * uv0 + a * uv1 + b * a3.yz;
                 }
+#endif
                 radiance *= texture_color(texture, uv);
             }
 #endif

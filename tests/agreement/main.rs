@@ -1,5 +1,7 @@
 //! The GPU's picture against the reference's, path by path, for every built-in scene and every way to run it.
 
+mod features;
+
 use std::sync::LazyLock;
 
 use gpt::gpu::{Device, GpuRenderer};
@@ -108,4 +110,15 @@ fn a_planted_error_is_noticed() {
     let mut cpu = ReferenceRenderer::new(&scene).expect("the scene is supported");
     let verdict = verify::compare(&scene, device.name.clone(), &mut gpu, &mut cpu).expect("both render");
     assert!(!verdict.agrees && !verdict.rejections.is_empty(), "{verdict:#?}");
+
+    // What is left behind shows it: the device's picture is 1 % brighter than the reference's.
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let written = verify::evidence::write(folder.path(), &scene, &verdict).expect("the evidence is written");
+    assert_eq!(written.len(), 4);
+    let mean = |path: &std::path::Path| {
+        let pixels = gpt::output::read_image(path).expect("it can be read").pixels;
+        pixels.iter().map(|pixel| f64::from(pixel[1])).sum::<f64>()
+    };
+    let ratio = mean(&written[0]) / mean(&written[1]);
+    assert!((ratio - 1.01).abs() < 1e-3, "{ratio}");
 }

@@ -349,3 +349,21 @@ fn a_reader_that_goes_away_is_no_failure() {
     let output = child.wait_with_output().expect("an end");
     assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()));
 }
+
+#[test]
+fn verify_compares_the_devices_and_says_how_much_matches() {
+    if std::env::var("GPT_TEST_GPU").as_deref() == Ok("skip") {
+        return;
+    }
+    let place = Workplace::new();
+    let answer = place.expect(0, "verify scene.toml --spp 2");
+    let line = text(&place.run("verify scene.toml --spp 2").stdout);
+    assert!(line.contains("agrees") && line.contains("of 768 paths match"), "{line} {answer}");
+    let verdicts: Value = serde_json::from_slice(&place.run("verify scene.toml --spp 2 --json").stdout).expect("it is JSON");
+    assert_eq!(verdicts[0]["agrees"], true);
+    assert_eq!(verdicts[0]["paths"], 768);
+    assert_eq!(place.files(), ["scene.toml"], "evidence is left only where something differs");
+    place.expect(3, "verify missing.toml");
+    place.expect(4, "verify scene.toml --device no-such-device");
+    place.expect(2, "verify --spp 0");
+}

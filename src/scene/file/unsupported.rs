@@ -4,7 +4,8 @@
 use super::document::Step;
 use super::document::Step::{Index, Key};
 use crate::scene::{
-    EnvironmentRadiance, FilterKind, Light, Material, MaterialKind, PixelSampler, Projection, SamplerKind, Scene, TextureKind,
+    EnvironmentRadiance, FilterKind, Geometry, Light, Material, MaterialKind, PixelSampler, Projection, SamplerKind, Scene,
+    TextureKind,
 };
 
 /// Something that is refused: where it is written and what it is called.
@@ -103,8 +104,22 @@ fn shapes(scene: &Scene) -> Option<Refusal> {
         if shape.motion.is_some() {
             return refuse(path("motion"), "motion");
         }
-        shape.portal.then(|| refuse(path("portal"), "a portal"))?
+        if shape.portal {
+            return refuse(path("portal"), "a portal");
+        }
+        textured_shape(scene, index)
     })
+}
+
+/// Texture coordinates that the device does not make yet: those of spheres, and of rectangles and boxes turned inside out.
+fn textured_shape(scene: &Scene, index: usize) -> Option<Refusal> {
+    let shape = &scene.shapes[index];
+    let what = match shape.geometry {
+        Geometry::Sphere { .. } => "a texture on a sphere",
+        Geometry::Rectangle { .. } | Geometry::Box { .. } if shape.is_mirrored() => "a texture on a mirrored rectangle or box",
+        _ => return None,
+    };
+    scene.uses_texture(shape.material).then(|| refuse([Key("shape"), Index(index), Key("material")], what))?
 }
 
 fn lights(scene: &Scene) -> Option<Refusal> {

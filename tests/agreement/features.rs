@@ -1,0 +1,194 @@
+//! Scenes that use what the built-in ones do not: textures, interpolated normals, every shape and light, transforms, mirroring.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use gpt::plan::{GeometryPlacement, PlanOptions, StageMode};
+use gpt::scene::{self, Scene};
+
+use super::assert_agrees;
+
+/// A folder with a small colourful texture in it.
+fn folder_with_texture() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let texture = image::RgbImage::from_fn(8, 5, |x, y| image::Rgb([(x * 30) as u8, (y * 50) as u8, (x * y * 7 + 20) as u8]));
+    texture.save(folder.path().join("texture.png")).expect("the texture is written");
+    folder
+}
+
+fn load(text: &str, folder: &tempfile::TempDir) -> Scene {
+    scene::load_toml_str(text, "features", folder.path()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+const HEAD: &str = r#"
+[film]
+size = [48, 36]
+[render]
+spp = 8
+max_depth = 6
+[camera]
+position = [0.3, 2.2, 6]
+look_at = [0, 0.8, 0]
+vfov = 45
+[[texture]]
+name = "picture"
+type = "image"
+file = "texture.png"
+wrap = "mirror"
+scale = [1.7, 2.3]
+[[texture]]
+name = "sharp"
+type = "image"
+file = "texture.png"
+filter = "nearest"
+wrap = "clamp"
+[[material]]
+name = "painted"
+type = "diffuse"
+reflectance = { texture = "picture" }
+[[material]]
+name = "tiled"
+type = "diffuse"
+reflectance = { texture = "sharp" }
+[[material]]
+name = "grey"
+type = "diffuse"
+reflectance = 0.6
+[[material]]
+name = "ice"
+type = "glass"
+ior = 1.31
+transmittance = [0.9, 1, 0.95]
+[[material]]
+name = "warm"
+type = "diffuse"
+reflectance = 0.3
+emission = [2, 1.5, 1]
+emission_two_sided = true
+[[material]]
+name = "lamp"
+type = "emissive"
+radiance = [9, 8, 7]
+[[material]]
+name = "gone"
+type = "pass"
+"#;
+
+/// A wavy grid with texture coordinates, as an inline mesh.
+fn wave(material: &str, smooth: bool, transform: &str) -> String {
+    let side = 12_usize;
+    let (mut positions, mut uvs, mut faces) = (String::new(), String::new(), String::new());
+    for y in 0..=side {
+        for x in 0..=side {
+            let (u, v) = (x as f64 / side as f64, y as f64 / side as f64);
+            let _ = write!(positions, "[{}, {}, {}],", 2.0 * u - 1.0, 0.15 * (7.0 * u).sin() * (5.0 * v).cos(), 1.0 - 2.0 * v);
+            let _ = write!(uvs, "[{u}, {v}],");
+        }
+    }
+    for y in 0..side {
+        for x in 0..side {
+            let at = |dx: usize, dy: usize| (y + dy) * (side + 1) + x + dx;
+            let _ = write!(faces, "[{}, {}, {}],[{}, {}, {}],", at(0, 0), at(1, 0), at(1, 1), at(0, 0), at(1, 1), at(0, 1));
+        }
+    }
+    format!(
+        "[[shape]]\ntype = \"mesh\"\nmaterial = \"{material}\"\nsmooth = {smooth}\ntransform = {transform}\n\
+         positions = [{positions}]\nuvs = [{uvs}]\nfaces = [{faces}]\n"
+    )
+}
+
+const SHAPES: &str = r#"
+[[shape]]
+type = "plane"
+point = [0, -0.4, 0]
+normal = [0, 2, 0]
+material = "grey"
+[[shape]]
+type = "disk"
+center = [-1.6, 1, -0.5]
+normal = [1, 0.2, 1]
+radius = 0.6
+material = "warm"
+[[shape]]
+type = "box"
+min = [-0.3, 0, -0.3]
+max = [0.3, 0.7, 0.3]
+material = "ice"
+transform = [{ rotate = [0, 1, 0], degrees = 25 }, { translate = [1.2, 0.1, 1] }]
+[[shape]]
+type = "sphere"
+center = [0, 0, 0]
+radius = 0.25
+material = "lamp"
+transform = [{ scale = 1.4 }, { translate = [-0.4, 2.4, 0.6] }]
+[[shape]]
+type = "rectangle"
+corner = [0.8, 1.6, -1]
+edge_u = [0.7, 0, 0.3]
+edge_v = [0, -0.1, 0.8]
+material = "lamp"
+transform = [{ scale = [-1, 1, 1] }]
+[[shape]]
+type = "rectangle"
+corner = [-2, -0.3, -2]
+edge_u = [4, 0, 0]
+edge_v = [0, 3, -0.4]
+material = "tiled"
+[[shape]]
+type = "sphere"
+center = [0, 1, 3]
+radius = 0.5
+material = "gone"
+[[light]]
+type = "point"
+position = [2, 3, 2]
+intensity = [4, 5, 6]
+[[light]]
+type = "environment"
+radiance = [0.1, 0.12, 0.2]
+"#;
+
+fn everything(folder: &tempfile::TempDir) -> Scene {
+    let smooth = wave("painted", true, "[{ translate = [0, 0.3, 0] }]");
+    let mirrored = wave("painted", false, "[{ scale = [-0.5, 0.5, 0.5] }, { translate = [1.5, 1.3, -0.6] }]");
+    let glowing = wave("warm", true, "[{ scale = 0.3 }, { rotate = [1, 0, 0], degrees = 80 }, { translate = [-1, 0.6, 1.4] }]");
+    load(&[HEAD, &smooth, &mirrored, &glowing, SHAPES].concat(), folder)
+}
+
+#[test]
+fn every_shape_light_and_texture_agrees() {
+    let folder = folder_with_texture();
+    let scene = everything(&folder);
+    for stages in [StageMode::Fused, StageMode::Wavefront] {
+        let options = PlanOptions { stages: Some(stages), ..PlanOptions::default() };
+        assert_agrees(&format!("everything, {stages:?}"), &scene, &options);
+    }
+}
+
+#[test]
+fn analytic_shapes_agree_as_constants_and_in_the_hierarchy() {
+    let folder = folder_with_texture();
+    let scene = load(&[HEAD, SHAPES].concat(), &folder);
+    for geometry in [GeometryPlacement::Unrolled, GeometryPlacement::Hierarchy] {
+        let options = PlanOptions { geometry: Some(geometry), ..PlanOptions::default() };
+        assert_agrees(&format!("analytic shapes, {geometry:?}"), &scene, &options);
+    }
+}
+
+/// A model with its material library, textured, through the OBJ reader.
+#[test]
+fn a_textured_model_agrees() {
+    let folder = folder_with_texture();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("the file is written");
+    write(
+        "tent.obj",
+        "mtllib tent.mtl\nv -1 0 0\nv 1 0 0\nv 0 1.4 -0.6\nv 0 0.2 1\nvt 0 0\nvt 1 0\nvt 0.5 1\nvn 0 0.4 0.9\nvn 0.3 0.4 0.9\n\
+         usemtl cloth\nf 1/1/1 2/2/2 3/3/1\nusemtl glow\nf 1/1/1 4/3/2 2/2/1\n",
+    );
+    write("tent.mtl", "newmtl cloth\nKd 0.8 0.9 0.7\nmap_Kd texture.png\nnewmtl glow\nKd 0.2 0.2 0.2\nKe 1 0.7 0.3\n");
+    let path: PathBuf = folder.path().join("tent.obj");
+    let mut scene = scene::load(path.to_str()).unwrap_or_else(|error| panic!("{error}"));
+    scene.film.size = [48, 36];
+    scene.render.spp = 8;
+    assert_agrees("textured model", &scene, &PlanOptions::default());
+}
