@@ -279,12 +279,10 @@ fn a_model_alone_is_framed() {
         assert!(ray.dot(right).abs() < limit && ray.dot(up).abs() < limit);
     }
     // The light faces the model, the ground faces up and touches it.
-    let rectangle = |index: usize| match scene.shapes[index].geometry {
-        Geometry::Rectangle { corner, edge_u, edge_v } => (corner + 0.5 * (edge_u + edge_v), edge_u.cross(edge_v).normalize()),
-        ref other => panic!("not a rectangle: {other:?}"),
-    };
-    let (ground, light) = (rectangle(1), rectangle(2));
-    assert!(ground.1.abs_diff_eq(DVec3::Y, 1e-12) && ground.0.y == 0.0);
+    let Geometry::Plane { point, normal } = scene.shapes[1].geometry else { panic!("the ground is a plane") };
+    assert!(normal == DVec3::Y && point.y == 0.0);
+    let Geometry::Rectangle { corner, edge_u, edge_v } = scene.shapes[2].geometry else { panic!("the light is a rectangle") };
+    let light = (corner + 0.5 * (edge_u + edge_v), edge_u.cross(edge_v).normalize());
     assert!(light.1.dot((DVec3::new(0.5, 50.0, 0.0) - light.0).normalize()) > 0.999);
 }
 

@@ -26,17 +26,16 @@ pub fn frame(mut scene: Scene, name: &str) -> Result<Scene, SceneError> {
         normal_map: None,
         emission: Some(Emission { radiance: ColorInput::grey(8.0), two_sided: false }),
     };
-    // The ground reaches past what the camera sees of it near the model, and fades under the sky behind.
-    let half = 20.0 * radius;
-    let ground_corner = DVec3::new(center.x - half, min.y, center.z - half);
-    add(&mut scene, "(ground)", ground, ground_corner, DVec3::Z * (2.0 * half), DVec3::X * (2.0 * half));
+    // Infinite, so that the horizon is level wherever the camera stands.
+    let plane = Geometry::Plane { point: DVec3::new(center.x, min.y, center.z), normal: DVec3::Y };
+    add(&mut scene, "(ground)", ground, plane);
     // Above the camera's left shoulder, facing the model.
     let toward_light = DVec3::new(-0.6, 1.0, 0.5).normalize();
     let across = DVec3::Y.cross(toward_light).normalize() * (2.0 * radius);
     let along = toward_light.cross(across);
     let corner = center + 4.0 * radius * toward_light - 0.5 * (across + along);
     // The front is where edge_u × edge_v points: toward the model.
-    add(&mut scene, "(light)", light, corner, along, across);
+    add(&mut scene, "(light)", light, Geometry::Rectangle { corner, edge_u: along, edge_v: across });
     scene.lights.push(Light::Environment(Environment {
         radiance: EnvironmentRadiance::Constant(DVec3::splat(0.4)),
         rotation_degrees: 0.0,
@@ -68,11 +67,11 @@ fn diffuse(name: &str, reflectance: f64) -> Material {
     }
 }
 
-fn add(scene: &mut Scene, label: &str, material: Material, corner: DVec3, edge_u: DVec3, edge_v: DVec3) {
+fn add(scene: &mut Scene, label: &str, material: Material, geometry: Geometry) {
     scene.materials.push(material);
     scene.shapes.push(Shape {
         label: label.to_owned(),
-        geometry: Geometry::Rectangle { corner, edge_u, edge_v },
+        geometry,
         material: scene.materials.len() - 1,
         transform: Transform::default(),
         motion: None,
