@@ -113,3 +113,17 @@ fn bands_cover_the_picture_and_do_not_show() {
     }
     assert_eq!(next_row, 1000);
 }
+
+/// Passes are sized by time, so their borders differ from run to run; the picture must not. Bit for bit.
+#[test]
+fn the_picture_does_not_depend_on_how_samples_are_cut_into_passes() {
+    let mut scene = scene::load(Some("spheres")).expect("it is built in");
+    verify::shrink(&mut scene, 48);
+    let pool = |paths| PlanOptions { stages: Some(StageMode::Wavefront), path_capacity: Some(paths), ..PlanOptions::default() };
+    let (Some(one), Some(other)) = (render(&scene, &pool(1 << 18), 0..50), render(&scene, &pool(1_001), 0..50)) else {
+        return;
+    };
+    assert!(one[0].mean == other[0].mean);
+    let Some(different) = render(&scene, &pool(1_001), 1..51) else { return };
+    assert!(one[0].mean != different[0].mean, "other samples make another picture");
+}

@@ -10,9 +10,10 @@ fn accumulate(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= pixel_count {
         return;
     }
-    var sum = empty_pixel_sum();
+    let pixel_in_band = pass_parameters.first_pixel_in_band + id.x;
+    var pixel = load_film_pixel(pixel_in_band);
     for (var sample = 0u; sample < pass_parameters.sample_count; sample++) {
-        add_sample(&sum, path_state[PLANE_RADIANCE + sample * pixel_count + id.x].xyz);
+        add_sample(&pixel, path_state[PLANE_RADIANCE + sample * pixel_count + id.x].xyz);
     }
-    add_to_film(pass_parameters.first_pixel_in_band + id.x, sum, pass_parameters.sample_count);
+    store_film_pixel(pixel_in_band, pixel);
 }

@@ -43,50 +43,50 @@ fn store_film(pixel_in_band: u32, sum: vec4<f32>, compensation: vec4<f32>) {
 }
 #endif
 
-// Samples of one pixel gathered in registers before they reach the film.
-struct PixelSum {
-    radiance: vec3<f32>,
-    squared_luminance: f32,
+// A pixel of the film on its way through registers.
+struct FilmPixel {
+    sum: vec4<f32>,
+    compensation: vec4<f32>,
+    // Squared luminance and refused samples since it was loaded. Squares are summed pass by pass, which keeps four digits at any
+    // number of samples, as many as a variance is worth.
+    squares: f32,
     refused: u32,
 }
 
-fn empty_pixel_sum() -> PixelSum {
-    return PixelSum(vec3<f32>(0.0), 0.0, 0u);
-}
-
-// A sample that is not finite is refused: it counts as 0, and is counted.
-fn add_sample(sum: ptr<function, PixelSum>, radiance: vec3<f32>) {
-    let l = luminance(radiance);
-    if is_finite(l * l) && is_finite(max_component(abs(radiance))) {
-        (*sum).radiance += radiance;
-        (*sum).squared_luminance += l * l;
-    } else {
-        (*sum).refused++;
+fn load_film_pixel(pixel_in_band: u32) -> FilmPixel {
+    if pass_parameters.film_is_empty != 0u {
+        return FilmPixel(vec4<f32>(0.0), vec4<f32>(0.0), 0.0, 0u);
     }
+    return FilmPixel(load_film_sum(pixel_in_band), load_film_compensation(pixel_in_band), 0.0, 0u);
 }
 
 fn opaque(x: vec3<f32>) -> vec3<f32> {
     return bitcast<vec3<f32>>(bitcast<vec3<u32>>(x) ^ vec3<u32>(pass_parameters.opaque_zero));
 }
 
-// Compensated summation (Kahan 1965): the film's relative error does not grow with the number of samples. `opaque` keeps compilers
-// from cancelling (sum + y) - sum.
-fn add_to_film(pixel_in_band: u32, added: PixelSum, samples: u32) {
-    var old = vec4<f32>(0.0);
-    var compensation = vec4<f32>(0.0);
-    if pass_parameters.film_is_empty == 0u {
-        old = load_film_sum(pixel_in_band);
-        compensation = load_film_compensation(pixel_in_band);
+// Compensated summation (Kahan 1965), sample by sample: the relative error does not grow with the number of samples, and the sum does
+// not depend on how samples were cut into passes. `opaque` keeps compilers from cancelling (sum + y) - sum.
+// A sample that is not finite is refused: it counts as 0, and is counted.
+fn add_sample(pixel: ptr<function, FilmPixel>, radiance: vec3<f32>) {
+    (*pixel).sum.w += 1.0;
+    let l = luminance(radiance);
+    if !is_finite(l * l) || !is_finite(max_component(abs(radiance))) {
+        (*pixel).refused++;
+        return;
     }
-    let y = added.radiance - compensation.xyz;
-    let sum = opaque(old.xyz + y);
-    let lost = opaque(sum - old.xyz) - y;
-    store_film(
-        pixel_in_band,
-        vec4<f32>(sum, old.w + f32(samples)),
-        vec4<f32>(lost, compensation.w + added.squared_luminance)
-    );
-    if added.refused > 0u {
-        count_refused_samples(added.refused);
+    let old = (*pixel).sum.xyz;
+    let y = radiance - (*pixel).compensation.xyz;
+    let sum = opaque(old + y);
+    let lost = opaque(sum - old) - y;
+    (*pixel).sum = vec4<f32>(sum, (*pixel).sum.w);
+    (*pixel).compensation = vec4<f32>(lost, (*pixel).compensation.w);
+    (*pixel).squares += l * l;
+}
+
+fn store_film_pixel(pixel_in_band: u32, pixel: FilmPixel) {
+    let compensation = vec4<f32>(pixel.compensation.xyz, pixel.compensation.w + pixel.squares);
+    store_film(pixel_in_band, pixel.sum, compensation);
+    if pixel.refused > 0u {
+        count_refused_samples(pixel.refused);
     }
 }

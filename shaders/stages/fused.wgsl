@@ -19,7 +19,8 @@ fn trace_paths(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let pixel = pass_parameters.first_pixel + id.x;
-    var sum = empty_pixel_sum();
+    let pixel_in_band = pass_parameters.first_pixel_in_band + id.x;
+    var film_pixel = load_film_pixel(pixel_in_band);
     var rays = 0u;
     var edge = 1u;
     var radiance = vec3<f32>(0.0);
@@ -39,7 +40,7 @@ fn trace_paths(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
         edge++;
         if !vertex.alive {
-            add_sample(&sum, radiance);
+            add_sample(&film_pixel, radiance);
             let next_sample = path.sample_in_pass + 1u;
             if next_sample >= pass_parameters.sample_count {
                 break;
@@ -49,6 +50,6 @@ fn trace_paths(@builtin(global_invocation_id) id: vec3<u32>) {
             path = start_path(pixel, next_sample);
         }
     }
-    add_to_film(pass_parameters.first_pixel_in_band + id.x, sum, pass_parameters.sample_count);
+    store_film_pixel(pixel_in_band, film_pixel);
     count_rays(rays);
 }
