@@ -17,10 +17,6 @@ fn max_component(v: vec3<f32>) -> f32 {
     return max(v.x, max(v.y, v.z));
 }
 
-fn square(x: f32) -> f32 {
-    return x * x;
-}
-
 // WGSL lets a compiler assume that NaN and infinity never happen; their bit patterns can still be told.
 fn is_finite(x: f32) -> bool {
     return (bitcast<u32>(x) & 0x7f800000u) != 0x7f800000u;

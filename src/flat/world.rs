@@ -3,7 +3,7 @@
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
 use super::primitive::{PrimitiveGeometry, TriangleAttributes, WorldPrimitive};
-use crate::scene::{ColorInput, Geometry, MaterialKind, Mesh, Scene, Shape};
+use crate::scene::{Geometry, MaterialKind, Mesh, Scene, Shape};
 
 /// All primitives of a scene, and the attributes of those that have some.
 #[derive(Debug, Default)]
@@ -85,7 +85,7 @@ fn add_mesh(scene: &Scene, shape: &Shape, mesh: &Mesh, world: &mut WorldGeometry
         }
         let corners = face.map(|corner| corner as usize);
         let mut primitive = WorldPrimitive::new(PrimitiveGeometry::Triangle(corners.map(|c| positions[c])), material);
-        let textured = uses_texture(scene, material) && !mesh.uvs.is_empty();
+        let textured = scene.uses_texture(material) && !mesh.uvs.is_empty();
         if !normals.is_empty() || textured {
             primitive.attributes = world.attributes.len() as u32;
             let corner_normals = if normals.is_empty() { [Vec3::ZERO; 3] } else { corners.map(|c| normals[c]) };
@@ -94,11 +94,4 @@ fn add_mesh(scene: &Scene, shape: &Shape, mesh: &Mesh, world: &mut WorldGeometry
         }
         world.primitives.push(primitive);
     }
-}
-
-/// Whether a material looks anything up by texture coordinates.
-pub fn uses_texture(scene: &Scene, material: usize) -> bool {
-    let material = &scene.materials[material];
-    let emission = material.emission.map(|emission| emission.radiance);
-    material.kind.colors().chain(emission).any(|input| !matches!(input, ColorInput::Constant(_)))
 }

@@ -35,8 +35,3 @@ shader_files![
     "stages/statistics.wgsl",
     "stages/wavefront.wgsl",
 ];
-
-/// The text of a file, by its name within `shaders/`.
-pub fn file(name: &str) -> Option<&'static str> {
-    FILES.iter().find(|(file, _)| *file == name).map(|(_, text)| *text)
-}
