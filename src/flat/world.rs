@@ -78,6 +78,8 @@ fn box_faces(min: DVec3, max: DVec3) -> [[DVec3; 3]; 6] {
 fn add_mesh(scene: &Scene, shape: &Shape, mesh: &Mesh, world: &mut WorldGeometry) {
     let positions = shape.world_positions();
     let normals = if mesh.smooth && !mesh.normals.is_empty() { shape.world_normals() } else { Vec::new() };
+    // Asked once per material, not once per face.
+    let textured: Vec<bool> = (0..scene.materials.len()).map(|id| scene.uses_texture(id) && !mesh.uvs.is_empty()).collect();
     for (index, face) in shape.world_faces().into_iter().enumerate() {
         let material = mesh.face_materials.get(index).copied().unwrap_or(shape.material);
         if is_pass(scene, material) {
@@ -85,8 +87,7 @@ fn add_mesh(scene: &Scene, shape: &Shape, mesh: &Mesh, world: &mut WorldGeometry
         }
         let corners = face.map(|corner| corner as usize);
         let mut primitive = WorldPrimitive::new(PrimitiveGeometry::Triangle(corners.map(|c| positions[c])), material);
-        let textured = scene.uses_texture(material) && !mesh.uvs.is_empty();
-        if !normals.is_empty() || textured {
+        if !normals.is_empty() || textured[material] {
             primitive.attributes = world.attributes.len() as u32;
             let corner_normals = if normals.is_empty() { [Vec3::ZERO; 3] } else { corners.map(|c| normals[c]) };
             let corner_uvs = if mesh.uvs.is_empty() { [Vec2::ZERO; 3] } else { corners.map(|c| mesh.uvs[c]) };
