@@ -70,8 +70,8 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
         (
             "spp = 1",
             "samples = 1",
-            "test.toml:5:1: render.samples: unknown key `samples` [did you mean `sampler`? valid choices: spp, max_depth, sampler, estimator, heuristic, \
-             roulette_depth, seed]",
+            "test.toml:5:1: render.samples: unknown key `samples` [did you mean `sampler`? valid choices: spp, max_depth, sampler, pixel_sampler, \
+             estimator, heuristic, roulette_depth, seed]",
         ),
         (
             "type = \"diffuse\"",
@@ -257,7 +257,6 @@ fn what_is_not_done_yet_is_refused_by_name() {
     let light = "type = \"environment\"\nradiance = 1";
     let texture = "[[texture]]\nname = \"t\"\ntype = \"checker\"\na = 0\nb = 1\n[[light]]";
     let rows = [
-        ("spp = 1", "sampler = \"sobol\"", "test.toml:5:11: render.sampler: the sampler `sobol` is not supported yet"),
         ("size = [4, 4]", "filter = { type = \"tent\" }", "test.toml:3:10: film.filter: the filter `tent` is not supported yet"),
         ("vfov = 40", "projection = \"orthographic\"\nheight = 2", "camera.projection: the projection `orthographic`"),
         (

@@ -36,5 +36,5 @@ struct View {
 
 @group(0) @binding(0) var<uniform> pass_parameters: PassParameters;
 @group(0) @binding(1) var<uniform> edge_parameters: EdgeParameters;
-@group(0) @binding(2) var<uniform> halton_points: array<vec4<u32>, HALTON_POINTS>;
+@group(0) @binding(2) var<uniform> sequence_points: array<vec4<u32>, SEQUENCE_POINTS>;
 @group(0) @binding(3) var<uniform> view: View;

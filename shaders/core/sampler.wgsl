@@ -37,15 +37,45 @@ fn dimension_bits4(key: u32, first_dimension: u32) -> vec4<u32> {
     return mix_bits4(vec4<u32>(key) + dimensions * GOLDEN);
 }
 
-// Bits of dimensions 4·block .. 4·block + 3 of a path. Block 0 is the camera's, bounce b has blocks 2 + 2b and 3 + 2b.
+// Bits of dimensions 4·block .. 4·block + 3 of a path. Blocks 0 and 1 are the camera's, bounce b has blocks 2 + 2b and 3 + 2b.
 fn random_block(pixel: u32, sample_in_pass: u32, block: u32) -> vec4<u32> {
     let key = pixel_key(pixel);
-#if SAMPLER_HALTON
-    if block < HALTON_BLOCKS {
-        return halton_points[sample_in_pass * HALTON_BLOCKS + block] + dimension_bits4(key, block * 4u);
+#if SEQUENCE
+    if block < SEQUENCE_BLOCKS {
+        let shared_bits = sequence_points[sample_in_pass * SEQUENCE_BLOCKS + block];
+#if DIGITAL_SHIFT
+        return shared_bits ^ dimension_bits4(key, block * 4u);
+#else
+        return shared_bits + dimension_bits4(key, block * 4u);
+#endif
     }
 #endif
     return dimension_bits4(path_key(key, pass_parameters.first_sample + sample_in_pass), block * 4u);
+}
+
+// Bits for the position in the pixel (x, y) and on the lens (z, w). The pixel's may have a sampler of their own.
+fn camera_block(pixel: u32, sample_in_pass: u32) -> vec4<u32> {
+    let random = random_block(pixel, sample_in_pass, 0u);
+#if PIXEL_CENTRE
+    return vec4<u32>(0x80000000u, 0x80000000u, random.zw);
+#else
+#if PIXEL_HASHED
+    let key = path_key(pixel_key(pixel), pass_parameters.first_sample + sample_in_pass);
+    return vec4<u32>(dimension_bits4(key, 0u).xy, random.zw);
+#else
+#if PIXEL_ROTATION
+    let own_bits = sequence_points[sample_in_pass * SEQUENCE_BLOCKS] + dimension_bits4(pixel_key(pixel), 0u);
+    return vec4<u32>(own_bits.xy, random.zw);
+#else
+#if PIXEL_DIGITAL_SHIFT
+    let own_bits = sequence_points[sample_in_pass * SEQUENCE_BLOCKS] ^ dimension_bits4(pixel_key(pixel), 0u);
+    return vec4<u32>(own_bits.xy, random.zw);
+#else
+    return random;
+#endif
+#endif
+#endif
+#endif
 }
 
 // [0, 1), a multiple of 2^-24.

@@ -7,7 +7,7 @@
 const WORKGROUP: u32 = 64u;
 
 fn start_path(pixel: u32, sample_in_pass: u32) -> Path {
-    let ray = camera_ray(pixel, random_block(pixel, sample_in_pass, 0u));
+    let ray = camera_ray(pixel, camera_block(pixel, sample_in_pass));
     return Path(ray, vec3<f32>(1.0), -1.0, 1.0, pixel, sample_in_pass);
 }
 

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 use gpt::compare::Metric;
 use gpt::output::{MAX_PIXELS, MAX_SIDE};
 use gpt::render::DeviceChoice;
-use gpt::scene::{BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeuristic, SamplerKind};
+use gpt::scene::{BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeuristic, PixelSamplerName, SamplerKind};
 
 /// Sample indices stay below this, because picture headers hold signed 32-bit numbers.
 pub const MAX_SAMPLES: u32 = i32::MAX as u32;
@@ -98,16 +98,6 @@ pub struct EstimateArguments {
     /// Whether a blend evaluates every lobe or picks one material per hit
     #[arg(long)]
     pub blend: Option<BlendMode>,
-}
-
-/// What `--pixel-sampler` takes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum PixelSamplerName {
-    Independent,
-    Stratified,
-    Halton,
-    Sobol,
-    None,
 }
 
 #[derive(Debug, Args)]

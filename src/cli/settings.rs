@@ -1,8 +1,8 @@
 //! The command line's wishes put over the scene's own settings.
 
-use gpt::scene::{PixelSampler, SamplerKind, Scene};
+use gpt::scene::Scene;
 
-use super::arguments::{EstimateArguments, MAX_SAMPLES, PixelSamplerName, check_size};
+use super::arguments::{EstimateArguments, MAX_SAMPLES, check_size};
 use super::exit::Failure;
 
 /// Overrides what was given.
@@ -24,7 +24,7 @@ pub fn apply(arguments: &EstimateArguments, scene: &mut Scene) -> Result<(), Fai
     set(&mut render.seed, arguments.seed);
     set(&mut render.hemisphere, arguments.hemisphere);
     set(&mut render.light_sampling, arguments.light_sampling);
-    set(&mut render.pixel_sampler, arguments.pixel_sampler.map(pixel_sampler));
+    set(&mut render.pixel_sampler, arguments.pixel_sampler.map(Into::into));
     set(&mut render.blend, arguments.blend);
 
     if arguments.first_sample.checked_add(render.spp).is_none_or(|end| end > MAX_SAMPLES) {
@@ -40,16 +40,6 @@ pub fn apply(arguments: &EstimateArguments, scene: &mut Scene) -> Result<(), Fai
 fn set<T>(setting: &mut T, value: Option<T>) {
     if let Some(value) = value {
         *setting = value;
-    }
-}
-
-fn pixel_sampler(name: PixelSamplerName) -> PixelSampler {
-    match name {
-        PixelSamplerName::Independent => PixelSampler::Other(SamplerKind::Independent),
-        PixelSamplerName::Stratified => PixelSampler::Other(SamplerKind::Stratified),
-        PixelSamplerName::Halton => PixelSampler::Other(SamplerKind::Halton),
-        PixelSamplerName::Sobol => PixelSampler::Other(SamplerKind::Sobol),
-        PixelSamplerName::None => PixelSampler::Centre,
     }
 }
 

@@ -7,31 +7,18 @@ use super::arguments::EstimateArguments;
 use super::exit::Failure;
 
 /// Flag and value of everything refused.
-const UNSUPPORTED: &[(&str, &str)] = &[
-    ("--sampler", "stratified"),
-    ("--sampler", "sobol"),
-    ("--hemisphere", "uniform"),
-    ("--light-sampling", "visible"),
-    ("--light-sampling", "area"),
-    ("--pixel-sampler", "independent"),
-    ("--pixel-sampler", "stratified"),
-    ("--pixel-sampler", "halton"),
-    ("--pixel-sampler", "sobol"),
-    ("--pixel-sampler", "none"),
-    ("--blend", "pick"),
-];
+const UNSUPPORTED: &[(&str, &str)] =
+    &[("--hemisphere", "uniform"), ("--light-sampling", "visible"), ("--light-sampling", "area"), ("--blend", "pick")];
 
 /// Refuses the first flag whose value is not supported.
 ///
 /// # Errors
 /// A usage error that names the flag, the value and the values that work.
 pub fn refuse(arguments: &EstimateArguments) -> Result<(), Failure> {
-    check("--sampler", arguments.sampler)?;
     check("--estimator", arguments.estimator)?;
     check("--heuristic", arguments.heuristic)?;
     check("--hemisphere", arguments.hemisphere)?;
     check("--light-sampling", arguments.light_sampling)?;
-    check("--pixel-sampler", arguments.pixel_sampler)?;
     check("--blend", arguments.blend)
 }
 
@@ -50,17 +37,17 @@ fn check<T: ValueEnum>(flag: &'static str, value: Option<T>) -> Result<(), Failu
 
 #[cfg(test)]
 mod tests {
-    use gpt::scene::SamplerKind;
+    use gpt::scene::LightSampling;
 
     use super::*;
 
     #[test]
     fn what_does_not_work_is_refused_with_what_does() {
-        let refused = EstimateArguments { sampler: Some(SamplerKind::Sobol), ..EstimateArguments::default() };
+        let refused = EstimateArguments { light_sampling: Some(LightSampling::Area), ..EstimateArguments::default() };
         let Err(Failure::Usage { message, help }) = refuse(&refused) else { panic!("not refused") };
-        assert_eq!(message, "`--sampler sobol` is not supported yet");
-        assert_eq!(help.as_deref(), Some("values that work: independent, halton"));
-        let accepted = EstimateArguments { sampler: Some(SamplerKind::Halton), ..EstimateArguments::default() };
+        assert_eq!(message, "`--light-sampling area` is not supported yet");
+        assert_eq!(help.as_deref(), Some("values that work: cone"));
+        let accepted = EstimateArguments { light_sampling: Some(LightSampling::Cone), ..EstimateArguments::default() };
         assert!(refuse(&accepted).is_ok());
     }
 }

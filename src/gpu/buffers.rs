@@ -8,7 +8,7 @@ use wgpu::{BufferUsages, TextureFormat};
 use super::device::Device;
 use super::parameters::{EdgeParameters, PassParameters};
 use crate::flat::FlatScene;
-use crate::plan::{FilmStorage, GeometryPlacement, MAX_SAMPLES_PER_PASS, Plan, StageMode, memory, switches::HALTON_BLOCKS};
+use crate::plan::{FilmStorage, GeometryPlacement, MAX_SAMPLES_PER_PASS, Plan, StageMode, memory, switches::SEQUENCE_BLOCKS};
 
 /// Edges that one submission can hold; longer paths take further submissions.
 pub const EDGES_PER_SUBMISSION: u32 = 32;
@@ -19,7 +19,7 @@ const EDGE_STRIDE: usize = 256;
 pub mod binding {
     pub const PASS: u32 = 0;
     pub const EDGE: u32 = 1;
-    pub const HALTON: u32 = 2;
+    pub const SEQUENCE: u32 = 2;
     pub const VIEW: u32 = 3;
     pub const PRIMITIVES: u32 = 4;
     pub const TABLES: u32 = 5;
@@ -87,7 +87,7 @@ impl Buffers {
         };
         let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         make(binding::PASS, "pass", size_of::<PassParameters>() as u64, uniform);
-        make(binding::HALTON, "halton points", 16 * u64::from(HALTON_BLOCKS * MAX_SAMPLES_PER_PASS), uniform);
+        make(binding::SEQUENCE, "sequence points", 16 * u64::from(SEQUENCE_BLOCKS * MAX_SAMPLES_PER_PASS), uniform);
         let storage = BufferUsages::STORAGE;
         make(binding::STATISTICS, "statistics", 16, storage | BufferUsages::COPY_SRC | BufferUsages::COPY_DST);
         if plan.stages == StageMode::Wavefront {

@@ -11,8 +11,8 @@ use crate::film::Band;
 use crate::flat::FlatScene;
 use crate::plan::{Plan, PlanOptions, StageMode};
 use crate::render::{DeviceChoice, Observer, RenderError, RenderReport, RenderRequest, Renderer};
-use crate::sampling::halton::{HALTON_DIMENSIONS, radical_inverse_bits};
-use crate::scene::{SamplerKind, Scene};
+use crate::sampling::{Sampling, SequencePoint};
+use crate::scene::Scene;
 
 /// A scene uploaded, its kernels compiled.
 pub struct GpuRenderer {
@@ -21,8 +21,7 @@ pub struct GpuRenderer {
     buffers: Buffers,
     kernels: Vec<Kernel>,
     size: [u32; 2],
-    seed: u32,
-    halton: bool,
+    sampling: Sampling,
     /// Edges of a path at most; None: no limit.
     max_depth: Option<u32>,
     build_seconds: f64,
@@ -66,8 +65,7 @@ impl GpuRenderer {
             buffers,
             kernels,
             size: scene.film.size,
-            seed: scene.render.seed,
-            halton: scene.render.sampler == SamplerKind::Halton,
+            sampling: Sampling::from(&scene.render),
             max_depth: Some(scene.render.max_depth).filter(|depth| *depth > 0),
             build_seconds,
             compile_seconds: start.elapsed().as_secs_f64(),
@@ -96,7 +94,7 @@ impl GpuRenderer {
         }
     }
 
-    /// Uploads what a pass needs: its parameters, and its samples' points of the Halton sequence.
+    /// Uploads what a pass needs: its parameters, and its samples' points of the sampler's sequence.
     fn write_pass(&self, band: &BandState, pass: &Pass, request: &RenderRequest) {
         let first_sample = request.samples.start + pass.first_sample;
         let parameters = PassParameters {
@@ -107,16 +105,13 @@ impl GpuRenderer {
             sample_count: pass.sample_count,
             film_is_empty: u32::from(pass.film_is_empty),
             opaque_zero: 0,
-            seed: self.seed,
+            seed: self.sampling.seed,
         };
         self.write(binding::PASS, bytemuck::bytes_of(&parameters));
-        if self.halton {
+        if self.sampling.uses_sequence() {
             let samples = first_sample..first_sample + pass.sample_count;
-            let points: Vec<u32> = samples
-                .flat_map(|sample| (0..HALTON_DIMENSIONS).map(move |dimension| (dimension, sample)))
-                .map(|(dimension, sample)| radical_inverse_bits(self.seed, dimension, sample))
-                .collect();
-            self.write(binding::HALTON, bytemuck::cast_slice(&points));
+            let points: Vec<u32> = samples.flat_map(|sample| SequencePoint::new(&self.sampling, sample).bits).collect();
+            self.write(binding::SEQUENCE, bytemuck::cast_slice(&points));
         }
     }
 

@@ -37,6 +37,7 @@ impl Provenance {
             ("gpt:sceneHash", text(&self.scene_hash)),
             ("gpt:device", text(&self.device)),
             ("gpt:sampler", text(&setting_name(settings.sampler))),
+            ("gpt:pixelSampler", text(&settings.pixel_sampler.name(settings.sampler))),
             ("gpt:estimator", text(&setting_name(settings.estimator))),
             ("gpt:heuristic", text(&setting_name(settings.heuristic))),
             // As text, because a seed may need all 32 bits and the header's integers are signed.

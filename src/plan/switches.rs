@@ -5,14 +5,16 @@ use crate::flat::FlatScene;
 use crate::flat::light::LightKind;
 use crate::flat::primitive::{Primitive, PrimitiveKind};
 use crate::flat::tables::FlatMaterialKind;
-use crate::sampling::halton::HALTON_DIMENSIONS;
-use crate::scene::{Estimator, MisHeuristic, SamplerKind, Scene};
+use crate::sampling::Decorrelation;
+use crate::sampling::dimension::SEQUENCE_DIMENSIONS;
+use crate::scene::{Estimator, MisHeuristic, PixelSampler, RenderSettings, Scene};
 use crate::shader::Switches;
 
 /// Every switch that the shaders know.
 pub const ALL: &[&str] = &[
     "ATTRIBUTES",
     "BVH",
+    "DIGITAL_SHIFT",
     "DISKS_IN_HIERARCHY",
     "EMISSION",
     "ENVIRONMENT",
@@ -28,10 +30,14 @@ pub const ALL: &[&str] = &[
     "MIRROR",
     "ONE_LIGHT",
     "ONLY_TRIANGLES_IN_HIERARCHY",
+    "PIXEL_CENTRE",
+    "PIXEL_DIGITAL_SHIFT",
+    "PIXEL_HASHED",
+    "PIXEL_ROTATION",
     "POINT_LIGHTS",
     "QUADS_IN_HIERARCHY",
     "ROULETTE",
-    "SAMPLER_HALTON",
+    "SEQUENCE",
     "SPHERES",
     "SPHERES_IN_HIERARCHY",
     "SPHERE_LIGHTS",
@@ -42,8 +48,8 @@ pub const ALL: &[&str] = &[
     "UNIFORM_TABLES",
 ];
 
-/// Blocks of four dimensions that the Halton table holds per sample.
-pub const HALTON_BLOCKS: u32 = HALTON_DIMENSIONS / 4;
+/// Blocks of four dimensions that the sequence's table holds per sample.
+pub const SEQUENCE_BLOCKS: u32 = SEQUENCE_DIMENSIONS / 4;
 
 pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     let mut switches = Switches::default();
@@ -87,7 +93,7 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     switches.enable("ESTIMATOR_NEE", render.estimator == Estimator::Nee);
     switches.enable("HEURISTIC_POWER", render.heuristic == MisHeuristic::Power);
     switches.enable("ROULETTE", render.roulette_depth > 0);
-    switches.enable("SAMPLER_HALTON", render.sampler == SamplerKind::Halton);
+    enable_sampler(&mut switches, render);
     switches.enable("FILM_TEXTURE", plan.film == FilmStorage::Texture);
 
     let (tables, first_light, first_texture) = flat.tables();
@@ -95,8 +101,6 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
         ("FILM_WIDTH", scene.film.size[0]),
         ("FIRST_LIGHT_WORD", first_light),
         ("FIRST_TEXTURE_WORD", first_texture),
-        ("HALTON_BLOCKS", HALTON_BLOCKS),
-        ("HALTON_POINTS", HALTON_BLOCKS * MAX_SAMPLES_PER_PASS),
         ("LIGHT_COUNT", flat.lights.len() as u32),
         // Depth 0 means no limit: an edge that is never reached.
         ("MAX_DEPTH", if render.max_depth == 0 { u32::MAX } else { render.max_depth }),
@@ -104,10 +108,27 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
         ("PRIMITIVE_WORDS", (3 * flat.primitives.len() as u32).max(1)),
         ("RAYS_PER_INVOCATION", plan.rays_per_invocation),
         ("ROULETTE_DEPTH", render.roulette_depth),
+        ("SEQUENCE_BLOCKS", SEQUENCE_BLOCKS),
+        ("SEQUENCE_POINTS", SEQUENCE_BLOCKS * MAX_SAMPLES_PER_PASS),
         ("STACK_SIZE", flat.bvh.stack_size),
         ("TOP_NODES", plan.top_nodes),
         ("TOP_WORDS", (3 * plan.top_nodes).max(1)),
         ("TABLE_WORDS", (tables.len() as u32).max(1)),
     ]);
     switches
+}
+
+fn enable_sampler(switches: &mut Switches, render: &RenderSettings) {
+    let path = render.sampler.decorrelation();
+    switches.enable("SEQUENCE", path != Decorrelation::Hashed);
+    switches.enable("DIGITAL_SHIFT", path == Decorrelation::DigitalShift);
+    // The pixel's own, where it differs from the path's.
+    let pixel = match render.pixel_sampler {
+        PixelSampler::Other(kind) if kind != render.sampler => Some(kind.decorrelation()),
+        _ => None,
+    };
+    switches.enable("PIXEL_CENTRE", render.pixel_sampler == PixelSampler::Centre);
+    switches.enable("PIXEL_HASHED", pixel == Some(Decorrelation::Hashed));
+    switches.enable("PIXEL_ROTATION", pixel == Some(Decorrelation::Rotation));
+    switches.enable("PIXEL_DIGITAL_SHIFT", pixel == Some(Decorrelation::DigitalShift));
 }

@@ -11,7 +11,7 @@ use super::lights::luminance;
 use super::trace::{PathTrace, PathVisitor, RayCounter};
 use crate::film::Band;
 use crate::render::{Observer, RenderError, RenderReport, RenderRequest, Renderer};
-use crate::sampling::{PathSampler, SequencePoint};
+use crate::sampling::{PathSampler, Sampling, SequencePoint};
 use crate::scene::Scene;
 
 /// Rows of a band.
@@ -78,18 +78,21 @@ impl ReferenceRenderer {
 
     fn follow<V: PathVisitor>(&self, x: u32, y: u32, sample: u32, visitor: &mut V) -> DVec3 {
         let Scene { film, render, .. } = self.integrator.scene();
-        let sampler = PathSampler::new(render.sampler, render.seed, y.wrapping_mul(film.size[0]).wrapping_add(x), sample);
+        let sampling = Sampling::from(render);
+        let point = SequencePoint::new(&sampling, sample);
+        let sampler = PathSampler::new(&sampling, y.wrapping_mul(film.size[0]).wrapping_add(x), &point);
         self.integrator.radiance(x, y, &sampler, visitor)
     }
 
     /// Adds one sample of a pixel per point to its sum.
     fn sample_pixel(&self, x: u32, y: u32, points: &[SequencePoint], sum: &mut PixelSum) -> Tally {
         let Scene { film, render, .. } = self.integrator.scene();
+        let sampling = Sampling::from(render);
         let mut counter = RayCounter::default();
         let mut non_finite = 0;
         for point in points {
             let pixel = y.wrapping_mul(film.size[0]).wrapping_add(x);
-            let sampler = PathSampler::at_point(render.sampler, render.seed, pixel, point);
+            let sampler = PathSampler::new(&sampling, pixel, point);
             let radiance = self.integrator.radiance(x, y, &sampler, &mut counter);
             if is_acceptable(radiance) {
                 sum.radiance += radiance;
@@ -123,8 +126,8 @@ impl ReferenceRenderer {
         let rate = if self.timed_seconds > 0.0 { self.timed_samples / self.timed_seconds } else { 0.0 };
         let fitting = rate * PASS_DURATION.as_secs_f64() / pixels.max(1) as f64;
         let count = (fitting as u32).clamp(1, SAMPLES_PER_PASS).min(end - first);
-        let seed = self.integrator.scene().render.seed;
-        (first..first + count).map(|sample| SequencePoint::new(seed, sample)).collect()
+        let sampling = Sampling::from(&self.integrator.scene().render);
+        (first..first + count).map(|sample| SequencePoint::new(&sampling, sample)).collect()
     }
 
     /// Renders all samples of a group of bands, pass by pass. False when the observer asked to stop.

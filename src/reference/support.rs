@@ -3,7 +3,7 @@
 use crate::render::RenderError;
 use crate::scene::{
     ColorInput, EnvironmentRadiance, FilterKind, Geometry, HemisphereSampling, Light, LightSampling, Material, MaterialId,
-    MaterialKind, Mesh, PixelSampler, SamplerKind, Scene, Shape, TextureId, TextureKind,
+    MaterialKind, Mesh, Scene, Shape, TextureId, TextureKind,
 };
 
 /// Checks that every index of the scene is in range and that nothing is used that the reference cannot render.
@@ -28,12 +28,6 @@ fn settings(scene: &Scene) -> Check {
     }
     if scene.film.filter.kind != FilterKind::Box || scene.film.filter.radius != 0.5 {
         return refuse("filters other than the box of radius 0.5");
-    }
-    if !matches!(settings.sampler, SamplerKind::Independent | SamplerKind::Halton) {
-        return refuse("with samplers other than independent and halton");
-    }
-    if settings.pixel_sampler != PixelSampler::SameAsPath {
-        return refuse("with a pixel sampler of its own");
     }
     if settings.hemisphere != HemisphereSampling::Cosine || settings.light_sampling != LightSampling::Cone {
         return refuse("with other than cosine and cone sampling");

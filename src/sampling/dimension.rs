@@ -1,6 +1,6 @@
 //! The named dimensions of a path.
 //!
-//! Dimensions come in blocks of four so that the device loads a block at once: block 0 is the camera's, every bounce has two.
+//! Dimensions come in blocks of four so that the device loads a block at once: blocks 0 and 1 are the camera's, every bounce has two.
 
 /// What a random number of the camera is used for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -10,6 +10,7 @@ pub enum CameraDimension {
     PixelY = 1,
     LensU = 2,
     LensV = 3,
+    /// When, while the shutter is open, the path sees the scene. Alone in its block, which is drawn only where something moves.
     Time = 4,
 }
 
@@ -37,6 +38,20 @@ pub struct Dimension(pub u32);
 pub const CAMERA_DIMENSIONS: u32 = 8;
 /// Dimensions of each bounce.
 pub const BOUNCE_DIMENSIONS: u32 = 8;
+/// Bounces whose dimensions are drawn from the sampler's sequence; beyond them every sampler is the hashed generator. That many
+/// dimensions together need more samples than people take before they are evener than random numbers.
+pub const SEQUENCE_BOUNCES: u32 = 4;
+/// Dimensions that a sequence covers, unused ones included.
+pub const SEQUENCE_DIMENSIONS: u32 = CAMERA_DIMENSIONS + SEQUENCE_BOUNCES * BOUNCE_DIMENSIONS;
+
+/// How a dimension is stratified: alone, or with another as the two coordinates of a point in the square.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Strata {
+    /// Alone, under the key of this dimension.
+    Line(u32),
+    /// With its neighbour, under the key of the pair's first dimension; which of the two it is.
+    Square { first: u32, axis: usize },
+}
 
 impl Dimension {
     pub const fn camera(dimension: CameraDimension) -> Self {
@@ -46,5 +61,50 @@ impl Dimension {
     /// `bounce` counts surfaces from 0, the first one the camera sees.
     pub const fn bounce(bounce: u32, dimension: BounceDimension) -> Self {
         Self(CAMERA_DIMENSIONS + bounce * BOUNCE_DIMENSIONS + dimension as u32)
+    }
+
+    /// Whether this is a coordinate of the position inside the pixel.
+    pub const fn is_pixel(self) -> bool {
+        self.0 <= CameraDimension::PixelY as u32
+    }
+
+    /// The pairs are the positions in the pixel, on the lens and on a light, and the direction that a material samples.
+    pub const fn strata(self) -> Strata {
+        let Self(d) = self;
+        let first = if d < CAMERA_DIMENSIONS {
+            if d < 4 { d & !1 } else { return Strata::Line(d) }
+        } else {
+            match (d - CAMERA_DIMENSIONS) % BOUNCE_DIMENSIONS {
+                1 | 4 => d,
+                2 | 5 => d - 1,
+                _ => return Strata::Line(d),
+            }
+        };
+        Strata::Square { first, axis: (d - first) as usize }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pairs_are_those_of_the_names() {
+        let pair = |first: Dimension, second: Dimension| {
+            assert_eq!(first.strata(), Strata::Square { first: first.0, axis: 0 });
+            assert_eq!(second.strata(), Strata::Square { first: first.0, axis: 1 });
+        };
+        use BounceDimension::*;
+        use CameraDimension::*;
+        pair(Dimension::camera(PixelX), Dimension::camera(PixelY));
+        pair(Dimension::camera(LensU), Dimension::camera(LensV));
+        assert_eq!(Dimension::camera(Time).strata(), Strata::Line(4));
+        for bounce in 0..5 {
+            pair(Dimension::bounce(bounce, LightU), Dimension::bounce(bounce, LightV));
+            pair(Dimension::bounce(bounce, BsdfU), Dimension::bounce(bounce, BsdfV));
+            for alone in [LightChoice, Lobe, Roulette, Blend].map(|name| Dimension::bounce(bounce, name)) {
+                assert_eq!(alone.strata(), Strata::Line(alone.0));
+            }
+        }
     }
 }

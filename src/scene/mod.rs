@@ -34,7 +34,7 @@ pub use light::{Environment, EnvironmentRadiance, Light};
 pub use material::{ConductorFresnel, Emission, Heuristic, Material, MaterialKind, MicrofacetDistribution};
 pub use settings::{
     BlendMode, Estimator, FilmSettings, Filter, FilterKind, HemisphereSampling, LightSampling, MisHeuristic, PixelSampler,
-    RenderSettings, SamplerKind, setting_name,
+    PixelSamplerName, RenderSettings, SamplerKind, setting_name,
 };
 pub use shape::{Geometry, Mesh, Shape};
 pub use source::{SceneSource, load};

@@ -48,7 +48,7 @@ pub struct RenderSettings {
     /// Path edges: 1 = only light seen directly, 2 = plus direct lighting, 0 = unlimited (Russian roulette ends paths).
     pub max_depth: u32,
     pub sampler: SamplerKind,
-    /// The sampler of the pixel's own two dimensions; `None` in the inner value means the pixel's centre (aliased).
+    /// The sampler of the pixel's own two dimensions.
     pub pixel_sampler: PixelSampler,
     pub estimator: Estimator,
     pub heuristic: MisHeuristic,
@@ -82,10 +82,20 @@ impl Default for RenderSettings {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SamplerKind {
+    /// Every number on its own.
     Independent,
+    /// As many strata as samples per pixel, one sample in each.
     Stratified,
+    /// Recursive quadrants: strata that get finer as samples come.
+    Quadrant,
+    /// Scrambled Halton sequence.
     Halton,
+    /// Owen-scrambled Sobol' sequence.
     Sobol,
+}
+
+impl SamplerKind {
+    pub const ALL: [Self; 5] = [Self::Independent, Self::Stratified, Self::Quadrant, Self::Halton, Self::Sobol];
 }
 
 /// Which sampler draws the position inside the pixel.
@@ -97,6 +107,43 @@ pub enum PixelSampler {
     Other(SamplerKind),
     /// Always the pixel's centre: aliased, for comparison.
     Centre,
+}
+
+/// A pixel sampler as scene files and the command line name it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PixelSamplerName {
+    Independent,
+    Stratified,
+    Quadrant,
+    Halton,
+    Sobol,
+    /// Always the pixel's centre: aliased, for comparison.
+    None,
+}
+
+impl From<PixelSamplerName> for PixelSampler {
+    fn from(name: PixelSamplerName) -> Self {
+        match name {
+            PixelSamplerName::Independent => Self::Other(SamplerKind::Independent),
+            PixelSamplerName::Stratified => Self::Other(SamplerKind::Stratified),
+            PixelSamplerName::Quadrant => Self::Other(SamplerKind::Quadrant),
+            PixelSamplerName::Halton => Self::Other(SamplerKind::Halton),
+            PixelSamplerName::Sobol => Self::Other(SamplerKind::Sobol),
+            PixelSamplerName::None => Self::Centre,
+        }
+    }
+}
+
+impl PixelSampler {
+    /// The name of the sampler that draws the pixel's dimensions, with `path` the path's.
+    pub fn name(self, path: SamplerKind) -> String {
+        match self {
+            Self::SameAsPath => setting_name(path),
+            Self::Other(kind) => setting_name(kind),
+            Self::Centre => setting_name(PixelSamplerName::None),
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize, JsonSchema)]

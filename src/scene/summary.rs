@@ -16,6 +16,7 @@ pub struct SceneSummary {
     pub spp: u32,
     pub max_depth: u32,
     pub sampler: String,
+    pub pixel_sampler: String,
     pub estimator: String,
     pub heuristic: String,
     pub shapes: BTreeMap<&'static str, usize>,
@@ -41,6 +42,7 @@ impl SceneSummary {
             spp: render.spp,
             max_depth: render.max_depth,
             sampler: setting_name(render.sampler),
+            pixel_sampler: render.pixel_sampler.name(render.sampler),
             estimator: setting_name(render.estimator),
             heuristic: setting_name(render.heuristic),
             shapes: count(scene.shapes.iter().map(|shape| shape_type(&shape.geometry))),
@@ -61,9 +63,10 @@ impl fmt::Display for SceneSummary {
         let depth = if self.max_depth == 0 { "unlimited depth".to_owned() } else { format!("depth {}", self.max_depth) };
         writeln!(out, "scene      {}", self.name)?;
         writeln!(out, "film       {width}x{height}, {} spp", self.spp)?;
+        let pixel = if self.pixel_sampler == self.sampler { String::new() } else { format!(" (pixel: {})", self.pixel_sampler) };
         writeln!(
             out,
-            "render     {depth}, {} sampler, {} estimator, {} heuristic",
+            "render     {depth}, {} sampler{pixel}, {} estimator, {} heuristic",
             self.sampler, self.estimator, self.heuristic
         )?;
         writeln!(out, "shapes     {}", list(&self.shapes))?;

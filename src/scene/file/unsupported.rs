@@ -3,10 +3,7 @@
 
 use super::document::Step;
 use super::document::Step::{Index, Key};
-use crate::scene::{
-    EnvironmentRadiance, FilterKind, Geometry, Light, Material, MaterialKind, PixelSampler, Projection, SamplerKind, Scene,
-    TextureKind,
-};
+use crate::scene::{EnvironmentRadiance, FilterKind, Geometry, Light, Material, MaterialKind, Projection, Scene, TextureKind};
 
 /// Something that is refused: where it is written and what it is called.
 pub struct Refusal {
@@ -38,15 +35,7 @@ fn settings(scene: &Scene) -> Option<Refusal> {
         FilterKind::Gaussian => return refuse(filter_path, "the filter `gaussian`"),
         FilterKind::BlackmanHarris => return refuse(filter_path, "the filter `blackman_harris`"),
     }
-    let sampler_path = [Key("render"), Key("sampler")];
-    if scene.render.pixel_sampler != PixelSampler::SameAsPath {
-        return refuse(sampler_path, "a sampler of its own for the pixel");
-    }
-    match scene.render.sampler {
-        SamplerKind::Independent | SamplerKind::Halton => None,
-        SamplerKind::Stratified => refuse(sampler_path, "the sampler `stratified`"),
-        SamplerKind::Sobol => refuse(sampler_path, "the sampler `sobol`"),
-    }
+    None
 }
 
 fn camera(scene: &Scene) -> Option<Refusal> {

@@ -28,6 +28,7 @@ impl Resolver<'_> {
         render.spp = written.spp.map_or(render.spp, |spp| spp.get());
         render.max_depth = written.max_depth.unwrap_or(render.max_depth);
         render.sampler = written.sampler.unwrap_or(render.sampler);
+        render.pixel_sampler = written.pixel_sampler.map_or(render.pixel_sampler, Into::into);
         render.estimator = written.estimator.unwrap_or(render.estimator);
         render.heuristic = written.heuristic.unwrap_or(render.heuristic);
         render.seed = written.seed.unwrap_or(render.seed);

@@ -22,7 +22,7 @@ pub use shape::{BoxShape, MeshShape, RectangleShape, ShapeEntry, StepEntry, Tran
 pub use texture::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 
 use super::value::{Checked, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
-use crate::scene::{Estimator, MisHeuristic, SamplerKind};
+use crate::scene::{Estimator, MisHeuristic, PixelSamplerName, SamplerKind};
 
 /// A scene of the path tracer gpt. Lengths in scene units, angles in degrees, colours linear Rec.709, radiance in W·sr⁻¹·m⁻².
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -81,6 +81,8 @@ pub struct RenderTable {
     /// left out.
     pub max_depth: Option<u32>,
     pub sampler: Option<SamplerKind>,
+    /// The sampler of the position inside the pixel, "none": always its centre. That of the path when left out.
+    pub pixel_sampler: Option<PixelSamplerName>,
     pub estimator: Option<Estimator>,
     pub heuristic: Option<MisHeuristic>,
     /// First depth at which Russian roulette may end a path, 0 = never. 5 when left out.

@@ -1,0 +1,93 @@
+//! What all pixels share of a sampler's numbers: worked out once per sample on the host.
+
+use super::dimension::{Dimension, SEQUENCE_DIMENSIONS};
+use super::halton::radical_inverse_bits;
+use super::sobol::sobol_bits;
+use super::strata::{quadrant_bits, stratified_bits};
+use crate::scene::{PixelSampler, RenderSettings, SamplerKind};
+
+/// Everything a render's random numbers depend on beside pixel and sample.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sampling {
+    pub path: SamplerKind,
+    pub pixel: PixelSampler,
+    pub seed: u32,
+    /// Samples per pixel for which `stratified` lays out its strata, at least 1.
+    pub samples: u32,
+}
+
+impl From<&RenderSettings> for Sampling {
+    fn from(settings: &RenderSettings) -> Self {
+        Self {
+            path: settings.sampler,
+            pixel: settings.pixel_sampler,
+            seed: settings.seed,
+            samples: settings.spp.clamp(1, 1 << 31),
+        }
+    }
+}
+
+/// How pixels are made independent of each other where they share a sequence: each moves it by a hash of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Decorrelation {
+    /// Addition modulo 1 (Cranley and Patterson 1976).
+    Rotation,
+    /// Exclusive or with the binary digits: keeps elementary intervals in base 2 (Matoušek 1998).
+    DigitalShift,
+    /// There is no sequence: every number is hashed.
+    Hashed,
+}
+
+impl SamplerKind {
+    pub fn decorrelation(self) -> Decorrelation {
+        match self {
+            Self::Independent => Decorrelation::Hashed,
+            Self::Stratified | Self::Halton => Decorrelation::Rotation,
+            Self::Quadrant | Self::Sobol => Decorrelation::DigitalShift,
+        }
+    }
+}
+
+impl Sampling {
+    /// The sampler of a dimension; None for a coordinate that is always the pixel's centre.
+    pub fn sampler_of(&self, dimension: Dimension) -> Option<SamplerKind> {
+        match self.pixel {
+            PixelSampler::Other(kind) if dimension.is_pixel() => Some(kind),
+            PixelSampler::Centre if dimension.is_pixel() => None,
+            _ => Some(self.path),
+        }
+    }
+
+    /// Whether any number comes from a sequence.
+    pub fn uses_sequence(&self) -> bool {
+        let pixel = matches!(self.pixel, PixelSampler::Other(kind) if kind.decorrelation() != Decorrelation::Hashed);
+        pixel || self.path.decorrelation() != Decorrelation::Hashed
+    }
+
+    /// Bits that all pixels share; 0 where there are none.
+    fn shared_bits(&self, dimension: Dimension, sample: u32) -> u32 {
+        let Dimension(d) = dimension;
+        match self.sampler_of(dimension) {
+            None | Some(SamplerKind::Independent) => 0,
+            Some(SamplerKind::Stratified) => stratified_bits(self.seed, self.samples, dimension, sample),
+            Some(SamplerKind::Quadrant) => quadrant_bits(self.seed, dimension, sample),
+            Some(SamplerKind::Halton) => radical_inverse_bits(self.seed, d, sample),
+            Some(SamplerKind::Sobol) => sobol_bits(self.seed, d, sample),
+        }
+    }
+}
+
+/// The sampler's sequence at one sample index.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SequencePoint {
+    /// Absolute sample index.
+    pub sample: u32,
+    /// 32-bit fractions, one for each dimension that sequences cover.
+    pub bits: [u32; SEQUENCE_DIMENSIONS as usize],
+}
+
+impl SequencePoint {
+    pub fn new(sampling: &Sampling, sample: u32) -> Self {
+        Self { sample, bits: std::array::from_fn(|d| sampling.shared_bits(Dimension(d as u32), sample)) }
+    }
+}
