@@ -10,8 +10,9 @@ use glam::DVec3;
 
 use super::bsdf::{Bsdf, BsdfSample, Density};
 use super::camera::PinholeCamera;
+use super::emission::emitted;
 use super::intersect::{Ray, Surface, World};
-use super::lights::{Lights, emitted};
+use super::lights::Lights;
 use super::trace::{LightConnection, PathVisitor};
 use super::{mis, support};
 use crate::render::RenderError;
@@ -44,6 +45,10 @@ struct Path {
     eta_scale: f64,
     /// How the ray's direction was sampled.
     previous: Density,
+    /// Which edge of the path the ray is; the first has 1.
+    edge: u32,
+    /// Surfaces met so far: each has random numbers of its own. Those that let the ray pass end no edge, else it would be edge − 1.
+    bounce: u32,
 }
 
 impl Integrator {
@@ -71,18 +76,15 @@ impl Integrator {
             radiance: DVec3::ZERO,
             eta_scale: 1.0,
             previous: Density::Delta,
+            edge: 1,
+            bounce: 0,
         };
-        for edge in 1.. {
-            if !self.extend(&mut path, edge, sampler, visitor) {
-                break;
-            }
-        }
+        while self.extend(&mut path, sampler, visitor) {}
         path.radiance
     }
 
     /// Follows the path's ray to the next surface, adds the light found there, and chooses the next ray. False where the path ends.
-    fn extend<V: PathVisitor>(&self, path: &mut Path, edge: u32, sampler: &PathSampler, visitor: &mut V) -> bool {
-        let random = |dimension| sampler.uniform(Dimension::bounce(edge - 1, dimension));
+    fn extend<V: PathVisitor>(&self, path: &mut Path, sampler: &PathSampler, visitor: &mut V) -> bool {
         visitor.ray(&path.ray);
         let Some(hit) = self.world.closest(path.ray) else {
             self.add_environment(path, visitor);
@@ -90,23 +92,38 @@ impl Integrator {
         };
         let surface = self.world.surface(&path.ray, &hit);
         let wo = -path.ray.direction;
-        visitor.surface(edge, &surface, wo, path.throughput);
+        visitor.surface(path.edge, &surface, wo, path.throughput);
         self.add_emission(path, &surface, wo, visitor);
-        if edge == self.scene.render.max_depth {
+        // The last edge goes on through what lets it pass, and only blends do: plain `pass` surfaces are not in the world.
+        let is_last = path.edge == self.scene.render.max_depth;
+        if is_last && !self.scene.materials[surface.owner.material].is_blend() {
             return false;
         }
-        let bsdf = Bsdf::new(&self.scene, &surface, wo);
+        let bounce = path.bounce;
+        let random = |dimension| sampler.uniform(Dimension::bounce(bounce, dimension));
+        let bsdf = Bsdf::new(&self.scene, &surface, wo, random(BounceDimension::Blend));
         visitor.view(&bsdf.view);
-        self.add_direct_light(path, edge, &surface, &bsdf, sampler, visitor);
+        if !is_last {
+            self.add_direct_light(path, &surface, &bsdf, sampler, visitor);
+        }
         let (u1, u2) = (random(BounceDimension::BsdfU), random(BounceDimension::BsdfV));
         let Some(scattered) = bsdf.sample(random(BounceDimension::Lobe), u1, u2) else { return false };
+        if is_last && !scattered.passes {
+            return false;
+        }
         visitor.scattered(&scattered);
-        let BsdfSample { wi, weight, density, eta } = scattered;
+        let BsdfSample { wi, weight, density, eta, passes } = scattered;
         path.throughput *= weight;
         path.eta_scale *= eta * eta;
         path.previous = density;
         path.ray = Ray { origin: surface.point.leave_towards(wi), direction: wi };
-        self.survives_roulette(path, edge, random(BounceDimension::Roulette), visitor)
+        path.bounce += 1;
+        if passes {
+            return true;
+        }
+        let survives = self.survives_roulette(path, random(BounceDimension::Roulette), visitor);
+        path.edge += 1;
+        survives
     }
 
     /// A ray that left the scene finds the environment. Light sampling chooses it only where no BSDF sample may count it (`nee`),
@@ -145,7 +162,6 @@ impl Integrator {
     fn add_direct_light<V: PathVisitor>(
         &self,
         path: &mut Path,
-        edge: u32,
         surface: &Surface,
         bsdf: &Bsdf,
         sampler: &PathSampler,
@@ -155,7 +171,7 @@ impl Integrator {
         if settings.estimator == Estimator::Bsdf || self.lights.is_empty() || !bsdf.has_smooth_lobe() {
             return;
         }
-        let dimension = |dimension| Dimension::bounce(edge - 1, dimension);
+        let dimension = |dimension| Dimension::bounce(path.bounce, dimension);
         let bits = sampler.bits(dimension(BounceDimension::LightChoice));
         let u1 = sampler.uniform(dimension(BounceDimension::LightU));
         let u2 = sampler.uniform(dimension(BounceDimension::LightV));
@@ -171,7 +187,8 @@ impl Integrator {
         } else {
             mis::weight(settings.heuristic, light.pdf, scattering.pdf)
         };
-        let ray = Ray { origin: reference, direction: light.wi };
+        // Light that comes through the surface arrives on its other side.
+        let ray = Ray { origin: surface.point.leave_towards(light.wi), direction: light.wi };
         visitor.ray(&ray);
         let visible = !self.world.blocked(ray, light.distance, light.target);
         let unshadowed = path.throughput * scattering.value * light.radiance * (weight / light.pdf);
@@ -181,12 +198,12 @@ impl Integrator {
     }
 
     /// Russian roulette: the path goes on with probability q and then counts 1/q times as much, which leaves the mean as it is.
-    fn survives_roulette<V: PathVisitor>(&self, path: &mut Path, edge: u32, u: f64, visitor: &mut V) -> bool {
+    fn survives_roulette<V: PathVisitor>(&self, path: &mut Path, u: f64, visitor: &mut V) -> bool {
         let first = self.scene.render.roulette_depth;
-        if first == 0 || edge < first {
+        if first == 0 || path.edge < first {
             return true;
         }
-        let largest = if edge < CERTAIN_ROULETTE_EDGE { 1.0 } else { LARGEST_SURVIVAL };
+        let largest = if path.edge < CERTAIN_ROULETTE_EDGE { 1.0 } else { LARGEST_SURVIVAL };
         let survival = (path.throughput * path.eta_scale).max_element().min(largest);
         visitor.roulette(survival, u < survival);
         if u >= survival {

@@ -4,9 +4,10 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
+use super::emission::{emitted, mean_exitance};
 use super::frame::Frame;
 use super::intersect::{Primitive, Ray, Sphere, Surface, SurfaceId, SurfacePoint, World};
-use super::{texture, warp};
+use super::warp;
 use crate::sampling::AliasTable;
 use crate::scene::{EnvironmentRadiance, Estimator, Light, Scene};
 
@@ -69,22 +70,13 @@ pub fn luminance(color: DVec3) -> f64 {
     color.dot(DVec3::new(0.2126, 0.7152, 0.0722))
 }
 
-/// Radiance that leaves the surface towards `wo` by its own emission.
-pub fn emitted(scene: &Scene, surface: &Surface, wo: DVec3) -> DVec3 {
-    match &scene.materials[surface.owner.material].emission {
-        Some(emission) if emission.two_sided || wo.dot(surface.point.normal) > 0.0 => {
-            texture::evaluate(scene, &emission.radiance, surface.uv)
-        }
-        _ => DVec3::ZERO,
-    }
-}
-
 impl Lights {
     pub fn new(scene: &Scene, world: &World) -> Self {
         let (mut sources, mut weights) = (Vec::new(), Vec::new());
         let mut of_primitive = vec![None; world.places_in_scene_order().len()];
         for &place in world.places_in_scene_order() {
-            let power = area_power(scene, world, place);
+            let material = world.owner(SurfaceId::Primitive(place)).material;
+            let power = world.primitive(place).area() * mean_exitance(scene, material);
             if power > 0.0 {
                 of_primitive[place] = Some(sources.len() as u32);
                 sources.push(Source::Area(place));
@@ -171,17 +163,6 @@ impl Lights {
         let SurfaceId::Primitive(place) = surface.id else { return 0.0 };
         let Some(light) = self.of_primitive[place] else { return 0.0 };
         self.table.pmf[light as usize] * pdf_solid_angle(world.primitive(place), reference, &surface.point)
-    }
-}
-
-/// π·A·L, doubled where both sides emit, L the luminance of the mean emission.
-fn area_power(scene: &Scene, world: &World, place: usize) -> f64 {
-    match &scene.materials[world.owner(SurfaceId::Primitive(place)).material].emission {
-        Some(emission) => {
-            let sides = if emission.two_sided { 2.0 } else { 1.0 };
-            PI * world.primitive(place).area() * luminance(texture::mean(scene, &emission.radiance)) * sides
-        }
-        None => 0.0,
     }
 }
 

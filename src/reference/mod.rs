@@ -2,11 +2,12 @@
 //!
 //! It draws the same random numbers as the device and takes the same decisions, so that the two agree path by path, and it renders
 //! where there is no device. The way of a sample: [`camera`] makes a ray, [`integrator`] follows it from surface to surface,
-//! [`intersect`] says which surface it meets, [`bsdf`] how that scatters, [`lights`] where light is looked for, [`mis`] how the
+//! [`intersect`] says which surface it meets, [`bsdf`] how that scatters, [`texture`] what it is made of there, [`lights`] where light is looked for, [`mis`] how the
 //! two ways of finding light share it.
 
 pub mod bsdf;
 pub mod camera;
+pub mod emission;
 pub mod frame;
 pub mod integrator;
 pub mod intersect;

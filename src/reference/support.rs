@@ -2,14 +2,18 @@
 
 use crate::render::RenderError;
 use crate::scene::{
-    ColorInput, EnvironmentRadiance, FilterKind, Geometry, HemisphereSampling, Light, LightSampling, Material, MaterialId,
-    MaterialKind, Mesh, Scene, Shape, TextureId, TextureKind,
+    ColorInput, EnvironmentRadiance, FilterKind, Geometry, HemisphereSampling, Heuristic, Light, LightSampling, Material,
+    MaterialId, MaterialKind, Mesh, Scene, Shape, TextureId, TextureKind,
 };
+
+/// Most materials in one blend, all its blends counted through: each is looked at in every hit.
+const MOST_LEAVES: usize = 1 << 12;
 
 /// Checks that every index of the scene is in range and that nothing is used that the reference cannot render.
 pub fn check(scene: &Scene) -> Result<(), RenderError> {
     settings(scene).map_err(RenderError::Internal)?;
     scene.materials.iter().try_for_each(|m| material(scene, m)).map_err(RenderError::Internal)?;
+    blends(scene).map_err(RenderError::Internal)?;
     scene.shapes.iter().try_for_each(|s| shape(scene, s)).map_err(RenderError::Internal)?;
     scene.lights.iter().try_for_each(light).map_err(RenderError::Internal)
 }
@@ -46,19 +50,52 @@ fn material(scene: &Scene, material: &Material) -> Check {
         color(scene, &emission.radiance)?;
     }
     match &material.kind {
-        MaterialKind::Diffuse { reflectance } | MaterialKind::Mirror { reflectance } => color(scene, reflectance),
-        MaterialKind::Glass { ior, reflectance, transmittance } => {
-            if !(ior.is_finite() && *ior > 0.0) {
-                return Err(format!("{}: the index of refraction must be positive", material.name));
-            }
-            color(scene, reflectance)?;
-            color(scene, transmittance)
+        MaterialKind::Glass { ior, .. } | MaterialKind::RoughGlass { ior, .. } if !(ior.is_finite() && *ior > 0.0) => {
+            Err(format!("{}: the index of refraction must be positive", material.name))
         }
-        MaterialKind::Emissive | MaterialKind::Pass => Ok(()),
-        MaterialKind::Glossy { .. } | MaterialKind::Phong { .. } => refuse("glossy and phong materials"),
-        MaterialKind::RoughGlass { .. } | MaterialKind::Conductor { .. } => refuse("rough glass and conductors"),
-        MaterialKind::Blend { .. } => refuse("blends"),
+        MaterialKind::Blend { weight, .. } => heuristic(scene, weight),
+        kind => kind.colors().try_for_each(|input| color(scene, &input)),
     }
+}
+
+fn heuristic(scene: &Scene, heuristic: &Heuristic) -> Check {
+    match heuristic {
+        Heuristic::Texture { texture: id } => texture(scene, *id),
+        Heuristic::Reverse { of } | Heuristic::Threshold { of, .. } => self::heuristic(scene, of),
+        Heuristic::Constant { .. } | Heuristic::Facing { .. } | Heuristic::Fresnel { .. } => Ok(()),
+    }
+}
+
+/// Checks that blends end in plain materials, and in no more than [`MOST_LEAVES`] of them.
+fn blends(scene: &Scene) -> Check {
+    let mut leaves = vec![None; scene.materials.len()];
+    for start in 0..scene.materials.len() {
+        // A blend waits below its parts until both are counted. What waits longer than there are materials waits for itself.
+        let mut waiting = vec![start];
+        while let Some(&id) = waiting.last() {
+            let material = scene.materials.get(id).ok_or_else(|| format!("there is no material {id}"))?;
+            let MaterialKind::Blend { materials: parts, .. } = material.kind else {
+                leaves[id] = Some(1_usize);
+                waiting.pop();
+                continue;
+            };
+            let uncounted = parts.into_iter().find(|&part| leaves.get(part).is_none_or(Option::is_none));
+            if let Some(part) = uncounted {
+                if waiting.len() > scene.materials.len() {
+                    return Err(format!("the blend `{}` contains itself", material.name));
+                }
+                waiting.push(part);
+                continue;
+            }
+            let count = parts.iter().filter_map(|&part| leaves[part]).sum();
+            if count > MOST_LEAVES {
+                return Err(format!("the blend `{}` is of more than {MOST_LEAVES} materials", material.name));
+            }
+            leaves[id] = Some(count);
+            waiting.pop();
+        }
+    }
+    Ok(())
 }
 
 fn color(scene: &Scene, input: &ColorInput) -> Check {
@@ -70,7 +107,7 @@ fn color(scene: &Scene, input: &ColorInput) -> Check {
 
 fn texture(scene: &Scene, id: TextureId) -> Check {
     let texture = scene.textures.get(id).ok_or_else(|| format!("there is no texture {id}"))?;
-    let TextureKind::Image(texture) = &texture.kind else { return refuse("textures other than images") };
+    let TextureKind::Image(texture) = &texture.kind else { return Ok(()) };
     let image = &texture.image;
     let texels = u64::from(image.width) * u64::from(image.height);
     if texels == 0 || texels != image.texels.len() as u64 {
@@ -100,7 +137,7 @@ fn shape(scene: &Scene, shape: &Shape) -> Check {
         Geometry::Sphere { .. } | Geometry::Rectangle { .. } | Geometry::Box { .. } => true,
     };
     material_exists(scene, shape, shape.material)?;
-    if !has_uv && materials_of(shape).into_iter().any(|id| is_textured(&scene.materials[id])) {
+    if !has_uv && materials_of(shape).into_iter().any(|id| scene.uses_texture(id)) {
         return Err(format!("{}: a textured material needs texture coordinates", shape.label));
     }
     Ok(())
@@ -120,17 +157,6 @@ fn materials_of(shape: &Shape) -> Vec<MaterialId> {
         }
         _ => vec![shape.material],
     }
-}
-
-fn is_textured(material: &Material) -> bool {
-    let varies = |input: &ColorInput| !matches!(input, ColorInput::Constant(_));
-    let emits_texture = material.emission.as_ref().is_some_and(|emission| varies(&emission.radiance));
-    emits_texture
-        || match &material.kind {
-            MaterialKind::Diffuse { reflectance } | MaterialKind::Mirror { reflectance } => varies(reflectance),
-            MaterialKind::Glass { reflectance, transmittance, .. } => varies(reflectance) || varies(transmittance),
-            _ => false,
-        }
 }
 
 /// Every list of a mesh is as long as the others need it.

@@ -68,6 +68,11 @@ pub enum ConductorFresnel {
 }
 
 impl Material {
+    /// Made of other materials.
+    pub fn is_blend(&self) -> bool {
+        matches!(self.kind, MaterialKind::Blend { .. })
+    }
+
     /// The material itself, not those it blends, looks up a texture.
     pub fn uses_texture(&self) -> bool {
         let weight = matches!(&self.kind, MaterialKind::Blend { weight, .. } if weight.uses_texture());

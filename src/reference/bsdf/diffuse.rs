@@ -27,6 +27,6 @@ impl Diffuse {
         let local = warp::cosine_hemisphere(u1, u2);
         let wi = view.frame.to_world(local);
         let density = Density::Smooth(warp::cosine_hemisphere_pdf(local.z));
-        view.reflects(wi).then_some(BsdfSample { wi, weight: self.reflectance, density, eta: 1.0 })
+        view.reflects(wi).then_some(BsdfSample { weight: self.reflectance, ..BsdfSample::reflected(wi, density) })
     }
 }

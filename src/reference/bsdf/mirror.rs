@@ -12,7 +12,7 @@ pub struct Mirror {
 impl Mirror {
     pub fn sample(&self, view: &View) -> Option<BsdfSample> {
         let wi = reflect(view);
-        view.reflects(wi).then_some(BsdfSample { wi, weight: self.reflectance, density: Density::Delta, eta: 1.0 })
+        view.reflects(wi).then_some(BsdfSample { weight: self.reflectance, ..BsdfSample::reflected(wi, Density::Delta) })
     }
 }
 

@@ -5,22 +5,33 @@
 //! have drawn wi, per steradian. `sample` gives wi and the weight f·|cosθi| / density. A delta lobe, which scatters into one
 //! direction only, has no density: `evaluate` is zero and `sample` says [`Density::Delta`].
 
+//!
+//! A surface is a weighted list of lobes, one per material of its blend, and follows the same contract as a single one: see [`Bsdf`].
+
+pub mod blend;
+mod conductor;
 mod diffuse;
 mod fresnel;
 mod glass;
+mod glossy;
+mod heuristic;
+mod lobe;
+mod microfacet;
 mod mirror;
+mod mixture;
+mod phong;
+mod phong_glass;
+mod rough_glass;
 
 pub use fresnel::{dielectric_reflectance, refract};
+pub use mixture::Bsdf;
 
 use glam::{DVec2, DVec3};
 
 use super::frame::Frame;
 use super::intersect::Surface;
 use super::texture;
-use crate::scene::{ColorInput, MaterialKind, Scene};
-use diffuse::Diffuse;
-use glass::Glass;
-use mirror::Mirror;
+use crate::scene::{ColorInput, Scene};
 
 /// How densely a direction was sampled.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,6 +52,15 @@ pub struct BsdfSample {
     /// Index of refraction on wi's side over that on wo's side: 1 for a reflection. Radiance is scaled by 1/eta² when light
     /// crosses, which is part of `weight`.
     pub eta: f64,
+    /// The ray goes straight on and nothing happened to it but its weight: no edge of the path ends here.
+    pub passes: bool,
+}
+
+impl BsdfSample {
+    /// A direction on wo's side; the weight is still to be filled in.
+    fn reflected(wi: DVec3, density: Density) -> Self {
+        Self { wi, weight: DVec3::ZERO, density, eta: 1.0, passes: false }
+    }
 }
 
 /// f·|cosθi| and density of one pair of directions.
@@ -82,73 +102,35 @@ impl View {
     fn reflects(&self, wi: DVec3) -> bool {
         wi.dot(self.geometric_normal) > 0.0 && wi.dot(self.normal()) > 0.0
     }
-}
 
-/// One way of scattering.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Lobe {
-    Diffuse(Diffuse),
-    Mirror(Mirror),
-    Glass(Glass),
-}
-
-/// The scattering at one hit: the material's parameters looked up, seen from one direction.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bsdf {
-    pub view: View,
-    /// None: nothing is scattered.
-    lobe: Option<Lobe>,
-}
-
-impl Bsdf {
-    pub fn new(scene: &Scene, surface: &Surface, wo: DVec3) -> Self {
-        let view = View::new(wo, surface.point.normal, surface.shading_normal);
-        Self { view, lobe: lobe(scene, &scene.materials[surface.owner.material].kind, surface.uv) }
-    }
-
-    /// Whether light sampling can contribute.
-    pub fn has_smooth_lobe(&self) -> bool {
-        matches!(self.lobe, Some(Lobe::Diffuse(_)))
-    }
-
-    /// The smooth lobes' f·|cosθi| and density.
-    pub fn evaluate(&self, wi: DVec3) -> Evaluation {
-        match &self.lobe {
-            Some(Lobe::Diffuse(diffuse)) => diffuse.evaluate(&self.view, wi),
-            Some(Lobe::Mirror(_) | Lobe::Glass(_)) | None => Evaluation::default(),
-        }
-    }
-
-    /// Draws wi: `u_lobe` chooses among lobes, `u1` and `u2` the direction. None where nothing is scattered.
-    pub fn sample(&self, u_lobe: f64, u1: f64, u2: f64) -> Option<BsdfSample> {
-        match self.lobe.as_ref()? {
-            Lobe::Diffuse(diffuse) => diffuse.sample(&self.view, u1, u2),
-            Lobe::Mirror(mirror) => mirror.sample(&self.view),
-            Lobe::Glass(glass) => glass.sample(&self.view, u_lobe),
-        }
+    /// Whether light from `wi` can come through to wo: on the other side, by the true and by the interpolated surface.
+    fn transmits(&self, wi: DVec3) -> bool {
+        wi.dot(self.geometric_normal) < 0.0 && wi.dot(self.normal()) < 0.0
     }
 }
 
-fn lobe(scene: &Scene, kind: &MaterialKind, uv: DVec2) -> Option<Lobe> {
-    let color = |input: &ColorInput| texture::evaluate(scene, input, uv);
-    let lobe = match kind {
-        MaterialKind::Diffuse { reflectance } => Lobe::Diffuse(Diffuse { reflectance: color(reflectance) }),
-        MaterialKind::Mirror { reflectance } => Lobe::Mirror(Mirror { reflectance: color(reflectance) }),
-        MaterialKind::Glass { ior, reflectance, transmittance } => {
-            Lobe::Glass(Glass { ior: *ior, reflectance: color(reflectance), transmittance: color(transmittance) })
-        }
-        MaterialKind::Emissive => return None,
-        // Refused before rendering, or not in the world at all.
-        MaterialKind::Glossy { .. }
-        | MaterialKind::Phong { .. }
-        | MaterialKind::RoughGlass { .. }
-        | MaterialKind::Conductor { .. }
-        | MaterialKind::Blend { .. }
-        | MaterialKind::Pass => return None,
-    };
-    // A black Lambert surface sends nothing on, so its path ends here.
-    let black = matches!(lobe, Lobe::Diffuse(Diffuse { reflectance }) if reflectance == DVec3::ZERO);
-    (!black).then_some(lobe)
+/// Where a material's parameters and weights are looked up.
+#[derive(Debug, Clone, Copy)]
+pub struct Lookup<'a> {
+    pub scene: &'a Scene,
+    pub uv: DVec2,
+    /// Cosine of the angle between wo and the shading normal, in [0, 1].
+    pub cosine: f64,
+}
+
+impl<'a> Lookup<'a> {
+    pub fn new(scene: &'a Scene, surface: &Surface, view: &View) -> Self {
+        Self { scene, uv: surface.uv, cosine: view.wo.dot(view.normal()).clamp(0.0, 1.0) }
+    }
+
+    fn color(&self, input: &ColorInput) -> DVec3 {
+        texture::evaluate(self.scene, input, self.uv)
+    }
+
+    /// A scalar is the first channel of its colour.
+    fn scalar(&self, input: &ColorInput) -> f64 {
+        self.color(input).x
+    }
 }
 
 #[cfg(test)]

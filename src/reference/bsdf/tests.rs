@@ -1,5 +1,9 @@
 use std::f64::consts::PI;
 
+use super::diffuse::Diffuse;
+use super::glass::Dielectric;
+use super::lobe::Lobe;
+use super::mirror::Mirror;
 use super::*;
 use crate::reference::warp;
 use crate::statistics::{SphereBins, sidak, test_directional_sampler, worst_jacobian_deviation};
@@ -13,15 +17,15 @@ fn at_degrees(theta: f64, phi: f64) -> DVec3 {
 /// A surface with normal +z and shading normal tilted from it, seen at an angle.
 fn bsdf(lobe: Lobe, wo_degrees: f64, tilt_degrees: f64) -> Bsdf {
     let view = View::new(at_degrees(wo_degrees, 0.4), DVec3::Z, at_degrees(tilt_degrees, 2.0));
-    Bsdf { view, lobe: Some(lobe) }
+    Bsdf::mixture(view, [(lobe, 1.0)])
 }
 
 fn diffuse() -> Lobe {
     Lobe::Diffuse(Diffuse { reflectance: DVec3::new(0.9, 0.5, 0.1) })
 }
 
-fn glass(ior: f64) -> Glass {
-    Glass { ior, reflectance: DVec3::ONE, transmittance: DVec3::ONE }
+fn glass(ior: f64) -> Dielectric {
+    Dielectric { ior, reflectance: DVec3::ONE, transmittance: DVec3::ONE }
 }
 
 const SMOOTH: [fn() -> Lobe; 1] = [diffuse];
@@ -94,7 +98,7 @@ fn sampled_weights_are_value_over_density() {
 fn lambert_is_reciprocal_and_reflects_its_albedo() {
     let (a, b) = (at_degrees(20.0, 0.3), at_degrees(75.0, 4.0));
     let f = |wo: DVec3, wi: DVec3| {
-        let bsdf = Bsdf { view: View::new(wo, DVec3::Z, DVec3::Z), lobe: Some(diffuse()) };
+        let bsdf = Bsdf::mixture(View::new(wo, DVec3::Z, DVec3::Z), [(diffuse(), 1.0)]);
         bsdf.evaluate(wi).value / wi.z.abs()
     };
     assert!((f(a, b) - f(b, a)).length() < 1e-15);
@@ -174,7 +178,7 @@ fn refraction_follows_snell_and_is_reversible() {
 /// Reflected and transmitted power sum to 1 for clear glass and to the tints for tinted glass.
 #[test]
 fn glass_keeps_the_energy() {
-    let tinted = Glass { ior: 1.5, reflectance: DVec3::new(0.9, 0.2, 0.0), transmittance: DVec3::new(0.1, 0.8, 0.5) };
+    let tinted = Dielectric { ior: 1.5, reflectance: DVec3::new(0.9, 0.2, 0.0), transmittance: DVec3::new(0.1, 0.8, 0.5) };
     for glass in [glass(1.5), glass(0.7), tinted] {
         for degrees in [0.0, 30.0, 41.7, 41.9, 60.0, 85.0, 100.0, 139.0, 150.0, 180.0] {
             let bsdf = bsdf(Lobe::Glass(glass), degrees, 0.0);

@@ -3,7 +3,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use super::*;
 use crate::render::Silent;
 use crate::scene::{
-    Camera, ColorInput, Emission, FilmSettings, Geometry, Light, Material, MaterialKind, Projection, Shape, Transform,
+    Camera, ColorInput, Emission, FilmSettings, Geometry, Heuristic, Light, Material, MaterialKind, Projection, Shape, Transform,
 };
 
 /// A diffuse, a mirror and a glass sphere on a floor, under a sphere light and a point light.
@@ -161,6 +161,27 @@ fn what_is_not_finite_is_counted_and_left_out() {
     }
 }
 
+fn blend(first: usize, second: usize) -> MaterialKind {
+    MaterialKind::Blend { materials: [first, second], weight: Heuristic::Constant { value: 0.5 } }
+}
+
+fn blends_of_twice_the_blend_before(scene: &mut Scene, count: usize) {
+    for _ in 0..count {
+        let last = scene.materials.len() - 1;
+        let material = Material { kind: blend(last, last), ..scene.materials[0].clone() };
+        scene.materials.push(material);
+    }
+}
+
+#[test]
+fn a_blend_of_very_many_parts_renders() {
+    let mut scene = scene([4, 4]);
+    blends_of_twice_the_blend_before(&mut scene, 12);
+    scene.shapes[0].material = scene.materials.len() - 1;
+    let (report, _) = render(&scene, RenderRequest { rows: 0..4, samples: 0..1 }, &Silent);
+    assert_eq!(report.non_finite_samples, 0);
+}
+
 #[test]
 fn what_cannot_be_rendered_is_refused_by_name() {
     let refusal = |change: fn(&mut Scene)| {
@@ -169,11 +190,10 @@ fn what_cannot_be_rendered_is_refused_by_name() {
         ReferenceRenderer::new(&scene).expect_err("this is not supported").to_string()
     };
     assert!(refusal(|scene| scene.shapes[1].material = 99).contains("no material 99"));
-    assert!(
-        refusal(|scene| scene.materials[0].kind =
-            MaterialKind::Blend { materials: [0, 1], weight: crate::scene::Heuristic::Constant { value: 0.5 } })
-        .contains("blends")
-    );
+    assert!(refusal(|scene| scene.materials[0].kind = blend(2, 0)).contains("contains itself"));
+    assert!(refusal(|scene| (scene.materials[0].kind, scene.materials[1].kind) = (blend(1, 2), blend(2, 0))).contains("itself"));
+    assert!(refusal(|scene| scene.materials[0].kind = blend(1, 99)).contains("no material 99"));
+    assert!(refusal(|scene| blends_of_twice_the_blend_before(scene, 13)).contains("more than 4096"));
     assert!(refusal(|scene| scene.camera.projection = Projection::Orthographic { height: 1.0 }).contains("perspective"));
     assert!(refusal(|scene| (scene.render.max_depth, scene.render.roulette_depth) = (0, 0)).contains("never end"));
     assert!(

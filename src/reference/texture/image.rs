@@ -1,41 +1,17 @@
-//! Colours that vary over a surface.
+//! Images, looked up by uv.
 
 use glam::{DVec2, DVec3};
 
-use crate::scene::{ColorInput, ImageData, ImageTexture, Scene, TextureFilter, TextureKind, TextureWrap};
+use crate::scene::{ImageData, ImageTexture, TextureFilter, TextureWrap};
 
-/// The colour at `uv`. Textures are image textures: the scene has been checked by [`super::support::check`].
-pub fn evaluate(scene: &Scene, input: &ColorInput, uv: DVec2) -> DVec3 {
-    match *input {
-        ColorInput::Constant(color) => color,
-        ColorInput::Texture(texture) => look_up(scene, texture, |image| sample(image, uv)),
-        ColorInput::ScaledTexture(texture, factor) => factor * look_up(scene, texture, |image| sample(image, uv)),
-    }
+/// The mean over all texels.
+pub fn mean(texture: &ImageTexture) -> DVec3 {
+    let texels = &texture.image.texels;
+    texels.iter().map(|texel| texel.as_dvec3()).sum::<DVec3>() / texels.len().max(1) as f64
 }
 
-/// The colour's mean over all texels.
-pub fn mean(scene: &Scene, input: &ColorInput) -> DVec3 {
-    let mean_of = |image: &ImageTexture| {
-        let texels = &image.image.texels;
-        texels.iter().map(|texel| texel.as_dvec3()).sum::<DVec3>() / texels.len().max(1) as f64
-    };
-    match *input {
-        ColorInput::Constant(color) => color,
-        ColorInput::Texture(texture) => look_up(scene, texture, mean_of),
-        ColorInput::ScaledTexture(texture, factor) => factor * look_up(scene, texture, mean_of),
-    }
-}
-
-fn look_up(scene: &Scene, texture: usize, of_image: impl Fn(&ImageTexture) -> DVec3) -> DVec3 {
-    match &scene.textures[texture].kind {
-        TextureKind::Image(image) => of_image(image),
-        // Refused before rendering; a colour nobody asked for shows if that is ever forgotten.
-        TextureKind::Checker { .. } | TextureKind::Perlin { .. } | TextureKind::Worley { .. } => DVec3::new(1.0, 0.0, 1.0),
-    }
-}
-
-/// Texel centres are at half-integers; v points up, rows run down.
-fn sample(texture: &ImageTexture, uv: DVec2) -> DVec3 {
+/// The colour at `uv`. Texel centres are at half-integers; v points up, rows run down.
+pub fn sample(texture: &ImageTexture, uv: DVec2) -> DVec3 {
     let image = &*texture.image;
     let uv = uv * DVec2::from(texture.scale) + DVec2::from(texture.offset);
     let position = DVec2::new(uv.x, 1.0 - uv.y) * DVec2::new(f64::from(image.width), f64::from(image.height));

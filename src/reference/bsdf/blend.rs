@@ -1,0 +1,39 @@
+//! A material as a weighted list of its parts.
+//!
+//! A blend of two materials has the weights w0 and 1 − w0; a blend of blends has the products. So any tree is the list of its
+//! leaves, from the first to the last, each with the product of the weights on the way to it from the root.
+
+use super::Lookup;
+use super::heuristic;
+use crate::scene::{Heuristic, Material, MaterialId, MaterialKind, Scene};
+
+/// Calls `visit` with the material itself, the blends in it and its leaves, each before its own parts, the first of two before the
+/// second, with their weights at one hit. Parts of weight 0 do nothing and are left out.
+pub fn for_each_part<'a>(lookup: &Lookup<'a>, material: MaterialId, visit: impl FnMut(&'a Material, f64)) {
+    walk(lookup.scene, material, |blend| heuristic::weight(blend, lookup), visit);
+}
+
+/// The same with the weights to be expected before any hit is known.
+pub fn for_each_part_on_average<'a>(scene: &'a Scene, material: MaterialId, visit: impl FnMut(&'a Material, f64)) {
+    walk(scene, material, heuristic::mean_weight, visit);
+}
+
+fn walk<'a>(
+    scene: &'a Scene,
+    material: MaterialId,
+    first_weight: impl Fn(&Heuristic) -> f64,
+    mut visit: impl FnMut(&'a Material, f64),
+) {
+    let mut next = Some((material, 1.0));
+    // Second parts that wait for the first to be walked through. Plain materials never touch it.
+    let mut waiting = Vec::new();
+    while let Some((id, weight)) = next.take().or_else(|| waiting.pop()) {
+        let part = &scene.materials[id];
+        visit(part, weight);
+        if let MaterialKind::Blend { materials: [first, second], weight: heuristic } = &part.kind {
+            let w0 = first_weight(heuristic);
+            waiting
+                .extend([(*second, weight * (1.0 - w0)), (*first, weight * w0)].into_iter().filter(|&(_, weight)| weight > 0.0));
+        }
+    }
+}

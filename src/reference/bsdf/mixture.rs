@@ -1,0 +1,181 @@
+//! All lobes of a surface together.
+
+use glam::DVec3;
+
+use super::diffuse::Diffuse;
+use super::lobe::Lobe;
+use super::{BsdfSample, Density, Evaluation, Lookup, View, blend};
+use crate::reference::intersect::Surface;
+use crate::scene::{BlendMode, Material, MaterialId, Scene};
+
+/// The largest lobe number: random numbers are multiples of 2⁻²⁴ below 1.
+const LARGEST_LOBE_NUMBER: f64 = 1.0 - 1.0 / 16_777_216.0;
+
+/// The scattering at one hit: the lobes of all materials that the surface blends, parameters looked up, seen from one direction.
+///
+/// f = Σ wᵢ fᵢ. Sampling chooses lobe i with probability Pᵢ ∝ wᵢ·sᵢ, sᵢ being [`Lobe::sampling_weight`], and lets it draw wi. A
+/// delta lobe is the only one to find its wi, so its sample counts wᵢ fᵢ|cosθ| / (Pᵢ pdfᵢ). A smooth lobe's wi can be drawn by every
+/// other smooth lobe too: its density is Σ Pⱼ pdfⱼ over all of them, and the sample counts Σ wⱼ fⱼ|cosθ| over that density. So a
+/// choice among smooth lobes adds no noise of its own beyond how well the densities fit, and two that are alike are as one.
+///
+/// With [`BlendMode::Pick`] one material is chosen by its weight before anything else, and is then the surface's only one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bsdf {
+    pub view: View,
+    lobes: Lobes,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct WeightedLobe {
+    lobe: Lobe,
+    weight: f64,
+    /// Of being sampled; until all lobes are known, in proportion to it.
+    probability: f64,
+}
+
+/// Those that can be sampled, in order. Most surfaces have one, and need no list for it.
+#[derive(Debug, Clone, Default, PartialEq)]
+struct Lobes {
+    first: Option<WeightedLobe>,
+    others: Vec<WeightedLobe>,
+}
+
+impl Lobes {
+    /// Black lobes are left out: they are never sampled and add nothing.
+    fn push(&mut self, lobe: Lobe, weight: f64) {
+        let probability = weight * lobe.sampling_weight();
+        if probability > 0.0 {
+            let weighted = WeightedLobe { lobe, weight, probability };
+            if self.first.is_none() { self.first = Some(weighted) } else { self.others.push(weighted) }
+        }
+    }
+
+    fn iter(&self) -> impl Iterator<Item = &WeightedLobe> {
+        self.first.iter().chain(&self.others)
+    }
+
+    fn normalized(mut self) -> Self {
+        let sum: f64 = self.iter().map(|weighted| weighted.probability).sum();
+        self.first.iter_mut().chain(&mut self.others).for_each(|weighted| weighted.probability /= sum);
+        self
+    }
+}
+
+impl Bsdf {
+    /// `u_blend` picks the material where one is picked.
+    pub fn new(scene: &Scene, surface: &Surface, wo: DVec3, u_blend: f64) -> Self {
+        let view = View::new(wo, surface.point.normal, surface.shading_normal);
+        let lookup = Lookup::new(scene, surface, &view);
+        let material = surface.owner.material;
+        if scene.render.blend == BlendMode::Pick {
+            let picked = pick(&lookup, material, u_blend).and_then(|leaf| Lobe::new(&leaf.kind, &lookup));
+            return Self::mixture(view, picked.map(|lobe| (lobe, 1.0)));
+        }
+        let mut lobes = Leaves::default();
+        blend::for_each_part(&lookup, material, |part, weight| {
+            if let Some(lobe) = Lobe::new(&part.kind, &lookup) {
+                lobes.push(lobe, weight);
+            }
+        });
+        Self { view, lobes: lobes.finish() }
+    }
+
+    /// A surface of the given lobes, each with its weight.
+    pub(super) fn mixture(view: View, leaves: impl IntoIterator<Item = (Lobe, f64)>) -> Self {
+        let mut lobes = Leaves::default();
+        leaves.into_iter().for_each(|(lobe, weight)| lobes.push(lobe, weight));
+        Self { view, lobes: lobes.finish() }
+    }
+
+    /// Whether light sampling can contribute.
+    pub fn has_smooth_lobe(&self) -> bool {
+        self.lobes.iter().any(|weighted| !weighted.lobe.is_delta())
+    }
+
+    /// The smooth lobes' f·|cosθi| and density.
+    pub fn evaluate(&self, wi: DVec3) -> Evaluation {
+        let mut sum = Evaluation::default();
+        for weighted in self.lobes.iter() {
+            let Evaluation { value, pdf } = weighted.lobe.evaluate(&self.view, wi);
+            sum.value += value * weighted.weight;
+            sum.pdf += pdf * weighted.probability;
+        }
+        sum
+    }
+
+    /// Draws wi: `u_lobe` chooses among lobes, `u1` and `u2` the direction. None where nothing is scattered.
+    pub fn sample(&self, u_lobe: f64, u1: f64, u2: f64) -> Option<BsdfSample> {
+        let (chosen, u_own) = self.choose(u_lobe)?;
+        let sample = chosen.lobe.sample(&self.view, u_own, u1, u2)?;
+        if self.lobes.others.is_empty() {
+            return Some(BsdfSample { weight: sample.weight * chosen.weight, ..sample });
+        }
+        match sample.density {
+            Density::Delta => Some(BsdfSample { weight: sample.weight * (chosen.weight / chosen.probability), ..sample }),
+            Density::Smooth(_) => {
+                let Evaluation { value, pdf } = self.evaluate(sample.wi);
+                (pdf > 0.0).then(|| BsdfSample { weight: value / pdf, density: Density::Smooth(pdf), ..sample })
+            }
+        }
+    }
+
+    /// The lobe to sample, and what is left of the random number for the lobe's own choice: uniform again. A lone lobe gets the
+    /// number as it is.
+    fn choose(&self, u: f64) -> Option<(&WeightedLobe, f64)> {
+        if self.lobes.others.is_empty() {
+            return self.lobes.first.as_ref().map(|lone| (lone, u));
+        }
+        let last = self.lobes.others.len();
+        let mut before = 0.0;
+        for (index, weighted) in self.lobes.iter().enumerate() {
+            if u < before + weighted.probability || index == last {
+                return Some((weighted, ((u - before) / weighted.probability).clamp(0.0, LARGEST_LOBE_NUMBER)));
+            }
+            before += weighted.probability;
+        }
+        None
+    }
+}
+
+/// Lobes being collected. The diffuse ones become one, of the weighted mean reflectance, and the first: a blend of Lambert surfaces
+/// is a Lambert surface.
+#[derive(Default)]
+struct Leaves {
+    diffuse: Option<DVec3>,
+    others: Lobes,
+}
+
+impl Leaves {
+    fn push(&mut self, lobe: Lobe, weight: f64) {
+        match lobe {
+            Lobe::Diffuse(Diffuse { reflectance }) => {
+                let sum = self.diffuse.get_or_insert(DVec3::ZERO);
+                *sum += reflectance * weight;
+            }
+            _ => self.others.push(lobe, weight),
+        }
+    }
+
+    fn finish(self) -> Lobes {
+        let Some(reflectance) = self.diffuse else { return self.others.normalized() };
+        let mut lobes = Lobes::default();
+        lobes.push(Lobe::Diffuse(Diffuse { reflectance }), 1.0);
+        self.others.iter().for_each(|weighted| lobes.push(weighted.lobe, weighted.weight));
+        lobes.normalized()
+    }
+}
+
+/// The leaf whose part of [0, 1), as long as its weight, holds `u`.
+fn pick<'a>(lookup: &Lookup<'a>, material: MaterialId, u: f64) -> Option<&'a Material> {
+    let (mut before, mut picked) = (0.0, None);
+    blend::for_each_part(lookup, material, |part, weight| {
+        if !part.is_blend() {
+            // The last one also gets what rounding leaves.
+            if u >= before || picked.is_none() {
+                picked = Some(part);
+            }
+            before += weight;
+        }
+    });
+    picked
+}

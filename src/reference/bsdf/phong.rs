@@ -1,0 +1,48 @@
+//! The modified Phong model.
+
+use std::f64::consts::FRAC_1_PI;
+
+use glam::DVec3;
+
+use super::glossy::{lobe_over_cosine, sample_about};
+use super::mirror::reflect;
+use super::{BsdfSample, Density, Evaluation, View};
+use crate::reference::warp;
+
+/// f = kd/π + ks (n+2)/(2π) cosⁿα, α the angle with the mirror direction (Lafortune and Willems 1994).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Phong {
+    pub diffuse: DVec3,
+    pub specular: DVec3,
+    /// Not negative.
+    pub exponent: f64,
+}
+
+impl Phong {
+    /// Probability of sampling the specular lobe: Σks / (Σkd + Σks).
+    fn specular_share(&self) -> f64 {
+        let (diffuse, specular) = (self.diffuse.element_sum(), self.specular.element_sum());
+        specular / (diffuse + specular)
+    }
+
+    pub fn evaluate(&self, view: &View, wi: DVec3) -> Evaluation {
+        if !view.reflects(wi) {
+            return Evaluation::default();
+        }
+        let (cos_theta, cos_alpha) = (wi.dot(view.normal()), wi.dot(reflect(view)));
+        let f = self.diffuse * FRAC_1_PI + self.specular * lobe_over_cosine(self.exponent, cos_alpha);
+        let share = self.specular_share();
+        let pdf = share * warp::phong_lobe_pdf(self.exponent, cos_alpha) + (1.0 - share) * warp::cosine_hemisphere_pdf(cos_theta);
+        Evaluation { value: f * cos_theta, pdf }
+    }
+
+    pub fn sample(&self, view: &View, u_lobe: f64, u1: f64, u2: f64) -> Option<BsdfSample> {
+        let wi = if u_lobe < self.specular_share() {
+            sample_about(reflect(view), self.exponent, u1, u2).0
+        } else {
+            view.frame.to_world(warp::cosine_hemisphere(u1, u2))
+        };
+        let Evaluation { value, pdf } = self.evaluate(view, wi);
+        (pdf > 0.0).then_some(BsdfSample { weight: value / pdf, ..BsdfSample::reflected(wi, Density::Smooth(pdf)) })
+    }
+}

@@ -1,0 +1,56 @@
+//! Rough dielectrics with cosine-power lobes.
+
+use glam::DVec3;
+
+use super::glass::{Dielectric, Split};
+use super::glossy::sample_about;
+use super::mirror::reflect;
+use super::{BsdfSample, Density, Evaluation, View, refract};
+use crate::reference::warp;
+
+/// The directions of smooth glass, each widened to a lobe (n+1)/(2π)·cosⁿα about it (Honsdorf 2013, section 5.3). Fresnel's F is
+/// taken at the shading normal: f·cosθi = F·ρ·lobe above the surface and (1−F)·τ/η²·lobe below it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PhongGlass {
+    pub dielectric: Dielectric,
+    /// Not negative.
+    pub exponent: f64,
+}
+
+impl PhongGlass {
+    pub fn evaluate(&self, view: &View, wi: DVec3) -> Evaluation {
+        self.evaluate_side(view, wi).unwrap_or_default()
+    }
+
+    fn evaluate_side(&self, view: &View, wi: DVec3) -> Option<Evaluation> {
+        let eta = self.dielectric.eta(view);
+        let Split { fresnel, choose_reflection } = self.dielectric.split(view.wo.dot(view.normal()), eta)?;
+        let lobe = |axis: DVec3| warp::phong_lobe_pdf(self.exponent, wi.dot(axis));
+        if view.reflects(wi) {
+            let lobe = lobe(reflect(view));
+            Some(Evaluation { value: self.dielectric.reflectance * (fresnel * lobe), pdf: choose_reflection * lobe })
+        } else if view.transmits(wi) {
+            let lobe = lobe(refract(view.wo, view.normal(), eta)?);
+            let value = self.dielectric.transmittance * ((1.0 - fresnel) / (eta * eta) * lobe);
+            Some(Evaluation { value, pdf: (1.0 - choose_reflection) * lobe })
+        } else {
+            None
+        }
+    }
+
+    /// The weights are those of smooth glass. What falls on the wrong side of the surface is lost.
+    pub fn sample(&self, view: &View, u_lobe: f64, u1: f64, u2: f64) -> Option<BsdfSample> {
+        let eta = self.dielectric.eta(view);
+        let Split { fresnel, choose_reflection } = self.dielectric.split(view.wo.dot(view.normal()), eta)?;
+        if u_lobe < choose_reflection {
+            let (wi, pdf) = sample_about(reflect(view), self.exponent, u1, u2);
+            let weight = self.dielectric.reflectance * (fresnel / choose_reflection);
+            let density = Density::Smooth(choose_reflection * pdf);
+            return view.reflects(wi).then_some(BsdfSample { weight, ..BsdfSample::reflected(wi, density) });
+        }
+        let (wi, pdf) = sample_about(refract(view.wo, view.normal(), eta)?, self.exponent, u1, u2);
+        let weight = self.dielectric.transmittance * ((1.0 - fresnel) / (1.0 - choose_reflection) / (eta * eta));
+        let density = Density::Smooth((1.0 - choose_reflection) * pdf);
+        view.transmits(wi).then_some(BsdfSample { wi, weight, density, eta, passes: false })
+    }
+}
