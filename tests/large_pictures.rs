@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use gpt::film::Band;
 use gpt::output::{PictureFile, PictureFormat, PictureSpec, Provenance};
-use gpt::scene::RenderSettings;
+use gpt::scene::{Filter, RenderSettings};
 
 /// 8K: 133 MB of 8-bit pixels at three bytes, 398 MB of floats.
 const SIZE: [u32; 2] = [7680, 4320];
@@ -33,6 +33,7 @@ fn an_8k_picture_takes_a_fraction_of_its_size_in_memory() {
         scene: "gradient".to_owned(),
         scene_hash: String::new(),
         settings: RenderSettings { spp: 1, ..RenderSettings::default() },
+        filter: Filter::default(),
         first_sample: 0,
         device: "none".to_owned(),
     };

@@ -46,6 +46,7 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
         wanted.remove("ESTIMATOR_MIS");
     }
     let constants = [
+        "BLADES",
         "FILM_WIDTH",
         "FIRST_LIGHT_WORD",
         "FIRST_TEXTURE_WORD",
@@ -145,7 +146,7 @@ fn layouts_match_between_wgsl_and_rust() {
         seed
     );
     check!(EdgeParameters, "EdgeParameters", edge, queue, padding);
-    check!(View, "View", position, corner, step_x, step_y, environment);
+    check!(View, "View", position, corner, step_x, step_y, forward, lens_u, lens_v, environment, filter_curve);
 }
 
 /// Packed records are whole numbers of vec4: the shaders index them in words of 16 bytes.

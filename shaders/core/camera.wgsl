@@ -1,14 +1,81 @@
-// Camera rays.
+// Camera rays. src/reference/camera.rs is the same in f64.
 #import core/math.wgsl
 #import core/parameters.wgsl
 #import core/sampler.wgsl
 
-fn camera_ray(pixel: u32, random: vec4<u32>) -> Ray {
+#if FILTER
+// Distance of a sample from the pixel's centre along one axis, in radii of the filter (src/sampling/filter.rs).
+fn filter_offset(u: f32) -> f32 {
+    let signed_share = 2.0 * u - 1.0;
+#if FILTER_BOX
+    return signed_share;
+#else
+    let tail = 1.0 - abs(signed_share);
+#if FILTER_CURVE
+    let scaled = (1.0 - sqrt(sqrt(tail))) * 32.0;
+    let piece = min(u32(scaled), 31u);
+    let s = scaled - f32(piece);
+    let c = view.filter_curve[piece];
+    let distance = c.x + s * (c.y + s * (c.z + s * c.w));
+#else
+    let distance = 1.0 - sqrt(tail);
+#endif
+    return select(distance, -distance, signed_share < 0.0);
+#endif
+}
+#endif
+
+// Where the sample lies in the picture, in pixels.
+fn sample_position(pixel: u32, random: vec4<u32>) -> vec2<f32> {
     // Division by a constant is a multiplication and a shift.
     let y = pixel / FILM_WIDTH;
     let x = pixel - y * FILM_WIDTH;
-    let film_x = f32(x) + uniform_float(random.x);
-    let film_y = f32(y) + uniform_float(random.y);
-    let direction = view.corner.xyz + film_x * view.step_x.xyz + film_y * view.step_y.xyz;
-    return Ray(view.position.xyz, normalize(direction));
+    let u = uniform_float(random.x);
+    let v = uniform_float(random.y);
+#if FILTER
+    let radius = view.forward.w;
+    return vec2<f32>(f32(x) + 0.5 + radius * filter_offset(u), f32(y) + 0.5 + radius * filter_offset(v));
+#else
+    return vec2<f32>(f32(x) + u, f32(y) + v);
+#endif
+}
+
+#if LENS
+// A point of the aperture, in its radii.
+fn aperture_point(bits_u: u32, bits_v: u32) -> vec2<f32> {
+    let v = uniform_float(bits_v);
+#if APERTURE_SQUARE
+    return vec2<f32>(2.0 * uniform_float(bits_u) - 1.0, 2.0 * v - 1.0);
+#else
+#if APERTURE_POLYGON
+    // One of the triangles between the centre and two corners; what the choice leaves of the bits serves again.
+    let corner = f32(multiply_high(bits_u, BLADES));
+    let root = sqrt(uniform_float(bits_u * BLADES));
+    let first = sin_cos_turns(fract(corner / f32(BLADES) + view.lens_v.w));
+    let second = sin_cos_turns(fract((corner + 1.0) / f32(BLADES) + view.lens_v.w));
+    return root * ((1.0 - v) * first.yx + v * second.yx);
+#else
+    return sqrt(uniform_float(bits_u)) * sin_cos_turns(v).yx;
+#endif
+#endif
+}
+#endif
+
+fn camera_ray(pixel: u32, random: vec4<u32>) -> Ray {
+    let film = sample_position(pixel, random);
+#if ORTHOGRAPHIC
+    var origin = view.position.xyz + (view.corner.xyz + film.x * view.step_x.xyz + film.y * view.step_y.xyz);
+    var direction = view.forward.xyz;
+#else
+    var origin = view.position.xyz;
+    var direction = view.corner.xyz + film.x * view.step_x.xyz + film.y * view.step_y.xyz;
+#endif
+#if LENS
+    // All rays of a film position meet where the one through the middle of the lens crosses the plane in focus.
+    let aperture = aperture_point(random.z, random.w);
+    let offset = aperture.x * view.lens_u.xyz + aperture.y * view.lens_v.xyz;
+    origin += offset;
+    direction = view.lens_u.w * direction - offset;
+#endif
+    return Ray(origin, normalize(direction));
 }

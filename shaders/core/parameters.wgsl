@@ -27,11 +27,20 @@ struct EdgeParameters {
 // The camera and what lies outside the scene.
 struct View {
     position: vec4<f32>,
-    // A ray through film position (x, y) goes along corner + x * step_x + y * step_y.
+    // A ray through film position (x, y) goes along corner + x * step_x + y * step_y; orthographic: it starts there, relative to
+    // the position.
     corner: vec4<f32>,
     step_x: vec4<f32>,
     step_y: vec4<f32>,
+    // Viewing direction; the filter's radius in pixels.
+    forward: vec4<f32>,
+    // From the middle of the lens to the right, as long as the aperture's radius; distance of the plane in focus.
+    lens_u: vec4<f32>,
+    // Likewise upward; rotation of a polygon in turns.
+    lens_v: vec4<f32>,
     environment: vec4<f32>,
+    // Inverse cumulative distribution of the filter: coefficients of 1, s, s^2, s^3, piece by piece.
+    filter_curve: array<vec4<f32>, 32>,
 }
 
 @group(0) @binding(0) var<uniform> pass_parameters: PassParameters;

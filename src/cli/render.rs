@@ -80,6 +80,7 @@ fn render(
         scene: scene.name.clone(),
         scene_hash: scene_hash.to_owned(),
         settings: scene.render.clone(),
+        filter: scene.film.filter,
         first_sample,
         device: renderer.device().to_owned(),
     };

@@ -8,17 +8,19 @@ pub mod light;
 pub mod primitive;
 pub mod tables;
 pub mod validate;
+pub mod view;
 pub mod world;
 
 use glam::{DVec3, Vec3};
 
-use crate::scene::{Estimator, Light, Projection, Scene};
+use crate::scene::{Estimator, Scene};
 use bvh4::Bvh4;
 use light::FlatLight;
 use primitive::{Primitive, TriangleAttributes};
 use tables::{FlatMaterial, FlatTexture};
 
 pub use validate::FlatError;
+pub use view::View;
 
 /// "No index" in every array.
 pub const NONE: u32 = u32::MAX;
@@ -37,19 +39,6 @@ pub struct FlatScene {
     /// Linear Rec.709 texels of all images, three floats each.
     pub texels: Vec<f32>,
     pub view: View,
-}
-
-/// The camera and what lies outside the scene; `View` in `shaders/core/parameters.wgsl`.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct View {
-    pub position: [f32; 4],
-    /// A ray through film position (x, y), in pixels, goes along corner + x·step_x + y·step_y.
-    pub corner: [f32; 4],
-    pub step_x: [f32; 4],
-    pub step_y: [f32; 4],
-    /// Radiance of a constant environment.
-    pub environment: [f32; 4],
 }
 
 impl FlatScene {
@@ -71,7 +60,7 @@ impl FlatScene {
             lights,
             textures,
             texels,
-            view: view(scene),
+            view: View::new(scene),
         };
         flat.validate()?;
         Ok(flat)
@@ -85,36 +74,6 @@ impl FlatScene {
         let first_texture = words.len() as u32;
         words.extend_from_slice(bytemuck::cast_slice(&self.textures));
         (words, first_light, first_texture)
-    }
-}
-
-fn extend(v: DVec3) -> [f32; 4] {
-    v.as_vec3().extend(0.0).to_array()
-}
-
-fn view(scene: &Scene) -> View {
-    let camera = &scene.camera;
-    let [right, up, backward] = camera.frame();
-    let [width, height] = scene.film.size.map(f64::from);
-    let half_height = match camera.projection {
-        Projection::Perspective { vertical_fov_degrees } => (0.5 * vertical_fov_degrees).to_radians().tan(),
-        Projection::Orthographic { height } => 0.5 * height,
-    };
-    let half_width = half_height * width / height;
-    let environment: DVec3 = scene
-        .lights
-        .iter()
-        .map(|light| match light {
-            Light::Environment(environment) => environment.constant_radiance().unwrap_or(DVec3::ZERO),
-            _ => DVec3::ZERO,
-        })
-        .sum();
-    View {
-        position: extend(camera.position),
-        corner: extend(up * half_height - right * half_width - backward),
-        step_x: extend(right * (2.0 * half_width / width)),
-        step_y: extend(up * (-2.0 * half_height / height)),
-        environment: extend(environment),
     }
 }
 

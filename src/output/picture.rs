@@ -100,7 +100,7 @@ mod tests {
 
     use super::*;
     use crate::output::{read_image, srgb_byte};
-    use crate::scene::RenderSettings;
+    use crate::scene::{Filter, RenderSettings};
 
     fn spec(width: u32, height: u32, spp: u32) -> PictureSpec {
         let settings = RenderSettings { spp, seed: u32::MAX, ..RenderSettings::default() };
@@ -108,6 +108,7 @@ mod tests {
             scene: "küche 厨房".to_owned(),
             scene_hash: "0123abcd".to_owned(),
             settings,
+            filter: Filter::default(),
             first_sample: 128,
             device: "a device".to_owned(),
         };

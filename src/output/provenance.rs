@@ -1,6 +1,6 @@
 //! Where a picture comes from: what a file's header says so that the picture can be made again.
 
-use crate::scene::{RenderSettings, setting_name};
+use crate::scene::{Filter, RenderSettings, setting_name};
 
 /// Everything that decides a picture's pixels, and what they were made on.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,6 +9,7 @@ pub struct Provenance {
     /// Digest of the scene's content; equal for equal scenes.
     pub scene_hash: String,
     pub settings: RenderSettings,
+    pub filter: Filter,
     /// Absolute index of the first sample; `settings.spp` tells how many were wanted.
     pub first_sample: u32,
     pub device: String,
@@ -36,6 +37,7 @@ impl Provenance {
             ("gpt:scene", text(&self.scene)),
             ("gpt:sceneHash", text(&self.scene_hash)),
             ("gpt:device", text(&self.device)),
+            ("gpt:filter", text(&self.filter.to_string())),
             ("gpt:sampler", text(&setting_name(settings.sampler))),
             ("gpt:pixelSampler", text(&settings.pixel_sampler.name(settings.sampler))),
             ("gpt:estimator", text(&setting_name(settings.estimator))),

@@ -7,11 +7,14 @@ use crate::flat::primitive::{Primitive, PrimitiveKind};
 use crate::flat::tables::FlatMaterialKind;
 use crate::sampling::Decorrelation;
 use crate::sampling::dimension::SEQUENCE_DIMENSIONS;
+use crate::scene::{ApertureShape, Filter, FilterKind, Projection};
 use crate::scene::{Estimator, MisHeuristic, PixelSampler, RenderSettings, Scene};
 use crate::shader::Switches;
 
 /// Every switch that the shaders know.
 pub const ALL: &[&str] = &[
+    "APERTURE_POLYGON",
+    "APERTURE_SQUARE",
     "ATTRIBUTES",
     "BVH",
     "DIGITAL_SHIFT",
@@ -22,14 +25,19 @@ pub const ALL: &[&str] = &[
     "ESTIMATOR_MIS",
     "ESTIMATOR_NEE",
     "FILM_TEXTURE",
+    "FILTER",
+    "FILTER_BOX",
+    "FILTER_CURVE",
     "FLAT_LIGHTS",
     "FLAT_ROUND",
     "GLASS",
     "HEURISTIC_POWER",
+    "LENS",
     "LIGHTS",
     "MIRROR",
     "ONE_LIGHT",
     "ONLY_TRIANGLES_IN_HIERARCHY",
+    "ORTHOGRAPHIC",
     "PIXEL_CENTRE",
     "PIXEL_DIGITAL_SHIFT",
     "PIXEL_HASHED",
@@ -94,10 +102,12 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     switches.enable("HEURISTIC_POWER", render.heuristic == MisHeuristic::Power);
     switches.enable("ROULETTE", render.roulette_depth > 0);
     enable_sampler(&mut switches, render);
+    let blades = enable_camera(&mut switches, scene);
     switches.enable("FILM_TEXTURE", plan.film == FilmStorage::Texture);
 
     let (tables, first_light, first_texture) = flat.tables();
     switches.constants.extend([
+        ("BLADES", blades),
         ("FILM_WIDTH", scene.film.size[0]),
         ("FIRST_LIGHT_WORD", first_light),
         ("FIRST_TEXTURE_WORD", first_texture),
@@ -131,4 +141,24 @@ fn enable_sampler(switches: &mut Switches, render: &RenderSettings) {
     switches.enable("PIXEL_HASHED", pixel == Some(Decorrelation::Hashed));
     switches.enable("PIXEL_ROTATION", pixel == Some(Decorrelation::Rotation));
     switches.enable("PIXEL_DIGITAL_SHIFT", pixel == Some(Decorrelation::DigitalShift));
+}
+
+/// Returns the corners of a polygonal aperture.
+fn enable_camera(switches: &mut Switches, scene: &Scene) -> u32 {
+    let filter = scene.film.filter;
+    // The default needs no map: a uniform number is a position in the pixel.
+    switches.enable("FILTER", filter != Filter::default());
+    switches.enable("FILTER_BOX", filter != Filter::default() && filter.kind == FilterKind::Box);
+    switches.enable("FILTER_CURVE", matches!(filter.kind, FilterKind::Gaussian | FilterKind::BlackmanHarris));
+    switches.enable("ORTHOGRAPHIC", matches!(scene.camera.projection, Projection::Orthographic { .. }));
+    switches.enable("LENS", scene.camera.aperture.is_some());
+    let shape = scene.camera.aperture.map(|aperture| aperture.shape);
+    switches.enable("APERTURE_SQUARE", shape == Some(ApertureShape::Square));
+    match shape {
+        Some(ApertureShape::Polygon { blades, .. }) => {
+            switches.enable("APERTURE_POLYGON", true);
+            blades
+        }
+        _ => 0,
+    }
 }

@@ -9,14 +9,14 @@
 use glam::DVec3;
 
 use super::bsdf::{Bsdf, BsdfSample, Density};
-use super::camera::PinholeCamera;
+use super::camera::ProjectiveCamera;
 use super::emission::emitted;
 use super::intersect::{Ray, Surface, World};
 use super::lights::Lights;
 use super::trace::{LightConnection, PathVisitor};
 use super::{mis, support};
 use crate::render::RenderError;
-use crate::sampling::{BounceDimension, CameraDimension, Dimension, PathSampler};
+use crate::sampling::{BounceDimension, Dimension, PathSampler};
 use crate::scene::{Estimator, Scene};
 
 /// Edges from which on Russian roulette always has a chance to end the path, whatever its throughput.
@@ -30,7 +30,7 @@ pub struct Integrator {
     scene: Scene,
     world: World,
     lights: Lights,
-    camera: PinholeCamera,
+    camera: ProjectiveCamera,
 }
 
 /// A path under construction.
@@ -57,7 +57,7 @@ impl Integrator {
         support::check(scene)?;
         let world = World::new(scene)?;
         let lights = Lights::new(scene, &world);
-        let camera = PinholeCamera::new(&scene.camera, &scene.film)?;
+        let camera = ProjectiveCamera::new(&scene.camera, &scene.film);
         Ok(Self { scene: scene.clone(), world, lights, camera })
     }
 
@@ -67,11 +67,8 @@ impl Integrator {
 
     /// The radiance one sample of one pixel sees. `visitor` is told everything that happens.
     pub fn radiance<V: PathVisitor>(&self, x: u32, y: u32, sampler: &PathSampler, visitor: &mut V) -> DVec3 {
-        let pixel = |dimension| sampler.uniform(Dimension::camera(dimension));
-        let film_x = f64::from(x) + pixel(CameraDimension::PixelX);
-        let film_y = f64::from(y) + pixel(CameraDimension::PixelY);
         let mut path = Path {
-            ray: self.camera.ray(film_x, film_y),
+            ray: self.camera.sample(x, y, sampler),
             throughput: DVec3::ONE,
             radiance: DVec3::ZERO,
             eta_scale: 1.0,

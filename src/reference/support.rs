@@ -2,8 +2,8 @@
 
 use crate::render::RenderError;
 use crate::scene::{
-    ColorInput, EnvironmentRadiance, FilterKind, Geometry, HemisphereSampling, Heuristic, Light, LightSampling, Material,
-    MaterialId, MaterialKind, Mesh, Scene, Shape, TextureId, TextureKind,
+    ColorInput, EnvironmentRadiance, Geometry, HemisphereSampling, Heuristic, Light, LightSampling, Material, MaterialId,
+    MaterialKind, Mesh, Scene, Shape, TextureId, TextureKind,
 };
 
 /// Most materials in one blend, all its blends counted through: each is looked at in every hit.
@@ -29,9 +29,6 @@ fn settings(scene: &Scene) -> Check {
     let settings = &scene.render;
     if scene.film.size.contains(&0) {
         return Err("the picture has no pixels".into());
-    }
-    if scene.film.filter.kind != FilterKind::Box || scene.film.filter.radius != 0.5 {
-        return refuse("filters other than the box of radius 0.5");
     }
     if settings.hemisphere != HemisphereSampling::Cosine || settings.light_sampling != LightSampling::Cone {
         return refuse("with other than cosine and cone sampling");

@@ -9,6 +9,7 @@
 
 pub mod alias;
 pub mod dimension;
+pub mod filter;
 pub mod halton;
 pub mod hash;
 pub mod permutation;

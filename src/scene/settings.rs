@@ -1,5 +1,7 @@
 //! `[film]` and `[render]`: how large the picture is and how it is estimated.
 
+use std::fmt;
+
 use clap::ValueEnum;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -29,6 +31,19 @@ pub struct Filter {
 impl Default for Filter {
     fn default() -> Self {
         Self { kind: FilterKind::Box, radius: 0.5 }
+    }
+}
+
+/// As people read it: the scene file's name and the radius.
+impl fmt::Display for Filter {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = match self.kind {
+            FilterKind::Box => "box",
+            FilterKind::Tent => "tent",
+            FilterKind::Gaussian => "gaussian",
+            FilterKind::BlackmanHarris => "blackman_harris",
+        };
+        write!(out, "{name}, radius {}", self.radius)
     }
 }
 

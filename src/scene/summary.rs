@@ -14,6 +14,7 @@ pub struct SceneSummary {
     /// Width and height in pixels.
     pub size: [u32; 2],
     pub spp: u32,
+    pub filter: String,
     pub max_depth: u32,
     pub sampler: String,
     pub pixel_sampler: String,
@@ -40,6 +41,7 @@ impl SceneSummary {
             name: scene.name.clone(),
             size: scene.film.size,
             spp: render.spp,
+            filter: scene.film.filter.to_string(),
             max_depth: render.max_depth,
             sampler: setting_name(render.sampler),
             pixel_sampler: render.pixel_sampler.name(render.sampler),
@@ -62,7 +64,7 @@ impl fmt::Display for SceneSummary {
         let [width, height] = self.size;
         let depth = if self.max_depth == 0 { "unlimited depth".to_owned() } else { format!("depth {}", self.max_depth) };
         writeln!(out, "scene      {}", self.name)?;
-        writeln!(out, "film       {width}x{height}, {} spp", self.spp)?;
+        writeln!(out, "film       {width}x{height}, {} spp, filter {}", self.spp, self.filter)?;
         let pixel = if self.pixel_sampler == self.sampler { String::new() } else { format!(" (pixel: {})", self.pixel_sampler) };
         writeln!(
             out,

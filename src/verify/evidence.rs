@@ -51,6 +51,7 @@ fn write_picture(
         scene: verdict.scene.clone(),
         scene_hash: String::new(),
         settings: scene.render.clone(),
+        filter: scene.film.filter,
         first_sample: 0,
         device: verdict.device.clone(),
     };

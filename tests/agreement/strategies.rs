@@ -1,9 +1,9 @@
-//! Every sampler, of the path and of the pixel, draws the same numbers on both devices.
+//! Every sampler, filter, aperture and projection does the same on both devices.
 
 use gpt::gpu::GpuRenderer;
 use gpt::plan::{PlanOptions, StageMode};
 use gpt::reference::ReferenceRenderer;
-use gpt::scene::{PixelSampler, SamplerKind, Scene};
+use gpt::scene::{Aperture, ApertureShape, Filter, FilterKind, PixelSampler, Projection, SamplerKind, Scene};
 use gpt::verify::{self, Verdict};
 
 use super::{DEVICE, assert_agrees, small};
@@ -37,6 +37,55 @@ fn every_sampler_of_the_pixel_agrees() {
     }
 }
 
+#[test]
+fn every_filter_agrees() {
+    for (kind, radius) in [
+        (FilterKind::Box, 0.5),
+        (FilterKind::Box, 1.3),
+        (FilterKind::Tent, 1.0),
+        (FilterKind::Gaussian, 1.5),
+        (FilterKind::BlackmanHarris, 2.0),
+    ] {
+        let mut scene = small("spheres", 32, 8);
+        scene.film.filter = Filter { kind, radius };
+        scene.render.max_depth = 3;
+        assert_agrees(&format!("{kind:?} {radius}"), &scene, &PlanOptions::default());
+    }
+}
+
+const APERTURES: [ApertureShape; 4] = [
+    ApertureShape::Disk,
+    ApertureShape::Square,
+    ApertureShape::Polygon { blades: 3, rotation_degrees: 0.0 },
+    ApertureShape::Polygon { blades: 7, rotation_degrees: -100.0 },
+];
+
+/// `spheres` through a lens that is in focus somewhere among them.
+fn through_a_lens(shape: ApertureShape, projection: Option<Projection>) -> Scene {
+    let mut scene = small("spheres", 32, 8);
+    scene.render.max_depth = 3;
+    scene.camera.aperture = Some(Aperture { shape, radius: 0.2 });
+    scene.camera.focus_distance = (scene.camera.look_at - scene.camera.position).length();
+    scene.camera.projection = projection.unwrap_or(scene.camera.projection);
+    scene
+}
+
+#[test]
+fn every_aperture_and_projection_agrees() {
+    let parallel = Projection::Orthographic { height: 5.0 };
+    for projection in [None, Some(parallel)] {
+        for shape in APERTURES {
+            let scene = through_a_lens(shape, projection);
+            assert_agrees(&format!("{shape:?} {projection:?}"), &scene, &PlanOptions::default());
+        }
+        let mut pinhole = through_a_lens(ApertureShape::Disk, projection);
+        pinhole.camera.aperture = None;
+        assert_agrees(&format!("pinhole {projection:?}"), &pinhole, &PlanOptions::default());
+    }
+    let wavefront = PlanOptions { stages: Some(StageMode::Wavefront), ..PlanOptions::default() };
+    assert_agrees("lens, wavefront", &through_a_lens(APERTURES[3], None), &wavefront);
+}
+
 /// The device renders `ours`, the reference `theirs`.
 fn compare_unequal(ours: &Scene, theirs: &Scene) -> Option<Verdict> {
     let device = DEVICE.as_ref()?;
@@ -56,5 +105,20 @@ fn another_sampler_is_noticed() {
     for changed in changes {
         let Some(verdict) = compare_unequal(&changed, &scene) else { return };
         assert!(!verdict.agrees && verdict.matching_share() < 0.9, "{verdict:#?}");
+    }
+}
+
+/// Likewise a filter, a lens or a focus that differs a little.
+#[test]
+fn another_camera_is_noticed() {
+    let scene = through_a_lens(ApertureShape::Polygon { blades: 7, rotation_degrees: 10.0 }, None);
+    let mut changes = vec![scene.clone(); 4];
+    changes[0].film.filter.radius = 0.51;
+    changes[1].camera.aperture = Some(Aperture { shape: APERTURES[3], radius: 0.2 });
+    changes[2].camera.focus_distance *= 1.02;
+    changes[3].film.filter = Filter { kind: FilterKind::Tent, radius: 0.5 };
+    for (index, changed) in changes.iter().enumerate() {
+        let Some(verdict) = compare_unequal(changed, &scene) else { return };
+        assert!(!verdict.agrees && verdict.matching_share() < 0.97, "change {index}: {verdict:#?}");
     }
 }

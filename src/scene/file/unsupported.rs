@@ -3,7 +3,7 @@
 
 use super::document::Step;
 use super::document::Step::{Index, Key};
-use crate::scene::{EnvironmentRadiance, FilterKind, Geometry, Light, Material, MaterialKind, Projection, Scene, TextureKind};
+use crate::scene::{EnvironmentRadiance, Geometry, Light, Material, MaterialKind, Scene, TextureKind};
 
 /// Something that is refused: where it is written and what it is called.
 pub struct Refusal {
@@ -13,39 +13,11 @@ pub struct Refusal {
 
 /// The first thing in the scene that no renderer does.
 pub fn find(scene: &Scene) -> Option<Refusal> {
-    settings(scene)
-        .or_else(|| camera(scene))
-        .or_else(|| textures(scene))
-        .or_else(|| materials(scene))
-        .or_else(|| shapes(scene))
-        .or_else(|| lights(scene))
+    textures(scene).or_else(|| materials(scene)).or_else(|| shapes(scene)).or_else(|| lights(scene))
 }
 
 fn refuse(path: impl Into<Vec<Step>>, feature: impl Into<String>) -> Option<Refusal> {
     Some(Refusal { path: path.into(), feature: feature.into() })
-}
-
-fn settings(scene: &Scene) -> Option<Refusal> {
-    let filter = scene.film.filter;
-    let filter_path = [Key("film"), Key("filter")];
-    match filter.kind {
-        FilterKind::Box if filter.radius == 0.5 => {}
-        FilterKind::Box => return refuse(filter_path, "a box filter of another radius than 0.5"),
-        FilterKind::Tent => return refuse(filter_path, "the filter `tent`"),
-        FilterKind::Gaussian => return refuse(filter_path, "the filter `gaussian`"),
-        FilterKind::BlackmanHarris => return refuse(filter_path, "the filter `blackman_harris`"),
-    }
-    None
-}
-
-fn camera(scene: &Scene) -> Option<Refusal> {
-    if scene.camera.aperture.is_some() {
-        return refuse([Key("camera"), Key("aperture")], "an aperture");
-    }
-    match scene.camera.projection {
-        Projection::Perspective { .. } => None,
-        Projection::Orthographic { .. } => refuse([Key("camera"), Key("projection")], "the projection `orthographic`"),
-    }
 }
 
 fn textures(scene: &Scene) -> Option<Refusal> {

@@ -1,0 +1,74 @@
+//! The camera and what lies outside the scene, as the device wants them.
+
+use glam::DVec3;
+
+use crate::sampling::filter::{CURVE_PIECES, FilterSampler};
+use crate::scene::{Aperture, ApertureShape, Light, Projection, Scene};
+
+/// `View` in `shaders/core/parameters.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct View {
+    pub position: [f32; 4],
+    /// A ray through film position (x, y), in pixels, goes along corner + x·step_x + y·step_y; orthographic: it starts there,
+    /// relative to the position.
+    pub corner: [f32; 4],
+    pub step_x: [f32; 4],
+    pub step_y: [f32; 4],
+    /// Viewing direction, of length 1; the filter's radius in pixels.
+    pub forward: [f32; 4],
+    /// From the middle of the lens to the right, as long as the aperture's radius; distance of the plane in focus.
+    pub lens_u: [f32; 4],
+    /// Likewise upward; rotation of a polygon in turns.
+    pub lens_v: [f32; 4],
+    /// Radiance of a constant environment.
+    pub environment: [f32; 4],
+    /// Inverse cumulative distribution of the filter, piece by piece.
+    pub filter_curve: [[f32; 4]; CURVE_PIECES],
+}
+
+impl View {
+    pub fn new(scene: &Scene) -> Self {
+        let camera = &scene.camera;
+        let [right, up, backward] = camera.frame();
+        let [width, height] = scene.film.size.map(f64::from);
+        let (half_height, distance) = match camera.projection {
+            Projection::Perspective { vertical_fov_degrees } => ((0.5 * vertical_fov_degrees).to_radians().tan(), 1.0),
+            Projection::Orthographic { height } => (0.5 * height, 0.0),
+        };
+        let half_width = half_height * width / height;
+        let radius = camera.aperture.map_or(0.0, |aperture| aperture.radius);
+        Self {
+            position: extend(camera.position, 0.0),
+            corner: extend(up * half_height - right * half_width - backward * distance, 0.0),
+            step_x: extend(right * (2.0 * half_width / width), 0.0),
+            step_y: extend(up * (-2.0 * half_height / height), 0.0),
+            forward: extend(-backward, scene.film.filter.radius),
+            lens_u: extend(right * radius, camera.focus_distance),
+            lens_v: extend(up * radius, camera.aperture.map_or(0.0, rotation_turns)),
+            environment: extend(environment(scene), 0.0),
+            filter_curve: *FilterSampler::new(scene.film.filter).curve(),
+        }
+    }
+}
+
+fn extend(v: DVec3, w: f64) -> [f32; 4] {
+    v.as_vec3().extend(w as f32).to_array()
+}
+
+/// In [0, 1).
+fn rotation_turns(aperture: Aperture) -> f64 {
+    match aperture.shape {
+        ApertureShape::Polygon { rotation_degrees, .. } => (rotation_degrees / 360.0).rem_euclid(1.0),
+        ApertureShape::Disk | ApertureShape::Square => 0.0,
+    }
+}
+
+/// Sum of the constant environments.
+fn environment(scene: &Scene) -> DVec3 {
+    let radiance = scene.lights.iter().map(|light| match light {
+        Light::Environment(environment) => environment.constant_radiance().unwrap_or(DVec3::ZERO),
+        _ => DVec3::ZERO,
+    });
+    radiance.sum()
+}
