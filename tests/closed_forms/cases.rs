@@ -14,7 +14,7 @@ pub struct Case {
     pub expected: [f64; 3],
 }
 
-const ALL: [Estimator; 3] = [Estimator::Mis, Estimator::Nee, Estimator::Bsdf];
+pub const ALL: [Estimator; 3] = [Estimator::Mis, Estimator::Nee, Estimator::Bsdf];
 /// Those that see point lights.
 const WITH_LIGHT_SAMPLING: [Estimator; 2] = [Estimator::Mis, Estimator::Nee];
 
@@ -28,7 +28,7 @@ pub fn all() -> Vec<Case> {
     cases
 }
 
-fn push(cases: &mut Vec<Case>, name: &str, scene: &Scene, expected: DVec3, estimators: &[Estimator]) {
+pub fn push(cases: &mut Vec<Case>, name: &str, scene: &Scene, expected: DVec3, estimators: &[Estimator]) {
     for &estimator in estimators {
         let mut scene = scene.clone();
         scene.render.estimator = estimator;

@@ -2,6 +2,17 @@
 //!
 //! All directions are in the surface's frame, z along the shading normal. m is a microfacet's normal, on the side of the upper
 //! hemisphere; wo is in the upper hemisphere, wi anywhere.
+//!
+//! Light that one microfacet sends to another is lost: the share of a uniform light that microfacets without any absorption
+//! reflect, by the angle of view from the normal (measured, and held by a test; 0.307 is 1 − ln 2 in closed form), is
+//!
+//! | alpha | 0°    | 45°   | 70°   | 85°   |
+//! | ----- | ----- | ----- | ----- | ----- |
+//! | 0.05  | 0.997 | 0.996 | 0.985 | 0.902 |
+//! | 0.25  | 0.916 | 0.886 | 0.839 | 0.901 |
+//! | 0.5   | 0.688 | 0.683 | 0.731 | 0.872 |
+//! | 0.75  | 0.464 | 0.510 | 0.628 | 0.827 |
+//! | 1     | 0.307 | 0.377 | 0.532 | 0.780 |
 
 use std::f64::consts::PI;
 

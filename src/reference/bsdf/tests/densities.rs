@@ -1,0 +1,170 @@
+//! Whether samples follow the densities that are stated.
+
+use rayon::prelude::*;
+
+use super::*;
+use crate::statistics::{DirectionalReport, SphereBins, density_by_differences, sidak, test_directional_sampler};
+
+const TILTED: &str = "tilted";
+/// From in front, at grazing angles, from behind.
+const ANGLES: [f64; 4] = [8.0, 50.0, 84.0, 130.0];
+
+fn smooth_part(bsdf: &Bsdf, [u1, u2, u_lobe]: [f64; 3]) -> Option<DVec3> {
+    let sample = bsdf.sample(u_lobe, u1, u2)?;
+    matches!(sample.density, Density::Smooth(_)).then_some(sample.wi)
+}
+
+/// Bins about the mirror direction, fine close to it: that is where the narrow lobes are.
+fn follow(bsdf: &Bsdf, seed: u64, samples: u64) -> DirectionalReport {
+    let edges: Vec<f64> = (1..16).map(|i| 1.0 - 2.0 * (1.0 - f64::from(i) / 16.0).powi(2)).collect();
+    let bins = SphereBins::with_cosine_edges(super::mirror::reflect(&bsdf.view), &edges, 10);
+    test_directional_sampler(&bins, samples, seed, |u| smooth_part(bsdf, u), |wi| bsdf.evaluate(wi).pdf)
+}
+
+fn surfaces() -> Vec<(String, Bsdf)> {
+    let lobes = smooth_lobes().into_iter().map(|(name, lobe)| (name, vec![(lobe, 1.0)]));
+    let mixtures = mixtures().into_iter().filter(|(name, _)| *name != "mirror and glass");
+    let cases: Vec<_> = lobes.chain(mixtures).collect();
+    let mut surfaces = Vec::new();
+    for (name, leaves) in &cases {
+        for degrees in ANGLES {
+            surfaces.push((format!("{name} at {degrees}"), Bsdf::mixture(view(degrees, 0.0), leaves.clone())));
+        }
+        surfaces.push((format!("{name}, {TILTED}"), Bsdf::mixture(view(40.0, 25.0), leaves.clone())));
+    }
+    surfaces
+}
+
+#[test]
+fn samples_follow_their_densities() {
+    let surfaces = surfaces();
+    let level = sidak(0.01, surfaces.len());
+    surfaces.par_iter().enumerate().for_each(|(seed, (name, bsdf))| {
+        // Where the horizon cuts a tilted lobe, its density jumps, and integrating it takes long.
+        let samples = if name.ends_with(TILTED) { 20_000 } else { 100_000 };
+        let report = follow(bsdf, (seed as u64) << 32, samples);
+        assert!(report.passes(level), "{name}: {report:?}");
+        assert!(report.chi_squared.degrees_of_freedom > 10, "{name}: {report:?}");
+    });
+}
+
+/// With a million samples, at one angle of each.
+#[test]
+fn a_million_samples_follow_their_densities() {
+    let cases = smooth_lobes();
+    let level = sidak(0.01, cases.len());
+    for (seed, (name, lobe)) in (100..).zip(cases) {
+        let report = follow(&single(lobe, view(35.0, 0.0)), seed << 32, 1_000_000);
+        assert!(report.passes(level), "{name}: {report:?}");
+    }
+}
+
+/// A density that leans by a hundredth to one side is found out, for a lobe and for a mixture.
+#[test]
+fn wrong_densities_are_rejected() {
+    for leaves in [vec![(diffuse(orange()), 1.0)], vec![(diffuse(orange()), 0.5), (mirror(1.0), 0.5)]] {
+        let bsdf = Bsdf::mixture(view(35.0, 0.0), leaves);
+        let bins = SphereBins::uniform(DVec3::Z, 16, 12);
+        let leaning = |wi: DVec3| (1.0 + 0.02 * wi.x.signum()) * bsdf.evaluate(wi).pdf;
+        let report = test_directional_sampler(&bins, 1_000_000, 0, |u| smooth_part(&bsdf, u), leaning);
+        assert!(!report.passes(1e-6), "{report:?}");
+    }
+}
+
+/// Lobes that draw directions by one map of (u1, u2) each. With one tint black, glass only reflects or only transmits.
+fn maps() -> Vec<(&'static str, Lobe, f64)> {
+    let only = |reflect: bool| {
+        let (on, off) = (DVec3::ONE, DVec3::ZERO);
+        let (reflectance, transmittance) = if reflect { (on, off) } else { (off, on) };
+        move |ior| Dielectric { ior, reflectance, transmittance }
+    };
+    vec![
+        ("diffuse", diffuse(orange()), 30.0),
+        ("glossy", glossy(30.0), 30.0),
+        ("phong, specular alone", phong(0.0, 0.9, 20.0), 20.0),
+        ("phong, diffuse alone", phong(0.9, 0.0, 20.0), 60.0),
+        ("gold", gold(0.3), 45.0),
+        ("gold, wide", gold(0.9), 70.0),
+        ("gold, narrow", gold(0.01), 20.0),
+        ("reflection of rough glass", rough_glass(only(true)(1.5), 0.4), 50.0),
+        ("transmission of rough glass, entering", rough_glass(only(false)(1.5), 0.4), 50.0),
+        ("transmission of rough glass, leaving", rough_glass(only(false)(1.5), 0.3), 155.0),
+        ("transmission of rough glass, narrow", rough_glass(only(false)(1.5), 0.01), 20.0),
+        ("reflection of Phong glass", phong_glass(only(true)(1.5), 30.0), 30.0),
+        ("transmission of Phong glass", phong_glass(only(false)(1.5), 30.0), 30.0),
+    ]
+}
+
+#[test]
+fn maps_have_the_jacobian_of_their_density() {
+    for (name, lobe, degrees) in maps() {
+        let bsdf = single(lobe, view(degrees, 0.0));
+        let map = |[u1, u2]: [f64; 2]| bsdf.sample(0.5, u1, u2).map_or(DVec3::NAN, |sample| sample.wi);
+        let mut compared = 0;
+        for (i, j) in (0..16).flat_map(|i| (0..16).map(move |j| (i, j))) {
+            let u = [(f64::from(i) + 0.5) / 16.0, (f64::from(j) + 0.5) / 16.0];
+            let by_differences = density_by_differences(map, u);
+            // Beside the horizon a neighbour may be missing.
+            if by_differences.is_nan() {
+                continue;
+            }
+            compared += 1;
+            let stated = bsdf.evaluate(map(u)).pdf;
+            assert!((stated / by_differences - 1.0).abs() < 1e-4, "{name} at {u:?}: {stated}, {by_differences}");
+            assert!((1.01 * stated / by_differences - 1.0).abs() > 1e-3);
+        }
+        assert!(compared > 150, "{name}: {compared}");
+    }
+}
+
+/// What a sample says of itself is what evaluating its direction says.
+#[test]
+fn sampled_weights_are_value_over_density() {
+    for (name, bsdf) in surfaces() {
+        let mut compared = 0;
+        for [u1, u2, u_lobe] in cube_points(500, 3) {
+            let Some(sample) = bsdf.sample(u_lobe, u1, u2) else { continue };
+            let Density::Smooth(pdf) = sample.density else { continue };
+            let Evaluation { value, pdf: evaluated } = bsdf.evaluate(sample.wi);
+            compared += 1;
+            assert!((pdf / evaluated - 1.0).abs() < 1e-7, "{name}: {sample:?} {evaluated}");
+            assert!((sample.weight - value / pdf).length() <= 1e-7 * sample.weight.length(), "{name}: {sample:?} {value}");
+            assert!((sample.wi.length() - 1.0).abs() < 1e-12, "{name}: {sample:?}");
+        }
+        assert!(compared > 20, "{name}: {compared}");
+    }
+}
+
+/// The density of a mixture is the mean of its smooth lobes' by Pᵢ ∝ wᵢ·sᵢ, its value their sum by wᵢ.
+#[test]
+fn mixtures_are_the_sums_of_their_lobes() {
+    for (name, leaves) in mixtures() {
+        for degrees in ANGLES {
+            let view = view(degrees, 10.0);
+            let mixture = Bsdf::mixture(view, leaves.clone());
+            // The diffuse leaves are one lobe, whose weight is the largest component of their sum.
+            let together: DVec3 = leaves
+                .iter()
+                .map(|(lobe, weight)| if let Lobe::Diffuse(d) = lobe { d.reflectance * *weight } else { DVec3::ZERO })
+                .sum();
+            let share = |lobe: &Lobe, weight: f64| match lobe {
+                Lobe::Diffuse(_) => 0.0,
+                _ => weight * lobe.sampling_weight(),
+            };
+            let total = together.max_element() + leaves.iter().map(|(lobe, weight)| share(lobe, *weight)).sum::<f64>();
+            for [u, v, _] in cube_points(200, 5) {
+                let wi = crate::reference::warp::uniform_sphere(u, v);
+                let mut expected = Evaluation::default();
+                for (lobe, weight) in &leaves {
+                    let one = lobe.evaluate(&view, wi);
+                    expected.value += one.value * *weight;
+                    expected.pdf += one.pdf * share(lobe, *weight) / total;
+                }
+                expected.pdf += diffuse(DVec3::ONE).evaluate(&view, wi).pdf * together.max_element() / total;
+                let found = mixture.evaluate(wi);
+                assert!((found.value - expected.value).length() <= 1e-12 * expected.value.length(), "{name}");
+                assert!((found.pdf - expected.pdf).abs() <= 1e-12 * expected.pdf, "{name}: {found:?} {expected:?}");
+            }
+        }
+    }
+}

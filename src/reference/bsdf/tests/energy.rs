@@ -1,0 +1,181 @@
+//! How much of the light comes back, and whether light could go the other way.
+
+use super::*;
+use crate::statistics::{Moments, TestResult, one_sample_t_test_beyond, sidak, welch_t_test};
+
+/// Independent estimates of the radiance that a uniform environment of 1 leaves towards wo.
+fn reflected_radiance(bsdf: &Bsdf, seed: u64) -> [Moments; 3] {
+    estimate(seed, |[u1, u2, u_lobe]| bsdf.sample(u_lobe, u1, u2).map_or(DVec3::ZERO, |sample| sample.weight))
+}
+
+/// The same with refraction's scaling of radiance, 1/eta², made good: the share of power that is scattered. For a single material.
+fn albedo(bsdf: &Bsdf, seed: u64) -> [Moments; 3] {
+    estimate(seed, |[u1, u2, u_lobe]| bsdf.sample(u_lobe, u1, u2).map_or(DVec3::ZERO, |s| s.weight * s.eta * s.eta))
+}
+
+fn estimate(seed: u64, weight: impl Fn([f64; 3]) -> DVec3) -> [Moments; 3] {
+    let mut moments = [Moments::default(); 3];
+    for replication in 0..16 {
+        let count = 4096;
+        let mean = cube_points(count, seed * 16 + replication).map(&weight).sum::<DVec3>() / f64::from(count);
+        moments.iter_mut().zip(mean.to_array()).for_each(|(moments, value)| moments.push(value));
+    }
+    moments
+}
+
+const ANGLES: [f64; 6] = [0.0, 30.0, 60.0, 85.0, 100.0, 160.0];
+
+#[test]
+fn no_lobe_makes_energy() {
+    for (seed, (name, lobe)) in (0..).zip(smooth_lobes().into_iter().chain(delta_lobes())) {
+        for degrees in ANGLES {
+            for channel in albedo(&single(lobe, view(degrees, 0.0)), seed) {
+                assert!(channel.mean() <= 1.0 + 5.0 * channel.standard_error() + 1e-9, "{name} at {degrees}: {channel:?}");
+            }
+        }
+    }
+}
+
+/// Lobes whose albedo is known: Lambert's, and those of single directions.
+#[test]
+fn known_albedos() {
+    for degrees in ANGLES {
+        let view = view(degrees, 0.0);
+        let eta = if view.front { 1.5 } else { 1.0 / 1.5 };
+        let fresnel = dielectric_reflectance(view.wo.z.abs(), eta);
+        let glass = tinted(1.5);
+        let gold_reflects = {
+            let Lobe::Conductor(Conductor { fresnel, .. }) = gold(0.0) else { panic!("gold is a conductor") };
+            fresnel.at(view.wo.z.abs())
+        };
+        let cases = [
+            (diffuse(orange()), orange()),
+            (mirror(0.8), DVec3::splat(0.8)),
+            (Lobe::Glass(glass), glass.reflectance * fresnel + glass.transmittance * (1.0 - fresnel)),
+            (gold(0.0), gold_reflects),
+            (Lobe::Pass, DVec3::ONE),
+        ];
+        for (seed, (lobe, expected)) in (50..).zip(cases) {
+            assert_albedo(&single(lobe, view), seed, expected, 5 * ANGLES.len());
+        }
+    }
+}
+
+fn assert_albedo(bsdf: &Bsdf, seed: u64, expected: DVec3, tests: usize) {
+    let level = sidak(0.01, 3 * tests);
+    for (moments, expected) in albedo(bsdf, seed).iter().zip(expected.to_array()) {
+        let rejects = |truth: f64| one_sample_t_test_beyond(moments, truth, 1e-5).p_value < level;
+        assert!(!rejects(expected), "{bsdf:?}: {moments:?}, expected {expected}");
+        assert!(expected < 0.05 || rejects(1.01 * expected), "1 % more would pass: {bsdf:?} {moments:?}");
+    }
+}
+
+/// A mixture reflects Σ wᵢ of what its lobes do, whatever their kinds and however one is chosen.
+#[test]
+fn mixtures_reflect_the_mean() {
+    let cases = mixtures();
+    let level = sidak(0.01, 3 * ANGLES.len() * cases.len());
+    for (seed, (name, leaves)) in (100..).zip(cases) {
+        for degrees in ANGLES {
+            let view = view(degrees, 0.0);
+            let mixed = reflected_radiance(&Bsdf::mixture(view, leaves.clone()), seed);
+            let part = |(seed, &(lobe, weight)): (u64, &(Lobe, f64))| (reflected_radiance(&single(lobe, view), seed), weight);
+            let parts: Vec<_> = (1000 + 50 * seed..).zip(&leaves).map(part).collect();
+            for channel in 0..3 {
+                let expected: f64 = parts.iter().map(|(moments, weight)| moments[channel].mean() * weight).sum();
+                let variances = parts.iter().map(|(moments, weight)| (moments[channel].standard_error() * weight).powi(2));
+                let error = (variances.sum::<f64>() + mixed[channel].standard_error().powi(2)).sqrt();
+                let against = |expected: f64| TestResult::beyond_margin(mixed[channel].mean() - expected, 1e-5, error, 15.0);
+                assert!(against(expected).p_value >= level, "{name} at {degrees}: {:?} {expected}", mixed[channel]);
+                assert!(against(1.02 * expected).p_value < level, "{name} at {degrees}: 2 % more would pass");
+            }
+        }
+    }
+}
+
+/// f(wo, wi) = f(wi, wo); through a dielectric f(wo, wi)·n(wi)² = f(wi, wo)·n(wo)² (Veach 1997, section 5.2.3). Honsdorf's
+/// perturbed refraction has no such symmetry.
+#[test]
+fn scattering_is_reciprocal() {
+    for (name, lobe) in smooth_lobes().into_iter().filter(|(name, _)| !name.starts_with("Phong")) {
+        let (mut reflected, mut transmitted) = (0, 0);
+        for [a, b, c] in cube_points(3000, 11) {
+            let wo = crate::reference::warp::uniform_sphere(a, b);
+            let wi = crate::reference::warp::uniform_sphere(c, (a * 7.0 + b * 5.0).fract());
+            let f = |wo: DVec3, wi: DVec3| lobe.evaluate(&View::new(wo, DVec3::Z, DVec3::Z), wi).value / wi.z.abs();
+            let (there, back) = (f(wo, wi), f(wi, wo));
+            let through = wo.z * wi.z < 0.0;
+            let ior = match lobe {
+                Lobe::RoughGlass(glass) => glass.dielectric.ior,
+                _ => 1.0,
+            };
+            let index = |w: DVec3| if w.z > 0.0 { 1.0 } else { ior };
+            let difference = there / index(wo).powi(2) - back / index(wi).powi(2);
+            assert!(difference.length() <= 1e-9 * there.length(), "{name}: {wo} {wi}: {there} {back}");
+            if there != DVec3::ZERO {
+                *(if through { &mut transmitted } else { &mut reflected }) += 1;
+            }
+        }
+        assert!(reflected > 500, "{name}: {reflected}");
+        assert_eq!(transmitted > 100, name.starts_with("rough glass"), "{name}: {transmitted}");
+    }
+}
+
+/// The directional albedo of white GGX microfacets, by alpha and at these angles in degrees: what is missing to 1 would have met a
+/// second microfacet, and single scattering leaves it out. At alpha 1 and normal incidence it is 1 − ln 2.
+const WHITE_ALBEDO_ANGLES: [f64; 4] = [0.0, 45.0, 70.0, 85.0];
+const WHITE_ALBEDO: [(f64, [f64; 4]); 5] = [
+    (0.05, [0.997, 0.996, 0.985, 0.902]),
+    (0.25, [0.916, 0.886, 0.839, 0.901]),
+    (0.5, [0.688, 0.683, 0.731, 0.872]),
+    (0.75, [0.464, 0.510, 0.628, 0.827]),
+    (1.0, [1.0 - std::f64::consts::LN_2, 0.377, 0.532, 0.780]),
+];
+
+#[test]
+fn energy_lost_between_microfacets_is_as_documented() {
+    let level = sidak(0.01, 20);
+    for (alpha, documented) in WHITE_ALBEDO {
+        for (degrees, documented) in WHITE_ALBEDO_ANGLES.into_iter().zip(documented) {
+            let measured = albedo(&single(white_metal(alpha), view(degrees, 0.0)), 9)[0];
+            println!("alpha {alpha} at {degrees}°: {:.4} ± {:.1e}", measured.mean(), measured.standard_error());
+            // Documented to three digits.
+            let rejects = |truth: f64| one_sample_t_test_beyond(&measured, truth, 6e-4).p_value < level;
+            assert!(!rejects(documented), "alpha {alpha} at {degrees}: {measured:?}, documented {documented}");
+            assert!(rejects(1.01 * documented), "alpha {alpha} at {degrees}: 1 % more would pass: {measured:?}");
+        }
+    }
+    let closed = albedo(&single(white_metal(1.0), view(0.0, 0.0)), 10)[0];
+    assert!(one_sample_t_test_beyond(&closed, 1.0 - std::f64::consts::LN_2, 1e-5).p_value > 0.001, "{closed:?}");
+}
+
+/// As the width goes to 0, rough metal and rough glass go over into the smooth ones: the same shares, in the same directions.
+#[test]
+fn narrow_lobes_meet_the_delta_lobes() {
+    let pairs = [(gold(2e-4), gold(0.0)), (rough_glass(tinted(1.5), 2e-4), Lobe::Glass(tinted(1.5)))];
+    for (rough, smooth) in pairs {
+        for degrees in [5.0, 50.0, 75.0, 155.0] {
+            let view = view(degrees, 0.0);
+            let [rough, smooth] = [rough, smooth].map(|lobe| single(lobe, view));
+            for [u1, u2, u_lobe] in cube_points(2000, 4) {
+                let (a, b) = (rough.sample(u_lobe, u1, u2), smooth.sample(u_lobe, u1, u2));
+                // The few samples on the border between reflection and transmission, or in the distribution's long tail, may differ.
+                let (Some(a), Some(b)) = (a, b) else { continue };
+                if (a.wi - b.wi).length() < 0.05 {
+                    assert!((a.weight - b.weight).length() < 0.02 * b.weight.length(), "{a:?} {b:?}");
+                }
+            }
+            let [a, b] = [albedo(&rough, 2), albedo(&smooth, 3)];
+            for (a, b) in a.iter().zip(&b) {
+                let difference = welch_t_test(a, b);
+                assert!((a.mean() - b.mean()).abs() < 1e-3 || difference.p_value > 1e-4, "{a:?} {b:?}");
+            }
+            let near = |bsdf: &Bsdf| {
+                let mean: DVec3 =
+                    cube_points(4000, 6).filter_map(|[u1, u2, u]| bsdf.sample(0.5 * u, u1, u2)).map(|sample| sample.wi).sum();
+                mean.normalize()
+            };
+            assert!(near(&rough).angle_between(near(&smooth)) < 0.02, "{:?}", (near(&rough), near(&smooth)));
+        }
+    }
+}

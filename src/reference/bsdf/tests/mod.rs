@@ -1,0 +1,137 @@
+//! Every lobe and many mixtures of them, judged by what they state about themselves and by what is known of them.
+
+mod densities;
+mod dielectrics;
+mod energy;
+mod fresnel;
+mod heuristics;
+mod mixtures;
+mod views;
+
+use glam::DVec3;
+
+use super::conductor::{Conductor, Fresnel};
+use super::diffuse::Diffuse;
+use super::glass::Dielectric;
+use super::glossy::Glossy;
+use super::lobe::Lobe;
+use super::microfacet::Ggx;
+use super::mirror::Mirror;
+use super::phong::Phong;
+use super::phong_glass::PhongGlass;
+use super::rough_glass::RoughGlass;
+use super::*;
+
+/// A unit vector at an angle from +z, in degrees.
+fn at_degrees(theta: f64, phi: f64) -> DVec3 {
+    let (sin_theta, cos_theta) = theta.to_radians().sin_cos();
+    DVec3::new(sin_theta * phi.cos(), sin_theta * phi.sin(), cos_theta)
+}
+
+/// A surface with front normal +z and shading normal tilted from it, seen at an angle.
+fn view(wo_degrees: f64, tilt_degrees: f64) -> View {
+    View::new(at_degrees(wo_degrees, 0.4), DVec3::Z, at_degrees(tilt_degrees, 2.0))
+}
+
+fn single(lobe: Lobe, view: View) -> Bsdf {
+    Bsdf::mixture(view, [(lobe, 1.0)])
+}
+
+fn diffuse(reflectance: DVec3) -> Lobe {
+    Lobe::Diffuse(Diffuse { reflectance })
+}
+
+fn orange() -> DVec3 {
+    DVec3::new(0.9, 0.5, 0.1)
+}
+
+fn mirror(reflectance: f64) -> Lobe {
+    Lobe::Mirror(Mirror { reflectance: DVec3::splat(reflectance) })
+}
+
+fn glossy(exponent: f64) -> Lobe {
+    Lobe::Glossy(Glossy { reflectance: DVec3::new(0.4, 0.9, 0.6), exponent })
+}
+
+fn phong(diffuse: f64, specular: f64, exponent: f64) -> Lobe {
+    Lobe::Phong(Phong { diffuse: orange() * diffuse, specular: DVec3::splat(specular), exponent })
+}
+
+/// Gold at about 630, 530 and 465 nm.
+fn gold(alpha: f64) -> Lobe {
+    let fresnel = Fresnel::Complex { eta: DVec3::new(0.18, 0.42, 1.37), k: DVec3::new(3.42, 2.35, 1.77) };
+    Lobe::Conductor(Conductor { fresnel, alpha })
+}
+
+/// A metal that reflects everything.
+fn white_metal(alpha: f64) -> Lobe {
+    Lobe::Conductor(Conductor { fresnel: Fresnel::Schlick(DVec3::ONE), alpha })
+}
+
+fn clear(ior: f64) -> Dielectric {
+    Dielectric { ior, reflectance: DVec3::ONE, transmittance: DVec3::ONE }
+}
+
+fn tinted(ior: f64) -> Dielectric {
+    Dielectric { ior, reflectance: DVec3::new(0.9, 0.2, 0.0), transmittance: DVec3::new(0.1, 0.8, 0.5) }
+}
+
+fn rough_glass(dielectric: Dielectric, alpha: f64) -> Lobe {
+    Lobe::RoughGlass(RoughGlass { dielectric, ggx: Ggx { alpha } })
+}
+
+fn phong_glass(dielectric: Dielectric, exponent: f64) -> Lobe {
+    Lobe::PhongGlass(PhongGlass { dielectric, exponent })
+}
+
+/// Every smooth lobe, narrow and wide.
+fn smooth_lobes() -> Vec<(&'static str, Lobe)> {
+    vec![
+        ("diffuse", diffuse(orange())),
+        ("glossy 3", glossy(3.0)),
+        ("glossy 60", glossy(60.0)),
+        ("phong", phong(0.5, 0.4, 25.0)),
+        ("gold 0.15", gold(0.15)),
+        ("white metal 0.6", white_metal(0.6)),
+        ("rough glass 0.3", rough_glass(clear(1.5), 0.3)),
+        ("rough glass 0.6, less dense inside", rough_glass(tinted(0.7), 0.6)),
+        ("Phong glass 15", phong_glass(tinted(1.5), 15.0)),
+    ]
+}
+
+/// Lobes that reflect and transmit in single directions.
+fn delta_lobes() -> Vec<(&'static str, Lobe)> {
+    vec![("mirror", mirror(0.8)), ("glass", Lobe::Glass(tinted(1.5))), ("smooth gold", gold(0.0)), ("pass", Lobe::Pass)]
+}
+
+/// Weighted lobes: smooth with smooth, smooth with delta, delta with delta, and what nested blends come to.
+fn mixtures() -> Vec<(&'static str, Vec<(Lobe, f64)>)> {
+    vec![
+        ("two diffuse", vec![(diffuse(orange()), 0.3), (diffuse(DVec3::splat(0.2)), 0.7)]),
+        ("diffuse and glossy", vec![(diffuse(orange()), 0.6), (glossy(40.0), 0.4)]),
+        ("diffuse and mirror", vec![(diffuse(orange()), 0.5), (mirror(1.0), 0.5)]),
+        ("mirror and glass", vec![(mirror(0.9), 0.4), (Lobe::Glass(clear(1.5)), 0.6)]),
+        ("gold and rough glass", vec![(gold(0.3), 0.35), (rough_glass(clear(1.5), 0.4), 0.65)]),
+        (
+            "seven of all kinds",
+            vec![
+                (mirror(0.5), 0.1),
+                (diffuse(orange()), 0.2),
+                (phong(0.3, 0.3, 12.0), 0.15),
+                (Lobe::Pass, 0.05),
+                (rough_glass(tinted(1.3), 0.5), 0.2),
+                (diffuse(DVec3::splat(0.3)), 0.1),
+                (phong_glass(clear(1.5), 9.0), 0.2),
+            ],
+        ),
+    ]
+}
+
+/// Points of the unit cube spread evenly: multiples of the powers of the inverse of the root of x⁴ = x + 1, modulo 1, from a
+/// random start (Roberts 2018).
+fn cube_points(count: u32, seed: u64) -> impl Iterator<Item = [f64; 3]> {
+    let mut random = crate::statistics::random::SplitMix64::new(seed << 32);
+    let start: [f64; 3] = std::array::from_fn(|_| random.uniform());
+    let step = 1.0 / 1.220_744_084_605_759_5_f64;
+    (0..count).map(move |i| std::array::from_fn(|axis| (start[axis] + f64::from(i) * step.powi(axis as i32 + 1)).fract()))
+}

@@ -1,0 +1,233 @@
+//! Closed forms of materials and blends: what a uniform environment of 1 shows of them, furnaces, and blended lights.
+
+use glam::DVec3;
+use gpt::scene::*;
+
+use super::cases::{ALL, Case, push};
+use super::scenes::*;
+
+pub fn all() -> Vec<Case> {
+    let mut cases = Vec::new();
+    at_normal_incidence(&mut cases);
+    blends_by_angle(&mut cases);
+    blends_with_delta_lobes(&mut cases);
+    furnaces_of_blends(&mut cases);
+    veils(&mut cases);
+    blended_lights(&mut cases);
+    cases
+}
+
+const MODES: [BlendMode; 2] = [BlendMode::Mixture, BlendMode::Pick];
+
+/// The case in both modes; picking makes noise of its own.
+fn push_modes(cases: &mut Vec<Case>, name: &str, scene: &Scene, expected: DVec3, estimators: &[Estimator]) {
+    for mode in MODES {
+        let mut scene = scene.clone();
+        scene.render.blend = mode;
+        if mode == BlendMode::Pick {
+            scene.render.spp *= 2;
+        }
+        push(cases, &format!("{name}, {mode:?}"), &scene, expected, estimators);
+    }
+}
+
+fn blend(scene: &mut Scene, first: MaterialId, second: MaterialId, weight: Heuristic) -> MaterialId {
+    material(scene, MaterialKind::Blend { materials: [first, second], weight }, None)
+}
+
+fn half() -> Heuristic {
+    Heuristic::Constant { value: 0.5 }
+}
+
+/// A floor under a uniform environment, all round the floor too, whose radiance is the same in all pixels: the camera sees a spot
+/// around the origin, at (0.3, 0.3) of the floor's texture coordinates, `degrees` from the normal.
+fn spot(spp: u32, degrees: f64) -> Scene {
+    let (sine, cosine) = degrees.to_radians().sin_cos();
+    let mut scene = scene(spp, camera(DVec3::new(0.6 * sine, cosine, 0.8 * sine) * 3.0, DVec3::ZERO, 0.001));
+    environment(&mut scene, 1.0);
+    scene
+}
+
+fn floor_at_spot(scene: &mut Scene, material: MaterialId) {
+    let (edge_u, edge_v) = (DVec3::X * 40.0, -DVec3::Z * 40.0);
+    shape(scene, Geometry::Rectangle { corner: -0.3 * (edge_u + edge_v), edge_u, edge_v }, material);
+}
+
+/// Seen along the normal, no lobe about the mirror direction is cut by the horizon, and its integral has a closed form.
+fn at_normal_incidence(cases: &mut Vec<Case>) {
+    let (a, b) = (DVec3::new(0.6, 0.3, 0.1), DVec3::new(0.2, 0.5, 0.7));
+    let constant = ColorInput::Constant;
+    let exponent = ColorInput::grey(12.0);
+    let white_metal = |alpha: f64| MaterialKind::Conductor {
+        fresnel: ConductorFresnel::Reflectance(constant(DVec3::ONE)),
+        alpha: ColorInput::grey(alpha),
+    };
+    let (eta, k) = (DVec3::new(0.18, 0.42, 1.37), DVec3::new(3.42, 2.35, 1.77));
+    let normal_reflectance = ((eta - 1.0).powf(2.0) + k * k) / ((eta + 1.0).powf(2.0) + k * k);
+    let smooth_gold = MaterialKind::Conductor { fresnel: ConductorFresnel::Complex { eta, k }, alpha: ColorInput::grey(0.0) };
+    let glass = |distribution| MaterialKind::RoughGlass {
+        ior: 1.5,
+        alpha: exponent,
+        distribution,
+        reflectance: constant(a),
+        transmittance: constant(b),
+    };
+    let kinds = [
+        ("glossy", MaterialKind::Glossy { reflectance: constant(a), exponent }, a),
+        ("phong", MaterialKind::Phong { diffuse: constant(a), specular: constant(b), exponent }, a + b),
+        // Exponent 0 is a Lambert lobe.
+        (
+            "phong of exponent 0",
+            MaterialKind::Phong { diffuse: constant(a), specular: constant(b), exponent: ColorInput::grey(0.0) },
+            a + b,
+        ),
+        // Half of the light would meet a second microfacet, and more.
+        ("white metal of alpha 1", white_metal(1.0), DVec3::splat(1.0 - std::f64::consts::LN_2)),
+        ("smooth gold", smooth_gold, normal_reflectance),
+        // 4 % are reflected; the rest is spread over a cone ior² times as large.
+        ("Phong glass", glass(MicrofacetDistribution::Phong), 0.04 * a + 0.96 / 2.25 * b),
+    ];
+    for (name, kind, expected) in kinds {
+        let mut scene = spot(256, 0.0);
+        let material = material(&mut scene, kind, None);
+        floor_at_spot(&mut scene, material);
+        push(cases, name, &scene, expected, &ALL);
+    }
+}
+
+/// ρ1 + (ρ0 − ρ1)·w0, w0 by the angle of view or by a texture.
+fn blends_by_angle(cases: &mut Vec<Case>) {
+    let facing = |power| Heuristic::Facing { power };
+    let reverse = |of| Heuristic::Reverse { of: Box::new(of) };
+    let threshold = |tau, of| Heuristic::Threshold { tau, of: Box::new(of) };
+    // ior 2 in air: normal reflectance 1/9; refraction at 60° from the normal has the cosine √(1 − ¾/4).
+    let schlick = |cosine: f64| 1.0 / 9.0 + 8.0 / 9.0 * (1.0 - cosine).powi(5);
+    let refracted = (13.0_f64 / 16.0).sqrt();
+    let (parallel, perpendicular) = ((1.0 - refracted) / (1.0 + refracted), (0.5 - 2.0 * refracted) / (0.5 + 2.0 * refracted));
+    let exact = 0.5 * (parallel * parallel + perpendicular * perpendicular);
+    let cosine = 0.5_f64;
+    let heuristics = [
+        ("facing", facing(1.0), cosine),
+        ("facing to the fifth root", facing(0.2), cosine.powf(0.2)),
+        ("Schlick", Heuristic::Fresnel { ior: 2.0, exact: false }, 1.0 - schlick(cosine)),
+        ("exact Fresnel", Heuristic::Fresnel { ior: 2.0, exact: true }, 1.0 - exact),
+        ("texture", Heuristic::Texture { texture: 0 }, 0.2126 * 0.8 + 0.7152 * 0.25 + 0.0722 * 0.5),
+        ("reverse", reverse(facing(1.0)), 1.0 - cosine),
+        ("threshold above", threshold(0.49, facing(1.0)), 1.0),
+        ("threshold below", threshold(0.51, facing(1.0)), 0.0),
+        ("reversed threshold of a reverse", reverse(threshold(0.6, reverse(facing(0.2)))), 1.0),
+    ];
+    let tint = DVec3::new(0.9, 0.6, 0.3);
+    for (name, weight, w0) in heuristics {
+        let mut scene = spot(256, 60.0);
+        let colors = (DVec3::new(0.8, 0.25, 0.5), DVec3::ONE);
+        let kind = TextureKind::Checker { a: colors.0, b: colors.1, scale: [1.0, 1.0] };
+        scene.textures.push(Texture { name: "checker".into(), kind });
+        let bright = material(&mut scene, MaterialKind::Diffuse { reflectance: ColorInput::Constant(tint) }, None);
+        let dark = diffuse(&mut scene, 0.1);
+        let both = blend(&mut scene, bright, dark, weight);
+        floor_at_spot(&mut scene, both);
+        push_modes(
+            cases,
+            &format!("Lamberts by {name}"),
+            &scene,
+            tint * w0 + (1.0 - w0) * 0.1,
+            &[Estimator::Mis, Estimator::Bsdf],
+        );
+    }
+}
+
+/// 0.5·a + 0.5 and the like: a choice among lobes that no other strategy can make.
+fn blends_with_delta_lobes(cases: &mut Vec<Case>) {
+    let sphere_before = |spp| {
+        let mut scene = scene(spp, camera(DVec3::new(0.0, 0.0, 3.0), DVec3::new(0.6, 0.0, 0.0), 12.0));
+        environment(&mut scene, 1.0);
+        scene
+    };
+    let mirror = |scene: &mut Scene| material(scene, MaterialKind::Mirror { reflectance: ColorInput::grey(1.0) }, None);
+    for albedo in [0.0, 0.5] {
+        let mut scene = sphere_before(128);
+        let (matte, shiny) = (diffuse(&mut scene, albedo), mirror(&mut scene));
+        let both = blend(&mut scene, matte, shiny, half());
+        shape(&mut scene, sphere(DVec3::ZERO, 1.0), both);
+        push_modes(cases, &format!("Lambert {albedo} and mirror"), &scene, DVec3::splat(0.5 * albedo + 0.5), &ALL);
+    }
+    let mut scene = sphere_before(256);
+    let (shiny, clear) = (mirror(&mut scene), glass(&mut scene, 1.5));
+    let both = blend(&mut scene, shiny, clear, Heuristic::Facing { power: 1.0 });
+    shape(&mut scene, sphere(DVec3::ZERO, 1.0), both);
+    push_modes(cases, "mirror and glass", &scene, DVec3::ONE, &[Estimator::Mis]);
+
+    // Nested: 0.25 mirror + 0.75·(0.4 Lambert 0.6 + 0.6·(0.5 Lambert 0.2 + 0.5 white smooth metal)).
+    let mut scene = sphere_before(128);
+    let (shiny, light, dark) = (mirror(&mut scene), diffuse(&mut scene, 0.6), diffuse(&mut scene, 0.2));
+    let fresnel = ConductorFresnel::Reflectance(ColorInput::grey(1.0));
+    let metal = material(&mut scene, MaterialKind::Conductor { fresnel, alpha: ColorInput::grey(0.0) }, None);
+    let inner = blend(&mut scene, dark, metal, half());
+    let middle = blend(&mut scene, light, inner, Heuristic::Constant { value: 0.4 });
+    let outer = blend(&mut scene, shiny, middle, Heuristic::Constant { value: 0.25 });
+    shape(&mut scene, sphere(DVec3::ZERO, 1.0), outer);
+    let expected = 0.25 + 0.75 * (0.4 * 0.6 + 0.6 * (0.5 * 0.2 + 0.5));
+    push_modes(cases, "nested blend", &scene, DVec3::splat(expected), &ALL);
+}
+
+/// Closed surface, blend of Lamberts, emission of the parts and of the blend itself: Le/(1 − Σ wᵢρᵢ), Le = Σ wᵢLeᵢ + Le.
+fn furnaces_of_blends(cases: &mut Vec<Case>) {
+    let inside = camera(DVec3::new(0.2, -0.3, 0.1), DVec3::new(1.0, 0.5, -0.7), 60.0);
+    let mut scene = scene(64, inside);
+    scene.render.roulette_depth = 12;
+    let (bright, dark) = (glowing(&mut scene, 0.9, 2.0), glowing(&mut scene, 0.1, 0.4));
+    let middle = diffuse(&mut scene, 0.5);
+    let inner = blend(&mut scene, dark, middle, half());
+    let outer = blend(&mut scene, bright, inner, Heuristic::Constant { value: 0.25 });
+    scene.materials[outer].emission = Some(Emission { radiance: ColorInput::grey(0.2), two_sided: true });
+    shape(&mut scene, sphere(DVec3::ZERO, 1.0), outer);
+    let albedo = 0.25 * 0.9 + 0.375 * 0.1 + 0.375 * 0.5;
+    let radiance = 0.25 * 2.0 + 0.375 * 0.4 + 0.2;
+    push_modes(cases, "furnace of a nested blend", &scene, DVec3::splat(radiance / (1.0 - albedo)), &ALL);
+    scene.render.max_depth = 2;
+    push_modes(cases, "the same, direct", &scene, DVec3::splat(radiance * (1.0 + albedo)), &ALL);
+}
+
+/// Blends with `pass`: the environment shows through, and light in front of it adds to it.
+fn veils(cases: &mut Vec<Case>) {
+    let pass = |scene: &mut Scene| material(scene, MaterialKind::Pass, None);
+    let mut scene = spot(256, 40.0);
+    let (nothing, matte) = (pass(&mut scene), diffuse(&mut scene, 0.6));
+    let veil = blend(&mut scene, nothing, matte, half());
+    floor_at_spot(&mut scene, veil);
+    push_modes(cases, "veil", &scene, DVec3::splat(0.5 + 0.5 * 0.6), &ALL);
+
+    let mut scene = spot(256, 40.0);
+    let (light, nothing) = (emissive(&mut scene, DVec3::new(2.0, 1.0, 0.5)), pass(&mut scene));
+    let flame = blend(&mut scene, light, nothing, Heuristic::Constant { value: 0.3 });
+    floor_at_spot(&mut scene, flame);
+    push_modes(cases, "glowing veil", &scene, DVec3::new(2.0, 1.0, 0.5) * 0.3 + 0.7, &ALL);
+
+    // Two walls of a hollow ball, each letting nine tenths through, end no edge: the light behind is seen directly.
+    let mut scene = spot(256, 40.0);
+    scene.lights.clear();
+    scene.render.max_depth = 1;
+    let (nothing, black) = (pass(&mut scene), diffuse(&mut scene, 0.0));
+    let gauze = blend(&mut scene, nothing, black, Heuristic::Constant { value: 0.9 });
+    shape(&mut scene, sphere(DVec3::ZERO, 1.0), gauze);
+    let light = emissive(&mut scene, DVec3::splat(3.0));
+    shape(&mut scene, sphere(DVec3::ZERO, 100.0), light);
+    scene.materials[light].emission = Some(Emission { radiance: ColorInput::grey(3.0), two_sided: true });
+    push_modes(cases, "light behind two veils", &scene, DVec3::splat(0.81 * 3.0), &ALL);
+}
+
+/// The sphere light over a floor, its emission weighted by a blend.
+fn blended_lights(cases: &mut Vec<Case>) {
+    let (radius, distance, albedo) = (0.6, 1.0, 0.5);
+    let mut scene = spot(256, 60.0);
+    scene.lights.clear();
+    scene.render.max_depth = 2;
+    let white = diffuse(&mut scene, albedo);
+    floor_at_spot(&mut scene, white);
+    let (light, black) = (emissive(&mut scene, DVec3::new(1.0, 2.0, 4.0)), diffuse(&mut scene, 0.0));
+    let lamp = blend(&mut scene, black, light, Heuristic::Constant { value: 0.75 });
+    shape(&mut scene, sphere(DVec3::Y * distance, radius), lamp);
+    let expected = DVec3::new(1.0, 2.0, 4.0) * 0.25 * albedo * (radius / distance).powi(2);
+    push_modes(cases, "blended sphere light", &scene, expected, &ALL);
+}
