@@ -33,6 +33,24 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
     if wanted.contains("SPHERE_LIGHTS") {
         wanted.insert("SPHERES");
     }
+    for (name, needed) in [
+        ("BLENDED_LIGHTS", &["BLENDS", "EMISSION", "LIGHTS"][..]),
+        ("PASS", &["BLENDS"]),
+        ("PICK", &["BLENDS"]),
+        ("CHECKERS", &["TEXTURES", "PROCEDURAL_TEXTURES"]),
+        ("PERLIN", &["TEXTURES", "PROCEDURAL_TEXTURES"]),
+        ("WORLEY", &["TEXTURES", "PROCEDURAL_TEXTURES"]),
+        ("IMAGES", &["TEXTURES"]),
+        ("CONDUCTOR", &["MICROFACETS", "SCALARS"]),
+        ("GLOSSY", &["COSINE_POWER", "SCALARS"]),
+        ("PHONG", &["COSINE_POWER", "SCALARS", "SECOND_COLORS"]),
+        ("PHONG_GLASS", &["COSINE_POWER", "SCALARS", "SECOND_COLORS"]),
+        ("ROUGH_GLASS", &["GLASS", "MICROFACETS", "SCALARS", "SECOND_COLORS"]),
+    ] {
+        if wanted.contains(name) {
+            wanted.extend(needed);
+        }
+    }
     let lights = ["FLAT_LIGHTS", "SPHERE_LIGHTS", "POINT_LIGHTS", "ENVIRONMENT_LIGHT", "ONE_LIGHT"];
     if !wanted.contains("LIGHTS") {
         for light in lights {
@@ -48,6 +66,8 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
     let constants = [
         "BLADES",
         "FILM_WIDTH",
+        "FIRST_HEURISTIC_WORD",
+        "FIRST_LEAF_WORD",
         "FIRST_LIGHT_WORD",
         "FIRST_TEXTURE_WORD",
         "LIGHT_COUNT",
@@ -152,13 +172,15 @@ fn layouts_match_between_wgsl_and_rust() {
 /// Packed records are whole numbers of vec4: the shaders index them in words of 16 bytes.
 #[test]
 fn packed_records_are_the_words_that_shaders_count() {
-    use gpt::flat::{bvh4::Node, light::FlatLight, primitive::*, tables::*};
+    use gpt::flat::{bvh4::Node, light::FlatLight, material::*, primitive::*, texture::*};
     assert_eq!(size_of::<Primitive>(), 3 * 16);
     assert_eq!(size_of::<TriangleAttributes>(), 4 * 16);
     assert_eq!(size_of::<Node>(), 3 * 16);
-    assert_eq!(size_of::<FlatMaterial>(), 4 * 16);
+    assert_eq!(size_of::<FlatMaterial>(), 5 * 16);
     assert_eq!(size_of::<FlatLight>(), 5 * 16);
-    assert_eq!(size_of::<FlatTexture>(), 2 * 16);
+    assert_eq!(size_of::<FlatLeaf>(), 16);
+    assert_eq!(size_of::<FlatHeuristic>(), 16);
+    assert_eq!(size_of::<FlatTexture>(), 4 * 16);
 }
 
 /// WebGPU promises eight storage buffers a stage; no stage may need more.

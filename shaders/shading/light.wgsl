@@ -6,6 +6,9 @@
 #if TEXTURES
 #import shading/texture.wgsl
 #endif
+#if BLENDED_LIGHTS
+#import shading/bsdf.wgsl
+#endif
 
 const LIGHT_TRIANGLE: u32 = 0u;
 const LIGHT_QUAD: u32 = 1u;
@@ -15,10 +18,12 @@ const LIGHT_POINT: u32 = 4u;
 const LIGHT_ENVIRONMENT: u32 = 5u;
 
 const LIGHT_TWO_SIDED: u32 = 256u;
+// The radiance is that of the whole material, seen from the light's normal.
+const LIGHT_BLENDED: u32 = 512u;
 
 // A light takes five vec4 of the tables:
 //   (kind and flags; alias threshold; alias; probability of being chosen)
-//   (first point; area or radius), (second; emission texture or NONE), (third; attributes or NONE), (radiance or intensity; -)
+//   (first point; area or radius), (second; emission texture or NONE), (third; attributes or NONE), (radiance or intensity; material)
 fn light_word(light: u32, word: u32) -> vec4<f32> {
     return tables[FIRST_LIGHT_WORD + light * 5u + word];
 }
@@ -37,6 +42,49 @@ struct LightSample {
 const SHADOW_SHORTENING: f32 = 0.999999;
 
 #if LIGHTS
+#if BLENDED_LIGHTS
+// Σ wᵢ Leᵢ towards `wo` at a point of a flat light: what a ray that met it would see. (a, b) are the point's coordinates along its edges.
+fn blended_radiance(light: u32, ab: vec2<f32>, normal: vec3<f32>, wo: vec3<f32>) -> vec3<f32> {
+    let front = dot(wo, normal) > 0.0;
+    var shading_normal = select(-normal, normal, front);
+    var uv = ab;
+#if ATTRIBUTES
+    let first = bitcast<u32>(light_word(light, 3u).w);
+    if first != NONE {
+        let interpolated = interpolate_attributes(first, ab);
+        uv = interpolated.uv;
+        shading_normal = shading_normal_towards(interpolated.normal, shading_normal, wo);
+    }
+#endif
+    let material = bitcast<u32>(light_word(light, 4u).w);
+    return material_emission(material, clamp(dot(wo, shading_normal), 0.0, 1.0), front, uv);
+}
+
+#if SPHERE_LIGHTS
+fn blended_sphere_sample(light: u32, reference: vec3<f32>, two_sided: bool, pmf: f32, u: f32, v: f32) -> LightSample {
+    let l1 = light_word(light, 1u);
+    var light_sample = sphere_light_sample(reference, l1.xyz, l1.w, vec3<f32>(1.0), two_sided, pmf, u, v);
+    let to_center = l1.xyz - reference;
+    let along = dot(to_center, light_sample.wi);
+    let across = to_center - along * light_sample.wi;
+    let half_chord = sqrt(max(0.0, l1.w * l1.w - dot(across, across)));
+    let inside = dot(to_center, to_center) <= l1.w * l1.w;
+    let outward = select(-half_chord, half_chord, inside) * light_sample.wi - across;
+    let cosine = clamp(half_chord / l1.w, 0.0, 1.0);
+    var uv = vec2<f32>(0.0);
+#if ATTRIBUTES
+    let first = bitcast<u32>(light_word(light, 3u).w);
+    if first != NONE {
+        uv = sphere_uv(first, outward / l1.w);
+    }
+#endif
+    let material = bitcast<u32>(light_word(light, 4u).w);
+    light_sample.radiance *= material_emission(material, cosine, !inside, uv);
+    return light_sample;
+}
+#endif
+#endif
+
 // Constant time; the same choice in integers on every device (AliasTable::choose).
 fn choose_light(bits: u32) -> u32 {
 #if ONE_LIGHT
@@ -143,6 +191,14 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
             let point = l1.xyz + a * l2.xyz + b * l3.xyz;
             let error = POINT_ERROR * dot(abs(normal), abs(l1.xyz) + abs(l2.xyz) + abs(l3.xyz));
             var radiance = l4.xyz;
+#if BLENDED_LIGHTS
+            if (kind_flags & LIGHT_BLENDED) != 0u {
+                var light_sample =
+                    flat_light_sample(reference, point, normal, l1.w, error, vec3<f32>(1.0), two_sided, pmf);
+                light_sample.radiance *= blended_radiance(light, vec2<f32>(a, b), normal, -light_sample.wi);
+                return light_sample;
+            }
+#endif
 #if TEXTURES
             let texture = bitcast<u32>(l2.w);
             if texture != NONE {
@@ -150,10 +206,7 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
 #if ATTRIBUTES
                 let first = bitcast<u32>(l3.w);
                 if first != NONE {
-                    let a3 = attributes[first * 4u + 3u];
-                    let uv0 = vec2<f32>(attributes[first * 4u].w, attributes[first * 4u + 1u].w);
-                    let uv1 = vec2<f32>(attributes[first * 4u + 2u].w, a3.x);
-                    uv = (1.0 - a - b) * uv0 + a * uv1 + b * a3.yz;
+                    uv = interpolate_attributes(first, uv).uv;
                 }
 #endif
                 radiance *= texture_color(texture, uv);
@@ -164,6 +217,11 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
 #endif
 #if SPHERE_LIGHTS
         case LIGHT_SPHERE: {
+#if BLENDED_LIGHTS
+            if (kind_flags & LIGHT_BLENDED) != 0u {
+                return blended_sphere_sample(light, reference, two_sided, pmf, u, v);
+            }
+#endif
             return sphere_light_sample(reference, l1.xyz, l1.w, l4.xyz, two_sided, pmf, u, v);
         }
 #endif

@@ -17,6 +17,10 @@ struct Path {
     // Pixel over the whole film, and the sample's index within the pass.
     pixel: u32,
     sample_in_pass: u32,
+#if PASS
+    // Vertices where the ray went on as if nothing were there; they are no edges of their own.
+    passed: u32,
+#endif
 }
 
 struct ShadowRay {
@@ -32,6 +36,18 @@ struct Vertex {
     // Radiance found at this vertex, already times throughput and weight.
     radiance: vec3<f32>,
     shadow: ShadowRay,
+}
+
+// A path on its first edge.
+fn new_path(ray: Ray, pixel: u32, sample_in_pass: u32) -> Path {
+    var path: Path;
+    path.ray = ray;
+    path.throughput = vec3<f32>(1.0);
+    path.pdf_solid_angle = -1.0;
+    path.eta_scale = 1.0;
+    path.pixel = pixel;
+    path.sample_in_pass = sample_in_pass;
+    return path;
 }
 
 // Weight of emission met by a ray of the given density, where light sampling has density `pdf_light`.
@@ -71,9 +87,14 @@ fn escaped_radiance(path: Path) -> vec3<f32> {
 
 #if LIGHTS
 fn next_event(path: Path, surface: Surface, bsdf: Bsdf, random: vec4<u32>) -> ShadowRay {
-    let origin = surface.position + surface.error * surface.facing_normal;
-    let light = sample_light(origin, random);
-    let value = evaluate_bsdf(bsdf, surface, light.wi);
+    let reference = surface.position + surface.error * surface.facing_normal;
+    let light = sample_light(reference, random);
+    let value = evaluate_bsdf(bsdf, surface, -path.ray.direction, light.wi);
+#if TRANSMISSIVE_SMOOTH
+    let origin = offset_origin(surface, light.wi);
+#else
+    let origin = reference;
+#endif
     var radiance = path.throughput * value.value * light.radiance;
     if light.pdf_solid_angle >= 0.0 {
         radiance = radiance / light.pdf_solid_angle;
@@ -85,8 +106,9 @@ fn next_event(path: Path, surface: Surface, bsdf: Bsdf, random: vec4<u32>) -> Sh
 }
 #endif
 
-// Extends a path whose ray met `hit` at the end of its edge number `edge`: reads and replaces `path`, returns what was found.
-fn shade_vertex(path: ptr<function, Path>, hit: Hit, edge: u32) -> Vertex {
+// Extends a path whose ray met `hit`, its vertex number `visit` after the camera: reads and replaces `path`, returns what was found.
+// A vertex ends an edge of the path unless the ray passes through it.
+fn shade_vertex(path: ptr<function, Path>, hit: Hit, visit: u32) -> Vertex {
     let incoming = *path;
     var vertex = Vertex(false, vec3<f32>(0.0), no_shadow());
     if hit.primitive == NONE {
@@ -97,7 +119,9 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, edge: u32) -> Vertex {
     let wo = -incoming.ray.direction;
 
 #if EMISSION
-    let emitted = emitted_radiance(surface);
+    let emitted = material_emission(
+        surface.material, clamp(dot(wo, surface.shading_normal), 0.0, 1.0), surface.front, surface.uv
+    );
     if max_component(emitted) > 0.0 {
 #if LIGHTS
         let weight = emission_weight(incoming.pdf_solid_angle, light_pdf_solid_angle(incoming.ray, surface));
@@ -108,29 +132,47 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, edge: u32) -> Vertex {
     }
 #endif
 
-    if edge == MAX_DEPTH {
+#if PASS
+    let edge = visit - incoming.passed;
+#else
+    let edge = visit;
+#endif
+    let last_edge = edge == MAX_DEPTH;
+#if !PASS
+    if last_edge {
         return vertex;
     }
-    let bsdf = load_bsdf(surface);
-    let first_block = 2u * edge;
+#endif
+    let first_block = 2u * visit;
     let random = random_block(incoming.pixel, incoming.sample_in_pass, first_block);
+    let more_random = random_block(incoming.pixel, incoming.sample_in_pass, first_block + 1u);
+    let bsdf = load_bsdf(surface, wo, uniform_float(more_random.w));
 #if LIGHTS
-    if has_smooth_lobe(bsdf) {
+    if has_smooth_lobe(bsdf) && !last_edge {
         vertex.shadow = next_event(incoming, surface, bsdf, random);
     }
 #endif
 
-    let more_random = random_block(incoming.pixel, incoming.sample_in_pass, first_block + 1u);
     let sampled = sample_bsdf(
         bsdf, surface, wo, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)
     );
+#if PASS
+    if last_edge && !sampled.passes {
+        return vertex;
+    }
+#endif
     var throughput = incoming.throughput * sampled.weight;
     if max_component(throughput) <= 0.0 {
         return vertex;
     }
     let eta_scale = incoming.eta_scale * sampled.eta_scale;
 #if ROULETTE
-    if edge >= ROULETTE_DEPTH {
+#if PASS
+    let roulette = edge >= ROULETTE_DEPTH && !sampled.passes;
+#else
+    let roulette = edge >= ROULETTE_DEPTH;
+#endif
+    if roulette {
         // Past edge 64 even a lossless path ends some day.
         let survive = min(max_component(throughput) * eta_scale, select(1.0, 0.999, edge >= 64u));
         if uniform_float(more_random.z) >= survive {
@@ -144,5 +186,8 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, edge: u32) -> Vertex {
     (*path).throughput = throughput;
     (*path).pdf_solid_angle = sampled.pdf_solid_angle;
     (*path).eta_scale = eta_scale;
+#if PASS
+    (*path).passed += select(0u, 1u, sampled.passes);
+#endif
     return vertex;
 }

@@ -21,6 +21,36 @@ struct Surface {
     sphere: vec4<f32>,
 }
 
+#if ATTRIBUTES
+struct Attribute {
+    // As long as interpolation leaves it; 0 where there is none.
+    normal: vec3<f32>,
+    uv: vec2<f32>,
+}
+
+fn interpolate_attributes(first: u32, weights: vec2<f32>) -> Attribute {
+    let a0 = attributes[first * 4u];
+    let a1 = attributes[first * 4u + 1u];
+    let a2 = attributes[first * 4u + 2u];
+    let a3 = attributes[first * 4u + 3u];
+    let w = 1.0 - weights.x - weights.y;
+    return Attribute(
+        w * a0.xyz + weights.x * a1.xyz + weights.y * a2.xyz,
+        w * vec2<f32>(a0.w, a1.w) + weights.x * vec2<f32>(a2.w, a3.x) + weights.y * a3.yz
+    );
+}
+
+// The interpolated normal on wo's side; the facing normal where there is none or wo is below its horizon.
+fn shading_normal_towards(interpolated: vec3<f32>, facing_normal: vec3<f32>, wo: vec3<f32>) -> vec3<f32> {
+    if dot(interpolated, interpolated) == 0.0 {
+        return facing_normal;
+    }
+    let unit = normalize(interpolated);
+    let shading_normal = select(-unit, unit, dot(unit, facing_normal) > 0.0);
+    return select(facing_normal, shading_normal, dot(shading_normal, wo) > 0.0);
+}
+#endif
+
 fn hit_surface(ray: Ray, hit: Hit) -> Surface {
     let p0 = primitives[hit.primitive * 3u];
     let p1 = primitives[hit.primitive * 3u + 1u];
@@ -48,6 +78,12 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
         size = abs(p0.xyz) + p1.x;
         area = 0.0;
         sphere = vec4<f32>(p0.xyz, p1.x);
+#if ATTRIBUTES
+        let attributes_of_sphere = bitcast<u32>(p2.w);
+        if attributes_of_sphere != NONE {
+            uv = sphere_uv(attributes_of_sphere, normal);
+        }
+#endif
     }
 #endif
 #if FLAT_ROUND
@@ -66,21 +102,10 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
     var shading_normal = facing_normal;
 #if ATTRIBUTES
     let first = bitcast<u32>(p2.w);
-    if first != NONE {
-        let a0 = attributes[first * 4u];
-        let a1 = attributes[first * 4u + 1u];
-        let a2 = attributes[first * 4u + 2u];
-        let a3 = attributes[first * 4u + 3u];
-        let w = 1.0 - hit.u - hit.v;
-        let interpolated = w * a0.xyz + hit.u * a1.xyz + hit.v * a2.xyz;
-        uv = w * vec2<f32>(a0.w, a1.w) + hit.u * vec2<f32>(a2.w, a3.x) + hit.v * a3.yz;
-        if dot(interpolated, interpolated) > 0.0 {
-            shading_normal = normalize(interpolated);
-            shading_normal = select(-shading_normal, shading_normal, dot(shading_normal, facing_normal) > 0.0);
-            if dot(shading_normal, wo) <= 0.0 {
-                shading_normal = facing_normal;
-            }
-        }
+    if first != NONE && kind != KIND_SPHERE {
+        let interpolated = interpolate_attributes(first, uv);
+        uv = interpolated.uv;
+        shading_normal = shading_normal_towards(interpolated.normal, facing_normal, wo);
     }
 #endif
     let error = POINT_ERROR * dot(abs(facing_normal), size);
@@ -89,6 +114,22 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
         primitive_material(p0.w), bitcast<u32>(p1.w), area, sphere
     );
 }
+
+#if SPHERES
+#if ATTRIBUTES
+// u = atan2(x, -z) / 2π (mod 1), v = acos(-y) / π of the direction from the centre in the sphere's own space: the attributes' first
+// three vec4 hold the rows of the rotation into it.
+fn sphere_uv(first: u32, normal: vec3<f32>) -> vec2<f32> {
+    let direction = vec3<f32>(
+        dot(attributes[first * 4u].xyz, normal),
+        dot(attributes[first * 4u + 1u].xyz, normal),
+        dot(attributes[first * 4u + 2u].xyz, normal)
+    );
+    let turns = atan2_turns(direction.x, -direction.z);
+    return vec2<f32>(select(turns, turns + 1.0, turns < 0.0), 2.0 * atan2_turns(length(direction.xz), -direction.y));
+}
+#endif
+#endif
 
 // The surface point moved off the surface to the side of `toward`, past its error.
 fn offset_origin(surface: Surface, toward: vec3<f32>) -> vec3<f32> {

@@ -1,5 +1,24 @@
 // Colours looked up by uv.
 #import geometry/scene.wgsl
+#if PERLIN
+#import shading/noise.wgsl
+#endif
+#if WORLEY
+#import shading/noise.wgsl
+#endif
+
+const IMAGE: u32 = 0u;
+const CHECKER: u32 = 1u;
+const PERLIN_NOISE: u32 = 2u;
+const WORLEY_NOISE: u32 = 3u;
+
+// A texture takes four vec4 of the tables:
+//   (kind and flags; first texel or seed; width or octaves; height), (scale, offset), (colour a), (colour b)
+fn texture_word(texture: u32, word: u32) -> vec4<f32> {
+    return tables[FIRST_TEXTURE_WORD + texture * 4u + word];
+}
+
+#if IMAGES
 
 fn wrapped_texel(index: i32, size: i32, wrap: u32) -> i32 {
     switch wrap {
@@ -21,17 +40,15 @@ fn texel(first: u32, x: i32, y: i32, width: i32) -> vec3<f32> {
     return vec3<f32>(texels[index], texels[index + 1u], texels[index + 2u]);
 }
 
-// `texture` counts from the plan's first texture; v = 0 is the bottom row.
-fn texture_color(texture: u32, uv: vec2<f32>) -> vec3<f32> {
-    let t0 = bitcast<vec4<u32>>(tables[FIRST_TEXTURE_WORD + texture * 2u]);
-    let t1 = tables[FIRST_TEXTURE_WORD + texture * 2u + 1u];
-    let size = vec2<i32>(t0.yz);
-    let wrap = t0.w & 3u;
-    let st = uv * t1.xy + t1.zw;
+// v = 0 is the bottom row.
+fn image_color(t0: vec4<u32>, st: vec2<f32>) -> vec3<f32> {
+    let size = vec2<i32>(t0.zw);
+    let first = t0.y;
+    let wrap = (t0.x >> 8u) & 3u;
     let position = vec2<f32>(st.x, 1.0 - st.y) * vec2<f32>(size);
-    if (t0.w & 4u) != 0u {
+    if (t0.x & 1024u) != 0u {
         let nearest = vec2<i32>(floor(position));
-        return texel(t0.x, wrapped_texel(nearest.x, size.x, wrap), wrapped_texel(nearest.y, size.y, wrap), size.x);
+        return texel(first, wrapped_texel(nearest.x, size.x, wrap), wrapped_texel(nearest.y, size.y, wrap), size.x);
     }
     let corner = floor(position - 0.5);
     let blend = position - 0.5 - corner;
@@ -39,7 +56,45 @@ fn texture_color(texture: u32, uv: vec2<f32>) -> vec3<f32> {
     let x1 = wrapped_texel(i32(corner.x) + 1, size.x, wrap);
     let y0 = wrapped_texel(i32(corner.y), size.y, wrap);
     let y1 = wrapped_texel(i32(corner.y) + 1, size.y, wrap);
-    let upper = mix(texel(t0.x, x0, y0, size.x), texel(t0.x, x1, y0, size.x), blend.x);
-    let lower = mix(texel(t0.x, x0, y1, size.x), texel(t0.x, x1, y1, size.x), blend.x);
+    let upper = mix(texel(first, x0, y0, size.x), texel(first, x1, y0, size.x), blend.x);
+    let lower = mix(texel(first, x0, y1, size.x), texel(first, x1, y1, size.x), blend.x);
     return mix(upper, lower, blend.y);
+}
+#endif
+
+// `texture` counts from the scene's first texture.
+fn texture_color(texture: u32, uv: vec2<f32>) -> vec3<f32> {
+    let t0 = bitcast<vec4<u32>>(texture_word(texture, 0u));
+    let t1 = texture_word(texture, 1u);
+    let st = uv * t1.xy + t1.zw;
+    var share = 0.0;
+    switch t0.x & 255u {
+#if IMAGES
+        case IMAGE: {
+            return image_color(t0, st);
+        }
+#endif
+#if CHECKERS
+        case CHECKER: {
+            let parity = i32(floor(st.x)) + i32(floor(st.y));
+            share = select(0.0, 1.0, (parity & 1) != 0);
+        }
+#endif
+#if PERLIN
+        case PERLIN_NOISE: {
+            share = clamp(0.5 * (perlin_noise(st, t0.z, t0.y) + 1.0), 0.0, 1.0);
+        }
+#endif
+#if WORLEY
+        case WORLEY_NOISE: {
+            share = worley_noise(st, t0.y);
+        }
+#endif
+        default: {}
+    }
+#if PROCEDURAL_TEXTURES
+    return mix(texture_word(texture, 2u).xyz, texture_word(texture, 3u).xyz, share);
+#else
+    return vec3<f32>(share);
+#endif
 }

@@ -45,5 +45,7 @@ fn connect(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
 fn add_light(place: u32) {
     let slot = bitcast<u32>(shadow_rays[SHADOW_DIRECTION + place].w);
     let gained = shadow_rays[SHADOW_RADIANCE + place].xyz;
-    path_state[PLANE_RADIANCE + slot] = vec4<f32>(path_state[PLANE_RADIANCE + slot].xyz + gained, 0.0);
+    // The fourth word holds bits, not a number: it is copied, never added to.
+    let before = path_state[PLANE_RADIANCE + slot];
+    path_state[PLANE_RADIANCE + slot] = vec4<f32>(before.xyz + gained, before.w);
 }

@@ -8,7 +8,7 @@ const WORKGROUP: u32 = 64u;
 
 fn start_path(pixel: u32, sample_in_pass: u32) -> Path {
     let ray = camera_ray(pixel, camera_block(pixel, sample_in_pass));
-    return Path(ray, vec3<f32>(1.0), -1.0, 1.0, pixel, sample_in_pass);
+    return new_path(ray, pixel, sample_in_pass);
 }
 
 // Reads the pass's parameters. One invocation traces all samples of one pixel, starting the next path where one ends so that no
@@ -22,12 +22,12 @@ fn trace_paths(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel_in_band = pass_parameters.first_pixel_in_band + id.x;
     var film_pixel = load_film_pixel(pixel_in_band);
     var rays = 0u;
-    var edge = 1u;
+    var visit = 1u;
     var radiance = vec3<f32>(0.0);
     var path = start_path(pixel, 0u);
     loop {
         let hit = closest_hit(path.ray, INFINITY_DISTANCE);
-        let vertex = shade_vertex(&path, hit, edge);
+        let vertex = shade_vertex(&path, hit, visit);
         radiance += vertex.radiance;
         rays++;
 #if LIGHTS
@@ -38,7 +38,7 @@ fn trace_paths(@builtin(global_invocation_id) id: vec3<u32>) {
             }
         }
 #endif
-        edge++;
+        visit++;
         if !vertex.alive {
             add_sample(&film_pixel, radiance);
             let next_sample = path.sample_in_pass + 1u;
@@ -46,7 +46,7 @@ fn trace_paths(@builtin(global_invocation_id) id: vec3<u32>) {
                 break;
             }
             radiance = vec3<f32>(0.0);
-            edge = 1u;
+            visit = 1u;
             path = start_path(pixel, next_sample);
         }
     }

@@ -13,7 +13,7 @@ fn generate(@builtin(global_invocation_id) id: vec3<u32>) {
     let sample_in_pass = slot / pass_parameters.pixel_count;
     let pixel = pass_parameters.first_pixel + slot - sample_in_pass * pass_parameters.pixel_count;
     let ray = camera_ray(pixel, camera_block(pixel, sample_in_pass));
-    store_path(slot, Path(ray, vec3<f32>(1.0), -1.0, 1.0, pixel, sample_in_pass));
+    store_path(slot, new_path(ray, pixel, sample_in_pass));
     path_state[PLANE_RADIANCE + slot] = vec4<f32>(0.0);
     queues[slot] = slot;
 }

@@ -13,10 +13,15 @@ fn shade(@builtin(global_invocation_id) id: vec3<u32>) {
     let h = path_state[PLANE_HIT + slot];
     var path = load_path(slot);
     let vertex = shade_vertex(&path, Hit(h.x, bitcast<u32>(h.y), h.z, h.w), edge_parameters.edge);
+#if PASS
+    let radiance = path_state[PLANE_RADIANCE + slot].xyz + vertex.radiance;
+    path_state[PLANE_RADIANCE + slot] = vec4<f32>(radiance, bitcast<f32>(path.passed));
+#else
     if any(vertex.radiance != vec3<f32>(0.0)) {
         let radiance = path_state[PLANE_RADIANCE + slot].xyz + vertex.radiance;
         path_state[PLANE_RADIANCE + slot] = vec4<f32>(radiance, 0.0);
     }
+#endif
     if vertex.alive {
         store_path(slot, path);
         let place = atomicAdd(&counts[1u - queue], 1u);

@@ -5,7 +5,7 @@
 
 // Five planes of PATH_CAPACITY vec4 each:
 //   ray origin and pixel within the pass | sample in the pass << 24; ray direction and its density; throughput and eta scale;
-//   radiance; hit
+//   radiance and vertices passed; hit
 @group(0) @binding(9) var<storage, read_write> path_state: array<vec4<f32>>;
 // Three planes of PATH_CAPACITY vec4: origin and distance; direction and path slot; radiance.
 @group(0) @binding(10) var<storage, read_write> shadow_rays: array<vec4<f32>>;
@@ -35,10 +35,17 @@ fn load_path(slot: u32) -> Path {
     let p1 = path_state[PLANE_DIRECTION + slot];
     let p2 = path_state[PLANE_THROUGHPUT + slot];
     let identity = bitcast<u32>(p0.w);
-    return Path(
-        Ray(p0.xyz, p1.xyz), p2.xyz, p1.w, p2.w,
-        pass_parameters.first_pixel + (identity & 0x00ffffffu), identity >> 24u
-    );
+    var path: Path;
+    path.ray = Ray(p0.xyz, p1.xyz);
+    path.throughput = p2.xyz;
+    path.pdf_solid_angle = p1.w;
+    path.eta_scale = p2.w;
+    path.pixel = pass_parameters.first_pixel + (identity & 0x00ffffffu);
+    path.sample_in_pass = identity >> 24u;
+#if PASS
+    path.passed = bitcast<u32>(path_state[PLANE_RADIANCE + slot].w);
+#endif
+    return path;
 }
 
 // Writes all but the radiance and the hit.

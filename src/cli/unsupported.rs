@@ -8,7 +8,7 @@ use super::exit::Failure;
 
 /// Flag and value of everything refused.
 const UNSUPPORTED: &[(&str, &str)] =
-    &[("--hemisphere", "uniform"), ("--light-sampling", "visible"), ("--light-sampling", "area"), ("--blend", "pick")];
+    &[("--hemisphere", "uniform"), ("--light-sampling", "visible"), ("--light-sampling", "area")];
 
 /// Refuses the first flag whose value is not supported.
 ///

@@ -4,10 +4,11 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
+use super::material::mean_emission;
 use super::primitive::{PrimitiveGeometry, WorldPrimitive};
 use super::{NONE, environment_is_sampled};
 use crate::sampling::AliasTable;
-use crate::scene::{ColorInput, Emission, Estimator, Light, Scene, TextureKind};
+use crate::scene::{ColorInput, Estimator, Light, MaterialKind, Scene, TextureKind};
 
 /// Kinds in `shaders/shading/light.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -22,6 +23,8 @@ pub enum LightKind {
 }
 
 const TWO_SIDED: u32 = 256;
+/// The radiance is that of the whole material, seen from where the light goes.
+const BLENDED: u32 = 512;
 
 /// 80 bytes, the layout of `light_word` in `shaders/shading/light.wgsl`.
 #[repr(C)]
@@ -43,7 +46,15 @@ pub struct FlatLight {
     pub attributes: u32,
     /// Radiance of a surface, intensity of a point.
     pub radiance: [f32; 3],
-    pub padding: f32,
+    /// Of a surface.
+    pub material: u32,
+}
+
+impl FlatLight {
+    /// Its radiance is that of a whole blend.
+    pub fn is_blended(&self) -> bool {
+        self.kind_and_flags & BLENDED != 0
+    }
 }
 
 /// All sampled lights; marks the primitives that are lights with their index.
@@ -54,8 +65,8 @@ pub fn collect(scene: &Scene, primitives: &mut [WorldPrimitive]) -> Vec<FlatLigh
     let mut lights = Vec::new();
     let mut powers = Vec::new();
     for primitive in primitives {
-        let Some(emission) = scene.materials[primitive.material].emission else { continue };
-        let power = surface_power(scene, primitive, &emission);
+        let emission = SurfaceEmission::of(scene, primitive.material);
+        let power = emission.power(primitive);
         if let Some(light) = surface_light(primitive, &emission).filter(|_| power > 0.0) {
             primitive.light = lights.len() as u32;
             lights.push(light);
@@ -89,10 +100,39 @@ pub fn collect(scene: &Scene, primitives: &mut [WorldPrimitive]) -> Vec<FlatLigh
     lights
 }
 
-/// Luminous power: π·A·L, twice that for two sides.
-fn surface_power(scene: &Scene, primitive: &WorldPrimitive, emission: &Emission) -> f64 {
-    let sides = if emission.two_sided { 2.0 } else { 1.0 };
-    PI * primitive.area() * luminance(mean_color(scene, &emission.radiance)) * sides
+/// What a surface of some material sends out.
+struct SurfaceEmission {
+    material: usize,
+    mean_radiance: DVec3,
+    /// The material, or some part of it, emits from its back too.
+    two_sided: bool,
+    /// Emission varies with the blend's weights: the whole material is looked up.
+    blended: bool,
+    /// Of a plain material.
+    radiance: ColorInput,
+}
+
+impl SurfaceEmission {
+    fn of(scene: &Scene, material: usize) -> Self {
+        let own = scene.materials[material].emission;
+        Self {
+            material,
+            mean_radiance: mean_emission(scene, material, &|input| mean_color(scene, input)),
+            two_sided: scene.emits_from_both_sides(material),
+            blended: matches!(scene.materials[material].kind, MaterialKind::Blend { .. }),
+            radiance: own.map_or(ColorInput::grey(0.0), |emission| emission.radiance),
+        }
+    }
+
+    /// Luminous power: π·A·L, twice that for two sides.
+    fn power(&self, primitive: &WorldPrimitive) -> f64 {
+        let luminance = luminance(self.mean_radiance);
+        // An infinite plane that does not emit has no power: 0, not 0·∞.
+        if luminance == 0.0 {
+            return 0.0;
+        }
+        PI * primitive.area() * luminance * if self.two_sided { 2.0 } else { 1.0 }
+    }
 }
 
 fn point_power(light: &Light) -> f64 {
@@ -137,12 +177,12 @@ fn plain(kind: LightKind, position: DVec3, radiance: DVec3) -> FlatLight {
         p2: [0.0; 3],
         attributes: NONE,
         radiance: radiance.as_vec3().to_array(),
-        padding: 0.0,
+        material: NONE,
     }
 }
 
-fn surface_light(primitive: &WorldPrimitive, emission: &Emission) -> Option<FlatLight> {
-    let (radiance, texture) = super::tables::color_and_texture(&emission.radiance);
+fn surface_light(primitive: &WorldPrimitive, emission: &SurfaceEmission) -> Option<FlatLight> {
+    let (radiance, texture) = super::material::color_and_texture(&emission.radiance);
     let (kind, p0, p1, p2) = match primitive.geometry {
         PrimitiveGeometry::Triangle([a, b, c]) => {
             (LightKind::Triangle, a.as_dvec3(), (b.as_dvec3() - a.as_dvec3()), c.as_dvec3() - a.as_dvec3())
@@ -158,12 +198,13 @@ fn surface_light(primitive: &WorldPrimitive, emission: &Emission) -> Option<Flat
     };
     let size = if let PrimitiveGeometry::Sphere { radius, .. } = primitive.geometry { radius } else { primitive.area() };
     Some(FlatLight {
-        kind_and_flags: kind as u32 | if emission.two_sided { TWO_SIDED } else { 0 },
+        kind_and_flags: kind as u32 | if emission.two_sided { TWO_SIDED } else { 0 } | if emission.blended { BLENDED } else { 0 },
         size: size as f32,
         p1: p1.as_vec3().to_array(),
         emission_texture: texture,
         p2: p2.as_vec3().to_array(),
         attributes: primitive.attributes,
+        material: emission.material as u32,
         ..plain(kind, p0, DVec3::from(radiance.map(f64::from)))
     })
 }

@@ -5,8 +5,10 @@
 
 pub mod bvh4;
 pub mod light;
+pub mod material;
 pub mod primitive;
 pub mod tables;
+pub mod texture;
 pub mod validate;
 pub mod view;
 pub mod world;
@@ -16,8 +18,10 @@ use glam::{DVec3, Vec3};
 use crate::scene::{Estimator, Scene};
 use bvh4::Bvh4;
 use light::FlatLight;
+use material::FlatMaterials;
 use primitive::{Primitive, TriangleAttributes};
-use tables::{FlatMaterial, FlatTexture};
+use tables::Tables;
+use texture::FlatTextures;
 
 pub use validate::FlatError;
 pub use view::View;
@@ -32,12 +36,10 @@ pub struct FlatScene {
     pub primitives: Vec<Primitive>,
     pub attributes: Vec<TriangleAttributes>,
     pub bvh: Bvh4,
-    pub materials: Vec<FlatMaterial>,
+    pub materials: FlatMaterials,
     /// Lights that are sampled; empty where the estimator never asks.
     pub lights: Vec<FlatLight>,
-    pub textures: Vec<FlatTexture>,
-    /// Linear Rec.709 texels of all images, three floats each.
-    pub texels: Vec<f32>,
+    pub textures: FlatTextures,
     pub view: View,
 }
 
@@ -51,29 +53,22 @@ impl FlatScene {
         let lights = light::collect(scene, &mut world.primitives);
         let (bvh, order) = Bvh4::build(&world.primitives)?;
         let primitives: Vec<Primitive> = order.iter().map(|&index| world.primitives[index].pack()).collect();
-        let (textures, texels) = tables::pack_textures(scene)?;
         let flat = Self {
             primitives,
             attributes: world.attributes,
             bvh,
-            materials: scene.materials.iter().map(FlatMaterial::new).collect(),
+            materials: FlatMaterials::new(scene),
             lights,
-            textures,
-            texels,
+            textures: FlatTextures::new(scene)?,
             view: View::new(scene),
         };
         flat.validate()?;
         Ok(flat)
     }
 
-    /// Materials, lights and textures as one array of vec4, and where the lights and the textures begin in it.
-    pub fn tables(&self) -> (Vec<[f32; 4]>, u32, u32) {
-        let mut words: Vec<[f32; 4]> = bytemuck::cast_slice(&self.materials).to_vec();
-        let first_light = words.len() as u32;
-        words.extend_from_slice(bytemuck::cast_slice(&self.lights));
-        let first_texture = words.len() as u32;
-        words.extend_from_slice(bytemuck::cast_slice(&self.textures));
-        (words, first_light, first_texture)
+    /// All that shading looks up, as one array of vec4.
+    pub fn tables(&self) -> Tables {
+        Tables::new(self)
     }
 }
 

@@ -1,5 +1,6 @@
 //! What must hold of a packed scene before a kernel may read it.
 
+use super::texture::FlatTextureKind;
 use super::{FlatScene, NONE};
 
 /// Why a scene could not be packed.
@@ -23,7 +24,7 @@ impl FlatScene {
     pub fn validate(&self) -> Result<(), FlatError> {
         let fail = |message: String| Err(FlatError::Inconsistent(message));
         for (index, primitive) in self.primitives.iter().enumerate() {
-            if primitive.material() as usize >= self.materials.len() {
+            if primitive.material() as usize >= self.materials.materials.len() {
                 return fail(format!("primitive {index} has material {}", primitive.material()));
             }
             if primitive.light != NONE && primitive.light as usize >= self.lights.len() {
@@ -33,13 +34,20 @@ impl FlatScene {
                 return fail(format!("primitive {index} has attributes {}", primitive.attributes));
             }
         }
-        for texture in &self.textures {
-            let end = texture.first_texel as usize + 3 * texture.width as usize * texture.height as usize;
-            if texture.width == 0 || texture.height == 0 || end > self.texels.len() {
-                return fail(format!("a texture of {} × {} ends at {end}", texture.width, texture.height));
+        self.validate_textures()?;
+        self.validate_hierarchy()
+    }
+
+    fn validate_textures(&self) -> Result<(), FlatError> {
+        for texture in &self.textures.textures {
+            let (width, height) = (texture.width_or_octaves, texture.height);
+            let end = texture.first_texel_or_seed as usize + 3 * width as usize * height as usize;
+            let image = texture.kind() == FlatTextureKind::Image as u32;
+            if image && (width == 0 || height == 0 || end > self.textures.texels.len()) {
+                return Err(FlatError::Inconsistent(format!("a texture of {width} × {height} ends at {end}")));
             }
         }
-        self.validate_hierarchy()
+        Ok(())
     }
 
     fn validate_hierarchy(&self) -> Result<(), FlatError> {

@@ -20,7 +20,7 @@ pub fn collect(scene: &Scene) -> WorldGeometry {
         if let Geometry::Mesh(mesh) = &shape.geometry {
             add_mesh(scene, shape, mesh, &mut world);
         } else if !is_pass(scene, shape.material) {
-            add_analytic(shape, &transform, &mut world.primitives);
+            add_analytic(scene, shape, &transform, &mut world);
         }
     }
     world
@@ -30,13 +30,21 @@ fn is_pass(scene: &Scene, material: usize) -> bool {
     matches!(scene.materials[material].kind, MaterialKind::Pass)
 }
 
-fn add_analytic(shape: &Shape, transform: &DAffine3, primitives: &mut Vec<WorldPrimitive>) {
+fn add_analytic(scene: &Scene, shape: &Shape, transform: &DAffine3, world: &mut WorldGeometry) {
     let point = |p: DVec3| transform.transform_point3(p);
     let vector = |v: DVec3| transform.transform_vector3(v);
     let normal = |n: DVec3| (transform.matrix3.inverse().transpose() * n).normalize();
     // Checked when the scene was read: spheres and disks are scaled evenly.
     let scale = transform.matrix3.determinant().abs().cbrt();
-    let mut push = |geometry| primitives.push(WorldPrimitive::new(geometry, shape.material));
+    let attributes = if scene.uses_texture(shape.material) { analytic_attributes(shape, transform) } else { None };
+    let mut push = |geometry| {
+        let mut primitive = WorldPrimitive::new(geometry, shape.material);
+        if let Some(attributes) = attributes {
+            primitive.attributes = world.attributes.len() as u32;
+            world.attributes.push(attributes);
+        }
+        world.primitives.push(primitive);
+    };
     // A mirroring transform would turn fronts into backs; walking along edge u the other way keeps them.
     let quad = |corner: DVec3, edge_u: DVec3, edge_v: DVec3| {
         let (corner, edge_u) = if shape.is_mirrored() { (corner + edge_u, -edge_u) } else { (corner, edge_u) };
@@ -62,6 +70,22 @@ fn add_analytic(shape: &Shape, transform: &DAffine3, primitives: &mut Vec<WorldP
                 }
             }
         }
+    }
+}
+
+/// What texture coordinates need besides the primitive itself: of a sphere the rotation into its own space, of a rectangle that a
+/// mirroring transform turned round the way back.
+fn analytic_attributes(shape: &Shape, transform: &DAffine3) -> Option<TriangleAttributes> {
+    match shape.geometry {
+        Geometry::Sphere { .. } => {
+            let to_local = transform.matrix3.inverse().transpose();
+            let rows = to_local.to_cols_array_2d().map(|row| DVec3::from(row).normalize().as_vec3());
+            Some(TriangleAttributes::new(rows, [Vec2::ZERO; 3]))
+        }
+        Geometry::Rectangle { .. } | Geometry::Box { .. } if shape.is_mirrored() => {
+            Some(TriangleAttributes::new([Vec3::ZERO; 3], [Vec2::new(1.0, 0.0), Vec2::ZERO, Vec2::ONE]))
+        }
+        _ => None,
     }
 }
 

@@ -56,7 +56,7 @@ impl Buffers {
     pub fn new(device: &Device, flat: &FlatScene, plan: &Plan, width: u32) -> Self {
         let mut buffers = BTreeMap::new();
         let usage = |uniform| if uniform { BufferUsages::UNIFORM } else { BufferUsages::STORAGE };
-        let (tables, ..) = flat.tables();
+        let tables = flat.tables().words;
         let mut upload = |number, label, bytes: &[u8], usage| {
             // A binding may not be empty.
             let padded = if bytes.is_empty() { vec![0; 48] } else { bytes.to_vec() };
@@ -77,8 +77,8 @@ impl Buffers {
         if crate::plan::has_attributes(flat) {
             upload(binding::ATTRIBUTES, "attributes", bytemuck::cast_slice(&flat.attributes), BufferUsages::STORAGE);
         }
-        if !flat.texels.is_empty() {
-            upload(binding::TEXELS, "texels", bytemuck::cast_slice(&flat.texels), BufferUsages::STORAGE);
+        if !flat.textures.texels.is_empty() {
+            upload(binding::TEXELS, "texels", bytemuck::cast_slice(&flat.textures.texels), BufferUsages::STORAGE);
         }
 
         let mut make = |number, label, size: u64, usage| {

@@ -54,6 +54,9 @@ impl GpuRenderer {
         let start = Instant::now();
         let flat = FlatScene::new(scene).map_err(|error| RenderError::DoesNotFit(error.to_string()))?;
         let plan = Plan::new(scene, &flat, &device.limits, options)?;
+        // Where paths may pass through surfaces without ending an edge, edges do not bound the number of vertices.
+        let passes = plan.switches.enabled.contains("PASS");
+        let max_depth = Some(scene.render.max_depth).filter(|depth| *depth > 0 && !passes);
         let buffers = Buffers::new(&device, &flat, &plan, scene.film.size[0]);
         device.check()?;
         let build_seconds = start.elapsed().as_secs_f64();
@@ -66,7 +69,7 @@ impl GpuRenderer {
             kernels,
             size: scene.film.size,
             sampling: Sampling::from(&scene.render),
-            max_depth: Some(scene.render.max_depth).filter(|depth| *depth > 0),
+            max_depth,
             build_seconds,
             compile_seconds: start.elapsed().as_secs_f64(),
         })

@@ -23,7 +23,7 @@ pub struct Memory {
 
 impl Memory {
     pub fn new(flat: &FlatScene, plan: &Plan, width: u32) -> Self {
-        let (tables, ..) = flat.tables();
+        let tables = flat.tables().words;
         let pixels = u64::from(width) * u64::from(plan.band_rows);
         let mut arrays = vec![
             ("primitives", 48 * flat.primitives.len() as u64),
@@ -37,8 +37,8 @@ impl Memory {
         if has_attributes(flat) {
             arrays.push(("normals and texture coordinates", 64 * flat.attributes.len() as u64));
         }
-        if !flat.texels.is_empty() {
-            arrays.push(("texels", 4 * flat.texels.len() as u64));
+        if !flat.textures.texels.is_empty() {
+            arrays.push(("texels", 4 * flat.textures.texels.len() as u64));
         }
         if plan.stages == StageMode::Wavefront {
             let paths = u64::from(plan.path_capacity);

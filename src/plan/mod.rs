@@ -107,7 +107,7 @@ impl Plan {
         } else {
             FilmStorage::Buffer
         });
-        let (tables, ..) = flat.tables();
+        let tables = flat.tables().words;
         let uniform_limit = u64::from(limits.max_uniform_binding);
         let uniform_primitives = 48 * flat.primitives.len() as u64 <= uniform_limit;
         let uniform_tables = 16 * tables.len() as u64 <= uniform_limit;

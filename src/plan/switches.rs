@@ -2,13 +2,14 @@
 
 use super::{FilmStorage, GeometryPlacement, MAX_SAMPLES_PER_PASS, Plan, has_attributes};
 use crate::flat::FlatScene;
-use crate::flat::light::LightKind;
+use crate::flat::light::{FlatLight, LightKind};
+use crate::flat::material::{FlatMaterial, FlatMaterialKind};
 use crate::flat::primitive::{Primitive, PrimitiveKind};
-use crate::flat::tables::FlatMaterialKind;
+use crate::flat::texture::FlatTextureKind;
 use crate::sampling::Decorrelation;
 use crate::sampling::dimension::SEQUENCE_DIMENSIONS;
 use crate::scene::{ApertureShape, Filter, FilterKind, Projection};
-use crate::scene::{Estimator, MisHeuristic, PixelSampler, RenderSettings, Scene};
+use crate::scene::{BlendMode, Estimator, MisHeuristic, PixelSampler, RenderSettings, Scene};
 use crate::shader::Switches;
 
 /// Every switch that the shaders know.
@@ -16,7 +17,12 @@ pub const ALL: &[&str] = &[
     "APERTURE_POLYGON",
     "APERTURE_SQUARE",
     "ATTRIBUTES",
+    "BLENDED_LIGHTS",
+    "BLENDS",
     "BVH",
+    "CHECKERS",
+    "CONDUCTOR",
+    "COSINE_POWER",
     "DIGITAL_SHIFT",
     "DISKS_IN_HIERARCHY",
     "EMISSION",
@@ -31,29 +37,43 @@ pub const ALL: &[&str] = &[
     "FLAT_LIGHTS",
     "FLAT_ROUND",
     "GLASS",
+    "GLOSSY",
     "HEURISTIC_POWER",
+    "IMAGES",
     "LENS",
     "LIGHTS",
+    "MICROFACETS",
     "MIRROR",
     "ONE_LIGHT",
     "ONLY_TRIANGLES_IN_HIERARCHY",
     "ORTHOGRAPHIC",
+    "PASS",
+    "PERLIN",
+    "PHONG",
+    "PHONG_GLASS",
+    "PICK",
     "PIXEL_CENTRE",
     "PIXEL_DIGITAL_SHIFT",
     "PIXEL_HASHED",
     "PIXEL_ROTATION",
     "POINT_LIGHTS",
+    "PROCEDURAL_TEXTURES",
     "QUADS_IN_HIERARCHY",
+    "ROUGH_GLASS",
     "ROULETTE",
+    "SCALARS",
+    "SECOND_COLORS",
     "SEQUENCE",
     "SPHERES",
     "SPHERES_IN_HIERARCHY",
     "SPHERE_LIGHTS",
     "TEXTURES",
     "TOP_IN_UNIFORM",
+    "TRANSMISSIVE_SMOOTH",
     "TRIANGLES_IN_HIERARCHY",
     "UNIFORM_PRIMITIVES",
     "UNIFORM_TABLES",
+    "WORLEY",
 ];
 
 /// Blocks of four dimensions that the sequence's table holds per sample.
@@ -81,12 +101,16 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     switches.enable("UNIFORM_PRIMITIVES", plan.uniform_primitives);
     switches.enable("UNIFORM_TABLES", plan.uniform_tables);
     switches.enable("ATTRIBUTES", has_attributes(flat));
-    switches.enable("TEXTURES", !flat.textures.is_empty());
+    switches.enable("TEXTURES", !flat.textures.textures.is_empty());
+    let has_texture = |kind: FlatTextureKind| flat.textures.textures.iter().any(|texture| texture.kind() == kind as u32);
+    switches.enable("IMAGES", has_texture(FlatTextureKind::Image));
+    switches.enable("CHECKERS", has_texture(FlatTextureKind::Checker));
+    switches.enable("PERLIN", has_texture(FlatTextureKind::Perlin));
+    switches.enable("WORLEY", has_texture(FlatTextureKind::Worley));
+    let procedural = [FlatTextureKind::Checker, FlatTextureKind::Perlin, FlatTextureKind::Worley];
+    switches.enable("PROCEDURAL_TEXTURES", procedural.into_iter().any(has_texture));
 
-    let has_material = |kind: FlatMaterialKind| flat.materials.iter().any(|material| material.kind == kind as u32);
-    switches.enable("MIRROR", has_material(FlatMaterialKind::Mirror));
-    switches.enable("GLASS", has_material(FlatMaterialKind::Glass));
-    switches.enable("EMISSION", flat.materials.iter().any(|material| material.emission_flags != 0));
+    choose_materials(scene, flat, &mut switches);
 
     let has_light = |kind: LightKind| flat.lights.iter().any(|light| light.kind_and_flags & 255 == kind as u32);
     switches.enable("LIGHTS", !flat.lights.is_empty() && render.max_depth != 1);
@@ -105,12 +129,14 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     let blades = enable_camera(&mut switches, scene);
     switches.enable("FILM_TEXTURE", plan.film == FilmStorage::Texture);
 
-    let (tables, first_light, first_texture) = flat.tables();
+    let tables = flat.tables();
     switches.constants.extend([
         ("BLADES", blades),
         ("FILM_WIDTH", scene.film.size[0]),
-        ("FIRST_LIGHT_WORD", first_light),
-        ("FIRST_TEXTURE_WORD", first_texture),
+        ("FIRST_HEURISTIC_WORD", tables.first_heuristic),
+        ("FIRST_LEAF_WORD", tables.first_leaf),
+        ("FIRST_LIGHT_WORD", tables.first_light),
+        ("FIRST_TEXTURE_WORD", tables.first_texture),
         ("LIGHT_COUNT", flat.lights.len() as u32),
         // Depth 0 means no limit: an edge that is never reached.
         ("MAX_DEPTH", if render.max_depth == 0 { u32::MAX } else { render.max_depth }),
@@ -123,7 +149,7 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
         ("STACK_SIZE", flat.bvh.stack_size),
         ("TOP_NODES", plan.top_nodes),
         ("TOP_WORDS", (3 * plan.top_nodes).max(1)),
-        ("TABLE_WORDS", (tables.len() as u32).max(1)),
+        ("TABLE_WORDS", (tables.words.len() as u32).max(1)),
     ]);
     switches
 }
@@ -161,4 +187,32 @@ fn enable_camera(switches: &mut Switches, scene: &Scene) -> u32 {
         }
         _ => 0,
     }
+}
+
+/// Materials, lobe by lobe, and blends of them.
+fn choose_materials(scene: &Scene, flat: &FlatScene, switches: &mut Switches) {
+    use FlatMaterialKind as Kind;
+    let has = |kind: Kind| flat.materials.has(kind);
+    switches.enable("MIRROR", has(Kind::Mirror));
+    // Rough glass whose width comes from a texture may be smooth somewhere.
+    switches.enable("GLASS", has(Kind::Glass) || has(Kind::RoughGlass));
+    switches.enable("GLOSSY", has(Kind::Glossy));
+    switches.enable("PHONG", has(Kind::Phong));
+    switches.enable("PHONG_GLASS", has(Kind::PhongGlass));
+    switches.enable("COSINE_POWER", [Kind::Glossy, Kind::Phong, Kind::PhongGlass].into_iter().any(has));
+    switches.enable("CONDUCTOR", has(Kind::Conductor));
+    switches.enable("ROUGH_GLASS", has(Kind::RoughGlass));
+    switches.enable("MICROFACETS", has(Kind::Conductor) || has(Kind::RoughGlass));
+    switches.enable("TRANSMISSIVE_SMOOTH", has(Kind::RoughGlass) || has(Kind::PhongGlass));
+    switches.enable("SECOND_COLORS", flat.materials.materials.iter().any(FlatMaterial::has_second_color));
+    let scalars = [Kind::Glossy, Kind::Phong, Kind::PhongGlass, Kind::Conductor, Kind::RoughGlass];
+    switches.enable("SCALARS", scalars.into_iter().any(has));
+    // Surfaces of nothing but `pass` are no primitives; inside a blend it is a lobe.
+    let blends = has(Kind::Blend);
+    switches.enable("BLENDS", blends);
+    switches.enable("PICK", blends && scene.render.blend == BlendMode::Pick);
+    let is_pass = |material: u32| flat.materials.materials[material as usize].kind() == Kind::Pass as u32;
+    switches.enable("PASS", flat.materials.leaves.iter().any(|leaf| is_pass(leaf.material)));
+    switches.enable("EMISSION", flat.materials.materials.iter().any(|material| material.emission_flags != 0));
+    switches.enable("BLENDED_LIGHTS", blends && flat.lights.iter().any(FlatLight::is_blended));
 }

@@ -79,6 +79,11 @@ impl Scene {
         self.any_part(material, &|part| part.emission.is_some())
     }
 
+    /// The material, or a part of it, emits from its back as well as from its front.
+    pub fn emits_from_both_sides(&self, material: MaterialId) -> bool {
+        self.any_part(material, &|part| part.emission.is_some_and(|emission| emission.two_sided))
+    }
+
     /// The material or a part of it looks up a texture.
     pub fn uses_texture(&self, material: MaterialId) -> bool {
         self.any_part(material, &|part| part.uses_texture())

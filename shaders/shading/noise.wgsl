@@ -1,0 +1,68 @@
+// Procedural textures over uv; the lattice's hash is integer arithmetic, the same on every device. src/reference/texture has the same in
+// f64.
+#import core/math.wgsl
+#import core/sampler.wgsl
+
+fn lattice_hash(cell: vec2<i32>, seed: u32) -> u32 {
+    let c = bitcast<vec2<u32>>(cell);
+    return mix_bits(mix_bits((c.x * GOLDEN) ^ seed) + c.y * 0x85ebca6bu);
+}
+
+#if PERLIN
+// One of eight unit gradients, dotted with the offset from its lattice point.
+fn gradient_dot(cell: vec2<i32>, seed: u32, offset: vec2<f32>) -> f32 {
+    let direction = lattice_hash(cell, seed) >> 29u;
+    let along = select(offset.x, offset.y, (direction & 1u) == 1u);
+    let diagonal = 0.70710678 * (offset.x + select(offset.y, -offset.y, (direction & 1u) == 1u));
+    let value = select(along, diagonal, (direction & 4u) != 0u);
+    return select(value, -value, (direction & 2u) != 0u);
+}
+
+// Improved noise (Perlin 2002) in [-1, 1]: the sum of `octaves`, each half as high and twice as fine as the one before.
+fn perlin_noise(position: vec2<f32>, octaves: u32, seed: u32) -> f32 {
+    var p = position;
+    var amplitude = 1.0;
+    var sum = 0.0;
+    var total = 0.0;
+    for (var octave = 0u; octave < octaves; octave++) {
+        let corner = floor(p);
+        let f = p - corner;
+        let cell = vec2<i32>(corner);
+        let fade = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+        let lower = mix(
+            gradient_dot(cell, seed, f),
+            gradient_dot(cell + vec2<i32>(1, 0), seed, f - vec2<f32>(1.0, 0.0)),
+            fade.x
+        );
+        let upper = mix(
+            gradient_dot(cell + vec2<i32>(0, 1), seed, f - vec2<f32>(0.0, 1.0)),
+            gradient_dot(cell + vec2<i32>(1, 1), seed, f - vec2<f32>(1.0, 1.0)),
+            fade.x
+        );
+        sum += amplitude * mix(lower, upper, fade.y);
+        total += amplitude;
+        amplitude *= 0.5;
+        p *= 2.0;
+    }
+    return 1.41421356 * sum / max(total, 1.0e-30);
+}
+#endif
+
+#if WORLEY
+// Distance to the nearest feature point, one per cell (Worley 1996), at most 1.
+fn worley_noise(position: vec2<f32>, seed: u32) -> f32 {
+    let corner = floor(position);
+    let f = position - corner;
+    let cell = vec2<i32>(corner);
+    var nearest2 = 1.0;
+    for (var y = -1; y <= 1; y++) {
+        for (var x = -1; x <= 1; x++) {
+            let h = lattice_hash(cell + vec2<i32>(x, y), seed);
+            let feature = vec2<f32>(f32(h & 0xffffu), f32(h >> 16u)) / 65536.0;
+            let offset = vec2<f32>(f32(x), f32(y)) + feature - f;
+            nearest2 = min(nearest2, dot(offset, offset));
+        }
+    }
+    return sqrt(nearest2);
+}
+#endif

@@ -1,0 +1,338 @@
+//! Materials as the device reads them. A blend becomes a run of leaves, each with the weights along its branch: data, whatever the
+//! depth of the tree.
+
+use glam::DVec3;
+
+use super::NONE;
+use crate::scene::{ColorInput, ConductorFresnel, Heuristic, Material, MaterialId, MaterialKind, MicrofacetDistribution, Scene};
+
+/// Kinds in `shaders/shading/leaf.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u32)]
+pub enum FlatMaterialKind {
+    Diffuse = 0,
+    Mirror = 1,
+    Glass = 2,
+    Emissive = 3,
+    Glossy = 4,
+    Phong = 5,
+    Conductor = 6,
+    RoughGlass = 7,
+    /// Rough glass of cosine-power lobes.
+    PhongGlass = 8,
+    Pass = 9,
+    Blend = 10,
+}
+
+/// Beside the kind of a conductor: its colours are eta and k.
+const COMPLEX_FRESNEL: u32 = 256;
+
+const EMITS: u32 = 1;
+const EMITS_TWO_SIDED: u32 = 2;
+/// Some leaf of the blend emits.
+const LEAVES_EMIT: u32 = 4;
+
+/// GGX narrower than this is a delta lobe: f32 no longer resolves it. `SMOOTH_ALPHA` in `shaders/shading/leaf.wgsl`.
+const SMOOTH_ALPHA: f64 = 1.0e-4;
+
+/// 80 bytes, five vec4 of the tables.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct FlatMaterial {
+    /// Reflectance, diffuse reflectance or eta.
+    pub first: [f32; 3],
+    pub kind_and_flags: u32,
+    /// Transmittance, specular reflectance or k. Of a blend, as bits: its first leaf and their number.
+    pub second: [f32; 3],
+    pub ior: f32,
+    pub emission: [f32; 3],
+    pub emission_flags: u32,
+    pub first_texture: u32,
+    pub emission_texture: u32,
+    pub second_texture: u32,
+    pub scalar_texture: u32,
+    /// GGX width or cosine exponent.
+    pub scalar: f32,
+    pub padding: [u32; 3],
+}
+
+/// One leaf of a blend, 16 bytes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct FlatLeaf {
+    pub material: u32,
+    /// Its weight is the constant factor times those of the heuristics `first_factor..first_factor + factor_count`.
+    pub first_factor: u32,
+    pub factor_count: u32,
+    pub constant_factor: f32,
+}
+
+/// Kinds in `shaders/shading/heuristic.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u32)]
+enum HeuristicKind {
+    Constant = 0,
+    Facing = 1,
+    FresnelSchlick = 2,
+    FresnelExact = 3,
+    Texture = 4,
+}
+
+/// Applied in this order: 1 − w; w ≥ threshold; 1 − w.
+const REVERSED_WITHIN: u32 = 256;
+const THRESHOLDED: u32 = 512;
+const REVERSED: u32 = 1024;
+
+/// What decides a weight, 16 bytes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct FlatHeuristic {
+    pub kind_and_flags: u32,
+    /// Value, power or index of refraction.
+    pub value: f32,
+    pub threshold: f32,
+    pub texture: u32,
+}
+
+/// All materials of a scene.
+#[derive(Debug, Clone, Default)]
+pub struct FlatMaterials {
+    pub materials: Vec<FlatMaterial>,
+    pub leaves: Vec<FlatLeaf>,
+    pub heuristics: Vec<FlatHeuristic>,
+}
+
+/// A colour as a constant factor and a texture index or NONE.
+pub fn color_and_texture(input: &ColorInput) -> ([f32; 3], u32) {
+    match input {
+        ColorInput::Constant(color) => (color.as_vec3().to_array(), NONE),
+        ColorInput::Texture(texture) => ([1.0; 3], *texture as u32),
+        ColorInput::ScaledTexture(texture, factor) => (factor.as_vec3().to_array(), *texture as u32),
+    }
+}
+
+impl FlatMaterials {
+    pub fn new(scene: &Scene) -> Self {
+        let mut flat = Self::default();
+        for (id, material) in scene.materials.iter().enumerate() {
+            let packed = match material.kind {
+                MaterialKind::Blend { .. } => flat.blend(scene, id),
+                _ => FlatMaterial::new(material),
+            };
+            flat.materials.push(packed);
+        }
+        flat
+    }
+
+    fn blend(&mut self, scene: &Scene, id: MaterialId) -> FlatMaterial {
+        let leaves = leaves(scene, id);
+        let mut packed = FlatMaterial::new(&scene.materials[id]);
+        // A blend that always is one of its materials is that material.
+        if let [Leaf { material, constant: 1.0, factors }] = leaves.as_slice()
+            && factors.is_empty()
+            && packed.emission_flags == 0
+        {
+            return FlatMaterial::new(&scene.materials[*material]);
+        }
+        if leaves.iter().any(|leaf| scene.materials[leaf.material].emission.is_some()) {
+            packed.emission_flags |= LEAVES_EMIT;
+        }
+        packed.second = [f32::from_bits(self.leaves.len() as u32), f32::from_bits(leaves.len() as u32), 0.0];
+        for leaf in leaves {
+            self.leaves.push(FlatLeaf {
+                material: leaf.material as u32,
+                first_factor: self.heuristics.len() as u32,
+                factor_count: leaf.factors.len() as u32,
+                constant_factor: leaf.constant as f32,
+            });
+            self.heuristics.extend(leaf.factors);
+        }
+        packed
+    }
+
+    pub fn has(&self, kind: FlatMaterialKind) -> bool {
+        self.materials.iter().any(|material| material.kind() == kind as u32)
+    }
+}
+
+/// A leaf on the way from the tree to the tables.
+#[derive(Clone)]
+struct Leaf {
+    material: MaterialId,
+    constant: f64,
+    factors: Vec<FlatHeuristic>,
+}
+
+/// The leaves of a blend, the first child's before the second's; those that never have any weight are left out.
+fn leaves(scene: &Scene, id: MaterialId) -> Vec<Leaf> {
+    let mut found = Vec::new();
+    let mut to_visit = vec![Leaf { material: id, constant: 1.0, factors: Vec::new() }];
+    while let Some(branch) = to_visit.pop() {
+        let MaterialKind::Blend { materials, weight } = &scene.materials[branch.material].kind else {
+            found.push(branch);
+            continue;
+        };
+        for (child, reversed) in [(1, true), (0, false)] {
+            let mut below = Leaf { material: materials[child], ..branch.clone() };
+            match constant_weight(weight) {
+                Some(value) => below.constant *= if reversed { 1.0 - value } else { value },
+                None => below.factors.push(FlatHeuristic::new(weight, reversed)),
+            }
+            if below.constant > 0.0 {
+                to_visit.push(below);
+            }
+        }
+    }
+    found
+}
+
+/// The weight where it is the same at every hit.
+fn constant_weight(heuristic: &Heuristic) -> Option<f64> {
+    match heuristic {
+        Heuristic::Constant { value } => Some(*value),
+        Heuristic::Reverse { of } => constant_weight(of).map(|value| 1.0 - value),
+        Heuristic::Threshold { tau, of } => constant_weight(of).map(|value| f64::from(u8::from(value >= *tau))),
+        // x⁰
+        Heuristic::Facing { power } if *power == 0.0 => Some(1.0),
+        Heuristic::Facing { .. } | Heuristic::Fresnel { .. } | Heuristic::Texture { .. } => None,
+    }
+}
+
+impl FlatHeuristic {
+    /// Packs a heuristic; `reversed` where it stands for a blend's second material.
+    fn new(heuristic: &Heuristic, reversed: bool) -> Self {
+        let plain = |kind: HeuristicKind, value: f64, texture| Self {
+            kind_and_flags: kind as u32,
+            value: value as f32,
+            threshold: 0.0,
+            texture,
+        };
+        let packed = match heuristic {
+            Heuristic::Constant { value } => plain(HeuristicKind::Constant, *value, NONE),
+            Heuristic::Facing { power } => plain(HeuristicKind::Facing, *power, NONE),
+            Heuristic::Fresnel { ior, exact: false } => plain(HeuristicKind::FresnelSchlick, *ior, NONE),
+            Heuristic::Fresnel { ior, exact: true } => plain(HeuristicKind::FresnelExact, *ior, NONE),
+            Heuristic::Texture { texture } => plain(HeuristicKind::Texture, 0.0, *texture as u32),
+            Heuristic::Reverse { of } => Self::new(of, true),
+            Heuristic::Threshold { tau, of } => Self::new(of, false).thresholded(*tau),
+        };
+        if reversed { Self { kind_and_flags: packed.kind_and_flags ^ REVERSED, ..packed } } else { packed }
+    }
+
+    /// 1 where the weight is at least tau, else 0.
+    fn thresholded(self, tau: f64) -> Self {
+        let reversed = self.kind_and_flags & REVERSED != 0;
+        if self.kind_and_flags & THRESHOLDED == 0 {
+            let within = if reversed { REVERSED_WITHIN } else { 0 };
+            let kind_and_flags = self.kind_and_flags & !REVERSED | within | THRESHOLDED;
+            return Self { kind_and_flags, threshold: tau as f32, ..self };
+        }
+        // A threshold of a threshold: 0 and 1 stay as they are where 0 < tau ≤ 1, and all is 1 or 0 beyond.
+        if tau > 0.0 && tau <= 1.0 {
+            return self;
+        }
+        let value = if tau <= 0.0 { 1.0 } else { 0.0 };
+        Self { kind_and_flags: HeuristicKind::Constant as u32, value, threshold: 0.0, texture: NONE }
+    }
+}
+
+impl FlatMaterial {
+    /// Packs a material; of a blend, what it is besides its leaves.
+    fn new(material: &Material) -> Self {
+        let parameters = Parameters::of(&material.kind);
+        let emission = material.emission.map_or(ColorInput::grey(0.0), |emission| emission.radiance);
+        let two_sided = material.emission.is_some_and(|emission| emission.two_sided);
+        let (first, first_texture) = color_and_texture(&parameters.first);
+        let (second, second_texture) = color_and_texture(&parameters.second);
+        let (scalar, scalar_texture) = color_and_texture(&parameters.scalar);
+        let emits = emission != ColorInput::grey(0.0);
+        let (emission, emission_texture) = color_and_texture(&emission);
+        Self {
+            first,
+            kind_and_flags: parameters.kind as u32 | parameters.flags,
+            second,
+            ior: parameters.ior as f32,
+            emission,
+            emission_flags: if emits { EMITS } else { 0 } | if two_sided { EMITS_TWO_SIDED } else { 0 },
+            first_texture,
+            emission_texture,
+            second_texture,
+            scalar_texture,
+            scalar: scalar[0],
+            padding: [0; 3],
+        }
+    }
+
+    pub fn kind(&self) -> u32 {
+        self.kind_and_flags & 255
+    }
+
+    /// A colour or scalar comes from a texture, or a blend's leaves are looked up: not known without the scene.
+    pub fn has_second_color(&self) -> bool {
+        use FlatMaterialKind::{Glass, Phong, PhongGlass, RoughGlass};
+        let of_kind = [Glass, Phong, RoughGlass, PhongGlass].map(|kind| kind as u32).contains(&self.kind());
+        of_kind || self.kind_and_flags & COMPLEX_FRESNEL != 0
+    }
+}
+
+/// A material's parameters in the slots of the tables.
+struct Parameters {
+    kind: FlatMaterialKind,
+    flags: u32,
+    first: ColorInput,
+    second: ColorInput,
+    scalar: ColorInput,
+    ior: f64,
+}
+
+impl Parameters {
+    fn of(kind: &MaterialKind) -> Self {
+        use FlatMaterialKind as Kind;
+        let none = ColorInput::grey(0.0);
+        let plain = |kind, first| Self { kind, flags: 0, first, second: none, scalar: none, ior: 1.0 };
+        match kind {
+            MaterialKind::Diffuse { reflectance } => plain(Kind::Diffuse, *reflectance),
+            MaterialKind::Mirror { reflectance } => plain(Kind::Mirror, *reflectance),
+            MaterialKind::Glossy { reflectance, exponent } => Self { scalar: *exponent, ..plain(Kind::Glossy, *reflectance) },
+            MaterialKind::Phong { diffuse, specular, exponent } => {
+                Self { second: *specular, scalar: *exponent, ..plain(Kind::Phong, *diffuse) }
+            }
+            MaterialKind::Glass { ior, reflectance, transmittance } => {
+                Self { second: *transmittance, ior: *ior, ..plain(Kind::Glass, *reflectance) }
+            }
+            MaterialKind::RoughGlass { ior, alpha, distribution, reflectance, transmittance } => {
+                let kind = match (distribution, alpha) {
+                    (MicrofacetDistribution::Phong, _) => Kind::PhongGlass,
+                    (MicrofacetDistribution::Ggx, ColorInput::Constant(alpha)) if alpha.x < SMOOTH_ALPHA => Kind::Glass,
+                    (MicrofacetDistribution::Ggx, _) => Kind::RoughGlass,
+                };
+                Self { second: *transmittance, scalar: *alpha, ior: *ior, ..plain(kind, *reflectance) }
+            }
+            MaterialKind::Conductor { fresnel, alpha } => {
+                let conductor = match fresnel {
+                    ConductorFresnel::Complex { eta, k } => Self {
+                        flags: COMPLEX_FRESNEL,
+                        second: ColorInput::Constant(*k),
+                        ..plain(Kind::Conductor, ColorInput::Constant(*eta))
+                    },
+                    ConductorFresnel::Reflectance(reflectance) => plain(Kind::Conductor, *reflectance),
+                };
+                Self { scalar: *alpha, ..conductor }
+            }
+            MaterialKind::Emissive => plain(Kind::Emissive, none),
+            MaterialKind::Pass => plain(Kind::Pass, none),
+            MaterialKind::Blend { .. } => plain(Kind::Blend, none),
+        }
+    }
+}
+
+/// What a material sends out by itself, each part with the share of it that a light's power counts: the weight of a constant
+/// heuristic, one half of any other's.
+pub fn mean_emission(scene: &Scene, id: MaterialId, mean: &dyn Fn(&ColorInput) -> DVec3) -> DVec3 {
+    let material = &scene.materials[id];
+    let own = material.emission.map_or(DVec3::ZERO, |emission| mean(&emission.radiance));
+    let MaterialKind::Blend { materials, weight } = &material.kind else { return own };
+    let w0 = constant_weight(weight).unwrap_or(0.5);
+    let [first, second] = materials.map(|part| mean_emission(scene, part, mean));
+    own + w0 * first + (1.0 - w0) * second
+}

@@ -1,0 +1,116 @@
+//! Textures as the device reads them.
+
+use glam::DVec3;
+
+use super::validate::FlatError;
+use crate::scene::{ImageTexture, Scene, TextureFilter, TextureKind, TextureWrap};
+
+/// Kinds in `shaders/shading/texture.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u32)]
+pub enum FlatTextureKind {
+    Image = 0,
+    Checker = 1,
+    Perlin = 2,
+    Worley = 3,
+}
+
+const NEAREST: u32 = 1 << 10;
+
+/// 64 bytes, four vec4 of the tables.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct FlatTexture {
+    /// Kind in bits 0 to 7; of an image, bits 8 and 9: 0 repeat, 1 clamp, 2 mirror, and bit 10: nearest.
+    pub kind_and_flags: u32,
+    /// Of an image: index of its first float in the texels. Of noise: its seed.
+    pub first_texel_or_seed: u32,
+    /// Of an image: its width. Of Perlin noise: the number of octaves.
+    pub width_or_octaves: u32,
+    pub height: u32,
+    pub scale: [f32; 2],
+    pub offset: [f32; 2],
+    pub a: [f32; 4],
+    pub b: [f32; 4],
+}
+
+/// All textures of a scene.
+#[derive(Debug, Clone, Default)]
+pub struct FlatTextures {
+    pub textures: Vec<FlatTexture>,
+    /// Linear Rec.709 texels of all images, three floats each.
+    pub texels: Vec<f32>,
+}
+
+impl FlatTextures {
+    /// # Errors
+    /// [`FlatError::TooManyTexels`] where 32 bits cannot number them.
+    pub fn new(scene: &Scene) -> Result<Self, FlatError> {
+        let mut flat = Self::default();
+        for texture in &scene.textures {
+            let packed = match &texture.kind {
+                TextureKind::Image(image) => flat.add_image(image)?,
+                TextureKind::Checker { a, b, scale } => {
+                    FlatTexture { scale: scale.map(|x| x as f32), ..procedural(FlatTextureKind::Checker, *a, *b) }
+                }
+                TextureKind::Perlin { scale, octaves, a, b, seed } => FlatTexture {
+                    scale: [*scale as f32; 2],
+                    width_or_octaves: *octaves,
+                    first_texel_or_seed: *seed,
+                    ..procedural(FlatTextureKind::Perlin, *a, *b)
+                },
+                TextureKind::Worley { scale, a, b, seed } => FlatTexture {
+                    scale: [*scale as f32; 2],
+                    first_texel_or_seed: *seed,
+                    ..procedural(FlatTextureKind::Worley, *a, *b)
+                },
+            };
+            flat.textures.push(packed);
+        }
+        Ok(flat)
+    }
+
+    fn add_image(&mut self, image: &ImageTexture) -> Result<FlatTexture, FlatError> {
+        let wrap = match image.wrap {
+            TextureWrap::Repeat => 0,
+            TextureWrap::Clamp => 1,
+            TextureWrap::Mirror => 2,
+        };
+        let nearest = if image.filter == TextureFilter::Nearest { NEAREST } else { 0 };
+        let first_texel = self.texels.len();
+        if first_texel + 3 * image.image.texels.len() > u32::MAX as usize {
+            return Err(FlatError::TooManyTexels { found: first_texel / 3 + image.image.texels.len() });
+        }
+        self.texels.extend(image.image.texels.iter().flat_map(|texel| texel.to_array()));
+        Ok(FlatTexture {
+            kind_and_flags: FlatTextureKind::Image as u32 | wrap << 8 | nearest,
+            first_texel_or_seed: first_texel as u32,
+            width_or_octaves: image.image.width,
+            height: image.image.height,
+            scale: image.scale.map(|x| x as f32),
+            offset: image.offset.map(|x| x as f32),
+            a: [0.0; 4],
+            b: [0.0; 4],
+        })
+    }
+}
+
+fn procedural(kind: FlatTextureKind, a: DVec3, b: DVec3) -> FlatTexture {
+    let color = |color: DVec3| color.as_vec3().extend(0.0).to_array();
+    FlatTexture {
+        kind_and_flags: kind as u32,
+        first_texel_or_seed: 0,
+        width_or_octaves: 0,
+        height: 0,
+        scale: [1.0; 2],
+        offset: [0.0; 2],
+        a: color(a),
+        b: color(b),
+    }
+}
+
+impl FlatTexture {
+    pub fn kind(&self) -> u32 {
+        self.kind_and_flags & 255
+    }
+}
