@@ -45,7 +45,9 @@ fn material_emission(material: u32, cosine: f32, front: bool, uv: vec2<f32>) -> 
     var radiance = leaf_emission(material, front, uv);
     if (bitcast<u32>(tables[material * MATERIAL_WORDS + 2u].w) & LEAVES_EMIT) != 0u {
         let run = leaf_run(material);
-        for (var index = 0u; index < run.count; index++) {
+        // Behind the leaves stand the inner blends that emit by themselves.
+        let count = run.count + bitcast<u32>(tables[material * MATERIAL_WORDS + 1u].z);
+        for (var index = 0u; index < count; index++) {
             let leaf = weighted_leaf(run, index, cosine, uv);
             if leaf.weight > 0.0 {
                 radiance += leaf.weight * leaf_emission(leaf.material, front, uv);

@@ -9,13 +9,16 @@ fn lattice_hash(cell: vec2<i32>, seed: u32) -> u32 {
 }
 
 #if PERLIN
-// One of eight unit gradients, dotted with the offset from its lattice point.
+// One of eight unit gradients, dotted with the offset from its lattice point: ±x, ±y, and the four diagonals.
 fn gradient_dot(cell: vec2<i32>, seed: u32, offset: vec2<f32>) -> f32 {
     let direction = lattice_hash(cell, seed) >> 29u;
-    let along = select(offset.x, offset.y, (direction & 1u) == 1u);
-    let diagonal = 0.70710678 * (offset.x + select(offset.y, -offset.y, (direction & 1u) == 1u));
-    let value = select(along, diagonal, (direction & 4u) != 0u);
-    return select(value, -value, (direction & 2u) != 0u);
+    let first = (direction & 1u) != 0u;
+    let second = (direction & 2u) != 0u;
+    if (direction & 4u) != 0u {
+        return 0.70710678 * (select(offset.x, -offset.x, first) + select(offset.y, -offset.y, second));
+    }
+    let along = select(offset.x, offset.y, second);
+    return select(along, -along, first);
 }
 
 // Improved noise (Perlin 2002) in [-1, 1]: the sum of `octaves`, each half as high and twice as fine as the one before.
@@ -58,7 +61,7 @@ fn worley_noise(position: vec2<f32>, seed: u32) -> f32 {
     for (var y = -1; y <= 1; y++) {
         for (var x = -1; x <= 1; x++) {
             let h = lattice_hash(cell + vec2<i32>(x, y), seed);
-            let feature = vec2<f32>(f32(h & 0xffffu), f32(h >> 16u)) / 65536.0;
+            let feature = vec2<f32>(f32(h >> 16u), f32(h & 0xffffu)) / 65536.0;
             let offset = vec2<f32>(f32(x), f32(y)) + feature - f;
             nearest2 = min(nearest2, dot(offset, offset));
         }

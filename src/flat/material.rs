@@ -42,7 +42,8 @@ pub struct FlatMaterial {
     /// Reflectance, diffuse reflectance or eta.
     pub first: [f32; 3],
     pub kind_and_flags: u32,
-    /// Transmittance, specular reflectance or k. Of a blend, as bits: its first leaf and their number.
+    /// Transmittance, specular reflectance or k. Of a blend, as bits: its first leaf, their number, and the number of inner blends
+    /// behind them that emit by themselves.
     pub second: [f32; 3],
     pub ior: f32,
     pub emission: [f32; 3],
@@ -125,20 +126,21 @@ impl FlatMaterials {
     }
 
     fn blend(&mut self, scene: &Scene, id: MaterialId) -> FlatMaterial {
-        let leaves = leaves(scene, id);
+        let Parts { leaves, emitting_blends } = parts(scene, id);
         let mut packed = FlatMaterial::new(&scene.materials[id]);
         // A blend that always is one of its materials is that material.
-        if let [Leaf { material, constant: 1.0, factors }] = leaves.as_slice()
+        if let [Part { material, constant: 1.0, factors }] = leaves.as_slice()
             && factors.is_empty()
+            && emitting_blends.is_empty()
             && packed.emission_flags == 0
         {
             return FlatMaterial::new(&scene.materials[*material]);
         }
-        if leaves.iter().any(|leaf| scene.materials[leaf.material].emission.is_some()) {
+        if !emitting_blends.is_empty() || leaves.iter().any(|leaf| scene.materials[leaf.material].emission.is_some()) {
             packed.emission_flags |= LEAVES_EMIT;
         }
-        packed.second = [f32::from_bits(self.leaves.len() as u32), f32::from_bits(leaves.len() as u32), 0.0];
-        for leaf in leaves {
+        packed.second = [self.leaves.len(), leaves.len(), emitting_blends.len()].map(|number| f32::from_bits(number as u32));
+        for leaf in leaves.into_iter().chain(emitting_blends) {
             self.leaves.push(FlatLeaf {
                 material: leaf.material as u32,
                 first_factor: self.heuristics.len() as u32,
@@ -155,25 +157,32 @@ impl FlatMaterials {
     }
 }
 
-/// A leaf on the way from the tree to the tables.
+/// A part of a blend on the way from the tree to the tables.
 #[derive(Clone)]
-struct Leaf {
+struct Part {
     material: MaterialId,
     constant: f64,
     factors: Vec<FlatHeuristic>,
 }
 
-/// The leaves of a blend, the first child's before the second's; those that never have any weight are left out.
-fn leaves(scene: &Scene, id: MaterialId) -> Vec<Leaf> {
-    let mut found = Vec::new();
-    let mut to_visit = vec![Leaf { material: id, constant: 1.0, factors: Vec::new() }];
+struct Parts {
+    /// In the tree's order: the first child's before the second's.
+    leaves: Vec<Part>,
+    /// Blends below the root that emit besides what their parts do.
+    emitting_blends: Vec<Part>,
+}
+
+/// The parts of a blend; those that never have any weight are left out.
+fn parts(scene: &Scene, id: MaterialId) -> Parts {
+    let mut found = Parts { leaves: Vec::new(), emitting_blends: Vec::new() };
+    let mut to_visit = vec![Part { material: id, constant: 1.0, factors: Vec::new() }];
     while let Some(branch) = to_visit.pop() {
         let MaterialKind::Blend { materials, weight } = &scene.materials[branch.material].kind else {
-            found.push(branch);
+            found.leaves.push(branch);
             continue;
         };
         for (child, reversed) in [(1, true), (0, false)] {
-            let mut below = Leaf { material: materials[child], ..branch.clone() };
+            let mut below = Part { material: materials[child], ..branch.clone() };
             match constant_weight(weight) {
                 Some(value) => below.constant *= if reversed { 1.0 - value } else { value },
                 None => below.factors.push(FlatHeuristic::new(weight, reversed)),
@@ -181,6 +190,9 @@ fn leaves(scene: &Scene, id: MaterialId) -> Vec<Leaf> {
             if below.constant > 0.0 {
                 to_visit.push(below);
             }
+        }
+        if branch.material != id && scene.materials[branch.material].emission.is_some() {
+            found.emitting_blends.push(branch);
         }
     }
     found

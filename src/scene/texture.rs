@@ -58,6 +58,21 @@ pub enum TextureKind {
     },
 }
 
+impl TextureKind {
+    /// The smallest and the largest value of any channel.
+    pub fn range(&self) -> (f64, f64) {
+        let ends = |colours: &mut dyn Iterator<Item = DVec3>| {
+            colours.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), colour| {
+                (low.min(colour.min_element()), high.max(colour.max_element()))
+            })
+        };
+        match self {
+            Self::Image(image) => ends(&mut image.image.texels.iter().map(|texel| texel.as_dvec3())),
+            Self::Checker { a, b, .. } | Self::Perlin { a, b, .. } | Self::Worley { a, b, .. } => ends(&mut [*a, *b].into_iter()),
+        }
+    }
+}
+
 /// An image looked up by uv. v = 0 is the bottom row, as in OBJ.
 #[derive(Debug, Clone)]
 pub struct ImageTexture {

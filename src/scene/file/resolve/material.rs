@@ -1,13 +1,16 @@
 //! `[[material]]`
 
+use glam::DVec3;
+
 use super::Resolver;
 use crate::scene::file::syntax::{
-    AlphaKeys, Blend, CommonMaterial, ConductorMaterial, HeuristicEntry, MaterialEntry, MicrofacetEntry, RoughGlassMaterial,
+    AlphaKeys, Blend, CommonMaterial, ConductorMaterial, HeuristicEntry, MaterialEntry, MetalEntry, MicrofacetEntry,
+    RoughGlassMaterial,
 };
 use crate::scene::file::value::{Colour, Located, Scalar};
 use crate::scene::{
     ColorInput, ConductorFresnel, Emission, Heuristic, Material, MaterialId, MaterialKind, MicrofacetDistribution, SceneError,
-    TextureId,
+    TextureId, TextureKind,
 };
 
 /// Index of refraction where none is written: common glass.
@@ -29,6 +32,7 @@ impl Resolver<'_> {
         for entry in written {
             if let MaterialEntry::Blend(blend) = entry {
                 self.check_blend_ends(blend)?;
+                self.check_normal_maps(blend)?;
             }
         }
         Ok(())
@@ -112,10 +116,14 @@ impl Resolver<'_> {
     }
 
     fn conductor(&self, written: &ConductorMaterial) -> Result<MaterialKind, SceneError> {
-        let fresnel = match (&written.eta, &written.k, &written.reflectance) {
-            (Some(eta), Some(k), None) => ConductorFresnel::Complex { eta: eta.value.0, k: k.value.0 },
-            (None, None, Some(reflectance)) => ConductorFresnel::Reflectance(self.colour(&reflectance.value)?),
-            _ => return Err(self.error(&written.name.span, "a conductor needs both `eta` and `k`, or `reflectance` alone")),
+        let fresnel = match (&written.eta, &written.k, &written.preset, &written.reflectance) {
+            (Some(eta), Some(k), None, None) => ConductorFresnel::Complex { eta: eta.value.0, k: k.value.0 },
+            (None, None, Some(metal), None) => metal_fresnel(metal.value),
+            (None, None, None, Some(reflectance)) => ConductorFresnel::Reflectance(self.colour(&reflectance.value)?),
+            _ => {
+                let message = "a conductor needs both `eta` and `k`, or `preset` alone, or `reflectance` alone";
+                return Err(self.error(&written.name.span, message));
+            }
         };
         let keys = AlphaKeys { alpha: written.alpha.as_ref(), roughness: written.roughness.as_ref() };
         let alpha = self.alpha(keys)?.unwrap_or(ColorInput::grey(0.0));
@@ -174,12 +182,35 @@ impl Resolver<'_> {
             HeuristicEntry::Fresnel(fresnel) => {
                 Heuristic::Fresnel { ior: fresnel.ior.map_or(DEFAULT_IOR, |ior| ior.0), exact: fresnel.exact }
             }
-            HeuristicEntry::Texture(texture) => Heuristic::Texture { texture: self.texture_id(&texture.texture)? },
+            HeuristicEntry::Texture(texture) => Heuristic::Texture { texture: self.weight_texture(&texture.texture)? },
             HeuristicEntry::Reverse(reverse) => Heuristic::Reverse { of: Box::new(self.heuristic(&reverse.of)?) },
             HeuristicEntry::Threshold(threshold) => {
                 Heuristic::Threshold { tau: threshold.tau.0, of: Box::new(self.heuristic(&threshold.of)?) }
             }
         })
+    }
+
+    /// A weight is the luminance of a texture's colours: an alpha channel beside them would have no effect.
+    fn weight_texture(&self, name: &Located<String>) -> Result<TextureId, SceneError> {
+        let id = self.texture_id(name)?;
+        if let TextureKind::Image(image) = &self.scene.textures[id].kind
+            && image.image.has_alpha
+        {
+            let message = format!("the weight is the luminance of `{}`, whose alpha channel would have no effect", name.value);
+            return Err(self.error(&name.span, message).with_help("save the image without alpha, as the mask itself"));
+        }
+        Ok(id)
+    }
+
+    /// The parts of a blend lie on one surface: its normals are the blend's own.
+    fn check_normal_maps(&self, blend: &Blend) -> Result<(), SceneError> {
+        for part in &blend.materials {
+            if self.scene.materials[self.material_id(part)?].normal_map.is_some() {
+                let message = format!("`{}` has a normal map and is part of a blend", part.value);
+                return Err(self.error(&part.span, message).with_help("give the normal map to the blend"));
+            }
+        }
+        Ok(())
     }
 
     /// A blend whose parts lead back to itself has no meaning.
@@ -205,4 +236,15 @@ impl Resolver<'_> {
             _ => &[],
         }
     }
+}
+
+/// Complex indices of refraction in linear Rec.709, averages of the measured spectra that renderers commonly share.
+fn metal_fresnel(metal: MetalEntry) -> ConductorFresnel {
+    let (eta, k) = match metal {
+        MetalEntry::Gold => ([0.143119, 0.374957, 1.44248], [3.98316, 2.38572, 1.60322]),
+        MetalEntry::Copper => ([0.200438, 0.924033, 1.10221], [3.91295, 2.45285, 2.14219]),
+        MetalEntry::Silver => ([0.155265, 0.116723, 0.138344], [4.82835, 3.12225, 2.14696]),
+        MetalEntry::Aluminium => ([1.65746, 0.880369, 0.521229], [9.22387, 6.26952, 4.837]),
+    };
+    ConductorFresnel::Complex { eta: DVec3::from_array(eta), k: DVec3::from_array(k) }
 }

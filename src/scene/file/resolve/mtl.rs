@@ -6,6 +6,7 @@
 //! | `illum` 3, 5, or black `Kd` with white `Ks` and `Ns` ≥ 1000 | mirror of reflectance `Ks` |
 //! | `d` = 0 | pass |
 //! | 0 < `d` < 1 | blend of the rest and pass |
+//! | `illum` ≥ 2 and `Ks` above 0 | phong: `Kd` times `map_Kd`, `Ks`, exponent `Ns` |
 //! | else | diffuse `Kd` times `map_Kd` |
 //! | `Ke` | emission, from the front |
 
@@ -75,10 +76,35 @@ impl Resolver<'_> {
             return Ok(MaterialKind::Mirror { reflectance: ColorInput::Constant(self.at_most_one(written, "Ks", tint)) });
         }
         if specular.max_element() > 0.0 && illumination >= 2 {
-            let warning = format!("the gloss (Ks) of the material `{}` is left out", material.name);
-            self.warn(written, &warning);
+            return self.mtl_phong(written, specular);
         }
-        self.mtl_diffuse(written)
+        Ok(MaterialKind::Diffuse { reflectance: self.mtl_diffuse(written)? })
+    }
+
+    /// Kd, Ks and Ns as they are; Kd gives way where both together would make energy.
+    fn mtl_phong(&mut self, written: &MtlMaterial, specular: DVec3) -> Result<MaterialKind, SceneError> {
+        let specular = self.at_most_one(written, "Ks", specular);
+        let diffuse = self.mtl_diffuse(written)?;
+        let brightest = match &diffuse {
+            ColorInput::Constant(colour) => *colour,
+            ColorInput::Texture(texture) => DVec3::splat(self.scene.textures[*texture].kind.range().1),
+            ColorInput::ScaledTexture(texture, factor) => *factor * self.scene.textures[*texture].kind.range().1,
+        };
+        // f32 texels of 1 come out as 1 + 6e-8 at most.
+        let fits = (brightest + specular).max_element() <= 1.0 + 1e-6;
+        let room = ((DVec3::ONE - specular) / brightest.max(DVec3::splat(1e-30))).min(DVec3::ONE);
+        if !fits {
+            let name = &written.material.name;
+            self.warn(written, &format!("Kd + Ks of the material `{name}` is above 1: Kd is reduced to 1 - Ks"));
+        }
+        let diffuse = match diffuse {
+            _ if fits => diffuse,
+            ColorInput::Constant(colour) => ColorInput::Constant(colour * room),
+            ColorInput::Texture(texture) => ColorInput::ScaledTexture(texture, room),
+            ColorInput::ScaledTexture(texture, factor) => ColorInput::ScaledTexture(texture, factor * room),
+        };
+        let exponent = f64::from(written.material.shininess.unwrap_or(0.0)).max(0.0);
+        Ok(MaterialKind::Phong { diffuse, specular: ColorInput::Constant(specular), exponent: ColorInput::grey(exponent) })
     }
 
     fn mtl_glass(&mut self, written: &MtlMaterial, ior: f64) -> Result<MaterialKind, SceneError> {
@@ -95,14 +121,13 @@ impl Resolver<'_> {
         Ok(MaterialKind::Glass { ior, reflectance: ColorInput::grey(1.0), transmittance: ColorInput::Constant(transmittance) })
     }
 
-    fn mtl_diffuse(&mut self, written: &MtlMaterial) -> Result<MaterialKind, SceneError> {
+    fn mtl_diffuse(&mut self, written: &MtlMaterial) -> Result<ColorInput, SceneError> {
         let tint = colour(written.material.diffuse);
         let tint = tint.map(|tint| self.at_most_one(written, "Kd", tint));
-        let reflectance = match written.material.diffuse_texture.clone() {
-            Some(map) => self.mtl_texture(written, &map, tint)?,
-            None => tint.map_or(ColorInput::grey(0.8), ColorInput::Constant),
-        };
-        Ok(MaterialKind::Diffuse { reflectance })
+        match written.material.diffuse_texture.clone() {
+            Some(map) => self.mtl_texture(written, &map, tint),
+            None => Ok(tint.map_or(ColorInput::grey(0.8), ColorInput::Constant)),
+        }
     }
 
     fn mtl_emission(&mut self, written: &MtlMaterial) -> Result<Option<Emission>, SceneError> {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::Resolver;
 use crate::scene::error::show;
 use crate::scene::file::syntax::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
-use crate::scene::file::value::{Checked, Colour, Located, Number, Positive, Scalar};
+use crate::scene::file::value::{Checked, Colour, Located, Number, Positive, Rule, Scalar};
 use crate::scene::image_file::read_image;
 use crate::scene::{
     ColorInput, ColorSpace, ImageData, ImageTexture, SceneError, Texture, TextureFilter, TextureKind, TextureWrap,
@@ -81,21 +81,33 @@ impl Resolver<'_> {
         Ok(image)
     }
 
-    pub(super) fn colour<R>(&self, written: &Colour<R>) -> Result<ColorInput, SceneError> {
+    pub(super) fn colour<R: Rule>(&self, written: &Colour<R>) -> Result<ColorInput, SceneError> {
         match written {
             Colour::Constant(colour) => Ok(ColorInput::Constant(colour.0)),
-            Colour::Texture(name) => self.texture_id(name).map(ColorInput::Texture),
+            Colour::Texture(name) => self.texture_in_range::<R>(name),
         }
     }
 
-    pub(super) fn colour_or_white<R>(&self, written: &Option<Colour<R>>) -> Result<ColorInput, SceneError> {
+    /// A texture whose every value is possible where it is used: a reflectance above 1 would make energy.
+    fn texture_in_range<R: Rule>(&self, name: &Located<String>) -> Result<ColorInput, SceneError> {
+        let id = self.texture_id(name)?;
+        let (low, high) = self.scene.textures[id].kind.range();
+        match [low, high].into_iter().find(|&value| !R::accepts(value)) {
+            None => Ok(ColorInput::Texture(id)),
+            Some(found) => {
+                Err(self.error(&name.span, format!("expected {}, found {found} in the texture `{}`", R::WORDS, name.value)))
+            }
+        }
+    }
+
+    pub(super) fn colour_or_white<R: Rule>(&self, written: &Option<Colour<R>>) -> Result<ColorInput, SceneError> {
         written.as_ref().map_or(Ok(ColorInput::grey(1.0)), |colour| self.colour(colour))
     }
 
-    pub(super) fn scalar<R>(&self, written: &Scalar<R>) -> Result<ColorInput, SceneError> {
+    pub(super) fn scalar<R: Rule>(&self, written: &Scalar<R>) -> Result<ColorInput, SceneError> {
         match written {
             Scalar::Constant(value) => Ok(ColorInput::grey(value.0)),
-            Scalar::Texture(name) => self.texture_id(name).map(ColorInput::Texture),
+            Scalar::Texture(name) => self.texture_in_range::<R>(name),
         }
     }
 }

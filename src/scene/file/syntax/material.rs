@@ -94,8 +94,10 @@ materials! {
         /// 1 when left out.
         transmittance: Option<Colour<Fraction>>,
     }
-    /// GGX with height-correlated Smith shadowing: `eta` and `k`, or `reflectance`.
+    /// GGX with height-correlated Smith shadowing: `eta` and `k`, a `preset`, or `reflectance`.
     Conductor(ConductorMaterial) {
+        /// A metal whose eta and k are known.
+        preset: Option<Located<MetalEntry>>,
         eta: Option<Located<Rgb<Positive>>>,
         k: Option<Located<Rgb<NonNegative>>>,
         /// At normal incidence (Schlick's approximation).
@@ -126,6 +128,15 @@ materials! {
 pub enum MicrofacetEntry {
     Ggx,
     Phong,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MetalEntry {
+    Gold,
+    Copper,
+    Silver,
+    Aluminium,
 }
 
 /// `alpha` and `roughness` of one material.

@@ -16,7 +16,8 @@ use serde::Deserialize;
 
 pub use light::{EnvironmentLight, LightEntry, SpotLight};
 pub use material::{
-    AlphaKeys, Blend, CommonMaterial, ConductorMaterial, HeuristicEntry, MaterialEntry, MicrofacetEntry, RoughGlassMaterial,
+    AlphaKeys, Blend, CommonMaterial, ConductorMaterial, HeuristicEntry, MaterialEntry, MetalEntry, MicrofacetEntry,
+    RoughGlassMaterial,
 };
 pub use shape::{BoxShape, MeshShape, RectangleShape, ShapeEntry, StepEntry, TransformEntry};
 pub use texture::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
