@@ -311,16 +311,8 @@ fn shapes_without_area_are_refused() {
 
 #[test]
 fn what_is_not_done_yet_is_refused_by_name() {
-    let material = "type = \"diffuse\"\nreflectance = 0.5";
     let light = "type = \"environment\"\nradiance = 1";
-    let texture = "[[texture]]\nname = \"t\"\ntype = \"checker\"\na = 0\nb = 1\n[[light]]";
     let rows = [
-        (
-            material,
-            "type = \"phong\"\ndiffuse = 0.1\nspecular = 0.5\nexponent = 9",
-            "material[0].type: the material type `phong`",
-        ),
-        (material, "type = \"conductor\"\nreflectance = 0.5", "the material type `conductor` (of `grey`) is not supported yet"),
         (
             light,
             "type = \"sky\"\nzenith = 1\nhorizon = 1\nground = 0",
@@ -331,7 +323,6 @@ fn what_is_not_done_yet_is_refused_by_name() {
             "type = \"directional\"\ndirection = [0, -1, 0]\nirradiance = 1",
             "the light type `directional` is not supported yet",
         ),
-        ("[[light]]", texture, "texture[0].type: the texture type `checker` is not supported yet"),
         ("radius = 1", "radius = 1\nportal = true", "shape[0].portal: a portal is not supported yet"),
         ("radius = 1", "radius = 1\nmotion = [{ translate = [1, 0, 0] }]", "shape[0].motion: motion is not supported yet"),
     ];
@@ -450,7 +441,6 @@ fn bad_material_libraries_name_file_and_line() {
         ("newmtl a\nd 1.5\n", "a.mtl: the material `a` has d or Tr outside 0 to 1"),
         ("newmtl a\nmap_Kd absent.png\n", "absent.png: cannot be read"),
         ("newmtl a\nillum 4\nNi 100\n", "the index of refraction Ni = 100"),
-        ("newmtl a\nd 0.5\n", "the material type `blend` (of `a (d = 0.5)`) is not supported yet"),
     ];
     for (library, expected) in rows {
         let folder = folder_with(&[("a.obj", model.as_bytes()), ("a.mtl", library.as_bytes())]);
@@ -466,25 +456,4 @@ fn deep_nesting_is_an_error_not_a_stack_overflow() {
     assert!(scene::load_toml_str(&text, "test.toml", "".as_ref()).is_err());
     let inline = format!("weight = {}1{}", "{ of = ".repeat(100_000), " }".repeat(100_000));
     assert!(scene::load_toml_str(&GOOD.replace("reflectance = 0.5", &inline), "test.toml", "".as_ref()).is_err());
-}
-
-#[test]
-fn textures_that_have_no_coordinates_yet_are_refused() {
-    let folder = folder_with(&[("t.png", &png_bytes([9, 90, 200]))]);
-    let text = |shape: &str| {
-        format!(
-            "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvfov = 40\n\
-             [[light]]\ntype = \"environment\"\nradiance = 1\n\
-             [[texture]]\nname = \"t\"\ntype = \"image\"\nfile = \"t.png\"\n\
-             [[material]]\nname = \"m\"\ntype = \"diffuse\"\nreflectance = {{ texture = \"t\" }}\n\
-             [[shape]]\nmaterial = \"m\"\n{shape}\n"
-        )
-    };
-    let load = |shape: &str| scene::load_toml_str(&text(shape), "test", folder.path());
-    let rectangle = "type = \"rectangle\"\ncorner = [0, 0, 0]\nedge_u = [1, 0, 0]\nedge_v = [0, 1, 0]";
-    assert!(load(rectangle).is_ok());
-    let mirrored = load(&format!("{rectangle}\ntransform = [{{ scale = [-1, 1, 1] }}]")).expect_err("mirrored");
-    assert!(mirrored.to_string().contains("mirrored rectangle"), "{mirrored}");
-    let sphere = load("type = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1").expect_err("a sphere");
-    assert!(sphere.to_string().contains("a texture on a sphere"), "{sphere}");
 }

@@ -7,8 +7,8 @@ use std::path::Path;
 use common::{TRIANGLE, folder_with, png_bytes};
 use glam::{DVec3, Vec3};
 use gpt::scene::{
-    self, ColorInput, Geometry, Material, MaterialKind, Mesh, MisHeuristic, Projection, SamplerKind, Scene, TextureKind,
-    TextureWrap,
+    self, ColorInput, Geometry, Heuristic, Material, MaterialKind, Mesh, MisHeuristic, Projection, SamplerKind, Scene,
+    TextureKind, TextureWrap,
 };
 use proptest::prelude::*;
 
@@ -195,7 +195,15 @@ d 0
 newmtl gloss
 Kd 0.2 0.2 0.2
 Ks 0.5 0.5 0.5
+Ns 30
 illum 2
+newmtl bright
+Kd 0.8 0.4 0.1
+Ks 0.5 0.5 0.5
+Ns 10
+newmtl veil
+Kd 0.5 0.5 0.5
+d 0.25
 newmtl wood
 map_Kd -s 2 3 -clamp on wood.png
 Kd 0.5 0.5 0.5
@@ -203,7 +211,7 @@ Kd 0.5 0.5 0.5
 
 #[test]
 fn material_libraries_become_materials() {
-    let names = ["wall", "lamp", "glass", "water", "mirror", "nothing", "gloss", "wood", "absent"];
+    let names = ["wall", "lamp", "glass", "water", "mirror", "nothing", "gloss", "bright", "veil", "wood", "absent"];
     let faces: String = names.iter().map(|name| format!("usemtl {name}\nf 1/1 2/2 3/3\n")).collect();
     let text = format!("mtllib a.mtl b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n{faces}");
     let png = png_bytes([128, 0, 255]);
@@ -221,7 +229,19 @@ fn material_libraries_become_materials() {
         matches!(kind("mirror"), MaterialKind::Mirror { reflectance } if *reflectance == ColorInput::Constant(DVec3::new(0.9, 0.8, 0.7)))
     );
     assert!(matches!(kind("nothing"), MaterialKind::Pass));
-    assert!(matches!(kind("gloss"), MaterialKind::Diffuse { .. }));
+    let grey = |value| ColorInput::Constant(DVec3::splat(value));
+    assert!(matches!(kind("gloss"), MaterialKind::Phong { diffuse, specular, exponent }
+        if (*diffuse, *specular, *exponent) == (grey(0.2), grey(0.5), grey(30.0))));
+    // Kd + Ks would be 1.3: Kd gives way.
+    assert!(matches!(kind("bright"), MaterialKind::Phong { diffuse: ColorInput::Constant(diffuse), .. }
+        if diffuse.abs_diff_eq(DVec3::new(0.5, 0.4, 0.1), 1e-9)));
+    assert!(matches!(kind("veil"), MaterialKind::Diffuse { .. }));
+    let MaterialKind::Blend { materials: [veil, behind], weight: Heuristic::Constant { value: 0.25 } } = *kind("veil (d = 0.25)")
+    else {
+        panic!("the veil is no blend")
+    };
+    assert_eq!(scene.materials[veil].name, "veil");
+    assert!(matches!(scene.materials[behind].kind, MaterialKind::Pass));
     let MaterialKind::Diffuse { reflectance: ColorInput::ScaledTexture(texture, tint) } = *kind("wood") else {
         panic!("wood has no tinted texture");
     };
@@ -232,9 +252,9 @@ fn material_libraries_become_materials() {
     assert!(image.image.texels[0].abs_diff_eq(Vec3::new(0.215_860_5, 0.0, 1.0), 1e-6));
     let face_materials: Vec<&str> = mesh(&scene).face_materials.iter().map(|&id| scene.materials[id].name.as_str()).collect();
     assert_eq!(face_materials[..8], names[..8]);
-    assert_eq!(face_materials[8], "(faces without a material)");
+    assert_eq!(face_materials[8..], ["veil (d = 0.25)", "wood", "(faces without a material)"]);
     let warnings = scene.warnings.join("\n");
-    assert!(warnings.contains("the gloss (Ks) of the material `gloss` is left out"), "{warnings}");
+    assert!(warnings.contains("Kd + Ks of the material `bright` is above 1: Kd is reduced to 1 - Ks"), "{warnings}");
     assert!(warnings.contains("b.mtl cannot be read"), "{warnings}");
     assert!(warnings.contains("no MTL file has the materials absent"), "{warnings}");
 }

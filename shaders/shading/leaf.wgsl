@@ -231,12 +231,19 @@ fn reflection_probability(leaf: Leaf, reflected: f32) -> f32 {
     return select(0.0, reflection / total, total > 0.0);
 }
 
-fn sample_diffuse(reflectance: vec3<f32>, surface: Surface, u: f32, v: f32) -> BsdfSample {
+// A direction about the shading normal in proportion to its cosine, and that cosine.
+fn sample_cosine(surface: Surface, u: f32, v: f32) -> vec4<f32> {
     let circle = sin_cos_turns(v);
     let r = sqrt(u);
     let cosine = sqrt(1.0 - u);
     let local = vec3<f32>(r * circle.y, r * circle.x, cosine);
-    let wi = frame_to_world(frame_from_normal(surface.shading_normal), local);
+    return vec4<f32>(frame_to_world(frame_from_normal(surface.shading_normal), local), cosine);
+}
+
+fn sample_diffuse(reflectance: vec3<f32>, surface: Surface, u: f32, v: f32) -> BsdfSample {
+    let direction = sample_cosine(surface, u, v);
+    let wi = direction.xyz;
+    let cosine = direction.w;
     if cosine <= 0.0 || dot(wi, surface.facing_normal) <= 0.0 {
         return no_sample();
     }
@@ -398,7 +405,7 @@ fn sample_leaf(leaf: Leaf, surface: Surface, wo: vec3<f32>, lobe: f32, u: f32, v
             if lobe < phong_specular_share(leaf) {
                 wi = sample_cosine_power(mirrored(surface, wo), leaf.scalar, u, v);
             } else {
-                wi = sample_diffuse(leaf.first, surface, u, v).wi;
+                wi = sample_cosine(surface, u, v).xyz;
             }
             return from_value(wi, evaluate_phong(leaf, surface, wo, wi), 1.0);
         }

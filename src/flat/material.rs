@@ -4,6 +4,7 @@
 use glam::DVec3;
 
 use super::NONE;
+use super::validate::FlatError;
 use crate::scene::{ColorInput, ConductorFresnel, Heuristic, Material, MaterialId, MaterialKind, MicrofacetDistribution, Scene};
 
 /// Kinds in `shaders/shading/leaf.wgsl`.
@@ -56,6 +57,9 @@ pub struct FlatMaterial {
     pub scalar: f32,
     pub padding: [u32; 3],
 }
+
+/// Most weights of all leaves together: 16 MiB of them.
+const MOST_WEIGHTS: usize = 1 << 20;
 
 /// One leaf of a blend, 16 bytes.
 #[repr(C)]
@@ -113,20 +117,22 @@ pub fn color_and_texture(input: &ColorInput) -> ([f32; 3], u32) {
 }
 
 impl FlatMaterials {
-    pub fn new(scene: &Scene) -> Self {
+    /// # Errors
+    /// [`FlatError::TooManyWeights`] where the branches of nested blends have more weights than can be kept.
+    pub fn new(scene: &Scene) -> Result<Self, FlatError> {
         let mut flat = Self::default();
         for (id, material) in scene.materials.iter().enumerate() {
             let packed = match material.kind {
-                MaterialKind::Blend { .. } => flat.blend(scene, id),
+                MaterialKind::Blend { .. } => flat.blend(scene, id)?,
                 _ => FlatMaterial::new(material),
             };
             flat.materials.push(packed);
         }
-        flat
+        Ok(flat)
     }
 
-    fn blend(&mut self, scene: &Scene, id: MaterialId) -> FlatMaterial {
-        let Parts { leaves, emitting_blends } = parts(scene, id);
+    fn blend(&mut self, scene: &Scene, id: MaterialId) -> Result<FlatMaterial, FlatError> {
+        let Parts { leaves, emitting_blends } = parts(scene, id)?;
         let mut packed = FlatMaterial::new(&scene.materials[id]);
         // A blend that always is one of its materials is that material.
         if let [Part { material, constant: 1.0, factors }] = leaves.as_slice()
@@ -134,7 +140,7 @@ impl FlatMaterials {
             && emitting_blends.is_empty()
             && packed.emission_flags == 0
         {
-            return FlatMaterial::new(&scene.materials[*material]);
+            return Ok(FlatMaterial::new(&scene.materials[*material]));
         }
         if !emitting_blends.is_empty() || leaves.iter().any(|leaf| scene.materials[leaf.material].emission.is_some()) {
             packed.emission_flags |= LEAVES_EMIT;
@@ -149,7 +155,10 @@ impl FlatMaterials {
             });
             self.heuristics.extend(leaf.factors);
         }
-        packed
+        if self.heuristics.len() > MOST_WEIGHTS {
+            return Err(FlatError::TooManyWeights { material: scene.materials[id].name.clone(), limit: MOST_WEIGHTS });
+        }
+        Ok(packed)
     }
 
     pub fn has(&self, kind: FlatMaterialKind) -> bool {
@@ -173,10 +182,16 @@ struct Parts {
 }
 
 /// The parts of a blend; those that never have any weight are left out.
-fn parts(scene: &Scene, id: MaterialId) -> Parts {
+fn parts(scene: &Scene, id: MaterialId) -> Result<Parts, FlatError> {
+    let mut weights = 0;
     let mut found = Parts { leaves: Vec::new(), emitting_blends: Vec::new() };
     let mut to_visit = vec![Part { material: id, constant: 1.0, factors: Vec::new() }];
     while let Some(branch) = to_visit.pop() {
+        // Checked on the way: a deep chain of blends would fill the memory before it ends.
+        weights += branch.factors.len();
+        if weights > 2 * MOST_WEIGHTS {
+            return Err(FlatError::TooManyWeights { material: scene.materials[id].name.clone(), limit: MOST_WEIGHTS });
+        }
         let MaterialKind::Blend { materials, weight } = &scene.materials[branch.material].kind else {
             found.leaves.push(branch);
             continue;
@@ -195,7 +210,7 @@ fn parts(scene: &Scene, id: MaterialId) -> Parts {
             found.emitting_blends.push(branch);
         }
     }
-    found
+    Ok(found)
 }
 
 /// The weight where it is the same at every hit.
@@ -341,10 +356,17 @@ impl Parameters {
 /// What a material sends out by itself, each part with the share of it that a light's power counts: the weight of a constant
 /// heuristic, one half of any other's.
 pub fn mean_emission(scene: &Scene, id: MaterialId, mean: &dyn Fn(&ColorInput) -> DVec3) -> DVec3 {
-    let material = &scene.materials[id];
-    let own = material.emission.map_or(DVec3::ZERO, |emission| mean(&emission.radiance));
-    let MaterialKind::Blend { materials, weight } = &material.kind else { return own };
-    let w0 = constant_weight(weight).unwrap_or(0.5);
-    let [first, second] = materials.map(|part| mean_emission(scene, part, mean));
-    own + w0 * first + (1.0 - w0) * second
+    let mut sum = DVec3::ZERO;
+    let mut to_visit = vec![(id, 1.0)];
+    while let Some((id, share)) = to_visit.pop() {
+        let material = &scene.materials[id];
+        if let Some(emission) = material.emission {
+            sum += share * mean(&emission.radiance);
+        }
+        if let MaterialKind::Blend { materials: [first, second], weight } = &material.kind {
+            let w0 = constant_weight(weight).unwrap_or(0.5);
+            to_visit.extend([(*second, share * (1.0 - w0)), (*first, share * w0)].into_iter().filter(|(_, share)| *share > 0.0));
+        }
+    }
+    sum
 }

@@ -57,7 +57,7 @@ impl FlatScene {
             primitives,
             attributes: world.attributes,
             bvh,
-            materials: FlatMaterials::new(scene),
+            materials: FlatMaterials::new(scene)?,
             lights,
             textures: FlatTextures::new(scene)?,
             view: View::new(scene),

@@ -12,8 +12,8 @@ pub enum FlatError {
     TooManyPlanes { found: usize, limit: usize },
     #[error("the scene's textures have {found} texels, more than can be numbered")]
     TooManyTexels { found: usize },
-    #[error("not supported on the device: {what}")]
-    Unsupported { what: String },
+    #[error("the blend `{material}` and those before it have more than {limit} weights along their branches")]
+    TooManyWeights { material: String, limit: usize },
     /// A mistake of this program, not of the scene.
     #[error("the packed scene is inconsistent: {0}")]
     Inconsistent(String),

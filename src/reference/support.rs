@@ -3,17 +3,18 @@
 use crate::render::RenderError;
 use crate::scene::{
     ColorInput, EnvironmentRadiance, Geometry, HemisphereSampling, Heuristic, Light, LightSampling, Material, MaterialId,
-    MaterialKind, Mesh, Scene, Shape, TextureId, TextureKind,
+    MaterialKind, Mesh, Scene, Shape, TextureId, TextureKind, check_blends,
 };
-
-/// Most materials in one blend, all its blends counted through: each is looked at in every hit.
-const MOST_LEAVES: usize = 1 << 12;
 
 /// Checks that every index of the scene is in range and that nothing is used that the reference cannot render.
 pub fn check(scene: &Scene) -> Result<(), RenderError> {
     settings(scene).map_err(RenderError::Internal)?;
     scene.materials.iter().try_for_each(|m| material(scene, m)).map_err(RenderError::Internal)?;
-    blends(scene).map_err(RenderError::Internal)?;
+    let exists = |id: &MaterialId| *id < scene.materials.len();
+    if let Some(missing) = scene.materials.iter().flat_map(|material| material.parts()).find(|id| !exists(id)) {
+        return Err(RenderError::Internal(format!("there is no material {missing}")));
+    }
+    check_blends(&scene.materials).map_err(|(_, message)| RenderError::Internal(message))?;
     scene.shapes.iter().try_for_each(|s| shape(scene, s)).map_err(RenderError::Internal)?;
     scene.lights.iter().try_for_each(light).map_err(RenderError::Internal)
 }
@@ -61,38 +62,6 @@ fn heuristic(scene: &Scene, heuristic: &Heuristic) -> Check {
         Heuristic::Reverse { of } | Heuristic::Threshold { of, .. } => self::heuristic(scene, of),
         Heuristic::Constant { .. } | Heuristic::Facing { .. } | Heuristic::Fresnel { .. } => Ok(()),
     }
-}
-
-/// Checks that blends end in plain materials, and in no more than [`MOST_LEAVES`] of them.
-fn blends(scene: &Scene) -> Check {
-    let mut leaves = vec![None; scene.materials.len()];
-    for start in 0..scene.materials.len() {
-        // A blend waits below its parts until both are counted. What waits longer than there are materials waits for itself.
-        let mut waiting = vec![start];
-        while let Some(&id) = waiting.last() {
-            let material = scene.materials.get(id).ok_or_else(|| format!("there is no material {id}"))?;
-            let MaterialKind::Blend { materials: parts, .. } = material.kind else {
-                leaves[id] = Some(1_usize);
-                waiting.pop();
-                continue;
-            };
-            let uncounted = parts.into_iter().find(|&part| leaves.get(part).is_none_or(Option::is_none));
-            if let Some(part) = uncounted {
-                if waiting.len() > scene.materials.len() {
-                    return Err(format!("the blend `{}` contains itself", material.name));
-                }
-                waiting.push(part);
-                continue;
-            }
-            let count = parts.iter().filter_map(|&part| leaves[part]).sum();
-            if count > MOST_LEAVES {
-                return Err(format!("the blend `{}` is of more than {MOST_LEAVES} materials", material.name));
-            }
-            leaves[id] = Some(count);
-            waiting.pop();
-        }
-    }
-    Ok(())
 }
 
 fn color(scene: &Scene, input: &ColorInput) -> Check {

@@ -73,6 +73,14 @@ impl Material {
         matches!(self.kind, MaterialKind::Blend { .. })
     }
 
+    /// The two materials of a blend, else none.
+    pub fn parts(&self) -> &[MaterialId] {
+        match &self.kind {
+            MaterialKind::Blend { materials, .. } => materials,
+            _ => &[],
+        }
+    }
+
     /// The material itself, not those it blends, looks up a texture.
     pub fn uses_texture(&self) -> bool {
         let weight = matches!(&self.kind, MaterialKind::Blend { weight, .. } if weight.uses_texture());

@@ -6,6 +6,7 @@
 //! Conventions: right-handed, +Y up by default, lengths in scene units, angles in degrees as written and in radians where a
 //! name says so, colours linear Rec.709 RGB, radiance in W·sr⁻¹·m⁻².
 
+mod blend_tree;
 mod builtin;
 pub mod camera;
 mod digest;
@@ -24,6 +25,7 @@ mod summary;
 pub mod texture;
 pub mod transform;
 
+pub use blend_tree::{MOST_LEAVES, check_blends};
 pub use builtin::{builtin_names, builtin_text};
 pub use camera::{Aperture, ApertureShape, Camera, Projection};
 pub use digest::digest;

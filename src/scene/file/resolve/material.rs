@@ -9,8 +9,8 @@ use crate::scene::file::syntax::{
 };
 use crate::scene::file::value::{Colour, Located, Scalar};
 use crate::scene::{
-    ColorInput, ConductorFresnel, Emission, Heuristic, Material, MaterialId, MaterialKind, MicrofacetDistribution, SceneError,
-    TextureId, TextureKind,
+    ColorInput, ConductorFresnel, Emission, Heuristic, Material, MaterialKind, MicrofacetDistribution, SceneError, TextureId,
+    TextureKind, check_blends,
 };
 
 /// Index of refraction where none is written: common glass.
@@ -31,11 +31,11 @@ impl Resolver<'_> {
         }
         for entry in written {
             if let MaterialEntry::Blend(blend) = entry {
-                self.check_blend_ends(blend)?;
                 self.check_normal_maps(blend)?;
             }
         }
-        Ok(())
+        // Materials stand in the order of their entries.
+        check_blends(&self.scene.materials).map_err(|(id, message)| self.error(&written[id].common().name.span, message))
     }
 
     fn kind(&self, entry: &MaterialEntry) -> Result<MaterialKind, SceneError> {
@@ -211,30 +211,6 @@ impl Resolver<'_> {
             }
         }
         Ok(())
-    }
-
-    /// A blend whose parts lead back to itself has no meaning.
-    fn check_blend_ends(&self, blend: &Blend) -> Result<(), SceneError> {
-        let start = self.material_id(&blend.name)?;
-        let mut seen = vec![false; self.scene.materials.len()];
-        let mut to_visit = self.parts(start).to_vec();
-        while let Some(id) = to_visit.pop() {
-            if id == start {
-                let message = format!("the blend `{}` contains itself", blend.name.value);
-                return Err(self.error(&blend.materials[0].span, message));
-            }
-            if !std::mem::replace(&mut seen[id], true) {
-                to_visit.extend_from_slice(self.parts(id));
-            }
-        }
-        Ok(())
-    }
-
-    fn parts(&self, material: MaterialId) -> &[MaterialId] {
-        match &self.scene.materials[material].kind {
-            MaterialKind::Blend { materials, .. } => materials,
-            _ => &[],
-        }
     }
 }
 

@@ -1,0 +1,239 @@
+//! Every material, heuristic, blend and procedural texture: the device's paths against the reference's.
+
+use std::path::Path;
+
+use gpt::plan::{GeometryPlacement, PlanOptions, StageMode};
+use gpt::scene::{self, BlendMode, Estimator, Scene};
+
+use super::{DEVICE, assert_agrees, compare};
+
+/// A sphere and a smooth, textured tetrahedron of the material `m` on a floor, under a lamp, a point light and an environment.
+const STAGE: &str = r#"
+[film]
+size = [48, 48]
+[render]
+spp = 16
+max_depth = 6
+[camera]
+position = [0, 1.6, 6]
+look_at = [0, 0.4, 0]
+vfov = 40
+[[light]]
+type = "environment"
+radiance = [0.2, 0.3, 0.4]
+[[light]]
+type = "point"
+position = [-2, 3, 2]
+intensity = [6, 5, 4]
+[[material]]
+name = "floor"
+type = "diffuse"
+reflectance = 0.6
+[[material]]
+name = "lamp"
+type = "emissive"
+radiance = [8, 7, 6]
+[[material]]
+name = "white"
+type = "diffuse"
+reflectance = 0.8
+[[material]]
+name = "red"
+type = "diffuse"
+reflectance = [0.7, 0.1, 0.05]
+[[material]]
+name = "mirror"
+type = "mirror"
+reflectance = 0.9
+[[material]]
+name = "gold"
+type = "conductor"
+preset = "gold"
+roughness = 0.4
+[[material]]
+name = "glow"
+type = "emissive"
+radiance = [2, 1, 0.5]
+[[material]]
+name = "glow-both"
+type = "emissive"
+radiance = [0.5, 1, 2]
+two_sided = true
+[[material]]
+name = "gone"
+type = "pass"
+[[texture]]
+name = "checks"
+type = "checker"
+a = [0.9, 0.2, 0.1]
+b = [0.1, 0.3, 0.8]
+scale = [6, 4]
+[[texture]]
+name = "clouds"
+type = "perlin"
+scale = 5
+octaves = 4
+a = 0
+b = 1
+seed = 3
+[[texture]]
+name = "cells"
+type = "worley"
+scale = 7
+a = [1, 0.9, 0.2]
+b = [0, 0.1, 0.4]
+seed = 5
+[[shape]]
+type = "plane"
+point = [0, -1, 0]
+normal = [0, 1, 0]
+material = "floor"
+[[shape]]
+type = "rectangle"
+corner = [-1, 3, -1]
+edge_u = [2, 0, 0]
+edge_v = [0, 0, 2]
+material = "lamp"
+[[shape]]
+type = "sphere"
+center = [-1.1, 0.2, 0]
+radius = 1
+material = "m"
+transform = [{ rotate = [1, 2, 0.5], degrees = 50 }]
+[[shape]]
+type = "mesh"
+positions = [[0.2, -0.8, 0.8], [2.2, -0.8, 0.6], [1.2, -0.9, -1.0], [1.2, 1.3, 0.1]]
+normals = [[-0.6, -0.5, 0.6], [0.6, -0.5, 0.6], [0, -0.5, -0.8], [0, 1, 0]]
+uvs = [[0, 0], [1, 0], [0.5, 1], [0.4, 0.6]]
+faces = [[0, 1, 3], [1, 2, 3], [2, 0, 3], [0, 2, 1]]
+material = "m"
+"#;
+
+fn stage(material: &str) -> Scene {
+    let text = format!("{STAGE}\n[[material]]\nname = \"m\"\n{material}\n");
+    scene::load_toml_str(&text, "stage.toml", Path::new("")).unwrap_or_else(|error| panic!("{error}\n{material}"))
+}
+
+fn blend(first: &str, second: &str, weight: &str) -> String {
+    format!("type = \"blend\"\nmaterials = [\"{first}\", \"{second}\"]\nweight = {weight}")
+}
+
+const LOBES: &[(&str, &str)] = &[
+    ("glossy", "type = \"glossy\"\nreflectance = [0.9, 0.7, 0.5]\nexponent = 40"),
+    ("phong", "type = \"phong\"\ndiffuse = [0.4, 0.2, 0.1]\nspecular = 0.5\nexponent = 25"),
+    ("conductor by name", "type = \"conductor\"\npreset = \"copper\"\nroughness = 0.3"),
+    ("conductor by F0", "type = \"conductor\"\nreflectance = [0.9, 0.6, 0.3]\nalpha = 0.3"),
+    ("smooth conductor", "type = \"conductor\"\npreset = \"silver\""),
+    ("rough glass", "type = \"rough_glass\"\nior = 1.5\nroughness = 0.4"),
+    ("rough glass, tinted", "type = \"rough_glass\"\nior = 1.7\nalpha = 0.3\nreflectance = 0.8\ntransmittance = [0.4, 0.8, 0.9]"),
+    ("smooth rough glass", "type = \"rough_glass\"\nroughness = 0"),
+    ("phong glass", "type = \"rough_glass\"\nior = 1.5\nexponent = 60"),
+    ("textured mirror", "type = \"mirror\"\nreflectance = { texture = \"checks\" }"),
+    ("textured glass", "type = \"glass\"\ntransmittance = { texture = \"cells\" }"),
+    ("textured width", "type = \"conductor\"\npreset = \"gold\"\nalpha = { texture = \"clouds\" }"),
+    ("textured exponent", "type = \"glossy\"\nreflectance = 0.8\nexponent = { texture = \"cells\" }"),
+    ("checker", "type = \"diffuse\"\nreflectance = { texture = \"checks\" }"),
+    ("perlin", "type = \"diffuse\"\nreflectance = { texture = \"clouds\" }"),
+    ("worley", "type = \"diffuse\"\nreflectance = { texture = \"cells\" }"),
+];
+
+const HEURISTICS: &[(&str, &str)] = &[
+    ("constant", "{ type = \"constant\", value = 0.3 }"),
+    ("facing", "{ type = \"facing\", power = 0.4 }"),
+    ("schlick", "{ type = \"fresnel\", ior = 1.6 }"),
+    ("exact fresnel", "{ type = \"fresnel\", ior = 1.6, exact = true }"),
+    ("texture", "{ type = \"texture\", texture = \"clouds\" }"),
+    ("reverse", "{ type = \"reverse\", of = { type = \"facing\", power = 2 } }"),
+    ("threshold", "{ type = \"threshold\", tau = 0.6, of = { type = \"facing\" } }"),
+    (
+        "threshold of reverse, reversed",
+        "{ type = \"reverse\", of = { type = \"threshold\", tau = 0.4, of = { type = \"reverse\", of = { type = \"facing\" } } } }",
+    ),
+    (
+        "threshold of threshold",
+        "{ type = \"threshold\", tau = 0.5, of = { type = \"reverse\", of = { type = \"threshold\", tau = 0.6, of = { type = \"facing\" } } } }",
+    ),
+];
+
+#[test]
+fn every_lobe_and_texture_agrees() {
+    for (name, material) in LOBES {
+        assert_agrees(name, &stage(material), &PlanOptions::default());
+    }
+}
+
+#[test]
+fn every_heuristic_agrees_for_both_ways_to_blend() {
+    for (name, weight) in HEURISTICS {
+        for mode in [BlendMode::Mixture, BlendMode::Pick] {
+            let mut scene = stage(&blend("red", "mirror", weight));
+            scene.render.blend = mode;
+            assert_agrees(&format!("{name}, {mode:?}"), &scene, &PlanOptions::default());
+        }
+    }
+}
+
+/// Pairs of every kind, nested blends, emission inside and beside blends, and what lets rays pass.
+#[test]
+fn every_kind_of_blend_agrees_in_every_way_to_run() {
+    let inner = |name: &str, body: &str| format!("\n[[material]]\nname = \"{name}\"\n{body}\n");
+    let half = "{ type = \"constant\", value = 0.5 }";
+    let facing = "{ type = \"facing\", power = 0.7 }";
+    let nested = blend("b", "c", facing)
+        + &inner("b", &blend("white", "gold", "{ type = \"texture\", texture = \"cells\" }"))
+        + &inner("c", &(blend("mirror", "d", half) + "\nemission = [0.3, 0.1, 0.2]"))
+        + &inner("d", &blend("red", "glow", "{ type = \"threshold\", tau = 0.5, of = { type = \"facing\" } }"));
+    let glass = "type = \"rough_glass\"\nroughness = 0.5";
+    let scenes = [
+        ("smooth and smooth", blend("red", "gold", facing)),
+        ("smooth and delta", blend("gold", "mirror", half)),
+        ("transmission", blend("red", "g", facing) + &inner("g", glass)),
+        ("nested", nested),
+        ("emission", blend("glow", "white", facing)),
+        ("emission from both sides", blend("glow-both", "mirror", "{ type = \"texture\", texture = \"checks\" }")),
+        ("emission beside", blend("red", "white", half) + "\nemission = { texture = \"cells\" }\nemission_two_sided = true"),
+        ("pass", blend("red", "gone", half)),
+        (
+            "pass through a mask",
+            blend("gone", "gold", "{ type = \"threshold\", tau = 0.5, of = { type = \"texture\", texture = \"clouds\" } }"),
+        ),
+    ];
+    let hierarchy = Some(GeometryPlacement::Hierarchy);
+    let ways = [
+        PlanOptions::default(),
+        PlanOptions { geometry: hierarchy, stages: Some(StageMode::Wavefront), ..PlanOptions::default() },
+    ];
+    for (index, (name, material)) in scenes.iter().enumerate() {
+        for (mode, way) in [(BlendMode::Mixture, &ways[index % 2]), (BlendMode::Pick, &ways[(index + 1) % 2])] {
+            let mut scene = stage(material);
+            scene.render.blend = mode;
+            scene.render.estimator = [Estimator::Mis, Estimator::Nee, Estimator::Bsdf][index % 3];
+            assert_agrees(&format!("{name}, {mode:?}"), &scene, way);
+        }
+    }
+}
+
+/// Passing through a surface is no edge: what lies behind is seen even by paths of one edge.
+#[test]
+fn passing_does_not_use_up_the_depth() {
+    for depth in [1, 2] {
+        let mut scene = stage(&blend("red", "gone", "{ type = \"constant\", value = 0.5 }"));
+        scene.render.max_depth = depth;
+        assert_agrees(&format!("depth {depth}"), &scene, &PlanOptions::default());
+        let wavefront = PlanOptions { stages: Some(StageMode::Wavefront), ..PlanOptions::default() };
+        assert_agrees(&format!("depth {depth}, wavefront"), &scene, &wavefront);
+    }
+}
+
+/// The comparison notices a weight that is off by 1 %.
+#[test]
+fn a_weight_off_by_a_hundredth_is_noticed() {
+    let scene = stage(&blend("white", "mirror", "{ type = \"constant\", value = 0.5 }"));
+    let off = stage(&blend("white", "mirror", "{ type = \"constant\", value = 0.51 }"));
+    let Some(device) = DEVICE.as_ref() else { return };
+    let mut gpu = gpt::gpu::GpuRenderer::on(device, &off, &PlanOptions::default()).expect("the scene fits");
+    let mut cpu = gpt::reference::ReferenceRenderer::new(&scene).expect("the scene is supported");
+    let verdict = gpt::verify::compare(&scene, device.name.clone(), &mut gpu, &mut cpu).expect("both render");
+    assert!(!verdict.agrees, "{verdict:#?}");
+    assert!(compare(&scene, &PlanOptions::default()).is_some_and(|verdict| verdict.agrees));
+}

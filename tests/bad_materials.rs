@@ -1,0 +1,186 @@
+//! Materials and blends that are wrong: each is one error that names the place, the key and what would be right. And some that look
+//! wrong and are not.
+
+mod common;
+
+use std::path::Path;
+
+use common::folder_with;
+use gpt::flat::{FlatError, FlatScene};
+use gpt::scene::{self, Scene, SceneError};
+
+const HEADER: &str = r#"
+[film]
+size = [4, 4]
+[camera]
+position = [0, 0, 5]
+look_at = [0, 0, 0]
+vfov = 40
+[[light]]
+type = "environment"
+radiance = 1
+[[shape]]
+type = "sphere"
+center = [0, 0, 0]
+radius = 1
+material = "m"
+[[texture]]
+name = "checks"
+type = "checker"
+a = 0
+b = 3
+[[material]]
+name = "white"
+type = "diffuse"
+reflectance = 1
+[[material]]
+name = "mirror"
+type = "mirror"
+"#;
+
+fn load_in(folder: &Path, materials: &str) -> Result<Scene, SceneError> {
+    scene::load_toml_str(&format!("{HEADER}{materials}"), "test.toml", folder)
+}
+
+fn load(materials: &str) -> Result<Scene, SceneError> {
+    load_in(Path::new(""), materials)
+}
+
+fn complaint(materials: &str) -> String {
+    match load(materials) {
+        Ok(_) => panic!("no complaint about\n{materials}"),
+        Err(error) => match error.help_text() {
+            Some(help) => format!("{error} [{help}]"),
+            None => error.to_string(),
+        },
+    }
+}
+
+fn material(body: &str) -> String {
+    format!("[[material]]\nname = \"m\"\n{body}\n")
+}
+
+fn blend(weight: &str) -> String {
+    material(&format!("type = \"blend\"\nmaterials = [\"white\", \"mirror\"]\nweight = {weight}"))
+}
+
+#[test]
+fn numbers_out_of_range_name_the_key_and_the_range() {
+    let rows = [
+        (blend("{ type = \"constant\", value = 1.5 }"), "material[2].weight.value: expected a number from 0 to 1, found 1.5"),
+        (blend("{ type = \"constant\", value = -0.1 }"), "material[2].weight.value: expected a number from 0 to 1, found -0.1"),
+        (blend("{ type = \"constant\", value = nan }"), "expected a number from 0 to 1, found NaN"),
+        (blend("{ type = \"facing\", power = -1 }"), "weight.power: expected a number from 0 to 1e18, found -1"),
+        (blend("{ type = \"facing\", power = inf }"), "weight.power: expected a number from 0 to 1e18, found inf"),
+        (blend("{ type = \"fresnel\", ior = 0 }"), "weight.ior: expected an index of refraction from 0.1 to 10, found 0"),
+        (blend("{ type = \"fresnel\", ior = -1.5 }"), "expected an index of refraction from 0.1 to 10, found -1.5"),
+        (blend("{ type = \"texture\", texture = \"absent\" }"), "there is no texture named `absent`"),
+        (blend("{ type = \"angle\" }"), "weight.type: `angle` is not a valid choice [valid choices: constant, facing"),
+        (blend("{ type = \"threshold\", tau = 0.5 }"), "material[2].weight: the key `of` is missing"),
+        (blend("0.5"), "weight"),
+        (material("type = \"glass\"\nior = 0"), "material[2].ior: expected an index of refraction from 0.1 to 10, found 0"),
+        (material("type = \"rough_glass\"\nroughness = 1.2"), "material[2].roughness: "),
+        (material("type = \"conductor\"\nreflectance = 0.5\nroughness = -0.1"), "expected a number from 0 to 1, found -0.1"),
+        (
+            material("type = \"conductor\"\npreset = \"tin\""),
+            "material[2].preset: `tin` is not a valid choice [valid choices: gold, copper",
+        ),
+        (
+            material("type = \"conductor\"\npreset = \"gold\"\neta = 1\nk = 1"),
+            "a conductor needs both `eta` and `k`, or `preset`",
+        ),
+        (material("type = \"conductor\"\neta = 1"), "a conductor needs both `eta` and `k`"),
+        (material("type = \"mirror\"\nreflectance = 1.01"), "expected a number from 0 to 1, found 1.01"),
+        (material("type = \"phong\"\ndiffuse = 0.6\nspecular = 0.5\nexponent = 9"), "diffuse + specular is at most 1"),
+        (material("type = \"phong\"\ndiffuse = 0.6\nspecular = 0.1\nexponent = -1"), "exponent"),
+        (
+            material("type = \"diffuse\"\nreflectance = { texture = \"checks\" }"),
+            "expected a number from 0 to 1, found 3 in the texture `checks`",
+        ),
+        (material("type = \"blend\"\nmaterials = [\"white\"]\nweight = { type = \"facing\" }"), "materials"),
+        (
+            material("type = \"blend\"\nmaterials = [\"white\", \"miror\"]\nweight = { type = \"facing\" }"),
+            "there is no material named `miror` [did you mean `mirror`?",
+        ),
+    ];
+    for (text, expected) in rows {
+        let complaint = complaint(&text);
+        assert!(complaint.starts_with("test.toml:") && complaint.contains(expected), "{text}\n{complaint}");
+    }
+}
+
+#[test]
+fn blends_in_a_circle_and_without_end_are_refused() {
+    let of = |name: &str, first: &str, second: &str| {
+        format!(
+            "[[material]]\nname = \"{name}\"\ntype = \"blend\"\nmaterials = [\"{first}\", \"{second}\"]\n\
+             weight = {{ type = \"facing\" }}\n"
+        )
+    };
+    assert!(complaint(&of("m", "white", "m")).contains("the blend `m` contains itself"));
+    let circle = of("m", "white", "a") + &of("a", "b", "mirror") + &of("b", "white", "m");
+    assert!(complaint(&circle).contains("contains itself"));
+    // Every level names the one before it twice: 2^17 leaves, then 2^64.
+    for levels in [17, 64] {
+        let mut doubling = of("l0", "white", "mirror");
+        for level in 1..levels {
+            doubling += &of(&format!("l{level}"), &format!("l{}", level - 1), &format!("l{}", level - 1));
+        }
+        let text = doubling + &of("m", &format!("l{}", levels - 1), "white");
+        assert!(complaint(&text).contains("is of more than 65536 materials"));
+    }
+}
+
+/// A chain of blends has a leaf and a weight more at every level, the weights of a leaf being those of its whole branch.
+#[test]
+fn a_chain_of_blends_as_long_as_it_may_be_is_packed_or_refused_by_name() {
+    let chain = |levels: usize| {
+        let mut text = String::new();
+        for level in 0..levels {
+            let name = if level + 1 == levels { "m".to_owned() } else { format!("l{level}") };
+            let below = if level == 0 { "mirror".to_owned() } else { format!("l{}", level - 1) };
+            text += &format!(
+                "[[material]]\nname = \"{name}\"\ntype = \"blend\"\nmaterials = [\"white\", \"{below}\"]\n\
+                 weight = {{ type = \"facing\" }}\n"
+            );
+        }
+        load(&text).unwrap_or_else(|error| panic!("{error}"))
+    };
+    assert!(FlatScene::new(&chain(40)).is_ok());
+    match FlatScene::new(&chain(3000)) {
+        Err(FlatError::TooManyWeights { limit, .. }) => assert_eq!(limit, 1 << 20),
+        other => panic!("{:?}", other.map(|_| ())),
+    }
+}
+
+#[test]
+fn masks_with_alpha_and_normal_maps_inside_blends_say_what_to_do() {
+    let mut rgba = Vec::new();
+    let pixels = image::RgbaImage::from_pixel(2, 2, image::Rgba([200, 100, 50, 128]));
+    pixels.write_to(&mut std::io::Cursor::new(&mut rgba), image::ImageFormat::Png).expect("encoding to memory works");
+    let folder = folder_with(&[("mask.png", &rgba)]);
+    let texture = "[[texture]]\nname = \"mask\"\ntype = \"image\"\nfile = \"mask.png\"\ncolor_space = \"linear\"\n";
+    let text = format!("{texture}{}", blend("{ type = \"texture\", texture = \"mask\" }"));
+    let error = load_in(folder.path(), &text).expect_err("alpha");
+    assert!(error.to_string().contains("whose alpha channel would have no effect"), "{error}");
+    let bumpy = "[[material]]\nname = \"bumpy\"\ntype = \"diffuse\"\nreflectance = 0.5\nnormal_map = \"mask\"\n";
+    let inside = material("type = \"blend\"\nmaterials = [\"bumpy\", \"white\"]\nweight = { type = \"facing\" }");
+    let error = load_in(folder.path(), &format!("{texture}{bumpy}{inside}")).expect_err("a normal map inside");
+    assert!(error.to_string().contains("`bumpy` has a normal map and is part of a blend"), "{error}");
+}
+
+/// What has a meaning is taken: x⁰ is 1 everywhere; a threshold's tau may be any number; a threshold of a threshold is one.
+#[test]
+fn limits_with_a_meaning_are_accepted() {
+    for weight in [
+        "{ type = \"facing\", power = 0 }",
+        "{ type = \"constant\", value = 0 }",
+        "{ type = \"constant\", value = 1 }",
+        "{ type = \"threshold\", tau = 2, of = { type = \"facing\" } }",
+        "{ type = \"threshold\", tau = -1, of = { type = \"facing\" } }",
+        "{ type = \"threshold\", tau = 0.5, of = { type = \"threshold\", tau = 0.2, of = { type = \"facing\" } } }",
+    ] {
+        let scene = load(&blend(weight)).unwrap_or_else(|error| panic!("{error}"));
+        assert!(FlatScene::new(&scene).is_ok(), "{weight}");
+    }
+}
