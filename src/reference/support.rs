@@ -41,8 +41,8 @@ fn settings(scene: &Scene) -> Check {
 }
 
 fn material(scene: &Scene, material: &Material) -> Check {
-    if material.normal_map.is_some() {
-        return refuse("normal maps");
+    if let Some(id) = material.normal_map {
+        texture(scene, id)?;
     }
     if let Some(emission) = &material.emission {
         color(scene, &emission.radiance)?;
@@ -51,7 +51,13 @@ fn material(scene: &Scene, material: &Material) -> Check {
         MaterialKind::Glass { ior, .. } | MaterialKind::RoughGlass { ior, .. } if !(ior.is_finite() && *ior > 0.0) => {
             Err(format!("{}: the index of refraction must be positive", material.name))
         }
-        MaterialKind::Blend { weight, .. } => heuristic(scene, weight),
+        MaterialKind::Blend { materials, weight } => {
+            let has_map = |id: &MaterialId| scene.materials.get(*id).is_some_and(|part| part.normal_map.is_some());
+            if materials.iter().any(has_map) {
+                return Err(format!("{}: the normal map of a blend is its own, not that of a part", material.name));
+            }
+            heuristic(scene, weight)
+        }
         kind => kind.colors().try_for_each(|input| color(scene, &input)),
     }
 }

@@ -1,6 +1,9 @@
 //! Closed forms of materials and blends: what a uniform environment of 1 shows of them, furnaces, and blended lights.
 
-use glam::DVec3;
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use glam::{DVec3, Vec2};
 use gpt::scene::*;
 
 use super::cases::{ALL, Case, push};
@@ -14,6 +17,7 @@ pub fn all() -> Vec<Case> {
     furnaces_of_blends(&mut cases);
     veils(&mut cases);
     blended_lights(&mut cases);
+    normal_maps(&mut cases);
     cases
 }
 
@@ -230,4 +234,42 @@ fn blended_lights(cases: &mut Vec<Case>) {
     shape(&mut scene, sphere(DVec3::Y * distance, radius), lamp);
     let expected = DVec3::new(1.0, 2.0, 4.0) * 0.25 * albedo * (radius / distance).powi(2);
     push_modes(cases, "blended sphere light", &scene, expected, &ALL);
+}
+
+/// A point light over a Lambert floor whose normal map turns every normal to n: ρ/π·I·(n·wi)/d². The same from below, where the
+/// turned normal is turned over as a whole.
+fn normal_maps(cases: &mut Vec<Case>) {
+    let (u, v) = (DVec3::X * 40.0, -DVec3::Z * 40.0);
+    let corner = -0.3 * (u + v);
+    // Along u, along v, along the normal.
+    let local = DVec3::new(0.3, -0.2, 0.8).normalize();
+    let normal = local.x * DVec3::X + local.y * -DVec3::Z + local.z * DVec3::Y;
+    let rectangle = Geometry::Rectangle { corner, edge_u: u, edge_v: v };
+    let mesh = |mirrored: bool| {
+        let positions = [corner, corner + u, corner + u + v, corner + v].map(DVec3::as_vec3).to_vec();
+        let mut uvs = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Vec2::from).to_vec();
+        if mirrored {
+            uvs.iter_mut().for_each(|uv| uv.x = 1.0 - uv.x);
+        }
+        Geometry::Mesh(Arc::new(Mesh { positions, uvs, faces: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() }))
+    };
+    let turned = DVec3::new(-normal.x, normal.y, normal.z);
+    let floors = [("rectangle", rectangle, normal), ("mesh", mesh(false), normal), ("mesh, u mirrored", mesh(true), turned)];
+    for (name, geometry, normal) in floors {
+        for (side, sign) in [("above", 1.0), ("below", -1.0)] {
+            let (wi, distance) = (DVec3::new(0.5, 1.0, 0.2).normalize() * sign, 2.0);
+            let mut scene = scene(4, camera(DVec3::new(0.6, 1.5, 0.8) * sign, DVec3::ZERO, 0.001));
+            scene.render.max_depth = 2;
+            let texel = local * 0.5 + 0.5;
+            let kind = TextureKind::Checker { a: texel, b: texel, scale: [1.0, 1.0] };
+            scene.textures.push(Texture { name: "normals".into(), kind });
+            let matte = diffuse(&mut scene, 0.6);
+            scene.materials[matte].normal_map = Some(0);
+            shape(&mut scene, geometry.clone(), matte);
+            scene.lights.push(Light::Point { position: wi * distance, intensity: DVec3::splat(3.0) });
+            let expected = 0.6 / PI * 3.0 * (normal * sign).dot(wi) / (distance * distance);
+            // The picture's edge sees the light at another angle, by 10⁻⁵.
+            push(cases, &format!("normal map of a {name}, {side}"), &scene, DVec3::splat(expected), &[Estimator::Mis]);
+        }
+    }
 }

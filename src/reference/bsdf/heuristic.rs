@@ -18,7 +18,7 @@ pub fn weight(heuristic: &Heuristic, lookup: &Lookup) -> f64 {
         Heuristic::Fresnel { ior, exact: false } => {
             1.0 - schlick_reflectance(cosine, DVec3::splat(normal_incidence_reflectance(ior))).x
         }
-        Heuristic::Texture { texture } => luminance(texture::look_up(lookup.scene, texture, lookup.uv)).clamp(0.0, 1.0),
+        Heuristic::Texture { texture } => luminance(texture::look_up(&lookup.scene.textures, texture, lookup.uv)).clamp(0.0, 1.0),
         Heuristic::Reverse { ref of } => 1.0 - weight(of, lookup),
         Heuristic::Threshold { tau, ref of } => {
             if weight(of, lookup) >= tau {

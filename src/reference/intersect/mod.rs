@@ -1,6 +1,7 @@
 //! Where rays meet surfaces, in f64.
 
 mod hierarchy;
+mod normal_map;
 mod primitive;
 mod triangle;
 mod world;

@@ -6,6 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 
+use super::normal_map::Tangents;
 use super::triangle::Triangle;
 use super::{PreparedRay, Ray, SurfacePoint};
 use crate::reference::frame::Frame;
@@ -152,6 +153,10 @@ impl Parallelogram {
         let position = self.corner + self.edge_u * local.x + self.edge_v * local.y;
         let magnitude = (self.corner.abs() + self.edge_u.abs() + self.edge_v.abs()).max_element();
         SurfacePoint::new(position, self.normal, magnitude)
+    }
+
+    pub fn tangents(&self) -> Tangents {
+        Tangents { along_u: if self.reversed { -self.edge_u } else { self.edge_u }, along_v: self.edge_v }
     }
 
     /// (0, 0) at the corner, u along the first edge as written.

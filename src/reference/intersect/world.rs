@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec2, DVec3, Vec3};
 
+use super::normal_map::{NormalMaps, Tangents};
 use super::primitive::{Disk, Local, Parallelogram, Plane, Primitive, Sphere};
 use super::{Hierarchy, PreparedRay, Ray, SurfacePoint, Triangle};
 use crate::reference::frame::Frame;
@@ -42,7 +43,7 @@ pub struct Surface {
     pub id: SurfaceId,
     pub owner: Owner,
     pub point: SurfacePoint,
-    /// Interpolated over the faces of smooth meshes, else the geometric normal.
+    /// Interpolated over the faces of smooth meshes, else the geometric normal; then bent by the material's normal map.
     pub shading_normal: DVec3,
     pub uv: DVec2,
 }
@@ -57,6 +58,7 @@ pub struct World {
     scene_order: Vec<usize>,
     planes: Vec<(Plane, Owner)>,
     shapes: Vec<ShapeData>,
+    normal_maps: NormalMaps,
 }
 
 /// What shading needs of a shape besides its primitives.
@@ -91,7 +93,8 @@ impl World {
         }
         let in_leaf_order = |original: &u32| collected.primitives[*original as usize].clone();
         let (primitives, owners) = leaf_order.iter().map(in_leaf_order).unzip();
-        Ok(Self { hierarchy, primitives, owners, scene_order, planes: collected.planes, shapes: collected.shapes })
+        let Collected { planes, shapes, .. } = collected;
+        Ok(Self { hierarchy, primitives, owners, scene_order, planes, shapes, normal_maps: NormalMaps::new(scene) })
     }
 
     /// Leaf-order places of all primitives, in the order of the scene file; planes are not among them.
@@ -167,17 +170,33 @@ impl World {
     pub fn surface_at(&self, place: usize, point: SurfacePoint, local: Local) -> Surface {
         let owner = self.owners[place];
         let shape = &self.shapes[owner.shape];
-        let (shading_normal, uv) = match &self.primitives[place] {
+        let on_sphere = || (shape.to_local * point.normal).normalize_or_zero();
+        let (normal, uv) = match &self.primitives[place] {
             Primitive::Triangle(_) => shape.interpolate(owner.part, local, point.normal),
-            Primitive::Sphere(_) => (point.normal, Sphere::uv((shape.to_local * point.normal).normalize_or_zero())),
+            Primitive::Sphere(_) => (point.normal, Sphere::uv(on_sphere())),
             Primitive::Parallelogram(parallelogram) => (point.normal, parallelogram.uv(local)),
             Primitive::Disk(_) => (point.normal, DVec2::ZERO),
         };
+        let shading_normal = self.normal_maps.bend(owner.material, normal, uv, || match &self.primitives[place] {
+            Primitive::Triangle(triangle) => shape.tangents(owner.part, triangle),
+            Primitive::Sphere(_) => Tangents::of_sphere(on_sphere()).map(|own| {
+                let to_world = shape.to_local.inverse();
+                Tangents { along_u: to_world * own.along_u, along_v: to_world * own.along_v }
+            }),
+            Primitive::Parallelogram(parallelogram) => Some(parallelogram.tangents()),
+            Primitive::Disk(_) => None,
+        });
         Surface { id: SurfaceId::Primitive(place), owner, point, shading_normal, uv }
     }
 }
 
 impl ShapeData {
+    /// Directions of the texture coordinates on a face of a mesh.
+    fn tangents(&self, face: usize, triangle: &Triangle) -> Option<Tangents> {
+        let uvs = &self.mesh.as_ref()?.uvs;
+        let [a, b, c] = self.faces[face].map(|corner| uvs.get(corner as usize).map(|uv| uv.as_dvec2()));
+        Tangents::of_triangle(triangle.corners.map(|corner| corner.as_dvec3()), [a?, b?, c?])
+    }
     /// Normal and texture coordinates on a face of a mesh.
     fn interpolate(&self, face: usize, local: Local, geometric_normal: DVec3) -> (DVec3, DVec2) {
         let Some(mesh) = &self.mesh else { return (geometric_normal, DVec2::ZERO) };

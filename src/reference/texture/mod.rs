@@ -16,14 +16,14 @@ mod worley;
 
 use glam::{DVec2, DVec3};
 
-use crate::scene::{ColorInput, Scene, TextureId, TextureKind};
+use crate::scene::{ColorInput, Scene, Texture, TextureId, TextureKind};
 
 /// The colour at `uv`.
 pub fn evaluate(scene: &Scene, input: &ColorInput, uv: DVec2) -> DVec3 {
     match *input {
         ColorInput::Constant(color) => color,
-        ColorInput::Texture(texture) => look_up(scene, texture, uv),
-        ColorInput::ScaledTexture(texture, factor) => factor * look_up(scene, texture, uv),
+        ColorInput::Texture(texture) => look_up(&scene.textures, texture, uv),
+        ColorInput::ScaledTexture(texture, factor) => factor * look_up(&scene.textures, texture, uv),
     }
 }
 
@@ -36,9 +36,9 @@ pub fn mean(scene: &Scene, input: &ColorInput) -> DVec3 {
     }
 }
 
-/// A texture's colour at `uv`.
-pub fn look_up(scene: &Scene, texture: TextureId, uv: DVec2) -> DVec3 {
-    match scene.textures[texture].kind {
+/// The colour of one of the scene's textures at `uv`.
+pub fn look_up(textures: &[Texture], texture: TextureId, uv: DVec2) -> DVec3 {
+    match textures[texture].kind {
         TextureKind::Image(ref image) => image::sample(image, uv),
         TextureKind::Checker { a, b, scale } => {
             if checker::is_first(uv, scale) {

@@ -1,0 +1,128 @@
+//! Normals read from textures.
+//!
+//! A texel's colour, red and green and blue times 2 minus 1, is a direction in the frame of the surface on its front side: red along
+//! the tangent, in which u grows; green along the bitangent, on the side where v grows; blue along the shading normal.
+
+use glam::{DVec2, DVec3};
+
+use crate::reference::texture;
+use crate::scene::{MaterialId, Scene, Texture, TextureId};
+
+/// The directions in which u and v grow, not of unit length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tangents {
+    pub along_u: DVec3,
+    pub along_v: DVec3,
+}
+
+impl Tangents {
+    /// Of the linear map from a triangle's uvs to its corners. None where the uvs span no area.
+    pub fn of_triangle([a, b, c]: [DVec3; 3], [uv_a, uv_b, uv_c]: [DVec2; 3]) -> Option<Self> {
+        let ((edge_b, edge_c), (uv_b, uv_c)) = ((b - a, c - a), (uv_b - uv_a, uv_c - uv_a));
+        let determinant = uv_b.perp_dot(uv_c);
+        // Only directions matter, so the determinant's sign is enough.
+        let sign = determinant.signum();
+        (determinant != 0.0).then(|| Self {
+            along_u: (edge_b * uv_c.y - edge_c * uv_b.y) * sign,
+            along_v: (edge_c * uv_b.x - edge_b * uv_c.x) * sign,
+        })
+    }
+
+    /// Of a sphere's coordinates, in its own space, at the point in the given direction. None at the poles.
+    pub fn of_sphere(direction: DVec3) -> Option<Self> {
+        let DVec3 { x, y, z } = direction;
+        let radius = x.hypot(z);
+        (radius > 0.0)
+            .then(|| Self { along_u: DVec3::new(-z, 0.0, x), along_v: DVec3::new(-y * x / radius, radius, -y * z / radius) })
+    }
+
+    /// The direction that a texel stands for about `normal`, the shading normal on the front side. The tangent is made perpendicular
+    /// to the normal, the bitangent to both.
+    fn direction(&self, normal: DVec3, texel: DVec3) -> Option<DVec3> {
+        let tangent = (self.along_u - normal * normal.dot(self.along_u)).try_normalize()?;
+        let across = normal.cross(tangent);
+        let bitangent = across * across.dot(self.along_v).signum();
+        let local = texel * 2.0 - 1.0;
+        (tangent * local.x + bitangent * local.y + normal * local.z).try_normalize()
+    }
+}
+
+/// The normal maps of a scene's materials.
+#[derive(Debug, Clone)]
+pub struct NormalMaps {
+    /// The scene's; images are shared.
+    textures: Vec<Texture>,
+    of_material: Vec<Option<TextureId>>,
+}
+
+impl NormalMaps {
+    pub fn new(scene: &Scene) -> Self {
+        let of_material: Vec<_> = scene.materials.iter().map(|material| material.normal_map).collect();
+        let any = of_material.iter().any(Option::is_some);
+        Self { textures: if any { scene.textures.clone() } else { Vec::new() }, of_material }
+    }
+
+    /// The shading normal as the material's map bends it; as it is where there is no map or no tangent.
+    pub fn bend(&self, material: MaterialId, normal: DVec3, uv: DVec2, tangents: impl FnOnce() -> Option<Tangents>) -> DVec3 {
+        let Some(texture) = self.of_material[material] else { return normal };
+        let texel = texture::look_up(&self.textures, texture, uv);
+        tangents().and_then(|tangents| tangents.direction(normal, texel)).unwrap_or(normal)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_flat_texel_leaves_the_normal() {
+        let tangents = Tangents { along_u: DVec3::new(2.0, 0.5, 0.0), along_v: DVec3::new(-0.3, 1.0, 0.4) };
+        let normal = DVec3::new(0.1, -0.2, 1.0).normalize();
+        let bent = tangents.direction(normal, DVec3::new(0.5, 0.5, 1.0)).expect("there is a tangent");
+        assert!((bent - normal).length() < 1e-15);
+    }
+
+    #[test]
+    fn red_bends_towards_u_and_green_towards_v() {
+        // v grows upward for one, downward for the other: a mirrored mapping.
+        for along_v in [DVec3::Y, -DVec3::Y] {
+            let tangents = Tangents { along_u: DVec3::X * 3.0, along_v };
+            let bent = |r, g| tangents.direction(DVec3::Z, DVec3::new(r, g, 1.0)).expect("there is a tangent");
+            assert!((bent(1.0, 0.5) - DVec3::new(1.0, 0.0, 1.0).normalize()).length() < 1e-15);
+            assert!((bent(0.5, 1.0) - (DVec3::Z + along_v).normalize()).length() < 1e-15);
+        }
+        assert_eq!(Tangents { along_u: DVec3::Z, along_v: DVec3::Y }.direction(DVec3::Z, DVec3::ONE), None);
+    }
+
+    /// Directions found by moving along the mapping itself.
+    #[test]
+    fn tangents_follow_the_coordinates() {
+        let corners = [DVec3::new(1.0, 0.2, 0.0), DVec3::new(3.0, 1.0, 0.5), DVec3::new(0.5, 2.0, 1.5)];
+        for uvs in [[[0.1, 0.2], [0.9, 0.3], [0.4, 0.8]], [[0.1, 0.2], [0.4, 0.8], [0.9, 0.3]]] {
+            let uvs = uvs.map(DVec2::from);
+            let Tangents { along_u, along_v } = Tangents::of_triangle(corners, uvs).expect("the uvs span an area");
+            // A step from the first corner by (s, t) of the edges changes uv by this; both directions step along one axis alone.
+            let change = |direction: DVec3| {
+                let (edge_b, edge_c) = (corners[1] - corners[0], corners[2] - corners[0]);
+                let normal = edge_b.cross(edge_c);
+                let (s, t) = (direction.cross(edge_c).dot(normal), edge_b.cross(direction).dot(normal));
+                ((uvs[1] - uvs[0]) * s + (uvs[2] - uvs[0]) * t) / normal.length_squared()
+            };
+            assert!(change(along_u).x > 0.0 && change(along_u).y.abs() < 1e-12);
+            assert!(change(along_v).y > 0.0 && change(along_v).x.abs() < 1e-12);
+        }
+        assert_eq!(Tangents::of_triangle(corners, [DVec2::ZERO, DVec2::ONE, DVec2::ONE * 2.0]), None);
+
+        for direction in [DVec3::new(0.3, 0.5, -0.8), DVec3::new(-0.6, -0.7, 0.1)].map(DVec3::normalize) {
+            let Tangents { along_u, along_v } = Tangents::of_sphere(direction).expect("this is no pole");
+            let change = |along: DVec3| {
+                let uv = |w: DVec3| super::super::Sphere::uv(w.normalize());
+                (uv(direction + along * 1e-6) - uv(direction - along * 1e-6)) / 2e-6
+            };
+            assert!(change(along_u).x > 0.0 && change(along_u).y.abs() < 1e-9);
+            assert!(change(along_v).y > 0.0 && change(along_v).x.abs() < 1e-9);
+            assert!(along_u.dot(direction).abs() < 1e-15 && along_v.dot(direction).abs() < 1e-15);
+        }
+        assert_eq!(Tangents::of_sphere(DVec3::Y), None);
+    }
+}
