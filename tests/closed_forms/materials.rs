@@ -17,7 +17,6 @@ pub fn all() -> Vec<Case> {
     furnaces_of_blends(&mut cases);
     veils(&mut cases);
     blended_lights(&mut cases);
-    normal_maps(&mut cases);
     cases
 }
 
@@ -238,7 +237,8 @@ fn blended_lights(cases: &mut Vec<Case>) {
 
 /// A point light over a Lambert floor whose normal map turns every normal to n: ρ/π·I·(n·wi)/d². The same from below, where the
 /// turned normal is turned over as a whole.
-fn normal_maps(cases: &mut Vec<Case>) {
+pub fn with_normal_maps() -> Vec<Case> {
+    let mut cases = Vec::new();
     let (u, v) = (DVec3::X * 40.0, -DVec3::Z * 40.0);
     let corner = -0.3 * (u + v);
     // Along u, along v, along the normal.
@@ -269,7 +269,8 @@ fn normal_maps(cases: &mut Vec<Case>) {
             scene.lights.push(Light::Point { position: wi * distance, intensity: DVec3::splat(3.0) });
             let expected = 0.6 / PI * 3.0 * (normal * sign).dot(wi) / (distance * distance);
             // The picture's edge sees the light at another angle, by 10⁻⁵.
-            push(cases, &format!("normal map of a {name}, {side}"), &scene, DVec3::splat(expected), &[Estimator::Mis]);
+            push(&mut cases, &format!("normal map of a {name}, {side}"), &scene, DVec3::splat(expected), &[Estimator::Mis]);
         }
     }
+    cases
 }
