@@ -60,13 +60,9 @@ def load(path, spp=None):
     # Both estimate the same integral whatever points and strategies they take.
     for key in ("sampler", "estimator", "heuristic", "seed"):
         render.take(key, None)
-    materials = {}
-    for table in root.take("material", []):
-        table = Table(table, f"material {table.get('name')!r}")
-        name = table.take("name")
-        materials[name] = material(table)
+    known = materials(root.take("material", []))
     for number, table in enumerate(root.take("shape", [])):
-        scene[f"shape_{number}"] = shape(Table(table, f"shape {number + 1}"), materials, path.parent)
+        scene[f"shape_{number}"] = shape(Table(table, f"shape {number + 1}"), known, path.parent)
     for number, table in enumerate(root.take("light", [])):
         scene[f"light_{number}"] = light(Table(table, f"light {number + 1}"))
     for table in (film, render, root):
@@ -115,33 +111,91 @@ def colour(value):
     return {"type": "rgb", "value": [float(part) for part in value] if isinstance(value, list) else [float(value)] * 3}
 
 
-def material(table):
-    """A material as its BSDF, and what it emits or None."""
+# Presets of gpt: eta and k in RGB, and Mitsuba's name of the metal, whose spectra it makes into RGB by itself.
+METALS = {
+    "gold": ([0.143119, 0.374957, 1.44248], [3.98316, 2.38572, 1.60322], "Au"),
+    "copper": ([0.200438, 0.924033, 1.10221], [3.91295, 2.45285, 2.14219], "Cu"),
+    "silver": ([0.155265, 0.116723, 0.138344], [4.82835, 3.12225, 2.14696], "Ag"),
+    "aluminium": ([1.65746, 0.880369, 0.521229], [9.22387, 6.26952, 4.837], "Al"),
+}
+
+
+def materials(tables):
+    """Every material by its name: its BSDF, and what it emits or None."""
+    found = {}
+    for entries in tables:
+        table = Table(entries, f"material {entries.get('name')!r}")
+        name = table.take("name")
+        bsdf, emitter = material(table, found)
+        # What reflects on the front only in Mitsuba reflects on both sides here; dielectrics have an inside.
+        is_closed = bsdf["type"] in ("dielectric", "roughdielectric")
+        found[name] = bsdf if is_closed else {"type": "twosided", "bsdf": bsdf}, emitter
+        table.finish()
+    return found
+
+
+def material(table, others):
+    """The BSDF of a material, one-sided, and what it emits or None; `others` are those that stand before it in the file."""
     kind = table.take("type")
-    emitter = None
     if kind == "diffuse":
-        bsdf = {"type": "diffuse", "reflectance": colour(table.take("reflectance"))}
-    elif kind == "mirror":
-        bsdf = {"type": "conductor", "material": "none", "specular_reflectance": colour(table.take("reflectance", 1.0))}
-    elif kind == "glass":
-        bsdf = {
-            "type": "dielectric",
-            "int_ior": float(table.take("ior", 1.5)),
-            "ext_ior": 1.0,
-            "specular_reflectance": colour(table.take("reflectance", 1.0)),
-            "specular_transmittance": colour(table.take("transmittance", 1.0)),
-        }
-    elif kind == "emissive":
+        return {"type": "diffuse", "reflectance": colour(table.take("reflectance"))}, None
+    if kind == "mirror":
+        return {"type": "conductor", "material": "none", "specular_reflectance": colour(table.take("reflectance", 1.0))}, None
+    if kind == "glass":
+        return dielectric("dielectric", table), None
+    if kind == "rough_glass":
+        table.only("distribution", ["ggx"], "ggx")
+        return dielectric("roughdielectric", table) | {"distribution": "ggx", "alpha": width(table)}, None
+    if kind == "conductor":
+        return conductor(table), None
+    if kind == "emissive":
         table.only("two_sided", [False], False)
-        bsdf = {"type": "diffuse", "reflectance": colour(0.0)}
-        emitter = {"type": "area", "radiance": colour(table.take("radiance"))}
-    else:
-        raise Refused(f"{table.where}: type `{kind}` is not translated")
-    table.finish()
-    return bsdf if kind == "glass" else {"type": "twosided", "bsdf": bsdf}, emitter
+        return {"type": "diffuse", "reflectance": colour(0.0)}, {"type": "area", "radiance": colour(table.take("radiance"))}
+    if kind == "blend":
+        return blend(table, others), None
+    raise Refused(f"{table.where}: type `{kind}` is not translated")
 
 
-def shape(table, materials, folder):
+def dielectric(plugin, table):
+    return {
+        "type": plugin,
+        "int_ior": float(table.take("ior", 1.5)),
+        "ext_ior": 1.0,
+        "specular_reflectance": colour(table.take("reflectance", 1.0)),
+        "specular_transmittance": colour(table.take("transmittance", 1.0)),
+    }
+
+
+def width(table, *default):
+    """The width of the GGX distribution."""
+    roughness = table.take("roughness", None)
+    return float(table.take("alpha", *default) if roughness is None else roughness**2)
+
+
+def conductor(table):
+    metal = table.take("preset", None)
+    eta, k = METALS[metal][:2] if metal in METALS else (table.take("eta"), table.take("k"))
+    alpha = width(table, 0.0)
+    return {"eta": colour(eta), "k": colour(k)} | ({"type": "conductor"} if alpha == 0 else {"type": ROUGH_CONDUCTOR, "distribution": "ggx", "alpha": alpha})
+
+
+# Mitsuba's own, whose shadowing is G1·G1, or one with the height-correlated one of this project (correlated_conductor.py).
+ROUGH_CONDUCTOR = "roughconductor"
+
+
+def blend(table, others):
+    """Mitsuba's weight is that of the second BSDF. It is right for smooth BSDFs only: delta lobes are refused."""
+    parts = [others[name][0].get("bsdf") for name in table.take("materials")]
+    if any(part is None or part["type"] in ("conductor", "dielectric") for part in parts):
+        raise Refused(f"{table.where}: Mitsuba's blend is wrong for delta lobes, and one-sided")
+    weight = Table(table.take("weight"), table.where)
+    weight.only("type", ["constant"], None)
+    result = {"type": "blendbsdf", "weight": 1.0 - float(weight.take("value")), "first": parts[0], "second": parts[1]}
+    weight.finish()
+    return result
+
+
+def shape(table, known, folder):
     kind = table.take("type")
     to_world = transform(table.take("transform", []))
     if kind == "mesh":
@@ -166,9 +220,9 @@ def shape(table, materials, folder):
     else:
         raise Refused(f"{table.where}: type `{kind}` is not translated")
     name = table.take("material")
-    if name not in materials:
+    if name not in known:
         raise Refused(f"{table.where}: there is no material `{name}`")
-    bsdf, emitter = materials[name]
+    bsdf, emitter = known[name]
     table.finish()
     result |= {"bsdf": bsdf, "to_world": mi.ScalarTransform4f(to_world)}
     return result if emitter is None else result | {"emitter": emitter}

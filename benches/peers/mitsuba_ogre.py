@@ -5,7 +5,7 @@ Both render the same seeds in turn, so that both meet the machine in the same st
 The verdict is Welch's t on the replications' means, of the whole picture per channel and of every tile and channel, corrected by Šidák;
 the same tests must then fail on gpt's pictures with one per cent of energy added. See README.md for the set-up.
 
-Exit status: 0 agreement, 1 no verdict, 7 a difference (or a negative control that did not fail).
+Exit status: 0 agreement, 1 no verdict (the negative control did not fail, or a renderer did), 7 a difference.
 """
 
 import argparse
@@ -19,10 +19,10 @@ from pathlib import Path
 
 import mitsuba as mi
 import numpy as np
-from scipy import stats
+
+from agreement import print_means, verdict
 
 HERE = Path(__file__).resolve().parent
-TILE = 32
 
 
 def arguments():
@@ -73,45 +73,6 @@ class Gpt:
         return np.array(bitmap, dtype=np.float64), figures["seconds"]["render"]
 
 
-def tile_means(pictures):
-    """Replications × tiles × channels; tiles at the right and lower edge may be smaller."""
-    _, height, width, _ = pictures.shape
-    rows, columns = range(0, height, TILE), range(0, width, TILE)
-    return np.stack(
-        [pictures[:, y : y + TILE, x : x + TILE].mean(axis=(1, 2)) for y in rows for x in columns], axis=1
-    )
-
-
-def p_values(first, second, alpha, offset=1e-4):
-    """Welch's t on the replications (first axis): the p-value of each mean, and the level below which Šidák's correction rejects it.
-
-    Differences up to a share `offset` of the mean are rounding and not judged."""
-    a, b = first.mean(axis=0), second.mean(axis=0)
-    spreads = [pictures.var(axis=0, ddof=1) / len(pictures) for pictures in (first, second)]
-    variance = spreads[0] + spreads[1]
-    excess = np.maximum(np.abs(a - b) - offset * np.maximum(np.abs(a), np.abs(b)), 0)
-    with np.errstate(divide="ignore", invalid="ignore"):  # no scatter at all, as in the sky: judged by the excess alone
-        degrees = variance**2 / sum(spread**2 / (len(p) - 1) for spread, p in zip(spreads, (first, second)))
-        p = np.where(variance > 0, 2 * stats.t.sf(excess / np.sqrt(variance), degrees), np.where(excess > 0, 0.0, 1.0))
-    p = np.where(np.isfinite(excess), p, 0.0)  # what is not a number never passes
-    return p, -np.expm1(np.log1p(-alpha) / p.size)
-
-
-def disagreements(ours, theirs, alpha):
-    """Counts of rejected channels and of rejected tiles × channels, after printing what was found."""
-    whole, level = p_values(ours.mean(axis=(1, 2)), theirs.mean(axis=(1, 2)), alpha)
-    tiles, tile_level = p_values(tile_means(ours), tile_means(theirs), alpha)
-    print(f"  whole picture: p = {', '.join(f'{p:.3g}' for p in whole)}; rejected below {level:.2g}")
-    print(f"  {tiles.size} tiles × channels: least p = {tiles.min():.2g}; rejected below {tile_level:.2g}: {(tiles < tile_level).sum()}")
-    return (whole < level).sum(), (tiles < tile_level).sum()
-
-
-def print_means(name, pictures):
-    means = pictures.mean(axis=(1, 2))
-    values, errors = means.mean(axis=0), means.std(axis=0, ddof=1) / np.sqrt(len(means))
-    print(f"{name:8} mean " + "  ".join(f"{value:.6f} ± {error:.6f}" for value, error in zip(values, errors)))
-
-
 def print_speed(name, pictures, seconds, spp):
     samples = pictures.shape[1] * pictures.shape[2] * spp
     rates = samples / np.array(seconds) / 1e6
@@ -144,25 +105,13 @@ def compare(options):
     print(f"gpt ({gpt.device}) is {np.median(ratios):.2f} times as fast as Mitsuba (paired: {ratios.min():.2f} to {ratios.max():.2f})")
     if options.keep:
         keep(options.keep, our_pictures.mean(axis=0), their_pictures.mean(axis=0))
-    return verdict(our_pictures, their_pictures, options.alpha)
+    return verdict("Mitsuba", our_pictures, their_pictures, options.alpha)
 
 
 def keep(folder, ours, theirs):
     folder.mkdir(parents=True, exist_ok=True)
     for name, picture in (("gpt", ours), ("mitsuba", theirs), ("difference", ours - theirs)):
         mi.Bitmap(picture.astype(np.float32)).write(str(folder / f"{name}.exr"))
-
-
-def verdict(ours, theirs, alpha):
-    print("gpt against Mitsuba:")
-    whole, tiles = disagreements(ours, theirs, alpha)
-    print("negative control, gpt with 1 % of energy added against Mitsuba:")
-    control, _ = disagreements(1.01 * ours, theirs, alpha)
-    if control == 0:
-        print("NO VERDICT: the test does not find 1 % of energy; render more samples")
-        return 7
-    print("AGREE: the differences are within the noise of both" if whole == tiles == 0 else "DIFFER")
-    return 0 if whole == tiles == 0 else 7
 
 
 def main():

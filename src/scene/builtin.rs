@@ -1,10 +1,31 @@
-//! Scenes that are part of the program.
+//! Scenes that are part of the program, and the files they name.
+
+use std::borrow::Cow;
+use std::io;
+use std::path::Path;
+
+/// The folder that built-in scenes lie in, as far as paths go: what they name is looked up among [`FILES`], not on disk.
+pub(super) const FOLDER: &str = "builtin:";
+
+/// Path within [`FOLDER`] and content of every file that built-in scenes name.
+const FILES: [(&str, &str); 2] = [
+    ("models/teapot.obj", include_str!("../../scenes/models/teapot.obj")),
+    ("models/knot.obj", include_str!("../../scenes/models/knot.obj")),
+];
 
 /// Name and text of every built-in scene; the first is the default.
-const SCENES: [(&str, &str); 7] = [
+const SCENES: [(&str, &str); 15] = [
     ("cornell", include_str!("../../scenes/cornell.toml")),
     ("spheres", include_str!("../../scenes/spheres.toml")),
     ("veach-mis", include_str!("../../scenes/veach-mis.toml")),
+    ("teapot-plastic", include_str!("../../scenes/teapot-plastic.toml")),
+    ("teapot-ceramic", include_str!("../../scenes/teapot-ceramic.toml")),
+    ("teapot-iridescent", include_str!("../../scenes/teapot-iridescent.toml")),
+    ("teapot-toon", include_str!("../../scenes/teapot-toon.toml")),
+    ("knot-plastic", include_str!("../../scenes/knot-plastic.toml")),
+    ("knot-ceramic", include_str!("../../scenes/knot-ceramic.toml")),
+    ("knot-iridescent", include_str!("../../scenes/knot-iridescent.toml")),
+    ("knot-toon", include_str!("../../scenes/knot-toon.toml")),
     ("furnace-lambert", include_str!("../../scenes/furnace-lambert.toml")),
     ("furnace-box", include_str!("../../scenes/furnace-box.toml")),
     ("furnace-glass", include_str!("../../scenes/furnace-glass.toml")),
@@ -19,4 +40,22 @@ pub fn builtin_names() -> impl Iterator<Item = &'static str> {
 /// The scene file of a built-in scene.
 pub fn builtin_text(name: &str) -> Option<&'static str> {
     SCENES.iter().find(|(other, _)| *other == name).map(|(_, text)| *text)
+}
+
+/// Whether there is such a file, on disk or in the program.
+pub(super) fn is_file(path: &Path) -> bool {
+    embedded(path).is_some() || path.is_file()
+}
+
+/// Reads a file from disk, or one that is part of the program.
+pub(super) fn read(path: &Path) -> io::Result<Cow<'static, [u8]>> {
+    match embedded(path) {
+        Some(text) => Ok(Cow::Borrowed(text.as_bytes())),
+        None => std::fs::read(path).map(Cow::Owned),
+    }
+}
+
+fn embedded(path: &Path) -> Option<&'static str> {
+    let within = path.strip_prefix(FOLDER).ok()?;
+    FILES.iter().find(|(name, _)| Path::new(name) == within).map(|(_, text)| *text)
 }

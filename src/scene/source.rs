@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::builtin::{builtin_names, builtin_text};
+use super::builtin::{FOLDER, builtin_names, builtin_text};
 use super::error::show;
 use super::{Scene, SceneError, file, framing};
 
@@ -43,7 +43,7 @@ impl SceneSource {
         match self {
             Self::BuiltIn(name) => {
                 let text = builtin_text(name).ok_or_else(|| SceneError::in_file(name, "is no built-in scene"))?;
-                file::load_toml_str(text, name, Path::new(""))
+                file::load_toml_str(text, name, Path::new(FOLDER))
             }
             Self::File(path) => {
                 let name = show(path);

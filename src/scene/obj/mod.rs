@@ -14,7 +14,7 @@ use glam::{Vec2, Vec3};
 use tobj::LoadOptions;
 
 use super::error::show;
-use super::{Mesh, SceneError};
+use super::{Mesh, SceneError, builtin};
 pub use mtl::{MtlMaterial, TextureMap};
 
 /// A model as its file describes it.
@@ -37,7 +37,7 @@ pub struct Part {
 /// Reads an OBJ file. Its MTL files are read only where `with_materials` asks for them; one that is missing is a warning.
 pub fn load(path: &Path, with_materials: bool) -> Result<ObjFile, SceneError> {
     let name = show(path);
-    let bytes = std::fs::read(path).map_err(|error| SceneError::in_file(&name, format!("cannot be read: {error}")))?;
+    let bytes = builtin::read(path).map_err(|error| SceneError::in_file(&name, format!("cannot be read: {error}")))?;
     // Names may be in any encoding; everything that matters is ASCII.
     let text = String::from_utf8_lossy(&bytes);
     let checked = check::check(&name, &text)?;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::{Vec2, Vec3};
 
 use super::Resolver;
+use crate::scene::builtin;
 use crate::scene::file::syntax::{MeshShape, ShapeEntry};
 use crate::scene::file::value::{Located, vector};
 use crate::scene::obj::{self, ObjFile, Part};
@@ -52,7 +53,7 @@ impl Resolver<'_> {
         if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj")) {
             return Err(self.error(&file.span, "a mesh file is an OBJ file: its name ends in .obj"));
         }
-        if !path.is_file() {
+        if !builtin::is_file(&path) {
             return Err(self.error(&file.span, format!("there is no file {}", show(&path))));
         }
         self.mesh_file(&path, written.smooth, material)
