@@ -5,11 +5,11 @@ The teapot (teapot.toml) is Lambert 0.8: directly, as the blend of white and bla
 each blend with `--blend pick` and `--blend mixture`. Every error is taken against two independent references R and S of the direct
 material: (mse(X, R) + mse(X, S) − mse(R, S)) / 2 is the error of X alone, whatever noise the references have left.
 
-Every picture has a seed of its own, so that equal errors are no matter of course. Last it says which of the blends are the direct
-material's picture bit for bit where the seed is the same.
+All ways take the same seeds, that is the same random numbers, and are compared seed by seed; `--own-seeds` gives each way seeds of its
+own, so that equal errors are no matter of course. Last it says which of the blends are the direct material's picture bit for bit.
 
-Writes a table of every picture and prints the median over the seeds of the ratio to the mean error of the direct material, with the
-least and the largest. Needs a built program and nothing beyond Python. plot.py draws the figure.
+Writes a table of every picture and prints the median over the seeds of the ratio to the direct material's error (with seeds of their own:
+to its mean), with the least and the largest. Needs a built program and nothing beyond Python. plot.py draws the figure.
 """
 
 import argparse
@@ -38,6 +38,7 @@ def arguments():
     parser.add_argument("--spp", type=int, nargs="+", default=[16, 64, 256, 1024], help="samples per pixel (default: 16 64 256 1024)")
     parser.add_argument("--seeds", type=int, default=4, help="pictures of each kind (default: 4)")
     parser.add_argument("--surfaces", nargs="+", choices=["different colours", "same colours"], default=["different colours", "same colours"])
+    parser.add_argument("--own-seeds", action="store_true", help="give each way seeds of its own")
     parser.add_argument("--reference-spp", type=int, default=1024, help="samples per pixel of each of the two references (default: 1024)")
     parser.add_argument("--size", default="650x540", help="size of the pictures (default: 650x540)")
     parser.add_argument("--sampler", default="halton", help="sampler of all pictures (default: halton)")
@@ -79,23 +80,24 @@ def measure(options):
         renderer = Renderer(options, folder)
         for spp in options.spp:
             for number, (surface, blend) in enumerate(options.methods):
-                for seed in range(1 + 100 * number, 1 + 100 * number + options.seeds):
+                first = 1 + (100 * number if options.own_seeds else 0)
+                for seed in range(first, first + options.seeds):
                     error = renderer.error(surface, blend, spp, seed)
-                    rows.append({"surface": surface, "blend": blend, "size": options.size, "spp": spp, "seed": seed, "mse": error})
+                    rows.append({"surface": surface, "blend": blend, "sampler": options.sampler, "size": options.size, "spp": spp, "seed": seed, "mse": error})
                 print(f"{spp} samples per pixel, {surface}, {blend} done", file=sys.stderr)
-            compare_to_direct(rows, spp)
+            compare_to_direct([row for row in rows if row["spp"] == spp], options.own_seeds)
             write(options.output, rows)
         for surface, blend in options.methods[1:]:
             report_identity(renderer, surface, blend, options.spp[0])
     return rows
 
 
-def compare_to_direct(rows, spp):
-    """Gives every row of so many samples its ratio to the direct material's mean error."""
-    rows = [row for row in rows if row["spp"] == spp]
-    direct = statistics.fmean(row["mse"] for row in rows if row["surface"] == "direct")
+def compare_to_direct(rows, own_seeds):
+    """Gives every row its ratio to the direct material's error with that seed, or to the mean of its errors."""
+    direct = {row["seed"]: row["mse"] for row in rows if row["surface"] == "direct"}
+    mean = statistics.fmean(direct.values())
     for row in rows:
-        row["ratio"] = row["mse"] / direct
+        row["ratio"] = row["mse"] / (mean if own_seeds else direct[row["seed"]])
 
 
 def report_identity(renderer, surface, blend, spp):
