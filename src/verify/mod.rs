@@ -19,8 +19,9 @@ use crate::render::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
 use crate::scene::Scene;
 use crate::statistics::image_tests::{ImageComparison, Picture, TileSettings, compare_paired};
 
-/// A path matches where all channels of its radiance agree to this share of the larger luminance.
-pub const PATH_TOLERANCE: f64 = 1e-4;
+/// A path matches where all channels of its radiance agree to this share of the largest. Single precision gives a normal on a
+/// curved mesh to some 1e-5, and a lobe of exponent 40 makes tens of times that of it.
+pub const PATH_TOLERANCE: f64 = 3e-4;
 /// Share of paths that must match.
 pub const LEAST_MATCHING: f64 = 0.99;
 /// Size of the longer side at which scenes are verified unless told otherwise.
