@@ -46,29 +46,38 @@ fn cell_bits(cell: u32, samples: u32, axis: usize, jitter: u32) -> u32 {
 /// A coordinate of `sample` by recursive quadrants, as a 32-bit fraction.
 ///
 /// The first 4 samples fall into the 4 quadrants of the square, the next 16 into those of the quadrants, the next 64 into theirs. Within
-/// such a level, any 4 successive samples from a multiple of 4 visit all quadrants, any 16 all of the next size, and so on. A line is
-/// cut into 4 parts, 16, 64 in the same manner.
+/// such a level, any 4 successive samples from a multiple of 4 visit all quadrants, any 16 all of the next size, and so on; in which
+/// order is random in each quadrant. A line is cut into 4 parts, 16, 64 in the same manner.
 pub fn quadrant_bits(seed: u32, dimension: Dimension, sample: u32) -> u32 {
     let (level, index) = level_of(sample);
     let key = |first| dimension_bits(dimension_bits(mix(seed ^ 0x3c6e_f372), first), level);
-    // The index has 2·level digits; the scrambling that follows leaves their blocks together.
-    let shuffled = |key: u32| {
-        let unused = u32::BITS - 2 * level;
-        u64::from(nested_scramble(((u64::from(index)) << unused) as u32, key)) >> unused
-    };
     match dimension.strata() {
         Strata::Line(first) => {
-            let order = shuffled(key(first));
+            // The lowest digit says which half.
+            let order = visiting_order(index, level, key(first));
             let interval = (0..2 * level).fold(0, |bits, digit| bits << 1 | order >> digit & 1);
-            fixed_point(interval, 2 * level, jitter(key(first), 0, sample))
+            fixed_point(scrambled(interval, level, mix(key(first))), 2 * level, jitter(key(first), 0, sample))
         }
         Strata::Square { first, axis } => {
-            let order = shuffled(key(first));
-            // The lowest digit names the largest quadrant.
-            let cell = (0..level).fold(0, |bits, digit| bits << 1 | order >> (2 * digit + axis as u32) & 1);
+            // The lowest pair of digits names the largest quadrant. Cells are numbered quadrant by quadrant (Morton order).
+            let order = visiting_order(index, level, key(first));
+            let number = (0..level).fold(0, |bits, digit| bits << 2 | order >> (2 * digit) & 3);
+            let number = scrambled(number, level, mix(key(first)));
+            let cell = (0..level).rev().fold(0, |bits, digit| bits << 1 | number >> (2 * digit + axis as u32) & 1);
             fixed_point(cell, level, jitter(key(first), axis as u32, sample))
         }
     }
+}
+
+/// The index within its level, its blocks of 4, 16, … in another order.
+fn visiting_order(index: u32, level: u32, key: u32) -> u64 {
+    scrambled(u64::from(index), level, key)
+}
+
+/// Nested scrambling of the 2·level digits of a number.
+fn scrambled(number: u64, level: u32, key: u32) -> u64 {
+    let unused = u32::BITS - 2 * level;
+    u64::from(nested_scramble((number << unused) as u32, key)) >> unused
 }
 
 /// The level, from 1, of a sample, and its number among the 4^level of that level.
