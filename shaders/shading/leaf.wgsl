@@ -231,31 +231,49 @@ fn reflection_probability(leaf: Leaf, reflected: f32) -> f32 {
     return select(0.0, reflection / total, total > 0.0);
 }
 
-// A direction about the shading normal in proportion to its cosine, and that cosine.
-fn sample_cosine(surface: Surface, u: f32, v: f32) -> vec4<f32> {
+// A direction about the shading normal in proportion to its cosine, or uniform, and its cosine.
+fn sample_hemisphere(surface: Surface, u: f32, v: f32) -> vec4<f32> {
     let circle = sin_cos_turns(v);
+#if UNIFORM_HEMISPHERE
+    let r = sqrt((1.0 - u) * (1.0 + u));
+    let cosine = u;
+#else
     let r = sqrt(u);
     let cosine = sqrt(1.0 - u);
+#endif
     let local = vec3<f32>(r * circle.y, r * circle.x, cosine);
     return vec4<f32>(frame_to_world(frame_from_normal(surface.shading_normal), local), cosine);
 }
 
+fn hemisphere_pdf(cosine: f32) -> f32 {
+#if UNIFORM_HEMISPHERE
+    return 0.5 * INVERSE_PI;
+#else
+    return cosine * INVERSE_PI;
+#endif
+}
+
 fn sample_diffuse(reflectance: vec3<f32>, surface: Surface, u: f32, v: f32) -> BsdfSample {
-    let direction = sample_cosine(surface, u, v);
+    let direction = sample_hemisphere(surface, u, v);
     let wi = direction.xyz;
     let cosine = direction.w;
     if cosine <= 0.0 || dot(wi, surface.facing_normal) <= 0.0 {
         return no_sample();
     }
-    return BsdfSample(wi, reflectance, cosine * INVERSE_PI, 1.0, false);
+#if UNIFORM_HEMISPHERE
+    let weight = reflectance * (2.0 * cosine);
+#else
+    let weight = reflectance;
+#endif
+    return BsdfSample(wi, weight, hemisphere_pdf(cosine), 1.0, false);
 }
 
 fn evaluate_diffuse(reflectance: vec3<f32>, surface: Surface, wi: vec3<f32>) -> BsdfValue {
     if !on_wo_side(surface, wi) {
         return no_value();
     }
-    let cosine = dot(wi, surface.shading_normal) * INVERSE_PI;
-    return BsdfValue(reflectance * cosine, cosine);
+    let cosine = dot(wi, surface.shading_normal);
+    return BsdfValue(reflectance * (cosine * INVERSE_PI), hemisphere_pdf(cosine));
 }
 
 #if COSINE_POWER
@@ -304,7 +322,7 @@ fn evaluate_phong(leaf: Leaf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) ->
     let share = phong_specular_share(leaf);
     return BsdfValue(
         (leaf.first * INVERSE_PI + specular) * cosine,
-        mix(cosine * INVERSE_PI, lobe, share)
+        mix(hemisphere_pdf(cosine), lobe, share)
     );
 }
 #endif
@@ -405,7 +423,7 @@ fn sample_leaf(leaf: Leaf, surface: Surface, wo: vec3<f32>, lobe: f32, u: f32, v
             if lobe < phong_specular_share(leaf) {
                 wi = sample_cosine_power(mirrored(surface, wo), leaf.scalar, u, v);
             } else {
-                wi = sample_cosine(surface, u, v).xyz;
+                wi = sample_hemisphere(surface, u, v).xyz;
             }
             return from_value(wi, evaluate_phong(leaf, surface, wo, wi), 1.0);
         }

@@ -7,8 +7,7 @@ use super::arguments::EstimateArguments;
 use super::exit::Failure;
 
 /// Flag and value of everything refused.
-const UNSUPPORTED: &[(&str, &str)] =
-    &[("--hemisphere", "uniform"), ("--light-sampling", "visible"), ("--light-sampling", "area")];
+const UNSUPPORTED: &[(&str, &str)] = &[("--light-sampling", "visible"), ("--light-sampling", "area")];
 
 /// Refuses the first flag whose value is not supported.
 ///
@@ -17,7 +16,6 @@ const UNSUPPORTED: &[(&str, &str)] =
 pub fn refuse(arguments: &EstimateArguments) -> Result<(), Failure> {
     check("--estimator", arguments.estimator)?;
     check("--heuristic", arguments.heuristic)?;
-    check("--hemisphere", arguments.hemisphere)?;
     check("--light-sampling", arguments.light_sampling)?;
     check("--blend", arguments.blend)
 }

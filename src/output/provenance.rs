@@ -42,6 +42,7 @@ impl Provenance {
             ("gpt:pixelSampler", text(&settings.pixel_sampler.name(settings.sampler))),
             ("gpt:estimator", text(&setting_name(settings.estimator))),
             ("gpt:heuristic", text(&setting_name(settings.heuristic))),
+            ("gpt:hemisphere", text(&setting_name(settings.hemisphere))),
             // As text, because a seed may need all 32 bits and the header's integers are signed.
             ("gpt:seed", Entry::Text(settings.seed.to_string())),
             ("gpt:maxDepth", Entry::Number(settings.max_depth)),

@@ -8,7 +8,7 @@ use crate::flat::primitive::{Primitive, PrimitiveKind};
 use crate::flat::texture::FlatTextureKind;
 use crate::sampling::Decorrelation;
 use crate::sampling::dimension::SEQUENCE_DIMENSIONS;
-use crate::scene::{ApertureShape, Filter, FilterKind, Projection};
+use crate::scene::{ApertureShape, Filter, FilterKind, HemisphereSampling, Projection};
 use crate::scene::{BlendMode, Estimator, MisHeuristic, PixelSampler, RenderSettings, Scene};
 use crate::shader::Switches;
 
@@ -71,6 +71,7 @@ pub const ALL: &[&str] = &[
     "TOP_IN_UNIFORM",
     "TRANSMISSIVE_SMOOTH",
     "TRIANGLES_IN_HIERARCHY",
+    "UNIFORM_HEMISPHERE",
     "UNIFORM_PRIMITIVES",
     "UNIFORM_TABLES",
     "WORLEY",
@@ -126,6 +127,7 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     switches.enable("HEURISTIC_POWER", render.heuristic == MisHeuristic::Power);
     switches.enable("ROULETTE", render.roulette_depth > 0);
     enable_sampler(&mut switches, render);
+    switches.enable("UNIFORM_HEMISPHERE", render.hemisphere == HemisphereSampling::Uniform);
     let blades = enable_camera(&mut switches, scene);
     switches.enable("FILM_TEXTURE", plan.film == FilmStorage::Texture);
 

@@ -2,8 +2,8 @@
 
 use crate::render::RenderError;
 use crate::scene::{
-    ColorInput, EnvironmentRadiance, Geometry, HemisphereSampling, Heuristic, Light, LightSampling, Material, MaterialId,
-    MaterialKind, Mesh, Scene, Shape, TextureId, TextureKind, check_blends,
+    ColorInput, EnvironmentRadiance, Geometry, Heuristic, Light, LightSampling, Material, MaterialId, MaterialKind, Mesh, Scene,
+    Shape, TextureId, TextureKind, check_blends,
 };
 
 /// Checks that every index of the scene is in range and that nothing is used that the reference cannot render.
@@ -31,7 +31,7 @@ fn settings(scene: &Scene) -> Check {
     if scene.film.size.contains(&0) {
         return Err("the picture has no pixels".into());
     }
-    if settings.hemisphere != HemisphereSampling::Cosine || settings.light_sampling != LightSampling::Cone {
+    if settings.light_sampling != LightSampling::Cone {
         return refuse("with other than cosine and cone sampling");
     }
     if settings.max_depth == 0 && settings.roulette_depth == 0 {

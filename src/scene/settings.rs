@@ -181,8 +181,11 @@ pub enum MisHeuristic {
     Balance,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+/// How directions over a diffuse surface are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum HemisphereSampling {
+    /// In proportion to the cosine with the normal.
     Cosine,
     Uniform,
 }

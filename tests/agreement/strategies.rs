@@ -122,3 +122,26 @@ fn another_camera_is_noticed() {
         assert!(!verdict.agrees && verdict.matching_share() < 0.97, "change {index}: {verdict:#?}");
     }
 }
+
+/// Diffuse lobes, alone and inside phong, over the uniform hemisphere. A device that samples the other one is noticed.
+#[test]
+fn uniform_hemispheres_agree() {
+    use gpt::scene::{ColorInput, HemisphereSampling, MaterialKind};
+    let mut scene = small("cornell", 32, 8);
+    scene.render.max_depth = 4;
+    let phong = |reflectance: &ColorInput| MaterialKind::Phong {
+        diffuse: *reflectance,
+        specular: ColorInput::grey(0.2),
+        exponent: ColorInput::grey(9.0),
+    };
+    if let Some(material) = scene.materials.iter_mut().find(|material| matches!(material.kind, MaterialKind::Diffuse { .. }))
+        && let MaterialKind::Diffuse { reflectance } = &material.kind
+    {
+        material.kind = phong(reflectance);
+    }
+    let cosine = scene.clone();
+    scene.render.hemisphere = HemisphereSampling::Uniform;
+    assert_agrees("uniform hemisphere", &scene, &PlanOptions::default());
+    let Some(verdict) = compare_unequal(&cosine, &scene) else { return };
+    assert!(verdict.matching_share() < 0.5, "{verdict:#?}");
+}

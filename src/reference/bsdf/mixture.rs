@@ -64,7 +64,7 @@ impl Lobes {
 impl Bsdf {
     /// `u_blend` picks the material where one is picked.
     pub fn new(scene: &Scene, surface: &Surface, wo: DVec3, u_blend: f64) -> Self {
-        let view = View::new(wo, surface.point.normal, surface.shading_normal);
+        let view = View::new(wo, surface.point.normal, surface.shading_normal).with_hemisphere(scene.render.hemisphere);
         let lookup = Lookup::new(scene, surface, &view);
         let material = surface.owner.material;
         if scene.render.blend == BlendMode::Pick {

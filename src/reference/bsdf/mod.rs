@@ -31,7 +31,7 @@ use glam::{DVec2, DVec3};
 use super::frame::Frame;
 use super::intersect::Surface;
 use super::texture;
-use crate::scene::{ColorInput, Scene};
+use crate::scene::{ColorInput, HemisphereSampling, Scene};
 
 /// How densely a direction was sampled.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,6 +80,8 @@ pub struct View {
     pub geometric_normal: DVec3,
     /// Around the shading normal.
     pub frame: Frame,
+    /// How diffuse lobes are sampled.
+    pub hemisphere: HemisphereSampling,
 }
 
 impl View {
@@ -91,7 +93,11 @@ impl View {
             // Near silhouettes an interpolated normal may turn away from the viewer; the true one does not.
             normal = geometric_normal;
         }
-        Self { wo, front, geometric_normal, frame: Frame::around(normal) }
+        Self { wo, front, geometric_normal, frame: Frame::around(normal), hemisphere: HemisphereSampling::Cosine }
+    }
+
+    pub fn with_hemisphere(self, hemisphere: HemisphereSampling) -> Self {
+        Self { hemisphere, ..self }
     }
 
     pub fn normal(&self) -> DVec3 {

@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_1_PI;
 
 use glam::DVec3;
 
+use super::diffuse::{hemisphere_pdf, sample_hemisphere};
 use super::glossy::{lobe_over_cosine, sample_about};
 use super::mirror::reflect;
 use super::{BsdfSample, Density, Evaluation, View};
@@ -32,7 +33,7 @@ impl Phong {
         let (cos_theta, cos_alpha) = (wi.dot(view.normal()), wi.dot(reflect(view)));
         let f = self.diffuse * FRAC_1_PI + self.specular * lobe_over_cosine(self.exponent, cos_alpha);
         let share = self.specular_share();
-        let pdf = share * warp::phong_lobe_pdf(self.exponent, cos_alpha) + (1.0 - share) * warp::cosine_hemisphere_pdf(cos_theta);
+        let pdf = share * warp::phong_lobe_pdf(self.exponent, cos_alpha) + (1.0 - share) * hemisphere_pdf(view, cos_theta);
         Evaluation { value: f * cos_theta, pdf }
     }
 
@@ -40,7 +41,7 @@ impl Phong {
         let wi = if u_lobe < self.specular_share() {
             sample_about(reflect(view), self.exponent, u1, u2).0
         } else {
-            view.frame.to_world(warp::cosine_hemisphere(u1, u2))
+            view.frame.to_world(sample_hemisphere(view, u1, u2))
         };
         let Evaluation { value, pdf } = self.evaluate(view, wi);
         (pdf > 0.0).then_some(BsdfSample { weight: value / pdf, ..BsdfSample::reflected(wi, Density::Smooth(pdf)) })

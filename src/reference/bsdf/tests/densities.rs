@@ -168,3 +168,29 @@ fn mixtures_are_the_sums_of_their_lobes() {
         }
     }
 }
+
+/// Diffuse lobes over the uniform hemisphere: samples follow the other density, and their mean weight is the same reflectance.
+#[test]
+fn uniform_hemispheres_have_their_own_density_and_the_same_reflectance() {
+    for (seed, (lobe, tilt)) in (7_u64..).zip([(diffuse(orange()), 0.0), (diffuse(orange()), 25.0), (phong(0.6, 0.3, 5.0), 0.0)])
+    {
+        let cosine = single(lobe, view(35.0, tilt));
+        let uniform = single(lobe, view(35.0, tilt).with_hemisphere(HemisphereSampling::Uniform));
+        let report = follow(&uniform, seed << 32, 200_000);
+        assert!(report.passes(sidak(0.01, 3)), "{report:?}");
+        // Samples of the one do not follow the density of the other.
+        let bins = SphereBins::with_cosine_edges(cosine.view.normal(), &[0.2, 0.4, 0.6, 0.8], 4);
+        let mixed_up = test_directional_sampler(&bins, 200_000, seed, |u| smooth_part(&uniform, u), |wi| cosine.evaluate(wi).pdf);
+        assert!(!mixed_up.passes(1e-6), "{mixed_up:?}");
+        let side = 128;
+        let mean = |bsdf: &Bsdf| {
+            let at = |i: u32| (f64::from(i) + 0.5) / f64::from(side);
+            let grid =
+                (0..side * side * 8).map(|i| (at(i % side), at(i / side % side), (f64::from(i / (side * side)) + 0.5) / 8.0));
+            let weights = grid.filter_map(|(u1, u2, lobe)| bsdf.sample(lobe, u1, u2)).map(|sample| sample.weight);
+            weights.sum::<DVec3>() / f64::from(side * side * 8)
+        };
+        let (a, b) = (mean(&cosine), mean(&uniform));
+        assert!((a - b).abs().max_element() < 0.02 * a.max_element(), "{a} {b}");
+    }
+}

@@ -31,6 +31,7 @@ impl Resolver<'_> {
         render.pixel_sampler = written.pixel_sampler.map_or(render.pixel_sampler, Into::into);
         render.estimator = written.estimator.unwrap_or(render.estimator);
         render.heuristic = written.heuristic.unwrap_or(render.heuristic);
+        render.hemisphere = written.hemisphere.unwrap_or(render.hemisphere);
         render.seed = written.seed.unwrap_or(render.seed);
         if let Some(depth) = &written.roulette_depth {
             render.roulette_depth = depth.value;

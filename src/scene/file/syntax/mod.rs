@@ -23,7 +23,7 @@ pub use shape::{BoxShape, MeshShape, RectangleShape, ShapeEntry, StepEntry, Tran
 pub use texture::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 
 use super::value::{Checked, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
-use crate::scene::{Estimator, MisHeuristic, PixelSamplerName, SamplerKind};
+use crate::scene::{Estimator, HemisphereSampling, MisHeuristic, PixelSamplerName, SamplerKind};
 
 /// A scene of the path tracer gpt. Lengths in scene units, angles in degrees, colours linear Rec.709, radiance in W·sr⁻¹·m⁻².
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -86,6 +86,8 @@ pub struct RenderTable {
     pub pixel_sampler: Option<PixelSamplerName>,
     pub estimator: Option<Estimator>,
     pub heuristic: Option<MisHeuristic>,
+    /// How directions over a diffuse surface are drawn.
+    pub hemisphere: Option<HemisphereSampling>,
     /// First depth at which Russian roulette may end a path, 0 = never. 5 when left out.
     pub roulette_depth: Option<Located<u32>>,
     /// Key of every random number, 0 when left out.
