@@ -54,7 +54,7 @@ def measure(options):
                     times = time_of(scenes[surface], blend, spp, options, Path(folder))
                     direct = direct or times
                     ratios = {f"{name} ratio": times[name] / direct[name] for name in times}
-                    rows.append({"surface": surface, "blend": blend, "spp": spp, "round": number, **times, **ratios})
+                    rows.append({"surface": surface, "blend": blend, "size": options.size, "spp": spp, "round": number, **times, **ratios})
                 print(f"{spp} samples per pixel, round {number} of {rounds} done", file=sys.stderr)
                 write(options.output, rows)
     return rows
