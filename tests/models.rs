@@ -6,11 +6,11 @@ use gpt::scene::{self, Geometry, Mesh};
 
 fn model(scene: &str) -> Mesh {
     let scene = scene::load(Some(scene)).unwrap_or_else(|error| panic!("{error}"));
-    let meshes = scene.shapes.iter().filter_map(|shape| match &shape.geometry {
+    let mut meshes = scene.shapes.iter().filter_map(|shape| match &shape.geometry {
         Geometry::Mesh(mesh) => Some((**mesh).clone()),
         _ => None,
     });
-    meshes.last().unwrap_or_else(|| panic!("{} has no mesh", scene.name))
+    meshes.next().unwrap_or_else(|| panic!("{} has no mesh", scene.name))
 }
 
 /// Faces with a corner whose normal points to the other side, or nearly so.
