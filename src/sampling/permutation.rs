@@ -57,9 +57,9 @@ mod tests {
 
     #[test]
     fn nested_scrambling_keeps_what_numbers_share() {
-        for (a, b) in [(0x1234_5678, 0x1234_0000), (0, 1), (u32::MAX, 0x7fff_ffff), (0xff00_0000, 0xff80_0000)] {
+        for (a, b) in [(0x1234_5678_u32, 0x1234_0000_u32), (0, 1), (u32::MAX, 0x7fff_ffff), (0xff00_0000, 0xff80_0000)] {
             for key in 0..50 {
-                let shared = (a ^ b as u32).leading_zeros();
+                let shared = (a ^ b).leading_zeros();
                 assert_eq!((nested_scramble(a, key) ^ nested_scramble(b, key)).leading_zeros(), shared);
             }
         }
