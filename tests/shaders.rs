@@ -51,28 +51,47 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
             wanted.extend(needed);
         }
     }
-    let lights = ["FLAT_LIGHTS", "SPHERE_LIGHTS", "POINT_LIGHTS", "ENVIRONMENT_LIGHT", "ONE_LIGHT"];
+    for (name, needed) in [
+        ("ENVIRONMENT_LIGHT", &["ENVIRONMENT_SAMPLED"][..]),
+        ("PORTALS", &["ENVIRONMENT_SAMPLED"]),
+        ("ENVIRONMENT_SAMPLED", &["ENVIRONMENT", "LIGHTS"]),
+        ("ENVIRONMENT_MAP", &["ENVIRONMENT", "TEXELS"]),
+        ("IMAGES", &["TEXELS"]),
+        ("SPHERE_LIGHTS_VISIBLE_HALF", &["SPHERE_LIGHTS_BY_POINT"]),
+    ] {
+        if wanted.contains(name) {
+            wanted.extend(needed);
+        }
+    }
+    let lights = ["DIRECTIONAL_LIGHTS", "FLAT_LIGHTS", "SPHERE_LIGHTS", "POINT_LIGHTS", "SPOT_LIGHTS", "ONE_LIGHT"];
     if !wanted.contains("LIGHTS") {
         for light in lights {
             wanted.remove(light);
         }
-    }
-    if wanted.contains("ENVIRONMENT_LIGHT") {
-        wanted.insert("ESTIMATOR_NEE");
     }
     if wanted.contains("ESTIMATOR_NEE") {
         wanted.remove("ESTIMATOR_MIS");
     }
     let constants = [
         "BLADES",
+        "ENVIRONMENT_FIRST_COLUMN",
+        "ENVIRONMENT_FIRST_ROW",
+        "ENVIRONMENT_FIRST_TEXEL",
+        "ENVIRONMENT_GRID_HEIGHT",
+        "ENVIRONMENT_GRID_WIDTH",
+        "ENVIRONMENT_HEIGHT",
+        "ENVIRONMENT_LIGHT_INDEX",
+        "ENVIRONMENT_WIDTH",
         "FILM_WIDTH",
         "FIRST_HEURISTIC_WORD",
         "FIRST_LEAF_WORD",
         "FIRST_LIGHT_WORD",
+        "FIRST_PORTAL",
         "FIRST_TEXTURE_WORD",
         "LIGHT_COUNT",
         "MAX_DEPTH",
         "PATH_CAPACITY",
+        "PORTAL_COUNT",
         "PRIMITIVE_WORDS",
         "RAYS_PER_INVOCATION",
         "ROULETTE_DEPTH",
@@ -181,7 +200,21 @@ fn layouts_match_between_wgsl_and_rust() {
         seed
     );
     check!(EdgeParameters, "EdgeParameters", edge, queue, padding);
-    check!(View, "View", position, corner, step_x, step_y, forward, lens_u, lens_v, environment, filter_curve);
+    check!(
+        View,
+        "View",
+        position,
+        corner,
+        step_x,
+        step_y,
+        forward,
+        lens_u,
+        lens_v,
+        environment,
+        sky_zenith,
+        sky_ground,
+        filter_curve
+    );
 }
 
 /// Packed records are whole numbers of vec4: the shaders index them in words of 16 bytes.

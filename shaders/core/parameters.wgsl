@@ -38,7 +38,12 @@ struct View {
     lens_u: vec4<f32>,
     // Likewise upward; rotation of a polygon in turns.
     lens_v: vec4<f32>,
+    // Radiance of a constant environment or at a sky's horizon; rotation of a map in turns.
     environment: vec4<f32>,
+    // Radiance at a sky's zenith; share of the upper half in the sky's luminance.
+    sky_zenith: vec4<f32>,
+    // Radiance below the horizon; 1 over the integral of luminance over all directions.
+    sky_ground: vec4<f32>,
     // Inverse cumulative distribution of the filter: coefficients of 1, s, s^2, s^3, piece by piece.
     filter_curve: array<vec4<f32>, 32>,
 }

@@ -25,7 +25,7 @@
 //   (n0, u0), (n1, v0), (n2, u1), (v1, u2, v2, -)
 @group(0) @binding(7) var<storage, read> attributes: array<vec4<f32>>;
 #endif
-#if TEXTURES
+#if TEXELS
 @group(0) @binding(8) var<storage, read> texels: array<f32>;
 #endif
 

@@ -2,7 +2,14 @@
 #import core/math.wgsl
 #import core/sampler.wgsl
 #import geometry/scene.wgsl
+#import shading/sphere_light.wgsl
 #import shading/surface.wgsl
+#if ENVIRONMENT
+#import shading/environment.wgsl
+#endif
+#if PORTALS
+#import shading/portal.wgsl
+#endif
 #if TEXTURES
 #import shading/texture.wgsl
 #endif
@@ -16,6 +23,9 @@ const LIGHT_SPHERE: u32 = 2u;
 const LIGHT_DISK: u32 = 3u;
 const LIGHT_POINT: u32 = 4u;
 const LIGHT_ENVIRONMENT: u32 = 5u;
+const LIGHT_SPOT: u32 = 6u;
+const LIGHT_DIRECTIONAL: u32 = 7u;
+const LIGHT_PORTAL: u32 = 8u;
 
 const LIGHT_TWO_SIDED: u32 = 256u;
 // The radiance is that of the whole material, seen from the light's normal.
@@ -27,19 +37,6 @@ const LIGHT_BLENDED: u32 = 512u;
 fn light_word(light: u32, word: u32) -> vec4<f32> {
     return tables[FIRST_LIGHT_WORD + light * 5u + word];
 }
-
-struct LightSample {
-    wi: vec3<f32>,
-    // Distance at which the shadow ray ends, just before the light.
-    distance: f32,
-    // 0 where the light does not reach the point.
-    radiance: vec3<f32>,
-    // Density of wi, the choice of the light included; negative for a delta light.
-    pdf_solid_angle: f32,
-}
-
-// A shadow ray ends this much of its length early, on top of the light's own error: one rounding error of its distance.
-const SHADOW_SHORTENING: f32 = 0.999999;
 
 #if LIGHTS
 #if BLENDED_LIGHTS
@@ -97,10 +94,6 @@ fn choose_light(bits: u32) -> u32 {
 #endif
 }
 
-fn no_light() -> LightSample {
-    return LightSample(vec3<f32>(0.0, 0.0, 1.0), 0.0, vec3<f32>(0.0), 1.0);
-}
-
 // A point on a flat light, seen from `reference`: density by area turned into density by solid angle.
 fn flat_light_sample(
     reference: vec3<f32>, point: vec3<f32>, normal: vec3<f32>, area: f32, error: f32, radiance: vec3<f32>, two_sided: bool, pmf: f32
@@ -118,41 +111,34 @@ fn flat_light_sample(
     return LightSample(wi, (distance - early) * SHADOW_SHORTENING, radiance, pmf * distance2 / (abs(cosine) * area));
 }
 
-#if SPHERE_LIGHTS
-fn sphere_light_sample(
-    reference: vec3<f32>, center: vec3<f32>, radius: f32, radiance: vec3<f32>, two_sided: bool, pmf: f32, u: f32, v: f32
-) -> LightSample {
-    let to_center = center - reference;
-    let center_distance2 = dot(to_center, to_center);
-    let circle = sin_cos_turns(v);
-    let error = POINT_ERROR * (max_component(abs(center)) + radius);
-    if center_distance2 <= radius * radius {
-        // From inside, light comes from everywhere.
-        if !two_sided {
-            return no_light();
-        }
-        let cosine = 1.0 - 2.0 * u;
-        let sine = sqrt(max(0.0, (1.0 - cosine) * (1.0 + cosine)));
-        let wi = vec3<f32>(sine * circle.y, sine * circle.x, cosine);
-        let along = dot(to_center, wi);
-        let across = to_center - along * wi;
-        let distance = along + sqrt(max(0.0, radius * radius - dot(across, across)));
-        return LightSample(wi, max(0.0, distance * SHADOW_SHORTENING - 4.0 * error), radiance, pmf * 0.25 * INVERSE_PI);
+#if SPOT_LIGHTS
+// 1 inside the inner angle, 0 past the outer, between them Hermite's smooth step in the cosine. `limits` are 1 - cosine of the outer and
+// the inner angle: written that way, narrow cones keep their precision.
+fn spot_falloff(wi: vec3<f32>, axis: vec3<f32>, limits: vec2<f32>) -> f32 {
+    let apart = wi + axis;
+    let from_axis = 0.5 * dot(apart, apart);
+    if from_axis <= limits.y {
+        return 1.0;
     }
-    let center_distance = sqrt(center_distance2);
-    let sin2_max = radius * radius / center_distance2;
-    let one_minus_cos_max = sin2_max / (1.0 + sqrt(max(0.0, 1.0 - sin2_max)));
-    let one_minus_cos = u * one_minus_cos_max;
-    let sin2 = one_minus_cos * (2.0 - one_minus_cos);
-    let cosine = 1.0 - one_minus_cos;
-    let sine = sqrt(sin2);
-    let frame = frame_from_normal(to_center / center_distance);
-    let wi = frame_to_world(frame, vec3<f32>(sine * circle.y, sine * circle.x, cosine));
-    let half_chord = sqrt(max(0.0, radius * radius - center_distance2 * sin2));
-    let distance = center_distance * cosine - half_chord;
-    // At grazing angles the chord is short and its end ill defined along wi: stay away from it by the error over the cosine there.
-    let early = min(error * radius / max(half_chord, 1.0e-3 * radius), 0.5 * distance);
-    return LightSample(wi, (distance - early) * SHADOW_SHORTENING, radiance, pmf / (TWO_PI * one_minus_cos_max));
+    if from_axis >= limits.x {
+        return 0.0;
+    }
+    let t = (limits.x - from_axis) / (limits.x - limits.y);
+    return t * t * (3.0 - 2.0 * t);
+}
+#endif
+
+#if ENVIRONMENT_SAMPLED
+// Density with which light sampling from `ray.origin` draws the ray's direction for the environment, by whichever way.
+fn environment_pdf_solid_angle(ray: Ray) -> f32 {
+    var pdf = 0.0;
+#if ENVIRONMENT_LIGHT
+    pdf += light_word(ENVIRONMENT_LIGHT_INDEX, 0u).w * environment_itself_pdf(ray.direction);
+#endif
+#if PORTALS
+    pdf += portals_pdf(ray);
+#endif
+    return pdf;
 }
 #endif
 
@@ -236,13 +222,46 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
             return LightSample(to_light / distance, distance * SHADOW_SHORTENING, l4.xyz / (distance2 * pmf), -1.0);
         }
 #endif
+#if SPOT_LIGHTS
+        case LIGHT_SPOT: {
+            let to_light = l1.xyz - reference;
+            let distance2 = dot(to_light, to_light);
+            if distance2 == 0.0 {
+                return no_light();
+            }
+            let distance = sqrt(distance2);
+            let wi = to_light / distance;
+            let intensity = l4.xyz * spot_falloff(wi, light_word(light, 2u).xyz, light_word(light, 3u).xy);
+            return LightSample(wi, distance * SHADOW_SHORTENING, intensity / (distance2 * pmf), -1.0);
+        }
+#endif
+#if DIRECTIONAL_LIGHTS
+        case LIGHT_DIRECTIONAL: {
+            return LightSample(light_word(light, 2u).xyz, INFINITY_DISTANCE, l4.xyz / pmf, -1.0);
+        }
+#endif
 #if ENVIRONMENT_LIGHT
         case LIGHT_ENVIRONMENT: {
-            let cosine = 1.0 - 2.0 * u;
-            let sine = sqrt(max(0.0, (1.0 - cosine) * (1.0 + cosine)));
-            let circle = sin_cos_turns(v);
-            let wi = vec3<f32>(sine * circle.y, sine * circle.x, cosine);
-            return LightSample(wi, INFINITY_DISTANCE, l4.xyz, pmf * 0.25 * INVERSE_PI);
+            let drawn = sample_environment(bits.y, bits.z);
+            var pdf = pmf * drawn.pdf_solid_angle;
+#if PORTALS
+            pdf += portals_pdf(Ray(reference, drawn.wi));
+#endif
+            if pdf <= 0.0 {
+                return no_light();
+            }
+            return LightSample(drawn.wi, INFINITY_DISTANCE, drawn.radiance, pdf);
+        }
+#endif
+#if PORTALS
+        case LIGHT_PORTAL: {
+            let wi = sample_portal(light, reference, u, v);
+            let pdf = environment_pdf_solid_angle(Ray(reference, wi));
+            // By rounding, a direction to a portal's very edge may miss it.
+            if pdf <= 0.0 {
+                return no_light();
+            }
+            return LightSample(wi, INFINITY_DISTANCE, environment_radiance(wi), pdf);
         }
 #endif
         default: {
@@ -260,14 +279,15 @@ fn light_pdf_solid_angle(ray: Ray, surface: Surface) -> f32 {
     let pmf = light_word(surface.light, 0u).w;
 #if SPHERE_LIGHTS
     if surface.area == 0.0 {
+#if SPHERE_LIGHTS_BY_POINT
         let to_center = surface.sphere.xyz - ray.origin;
-        let center_distance2 = dot(to_center, to_center);
-        let radius2 = surface.sphere.w * surface.sphere.w;
-        if center_distance2 <= radius2 {
-            return pmf * 0.25 * INVERSE_PI;
-        }
-        let sin2_max = radius2 / center_distance2;
-        return pmf * (1.0 + sqrt(max(0.0, 1.0 - sin2_max))) / (TWO_PI * sin2_max);
+        let outside = dot(to_center, to_center) > surface.sphere.w * surface.sphere.w;
+        let to_point = surface.position - ray.origin;
+        let area = sphere_sampled_area(surface.sphere.w, outside);
+        return pmf * dot(to_point, to_point) / (abs(dot(ray.direction, surface.facing_normal)) * area);
+#else
+        return pmf * sphere_cone_pdf(ray.origin, surface.sphere.xyz, surface.sphere.w);
+#endif
     }
 #endif
     let to_light = surface.position - ray.origin;

@@ -73,13 +73,14 @@ fn no_shadow() -> ShadowRay {
 // Radiance that a path gains where its ray leaves the scene.
 fn escaped_radiance(path: Path) -> vec3<f32> {
 #if ENVIRONMENT
-#if ENVIRONMENT_LIGHT
-    // Under `nee` the environment is a light of its own, found by light sampling alone.
+    let radiance = path.throughput * environment_radiance(path.ray.direction);
+#if ENVIRONMENT_SAMPLED
+    // After the camera or a delta lobe no light sample could have found it.
     if path.pdf_solid_angle >= 0.0 {
-        return vec3<f32>(0.0);
+        return radiance * emission_weight(path.pdf_solid_angle, environment_pdf_solid_angle(path.ray));
     }
 #endif
-    return path.throughput * view.environment.xyz;
+    return radiance;
 #else
     return vec3<f32>(0.0);
 #endif

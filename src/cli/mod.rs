@@ -12,7 +12,6 @@ mod render;
 mod settings;
 mod stats;
 mod terminal;
-mod unsupported;
 mod verify;
 
 use std::process::ExitCode;

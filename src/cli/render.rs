@@ -13,12 +13,11 @@ use super::exit::{Exit, Failure};
 use super::pictures::{Pictures, output_formats};
 use super::progress::Progress;
 use super::stats::Stats;
-use super::{interrupt, settings, terminal, unsupported};
+use super::{interrupt, settings, terminal};
 
 /// Renders a scene to its picture files. Everything that can be wrong without rendering is found before.
 pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let started = Instant::now();
-    unsupported::refuse(&arguments.estimate)?;
     let mut outputs = output_formats(&arguments.outputs, arguments.stats.as_deref())?;
     interrupt::install()?;
 

@@ -4,9 +4,11 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
+use super::NONE;
+use super::environment::FlatEnvironment;
 use super::material::mean_emission;
 use super::primitive::{PrimitiveGeometry, WorldPrimitive};
-use super::{NONE, environment_is_sampled};
+use super::world::WorldGeometry;
 use crate::sampling::AliasTable;
 use crate::scene::{ColorInput, Estimator, Light, MaterialKind, Scene, TextureKind};
 
@@ -20,6 +22,10 @@ pub enum LightKind {
     Disk = 3,
     Point = 4,
     Environment = 5,
+    Spot = 6,
+    Directional = 7,
+    /// Of any of the first four kinds, in bits 12 to 15.
+    Portal = 8,
 }
 
 const TWO_SIDED: u32 = 256;
@@ -35,16 +41,17 @@ pub struct FlatLight {
     pub alias: u32,
     /// Probability of being chosen.
     pub pmf: f32,
-    /// First vertex, corner, center or position.
+    /// First vertex, corner, center or position. Nothing for lights at infinity.
     pub p0: [f32; 3],
     /// Radius of a sphere, else the area.
     pub size: f32,
-    /// Edges from p0; for a disk, two perpendicular radii.
+    /// Edges from p0; for a disk, two perpendicular radii. Of a spot light, its axis; of a directional light, the way to it.
     pub p1: [f32; 3],
     pub emission_texture: u32,
+    /// Of a spot light: 1 − cosine of the angle at which its light ends, and of the one up to which it is full.
     pub p2: [f32; 3],
     pub attributes: u32,
-    /// Radiance of a surface, intensity of a point.
+    /// Radiance of a surface, intensity of a point or spot, irradiance of a directional light.
     pub radiance: [f32; 3],
     /// Of a surface.
     pub material: u32,
@@ -55,16 +62,20 @@ impl FlatLight {
     pub fn is_blended(&self) -> bool {
         self.kind_and_flags & BLENDED != 0
     }
+
+    pub fn is(&self, kind: LightKind) -> bool {
+        self.kind_and_flags & 255 == kind as u32
+    }
 }
 
-/// All sampled lights; marks the primitives that are lights with their index.
-pub fn collect(scene: &Scene, primitives: &mut [WorldPrimitive]) -> Vec<FlatLight> {
+/// All sampled lights; marks the primitives that are lights with their index. The order is that of the reference.
+pub fn collect(scene: &Scene, world: &mut WorldGeometry, environment: &FlatEnvironment) -> Vec<FlatLight> {
     if scene.render.estimator == Estimator::Bsdf {
         return Vec::new();
     }
     let mut lights = Vec::new();
     let mut powers = Vec::new();
-    for primitive in primitives {
+    for primitive in &mut world.primitives {
         let emission = SurfaceEmission::of(scene, primitive.material);
         let power = emission.power(primitive);
         if let Some(light) = surface_light(primitive, &emission).filter(|_| power > 0.0) {
@@ -73,29 +84,83 @@ pub fn collect(scene: &Scene, primitives: &mut [WorldPrimitive]) -> Vec<FlatLigh
             powers.push(power);
         }
     }
-    let others: f64 = powers.iter().sum::<f64>() + scene.lights.iter().map(point_power).sum::<f64>();
-    for light in &scene.lights {
-        match light {
-            Light::Point { position, intensity } if point_power(light) > 0.0 => {
-                lights.push(plain(LightKind::Point, *position, *intensity));
-                powers.push(point_power(light));
-            }
-            Light::Environment(environment) if environment_is_sampled(scene) => {
-                let radiance = environment.constant_radiance().unwrap_or(DVec3::ZERO);
-                if radiance.max_element() > 0.0 {
-                    lights.push(plain(LightKind::Environment, DVec3::ZERO, radiance));
-                    // As likely as all other lights together.
-                    powers.push(if others > 0.0 { others } else { 1.0 });
-                }
-            }
-            _ => {}
-        }
+    for (light, power) in scene.lights.iter().filter_map(from_a_point).filter(|(_, power)| *power > 0.0) {
+        lights.push(light);
+        powers.push(power);
+    }
+    let local = powers.len();
+    for (light, irradiance) in at_infinity(scene, world, environment) {
+        lights.push(light);
+        powers.push(irradiance);
+    }
+    // What lights at infinity send depends on how large the scene is taken to be: together they are as likely as all others.
+    let sums = [&powers[..local], &powers[local..]].map(|part| part.iter().sum::<f64>());
+    if sums[0] > 0.0 {
+        powers[local..].iter_mut().for_each(|power| *power *= sums[0] / sums[1]);
     }
     let table = AliasTable::new(&powers);
     for (index, light) in lights.iter_mut().enumerate() {
         light.alias = table.alias[index];
         light.alias_threshold = table.threshold[index];
         light.pmf = table.pmf[index] as f32;
+    }
+    lights
+}
+
+/// A light with a position of its own, and its luminous power.
+fn from_a_point(light: &Light) -> Option<(FlatLight, f64)> {
+    match *light {
+        Light::Point { position, intensity } => {
+            Some((plain(LightKind::Point, position, intensity), 4.0 * PI * luminance(intensity)))
+        }
+        Light::Spot { position, direction, intensity, angle_degrees, falloff_degrees } => {
+            // 1 − cosine, which keeps its precision for narrow cones.
+            let [outer, inner] = [angle_degrees, falloff_degrees].map(|angle| 2.0 * (0.5 * angle).to_radians().sin().powi(2));
+            let light = FlatLight {
+                p1: direction.as_vec3().to_array(),
+                p2: [outer as f32, inner as f32, 0.0],
+                ..plain(LightKind::Spot, position, intensity)
+            };
+            Some((light, PI * (outer + inner) * luminance(intensity)))
+        }
+        Light::Directional { .. } | Light::Environment(_) => None,
+    }
+}
+
+/// Directional lights, the environment and the portals to it, each with a measure of the irradiance it makes.
+fn at_infinity(scene: &Scene, world: &WorldGeometry, environment: &FlatEnvironment) -> Vec<(FlatLight, f64)> {
+    let mut lights = Vec::new();
+    for light in &scene.lights {
+        if let Light::Directional { direction, irradiance } = *light
+            && luminance(irradiance) > 0.0
+        {
+            let p1 = (-direction).as_vec3().to_array();
+            lights.push((FlatLight { p1, ..plain(LightKind::Directional, DVec3::ZERO, irradiance) }, luminance(irradiance)));
+        }
+    }
+    let irradiance = PI * environment.mean_luminance();
+    if irradiance == 0.0 {
+        return lights;
+    }
+    // Under `mis` a constant environment is left to BSDF sampling, which covers it without a shadow ray.
+    let constant = matches!(environment, FlatEnvironment::Constant { .. });
+    if scene.render.estimator == Estimator::Nee || !constant {
+        lights.push((plain(LightKind::Environment, DVec3::ZERO, DVec3::ZERO), irradiance));
+    }
+    let total: f64 = world.portals.iter().map(WorldPrimitive::area).sum();
+    for portal in &world.portals {
+        let (kind, size, [p0, p1, p2]) = match light_geometry(portal) {
+            Some(geometry) => geometry,
+            None => continue,
+        };
+        let light = FlatLight {
+            kind_and_flags: LightKind::Portal as u32 | (kind as u32) << 12,
+            size: size as f32,
+            p1: p1.as_vec3().to_array(),
+            p2: p2.as_vec3().to_array(),
+            ..plain(LightKind::Portal, p0, DVec3::ZERO)
+        };
+        lights.push((light, irradiance * portal.area() / total));
     }
     lights
 }
@@ -132,13 +197,6 @@ impl SurfaceEmission {
             return 0.0;
         }
         PI * primitive.area() * luminance * if self.two_sided { 2.0 } else { 1.0 }
-    }
-}
-
-fn point_power(light: &Light) -> f64 {
-    match light {
-        Light::Point { intensity, .. } => 4.0 * PI * luminance(*intensity),
-        _ => 0.0,
     }
 }
 
@@ -183,20 +241,7 @@ fn plain(kind: LightKind, position: DVec3, radiance: DVec3) -> FlatLight {
 
 fn surface_light(primitive: &WorldPrimitive, emission: &SurfaceEmission) -> Option<FlatLight> {
     let (radiance, texture) = super::material::color_and_texture(&emission.radiance);
-    let (kind, p0, p1, p2) = match primitive.geometry {
-        PrimitiveGeometry::Triangle([a, b, c]) => {
-            (LightKind::Triangle, a.as_dvec3(), (b.as_dvec3() - a.as_dvec3()), c.as_dvec3() - a.as_dvec3())
-        }
-        PrimitiveGeometry::Quad { corner, edge_u, edge_v } => (LightKind::Quad, corner, edge_u, edge_v),
-        PrimitiveGeometry::Sphere { center, .. } => (LightKind::Sphere, center, DVec3::ZERO, DVec3::ZERO),
-        PrimitiveGeometry::Disk { center, normal, radius } => {
-            let [tangent, bitangent] = frame(normal);
-            (LightKind::Disk, center, tangent * radius, bitangent * radius)
-        }
-        // No density covers an infinite area evenly.
-        PrimitiveGeometry::Plane { .. } => return None,
-    };
-    let size = if let PrimitiveGeometry::Sphere { radius, .. } = primitive.geometry { radius } else { primitive.area() };
+    let (kind, size, [p0, p1, p2]) = light_geometry(primitive)?;
     Some(FlatLight {
         kind_and_flags: kind as u32 | if emission.two_sided { TWO_SIDED } else { 0 } | if emission.blended { BLENDED } else { 0 },
         size: size as f32,
@@ -207,6 +252,25 @@ fn surface_light(primitive: &WorldPrimitive, emission: &SurfaceEmission) -> Opti
         material: emission.material as u32,
         ..plain(kind, p0, DVec3::from(radiance.map(f64::from)))
     })
+}
+
+/// Kind, size and the three points of a light that has this shape.
+fn light_geometry(primitive: &WorldPrimitive) -> Option<(LightKind, f64, [DVec3; 3])> {
+    let area = primitive.area();
+    match primitive.geometry {
+        PrimitiveGeometry::Triangle(corners) => {
+            let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+            Some((LightKind::Triangle, area, [a, b - a, c - a]))
+        }
+        PrimitiveGeometry::Quad { corner, edge_u, edge_v } => Some((LightKind::Quad, area, [corner, edge_u, edge_v])),
+        PrimitiveGeometry::Sphere { center, radius } => Some((LightKind::Sphere, radius, [center, DVec3::ZERO, DVec3::ZERO])),
+        PrimitiveGeometry::Disk { center, normal, radius } => {
+            let [tangent, bitangent] = frame(normal);
+            Some((LightKind::Disk, area, [center, tangent * radius, bitangent * radius]))
+        }
+        // No density covers an infinite area evenly.
+        PrimitiveGeometry::Plane { .. } => None,
+    }
 }
 
 /// Orthonormal basis of Duff et al. 2017; `frame_from_normal` in `shaders/core/math.wgsl`.

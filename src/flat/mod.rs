@@ -4,6 +4,7 @@
 //! primitives stand in the order of the hierarchy's leaves, those outside of it behind them.
 
 pub mod bvh4;
+pub mod environment;
 pub mod light;
 pub mod material;
 pub mod primitive;
@@ -15,8 +16,9 @@ pub mod world;
 
 use glam::{DVec3, Vec3};
 
-use crate::scene::{Estimator, Scene};
+use crate::scene::Scene;
 use bvh4::Bvh4;
+use environment::FlatEnvironment;
 use light::FlatLight;
 use material::FlatMaterials;
 use primitive::{Primitive, TriangleAttributes};
@@ -40,6 +42,7 @@ pub struct FlatScene {
     /// Lights that are sampled; empty where the estimator never asks.
     pub lights: Vec<FlatLight>,
     pub textures: FlatTextures,
+    pub environment: FlatEnvironment,
     pub view: View,
 }
 
@@ -50,7 +53,9 @@ impl FlatScene {
     /// [`FlatError`] where something is too large for the packed form or came out inconsistent.
     pub fn new(scene: &Scene) -> Result<Self, FlatError> {
         let mut world = world::collect(scene);
-        let lights = light::collect(scene, &mut world.primitives);
+        let mut textures = FlatTextures::new(scene)?;
+        let environment = FlatEnvironment::new(scene, &mut textures.texels)?;
+        let lights = light::collect(scene, &mut world, &environment);
         let (bvh, order) = Bvh4::build(&world.primitives)?;
         let primitives: Vec<Primitive> = order.iter().map(|&index| world.primitives[index].pack()).collect();
         let flat = Self {
@@ -59,7 +64,8 @@ impl FlatScene {
             bvh,
             materials: FlatMaterials::new(scene)?,
             lights,
-            textures: FlatTextures::new(scene)?,
+            textures,
+            environment,
             view: View::new(scene),
         };
         flat.validate()?;
@@ -70,12 +76,6 @@ impl FlatScene {
     pub fn tables(&self) -> Tables {
         Tables::new(self)
     }
-}
-
-/// Whether the environment is a light that next event estimation samples. Under `mis` a constant environment is left to BSDF
-/// sampling, which covers it without a shadow ray.
-pub fn environment_is_sampled(scene: &Scene) -> bool {
-    scene.render.estimator == Estimator::Nee
 }
 
 /// Rounded to f32, and grown by two rounding errors on every side.

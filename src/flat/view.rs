@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
+use super::environment::{environments, sky_halves};
 use crate::sampling::filter::{CURVE_PIECES, FilterSampler};
-use crate::scene::{Aperture, ApertureShape, Light, Projection, Scene};
+use crate::scene::{Aperture, ApertureShape, EnvironmentRadiance, Projection, Scene};
 
 /// `View` in `shaders/core/parameters.wgsl`.
 #[repr(C)]
@@ -21,8 +22,12 @@ pub struct View {
     pub lens_u: [f32; 4],
     /// Likewise upward; rotation of a polygon in turns.
     pub lens_v: [f32; 4],
-    /// Radiance of a constant environment.
+    /// Radiance of a constant environment or at a sky's horizon; a map's rotation in turns.
     pub environment: [f32; 4],
+    /// Radiance at a sky's zenith; the share of its upper half.
+    pub sky_zenith: [f32; 4],
+    /// Radiance below a sky's horizon; 1 over the integral of its luminance.
+    pub sky_ground: [f32; 4],
     /// Inverse cumulative distribution of the filter, piece by piece.
     pub filter_curve: [[f32; 4]; CURVE_PIECES],
 }
@@ -38,6 +43,7 @@ impl View {
         };
         let half_width = half_height * width / height;
         let radius = camera.aperture.map_or(0.0, |aperture| aperture.radius);
+        let [environment, sky_zenith, sky_ground] = environment(scene);
         Self {
             position: extend(camera.position, 0.0),
             corner: extend(up * half_height - right * half_width - backward * distance, 0.0),
@@ -46,7 +52,9 @@ impl View {
             forward: extend(-backward, scene.film.filter.radius),
             lens_u: extend(right * radius, camera.focus_distance),
             lens_v: extend(up * radius, camera.aperture.map_or(0.0, rotation_turns)),
-            environment: extend(environment(scene), 0.0),
+            environment,
+            sky_zenith,
+            sky_ground,
             filter_curve: *FilterSampler::new(scene.film.filter).curve(),
         }
     }
@@ -64,11 +72,22 @@ fn rotation_turns(aperture: Aperture) -> f64 {
     }
 }
 
-/// Sum of the constant environments.
-fn environment(scene: &Scene) -> DVec3 {
-    let radiance = scene.lights.iter().map(|light| match light {
-        Light::Environment(environment) => environment.constant_radiance().unwrap_or(DVec3::ZERO),
-        _ => DVec3::ZERO,
-    });
-    radiance.sum()
+/// The three words of the environment.
+fn environment(scene: &Scene) -> [[f32; 4]; 3] {
+    let mut constant = DVec3::ZERO;
+    for environment in environments(scene) {
+        match environment.radiance {
+            EnvironmentRadiance::Constant(radiance) => constant += radiance,
+            EnvironmentRadiance::Map(_) => {
+                let turns = (environment.rotation_degrees / 360.0).rem_euclid(1.0);
+                return [extend(DVec3::ZERO, turns), [0.0; 4], [0.0; 4]];
+            }
+            EnvironmentRadiance::Sky { zenith, horizon, ground } => {
+                let [upper, lower] = sky_halves(zenith, horizon, ground);
+                let integral = (upper + lower).max(f64::MIN_POSITIVE);
+                return [extend(horizon, 0.0), extend(zenith, upper / integral), extend(ground, 1.0 / integral)];
+            }
+        }
+    }
+    [extend(constant, 0.0), [0.0; 4], [0.0; 4]]
 }

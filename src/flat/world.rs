@@ -10,6 +10,8 @@ use crate::scene::{Geometry, MaterialKind, Mesh, Scene, Shape};
 pub struct WorldGeometry {
     pub primitives: Vec<WorldPrimitive>,
     pub attributes: Vec<TriangleAttributes>,
+    /// Windows that directions to the environment are sampled through; rays do not meet them.
+    pub portals: Vec<WorldPrimitive>,
 }
 
 /// Surfaces made of `pass` are left out: to every ray they are not there.
@@ -19,8 +21,13 @@ pub fn collect(scene: &Scene) -> WorldGeometry {
         let transform = shape.transform.to_affine();
         if let Geometry::Mesh(mesh) = &shape.geometry {
             add_mesh(scene, shape, mesh, &mut world);
-        } else if !is_pass(scene, shape.material) {
+        } else {
+            let first = world.primitives.len();
             add_analytic(scene, shape, &transform, &mut world);
+            if is_pass(scene, shape.material) {
+                let unseen = world.primitives.drain(first..);
+                world.portals.extend(unseen.filter(|primitive| shape.portal && !primitive.is_plane()));
+            }
         }
     }
     world
@@ -106,11 +113,14 @@ fn add_mesh(scene: &Scene, shape: &Shape, mesh: &Mesh, world: &mut WorldGeometry
     let textured: Vec<bool> = (0..scene.materials.len()).map(|id| scene.uses_texture(id) && !mesh.uvs.is_empty()).collect();
     for (index, face) in shape.world_faces().into_iter().enumerate() {
         let material = mesh.face_materials.get(index).copied().unwrap_or(shape.material);
-        if is_pass(scene, material) {
-            continue;
-        }
         let corners = face.map(|corner| corner as usize);
         let mut primitive = WorldPrimitive::new(PrimitiveGeometry::Triangle(corners.map(|c| positions[c])), material);
+        if is_pass(scene, material) {
+            if shape.portal && primitive.area() > 0.0 {
+                world.portals.push(primitive);
+            }
+            continue;
+        }
         if !normals.is_empty() || textured[material] {
             primitive.attributes = world.attributes.len() as u32;
             let corner_normals = if normals.is_empty() { [Vec3::ZERO; 3] } else { corners.map(|c| normals[c]) };

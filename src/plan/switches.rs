@@ -2,6 +2,7 @@
 
 use super::{FilmStorage, GeometryPlacement, MAX_SAMPLES_PER_PASS, Plan, has_attributes};
 use crate::flat::FlatScene;
+use crate::flat::environment::FlatEnvironment;
 use crate::flat::light::{FlatLight, LightKind};
 use crate::flat::material::{FlatMaterial, FlatMaterialKind};
 use crate::flat::primitive::{Primitive, PrimitiveKind};
@@ -9,7 +10,7 @@ use crate::flat::texture::FlatTextureKind;
 use crate::sampling::Decorrelation;
 use crate::sampling::dimension::SEQUENCE_DIMENSIONS;
 use crate::scene::{ApertureShape, Filter, FilterKind, HemisphereSampling, Projection};
-use crate::scene::{BlendMode, Estimator, MisHeuristic, PixelSampler, RenderSettings, Scene};
+use crate::scene::{BlendMode, Estimator, LightSampling, MisHeuristic, PixelSampler, RenderSettings, Scene};
 use crate::shader::Switches;
 
 /// Every switch that the shaders know.
@@ -24,10 +25,13 @@ pub const ALL: &[&str] = &[
     "CONDUCTOR",
     "COSINE_POWER",
     "DIGITAL_SHIFT",
+    "DIRECTIONAL_LIGHTS",
     "DISKS_IN_HIERARCHY",
     "EMISSION",
     "ENVIRONMENT",
     "ENVIRONMENT_LIGHT",
+    "ENVIRONMENT_MAP",
+    "ENVIRONMENT_SAMPLED",
     "ESTIMATOR_MIS",
     "ESTIMATOR_NEE",
     "FILM_TEXTURE",
@@ -57,6 +61,7 @@ pub const ALL: &[&str] = &[
     "PIXEL_HASHED",
     "PIXEL_ROTATION",
     "POINT_LIGHTS",
+    "PORTALS",
     "PROCEDURAL_TEXTURES",
     "QUADS_IN_HIERARCHY",
     "ROUGH_GLASS",
@@ -64,9 +69,14 @@ pub const ALL: &[&str] = &[
     "SCALARS",
     "SECOND_COLORS",
     "SEQUENCE",
+    "SKY",
     "SPHERES",
     "SPHERES_IN_HIERARCHY",
     "SPHERE_LIGHTS",
+    "SPHERE_LIGHTS_BY_POINT",
+    "SPHERE_LIGHTS_VISIBLE_HALF",
+    "SPOT_LIGHTS",
+    "TEXELS",
     "TEXTURES",
     "TOP_IN_UNIFORM",
     "TRANSMISSIVE_SMOOTH",
@@ -105,6 +115,7 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     switches.enable("TEXTURES", !flat.textures.textures.is_empty());
     let has_texture = |kind: FlatTextureKind| flat.textures.textures.iter().any(|texture| texture.kind() == kind as u32);
     switches.enable("IMAGES", has_texture(FlatTextureKind::Image));
+    switches.enable("TEXELS", !flat.textures.texels.is_empty());
     switches.enable("CHECKERS", has_texture(FlatTextureKind::Checker));
     switches.enable("PERLIN", has_texture(FlatTextureKind::Perlin));
     switches.enable("WORLEY", has_texture(FlatTextureKind::Worley));
@@ -113,14 +124,7 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
 
     choose_materials(scene, flat, &mut switches);
 
-    let has_light = |kind: LightKind| flat.lights.iter().any(|light| light.kind_and_flags & 255 == kind as u32);
-    switches.enable("LIGHTS", !flat.lights.is_empty() && render.max_depth != 1);
-    switches.enable("ONE_LIGHT", flat.lights.len() == 1);
-    switches.enable("FLAT_LIGHTS", [LightKind::Triangle, LightKind::Quad, LightKind::Disk].into_iter().any(has_light));
-    switches.enable("SPHERE_LIGHTS", has_light(LightKind::Sphere));
-    switches.enable("POINT_LIGHTS", has_light(LightKind::Point));
-    switches.enable("ENVIRONMENT_LIGHT", has_light(LightKind::Environment));
-    switches.enable("ENVIRONMENT", flat.view.environment[..3].iter().any(|&channel| channel > 0.0));
+    choose_lights(scene, flat, &mut switches);
 
     switches.enable("ESTIMATOR_MIS", render.estimator == Estimator::Mis);
     switches.enable("ESTIMATOR_NEE", render.estimator == Estimator::Nee);
@@ -132,17 +136,29 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     switches.enable("FILM_TEXTURE", plan.film == FilmStorage::Texture);
 
     let tables = flat.tables();
+    let map = flat.environment.map().unwrap_or_default();
+    let first_light = |kind: LightKind| flat.lights.iter().position(|light| light.is(kind)).unwrap_or(0) as u32;
     switches.constants.extend([
         ("BLADES", blades),
+        ("ENVIRONMENT_FIRST_COLUMN", map.first_column),
+        ("ENVIRONMENT_FIRST_ROW", map.first_row),
+        ("ENVIRONMENT_FIRST_TEXEL", map.first_texel),
+        ("ENVIRONMENT_GRID_HEIGHT", map.grid_height),
+        ("ENVIRONMENT_GRID_WIDTH", map.grid_width),
+        ("ENVIRONMENT_HEIGHT", map.height),
+        ("ENVIRONMENT_LIGHT_INDEX", first_light(LightKind::Environment)),
+        ("ENVIRONMENT_WIDTH", map.width),
         ("FILM_WIDTH", scene.film.size[0]),
         ("FIRST_HEURISTIC_WORD", tables.first_heuristic),
         ("FIRST_LEAF_WORD", tables.first_leaf),
         ("FIRST_LIGHT_WORD", tables.first_light),
+        ("FIRST_PORTAL", first_light(LightKind::Portal)),
         ("FIRST_TEXTURE_WORD", tables.first_texture),
         ("LIGHT_COUNT", flat.lights.len() as u32),
         // Depth 0 means no limit: an edge that is never reached.
         ("MAX_DEPTH", if render.max_depth == 0 { u32::MAX } else { render.max_depth }),
         ("PATH_CAPACITY", plan.path_capacity),
+        ("PORTAL_COUNT", flat.lights.iter().filter(|light| light.is(LightKind::Portal)).count() as u32),
         ("PRIMITIVE_WORDS", (3 * flat.primitives.len() as u32).max(1)),
         ("RAYS_PER_INVOCATION", plan.rays_per_invocation),
         ("ROULETTE_DEPTH", render.roulette_depth),
@@ -154,6 +170,28 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
         ("TABLE_WORDS", (tables.words.len() as u32).max(1)),
     ]);
     switches
+}
+
+fn choose_lights(scene: &Scene, flat: &FlatScene, switches: &mut Switches) {
+    let render = &scene.render;
+    let has = |kind: LightKind| flat.lights.iter().any(|light| light.is(kind));
+    // Paths of one edge have no vertex to sample light from.
+    let sampled = !flat.lights.is_empty() && render.max_depth != 1;
+    switches.enable("LIGHTS", sampled);
+    switches.enable("ONE_LIGHT", flat.lights.len() == 1);
+    switches.enable("FLAT_LIGHTS", [LightKind::Triangle, LightKind::Quad, LightKind::Disk].into_iter().any(has));
+    switches.enable("SPHERE_LIGHTS", has(LightKind::Sphere));
+    switches.enable("SPHERE_LIGHTS_BY_POINT", has(LightKind::Sphere) && render.light_sampling != LightSampling::Cone);
+    switches.enable("SPHERE_LIGHTS_VISIBLE_HALF", has(LightKind::Sphere) && render.light_sampling == LightSampling::Visible);
+    switches.enable("POINT_LIGHTS", has(LightKind::Point));
+    switches.enable("SPOT_LIGHTS", has(LightKind::Spot));
+    switches.enable("DIRECTIONAL_LIGHTS", has(LightKind::Directional));
+    switches.enable("ENVIRONMENT", flat.environment != FlatEnvironment::Black);
+    switches.enable("ENVIRONMENT_MAP", matches!(flat.environment, FlatEnvironment::Map { .. }));
+    switches.enable("SKY", matches!(flat.environment, FlatEnvironment::Sky { .. }));
+    switches.enable("ENVIRONMENT_LIGHT", sampled && has(LightKind::Environment));
+    switches.enable("PORTALS", sampled && has(LightKind::Portal));
+    switches.enable("ENVIRONMENT_SAMPLED", sampled && (has(LightKind::Environment) || has(LightKind::Portal)));
 }
 
 fn enable_sampler(switches: &mut Switches, render: &RenderSettings) {

@@ -123,14 +123,14 @@ impl Integrator {
         survives
     }
 
-    /// A ray that left the scene finds the environment. Light sampling chooses it only where no BSDF sample may count it (`nee`),
-    /// so the weight is all or nothing.
+    /// A ray that left the scene finds the environment, shared with the light sample of the surface before.
     fn add_environment<V: PathVisitor>(&self, path: &mut Path, visitor: &mut V) {
-        let delta = path.previous == Density::Delta;
-        let weight = if !delta && self.lights.environment_is_sampled() { 0.0 } else { 1.0 };
-        let contribution = path.throughput * self.lights.environment() * weight;
+        let radiance = self.lights.environment().radiance(path.ray.direction);
+        let light_pdf = || self.lights.environment_pdf(&self.world, path.ray.origin, path.ray.direction);
+        let weight = self.weight_of_found(path.previous, light_pdf);
+        let contribution = path.throughput * radiance * weight;
         path.radiance += contribution;
-        visitor.escaped(self.lights.environment(), weight, contribution);
+        visitor.escaped(radiance, weight, contribution);
     }
 
     /// Emission found by following the path, shared with the light sample of the surface before.
@@ -139,20 +139,22 @@ impl Integrator {
         if radiance == DVec3::ZERO {
             return;
         }
-        let weight = match (path.previous, self.scene.render.estimator) {
-            (Density::Delta, _) | (_, Estimator::Bsdf) => 1.0,
-            (Density::Smooth(pdf), estimator) => {
-                let light_pdf = self.lights.pdf(&self.world, path.ray.origin, surface);
-                match estimator {
-                    _ if light_pdf == 0.0 => 1.0,
-                    Estimator::Nee => 0.0,
-                    Estimator::Mis | Estimator::Bsdf => mis::weight(self.scene.render.heuristic, pdf, light_pdf),
-                }
-            }
-        };
+        let weight = self.weight_of_found(path.previous, || self.lights.pdf(&self.world, path.ray.origin, surface));
         let contribution = path.throughput * radiance * weight;
         path.radiance += contribution;
         visitor.emission(radiance, weight, contribution);
+    }
+
+    /// The weight of light that a ray sampled with density `previous` found, where light sampling has the density `light_pdf`.
+    fn weight_of_found(&self, previous: Density, light_pdf: impl Fn() -> f64) -> f64 {
+        match (previous, self.scene.render.estimator) {
+            (Density::Delta, _) | (_, Estimator::Bsdf) => 1.0,
+            (Density::Smooth(pdf), estimator) => match (light_pdf(), estimator) {
+                (0.0, _) => 1.0,
+                (_, Estimator::Nee) => 0.0,
+                (light_pdf, Estimator::Mis | Estimator::Bsdf) => mis::weight(self.scene.render.heuristic, pdf, light_pdf),
+            },
+        }
     }
 
     /// Next event estimation: one light, one direction to it, f·|cosθ|·L / (probability · density), if nothing is in between.
@@ -169,11 +171,10 @@ impl Integrator {
             return;
         }
         let dimension = |dimension| Dimension::bounce(path.bounce, dimension);
-        let bits = sampler.bits(dimension(BounceDimension::LightChoice));
-        let u1 = sampler.uniform(dimension(BounceDimension::LightU));
-        let u2 = sampler.uniform(dimension(BounceDimension::LightV));
+        let choice = sampler.bits(dimension(BounceDimension::LightChoice));
+        let point = [BounceDimension::LightU, BounceDimension::LightV].map(|name| sampler.bits(dimension(name)));
         let reference = surface.point.leave_towards(bsdf.view.wo);
-        let Some(light) = self.lights.sample(&self.scene, &self.world, reference, bits, u1, u2) else { return };
+        let Some(light) = self.lights.sample(&self.scene, &self.world, reference, choice, point) else { return };
         let scattering = bsdf.evaluate(light.wi);
         if scattering.value == DVec3::ZERO {
             return;

@@ -1,15 +1,22 @@
-//! What light is sampled from: emitting primitives, then point lights and environments, chosen by power.
+//! What light is sampled from: emitting primitives, then lights that are no surfaces, then portals, chosen by power.
+//!
+//! Lights at infinity have no power of their own: it depends on how large the scene is taken to be. Together they are chosen as often as
+//! all others together, among themselves by the irradiance that they could make. Portals are one more way of drawing directions to the
+//! environment. A direction to it then has one density, that of all ways together, whichever of them drew it.
+
+mod primitive;
 
 use std::f64::consts::PI;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use super::emission::{emitted, mean_exitance};
-use super::frame::Frame;
-use super::intersect::{Primitive, Ray, Sphere, Surface, SurfaceId, SurfacePoint, World};
-use super::warp;
+use super::environment::Environment;
+use super::intersect::{PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
 use crate::sampling::AliasTable;
-use crate::scene::{EnvironmentRadiance, Estimator, Light, Scene};
+use crate::sampling::sampler::uniform;
+use crate::scene::{Estimator, Light, LightSampling, Scene};
+use primitive::{pdf_of_direction, pdf_solid_angle, sample_primitive};
 
 /// Relative amount by which a shadow segment stops short of the light's point, so that what the light lies upon does not block it.
 const SHADOW_MARGIN: f64 = 1e-12;
@@ -23,7 +30,53 @@ enum Source {
         position: DVec3,
         intensity: DVec3,
     },
-    Environment(DVec3),
+    Spot {
+        position: DVec3,
+        axis: DVec3,
+        intensity: DVec3,
+        /// Of the angles at which there is no light and at which there is all.
+        cosines: [f64; 2],
+    },
+    Directional {
+        to_light: DVec3,
+        irradiance: DVec3,
+    },
+    Environment,
+    /// By its place among the world's portals.
+    Portal(usize),
+}
+
+impl Source {
+    fn of(light: &Light) -> Option<Self> {
+        match *light {
+            Light::Point { position, intensity } => Some(Self::Point { position, intensity }),
+            Light::Spot { position, direction, intensity, angle_degrees, falloff_degrees } => Some(Self::Spot {
+                position,
+                axis: direction,
+                intensity,
+                cosines: [angle_degrees, falloff_degrees].map(|angle| angle.to_radians().cos()),
+            }),
+            Light::Directional { direction, irradiance } => Some(Self::Directional { to_light: -direction, irradiance }),
+            Light::Environment(_) => None,
+        }
+    }
+
+    /// Luminous power of a light inside the scene.
+    fn power(&self) -> f64 {
+        match self {
+            Self::Point { intensity, .. } => 4.0 * PI * luminance(*intensity),
+            // The smooth step between the angles has the mean ½ over the solid angle.
+            Self::Spot { intensity, cosines: [outer, inner], .. } => {
+                2.0 * PI * (1.0 - 0.5 * (outer + inner)) * luminance(*intensity)
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// Only one direction leads to it.
+    fn is_delta(&self) -> bool {
+        matches!(self, Self::Point { .. } | Self::Spot { .. } | Self::Directional { .. })
+    }
 }
 
 /// All lights of a scene, with the table they are chosen from.
@@ -33,9 +86,12 @@ pub struct Lights {
     table: AliasTable,
     /// Index into `sources` by leaf-order place of the primitive.
     of_primitive: Vec<Option<u32>>,
-    /// Sum of all constant environments' radiance.
-    environment: DVec3,
-    environment_is_sampled: bool,
+    environment: Environment,
+    /// Place of the environment among the sources, where it is one.
+    environment_source: Option<usize>,
+    /// Place of the first portal among the sources.
+    first_portal: usize,
+    sphere_sampling: LightSampling,
 }
 
 /// Light arriving at a reference point from one sampled direction.
@@ -56,15 +112,6 @@ pub struct LightSample {
     pub target: Option<usize>,
 }
 
-/// A direction to an emitting primitive, before its emission is looked up.
-struct Direction {
-    wi: DVec3,
-    distance: f64,
-    pdf_solid_angle: f64,
-    point: SurfacePoint,
-    local: DVec2,
-}
-
 /// Rec.709 luminance.
 pub fn luminance(color: DVec3) -> f64 {
     color.dot(DVec3::new(0.2126, 0.7152, 0.0722))
@@ -83,155 +130,148 @@ impl Lights {
                 weights.push(power);
             }
         }
-        let (mut environment, mut environment_is_sampled) = (DVec3::ZERO, false);
-        for light in &scene.lights {
-            match light {
-                Light::Point { position, intensity } if luminance(*intensity) > 0.0 => {
-                    sources.push(Source::Point { position: *position, intensity: *intensity });
-                    weights.push(4.0 * PI * luminance(*intensity));
-                }
-                Light::Environment(light) => {
-                    let EnvironmentRadiance::Constant(radiance) = light.radiance else { continue };
-                    environment += radiance;
-                    // Where BSDF sampling takes part, it finds a constant environment better than light sampling does.
-                    if scene.render.estimator == Estimator::Nee && luminance(radiance) > 0.0 {
-                        environment_is_sampled = true;
-                        sources.push(Source::Environment(radiance));
-                        weights.push(0.0);
-                    }
-                }
-                // The others are refused before rendering.
-                _ => {}
+        for source in scene.lights.iter().filter_map(Source::of).filter(|source| source.power() > 0.0) {
+            weights.push(source.power());
+            sources.push(source);
+        }
+        let local = weights.len();
+        for source in scene.lights.iter().filter_map(Source::of) {
+            if let Source::Directional { irradiance, .. } = source
+                && luminance(irradiance) > 0.0
+            {
+                weights.push(luminance(irradiance));
+                sources.push(source);
             }
         }
-        // An environment's power depends on how large the scene is taken to be; it is chosen as often as all other lights together.
-        let others: f64 = weights.iter().sum();
-        for (source, weight) in sources.iter().zip(&mut weights) {
-            if matches!(source, Source::Environment(_)) {
-                *weight = if others > 0.0 { others } else { 1.0 };
-            }
+        let environment = Environment::new(scene);
+        let from_environment = PI * environment.mean_luminance();
+        let mut environment_source = None;
+        // Where BSDF sampling takes part, it finds a constant environment better than light sampling does.
+        let is_sampled = scene.render.estimator == Estimator::Nee || !environment.is_constant();
+        if from_environment > 0.0 && is_sampled {
+            environment_source = Some(sources.len());
+            sources.push(Source::Environment);
+            weights.push(from_environment);
         }
-        Self { sources, table: AliasTable::new(&weights), of_primitive, environment, environment_is_sampled }
+        let first_portal = sources.len();
+        let areas: Vec<f64> = world.portals().iter().map(Primitive::area).collect();
+        if from_environment > 0.0 {
+            let total: f64 = areas.iter().sum();
+            sources.extend((0..areas.len()).map(Source::Portal));
+            weights.extend(areas.iter().map(|area| from_environment * area / total));
+        }
+        share_with_infinity(&mut weights, local);
+        let sphere_sampling = scene.render.light_sampling;
+        let table = AliasTable::new(&weights);
+        Self { sources, table, of_primitive, environment, environment_source, first_portal, sphere_sampling }
     }
 
     pub fn is_empty(&self) -> bool {
         self.sources.is_empty()
     }
 
-    /// Radiance of the environment, the same in every direction.
-    pub fn environment(&self) -> DVec3 {
-        self.environment
+    pub fn environment(&self) -> &Environment {
+        &self.environment
     }
 
-    /// Whether light sampling can choose the environment.
-    pub fn environment_is_sampled(&self) -> bool {
-        self.environment_is_sampled
-    }
-
-    /// Chooses a light by 32 random bits and draws a direction to it. None where no light comes from there.
-    pub fn sample(&self, scene: &Scene, world: &World, reference: DVec3, bits: u32, u1: f64, u2: f64) -> Option<LightSample> {
-        let light = self.table.choose(bits);
+    /// Chooses a light by 32 random bits and draws a direction to it by 32 each. None where no light comes from there.
+    pub fn sample(&self, scene: &Scene, world: &World, reference: DVec3, choice: u32, [u, v]: [u32; 2]) -> Option<LightSample> {
+        let light = self.table.choose(choice);
         let probability = self.table.pmf[light];
-        let infinity = f64::INFINITY;
-        let sample = |wi, distance, radiance, pdf: f64, target| {
-            let delta = matches!(self.sources[light], Source::Point { .. });
-            LightSample { light, wi, distance, radiance, pdf: probability * pdf, delta, target }
+        let (u1, u2) = (uniform(u), uniform(v));
+        let source = self.sources[light];
+        let sample = |wi, distance, radiance, pdf, target| {
+            (radiance != DVec3::ZERO).then_some(LightSample {
+                light,
+                wi,
+                distance,
+                radiance,
+                pdf,
+                delta: source.is_delta(),
+                target,
+            })
         };
-        match self.sources[light] {
+        // Intensity over squared distance, towards a point.
+        let from_point = |position: DVec3, intensity: &dyn Fn(DVec3) -> DVec3| {
+            let to_light = position - reference;
+            let squared = to_light.length_squared();
+            let distance = squared.sqrt();
+            let wi = to_light / distance;
+            if squared > 0.0 { sample(wi, distance, intensity(wi) / squared, probability, None) } else { None }
+        };
+        match source {
             Source::Area(place) => {
-                let direction = sample_primitive(world.primitive(place), reference, u1, u2)?;
+                let direction = sample_primitive(world.primitive(place), self.sphere_sampling, reference, u1, u2)?;
                 let surface = world.surface_at(place, direction.point, direction.local);
                 let radiance = emitted(scene, &surface, -direction.wi);
                 let distance = direction.distance * (1.0 - SHADOW_MARGIN);
-                let usable = radiance != DVec3::ZERO && direction.pdf_solid_angle > 0.0 && direction.pdf_solid_angle.is_finite();
-                usable.then(|| sample(direction.wi, distance, radiance, direction.pdf_solid_angle, Some(place)))
+                let pdf = direction.pdf_solid_angle;
+                let usable = pdf > 0.0 && pdf.is_finite();
+                if usable { sample(direction.wi, distance, radiance, probability * pdf, Some(place)) } else { None }
             }
-            Source::Point { position, intensity } => {
-                let to_light = position - reference;
-                let squared = to_light.length_squared();
-                let distance = squared.sqrt();
-                (squared > 0.0).then(|| sample(to_light / distance, distance, intensity / squared, 1.0, None))
+            Source::Point { position, intensity } => from_point(position, &|_| intensity),
+            Source::Spot { position, axis, intensity, cosines } => {
+                from_point(position, &|wi| intensity * falloff(-wi.dot(axis), cosines))
             }
-            Source::Environment(radiance) => {
-                Some(sample(warp::uniform_sphere(u1, u2), infinity, radiance, warp::UNIFORM_SPHERE_PDF, None))
+            Source::Directional { to_light, irradiance } => sample(to_light, f64::INFINITY, irradiance, probability, None),
+            Source::Environment => {
+                let drawn = self.environment.sample(u, v)?;
+                let pdf = probability * drawn.pdf + self.portal_pdf(world, reference, drawn.wi);
+                sample(drawn.wi, f64::INFINITY, drawn.radiance, pdf, None)
+            }
+            Source::Portal(portal) => {
+                let wi = sample_primitive(&world.portals()[portal], LightSampling::Cone, reference, u1, u2)?.wi;
+                let pdf = self.environment_pdf(world, reference, wi);
+                // By rounding, a direction to a portal's very edge may miss it.
+                if pdf > 0.0 { sample(wi, f64::INFINITY, self.environment.radiance(wi), pdf, None) } else { None }
             }
         }
+    }
+
+    /// Density, per steradian, with which [`Lights::sample`] draws the direction `wi` for the environment, by whichever way; 0 where it
+    /// cannot.
+    pub fn environment_pdf(&self, world: &World, reference: DVec3, wi: DVec3) -> f64 {
+        let itself = self.environment_source.map_or(0.0, |source| self.table.pmf[source] * self.environment.pdf(wi));
+        itself + self.portal_pdf(world, reference, wi)
+    }
+
+    fn portal_pdf(&self, world: &World, reference: DVec3, wi: DVec3) -> f64 {
+        let chosen = &self.table.pmf[self.first_portal.min(self.table.pmf.len())..];
+        if chosen.is_empty() || world.portals().is_empty() {
+            return 0.0;
+        }
+        let ray = PreparedRay::new(Ray { origin: reference, direction: wi });
+        world.portals().iter().zip(chosen).map(|(portal, pmf)| pmf * pdf_of_direction(portal, &ray)).sum()
     }
 
     /// Density, per steradian, with which [`Lights::sample`] finds the point `surface` from `reference`; 0 where it cannot.
     pub fn pdf(&self, world: &World, reference: DVec3, surface: &Surface) -> f64 {
         let SurfaceId::Primitive(place) = surface.id else { return 0.0 };
         let Some(light) = self.of_primitive[place] else { return 0.0 };
-        self.table.pmf[light as usize] * pdf_solid_angle(world.primitive(place), reference, &surface.point)
+        self.table.pmf[light as usize] * pdf_solid_angle(world.primitive(place), self.sphere_sampling, reference, &surface.point)
     }
 }
 
-fn sample_primitive(primitive: &Primitive, reference: DVec3, u1: f64, u2: f64) -> Option<Direction> {
-    let (point, local) = match primitive {
-        Primitive::Sphere(sphere) => return sample_sphere(sphere, reference, u1, u2),
-        Primitive::Triangle(triangle) => {
-            let local = warp::triangle(u1, u2);
-            (triangle.point(local), local)
-        }
-        Primitive::Parallelogram(parallelogram) => {
-            let local = DVec2::new(u1, u2);
-            (parallelogram.point(local), local)
-        }
-        Primitive::Disk(disk) => {
-            let p = warp::disk(disk.radius, u1, u2);
-            (disk.point(disk.center + disk.frame.to_world(DVec3::new(p.x, p.y, 0.0))), DVec2::ZERO)
-        }
-    };
-    let to_point = point.position - reference;
-    let distance = to_point.length();
-    let wi = to_point / distance;
-    let pdf_solid_angle = pdf_solid_angle(primitive, reference, &point);
-    (distance > 0.0).then_some(Direction { wi, distance, pdf_solid_angle, point, local })
-}
-
-/// From outside, uniform over the cone of directions that meet the sphere; from inside, uniform over all directions.
-fn sample_sphere(sphere: &Sphere, reference: DVec3, u1: f64, u2: f64) -> Option<Direction> {
-    let to_center = sphere.center - reference;
-    let squared = to_center.length_squared();
-    let center_distance = squared.sqrt();
-    let radius_squared = sphere.radius * sphere.radius;
-    let (wi, distance) = if center_distance > sphere.radius {
-        let local = warp::cone(one_minus_cos_max(radius_squared / squared), u1, u2);
-        let sin_squared = local.x * local.x + local.y * local.y;
-        let half_chord = (radius_squared - squared * sin_squared).max(0.0).sqrt();
-        (Frame::around(to_center / center_distance).to_world(local), center_distance * local.z - half_chord)
-    } else {
-        let wi = warp::uniform_sphere(u1, u2);
-        (wi, sphere.intersect(&Ray { origin: reference, direction: wi }, f64::INFINITY)?)
-    };
-    let point = sphere.point(reference + wi * distance);
-    let pdf_solid_angle = sphere_pdf(sphere, reference);
-    (distance > 0.0).then_some(Direction { wi, distance, pdf_solid_angle, point, local: DVec2::ZERO })
-}
-
-/// Density per steradian with which a point of a primitive is drawn, seen from `reference`.
-fn pdf_solid_angle(primitive: &Primitive, reference: DVec3, point: &SurfacePoint) -> f64 {
-    if let Primitive::Sphere(sphere) = primitive {
-        return sphere_pdf(sphere, reference);
-    }
-    // Uniform over the area: dA·cosθ / d² is the solid angle of dA.
-    let to_point = point.position - reference;
-    let squared = to_point.length_squared();
-    squared * squared.sqrt() / (to_point.dot(point.normal).abs() * primitive.area())
-}
-
-fn sphere_pdf(sphere: &Sphere, reference: DVec3) -> f64 {
-    let squared = (sphere.center - reference).length_squared();
-    if squared.sqrt() > sphere.radius {
-        warp::cone_pdf(one_minus_cos_max(sphere.radius * sphere.radius / squared))
-    } else {
-        warp::UNIFORM_SPHERE_PDF
+/// Scales the weights from `first` on, those of lights at infinity, so that together they weigh what the others do.
+fn share_with_infinity(weights: &mut [f64], first: usize) {
+    let (local, infinite) = weights.split_at_mut(first);
+    let (sum, at_infinity): (f64, f64) = (local.iter().sum(), infinite.iter().sum());
+    if sum > 0.0 {
+        infinite.iter_mut().for_each(|weight| *weight *= sum / at_infinity);
     }
 }
 
-/// 1 − cosθ from sin²θ, without cancellation.
-fn one_minus_cos_max(sin_squared: f64) -> f64 {
-    sin_squared / (1.0 + (1.0 - sin_squared).max(0.0).sqrt())
+/// How much of a spot light's intensity goes in a direction whose cosine with the axis is `cosine`: 1 within the inner angle, 0 past the
+/// outer, between them Hermite's smooth step t²(3 − 2t) in the cosine.
+fn falloff(cosine: f64, [outer, inner]: [f64; 2]) -> f64 {
+    if cosine >= inner {
+        return 1.0;
+    }
+    if cosine <= outer {
+        return 0.0;
+    }
+    let t = (cosine - outer) / (inner - outer);
+    t * t * (3.0 - 2.0 * t)
 }
 
 #[cfg(test)]

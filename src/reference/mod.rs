@@ -8,6 +8,7 @@
 pub mod bsdf;
 pub mod camera;
 pub mod emission;
+pub mod environment;
 pub mod frame;
 pub mod integrator;
 pub mod intersect;

@@ -2,8 +2,8 @@
 
 use crate::render::RenderError;
 use crate::scene::{
-    ColorInput, EnvironmentRadiance, Geometry, Heuristic, Light, LightSampling, Material, MaterialId, MaterialKind, Mesh, Scene,
-    Shape, TextureId, TextureKind, check_blends,
+    ColorInput, EnvironmentRadiance, Geometry, Heuristic, Light, Material, MaterialId, MaterialKind, Mesh, Scene, Shape, TextureId,
+    TextureKind, check_blends,
 };
 
 /// Checks that every index of the scene is in range and that nothing is used that the reference cannot render.
@@ -30,9 +30,6 @@ fn settings(scene: &Scene) -> Check {
     let settings = &scene.render;
     if scene.film.size.contains(&0) {
         return Err("the picture has no pixels".into());
-    }
-    if settings.light_sampling != LightSampling::Cone {
-        return refuse("with other than cosine and cone sampling");
     }
     if settings.max_depth == 0 && settings.roulette_depth == 0 {
         return Err("paths never end: max_depth and roulette_depth are both 0".into());
@@ -92,9 +89,6 @@ fn shape(scene: &Scene, shape: &Shape) -> Check {
     if shape.motion.is_some() {
         return refuse("motion");
     }
-    if shape.portal {
-        return refuse("portals");
-    }
     let determinant = shape.transform.to_affine().matrix3.determinant();
     if determinant == 0.0 || !determinant.is_finite() {
         return Err(format!("{}: the transform is singular", shape.label));
@@ -148,12 +142,11 @@ fn indices(label: &str, mesh: &Mesh) -> Check {
 }
 
 fn light(light: &Light) -> Check {
-    match light {
-        Light::Point { .. } => Ok(()),
-        Light::Environment(environment) => match environment.radiance {
-            EnvironmentRadiance::Constant(_) => Ok(()),
-            EnvironmentRadiance::Map(_) | EnvironmentRadiance::Sky { .. } => refuse("environment maps and skies"),
-        },
-        Light::Spot { .. } | Light::Directional { .. } => refuse("spot and directional lights"),
+    let Light::Environment(environment) = light else { return Ok(()) };
+    let EnvironmentRadiance::Map(image) = &environment.radiance else { return Ok(()) };
+    let texels = u64::from(image.width) * u64::from(image.height);
+    if texels == 0 || texels != image.texels.len() as u64 {
+        return Err(format!("the environment has {} texels and not {} × {}", image.texels.len(), image.width, image.height));
     }
+    Ok(())
 }

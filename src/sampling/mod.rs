@@ -9,7 +9,9 @@
 
 pub mod alias;
 pub mod dimension;
+pub mod environment;
 pub mod filter;
+pub mod grid;
 pub mod halton;
 pub mod hash;
 pub mod permutation;
@@ -20,5 +22,7 @@ pub mod strata;
 
 pub use alias::AliasTable;
 pub use dimension::{BounceDimension, CameraDimension, Dimension};
+pub use environment::MapDistribution;
+pub use grid::{GridDistribution, GridSample};
 pub use sampler::PathSampler;
 pub use sequence::{Decorrelation, Sampling, SequencePoint};

@@ -195,7 +195,7 @@ fn usage_errors_are_refused_before_anything_happens() {
         ("render --seed -1", "-1"),
         ("render --sampler dice", "halton"),
         ("render --hemisphere square", "cosine"),
-        ("render --light-sampling area", "not supported yet"),
+        ("render --light-sampling guess", "visible"),
         ("render --pixel-sampler dice", "none"),
         ("render --blend guess", "mixture"),
         ("render --estimator guess", "mis"),

@@ -6,7 +6,8 @@ mod primitive;
 mod triangle;
 mod world;
 
-use hierarchy::{Hierarchy, PreparedRay};
+use hierarchy::Hierarchy;
+pub use hierarchy::PreparedRay;
 pub use primitive::{Local, Primitive, Sphere};
 use triangle::Triangle;
 pub use world::{Surface, SurfaceId, World};

@@ -59,6 +59,8 @@ pub struct World {
     planes: Vec<(Plane, Owner)>,
     shapes: Vec<ShapeData>,
     normal_maps: NormalMaps,
+    /// Windows that directions to the environment are sampled through; rays do not meet them.
+    portals: Vec<Primitive>,
 }
 
 /// What shading needs of a shape besides its primitives.
@@ -93,8 +95,9 @@ impl World {
         }
         let in_leaf_order = |original: &u32| collected.primitives[*original as usize].clone();
         let (primitives, owners) = leaf_order.iter().map(in_leaf_order).unzip();
-        let Collected { planes, shapes, .. } = collected;
-        Ok(Self { hierarchy, primitives, owners, scene_order, planes, shapes, normal_maps: NormalMaps::new(scene) })
+        let Collected { planes, shapes, portals, .. } = collected;
+        let normal_maps = NormalMaps::new(scene);
+        Ok(Self { hierarchy, primitives, owners, scene_order, planes, shapes, normal_maps, portals })
     }
 
     /// Leaf-order places of all primitives, in the order of the scene file; planes are not among them.
@@ -104,6 +107,11 @@ impl World {
 
     pub fn primitive(&self, place: usize) -> &Primitive {
         &self.primitives[place]
+    }
+
+    /// Portals, in the order of the scene file.
+    pub fn portals(&self) -> &[Primitive] {
+        &self.portals
     }
 
     pub fn owner(&self, id: SurfaceId) -> Owner {
@@ -223,6 +231,7 @@ struct Collected {
     primitives: Vec<(Primitive, Owner)>,
     planes: Vec<(Plane, Owner)>,
     shapes: Vec<ShapeData>,
+    portals: Vec<Primitive>,
 }
 
 impl Collected {
@@ -245,6 +254,8 @@ impl Collected {
         let mut push = |part, primitive| {
             if exists {
                 self.primitives.push((primitive, owner(part)));
+            } else if shape.portal {
+                self.portals.push(primitive);
             }
         };
         let parallelogram = |[corner, edge_u, edge_v]: [DVec3; 3]| {
@@ -286,9 +297,11 @@ impl Collected {
         let faces = shape.world_faces();
         for (part, face) in faces.iter().enumerate() {
             let material = mesh.face_materials.get(part).copied().unwrap_or(shape.material);
+            let triangle = Primitive::Triangle(Triangle { corners: face.map(|corner| positions[corner as usize]) });
             if !matches!(scene.materials[material].kind, MaterialKind::Pass) {
-                let corners = face.map(|corner| positions[corner as usize]);
-                self.primitives.push((Primitive::Triangle(Triangle { corners }), Owner { shape: index, part, material }));
+                self.primitives.push((triangle, Owner { shape: index, part, material }));
+            } else if shape.portal && triangle.area() > 0.0 {
+                self.portals.push(triangle);
             }
         }
         let normals = if mesh.smooth { shape.world_normals() } else { Vec::new() };

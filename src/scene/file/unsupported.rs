@@ -3,7 +3,7 @@
 
 use super::document::Step;
 use super::document::Step::{Index, Key};
-use crate::scene::{EnvironmentRadiance, Light, Material, Scene};
+use crate::scene::{Material, Scene};
 
 /// Something that is refused: where it is written and what it is called.
 pub struct Refusal {
@@ -13,7 +13,7 @@ pub struct Refusal {
 
 /// The first thing in the scene that no renderer does.
 pub fn find(scene: &Scene) -> Option<Refusal> {
-    materials(scene).or_else(|| shapes(scene)).or_else(|| lights(scene))
+    materials(scene).or_else(|| shapes(scene))
 }
 
 fn refuse(path: impl Into<Vec<Step>>, feature: impl Into<String>) -> Option<Refusal> {
@@ -30,31 +30,6 @@ fn material(index: usize, material: &Material) -> Option<Refusal> {
 
 fn shapes(scene: &Scene) -> Option<Refusal> {
     scene.shapes.iter().enumerate().find_map(|(index, shape)| {
-        let path = |key| [Key("shape"), Index(index), Key(key)];
-        if shape.motion.is_some() {
-            return refuse(path("motion"), "motion");
-        }
-        if shape.portal {
-            return refuse(path("portal"), "a portal");
-        }
-        None
-    })
-}
-
-fn lights(scene: &Scene) -> Option<Refusal> {
-    scene.lights.iter().enumerate().find_map(|(index, light)| {
-        let kind = match light {
-            Light::Point { .. } => return None,
-            Light::Environment(environment) => match environment.radiance {
-                EnvironmentRadiance::Constant(_) => return None,
-                EnvironmentRadiance::Map(_) => {
-                    return refuse([Key("light"), Index(index), Key("file")], "an environment from a file");
-                }
-                EnvironmentRadiance::Sky { .. } => "sky",
-            },
-            Light::Spot { .. } => "spot",
-            Light::Directional { .. } => "directional",
-        };
-        refuse([Key("light"), Index(index), Key("type")], format!("the light type `{kind}`"))
+        shape.motion.as_ref().and_then(|_| refuse([Key("shape"), Index(index), Key("motion")], "motion"))
     })
 }

@@ -6,14 +6,56 @@ use super::Resolver;
 use super::mesh::LoadedMesh;
 use crate::scene::file::syntax::{BoxShape, RectangleShape, ShapeEntry};
 use crate::scene::file::value::{Located, vector};
-use crate::scene::{Geometry, MaterialId, SceneError, Shape, Transform};
+use crate::scene::{Geometry, MaterialId, MaterialKind, SceneError, Shape, Transform};
+
+/// Faces of all portals of a scene.
+const MOST_PORTAL_FACES: usize = 256;
+
+fn portal_faces(shape: &Shape) -> usize {
+    match &shape.geometry {
+        Geometry::Mesh(mesh) => mesh.faces.len(),
+        Geometry::Box { .. } => 6,
+        _ => 1,
+    }
+}
 
 impl Resolver<'_> {
     pub(super) fn shapes(&mut self, written: &[Located<ShapeEntry>]) -> Result<(), SceneError> {
         for (index, entry) in written.iter().enumerate() {
             let shape = self.shape(index, entry)?;
             self.check_uvs(entry, &shape)?;
+            if shape.portal {
+                self.check_portal(entry, &shape)?;
+            }
             self.scene.shapes.push(shape);
+        }
+        Ok(())
+    }
+
+    /// Rays must be able to go through a portal, and every direction is tested against every portal.
+    fn check_portal(&mut self, entry: &Located<ShapeEntry>, shape: &Shape) -> Result<(), SceneError> {
+        if matches!(shape.geometry, Geometry::Plane { .. }) {
+            return Err(self.error(&entry.span, "a plane cannot be a portal: no density covers it evenly"));
+        }
+        let earlier: usize = self.scene.shapes.iter().filter(|shape| shape.portal).map(portal_faces).sum();
+        let faces = earlier + portal_faces(shape);
+        if faces > MOST_PORTAL_FACES {
+            let message = format!("the portals up to here have {faces} faces, at most {MOST_PORTAL_FACES} are possible");
+            return Err(self.error(&entry.span, message).with_help("stand a rectangle in front of the opening"));
+        }
+        let materials = match &shape.geometry {
+            Geometry::Mesh(mesh) if !mesh.face_materials.is_empty() => mesh.face_materials.clone(),
+            _ => vec![shape.material],
+        };
+        let is_pass = |id: &MaterialId| matches!(self.scene.materials[*id].kind, MaterialKind::Pass);
+        // A surface that emits is sampled as the light it is.
+        if !materials.iter().any(|id| is_pass(id) || self.scene.emits(*id)) {
+            let name = &self.scene.materials[shape.material].name;
+            let warning = format!(
+                "{}: {} is a portal without effect: its material `{name}` lets no ray pass, one of type `pass` does",
+                self.document.name, shape.label
+            );
+            self.scene.warnings.push(warning);
         }
         Ok(())
     }

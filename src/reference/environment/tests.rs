@@ -1,0 +1,111 @@
+use glam::Vec3;
+
+use super::*;
+use crate::statistics::{SphereBins, sidak, test_directional_sampler};
+
+fn of_light(radiance: EnvironmentRadiance, rotation_degrees: f64) -> Environment {
+    let light = Light::Environment(scene::Environment { radiance, rotation_degrees });
+    Environment::new(&Scene { lights: vec![light], ..Scene::default() })
+}
+
+fn map(width: u32, height: u32, rotation: f64, texel: impl Fn(u32, u32) -> Vec3) -> Environment {
+    let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect();
+    of_light(EnvironmentRadiance::Map(Arc::new(ImageData { width, height, texels, has_alpha: false })), rotation)
+}
+
+fn sky(zenith: f64, horizon: f64, ground: f64) -> Environment {
+    let [zenith, horizon, ground] = [zenith, horizon, ground].map(DVec3::splat);
+    of_light(EnvironmentRadiance::Sky { zenith, horizon, ground }, 0.0)
+}
+
+fn dotted(width: u32, height: u32, x: u32, y: u32) -> Environment {
+    map(width, height, 0.0, |column, row| if (column, row) == (x, y) { Vec3::splat(50.0) } else { Vec3::ZERO })
+}
+
+fn environments() -> Vec<(&'static str, Environment)> {
+    let noise = |x: u32, y: u32| Vec3::new((x * 37 % 11) as f32, (y * 17 % 5) as f32 + 0.1, ((x + y) * 7 % 13) as f32);
+    vec![
+        ("1 x 1", map(1, 1, 0.0, |_, _| Vec3::ONE)),
+        ("2 x 1", map(2, 1, 0.0, |x, _| Vec3::splat(1.0 + 4.0 * x as f32))),
+        ("16 x 8, turned", map(16, 8, 130.0, noise)),
+        ("7 x 5, turned back", map(7, 5, -20.0, noise)),
+        ("a bright texel", dotted(16, 8, 3, 2)),
+        ("a bright texel at a pole", dotted(16, 8, 0, 0)),
+        ("sky", sky(0.3, 1.0, 0.2)),
+        ("sky, dark at the horizon", sky(1.0, 0.0, 0.0)),
+        ("sky, all ground", sky(0.0, 0.0, 1.0)),
+        ("constant", of_light(EnvironmentRadiance::Constant(DVec3::ONE), 0.0)),
+    ]
+}
+
+fn bits(u: f64) -> u32 {
+    (u * 4_294_967_296.0) as u32
+}
+
+/// Directions follow their density, which integrates to 1; the density of a sample is that of its direction, and so is its radiance.
+#[test]
+fn directions_follow_their_densities() {
+    let family = environments();
+    let level = sidak(0.01, family.len());
+    for (seed, (name, environment)) in (0..).zip(&family) {
+        // Edges along those of the texels' rows and the horizon.
+        let bins = SphereBins::uniform(DVec3::Y, 8, 16);
+        let sample = |[u1, u2, _]: [f64; 3]| environment.sample(bits(u1), bits(u2)).map(|sample| sample.wi);
+        let report = test_directional_sampler(&bins, 200_000, seed, sample, |wi| environment.pdf(wi));
+        assert!(report.passes(level), "{name}: {report:?}");
+        assert!((report.integral.value - 1.0).abs() < 2e-3, "{name}: {:?}", report.integral);
+        let wrong = test_directional_sampler(&bins, 200_000, seed, sample, |wi| environment.pdf(wi) * (1.0 + 0.1 * wi.y + 0.02));
+        assert!(!wrong.passes(level), "{name}: {wrong:?}");
+
+        for i in 0..4000_u32 {
+            let Some(drawn) = environment.sample(i.wrapping_mul(0x9e37_79b9), i.wrapping_mul(0x85eb_ca6b)) else { continue };
+            let (pdf, radiance) = (environment.pdf(drawn.wi), environment.radiance(drawn.wi));
+            assert!((drawn.wi.length() - 1.0).abs() < 1e-12 && drawn.pdf > 0.0);
+            // A direction at a cell's very border may count as its neighbour's: rare.
+            let close = |a: f64, b: f64| (a - b).abs() <= 1e-6 * a.abs().max(b.abs()) + 1e-12;
+            assert!(close(pdf, drawn.pdf), "{name}: {pdf} and {}", drawn.pdf);
+            assert!(close(luminance(radiance), luminance(drawn.radiance)), "{name}: {radiance} and {}", drawn.radiance);
+        }
+    }
+}
+
+#[test]
+fn wherever_light_comes_from_a_direction_can_be_drawn() {
+    for (name, environment) in environments() {
+        for i in 0..20_000 {
+            let (u1, u2) = (f64::from(i) / 20_000.0, f64::from(i * 7919 % 20_000) / 20_000.0);
+            let wi = warp::uniform_sphere(u1, u2);
+            assert!(luminance(environment.radiance(wi)) == 0.0 || environment.pdf(wi) > 0.0, "{name}: {wi}");
+        }
+    }
+}
+
+/// u = atan2(x, −z)/2π, v = acos(y)/π from the top row; a rotation turns the picture counter-clockwise seen from above.
+#[test]
+fn maps_lie_where_the_contract_says() {
+    let columns = map(8, 4, 0.0, |x, y| Vec3::new(x as f32, y as f32, 0.0));
+    let at = |environment: &Environment, turns: f64, v: f64| {
+        let (x, minus_z) = (TAU * turns).sin_cos();
+        let (sine, cosine) = (PI * v).sin_cos();
+        environment.radiance(DVec3::new(sine * x, cosine, -sine * minus_z))
+    };
+    for (x, y) in (0..8).flat_map(|x| (0..4).map(move |y| (f64::from(x), f64::from(y)))) {
+        let found = at(&columns, (x + 0.5) / 8.0, (y + 0.5) / 4.0);
+        assert!((found - DVec3::new(x, y, 0.0)).length() < 1e-9, "{x} {y}: {found}");
+    }
+    assert_eq!(columns.radiance(DVec3::Y).y, 0.0);
+    assert_eq!(columns.radiance(-DVec3::Y).y, 3.0);
+    // What is seen along +x without rotation is seen along −z when turned by 90 degrees.
+    let turned = map(8, 4, 90.0, |x, y| Vec3::new(x as f32, y as f32, 0.0));
+    assert!((turned.radiance(-DVec3::Z) - columns.radiance(DVec3::X)).length() < 1e-9);
+    assert!((turned.radiance(DVec3::Z) - columns.radiance(DVec3::X)).length() > 1.0);
+}
+
+#[test]
+fn a_constant_map_is_a_constant_environment() {
+    let constant = map(5, 3, 40.0, |_, _| Vec3::new(1.0, 2.0, 0.5));
+    for wi in [DVec3::X, DVec3::Y, -DVec3::Y, DVec3::new(0.6, -0.64, 0.48)] {
+        assert!((constant.radiance(wi) - DVec3::new(1.0, 2.0, 0.5)).length() < 1e-9);
+    }
+    assert!(map(4, 4, 0.0, |_, _| Vec3::ZERO).is_constant());
+}
