@@ -14,7 +14,8 @@ pub enum Light {
         position: DVec3,
         intensity: DVec3,
     },
-    /// A point light cut to a cone: full `intensity` inside `falloff_degrees` of the axis, none past `angle_degrees`.
+    /// A point light cut to a cone: full `intensity` inside `falloff_degrees` of the axis, none past `angle_degrees`, between them
+    /// the smooth step t²(3 − 2t) in the cosine.
     Spot {
         position: DVec3,
         direction: DVec3,
@@ -40,9 +41,9 @@ pub struct Environment {
 #[derive(Debug, Clone)]
 pub enum EnvironmentRadiance {
     Constant(DVec3),
-    /// Lat-long map: u = atan2(x, -z)/2π (mod 1), v = acos(y)/π from the top row; texels already multiplied by `scale`.
+    /// Lat-long map: u = atan2(x, -z)/2π (mod 1), v = acos(y)/π from the top row, interpolated bilinearly; texels already multiplied by `scale`.
     Map(Arc<ImageData>),
-    /// `zenith` to `horizon` over the upper half by the direction's height, `ground` below.
+    /// horizon + (zenith − horizon)·y over the upper half, y the direction's height, `ground` below.
     Sky {
         zenith: DVec3,
         horizon: DVec3,

@@ -19,7 +19,8 @@ pub struct Shape {
     pub transform: Transform,
     /// Steps reached at shutter time 1, applied after `transform`; None: at rest.
     pub motion: Option<Transform>,
-    /// Sample this shape's directions as if it were a light, emitting or not.
+    /// Directions to the environment are sampled through this shape as if it were a light. Only faces of a `pass` material let them
+    /// through; those that emit are lights anyway.
     pub portal: bool,
 }
 

@@ -16,7 +16,7 @@ pub struct Case {
 
 pub const ALL: [Estimator; 3] = [Estimator::Mis, Estimator::Nee, Estimator::Bsdf];
 /// Those that see point lights.
-const WITH_LIGHT_SAMPLING: [Estimator; 2] = [Estimator::Mis, Estimator::Nee];
+pub const WITH_LIGHT_SAMPLING: [Estimator; 2] = [Estimator::Mis, Estimator::Nee];
 
 pub fn all() -> Vec<Case> {
     let mut cases = Vec::new();
@@ -113,7 +113,7 @@ fn environments(cases: &mut Vec<Case>) {
 }
 
 /// A camera that sees so little of the floor around the origin that its radiance is the same in all pixels, to 10⁻⁶.
-fn at_the_origin() -> Camera {
+pub fn at_the_origin() -> Camera {
     camera(DVec3::new(1.5, 0.8, 1.1), DVec3::ZERO, 0.02)
 }
 

@@ -6,6 +6,7 @@
 
 mod cases;
 mod exact;
+mod lights;
 mod materials;
 mod scenes;
 
@@ -103,6 +104,11 @@ fn closed_forms_of_materials_and_blends_hold() {
 #[test]
 fn closed_forms_of_normal_maps_hold() {
     assert_all_hold(&materials::with_normal_maps(), &devices()[..1]);
+}
+
+#[test]
+fn closed_forms_of_lights_hold() {
+    assert_all_hold(&lights::all(), devices());
 }
 
 fn assert_all_hold(cases: &[Case], devices: &[(&str, Render, f64)]) {

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::Resolver;
 use crate::scene::file::syntax::{EnvironmentLight, LightEntry, SpotLight};
-use crate::scene::file::value::{Located, Vector, vector};
+use crate::scene::file::value::{LARGEST, Located, Vector, vector};
 use crate::scene::{Environment, EnvironmentRadiance, ImageData, Light, SceneError};
 
 impl Resolver<'_> {
@@ -34,12 +34,18 @@ impl Resolver<'_> {
     }
 
     fn environment(&mut self, entry: &Located<LightEntry>, light: &EnvironmentLight) -> Result<Environment, SceneError> {
-        let scale = light.scale.map_or(1.0, |scale| scale.0);
+        let scale = light.scale.as_ref().map_or(1.0, |scale| scale.value.0);
         let radiance = match (&light.radiance, &light.file) {
             (Some(radiance), None) => EnvironmentRadiance::Constant(radiance.value.0 * scale),
             (None, Some(file)) => {
                 let image = self.image(file, None)?;
-                let texels = image.texels.iter().map(|&texel| texel * scale as f32).collect();
+                let texels: Vec<_> = image.texels.iter().map(|&texel| texel * scale as f32).collect();
+                if let Some(written) = light.scale.as_ref()
+                    && texels.iter().any(|texel| texel.max_element() > LARGEST as f32)
+                {
+                    let message = format!("the map's radiance times {} is too large: more than 1e18", scale);
+                    return Err(self.error(&written.span, message));
+                }
                 EnvironmentRadiance::Map(Arc::new(ImageData { texels, ..(*image).clone() }))
             }
             (Some(radiance), Some(_)) => {

@@ -23,15 +23,15 @@ pub enum LightEntry {
 pub struct EnvironmentLight {
     /// The same radiance from everywhere.
     pub radiance: Option<Located<Rgb<NonNegative>>>,
-    /// A lat-long map: u = atan2(x, −z)/2π (mod 1), v = acos(y)/π from the top row.
+    /// A lat-long map, EXR or HDR: u = atan2(x, −z)/2π (mod 1), v = acos(y)/π from the top row, interpolated bilinearly.
     pub file: Option<Located<String>>,
     /// Factor of the radiance, 1 when left out.
-    pub scale: Option<Checked<NonNegative>>,
+    pub scale: Option<Located<Checked<NonNegative>>>,
     /// Degrees about +Y, counter-clockwise seen from above.
     pub rotate: Option<Number>,
 }
 
-/// Three colours by the direction's height.
+/// Three colours by the height y of a direction of length 1: horizon + (zenith − horizon)·y above the horizon, ground below.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct SkyLight {
@@ -48,6 +48,8 @@ pub struct PointLight {
     pub intensity: Rgb<NonNegative>,
 }
 
+/// A point light cut to a cone. Between the angles `falloff` and `angle` the intensity falls as t²(3 − 2t), where t goes from 1 to 0 in
+/// proportion to the cosine of the angle.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct SpotLight {

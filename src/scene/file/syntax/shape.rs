@@ -32,7 +32,8 @@ macro_rules! shapes {
                 pub transform: Option<Located<TransformEntry>>,
                 /// Transform steps reached at shutter time 1.
                 pub motion: Option<Located<TransformEntry>>,
-                /// Sample this shape's directions as if it were a light, emitting or not.
+                /// Sample the directions through this shape for the environment's light as if the shape were a light: a window. Its
+                /// material is of type `pass`; a surface that emits is sampled as a light in any case.
                 #[serde(default)]
                 pub portal: bool,
             }

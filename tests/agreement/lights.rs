@@ -1,0 +1,247 @@
+//! Every kind of light, every way of drawing directions to it, and portals, on both devices.
+
+use gpt::gpu::GpuRenderer;
+use gpt::plan::{GeometryPlacement, PlanOptions, StageMode};
+use gpt::reference::ReferenceRenderer;
+use gpt::scene::{self, Estimator, Light, LightSampling, Scene};
+use gpt::verify::{self, Verdict};
+
+use super::{DEVICE, assert_agrees};
+
+const HEAD: &str = r#"
+[film]
+size = [32, 32]
+[render]
+spp = 8
+max_depth = 4
+[camera]
+position = [0.3, 2.2, 6]
+look_at = [0, 0.8, 0]
+vfov = 45
+[[material]]
+name = "grey"
+type = "diffuse"
+reflectance = 0.6
+[[material]]
+name = "mirror"
+type = "mirror"
+[[material]]
+name = "glossy"
+type = "phong"
+diffuse = 0.3
+specular = 0.5
+exponent = 30
+[[material]]
+name = "gone"
+type = "pass"
+[[material]]
+name = "lamp"
+type = "emissive"
+radiance = [9, 8, 7]
+[[material]]
+name = "both"
+type = "emissive"
+radiance = [0.1, 0.2, 0.3]
+two_sided = true
+[[shape]]
+type = "rectangle"
+corner = [-4, 0, 4]
+edge_u = [8, 0, 0]
+edge_v = [0, 0, -8]
+material = "grey"
+[[shape]]
+type = "sphere"
+center = [-1, 0.7, 0]
+radius = 0.7
+material = "glossy"
+[[shape]]
+type = "sphere"
+center = [1.2, 0.6, -0.5]
+radius = 0.6
+material = "mirror"
+"#;
+
+/// One seen from outside, one from both sides half in the ground, one that holds everything.
+const SPHERES: &str = r#"
+[[shape]]
+type = "sphere"
+center = [0, 2.4, 0.5]
+radius = 0.4
+material = "lamp"
+[[shape]]
+type = "sphere"
+center = [0, 0.1, 1.5]
+radius = 0.3
+material = "both"
+[[shape]]
+type = "sphere"
+center = [0, 0, 0]
+radius = 12
+material = "both"
+"#;
+
+const SPOT: &str = r#"
+[[light]]
+type = "spot"
+position = [1, 3, 2]
+direction = [-0.5, -1, -0.6]
+intensity = [20, 18, 15]
+angle = 35
+falloff = 10
+"#;
+
+const DIRECTIONAL: &str = r#"
+[[light]]
+type = "directional"
+direction = [1, -2, -0.7]
+irradiance = [0.5, 0.6, 0.7]
+"#;
+
+const SKY: &str = r#"
+[[light]]
+type = "sky"
+zenith = [0.2, 0.4, 0.9]
+horizon = [0.8, 0.8, 0.7]
+ground = [0.2, 0.15, 0.1]
+"#;
+
+const MAP: &str = r#"
+[[light]]
+type = "environment"
+file = "map.exr"
+scale = 1.5
+rotate = 40
+"#;
+
+const CONSTANT: &str = "[[light]]\ntype = \"environment\"\nradiance = [0.2, 0.5, 1]\n";
+
+/// One of every shape.
+const PORTALS: &str = r#"
+[[shape]]
+type = "rectangle"
+corner = [-1, 1, 3]
+edge_u = [2, 0, 0]
+edge_v = [0, 1.4, 0]
+material = "gone"
+portal = true
+[[shape]]
+type = "disk"
+center = [0, 4, 0]
+normal = [0, 1, 0.2]
+radius = 1
+material = "gone"
+portal = true
+[[shape]]
+type = "sphere"
+center = [-3, 2, 0]
+radius = 0.7
+material = "gone"
+portal = true
+[[shape]]
+type = "box"
+min = [2, 0, 1]
+max = [3, 1.5, 1.2]
+material = "gone"
+portal = true
+[[shape]]
+type = "mesh"
+positions = [[-1, 1, -3], [1, 1, -3], [0, 2.5, -3]]
+faces = [[0, 1, 2]]
+material = "gone"
+portal = true
+"#;
+
+fn load(parts: &[&str]) -> Scene {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let texel = |x: usize, y: usize| {
+        let sun = if (x, y) == (9, 4) { 80.0 } else { 0.0 };
+        (0.2 + sun + if y < 8 { 0.5 } else { 0.0 }, 0.3 + 0.02 * x as f32, 0.9 - 0.03 * y as f32)
+    };
+    exr::prelude::write_rgb_file(folder.path().join("map.exr"), 32, 16, texel).expect("the map is written");
+    let text = [&[HEAD], parts].concat().concat();
+    scene::load_toml_str(&text, "lights", folder.path()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn by_wavefront() -> PlanOptions {
+    let (geometry, stages) = (Some(GeometryPlacement::Hierarchy), Some(StageMode::Wavefront));
+    PlanOptions { geometry, stages, ..PlanOptions::default() }
+}
+
+#[test]
+fn every_way_of_sampling_spheres_agrees() {
+    let mut scene = load(&[SPHERES]);
+    for light_sampling in [LightSampling::Cone, LightSampling::Visible, LightSampling::Area] {
+        scene.render.light_sampling = light_sampling;
+        assert_agrees(&format!("spheres, {light_sampling:?}"), &scene, &PlanOptions::default());
+        scene.render.estimator = Estimator::Nee;
+        assert_agrees(&format!("spheres, {light_sampling:?}, nee"), &scene, &by_wavefront());
+        scene.render.estimator = Estimator::Mis;
+    }
+}
+
+#[test]
+fn every_light_that_is_no_surface_agrees() {
+    for (name, parts) in [
+        ("spot", &[SPOT][..]),
+        ("directional", &[DIRECTIONAL]),
+        ("sky", &[SKY]),
+        ("map", &[MAP]),
+        ("all with a map", &[SPOT, DIRECTIONAL, MAP, SPHERES]),
+    ] {
+        let mut scene = load(parts);
+        assert_agrees(name, &scene, &PlanOptions::default());
+        let estimator = if name == "map" { Estimator::Bsdf } else { Estimator::Nee };
+        scene.render.estimator = estimator;
+        assert_agrees(&format!("{name}, {estimator:?}"), &scene, &by_wavefront());
+    }
+}
+
+#[test]
+fn portals_of_every_shape_agree() {
+    for (name, light) in [("constant", CONSTANT), ("sky", SKY), ("map", MAP)] {
+        let mut scene = load(&[PORTALS, light]);
+        assert_agrees(&format!("portals, {name}"), &scene, &PlanOptions::default());
+        scene.render.estimator = Estimator::Nee;
+        assert_agrees(&format!("portals, {name}, nee"), &scene, &by_wavefront());
+    }
+}
+
+/// The device renders `ours`, the reference `theirs`.
+fn compare_unequal(ours: &Scene, theirs: &Scene) -> Option<Verdict> {
+    let device = DEVICE.as_ref()?;
+    let mut gpu = GpuRenderer::on(device, ours, &PlanOptions::default()).expect("the scene fits");
+    let mut cpu = ReferenceRenderer::new(theirs).expect("the scene is supported");
+    Some(verify::compare(theirs, device.name.clone(), &mut gpu, &mut cpu).expect("both render"))
+}
+
+/// The same comparison notices a spot that opens a degree wider, a map turned by a degree, spheres drawn from otherwise, and portals that
+/// one device does not know of.
+#[test]
+fn other_lights_are_noticed() {
+    let mut cases = Vec::new();
+    let spot = load(&[SPOT]);
+    let mut wider = spot.clone();
+    for light in &mut wider.lights {
+        if let Light::Spot { angle_degrees, .. } = light {
+            *angle_degrees += 1.0;
+        }
+    }
+    cases.push((wider, spot));
+    let map = load(&[MAP]);
+    let mut turned = map.clone();
+    for light in &mut turned.lights {
+        if let Light::Environment(environment) = light {
+            environment.rotation_degrees += 1.0;
+        }
+    }
+    cases.push((turned, map));
+    let spheres = load(&[SPHERES]);
+    let mut by_area = spheres.clone();
+    by_area.render.light_sampling = LightSampling::Area;
+    cases.push((by_area, spheres));
+    cases.push((load(&[SKY]), load(&[PORTALS, SKY])));
+    for (index, (ours, theirs)) in cases.iter().enumerate() {
+        let Some(verdict) = compare_unequal(ours, theirs) else { return };
+        assert!(!verdict.agrees && verdict.matching_share() < 0.97, "change {index}: {verdict:#?}");
+    }
+}

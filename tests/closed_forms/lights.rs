@@ -1,0 +1,143 @@
+//! Closed forms of lights: spheres by every strategy, spot and directional lights, maps, skies and portals over a Lambert floor.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use glam::{DVec3, Vec3};
+use gpt::scene::*;
+
+use super::cases::{ALL, Case, WITH_LIGHT_SAMPLING, at_the_origin, push};
+use super::scenes::*;
+
+const ALBEDO: f64 = 0.5;
+
+pub fn all() -> Vec<Case> {
+    let mut cases = Vec::new();
+    spheres(&mut cases);
+    from_points_and_afar(&mut cases);
+    maps(&mut cases);
+    skies(&mut cases);
+    portals(&mut cases);
+    cases
+}
+
+/// A white floor, of which the camera sees the origin.
+fn over_a_floor(spp: u32) -> Scene {
+    let mut scene = scene(spp, at_the_origin());
+    scene.render.max_depth = 2;
+    let white = diffuse(&mut scene, ALBEDO);
+    shape(&mut scene, floor(20.0), white);
+    scene
+}
+
+/// Irradiance πL(R/d)² of a sphere above, whatever its points are drawn by; each from outside and, where it glows inward, from inside: π·L.
+fn spheres(cases: &mut Vec<Case>) {
+    for strategy in [LightSampling::Visible, LightSampling::Area] {
+        let mut scene = over_a_floor(1024);
+        scene.render.light_sampling = strategy;
+        let mut around = scene.clone();
+        let light = emissive(&mut scene, DVec3::new(1.0, 2.0, 4.0));
+        shape(&mut scene, sphere(DVec3::Y, 0.5), light);
+        let expected = DVec3::new(1.0, 2.0, 4.0) * ALBEDO * 0.25;
+        push(cases, &format!("sphere light by {strategy:?}"), &scene, expected, &WITH_LIGHT_SAMPLING);
+        let light = glowing(&mut around, 0.0, 2.0);
+        shape(&mut around, sphere(DVec3::ZERO, 30.0), light);
+        push(cases, &format!("sphere light around, by {strategy:?}"), &around, DVec3::splat(2.0 * ALBEDO), &WITH_LIGHT_SAMPLING);
+    }
+}
+
+/// Spot: intensity times its smooth step times cosθ/d². Directional: irradiance times cosθ.
+fn from_points_and_afar(cases: &mut Vec<Case>) {
+    let intensity = DVec3::new(3.0, 2.0, 1.0);
+    // The floor's point is 20 degrees off the axis; the light is 2 above it, off the vertical by 30 degrees.
+    let to_light = DVec3::new(0.5, 0.75_f64.sqrt(), 0.0);
+    let axis = DVec3::new(-(50_f64.to_radians().sin()), -(50_f64.to_radians().cos()), 0.0);
+    let cosine = |degrees: f64| degrees.to_radians().cos();
+    let t = (cosine(20.0) - cosine(35.0)) / (cosine(10.0) - cosine(35.0));
+    for (name, angle_degrees, falloff_degrees, share) in
+        [("inside", 45.0, 25.0, 1.0), ("in between", 35.0, 10.0, t * t * (3.0 - 2.0 * t))]
+    {
+        let mut scene = over_a_floor(4);
+        let position = to_light * 2.0;
+        scene.lights.push(Light::Spot { position, direction: axis, intensity, angle_degrees, falloff_degrees });
+        let expected = intensity * share * cosine(30.0) / 4.0 * ALBEDO / PI;
+        push(cases, &format!("spot light, {name}"), &scene, expected, &WITH_LIGHT_SAMPLING);
+    }
+    let mut scene = over_a_floor(4);
+    scene.lights.push(Light::Directional { direction: -to_light, irradiance: intensity });
+    push(cases, "directional light", &scene, intensity * cosine(30.0) * ALBEDO / PI, &WITH_LIGHT_SAMPLING);
+}
+
+fn map(scene: &mut Scene, width: u32, height: u32, texel: impl Fn(u32, u32) -> f32) {
+    let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| Vec3::splat(texel(x, y))).collect();
+    let radiance = EnvironmentRadiance::Map(Arc::new(ImageData { width, height, texels, has_alpha: false }));
+    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees: 30.0 }));
+}
+
+/// A constant map is a constant environment; a single bright texel gives the integral of its interpolated light.
+fn maps(cases: &mut Vec<Case>) {
+    for (width, height) in [(1, 1), (24, 12)] {
+        let mut scene = over_a_floor(256);
+        map(&mut scene, width, height, |_, _| 2.0);
+        push(cases, &format!("constant map of {width} x {height}"), &scene, DVec3::splat(2.0 * ALBEDO), &ALL);
+    }
+    let (width, height, column, row) = (16_u32, 8_u32, 0, 1);
+    let mut scene = over_a_floor(256);
+    map(&mut scene, width, height, |x, y| if (x, y) == (column, row) { 40.0 } else { 0.0 });
+    // ∫ L cosθ dω: the texel's tent, one texel to either side, by the midpoint rule.
+    let steps = 2000;
+    let mut irradiance = 0.0;
+    for i in 0..steps {
+        let offset = 2.0 * (f64::from(i) + 0.5) / f64::from(steps) - 1.0;
+        let polar = PI * (f64::from(row) + 0.5 + offset) / f64::from(height);
+        irradiance += (1.0 - offset.abs()) * polar.sin() * polar.cos() * (2.0 / f64::from(steps)) * PI / f64::from(height);
+    }
+    // Across, the tent's integral is one texel.
+    irradiance *= 40.0 * 2.0 * PI / f64::from(width);
+    push(cases, "a single bright texel", &scene, DVec3::splat(irradiance * ALBEDO / PI), &WITH_LIGHT_SAMPLING);
+}
+
+/// Upward, ∫ (h + (z − h)y)·y dω = π(h + 2z)/3.
+fn skies(cases: &mut Vec<Case>) {
+    let (zenith, horizon, ground) = (DVec3::new(0.3, 0.6, 1.2), DVec3::new(1.0, 0.8, 0.6), DVec3::new(0.5, 0.1, 0.1));
+    let mut scene = over_a_floor(512);
+    let radiance = EnvironmentRadiance::Sky { zenith, horizon, ground };
+    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees: 0.0 }));
+    push(cases, "sky", &scene, (horizon + zenith * 2.0) / 3.0 * ALBEDO, &ALL);
+}
+
+/// Light through a rectangular opening in a black ceiling: the form factor of a point to a rectangle straight above it, times what little
+/// comes from beyond the ceiling's ends. The opening is a portal made of two.
+fn portals(cases: &mut Vec<Case>) {
+    let (half_x, half_z, height, reach) = (0.4, 0.6, 1.0, 4000.0);
+    let mut scene = over_a_floor(512);
+    let black = diffuse(&mut scene, 0.0);
+    let ceiling = |from: [f64; 2], to: [f64; 2]| Geometry::Rectangle {
+        corner: DVec3::new(from[0], height, from[1]),
+        edge_u: DVec3::X * (to[0] - from[0]),
+        edge_v: DVec3::Z * (to[1] - from[1]),
+    };
+    for (from, to) in [
+        ([-reach, -reach], [-half_x, reach]),
+        ([half_x, -reach], [reach, reach]),
+        ([-half_x, -reach], [half_x, -half_z]),
+        ([-half_x, half_z], [half_x, reach]),
+    ] {
+        shape(&mut scene, ceiling(from, to), black);
+    }
+    // The camera looks through from below.
+    scene.camera.position = DVec3::new(1.5, 0.8, 1.1);
+    let gone = material(&mut scene, MaterialKind::Pass, None);
+    for (from, to) in [([-half_x, -half_z], [0.1, half_z]), ([0.1, -half_z], [half_x, half_z])] {
+        shape(&mut scene, ceiling(from, to), gone);
+    }
+    scene.shapes.iter_mut().for_each(|shape| shape.portal = shape.material == gone);
+    let (x, z) = (half_x / height, half_z / height);
+    let side = |a: f64, b: f64| a / (1.0 + a * a).sqrt() * (b / (1.0 + a * a).sqrt()).atan();
+    let form_factor = 2.0 / PI * (side(x, z) + side(z, x));
+    let mut constant = scene.clone();
+    environment(&mut constant, 1.0);
+    push(cases, "portal, constant", &constant, DVec3::splat(form_factor * ALBEDO), &WITH_LIGHT_SAMPLING);
+    map(&mut scene, 4, 2, |_, _| 1.0);
+    push(cases, "portal, map", &scene, DVec3::splat(form_factor * ALBEDO), &WITH_LIGHT_SAMPLING);
+}
