@@ -204,23 +204,29 @@ fn a_light_inside_a_shape_lights_its_inside() {
     }
 }
 
-/// Lights without area, power or extent send nothing, and nothing goes wrong.
+/// Lights without power send nothing, and nothing goes wrong; surfaces without area are refused.
 #[test]
 fn lights_without_area_or_power_are_dark() {
-    let flat =
-        "[[shape]]\ntype = \"mesh\"\npositions = [[0, 2, 0], [1, 2, 0], [2, 2, 0]]\nfaces = [[0, 1, 2]]\nmaterial = \"lamp\"\n";
     let dark = [
         format!("{}direction = [0, -1, 0]\nangle = 40\n", spot("").replace("intensity = 1", "intensity = 0")),
         "[[light]]\ntype = \"directional\"\ndirection = [0, -1, 0]\nirradiance = 0\n".to_owned(),
         "[[light]]\ntype = \"sky\"\nzenith = 0\nhorizon = 0\nground = 0\n".to_owned(),
-        flat.to_owned(),
     ];
     for text in dark {
         assert_eq!(brightness(&load(&text)), 0.0, "{text}");
         let beside = load(&format!("{text}[[light]]\ntype = \"point\"\nposition = [0, 3, 0]\nintensity = 1\n"));
         assert!(brightness(&beside) > 0.0, "{text}");
     }
-    let complaint =
-        complaint_in(Path::new(""), "[[shape]]\ntype = \"sphere\"\ncenter = [0, 2, 0]\nradius = 0\nmaterial = \"lamp\"\n");
-    assert!(complaint.contains("radius: expected a number above 0, found 0"), "{complaint}");
+    for (body, expected) in [
+        ("type = \"sphere\"\ncenter = [0, 2, 0]\nradius = 0", "radius: expected a number above 0, found 0"),
+        ("type = \"disk\"\ncenter = [0, 2, 0]\nnormal = [0, 1, 0]\nradius = 0", "radius: expected a number above 0, found 0"),
+        ("type = \"rectangle\"\ncorner = [0, 2, 0]\nedge_u = [1, 0, 0]\nedge_v = [2, 0, 0]", "the rectangle has no area"),
+        (
+            "type = \"mesh\"\npositions = [[0, 2, 0], [1, 2, 0], [2, 2, 0]]\nfaces = [[0, 1, 2]]",
+            "the mesh has no faces with an area",
+        ),
+    ] {
+        let complaint = complaint_in(Path::new(""), &format!("[[shape]]\nmaterial = \"lamp\"\n{body}\n"));
+        assert!(complaint.contains("shape[1]") && complaint.contains(expected), "{complaint}");
+    }
 }

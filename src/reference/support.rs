@@ -2,8 +2,8 @@
 
 use crate::render::RenderError;
 use crate::scene::{
-    ColorInput, EnvironmentRadiance, Geometry, Heuristic, Light, Material, MaterialId, MaterialKind, Mesh, Scene, Shape, TextureId,
-    TextureKind, check_blends,
+    ColorInput, EnvironmentRadiance, Geometry, Heuristic, Light, Material, MaterialId, MaterialKind, Mesh, Scene, Shape,
+    TextureId, TextureKind, check_blends,
 };
 
 /// Checks that every index of the scene is in range and that nothing is used that the reference cannot render.

@@ -191,7 +191,8 @@ pub enum HemisphereSampling {
 }
 
 /// How a point on a sphere light is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum LightSampling {
     /// Uniform in the cone of directions that meet the sphere.
     Cone,

@@ -106,10 +106,10 @@ fn skies(cases: &mut Vec<Case>) {
     push(cases, "sky", &scene, (horizon + zenith * 2.0) / 3.0 * ALBEDO, &ALL);
 }
 
-/// Light through a rectangular opening in a black ceiling: the form factor of a point to a rectangle straight above it, times what little
-/// comes from beyond the ceiling's ends. The opening is a portal made of two.
+/// Light through a rectangular opening in the ceiling of a black room: the form factor of a point to a rectangle straight above it. The
+/// opening is a portal made of two.
 fn portals(cases: &mut Vec<Case>) {
-    let (half_x, half_z, height, reach) = (0.4, 0.6, 1.0, 4000.0);
+    let (half_x, half_z, height, reach) = (0.4, 0.6, 1.0, 4.0);
     let mut scene = over_a_floor(512);
     let black = diffuse(&mut scene, 0.0);
     let ceiling = |from: [f64; 2], to: [f64; 2]| Geometry::Rectangle {
@@ -125,8 +125,12 @@ fn portals(cases: &mut Vec<Case>) {
     ] {
         shape(&mut scene, ceiling(from, to), black);
     }
-    // The camera looks through from below.
-    scene.camera.position = DVec3::new(1.5, 0.8, 1.1);
+    for (corner, along) in
+        [([-reach, -reach], DVec3::X), ([-reach, reach], DVec3::X), ([-reach, -reach], DVec3::Z), ([reach, -reach], DVec3::Z)]
+    {
+        let corner = DVec3::new(corner[0], 0.0, corner[1]);
+        shape(&mut scene, Geometry::Rectangle { corner, edge_u: along * (2.0 * reach), edge_v: DVec3::Y * height }, black);
+    }
     let gone = material(&mut scene, MaterialKind::Pass, None);
     for (from, to) in [([-half_x, -half_z], [0.1, half_z]), ([0.1, -half_z], [half_x, half_z])] {
         shape(&mut scene, ceiling(from, to), gone);

@@ -32,6 +32,7 @@ impl Resolver<'_> {
         render.estimator = written.estimator.unwrap_or(render.estimator);
         render.heuristic = written.heuristic.unwrap_or(render.heuristic);
         render.hemisphere = written.hemisphere.unwrap_or(render.hemisphere);
+        render.light_sampling = written.light_sampling.unwrap_or(render.light_sampling);
         render.seed = written.seed.unwrap_or(render.seed);
         if let Some(depth) = &written.roulette_depth {
             render.roulette_depth = depth.value;

@@ -23,7 +23,7 @@ pub use shape::{BoxShape, MeshShape, RectangleShape, ShapeEntry, StepEntry, Tran
 pub use texture::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 
 use super::value::{Checked, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
-use crate::scene::{Estimator, HemisphereSampling, MisHeuristic, PixelSamplerName, SamplerKind};
+use crate::scene::{Estimator, HemisphereSampling, LightSampling, MisHeuristic, PixelSamplerName, SamplerKind};
 
 /// A scene of the path tracer gpt. Lengths in scene units, angles in degrees, colours linear Rec.709, radiance in W·sr⁻¹·m⁻².
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -88,6 +88,9 @@ pub struct RenderTable {
     pub heuristic: Option<MisHeuristic>,
     /// How directions over a diffuse surface are drawn.
     pub hemisphere: Option<HemisphereSampling>,
+    /// How a point on a sphere light is drawn: uniform in the cone of directions that meet it, over the half of its surface that faces
+    /// the point, or over all of it. "cone" when left out.
+    pub light_sampling: Option<LightSampling>,
     /// First depth at which Russian roulette may end a path, 0 = never. 5 when left out.
     pub roulette_depth: Option<Located<u32>>,
     /// Key of every random number, 0 when left out.
