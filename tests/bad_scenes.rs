@@ -71,7 +71,7 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
             "spp = 1",
             "samples = 1",
             "test.toml:5:1: render.samples: unknown key `samples` [did you mean `sampler`? valid choices: spp, max_depth, sampler, pixel_sampler, \
-             estimator, heuristic, hemisphere, roulette_depth, seed]",
+             estimator, heuristic, hemisphere, light_sampling, roulette_depth, seed]",
         ),
         (
             "type = \"diffuse\"",

