@@ -119,7 +119,7 @@ fn sample_sky(u: f32, v: f32) -> EnvironmentSample {
     let upper = u < share;
     let horizon = luminance(view.environment.xyz);
     let zenith = luminance(view.sky_zenith.xyz);
-    var height = -(u - share) / (1.0 - share);
+    var height = (u - 1.0) / (1.0 - share);
     if upper {
         let xi = u / share;
         // The root of h y + (z - h) y^2 / 2 = xi (h + z) / 2 that does not cancel.

@@ -188,7 +188,7 @@ impl Sky {
             let denominator = h + (h * h + xi * (z * z - h * h)).max(0.0).sqrt();
             if denominator > 0.0 { (xi * (h + z) / denominator).min(1.0) } else { 0.0 }
         } else {
-            -(u1 - share) / (1.0 - share)
+            (u1 - 1.0) / (1.0 - share)
         };
         let sine = ((1.0 - height) * (1.0 + height)).max(0.0).sqrt();
         let (sin_phi, cos_phi) = (TAU * u2).sin_cos();
