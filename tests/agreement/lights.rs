@@ -1,9 +1,10 @@
 //! Every kind of light, every way of drawing directions to it, and portals, on both devices.
 
+use glam::Vec3;
 use gpt::gpu::GpuRenderer;
 use gpt::plan::{GeometryPlacement, PlanOptions, StageMode};
 use gpt::reference::ReferenceRenderer;
-use gpt::scene::{self, Estimator, Light, LightSampling, Scene};
+use gpt::scene::{self, Estimator, Geometry, Light, LightSampling, Mesh, Scene, Shape};
 use gpt::verify::{self, Verdict};
 
 use super::{DEVICE, assert_agrees};
@@ -158,7 +159,8 @@ fn load(parts: &[&str]) -> Scene {
         (0.2 + sun + if y < 8 { 0.5 } else { 0.0 }, 0.3 + 0.02 * x as f32, 0.9 - 0.03 * y as f32)
     };
     exr::prelude::write_rgb_file(folder.path().join("map.exr"), 32, 16, texel).expect("the map is written");
-    let text = [&[HEAD], parts].concat().concat();
+    let dim = if parts.is_empty() { CONSTANT } else { "" };
+    let text = [&[HEAD], parts, &[dim]].concat().concat();
     scene::load_toml_str(&text, "lights", folder.path()).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -204,6 +206,28 @@ fn portals_of_every_shape_agree() {
         scene.render.estimator = Estimator::Nee;
         assert_agrees(&format!("portals, {name}, nee"), &scene, &by_wavefront());
     }
+}
+
+/// A wavy panel of 10,000 triangles, every seventh of which is dark: each primitive that a ray meets knows the light it is.
+#[test]
+fn ten_thousand_emitting_triangles_agree() {
+    let mut scene = load(&[]);
+    let find = |name: &str| scene.materials.iter().position(|material| material.name == name).expect("the material exists");
+    let (dark, bright) = (find("grey"), find("both"));
+    let (columns, rows) = (100_u32, 50_u32);
+    let height = |x: u32, y: u32| 2.5 + 0.2 * (x as f32 * 0.3).sin() * (y as f32 * 0.4).cos();
+    let positions = (0..=rows)
+        .flat_map(|y| (0..=columns).map(move |x| (x, y)))
+        .map(|(x, y)| Vec3::new(x as f32 / 25.0 - 2.0, height(x, y), y as f32 / 25.0 - 1.0));
+    let faces: Vec<[u32; 3]> = (0..rows)
+        .flat_map(|y| (0..columns).map(move |x| y * (columns + 1) + x))
+        .flat_map(|a| [[a, a + 1, a + columns + 2], [a, a + columns + 2, a + columns + 1]])
+        .collect();
+    let face_materials = (0..faces.len()).map(|face| if face % 7 == 0 { dark } else { bright }).collect();
+    let mesh = Mesh { positions: positions.collect(), faces, face_materials, ..Mesh::default() };
+    let shape = Shape { label: "panel".into(), geometry: Geometry::Mesh(mesh.into()), ..scene.shapes[0].clone() };
+    scene.shapes.push(shape);
+    assert_agrees("10,000 emitting triangles", &scene, &PlanOptions::default());
 }
 
 /// The device renders `ours`, the reference `theirs`.
