@@ -1,11 +1,8 @@
 //! Lights that are wrong: each is one error that names the place, the key and what would be right. And some that look wrong and have a
 //! meaning.
 
-mod common;
-
 use std::path::Path;
 
-use common::folder_with;
 use gpt::film::Band;
 use gpt::reference::ReferenceRenderer;
 use gpt::render::{RenderRequest, Renderer, Silent};
@@ -114,12 +111,12 @@ fn hdr_header(width: u32, height: u32) -> Vec<u8> {
 #[test]
 fn maps_that_are_no_light_are_one_error_at_the_file() {
     let [huge, empty] = [hdr_header(20_000, 20_000), hdr_header(0, 0)];
-    let folder = folder_with(&[
-        ("huge.hdr", &huge),
-        ("empty.hdr", &empty),
-        ("short.hdr", &hdr_header(8, 4)),
-        ("text.exr", b"not a picture"),
-    ]);
+    let folder = tempfile::tempdir().expect("the system has a folder for temporary files");
+    let files: [(&str, &[u8]); 4] =
+        [("huge.hdr", &huge), ("empty.hdr", &empty), ("short.hdr", &hdr_header(8, 4)), ("text.exr", b"not a picture")];
+    for (name, bytes) in files {
+        std::fs::write(folder.path().join(name), bytes).expect("a new folder can be written to");
+    }
     let path = folder.path();
     for (name, odd) in [("nan.exr", f32::NAN), ("infinite.exr", f32::INFINITY), ("negative.exr", -0.1)] {
         exr_with(path, name, odd);

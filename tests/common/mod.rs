@@ -1,4 +1,5 @@
 //! Files that tests of scenes write for themselves.
+#![allow(dead_code, reason = "each test uses some of these")]
 
 use std::io::Cursor;
 
