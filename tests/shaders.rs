@@ -35,6 +35,8 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
     }
     for (name, needed) in [
         ("BLENDED_LIGHTS", &["BLENDS", "EMISSION", "LIGHTS"][..]),
+        ("MOVING_LIGHTS", &["MOTION", "ATTRIBUTES", "BVH"]),
+        ("MOTION", &["ATTRIBUTES", "BVH"]),
         ("PASS", &["BLENDS"]),
         ("PICK", &["BLENDS"]),
         ("CHECKERS", &["TEXTURES", "PROCEDURAL_TEXTURES"]),
@@ -86,6 +88,7 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
         "FIRST_HEURISTIC_WORD",
         "FIRST_LEAF_WORD",
         "FIRST_LIGHT_WORD",
+        "FIRST_MOTION_WORD",
         "FIRST_PORTAL",
         "FIRST_TEXTURE_WORD",
         "LIGHT_COUNT",

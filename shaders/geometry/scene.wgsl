@@ -22,7 +22,7 @@
 #endif
 #if ATTRIBUTES
 // Normals and texture coordinates of triangles, four vec4 each:
-//   (n0, u0), (n1, v0), (n2, u1), (v1, u2, v2, -)
+//   (n0, u0), (n1, v0), (n2, u1), (v1, u2, v2, motion or NONE)
 @group(0) @binding(7) var<storage, read> attributes: array<vec4<f32>>;
 #endif
 #if TEXELS
@@ -36,7 +36,11 @@ const KIND_DISK: u32 = 3u;
 const KIND_PLANE: u32 = 4u;
 
 fn primitive_kind(word: f32) -> u32 {
+#if MOTION
+    return (bitcast<u32>(word) >> 28u) & 7u;
+#else
     return bitcast<u32>(word) >> 28u;
+#endif
 }
 
 fn primitive_material(word: f32) -> u32 {

@@ -1,12 +1,22 @@
 // A ray against primitive `index` of the hierarchy. Kinds that it does not hold are left out; planes never are in it.
 #import geometry/primitives.wgsl
 #import geometry/scene.wgsl
+#if MOTION
+#import geometry/motion.wgsl
+#endif
 
 // Replaces `hit` where primitive `index` is nearer.
 fn intersect_stored(ray: PreparedRay, index: u32, hit: ptr<function, Hit>) {
+#if MOTION
+    let placed = placed_primitive(index);
+    let p0 = placed.p0;
+    let p1 = placed.p1;
+    let p2 = placed.p2;
+#else
     let p0 = primitives[index * 3u];
     let p1 = primitives[index * 3u + 1u];
     let p2 = primitives[index * 3u + 2u];
+#endif
     var found = vec3<f32>(-1.0, 0.0, 0.0);
     let t_max = (*hit).t;
 #if ONLY_TRIANGLES_IN_HIERARCHY

@@ -4,6 +4,9 @@
 #import geometry/scene.wgsl
 #import shading/sphere_light.wgsl
 #import shading/surface.wgsl
+#if MOVING_LIGHTS
+#import geometry/motion.wgsl
+#endif
 #if ENVIRONMENT
 #import shading/environment.wgsl
 #endif
@@ -35,8 +38,30 @@ const LIGHT_BLENDED: u32 = 512u;
 //   (kind and flags; alias threshold; alias; probability of being chosen)
 //   (first point; area or radius), (second; emission texture or NONE), (third; attributes or NONE), (radiance or intensity; material)
 fn light_word(light: u32, word: u32) -> vec4<f32> {
+#if MOVING_LIGHTS
+    let flags = bitcast<u32>(tables[FIRST_LIGHT_WORD + light * 5u].x);
+    if word != 0u && word != 4u && (flags & LIGHT_MOVES) != 0u {
+        let word_3 = tables[FIRST_LIGHT_WORD + light * 5u + 3u];
+        return placed_light_word(
+            bitcast<u32>(word_3.w), word, (flags & 255u) == LIGHT_SPHERE, tables[FIRST_LIGHT_WORD + light * 5u + 1u],
+            tables[FIRST_LIGHT_WORD + light * 5u + 2u], word_3
+        );
+    }
+#endif
     return tables[FIRST_LIGHT_WORD + light * 5u + word];
 }
+
+#if MOVING_LIGHTS
+// The magnitude that rounding of a moving light's points is relative to; 0 where it rests.
+fn moved_light_magnitude(light: u32) -> vec3<f32> {
+    let word_3 = tables[FIRST_LIGHT_WORD + light * 5u + 3u];
+    if (bitcast<u32>(tables[FIRST_LIGHT_WORD + light * 5u].x) & LIGHT_MOVES) == 0u {
+        return vec3<f32>(0.0);
+    }
+    let size = abs(tables[FIRST_LIGHT_WORD + light * 5u + 1u].xyz) + abs(tables[FIRST_LIGHT_WORD + light * 5u + 2u].xyz);
+    return moved_magnitude(motion_at_path_time(motion_of_attributes(bitcast<u32>(word_3.w))), size + abs(word_3.xyz));
+}
+#endif
 
 #if LIGHTS
 #if BLENDED_LIGHTS
@@ -175,7 +200,12 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
                 b = r * circle.x;
             }
             let point = l1.xyz + a * l2.xyz + b * l3.xyz;
+#if MOVING_LIGHTS
+            let size = abs(l1.xyz) + abs(l2.xyz) + abs(l3.xyz) + moved_light_magnitude(light);
+            let error = POINT_ERROR * dot(abs(normal), size);
+#else
             let error = POINT_ERROR * dot(abs(normal), abs(l1.xyz) + abs(l2.xyz) + abs(l3.xyz));
+#endif
             var radiance = l4.xyz;
 #if BLENDED_LIGHTS
             if (kind_flags & LIGHT_BLENDED) != 0u {

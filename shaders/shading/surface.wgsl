@@ -1,6 +1,9 @@
 // What a hit is: position, normals, texture coordinates, material.
 #import core/math.wgsl
 #import geometry/scene.wgsl
+#if MOTION
+#import geometry/motion.wgsl
+#endif
 
 struct Surface {
     position: vec3<f32>,
@@ -34,10 +37,22 @@ fn interpolate_attributes(first: u32, weights: vec2<f32>) -> Attribute {
     let a2 = attributes[first * 4u + 2u];
     let a3 = attributes[first * 4u + 3u];
     let w = 1.0 - weights.x - weights.y;
+#if MOTION
+    var interpolated = Attribute(
+        w * a0.xyz + weights.x * a1.xyz + weights.y * a2.xyz,
+        w * vec2<f32>(a0.w, a1.w) + weights.x * vec2<f32>(a2.w, a3.x) + weights.y * a3.yz
+    );
+    let moving = bitcast<u32>(a3.w);
+    if moving != NONE {
+        interpolated.normal = moved_normal(motion_at_path_time(moving), interpolated.normal);
+    }
+    return interpolated;
+#else
     return Attribute(
         w * a0.xyz + weights.x * a1.xyz + weights.y * a2.xyz,
         w * vec2<f32>(a0.w, a1.w) + weights.x * vec2<f32>(a2.w, a3.x) + weights.y * a3.yz
     );
+#endif
 }
 
 // The interpolated normal on wo's side; the facing normal where there is none or wo is below its horizon.
@@ -52,9 +67,16 @@ fn shading_normal_towards(interpolated: vec3<f32>, facing_normal: vec3<f32>, wo:
 #endif
 
 fn hit_surface(ray: Ray, hit: Hit) -> Surface {
+#if MOTION
+    let placed = placed_primitive(hit.primitive);
+    let p0 = placed.p0;
+    let p1 = placed.p1;
+    let p2 = placed.p2;
+#else
     let p0 = primitives[hit.primitive * 3u];
     let p1 = primitives[hit.primitive * 3u + 1u];
     let p2 = primitives[hit.primitive * 3u + 2u];
+#endif
     let kind = primitive_kind(p0.w);
     let wo = -ray.direction;
 
@@ -108,6 +130,9 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
         shading_normal = shading_normal_towards(interpolated.normal, facing_normal, wo);
     }
 #endif
+#if MOTION
+    size += placed.magnitude;
+#endif
     let error = POINT_ERROR * dot(abs(facing_normal), size);
     return Surface(
         position, facing_normal, shading_normal, uv, front, error,
@@ -119,7 +144,17 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
 #if ATTRIBUTES
 // u = atan2(x, -z) / 2π (mod 1), v = acos(-y) / π of the direction from the centre in the sphere's own space: the attributes' first
 // three vec4 hold the rows of the rotation into it.
+#if MOTION
+fn sphere_uv(first: u32, normal_now: vec3<f32>) -> vec2<f32> {
+    var normal = normal_now;
+    let moving = motion_of_attributes(first);
+    if moving != NONE {
+        // The transpose of a rotation, up to a factor, takes it back.
+        normal = normal * motion_at_path_time(moving).linear;
+    }
+#else
 fn sphere_uv(first: u32, normal: vec3<f32>) -> vec2<f32> {
+#endif
     let direction = vec3<f32>(
         dot(attributes[first * 4u].xyz, normal),
         dot(attributes[first * 4u + 1u].xyz, normal),

@@ -25,6 +25,9 @@ fn connect(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
             }
             place = next;
             next += stride;
+#if MOTION
+            set_path_time_of(bitcast<u32>(shadow_rays[SHADOW_DIRECTION + place].w));
+#endif
             let s0 = shadow_rays[SHADOW_ORIGIN + place];
             traversal = begin_any(Ray(s0.xyz, shadow_rays[SHADOW_DIRECTION + place].xyz), s0.w);
         }

@@ -7,6 +7,9 @@
 const WORKGROUP: u32 = 64u;
 
 fn start_path(pixel: u32, sample_in_pass: u32) -> Path {
+#if MOTION
+    set_path_time(pixel, sample_in_pass);
+#endif
     let ray = camera_ray(pixel, camera_block(pixel, sample_in_pass));
     return new_path(ray, pixel, sample_in_pass);
 }

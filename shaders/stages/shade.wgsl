@@ -12,6 +12,9 @@ fn shade(@builtin(global_invocation_id) id: vec3<u32>) {
     let slot = queues[queue * PATH_CAPACITY + id.x];
     let h = path_state[PLANE_HIT + slot];
     var path = load_path(slot);
+#if MOTION
+    set_path_time(path.pixel, path.sample_in_pass);
+#endif
     let vertex = shade_vertex(&path, Hit(h.x, bitcast<u32>(h.y), h.z, h.w), edge_parameters.edge);
 #if PASS
     let radiance = path_state[PLANE_RADIANCE + slot].xyz + vertex.radiance;

@@ -30,6 +30,14 @@ fn load_ray(slot: u32) -> Ray {
     return Ray(path_state[PLANE_ORIGIN + slot].xyz, path_state[PLANE_DIRECTION + slot].xyz);
 }
 
+#if MOTION
+// To be called before anything is asked of the scene for the path in a slot.
+fn set_path_time_of(slot: u32) {
+    let identity = bitcast<u32>(path_state[PLANE_ORIGIN + slot].w);
+    set_path_time(pass_parameters.first_pixel + (identity & 0x00ffffffu), identity >> 24u);
+}
+#endif
+
 fn load_path(slot: u32) -> Path {
     let p0 = path_state[PLANE_ORIGIN + slot];
     let p1 = path_state[PLANE_DIRECTION + slot];

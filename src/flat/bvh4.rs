@@ -9,6 +9,7 @@ use glam::Vec3;
 use obvhs::bvh2::{Bvh2, builder::build_bvh2};
 use obvhs::{Boundable, BvhBuildParams, aabb::Aabb};
 
+use super::motion::FlatMotion;
 use super::primitive::{PrimitiveKind, WorldPrimitive};
 use super::validate::FlatError;
 
@@ -70,24 +71,28 @@ struct Child {
 impl Bvh4 {
     /// Builds the hierarchy. The second value is the order in which primitives have to stand: the leaves' first, then those that it
     /// does not hold, which kernels test one by one: planes, which nothing bounds, and other shapes where they are few, so that a
-    /// model on a ground under a lamp needs a hierarchy of triangles alone.
+    /// model on a ground under a lamp needs a hierarchy of triangles alone. What moves is always in it, bounded over the time for
+    /// which the shutter is open.
     ///
     /// # Errors
     /// [`FlatError`] for more primitives or planes than can be held.
-    pub fn build(primitives: &[WorldPrimitive]) -> Result<(Self, Vec<usize>), FlatError> {
-        let is_triangle = |primitive: &WorldPrimitive| primitive.kind() == PrimitiveKind::Triangle;
-        let others = primitives.iter().filter(|primitive| !is_triangle(primitive)).count();
+    pub fn build(primitives: &[WorldPrimitive], motions: &[FlatMotion]) -> Result<(Self, Vec<usize>), FlatError> {
+        let belongs = |primitive: &WorldPrimitive| primitive.kind() == PrimitiveKind::Triangle || primitive.moves();
+        let others = primitives.iter().filter(|primitive| !belongs(primitive)).count();
         let few_others = others <= MAX_OUTSIDE && others < primitives.len();
         let (inside, outside): (Vec<usize>, Vec<usize>) = (0..primitives.len()).partition(|&index| {
             let primitive = &primitives[index];
-            is_triangle(primitive) || !(few_others || primitive.is_plane())
+            belongs(primitive) || !(few_others || primitive.is_plane())
         });
         if outside.len() > MAX_PLANES {
             return Err(FlatError::TooManyPlanes { found: outside.len(), limit: MAX_PLANES });
         }
         let bounds: Vec<Bounds> = inside
             .iter()
-            .filter_map(|&index| primitives[index].bounds())
+            .filter_map(|&index| {
+                let primitive = &primitives[index];
+                motions.get(primitive.motion as usize).map_or_else(|| primitive.bounds(), |motion| motion.swept(primitive))
+            })
             .map(|(low, high)| Bounds(Aabb::new(low.into(), high.into())))
             .collect();
         if bounds.len() > MAX_PRIMITIVES {

@@ -31,6 +31,8 @@ pub enum LightKind {
 const TWO_SIDED: u32 = 256;
 /// The radiance is that of the whole material, seen from where the light goes.
 const BLENDED: u32 = 512;
+/// Its points move as its attributes say.
+const MOVES: u32 = 1024;
 
 /// 80 bytes, the layout of `light_word` in `shaders/shading/light.wgsl`.
 #[repr(C)]
@@ -61,6 +63,10 @@ impl FlatLight {
     /// Its radiance is that of a whole blend.
     pub fn is_blended(&self) -> bool {
         self.kind_and_flags & BLENDED != 0
+    }
+
+    pub fn moves(&self) -> bool {
+        self.kind_and_flags & MOVES != 0
     }
 
     pub fn is(&self, kind: LightKind) -> bool {
@@ -242,8 +248,11 @@ fn plain(kind: LightKind, position: DVec3, radiance: DVec3) -> FlatLight {
 fn surface_light(primitive: &WorldPrimitive, emission: &SurfaceEmission) -> Option<FlatLight> {
     let (radiance, texture) = super::material::color_and_texture(&emission.radiance);
     let (kind, size, [p0, p1, p2]) = light_geometry(primitive)?;
+    let flag = |set: bool, bit: u32| if set { bit } else { 0 };
+    let flags = flag(emission.two_sided, TWO_SIDED) | flag(emission.blended, BLENDED) | flag(primitive.moves(), MOVES);
+    let kind_and_flags = kind as u32 | flags;
     Some(FlatLight {
-        kind_and_flags: kind as u32 | if emission.two_sided { TWO_SIDED } else { 0 } | if emission.blended { BLENDED } else { 0 },
+        kind_and_flags,
         size: size as f32,
         p1: p1.as_vec3().to_array(),
         emission_texture: texture,

@@ -7,6 +7,7 @@ pub mod bvh4;
 pub mod environment;
 pub mod light;
 pub mod material;
+pub mod motion;
 pub mod primitive;
 pub mod tables;
 pub mod texture;
@@ -43,6 +44,8 @@ pub struct FlatScene {
     pub lights: Vec<FlatLight>,
     pub textures: FlatTextures,
     pub environment: FlatEnvironment,
+    /// How shapes move ([`motion::FlatMotion::words`]).
+    pub motions: Vec<[f32; 4]>,
     pub view: View,
 }
 
@@ -52,11 +55,15 @@ impl FlatScene {
     /// # Errors
     /// [`FlatError`] where something is too large for the packed form or came out inconsistent.
     pub fn new(scene: &Scene) -> Result<Self, FlatError> {
+        for shape in &scene.shapes {
+            let fail = |(_, message)| FlatError::Motion { shape: shape.label.clone(), message };
+            shape.check_motion(scene.camera.shutter).map_err(fail)?;
+        }
         let mut world = world::collect(scene);
         let mut textures = FlatTextures::new(scene)?;
         let environment = FlatEnvironment::new(scene, &mut textures.texels)?;
         let lights = light::collect(scene, &mut world, &environment);
-        let (bvh, order) = Bvh4::build(&world.primitives)?;
+        let (bvh, order) = Bvh4::build(&world.primitives, &world.motions)?;
         let primitives: Vec<Primitive> = order.iter().map(|&index| world.primitives[index].pack()).collect();
         let flat = Self {
             primitives,
@@ -66,10 +73,16 @@ impl FlatScene {
             lights,
             textures,
             environment,
+            motions: world.motion_words,
             view: View::new(scene),
         };
         flat.validate()?;
         Ok(flat)
+    }
+
+    /// Something moves while the shutter is open.
+    pub fn moves(&self) -> bool {
+        !self.motions.is_empty()
     }
 
     /// All that shading looks up, as one array of vec4.

@@ -1,6 +1,6 @@
 //! The primitives of the packed scene.
 
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DAffine3, DVec3, Vec2, Vec3};
 
 use super::{NONE, outward};
 
@@ -49,6 +49,8 @@ pub struct WorldPrimitive {
     pub light: u32,
     /// Index into the attributes, or NONE.
     pub attributes: u32,
+    /// Index of its shape's motion, or NONE. What moves has attributes.
+    pub motion: u32,
 }
 
 /// 48 bytes: three points and, in their fourth words, what belongs to the primitive.
@@ -57,7 +59,7 @@ pub struct WorldPrimitive {
 pub struct Primitive {
     /// First vertex, corner, center, center or point.
     pub p0: [f32; 3],
-    /// Kind in the upper 4 bits, material in the rest.
+    /// Bit 31: it moves; kind in the 3 bits below, material in the rest.
     pub kind_and_material: u32,
     /// Second vertex, edge u, (radius, 0, 0), normal or normal.
     pub p1: [f32; 3],
@@ -67,7 +69,10 @@ pub struct Primitive {
     pub attributes: u32,
 }
 
-/// Normals and texture coordinates of a triangle's vertices, 64 bytes.
+/// Set where a primitive moves.
+const MOVES: u32 = 1 << 31;
+
+/// Normals and texture coordinates of a triangle's vertices, and how it moves; 64 bytes.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct TriangleAttributes {
@@ -80,20 +85,63 @@ pub struct TriangleAttributes {
     pub v1: f32,
     pub u2: f32,
     pub v2: f32,
-    pub padding: f32,
+    /// First word of its motion, or NONE.
+    pub motion: u32,
 }
 
 impl TriangleAttributes {
     pub fn new(normals: [Vec3; 3], uvs: [Vec2; 3]) -> Self {
         let [n0, n1, n2] = normals.map(|n| n.to_array());
         let [uv0, uv1, uv2] = uvs;
-        Self { n0, u0: uv0.x, n1, v0: uv0.y, n2, u1: uv1.x, v1: uv1.y, u2: uv2.x, v2: uv2.y, padding: 0.0 }
+        Self { n0, u0: uv0.x, n1, v0: uv0.y, n2, u1: uv1.x, v1: uv1.y, u2: uv2.x, v2: uv2.y, motion: NONE }
+    }
+}
+
+impl PrimitiveGeometry {
+    /// Where a motion takes it. Round shapes are scaled by the same factor along every axis.
+    pub fn moved(&self, map: &DAffine3) -> Self {
+        let scale = map.matrix3.x_axis.length();
+        let point = |p: DVec3| map.transform_point3(p);
+        let vector = |v: DVec3| map.transform_vector3(v);
+        match *self {
+            Self::Triangle(corners) => Self::Triangle(corners.map(|corner| point(corner.as_dvec3()).as_vec3())),
+            Self::Quad { corner, edge_u, edge_v } => {
+                Self::Quad { corner: point(corner), edge_u: vector(edge_u), edge_v: vector(edge_v) }
+            }
+            Self::Sphere { center, radius } => Self::Sphere { center: point(center), radius: radius * scale },
+            Self::Disk { center, normal, radius } => {
+                Self::Disk { center: point(center), normal: vector(normal) / scale, radius: radius * scale }
+            }
+            // Planes never move.
+            Self::Plane { point, normal } => Self::Plane { point, normal },
+        }
+    }
+
+    /// Bounds in f32, grown past rounding. Planes have none.
+    pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        match *self {
+            Self::Triangle([a, b, c]) => Some(outward(a.min(b).min(c).as_dvec3(), a.max(b).max(c).as_dvec3())),
+            Self::Quad { corner, edge_u, edge_v } => {
+                let zero = DVec3::ZERO;
+                let low = edge_u.min(zero) + edge_v.min(zero);
+                let high = edge_u.max(zero) + edge_v.max(zero);
+                // Quads overlap their neighbours by a millionth of their edges (QUAD_OVERLAP).
+                let overlap = (edge_u.abs() + edge_v.abs()) * 2.0e-6;
+                Some(outward(corner + low - overlap, corner + high + overlap))
+            }
+            Self::Sphere { center, radius } => Some(outward(center - radius, center + radius)),
+            Self::Disk { center, normal, radius } => {
+                let reach = (DVec3::ONE - normal * normal).max(DVec3::ZERO).map(f64::sqrt) * radius;
+                Some(outward(center - reach, center + reach))
+            }
+            Self::Plane { .. } => None,
+        }
     }
 }
 
 impl WorldPrimitive {
     pub fn new(geometry: PrimitiveGeometry, material: usize) -> Self {
-        Self { geometry, material, light: NONE, attributes: NONE }
+        Self { geometry, material, light: NONE, attributes: NONE, motion: NONE }
     }
 
     pub fn kind(&self) -> PrimitiveKind {
@@ -108,6 +156,10 @@ impl WorldPrimitive {
 
     pub fn is_plane(&self) -> bool {
         self.kind() == PrimitiveKind::Plane
+    }
+
+    pub fn moves(&self) -> bool {
+        self.motion != NONE
     }
 
     /// Surface area; infinite for a plane.
@@ -126,23 +178,7 @@ impl WorldPrimitive {
 
     /// Bounds in f32, grown past rounding. Planes have none.
     pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
-        match self.geometry {
-            PrimitiveGeometry::Triangle([a, b, c]) => Some(outward(a.min(b).min(c).as_dvec3(), a.max(b).max(c).as_dvec3())),
-            PrimitiveGeometry::Quad { corner, edge_u, edge_v } => {
-                let zero = DVec3::ZERO;
-                let low = edge_u.min(zero) + edge_v.min(zero);
-                let high = edge_u.max(zero) + edge_v.max(zero);
-                // Quads overlap their neighbours by a millionth of their edges (QUAD_OVERLAP).
-                let overlap = (edge_u.abs() + edge_v.abs()) * 2.0e-6;
-                Some(outward(corner + low - overlap, corner + high + overlap))
-            }
-            PrimitiveGeometry::Sphere { center, radius } => Some(outward(center - radius, center + radius)),
-            PrimitiveGeometry::Disk { center, normal, radius } => {
-                let reach = (DVec3::ONE - normal * normal).max(DVec3::ZERO).map(f64::sqrt) * radius;
-                Some(outward(center - reach, center + reach))
-            }
-            PrimitiveGeometry::Plane { .. } => None,
-        }
+        self.geometry.bounds()
     }
 
     pub fn pack(&self) -> Primitive {
@@ -154,14 +190,19 @@ impl WorldPrimitive {
             PrimitiveGeometry::Disk { center, normal, radius } => (single(center), single(normal), [radius as f32, 0.0, 0.0]),
             PrimitiveGeometry::Plane { point, normal } => (single(point), single(normal), [0.0; 3]),
         };
-        let kind_and_material = (self.kind() as u32) << 28 | self.material as u32;
+        let moves = if self.moves() { MOVES } else { 0 };
+        let kind_and_material = moves | (self.kind() as u32) << 28 | self.material as u32;
         Primitive { p0, kind_and_material, p1, light: self.light, p2, attributes: self.attributes }
     }
 }
 
 impl Primitive {
     pub fn kind(&self) -> u32 {
-        self.kind_and_material >> 28
+        self.kind_and_material >> 28 & 7
+    }
+
+    pub fn moves(&self) -> bool {
+        self.kind_and_material & MOVES != 0
     }
 
     pub fn material(&self) -> u32 {

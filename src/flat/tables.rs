@@ -1,4 +1,4 @@
-//! One array for all that shading looks up: materials, the leaves and heuristics of blends, lights, textures.
+//! One array for all that shading looks up: materials, the leaves and heuristics of blends, lights, textures, motions.
 
 use super::FlatScene;
 
@@ -10,6 +10,7 @@ pub struct Tables {
     pub first_heuristic: u32,
     pub first_light: u32,
     pub first_texture: u32,
+    pub first_motion: u32,
 }
 
 impl Tables {
@@ -20,6 +21,7 @@ impl Tables {
         tables.first_heuristic = tables.append(&flat.materials.heuristics);
         tables.first_light = tables.append(&flat.lights);
         tables.first_texture = tables.append(&flat.textures.textures);
+        tables.first_motion = tables.append(&flat.motions);
         tables
     }
 

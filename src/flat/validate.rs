@@ -14,6 +14,8 @@ pub enum FlatError {
     TooManyTexels { found: usize },
     #[error("the blend `{material}` and those before it have more than {limit} weights along their branches")]
     TooManyWeights { material: String, limit: usize },
+    #[error("{shape}: {message}")]
+    Motion { shape: String, message: String },
     /// A mistake of this program, not of the scene.
     #[error("the packed scene is inconsistent: {0}")]
     Inconsistent(String),
@@ -32,6 +34,10 @@ impl FlatScene {
             }
             if primitive.attributes != NONE && primitive.attributes as usize >= self.attributes.len() {
                 return fail(format!("primitive {index} has attributes {}", primitive.attributes));
+            }
+            let motion = self.attributes.get(primitive.attributes as usize).map_or(NONE, |attributes| attributes.motion);
+            if primitive.moves() && motion as usize >= self.motions.len() {
+                return fail(format!("primitive {index} moves by motion {motion}"));
             }
         }
         self.validate_textures()?;

@@ -2,6 +2,8 @@
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
+use super::NONE;
+use super::motion::FlatMotion;
 use super::primitive::{PrimitiveGeometry, TriangleAttributes, WorldPrimitive};
 use crate::scene::{Geometry, MaterialKind, Mesh, Scene, Shape};
 
@@ -12,6 +14,9 @@ pub struct WorldGeometry {
     pub attributes: Vec<TriangleAttributes>,
     /// Windows that directions to the environment are sampled through; rays do not meet them.
     pub portals: Vec<WorldPrimitive>,
+    /// Of the shapes that move, and the same as the device reads them.
+    pub motions: Vec<FlatMotion>,
+    pub motion_words: Vec<[f32; 4]>,
 }
 
 /// Surfaces made of `pass` are left out: to every ray they are not there.
@@ -19,18 +24,39 @@ pub fn collect(scene: &Scene) -> WorldGeometry {
     let mut world = WorldGeometry::default();
     for shape in &scene.shapes {
         let transform = shape.transform.to_affine();
+        let first = world.primitives.len();
         if let Geometry::Mesh(mesh) = &shape.geometry {
             add_mesh(scene, shape, mesh, &mut world);
         } else {
-            let first = world.primitives.len();
             add_analytic(scene, shape, &transform, &mut world);
             if is_pass(scene, shape.material) {
                 let unseen = world.primitives.drain(first..);
                 world.portals.extend(unseen.filter(|primitive| shape.portal && !primitive.is_plane()));
             }
         }
+        if let Some(motion) = FlatMotion::new(shape, scene.camera.shutter) {
+            world.set_in_motion(first, motion);
+        }
     }
     world
+}
+
+impl WorldGeometry {
+    /// Moves the primitives from `first` on. Their attributes say how.
+    fn set_in_motion(&mut self, first: usize, motion: FlatMotion) {
+        let word = self.motion_words.len() as u32;
+        self.motion_words.extend(motion.words());
+        for primitive in &mut self.primitives[first..] {
+            primitive.motion = self.motions.len() as u32;
+            if primitive.attributes == NONE {
+                primitive.attributes = self.attributes.len() as u32;
+                // Texture coordinates that interpolate to themselves.
+                self.attributes.push(TriangleAttributes::new([Vec3::ZERO; 3], [Vec2::ZERO, Vec2::X, Vec2::Y]));
+            }
+            self.attributes[primitive.attributes as usize].motion = word;
+        }
+        self.motions.push(motion);
+    }
 }
 
 fn is_pass(scene: &Scene, material: usize) -> bool {

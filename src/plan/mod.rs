@@ -50,7 +50,7 @@ pub enum FilmStorage {
     Buffer,
 }
 
-/// Choices forced from outside, for tests and measurements. None: the plan decides.
+/// Choices forced from outside, for tests and measurements. None: the plan decides. What moves is never unrolled.
 #[derive(Debug, Clone, Default)]
 pub struct PlanOptions {
     pub geometry: Option<GeometryPlacement>,
@@ -90,11 +90,10 @@ impl Plan {
     /// # Errors
     /// [`RenderError::DoesNotFit`] where an array is larger than the device can bind, naming both sizes.
     pub fn new(scene: &Scene, flat: &FlatScene, limits: &DeviceLimits, options: &PlanOptions) -> Result<Self, RenderError> {
-        let geometry = options.geometry.unwrap_or(if flat.primitives.len() <= UNROLL_LIMIT {
-            GeometryPlacement::Unrolled
-        } else {
-            GeometryPlacement::Hierarchy
-        });
+        let few = flat.primitives.len() <= UNROLL_LIMIT;
+        let preferred = if few { GeometryPlacement::Unrolled } else { GeometryPlacement::Hierarchy };
+        // What moves is no constant.
+        let geometry = if flat.moves() { GeometryPlacement::Hierarchy } else { options.geometry.unwrap_or(preferred) };
         // Software devices move every word on its own: there, paths kept in registers beat queues whatever the geometry
         // (BENCHMARKS.md).
         let stages = options.stages.unwrap_or(match geometry {

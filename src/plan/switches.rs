@@ -48,6 +48,8 @@ pub const ALL: &[&str] = &[
     "LIGHTS",
     "MICROFACETS",
     "MIRROR",
+    "MOTION",
+    "MOVING_LIGHTS",
     "ONE_LIGHT",
     "ONLY_TRIANGLES_IN_HIERARCHY",
     "ORTHOGRAPHIC",
@@ -122,6 +124,8 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     let procedural = [FlatTextureKind::Checker, FlatTextureKind::Perlin, FlatTextureKind::Worley];
     switches.enable("PROCEDURAL_TEXTURES", procedural.into_iter().any(has_texture));
 
+    switches.enable("MOTION", flat.moves());
+
     choose_materials(scene, flat, &mut switches);
 
     choose_lights(scene, flat, &mut switches);
@@ -152,6 +156,7 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
         ("FIRST_HEURISTIC_WORD", tables.first_heuristic),
         ("FIRST_LEAF_WORD", tables.first_leaf),
         ("FIRST_LIGHT_WORD", tables.first_light),
+        ("FIRST_MOTION_WORD", tables.first_motion),
         ("FIRST_PORTAL", first_light(LightKind::Portal)),
         ("FIRST_TEXTURE_WORD", tables.first_texture),
         ("LIGHT_COUNT", flat.lights.len() as u32),
@@ -190,6 +195,7 @@ fn choose_lights(scene: &Scene, flat: &FlatScene, switches: &mut Switches) {
     switches.enable("ENVIRONMENT_MAP", matches!(flat.environment, FlatEnvironment::Map { .. }));
     switches.enable("SKY", matches!(flat.environment, FlatEnvironment::Sky { .. }));
     switches.enable("ENVIRONMENT_LIGHT", sampled && has(LightKind::Environment));
+    switches.enable("MOVING_LIGHTS", flat.lights.iter().any(FlatLight::moves));
     switches.enable("PORTALS", sampled && has(LightKind::Portal));
     switches.enable("ENVIRONMENT_SAMPLED", sampled && (has(LightKind::Environment) || has(LightKind::Portal)));
 }

@@ -11,12 +11,12 @@ use glam::DVec3;
 use super::bsdf::{Bsdf, BsdfSample, Density};
 use super::camera::ProjectiveCamera;
 use super::emission::emitted;
-use super::intersect::{Ray, Surface, World};
+use super::intersect::{Moment, Ray, Surface, World};
 use super::lights::Lights;
 use super::trace::{LightConnection, PathVisitor};
 use super::{mis, support};
 use crate::render::RenderError;
-use crate::sampling::{BounceDimension, Dimension, PathSampler};
+use crate::sampling::{BounceDimension, CameraDimension, Dimension, PathSampler};
 use crate::scene::{Estimator, Scene};
 
 /// Edges from which on Russian roulette always has a chance to end the path, whatever its throughput.
@@ -31,11 +31,15 @@ pub struct Integrator {
     world: World,
     lights: Lights,
     camera: ProjectiveCamera,
+    /// Something does.
+    moves: bool,
 }
 
 /// A path under construction.
 struct Path {
     ray: Ray,
+    /// When it sees the scene.
+    moment: Moment,
     /// Product of f·|cosθ| / density over the surfaces so far, roulette included.
     throughput: DVec3,
     /// What the path has found.
@@ -58,7 +62,8 @@ impl Integrator {
         let world = World::new(scene)?;
         let lights = Lights::new(scene, &world);
         let camera = ProjectiveCamera::new(&scene.camera, &scene.film);
-        Ok(Self { scene: scene.clone(), world, lights, camera })
+        let moves = scene.shapes.iter().any(|shape| shape.motion.is_some());
+        Ok(Self { scene: scene.clone(), world, lights, camera, moves })
     }
 
     pub fn scene(&self) -> &Scene {
@@ -69,6 +74,7 @@ impl Integrator {
     pub fn radiance<V: PathVisitor>(&self, x: u32, y: u32, sampler: &PathSampler, visitor: &mut V) -> DVec3 {
         let mut path = Path {
             ray: self.camera.sample(x, y, sampler),
+            moment: self.moment(sampler),
             throughput: DVec3::ONE,
             radiance: DVec3::ZERO,
             eta_scale: 1.0,
@@ -80,14 +86,23 @@ impl Integrator {
         path.radiance
     }
 
+    /// Uniform over the time for which the shutter is open.
+    fn moment(&self, sampler: &PathSampler) -> Moment {
+        if !self.moves {
+            return Moment::default();
+        }
+        let [open, close] = self.scene.camera.shutter;
+        Moment::new(&self.scene, open + (close - open) * sampler.uniform(Dimension::camera(CameraDimension::Time)))
+    }
+
     /// Follows the path's ray to the next surface, adds the light found there, and chooses the next ray. False where the path ends.
     fn extend<V: PathVisitor>(&self, path: &mut Path, sampler: &PathSampler, visitor: &mut V) -> bool {
         visitor.ray(&path.ray);
-        let Some(hit) = self.world.closest(path.ray) else {
+        let Some(hit) = self.world.closest(path.ray, &path.moment) else {
             self.add_environment(path, visitor);
             return false;
         };
-        let surface = self.world.surface(&path.ray, &hit);
+        let surface = self.world.surface(&path.ray, &hit, &path.moment);
         let wo = -path.ray.direction;
         visitor.surface(path.edge, &surface, wo, path.throughput);
         self.add_emission(path, &surface, wo, visitor);
@@ -139,7 +154,8 @@ impl Integrator {
         if radiance == DVec3::ZERO {
             return;
         }
-        let weight = self.weight_of_found(path.previous, || self.lights.pdf(&self.world, path.ray.origin, surface));
+        let weight =
+            self.weight_of_found(path.previous, || self.lights.pdf((&self.world, &path.moment), path.ray.origin, surface));
         let contribution = path.throughput * radiance * weight;
         path.radiance += contribution;
         visitor.emission(radiance, weight, contribution);
@@ -174,7 +190,7 @@ impl Integrator {
         let choice = sampler.bits(dimension(BounceDimension::LightChoice));
         let point = [BounceDimension::LightU, BounceDimension::LightV].map(|name| sampler.bits(dimension(name)));
         let reference = surface.point.leave_towards(bsdf.view.wo);
-        let Some(light) = self.lights.sample(&self.scene, &self.world, reference, choice, point) else { return };
+        let Some(light) = self.lights.sample(&self.scene, (&self.world, &path.moment), reference, choice, point) else { return };
         let scattering = bsdf.evaluate(light.wi);
         if scattering.value == DVec3::ZERO {
             return;
@@ -188,7 +204,7 @@ impl Integrator {
         // Light that comes through the surface arrives on its other side.
         let ray = Ray { origin: surface.point.leave_towards(light.wi), direction: light.wi };
         visitor.ray(&ray);
-        let visible = !self.world.blocked(ray, light.distance, light.target);
+        let visible = !self.world.blocked(ray, light.distance, light.target, &path.moment);
         let unshadowed = path.throughput * scattering.value * light.radiance * (weight / light.pdf);
         let contribution = if visible { unshadowed } else { DVec3::ZERO };
         path.radiance += contribution;

@@ -12,7 +12,7 @@ use glam::DVec3;
 
 use super::emission::{emitted, mean_exitance};
 use super::environment::Environment;
-use super::intersect::{PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
+use super::intersect::{Moment, PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
 use crate::sampling::AliasTable;
 use crate::sampling::sampler::uniform;
 use crate::scene::{Estimator, Light, LightSampling, Scene};
@@ -175,7 +175,14 @@ impl Lights {
     }
 
     /// Chooses a light by 32 random bits and draws a direction to it by 32 each. None where no light comes from there.
-    pub fn sample(&self, scene: &Scene, world: &World, reference: DVec3, choice: u32, [u, v]: [u32; 2]) -> Option<LightSample> {
+    pub fn sample(
+        &self,
+        scene: &Scene,
+        (world, moment): (&World, &Moment),
+        reference: DVec3,
+        choice: u32,
+        [u, v]: [u32; 2],
+    ) -> Option<LightSample> {
         let light = self.table.choose(choice);
         let probability = self.table.pmf[light];
         let (u1, u2) = (uniform(u), uniform(v));
@@ -201,8 +208,9 @@ impl Lights {
         };
         match source {
             Source::Area(place) => {
-                let direction = sample_primitive(world.primitive(place), self.sphere_sampling, reference, u1, u2)?;
-                let surface = world.surface_at(place, direction.point, direction.local);
+                let direction =
+                    sample_primitive(world.primitive(place), world.pose(place, moment), self.sphere_sampling, reference, u1, u2)?;
+                let surface = world.surface_at(place, direction.point, direction.local, moment);
                 let radiance = emitted(scene, &surface, -direction.wi);
                 let distance = direction.distance * (1.0 - SHADOW_MARGIN);
                 let pdf = direction.pdf_solid_angle;
@@ -220,7 +228,7 @@ impl Lights {
                 sample(drawn.wi, f64::INFINITY, drawn.radiance, pdf, None)
             }
             Source::Portal(portal) => {
-                let wi = sample_primitive(&world.portals()[portal], LightSampling::Cone, reference, u1, u2)?.wi;
+                let wi = sample_primitive(&world.portals()[portal], None, LightSampling::Cone, reference, u1, u2)?.wi;
                 let pdf = self.environment_pdf(world, reference, wi);
                 // By rounding, a direction to a portal's very edge may miss it.
                 if pdf > 0.0 { sample(wi, f64::INFINITY, self.environment.radiance(wi), pdf, None) } else { None }
@@ -245,10 +253,12 @@ impl Lights {
     }
 
     /// Density, per steradian, with which [`Lights::sample`] finds the point `surface` from `reference`; 0 where it cannot.
-    pub fn pdf(&self, world: &World, reference: DVec3, surface: &Surface) -> f64 {
+    pub fn pdf(&self, (world, moment): (&World, &Moment), reference: DVec3, surface: &Surface) -> f64 {
         let SurfaceId::Primitive(place) = surface.id else { return 0.0 };
         let Some(light) = self.of_primitive[place] else { return 0.0 };
-        self.table.pmf[light as usize] * pdf_solid_angle(world.primitive(place), self.sphere_sampling, reference, &surface.point)
+        let pose = world.pose(place, moment);
+        let pdf = pdf_solid_angle(world.primitive(place), pose, self.sphere_sampling, reference, &surface.point);
+        self.table.pmf[light as usize] * pdf
     }
 }
 

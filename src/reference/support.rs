@@ -86,9 +86,7 @@ fn texture(scene: &Scene, id: TextureId) -> Check {
 }
 
 fn shape(scene: &Scene, shape: &Shape) -> Check {
-    if shape.motion.is_some() {
-        return refuse("motion");
-    }
+    shape.check_motion(scene.camera.shutter).map_err(|(_, message)| format!("{}: {message}", shape.label))?;
     let determinant = shape.transform.to_affine().matrix3.determinant();
     if determinant == 0.0 || !determinant.is_finite() {
         return Err(format!("{}: the transform is singular", shape.label));

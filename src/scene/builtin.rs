@@ -14,7 +14,7 @@ const FILES: [(&str, &str); 2] = [
 ];
 
 /// Name and text of every built-in scene; the first is the default.
-const SCENES: [(&str, &str); 15] = [
+const SCENES: [(&str, &str); 16] = [
     ("cornell", include_str!("../../scenes/cornell.toml")),
     ("spheres", include_str!("../../scenes/spheres.toml")),
     ("veach-mis", include_str!("../../scenes/veach-mis.toml")),
@@ -26,6 +26,7 @@ const SCENES: [(&str, &str); 15] = [
     ("knot-ceramic", include_str!("../../scenes/knot-ceramic.toml")),
     ("knot-iridescent", include_str!("../../scenes/knot-iridescent.toml")),
     ("knot-toon", include_str!("../../scenes/knot-toon.toml")),
+    ("motion-blur", include_str!("../../scenes/motion-blur.toml")),
     ("furnace-lambert", include_str!("../../scenes/furnace-lambert.toml")),
     ("furnace-box", include_str!("../../scenes/furnace-box.toml")),
     ("furnace-glass", include_str!("../../scenes/furnace-glass.toml")),

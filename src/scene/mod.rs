@@ -17,6 +17,7 @@ mod image_file;
 pub mod light;
 pub mod material;
 mod mesh;
+pub mod motion;
 mod obj;
 pub mod settings;
 pub mod shape;
@@ -34,6 +35,7 @@ pub use file::{json_schema, load_toml_str};
 pub use image_file::{read_image, srgb_to_linear};
 pub use light::{Environment, EnvironmentRadiance, Light};
 pub use material::{ConductorFresnel, Emission, Heuristic, Material, MaterialKind, MicrofacetDistribution};
+pub use motion::{Motion, MotionStep};
 pub use settings::{
     BlendMode, Estimator, FilmSettings, Filter, FilterKind, HemisphereSampling, LightSampling, MisHeuristic, PixelSampler,
     PixelSamplerName, RenderSettings, SamplerKind, setting_name,

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DVec3, Vec2, Vec3};
 
 use super::MaterialId;
+use super::motion::Motion;
 use super::transform::Transform;
 
 /// One surface: geometry in its own space, where it stands, and what it is made of.
@@ -17,8 +18,8 @@ pub struct Shape {
     pub material: MaterialId,
     /// From the shape's own space to the world at shutter time 0.
     pub transform: Transform,
-    /// Steps reached at shutter time 1, applied after `transform`; None: at rest.
-    pub motion: Option<Transform>,
+    /// How it moves while the shutter is open, from where `transform` puts it; None: at rest.
+    pub motion: Option<Motion>,
     /// Directions to the environment are sampled through this shape as if it were a light. Only faces of a `pass` material let them
     /// through; those that emit are lights anyway.
     pub portal: bool,

@@ -14,6 +14,7 @@ shader_files![
     "core/sampler.wgsl",
     "geometry/bvh4.wgsl",
     "geometry/closest.wgsl",
+    "geometry/motion.wgsl",
     "geometry/primitives.wgsl",
     "geometry/scene.wgsl",
     "geometry/stored.wgsl",

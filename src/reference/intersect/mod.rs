@@ -2,19 +2,21 @@
 
 mod hierarchy;
 mod normal_map;
+mod pose;
 mod primitive;
 mod triangle;
 mod world;
 
 use hierarchy::Hierarchy;
 pub use hierarchy::PreparedRay;
+pub use pose::{Moment, Pose};
 pub use primitive::{Local, Primitive, Sphere};
 use triangle::Triangle;
 pub use world::{Surface, SurfaceId, World};
 
 use glam::DVec3;
 
-/// A half-line; `direction` has unit length.
+/// A half-line; `direction` has unit length, but for rays taken to the rest space of a moving shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ray {
     pub origin: DVec3,

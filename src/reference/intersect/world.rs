@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec2, DVec3, Vec3};
 
 use super::normal_map::{NormalMaps, Tangents};
+use super::pose::{self, Moment, Pose};
 use super::primitive::{Disk, Local, Parallelogram, Plane, Primitive, Sphere};
 use super::{Hierarchy, PreparedRay, Ray, SurfacePoint, Triangle};
 use crate::reference::frame::Frame;
@@ -82,7 +83,10 @@ impl World {
         for (index, shape) in scene.shapes.iter().enumerate() {
             collected.add(scene, index, shape)?;
         }
-        let boxes: Vec<[DVec3; 2]> = collected.primitives.iter().map(|(primitive, _)| primitive.bounds()).collect();
+        let swept = |(primitive, owner): &(Primitive, Owner)| {
+            pose::swept(&scene.shapes[owner.shape], primitive.bounds(), scene.camera.shutter)
+        };
+        let boxes: Vec<[DVec3; 2]> = collected.primitives.iter().map(swept).collect();
         let reach = boxes.iter().flatten().fold(0.0, |reach: f64, corner| reach.max(corner.abs().max_element()));
         // The hierarchy's builder squares lengths in f32.
         if !boxes.iter().flatten().all(|corner| corner.is_finite()) || reach > 1e18 {
@@ -121,8 +125,20 @@ impl World {
         }
     }
 
+    /// None: the primitive rests.
+    pub fn pose<'a>(&self, place: usize, moment: &'a Moment) -> Option<&'a Pose> {
+        moment.pose(self.owners[place].shape)
+    }
+
+    fn intersect(&self, place: usize, ray: &PreparedRay, limit: f64, moment: &Moment) -> Option<(f64, Local)> {
+        match self.pose(place, moment) {
+            None => self.primitives[place].intersect(ray, limit),
+            Some(pose) => self.primitives[place].intersect(&PreparedRay::new(pose.ray_to_rest(&ray.ray)), limit),
+        }
+    }
+
     /// The first surface the ray meets.
-    pub fn closest(&self, ray: Ray) -> Option<Hit> {
+    pub fn closest(&self, ray: Ray, moment: &Moment) -> Option<Hit> {
         let prepared = PreparedRay::new(ray);
         let mut closest = None;
         let mut limit = f64::INFINITY;
@@ -132,7 +148,7 @@ impl World {
                 closest = Some(Hit { surface: SurfaceId::Plane(index), distance, local: Local::ZERO });
             }
         }
-        self.hierarchy.traverse(&prepared, limit, |place, limit| match self.primitives[place].intersect(&prepared, limit) {
+        self.hierarchy.traverse(&prepared, limit, |place, limit| match self.intersect(place, &prepared, limit, moment) {
             Some((distance, local)) => {
                 closest = Some(Hit { surface: SurfaceId::Primitive(place), distance, local });
                 distance
@@ -143,14 +159,14 @@ impl World {
     }
 
     /// Whether the ray meets anything but `target` before `limit`. `target` is the place of the primitive the ray ends on.
-    pub fn blocked(&self, ray: Ray, limit: f64, target: Option<usize>) -> bool {
+    pub fn blocked(&self, ray: Ray, limit: f64, target: Option<usize>, moment: &Moment) -> bool {
         if self.planes.iter().any(|(plane, _)| plane.intersect(&ray, limit).is_some()) {
             return true;
         }
         let prepared = PreparedRay::new(ray);
         let mut blocked = false;
         self.hierarchy.traverse(&prepared, limit, |place, limit| {
-            if Some(place) != target && self.primitives[place].intersect(&prepared, limit).is_some() {
+            if Some(place) != target && self.intersect(place, &prepared, limit, moment).is_some() {
                 blocked = true;
                 return -1.0;
             }
@@ -160,12 +176,16 @@ impl World {
     }
 
     /// The surface at a hit of `ray`.
-    pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
+    pub fn surface(&self, ray: &Ray, hit: &Hit, moment: &Moment) -> Surface {
         let owner = self.owner(hit.surface);
         match hit.surface {
             SurfaceId::Primitive(place) => {
-                let point = self.primitives[place].point(ray, hit.distance, hit.local);
-                self.surface_at(place, point, hit.local)
+                let primitive = &self.primitives[place];
+                let point = match self.pose(place, moment) {
+                    None => primitive.point(ray, hit.distance, hit.local),
+                    Some(pose) => pose.point(&primitive.point(&pose.ray_to_rest(ray), hit.distance, hit.local)),
+                };
+                self.surface_at(place, point, hit.local, moment)
             }
             SurfaceId::Plane(index) => {
                 let point = self.planes[index].0.point(ray.at(hit.distance));
@@ -175,17 +195,21 @@ impl World {
     }
 
     /// The surface at a point of a primitive that is already known.
-    pub fn surface_at(&self, place: usize, point: SurfacePoint, local: Local) -> Surface {
+    pub fn surface_at(&self, place: usize, point: SurfacePoint, local: Local, moment: &Moment) -> Surface {
         let owner = self.owners[place];
         let shape = &self.shapes[owner.shape];
-        let on_sphere = || (shape.to_local * point.normal).normalize_or_zero();
+        let pose = self.pose(place, moment);
+        // Texture coordinates and interpolated normals are those of the shape at rest.
+        let at_rest = pose.map_or(point.normal, |pose| pose.normal_to_rest(point.normal));
+        let on_sphere = || (shape.to_local * at_rest).normalize_or_zero();
         let (normal, uv) = match &self.primitives[place] {
-            Primitive::Triangle(_) => shape.interpolate(owner.part, local, point.normal),
-            Primitive::Sphere(_) => (point.normal, Sphere::uv(on_sphere())),
-            Primitive::Parallelogram(parallelogram) => (point.normal, parallelogram.uv(local)),
-            Primitive::Disk(_) => (point.normal, DVec2::ZERO),
+            Primitive::Triangle(_) => shape.interpolate(owner.part, local, at_rest),
+            Primitive::Sphere(_) => (at_rest, Sphere::uv(on_sphere())),
+            Primitive::Parallelogram(parallelogram) => (at_rest, parallelogram.uv(local)),
+            Primitive::Disk(_) => (at_rest, DVec2::ZERO),
         };
-        let shading_normal = self.normal_maps.bend(owner.material, normal, uv, || match &self.primitives[place] {
+        let normal = pose.map_or(normal, |pose| pose.normal(normal));
+        let tangents = || match &self.primitives[place] {
             Primitive::Triangle(triangle) => shape.tangents(owner.part, triangle),
             Primitive::Sphere(_) => Tangents::of_sphere(on_sphere()).map(|own| {
                 let to_world = shape.to_local.inverse();
@@ -193,6 +217,9 @@ impl World {
             }),
             Primitive::Parallelogram(parallelogram) => Some(parallelogram.tangents()),
             Primitive::Disk(_) => None,
+        };
+        let shading_normal = self.normal_maps.bend(owner.material, normal, uv, || {
+            tangents().map(|tangents| pose.map_or(tangents, |pose| pose.tangents(tangents)))
         });
         Surface { id: SurfaceId::Primitive(place), owner, point, shading_normal, uv }
     }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use crate::reference::frame::Frame;
-use crate::reference::intersect::{PreparedRay, Primitive, Ray, Sphere, SurfacePoint};
+use crate::reference::intersect::{Pose, PreparedRay, Primitive, Ray, Sphere, SurfacePoint};
 use crate::reference::warp;
 use crate::scene::LightSampling;
 
@@ -19,10 +19,17 @@ pub struct Direction {
 }
 
 /// A point of a primitive, uniform over its area; on spheres as `strategy` says. None where the point cannot be seen from
-/// `reference` because the primitive itself is in the way.
-pub fn sample_primitive(primitive: &Primitive, strategy: LightSampling, reference: DVec3, u1: f64, u2: f64) -> Option<Direction> {
-    let (point, local) = match primitive {
-        Primitive::Sphere(sphere) => return sample_sphere(sphere, strategy, reference, u1, u2),
+/// `reference` because the primitive itself is in the way. `pose`: where the primitive has moved to.
+pub fn sample_primitive(
+    primitive: &Primitive,
+    pose: Option<&Pose>,
+    strategy: LightSampling,
+    reference: DVec3,
+    u1: f64,
+    u2: f64,
+) -> Option<Direction> {
+    let (at_rest, local) = match primitive {
+        Primitive::Sphere(sphere) => return sample_sphere(&moved(sphere, pose), strategy, reference, u1, u2),
         Primitive::Triangle(triangle) => {
             let local = warp::triangle(u1, u2);
             (triangle.point(local), local)
@@ -36,11 +43,17 @@ pub fn sample_primitive(primitive: &Primitive, strategy: LightSampling, referenc
             (disk.point(disk.center + disk.frame.to_world(DVec3::new(p.x, p.y, 0.0))), DVec2::ZERO)
         }
     };
+    // Motions keep what is uniform over an area uniform.
+    let point = pose.map_or(at_rest, |pose| pose.point(&at_rest));
     let to_point = point.position - reference;
     let distance = to_point.length();
     let wi = to_point / distance;
-    let pdf_solid_angle = pdf_solid_angle(primitive, strategy, reference, &point);
+    let pdf_solid_angle = pdf_solid_angle(primitive, pose, strategy, reference, &point);
     (distance > 0.0).then_some(Direction { wi, distance, pdf_solid_angle, point, local })
+}
+
+fn moved(sphere: &Sphere, pose: Option<&Pose>) -> Sphere {
+    pose.map_or(*sphere, |pose| pose.sphere(sphere))
 }
 
 fn sample_sphere(sphere: &Sphere, strategy: LightSampling, reference: DVec3, u1: f64, u2: f64) -> Option<Direction> {
@@ -90,11 +103,18 @@ fn sample_sphere_area(sphere: &Sphere, strategy: LightSampling, reference: DVec3
 }
 
 /// Density per steradian with which a point of a primitive is drawn, seen from `reference`.
-pub fn pdf_solid_angle(primitive: &Primitive, strategy: LightSampling, reference: DVec3, point: &SurfacePoint) -> f64 {
-    match primitive {
-        Primitive::Sphere(sphere) => sphere_pdf(sphere, strategy, reference, point),
-        _ => area_to_solid_angle(primitive.area(), reference, point),
+pub fn pdf_solid_angle(
+    primitive: &Primitive,
+    pose: Option<&Pose>,
+    strategy: LightSampling,
+    reference: DVec3,
+    point: &SurfacePoint,
+) -> f64 {
+    if let Primitive::Sphere(sphere) = primitive {
+        return sphere_pdf(&moved(sphere, pose), strategy, reference, point);
     }
+    let area = primitive.area() * pose.map_or(1.0, |pose| pose.area_factor(point.normal));
+    area_to_solid_angle(area, reference, point)
 }
 
 /// Uniform over an area: dA·cosθ / d² is the solid angle of dA.
@@ -128,7 +148,7 @@ fn sphere_cone_pdf(sphere: &Sphere, reference: DVec3) -> f64 {
 pub fn pdf_of_direction(primitive: &Primitive, ray: &PreparedRay) -> f64 {
     let Some((distance, local)) = primitive.intersect(ray, f64::INFINITY) else { return 0.0 };
     let point = primitive.point(&ray.ray, distance, local);
-    pdf_solid_angle(primitive, LightSampling::Cone, ray.ray.origin, &point)
+    pdf_solid_angle(primitive, None, LightSampling::Cone, ray.ray.origin, &point)
 }
 
 /// 1 − cosθ from sin²θ, without cancellation.

@@ -67,7 +67,7 @@ fn densities_of_light_samples_are_right() {
         let lights = Lights::new(&scene, &world);
         let of_area = lights.table.pmf[0];
         for reference in REFERENCES {
-            let draw = |u1, u2| sample_primitive(world.primitive(0), strategy, reference, u1, u2);
+            let draw = |u1, u2| sample_primitive(world.primitive(0), None, strategy, reference, u1, u2);
             let map = |[u1, u2]: [f64; 2]| draw(u1, u2).map_or(DVec3::NAN, |direction| direction.wi);
             let mut seen = 0;
             for (u1, u2) in (0..16).flat_map(|i| (0..16).map(move |j| (f64::from(i) + 0.5, f64::from(j) + 0.5))) {
@@ -83,9 +83,9 @@ fn densities_of_light_samples_are_right() {
                     "{geometry:?} {strategy:?} from {reference}: {pdf} and {by_map}"
                 );
                 let ray = Ray { origin: reference, direction: wi };
-                let hit = world.closest(ray).expect("a sampled direction meets the light");
-                let surface = world.surface(&ray, &hit);
-                let found = lights.pdf(&world, reference, &surface);
+                let hit = world.closest(ray, &Moment::default()).expect("a sampled direction meets the light");
+                let surface = world.surface(&ray, &hit, &Moment::default());
+                let found = lights.pdf((&world, &Moment::default()), reference, &surface);
                 assert!(
                     (found / (pdf * of_area) - 1.0).abs() < 1e-6,
                     "{geometry:?} {strategy:?} from {reference}: {found} and {pdf}"
@@ -115,11 +115,14 @@ fn directions_to_spheres_follow_their_density() {
             (-5..6).map(|i| f64::from(i) / 6.0).collect()
         };
         let bins = SphereBins::with_cosine_edges(to_center, &edges, 10);
-        let sample = |[u1, u2, _]: [f64; 3]| sample_primitive(world.primitive(0), strategy, reference, u1, u2).map(|d| d.wi);
+        let sample =
+            |[u1, u2, _]: [f64; 3]| sample_primitive(world.primitive(0), None, strategy, reference, u1, u2).map(|d| d.wi);
         let density = |wi: DVec3| {
             let ray = Ray { origin: reference, direction: wi.normalize() };
             let pmf = lights.table.pmf[0];
-            world.closest(ray).map_or(0.0, |hit| lights.pdf(&world, reference, &world.surface(&ray, &hit)) / pmf)
+            world.closest(ray, &Moment::default()).map_or(0.0, |hit| {
+                lights.pdf((&world, &Moment::default()), reference, &world.surface(&ray, &hit, &Moment::default())) / pmf
+            })
         };
         let report = test_directional_sampler(&bins, 300_000, seed, sample, density);
         assert!(report.passes(level), "{strategy:?} from {reference}: {report:?}");
@@ -157,7 +160,7 @@ fn directions_to_the_environment_and_through_portals_follow_their_density() {
         let bits = |u: f64| (u * 4_294_967_296.0) as u32;
         let sample = |u: [f64; 3]| {
             let [choice, u, v] = u.map(bits);
-            let drawn = lights.sample(&scene, &world, reference, choice, [u, v])?;
+            let drawn = lights.sample(&scene, (&world, &Moment::default()), reference, choice, [u, v])?;
             assert!((drawn.pdf / lights.environment_pdf(&world, reference, drawn.wi) - 1.0).abs() < 1e-6);
             Some(drawn.wi)
         };
@@ -195,7 +198,9 @@ fn the_back_of_a_one_sided_light_is_dark() {
     scene.lights.clear();
     let count = |scene: &Scene, reference: DVec3| {
         let lights = Lights::new(scene, &world);
-        (0..64_u32).filter(|&i| lights.sample(scene, &world, reference, 0, [i << 26, 1 << 31]).is_some()).count()
+        (0..64_u32)
+            .filter(|&i| lights.sample(scene, (&world, &Moment::default()), reference, 0, [i << 26, 1 << 31]).is_some())
+            .count()
     };
     // edge_u × edge_v points down.
     let (below, above) = (DVec3::ZERO, DVec3::Y * 4.0);
@@ -210,7 +215,7 @@ fn the_back_of_a_one_sided_light_is_dark() {
 fn small_spheres_far_away_keep_their_density() {
     // 1 − cosθmax is 5·10⁻¹³ here: formed as a difference it would have lost four digits.
     let sphere = Sphere { center: DVec3::new(0.0, 0.0, 1e6), radius: 1.0 };
-    let direction = sample_primitive(&Primitive::Sphere(sphere), LightSampling::Cone, DVec3::ZERO, 0.99, 0.3)
+    let direction = sample_primitive(&Primitive::Sphere(sphere), None, LightSampling::Cone, DVec3::ZERO, 0.99, 0.3)
         .expect("the sphere can be seen");
     let solid_angle = PI * 1e-12;
     assert!((direction.pdf_solid_angle * solid_angle - 1.0).abs() < 1e-9);

@@ -13,7 +13,7 @@ pub struct Refusal {
 
 /// The first thing in the scene that no renderer does.
 pub fn find(scene: &Scene) -> Option<Refusal> {
-    materials(scene).or_else(|| shapes(scene))
+    materials(scene)
 }
 
 fn refuse(path: impl Into<Vec<Step>>, feature: impl Into<String>) -> Option<Refusal> {
@@ -26,10 +26,4 @@ fn materials(scene: &Scene) -> Option<Refusal> {
 
 fn material(index: usize, material: &Material) -> Option<Refusal> {
     material.normal_map.and_then(|_| refuse([Key("material"), Index(index), Key("normal_map")], "a normal map"))
-}
-
-fn shapes(scene: &Scene) -> Option<Refusal> {
-    scene.shapes.iter().enumerate().find_map(|(index, shape)| {
-        shape.motion.as_ref().and_then(|_| refuse([Key("shape"), Index(index), Key("motion")], "motion"))
-    })
 }

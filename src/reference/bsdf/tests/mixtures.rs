@@ -22,7 +22,7 @@ fn scene(kinds: Vec<MaterialKind>, mode: BlendMode) -> Scene {
 fn surface(scene: &Scene) -> Surface {
     let world = World::new(scene).expect("the scene is sound");
     let ray = Ray { origin: DVec3::Z, direction: -DVec3::Z };
-    world.surface(&ray, &world.closest(ray).expect("the rectangle is there"))
+    world.surface(&ray, &world.closest(ray, &Moment::default()).expect("the rectangle is there"), &Moment::default())
 }
 
 fn bsdf(scene: &Scene, u_blend: f64) -> Bsdf {

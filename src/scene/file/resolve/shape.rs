@@ -63,7 +63,7 @@ impl Resolver<'_> {
     fn shape(&mut self, index: usize, entry: &Located<ShapeEntry>) -> Result<Shape, SceneError> {
         let common = entry.value.common();
         let transform = common.transform.map_or(Ok(Transform::default()), |transform| self.transform(transform))?;
-        let motion = common.motion.map(|motion| self.transform(motion)).transpose()?;
+        let motion = common.motion.map_or(Ok(None), |motion| self.motion(motion))?;
         let material = common.material.map(|name| self.material_id(name)).transpose()?;
         let (kind, geometry, material) = match &entry.value {
             ShapeEntry::Mesh(mesh) => {
@@ -93,7 +93,10 @@ impl Resolver<'_> {
             let message = format!("a {kind} can only be scaled by the same factor along every axis");
             return Err(self.error(&written.span, message).with_help("use a mesh for an ellipsoid or an ellipse"));
         }
-        Ok(Shape { label: format!("shape[{index}] ({kind})"), geometry, material, transform, motion, portal: common.portal })
+        let label = format!("shape[{index}] ({kind})");
+        let shape = Shape { label, geometry, material, transform, motion, portal: common.portal };
+        common.motion.map_or(Ok(()), |written| self.check_motion(written, &shape))?;
+        Ok(shape)
     }
 
     fn needed(&self, entry: &Located<ShapeEntry>, material: Option<MaterialId>) -> Result<MaterialId, SceneError> {

@@ -7,7 +7,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::Resolver;
 use crate::scene::file::syntax::{StepEntry, TransformEntry};
 use crate::scene::file::value::{Located, Number, vector};
-use crate::scene::{SceneError, Transform, TransformStep};
+use crate::scene::{Motion, MotionStep, SceneError, Shape, Transform, TransformStep};
 
 impl Resolver<'_> {
     pub(super) fn transform(&self, written: &Located<TransformEntry>) -> Result<Transform, SceneError> {
@@ -23,6 +23,39 @@ impl Resolver<'_> {
             return Err(self.error(&written.span, "the transform flattens the shape or leaves the range of numbers"));
         }
         Ok(transform)
+    }
+
+    /// None where nothing is written in the list: the shape rests.
+    pub(super) fn motion(&self, written: &Located<TransformEntry>) -> Result<Option<Motion>, SceneError> {
+        let steps: Vec<MotionStep> = match &written.value {
+            TransformEntry::Steps(steps) => {
+                steps.iter().map(|step| self.motion_step(&step.span, &step.value)).collect::<Result<_, _>>()?
+            }
+            TransformEntry::Single(step) => vec![self.motion_step(&written.span, step)?],
+        };
+        Ok((!steps.is_empty()).then_some(Motion { steps }))
+    }
+
+    fn motion_step(&self, span: &Range<usize>, written: &StepEntry) -> Result<MotionStep, SceneError> {
+        match self.step(span, written)? {
+            TransformStep::Scale(factors) => Ok(MotionStep::Scale(factors)),
+            TransformStep::Rotate { axis, degrees } => Ok(MotionStep::Rotate { axis, degrees }),
+            TransformStep::Translate(offset) => Ok(MotionStep::Translate(offset)),
+            TransformStep::Matrix(_) => Err(self
+                .error(span, "a motion has no matrices: what lies between one and rest is not defined")
+                .with_help("write it as steps of `scale`, `rotate` and `translate`")),
+        }
+    }
+
+    /// The shape with this motion written can be followed while the shutter is open. The camera has been read.
+    pub(super) fn check_motion(&self, written: &Located<TransformEntry>, shape: &Shape) -> Result<(), SceneError> {
+        shape.check_motion(self.scene.camera.shutter).map_err(|(step, message)| {
+            let span = match (&written.value, step) {
+                (TransformEntry::Steps(steps), Some(step)) => &steps[step].span,
+                _ => &written.span,
+            };
+            self.error(span, message)
+        })
     }
 
     fn step(&self, span: &Range<usize>, written: &StepEntry) -> Result<TransformStep, SceneError> {

@@ -30,7 +30,9 @@ macro_rules! shapes {
                 pub material: Option<Located<String>>,
                 /// Steps applied in this order, or a matrix.
                 pub transform: Option<Located<TransformEntry>>,
-                /// Transform steps reached at shutter time 1.
+                /// Steps of `scale`, `rotate` and `translate` reached at shutter time 1; at time 0 the shape rests. They apply in
+                /// this order after `transform`, along the world's axes and about the shape's own origin, where `transform` puts its
+                /// (0, 0, 0). Each is interpolated by itself: rotations turn evenly about their axis.
                 pub motion: Option<Located<TransformEntry>>,
                 /// Sample the directions through this shape for the environment's light as if the shape were a light: a window. Its
                 /// material is of type `pass`; a surface that emits is sampled as a light in any case.

@@ -1,0 +1,155 @@
+// Shapes that move while the shutter is open. Everything is moved to where it is at the path's time before it is looked at.
+#import core/math.wgsl
+#import core/sampler.wgsl
+#import geometry/scene.wgsl
+
+// In the words of a primitive and of a light.
+const MOVES: u32 = 0x80000000u;
+const LIGHT_MOVES: u32 = 1024u;
+
+const STEP_TRANSLATE: u32 = 0u;
+const STEP_SCALE: u32 = 1u;
+
+// p to linear * (p - origin) + place.
+struct Motion {
+    linear: mat3x3<f32>,
+    origin: vec3<f32>,
+    place: vec3<f32>,
+}
+
+// When the path being traced sees the scene: 0 as the shutter opens, 1 as it closes.
+var<private> path_time: f32;
+// The motion looked up last and what it is at that time: neighbouring triangles share theirs.
+var<private> known_motion: u32 = NONE;
+var<private> known: Motion;
+
+// To be called before anything is asked of the scene for a path.
+fn set_path_time(pixel: u32, sample_in_pass: u32) {
+    path_time = uniform_float(random_block(pixel, sample_in_pass, 1u).x);
+    known_motion = NONE;
+}
+
+fn rotated(v: vec3<f32>, axis: vec3<f32>, sine_cosine: vec2<f32>) -> vec3<f32> {
+    return v * sine_cosine.y + cross(axis, v) * sine_cosine.x + axis * (dot(axis, v) * (1.0 - sine_cosine.y));
+}
+
+// A motion takes 1 + 2 steps vec4 of the tables (src/flat/motion.rs):
+//   (origin; number of steps), then of each step (start; kind), (change until the shutter closes; -)
+//   a rotation: (axis; kind), (turns as the shutter opens, turns until it closes, -, -)
+fn motion_at_path_time(first: u32) -> Motion {
+    if first == known_motion {
+        return known;
+    }
+    let header = tables[FIRST_MOTION_WORD + first];
+    let end = first + 1u + 2u * bitcast<u32>(header.w);
+    var linear = mat3x3<f32>(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
+    var offset = vec3<f32>(0.0);
+    for (var word = first + 1u; word < end; word += 2u) {
+        let start = tables[FIRST_MOTION_WORD + word];
+        let change = tables[FIRST_MOTION_WORD + word + 1u];
+        let kind = bitcast<u32>(start.w);
+        let now = start.xyz + path_time * change.xyz;
+        if kind == STEP_TRANSLATE {
+            offset += now;
+        } else if kind == STEP_SCALE {
+            linear = mat3x3<f32>(now * linear[0], now * linear[1], now * linear[2]);
+            offset *= now;
+        } else {
+            let turn = sin_cos_turns(fract(change.x + path_time * change.y));
+            linear = mat3x3<f32>(
+                rotated(linear[0], start.xyz, turn), rotated(linear[1], start.xyz, turn), rotated(linear[2], start.xyz, turn)
+            );
+            offset = rotated(offset, start.xyz, turn);
+        }
+    }
+    known = Motion(linear, header.xyz, header.xyz + offset);
+    known_motion = first;
+    return known;
+}
+
+// Index of the motion of whatever has these attributes; NONE where it rests.
+fn motion_of_attributes(first: u32) -> u32 {
+    return bitcast<u32>(attributes[first * 4u + 3u].w);
+}
+
+fn moved_point(motion: Motion, p: vec3<f32>) -> vec3<f32> {
+    return motion.linear * (p - motion.origin) + motion.place;
+}
+
+// By the inverse transpose up to a positive factor: its columns are the cross products of the map's.
+fn moved_normal(motion: Motion, n: vec3<f32>) -> vec3<f32> {
+    let m = motion.linear;
+    return n.x * cross(m[1], m[2]) + n.y * cross(m[2], m[0]) + n.z * cross(m[0], m[1]);
+}
+
+// The sum of the magnitudes that rounding of a moved point is relative to.
+fn moved_magnitude(motion: Motion, size: vec3<f32>) -> vec3<f32> {
+    let m = mat3x3<f32>(abs(motion.linear[0]), abs(motion.linear[1]), abs(motion.linear[2]));
+    return m * (size + abs(motion.origin)) + abs(motion.place);
+}
+
+// A primitive's three words as they are at the path's time, and the magnitude that their rounding is relative to; 0 where it rests.
+struct PlacedPrimitive {
+    p0: vec4<f32>,
+    p1: vec4<f32>,
+    p2: vec4<f32>,
+    magnitude: vec3<f32>,
+}
+
+fn placed_primitive(index: u32) -> PlacedPrimitive {
+    let p0 = primitives[index * 3u];
+    let p1 = primitives[index * 3u + 1u];
+    let p2 = primitives[index * 3u + 2u];
+    if (bitcast<u32>(p0.w) & MOVES) == 0u {
+        return PlacedPrimitive(p0, p1, p2, vec3<f32>(0.0));
+    }
+    let motion = motion_at_path_time(motion_of_attributes(bitcast<u32>(p2.w)));
+    let q0 = moved_point(motion, p0.xyz);
+    var q1 = p1.xyz;
+    var q2 = p2.xyz;
+    var size = abs(p0.xyz);
+    switch primitive_kind(p0.w) {
+        case KIND_TRIANGLE: {
+            q1 = moved_point(motion, p1.xyz);
+            q2 = moved_point(motion, p2.xyz);
+            size = max(size, max(abs(p1.xyz), abs(p2.xyz)));
+        }
+        case KIND_QUAD: {
+            q1 = motion.linear * p1.xyz;
+            q2 = motion.linear * p2.xyz;
+            size += abs(p1.xyz) + abs(p2.xyz);
+        }
+        case KIND_SPHERE: {
+            // Round shapes are scaled by the same factor along every axis.
+            q1.x = p1.x * length(motion.linear[0]);
+            size += p1.x;
+        }
+        default: {
+            let normal = motion.linear * p1.xyz;
+            let scale = length(normal);
+            q1 = normal / scale;
+            q2.x = p2.x * scale;
+            size += p2.x;
+        }
+    }
+    return PlacedPrimitive(
+        vec4<f32>(q0, p0.w), vec4<f32>(q1, p1.w), vec4<f32>(q2, p2.w), moved_magnitude(motion, size)
+    );
+}
+
+// Word 1, 2 or 3 of a moving light with the attributes `first` as it is at the path's time. `word_1`, `word_2` and `word_3` are those at
+// rest.
+fn placed_light_word(first: u32, word: u32, is_sphere: bool, word_1: vec4<f32>, word_2: vec4<f32>, word_3: vec4<f32>) -> vec4<f32> {
+    let motion = motion_at_path_time(motion_of_attributes(first));
+    if word == 1u {
+        if is_sphere {
+            return vec4<f32>(moved_point(motion, word_1.xyz), word_1.w * length(motion.linear[0]));
+        }
+        let at_rest = cross(word_2.xyz, word_3.xyz);
+        return vec4<f32>(moved_point(motion, word_1.xyz), word_1.w * length(moved_normal(motion, at_rest)) / length(at_rest));
+    }
+    if word == 2u {
+        return vec4<f32>(motion.linear * word_2.xyz, word_2.w);
+    }
+    return vec4<f32>(motion.linear * word_3.xyz, word_3.w);
+}

@@ -1,0 +1,192 @@
+//! How shapes move while the shutter is open.
+
+use glam::{DAffine3, DQuat, DVec3};
+
+use super::shape::{Geometry, Shape};
+
+/// Steps applied in this order after a shape's `transform`, along the world's axes and about the shape's own origin, that is where
+/// `transform` puts the shape's (0, 0, 0). Each is interpolated by itself, at rest at shutter time 0 and reached at time 1: a rotation
+/// turns evenly about its axis, which no blend of matrices does. Times beyond 0 and 1 extrapolate.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Motion {
+    pub steps: Vec<MotionStep>,
+}
+
+/// One step as it is at shutter time 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum MotionStep {
+    Scale(DVec3),
+    Rotate { axis: DVec3, degrees: f64 },
+    Translate(DVec3),
+}
+
+/// Smallest factor by which a moving shape may be scaled. Below, single precision loses the shape.
+pub const SMALLEST_SCALE: f64 = 1e-6;
+/// Most turns of one step while the shutter is open. Beyond, single precision loses the angle, and the eye lost it long before.
+pub const MOST_TURNS: f64 = 100.0;
+/// Largest number in the map of a motion. Bounding volumes square lengths in single precision.
+const FARTHEST: f64 = 1e18;
+
+impl MotionStep {
+    /// The factors of a scale at a time.
+    pub fn factors(scale: DVec3, time: f64) -> DVec3 {
+        DVec3::ONE + (scale - DVec3::ONE) * time
+    }
+
+    fn at(self, time: f64) -> DAffine3 {
+        match self {
+            Self::Scale(scale) => DAffine3::from_scale(Self::factors(scale, time)),
+            Self::Rotate { axis, degrees } => {
+                DAffine3::from_quat(DQuat::from_axis_angle(axis.normalize(), degrees.to_radians() * time))
+            }
+            Self::Translate(offset) => DAffine3::from_translation(offset * time),
+        }
+    }
+
+    /// Whether the step can be followed over the whole shutter.
+    ///
+    /// # Errors
+    /// What is wrong, in words.
+    pub fn check(self, [open, close]: [f64; 2]) -> Result<(), String> {
+        match self {
+            Self::Scale(scale) => {
+                let smallest = [open, close].map(|time| Self::factors(scale, time).min_element());
+                if smallest.into_iter().all(|factor| factor >= SMALLEST_SCALE) {
+                    return Ok(());
+                }
+                Err(format!("the scale shrinks the shape to nothing on the way to shutter times {open} to {close}"))
+            }
+            Self::Rotate { degrees, .. } if (degrees * (close - open)).abs() > 360.0 * MOST_TURNS => {
+                Err(format!("the shape turns more than {MOST_TURNS} times while the shutter is open"))
+            }
+            Self::Rotate { .. } | Self::Translate(_) => Ok(()),
+        }
+    }
+}
+
+impl Motion {
+    /// The map from the world at time 0 to the world at `time` of what stands about `origin`.
+    pub fn at(&self, time: f64, origin: DVec3) -> DAffine3 {
+        let to_origin = DAffine3::from_translation(-origin);
+        let moved = self.steps.iter().fold(to_origin, |so_far, step| step.at(time) * so_far);
+        DAffine3::from_translation(origin) * moved
+    }
+
+    /// A bound on the speed, in lengths per shutter time, of points that at rest are within `radius` of the origin.
+    pub fn greatest_speed(&self, radius: f64, [open, close]: [f64; 2]) -> f64 {
+        let (mut farthest, mut speed) = (radius, 0.0);
+        let latest = open.abs().max(close.abs());
+        for step in &self.steps {
+            match *step {
+                MotionStep::Scale(scale) => {
+                    let largest = [open, close].map(|time| MotionStep::factors(scale, time).abs().max_element());
+                    let [a, b] = largest;
+                    speed = a.max(b) * speed + (scale - DVec3::ONE).abs().max_element() * farthest;
+                    farthest *= a.max(b);
+                }
+                MotionStep::Rotate { degrees, .. } => speed += degrees.to_radians().abs() * farthest,
+                MotionStep::Translate(offset) => {
+                    speed += offset.length();
+                    farthest += offset.length() * latest;
+                }
+            }
+        }
+        speed
+    }
+}
+
+impl Shape {
+    /// Where the shape's own (0, 0, 0) is in the world at time 0: what motions turn and scale about.
+    pub fn origin(&self) -> DVec3 {
+        self.transform.to_affine().translation
+    }
+
+    /// The map from the shape's place in the world at time 0 to that at `time`; None: it rests.
+    pub fn moved_by(&self, time: f64) -> Option<DAffine3> {
+        self.motion.as_ref().map(|motion| motion.at(time, self.origin()))
+    }
+
+    /// Whether renderers can follow the shape's motion while the shutter is open.
+    ///
+    /// # Errors
+    /// What is wrong, in words, and in which step of the motion if it is a single one.
+    pub fn check_motion(&self, shutter: [f64; 2]) -> Result<(), (Option<usize>, String)> {
+        let Some(motion) = &self.motion else { return Ok(()) };
+        if matches!(self.geometry, Geometry::Plane { .. }) {
+            return Err((None, "an infinite plane cannot move; use a large rectangle".to_owned()));
+        }
+        if self.portal {
+            return Err((None, "a portal cannot move".to_owned()));
+        }
+        let round = matches!(self.geometry, Geometry::Sphere { .. } | Geometry::Disk { .. });
+        for (index, step) in motion.steps.iter().enumerate() {
+            step.check(shutter).map_err(|message| (Some(index), message))?;
+            if let MotionStep::Scale(scale) = step
+                && round
+                && scale.max_element() != scale.min_element()
+            {
+                let message = "spheres and disks can only be scaled by the same factor along every axis";
+                return Err((Some(index), message.to_owned()));
+            }
+        }
+        let ends = shutter.map(|time| motion.at(time, self.origin()));
+        let in_range = |map: &DAffine3| map.to_cols_array().iter().all(|number| number.abs() <= FARTHEST);
+        if ends.iter().all(|map| in_range(map) && map.matrix3.determinant().is_normal()) {
+            return Ok(());
+        }
+        Err((None, "the motion leaves the range of numbers".to_owned()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn motion(steps: &[MotionStep]) -> Motion {
+        Motion { steps: steps.to_vec() }
+    }
+
+    /// A turn about the origin keeps lengths at all times; a blend of the matrices at rest and in the end does not.
+    #[test]
+    fn rotations_keep_lengths_on_their_way() {
+        let turn = motion(&[MotionStep::Rotate { axis: DVec3::new(1.0, 2.0, -0.5), degrees: 90.0 }]);
+        let (origin, point) = (DVec3::new(3.0, 1.0, 0.0), DVec3::new(4.0, 3.0, 2.0));
+        let radius = (point - origin).length();
+        for step in 0..=10 {
+            let moved = turn.at(f64::from(step) / 10.0, origin).transform_point3(point);
+            assert!(((moved - origin).length() - radius).abs() < 1e-14 * radius);
+        }
+        let blended = 0.5 * (point + turn.at(1.0, origin).transform_point3(point));
+        assert!((blended - origin).length() < 0.9 * radius);
+    }
+
+    /// By hand: a quarter turn about the vertical takes x to −z; half of it at half time.
+    #[test]
+    fn steps_apply_in_their_order_about_the_origin() {
+        let steps = [
+            MotionStep::Scale(DVec3::splat(3.0)),
+            MotionStep::Rotate { axis: DVec3::Y, degrees: 180.0 },
+            MotionStep::Translate(DVec3::new(0.0, 4.0, 0.0)),
+        ];
+        let origin = DVec3::new(10.0, 0.0, 0.0);
+        let at_half = motion(&steps).at(0.5, origin).transform_point3(origin + DVec3::X);
+        assert!((at_half - (origin + DVec3::new(0.0, 2.0, -2.0))).length() < 1e-14, "{at_half}");
+        // The translation first: it is turned and scaled with the shape.
+        let reversed: Vec<MotionStep> = steps.into_iter().rev().collect();
+        let at_one = motion(&reversed).at(1.0, origin).transform_point3(origin + DVec3::X);
+        assert!((at_one - (origin + DVec3::new(-3.0, 12.0, 0.0))).length() < 1e-14, "{at_one}");
+        assert_eq!(motion(&steps).at(0.0, origin).transform_point3(DVec3::ONE), DVec3::ONE);
+    }
+
+    #[test]
+    fn what_cannot_be_followed_is_named() {
+        let shrinking = MotionStep::Scale(DVec3::new(1.0, -1.0, 1.0));
+        assert!(shrinking.check([0.0, 0.4]).is_ok());
+        assert!(shrinking.check([0.0, 0.5]).is_err());
+        // Inside out on both ends: it passed through nothing before the shutter opened.
+        assert!(shrinking.check([0.7, 0.9]).is_err());
+        let spinning = MotionStep::Rotate { axis: DVec3::X, degrees: 72_000.0 };
+        assert!(spinning.check([0.0, 1.0]).is_err());
+        assert!(spinning.check([0.0, 0.5]).is_ok());
+    }
+}
