@@ -3,6 +3,7 @@
 mod features;
 mod lights;
 mod materials;
+mod motion;
 mod strategies;
 
 use std::sync::LazyLock;

@@ -87,7 +87,7 @@ fn every_aperture_and_projection_agrees() {
 }
 
 /// The device renders `ours`, the reference `theirs`.
-fn compare_unequal(ours: &Scene, theirs: &Scene) -> Option<Verdict> {
+pub fn compare_unequal(ours: &Scene, theirs: &Scene) -> Option<Verdict> {
     let device = DEVICE.as_ref()?;
     let mut gpu = GpuRenderer::on(device, ours, &PlanOptions::default()).expect("the scene fits");
     let mut cpu = ReferenceRenderer::new(theirs).expect("the scene is supported");
