@@ -310,16 +310,6 @@ fn shapes_without_area_are_refused() {
 }
 
 #[test]
-fn what_is_not_done_yet_is_refused_by_name() {
-    let rows =
-        [("radius = 1", "radius = 1\nmotion = [{ translate = [1, 0, 0] }]", "shape[0].motion: motion is not supported yet")];
-    for (from, to, expected) in rows {
-        let complaint = complaint(from, to);
-        assert!(complaint.contains(expected), "{complaint}");
-    }
-}
-
-#[test]
 fn blends_that_contain_themselves_are_refused() {
     let text = GOOD.replace(
         "type = \"diffuse\"\nreflectance = 0.5",

@@ -82,6 +82,14 @@ fn moved_normal(motion: Motion, n: vec3<f32>) -> vec3<f32> {
     return n.x * cross(m[1], m[2]) + n.y * cross(m[2], m[0]) + n.z * cross(m[0], m[1]);
 }
 
+// 0 stays 0: no normal.
+fn moved_unit_normal(motion: Motion, n: vec3<f32>) -> vec3<f32> {
+    if dot(n, n) == 0.0 {
+        return n;
+    }
+    return normalize(moved_normal(motion, n));
+}
+
 // The sum of the magnitudes that rounding of a moved point is relative to.
 fn moved_magnitude(motion: Motion, size: vec3<f32>) -> vec3<f32> {
     let m = mat3x3<f32>(abs(motion.linear[0]), abs(motion.linear[1]), abs(motion.linear[2]));

@@ -38,15 +38,18 @@ fn interpolate_attributes(first: u32, weights: vec2<f32>) -> Attribute {
     let a3 = attributes[first * 4u + 3u];
     let w = 1.0 - weights.x - weights.y;
 #if MOTION
-    var interpolated = Attribute(
-        w * a0.xyz + weights.x * a1.xyz + weights.y * a2.xyz,
-        w * vec2<f32>(a0.w, a1.w) + weights.x * vec2<f32>(a2.w, a3.x) + weights.y * a3.yz
-    );
+    var normals = array<vec3<f32>, 3>(a0.xyz, a1.xyz, a2.xyz);
     let moving = bitcast<u32>(a3.w);
     if moving != NONE {
-        interpolated.normal = moved_normal(motion_at_path_time(moving), interpolated.normal);
+        let motion = motion_at_path_time(moving);
+        for (var corner = 0u; corner < 3u; corner++) {
+            normals[corner] = moved_unit_normal(motion, normals[corner]);
+        }
     }
-    return interpolated;
+    return Attribute(
+        w * normals[0] + weights.x * normals[1] + weights.y * normals[2],
+        w * vec2<f32>(a0.w, a1.w) + weights.x * vec2<f32>(a2.w, a3.x) + weights.y * a3.yz
+    );
 #else
     return Attribute(
         w * a0.xyz + weights.x * a1.xyz + weights.y * a2.xyz,

@@ -22,10 +22,6 @@ pub fn check(scene: &Scene) -> Result<(), RenderError> {
 /// What is wrong, in words.
 type Check = Result<(), String>;
 
-fn refuse(what: &str) -> Check {
-    Err(format!("the CPU reference cannot render {what} yet"))
-}
-
 fn settings(scene: &Scene) -> Check {
     let settings = &scene.render;
     if scene.film.size.contains(&0) {

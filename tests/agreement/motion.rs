@@ -3,8 +3,8 @@
 use gpt::plan::{PlanOptions, StageMode};
 use gpt::scene::{self, Estimator, LightSampling, MotionStep, SamplerKind, Scene};
 
-use super::strategies::compare_unequal;
 use super::assert_agrees;
+use super::strategies::compare_unequal;
 
 /// A floor under a lamp and an environment; `[[shape]]`s are added.
 const STAGE: &str = r#"

@@ -199,16 +199,16 @@ impl World {
         let owner = self.owners[place];
         let shape = &self.shapes[owner.shape];
         let pose = self.pose(place, moment);
-        // Texture coordinates and interpolated normals are those of the shape at rest.
-        let at_rest = pose.map_or(point.normal, |pose| pose.normal_to_rest(point.normal));
-        let on_sphere = || (shape.to_local * at_rest).normalize_or_zero();
-        let (normal, uv) = match &self.primitives[place] {
-            Primitive::Triangle(_) => shape.interpolate(owner.part, local, at_rest),
-            Primitive::Sphere(_) => (at_rest, Sphere::uv(on_sphere())),
-            Primitive::Parallelogram(parallelogram) => (at_rest, parallelogram.uv(local)),
-            Primitive::Disk(_) => (at_rest, DVec2::ZERO),
+        let on_sphere = || {
+            let at_rest = pose.map_or(point.normal, |pose| pose.normal_to_rest(point.normal));
+            (shape.to_local * at_rest).normalize_or_zero()
         };
-        let normal = pose.map_or(normal, |pose| pose.normal(normal));
+        let (normal, uv) = match &self.primitives[place] {
+            Primitive::Triangle(_) => shape.interpolate(owner.part, local, point.normal, pose),
+            Primitive::Sphere(_) => (point.normal, Sphere::uv(on_sphere())),
+            Primitive::Parallelogram(parallelogram) => (point.normal, parallelogram.uv(local)),
+            Primitive::Disk(_) => (point.normal, DVec2::ZERO),
+        };
         let tangents = || match &self.primitives[place] {
             Primitive::Triangle(triangle) => shape.tangents(owner.part, triangle),
             Primitive::Sphere(_) => Tangents::of_sphere(on_sphere()).map(|own| {
@@ -233,14 +233,18 @@ impl ShapeData {
         Tangents::of_triangle(triangle.corners.map(|corner| corner.as_dvec3()), [a?, b?, c?])
     }
     /// Normal and texture coordinates on a face of a mesh.
-    fn interpolate(&self, face: usize, local: Local, geometric_normal: DVec3) -> (DVec3, DVec2) {
+    fn interpolate(&self, face: usize, local: Local, geometric_normal: DVec3, pose: Option<&Pose>) -> (DVec3, DVec2) {
         let Some(mesh) = &self.mesh else { return (geometric_normal, DVec2::ZERO) };
         let [a, b, c] = self.faces[face].map(|corner| corner as usize);
         let weights = [1.0 - local.x - local.y, local.x, local.y];
         let normal = if self.normals.is_empty() {
             geometric_normal
         } else {
-            let corners = [a, b, c].map(|corner| self.normals[corner].as_dvec3());
+            // Moved one by one, as those of a shape at rest are transformed.
+            let corners = [a, b, c].map(|corner| {
+                let at_rest = self.normals[corner].as_dvec3();
+                pose.map_or(at_rest, |pose| pose.normal(at_rest))
+            });
             let sum = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
             sum.try_normalize().unwrap_or(geometric_normal)
         };
