@@ -245,5 +245,5 @@ fn degenerate_triangles_and_rays_are_never_hit() {
         assert!(world.closest(Ray { origin: DVec3::new(0.5, 0.0, -1.0), direction }, &Moment::default()).is_none());
     }
     let empty = super::World::new(&Scene::default()).expect("an empty scene is a scene");
-    assert!(empty.closest(Ray { origin: DVec3::ZERO, direction: DVec3::Z }).is_none());
+    assert!(empty.closest(Ray { origin: DVec3::ZERO, direction: DVec3::Z }, &Moment::default()).is_none());
 }

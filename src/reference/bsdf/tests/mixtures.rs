@@ -1,7 +1,7 @@
 //! How blends become lobes, and how one of them is chosen.
 
 use super::*;
-use crate::reference::intersect::{Ray, World};
+use crate::reference::intersect::{Moment, Ray, World};
 use crate::scene::{BlendMode, Emission, Geometry, Heuristic, Material, MaterialKind, Shape, Transform};
 
 /// A scene of one rectangle in the plane z = 0, front up, made of the last material.
