@@ -169,6 +169,12 @@ fn environment_pdf_solid_angle(ray: Ray) -> f32 {
 
 fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
     let light = choose_light(bits.x);
+#if PLANT_LIGHT
+    // A planted fault: one light is forgotten.
+    if light == PLANTED_LIGHT {
+        return no_light();
+    }
+#endif
     let u = uniform_float(bits.y);
     let v = uniform_float(bits.z);
     let l0 = light_word(light, 0u);

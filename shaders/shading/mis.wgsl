@@ -3,7 +3,12 @@
 // Weight of a sample drawn with density `own` that the other strategy would have drawn with density `other`. The ratio form
 // neither overflows nor divides 0 by 0: own is positive wherever the sample exists.
 fn mis_weight(own: f32, other: f32) -> f32 {
+#if PLANT_MIS
+    // A planted fault: every sample counts in full.
+    let ratio = 0.0;
+#else
     let ratio = other / own;
+#endif
 #if HEURISTIC_POWER
     return 1.0 / (1.0 + ratio * ratio);
 #else

@@ -6,6 +6,9 @@
 #import shading/bsdf.wgsl
 #import shading/light.wgsl
 #import shading/mis.wgsl
+#if TRACE
+#import shading/trace.wgsl
+#endif
 
 struct Path {
     ray: Ray,
@@ -74,9 +77,16 @@ fn no_shadow() -> ShadowRay {
 fn escaped_radiance(path: Path) -> vec3<f32> {
 #if ENVIRONMENT
     let radiance = path.throughput * environment_radiance(path.ray.direction);
+#if TRACE
+    trace_found(radiance, 1.0);
+#endif
 #if ENVIRONMENT_SAMPLED
     // After the camera or a delta lobe no light sample could have found it.
     if path.pdf_solid_angle >= 0.0 {
+#if TRACE
+        let traced_weight = emission_weight(path.pdf_solid_angle, environment_pdf_solid_angle(path.ray));
+        trace_found(radiance * traced_weight, traced_weight);
+#endif
         return radiance * emission_weight(path.pdf_solid_angle, environment_pdf_solid_angle(path.ray));
     }
 #endif
@@ -85,6 +95,13 @@ fn escaped_radiance(path: Path) -> vec3<f32> {
     return vec3<f32>(0.0);
 #endif
 }
+
+#if PLANT_BRDF
+// A planted fault: one material returns 1 % too much.
+fn planted_factor(material: u32) -> f32 {
+    return select(1.0, 1.01, material == PLANTED_MATERIAL);
+}
+#endif
 
 #if LIGHTS
 fn next_event(path: Path, surface: Surface, bsdf: Bsdf, random: vec4<u32>) -> ShadowRay {
@@ -97,12 +114,24 @@ fn next_event(path: Path, surface: Surface, bsdf: Bsdf, random: vec4<u32>) -> Sh
     let origin = reference;
 #endif
     var radiance = path.throughput * value.value * light.radiance;
+#if PLANT_BRDF
+    radiance *= planted_factor(surface.material);
+#endif
     if light.pdf_solid_angle >= 0.0 {
         radiance = radiance / light.pdf_solid_angle;
 #if ESTIMATOR_MIS
         radiance *= mis_weight(light.pdf_solid_angle, value.pdf_solid_angle);
 #endif
     }
+#if TRACE
+    var traced_weight = 1.0;
+#if ESTIMATOR_MIS
+    if light.pdf_solid_angle >= 0.0 {
+        traced_weight = mis_weight(light.pdf_solid_angle, value.pdf_solid_angle);
+    }
+#endif
+    trace_light(light.wi, light.pdf_solid_angle, radiance, traced_weight, choose_light(random.x), value.pdf_solid_angle);
+#endif
     return ShadowRay(Ray(origin, light.wi), light.distance, radiance);
 }
 #endif
@@ -112,12 +141,18 @@ fn next_event(path: Path, surface: Surface, bsdf: Bsdf, random: vec4<u32>) -> Sh
 fn shade_vertex(path: ptr<function, Path>, hit: Hit, visit: u32) -> Vertex {
     let incoming = *path;
     var vertex = Vertex(false, vec3<f32>(0.0), no_shadow());
+#if TRACE
+    trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
+#endif
     if hit.primitive == NONE {
         vertex.radiance = escaped_radiance(incoming);
         return vertex;
     }
     let surface = hit_surface(incoming.ray, hit);
     let wo = -incoming.ray.direction;
+#if TRACE
+    trace_surface(surface.position, surface.shading_normal, surface.material);
+#endif
 
 #if EMISSION
     let emitted = material_emission(
@@ -130,6 +165,9 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, visit: u32) -> Vertex {
         let weight = 1.0;
 #endif
         vertex.radiance = incoming.throughput * emitted * weight;
+#if TRACE
+        trace_found(vertex.radiance, weight);
+#endif
     }
 #endif
 
@@ -163,10 +201,16 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, visit: u32) -> Vertex {
     }
 #endif
     var throughput = incoming.throughput * sampled.weight;
+#if PLANT_BRDF
+    throughput *= planted_factor(surface.material);
+#endif
     if max_component(throughput) <= 0.0 {
         return vertex;
     }
     let eta_scale = incoming.eta_scale * sampled.eta_scale;
+#if TRACE
+    trace_sample(sampled.wi, sampled.pdf_solid_angle, sampled.weight, sampled.eta_scale, sampled.passes);
+#endif
 #if ROULETTE
 #if PASS
     let roulette = edge >= ROULETTE_DEPTH && !sampled.passes;
@@ -176,6 +220,9 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, visit: u32) -> Vertex {
     if roulette {
         // Past edge 64 even a lossless path ends some day.
         let survive = min(max_component(throughput) * eta_scale, select(1.0, 0.999, edge >= 64u));
+#if TRACE
+        trace_roulette(survive);
+#endif
         if uniform_float(more_random.z) >= survive {
             return vertex;
         }

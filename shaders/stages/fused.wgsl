@@ -37,9 +37,15 @@ fn trace_paths(@builtin(global_invocation_id) id: vec3<u32>) {
         if any(vertex.shadow.radiance != vec3<f32>(0.0)) {
             rays++;
             if !occluded(vertex.shadow.ray, vertex.shadow.distance) {
+#if TRACE
+                trace_note(TRACED_LIGHT_SEEN);
+#endif
                 radiance += vertex.shadow.radiance;
             }
         }
+#endif
+#if TRACE
+        store_trace(visit - 1u);
 #endif
         visit++;
         if !vertex.alive {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 use gpt::compare::Metric;
 use gpt::output::{MAX_PIXELS, MAX_SIDE};
+use gpt::plan::Fault;
 use gpt::render::DeviceChoice;
 use gpt::scene::{BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeuristic, PixelSamplerName, SamplerKind};
 
@@ -121,8 +122,14 @@ pub struct CompareArguments {
 
 #[derive(Debug, Args)]
 pub struct VerifyArguments {
-    /// A .toml scene, an .obj model, or the name of a built-in scene [default: every built-in scene]
+    /// A .toml scene, an .obj model, or the name of a built-in scene [default: closed forms and every built-in scene]
     pub scene: Option<String>,
+    /// Follow one path of the pixel at column X, row Y on both devices and print it side by side [scene: cornell]
+    #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
+    pub pixel: Option<[u32; 2]>,
+    /// Which sample of that pixel
+    #[arg(long, value_name = "N", default_value_t = 0, requires = "pixel", value_parser = clap::value_parser!(u32).range(..i64::from(MAX_SAMPLES)))]
+    pub sample: u32,
     /// Samples per pixel [default: 16]
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]
     pub spp: Option<u32>,
@@ -141,6 +148,9 @@ pub struct VerifyArguments {
     /// Folder for the pictures that show a difference; made where there is one
     #[arg(long, value_name = "FOLDER", default_value = "gpt-verify")]
     pub evidence: PathBuf,
+    /// Compile a fault into the GPU's kernels, to see verify fail: one BSDF times 1.01, no MIS weights, or one light skipped
+    #[arg(long, value_name = "FAULT")]
+    pub plant: Option<Fault>,
 }
 
 #[derive(Debug, Args)]
@@ -181,6 +191,12 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
     Ok(size)
 }
 
+fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
+    let parts = text.split_once(',').ok_or("expected COLUMN,ROW, for example 64,48")?;
+    let place = |part: &str| part.trim().parse::<u32>().map_err(|_| format!("`{part}` is no column or row"));
+    Ok([place(parts.0)?, place(parts.1)?])
+}
+
 /// Whether a picture of this size can be rendered; the error is a sentence.
 pub fn check_size([width, height]: [u32; 2]) -> Result<(), String> {
     if width == 0 || height == 0 {
@@ -219,6 +235,14 @@ mod tests {
         assert_eq!(parse_size("16384X16384"), Ok([16384, 16384]));
         for bad in ["640", "0x0", "0x5", "5x0", "-1x5", "x", "4.5x3", "32769x1", "32768x32768", "99999999999x1", "3x3x3"] {
             assert!(parse_size(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn pixels_are_two_numbers() {
+        assert_eq!(parse_pixel("3,0"), Ok([3, 0]));
+        for bad in ["3", "3,", "-1,2", "1,2,3", "1.5,2", "3x4"] {
+            assert!(parse_pixel(bad).is_err(), "{bad}");
         }
     }
 

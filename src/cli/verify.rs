@@ -3,37 +3,123 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use gpt::plan::PlanOptions;
+use clap::ValueEnum;
+use gpt::gpu::Device;
+use gpt::plan::{Fault, PlanOptions};
 use gpt::scene::{self, Scene};
-use gpt::verify::{self, DEFAULT_SIDE, DEFAULT_SPP, Verdict, evidence};
+use gpt::verify::closed_forms::{self, ClosedForm, ClosedFormError};
+use gpt::verify::{self, DEFAULT_SIDE, DEFAULT_SPP, Verdict, evidence, path};
+use serde::Serialize;
 
 use super::arguments::VerifyArguments;
 use super::exit::{Exit, Failure};
 use super::terminal;
 
-/// Verifies one scene, or all that are built in, and prints the verdicts.
+/// One line of the answer.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Finding {
+    ClosedForm(ClosedForm),
+    Scene(Verdict),
+}
+
+impl Finding {
+    fn agrees(&self) -> bool {
+        match self {
+            Self::ClosedForm(closed) => closed.agrees,
+            Self::Scene(verdict) => verdict.agrees,
+        }
+    }
+
+    fn planted(&self) -> Option<Fault> {
+        match self {
+            Self::ClosedForm(closed) => closed.planted,
+            Self::Scene(verdict) => verdict.planted,
+        }
+    }
+
+    fn line(&self) -> String {
+        match self {
+            Self::ClosedForm(closed) => closed_form_line(closed),
+            Self::Scene(verdict) => scene_line(verdict),
+        }
+    }
+}
+
+/// Verifies one scene, or the closed forms and all scenes that are built in, and prints the verdicts; or follows one path.
 pub fn run(arguments: &VerifyArguments) -> Result<Exit, Failure> {
-    let names: Vec<String> = match &arguments.scene {
-        Some(name) => vec![name.clone()],
-        None => scene::builtin_names().map(str::to_owned).collect(),
-    };
-    let mut verdicts = Vec::new();
-    for name in &names {
-        let scene = load(name, arguments)?;
-        let verdict = verify::verify(&scene, &arguments.device, &PlanOptions::default())?;
+    let options = PlanOptions { fault: arguments.plant, ..PlanOptions::default() };
+    if let Some(pixel) = arguments.pixel {
+        return follow(arguments, pixel, &options);
+    }
+    let mut findings = Vec::new();
+    let mut report = |finding: Finding| -> Result<(), Failure> {
         if !arguments.json {
-            terminal::answer(&line(&verdict))?;
+            terminal::answer(&finding.line())?;
         }
-        if !verdict.agrees {
-            leave_evidence(&arguments.evidence, &scene, &verdict, name)?;
+        findings.push(finding);
+        Ok(())
+    };
+    // A scene that cannot be read is reported before a device is asked for.
+    let named = arguments.scene.as_deref().map(|name| load(name, arguments)).transpose()?;
+    let device = Device::open(&arguments.device)?;
+    if let (Some(name), Some(scene)) = (&arguments.scene, named) {
+        report(verify_scene(&device, name, &scene, arguments, &options)?)?;
+    } else {
+        for index in 0..closed_forms::count() {
+            report(Finding::ClosedForm(closed_forms::check(index, &device, &options).map_err(failure)?))?;
         }
-        verdicts.push(verdict);
+        for name in scene::builtin_names() {
+            report(verify_scene(&device, name, &load(name, arguments)?, arguments, &options)?)?;
+        }
     }
     if arguments.json {
-        terminal::answer_json(&verdicts)?;
+        terminal::answer_json(&findings)?;
     }
-    let all_agree = verdicts.iter().all(|verdict| verdict.agrees);
-    Ok(if all_agree { Exit::Done } else { Exit::Difference })
+    was_planted(arguments, findings.iter().any(|finding| finding.planted().is_some()))?;
+    Ok(if findings.iter().all(Finding::agrees) { Exit::Done } else { Exit::Difference })
+}
+
+fn failure(error: ClosedFormError) -> Failure {
+    match error {
+        ClosedFormError::Scene(error) => error.into(),
+        ClosedFormError::Render(error) => error.into(),
+    }
+}
+
+/// A fault that found nothing to act on proves nothing.
+fn was_planted(arguments: &VerifyArguments, planted: bool) -> Result<(), Failure> {
+    match arguments.plant {
+        Some(fault) if !planted => {
+            Err(Failure::usage(format!("the scene has nothing for the fault `{}` to act on", fault_name(fault))))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn fault_name(fault: Fault) -> String {
+    fault.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+}
+
+/// Prints one path on both devices.
+fn follow(arguments: &VerifyArguments, [x, y]: [u32; 2], options: &PlanOptions) -> Result<Exit, Failure> {
+    let name = arguments.scene.as_deref().unwrap_or("cornell");
+    let scene = load(name, arguments)?;
+    let [width, height] = scene.film.size;
+    if x >= width || y >= height {
+        return Err(Failure::usage(format!(
+            "there is no pixel {x},{y} in a picture of {width}x{height}: columns and rows count from 0; --size sets the size"
+        )));
+    }
+    let device = Device::open(&arguments.device)?;
+    let comparison = path::compare_path(&device, &scene, [x, y], arguments.sample, options)?;
+    if arguments.json {
+        terminal::answer_json(&comparison)?;
+    } else {
+        terminal::answer(&comparison.to_string())?;
+    }
+    was_planted(arguments, comparison.planted.is_some())?;
+    Ok(if comparison.agrees { Exit::Done } else { Exit::Difference })
 }
 
 fn load(name: &str, arguments: &VerifyArguments) -> Result<Scene, Failure> {
@@ -47,13 +133,47 @@ fn load(name: &str, arguments: &VerifyArguments) -> Result<Scene, Failure> {
     Ok(scene)
 }
 
-fn line(verdict: &Verdict) -> String {
+fn verify_scene(
+    device: &Device,
+    name: &str,
+    scene: &Scene,
+    arguments: &VerifyArguments,
+    options: &PlanOptions,
+) -> Result<Finding, Failure> {
+    let verdict = verify::verify_on(device, scene, options)?;
+    if !verdict.agrees {
+        leave_evidence(&arguments.evidence, scene, &verdict, &path_command(name, scene, &verdict, arguments))?;
+    }
+    Ok(Finding::Scene(verdict))
+}
+
+fn word(agrees: bool) -> &'static str {
+    if agrees { "agrees " } else { "DIFFERS" }
+}
+
+fn closed_form_line(closed: &ClosedForm) -> String {
+    let show = |values: [f64; 3]| {
+        let [r, g, b] = values.map(|value| format!("{value:.5}"));
+        if r == g && g == b { r } else { format!("{r} {g} {b}") }
+    };
+    let error = closed.standard_error.iter().fold(0.0_f64, |largest, x| largest.max(*x));
+    format!(
+        "{:<16} {}  expected {}  found {} ± {error:.1e}  ({})\n",
+        closed.closed_form,
+        word(closed.agrees),
+        show(closed.expected),
+        show(closed.found),
+        closed.formula
+    )
+}
+
+fn scene_line(verdict: &Verdict) -> String {
     let mut text = String::new();
     let _ = write!(
         text,
         "{:<16} {}  {:.4} % of {} paths match  rms {:.1e}  largest {:.1e}  not finite {}",
         verdict.scene,
-        if verdict.agrees { "agrees " } else { "DIFFERS" },
+        word(verdict.agrees),
         100.0 * verdict.matching_share(),
         verdict.paths,
         verdict.rms_difference,
@@ -70,17 +190,30 @@ fn line(verdict: &Verdict) -> String {
     text
 }
 
-fn leave_evidence(folder: &Path, scene: &Scene, verdict: &Verdict, name: &str) -> Result<(), Failure> {
+/// The command that prints the worst path.
+fn path_command(name: &str, scene: &Scene, verdict: &Verdict, arguments: &VerifyArguments) -> String {
+    let [x, y, sample] = verdict.worst_path;
+    let mut command = format!(
+        "gpt verify {name} --size {}x{} --seed {} --pixel {x},{y} --sample {sample}",
+        verdict.width, verdict.height, scene.render.seed
+    );
+    // Stratified samplers draw by the number of samples.
+    if let Some(spp) = arguments.spp {
+        let _ = write!(command, " --spp {spp}");
+    }
+    if let Some(fault) = arguments.plant {
+        let _ = write!(command, " --plant {}", fault_name(fault));
+    }
+    command
+}
+
+fn leave_evidence(folder: &Path, scene: &Scene, verdict: &Verdict, command: &str) -> Result<(), Failure> {
     std::fs::create_dir_all(folder)
         .map_err(|error| Failure::Other(format!("cannot make the folder {}: {error}", folder.display())))?;
     for path in evidence::write(folder, scene, verdict)? {
         terminal::warn(&format!("wrote {}", path.display()));
     }
     let [x, y, sample] = verdict.worst_path;
-    terminal::warn(&format!(
-        "the worst path is sample {sample} of the pixel at column {x}, row {y}: \
-         gpt render {name} --size {}x{} --seed {} --first-sample {sample} --spp 1 shows it",
-        verdict.width, verdict.height, scene.render.seed
-    ));
+    terminal::warn(&format!("the worst path is sample {sample} of the pixel at column {x}, row {y}: {command} follows it"));
     Ok(())
 }

@@ -35,6 +35,7 @@ pub mod binding {
     pub const FILM_SUM: u32 = 15;
     pub const FILM_COMPENSATION: u32 = 16;
     pub const TOP_NODES: u32 = 17;
+    pub const TRACE: u32 = 18;
 }
 
 /// One of the two halves of the film.
@@ -90,6 +91,9 @@ impl Buffers {
         make(binding::SEQUENCE, "sequence points", 16 * u64::from(SEQUENCE_BLOCKS * MAX_SAMPLES_PER_PASS), uniform);
         let storage = BufferUsages::STORAGE;
         make(binding::STATISTICS, "statistics", 16, storage | BufferUsages::COPY_SRC | BufferUsages::COPY_DST);
+        if plan.switches.enabled.contains("TRACE") {
+            make(binding::TRACE, "trace", super::trace::BYTES, storage | BufferUsages::COPY_SRC | BufferUsages::COPY_DST);
+        }
         if plan.stages == StageMode::Wavefront {
             let paths = u64::from(plan.path_capacity);
             make(binding::PATH_STATE, "path state", paths * memory::PATH_STATE_BYTES, storage);

@@ -7,6 +7,7 @@ pub mod kernels;
 pub mod parameters;
 pub mod passes;
 pub mod renderer;
+pub mod trace;
 
 pub use adapters::{AdapterSummary, list_devices, select_adapter};
 pub use device::Device;

@@ -16,11 +16,11 @@ use crate::scene::Scene;
 
 /// A scene uploaded, its kernels compiled.
 pub struct GpuRenderer {
-    device: Device,
-    plan: Plan,
-    buffers: Buffers,
+    pub(super) device: Device,
+    pub(super) plan: Plan,
+    pub(super) buffers: Buffers,
     kernels: Vec<Kernel>,
-    size: [u32; 2],
+    pub(super) size: [u32; 2],
     sampling: Sampling,
     /// Edges of a path at most; None: no limit.
     max_depth: Option<u32>,
@@ -29,11 +29,11 @@ pub struct GpuRenderer {
 }
 
 /// A band being rendered.
-struct BandState {
-    first_row: u32,
-    rows: u32,
+pub(super) struct BandState {
+    pub(super) first_row: u32,
+    pub(super) rows: u32,
     /// Finished samples, over all pixels of the band.
-    samples_done: u64,
+    pub(super) samples_done: u64,
 }
 
 impl GpuRenderer {
@@ -98,7 +98,7 @@ impl GpuRenderer {
     }
 
     /// Uploads what a pass needs: its parameters, and its samples' points of the sampler's sequence.
-    fn write_pass(&self, band: &BandState, pass: &Pass, request: &RenderRequest) {
+    pub(super) fn write_pass(&self, band: &BandState, pass: &Pass, request: &RenderRequest) {
         let first_sample = request.samples.start + pass.first_sample;
         let parameters = PassParameters {
             first_pixel: band.first_row * self.size[0] + pass.first_pixel,
@@ -119,7 +119,7 @@ impl GpuRenderer {
     }
 
     /// Traces the paths of one pass and adds them to the film.
-    fn run_pass(&self, pass: &Pass) -> Result<(), RenderError> {
+    pub(super) fn run_pass(&self, pass: &Pass) -> Result<(), RenderError> {
         match self.plan.stages {
             StageMode::Fused => {
                 let mut encoder = self.device.device.create_command_encoder(&Default::default());
@@ -214,7 +214,7 @@ impl GpuRenderer {
         Ok(bytemuck::pod_read_unaligned(&bytes[..16]))
     }
 
-    fn readback_buffer(&self, size: u64) -> wgpu::Buffer {
+    pub(super) fn readback_buffer(&self, size: u64) -> wgpu::Buffer {
         self.device.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("read back"),
             size,
@@ -224,7 +224,7 @@ impl GpuRenderer {
     }
 
     /// One half of the film of the band's first `rows` rows.
-    fn read_film(&self, half: &FilmHalf, rows: u32) -> Result<Vec<[f32; 4]>, RenderError> {
+    pub(super) fn read_film(&self, half: &FilmHalf, rows: u32) -> Result<Vec<[f32; 4]>, RenderError> {
         let row_bytes = self.size[0] * 16;
         let mut encoder = self.device.device.create_command_encoder(&Default::default());
         let (target, stride) = match half {

@@ -3,6 +3,7 @@
 //! The plan looks at a packed scene and the device's limits, and decides where geometry lives, which stages run, how many paths are in
 //! flight, and which parts of the shaders are compiled at all. `gpt check` prints it.
 
+pub mod fault;
 pub mod limits;
 pub mod memory;
 pub mod switches;
@@ -15,6 +16,7 @@ use crate::render::RenderError;
 use crate::scene::Scene;
 use crate::shader::Switches;
 
+pub use fault::Fault;
 pub use limits::DeviceLimits;
 pub use memory::Memory;
 
@@ -59,6 +61,10 @@ pub struct PlanOptions {
     pub path_capacity: Option<u32>,
     /// Keep naga's bounds checks and loop bounds in the kernels.
     pub checked_shaders: bool,
+    /// Write down what happens along a path, for [`crate::gpu::GpuRenderer::trace`]; one kernel then traces whole paths.
+    pub trace: bool,
+    /// Compute wrongly, so that tests can see whether it is noticed.
+    pub fault: Option<Fault>,
 }
 
 /// The decisions for one scene on one device.
@@ -96,10 +102,11 @@ impl Plan {
         let geometry = if flat.moves() { GeometryPlacement::Hierarchy } else { options.geometry.unwrap_or(preferred) };
         // Software devices move every word on its own: there, paths kept in registers beat queues whatever the geometry
         // (BENCHMARKS.md).
-        let stages = options.stages.unwrap_or(match geometry {
-            GeometryPlacement::Hierarchy if !limits.software => StageMode::Wavefront,
-            _ => StageMode::Fused,
-        });
+        let stages = match geometry {
+            _ if options.trace => StageMode::Fused,
+            GeometryPlacement::Hierarchy if !limits.software => options.stages.unwrap_or(StageMode::Wavefront),
+            _ => options.stages.unwrap_or(StageMode::Fused),
+        };
         let width = scene.film.size[0];
         let film = options.film.unwrap_or(if limits.read_write_rgba32float && width <= limits.max_texture_side {
             FilmStorage::Texture
@@ -133,6 +140,10 @@ impl Plan {
             checked_shaders: options.checked_shaders,
         };
         plan.switches = switches::choose(scene, flat, &plan);
+        plan.switches.enable("TRACE", options.trace);
+        if let Some(fault) = options.fault {
+            fault.plant(flat, &mut plan.switches);
+        }
         let first_constant = match geometry {
             GeometryPlacement::Unrolled => 0,
             GeometryPlacement::Hierarchy => flat.bvh.primitive_count as usize,
@@ -191,7 +202,11 @@ impl fmt::Display for Plan {
         writeln!(f, "film           {film}, bands of {} rows", self.band_rows)?;
         let features: Vec<&str> = self.switches.enabled.iter().copied().collect();
         writeln!(f, "compiled in    {}", features.join(" "))?;
-        let skipped: Vec<&str> = switches::ALL.iter().copied().filter(|name| !self.switches.enabled.contains(name)).collect();
+        let skipped: Vec<&str> = switches::ALL
+            .iter()
+            .copied()
+            .filter(|name| !self.switches.enabled.contains(name) && !switches::DEBUG.contains(name))
+            .collect();
         writeln!(f, "left out       {}", skipped.join(" "))?;
         writeln!(f, "paths          {} in flight", self.path_capacity)?;
         write!(f, "device memory  {}", self.memory)

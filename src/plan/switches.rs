@@ -62,6 +62,9 @@ pub const ALL: &[&str] = &[
     "PIXEL_DIGITAL_SHIFT",
     "PIXEL_HASHED",
     "PIXEL_ROTATION",
+    "PLANT_BRDF",
+    "PLANT_LIGHT",
+    "PLANT_MIS",
     "POINT_LIGHTS",
     "PORTALS",
     "PROCEDURAL_TEXTURES",
@@ -81,6 +84,7 @@ pub const ALL: &[&str] = &[
     "TEXELS",
     "TEXTURES",
     "TOP_IN_UNIFORM",
+    "TRACE",
     "TRANSMISSIVE_SMOOTH",
     "TRIANGLES_IN_HIERARCHY",
     "UNIFORM_HEMISPHERE",
@@ -88,6 +92,9 @@ pub const ALL: &[&str] = &[
     "UNIFORM_TABLES",
     "WORLEY",
 ];
+
+/// Those among them that no render has: they are for looking into a path and for tests of the tests.
+pub const DEBUG: &[&str] = &["PLANT_BRDF", "PLANT_LIGHT", "PLANT_MIS", "TRACE"];
 
 /// Blocks of four dimensions that the sequence's table holds per sample.
 pub const SEQUENCE_BLOCKS: u32 = SEQUENCE_DIMENSIONS / 4;

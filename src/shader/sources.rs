@@ -33,6 +33,7 @@ shader_files![
     "shading/sphere_light.wgsl",
     "shading/surface.wgsl",
     "shading/texture.wgsl",
+    "shading/trace.wgsl",
     "stages/accumulate.wgsl",
     "stages/connect.wgsl",
     "stages/extend.wgsl",

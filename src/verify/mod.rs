@@ -5,15 +5,17 @@
 //! what share of paths matches, whether the differences of the rest have mean zero (whole picture and every tile), and
 //! whether anything that is not finite turned up.
 
+pub mod closed_forms;
 pub mod evidence;
+pub mod path;
 
 use std::sync::Mutex;
 
 use serde::Serialize;
 
 use crate::film::Band;
-use crate::gpu::GpuRenderer;
-use crate::plan::PlanOptions;
+use crate::gpu::{Device, GpuRenderer};
+use crate::plan::{Fault, PlanOptions};
 use crate::reference::ReferenceRenderer;
 use crate::render::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
 use crate::scene::Scene;
@@ -51,6 +53,9 @@ pub struct Verdict {
     /// Tiles and channels that the tests reject, in words.
     pub rejections: Vec<String>,
     pub agrees: bool,
+    /// The fault that was planted on purpose.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub planted: Option<Fault>,
     #[serde(skip)]
     pub gpu: Vec<[f32; 3]>,
     #[serde(skip)]
@@ -78,10 +83,24 @@ pub fn shrink(scene: &mut Scene, side: u32) {
 /// # Errors
 /// What either renderer reports.
 pub fn verify(scene: &Scene, choice: &DeviceChoice, options: &PlanOptions) -> Result<Verdict, RenderError> {
-    let mut gpu = GpuRenderer::new(scene, choice, options)?;
+    verify_on(&Device::open(choice)?, scene, options)
+}
+
+/// As [`verify`], on a device that is already open.
+///
+/// # Errors
+/// What either renderer reports.
+pub fn verify_on(device: &Device, scene: &Scene, options: &PlanOptions) -> Result<Verdict, RenderError> {
+    let mut gpu = GpuRenderer::on(device, scene, options)?;
     let mut cpu = ReferenceRenderer::new(scene)?;
-    let device = gpu.device().to_owned();
-    compare(scene, device, &mut gpu, &mut cpu)
+    let planted = planted(&gpu, options);
+    let verdict = compare(scene, device.name.clone(), &mut gpu, &mut cpu)?;
+    Ok(Verdict { planted, ..verdict })
+}
+
+/// The fault that the kernels hold: none was asked for, or the scene has nothing for it to act on.
+fn planted(gpu: &GpuRenderer, options: &PlanOptions) -> Option<Fault> {
+    options.fault.filter(|fault| gpu.plan().switches.enabled.contains(fault.switch()))
 }
 
 /// As [`verify`], for any two renderers of the scene.
@@ -126,6 +145,7 @@ pub fn compare(scene: &Scene, device: String, gpu: &mut dyn Renderer, cpu: &mut 
         non_finite_samples,
         agrees: rejections.is_empty() && enough_match && non_finite_samples == 0,
         rejections,
+        planted: None,
         gpu: gpu_picture,
         cpu: cpu_picture,
     })

@@ -1,0 +1,72 @@
+// A debug build of the fused kernel writes down what happens at each vertex of one path: src/gpu/trace.rs reads it.
+#import core/math.wgsl
+
+// Vertices that are written down, and vec4s of each; src/gpu/trace.rs has the same.
+const TRACED_VERTICES: u32 = 64u;
+const TRACE_WORDS: u32 = 10u;
+
+// The vertex in the making:
+//   0 (position; primitive or NONE), 1 (shading normal; material), 2 (direction of the ray that met it; its density),
+//   3 (throughput up to here; bits of TRACED_*), 4 (radiance found, weighted; its weight),
+//   5 (direction to the light; its density), 6 (what the light adds if seen; weight), 7 (light; density of BSDF sampling; survival; -),
+//   8 (sampled direction; its density), 9 (its weight; squared ratio of indices)
+var<private> traced: array<vec4<f32>, TRACE_WORDS>;
+@group(0) @binding(18) var<storage, read_write> path_trace: array<vec4<f32>>;
+
+const TRACED_VERTEX: u32 = 1u;
+const TRACED_LIGHT: u32 = 2u;
+const TRACED_LIGHT_SEEN: u32 = 4u;
+const TRACED_SAMPLE: u32 = 8u;
+const TRACED_PASS: u32 = 16u;
+const TRACED_ROULETTE: u32 = 32u;
+const TRACED_FOUND: u32 = 64u;
+
+fn trace_note(note: u32) {
+    traced[3].w = bitcast<f32>(bitcast<u32>(traced[3].w) | note);
+}
+
+fn trace_arrival(direction: vec3<f32>, pdf: f32, throughput: vec3<f32>, primitive: u32) {
+    traced = array<vec4<f32>, TRACE_WORDS>();
+    traced[0].w = bitcast<f32>(primitive);
+    traced[2] = vec4<f32>(direction, pdf);
+    traced[3] = vec4<f32>(throughput, bitcast<f32>(TRACED_VERTEX));
+}
+
+fn trace_surface(position: vec3<f32>, normal: vec3<f32>, material: u32) {
+    traced[0] = vec4<f32>(position, traced[0].w);
+    traced[1] = vec4<f32>(normal, bitcast<f32>(material));
+}
+
+fn trace_found(contribution: vec3<f32>, weight: f32) {
+    traced[4] = vec4<f32>(contribution, weight);
+    trace_note(TRACED_FOUND);
+}
+
+fn trace_light(wi: vec3<f32>, pdf: f32, contribution: vec3<f32>, weight: f32, light: u32, bsdf_pdf: f32) {
+    if all(contribution == vec3<f32>(0.0)) {
+        return;
+    }
+    traced[5] = vec4<f32>(wi, pdf);
+    traced[6] = vec4<f32>(contribution, weight);
+    traced[7] = vec4<f32>(bitcast<f32>(light), bsdf_pdf, traced[7].zw);
+    trace_note(TRACED_LIGHT);
+}
+
+fn trace_sample(wi: vec3<f32>, pdf: f32, weight: vec3<f32>, eta_scale: f32, passes: bool) {
+    traced[8] = vec4<f32>(wi, pdf);
+    traced[9] = vec4<f32>(weight, eta_scale);
+    trace_note(TRACED_SAMPLE | select(0u, TRACED_PASS, passes));
+}
+
+fn trace_roulette(survival: f32) {
+    traced[7].z = survival;
+    trace_note(TRACED_ROULETTE);
+}
+
+fn store_trace(vertex: u32) {
+    if vertex < TRACED_VERTICES {
+        for (var word = 0u; word < TRACE_WORDS; word++) {
+            path_trace[vertex * TRACE_WORDS + word] = traced[word];
+        }
+    }
+}

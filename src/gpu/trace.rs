@@ -1,0 +1,131 @@
+//! What happens along one path on the device, vertex by vertex.
+
+use super::buffers::binding;
+use super::passes::Pass;
+use super::renderer::{BandState, GpuRenderer};
+use crate::flat::NONE;
+use crate::render::{RenderError, RenderRequest};
+
+/// Vertices that the kernel writes down; of longer paths the rest is not seen.
+pub const TRACED_VERTICES: usize = 64;
+/// vec4s of a vertex; `shaders/shading/trace.wgsl` says what they hold.
+const WORDS: usize = 10;
+/// Size of the buffer.
+pub(super) const BYTES: u64 = (TRACED_VERTICES * WORDS * 16) as u64;
+
+const VERTEX: u32 = 1;
+const LIGHT: u32 = 2;
+const LIGHT_SEEN: u32 = 4;
+const SAMPLE: u32 = 8;
+const PASS: u32 = 16;
+const ROULETTE: u32 = 32;
+const FOUND: u32 = 64;
+
+/// Emission or environment radiance that the path met.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TracedFind {
+    pub contribution: [f32; 3],
+    /// Weight by multiple importance sampling.
+    pub weight: f32,
+}
+
+/// A light sample that could contribute.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TracedLight {
+    pub light: u32,
+    pub wi: [f32; 3],
+    /// Per steradian, the choice of the light included; negative for a light that only one direction leads to.
+    pub pdf: f32,
+    /// Density of BSDF sampling for the same direction.
+    pub bsdf_pdf: f32,
+    pub weight: f32,
+    pub visible: bool,
+    /// What it adds to the path's radiance where it is visible.
+    pub unshadowed: [f32; 3],
+}
+
+/// The direction in which the path went on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TracedSample {
+    pub wi: [f32; 3],
+    /// Per steradian; negative for a delta lobe.
+    pub pdf: f32,
+    /// f·|cosθi| / density.
+    pub weight: [f32; 3],
+    /// Squared ratio of the indices of refraction.
+    pub eta_scale: f32,
+    pub passes: bool,
+}
+
+/// One vertex of a path, or its end outside the scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TracedVertex {
+    /// Position, shading normal on wo's side, and index of the material; None: the ray left the scene.
+    pub surface: Option<([f32; 3], [f32; 3], u32)>,
+    /// Of the ray that led here.
+    pub direction: [f32; 3],
+    pub throughput: [f32; 3],
+    pub found: Option<TracedFind>,
+    pub light: Option<TracedLight>,
+    pub sample: Option<TracedSample>,
+    /// Probability of surviving Russian roulette.
+    pub survival: Option<f32>,
+}
+
+/// A path as the device followed it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GpuPathTrace {
+    pub vertices: Vec<TracedVertex>,
+    pub radiance: [f32; 3],
+}
+
+impl GpuRenderer {
+    /// Follows one path, sample `sample` of the pixel at column `x` and row `y`.
+    ///
+    /// # Errors
+    /// [`RenderError::Internal`] where the renderer was not made with [`crate::plan::PlanOptions::trace`]; else what the device reports.
+    pub fn trace(&self, x: u32, y: u32, sample: u32) -> Result<GpuPathTrace, RenderError> {
+        let missing = || RenderError::Internal("the kernels were not compiled to trace paths".into());
+        let source = self.buffers.buffer(binding::TRACE).ok_or_else(missing)?;
+        let request = RenderRequest { rows: y..y + 1, samples: sample..sample + 1 };
+        let band = BandState { first_row: y, rows: 1, samples_done: 0 };
+        let pass = Pass { first_pixel: x, pixel_count: 1, first_sample: 0, sample_count: 1, film_is_empty: true };
+        self.device.queue.write_buffer(source, 0, &vec![0; BYTES as usize]);
+        self.write_pass(&band, &pass, &request);
+        self.run_pass(&pass)?;
+        let target = self.readback_buffer(BYTES);
+        let mut encoder = self.device.device.create_command_encoder(&Default::default());
+        encoder.copy_buffer_to_buffer(source, 0, &target, 0, BYTES);
+        self.device.submit_and_wait(encoder.finish())?;
+        let words: Vec<[f32; 4]> = self.device.read(&target)?.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect();
+        let vertices = words.chunks_exact(WORDS).map_while(read_vertex).collect();
+        let sums = self.read_film(&self.buffers.film[0], 1)?;
+        let [r, g, b, _] = sums[x as usize];
+        Ok(GpuPathTrace { vertices, radiance: [r, g, b] })
+    }
+}
+
+/// None past the last vertex.
+fn read_vertex(words: &[[f32; 4]]) -> Option<TracedVertex> {
+    let xyz = |word: usize| [words[word][0], words[word][1], words[word][2]];
+    let w = |word: usize| words[word][3];
+    let notes = w(3).to_bits();
+    let has = |note: u32| notes & note != 0;
+    has(VERTEX).then(|| TracedVertex {
+        surface: (w(0).to_bits() != NONE).then(|| (xyz(0), xyz(1), w(1).to_bits())),
+        direction: xyz(2),
+        throughput: xyz(3),
+        found: has(FOUND).then(|| TracedFind { contribution: xyz(4), weight: w(4) }),
+        light: has(LIGHT).then(|| TracedLight {
+            light: words[7][0].to_bits(),
+            wi: xyz(5),
+            pdf: w(5),
+            bsdf_pdf: words[7][1],
+            weight: w(6),
+            visible: has(LIGHT_SEEN),
+            unshadowed: xyz(6),
+        }),
+        sample: has(SAMPLE).then(|| TracedSample { wi: xyz(8), pdf: w(8), weight: xyz(9), eta_scale: w(9), passes: has(PASS) }),
+        survival: has(ROULETTE).then_some(words[7][2]),
+    })
+}

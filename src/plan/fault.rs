@@ -1,0 +1,65 @@
+//! Faults that can be planted in the device's kernels: a check that never fails proves nothing.
+
+use clap::ValueEnum;
+use serde::Serialize;
+
+use crate::flat::FlatScene;
+use crate::flat::material::FlatMaterialKind;
+use crate::shader::Switches;
+
+/// A mistake compiled into the device's kernels on request, and only there: the CPU reference stays right.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Fault {
+    /// The material of most primitives that scatter returns 1.01 times what it should.
+    Brdf,
+    /// Multiple importance sampling's weights are all 1.
+    Mis,
+    /// The light chosen most often gives none when it is sampled.
+    Light,
+}
+
+impl Fault {
+    /// The switch that compiles it in.
+    pub fn switch(self) -> &'static str {
+        match self {
+            Self::Brdf => "PLANT_BRDF",
+            Self::Mis => "PLANT_MIS",
+            Self::Light => "PLANT_LIGHT",
+        }
+    }
+
+    /// Compiles the fault in where the scene has something for it to act on.
+    pub(super) fn plant(self, flat: &FlatScene, switches: &mut Switches) {
+        let samples_lights = switches.enabled.contains("LIGHTS");
+        match self {
+            Self::Brdf => {
+                if let Some(material) = most_used_material(flat) {
+                    switches.enable(self.switch(), true);
+                    switches.constants.insert("PLANTED_MATERIAL", material);
+                }
+            }
+            Self::Mis => switches.enable(self.switch(), samples_lights && switches.enabled.contains("ESTIMATOR_MIS")),
+            Self::Light => {
+                let likeliest = flat.lights.iter().enumerate().max_by(|(_, a), (_, b)| a.pmf.total_cmp(&b.pmf));
+                if let Some((light, _)) = likeliest.filter(|_| samples_lights) {
+                    switches.enable(self.switch(), true);
+                    switches.constants.insert("PLANTED_LIGHT", light as u32);
+                }
+            }
+        }
+    }
+}
+
+/// The scattering material that most primitives have.
+fn most_used_material(flat: &FlatScene) -> Option<u32> {
+    let mut uses = vec![0_u64; flat.materials.materials.len()];
+    for primitive in &flat.primitives {
+        let material = primitive.material() as usize;
+        if flat.materials.materials[material].kind() != FlatMaterialKind::Emissive as u32 {
+            uses[material] += 1;
+        }
+    }
+    let most = uses.iter().enumerate().max_by_key(|(_, count)| **count);
+    most.filter(|(_, count)| **count > 0).map(|(material, _)| material as u32)
+}
