@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use gpt::gpu::kernels::used_bindings;
-use gpt::plan::switches::ALL;
+use gpt::plan::switches::{ALL, DEBUG};
 use gpt::shader::{ComposeError, Switches, compose};
 
 const STAGES: [(&str, &str); 7] = [
@@ -94,6 +94,8 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
         "LIGHT_COUNT",
         "MAX_DEPTH",
         "PATH_CAPACITY",
+        "PLANTED_LIGHT",
+        "PLANTED_MATERIAL",
         "PORTAL_COUNT",
         "PRIMITIVE_WORDS",
         "RAYS_PER_INVOCATION",
@@ -157,6 +159,20 @@ fn random_half(seed: u32) -> BTreeSet<&'static str> {
     let key = gpt::sampling::hash::mix(seed + 1);
     let chosen = |index: usize| gpt::sampling::hash::dimension_bits(key, index as u32) & 1 == 1;
     ALL.iter().enumerate().filter(|(index, _)| chosen(*index)).map(|(_, name)| *name).collect()
+}
+
+/// Renders pay nothing for what only debugging needs: without its switches, nothing of it is left in the text.
+#[test]
+fn ordinary_kernels_hold_nothing_for_debugging() {
+    let without: BTreeSet<&'static str> = ALL.iter().copied().filter(|name| !DEBUG.contains(name)).collect();
+    let with = ALL.iter().copied().collect();
+    let mentions = |switches: &Switches| {
+        let text = compose("stages/fused.wgsl", switches).expect("it composes").text;
+        text.lines().filter(|line| !line.starts_with("const ") && (line.contains("trace_") || line.contains("lanted"))).count()
+    };
+    // `trace_paths` is the kernel's own name.
+    assert_eq!(mentions(&shippable(without)), 1);
+    assert!(mentions(&shippable(with)) > 20);
 }
 
 #[test]

@@ -4,6 +4,7 @@ use clap::ValueEnum;
 use serde::Serialize;
 
 use crate::flat::FlatScene;
+use crate::flat::light::{FlatLight, LightKind};
 use crate::flat::material::FlatMaterialKind;
 use crate::shader::Switches;
 
@@ -39,7 +40,10 @@ impl Fault {
                     switches.constants.insert("PLANTED_MATERIAL", material);
                 }
             }
-            Self::Mis => switches.enable(self.switch(), samples_lights && switches.enabled.contains("ESTIMATOR_MIS")),
+            Self::Mis => {
+                let shared = flat.lights.iter().any(found_both_ways) && switches.enabled.contains("ESTIMATOR_MIS");
+                switches.enable(self.switch(), samples_lights && shared);
+            }
             Self::Light => {
                 let likeliest = flat.lights.iter().enumerate().max_by(|(_, a), (_, b)| a.pmf.total_cmp(&b.pmf));
                 if let Some((light, _)) = likeliest.filter(|_| samples_lights) {
@@ -49,6 +53,11 @@ impl Fault {
             }
         }
     }
+}
+
+/// BSDF samples find the light too: more than one direction leads to it.
+fn found_both_ways(light: &FlatLight) -> bool {
+    ![LightKind::Point, LightKind::Spot, LightKind::Directional].into_iter().any(|kind| light.is(kind))
 }
 
 /// The scattering material that most primitives have.

@@ -253,7 +253,7 @@ fn reference_vertex(scene: &Scene, vertex: &PathVertex) -> Quantities {
     if let Some(connection) = vertex.light {
         let light = connection.light;
         quantities.extend([
-            ("light", Value::Number(light.light as f64)),
+            ("light", Value::Text(format!("number {}", light.light))),
             ("light direction", vector(light.wi)),
             ("light pdf", pdf_or_delta((!light.delta).then_some(light.pdf))),
             ("BSDF pdf of it", Value::Number(connection.bsdf_pdf)),
@@ -297,7 +297,7 @@ fn device_vertex(scene: &Scene, vertex: &TracedVertex) -> Quantities {
     }
     if let Some(light) = vertex.light {
         quantities.extend([
-            ("light", Value::Number(f64::from(light.light))),
+            ("light", Value::Text(format!("number {}", light.light))),
             ("light direction", single(light.wi)),
             ("light pdf", pdf_or_delta((light.pdf >= 0.0).then_some(f64::from(light.pdf)))),
             ("BSDF pdf of it", Value::Number(f64::from(light.bsdf_pdf))),
