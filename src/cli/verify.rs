@@ -158,7 +158,7 @@ fn closed_form_line(closed: &ClosedForm) -> String {
     };
     let error = closed.standard_error.iter().fold(0.0_f64, |largest, x| largest.max(*x));
     format!(
-        "{:<16} {}  expected {}  found {} ± {error:.1e}  ({})\n",
+        "{:<18} {}  expected {}  found {} ± {error:.1e}  ({})\n",
         closed.closed_form,
         word(closed.agrees),
         show(closed.expected),
@@ -171,7 +171,7 @@ fn scene_line(verdict: &Verdict) -> String {
     let mut text = String::new();
     let _ = write!(
         text,
-        "{:<16} {}  {:.4} % of {} paths match  rms {:.1e}  largest {:.1e}  not finite {}",
+        "{:<18} {}  {:.4} % of {} paths match  rms {:.1e}  largest {:.1e}  not finite {}",
         verdict.scene,
         word(verdict.agrees),
         100.0 * verdict.matching_share(),
