@@ -43,6 +43,7 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
         ("PERLIN", &["TEXTURES", "PROCEDURAL_TEXTURES"]),
         ("WORLEY", &["TEXTURES", "PROCEDURAL_TEXTURES"]),
         ("IMAGES", &["TEXTURES"]),
+        ("NORMAL_MAPS", &["TEXTURES"]),
         ("CONDUCTOR", &["MICROFACETS", "SCALARS"]),
         ("GLOSSY", &["COSINE_POWER", "SCALARS"]),
         ("PHONG", &["COSINE_POWER", "SCALARS", "SECOND_COLORS"]),

@@ -29,6 +29,9 @@
 @group(0) @binding(8) var<storage, read> texels: array<f32>;
 #endif
 
+// A material's words in the tables.
+const MATERIAL_WORDS: u32 = 5u;
+
 const KIND_TRIANGLE: u32 = 0u;
 const KIND_QUAD: u32 = 1u;
 const KIND_SPHERE: u32 = 2u;

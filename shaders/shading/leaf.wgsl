@@ -31,8 +31,6 @@ const LEAVES_EMIT: u32 = 4u;
 
 // GGX narrower than this is a delta lobe: f32 no longer resolves it.
 const SMOOTH_ALPHA: f32 = 1.0e-4;
-// A material's words in the tables.
-const MATERIAL_WORDS: u32 = 5u;
 
 struct Leaf {
     // The kind, COMPLEX_FRESNEL beside it.
@@ -103,6 +101,10 @@ fn load_leaf(material: u32, uv: vec2<f32>) -> Leaf {
 #endif
 #if SCALARS
     leaf.scalar = material_color(vec3<f32>(leaf.scalar), m3.w, uv).x;
+    // A texture of roughness: its square is the width.
+    if bitcast<u32>(tables[word + 4u].z) != 0u {
+        leaf.scalar *= leaf.scalar;
+    }
 #endif
 #endif
     return leaf;

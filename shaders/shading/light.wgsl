@@ -65,20 +65,36 @@ fn moved_light_magnitude(light: u32) -> vec3<f32> {
 
 #if LIGHTS
 #if BLENDED_LIGHTS
+#if NORMAL_MAPS
+fn blended_light_kind(light: u32) -> u32 {
+    switch bitcast<u32>(light_word(light, 0u).x) & 255u {
+        case LIGHT_TRIANGLE: { return KIND_TRIANGLE; }
+        case LIGHT_QUAD: { return KIND_QUAD; }
+        default: { return KIND_DISK; }
+    }
+}
+#endif
+
 // Σ wᵢ Leᵢ towards `wo` at a point of a flat light: what a ray that met it would see. (a, b) are the point's coordinates along its edges.
 fn blended_radiance(light: u32, ab: vec2<f32>, normal: vec3<f32>, wo: vec3<f32>) -> vec3<f32> {
     let front = dot(wo, normal) > 0.0;
-    var shading_normal = select(-normal, normal, front);
+    let material = bitcast<u32>(light_word(light, 4u).w);
+    var own_normal = vec3<f32>(0.0);
     var uv = ab;
-#if ATTRIBUTES
     let first = bitcast<u32>(light_word(light, 3u).w);
+#if ATTRIBUTES
     if first != NONE {
         let interpolated = interpolate_attributes(first, ab);
         uv = interpolated.uv;
-        shading_normal = shading_normal_towards(interpolated.normal, shading_normal, wo);
+        own_normal = interpolated.normal;
     }
 #endif
-    let material = bitcast<u32>(light_word(light, 4u).w);
+#if NORMAL_MAPS
+    own_normal = mapped_normal(
+        material, blended_light_kind(light), first, own_normal, normal, uv, light_word(light, 2u).xyz, light_word(light, 3u).xyz
+    );
+#endif
+    let shading_normal = shading_normal_towards(own_normal, select(-normal, normal, front), wo);
     return material_emission(material, clamp(dot(wo, shading_normal), 0.0, 1.0), front, uv);
 }
 
@@ -92,15 +108,21 @@ fn blended_sphere_sample(light: u32, reference: vec3<f32>, two_sided: bool, pmf:
     let half_chord = sqrt(max(0.0, l1.w * l1.w - dot(across, across)));
     let inside = dot(to_center, to_center) <= l1.w * l1.w;
     let outward = select(-half_chord, half_chord, inside) * light_sample.wi - across;
-    let cosine = clamp(half_chord / l1.w, 0.0, 1.0);
+    var cosine = clamp(half_chord / l1.w, 0.0, 1.0);
     var uv = vec2<f32>(0.0);
-#if ATTRIBUTES
     let first = bitcast<u32>(light_word(light, 3u).w);
+#if ATTRIBUTES
     if first != NONE {
         uv = sphere_uv(first, outward / l1.w);
     }
 #endif
     let material = bitcast<u32>(light_word(light, 4u).w);
+#if NORMAL_MAPS
+    let normal = outward / l1.w;
+    let mapped = mapped_normal(material, KIND_SPHERE, first, vec3<f32>(0.0), normal, uv, vec3<f32>(0.0), vec3<f32>(0.0));
+    let wo = -light_sample.wi;
+    cosine = clamp(dot(shading_normal_towards(mapped, select(normal, -normal, inside), wo), wo), 0.0, 1.0);
+#endif
     light_sample.radiance *= material_emission(material, cosine, !inside, uv);
     return light_sample;
 }

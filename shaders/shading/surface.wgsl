@@ -4,6 +4,9 @@
 #if MOTION
 #import geometry/motion.wgsl
 #endif
+#if NORMAL_MAPS
+#import shading/normal_map.wgsl
+#endif
 
 struct Surface {
     position: vec3<f32>,
@@ -57,8 +60,9 @@ fn interpolate_attributes(first: u32, weights: vec2<f32>) -> Attribute {
     );
 #endif
 }
+#endif
 
-// The interpolated normal on wo's side; the facing normal where there is none or wo is below its horizon.
+// An interpolated or mapped normal on wo's side; the facing normal where there is none or wo is below its horizon.
 fn shading_normal_towards(interpolated: vec3<f32>, facing_normal: vec3<f32>, wo: vec3<f32>) -> vec3<f32> {
     if dot(interpolated, interpolated) == 0.0 {
         return facing_normal;
@@ -67,7 +71,6 @@ fn shading_normal_towards(interpolated: vec3<f32>, facing_normal: vec3<f32>, wo:
     let shading_normal = select(-unit, unit, dot(unit, facing_normal) > 0.0);
     return select(facing_normal, shading_normal, dot(shading_normal, wo) > 0.0);
 }
-#endif
 
 fn hit_surface(ray: Ray, hit: Hit) -> Surface {
 #if MOTION
@@ -124,15 +127,22 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
 
     let front = dot(wo, normal) > 0.0;
     let facing_normal = select(-normal, normal, front);
-    var shading_normal = facing_normal;
+    // 0: the geometric normal.
+    var own_normal = vec3<f32>(0.0);
 #if ATTRIBUTES
     let first = bitcast<u32>(p2.w);
     if first != NONE && kind != KIND_SPHERE {
         let interpolated = interpolate_attributes(first, uv);
         uv = interpolated.uv;
-        shading_normal = shading_normal_towards(interpolated.normal, facing_normal, wo);
+        own_normal = interpolated.normal;
     }
 #endif
+#if NORMAL_MAPS
+    own_normal = mapped_normal(
+        primitive_material(p0.w), kind, bitcast<u32>(p2.w), own_normal, normal, uv, edge_u, edge_v
+    );
+#endif
+    let shading_normal = shading_normal_towards(own_normal, facing_normal, wo);
 #if MOTION
     size += placed.magnitude;
 #endif

@@ -225,6 +225,7 @@ fn mean_color(scene: &Scene, input: &ColorInput) -> DVec3 {
         ColorInput::Constant(color) => *color,
         ColorInput::Texture(texture) => mean(*texture),
         ColorInput::ScaledTexture(texture, factor) => mean(*texture) * *factor,
+        ColorInput::SquaredTexture(texture) => mean(*texture) * mean(*texture),
     }
 }
 

@@ -35,6 +35,8 @@ const LEAVES_EMIT: u32 = 4;
 
 /// GGX narrower than this is a delta lobe: f32 no longer resolves it. `SMOOTH_ALPHA` in `shaders/shading/leaf.wgsl`.
 const SMOOTH_ALPHA: f64 = 1.0e-4;
+/// Rough glass whose index of refraction is this close to 1 is smooth: its refraction is a delta lobe.
+const SMALLEST_BEND: f64 = 1.0e-4;
 
 /// 80 bytes, five vec4 of the tables.
 #[repr(C)]
@@ -55,7 +57,10 @@ pub struct FlatMaterial {
     pub scalar_texture: u32,
     /// GGX width or cosine exponent.
     pub scalar: f32,
-    pub padding: [u32; 3],
+    pub normal_map: u32,
+    /// 1 where the scalar's texture holds a roughness, whose square is the GGX width.
+    pub scalar_is_squared: u32,
+    pub padding: u32,
 }
 
 /// Most weights of all leaves together: 16 MiB of them.
@@ -113,6 +118,8 @@ pub fn color_and_texture(input: &ColorInput) -> ([f32; 3], u32) {
         ColorInput::Constant(color) => (color.as_vec3().to_array(), NONE),
         ColorInput::Texture(texture) => ([1.0; 3], *texture as u32),
         ColorInput::ScaledTexture(texture, factor) => (factor.as_vec3().to_array(), *texture as u32),
+        // That it is squared stands beside the scalar it is for: colours never are.
+        ColorInput::SquaredTexture(texture) => ([1.0; 3], *texture as u32),
     }
 }
 
@@ -139,6 +146,7 @@ impl FlatMaterials {
             && factors.is_empty()
             && emitting_blends.is_empty()
             && packed.emission_flags == 0
+            && packed.normal_map == NONE
         {
             return Ok(FlatMaterial::new(&scene.materials[*material]));
         }
@@ -286,7 +294,9 @@ impl FlatMaterial {
             second_texture,
             scalar_texture,
             scalar: scalar[0],
-            padding: [0; 3],
+            normal_map: material.normal_map.map_or(NONE, |texture| texture as u32),
+            scalar_is_squared: u32::from(matches!(parameters.scalar, ColorInput::SquaredTexture(_))),
+            padding: 0,
         }
     }
 
@@ -331,6 +341,8 @@ impl Parameters {
                 let kind = match (distribution, alpha) {
                     (MicrofacetDistribution::Phong, _) => Kind::PhongGlass,
                     (MicrofacetDistribution::Ggx, ColorInput::Constant(alpha)) if alpha.x < SMOOTH_ALPHA => Kind::Glass,
+                    // What hardly bends light sends it straight on, however rough.
+                    (MicrofacetDistribution::Ggx, _) if (ior - 1.0).abs() < SMALLEST_BEND => Kind::Glass,
                     (MicrofacetDistribution::Ggx, _) => Kind::RoughGlass,
                 };
                 Self { second: *transmittance, scalar: *alpha, ior: *ior, ..plain(kind, *reflectance) }

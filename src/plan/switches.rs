@@ -1,12 +1,12 @@
 //! Which parts of the shaders a scene compiles.
 
 use super::{FilmStorage, GeometryPlacement, MAX_SAMPLES_PER_PASS, Plan, has_attributes};
-use crate::flat::FlatScene;
 use crate::flat::environment::FlatEnvironment;
 use crate::flat::light::{FlatLight, LightKind};
 use crate::flat::material::{FlatMaterial, FlatMaterialKind};
 use crate::flat::primitive::{Primitive, PrimitiveKind};
 use crate::flat::texture::FlatTextureKind;
+use crate::flat::{FlatScene, NONE};
 use crate::sampling::Decorrelation;
 use crate::sampling::dimension::SEQUENCE_DIMENSIONS;
 use crate::scene::{ApertureShape, Filter, FilterKind, HemisphereSampling, Projection};
@@ -50,6 +50,7 @@ pub const ALL: &[&str] = &[
     "MIRROR",
     "MOTION",
     "MOVING_LIGHTS",
+    "NORMAL_MAPS",
     "ONE_LIGHT",
     "ONLY_TRIANGLES_IN_HIERARCHY",
     "ORTHOGRAPHIC",
@@ -266,6 +267,7 @@ fn choose_materials(scene: &Scene, flat: &FlatScene, switches: &mut Switches) {
     switches.enable("PICK", blends && scene.render.blend == BlendMode::Pick);
     let is_pass = |material: u32| flat.materials.materials[material as usize].kind() == Kind::Pass as u32;
     switches.enable("PASS", flat.materials.leaves.iter().any(|leaf| is_pass(leaf.material)));
+    switches.enable("NORMAL_MAPS", flat.materials.materials.iter().any(|material| material.normal_map != NONE));
     switches.enable("EMISSION", flat.materials.materials.iter().any(|material| material.emission_flags != 0));
     switches.enable("BLENDED_LIGHTS", blends && flat.lights.iter().any(FlatLight::is_blended));
 }

@@ -66,7 +66,7 @@ fn heuristic(scene: &Scene, heuristic: &Heuristic) -> Check {
 fn color(scene: &Scene, input: &ColorInput) -> Check {
     match input {
         ColorInput::Constant(_) => Ok(()),
-        ColorInput::Texture(id) | ColorInput::ScaledTexture(id, _) => texture(scene, *id),
+        ColorInput::Texture(id) | ColorInput::ScaledTexture(id, _) | ColorInput::SquaredTexture(id) => texture(scene, *id),
     }
 }
 

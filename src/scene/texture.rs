@@ -13,6 +13,8 @@ pub enum ColorInput {
     Texture(TextureId),
     /// A texture times a constant (MTL's `Kd` with `map_Kd`).
     ScaledTexture(TextureId, DVec3),
+    /// The square of a texture: GGX's width from a roughness.
+    SquaredTexture(TextureId),
 }
 
 impl ColorInput {

@@ -28,6 +28,7 @@ shader_files![
     "shading/microfacet.wgsl",
     "shading/mis.wgsl",
     "shading/noise.wgsl",
+    "shading/normal_map.wgsl",
     "shading/path.wgsl",
     "shading/portal.wgsl",
     "shading/sphere_light.wgsl",

@@ -1,6 +1,6 @@
 //! Every material, heuristic, blend and procedural texture: the device's paths against the reference's.
 
-use std::path::Path;
+use std::sync::LazyLock;
 
 use gpt::plan::{GeometryPlacement, PlanOptions, StageMode};
 use gpt::scene::{self, BlendMode, Estimator, Scene};
@@ -10,7 +10,7 @@ use super::{DEVICE, assert_agrees, compare};
 /// A sphere and a smooth, textured tetrahedron of the material `m` on a floor, under a lamp, a point light and an environment.
 const STAGE: &str = r#"
 [film]
-size = [48, 48]
+size = [32, 32]
 [render]
 spp = 16
 max_depth = 6
@@ -83,6 +83,11 @@ scale = 7
 a = [1, 0.9, 0.2]
 b = [0, 0.1, 0.4]
 seed = 5
+[[texture]]
+name = "bumps"
+type = "image"
+file = "bumps.png"
+color_space = "linear"
 [[shape]]
 type = "plane"
 point = [0, -1, 0]
@@ -111,8 +116,16 @@ material = "m"
 
 fn stage(material: &str) -> Scene {
     let text = format!("{STAGE}\n[[material]]\nname = \"m\"\n{material}\n");
-    scene::load_toml_str(&text, "stage.toml", Path::new("")).unwrap_or_else(|error| panic!("{error}\n{material}"))
+    scene::load_toml_str(&text, "stage.toml", BUMPS.path()).unwrap_or_else(|error| panic!("{error}\n{material}"))
 }
+
+/// A folder with a picture of 8 × 8 normals, up to 35 degrees askew.
+static BUMPS: LazyLock<tempfile::TempDir> = LazyLock::new(|| {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let texel = |x: u32, y: u32| image::Rgb([128 + (x * 37 + y * 11) as u8 % 70, 90 + (x * 23 + y * 51) as u8 % 80, 240]);
+    image::RgbImage::from_fn(8, 8, texel).save(folder.path().join("bumps.png")).expect("the folder can be written");
+    folder
+});
 
 fn blend(first: &str, second: &str, weight: &str) -> String {
     format!("type = \"blend\"\nmaterials = [\"{first}\", \"{second}\"]\nweight = {weight}")
@@ -131,6 +144,9 @@ const LOBES: &[(&str, &str)] = &[
     ("textured mirror", "type = \"mirror\"\nreflectance = { texture = \"checks\" }"),
     ("textured glass", "type = \"glass\"\ntransmittance = { texture = \"cells\" }"),
     ("textured width", "type = \"conductor\"\npreset = \"gold\"\nalpha = { texture = \"clouds\" }"),
+    ("textured roughness", "type = \"rough_glass\"\nroughness = { texture = \"clouds\" }"),
+    ("normal map", "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\""),
+    ("normal map of a mirror", "type = \"mirror\"\nnormal_map = \"bumps\""),
     ("textured exponent", "type = \"glossy\"\nreflectance = 0.8\nexponent = { texture = \"cells\" }"),
     ("checker", "type = \"diffuse\"\nreflectance = { texture = \"checks\" }"),
     ("perlin", "type = \"diffuse\"\nreflectance = { texture = \"clouds\" }"),

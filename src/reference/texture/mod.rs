@@ -24,6 +24,7 @@ pub fn evaluate(scene: &Scene, input: &ColorInput, uv: DVec2) -> DVec3 {
         ColorInput::Constant(color) => color,
         ColorInput::Texture(texture) => look_up(&scene.textures, texture, uv),
         ColorInput::ScaledTexture(texture, factor) => factor * look_up(&scene.textures, texture, uv),
+        ColorInput::SquaredTexture(texture) => look_up(&scene.textures, texture, uv).powf(2.0),
     }
 }
 
@@ -33,6 +34,7 @@ pub fn mean(scene: &Scene, input: &ColorInput) -> DVec3 {
         ColorInput::Constant(color) => color,
         ColorInput::Texture(texture) => mean_of_texture(scene, texture),
         ColorInput::ScaledTexture(texture, factor) => factor * mean_of_texture(scene, texture),
+        ColorInput::SquaredTexture(texture) => mean_of_texture(scene, texture).powf(2.0),
     }
 }
 

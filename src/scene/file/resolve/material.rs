@@ -137,9 +137,10 @@ impl Resolver<'_> {
             (Some(alpha), None) => self.scalar(&alpha.value).map(Some),
             (None, Some(roughness)) => match &roughness.value {
                 Scalar::Constant(value) => Ok(Some(ColorInput::grey(value.0 * value.0))),
-                Scalar::Texture(name) => {
-                    Err(self.error(&name.span, "a texture of `roughness` is not supported; give a texture of `alpha`"))
-                }
+                Scalar::Texture(_) => Ok(Some(match self.scalar(&roughness.value)? {
+                    ColorInput::Texture(texture) => ColorInput::SquaredTexture(texture),
+                    other => other,
+                })),
             },
             (None, None) => Ok(None),
         }

@@ -21,7 +21,7 @@ use crate::scene::image_file::read_image;
 use crate::scene::obj::{MtlMaterial, TextureMap};
 use crate::scene::{
     ColorInput, Emission, Heuristic, ImageTexture, Material, MaterialId, MaterialKind, SceneError, Texture, TextureFilter,
-    TextureKind, TextureWrap,
+    TextureId, TextureKind, TextureWrap,
 };
 
 impl Resolver<'_> {
@@ -85,10 +85,13 @@ impl Resolver<'_> {
     fn mtl_phong(&mut self, written: &MtlMaterial, specular: DVec3) -> Result<MaterialKind, SceneError> {
         let specular = self.at_most_one(written, "Ks", specular);
         let diffuse = self.mtl_diffuse(written)?;
-        let brightest = match &diffuse {
-            ColorInput::Constant(colour) => *colour,
-            ColorInput::Texture(texture) => DVec3::splat(self.scene.textures[*texture].kind.range().1),
-            ColorInput::ScaledTexture(texture, factor) => *factor * self.scene.textures[*texture].kind.range().1,
+        let brightest_texel = |texture: TextureId| self.scene.textures[texture].kind.range().1;
+        let brightest = match diffuse {
+            ColorInput::Constant(colour) => colour,
+            ColorInput::Texture(texture) => DVec3::splat(brightest_texel(texture)),
+            ColorInput::ScaledTexture(texture, factor) => factor * brightest_texel(texture),
+            // MTL has none.
+            ColorInput::SquaredTexture(texture) => DVec3::splat(brightest_texel(texture)),
         };
         // f32 texels of 1 come out as 1 + 6e-8 at most.
         let fits = (brightest + specular).max_element() <= 1.0 + 1e-6;
@@ -99,6 +102,7 @@ impl Resolver<'_> {
         }
         let diffuse = match diffuse {
             _ if fits => diffuse,
+            ColorInput::SquaredTexture(_) => diffuse,
             ColorInput::Constant(colour) => ColorInput::Constant(colour * room),
             ColorInput::Texture(texture) => ColorInput::ScaledTexture(texture, room),
             ColorInput::ScaledTexture(texture, factor) => ColorInput::ScaledTexture(texture, factor * room),
