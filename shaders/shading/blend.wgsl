@@ -104,8 +104,10 @@ struct Bsdf {
     // The sum of all lobes' sampling weights: the denominator of their probabilities.
     total: f32,
     smooth_lobe: bool,
+#if MORE_LOBES
     // There are lobes besides the diffuse one.
     more_lobes: bool,
+#endif
 }
 
 // A leaf that is a lobe of its own, with its share of `total`; 0 for those that are not.
@@ -130,17 +132,21 @@ fn load_lobe(bsdf: Bsdf, index: u32, uv: vec2<f32>) -> Lobe {
 
 fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
     let cosine = clamp(dot(wo, surface.shading_normal), 0.0, 1.0);
-    var bsdf = Bsdf(leaf_run(surface.material), cosine, vec3<f32>(0.0), 0.0, false, false);
+    var bsdf: Bsdf;
+    bsdf.run = leaf_run(surface.material);
+    bsdf.cosine = cosine;
     for (var index = 0u; index < bsdf.run.count; index++) {
         let lobe = load_lobe(bsdf, index, surface.uv);
         if lobe.weight > 0.0 && leaf_kind(lobe.leaf) == DIFFUSE {
             bsdf.diffuse += lobe.weight * lobe.leaf.first;
         }
+#if MORE_LOBES
         if lobe.share > 0.0 {
             bsdf.total += lobe.share;
             bsdf.more_lobes = true;
             bsdf.smooth_lobe = bsdf.smooth_lobe || leaf_is_smooth(lobe.leaf);
         }
+#endif
     }
     let diffuse_share = max_component(bsdf.diffuse);
     bsdf.total += diffuse_share;
@@ -159,6 +165,7 @@ fn evaluate_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> 
     }
     var sum = evaluate_diffuse(bsdf.diffuse, surface, wi);
     sum.pdf_solid_angle *= max_component(bsdf.diffuse) / bsdf.total;
+#if MORE_LOBES
     if bsdf.more_lobes {
         for (var index = 0u; index < bsdf.run.count; index++) {
             let lobe = load_lobe(bsdf, index, surface.uv);
@@ -169,6 +176,7 @@ fn evaluate_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> 
             }
         }
     }
+#endif
     return sum;
 }
 
@@ -177,6 +185,9 @@ fn sample_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f32,
     if bsdf.total <= 0.0 {
         return no_sample();
     }
+#if !MORE_LOBES
+    return sample_diffuse(bsdf.diffuse, surface, u, v);
+#else
     var below = max_component(bsdf.diffuse) / bsdf.total;
     var chosen = no_sample();
     var probability = below;
@@ -216,5 +227,6 @@ fn sample_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f32,
     chosen.weight = all.value / all.pdf_solid_angle;
     chosen.pdf_solid_angle = all.pdf_solid_angle;
     return chosen;
+#endif
 }
 #endif

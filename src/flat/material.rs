@@ -5,7 +5,9 @@ use glam::DVec3;
 
 use super::NONE;
 use super::validate::FlatError;
-use crate::scene::{ColorInput, ConductorFresnel, Heuristic, Material, MaterialId, MaterialKind, MicrofacetDistribution, Scene};
+use crate::scene::{
+    BlendMode, ColorInput, ConductorFresnel, Heuristic, Material, MaterialId, MaterialKind, MicrofacetDistribution, Scene,
+};
 
 /// Kinds in `shaders/shading/leaf.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -150,6 +152,14 @@ impl FlatMaterials {
         {
             return Ok(FlatMaterial::new(&scene.materials[*material]));
         }
+        if scene.render.blend == BlendMode::Mixture
+            && emitting_blends.is_empty()
+            && let Some(reflectance) = lambert_of_the_mean(scene, &leaves)
+        {
+            packed.kind_and_flags = FlatMaterialKind::Diffuse as u32;
+            packed.first = reflectance.as_vec3().to_array();
+            return Ok(packed);
+        }
         if !emitting_blends.is_empty() || leaves.iter().any(|leaf| scene.materials[leaf.material].emission.is_some()) {
             packed.emission_flags |= LEAVES_EMIT;
         }
@@ -219,6 +229,19 @@ fn parts(scene: &Scene, id: MaterialId) -> Result<Parts, FlatError> {
         }
     }
     Ok(found)
+}
+
+/// Lambert surfaces blended by weights that never change are one of their mean reflectance. None where a leaf is anything else, varies
+/// over the surface, or emits.
+fn lambert_of_the_mean(scene: &Scene, leaves: &[Part]) -> Option<DVec3> {
+    let weighted =
+        leaves.iter().map(|leaf| match &scene.materials[leaf.material] {
+            Material {
+                kind: MaterialKind::Diffuse { reflectance: ColorInput::Constant(reflectance) }, emission: None, ..
+            } if leaf.factors.is_empty() => Some(leaf.constant * *reflectance),
+            _ => None,
+        });
+    weighted.sum()
 }
 
 /// The weight where it is the same at every hit.

@@ -48,6 +48,7 @@ pub const ALL: &[&str] = &[
     "LIGHTS",
     "MICROFACETS",
     "MIRROR",
+    "MORE_LOBES",
     "MOTION",
     "MOVING_LIGHTS",
     "NORMAL_MAPS",
@@ -264,6 +265,9 @@ fn choose_materials(scene: &Scene, flat: &FlatScene, switches: &mut Switches) {
     // Surfaces of nothing but `pass` are no primitives; inside a blend it is a lobe.
     let blends = has(Kind::Blend);
     switches.enable("BLENDS", blends);
+    let one_lobe = [Kind::Diffuse, Kind::Emissive, Kind::Blend].map(|kind| kind as u32);
+    let more_lobes = flat.materials.materials.iter().any(|material| !one_lobe.contains(&material.kind()));
+    switches.enable("MORE_LOBES", blends && more_lobes);
     switches.enable("PICK", blends && scene.render.blend == BlendMode::Pick);
     let is_pass = |material: u32| flat.materials.materials[material as usize].kind() == Kind::Pass as u32;
     switches.enable("PASS", flat.materials.leaves.iter().any(|leaf| is_pass(leaf.material)));

@@ -9,6 +9,8 @@ pub mod closed_forms;
 pub mod evidence;
 pub mod path;
 
+use std::fmt;
+
 use std::sync::Mutex;
 
 use serde::Serialize;
@@ -32,7 +34,7 @@ pub const DEFAULT_SIDE: u32 = 128;
 pub const DEFAULT_SPP: u32 = 16;
 
 /// What the comparison of one scene found.
-#[derive(Debug, Serialize)]
+#[derive(Serialize)]
 pub struct Verdict {
     pub scene: String,
     pub device: String,
@@ -60,6 +62,13 @@ pub struct Verdict {
     pub gpu: Vec<[f32; 3]>,
     #[serde(skip)]
     pub cpu: Vec<[f32; 3]>,
+}
+
+/// Everything but the pictures.
+impl fmt::Debug for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&serde_json::to_string_pretty(self).map_err(|_| fmt::Error)?)
+    }
 }
 
 impl Verdict {

@@ -100,10 +100,9 @@ fn closed_forms_of_materials_and_blends_hold() {
     assert_all_hold(&materials::all(), devices());
 }
 
-/// On the CPU: the device has no normal maps yet.
 #[test]
 fn closed_forms_of_normal_maps_hold() {
-    assert_all_hold(&materials::with_normal_maps(), &devices()[..1]);
+    assert_all_hold(&materials::with_normal_maps(), devices());
 }
 
 /// The wavefront is held to the reference for the same lights elsewhere (`tests/agreement`).
