@@ -24,6 +24,8 @@ pub struct GpuRenderer {
     sampling: Sampling,
     /// Edges of a path at most; None: no limit.
     max_depth: Option<u32>,
+    /// Edges encoded before the host looks again.
+    edges_per_submission: u32,
     build_seconds: f64,
     compile_seconds: f64,
 }
@@ -54,9 +56,12 @@ impl GpuRenderer {
         let start = Instant::now();
         let flat = FlatScene::new(scene).map_err(|error| RenderError::DoesNotFit(error.to_string()))?;
         let plan = Plan::new(scene, &flat, &device.limits, options)?;
-        // Where paths may pass through surfaces without ending an edge, edges do not bound the number of vertices.
+        // Where paths may pass through surfaces without ending an edge, edges do not bound the number of vertices; most paths still
+        // end by then.
         let passes = plan.switches.enabled.contains("PASS");
-        let max_depth = Some(scene.render.max_depth).filter(|depth| *depth > 0 && !passes);
+        let depth = Some(scene.render.max_depth).filter(|depth| *depth > 0);
+        let edges_per_submission = depth.unwrap_or(EDGES_PER_SUBMISSION).min(EDGES_PER_SUBMISSION);
+        let max_depth = depth.filter(|_| !passes);
         let buffers = Buffers::new(&device, &flat, &plan, scene.film.size[0]);
         device.check()?;
         let build_seconds = start.elapsed().as_secs_f64();
@@ -70,6 +75,7 @@ impl GpuRenderer {
             size: scene.film.size,
             sampling: Sampling::from(&scene.render),
             max_depth,
+            edges_per_submission,
             build_seconds,
             compile_seconds: start.elapsed().as_secs_f64(),
         })
@@ -138,7 +144,7 @@ impl GpuRenderer {
         self.write(binding::COUNTS, bytemuck::cast_slice(&[paths, 0, 0, 0]));
         let mut first_edge = 1;
         loop {
-            let edges = self.max_depth.map_or(u32::MAX, |depth| depth - first_edge + 1).min(EDGES_PER_SUBMISSION);
+            let edges = self.max_depth.map_or(u32::MAX, |depth| depth - first_edge + 1).min(self.edges_per_submission);
             let last = self.max_depth.is_some_and(|depth| first_edge + edges > depth);
             self.write(binding::EDGE, &edge_parameters(first_edge));
             let mut encoder = self.device.device.create_command_encoder(&Default::default());
