@@ -34,7 +34,7 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
         wanted.insert("SPHERES");
     }
     for (name, needed) in [
-        ("BLENDED_LIGHTS", &["BLENDS", "EMISSION", "LIGHTS"][..]),
+        ("VARYING_LIGHTS", &["EMISSION", "LIGHTS"][..]),
         ("MOVING_LIGHTS", &["MOTION", "ATTRIBUTES", "BVH"]),
         ("MOTION", &["ATTRIBUTES", "BVH"]),
         ("PASS", &["BLENDS"]),
@@ -53,6 +53,13 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
         if wanted.contains(name) {
             wanted.extend(needed);
         }
+    }
+    // Lobes are mixed exactly where blends have several and none is picked.
+    let mixes = wanted.contains("BLENDS") && wanted.contains("MORE_LOBES") && !wanted.contains("PICK");
+    if mixes {
+        wanted.insert("MIXTURE");
+    } else {
+        wanted.remove("MIXTURE");
     }
     for (name, needed) in [
         ("ENVIRONMENT_LIGHT", &["ENVIRONMENT_SAMPLED"][..]),

@@ -180,14 +180,19 @@ fn evaluate_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> 
     return sum;
 }
 
+#if MORE_LOBES
+// A direction drawn from one lobe, before the others have had their say.
+struct Draw {
+    chosen: BsdfSample,
+    // Other smooth lobes may draw the same direction: the sample counts what all of them make of it.
+    mixed: bool,
+}
+
 // A delta lobe i chosen with probability Pᵢ carries wᵢ fᵢ / Pᵢ; a smooth one Σ wⱼ fⱼ / Σ Pⱼ pdfⱼ over all smooth lobes.
-fn sample_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
+fn draw_direction(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> Draw {
     if bsdf.total <= 0.0 {
-        return no_sample();
+        return Draw(no_sample(), false);
     }
-#if !MORE_LOBES
-    return sample_diffuse(bsdf.diffuse, surface, u, v);
-#else
     var below = max_component(bsdf.diffuse) / bsdf.total;
     var chosen = no_sample();
     var probability = below;
@@ -213,20 +218,32 @@ fn sample_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f32,
         chosen.weight *= lobe.weight;
         if chosen.pdf_solid_angle < 0.0 {
             chosen.weight /= probability;
-            return chosen;
+            return Draw(chosen, false);
         }
     }
     // Alone, a lobe is sampled as the pure material.
-    if probability == 1.0 || max_component(chosen.weight) <= 0.0 {
-        return chosen;
+    return Draw(chosen, probability != 1.0 && max_component(chosen.weight) > 0.0);
+}
+
+// The sample, given what all smooth lobes make of its direction.
+fn mixed_sample(draw: Draw, all: BsdfValue) -> BsdfSample {
+    var chosen = draw.chosen;
+    if draw.mixed {
+        if all.pdf_solid_angle <= 0.0 {
+            return no_sample();
+        }
+        chosen.weight = all.value / all.pdf_solid_angle;
+        chosen.pdf_solid_angle = all.pdf_solid_angle;
     }
-    let all = evaluate_bsdf(bsdf, surface, wo, chosen.wi);
-    if all.pdf_solid_angle <= 0.0 {
+    return chosen;
+}
+#else
+// The diffuse lobe is the only one.
+fn sample_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
+    if bsdf.total <= 0.0 {
         return no_sample();
     }
-    chosen.weight = all.value / all.pdf_solid_angle;
-    chosen.pdf_solid_angle = all.pdf_solid_angle;
-    return chosen;
-#endif
+    return sample_diffuse(bsdf.diffuse, surface, u, v);
 }
+#endif
 #endif

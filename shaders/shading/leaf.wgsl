@@ -94,13 +94,18 @@ fn load_leaf(material: u32, uv: vec2<f32>) -> Leaf {
     leaf.scalar = tables[word + 4u].x;
 #endif
 #if TEXTURES
-    let m3 = tables[word + 3u];
-    leaf.first = material_color(leaf.first, m3.x, uv);
-#if SECOND_COLORS
-    leaf.second = material_color(leaf.second, m3.z, uv);
-#endif
+    // One call for all three: software drivers copy what is called to wherever it is called.
+    let textures = bitcast<vec4<u32>>(tables[word + 3u]);
+    for (var slot = 0u; slot < 3u; slot++) {
+        let texture = select(select(textures.x, textures.z, slot == 1u), textures.w, slot == 2u);
+        if texture != NONE {
+            let color = texture_color(texture, uv);
+            leaf.first *= select(vec3<f32>(1.0), color, slot == 0u);
+            leaf.second *= select(vec3<f32>(1.0), color, slot == 1u);
+            leaf.scalar *= select(1.0, color.x, slot == 2u);
+        }
+    }
 #if SCALARS
-    leaf.scalar = material_color(vec3<f32>(leaf.scalar), m3.w, uv).x;
     // A texture of roughness: its square is the width.
     if bitcast<u32>(tables[word + 4u].z) != 0u {
         leaf.scalar *= leaf.scalar;

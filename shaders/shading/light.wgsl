@@ -13,10 +13,7 @@
 #if PORTALS
 #import shading/portal.wgsl
 #endif
-#if TEXTURES
-#import shading/texture.wgsl
-#endif
-#if BLENDED_LIGHTS
+#if VARYING_LIGHTS
 #import shading/bsdf.wgsl
 #endif
 
@@ -32,11 +29,11 @@ const LIGHT_PORTAL: u32 = 8u;
 
 const LIGHT_TWO_SIDED: u32 = 256u;
 // The radiance is that of the whole material, seen from the light's normal.
-const LIGHT_BLENDED: u32 = 512u;
+const LIGHT_VARIES: u32 = 512u;
 
 // A light takes five vec4 of the tables:
 //   (kind and flags; alias threshold; alias; probability of being chosen)
-//   (first point; area or radius), (second; emission texture or NONE), (third; attributes or NONE), (radiance or intensity; material)
+//   (first point; area or radius), (second; -), (third; attributes or NONE), (radiance or intensity; material)
 fn light_word(light: u32, word: u32) -> vec4<f32> {
 #if MOVING_LIGHTS
     let flags = bitcast<u32>(tables[FIRST_LIGHT_WORD + light * 5u].x);
@@ -64,9 +61,9 @@ fn moved_light_magnitude(light: u32) -> vec3<f32> {
 #endif
 
 #if LIGHTS
-#if BLENDED_LIGHTS
+#if VARYING_LIGHTS
 #if NORMAL_MAPS
-fn blended_light_kind(light: u32) -> u32 {
+fn varying_light_kind(light: u32) -> u32 {
     switch bitcast<u32>(light_word(light, 0u).x) & 255u {
         case LIGHT_TRIANGLE: { return KIND_TRIANGLE; }
         case LIGHT_QUAD: { return KIND_QUAD; }
@@ -76,7 +73,7 @@ fn blended_light_kind(light: u32) -> u32 {
 #endif
 
 // Σ wᵢ Leᵢ towards `wo` at a point of a flat light: what a ray that met it would see. (a, b) are the point's coordinates along its edges.
-fn blended_radiance(light: u32, ab: vec2<f32>, normal: vec3<f32>, wo: vec3<f32>) -> vec3<f32> {
+fn varying_radiance(light: u32, ab: vec2<f32>, normal: vec3<f32>, wo: vec3<f32>) -> vec3<f32> {
     let front = dot(wo, normal) > 0.0;
     let material = bitcast<u32>(light_word(light, 4u).w);
     var own_normal = vec3<f32>(0.0);
@@ -91,7 +88,7 @@ fn blended_radiance(light: u32, ab: vec2<f32>, normal: vec3<f32>, wo: vec3<f32>)
 #endif
 #if NORMAL_MAPS
     own_normal = mapped_normal(
-        material, blended_light_kind(light), first, own_normal, normal, uv, light_word(light, 2u).xyz, light_word(light, 3u).xyz
+        material, varying_light_kind(light), first, own_normal, normal, uv, light_word(light, 2u).xyz, light_word(light, 3u).xyz
     );
 #endif
     let shading_normal = shading_normal_towards(own_normal, select(-normal, normal, front), wo);
@@ -99,7 +96,7 @@ fn blended_radiance(light: u32, ab: vec2<f32>, normal: vec3<f32>, wo: vec3<f32>)
 }
 
 #if SPHERE_LIGHTS
-fn blended_sphere_sample(light: u32, reference: vec3<f32>, two_sided: bool, pmf: f32, u: f32, v: f32) -> LightSample {
+fn varying_sphere_sample(light: u32, reference: vec3<f32>, two_sided: bool, pmf: f32, u: f32, v: f32) -> LightSample {
     let l1 = light_word(light, 1u);
     var light_sample = sphere_light_sample(reference, l1.xyz, l1.w, vec3<f32>(1.0), two_sided, pmf, u, v);
     let to_center = l1.xyz - reference;
@@ -234,36 +231,22 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
 #else
             let error = POINT_ERROR * dot(abs(normal), abs(l1.xyz) + abs(l2.xyz) + abs(l3.xyz));
 #endif
-            var radiance = l4.xyz;
-#if BLENDED_LIGHTS
-            if (kind_flags & LIGHT_BLENDED) != 0u {
+#if VARYING_LIGHTS
+            if (kind_flags & LIGHT_VARIES) != 0u {
                 var light_sample =
                     flat_light_sample(reference, point, normal, l1.w, error, vec3<f32>(1.0), two_sided, pmf);
-                light_sample.radiance *= blended_radiance(light, vec2<f32>(a, b), normal, -light_sample.wi);
+                light_sample.radiance *= varying_radiance(light, vec2<f32>(a, b), normal, -light_sample.wi);
                 return light_sample;
             }
 #endif
-#if TEXTURES
-            let texture = bitcast<u32>(l2.w);
-            if texture != NONE {
-                var uv = vec2<f32>(a, b);
-#if ATTRIBUTES
-                let first = bitcast<u32>(l3.w);
-                if first != NONE {
-                    uv = interpolate_attributes(first, uv).uv;
-                }
-#endif
-                radiance *= texture_color(texture, uv);
-            }
-#endif
-            return flat_light_sample(reference, point, normal, l1.w, error, radiance, two_sided, pmf);
+            return flat_light_sample(reference, point, normal, l1.w, error, l4.xyz, two_sided, pmf);
         }
 #endif
 #if SPHERE_LIGHTS
         case LIGHT_SPHERE: {
-#if BLENDED_LIGHTS
-            if (kind_flags & LIGHT_BLENDED) != 0u {
-                return blended_sphere_sample(light, reference, two_sided, pmf, u, v);
+#if VARYING_LIGHTS
+            if (kind_flags & LIGHT_VARIES) != 0u {
+                return varying_sphere_sample(light, reference, two_sided, pmf, u, v);
             }
 #endif
             return sphere_light_sample(reference, l1.xyz, l1.w, l4.xyz, two_sided, pmf, u, v);

@@ -32,17 +32,13 @@ fn perlin_noise(position: vec2<f32>, octaves: u32, seed: u32) -> f32 {
         let f = p - corner;
         let cell = vec2<i32>(corner);
         let fade = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-        let lower = mix(
-            gradient_dot(cell, seed, f),
-            gradient_dot(cell + vec2<i32>(1, 0), seed, f - vec2<f32>(1.0, 0.0)),
-            fade.x
-        );
-        let upper = mix(
-            gradient_dot(cell + vec2<i32>(0, 1), seed, f - vec2<f32>(0.0, 1.0)),
-            gradient_dot(cell + vec2<i32>(1, 1), seed, f - vec2<f32>(1.0, 1.0)),
-            fade.x
-        );
-        sum += amplitude * mix(lower, upper, fade.y);
+        var noise = 0.0;
+        for (var corner_index = 0; corner_index < 4; corner_index++) {
+            let step = vec2<i32>(corner_index & 1, corner_index >> 1u);
+            let share = select(1.0 - fade, fade, step == vec2<i32>(1));
+            noise += share.x * share.y * gradient_dot(cell + step, seed, f - vec2<f32>(step));
+        }
+        sum += amplitude * noise;
         total += amplitude;
         amplitude *= 0.5;
         p *= 2.0;

@@ -3,6 +3,9 @@
 #import core/math.wgsl
 #import geometry/scene.wgsl
 #import shading/texture.wgsl
+#if MOTION
+#import geometry/motion.wgsl
+#endif
 
 // Directions in which u and v grow, of any length; 0 where there are none.
 struct Tangents {
@@ -37,7 +40,17 @@ fn surface_tangents(kind: u32, first: u32, normal: vec3<f32>, edge_u: vec3<f32>,
 
 #if ATTRIBUTES
 #if SPHERES
-fn sphere_tangents(first: u32, normal: vec3<f32>) -> Tangents {
+fn sphere_tangents(first: u32, normal_now: vec3<f32>) -> Tangents {
+    var normal = normal_now;
+#if MOTION
+    var to_now = mat3x3<f32>(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
+    let moving = motion_of_attributes(first);
+    if moving != NONE {
+        to_now = motion_at_path_time(moving).linear;
+        // The transpose of a rotation, up to a factor, takes it back.
+        normal = normalize(normal * to_now);
+    }
+#endif
     let row_x = attributes[first * 4u].xyz;
     let row_y = attributes[first * 4u + 1u].xyz;
     let row_z = attributes[first * 4u + 2u].xyz;
@@ -46,10 +59,13 @@ fn sphere_tangents(first: u32, normal: vec3<f32>) -> Tangents {
     if radius == 0.0 {
         return Tangents(vec3<f32>(0.0), vec3<f32>(0.0));
     }
-    return Tangents(
-        row_z * d.x - row_x * d.z,
-        row_y * radius - (row_x * d.x + row_z * d.z) * (d.y / radius)
-    );
+    let along_u = row_z * d.x - row_x * d.z;
+    let along_v = row_y * radius - (row_x * d.x + row_z * d.z) * (d.y / radius);
+#if MOTION
+    return Tangents(to_now * along_u, to_now * along_v);
+#else
+    return Tangents(along_u, along_v);
+#endif
 }
 #endif
 #endif

@@ -104,14 +104,17 @@ fn planted_factor(material: u32) -> f32 {
 #endif
 
 #if LIGHTS
-fn next_event(path: Path, surface: Surface, bsdf: Bsdf, random: vec4<u32>) -> ShadowRay {
-    let reference = surface.position + surface.error * surface.facing_normal;
-    let light = sample_light(reference, random);
-    let value = evaluate_bsdf(bsdf, surface, -path.ray.direction, light.wi);
+// Where light sampling looks from.
+fn light_reference(surface: Surface) -> vec3<f32> {
+    return surface.position + surface.error * surface.facing_normal;
+}
+
+// What the path gains from a light sample, given the surface's value towards it.
+fn next_event(path: Path, surface: Surface, light: LightSample, value: BsdfValue) -> ShadowRay {
 #if TRANSMISSIVE_SMOOTH
     let origin = offset_origin(surface, light.wi);
 #else
-    let origin = reference;
+    let origin = light_reference(surface);
 #endif
     var radiance = path.throughput * value.value * light.radiance;
 #if PLANT_BRDF
@@ -187,14 +190,49 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, visit: u32) -> Vertex {
     let more_random = random_block(incoming.pixel, incoming.sample_in_pass, first_block + 1u);
     let bsdf = load_bsdf(surface, wo, uniform_float(more_random.w));
 #if LIGHTS
-    if has_smooth_lobe(bsdf) && !last_edge {
-        vertex.shadow = next_event(incoming, surface, bsdf, random);
+    let samples_light = has_smooth_lobe(bsdf) && !last_edge;
+    var light: LightSample;
+    if samples_light {
+        light = sample_light(light_reference(surface), random);
     }
 #endif
-
+#if MIXTURE
+    // The surface is evaluated towards the light and along the drawn direction by the same code, one after the other: drivers that
+    // copy what is called to wherever it is called have half of it to compile.
+    let draw = draw_direction(
+        bsdf, surface, wo, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)
+    );
+#if LIGHTS
+    var light_value = no_value();
+    var draw_value = no_value();
+    for (var direction = 0u; direction < 2u; direction++) {
+        let towards_light = direction == 0u;
+        if select(draw.mixed, samples_light, towards_light) {
+            let value = evaluate_bsdf(bsdf, surface, wo, select(draw.chosen.wi, light.wi, towards_light));
+            if towards_light {
+                light_value = value;
+            } else {
+                draw_value = value;
+            }
+        }
+    }
+    let sampled = mixed_sample(draw, draw_value);
+#else
+    let sampled = mixed_sample(draw, evaluate_bsdf(bsdf, surface, wo, draw.chosen.wi));
+#endif
+#else
+#if LIGHTS
+    let light_value = evaluate_bsdf(bsdf, surface, wo, light.wi);
+#endif
     let sampled = sample_bsdf(
         bsdf, surface, wo, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)
     );
+#endif
+#if LIGHTS
+    if samples_light {
+        vertex.shadow = next_event(incoming, surface, light, light_value);
+    }
+#endif
 #if PASS
     if last_edge && !sampled.passes {
         return vertex;

@@ -10,7 +10,7 @@ use super::material::mean_emission;
 use super::primitive::{PrimitiveGeometry, WorldPrimitive};
 use super::world::WorldGeometry;
 use crate::sampling::AliasTable;
-use crate::scene::{ColorInput, Estimator, Light, MaterialKind, Scene, TextureKind};
+use crate::scene::{ColorInput, Estimator, Light, Scene, TextureKind};
 
 /// Kinds in `shaders/shading/light.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -30,7 +30,7 @@ pub enum LightKind {
 
 const TWO_SIDED: u32 = 256;
 /// The radiance is that of the whole material, seen from where the light goes.
-const BLENDED: u32 = 512;
+const VARIES: u32 = 512;
 /// Its points move as its attributes say.
 const MOVES: u32 = 1024;
 
@@ -49,7 +49,7 @@ pub struct FlatLight {
     pub size: f32,
     /// Edges from p0; for a disk, two perpendicular radii. Of a spot light, its axis; of a directional light, the way to it.
     pub p1: [f32; 3],
-    pub emission_texture: u32,
+    pub padding: u32,
     /// Of a spot light: 1 − cosine of the angle at which its light ends, and of the one up to which it is full.
     pub p2: [f32; 3],
     pub attributes: u32,
@@ -60,9 +60,9 @@ pub struct FlatLight {
 }
 
 impl FlatLight {
-    /// Its radiance is that of a whole blend.
-    pub fn is_blended(&self) -> bool {
-        self.kind_and_flags & BLENDED != 0
+    /// Its radiance is looked up in the whole material.
+    pub fn varies(&self) -> bool {
+        self.kind_and_flags & VARIES != 0
     }
 
     pub fn moves(&self) -> bool {
@@ -177,8 +177,8 @@ struct SurfaceEmission {
     mean_radiance: DVec3,
     /// The material, or some part of it, emits from its back too.
     two_sided: bool,
-    /// Emission varies with the blend's weights: the whole material is looked up.
-    blended: bool,
+    /// The radiance of a blend changes with its weights, that of a texture over the surface: the whole material is looked up.
+    varies: bool,
     /// Of a plain material.
     radiance: ColorInput,
 }
@@ -186,12 +186,13 @@ struct SurfaceEmission {
 impl SurfaceEmission {
     fn of(scene: &Scene, material: usize) -> Self {
         let own = scene.materials[material].emission;
+        let radiance = own.map_or(ColorInput::grey(0.0), |emission| emission.radiance);
         Self {
             material,
             mean_radiance: mean_emission(scene, material, &|input| mean_color(scene, input)),
             two_sided: scene.emits_from_both_sides(material),
-            blended: matches!(scene.materials[material].kind, MaterialKind::Blend { .. }),
-            radiance: own.map_or(ColorInput::grey(0.0), |emission| emission.radiance),
+            varies: scene.materials[material].is_blend() || radiance.is_texture(),
+            radiance,
         }
     }
 
@@ -238,7 +239,7 @@ fn plain(kind: LightKind, position: DVec3, radiance: DVec3) -> FlatLight {
         p0: position.as_vec3().to_array(),
         size: 0.0,
         p1: [0.0; 3],
-        emission_texture: NONE,
+        padding: 0,
         p2: [0.0; 3],
         attributes: NONE,
         radiance: radiance.as_vec3().to_array(),
@@ -247,16 +248,15 @@ fn plain(kind: LightKind, position: DVec3, radiance: DVec3) -> FlatLight {
 }
 
 fn surface_light(primitive: &WorldPrimitive, emission: &SurfaceEmission) -> Option<FlatLight> {
-    let (radiance, texture) = super::material::color_and_texture(&emission.radiance);
+    let (radiance, _) = super::material::color_and_texture(&emission.radiance);
     let (kind, size, [p0, p1, p2]) = light_geometry(primitive)?;
     let flag = |set: bool, bit: u32| if set { bit } else { 0 };
-    let flags = flag(emission.two_sided, TWO_SIDED) | flag(emission.blended, BLENDED) | flag(primitive.moves(), MOVES);
+    let flags = flag(emission.two_sided, TWO_SIDED) | flag(emission.varies, VARIES) | flag(primitive.moves(), MOVES);
     let kind_and_flags = kind as u32 | flags;
     Some(FlatLight {
         kind_and_flags,
         size: size as f32,
         p1: p1.as_vec3().to_array(),
-        emission_texture: texture,
         p2: p2.as_vec3().to_array(),
         attributes: primitive.attributes,
         material: emission.material as u32,

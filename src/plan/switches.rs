@@ -18,7 +18,6 @@ pub const ALL: &[&str] = &[
     "APERTURE_POLYGON",
     "APERTURE_SQUARE",
     "ATTRIBUTES",
-    "BLENDED_LIGHTS",
     "BLENDS",
     "BVH",
     "CHECKERS",
@@ -48,6 +47,7 @@ pub const ALL: &[&str] = &[
     "LIGHTS",
     "MICROFACETS",
     "MIRROR",
+    "MIXTURE",
     "MORE_LOBES",
     "MOTION",
     "MOVING_LIGHTS",
@@ -92,6 +92,7 @@ pub const ALL: &[&str] = &[
     "UNIFORM_HEMISPHERE",
     "UNIFORM_PRIMITIVES",
     "UNIFORM_TABLES",
+    "VARYING_LIGHTS",
     "WORLEY",
 ];
 
@@ -268,10 +269,11 @@ fn choose_materials(scene: &Scene, flat: &FlatScene, switches: &mut Switches) {
     let one_lobe = [Kind::Diffuse, Kind::Emissive, Kind::Blend].map(|kind| kind as u32);
     let more_lobes = flat.materials.materials.iter().any(|material| !one_lobe.contains(&material.kind()));
     switches.enable("MORE_LOBES", blends && more_lobes);
+    switches.enable("MIXTURE", blends && more_lobes && scene.render.blend == BlendMode::Mixture);
     switches.enable("PICK", blends && scene.render.blend == BlendMode::Pick);
     let is_pass = |material: u32| flat.materials.materials[material as usize].kind() == Kind::Pass as u32;
     switches.enable("PASS", flat.materials.leaves.iter().any(|leaf| is_pass(leaf.material)));
     switches.enable("NORMAL_MAPS", flat.materials.materials.iter().any(|material| material.normal_map != NONE));
     switches.enable("EMISSION", flat.materials.materials.iter().any(|material| material.emission_flags != 0));
-    switches.enable("BLENDED_LIGHTS", blends && flat.lights.iter().any(FlatLight::is_blended));
+    switches.enable("VARYING_LIGHTS", flat.lights.iter().any(FlatLight::varies));
 }

@@ -207,6 +207,7 @@ fn every_kind_of_blend_agrees_in_every_way_to_run() {
         ("nested", nested),
         ("emission", blend("glow", "white", facing)),
         ("emission from both sides", blend("glow-both", "mirror", "{ type = \"texture\", texture = \"checks\" }")),
+        ("textured emission", "type = \"emissive\"\nradiance = { texture = \"cells\" }".to_owned()),
         ("emission beside", blend("red", "white", half) + "\nemission = { texture = \"cells\" }\nemission_two_sided = true"),
         ("pass", blend("red", "gone", half)),
         (

@@ -1,12 +1,11 @@
 //! Scene files: from TOML text to a [`Scene`].
 //!
 //! [`document`] reads the text into the types of [`syntax`], which know every key and range; [`resolve`] looks up names and reads the
-//! files that are named; [`unsupported`] refuses what no renderer does. Each complains about the place where the mistake is written.
+//! files that are named. Each complains about the place where the mistake is written.
 
 mod document;
 mod resolve;
 mod syntax;
-mod unsupported;
 mod value;
 mod wording;
 
@@ -30,22 +29,12 @@ pub fn load_toml_str(text: &str, name: &str, folder: &Path) -> Result<Scene, Sce
             SceneError::in_file(name, message).with_help("add a [[light]], or a material of type \"emissive\" that a shape uses")
         );
     }
-    match unsupported::find(&scene) {
-        None => Ok(scene),
-        Some(refusal) => Err(document.error_at(&refusal.path, format!("{} is not supported yet", refusal.feature))),
-    }
+    Ok(scene)
 }
 
 /// Reads a model file alone: its meshes with its own materials, in a scene without a camera of its own and without lights.
 pub(super) fn load_model(path: &Path) -> Result<Scene, SceneError> {
-    let scene = resolve::resolve_model(path)?;
-    match unsupported::find(&scene) {
-        None => Ok(scene),
-        Some(refusal) => {
-            let name = super::error::show(path);
-            Err(SceneError::in_file(name, format!("{} is not supported yet", refusal.feature)))
-        }
-    }
+    resolve::resolve_model(path)
 }
 
 /// The JSON Schema (2020-12) of scene files, as text that ends in a newline. Editors complete and check scene files with it.
