@@ -109,8 +109,8 @@ fn light_reference(surface: Surface) -> vec3<f32> {
     return surface.position + surface.error * surface.facing_normal;
 }
 
-// What the path gains from a light sample, given the surface's value towards it.
-fn next_event(path: Path, surface: Surface, light: LightSample, value: BsdfValue) -> ShadowRay {
+// What the path gains from a light sample, chosen by `light_bits`, given the surface's value towards it.
+fn next_event(path: Path, surface: Surface, light: LightSample, light_bits: u32, value: BsdfValue) -> ShadowRay {
 #if TRANSMISSIVE_SMOOTH
     let origin = offset_origin(surface, light.wi);
 #else
@@ -133,7 +133,7 @@ fn next_event(path: Path, surface: Surface, light: LightSample, value: BsdfValue
         traced_weight = mis_weight(light.pdf_solid_angle, value.pdf_solid_angle);
     }
 #endif
-    trace_light(light.wi, light.pdf_solid_angle, radiance, traced_weight, choose_light(random.x), value.pdf_solid_angle);
+    trace_light(light.wi, light.pdf_solid_angle, radiance, traced_weight, choose_light(light_bits), value.pdf_solid_angle);
 #endif
     return ShadowRay(Ray(origin, light.wi), light.distance, radiance);
 }
@@ -230,7 +230,7 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, visit: u32) -> Vertex {
 #endif
 #if LIGHTS
     if samples_light {
-        vertex.shadow = next_event(incoming, surface, light, light_value);
+        vertex.shadow = next_event(incoming, surface, light, random.x, light_value);
     }
 #endif
 #if PASS

@@ -18,13 +18,6 @@ pub struct Document<'a> {
     pub text: &'a str,
 }
 
-/// One step of the way to a value.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Step {
-    Key(&'static str),
-    Index(usize),
-}
-
 impl<'a> Document<'a> {
     /// Reads the text into the file's types.
     pub fn read(self) -> Result<SceneFile, SceneError> {
@@ -37,15 +30,6 @@ impl<'a> Document<'a> {
     pub fn error(self, span: Range<usize>, message: impl Into<String>) -> SceneError {
         let key = self.key_at(&span);
         SceneError::in_text(self.name, self.text, span, message).with_key(key)
-    }
-
-    /// An error about the value that `path` leads to, or the nearest table around it that is in the file; about the file as a
-    /// whole where there is none.
-    pub fn error_at(self, path: &[Step], message: impl Into<String>) -> SceneError {
-        match self.span_of(path) {
-            Some(span) => self.error(span, message),
-            None => SceneError::in_file(self.name, message),
-        }
     }
 
     fn parse(self) -> Result<Spanned<DeTable<'a>>, SceneError> {
@@ -128,25 +112,6 @@ impl<'a> Document<'a> {
         let mut innermost = Innermost { wanted: span, path: String::new(), width: usize::MAX };
         innermost.search_table(root.get_ref(), "");
         innermost.path
-    }
-
-    fn span_of(self, path: &[Step]) -> Option<Range<usize>> {
-        let root = DeTable::parse(self.text).ok()?;
-        let (Step::Key(first), rest) = path.split_first()? else { return None };
-        let mut value = root.get_ref().get(*first)?;
-        for step in rest {
-            let next = match step {
-                Step::Key(key) => value.get_ref().get(*key),
-                Step::Index(index) => value.get_ref().get(*index),
-            };
-            match next {
-                Some(next) => value = next,
-                // An entry beyond those in the file has no place in it.
-                None if matches!(step, Step::Index(_)) => return None,
-                None => break,
-            }
-        }
-        Some(value.span())
     }
 }
 
