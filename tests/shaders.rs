@@ -247,7 +247,7 @@ fn layouts_match_between_wgsl_and_rust() {
 /// Packed records are whole numbers of vec4: the shaders index them in words of 16 bytes.
 #[test]
 fn packed_records_are_the_words_that_shaders_count() {
-    use gpt::flat::{bvh4::Node, light::FlatLight, material::*, primitive::*, texture::*};
+    use gpt::flat::{bvh4::Node, heuristic::FlatHeuristic, light::FlatLight, material::*, primitive::*, texture::*};
     assert_eq!(size_of::<Primitive>(), 3 * 16);
     assert_eq!(size_of::<TriangleAttributes>(), 4 * 16);
     assert_eq!(size_of::<Node>(), 3 * 16);

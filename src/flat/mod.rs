@@ -5,6 +5,7 @@
 
 pub mod bvh4;
 pub mod environment;
+pub mod heuristic;
 pub mod light;
 pub mod material;
 pub mod motion;

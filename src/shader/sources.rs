@@ -21,6 +21,7 @@ shader_files![
     "geometry/unrolled.wgsl",
     "shading/blend.wgsl",
     "shading/bsdf.wgsl",
+    "shading/cosine_power.wgsl",
     "shading/environment.wgsl",
     "shading/heuristic.wgsl",
     "shading/leaf.wgsl",
