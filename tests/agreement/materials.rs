@@ -62,32 +62,6 @@ two_sided = true
 [[material]]
 name = "gone"
 type = "pass"
-[[texture]]
-name = "checks"
-type = "checker"
-a = [0.9, 0.2, 0.1]
-b = [0.1, 0.3, 0.8]
-scale = [6, 4]
-[[texture]]
-name = "clouds"
-type = "perlin"
-scale = 5
-octaves = 4
-a = 0
-b = 1
-seed = 3
-[[texture]]
-name = "cells"
-type = "worley"
-scale = 7
-a = [1, 0.9, 0.2]
-b = [0, 0.1, 0.4]
-seed = 5
-[[texture]]
-name = "bumps"
-type = "image"
-file = "bumps.png"
-color_space = "linear"
 [[shape]]
 type = "plane"
 point = [0, -1, 0]
@@ -114,8 +88,18 @@ faces = [[0, 1, 3], [1, 2, 3], [2, 0, 3], [0, 2, 1]]
 material = "m"
 "#;
 
+/// By name. A scene gets those it uses: each adds to what the device has to compile.
+const TEXTURES: [(&str, &str); 4] = [
+    ("checks", "[[texture]]\nname = \"checks\"\ntype = \"checker\"\na = [0.9, 0.2, 0.1]\nb = [0.1, 0.3, 0.8]\nscale = [6, 4]\n"),
+    ("clouds", "[[texture]]\nname = \"clouds\"\ntype = \"perlin\"\nscale = 5\noctaves = 4\na = 0\nb = 1\nseed = 3\n"),
+    ("cells", "[[texture]]\nname = \"cells\"\ntype = \"worley\"\nscale = 7\na = [1, 0.9, 0.2]\nb = [0, 0.1, 0.4]\nseed = 5\n"),
+    ("bumps", "[[texture]]\nname = \"bumps\"\ntype = \"image\"\nfile = \"bumps.png\"\ncolor_space = \"linear\"\n"),
+];
+
 fn stage(material: &str) -> Scene {
-    let text = format!("{STAGE}\n[[material]]\nname = \"m\"\n{material}\n");
+    let is_used = |name: &str| material.contains(&format!("\"{name}\""));
+    let textures: String = TEXTURES.into_iter().filter(|(name, _)| is_used(name)).map(|(_, text)| text).collect();
+    let text = format!("{STAGE}{textures}\n[[material]]\nname = \"m\"\n{material}\n");
     scene::load_toml_str(&text, "stage.toml", BUMPS.path()).unwrap_or_else(|error| panic!("{error}\n{material}"))
 }
 
