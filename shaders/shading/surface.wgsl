@@ -146,7 +146,12 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
 #if MOTION
     size += placed.magnitude;
 #endif
-    let error = POINT_ERROR * dot(abs(facing_normal), size);
+    var error = POINT_ERROR * dot(abs(facing_normal), size);
+    // A ray that starts in a triangle's plane finds it again at a distance of rounding size, and that grows with the triangle: a wide
+    // floor at height 0 has no other error to keep rays off it.
+    if kind == KIND_TRIANGLE {
+        error += 0.125 * POINT_ERROR * max_component(abs(edge_u) + abs(edge_v));
+    }
     return Surface(
         position, facing_normal, shading_normal, uv, front, error,
         primitive_material(p0.w), bitcast<u32>(p1.w), area, sphere
