@@ -54,12 +54,12 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
             wanted.extend(needed);
         }
     }
-    // Lobes are mixed exactly where blends have several and none is picked.
-    let mixes = wanted.contains("BLENDS") && wanted.contains("MORE_LOBES") && !wanted.contains("PICK");
-    if mixes {
+    // A blend is a mixture unless a leaf of it is picked; only mixtures have lobes to tell apart.
+    if wanted.contains("BLENDS") && !wanted.contains("PICK") {
         wanted.insert("MIXTURE");
     } else {
         wanted.remove("MIXTURE");
+        wanted.remove("MORE_LOBES");
     }
     for (name, needed) in [
         ("ENVIRONMENT_LIGHT", &["ENVIRONMENT_SAMPLED"][..]),

@@ -3,7 +3,7 @@
 #import core/math.wgsl
 #import shading/leaf.wgsl
 
-const CONSTANT_WEIGHT: u32 = 0u;
+// 0, the constant weight, is the value itself.
 const FACING: u32 = 1u;
 const FRESNEL_SCHLICK: u32 = 2u;
 const FRESNEL_EXACT: u32 = 3u;

@@ -225,12 +225,14 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
                 b = r * circle.x;
             }
             let point = l1.xyz + a * l2.xyz + b * l3.xyz;
+            var size = abs(l1.xyz) + abs(l2.xyz) + abs(l3.xyz);
 #if MOVING_LIGHTS
-            let size = abs(l1.xyz) + abs(l2.xyz) + abs(l3.xyz) + moved_light_magnitude(light);
-            let error = POINT_ERROR * dot(abs(normal), size);
-#else
-            let error = POINT_ERROR * dot(abs(normal), abs(l1.xyz) + abs(l2.xyz) + abs(l3.xyz));
+            size += moved_light_magnitude(light);
 #endif
+            var error = POINT_ERROR * dot(abs(normal), size);
+            if kind == LIGHT_TRIANGLE {
+                error += triangle_error(l2.xyz, l3.xyz);
+            }
 #if VARYING_LIGHTS
             if (kind_flags & LIGHT_VARIES) != 0u {
                 var light_sample =

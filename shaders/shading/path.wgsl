@@ -196,7 +196,7 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, visit: u32) -> Vertex {
         light = sample_light(light_reference(surface), random);
     }
 #endif
-#if MIXTURE
+#if MORE_LOBES
     // The surface is evaluated towards the light and along the drawn direction by the same code, one after the other: drivers that
     // copy what is called to wherever it is called have half of it to compile.
     let draw = draw_direction(
@@ -222,7 +222,10 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, visit: u32) -> Vertex {
 #endif
 #else
 #if LIGHTS
-    let light_value = evaluate_bsdf(bsdf, surface, wo, light.wi);
+    var light_value = no_value();
+    if samples_light {
+        light_value = evaluate_bsdf(bsdf, surface, wo, light.wi);
+    }
 #endif
     let sampled = sample_bsdf(
         bsdf, surface, wo, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)

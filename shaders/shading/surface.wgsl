@@ -72,6 +72,12 @@ fn shading_normal_towards(interpolated: vec3<f32>, facing_normal: vec3<f32>, wo:
     return select(facing_normal, shading_normal, dot(shading_normal, wo) > 0.0);
 }
 
+// What a triangle's width adds to the error of its points: a ray that starts in its plane finds it again at a distance of rounding size,
+// and that grows with the triangle. A wide floor at height 0 has no other error to keep rays off it.
+fn triangle_error(edge_u: vec3<f32>, edge_v: vec3<f32>) -> f32 {
+    return 0.125 * POINT_ERROR * max_component(abs(edge_u) + abs(edge_v));
+}
+
 fn hit_surface(ray: Ray, hit: Hit) -> Surface {
 #if MOTION
     let placed = placed_primitive(hit.primitive);
@@ -147,10 +153,8 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
     size += placed.magnitude;
 #endif
     var error = POINT_ERROR * dot(abs(facing_normal), size);
-    // A ray that starts in a triangle's plane finds it again at a distance of rounding size, and that grows with the triangle: a wide
-    // floor at height 0 has no other error to keep rays off it.
     if kind == KIND_TRIANGLE {
-        error += 0.125 * POINT_ERROR * max_component(abs(edge_u) + abs(edge_v));
+        error += triangle_error(edge_u, edge_v);
     }
     return Surface(
         position, facing_normal, shading_normal, uv, front, error,

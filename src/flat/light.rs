@@ -81,10 +81,12 @@ pub fn collect(scene: &Scene, world: &mut WorldGeometry, environment: &FlatEnvir
     }
     let mut lights = Vec::new();
     let mut powers = Vec::new();
+    // Asked once a material, not once a triangle: a texture's mean looks at all of it.
+    let emissions: Vec<_> = (0..scene.materials.len()).map(|material| SurfaceEmission::of(scene, material)).collect();
     for primitive in &mut world.primitives {
-        let emission = SurfaceEmission::of(scene, primitive.material);
+        let emission = &emissions[primitive.material];
         let power = emission.power(primitive);
-        if let Some(light) = surface_light(primitive, &emission).filter(|_| power > 0.0) {
+        if let Some(light) = surface_light(primitive, emission).filter(|_| power > 0.0) {
             primitive.light = lights.len() as u32;
             lights.push(light);
             powers.push(power);

@@ -268,9 +268,10 @@ fn choose_materials(scene: &Scene, flat: &FlatScene, switches: &mut Switches) {
     switches.enable("BLENDS", blends);
     let one_lobe = [Kind::Diffuse, Kind::Emissive, Kind::Blend].map(|kind| kind as u32);
     let more_lobes = flat.materials.materials.iter().any(|material| !one_lobe.contains(&material.kind()));
-    switches.enable("MORE_LOBES", blends && more_lobes);
-    switches.enable("MIXTURE", blends && more_lobes && scene.render.blend == BlendMode::Mixture);
-    switches.enable("PICK", blends && scene.render.blend == BlendMode::Pick);
+    let mixture = scene.render.blend == BlendMode::Mixture;
+    switches.enable("MIXTURE", blends && mixture);
+    switches.enable("MORE_LOBES", blends && mixture && more_lobes);
+    switches.enable("PICK", blends && !mixture);
     let is_pass = |material: u32| flat.materials.materials[material as usize].kind() == Kind::Pass as u32;
     switches.enable("PASS", flat.materials.leaves.iter().any(|leaf| is_pass(leaf.material)));
     switches.enable("NORMAL_MAPS", flat.materials.materials.iter().any(|material| material.normal_map != NONE));

@@ -121,9 +121,11 @@ impl Lights {
     pub fn new(scene: &Scene, world: &World) -> Self {
         let (mut sources, mut weights) = (Vec::new(), Vec::new());
         let mut of_primitive = vec![None; world.places_in_scene_order().len()];
+        // Once a material, not once a primitive: a texture's mean looks at all of it.
+        let exitances: Vec<f64> = (0..scene.materials.len()).map(|material| mean_exitance(scene, material)).collect();
         for &place in world.places_in_scene_order() {
             let material = world.owner(SurfaceId::Primitive(place)).material;
-            let power = world.primitive(place).area() * mean_exitance(scene, material);
+            let power = world.primitive(place).area() * exitances[material];
             if power > 0.0 {
                 of_primitive[place] = Some(sources.len() as u32);
                 sources.push(Source::Area(place));

@@ -50,13 +50,3 @@ pub enum EnvironmentRadiance {
         ground: DVec3,
     },
 }
-
-impl Environment {
-    /// The radiance of an environment that is the same in every direction.
-    pub fn constant_radiance(&self) -> Option<DVec3> {
-        match &self.radiance {
-            EnvironmentRadiance::Constant(radiance) => Some(*radiance),
-            _ => None,
-        }
-    }
-}

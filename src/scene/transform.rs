@@ -28,10 +28,6 @@ impl TransformStep {
 }
 
 impl Transform {
-    pub fn is_identity(&self) -> bool {
-        self.to_affine().abs_diff_eq(DAffine3::IDENTITY, 0.0)
-    }
-
     /// All steps as one map from the shape's own space to the world.
     pub fn to_affine(&self) -> DAffine3 {
         self.steps.iter().fold(DAffine3::IDENTITY, |so_far, step| step.to_affine() * so_far)

@@ -28,6 +28,7 @@ shader_files![
     "shading/light.wgsl",
     "shading/microfacet.wgsl",
     "shading/mis.wgsl",
+    "shading/mixture.wgsl",
     "shading/noise.wgsl",
     "shading/normal_map.wgsl",
     "shading/path.wgsl",

@@ -7,7 +7,7 @@ use gpt::reference::ReferenceRenderer;
 use gpt::scene::{self, Estimator, Geometry, Light, LightSampling, Mesh, Scene, Shape};
 use gpt::verify::{self, Verdict};
 
-use super::{DEVICE, assert_agrees};
+use super::{DEVICE, assert_agrees, compare};
 
 const HEAD: &str = r#"
 [film]
@@ -228,6 +228,49 @@ fn ten_thousand_emitting_triangles_agree() {
     let shape = Shape { label: "panel".into(), geometry: Geometry::Mesh(mesh.into()), ..scene.shapes[0].clone() };
     scene.shapes.push(shape);
     assert_agrees("10,000 emitting triangles", &scene, &PlanOptions::default());
+}
+
+/// A wide panel of two triangles in a coordinate plane, whose own coordinates give shadow rays no margin to stop by.
+const WIDE_PANEL: &str = r#"
+[film]
+size = [32, 32]
+[render]
+spp = 16
+max_depth = 2
+estimator = "nee"
+[camera]
+position = [0, 30, 60]
+look_at = [0, 8, 0]
+vfov = 40
+[[material]]
+name = "grey"
+type = "diffuse"
+reflectance = 0.6
+[[material]]
+name = "panel"
+type = "emissive"
+radiance = [1, 0.8, 0.6]
+[[shape]]
+type = "mesh"
+positions = [[-700, 0, 900], [1100, 0, 600], [300, 0, -1300]]
+faces = [[0, 1, 2]]
+material = "panel"
+[[shape]]
+type = "sphere"
+center = [0, 9, 0]
+radius = 8
+material = "grey"
+"#;
+
+#[test]
+fn a_wide_panel_in_a_coordinate_plane_does_not_shade_itself() {
+    let scene = scene::load_toml_str(WIDE_PANEL, "wide panel", std::path::Path::new(".")).expect("the scene loads");
+    for geometry in [None, Some(GeometryPlacement::Hierarchy)] {
+        let options = PlanOptions { geometry, ..PlanOptions::default() };
+        let Some(verdict) = compare(&scene, &options) else { return };
+        // A panel in its own shadow loses whole light samples, of few paths: no test of means would see it.
+        assert!(verdict.agrees && verdict.largest_difference < 0.01, "wide panel, {geometry:?}: {verdict:#?}");
+    }
 }
 
 /// The device renders `ours`, the reference `theirs`.
