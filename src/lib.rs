@@ -11,6 +11,7 @@ pub mod flat;
 pub mod gpu;
 pub mod output;
 pub mod plan;
+pub mod progressive;
 pub mod reference;
 pub mod render;
 pub mod renderer;

@@ -16,15 +16,18 @@ pub struct ChosenRenderer {
     pub notice: Option<&'static str>,
 }
 
-/// Makes the scene ready on the chosen device. With [`DeviceChoice::Auto`] and no adapter at all, that is the CPU reference.
+/// Makes the scene ready on the chosen device. With [`DeviceChoice::Auto`] and no adapter at all, that is the CPU reference,
+/// for which `options` have no meaning.
 ///
 /// # Errors
 /// No such device, or a scene that does not fit it.
-pub fn create(scene: &Scene, choice: &DeviceChoice) -> Result<ChosenRenderer, RenderError> {
+pub fn create(scene: &Scene, choice: &DeviceChoice, options: &PlanOptions) -> Result<ChosenRenderer, RenderError> {
     match choice {
         DeviceChoice::Cpu => Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: None }),
-        DeviceChoice::Gpu | DeviceChoice::Named(_) => Ok(ChosenRenderer { renderer: on_a_gpu(scene, choice)?, notice: None }),
-        DeviceChoice::Auto => match on_a_gpu(scene, choice) {
+        DeviceChoice::Gpu | DeviceChoice::Named(_) => {
+            Ok(ChosenRenderer { renderer: on_a_gpu(scene, choice, options)?, notice: None })
+        }
+        DeviceChoice::Auto => match on_a_gpu(scene, choice, options) {
             Err(RenderError::NoDevice(_)) => Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: Some(NO_ADAPTER_NOTICE) }),
             outcome => Ok(ChosenRenderer { renderer: outcome?, notice: None }),
         },
@@ -35,6 +38,6 @@ fn on_the_cpu(scene: &Scene) -> Result<Box<dyn Renderer>, RenderError> {
     Ok(Box::new(ReferenceRenderer::new(scene)?))
 }
 
-fn on_a_gpu(scene: &Scene, choice: &DeviceChoice) -> Result<Box<dyn Renderer>, RenderError> {
-    Ok(Box::new(GpuRenderer::new(scene, choice, &PlanOptions::default())?))
+fn on_a_gpu(scene: &Scene, choice: &DeviceChoice, options: &PlanOptions) -> Result<Box<dyn Renderer>, RenderError> {
+    Ok(Box::new(GpuRenderer::new(scene, choice, options)?))
 }

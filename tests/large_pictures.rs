@@ -35,6 +35,8 @@ fn an_8k_picture_takes_a_fraction_of_its_size_in_memory() {
         settings: RenderSettings { spp: 1, ..RenderSettings::default() },
         filter: Filter::default(),
         first_sample: 0,
+        target_error: None,
+        adaptive: false,
         device: "none".to_owned(),
     };
     let spec = PictureSpec { width: SIZE[0], height: SIZE[1], exposure: 0.0, provenance };

@@ -33,6 +33,9 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
     if wanted.contains("SPHERE_LIGHTS") {
         wanted.insert("SPHERES");
     }
+    if wanted.contains("TRACE") {
+        wanted.remove("ALLOCATION");
+    }
     for (name, needed) in [
         ("VARYING_LIGHTS", &["EMISSION", "LIGHTS"][..]),
         ("MOVING_LIGHTS", &["MOTION", "ATTRIBUTES", "BVH"]),
@@ -181,6 +184,19 @@ fn ordinary_kernels_hold_nothing_for_debugging() {
     // `trace_paths` is the kernel's own name.
     assert_eq!(mentions(&shippable(without)), 1);
     assert!(mentions(&shippable(with)) > 20);
+}
+
+/// Nor for pixels with different numbers of samples, which would cost a load a pixel.
+#[test]
+fn ordinary_kernels_look_up_no_pixels() {
+    let without: BTreeSet<&'static str> = ALL.iter().copied().filter(|name| !["ALLOCATION", "TRACE"].contains(name)).collect();
+    let with: BTreeSet<&'static str> = ALL.iter().copied().filter(|name| *name != "TRACE").collect();
+    for (file, entry) in [STAGES[0], STAGES[1], STAGES[6]] {
+        let looks_up = |wanted: &BTreeSet<&'static str>| {
+            compose(file, &shippable(wanted.clone())).expect("it composes").text.contains("listed_pixel")
+        };
+        assert!(!looks_up(&without) && looks_up(&with), "{entry}");
+    }
 }
 
 #[test]

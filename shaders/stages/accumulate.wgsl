@@ -10,7 +10,11 @@ fn accumulate(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= pixel_count {
         return;
     }
+#if ALLOCATION
+    let pixel_in_band = listed_pixel_in_band(id.x);
+#else
     let pixel_in_band = pass_parameters.first_pixel_in_band + id.x;
+#endif
     var pixel = load_film_pixel(pixel_in_band);
     for (var sample = 0u; sample < pass_parameters.sample_count; sample++) {
         add_sample(&pixel, path_state[PLANE_RADIANCE + sample * pixel_count + id.x].xyz);

@@ -21,8 +21,13 @@ fn trace_paths(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= pass_parameters.pixel_count {
         return;
     }
+#if ALLOCATION
+    let pixel_in_band = listed_pixel_in_band(id.x);
+    let pixel = pass_parameters.first_pixel + pixel_in_band;
+#else
     let pixel = pass_parameters.first_pixel + id.x;
     let pixel_in_band = pass_parameters.first_pixel_in_band + id.x;
+#endif
     var film_pixel = load_film_pixel(pixel_in_band);
     var rays = 0u;
     var visit = 1u;

@@ -1,6 +1,9 @@
 // Starts the paths of a pass.
 #import core/camera.wgsl
 #import stages/wavefront.wgsl
+#if ALLOCATION
+#import stages/statistics.wgsl
+#endif
 
 // Reads the pass's parameters. Writes every path's state (radiance 0) and puts all slots into queue 0.
 // Leaves hits, shadow rays and counts alone; the host sets the counts of a new pass.
@@ -11,7 +14,11 @@ fn generate(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let sample_in_pass = slot / pass_parameters.pixel_count;
+#if ALLOCATION
+    let pixel = pass_parameters.first_pixel + listed_pixel_in_band(slot - sample_in_pass * pass_parameters.pixel_count);
+#else
     let pixel = pass_parameters.first_pixel + slot - sample_in_pass * pass_parameters.pixel_count;
+#endif
     let ray = camera_ray(pixel, camera_block(pixel, sample_in_pass));
     store_path(slot, new_path(ray, pixel, sample_in_pass));
     path_state[PLANE_RADIANCE + slot] = vec4<f32>(0.0);

@@ -6,6 +6,32 @@ fn count_rays(rays: u32) {}
 
 fn count_refused_samples(samples: u32) {}
 #else
+#if ALLOCATION
+// Rays traced (low and high word), samples refused because they were not finite; then, in the same binding lest a stage need more than
+// eight storage buffers, the band's pixels in the order in which passes take them.
+struct Statistics {
+    counts: array<atomic<u32>, 4>,
+    pixels: array<u32>,
+}
+
+@group(0) @binding(14) var<storage, read_write> statistics: Statistics;
+
+fn count_rays(rays: u32) {
+    let before = atomicAdd(&statistics.counts[0], rays);
+    if before + rays < before {
+        atomicAdd(&statistics.counts[1], 1u);
+    }
+}
+
+fn count_refused_samples(samples: u32) {
+    atomicAdd(&statistics.counts[2], samples);
+}
+
+// Of the pixel with this index in the pass.
+fn listed_pixel_in_band(index: u32) -> u32 {
+    return statistics.pixels[pass_parameters.first_pixel_in_band + index];
+}
+#else
 // Rays traced (low and high word), samples refused because they were not finite.
 @group(0) @binding(14) var<storage, read_write> statistics: array<atomic<u32>, 4>;
 
@@ -19,4 +45,5 @@ fn count_rays(rays: u32) {
 fn count_refused_samples(samples: u32) {
     atomicAdd(&statistics[2], samples);
 }
+#endif
 #endif

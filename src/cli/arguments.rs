@@ -1,6 +1,7 @@
 //! What can be typed, as clap reads it.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
 use gpt::compare::Metric;
@@ -43,6 +44,8 @@ pub struct RenderArguments {
     pub outputs: Vec<PathBuf>,
     #[command(flatten)]
     pub estimate: EstimateArguments,
+    #[command(flatten)]
+    pub goal: GoalArguments,
     /// auto (discrete, integrated, then software GPU; the CPU integrator if there is none), gpu, cpu, or part of an adapter's name
     #[arg(long, default_value = "auto", value_parser = parse_device)]
     pub device: DeviceChoice,
@@ -58,6 +61,20 @@ pub struct RenderArguments {
     /// Exit with code 6 if a sample was not finite
     #[arg(long)]
     pub strict: bool,
+}
+
+/// What ends a render before its last sample, and where its samples go.
+#[derive(Debug, Default, Args)]
+pub struct GoalArguments {
+    /// Stop after this time since the program's start, with a whole picture of fewer samples per pixel
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+    pub time_limit: Option<Duration>,
+    /// Stop once the picture's relative mean squared error is below X with 95 % confidence; --spp is then the most it may take
+    #[arg(long, value_name = "X", value_parser = parse_target, conflicts_with = "first_sample")]
+    pub target_error: Option<f64>,
+    /// Give noisy pixels more samples and calm ones fewer, --spp on average; unbiased
+    #[arg(long, conflicts_with = "first_sample")]
+    pub adaptive: bool,
 }
 
 /// What overrides the scene's own `[film]` and `[render]`.
@@ -213,6 +230,17 @@ fn parse_exposure(text: &str) -> Result<f32, String> {
     if exposure.abs() <= 100.0 { Ok(exposure) } else { Err("expected a number from -100 to 100".to_owned()) }
 }
 
+fn parse_seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().filter(|seconds: &f64| *seconds > 0.0);
+    let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    duration.ok_or_else(|| "expected a number of seconds above 0".to_owned())
+}
+
+fn parse_target(text: &str) -> Result<f64, String> {
+    let target = text.parse().ok().filter(|target: &f64| target.is_finite() && *target > 0.0);
+    target.ok_or_else(|| "expected a relative mean squared error above 0, for example 0.001".to_owned())
+}
+
 fn parse_tolerance(text: &str) -> Result<f64, String> {
     let tolerance: f64 = text.parse().map_err(|_| "expected a number".to_owned())?;
     if tolerance.is_nan() { Err("expected a number".to_owned()) } else { Ok(tolerance) }
@@ -255,5 +283,15 @@ mod tests {
         for bad in ["nan", "inf", "1e9", "bright"] {
             assert!(parse_exposure(bad).is_err(), "{bad}");
         }
+    }
+
+    #[test]
+    fn limits_are_positive_numbers() {
+        assert_eq!(parse_seconds("1.5"), Ok(Duration::from_millis(1500)));
+        assert_eq!(parse_target("1e-3"), Ok(1e-3));
+        for bad in ["0", "-1", "nan", "inf", "1e300s", "soon"] {
+            assert!(parse_seconds(bad).is_err() && parse_target(bad).is_err(), "{bad}");
+        }
+        assert!(parse_seconds("1e300").is_err());
     }
 }

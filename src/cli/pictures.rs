@@ -16,6 +16,7 @@ pub struct Pictures {
     bands: u64,
     pixels: u64,
     sum: [f64; 3],
+    fewest_samples: u32,
     black: bool,
     waiting: Duration,
 }
@@ -24,6 +25,8 @@ pub struct Pictures {
 pub struct PictureSummary {
     /// Mean radiance of the pixels that were rendered.
     pub mean: [f64; 3],
+    /// Samples per pixel of the band that has fewest, of those that came.
+    pub fewest_samples: u32,
     /// No pixel has any light.
     pub black: bool,
     /// Time the render waited for the files.
@@ -37,7 +40,15 @@ impl Pictures {
     /// The first one that cannot be begun.
     pub fn create(outputs: &[(PathBuf, PictureFormat)], spec: &PictureSpec) -> Result<Self, OutputError> {
         let files: Result<_, _> = outputs.iter().map(|(path, format)| PictureFile::create(path, *format, spec)).collect();
-        Ok(Self { files: files?, bands: 0, pixels: 0, sum: [0.0; 3], black: true, waiting: Duration::ZERO })
+        Ok(Self {
+            files: files?,
+            bands: 0,
+            pixels: 0,
+            sum: [0.0; 3],
+            fewest_samples: u32::MAX,
+            black: true,
+            waiting: Duration::ZERO,
+        })
     }
 
     /// Passes a band on to every file.
@@ -48,6 +59,7 @@ impl Pictures {
         let start = Instant::now();
         self.bands += 1;
         self.pixels += band.mean.len() as u64;
+        self.fewest_samples = self.fewest_samples.min(band.samples);
         for pixel in &band.mean {
             for (sum, value) in self.sum.iter_mut().zip(pixel) {
                 *sum += f64::from(*value);
@@ -80,6 +92,7 @@ impl Pictures {
         }
         Ok(PictureSummary {
             mean: self.sum.map(|sum| sum / self.pixels.max(1) as f64),
+            fewest_samples: if self.bands > 0 { self.fewest_samples } else { 0 },
             black: self.black,
             seconds_writing: (self.waiting + start.elapsed()).as_secs_f64(),
         })

@@ -4,7 +4,10 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use gpt::output::{AtomicFile, PictureFormat, PictureSpec, Provenance, check_target};
-use gpt::render::{RenderError, RenderReport, RenderRequest};
+use gpt::plan::PlanOptions;
+use gpt::progressive::error::ErrorEstimate;
+use gpt::progressive::{self, Goal, Outcome, STREAMS, Stop};
+use gpt::render::{RenderError, RenderReport, RenderRequest, Renderer};
 use gpt::renderer::{self, ChosenRenderer};
 use gpt::scene::{self, Scene};
 
@@ -30,11 +33,18 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let scene_hash = scene::digest(&scene);
     let load_seconds = started.elapsed().as_secs_f64();
 
-    let (report, pictures) = render(arguments, &scene, &outputs, &scene_hash)?;
+    let (outcome, pictures) = render(arguments, &scene, &outputs, &scene_hash, started)?;
     let anything = pictures.any();
     let summary = pictures.finish()?;
 
+    let report = outcome.report;
     let mut stats = Stats::new(&scene, &report);
+    stats.spp_done = summary.fewest_samples;
+    stats.stopped_by = stop_name(outcome.stop);
+    stats.adaptive = arguments.goal.adaptive;
+    stats.target_error = arguments.goal.target_error;
+    stats.expected_error = outcome.error.map(|error| error.mean);
+    stats.error_bound = outcome.error.map(|error| error.upper);
     stats.scene_hash = scene_hash;
     stats.first_sample = arguments.estimate.first_sample;
     stats.mean = summary.mean;
@@ -49,6 +59,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
         AtomicFile::write(path, (json + "\n").as_bytes())?;
     }
     tell(&stats, summary.black, arguments.quiet);
+    tell_of_error(arguments, outcome.error, outcome.stop);
     Ok(exit(&report, arguments.strict))
 }
 
@@ -59,6 +70,11 @@ fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
         terminal::warn(warning);
     }
     settings::apply(&arguments.estimate, &mut scene)?;
+    let spp = scene.render.spp;
+    // Two samples from each stream, so that there is something to look at and something to go on to.
+    if arguments.goal.target_error.is_some() && spp < 2 * STREAMS {
+        return Err(Failure::usage(format!("--target-error needs at least --spp {}; {spp} are allowed", 2 * STREAMS)));
+    }
     Ok(scene)
 }
 
@@ -68,31 +84,79 @@ fn render(
     scene: &Scene,
     outputs: &[(PathBuf, PictureFormat)],
     scene_hash: &str,
-) -> Result<(RenderReport, Pictures), Failure> {
-    let ChosenRenderer { mut renderer, notice } = renderer::create(scene, &arguments.device)?;
+    started: Instant,
+) -> Result<(Outcome, Pictures), Failure> {
+    let options = PlanOptions { allocation: arguments.goal.adaptive, ..PlanOptions::default() };
+    let ChosenRenderer { mut renderer, notice } = renderer::create(scene, &arguments.device, &options)?;
     if let Some(notice) = notice {
         terminal::note(notice);
     }
     let [width, height] = scene.film.size;
-    let first_sample = arguments.estimate.first_sample;
     let provenance = Provenance {
         scene: scene.name.clone(),
         scene_hash: scene_hash.to_owned(),
         settings: scene.render.clone(),
         filter: scene.film.filter,
-        first_sample,
+        first_sample: arguments.estimate.first_sample,
+        target_error: arguments.goal.target_error,
+        adaptive: arguments.goal.adaptive,
         device: renderer.device().to_owned(),
     };
     let mut pictures = Pictures::create(outputs, &PictureSpec { width, height, exposure: arguments.exposure, provenance })?;
-    let request = RenderRequest { rows: 0..height, samples: first_sample..first_sample + scene.render.spp };
     let progress = Progress::new(arguments.quiet);
-    let outcome = renderer.render(&request, &progress, &mut |band| pictures.write_band(band));
+    let outcome = render_to(renderer.as_mut(), arguments, scene, started, &progress, &mut pictures);
     progress.clear();
-    let report = outcome?;
-    if pictures.any() || report.interrupted {
-        Ok((report, pictures))
+    let outcome = outcome?;
+    if pictures.any() || outcome.report.interrupted {
+        Ok((outcome, pictures))
     } else {
         Err(RenderError::Internal("the renderer finished without delivering a picture".to_owned()).into())
+    }
+}
+
+/// Renders all samples, band by band, or, where something else may end the render, step by step.
+fn render_to(
+    renderer: &mut dyn Renderer,
+    arguments: &RenderArguments,
+    scene: &Scene,
+    started: Instant,
+    progress: &Progress,
+    pictures: &mut Pictures,
+) -> Result<Outcome, RenderError> {
+    let first_sample = arguments.estimate.first_sample;
+    let samples = first_sample..first_sample + scene.render.spp;
+    let on_band = &mut |band| pictures.write_band(band);
+    let wish = &arguments.goal;
+    if wish.time_limit.is_none() && wish.target_error.is_none() && !wish.adaptive {
+        let report = renderer.render(&RenderRequest { rows: 0..scene.film.size[1], samples }, progress, on_band)?;
+        let stop = if report.interrupted { Stop::Interrupted } else { Stop::Samples };
+        return Ok(Outcome { report, stop, error: None });
+    }
+    // A limit beyond what the clock can tell is none.
+    let deadline = wish.time_limit.and_then(|limit| started.checked_add(limit));
+    let goal = Goal { samples, deadline, target_error: wish.target_error, adaptive: wish.adaptive };
+    progressive::render(renderer, scene.film.size, scene.render.seed, &goal, progress, on_band)
+}
+
+fn stop_name(stop: Stop) -> &'static str {
+    match stop {
+        Stop::Samples => "samples",
+        Stop::TimeLimit => "time_limit",
+        Stop::TargetError => "target_error",
+        Stop::Interrupted => "interrupted",
+    }
+}
+
+/// Whether the picture is as good as was asked for.
+fn tell_of_error(arguments: &RenderArguments, error: Option<ErrorEstimate>, stop: Stop) {
+    let (Some(target), Some(ErrorEstimate { mean, upper })) = (arguments.goal.target_error, error) else { return };
+    if stop != Stop::TargetError {
+        terminal::warn(&format!(
+            "the relative mean squared error of {target} was not reached: {mean:.3e} is expected, and it is below {upper:.3e} with \
+             95 % confidence"
+        ));
+    } else if !arguments.quiet {
+        terminal::note(&format!("relative mean squared error: {mean:.3e} expected, below {upper:.3e} with 95 % confidence"));
     }
 }
 
@@ -113,8 +177,13 @@ fn tell(stats: &Stats, black: bool, quiet: bool) {
             stats.outputs.join(", "),
             stats.width,
             stats.height,
-            stats.spp,
-            if stats.interrupted { " wanted, interrupted" } else { "" },
+            if stats.interrupted { stats.spp } else { stats.spp_done },
+            match stats.stopped_by {
+                "interrupted" => " wanted, interrupted".to_owned(),
+                "time_limit" => format!(" of {} when time was up", stats.spp),
+                "target_error" => format!(" of {} when the error was reached", stats.spp),
+                _ => String::new(),
+            },
             stats.seconds.total,
             stats.device,
         ));

@@ -14,6 +14,16 @@ pub struct Stats {
     pub height: u32,
     /// Samples per pixel that were asked for.
     pub spp: u32,
+    /// Samples per pixel that the least finished row has; on average, where they follow the noise.
+    pub spp_done: u32,
+    /// `samples`, `time_limit`, `target_error` or `interrupted`.
+    pub stopped_by: &'static str,
+    pub adaptive: bool,
+    /// The relative mean squared error that was to be reached, how large it is expected to be, and what it is below with 95 %
+    /// confidence.
+    pub target_error: Option<f64>,
+    pub expected_error: Option<f64>,
+    pub error_bound: Option<f64>,
     pub first_sample: u32,
     pub seed: u32,
     pub max_depth: u32,
@@ -64,6 +74,12 @@ impl Stats {
             width,
             height,
             spp: scene.render.spp,
+            spp_done: 0,
+            stopped_by: "samples",
+            adaptive: false,
+            target_error: None,
+            expected_error: None,
+            error_bound: None,
             first_sample: 0,
             seed: scene.render.seed,
             max_depth: scene.render.max_depth,

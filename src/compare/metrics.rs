@@ -6,7 +6,7 @@ use serde::Serialize;
 use crate::output::Image;
 
 /// Keeps dark pixels from deciding the relative error, as in pbrt's `imgtool` and Rousselle et al. 2011.
-const RELATIVE_EPSILON: f64 = 1e-2;
+pub const RELATIVE_EPSILON: f64 = 1e-2;
 
 /// What is averaged over pixels and channels; a is the picture, b the reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]

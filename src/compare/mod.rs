@@ -2,4 +2,4 @@
 
 mod metrics;
 
-pub use metrics::{Comparison, Extreme, Metric, MetricValue, SizeMismatch, compare};
+pub use metrics::{Comparison, Extreme, Metric, MetricValue, RELATIVE_EPSILON, SizeMismatch, compare};

@@ -12,6 +12,8 @@ use crate::plan::{FilmStorage, GeometryPlacement, MAX_SAMPLES_PER_PASS, Plan, St
 
 /// Edges that one submission can hold; longer paths take further submissions.
 pub const EDGES_PER_SUBMISSION: u32 = 32;
+/// Bytes of the statistics; the list of a band's pixels follows them.
+pub const STATISTICS_BYTES: u64 = 16;
 /// Distance between the parameters of successive edges: the largest alignment a device may ask for.
 const EDGE_STRIDE: usize = 256;
 
@@ -90,7 +92,9 @@ impl Buffers {
         make(binding::PASS, "pass", size_of::<PassParameters>() as u64, uniform);
         make(binding::SEQUENCE, "sequence points", 16 * u64::from(SEQUENCE_BLOCKS * MAX_SAMPLES_PER_PASS), uniform);
         let storage = BufferUsages::STORAGE;
-        make(binding::STATISTICS, "statistics", 16, storage | BufferUsages::COPY_SRC | BufferUsages::COPY_DST);
+        let listed = if plan.switches.enabled.contains("ALLOCATION") { width * plan.band_rows } else { 0 };
+        let statistics = STATISTICS_BYTES + u64::from(listed) * memory::LIST_BYTES;
+        make(binding::STATISTICS, "statistics", statistics, storage | BufferUsages::COPY_SRC | BufferUsages::COPY_DST);
         if plan.switches.enabled.contains("TRACE") {
             make(binding::TRACE, "trace", super::trace::BYTES, storage | BufferUsages::COPY_SRC | BufferUsages::COPY_DST);
         }

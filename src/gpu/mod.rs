@@ -3,6 +3,7 @@
 pub mod adapters;
 pub mod buffers;
 pub mod device;
+mod film;
 pub mod kernels;
 pub mod parameters;
 pub mod passes;

@@ -11,15 +11,15 @@ const FIRST_PASS: f64 = 32_768.0;
 /// Samples per pixel and pass that let a fused kernel's lanes start new paths without waiting for each other.
 const FUSED_SAMPLES: u32 = 16;
 
-/// A run of pixels of the band and of samples.
+/// A run of pixels of the band, or of the list of its pixels, and of samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pass {
     pub first_pixel: u32,
     pub pixel_count: u32,
-    /// Counted from the request's first sample.
+    /// Absolute index.
     pub first_sample: u32,
     pub sample_count: u32,
-    /// No pixel of the band had samples before this sweep.
+    /// None of these pixels had samples before this sweep.
     pub film_is_empty: bool,
 }
 

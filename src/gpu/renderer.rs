@@ -1,8 +1,9 @@
 //! Renders a scene on a device: bands, sweeps, passes, submissions.
 
+use std::ops::Range;
 use std::time::Instant;
 
-use super::buffers::{Buffers, EDGES_PER_SUBMISSION, FilmHalf, binding, edge_parameters};
+use super::buffers::{Buffers, EDGES_PER_SUBMISSION, STATISTICS_BYTES, binding, edge_parameters};
 use super::device::Device;
 use super::kernels::{self, Kernel};
 use super::parameters::PassParameters;
@@ -10,7 +11,7 @@ use super::passes::{Pass, PassSizer};
 use crate::film::Band;
 use crate::flat::FlatScene;
 use crate::plan::{Plan, PlanOptions, StageMode};
-use crate::render::{DeviceChoice, Observer, RenderError, RenderReport, RenderRequest, Renderer};
+use crate::render::{Allocation, Batch, DeviceChoice, Observer, RenderError, RenderReport, Renderer};
 use crate::sampling::{Sampling, SequencePoint};
 use crate::scene::Scene;
 
@@ -21,7 +22,8 @@ pub struct GpuRenderer {
     pub(super) buffers: Buffers,
     kernels: Vec<Kernel>,
     pub(super) size: [u32; 2],
-    sampling: Sampling,
+    pub(super) sampling: Sampling,
+    sizer: PassSizer,
     /// Edges of a path at most; None: no limit.
     max_depth: Option<u32>,
     /// Edges encoded before the host looks again.
@@ -36,6 +38,22 @@ pub(super) struct BandState {
     pub(super) rows: u32,
     /// Finished samples, over all pixels of the band.
     pub(super) samples_done: u64,
+}
+
+/// Pixels of a band that get the same samples.
+struct PixelGroup {
+    /// In the list of the band's pixels, or in the band where there is no list.
+    first: u32,
+    count: u32,
+    /// Absolute indices.
+    samples: Range<u32>,
+}
+
+impl PixelGroup {
+    /// The same pixels with their first sample.
+    fn first_sample_alone(self) -> Self {
+        Self { samples: self.samples.start..self.samples.start + 1, ..self }
+    }
 }
 
 impl GpuRenderer {
@@ -67,6 +85,7 @@ impl GpuRenderer {
         let build_seconds = start.elapsed().as_secs_f64();
         let start = Instant::now();
         let kernels = kernels::build(&device, &plan, &buffers)?;
+        let sizer = PassSizer::new(plan.stages, plan.path_capacity);
         Ok(Self {
             device,
             plan,
@@ -74,6 +93,7 @@ impl GpuRenderer {
             kernels,
             size: scene.film.size,
             sampling: Sampling::from(&scene.render),
+            sizer,
             max_depth,
             edges_per_submission,
             build_seconds,
@@ -92,6 +112,13 @@ impl GpuRenderer {
         }
     }
 
+    /// Uploads the order in which passes take the band's pixels.
+    fn write_list(&self, pixels: &[u32]) {
+        if let Some(buffer) = self.buffers.buffer(binding::STATISTICS) {
+            self.device.queue.write_buffer(buffer, STATISTICS_BYTES, bytemuck::cast_slice(pixels));
+        }
+    }
+
     fn kernel(&self, entry: &str) -> Option<&Kernel> {
         self.kernels.iter().find(|kernel| kernel.entry == entry)
     }
@@ -104,22 +131,23 @@ impl GpuRenderer {
     }
 
     /// Uploads what a pass needs: its parameters, and its samples' points of the sampler's sequence.
-    pub(super) fn write_pass(&self, band: &BandState, pass: &Pass, request: &RenderRequest) {
-        let first_sample = request.samples.start + pass.first_sample;
+    pub(super) fn write_pass(&self, band: &BandState, pass: &Pass, sampling: &Sampling) {
+        let first_of_band = band.first_row * self.size[0];
         let parameters = PassParameters {
-            first_pixel: band.first_row * self.size[0] + pass.first_pixel,
+            // A list of pixels counts them within the band.
+            first_pixel: if self.takes_allocations() { first_of_band } else { first_of_band + pass.first_pixel },
             first_pixel_in_band: pass.first_pixel,
             pixel_count: pass.pixel_count,
-            first_sample,
+            first_sample: pass.first_sample,
             sample_count: pass.sample_count,
             film_is_empty: u32::from(pass.film_is_empty),
             opaque_zero: 0,
-            seed: self.sampling.seed,
+            seed: sampling.seed,
         };
         self.write(binding::PASS, bytemuck::bytes_of(&parameters));
-        if self.sampling.uses_sequence() {
-            let samples = first_sample..first_sample + pass.sample_count;
-            let points: Vec<u32> = samples.flat_map(|sample| SequencePoint::new(&self.sampling, sample).bits).collect();
+        if sampling.uses_sequence() {
+            let samples = pass.first_sample..pass.first_sample + pass.sample_count;
+            let points: Vec<u32> = samples.flat_map(|sample| SequencePoint::new(sampling, sample).bits).collect();
             self.write(binding::SEQUENCE, bytemuck::cast_slice(&points));
         }
     }
@@ -229,78 +257,70 @@ impl GpuRenderer {
         })
     }
 
-    /// One half of the film of the band's first `rows` rows.
-    pub(super) fn read_film(&self, half: &FilmHalf, rows: u32) -> Result<Vec<[f32; 4]>, RenderError> {
-        let row_bytes = self.size[0] * 16;
-        let mut encoder = self.device.device.create_command_encoder(&Default::default());
-        let (target, stride) = match half {
-            FilmHalf::Texture(texture) => {
-                let stride = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-                let target = self.readback_buffer(u64::from(stride) * u64::from(rows));
-                let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(stride), rows_per_image: None };
-                encoder.copy_texture_to_buffer(
-                    texture.as_image_copy(),
-                    wgpu::TexelCopyBufferInfo { buffer: &target, layout },
-                    wgpu::Extent3d { width: self.size[0], height: rows, depth_or_array_layers: 1 },
-                );
-                (target, stride)
-            }
-            FilmHalf::Buffer(buffer) => {
-                let size = u64::from(row_bytes) * u64::from(rows);
-                let target = self.readback_buffer(size);
-                encoder.copy_buffer_to_buffer(buffer, 0, &target, 0, size);
-                (target, row_bytes)
-            }
-        };
-        self.device.submit_and_wait(encoder.finish())?;
-        let bytes = self.device.read(&target)?;
-        let rows = bytes.chunks(stride as usize).map(|row| &row[..row_bytes as usize]);
-        Ok(rows.flat_map(|row| row.chunks_exact(16).map(bytemuck::pod_read_unaligned)).collect())
+    /// Whether the kernels look up their pixels in a list.
+    fn takes_allocations(&self) -> bool {
+        self.plan.switches.enabled.contains("ALLOCATION")
     }
 
-    /// Means of a band from its sums.
-    fn finish_band(&self, band: &BandState) -> Result<Band, RenderError> {
-        let sums = self.read_film(&self.buffers.film[0], band.rows)?;
-        let compensations = self.read_film(&self.buffers.film[1], band.rows)?;
-        let mut samples = u32::MAX;
-        let mut mean = Vec::with_capacity(sums.len());
-        let mut second_moment = Vec::with_capacity(sums.len());
-        for (sum, compensation) in sums.iter().zip(&compensations) {
-            let count = f64::from(sum[3]);
-            samples = samples.min(sum[3] as u32);
-            let per_sample = |x: f64| if count > 0.0 { (x / count) as f32 } else { 0.0 };
-            // The true sum is the stored one less what its compensation still owes.
-            mean.push([0, 1, 2].map(|c| per_sample(f64::from(sum[c]) - f64::from(compensation[c]))));
-            second_moment.push(per_sample(f64::from(compensation[3])));
+    /// What the pixels of a band get, and the upload of their list where there is one: sorted by level, in the order of the film
+    /// within a level.
+    fn pixel_groups(&self, band: &BandState, batch: &Batch<'_>) -> Result<Vec<PixelGroup>, RenderError> {
+        let count = self.size[0] * band.rows;
+        let samples = &batch.request.samples;
+        let everything = || vec![PixelGroup { first: 0, count, samples: samples.clone() }];
+        if !self.takes_allocations() {
+            let missing = || RenderError::Internal("the kernels were not compiled for allocated samples".into());
+            return if batch.allocation.is_none() { Ok(everything()) } else { Err(missing()) };
         }
-        Ok(Band { first_row: band.first_row, width: self.size[0], rows: band.rows, samples, mean, second_moment })
+        let Some(allocation) = batch.allocation else {
+            let list: Vec<u32> = (0..count).collect();
+            self.write_list(&list);
+            return Ok(everything());
+        };
+        let first_of_band = (band.first_row * self.size[0]) as usize;
+        let levels = &allocation.levels[first_of_band..first_of_band + count as usize];
+        let mut list: Vec<u32> = Vec::with_capacity(levels.len());
+        let mut groups = Vec::new();
+        for level in 0..Allocation::LEVELS {
+            let first = list.len() as u32;
+            list.extend((0..count).zip(levels).filter(|(_, of_pixel)| **of_pixel == level).map(|(pixel, _)| pixel));
+            let count = list.len() as u32 - first;
+            groups.push(PixelGroup { first, count, samples: Allocation::samples(level, samples) });
+        }
+        self.write_list(&list);
+        groups.retain(|group| group.count > 0);
+        Ok(groups)
     }
 
-    /// Renders one band; true where the observer stopped it.
-    fn render_band(
-        &self,
+    /// Renders one band's pixels of a group; true where the observer stopped it.
+    fn render_group(
+        &mut self,
         band: &mut BandState,
-        request: &RenderRequest,
-        sizer: &mut PassSizer,
+        group: &PixelGroup,
+        sampling: &Sampling,
         progress: &dyn Fn(u64) -> bool,
     ) -> Result<bool, RenderError> {
-        let pixels = self.size[0] * band.rows;
-        let samples = request.samples.end - request.samples.start;
+        let samples = group.samples.len() as u32;
         let mut done = 0;
         while done < samples {
-            let sweep = sizer.sweep_samples(pixels, done, samples - done);
+            let sweep = self.sizer.sweep_samples(group.count, done, samples - done);
             let mut first_pixel = 0;
-            while first_pixel < pixels {
-                let pixel_count = sizer.pass_pixels(sweep, pixels - first_pixel);
-                let pass = Pass { first_pixel, pixel_count, first_sample: done, sample_count: sweep, film_is_empty: done == 0 };
+            while first_pixel < group.count {
+                let pass = Pass {
+                    first_pixel: group.first + first_pixel,
+                    pixel_count: self.sizer.pass_pixels(sweep, group.count - first_pixel),
+                    first_sample: group.samples.start + done,
+                    sample_count: sweep,
+                    film_is_empty: done == 0,
+                };
                 let start = Instant::now();
-                self.write_pass(band, &pass, request);
+                self.write_pass(band, &pass, sampling);
                 self.run_pass(&pass)?;
-                sizer.learn(&pass, start.elapsed());
-                first_pixel += pixel_count;
+                self.sizer.learn(&pass, start.elapsed());
+                first_pixel += pass.pixel_count;
                 band.samples_done += pass.paths();
                 // A first sweep is finished, so that no pixel is left without a sample.
-                if progress(band.samples_done) && (done > 0 || first_pixel == pixels) {
+                if progress(band.samples_done) && (done > 0 || first_pixel == group.count) {
                     return Ok(true);
                 }
             }
@@ -315,17 +335,17 @@ impl Renderer for GpuRenderer {
         &self.device.name
     }
 
-    fn render(
+    fn render_batch(
         &mut self,
-        request: &RenderRequest,
+        batch: &Batch<'_>,
         observer: &dyn Observer,
         on_band: &mut dyn FnMut(Band) -> std::io::Result<()>,
     ) -> Result<RenderReport, RenderError> {
         let start = Instant::now();
         self.write(binding::STATISTICS, &[0; 16]);
-        let samples = u64::from(request.samples.end - request.samples.start);
-        let total = u64::from(self.size[0]) * u64::from(request.rows.end - request.rows.start) * samples;
-        let mut sizer = PassSizer::new(self.plan.stages, self.plan.path_capacity);
+        let request = batch.request;
+        let sampling = Sampling { seed: batch.seed.unwrap_or(self.sampling.seed), ..self.sampling };
+        let total = batch.total_samples(self.size[0]);
         let mut finished = 0;
         let mut interrupted = false;
         let mut first_row = request.rows.start;
@@ -337,13 +357,17 @@ impl Renderer for GpuRenderer {
                 observer.progress(finished + done, total);
                 observer.stop_requested()
             };
-            interrupted = self.render_band(&mut band, request, &mut sizer, &progress)?;
+            for group in self.pixel_groups(&band, batch)? {
+                // Every group gets a first sample, even where the observer has had enough.
+                let group = if interrupted { group.first_sample_alone() } else { group };
+                interrupted |= self.render_group(&mut band, &group, &sampling, &progress)?;
+            }
             finished += band.samples_done;
             if self.plan.stages == StageMode::Wavefront {
                 // `prepare` counts the rays of later edges; the first edge's are the paths themselves.
                 camera_rays += band.samples_done;
             }
-            on_band(self.finish_band(&band)?)?;
+            on_band(self.finish_band(&band, batch.allocation)?)?;
             first_row += rows;
         }
         let [low, high, non_finite_samples, _] = self.read_words(binding::STATISTICS)?;

@@ -4,7 +4,7 @@ use super::buffers::binding;
 use super::passes::Pass;
 use super::renderer::{BandState, GpuRenderer};
 use crate::flat::NONE;
-use crate::render::{RenderError, RenderRequest};
+use crate::render::RenderError;
 
 /// Vertices that the kernel writes down; of longer paths the rest is not seen.
 pub const TRACED_VERTICES: usize = 64;
@@ -87,11 +87,10 @@ impl GpuRenderer {
     pub fn trace(&self, x: u32, y: u32, sample: u32) -> Result<GpuPathTrace, RenderError> {
         let missing = || RenderError::Internal("the kernels were not compiled to trace paths".into());
         let source = self.buffers.buffer(binding::TRACE).ok_or_else(missing)?;
-        let request = RenderRequest { rows: y..y + 1, samples: sample..sample + 1 };
         let band = BandState { first_row: y, rows: 1, samples_done: 0 };
-        let pass = Pass { first_pixel: x, pixel_count: 1, first_sample: 0, sample_count: 1, film_is_empty: true };
+        let pass = Pass { first_pixel: x, pixel_count: 1, first_sample: sample, sample_count: 1, film_is_empty: true };
         self.device.queue.write_buffer(source, 0, &vec![0; BYTES as usize]);
-        self.write_pass(&band, &pass, &request);
+        self.write_pass(&band, &pass, &self.sampling);
         self.run_pass(&pass)?;
         let target = self.readback_buffer(BYTES);
         let mut encoder = self.device.device.create_command_encoder(&Default::default());

@@ -110,6 +110,8 @@ mod tests {
             settings,
             filter: Filter::default(),
             first_sample: 128,
+            target_error: None,
+            adaptive: false,
             device: "a device".to_owned(),
         };
         PictureSpec { width, height, exposure: 0.0, provenance }

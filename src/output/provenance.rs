@@ -12,6 +12,10 @@ pub struct Provenance {
     pub filter: Filter,
     /// Absolute index of the first sample; `settings.spp` tells how many were wanted.
     pub first_sample: u32,
+    /// The relative mean squared error that was to be reached.
+    pub target_error: Option<f64>,
+    /// Pixels have more or fewer samples as their noise asked; numbers of samples are averages.
+    pub adaptive: bool,
     pub device: String,
 }
 
@@ -32,7 +36,7 @@ impl Provenance {
     pub(super) fn entries(&self, samples: u32) -> Vec<(&'static str, Entry)> {
         let settings = &self.settings;
         let text = |text: &str| Entry::Text(text.to_owned());
-        vec![
+        let mut entries = vec![
             ("gpt:version", text(env!("CARGO_PKG_VERSION"))),
             ("gpt:scene", text(&self.scene)),
             ("gpt:sceneHash", text(&self.scene_hash)),
@@ -51,6 +55,9 @@ impl Provenance {
             ("gpt:samplesWanted", Entry::Number(settings.spp)),
             (SAMPLES_KEY, Entry::Number(samples)),
             (COMPLETE_KEY, Entry::Number(u32::from(samples >= settings.spp))),
-        ]
+            ("gpt:adaptive", Entry::Number(u32::from(self.adaptive))),
+        ];
+        entries.extend(self.target_error.map(|target| ("gpt:targetError", Entry::Text(target.to_string()))));
+        entries
     }
 }

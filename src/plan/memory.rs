@@ -15,6 +15,9 @@ pub const QUEUE_BYTES: u64 = 2 * 4;
 /// Bytes of film per pixel of a band: sum and compensation.
 pub const FILM_BYTES: u64 = 2 * 16;
 
+/// Bytes per pixel of a band in the list of pixels, where samples are allocated.
+pub const LIST_BYTES: u64 = 4;
+
 /// Named arrays and their sizes in bytes.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Memory {
@@ -39,6 +42,9 @@ impl Memory {
         }
         if !flat.textures.texels.is_empty() {
             arrays.push(("texels", 4 * flat.textures.texels.len() as u64));
+        }
+        if plan.switches.enabled.contains("ALLOCATION") {
+            arrays.push(("pixels", pixels * LIST_BYTES));
         }
         if plan.stages == StageMode::Wavefront {
             let paths = u64::from(plan.path_capacity);

@@ -63,6 +63,8 @@ pub struct PlanOptions {
     pub checked_shaders: bool,
     /// Write down what happens along a path, for [`crate::gpu::GpuRenderer::trace`]; one kernel then traces whole paths.
     pub trace: bool,
+    /// Let pixels have different numbers of samples ([`crate::render::Allocation`]).
+    pub allocation: bool,
     /// Compute wrongly, so that tests can see whether it is noticed.
     pub fault: Option<Fault>,
 }
@@ -141,6 +143,7 @@ impl Plan {
         };
         plan.switches = switches::choose(scene, flat, &plan);
         plan.switches.enable("TRACE", options.trace);
+        plan.switches.enable("ALLOCATION", options.allocation && !options.trace);
         if let Some(fault) = options.fault {
             fault.plant(flat, &mut plan.switches);
         }

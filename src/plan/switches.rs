@@ -15,6 +15,7 @@ use crate::shader::Switches;
 
 /// Every switch that the shaders know.
 pub const ALL: &[&str] = &[
+    "ALLOCATION",
     "APERTURE_POLYGON",
     "APERTURE_SQUARE",
     "ATTRIBUTES",

@@ -1,6 +1,6 @@
 //! Renders a film with the reference integrator, on all cores.
 
-use std::ops::Range;
+use std::ops::{Add, Range};
 use std::time::{Duration, Instant};
 
 use glam::DVec3;
@@ -10,9 +10,9 @@ use super::integrator::Integrator;
 use super::lights::luminance;
 use super::trace::{PathTrace, PathVisitor, RayCounter};
 use crate::film::Band;
-use crate::render::{Observer, RenderError, RenderReport, RenderRequest, Renderer};
+use crate::render::{Allocation, Batch, Observer, RenderError, RenderReport, RenderRequest, Renderer};
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
-use crate::scene::Scene;
+use crate::scene::{RenderSettings, Scene};
 
 /// Rows of a band.
 const BAND_ROWS: u32 = 64;
@@ -49,11 +49,53 @@ struct BandSums {
     pixels: Vec<PixelSum>,
 }
 
+/// What the samples of a batch have in common.
+struct BatchSamples<'a> {
+    range: Range<u32>,
+    sampling: Sampling,
+    allocation: Option<&'a Allocation>,
+    /// Of the highest level of the allocation; 0 without one.
+    highest_level: u8,
+}
+
+impl<'a> BatchSamples<'a> {
+    fn new(batch: &Batch<'a>, settings: &RenderSettings) -> Self {
+        let scenes = Sampling::from(settings);
+        let sampling = Sampling { seed: batch.seed.unwrap_or(scenes.seed), ..scenes };
+        let highest_level = batch.allocation.and_then(|allocation| allocation.levels.iter().max().copied()).unwrap_or(0);
+        Self { range: batch.request.samples.clone(), sampling, allocation: batch.allocation, highest_level }
+    }
+
+    fn level(&self, pixel: usize) -> u8 {
+        self.allocation.map_or(0, |allocation| allocation.levels[pixel])
+    }
+
+    /// The points of the request's samples `range` for a pixel of each level.
+    fn points(&self, range: &Range<u32>) -> Vec<Vec<SequencePoint>> {
+        let of_level =
+            |level| Allocation::samples(level, range).map(|sample| SequencePoint::new(&self.sampling, sample)).collect();
+        (0..=self.highest_level).map(of_level).collect()
+    }
+}
+
 /// What a pass counted.
 #[derive(Debug, Clone, Copy, Default)]
 struct Tally {
+    samples: u64,
     rays: u64,
     non_finite: u64,
+}
+
+impl Add for Tally {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            samples: self.samples + other.samples,
+            rays: self.rays + other.rays,
+            non_finite: self.non_finite + other.non_finite,
+        }
+    }
 }
 
 impl ReferenceRenderer {
@@ -85,14 +127,12 @@ impl ReferenceRenderer {
     }
 
     /// Adds one sample of a pixel per point to its sum.
-    fn sample_pixel(&self, x: u32, y: u32, points: &[SequencePoint], sum: &mut PixelSum) -> Tally {
-        let Scene { film, render, .. } = self.integrator.scene();
-        let sampling = Sampling::from(render);
+    fn sample_pixel(&self, x: u32, y: u32, sampling: &Sampling, points: &[SequencePoint], sum: &mut PixelSum) -> Tally {
+        let pixel = y.wrapping_mul(self.integrator.scene().film.size[0]).wrapping_add(x);
         let mut counter = RayCounter::default();
         let mut non_finite = 0;
         for point in points {
-            let pixel = y.wrapping_mul(film.size[0]).wrapping_add(x);
-            let sampler = PathSampler::new(&sampling, pixel, point);
+            let sampler = PathSampler::new(sampling, pixel, point);
             let radiance = self.integrator.radiance(x, y, &sampler, &mut counter);
             if is_acceptable(radiance) {
                 sum.radiance += radiance;
@@ -101,48 +141,51 @@ impl ReferenceRenderer {
                 non_finite += 1;
             }
         }
-        Tally { rays: counter.0, non_finite }
+        Tally { samples: points.len() as u64, rays: counter.0, non_finite }
     }
 
-    /// One pass over a band.
-    fn sample_band(&mut self, band: &mut BandSums, points: &[SequencePoint]) -> Tally {
+    /// One pass over a band: the samples `range` of the request.
+    fn sample_band(&mut self, band: &mut BandSums, batch: &BatchSamples<'_>, range: &Range<u32>) -> Tally {
         let start = Instant::now();
         let width = self.integrator.scene().film.size[0] as usize;
+        let points = batch.points(range);
         let this = &*self;
-        let tally = band
-            .pixels
-            .par_chunks_mut(width)
-            .zip(band.first_row..band.first_row + band.rows)
-            .flat_map_iter(|(row, y)| row.iter_mut().zip(0..).map(move |(sum, x)| this.sample_pixel(x, y, points, sum)))
-            .reduce(Tally::default, |a, b| Tally { rays: a.rays + b.rays, non_finite: a.non_finite + b.non_finite });
-        band.samples += points.len() as u32;
-        self.timed_samples += band.pixels.len() as f64 * points.len() as f64;
+        let sample_row = |(row, y): (&mut [PixelSum], u32)| {
+            let sample = |(x, sum): (usize, &mut PixelSum)| {
+                let level = batch.level(y as usize * width + x);
+                this.sample_pixel(x as u32, y, &batch.sampling, &points[usize::from(level)], sum)
+            };
+            row.iter_mut().enumerate().map(sample).fold(Tally::default(), Tally::add)
+        };
+        let rows = band.pixels.par_chunks_mut(width).zip(band.first_row..band.first_row + band.rows);
+        let tally = rows.map(sample_row).reduce(Tally::default, Tally::add);
+        band.samples += range.len() as u32;
+        self.timed_samples += band.pixels.len() as f64 * range.len() as f64;
         self.timed_seconds += start.elapsed().as_secs_f64();
         tally
     }
 
-    /// The points of the next pass over bands of `pixels` pixels, which starts at sample `first`.
-    fn next_points(&self, pixels: usize, first: u32, end: u32) -> Vec<SequencePoint> {
+    /// The samples of the next pass over bands of `pixels` pixels, which starts at sample `first`.
+    fn next_samples(&self, pixels: usize, batch: &BatchSamples<'_>, first: u32) -> Range<u32> {
         let rate = if self.timed_seconds > 0.0 { self.timed_samples / self.timed_seconds } else { 0.0 };
         let fitting = rate * PASS_DURATION.as_secs_f64() / pixels.max(1) as f64;
-        let count = (fitting as u32).clamp(1, SAMPLES_PER_PASS).min(end - first);
-        let sampling = Sampling::from(&self.integrator.scene().render);
-        (first..first + count).map(|sample| SequencePoint::new(&sampling, sample)).collect()
+        let most = (SAMPLES_PER_PASS >> batch.highest_level).max(1);
+        first..first + (fitting as u32).clamp(1, most).min(batch.range.end - first)
     }
 
     /// Renders all samples of a group of bands, pass by pass. False when the observer asked to stop.
-    fn render_group(&mut self, bands: &mut [BandSums], samples: &Range<u32>, progress: &mut Progress) -> bool {
-        let mut next = samples.start;
-        while next < samples.end {
+    fn render_group(&mut self, bands: &mut [BandSums], batch: &BatchSamples<'_>, progress: &mut Progress) -> bool {
+        let mut next = batch.range.start;
+        while next < batch.range.end {
             let largest = bands.iter().map(|band| band.pixels.len()).max().unwrap_or(0);
-            let points = self.next_points(largest, next, samples.end);
+            let range = self.next_samples(largest, batch, next);
             for band in bands.iter_mut() {
-                let tally = self.sample_band(band, &points);
-                if !progress.add(tally, band.pixels.len() as u64 * points.len() as u64) {
+                let tally = self.sample_band(band, batch, &range);
+                if !progress.add(tally) {
                     return false;
                 }
             }
-            next += points.len() as u32;
+            next = range.end;
         }
         true
     }
@@ -157,10 +200,10 @@ struct Progress<'a> {
 
 impl Progress<'_> {
     /// False: stop.
-    fn add(&mut self, tally: Tally, samples: u64) -> bool {
+    fn add(&mut self, tally: Tally) -> bool {
         self.report.rays += tally.rays;
         self.report.non_finite_samples += tally.non_finite;
-        self.report.samples += samples;
+        self.report.samples += tally.samples;
         self.observer.progress(self.report.samples, self.total);
         self.report.interrupted = self.report.samples < self.total && self.observer.stop_requested();
         !self.report.interrupted
@@ -173,15 +216,17 @@ fn is_acceptable(radiance: DVec3) -> bool {
 }
 
 impl BandSums {
-    fn finish(&self, width: u32) -> Band {
-        let scale = 1.0 / f64::from(self.samples.max(1));
+    fn finish(&self, width: u32, batch: &BatchSamples<'_>) -> Band {
+        let first_pixel = self.first_row as usize * width as usize;
+        let scale = |index: usize| 1.0 / (f64::from(self.samples.max(1)) * f64::from(1 << batch.level(first_pixel + index)));
+        let sums = || self.pixels.iter().enumerate();
         Band {
             first_row: self.first_row,
             width,
             rows: self.rows,
             samples: self.samples,
-            mean: self.pixels.iter().map(|sum| (sum.radiance * scale).as_vec3().to_array()).collect(),
-            second_moment: self.pixels.iter().map(|sum| (sum.squared_luminance * scale) as f32).collect(),
+            mean: sums().map(|(index, sum)| (sum.radiance * scale(index)).as_vec3().to_array()).collect(),
+            second_moment: sums().map(|(index, sum)| (sum.squared_luminance * scale(index)) as f32).collect(),
         }
     }
 }
@@ -191,21 +236,22 @@ impl Renderer for ReferenceRenderer {
         "CPU reference"
     }
 
-    fn render(
+    fn render_batch(
         &mut self,
-        request: &RenderRequest,
+        batch: &Batch<'_>,
         observer: &dyn Observer,
         on_band: &mut dyn FnMut(Band) -> std::io::Result<()>,
     ) -> Result<RenderReport, RenderError> {
         let start = Instant::now();
         let [width, height] = self.integrator.scene().film.size;
-        let RenderRequest { rows, samples } = request;
+        let RenderRequest { rows, .. } = batch.request;
+        let samples = BatchSamples::new(batch, &self.integrator.scene().render);
         if rows.end > height {
             return Err(RenderError::Internal(format!("rows up to {} of a picture of {height} rows", rows.end)));
         }
         let pixels = u64::from(width) * rows.len() as u64;
         let report = RenderReport { device: self.device().into(), build_seconds: self.build_seconds, ..RenderReport::default() };
-        let mut progress = Progress { observer, total: pixels * samples.len() as u64, report };
+        let mut progress = Progress { observer, total: batch.total_samples(width), report };
         let first_rows: Vec<u32> = rows.clone().step_by(BAND_ROWS as usize).collect();
         let bands_at_once = if pixels <= PIXELS_IN_MEMORY { first_rows.len() } else { 1 };
         for group in first_rows.chunks(bands_at_once.max(1)) {
@@ -215,8 +261,8 @@ impl Renderer for ReferenceRenderer {
                 BandSums { first_row, rows: band_rows, samples: 0, pixels }
             };
             let mut bands: Vec<BandSums> = group.iter().map(new_band).collect();
-            let completed = self.render_group(&mut bands, samples, &mut progress);
-            bands.iter().filter(|band| band.samples > 0).try_for_each(|band| on_band(band.finish(width)))?;
+            let completed = self.render_group(&mut bands, &samples, &mut progress);
+            bands.iter().filter(|band| band.samples > 0).try_for_each(|band| on_band(band.finish(width, &samples)))?;
             if !completed {
                 break;
             }

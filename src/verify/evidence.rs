@@ -53,6 +53,8 @@ fn write_picture(
         settings: scene.render.clone(),
         filter: scene.film.filter,
         first_sample: 0,
+        target_error: None,
+        adaptive: false,
         device: verdict.device.clone(),
     };
     let spec = PictureSpec { width: verdict.width, height: verdict.height, exposure: 0.0, provenance };

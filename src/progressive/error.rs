@@ -1,0 +1,157 @@
+//! How far a picture is from the truth, told by independent renderings of it.
+//!
+//! The picture is the mean of R streams with random numbers of their own, so the variance of their values, over R, is the expected
+//! squared error of the mean, whatever correlates the samples inside a stream. Its estimate from few streams is coarse in one pixel
+//! and good over all of them.
+//!
+//! The relative error divides by the truth, which is not known. Where one stream holds a rare bright path, the mean holds it too, and dividing
+//! by that would call the pixel's error small. So each stream's deviation is divided by the mean of the *other* streams.
+
+use statrs::distribution::{ContinuousCDF, Normal};
+
+use crate::compare::RELATIVE_EPSILON;
+use crate::film::Band;
+use crate::sampling::hash::mix;
+
+/// Pixels that are looked at, at most; of larger pictures an even sample of them.
+const MOST_PIXELS: u64 = 1 << 18;
+/// Probability that a picture called good enough is not, over all looks together.
+const DOUBT: f64 = 0.05;
+
+/// An estimate of the relative mean squared error of a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ErrorEstimate {
+    /// Expected relative mean squared error.
+    pub mean: f64,
+    /// The error is below this with 95 % confidence, however often one looked.
+    pub upper: f64,
+}
+
+/// What the streams say of the pixels that are looked at.
+pub struct ErrorEstimator {
+    width: u32,
+    total_pixels: u64,
+    /// Index of each pixel looked at, ascending.
+    pixels: Vec<u64>,
+    /// Per stream: weighted sums of these pixels.
+    sums: Vec<Vec<[f32; 3]>>,
+    /// Per stream: the sum of weights.
+    weights: Vec<f64>,
+    looks: u32,
+}
+
+impl ErrorEstimator {
+    pub fn new([width, height]: [u32; 2], streams: u32) -> Self {
+        let total_pixels = u64::from(width) * u64::from(height);
+        let stride = total_pixels.div_ceil(MOST_PIXELS);
+        // One pixel of each run of `stride`, at random, so that no pattern of the picture is missed.
+        let in_run = |run: u64| run * stride + u64::from(mix(run as u32)) % stride;
+        let pixels: Vec<u64> = (0..total_pixels / stride).map(in_run).collect();
+        let sums = vec![vec![[0.0; 3]; pixels.len()]; streams as usize];
+        Self { width, total_pixels, pixels, sums, weights: vec![0.0; streams as usize], looks: 0 }
+    }
+
+    /// Adds a stream's band with the weight it has in the picture.
+    pub fn add(&mut self, stream: u32, band: &Band, weight: f32) {
+        let first = u64::from(band.first_row) * u64::from(self.width);
+        let start = self.pixels.partition_point(|pixel| *pixel < first);
+        let end = self.pixels.partition_point(|pixel| *pixel < first + band.mean.len() as u64);
+        let sums = &mut self.sums[stream as usize];
+        for (sum, pixel) in sums[start..end].iter_mut().zip(&self.pixels[start..end]) {
+            let mean = band.mean[(pixel - first) as usize];
+            sum.iter_mut().zip(mean).for_each(|(sum, mean)| *sum += weight * mean);
+        }
+        self.weights[stream as usize] += f64::from(weight) * band.mean.len() as f64 / self.total_pixels as f64;
+    }
+
+    /// The error of the mean of all streams. Looking again and again makes it likelier that once the estimate is too low by chance, so each
+    /// look is more careful than the last.
+    pub fn look(&mut self) -> ErrorEstimate {
+        self.looks += 1;
+        let streams = self.sums.len();
+        let count = self.pixels.len() as f64;
+        let (mut sum, mut sum_of_squares) = (0.0, 0.0);
+        for pixel in 0..self.pixels.len() {
+            let mut error = 0.0;
+            for channel in 0..3 {
+                let values = (0..streams).map(|stream| f64::from(self.sums[stream][pixel][channel]) / self.weights[stream]);
+                error += squared_error_of_mean(values) / 3.0;
+            }
+            sum += error;
+            sum_of_squares += error * error;
+        }
+        let (mean, mean_square) = (sum / count, sum_of_squares / count);
+        // A pixel's squared error is about e·χ²(1), with variance 2e², and its estimate e·χ²(R−1)/(R−1) with 2e²/(R−1). Pixels are
+        // independent of each other, because each has random numbers of its own.
+        let of_error = 2.0 * mean_square / self.total_pixels as f64;
+        let of_estimate = 2.0 * mean_square / (count * (streams as f64 - 1.0));
+        let unseen = 1.0 - count / self.total_pixels as f64;
+        let of_choice = unseen * (mean_square - mean * mean).max(0.0) / count;
+        let deviation = (of_error + of_estimate + of_choice).sqrt();
+        ErrorEstimate { mean, upper: mean + standard_deviations(self.looks) * deviation }
+    }
+}
+
+/// Standard deviations that make up for the doubt granted to a look: DOUBT / (k (k + 1)) to the k-th, which add up to DOUBT.
+fn standard_deviations(look: u32) -> f64 {
+    let look = f64::from(look);
+    Normal::standard().inverse_cdf(1.0 - DOUBT / (look * (look + 1.0)))
+}
+
+/// Estimated squared relative error of the mean of independent values: their variance over their number, each deviation relative to
+/// the mean of the others.
+fn squared_error_of_mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    let count = values.clone().count() as f64;
+    let total: f64 = values.clone().sum();
+    let mean = total / count;
+    let relative = |value: f64| {
+        let others = (total - value) / (count - 1.0);
+        (value - mean).powi(2) / (others * others + RELATIVE_EPSILON)
+    };
+    values.map(relative).sum::<f64>() / (count * (count - 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn looks_share_the_doubt() {
+        let doubt = |look| 1.0 - Normal::standard().cdf(standard_deviations(look));
+        let total: f64 = (1..10_000).map(doubt).sum();
+        assert!((total - DOUBT).abs() < 1e-4, "{total}");
+    }
+
+    #[test]
+    fn equal_values_have_no_error_and_a_rare_bright_one_is_not_its_own_excuse() {
+        assert!(squared_error_of_mean([0.7; 8].into_iter()) < 1e-30);
+        let mut values = [1.0; 8];
+        values[3] = 101.0;
+        // The mean is 13.5: 12.5 too much if the others are right.
+        let error = squared_error_of_mean(values.into_iter());
+        assert!(error > 100.0, "{error}");
+        // Relative to the common mean, the control, it would be below 1.
+        let variance = (87.5_f64.powi(2) + 7.0 * 12.5 * 12.5) / 56.0;
+        assert!(variance / (13.5 * 13.5) < 1.0);
+    }
+
+    /// Bands of a picture larger than what is looked at find their pixels.
+    #[test]
+    fn pixels_are_an_even_sample() {
+        let estimator = ErrorEstimator::new([1024, 1000], 2);
+        let stride = 1_024_000_u64.div_ceil(MOST_PIXELS);
+        assert!(estimator.pixels.iter().zip(0..).all(|(pixel, run)| pixel / stride == run));
+        let mut estimator = ErrorEstimator::new([1024, 1000], 2);
+        for stream in 0..2 {
+            for first_row in (0..1000).step_by(100) {
+                let value = |index: u32| [(first_row * 1024 + index) as f32; 3];
+                let mean = (0..102_400).map(value).collect();
+                let band = Band { first_row, width: 1024, rows: 100, samples: 1, mean, second_moment: Vec::new() };
+                estimator.add(stream, &band, 2.0);
+            }
+        }
+        assert!((estimator.weights[0] - 2.0).abs() < 1e-6);
+        assert!(estimator.pixels.iter().zip(&estimator.sums[1]).all(|(pixel, sum)| sum[0] == 2.0 * *pixel as f32));
+        assert_eq!(estimator.look().mean, 0.0);
+    }
+}

@@ -1,0 +1,70 @@
+//! Samples that follow the noise leave the mean where it is.
+
+use gpt::progressive::allocation::allocate;
+use gpt::statistics::{Moments, TestResult, one_sample_t_test};
+
+use super::*;
+
+/// Pictures that are averaged.
+const RUNS: u32 = 300;
+const SPP: u32 = 64;
+
+fn mean_radiance(picture: &[[f32; 3]]) -> f64 {
+    picture.iter().flatten().map(|value| f64::from(*value)).sum::<f64>() / (3 * picture.len()) as f64
+}
+
+/// The mean of all pixels of many pictures against the truth.
+fn judge(truth: f64, mut picture: impl FnMut(u32) -> Vec<[f32; 3]>) -> TestResult {
+    let mut means = Moments::default();
+    (0..RUNS).for_each(|seed| means.push(mean_radiance(&picture(seed))));
+    one_sample_t_test(&means, truth)
+}
+
+/// What `adaptive` must not do: a second round where the first was noisy, and then the plain mean of all samples. Pixels that were
+/// dark by chance stay so.
+fn naive(renderer: &mut dyn Renderer, scene: &Scene, seed: u32) -> Vec<[f32; 3]> {
+    let (first, share) = (8, 8);
+    let pilot = render_batch(renderer, scene, first, seed, None);
+    let squares: Vec<f32> = pilot.iter().flat_map(|band| band.second_moment.iter().copied()).collect();
+    let pilot = pixels(&pilot);
+    let allocation = allocate(scene.film.size, &pilot, &squares, share);
+    let rest = pixels(&render_batch(renderer, scene, (SPP - first) / share, seed + 1_000_000, Some(&allocation)));
+    let weighed = |((a, b), level): (([f32; 3], [f32; 3]), &u8)| {
+        let more = (((SPP - first) / share) << level) as f32;
+        std::array::from_fn(|channel| (first as f32 * a[channel] + more * b[channel]) / (first as f32 + more))
+    };
+    pilot.into_iter().zip(rest).zip(&allocation.levels).map(weighed).collect()
+}
+
+#[test]
+fn samples_that_follow_the_noise_leave_the_mean_where_it_is() {
+    let scene = rare_light();
+    let sampled = sampling_light(&scene);
+    let truth = mean_radiance(&pixels(&render_batch(cpu(&sampled).as_mut(), &sampled, 4096, 77, None)));
+    let options = PlanOptions { allocation: true, ..PlanOptions::default() };
+    let mut renderer = gpu(&scene, &options).unwrap_or_else(|| cpu(&scene));
+    let adaptive = Goal { adaptive: true, ..goal(SPP) };
+    let fair = judge(truth, |seed| pixels(&render_goal(renderer.as_mut(), &scene, 7 * seed, &adaptive).1));
+    let control = judge(truth, |seed| naive(renderer.as_mut(), &scene, 7 * seed));
+    println!("adaptive {:.2}, naive {:.2} standard errors from the truth {truth}", fair.statistic, control.statistic);
+    assert!(fair.p_value > 1e-3, "{fair:?}");
+    assert!(control.p_value < 1e-6 && control.statistic < 0.0, "the naive estimator passes: {control:?}");
+}
+
+/// The same by the reference, with fewer pictures, and with the streams of a target that is never reached.
+#[test]
+fn the_reference_and_streams_are_unbiased_too() {
+    let scene = rare_light();
+    let sampled = sampling_light(&scene);
+    let mut renderer = cpu(&scene);
+    let truth = mean_radiance(&pixels(&render_batch(cpu(&sampled).as_mut(), &sampled, 4096, 78, None)));
+    let wanted = Goal { adaptive: true, target_error: Some(1e-9), ..goal(8 * SPP) };
+    let mut means = Moments::default();
+    for seed in 0..40 {
+        let (outcome, bands) = render_goal(renderer.as_mut(), &scene, 11 * seed, &wanted);
+        assert_eq!(outcome.stop, Stop::Samples);
+        means.push(mean_radiance(&pixels(&bands)));
+    }
+    let result = one_sample_t_test(&means, truth);
+    assert!(result.p_value > 1e-3, "{result:?}");
+}
