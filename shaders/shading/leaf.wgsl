@@ -170,14 +170,19 @@ fn leaf_sampling_weight(leaf: Leaf) -> f32 {
     }
 }
 
+// Squared cosine of the refracted direction by Snell's law, not above 0 in total reflection. As a sum of the difference of the indices and
+// the cosine it keeps its accuracy where both are small: 1 - (1 - cos²) / eta² would take every grazing ray for totally reflected.
+fn transmitted_cosine2(cosine: f32, eta: f32) -> f32 {
+    return ((eta - 1.0) * (eta + 1.0) + cosine * cosine) / (eta * eta);
+}
+
 // Unpolarised Fresnel reflectance of a dielectric; eta = transmitted over incident index of refraction.
 fn fresnel_dielectric(cosine: f32, eta: f32) -> f32 {
-    // 1 - cos² as a product keeps its accuracy at normal incidence.
-    let sin2_transmitted = (1.0 - cosine) * (1.0 + cosine) / (eta * eta);
-    if sin2_transmitted >= 1.0 {
+    let cosine2 = transmitted_cosine2(cosine, eta);
+    if cosine2 <= 0.0 {
         return 1.0;
     }
-    let cosine_transmitted = sqrt(1.0 - sin2_transmitted);
+    let cosine_transmitted = sqrt(cosine2);
     let parallel = (eta * cosine - cosine_transmitted) / (eta * cosine + cosine_transmitted);
     let perpendicular = (cosine - eta * cosine_transmitted) / (cosine + eta * cosine_transmitted);
     return 0.5 * (parallel * parallel + perpendicular * perpendicular);
@@ -224,8 +229,7 @@ fn mirrored(surface: Surface, wo: vec3<f32>) -> vec3<f32> {
 fn refracted(n: vec3<f32>, wo: vec3<f32>, eta: f32) -> vec3<f32> {
     let cosine = dot(wo, n);
     let inverse_eta = 1.0 / eta;
-    let sin2_transmitted = (1.0 - cosine) * (1.0 + cosine) * inverse_eta * inverse_eta;
-    let cosine_transmitted = sqrt(max(0.0, 1.0 - sin2_transmitted));
+    let cosine_transmitted = sqrt(max(0.0, transmitted_cosine2(cosine, eta)));
     return normalize((inverse_eta * cosine - cosine_transmitted) * n - inverse_eta * wo);
 }
 

@@ -51,11 +51,12 @@ pub struct FlatScene {
 }
 
 impl FlatScene {
-    /// Packs a scene.
+    /// Packs a scene, relative to its [center](Scene::center).
     ///
     /// # Errors
     /// [`FlatError`] where something is too large for the packed form or came out inconsistent.
     pub fn new(scene: &Scene) -> Result<Self, FlatError> {
+        let scene = &*scene.centered();
         for shape in &scene.shapes {
             let fail = |(_, message)| FlatError::Motion { shape: shape.label.clone(), message };
             shape.check_motion(scene.camera.shutter).map_err(fail)?;

@@ -56,9 +56,10 @@ struct Path {
 }
 
 impl Integrator {
-    /// Fails on what the reference cannot render.
+    /// Takes positions relative to the scene's [center](Scene::center). Fails on what the reference cannot render.
     pub fn new(scene: &Scene) -> Result<Self, RenderError> {
         support::check(scene)?;
+        let scene = &*scene.centered();
         let world = World::new(scene)?;
         let lights = Lights::new(scene, &world);
         let camera = ProjectiveCamera::new(&scene.camera, &scene.film);

@@ -56,9 +56,9 @@ pub fn phong_lobe(exponent: f64, u1: f64, u2: f64) -> DVec3 {
     direction(cos_alpha, (1.0 - cos_alpha * cos_alpha).max(0.0).sqrt(), u2)
 }
 
-/// Density of [`phong_lobe`] per steradian.
+/// Density of [`phong_lobe`] per steradian: 0 past a right angle, where 0⁰ would be 1.
 pub fn phong_lobe_pdf(exponent: f64, cos_alpha: f64) -> f64 {
-    (exponent + 1.0) / TAU * cos_alpha.max(0.0).powf(exponent)
+    if cos_alpha > 0.0 { (exponent + 1.0) / TAU * cos_alpha.powf(exponent) } else { 0.0 }
 }
 
 /// Uniform on a triangle: the weights of its second and third vertex; density 1/A per area.

@@ -19,6 +19,7 @@ pub mod material;
 mod mesh;
 pub mod motion;
 mod obj;
+mod placement;
 pub mod settings;
 pub mod shape;
 mod source;

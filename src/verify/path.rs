@@ -243,7 +243,7 @@ fn reference_vertex(scene: &Scene, vertex: &PathVertex) -> Quantities {
         ("direction", vector(-vertex.wo)),
         ("shape", Value::Text(scene.shapes[vertex.shape].label.clone())),
         ("material", Value::Text(scene.materials[vertex.material].name.clone())),
-        ("position", vector(vertex.position)),
+        ("position", vector(vertex.position + scene.center())),
         ("throughput", vector(vertex.throughput)),
     ];
     if let Some(normal) = vertex.shading_normal {
@@ -287,7 +287,7 @@ fn device_vertex(scene: &Scene, vertex: &TracedVertex) -> Quantities {
         Some((position, normal, material)) => {
             let name = scene.materials.get(material as usize).map_or("?", |material| &material.name);
             quantities.push(("material", Value::Text(name.into())));
-            quantities.push(("position", single(position)));
+            quantities.push(("position", vector(DVec3::from(position.map(f64::from)) + scene.center())));
             quantities.push(("shading normal", single(normal)));
         }
     }

@@ -35,9 +35,9 @@ impl Glossy {
     }
 }
 
-/// (n+2)/(2π) cosⁿα, 0 where the cosine is negative.
+/// (n+2)/(2π) cosⁿα, 0 past a right angle even where the exponent is 0: no direction there is ever drawn.
 pub fn lobe_over_cosine(exponent: f64, cos_alpha: f64) -> f64 {
-    (exponent + 2.0) / TAU * cos_alpha.max(0.0).powf(exponent)
+    if cos_alpha > 0.0 { (exponent + 2.0) / TAU * cos_alpha.powf(exponent) } else { 0.0 }
 }
 
 /// Draws a direction from the lobe cosⁿα about `axis`, and gives its density per steradian.

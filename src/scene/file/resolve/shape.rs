@@ -128,6 +128,7 @@ impl Resolver<'_> {
         let lacking = match &shape.geometry {
             Geometry::Mesh(mesh) if mesh.uvs.is_empty() => "the mesh has none",
             Geometry::Plane { .. } => "a plane has none; use a large rectangle",
+            Geometry::Disk { .. } => "a disk has none; use a mesh with uvs, or a rectangle",
             _ => return Ok(()),
         };
         let materials = match &shape.geometry {

@@ -1,0 +1,119 @@
+//! Scenes that stand far from the origin, brought near it.
+//!
+//! Coordinates in single precision have seven digits. Of a room one unit wide that stands a million units away, one digit would be left.
+//! What a picture shows depends on where things are relative to the camera alone, so renderers first move such a scene, in double precision,
+//! until its camera is the origin. Scenes that stand near the origin stay as they are, to the bit.
+
+use std::borrow::Cow;
+
+use glam::DVec3;
+
+use super::{Geometry, Light, Scene, Shape, TransformStep};
+
+/// A scene is moved where its camera is this many times as far from the origin as from the nearest shape.
+const FAR: f64 = 4.0;
+
+impl Scene {
+    /// What renderers take for the origin: (0, 0, 0), or the camera's position where the scene stands far from the origin.
+    pub fn center(&self) -> DVec3 {
+        let camera = self.camera.position;
+        let nearest = self.shapes.iter().map(|shape| shape.farthest_from(camera)).fold(f64::INFINITY, f64::min);
+        if nearest.is_finite() && camera.length() > FAR * nearest { camera } else { DVec3::ZERO }
+    }
+
+    /// The scene relative to its [center](Self::center).
+    pub fn centered(&self) -> Cow<'_, Self> {
+        let center = self.center();
+        if center == DVec3::ZERO {
+            return Cow::Borrowed(self);
+        }
+        let mut moved = self.clone();
+        moved.camera.position -= center;
+        moved.camera.look_at -= center;
+        for shape in &mut moved.shapes {
+            shape.transform.steps.push(TransformStep::Translate(-center));
+        }
+        for light in &mut moved.lights {
+            match light {
+                Light::Point { position, .. } | Light::Spot { position, .. } => *position -= center,
+                Light::Environment(_) | Light::Directional { .. } => {}
+            }
+        }
+        Cow::Owned(moved)
+    }
+}
+
+impl Shape {
+    /// A distance from `point` within which all of the shape lies; of an infinite plane the distance of the plane.
+    fn farthest_from(&self, point: DVec3) -> f64 {
+        let map = self.transform.to_affine();
+        let farthest = |low: DVec3, high: DVec3| {
+            let corner = |index: usize| {
+                let pick = |axis: usize| if index >> axis & 1 == 0 { low[axis] } else { high[axis] };
+                map.transform_point3(DVec3::new(pick(0), pick(1), pick(2))).distance(point)
+            };
+            (0..8).map(corner).fold(0.0, f64::max)
+        };
+        match &self.geometry {
+            Geometry::Mesh(mesh) => {
+                let low = mesh.positions.iter().copied().reduce(glam::Vec3::min).unwrap_or_default();
+                let high = mesh.positions.iter().copied().reduce(glam::Vec3::max).unwrap_or_default();
+                farthest(low.as_dvec3(), high.as_dvec3())
+            }
+            Geometry::Sphere { center, radius } | Geometry::Disk { center, radius, .. } => {
+                farthest(*center - *radius, *center + *radius)
+            }
+            Geometry::Rectangle { corner, edge_u, edge_v } => {
+                let opposite = *corner + *edge_u + *edge_v;
+                let sides = [*corner, *corner + *edge_u, *corner + *edge_v, opposite];
+                sides.into_iter().map(|side| map.transform_point3(side).distance(point)).fold(0.0, f64::max)
+            }
+            Geometry::Box { min, max } => farthest(*min, *max),
+            Geometry::Plane { point: on_plane, normal } => {
+                let normal = (map.matrix3.inverse().transpose() * *normal).normalize();
+                (point - map.transform_point3(*on_plane)).dot(normal).abs()
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::load_toml_str;
+
+    fn room(offset: f64) -> Scene {
+        let text = format!(
+            "[camera]\nposition = [{0:?}, 0, 3]\nlook_at = [{0:?}, 0, 0]\n\
+             [[material]]\nname = \"a\"\ntype = \"diffuse\"\n\
+             [[shape]]\ntype = \"sphere\"\ncenter = [{0:?}, 0, 0]\nradius = 1\nmaterial = \"a\"\n\
+             [[shape]]\ntype = \"mesh\"\npositions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nfaces = [[0, 1, 2]]\nmaterial = \"a\"\n\
+             transform = [{{ rotate = [0, 1, 0], degrees = 30 }}, {{ translate = [{0:?}, 0, 0] }}]\n\
+             [[light]]\ntype = \"point\"\nposition = [{0:?}, 2, 0]\nintensity = 1\n",
+            offset
+        );
+        load_toml_str(&text, "room", std::path::Path::new("")).expect("the scene is valid")
+    }
+
+    #[test]
+    fn a_scene_near_the_origin_stays_as_it_is() {
+        assert!(matches!(room(5.0).centered(), Cow::Borrowed(_)));
+        for name in crate::scene::builtin_names() {
+            assert_eq!(crate::scene::load(Some(name)).expect("built-in scenes load").center(), DVec3::ZERO, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_scene_far_away_keeps_what_lies_between_its_parts() {
+        let (far, near) = (room(1e7), room(0.0));
+        let moved = far.centered();
+        assert_eq!(moved.camera.position, DVec3::ZERO);
+        let expected = |p: DVec3| p - near.camera.position;
+        let corners = |scene: &Scene| scene.shapes[1].world_positions();
+        for (corner, before) in corners(&moved).into_iter().zip(corners(&near)) {
+            assert!(corner.as_dvec3().distance(expected(before.as_dvec3())) < 1e-6, "{corner} {before}");
+        }
+        assert!(moved.shapes[0].origin().distance(expected(DVec3::new(-1e7, 0.0, 0.0))) < 1e-6);
+        assert!(matches!(moved.lights[0], Light::Point { position, .. } if position == expected(DVec3::Y * 2.0)));
+    }
+}

@@ -1,0 +1,180 @@
+//! Radiance, distances, throughputs and densities at both ends of what a scene may ask for.
+
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+use glam::Vec3;
+use gpt::plan::PlanOptions;
+use gpt::scene::{Environment, EnvironmentRadiance, ImageData, Light, Scene};
+
+use super::support::{Effort, Finding, compare_with, judge, mean_of, measured, scene};
+
+pub fn findings(effort: Effort) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    findings.extend(judge("lights of radiance 1e-6 and 1e6 in one picture", &dim_and_bright(), &dim_and_bright()));
+    findings.extend(tiny_far_lights());
+    findings.extend(judge("environment with a sun of 1e5 over a sky of 1", &sun(), &sun()));
+    findings.extend(white_boxes(effort));
+    findings.extend(densities(effort));
+    findings
+}
+
+/// Two rooms side by side, each with a lamp of its own, and a slit in the wall between them.
+fn dim_and_bright() -> Scene {
+    let mut text = String::from(
+        r#"
+[film]
+size = [48, 48]
+[render]
+spp = 8
+max_depth = 6
+[camera]
+position = [0, 1, 4.2]
+look_at = [0, 1, 0]
+vfov = 45
+[[material]]
+name = "white"
+type = "diffuse"
+reflectance = 0.6
+"#,
+    );
+    for (name, radiance, x) in [("dim", "1e-6", -1.3), ("bright", "1e6", 0.7)] {
+        let _ = write!(
+            text,
+            "[[material]]\nname = \"{name}\"\ntype = \"emissive\"\nradiance = {radiance}\n\
+             [[shape]]\ntype = \"rectangle\"\ncorner = [{x}, 1.98, -0.5]\nedge_u = [0.6, 0, 0]\nedge_v = [0, 0, 0.6]\nmaterial = \"{name}\"\n"
+        );
+    }
+    for (min, max) in
+        [([-2.0, -0.1, -1.0], [2.0, 0.0, 1.5]), ([-0.02, 0.0, -1.0], [0.02, 1.9, 1.5]), ([-2.0, 0.0, -1.1], [2.0, 2.2, -1.0])]
+    {
+        let _ = write!(text, "[[shape]]\ntype = \"box\"\nmin = {min:?}\nmax = {max:?}\nmaterial = \"white\"\n");
+    }
+    scene(&text)
+}
+
+/// A floor under a light of size 1e-4 at a distance of 1e4, in closed form: radiance = ρ/π · L · A · cos θ / d².
+fn tiny_far_lights() -> Vec<Finding> {
+    let albedo = 0.5;
+    let radius = 0.5e-4;
+    let light = |shape: &str| {
+        scene(&format!(
+            "[film]\nsize = [16, 16]\n[render]\nspp = 16\nmax_depth = 4\n\
+             [camera]\nposition = [0, 1, 0.1]\nlook_at = [0, 0, 0]\nvfov = 20\n\
+             [[material]]\nname = \"floor\"\ntype = \"diffuse\"\nreflectance = {albedo}\n\
+             [[material]]\nname = \"light\"\ntype = \"emissive\"\nradiance = 1e16\n\
+             [[shape]]\ntype = \"rectangle\"\ncorner = [-1, 0, 1]\nedge_u = [2, 0, 0]\nedge_v = [0, 0, -2]\nmaterial = \"floor\"\n{shape}"
+        ))
+    };
+    let sphere =
+        light(&format!("[[shape]]\ntype = \"sphere\"\ncenter = [0, 1e4, 0]\nradius = {radius:e}\nmaterial = \"light\"\n"));
+    let panel = light(&format!(
+        "[[shape]]\ntype = \"rectangle\"\ncorner = [-{radius:e}, 1e4, -{radius:e}]\nedge_u = [1e-4, 0, 0]\nedge_v = [0, 0, 1e-4]\nmaterial = \"light\"\n"
+    ));
+    let disk = light(&format!(
+        "[[shape]]\ntype = \"disk\"\ncenter = [0, 1e4, 0]\nnormal = [0, -1, 0]\nradius = {radius:e}\nmaterial = \"light\"\n"
+    ));
+    let round = std::f64::consts::PI * radius * radius;
+    [("sphere", sphere, round), ("panel", panel, 1e-8), ("disk", disk, round)]
+        .into_iter()
+        .filter_map(|(name, scene, area)| {
+            let truth = albedo / std::f64::consts::PI * 1e16 * area / 1e8;
+            against_truth(format!("{name} of size 1e-4 at a distance of 1e4"), &scene, truth, 2e-6)
+        })
+        .collect()
+}
+
+/// As a comparison with the reference, and the device's mean against a truth, to the relative `margin`.
+fn against_truth(case: String, scene: &Scene, truth: f64, margin: f64) -> Option<Finding> {
+    let verdict = compare_with(scene, scene, &PlanOptions::default())?;
+    let error = mean_of(&verdict.gpu_mean) / truth - 1.0;
+    Some(
+        measured(case, &verdict)
+            .with("error against the closed form", format!("{:.1e}", error.abs()))
+            .require(error.abs() <= margin, || format!("the mean is off by {error:e}, at most {margin:e} is right"))
+            .require(verdict.non_finite_samples == 0, || "some samples are not finite".to_owned()),
+    )
+}
+
+/// Half a degree of a sky of 64 × 32 texels.
+fn sun() -> Scene {
+    let mut scene = scene(
+        "[film]\nsize = [48, 48]\n[render]\nspp = 8\nmax_depth = 6\n\
+         [camera]\nposition = [0, 1.5, 5]\nlook_at = [0, 0.7, 0]\nvfov = 40\n\
+         [[material]]\nname = \"floor\"\ntype = \"diffuse\"\nreflectance = 0.5\n\
+         [[material]]\nname = \"metal\"\ntype = \"conductor\"\nreflectance = 0.9\nroughness = 0.3\n\
+         [[shape]]\ntype = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"floor\"\n\
+         [[shape]]\ntype = \"sphere\"\ncenter = [-0.8, 0.7, 0]\nradius = 0.7\nmaterial = \"floor\"\n\
+         [[shape]]\ntype = \"sphere\"\ncenter = [0.8, 0.7, 0]\nradius = 0.7\nmaterial = \"metal\"\n\
+         [[light]]\ntype = \"environment\"\nradiance = 1\n",
+    );
+    let (width, height) = (64, 32);
+    let mut texels = vec![Vec3::ONE; width * height];
+    texels[7 * width + 12] = Vec3::splat(1e5);
+    let image = ImageData { width: width as u32, height: height as u32, texels, has_alpha: false };
+    let radiance = EnvironmentRadiance::Map(Arc::new(image));
+    scene.lights = vec![Light::Environment(Environment { radiance, rotation_degrees: 0.0 })];
+    scene
+}
+
+/// Relative error of a path through n edges: 0.999 itself is rounded to f32, and every product is.
+const PRODUCT_ERROR: f64 = 3e-5;
+/// Share of bounces that may leak where walls meet at an acute angle. A ray starts off its wall by the error bound of its point, a
+/// millionth of the wall's coordinates; closer than that to an acute edge, it may start behind the other wall.
+const ACUTE_LEAKS: f64 = 2e-5;
+
+/// The inside of closed white shapes that glow with radiance 1: 1/(1 − 0.999) = 1000. Followed for n edges without roulette, every path
+/// is (1 − 0.999ⁿ) · 1000 exactly, so that one ray that leaks out shows.
+fn white_boxes(effort: Effort) -> Vec<Finding> {
+    let edges: i32 = effort.pick(2_000, 10_000);
+    let truth = 1000.0 * (1.0 - 0.999_f64.powi(edges));
+    let sphere = "[[shape]]\ntype = \"sphere\"\ncenter = [0.1, 0.2, 0.3]\nradius = 1\nmaterial = \"white\"\n";
+    let cube = "[[shape]]\ntype = \"box\"\nmin = [-1, -0.9, -1.1]\nmax = [1, 0.8, 1.2]\nmaterial = \"white\"\n";
+    let tetrahedron = "[[shape]]\ntype = \"mesh\"\npositions = [[-2, -1, -1.5], [2, -1, -1.5], [0, -1, 2], [0.1, 2.5, 0.1]]\n\
+         faces = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]]\nmaterial = \"white\"\n";
+    [("sphere", sphere, 0.0), ("box", cube, 0.0), ("tetrahedron", tetrahedron, ACUTE_LEAKS)]
+        .into_iter()
+        .filter_map(|(name, shape, most_leaks)| {
+            let scene = scene(&format!(
+                "[film]\nsize = [8, 8]\n[render]\nspp = 1\nmax_depth = {edges}\nroulette_depth = 0\nestimator = \"bsdf\"\n\
+                 [camera]\nposition = [0, 0, 0]\nlook_at = [0.3, 0.1, 1]\nvfov = 90\n\
+                 [[material]]\nname = \"white\"\ntype = \"diffuse\"\nreflectance = 0.999\nemission = 1\nemission_two_sided = true\n{shape}"
+            ));
+            let verdict = compare_with(&scene, &scene, &PlanOptions::default())?;
+            let errors = || verdict.gpu.iter().map(|pixel| (f64::from(pixel[0]) / truth - 1.0).abs());
+            let (leaked, whole): (Vec<f64>, Vec<f64>) = errors().partition(|error| *error > PRODUCT_ERROR);
+            let leaks = leaked.len() as f64 / (64.0 * f64::from(edges));
+            let largest = whole.into_iter().fold(0.0, f64::max);
+            Some(
+                Finding::new(format!("white {name}, albedo 0.999, {edges} edges"))
+                    .with("largest error of a path that stays inside", format!("{largest:.1e}"))
+                    .with("leaks per bounce", format!("{leaks:.1e}"))
+                    .with("not finite", verdict.non_finite_samples)
+                    .require(leaks <= most_leaks, || format!("{leaks:e} of the bounces leak: {leaked:?}"))
+                    .require(verdict.non_finite_samples == 0, || "some samples are not finite".to_owned()),
+            )
+        })
+        .collect()
+}
+
+/// A glossy floor of any width under lights of any size: densities from next to nothing to next to infinity, weights at both ends.
+fn densities(effort: Effort) -> Vec<Finding> {
+    let widths = effort.pick(vec![1e-4, 1.0], vec![1e-4, 1e-3, 1e-2, 0.1, 1.0]);
+    let radii = effort.pick(vec![1e-3, 1.0], vec![1e-4, 1e-2, 1.0]);
+    let mut findings = Vec::new();
+    for &alpha in &widths {
+        for &radius in &radii {
+            let radiance = 1.0 / (radius * radius);
+            let scene = scene(&format!(
+                "[film]\nsize = [48, 48]\n[render]\nspp = 8\nmax_depth = 3\n\
+                 [camera]\nposition = [0, 1, 3]\nlook_at = [0, 0, 0]\nvfov = 40\n\
+                 [[material]]\nname = \"metal\"\ntype = \"conductor\"\nreflectance = 0.9\nalpha = {alpha:e}\n\
+                 [[material]]\nname = \"light\"\ntype = \"emissive\"\nradiance = {radiance:e}\n\
+                 [[shape]]\ntype = \"rectangle\"\ncorner = [-2, 0, 2]\nedge_u = [4, 0, 0]\nedge_v = [0, 0, -4]\nmaterial = \"metal\"\n\
+                 [[shape]]\ntype = \"sphere\"\ncenter = [0, 1.5, -2]\nradius = {radius:e}\nmaterial = \"light\"\n"
+            ));
+            findings.extend(judge(format!("metal of width {alpha:e} under a sphere light of radius {radius:e}"), &scene, &scene));
+        }
+    }
+    findings
+}

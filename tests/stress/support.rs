@@ -1,0 +1,137 @@
+//! What the cases share: a device, effort, findings and how they are judged.
+
+use std::sync::LazyLock;
+
+use gpt::gpu::{Device, GpuRenderer};
+use gpt::plan::PlanOptions;
+use gpt::reference::ReferenceRenderer;
+use gpt::render::{DeviceChoice, Renderer};
+use gpt::scene::{Scene, load_toml_str};
+use gpt::verify::{self, Verdict};
+
+/// One device for all cases. None: the tests were told to go without.
+pub static DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| match std::env::var("GPT_TEST_GPU").as_deref() {
+    Ok("skip") => None,
+    _ => Some(Device::open(&DeviceChoice::Gpu).expect("a graphics adapter; GPT_TEST_GPU=skip tests the CPU alone")),
+});
+
+/// How long a case may take.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Effort {
+    /// Seconds: what every test run can afford.
+    Bounded,
+    /// Minutes: what the page shows.
+    Full,
+}
+
+impl Effort {
+    /// One number or the other.
+    pub fn pick<T>(self, bounded: T, full: T) -> T {
+        if self == Self::Full { full } else { bounded }
+    }
+}
+
+/// What was measured in one case.
+#[derive(Debug, Clone)]
+pub struct Finding {
+    pub case: String,
+    /// Name of the measure and its value, as the page shows them.
+    pub measures: Vec<(&'static str, String)>,
+    /// What is wrong, if something is.
+    pub complaint: Option<String>,
+}
+
+impl Finding {
+    pub fn new(case: impl Into<String>) -> Self {
+        Self { case: case.into(), measures: Vec::new(), complaint: None }
+    }
+
+    pub fn with(mut self, name: &'static str, value: impl ToString) -> Self {
+        self.measures.push((name, value.to_string()));
+        self
+    }
+
+    /// Complains unless `right`. The first complaint stays.
+    pub fn require(mut self, right: bool, complaint: impl FnOnce() -> String) -> Self {
+        if !right && self.complaint.is_none() {
+            self.complaint = Some(complaint());
+        }
+        self
+    }
+}
+
+/// One section of the page.
+pub struct Section {
+    pub title: &'static str,
+    pub findings: fn(Effort) -> Vec<Finding>,
+}
+
+/// Prints all findings and fails on any complaint.
+#[allow(dead_code, reason = "the bench prints and does not fail")]
+pub fn assert_all(findings: &[Finding]) {
+    for finding in findings {
+        println!("{}", in_one_line(finding));
+    }
+    let complaints: Vec<String> =
+        findings.iter().filter_map(|f| f.complaint.as_ref().map(|why| format!("{}: {why}", f.case))).collect();
+    assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+}
+
+#[allow(dead_code, reason = "the bench prints tables instead")]
+fn in_one_line(finding: &Finding) -> String {
+    let measures: Vec<String> = finding.measures.iter().map(|(name, value)| format!("{name} {value}")).collect();
+    format!("{}: {}", finding.case, measures.join(", "))
+}
+
+/// A scene from its text.
+pub fn scene(text: &str) -> Scene {
+    load_toml_str(text, "stress", std::path::Path::new("")).unwrap_or_else(|error| panic!("{error:?}\n{text}"))
+}
+
+/// The device's picture of `scene` against the reference's picture of `truth`, path by path. None without a device.
+pub fn compare_with(scene: &Scene, truth: &Scene, options: &PlanOptions) -> Option<Verdict> {
+    let device = DEVICE.as_ref()?;
+    let mut gpu = GpuRenderer::on(device, scene, options).expect("the scene fits");
+    let mut cpu = ReferenceRenderer::new(truth).expect("the scene is supported");
+    Some(compare_renderers(truth, &mut gpu, &mut cpu))
+}
+
+pub fn compare_renderers(scene: &Scene, gpu: &mut dyn Renderer, cpu: &mut dyn Renderer) -> Verdict {
+    verify::compare(scene, gpu.device().to_owned(), gpu, cpu).expect("both render")
+}
+
+/// The usual measures of a comparison; complains where `verify` does.
+pub fn judge(case: impl Into<String>, scene: &Scene, truth: &Scene) -> Option<Finding> {
+    judge_with(case, scene, truth, verify::LEAST_MATCHING)
+}
+
+/// As [`judge`], for a case in which a smaller share of paths matches to the last digits. Means are held to each other all the same.
+pub fn judge_with(case: impl Into<String>, scene: &Scene, truth: &Scene, least_matching: f64) -> Option<Finding> {
+    compare_with(scene, truth, &PlanOptions::default()).map(|verdict| judged(case, &verdict, least_matching))
+}
+
+/// What [`judge_with`] makes of a verdict.
+pub fn judged(case: impl Into<String>, verdict: &Verdict, least_matching: f64) -> Finding {
+    let right = verdict.rejections.is_empty() && verdict.non_finite_samples == 0 && verdict.matching_share() >= least_matching;
+    measured(case, verdict).require(right, || format!("{verdict:#?}"))
+}
+
+/// As [`judged`], without a judgement.
+pub fn measured(case: impl Into<String>, verdict: &Verdict) -> Finding {
+    Finding::new(case)
+        .with("paths that match", format!("{:.3} %", 100.0 * verdict.matching_share()))
+        .with("difference of the means", format!("{:.1e}", mean_difference(verdict)))
+        .with("rms over the mean", format!("{:.1e}", verdict.rms_difference / mean_of(&verdict.cpu_mean).max(1e-300)))
+        .with("not finite", verdict.non_finite_samples)
+}
+
+/// Of the whole pictures, relative, in the worst channel.
+pub fn mean_difference(verdict: &Verdict) -> f64 {
+    let relative = |channel: usize| (verdict.gpu_mean[channel] / verdict.cpu_mean[channel] - 1.0).abs();
+    (0..3).filter(|&channel| verdict.cpu_mean[channel] != 0.0).map(relative).fold(0.0, f64::max)
+}
+
+/// Of the three channels.
+pub fn mean_of(channels: &[f64; 3]) -> f64 {
+    channels.iter().sum::<f64>() / 3.0
+}
