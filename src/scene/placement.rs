@@ -84,8 +84,8 @@ mod tests {
 
     fn room(offset: f64) -> Scene {
         let text = format!(
-            "[camera]\nposition = [{0:?}, 0, 3]\nlook_at = [{0:?}, 0, 0]\n\
-             [[material]]\nname = \"a\"\ntype = \"diffuse\"\n\
+            "[camera]\nposition = [{0:?}, 0, 3]\nlook_at = [{0:?}, 0, 0]\nvfov = 40\n\
+             [[material]]\nname = \"a\"\ntype = \"diffuse\"\nreflectance = 0.5\n\
              [[shape]]\ntype = \"sphere\"\ncenter = [{0:?}, 0, 0]\nradius = 1\nmaterial = \"a\"\n\
              [[shape]]\ntype = \"mesh\"\npositions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nfaces = [[0, 1, 2]]\nmaterial = \"a\"\n\
              transform = [{{ rotate = [0, 1, 0], degrees = 30 }}, {{ translate = [{0:?}, 0, 0] }}]\n\

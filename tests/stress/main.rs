@@ -3,9 +3,11 @@
 //! `cargo bench --bench stress` runs the same cases at full length and writes docs/stress.md.
 
 mod grazing;
+mod intersections;
 mod random_scenes;
 mod range;
 mod scale;
+mod self_intersection;
 mod support;
 
 use support::{Effort, assert_all};
@@ -36,4 +38,14 @@ fn grazing_and_critical_angles_are_right() {
 #[test]
 fn random_scenes_make_no_number_that_is_not_finite() {
     assert_all(&random_scenes::findings(effort()));
+}
+
+#[test]
+fn rays_leave_the_surface_they_start_on() {
+    assert_all(&self_intersection::findings(effort()));
+}
+
+#[test]
+fn rays_meet_what_is_hard_to_meet() {
+    assert_all(&intersections::findings(effort()));
 }

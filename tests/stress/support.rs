@@ -2,10 +2,11 @@
 
 use std::sync::LazyLock;
 
+use gpt::film::Band;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::plan::PlanOptions;
 use gpt::reference::ReferenceRenderer;
-use gpt::render::{DeviceChoice, Renderer};
+use gpt::render::{DeviceChoice, RenderReport, RenderRequest, Renderer, Silent};
 use gpt::scene::{Scene, load_toml_str};
 use gpt::verify::{self, Verdict};
 
@@ -134,4 +135,34 @@ pub fn mean_difference(verdict: &Verdict) -> f64 {
 /// Of the three channels.
 pub fn mean_of(channels: &[f64; 3]) -> f64 {
     channels.iter().sum::<f64>() / 3.0
+}
+
+/// The device's picture: the first channel of every pixel. None without a device.
+pub fn render(scene: &Scene) -> Option<Vec<f64>> {
+    render_with(scene, &PlanOptions::default())
+}
+
+/// As [`render`], with a plan of its own.
+pub fn render_with(scene: &Scene, options: &PlanOptions) -> Option<Vec<f64>> {
+    render_band(scene, options).map(|(band, _)| band.mean.iter().map(|pixel| f64::from(pixel[0])).collect())
+}
+
+/// The whole picture as one band, and what the render counted.
+pub fn render_band(scene: &Scene, options: &PlanOptions) -> Option<(Band, RenderReport)> {
+    let mut renderer = GpuRenderer::on(DEVICE.as_ref()?, scene, options).expect("the scene fits");
+    Some(whole_picture(&mut renderer, scene))
+}
+
+/// All rows of a picture put together.
+pub fn whole_picture(renderer: &mut dyn Renderer, scene: &Scene) -> (Band, RenderReport) {
+    let [width, rows] = scene.film.size;
+    let mut whole = Band { width, rows, samples: scene.render.spp, ..Band::default() };
+    let request = RenderRequest { rows: 0..rows, samples: 0..scene.render.spp };
+    let mut on_band = |band: Band| {
+        whole.mean.extend(band.mean);
+        whole.second_moment.extend(band.second_moment);
+        Ok(())
+    };
+    let report = renderer.render(&request, &Silent, &mut on_band).expect("rendering succeeds");
+    (whole, report)
 }
