@@ -1,5 +1,7 @@
 """Whether two renderers' pictures of one scene agree, from replications: pictures with different seeds, stacked on the first axis."""
 
+from dataclasses import dataclass
+
 import numpy as np
 from scipy import stats
 
@@ -28,6 +30,28 @@ def p_values(first, second, alpha, offset=1e-4):
         p = np.where(variance > 0, 2 * stats.t.sf(excess / np.sqrt(variance), degrees), np.where(excess > 0, 0.0, 1.0))
     p = np.where(np.isfinite(excess), p, 0.0)  # what is not a number never passes
     return p, -np.expm1(np.log1p(-alpha) / p.size)
+
+
+@dataclass
+class Judgement:
+    verdict: str
+    """`agree`, `differ`, or `no verdict` where 1 % of energy added would not have been found either."""
+    difference: list
+    """Of the channels' means, relative to the second's."""
+    channels: int
+    """How many are rejected."""
+    tiles: int
+    """How many tiles × channels are rejected."""
+
+
+def judge(first, second, alpha=0.01, offset=1e-4):
+    """Whether the replications of two renderers agree. `offset`: what share of a mean may differ and is not judged."""
+    means = [pictures.mean(axis=(1, 2)) for pictures in (first, second)]
+    tiles = [tile_means(pictures) for pictures in (first, second)]
+    rejected = [int((p < level).sum()) for p, level in (p_values(*means, alpha, offset), p_values(*tiles, alpha, offset))]
+    control, level = p_values(1.01 * means[0], means[1], alpha, offset)
+    found = "differ" if any(rejected) else "agree" if (control < level).any() else "no verdict"
+    return Judgement(found, (means[0].mean(axis=0) / means[1].mean(axis=0) - 1).tolist(), *rejected)
 
 
 def disagreements(ours, theirs, alpha):

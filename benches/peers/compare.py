@@ -1,0 +1,260 @@
+#!/usr/bin/env python3
+"""Time to equal error of gpt, Mitsuba 3, Blender's Cycles and LuxCore, side by side, on scenes that they define alike.
+
+For every scene: each renderer loads it, tries its settings (samplers, ways to choose lights) and keeps the one with the least error ×
+time; then all render in turn, seed by seed, at three sample counts that take a quarter, half and the whole of --seconds. From the
+pictures' scatter over the seeds follows every renderer's error at its times, from those the times to an equal error (convergence.py). Times
+are of rendering alone, without loading, building and compiling, as every renderer reports it.
+
+A ratio is given only where the means agree (agreement.py), with a negative control; what a renderer models differently is not rendered.
+
+Run with the Python that has Mitsuba. Exit status: 0, or 7 where means differ.
+"""
+
+import argparse
+import datetime
+import json
+import math
+import os
+import platform
+import sys
+import tempfile
+import time
+from dataclasses import asdict
+from pathlib import Path
+
+import mitsuba as mi
+import numpy as np
+
+import convergence
+import scenes
+import table
+from agreement import judge
+from process import HERE, PeerError, Process
+
+PEERS = ["mitsuba-llvm", "mitsuba-scalar", "cycles", "luxcore"]
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scenes", nargs="*", help=f"names out of: {', '.join(scenes.ALL)} (default: all)")
+    parser.add_argument("--peers", nargs="+", default=PEERS, choices=PEERS)
+    parser.add_argument("--seconds", type=float, default=1.5, help="of the longest render of each renderer (default: 1.5)")
+    parser.add_argument("--seeds", type=int, default=5, help="replications, at least 3 (default: 5)")
+    parser.add_argument("--gpt", type=Path, default=HERE.parents[1] / "target" / "release" / "gpt", help="the program")
+    parser.add_argument("--device", default="auto", help="gpt's device (default: auto)")
+    parser.add_argument("--cycles-python", default=os.environ.get("GPT_CYCLES_PYTHON", sys.executable), help="the Python that has bpy (default: $GPT_CYCLES_PYTHON, else this one)")
+    parser.add_argument("--json", type=Path, default=Path("peers.json"), help="all numbers (default: peers.json)")
+    parser.add_argument("--markdown", type=Path, default=Path("peers.md"), help="the tables (default: peers.md)")
+    parser.add_argument("--pictures", type=Path, help="folder for a PNG of every scene, renderer beside renderer")
+    options = parser.parse_args()
+    if options.seeds < 3:
+        parser.error("--seeds must be at least 3")
+    unknown = [name for name in options.scenes if name not in scenes.ALL]
+    if unknown:
+        parser.error(f"there is no scene {unknown[0]!r}; choose from {', '.join(scenes.ALL)}")
+    return options
+
+
+def processes(options, folder):
+    python = [sys.executable]
+    commands = {
+        "gpt": [*python, "worker_gpt.py", options.gpt.resolve(), options.device],
+        "mitsuba-llvm": [*python, "worker_mitsuba.py", "llvm_ad_rgb"],
+        "mitsuba-scalar": [*python, "worker_mitsuba.py", "scalar_rgb"],
+        "cycles": [options.cycles_python, "worker_cycles.py"],
+        "luxcore": [*python, "worker_luxcore.py"],
+    }
+    return {key: Process(key, commands[key], folder) for key in ["gpt", *options.peers]}
+
+
+def say(text):
+    print(text, file=sys.stderr, flush=True)
+
+
+class Contestant:
+    """A renderer in one scene, with all that it has rendered."""
+
+    def __init__(self, process, path, size):
+        self.process, self.samples = process, {}
+        process.start()
+        loading = process.load(path, size)
+        self.settings = process.settings()
+        first, again = (process.render(self.settings[0], 1, seed) for seed in range(2))
+        # gpt is started anew for every picture; its first one filled the driver's cache of kernels.
+        self.start_up = again["wall"] if process.key == "gpt" else process.seconds_to_start + loading + first["wall"]
+        self.idle_cpu = again["cpu"]
+
+    def power_for(self, setting, seconds):
+        """Of the sample count, a power of two, whose render takes about that long, at least 2."""
+        power = 2
+        while True:
+            taken = max(self.process.render(setting, 1 << power, 90)["seconds"], 1e-3)
+            if taken > seconds / 3 or power >= 16:
+                return max(2, power + round(math.log2(seconds / taken)))
+            power += max(1, math.floor(math.log2(seconds / 2 / taken)))
+
+    def choose(self, seconds, settings):
+        """Keeps the setting with the least error × time, after two renders with each, and the ladder of sample counts."""
+        costs = {}
+        power = self.power_for(settings[0], seconds)
+        if len(settings) > 1:
+            for setting in settings:
+                tries = [self.process.render(setting, 1 << (power - 2), 91 + seed) for seed in range(2)]
+                pictures = np.stack([found["picture"] for found in tries]).astype(np.float64)
+                error = convergence.relative_errors(pictures, pictures.mean(axis=0)).mean()
+                costs[setting] = float(error * np.mean([found["seconds"] for found in tries]))
+        self.costs = costs
+        self.setting = min(costs, key=costs.get) if costs else settings[0]
+        # What is compiled for a sample count is compiled now. Some samplers round the count: no step is taken twice.
+        self.ladder = sorted({round(self.process.render(self.setting, 1 << (power - back), 93)["spp"]) for back in range(3)})
+
+    def render(self, spp, seed):
+        found = self.process.render(self.setting, spp, seed)
+        if not np.isfinite(found["picture"]).all():
+            raise PeerError(f"{self.process.key} made pixels that are not finite")
+        self.samples.setdefault(found["spp"], []).append(found)
+
+    def rungs(self, reference):
+        made = []
+        for spp, found in sorted(self.samples.items()):
+            pictures = np.stack([each["picture"] for each in found]).astype(np.float64)
+            seconds = np.array([each["seconds"] for each in found])
+            if len(pictures) > 2:
+                made.append(convergence.Rung(spp, seconds, convergence.relative_errors(pictures, reference)))
+        return made
+
+    def cpu_seconds(self, rungs):
+        """Processor seconds of every rung, without those of a render of one sample per pixel."""
+        return [np.maximum([each["cpu"] - self.idle_cpu for each in self.samples[rung.spp]], 1e-3) for rung in rungs]
+
+    def replications(self):
+        """One picture a seed, all its sample counts together."""
+        weights = np.array(sorted(self.samples), dtype=float)
+        by_seed = zip(*(self.samples[spp] for spp in sorted(self.samples)), strict=False)
+        return np.stack([np.average([each["picture"] for each in row], axis=0, weights=weights) for row in by_seed]).astype(np.float64)
+
+
+def enter(name, scene, path, options, running):
+    """The renderers that take part in the scene, ready to render."""
+    ready, chosen = {}, None
+    for key, process in running.items():
+        reason = scene.without.get(key)
+        if reason:
+            say(f"  {key}: left out, {reason}")
+            continue
+        try:
+            contestant = Contestant(process, path, scene.size)
+            # The scalar variant is the same renderer with the same points, only slower: it takes what the fast one chose.
+            settings = [chosen] if key == "mitsuba-scalar" and chosen else contestant.settings
+            contestant.choose(options.seconds, settings)
+        except PeerError as error:
+            say(f"  {key}: left out of {name}: {error}")
+            continue
+        if key == "mitsuba-llvm":
+            chosen = contestant.setting
+        ready[key] = contestant
+        say(f"  {key}: {contestant.setting}, up to {contestant.ladder[-1]} spp, start-up {contestant.start_up:.2f} s")
+    return ready
+
+
+def measure(name, scene, path, options, running):
+    """Everything known of the scene afterwards."""
+    say(f"{name}")
+    ready = enter(name, scene, path, options, running)
+    if "gpt" not in ready:
+        raise PeerError(f"gpt did not render {name}")
+    for seed in range(options.seeds):
+        for step in range(3):
+            for key, contestant in list(ready.items()):
+                if step >= len(contestant.ladder):
+                    continue
+                try:
+                    contestant.render(contestant.ladder[step], seed)
+                except PeerError as error:
+                    say(f"  {key}: left out of {name}: {error}")
+                    del ready[key]
+    return evaluate(scene, ready)
+
+
+def evaluate(scene, ready):
+    replications = {key: contestant.replications() for key, contestant in ready.items()}
+    reference = replications["gpt"].mean(axis=0)
+    rungs = {key: contestant.rungs(reference) for key, contestant in ready.items()}
+    result = {"size": list(scene.size), "left_out": scene.without, "renderers": {}, "pairs": {}}
+    for key, contestant in ready.items():
+        result["renderers"][key] = {
+            "setting": contestant.setting,
+            "costs_of_settings": contestant.costs,
+            "start_up_seconds": contestant.start_up,
+            "slope": convergence.slope(rungs[key]),
+            "rungs": [{"spp": rung.spp, "seconds": rung.seconds.tolist(), "relmse": rung.errors.tolist()} for rung in rungs[key]],
+        }
+        if key == "gpt":
+            continue
+        offset, reason = scene.allowed.get(key, (1e-4, ""))
+        judgement = judge(replications["gpt"], replications[key], offset=offset)
+        ratio = convergence.ratio(rungs["gpt"], rungs[key])
+        cpu = [convergence.time_to(rungs[each], ratio.error, ready[each].cpu_seconds(rungs[each])) for each in (key, "gpt")]
+        whole = [np.median(convergence.time_to(rungs[each], ratio.error)) + ready[each].start_up for each in (key, "gpt")]
+        result["pairs"][key] = {
+            "agreement": asdict(judgement),
+            "allowed_difference": offset,
+            "allowed_because": reason,
+            "ratio": asdict(ratio),
+            "cpu_ratio": float(np.median(cpu[0] / cpu[1])),
+            "ratio_with_start_up": float(whole[0] / whole[1]),
+        }
+        say(f"  {key}: {judgement.verdict}, channels {', '.join(f'{d:+.2%}' for d in judgement.difference)}; takes {ratio} times gpt's time")
+    result["pictures"] = {key: pictures.mean(axis=0) for key, pictures in replications.items()}
+    return result
+
+
+def machine():
+    model = [line.split(":")[1].strip() for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines() if line.startswith("model name")]
+    return {"processor": model[0] if model else platform.processor(), "cores": os.cpu_count(), "system": platform.platform()}
+
+
+def main():
+    mi.set_variant("scalar_rgb")
+    options = arguments()
+    start = time.perf_counter()
+    report = {"date": datetime.date.today().isoformat(), "machine": machine(), "seconds": options.seconds, "seeds": options.seeds, "absent": {}, "scenes": {}}
+    with tempfile.TemporaryDirectory() as folder:
+        running = processes(options, folder)
+        for key, process in list(running.items()):
+            try:
+                process.start()
+            except (PeerError, OSError) as error:
+                report["absent"][key] = str(error)
+                say(f"{key} cannot be started and is left out: {error}")
+                del running[key]
+        report["versions"] = {key: process.about for key, process in running.items()}
+        for name in options.scenes or scenes.ALL:
+            scene = scenes.ALL[name]
+            path = scene.prepare(Path(folder), say)
+            if path is None:
+                report["absent"][name] = "its model is not there"
+                continue
+            result = measure(name, scene, path, options, running)
+            pictures = result.pop("pictures")
+            if options.pictures:
+                table.write_pictures(options.pictures / f"{name}.png", pictures)
+            report["scenes"][name] = result
+            report["minutes"] = (time.perf_counter() - start) / 60
+            options.json.write_text(json.dumps(report, indent=1), encoding="utf-8")
+            options.markdown.write_text(table.markdown(report), encoding="utf-8")
+        for process in running.values():
+            process.stop()
+    print(table.markdown(report))
+    differ = [f"{name}/{key}" for name, found in report["scenes"].items() for key, pair in found["pairs"].items() if pair["agreement"]["verdict"] == "differ"]
+    if differ:
+        say(f"means differ: {', '.join(differ)}")
+    return 7 if differ else 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except (PeerError, OSError) as error:
+        sys.exit(f"compare.py: {error}")

@@ -1,0 +1,78 @@
+"""The scenes that are compared: which size, who is left out and why, and what share of the means may differ and why."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import mitsuba as mi
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+
+TESSELLATED = (2e-3, "its spheres are meshes")
+
+
+@dataclass
+class Scene:
+    file: str
+    """Relative to the project's root."""
+    size: tuple = (256, 256)
+    without: dict = field(default_factory=dict)
+    """Renderers that do not take part, and why."""
+    allowed: dict = field(default_factory=dict)
+    """What relative difference of the means is not judged, by renderer, and why."""
+    kind: str = "small"
+    """`small` (at most 100 primitives) or `model`."""
+
+    def prepare(self, folder, say):
+        """The scene file to render, or None where its model is absent. An absent environment map is made."""
+        path = ROOT / self.file
+        text = path.read_text(encoding="utf-8")
+        for line in text.splitlines():
+            if not line.startswith("file"):
+                continue
+            found = (path.parent / line.split('"')[1]).resolve()
+            if found.is_file():
+                continue
+            if found.suffix == ".obj":
+                say(f"{path.stem}: left out, {found} is not there")
+                return None
+            made = folder / "environment.exr"
+            write_environment(made)
+            say(f"{path.stem}: {found} is not there; a generated map of a sun in a sky is taken in its place")
+            copy = path.with_name(path.stem + "-generated.toml")
+            text = text.replace(line, f'file  = "{made}"')
+            # Other paths of the scene are relative to its folder.
+            copy = folder / copy.name
+            text = text.replace('"../../../shared', f'"{ROOT.parent / "shared"}')
+            copy.write_text(text, encoding="utf-8")
+            return copy
+        return path
+
+
+def write_environment(path, width=512, height=256):
+    """A sky that brightens towards the horizon, with a soft sun."""
+    u, v = np.meshgrid((np.arange(width) + 0.5) / width, (np.arange(height) + 0.5) / height)
+    theta, phi = np.pi * v, 2 * np.pi * u
+    direction = np.stack([np.sin(theta) * np.sin(phi), np.cos(theta), -np.sin(theta) * np.cos(phi)], axis=-1)
+    sun = np.array([0.5, 0.7, 0.51])
+    glow = np.exp(80 * (direction @ (sun / np.linalg.norm(sun)) - 1))
+    sky = np.where(direction[..., 1:] > 0, 0.3 + 0.3 * (1 - np.abs(direction[..., 1:])) ** 2, 0.15) * np.array([0.8, 0.95, 1.15])
+    mi.Bitmap((sky + 30 * glow[..., None] * np.array([1.0, 0.9, 0.7])).astype(np.float32)).write(str(path))
+
+
+ALL = {
+    "cornell": Scene("scenes/cornell.toml"),
+    "veach-mis": Scene("scenes/veach-mis.toml", (384, 256), allowed={"cycles": TESSELLATED, "luxcore": TESSELLATED}),
+    "spheres": Scene("scenes/spheres.toml", (320, 180), allowed={"cycles": TESSELLATED, "luxcore": TESSELLATED}),
+    "blend-rough": Scene("benches/scenes/blend-rough.toml", without={"luxcore": "its distribution of facets is Schlick's, not GGX"}),
+    "blend-mirror": Scene(
+        "benches/scenes/blend-mirror.toml",
+        without=dict.fromkeys(("mitsuba-llvm", "mitsuba-scalar"), "its blend is wrong where a part is a mirror"),
+    ),
+    "glass": Scene("benches/scenes/glass.toml", allowed={"cycles": TESSELLATED, "luxcore": TESSELLATED}),
+    "textured": Scene("benches/scenes/textured.toml"),
+    "ogre-area": Scene("benches/scenes/ogre-area.toml", kind="model"),
+    "ogre-environment": Scene("benches/scenes/ogre-environment.toml", kind="model"),
+    "bunny-area": Scene("benches/scenes/bunny-area.toml", kind="model"),
+    "bunny-environment": Scene("benches/scenes/bunny-environment.toml", kind="model"),
+}

@@ -1,0 +1,51 @@
+"""gpt as a worker (worker.py): every render is a process of its own. Arguments: the program, then the device.
+
+Runs where Mitsuba is installed, whose reader of EXR files it takes.
+"""
+
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import worker  # first: it takes standard output for itself
+
+import mitsuba as mi
+import numpy as np
+
+
+
+# Of the samplers these two are the best nearly everywhere; the first is the program's own choice.
+SETTINGS = {"Halton": ["--sampler", "halton"], "Sobol": ["--sampler", "sobol"]}
+
+
+class Gpt:
+    def __init__(self, program, device):
+        mi.set_variant("scalar_rgb")
+        self.program, self.device = program, device
+        self.name = "gpt"
+        self.version = subprocess.run([program, "--version"], check=True, capture_output=True, text=True).stdout.split()[-1]
+        self.folder = tempfile.TemporaryDirectory()
+
+    def load(self, path, size):
+        self.warm = set()
+        self.command = [self.program, "render", path, "--size", "{}x{}".format(*size), "--device", self.device, "--quiet", "--strict"]
+
+    def settings(self):
+        return list(SETTINGS)
+
+    def render(self, setting, spp, seed):
+        picture, report = (Path(self.folder.name) / name for name in ("picture.exr", "stats.json"))
+        run = [*self.command, *SETTINGS[setting], "--spp", str(spp), "--seed", str(seed), "-o", str(picture), "--stats", str(report)]
+        if (setting, spp) not in self.warm:
+            self.warm.add((setting, spp))
+            subprocess.run(run, check=True)  # the driver compiles on first use, and keeps what it compiled
+        subprocess.run(run, check=True)
+        figures = json.loads(report.read_text(encoding="utf-8"))
+        bitmap = mi.Bitmap(str(picture)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, srgb_gamma=False)
+        return np.array(bitmap), figures["seconds"]["render"], spp
+
+
+if __name__ == "__main__":
+    worker.serve(Gpt(*sys.argv[1:]))

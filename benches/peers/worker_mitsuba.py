@@ -1,0 +1,53 @@
+"""Mitsuba 3 as a worker (worker.py); its variant is the argument."""
+
+import sys
+import time
+
+import worker  # first: it takes standard output for itself
+
+import mitsuba as mi
+import numpy as np
+
+import scene_file
+
+SAMPLERS = ["independent", "stratified", "multijitter", "orthogonal", "ldsampler"]
+
+
+class Mitsuba:
+    def __init__(self, variant):
+        mi.set_variant(variant)
+        mi.set_log_level(mi.LogLevel.Error)  # samplers warn where they round the number of samples; it is reported instead
+        self.name, self.version, self.compiles = f"Mitsuba {variant}", mi.__version__, not variant.startswith("scalar")
+
+    def load(self, path, size):
+        import export_mitsuba  # needs the variant to be set
+
+        self.export, self.sensors, self.warm = export_mitsuba, {}, set()
+        self.plan = scene_file.load(path, size=size)
+        self.scene = mi.load_dict(export_mitsuba.export(self.plan))
+
+    def settings(self):
+        return SAMPLERS
+
+    def sensor(self, sampler, spp):
+        if (sampler, spp) not in self.sensors:
+            self.plan.spp = spp
+            self.sensors[sampler, spp] = mi.load_dict(self.export.sensor(self.plan, sampler))
+        return self.sensors[sampler, spp]
+
+    def render(self, setting, spp, seed):
+        sensor = self.sensor(setting, spp)
+        taken = sensor.sampler().sample_count()  # some samplers round
+        if self.compiles and (setting, taken) not in self.warm:
+            self.warm.add((setting, taken))
+            self.picture(sensor, taken, seed + (1 << 16))  # compiles the kernels
+        start = time.perf_counter()
+        picture = self.picture(sensor, taken, seed)
+        return picture, time.perf_counter() - start, taken
+
+    def picture(self, sensor, spp, seed):
+        return np.array(mi.render(self.scene, sensor=sensor, spp=spp, seed=seed))
+
+
+if __name__ == "__main__":
+    worker.serve(Mitsuba(sys.argv[1]))
