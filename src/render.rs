@@ -128,6 +128,10 @@ pub trait Renderer {
     /// carry it in their header.
     fn device(&self) -> &str;
 
+    /// Changes the samples per pixel for which samplers with strata lay them out from what the scene says. Nothing is built or compiled
+    /// anew.
+    fn set_samples_per_pixel(&mut self, spp: u32);
+
     /// Renders the request and hands over finished bands in order from the top, each once. When the observer stops it, bands hold
     /// what was done so far: `samples` of a band says how many, rows never begun are not delivered.
     fn render(

@@ -13,6 +13,8 @@ use gpt::scene::{BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeu
 /// Sample indices stay below this, because picture headers hold signed 32-bit numbers.
 pub const MAX_SAMPLES: u32 = i32::MAX as u32;
 
+use super::bench::BenchArguments;
+
 /// A headless GPU path tracer that proves its pictures against a CPU reference.
 #[derive(Debug, Parser)]
 #[command(name = "gpt", version)]
@@ -29,6 +31,8 @@ pub enum Command {
     Compare(CompareArguments),
     /// Render on the GPU and by the CPU reference with the same random numbers; exit code 7 if they differ
     Verify(VerifyArguments),
+    /// Measure run time against error, speed, and what features cost; writes JSON, CSV and a page to look at
+    Bench(Box<BenchArguments>),
     /// Parse and validate a scene, and say what it needs and what is skipped
     Check(CheckArguments),
     /// List the graphics adapters, their limits, and which one `--device auto` takes
@@ -190,7 +194,7 @@ pub struct DevicesArguments {
     pub json: bool,
 }
 
-fn parse_device(text: &str) -> Result<DeviceChoice, String> {
+pub fn parse_device(text: &str) -> Result<DeviceChoice, String> {
     match text {
         "" => Err("name a device; `gpt devices` lists them".to_owned()),
         "auto" => Ok(DeviceChoice::Auto),
@@ -200,7 +204,7 @@ fn parse_device(text: &str) -> Result<DeviceChoice, String> {
     }
 }
 
-fn parse_size(text: &str) -> Result<[u32; 2], String> {
+pub fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let parts = text.split_once(['x', 'X']).ok_or("expected WIDTHxHEIGHT, for example 640x480")?;
     let side = |part: &str| part.parse::<u32>().map_err(|_| format!("`{part}` is no number of pixels"));
     let size = [side(parts.0)?, side(parts.1)?];

@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use gpt::bench::subject::BenchError;
 use gpt::compare::SizeMismatch;
 use gpt::output::{OutputError, ReadError};
 use gpt::render::RenderError;
@@ -55,6 +56,8 @@ pub enum Failure {
     Render(#[from] RenderError),
     #[error(transparent)]
     Output(#[from] OutputError),
+    #[error("interrupted before anything could be said; nothing is saved")]
+    Interrupted,
     #[error("{0}")]
     Other(String),
 }
@@ -63,6 +66,21 @@ impl Failure {
     /// A usage error without further advice.
     pub fn usage(message: impl Into<String>) -> Self {
         Self::Usage { message: message.into(), help: None }
+    }
+}
+
+impl From<BenchError> for Failure {
+    fn from(error: BenchError) -> Self {
+        match error {
+            BenchError::Render(error) => Self::Render(error),
+            BenchError::Picture(error) => Self::Picture(error),
+            BenchError::Sizes(error) => Self::Sizes(error),
+            BenchError::Output(error) => Self::Output(error),
+            BenchError::Scene(error) => Self::Scene(error),
+            BenchError::UnsuitableReference(message) => Self::BadScene(message),
+            BenchError::Internal(message) => Self::Other(message),
+            BenchError::Interrupted => Self::Interrupted,
+        }
     }
 }
 
@@ -75,6 +93,7 @@ impl From<&Failure> for Exit {
             Failure::Render(RenderError::DeviceLost(_)) => Self::DeviceLost,
             Failure::Render(RenderError::Internal(_) | RenderError::Output(_)) => Self::OtherFailure,
             Failure::Output(_) | Failure::Other(_) => Self::OtherFailure,
+            Failure::Interrupted => Self::Interrupted,
         }
     }
 }
@@ -100,6 +119,8 @@ mod tests {
         assert_eq!(Exit::from(&Failure::BadScene(String::new())) as u8, 3);
         let write = OutputError::BadTarget { path: "a".into(), what: "b" };
         assert_eq!(Exit::from(&Failure::from(write)) as u8, 1);
+        assert_eq!(Exit::from(&Failure::from(BenchError::Interrupted)) as u8, 130);
+        assert_eq!(Exit::from(&Failure::from(BenchError::UnsuitableReference(String::new()))) as u8, 3);
         let numbers = [Exit::Done, Exit::NonFinite, Exit::Difference, Exit::Interrupted].map(|exit| exit as u8);
         assert_eq!(numbers, [0, 6, 7, 130]);
     }

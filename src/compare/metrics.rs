@@ -8,6 +8,11 @@ use crate::output::Image;
 /// Keeps dark pixels from deciding the relative error, as in pbrt's `imgtool` and Rousselle et al. 2011.
 pub const RELATIVE_EPSILON: f64 = 1e-2;
 
+/// What the relative error multiplies a squared difference by, for this value of the reference.
+pub fn relative_weight(reference: f64) -> f64 {
+    1.0 / (reference * reference + RELATIVE_EPSILON)
+}
+
 /// What is averaged over pixels and channels; a is the picture, b the reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -110,7 +115,7 @@ impl Sums {
             self.values[0][channel] += a;
             self.values[1][channel] += b;
             self.squared[channel] += squared;
-            self.relative[channel] += squared / (b * b + RELATIVE_EPSILON);
+            self.relative[channel] += squared * relative_weight(b);
             self.absolute[channel] += (a - b).abs();
             self.peak[channel] = self.peak[channel].max(b);
         }

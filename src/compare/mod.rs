@@ -2,4 +2,4 @@
 
 mod metrics;
 
-pub use metrics::{Comparison, Extreme, Metric, MetricValue, RELATIVE_EPSILON, SizeMismatch, compare};
+pub use metrics::{Comparison, Extreme, Metric, MetricValue, RELATIVE_EPSILON, SizeMismatch, compare, relative_weight};

@@ -77,10 +77,11 @@ impl Buffers {
                 upload(binding::TOP_NODES, "top of the hierarchy", bytemuck::cast_slice(top), BufferUsages::UNIFORM);
             }
         }
-        if crate::plan::has_attributes(flat) {
+        let compiled = |switch: &str| plan.switches.enabled.contains(switch);
+        if compiled("ATTRIBUTES") {
             upload(binding::ATTRIBUTES, "attributes", bytemuck::cast_slice(&flat.attributes), BufferUsages::STORAGE);
         }
-        if !flat.textures.texels.is_empty() {
+        if compiled("TEXELS") {
             upload(binding::TEXELS, "texels", bytemuck::cast_slice(&flat.textures.texels), BufferUsages::STORAGE);
         }
 

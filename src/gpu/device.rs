@@ -33,6 +33,8 @@ impl Device {
         if limits.read_write_rgba32float {
             features |= wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES;
         }
+        // Only measurements ask for the time; nothing else of the device changes by it.
+        features |= adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("gpt"),
             required_features: features,

@@ -7,6 +7,7 @@ mod film;
 pub mod kernels;
 pub mod parameters;
 pub mod passes;
+pub mod profile;
 pub mod renderer;
 pub mod trace;
 

@@ -25,11 +25,35 @@ pub struct GpuRenderer {
     pub(super) sampling: Sampling,
     sizer: PassSizer,
     /// Edges of a path at most; None: no limit.
-    max_depth: Option<u32>,
+    pub(super) max_depth: Option<u32>,
     /// Edges encoded before the host looks again.
-    edges_per_submission: u32,
+    pub(super) edges_per_submission: u32,
     build_seconds: f64,
     compile_seconds: f64,
+}
+
+/// A kernel and how many workgroups of it run.
+pub(super) struct Step<'a> {
+    pub(super) kernel: &'a Kernel,
+    pub(super) workgroups: Workgroups<'a>,
+}
+
+#[derive(Clone, Copy)]
+pub(super) enum Workgroups<'a> {
+    Direct(u32),
+    /// Read by the device, at this offset in bytes.
+    Indirect(&'a wgpu::Buffer, u64),
+}
+
+impl Step<'_> {
+    /// Adds it to a pass, for the submission's edge number `edge_index` (from 0).
+    pub(super) fn encode(&self, compute: &mut wgpu::ComputePass<'_>, edge_index: u32) {
+        self.kernel.set(compute, edge_index);
+        match self.workgroups {
+            Workgroups::Direct(count) => compute.dispatch_workgroups(count, 1, 1),
+            Workgroups::Indirect(sizes, offset) => compute.dispatch_workgroups_indirect(sizes, offset),
+        }
+    }
 }
 
 /// A band being rendered.
@@ -106,7 +130,7 @@ impl GpuRenderer {
         &self.plan
     }
 
-    fn write(&self, number: u32, bytes: &[u8]) {
+    pub(super) fn write(&self, number: u32, bytes: &[u8]) {
         if let Some(buffer) = self.buffers.buffer(number) {
             self.device.queue.write_buffer(buffer, 0, bytes);
         }
@@ -119,7 +143,7 @@ impl GpuRenderer {
         }
     }
 
-    fn kernel(&self, entry: &str) -> Option<&Kernel> {
+    pub(super) fn kernel(&self, entry: &str) -> Option<&Kernel> {
         self.kernels.iter().find(|kernel| kernel.entry == entry)
     }
 
@@ -207,29 +231,33 @@ impl GpuRenderer {
         edges: u32,
         paths: u32,
     ) -> Result<(), RenderError> {
-        let missing = || RenderError::Internal("a stage of the wavefront is missing".into());
-        let [extend, shade, prepare] = ["extend", "shade", "prepare"].map(|entry| self.kernel(entry).ok_or_else(missing));
-        let (extend, shade, prepare) = (extend?, shade?, prepare?);
-        let sizes = self.buffers.buffer(binding::DISPATCH_SIZES).ok_or_else(missing)?;
-        // The first edge's queue holds all paths of the pass; later sizes come from `prepare`: shade's, extend's, connect's.
-        let rays = 64 * self.plan.rays_per_invocation;
         for index in 0..edges {
-            for (kernel, size_offset, per_workgroup) in [(extend, 12, rays), (shade, 0, 64)] {
-                kernel.set(compute, index);
-                if first_edge + index == 1 {
-                    compute.dispatch_workgroups(paths.div_ceil(per_workgroup), 1, 1);
-                } else {
-                    compute.dispatch_workgroups_indirect(sizes, size_offset);
-                }
-            }
-            prepare.set(compute, index);
-            compute.dispatch_workgroups(1, 1, 1);
-            if let Some(connect) = self.kernel("connect") {
-                connect.set(compute, index);
-                compute.dispatch_workgroups_indirect(sizes, 24);
+            for step in self.edge_steps(first_edge == 1 && index == 0, paths)? {
+                step.encode(compute, index);
             }
         }
         Ok(())
+    }
+
+    /// What runs for one edge. The first edge's queue holds all paths of the pass; later sizes come from `prepare`: shade's, extend's,
+    /// connect's.
+    pub(super) fn edge_steps(&self, first: bool, paths: u32) -> Result<Vec<Step<'_>>, RenderError> {
+        let missing = || RenderError::Internal("a stage of the wavefront is missing".into());
+        let [extend, shade, prepare] = ["extend", "shade", "prepare"].map(|entry| self.kernel(entry).ok_or_else(missing));
+        let sizes = self.buffers.buffer(binding::DISPATCH_SIZES).ok_or_else(missing)?;
+        let rays = 64 * self.plan.rays_per_invocation;
+        let queue = |offset, per_workgroup| match first {
+            true => Workgroups::Direct(paths.div_ceil(per_workgroup)),
+            false => Workgroups::Indirect(sizes, offset),
+        };
+        let mut steps = vec![
+            Step { kernel: extend?, workgroups: queue(12, rays) },
+            Step { kernel: shade?, workgroups: queue(0, 64) },
+            Step { kernel: prepare?, workgroups: Workgroups::Direct(1) },
+        ];
+        let connect = self.kernel("connect").map(|kernel| Step { kernel, workgroups: Workgroups::Indirect(sizes, 24) });
+        steps.extend(connect);
+        Ok(steps)
     }
 
     /// Paths waiting in the queue that `edge` will read.
@@ -333,6 +361,10 @@ impl GpuRenderer {
 impl Renderer for GpuRenderer {
     fn device(&self) -> &str {
         &self.device.name
+    }
+
+    fn set_samples_per_pixel(&mut self, spp: u32) {
+        self.sampling.samples = spp.max(1);
     }
 
     fn render_batch(

@@ -65,6 +65,8 @@ pub struct PlanOptions {
     pub trace: bool,
     /// Let pixels have different numbers of samples ([`crate::render::Allocation`]).
     pub allocation: bool,
+    /// Switches of parts that are compiled though the scene does not need them, to measure what leaving them out is worth.
+    pub compile_in: Vec<&'static str>,
     /// Compute wrongly, so that tests can see whether it is noticed.
     pub fault: Option<Fault>,
 }
@@ -144,6 +146,9 @@ impl Plan {
         plan.switches = switches::choose(scene, flat, &plan);
         plan.switches.enable("TRACE", options.trace);
         plan.switches.enable("ALLOCATION", options.allocation && !options.trace);
+        for switch in &options.compile_in {
+            plan.switches.enable(switch, true);
+        }
         if let Some(fault) = options.fault {
             fault.plant(flat, &mut plan.switches);
         }

@@ -71,6 +71,11 @@ impl Integrator {
         &self.scene
     }
 
+    /// Changes what stratified random numbers depend on; nothing that was built from the scene does.
+    pub fn set_samples_per_pixel(&mut self, spp: u32) {
+        self.scene.render.spp = spp;
+    }
+
     /// The radiance one sample of one pixel sees. `visitor` is told everything that happens.
     pub fn radiance<V: PathVisitor>(&self, x: u32, y: u32, sampler: &PathSampler, visitor: &mut V) -> DVec3 {
         let mut path = Path {

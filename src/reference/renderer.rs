@@ -236,6 +236,10 @@ impl Renderer for ReferenceRenderer {
         "CPU reference"
     }
 
+    fn set_samples_per_pixel(&mut self, spp: u32) {
+        self.integrator.set_samples_per_pixel(spp);
+    }
+
     fn render_batch(
         &mut self,
         batch: &Batch<'_>,

@@ -1,0 +1,197 @@
+//! The measurement itself: pictures of rising numbers of samples, over and over, settings in turn.
+
+use super::reference::Reference;
+use super::subject::{BenchError, Subject};
+use crate::compare::{compare, relative_weight};
+use crate::sampling::hash::mix;
+use crate::statistics::Moments;
+
+/// Which pictures are made.
+#[derive(Debug, Clone)]
+pub struct Ladder {
+    /// Samples per pixel, rising.
+    pub rungs: Vec<u32>,
+    /// Independent pictures of each rung and setting.
+    pub replications: u32,
+    /// Key of all seeds.
+    pub seed: u32,
+}
+
+impl Ladder {
+    /// Rungs that double up to `most`, at most `count`.
+    pub fn doubling(most: u32, count: u32, replications: u32, seed: u32) -> Self {
+        let mut rungs: Vec<u32> = (0..count.min(32)).map(|step| most >> step).take_while(|spp| *spp > 0).collect();
+        rungs.reverse();
+        Self { rungs, replications, seed }
+    }
+
+    /// Every picture of a measurement has random numbers of its own, so that all errors are independent.
+    pub fn seed_of(&self, setting: usize, rung: usize, replication: u32) -> u32 {
+        let place = (setting as u32) << 16 | (rung as u32) << 10;
+        mix(mix(self.seed ^ 0x6265_6e63).wrapping_add(place)).wrapping_add(mix(replication))
+    }
+
+    /// Pictures that are made, the thrown away ones included.
+    pub fn pictures(&self, settings: usize) -> usize {
+        (self.rungs.len() * self.replications as usize + 1) * settings
+    }
+}
+
+/// One picture's error and cost.
+#[derive(Debug, Clone, Copy)]
+pub struct Observation {
+    pub mse: f64,
+    pub relmse: f64,
+    pub seconds: f64,
+}
+
+/// What was seen of one setting.
+#[derive(Debug, Clone)]
+pub struct Observations {
+    /// By rung, then by replication.
+    pub by_rung: Vec<Vec<Observation>>,
+    /// Values of the last rung's pictures, over replications.
+    pub last_rung: Vec<[Moments; 3]>,
+    pub non_finite_samples: u64,
+    /// Seconds of building and of compiling, once.
+    pub set_up: (f64, f64),
+}
+
+impl Observations {
+    /// Replications that are complete.
+    pub fn replications(&self) -> usize {
+        self.by_rung.iter().map(Vec::len).min().unwrap_or(0)
+    }
+
+    /// Squared bias of the last rung in the measure that the weights give a pixel's value of the reference, with its standard error: what
+    /// is left of the squared distance between mean and reference when the variance of the mean is taken away. It still holds the
+    /// reference's own error.
+    pub fn squared_bias(&self, reference: &Reference, weight: impl Fn(f64) -> f64) -> (f64, f64) {
+        let mut excess = Moments::default();
+        for (moments, expected) in self.last_rung.iter().zip(&reference.image.pixels) {
+            let channel = |channel: usize| {
+                let (own, expected) = (&moments[channel], f64::from(expected[channel]));
+                let noise = own.variance() / own.count() as f64;
+                ((own.mean() - expected).powi(2) - noise) * weight(expected)
+            };
+            excess.push((channel(0) + channel(1) + channel(2)) / 3.0);
+        }
+        (excess.mean(), excess.standard_error())
+    }
+}
+
+/// The weight of the plain squared error.
+pub fn no_weight(_reference: f64) -> f64 {
+    1.0
+}
+
+/// The weight of the relative squared error.
+pub fn by_brightness(reference: f64) -> f64 {
+    relative_weight(reference)
+}
+
+/// Makes every picture of the ladder. Settings take turns at every rung, and who begins changes, so that all meet the machine in the same
+/// state; one picture of each is made before and thrown away. `step` is called before each picture with what it is.
+///
+/// Where a subject is interrupted and two replications are complete, what there is comes back; the flag says so.
+///
+/// # Errors
+/// What subjects report, and a reference of another size.
+pub fn climb(
+    subjects: &mut [Box<dyn Subject + '_>],
+    reference: &Reference,
+    ladder: &Ladder,
+    step: &mut dyn FnMut(&str),
+) -> Result<(Vec<Observations>, bool), BenchError> {
+    let empty = Observations {
+        by_rung: vec![Vec::new(); ladder.rungs.len()],
+        last_rung: vec![[Moments::default(); 3]; reference.image.pixels.len()],
+        non_finite_samples: 0,
+        set_up: (0.0, 0.0),
+    };
+    let mut all = vec![empty; subjects.len()];
+    let middle = ladder.rungs.get(ladder.rungs.len() / 2).copied().unwrap_or(1);
+    for subject in subjects.iter_mut() {
+        step("warming up");
+        subject.render(ladder.seed, middle)?;
+    }
+    for replication in 0..ladder.replications {
+        for rung in 0..ladder.rungs.len() {
+            for turn in 0..subjects.len() {
+                let setting = (turn + replication as usize + rung) % subjects.len();
+                step(&format!("replication {} of {}", replication + 1, ladder.replications));
+                let place = Place { setting, rung, replication };
+                match observe(subjects[setting].as_mut(), reference, ladder, place, &mut all[setting]) {
+                    Err(BenchError::Interrupted) if replication >= 2 => {
+                        return Ok((complete(all, replication as usize), true));
+                    }
+                    outcome => outcome?,
+                }
+            }
+        }
+    }
+    Ok((all, false))
+}
+
+/// Where in the measurement a picture stands.
+#[derive(Clone, Copy)]
+struct Place {
+    setting: usize,
+    rung: usize,
+    replication: u32,
+}
+
+fn observe(
+    subject: &mut dyn Subject,
+    reference: &Reference,
+    ladder: &Ladder,
+    place: Place,
+    into: &mut Observations,
+) -> Result<(), BenchError> {
+    let seed = ladder.seed_of(place.setting, place.rung, place.replication);
+    let run = subject.render(seed, ladder.rungs[place.rung])?;
+    let comparison = compare(&run.picture, &reference.image)?;
+    let observation = Observation { mse: comparison.mse.all, relmse: comparison.relmse.all, seconds: run.seconds };
+    into.by_rung[place.rung].push(observation);
+    into.non_finite_samples += run.non_finite_samples;
+    into.set_up = (run.build_seconds, run.compile_seconds);
+    if place.rung + 1 == ladder.rungs.len() {
+        for (moments, pixel) in into.last_rung.iter_mut().zip(&run.picture.pixels) {
+            moments.iter_mut().zip(pixel).for_each(|(moments, value)| moments.push(f64::from(*value)));
+        }
+    }
+    Ok(())
+}
+
+/// Leaves out what belongs to a replication that was not finished.
+fn complete(mut all: Vec<Observations>, replications: usize) -> Vec<Observations> {
+    for observations in &mut all {
+        observations.by_rung.iter_mut().for_each(|rung| rung.truncate(replications));
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rungs_double_up_to_the_most() {
+        assert_eq!(Ladder::doubling(256, 4, 1, 0).rungs, [32, 64, 128, 256]);
+        assert_eq!(Ladder::doubling(100, 40, 1, 0).rungs, [1, 3, 6, 12, 25, 50, 100]);
+    }
+
+    #[test]
+    fn no_two_pictures_share_a_seed() {
+        let ladder = Ladder::doubling(1024, 10, 20, 5);
+        let mut seeds: Vec<u32> = (0..12)
+            .flat_map(|setting| (0..10).map(move |rung| (setting, rung)))
+            .flat_map(|(setting, rung)| (0..20).map(move |replication| (setting, rung, replication)))
+            .map(|(setting, rung, replication)| ladder.seed_of(setting, rung, replication))
+            .collect();
+        let all = seeds.len();
+        seeds.sort_unstable();
+        seeds.dedup();
+        assert_eq!(seeds.len(), all);
+    }
+}

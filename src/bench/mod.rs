@@ -1,0 +1,22 @@
+//! Run time against error: what a second of rendering buys.
+//!
+//! - [`setting`]: which settings are compared.
+//! - [`subject`]: what renders and tells the time; tests put in estimators of known variance, bias and speed.
+//! - [`reference`]: what errors are measured against, with its own error.
+//! - [`ladder`]: pictures of rising numbers of samples, over and over, settings in turn.
+//! - [`analysis`]: errors with intervals, slopes, floors, ratios at equal time and at equal error.
+//! - [`convergence`]: all of it for one scene.
+//! - [`report`]: the page, the tables.
+//! - [`interval`]: medians, spreads, and whether a difference is more than noise.
+
+pub mod analysis;
+pub mod convergence;
+pub mod interval;
+pub mod ladder;
+pub mod machine;
+pub mod reference;
+pub mod report;
+pub mod setting;
+pub mod subject;
+#[cfg(test)]
+mod synthetic;

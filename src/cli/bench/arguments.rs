@@ -1,0 +1,131 @@
+//! What can be typed after `gpt bench`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+use gpt::bench::setting::Axes;
+use gpt::render::DeviceChoice;
+use gpt::scene::{BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeuristic, PixelSamplerName, SamplerKind};
+
+use crate::cli::arguments::{MAX_SAMPLES, parse_device, parse_size};
+
+#[derive(Debug, Args)]
+pub struct BenchArguments {
+    #[command(subcommand)]
+    pub bench: Bench,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Bench {
+    /// Error against samples and time for chosen settings, with what one buys over the other
+    ///
+    /// Renders pictures of rising numbers of samples, over and over with independent random numbers, settings in turn, and measures their error
+    /// against a reference. Options that take several values (separated by commas) are combined in every way; the first combination is what
+    /// the others are compared with. The same value twice makes two settings that should come out equal: a check of the measurement.
+    ///
+    /// Writes into the output folder: report.html (charts, tables, pictures at equal time; needs nothing but a browser), convergence.json
+    /// (all results), convergence.csv (every picture's error and time). A summary goes to stdout.
+    #[command(after_help = "Examples:\n  \
+        gpt bench convergence cornell veach-mis --sampler halton,sobol,independent\n  \
+        gpt bench convergence veach-mis --estimator mis,nee,bsdf --spp 1024 --size 384x256\n  \
+        gpt bench convergence scene.toml --device gpu,cpu --reference converged.exr\n  \
+        gpt bench convergence --sampler halton,halton        the measurement against itself\n\n\
+        How it is measured: an error is the mean over the replications, with Student's 95 % interval; the reference's own error, known from the scatter of \
+        its 8 independent parts, is taken off. The slope is fitted to log error over log samples, replication by replication. What is left of the \
+        last rung's squared error when its variance is taken away is bias; where chance would show as much less than once in 1000 times, it is \
+        flagged as a floor. Ratios are medians over the replications, pair by pair, with the distribution-free interval of a median; one that holds \
+        1 is inside the noise. Fewer than 6 replications decide nothing.")]
+    Convergence(ConvergenceArguments),
+}
+
+#[derive(Debug, Args)]
+pub struct ConvergenceArguments {
+    /// .toml scenes, .obj models, or names of built-in scenes [default: cornell]
+    pub scenes: Vec<String>,
+    #[command(flatten)]
+    pub axes: AxisArguments,
+    /// Most samples per pixel; the ladder doubles up to it
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
+    pub spp: u32,
+    /// Rungs of the ladder: with 5 and --spp 256 they are 16, 32, 64, 128, 256
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u32).range(1..=20))]
+    pub rungs: u32,
+    /// Independent pictures of each rung; 6 are needed for a verdict
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(2..=1000))]
+    pub replications: u32,
+    /// Picture size in pixels [default: the scene's, shrunk to 128 pixels along the longer side]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+    /// Longest path in edges, 0 = unlimited [default: the scene's]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=i64::from(MAX_SAMPLES)))]
+    pub max_depth: Option<u32>,
+    /// Key of all random numbers of the measurement
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u32,
+    /// The picture that errors are measured against, of the same size; only for a single scene [default: one is made, and kept for next time]
+    #[arg(long, value_name = "FILE")]
+    pub reference: Option<PathBuf>,
+    /// Samples per pixel of a reference that is made, with the scene's own settings on the first device [default: 16 times --spp]
+    #[arg(long, value_name = "N", conflicts_with = "reference", value_parser = clap::value_parser!(u32).range(8..=i64::from(MAX_SAMPLES)))]
+    pub reference_spp: Option<u32>,
+    /// Folder in which references are kept [default: the user's folder for caches]
+    #[arg(long, value_name = "FOLDER", conflicts_with = "reference")]
+    pub references: Option<PathBuf>,
+    #[command(flatten)]
+    pub output: OutputArguments,
+}
+
+/// Options that may have several values, combined in every way.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "What is compared (values separated by commas; default: the scene's own)")]
+pub struct AxisArguments {
+    /// Devices: auto, gpu, cpu, or part of an adapter's name
+    #[arg(long, value_name = "DEVICE,…", value_delimiter = ',', value_parser = parse_device)]
+    device: Vec<DeviceChoice>,
+    /// Where random numbers come from
+    #[arg(long, value_name = "SAMPLER,…", value_delimiter = ',')]
+    sampler: Vec<SamplerKind>,
+    /// The sampler of the position inside the pixel
+    #[arg(long, value_name = "SAMPLER,…", value_delimiter = ',')]
+    pixel_sampler: Vec<PixelSamplerName>,
+    /// How light sampling and BSDF sampling are used
+    #[arg(long, value_name = "ESTIMATOR,…", value_delimiter = ',')]
+    estimator: Vec<Estimator>,
+    /// How multiple importance sampling weighs the two
+    #[arg(long, value_name = "HEURISTIC,…", value_delimiter = ',')]
+    heuristic: Vec<MisHeuristic>,
+    /// How directions over a diffuse surface are drawn
+    #[arg(long, value_name = "HEMISPHERE,…", value_delimiter = ',')]
+    hemisphere: Vec<HemisphereSampling>,
+    /// How a point on a sphere light is drawn
+    #[arg(long, value_name = "STRATEGY,…", value_delimiter = ',')]
+    light_sampling: Vec<LightSampling>,
+    /// Whether a blend evaluates every lobe or picks one material per hit
+    #[arg(long, value_name = "MODE,…", value_delimiter = ',')]
+    blend: Vec<BlendMode>,
+}
+
+impl From<&AxisArguments> for Axes {
+    fn from(arguments: &AxisArguments) -> Self {
+        Self {
+            devices: arguments.device.clone(),
+            samplers: arguments.sampler.clone(),
+            pixel_samplers: arguments.pixel_sampler.clone(),
+            estimators: arguments.estimator.clone(),
+            heuristics: arguments.heuristic.clone(),
+            hemispheres: arguments.hemisphere.clone(),
+            light_samplings: arguments.light_sampling.clone(),
+            blends: arguments.blend.clone(),
+        }
+    }
+}
+
+#[derive(Debug, Args)]
+pub struct OutputArguments {
+    /// Folder for the results; made where there is none [default: gpt-bench/ and the bench's name]
+    #[arg(short, long, value_name = "FOLDER")]
+    pub output: Option<PathBuf>,
+    /// No progress on stderr
+    #[arg(short, long)]
+    pub quiet: bool,
+}

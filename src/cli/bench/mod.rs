@@ -1,0 +1,17 @@
+//! `gpt bench`.
+
+mod arguments;
+mod convergence;
+mod output;
+
+use arguments::Bench;
+pub use arguments::BenchArguments;
+
+use super::exit::{Exit, Failure};
+
+/// Does the measurement that was asked for.
+pub fn run(arguments: &BenchArguments) -> Result<Exit, Failure> {
+    match &arguments.bench {
+        Bench::Convergence(arguments) => convergence::run(arguments),
+    }
+}

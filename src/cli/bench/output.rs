@@ -1,0 +1,74 @@
+//! Where results go, and what is told on the way.
+
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+
+use gpt::output::{AtomicFile, OutputError};
+use gpt::render::Observer;
+use serde::Serialize;
+
+use super::arguments::OutputArguments;
+use crate::cli::exit::Failure;
+use crate::cli::{interrupt, terminal};
+
+/// An observer that shows nothing, since renders are many and short, and passes on Ctrl-C.
+pub struct OnlyStops;
+
+impl Observer for OnlyStops {
+    fn progress(&self, _done: u64, _total: u64) {}
+    fn stop_requested(&self) -> bool {
+        interrupt::requested()
+    }
+}
+
+/// The folder of one bench's results.
+pub struct Results {
+    folder: PathBuf,
+    bench: &'static str,
+    quiet: bool,
+    /// What was said last.
+    last: RefCell<String>,
+}
+
+impl Results {
+    /// Makes the folder, so that hours of work do not end at a place that cannot be written to.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn prepare(arguments: &OutputArguments, bench: &'static str) -> Result<Self, Failure> {
+        let folder = arguments.output.clone().unwrap_or_else(|| Path::new("gpt-bench").join(bench));
+        std::fs::create_dir_all(&folder).map_err(|source| OutputError::Write { path: folder.clone(), source })?;
+        Ok(Self { folder, bench, quiet: arguments.quiet, last: RefCell::default() })
+    }
+
+    /// Tells what is going on, the same thing once.
+    pub fn say(&self, what: &str) {
+        if !self.quiet && self.last.replace(what.to_owned()) != what {
+            terminal::note(what);
+        }
+    }
+
+    /// Writes the page, all numbers as JSON, and the rows.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn write(&self, results: &impl Serialize, csv: &[u8], page: &str) -> Result<(), Failure> {
+        let json = serde_json::to_vec_pretty(results).map_err(|error| Failure::Other(error.to_string()))?;
+        AtomicFile::write(&self.folder.join(format!("{}.json", self.bench)), &json)?;
+        AtomicFile::write(&self.folder.join(format!("{}.csv", self.bench)), csv)?;
+        let report = self.folder.join("report.html");
+        AtomicFile::write(&report, page.as_bytes())?;
+        self.say(&format!("wrote {} with {}.json and {}.csv beside it", report.display(), self.bench, self.bench));
+        Ok(())
+    }
+}
+
+/// What was typed.
+pub fn command() -> String {
+    let quoted = |argument: String| {
+        let plain = !argument.is_empty() && argument.chars().all(|c| c.is_alphanumeric() || "-_./,=:".contains(c));
+        if plain { argument } else { format!("'{}'", argument.replace('\'', "'\\''")) }
+    };
+    let arguments = std::env::args_os().skip(1).map(|argument| quoted(argument.to_string_lossy().into_owned()));
+    std::iter::once("gpt".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
+}

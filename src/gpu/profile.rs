@@ -1,0 +1,158 @@
+//! Where a render's time goes, stage by stage, and how full the pool of paths is, edge by edge.
+
+use super::buffers::{binding, edge_parameters};
+use super::passes::Pass;
+use super::renderer::{BandState, GpuRenderer, Step, Workgroups};
+use crate::plan::{MAX_SAMPLES_PER_PASS, StageMode};
+use crate::render::RenderError;
+
+/// What one stage took in one pass, over all edges.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StageTime {
+    /// The kernel's entry point.
+    pub stage: &'static str,
+    pub seconds: f64,
+    pub dispatches: u32,
+}
+
+/// One pass, looked at from inside.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Profile {
+    /// In the order in which they first run.
+    pub stages: Vec<StageTime>,
+    /// Paths that the pass began with.
+    pub paths: u32,
+    /// Most paths that the pool holds.
+    pub capacity: u32,
+    /// Paths alive at the first edge, the second, … as far as edges were encoded. Empty for the fused kernel, whose lanes take the next
+    /// path by themselves.
+    pub alive: Vec<u32>,
+}
+
+/// Dispatches of a pass, each between two time stamps.
+struct Recorder<'a> {
+    renderer: &'a GpuRenderer,
+    encoder: wgpu::CommandEncoder,
+    stamps: wgpu::QuerySet,
+    stages: Vec<&'static str>,
+}
+
+impl Recorder<'_> {
+    fn record(&mut self, step: &Step<'_>, edge_index: u32) {
+        let first = 2 * self.stages.len() as u32;
+        let timestamp_writes = Some(wgpu::ComputePassTimestampWrites {
+            query_set: &self.stamps,
+            beginning_of_pass_write_index: Some(first),
+            end_of_pass_write_index: Some(first + 1),
+        });
+        let mut compute =
+            self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(step.kernel.entry), timestamp_writes });
+        step.encode(&mut compute, edge_index);
+        drop(compute);
+        self.stages.push(step.kernel.entry);
+    }
+
+    /// Runs what was recorded.
+    fn finish(mut self) -> Result<Vec<StageTime>, RenderError> {
+        let count = 2 * self.stages.len() as u32;
+        let bytes = 8 * u64::from(count);
+        let device = &self.renderer.device;
+        let resolved = device.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("time stamps"),
+            size: bytes,
+            usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        });
+        let target = self.renderer.readback_buffer(bytes);
+        self.encoder.resolve_query_set(&self.stamps, 0..count, &resolved, 0);
+        self.encoder.copy_buffer_to_buffer(&resolved, 0, &target, 0, bytes);
+        device.submit_and_wait(self.encoder.finish())?;
+        let ticks: Vec<u64> = device.read(&target)?.chunks_exact(8).map(bytemuck::pod_read_unaligned).collect();
+        let period = f64::from(device.queue.get_timestamp_period()) * 1e-9;
+        let mut stages: Vec<StageTime> = Vec::new();
+        for (stage, pair) in self.stages.iter().zip(ticks.chunks_exact(2)) {
+            let seconds = pair[1].saturating_sub(pair[0]) as f64 * period;
+            match stages.iter_mut().find(|one| one.stage == *stage) {
+                Some(one) => {
+                    one.seconds += seconds;
+                    one.dispatches += 1;
+                }
+                None => stages.push(StageTime { stage, seconds, dispatches: 1 }),
+            }
+        }
+        Ok(stages)
+    }
+}
+
+impl GpuRenderer {
+    /// Runs one pass that fills the pool, or the first band, with time stamps around every stage. Edges beyond those of one submission are
+    /// left out. The film afterwards holds nothing of use. None where the device has no time stamps.
+    ///
+    /// # Errors
+    /// What the device reports.
+    pub fn profile(&self) -> Result<Option<Profile>, RenderError> {
+        if !self.device.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
+            return Ok(None);
+        }
+        let [width, _] = self.size;
+        let wavefront = self.plan.stages == StageMode::Wavefront;
+        let rows = self.plan.band_rows.min(if wavefront { (self.plan.path_capacity / width).max(1) } else { u32::MAX });
+        let pixel_count = (width * rows).min(self.plan.path_capacity);
+        let samples = (self.plan.path_capacity / pixel_count).clamp(1, MAX_SAMPLES_PER_PASS);
+        let pass = Pass { first_pixel: 0, pixel_count, first_sample: 0, sample_count: samples, film_is_empty: true };
+        let band = BandState { first_row: 0, rows, samples_done: 0 };
+        self.write_pass(&band, &pass, &self.sampling);
+        if wavefront { self.profile_wavefront(&pass).map(Some) } else { self.profile_fused(&pass).map(Some) }
+    }
+
+    fn recorder(&self, dispatches: u32) -> Recorder<'_> {
+        let stamps = self.device.device.create_query_set(&wgpu::QuerySetDescriptor {
+            label: Some("time stamps"),
+            ty: wgpu::QueryType::Timestamp,
+            count: 2 * dispatches,
+        });
+        let encoder = self.device.device.create_command_encoder(&Default::default());
+        Recorder { renderer: self, encoder, stamps, stages: Vec::new() }
+    }
+
+    /// A kernel over so many invocations.
+    fn step(&self, entry: &str, invocations: u32) -> Result<Step<'_>, RenderError> {
+        let kernel = self.kernel(entry).ok_or_else(|| RenderError::Internal(format!("the stage {entry} is missing")))?;
+        Ok(Step { kernel, workgroups: Workgroups::Direct(invocations.div_ceil(64)) })
+    }
+
+    fn profile_fused(&self, pass: &Pass) -> Result<Profile, RenderError> {
+        let mut recorder = self.recorder(1);
+        recorder.record(&self.step("trace_paths", pass.pixel_count)?, 0);
+        let paths = pass.paths() as u32;
+        Ok(Profile { stages: recorder.finish()?, paths, capacity: paths, alive: Vec::new() })
+    }
+
+    fn profile_wavefront(&self, pass: &Pass) -> Result<Profile, RenderError> {
+        let paths = pass.paths() as u32;
+        let edges = self.max_depth.unwrap_or(u32::MAX).min(self.edges_per_submission);
+        self.write(binding::COUNTS, bytemuck::cast_slice(&[paths, 0, 0, 0]));
+        self.write(binding::EDGE, &edge_parameters(1));
+        let mut recorder = self.recorder(2 + 4 * edges);
+        let counts = self.readback_buffer(16 * u64::from(edges));
+        recorder.record(&self.step("generate", paths)?, 0);
+        for index in 0..edges {
+            for step in self.edge_steps(index == 0, paths)? {
+                recorder.record(&step, index);
+            }
+            if let Some(source) = self.buffers.buffer(binding::COUNTS) {
+                recorder.encoder.copy_buffer_to_buffer(source, 0, &counts, 16 * u64::from(index), 16);
+            }
+        }
+        recorder.record(&self.step("accumulate", pass.pixel_count)?, 0);
+        let stages = recorder.finish()?;
+        let words: Vec<[u32; 4]> = self.device.read(&counts)?.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect();
+        // After edge number i (from 1) its survivors wait in the queue that edge i + 1 reads.
+        let survivors = words.iter().zip(1..).map(|(counts, edge)| counts[(edge % 2) as usize]);
+        let mut alive: Vec<u32> = std::iter::once(paths).chain(survivors).take(edges as usize).collect();
+        while alive.last() == Some(&0) {
+            alive.pop();
+        }
+        Ok(Profile { stages, paths, capacity: self.plan.path_capacity, alive })
+    }
+}
