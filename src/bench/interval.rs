@@ -133,6 +133,13 @@ impl Spread {
     }
 }
 
+impl Spread {
+    /// In another unit.
+    pub fn scaled(self, factor: f64) -> Self {
+        Self { median: self.median * factor, least: self.least * factor, largest: self.largest * factor }
+    }
+}
+
 /// A ratio of what two settings needed, run by run, and what that says.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Ratio {

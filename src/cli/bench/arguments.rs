@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueEnum};
+use gpt::bench::growth::Growth;
 use gpt::bench::setting::Axes;
 use gpt::render::DeviceChoice;
 use gpt::scene::{BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeuristic, PixelSamplerName, SamplerKind};
@@ -35,7 +36,86 @@ pub enum Bench {
         last rung's squared error when its variance is taken away is bias; where chance would show as much less than once in 1000 times, it is \
         flagged as a floor. Ratios are medians over the replications, pair by pair, with the distribution-free interval of a median; one that holds \
         1 is inside the noise. Fewer than 6 replications decide nothing.")]
-    Convergence(ConvergenceArguments),
+    Convergence(Box<ConvergenceArguments>),
+    /// Samples and rays a second, time per stage, memory, and how they grow
+    ///
+    /// One table for the scenes as they are, and one for each thing that grows: triangles (hills under a sky), resolution and samples (of the
+    /// first scene), lights (of 10,000 triangles so many emit), leaves of a blend. Rows of a table take turns.
+    ///
+    /// Writes report.html, speed.json and speed.csv into the output folder; a summary goes to stdout.
+    #[command(after_help = "Examples:\n  \
+        gpt bench speed cornell veach-mis scene.toml\n  \
+        gpt bench speed --growth triangles --all --device cpu\n  \
+        gpt bench speed --stages wavefront --size 512x512 --spp 8\n\n\
+        Stage times are the device's own time stamps around every dispatch of one pass that fills the pool of paths; adapters without time stamps \
+        have none. Scenes that do not fit the device say so in their row.")]
+    Speed(SpeedArguments),
+    /// What each feature costs: used, and only compiled in
+    ///
+    /// A room of two boxes and a lamp is rendered without the feature, by kernels that hold it though nothing needs it, and with the feature in use;
+    /// the three take turns. Only on a GPU, real or software, since only its kernels leave out what a scene does not use.
+    ///
+    /// Writes report.html, features.json and features.csv into the output folder; a line for each feature goes to stdout.
+    #[command(after_help = "Examples:\n  gpt bench features\n  gpt bench features glass 'rough glass' --rounds 15")]
+    Features(FeatureArguments),
+}
+
+#[derive(Debug, Args)]
+pub struct SpeedArguments {
+    /// .toml scenes, .obj models, or names of built-in scenes [default: cornell, spheres and veach-mis]
+    pub scenes: Vec<String>,
+    /// auto, gpu, cpu, or part of an adapter's name
+    #[arg(long, default_value = "auto", value_parser = parse_device)]
+    pub device: DeviceChoice,
+    /// How the stages run [default: as the plan decides]
+    #[arg(long)]
+    pub stages: Option<StagesName>,
+    /// What grows [default: everything, and the scenes as they are]
+    #[arg(long, value_name = "WHAT,…", value_delimiter = ',')]
+    pub growth: Vec<Growth>,
+    /// The larger sizes too: up to ten million triangles, 4096x4096 pixels, 10,000 lights, 64 leaves. Takes minutes and gigabytes
+    #[arg(long)]
+    pub all: bool,
+    /// Picture size in pixels
+    #[arg(long, value_name = "WxH", default_value = "256x256", value_parser = parse_size)]
+    pub size: [u32; 2],
+    /// Samples per pixel of a run
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    pub spp: u32,
+    /// Measured runs of each, after one that is thrown away; 6 are needed for a verdict
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub rounds: u32,
+    #[command(flatten)]
+    pub output: OutputArguments,
+}
+
+/// How the stages run, as it is typed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum StagesName {
+    /// One kernel traces whole paths
+    Fused,
+    /// Separate kernels over queues
+    Wavefront,
+}
+
+#[derive(Debug, Args)]
+pub struct FeatureArguments {
+    /// Features to measure [default: all; an unknown name lists them]
+    pub features: Vec<String>,
+    /// auto, gpu, or part of an adapter's name
+    #[arg(long, default_value = "gpu", value_parser = parse_device)]
+    pub device: DeviceChoice,
+    /// Picture size in pixels
+    #[arg(long, value_name = "WxH", default_value = "256x256", value_parser = parse_size)]
+    pub size: [u32; 2],
+    /// Samples per pixel of a run
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    pub spp: u32,
+    /// Measured runs of each, after one that is thrown away; 6 are needed for a verdict
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub rounds: u32,
+    #[command(flatten)]
+    pub output: OutputArguments,
 }
 
 #[derive(Debug, Args)]

@@ -2,7 +2,9 @@
 
 mod arguments;
 mod convergence;
+mod features;
 mod output;
+mod speed;
 
 use arguments::Bench;
 pub use arguments::BenchArguments;
@@ -13,5 +15,7 @@ use super::exit::{Exit, Failure};
 pub fn run(arguments: &BenchArguments) -> Result<Exit, Failure> {
     match &arguments.bench {
         Bench::Convergence(arguments) => convergence::run(arguments),
+        Bench::Speed(arguments) => speed::run(arguments),
+        Bench::Features(arguments) => features::run(arguments),
     }
 }

@@ -1,0 +1,71 @@
+//! What grows in a measurement of speed, and how far.
+
+use clap::ValueEnum;
+use serde::Serialize;
+
+use super::scenes;
+use super::speed::SpeedOptions;
+use crate::scene::{Scene, SceneError};
+
+/// What is measured side by side: one thing grows, the rest stays.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Growth {
+    /// Nothing grows: scenes as they are
+    Scenes,
+    /// 1,000 to 100,000 triangles, with --all to ten million
+    Triangles,
+    /// 64 to 512 pixels on a side, with --all to 4096
+    Resolution,
+    /// 1 to 64 samples per pixel, with --all to 1024
+    Samples,
+    /// 1 to 1,000 emitting triangles, with --all to 10,000
+    Lights,
+    /// 1 to 8 leaves of a blend, with --all to 64
+    Leaves,
+}
+
+impl Growth {
+    pub const ALL: [Self; 6] = [Self::Scenes, Self::Triangles, Self::Resolution, Self::Samples, Self::Lights, Self::Leaves];
+
+    /// What the size counts, as a heading.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Scenes => "scenes",
+            Self::Triangles => "triangles",
+            Self::Resolution => "pixels",
+            Self::Samples => "samples per pixel",
+            Self::Lights => "lights",
+            Self::Leaves => "leaves of a blend",
+        }
+    }
+
+    /// The sizes that are tried, the larger ones only where everything is asked for.
+    pub fn sizes(self, everything: bool) -> Vec<u32> {
+        let (bounded, rest): (&[u32], &[u32]) = match self {
+            Self::Scenes => (&[], &[]),
+            Self::Triangles => (&[1_000, 10_000, 100_000], &[1_000_000, 10_000_000]),
+            // The side of a square picture.
+            Self::Resolution => (&[64, 128, 256, 512], &[1024, 2048, 4096]),
+            Self::Samples => (&[1, 4, 16, 64], &[256, 1024]),
+            Self::Lights => (&[1, 10, 100, 1_000], &[10_000]),
+            Self::Leaves => (&[1, 2, 4, 8], &[16, 32, 64]),
+        };
+        if everything { [bounded, rest].concat() } else { bounded.to_vec() }
+    }
+
+    /// The scene of a size, at the base size of pictures, and the samples to take of it.
+    ///
+    /// # Errors
+    /// None that a test would not find.
+    pub fn scene(self, size: u32, own: &Scene, options: &SpeedOptions) -> Result<(Scene, u32), SceneError> {
+        let mut scene = match self {
+            Self::Triangles => scenes::hills(size)?,
+            Self::Lights => scenes::panel(size)?,
+            Self::Leaves => scenes::leaves(size)?,
+            Self::Scenes | Self::Resolution | Self::Samples => own.clone(),
+        };
+        scene.film.size = if self == Self::Resolution { [size, size] } else { options.size };
+        Ok((scene, if self == Self::Samples { size } else { options.spp }))
+    }
+}

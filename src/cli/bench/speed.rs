@@ -1,0 +1,62 @@
+//! `gpt bench speed`.
+
+use gpt::bench::growth::Growth;
+use gpt::bench::machine::Machine;
+use gpt::bench::report::{speed_csv, speed_page, speed_text};
+use gpt::bench::speed::{SpeedOptions, SpeedTable, measure};
+use gpt::bench::subject::{BenchError, Devices};
+use gpt::plan::StageMode;
+use gpt::scene::{self, Scene};
+use serde::Serialize;
+
+use super::arguments::{SpeedArguments, StagesName};
+use super::output::{OnlyStops, Results, command};
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::{interrupt, terminal};
+
+/// What the JSON file holds.
+#[derive(Serialize)]
+struct File<'a> {
+    machine: &'a Machine,
+    tables: &'a [SpeedTable],
+}
+
+/// Measures table after table and writes the results.
+pub fn run(arguments: &SpeedArguments) -> Result<Exit, Failure> {
+    let default = ["cornell", "spheres", "veach-mis"].map(str::to_owned);
+    let names = if arguments.scenes.is_empty() { &default[..] } else { &arguments.scenes };
+    let scenes: Result<Vec<Scene>, Failure> = names.iter().map(|name| Ok(scene::load(Some(name))?)).collect();
+    let scenes = scenes?;
+    for warning in scenes.iter().flat_map(|scene| &scene.warnings) {
+        terminal::warn(warning);
+    }
+    let options = SpeedOptions {
+        device: arguments.device.clone(),
+        stages: arguments.stages.map(|stages| match stages {
+            StagesName::Fused => StageMode::Fused,
+            StagesName::Wavefront => StageMode::Wavefront,
+        }),
+        growths: if arguments.growth.is_empty() { Growth::ALL.to_vec() } else { arguments.growth.clone() },
+        everything: arguments.all,
+        size: arguments.size,
+        spp: arguments.spp,
+        rounds: arguments.rounds,
+    };
+    let results = Results::prepare(&arguments.output, "speed")?;
+    interrupt::install()?;
+    let mut devices = Devices::default();
+    let mut tables: Vec<SpeedTable> = Vec::new();
+    for growth in &options.growths {
+        match measure(*growth, &scenes, &options, &mut devices, &OnlyStops, &mut |what| results.say(what)) {
+            Err(BenchError::Interrupted) if !tables.is_empty() => break,
+            outcome => {
+                let table = outcome?;
+                terminal::answer(&speed_text(&table))?;
+                tables.push(table);
+            }
+        }
+    }
+    let machine = Machine::here(&devices.names(), command());
+    results.write(&File { machine: &machine, tables: &tables }, &speed_csv(&tables)?, &speed_page(&tables, &machine)?)?;
+    Ok(if interrupt::requested() { Exit::Interrupted } else { Exit::Done })
+}
