@@ -108,6 +108,72 @@ fn a_reference_that_is_given_is_used_and_must_fit() {
 }
 
 #[test]
+fn speed_leaves_a_table_for_everything_that_grows() {
+    let folder = workplace();
+    let arguments = "speed scene.toml --device cpu --growth scenes,samples,leaves --size 12x8 --spp 1 --rounds 6 --output out";
+    let [stdout, _] = expect(&folder, 0, arguments);
+    assert!(stdout.contains("Msample/s") && stdout.contains("8 leaves of a blend"), "{stdout}");
+    let tables = &json(&folder, "out/speed.json")["tables"];
+    assert_eq!(tables.as_array().map(Vec::len), Some(3));
+    let samples = &tables[1]["rows"];
+    assert_eq!(samples[3]["spp"], 64);
+    // The first row has nothing to be compared with; the others are compared run by run.
+    assert!(samples[0]["measured"]["time_per_sample"].is_null());
+    assert!(samples[3]["measured"]["time_per_sample"]["estimate"].as_f64() > Some(0.0));
+    let rows = fs::read_to_string(folder.path().join("out/speed.csv")).expect("the rows");
+    assert_eq!(rows.lines().count(), 1 + 1 + 4 + 4);
+    assert!(fs::read_to_string(folder.path().join("out/report.html")).expect("the page").contains("<svg"));
+}
+
+/// Without a GPU these fail, unless `GPT_TEST_GPU=skip` is set.
+fn without_a_gpu() -> bool {
+    std::env::var("GPT_TEST_GPU").is_ok_and(|value| value == "skip")
+}
+
+#[test]
+fn stages_are_timed_and_the_pool_is_watched() {
+    if without_a_gpu() {
+        return;
+    }
+    let folder = workplace();
+    let common = "--device gpu --growth scenes --size 32x32 --spp 1 --rounds 2 --output out";
+    expect(&folder, 0, &format!("speed cornell --stages wavefront {common}"));
+    let row = &json(&folder, "out/speed.json")["tables"][0]["rows"][0]["measured"];
+    let stages: Vec<&str> =
+        row["stage_times"].as_array().into_iter().flatten().filter_map(|stage| stage["stage"].as_str()).collect();
+    // An adapter without time stamps has no times; Mesa's software adapter has them.
+    if !stages.is_empty() {
+        assert_eq!(stages, ["generate", "extend", "shade", "prepare", "connect", "accumulate"]);
+        let occupancy: Vec<f64> = row["occupancy"].as_array().into_iter().flatten().filter_map(Value::as_f64).collect();
+        assert!((2..=8).contains(&occupancy.len()), "{occupancy:?}");
+        assert!(occupancy[0] > 0.0 && occupancy[0] <= 1.0, "{occupancy:?}");
+        // Paths end and none begins: in the box, whose front is open, some leave at every edge.
+        assert!(occupancy.windows(2).all(|pair| pair[1] < pair[0]), "{occupancy:?}");
+    }
+    assert_eq!(row["bytes_per_path"], 136);
+}
+
+#[test]
+fn features_are_compared_off_compiled_in_and_used() {
+    if without_a_gpu() {
+        return;
+    }
+    let folder = workplace();
+    expect(&folder, 0, "features glass motion --size 32x32 --spp 2 --rounds 6 --output out");
+    let features = &json(&folder, "out/features.json")["features"];
+    for feature in features.as_array().expect("a list") {
+        assert_eq!(feature["compiled_in_agrees"], true, "{feature}");
+        assert_eq!(feature["off"]["rays_per_sample"], feature["compiled_in"]["rays_per_sample"]);
+        assert_eq!(feature["off"]["time"]["estimate"], 1.0);
+        assert!(feature["used"]["time"]["low"].as_f64() > Some(0.0));
+    }
+    assert_ne!(features[0]["off"]["rays_per_sample"], features[0]["used"]["rays_per_sample"]);
+    let [_, stderr] = expect(&folder, 2, "features no-such-feature");
+    assert!(stderr.contains("rough glass"), "{stderr}");
+    expect(&folder, 4, "features --device cpu");
+}
+
+#[test]
 fn mistakes_have_the_contracts_exit_codes() {
     let folder = workplace();
     fs::write(folder.path().join("file"), "").expect("a file");
@@ -118,6 +184,9 @@ fn mistakes_have_the_contracts_exit_codes() {
         (2, "convergence --sampler haltom", "haltom"),
         (2, "convergence --replications 1", "2.."),
         (2, "convergence --size 0x5", "at least 1"),
+        (2, "speed --growth weight", "triangles"),
+        (3, "speed no-such-scene", "no-such-scene"),
+        (4, "speed --device no-such-adapter", "no-such-adapter"),
         (
             2,
             "convergence --sampler halton,sobol,independent,stratified,quadrant --estimator mis,nee,bsdf --blend mixture,pick --heuristic power,balance",

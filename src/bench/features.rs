@@ -69,7 +69,7 @@ pub fn features() -> Vec<Feature> {
         ),
         textured(
             "checker texture",
-            "[[texture]]\nname = \"pattern\"\ntype = \"checker\"\na = 0.2\nb = 0.8\nscale = 4",
+            "[[texture]]\nname = \"pattern\"\ntype = \"checker\"\na = 0.2\nb = 0.8\nscale = [4, 4]",
             &["CHECKERS", "PROCEDURAL_TEXTURES", "TEXTURES"],
         ),
         textured(
@@ -204,7 +204,7 @@ pub fn measure(
             candidates[index].run(options.spp, round > 0)?;
         }
     }
-    let compiled_in_agrees = (candidates.len() == 3).then(|| agree(&candidates[0], &candidates[1]));
+    let compiled_in_agrees = (candidates.len() == 3).then(|| agree(&candidates[0].pixels, &candidates[1].pixels));
     let first: Vec<f64> = candidates[0].seconds.clone();
     let mut variants = candidates.into_iter().map(|candidate| candidate.finish(&first));
     let missing = || BenchError::Internal("a variant was not measured".to_owned());
@@ -264,8 +264,48 @@ impl<'a> Candidate<'a> {
 }
 
 /// Other code may round otherwise, which moves a path here and there; a feature that does something it should not moves most pixels.
-fn agree(one: &Candidate<'_>, other: &Candidate<'_>) -> bool {
+fn agree(one: &[[f32; 3]], other: &[[f32; 3]]) -> bool {
     let close = |(a, b): (&[f32; 3], &[f32; 3])| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-3 * a.abs().max(0.1));
-    let same = one.pixels.iter().zip(&other.pixels).filter(|pair| close(*pair)).count();
-    same as f64 >= 0.98 * one.pixels.len() as f64
+    let same = one.iter().zip(other).filter(|pair| close(*pair)).count();
+    same as f64 >= 0.98 * one.len() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flat::FlatScene;
+    use crate::plan::switches::ALL;
+    use crate::plan::{DeviceLimits, Plan};
+
+    /// A feature's room brings in the switches that are compiled in for it, and the plain room does not.
+    #[test]
+    fn rooms_use_what_they_are_named_for() {
+        let enabled = |room: &Room, feature: &Feature| {
+            let scene = room.scene().unwrap();
+            let flat = FlatScene::new(&scene).unwrap();
+            let geometry = feature.hierarchy.then_some(GeometryPlacement::Hierarchy);
+            let options = PlanOptions { geometry, ..PlanOptions::default() };
+            Plan::new(&scene, &flat, &DeviceLimits::default(), &options).unwrap().switches.enabled
+        };
+        for feature in features() {
+            let [off, used] = [&Room::default(), &feature.room].map(|room| enabled(room, &feature));
+            for switch in feature.switches {
+                assert!(ALL.contains(switch), "{}: there is no switch {switch}", feature.name);
+                assert!(used.contains(switch), "{}: its room does not need {switch}: {used:?}", feature.name);
+            }
+            assert!(feature.switches.iter().any(|switch| !off.contains(switch)) || feature.switches.is_empty());
+        }
+    }
+
+    /// The check of the pictures lets rounding pass and nothing else.
+    #[test]
+    fn a_picture_that_changes_is_told_from_rounding() {
+        let pixels = vec![[0.5, 0.2, 0.1]; 1000];
+        let mut rounded = pixels.clone();
+        rounded[7] = [0.9; 3];
+        rounded.iter_mut().for_each(|pixel| pixel[0] *= 1.0 + 1e-6);
+        assert!(agree(&pixels, &rounded));
+        let darker: Vec<[f32; 3]> = pixels.iter().map(|pixel| pixel.map(|value| 0.99 * value)).collect();
+        assert!(!agree(&pixels, &darker));
+    }
 }

@@ -181,6 +181,8 @@ fn write_exr(path: &Path, scene: &Scene, device: &str, reference: &Reference) ->
         settings: scene::RenderSettings { spp: samples, seed: FIRST_SEED, ..scene.render.clone() },
         filter: scene.film.filter,
         first_sample: 0,
+        adaptive: false,
+        target_error: None,
         device: device.to_owned(),
     };
     let spec = PictureSpec { width: image.width, height: image.height, exposure: 0.0, provenance };

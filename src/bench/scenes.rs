@@ -81,7 +81,10 @@ pub fn hills(triangles: u32) -> Result<Scene, SceneError> {
 /// # Errors
 /// None that a test would not find.
 pub fn panel(emitting: u32) -> Result<Scene, SceneError> {
-    let mut scene = load_toml_str(STAGE, "panel", Path::new(""))?;
+    // A scene without light is refused, and the panel comes later.
+    let light = "[[light]]\ntype = \"point\"\nposition = [0, 9, 0]\nintensity = 1\n";
+    let mut scene = load_toml_str(&format!("{STAGE}{light}"), "panel", Path::new(""))?;
+    scene.lights.clear();
     let first = scene.materials.len();
     let emitting = emitting.clamp(1, 10_000);
     let radiance = 20_000.0 / f64::from(emitting);
@@ -258,7 +261,7 @@ mod tests {
             assert_eq!(bright, emitting as usize);
         }
         for count in [1, 2, 16] {
-            let blends = leaves(count).unwrap().materials.iter().filter(|material| material.kind.is_blend()).count();
+            let blends = leaves(count).unwrap().materials.iter().filter(|material| material.is_blend()).count();
             assert_eq!(blends, count as usize - 1);
         }
         assert!(Room::default().scene().unwrap().has_light());

@@ -52,8 +52,8 @@ pub struct Speed {
     pub samples_per_second: Spread,
     pub rays_per_second: Spread,
     pub rays_per_sample: f64,
-    /// Time per sample over that of the first size, run by run.
-    pub time_per_sample: Ratio,
+    /// Time per sample over that of the first row, run by run; none for the first itself.
+    pub time_per_sample: Option<Ratio>,
     /// State of a path in flight: ray, throughput, shadow ray, places in queues. None where paths stay in registers.
     pub bytes_per_path: Option<u64>,
     /// On the device, everything together; 0 on the CPU.
@@ -270,12 +270,14 @@ fn finish(entries: Vec<Entry<'_>>) -> Vec<SpeedRow> {
     let per_sample =
         |candidate: &Candidate<'_>| -> Vec<f64> { candidate.runs.iter().map(|run| run.seconds / run.samples).collect() };
     let first = entries.iter().find_map(|entry| entry.subject.as_ref().ok()).map(|one| per_sample(one)).unwrap_or_default();
+    let mut is_first = true;
     let row = |Entry { mut row, subject }: Entry<'_>| {
         row.outcome = match subject {
             Err(why) => Outcome::DoesNotFit(why),
             Ok(candidate) => {
                 let ratio = Ratio::of_pairs(per_sample(&candidate).into_iter().zip(first.iter().copied()));
-                Outcome::Measured(Box::new(candidate.finish(ratio)))
+                let against_first = if std::mem::replace(&mut is_first, false) { None } else { Some(ratio) };
+                Outcome::Measured(Box::new(candidate.finish(against_first)))
             }
         };
         row
@@ -284,7 +286,7 @@ fn finish(entries: Vec<Entry<'_>>) -> Vec<SpeedRow> {
 }
 
 impl Candidate<'_> {
-    fn finish(self, time_per_sample: Ratio) -> Speed {
+    fn finish(self, time_per_sample: Option<Ratio>) -> Speed {
         let spread = |of: &dyn Fn(&Timed) -> f64| Spread::of(&self.runs.iter().map(of).collect::<Vec<_>>());
         let last = self.runs.last();
         Speed {

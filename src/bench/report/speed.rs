@@ -97,8 +97,8 @@ pub fn speed_text(table: &SpeedTable) -> String {
                     number(speed.build_seconds),
                     number(speed.compile_seconds),
                 );
-                if row.count.is_some() {
-                    let _ = write!(text, "; time per sample over the first {}", ratio_text(&speed.time_per_sample));
+                if let Some(ratio) = speed.time_per_sample.filter(|_| row.count.is_some()) {
+                    let _ = write!(text, "; time per sample over the first {}", ratio_text(&ratio));
                 }
                 text.push('\n');
             }
@@ -180,7 +180,7 @@ fn speeds(table: &SpeedTable) -> Markup {
                     spread(&speed.samples_per_second.scaled(1e-6)),
                     spread(&speed.rays_per_second.scaled(1e-6)),
                     html! { (number(speed.rays_per_sample)) },
-                    ratio(&speed.time_per_sample),
+                    speed.time_per_sample.as_ref().map_or_else(|| html! { "–" }, ratio),
                     html! { (number(speed.build_seconds)) },
                     html! { (number(speed.compile_seconds)) },
                     html! { (number(speed.first_picture_seconds)) },
