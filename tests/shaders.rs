@@ -115,8 +115,7 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
         "SEQUENCE_POINTS",
         "STACK_SIZE",
         "TABLE_WORDS",
-        "TOP_NODES",
-        "TOP_WORDS",
+        "NODE_WORDS",
     ];
     let geometry = "#import geometry/primitives.wgsl\n#import geometry/scene.wgsl\n\
                     fn closest_of_constants(ray: PreparedRay, hit: ptr<function, Hit>) {}\n\

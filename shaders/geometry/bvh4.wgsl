@@ -29,24 +29,9 @@ fn larger(a: vec4<f32>, b: vec4<f32>) -> vec4<f32> {
 }
 
 fn intersect_node(node: u32, origin: vec3<f32>, inverse_direction: vec3<f32>, t_max: f32) -> NodeHits {
-#if TOP_IN_UNIFORM
-    var n0: vec4<u32>;
-    var n1: vec4<u32>;
-    var n2: vec4<u32>;
-    if node < TOP_NODES {
-        n0 = top_nodes[node * 3u];
-        n1 = top_nodes[node * 3u + 1u];
-        n2 = top_nodes[node * 3u + 2u];
-    } else {
-        n0 = nodes[node * 3u];
-        n1 = nodes[node * 3u + 1u];
-        n2 = nodes[node * 3u + 2u];
-    }
-#else
     let n0 = nodes[node * 3u];
     let n1 = nodes[node * 3u + 1u];
     let n2 = nodes[node * 3u + 2u];
-#endif
     let exponents = vec3<u32>(n0.w, n0.w >> 8u, n0.w >> 16u) & vec3<u32>(255u);
     let scale = bitcast<vec3<f32>>(exponents << vec3<u32>(23u)) * inverse_direction;
     let offset = (bitcast<vec3<f32>>(n0.xyz) - origin) * inverse_direction;
@@ -96,92 +81,87 @@ struct Traversal {
     // The entry to visit next, and how many wait on the stack.
     current: u32,
     depth: u32,
+    // Primitives of the leaf entered last that are still to be tested.
+    primitive: u32,
+    primitive_end: u32,
 }
 
-// Nothing is left to visit. No leaf has this entry: its size would be above any.
+// No entry is left. No leaf has this entry: its size would be above any.
 const FINISHED: u32 = 0xffffffffu;
 
 fn begin_traversal(traced: Ray, t_max: f32) -> Traversal {
-    return Traversal(prepare_ray(traced), safe_inverse(traced.direction), Hit(t_max, NONE, 0.0, 0.0), 0u, 0u);
+    return Traversal(prepare_ray(traced), safe_inverse(traced.direction), Hit(t_max, NONE, 0.0, 0.0), 0u, 0u, 0u, 0u);
 }
 
-fn visit_leaf(traversal: ptr<function, Traversal>) {
-    let first = (*traversal).current & 0x00ffffffu;
-    let end = first + (((*traversal).current >> 24u) & 3u) + 1u;
-    var hit = (*traversal).hit;
-    for (var index = first; index < end; index++) {
-        intersect_stored((*traversal).ray, index, &hit);
-    }
-    (*traversal).hit = hit;
+// A traversal that has nothing to do.
+fn no_traversal() -> Traversal {
+    var traversal: Traversal;
+    traversal.current = FINISHED;
+    return traversal;
 }
 
-fn pop(traversal: ptr<function, Traversal>, stack: ptr<function, array<u32, STACK_SIZE>>) {
-    if (*traversal).depth == 0u {
-        (*traversal).current = FINISHED;
-    } else {
-        (*traversal).depth--;
-        (*traversal).current = (*stack)[(*traversal).depth];
-    }
+fn is_finished(traversal: Traversal) -> bool {
+    return traversal.current == FINISHED && traversal.primitive == traversal.primitive_end;
 }
 
-// Visits one node or leaf, nearest first.
+// Visits one node, nearest first, and tests one primitive of a leaf met before. Lanes that run together pay for both anyway, so a
+// leaf's primitives are tested while the way goes on, not before it does.
 fn step_closest(traversal: ptr<function, Traversal>, stack: ptr<function, array<u32, STACK_SIZE>>) {
-    if ((*traversal).current & LEAF) != 0u {
-        visit_leaf(traversal);
-        pop(traversal, stack);
-        return;
-    }
-    let children = intersect_node(
-        (*traversal).current, (*traversal).ray.origin, (*traversal).inverse_direction, (*traversal).hit.t
-    );
-    // Sorted by distance with a network of five exchanges; the nearest is visited next, the others wait, farthest deepest.
-    var t = children.t;
-    var e = children.entry;
-    if t.y < t.x { t = t.yxzw; e = e.yxzw; }
-    if t.w < t.z { t = t.xywz; e = e.xywz; }
-    if t.z < t.x { t = t.zyxw; e = e.zyxw; }
-    if t.w < t.y { t = t.xwzy; e = e.xwzy; }
-    if t.z < t.y { t = t.xzyw; e = e.xzyw; }
-    if t.x < INFINITY_DISTANCE {
+    var current = (*traversal).current;
+    var leads_nowhere = false;
+    if (current & LEAF) == 0u {
+        let children = intersect_node(
+            current, (*traversal).ray.origin, (*traversal).inverse_direction, (*traversal).hit.t
+        );
+        // Sorted by distance with a network of five exchanges; the nearest is visited next, the others wait, farthest deepest.
+        var t = children.t;
+        var e = children.entry;
+        if t.y < t.x { t = t.yxzw; e = e.yxzw; }
+        if t.w < t.z { t = t.xywz; e = e.xywz; }
+        if t.z < t.x { t = t.zyxw; e = e.zyxw; }
+        if t.w < t.y { t = t.xwzy; e = e.xwzy; }
+        if t.z < t.y { t = t.xzyw; e = e.xzyw; }
+        // All are written and those met are kept: that costs less than branches that depend on the ray.
         var depth = (*traversal).depth;
-        if t.w < INFINITY_DISTANCE { (*stack)[depth] = e.w; depth++; }
-        if t.z < INFINITY_DISTANCE { (*stack)[depth] = e.z; depth++; }
-        if t.y < INFINITY_DISTANCE { (*stack)[depth] = e.y; depth++; }
+        (*stack)[depth] = e.w;
+        depth += select(0u, 1u, t.w < INFINITY_DISTANCE);
+        (*stack)[depth] = e.z;
+        depth += select(0u, 1u, t.z < INFINITY_DISTANCE);
+        (*stack)[depth] = e.y;
+        depth += select(0u, 1u, t.y < INFINITY_DISTANCE);
         (*traversal).depth = depth;
-        (*traversal).current = e.x;
-    } else {
-        pop(traversal, stack);
+        current = e.x;
+        leads_nowhere = t.x == INFINITY_DISTANCE;
+    }
+    let is_leaf = (current & LEAF) != 0u && current != FINISHED;
+    if !leads_nowhere && is_leaf && (*traversal).primitive == (*traversal).primitive_end {
+        (*traversal).primitive = current & 0x00ffffffu;
+        (*traversal).primitive_end = (*traversal).primitive + ((current >> 24u) & 3u) + 1u;
+        leads_nowhere = true;
+    }
+    if leads_nowhere {
+        current = FINISHED;
+        if (*traversal).depth != 0u {
+            (*traversal).depth--;
+            current = (*stack)[(*traversal).depth];
+        }
+    }
+    (*traversal).current = current;
+    if (*traversal).primitive != (*traversal).primitive_end {
+        var hit = (*traversal).hit;
+        intersect_stored((*traversal).ray, (*traversal).primitive, &hit);
+        (*traversal).hit = hit;
+        (*traversal).primitive++;
     }
 }
 
-// Visits one node or leaf in any order, and finishes at the first primitive met.
+// The same for a ray that only asks whether it meets anything: it is finished at the first primitive met.
 fn step_any(traversal: ptr<function, Traversal>, stack: ptr<function, array<u32, STACK_SIZE>>) {
-    if ((*traversal).current & LEAF) != 0u {
-        visit_leaf(traversal);
-        if (*traversal).hit.primitive != NONE {
-            (*traversal).current = FINISHED;
-            return;
-        }
-    } else {
-        let children = intersect_node(
-            (*traversal).current, (*traversal).ray.origin, (*traversal).inverse_direction, (*traversal).hit.t
-        );
-        // The last child met is visited next without a detour over the stack.
-        let t = children.t;
-        let e = children.entry;
-        var depth = (*traversal).depth;
-        var next = NONE;
-        if t.x < INFINITY_DISTANCE { next = e.x; }
-        if t.y < INFINITY_DISTANCE { if next != NONE { (*stack)[depth] = next; depth++; } next = e.y; }
-        if t.z < INFINITY_DISTANCE { if next != NONE { (*stack)[depth] = next; depth++; } next = e.z; }
-        if t.w < INFINITY_DISTANCE { if next != NONE { (*stack)[depth] = next; depth++; } next = e.w; }
-        (*traversal).depth = depth;
-        if next != NONE {
-            (*traversal).current = next;
-            return;
-        }
+    step_closest(traversal, stack);
+    if (*traversal).hit.primitive != NONE {
+        (*traversal).current = FINISHED;
+        (*traversal).primitive = (*traversal).primitive_end;
     }
-    pop(traversal, stack);
 }
 
 // The constants first: what they meet shortens the way through the hierarchy.
@@ -205,7 +185,7 @@ fn begin_any(traced: Ray, t_max: f32) -> Traversal {
 fn closest_hit(traced: Ray, t_max: f32) -> Hit {
     var stack: array<u32, STACK_SIZE>;
     var traversal = begin_closest(traced, t_max);
-    while traversal.current != FINISHED {
+    while !is_finished(traversal) {
         step_closest(&traversal, &stack);
     }
     return traversal.hit;
@@ -215,7 +195,7 @@ fn closest_hit(traced: Ray, t_max: f32) -> Hit {
 fn occluded(traced: Ray, t_max: f32) -> bool {
     var stack: array<u32, STACK_SIZE>;
     var traversal = begin_any(traced, t_max);
-    while traversal.current != FINISHED {
+    while !is_finished(traversal) {
         step_any(&traversal, &stack);
     }
     return traversal.hit.primitive != NONE;

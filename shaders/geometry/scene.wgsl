@@ -14,10 +14,10 @@
 @group(0) @binding(5) var<storage, read> tables: array<vec4<f32>>;
 #endif
 #if BVH
+#if UNIFORM_NODES
+@group(0) @binding(6) var<uniform> nodes: array<vec4<u32>, NODE_WORDS>;
+#else
 @group(0) @binding(6) var<storage, read> nodes: array<vec4<u32>>;
-#if TOP_IN_UNIFORM
-// The first nodes once more, where rays spend most of their steps and a uniform buffer's words cost less.
-@group(0) @binding(17) var<uniform> top_nodes: array<vec4<u32>, TOP_WORDS>;
 #endif
 #endif
 #if ATTRIBUTES

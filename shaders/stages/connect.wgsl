@@ -12,11 +12,10 @@ fn connect(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
     var next = id.x;
 #if BVH
     var stack: array<u32, STACK_SIZE>;
-    var traversal: Traversal;
-    traversal.current = FINISHED;
+    var traversal = no_traversal();
     var place = NONE;
     loop {
-        if traversal.current == FINISHED {
+        if is_finished(traversal) {
             if place != NONE && traversal.hit.primitive == NONE {
                 add_light(place);
             }
@@ -31,7 +30,7 @@ fn connect(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
             let s0 = shadow_rays[SHADOW_ORIGIN + place];
             traversal = begin_any(Ray(s0.xyz, shadow_rays[SHADOW_DIRECTION + place].xyz), s0.w);
         }
-        if traversal.current != FINISHED {
+        if !is_finished(traversal) {
             step_any(&traversal, &stack);
         }
     }

@@ -12,11 +12,10 @@ fn extend(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups)
     var next = id.x;
 #if BVH
     var stack: array<u32, STACK_SIZE>;
-    var traversal: Traversal;
-    traversal.current = FINISHED;
+    var traversal = no_traversal();
     var slot = NONE;
     loop {
-        if traversal.current == FINISHED {
+        if is_finished(traversal) {
             if slot != NONE {
                 store_hit(slot, traversal.hit);
             }

@@ -36,7 +36,6 @@ pub mod binding {
     pub const STATISTICS: u32 = 14;
     pub const FILM_SUM: u32 = 15;
     pub const FILM_COMPENSATION: u32 = 16;
-    pub const TOP_NODES: u32 = 17;
     pub const TRACE: u32 = 18;
 }
 
@@ -71,11 +70,7 @@ impl Buffers {
         upload(binding::VIEW, "view", bytemuck::bytes_of(&flat.view), BufferUsages::UNIFORM);
         upload(binding::EDGE, "edges", &edge_parameters(1), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
         if plan.geometry == GeometryPlacement::Hierarchy {
-            upload(binding::NODES, "hierarchy", bytemuck::cast_slice(&flat.bvh.nodes), BufferUsages::STORAGE);
-            if plan.top_nodes > 0 {
-                let top = &flat.bvh.nodes[..plan.top_nodes as usize];
-                upload(binding::TOP_NODES, "top of the hierarchy", bytemuck::cast_slice(top), BufferUsages::UNIFORM);
-            }
+            upload(binding::NODES, "hierarchy", bytemuck::cast_slice(&flat.bvh.nodes), usage(plan.uniform_nodes));
         }
         let compiled = |switch: &str| plan.switches.enabled.contains(switch);
         if compiled("ATTRIBUTES") {

@@ -79,8 +79,8 @@ pub struct Plan {
     pub uniform_primitives: bool,
     /// So are the tables of materials, lights and textures.
     pub uniform_tables: bool,
-    /// Nodes at the top of the hierarchy that also stand in a uniform buffer.
-    pub top_nodes: u32,
+    /// So are the hierarchy's nodes.
+    pub uniform_nodes: bool,
     pub stages: StageMode,
     pub film: FilmStorage,
     /// Paths in flight at most.
@@ -122,18 +122,14 @@ impl Plan {
         let uniform_primitives = 48 * flat.primitives.len() as u64 <= uniform_limit;
         let uniform_tables = 16 * tables.len() as u64 <= uniform_limit;
         // Real GPUs serialise divergent reads of uniform buffers; software ones read them faster than storage.
-        let top_nodes = if limits.software && geometry == GeometryPlacement::Hierarchy {
-            (flat.bvh.nodes.len() as u32).min(limits.max_uniform_binding / 48)
-        } else {
-            0
-        };
+        let uniform_nodes = limits.software && std::mem::size_of_val(&flat.bvh.nodes[..]) as u64 <= uniform_limit;
         let path_capacity = options.path_capacity.unwrap_or_else(|| limits.path_capacity());
         let band_rows = limits.band_rows(scene.film.size, film);
         let mut plan = Self {
             geometry,
             uniform_primitives,
             uniform_tables,
-            top_nodes,
+            uniform_nodes,
             stages,
             film,
             path_capacity,
@@ -195,10 +191,10 @@ impl fmt::Display for Plan {
             GeometryPlacement::Hierarchy => "triangles in a four-wide hierarchy with 8-bit boxes; few other shapes as constants",
         };
         writeln!(f, "geometry       {geometry}")?;
-        if self.top_nodes > 0 {
-            writeln!(f, "               its first {} nodes in a uniform buffer", self.top_nodes)?;
-        }
         let buffers = |uniform| if uniform { "uniform buffer" } else { "storage buffer" };
+        if self.geometry == GeometryPlacement::Hierarchy {
+            writeln!(f, "hierarchy      {}", buffers(self.uniform_nodes))?;
+        }
         writeln!(f, "primitives     {}", buffers(self.uniform_primitives))?;
         writeln!(f, "tables         {}", buffers(self.uniform_tables))?;
         let stages: Vec<&str> = self.stage_files().iter().map(|(_, entry)| *entry).collect();

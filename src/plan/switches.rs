@@ -86,11 +86,11 @@ pub const ALL: &[&str] = &[
     "SPOT_LIGHTS",
     "TEXELS",
     "TEXTURES",
-    "TOP_IN_UNIFORM",
     "TRACE",
     "TRANSMISSIVE_SMOOTH",
     "TRIANGLES_IN_HIERARCHY",
     "UNIFORM_HEMISPHERE",
+    "UNIFORM_NODES",
     "UNIFORM_PRIMITIVES",
     "UNIFORM_TABLES",
     "VARYING_LIGHTS",
@@ -121,7 +121,7 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     switches.enable("SPHERES", has_kind(PrimitiveKind::Sphere));
     switches.enable("FLAT_ROUND", has_kind(PrimitiveKind::Disk) || has_kind(PrimitiveKind::Plane));
     switches.enable("BVH", plan.geometry == GeometryPlacement::Hierarchy);
-    switches.enable("TOP_IN_UNIFORM", plan.top_nodes > 0);
+    switches.enable("UNIFORM_NODES", plan.geometry == GeometryPlacement::Hierarchy && plan.uniform_nodes);
     switches.enable("UNIFORM_PRIMITIVES", plan.uniform_primitives);
     switches.enable("UNIFORM_TABLES", plan.uniform_tables);
     switches.enable("ATTRIBUTES", has_attributes(flat));
@@ -181,8 +181,7 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
         ("SEQUENCE_BLOCKS", SEQUENCE_BLOCKS),
         ("SEQUENCE_POINTS", SEQUENCE_BLOCKS * MAX_SAMPLES_PER_PASS),
         ("STACK_SIZE", flat.bvh.stack_size),
-        ("TOP_NODES", plan.top_nodes),
-        ("TOP_WORDS", (3 * plan.top_nodes).max(1)),
+        ("NODE_WORDS", 3 * flat.bvh.nodes.len() as u32),
         ("TABLE_WORDS", (tables.words.len() as u32).max(1)),
     ]);
     switches
