@@ -3,10 +3,11 @@
 
 For every scene: each renderer loads it, tries its settings (samplers, ways to choose lights) and keeps the one with the least error ×
 time; then all render in turn, seed by seed, at three sample counts that take a quarter, half and the whole of --seconds. From the
-pictures' scatter over the seeds follows every renderer's error at its times, from those the times to an equal error (convergence.py). Times
-are of rendering alone, without loading, building and compiling, as every renderer reports it.
+pictures follows every renderer's error at its times, from those the times to an equal error (convergence.py). Times are of rendering
+alone, without loading, building and compiling, as every renderer reports it.
 
-A ratio is given only where the means agree (agreement.py), with a negative control; what a renderer models differently is not rendered.
+A ratio is given only where the means agree (agreement.py), with a negative control, which pictures of half the size with more samples are
+rendered for; what a renderer models differently is not rendered.
 
 Run with the Python that has Mitsuba. Exit status: 0, or 7 where means differ.
 """
@@ -32,6 +33,12 @@ import table
 from agreement import judge
 from process import HERE, PeerError, Process
 
+# Enough for Welch's t to find 1 % of energy.
+AGREEMENT_SEEDS = 6
+# Of each verdict; there are some forty in a run, and hardly one of them should be wrong.
+AGREEMENT_LEVEL = 0.001
+# What relative difference of means is not judged: rounding.
+DEFAULT_ALLOWED = (1e-4, "")
 PEERS = ["mitsuba-llvm", "mitsuba-scalar", "cycles", "luxcore"]
 
 
@@ -39,8 +46,9 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", nargs="*", help=f"names out of: {', '.join(scenes.ALL)} (default: all)")
     parser.add_argument("--peers", nargs="+", default=PEERS, choices=PEERS)
-    parser.add_argument("--seconds", type=float, default=1.5, help="of the longest render of each renderer (default: 1.5)")
+    parser.add_argument("--seconds", type=float, default=1.2, help="of the longest render of each renderer (default: 1.2)")
     parser.add_argument("--seeds", type=int, default=5, help="replications, at least 3 (default: 5)")
+    parser.add_argument("--agreement-spp", type=int, default=48, help="samples per pixel of each of the pictures whose means are compared, four times as many from gpt (default: 48)")
     parser.add_argument("--gpt", type=Path, default=HERE.parents[1] / "target" / "release" / "gpt", help="the program")
     parser.add_argument("--device", default="auto", help="gpt's device (default: auto)")
     parser.add_argument("--cycles-python", default=os.environ.get("GPT_CYCLES_PYTHON", sys.executable), help="the Python that has bpy (default: $GPT_CYCLES_PYTHON, else this one)")
@@ -94,16 +102,17 @@ class Contestant:
                 return max(2, power + round(math.log2(seconds / taken)))
             power += max(1, math.floor(math.log2(seconds / 2 / taken)))
 
-    def choose(self, seconds, settings):
-        """Keeps the setting with the least error × time, after two renders with each, and the ladder of sample counts."""
+    def choose(self, seconds, settings, known):
+        """Keeps the setting with the least error × time, after two renders with each, and the ladder of sample counts. `known` is the reference, or
+        None where there is none yet; with too few samples to meet a light at all, a renderer's own pictures scatter too little."""
         costs = {}
         power = self.power_for(settings[0], seconds)
         if len(settings) > 1:
             for setting in settings:
                 tries = [self.process.render(setting, 1 << (power - 2), 91 + seed) for seed in range(2)]
                 pictures = np.stack([found["picture"] for found in tries]).astype(np.float64)
-                error = convergence.relative_errors(pictures, pictures.mean(axis=0)).mean()
-                costs[setting] = float(error * np.mean([found["seconds"] for found in tries]))
+                errors = known.errors(pictures) if known else convergence.relative_errors(pictures, pictures.mean(axis=0))
+                costs[setting] = float(errors.mean() * np.mean([found["seconds"] for found in tries]))
         self.costs = costs
         self.setting = min(costs, key=costs.get) if costs else settings[0]
         # What is compiled for a sample count is compiled now. Some samplers round the count: no step is taken twice.
@@ -115,13 +124,13 @@ class Contestant:
             raise PeerError(f"{self.process.key} made pixels that are not finite")
         self.samples.setdefault(found["spp"], []).append(found)
 
-    def rungs(self, reference):
+    def rungs(self, known):
         made = []
         for spp, found in sorted(self.samples.items()):
             pictures = np.stack([each["picture"] for each in found]).astype(np.float64)
             seconds = np.array([each["seconds"] for each in found])
-            if len(pictures) > 2:
-                made.append(convergence.Rung(spp, seconds, convergence.relative_errors(pictures, reference)))
+            own = self.process.key == "gpt"
+            made.append(convergence.Rung(spp, seconds, convergence.relative_errors(pictures, known.picture) if own else known.errors(pictures)))
         return made
 
     def cpu_seconds(self, rungs):
@@ -137,7 +146,7 @@ class Contestant:
 
 def enter(name, scene, path, options, running):
     """The renderers that take part in the scene, ready to render."""
-    ready, chosen = {}, None
+    ready, chosen, known = {}, None, None
     for key, process in running.items():
         reason = scene.without.get(key)
         if reason:
@@ -147,10 +156,13 @@ def enter(name, scene, path, options, running):
             contestant = Contestant(process, path, scene.size)
             # The scalar variant is the same renderer with the same points, only slower: it takes what the fast one chose.
             settings = [chosen] if key == "mitsuba-scalar" and chosen else contestant.settings
-            contestant.choose(options.seconds, settings)
+            contestant.choose(options.seconds, settings, known)
         except PeerError as error:
             say(f"  {key}: left out of {name}: {error}")
             continue
+        if key == "gpt":
+            tries = [process.render(contestant.setting, contestant.ladder[-1], 95 + seed)["picture"] for seed in range(3)]
+            known = convergence.reference(np.stack(tries).astype(np.float64))
         if key == "mitsuba-llvm":
             chosen = contestant.setting
         ready[key] = contestant
@@ -174,13 +186,31 @@ def measure(name, scene, path, options, running):
                 except PeerError as error:
                     say(f"  {key}: left out of {name}: {error}")
                     del ready[key]
-    return evaluate(scene, ready)
+    return evaluate(scene, ready, agreements(scene, path, options, ready))
 
 
-def evaluate(scene, ready):
+def agreements(scene, path, options, ready):
+    """The judgement on every peer's means, from pictures of half the size."""
+    found, ours = {}, None
+    for key, contestant in ready.items():
+        # The scalar variant is slow; its pictures are those of the comparison itself.
+        if key == "mitsuba-scalar":
+            continue
+        contestant.process.load(path, [side // 2 for side in scene.size])
+        spp = options.agreement_spp * (4 if key == "gpt" else 1)
+        pictures = [contestant.process.render(contestant.setting, spp, 1000 + seed)["picture"] for seed in range(AGREEMENT_SEEDS)]
+        pictures = np.stack(pictures).astype(np.float64)
+        if key == "gpt":
+            ours = pictures
+        else:
+            found[key] = judge(ours, pictures, AGREEMENT_LEVEL, scene.allowed.get(key, DEFAULT_ALLOWED)[0])
+    return found
+
+
+def evaluate(scene, ready, judgements):
     replications = {key: contestant.replications() for key, contestant in ready.items()}
-    reference = replications["gpt"].mean(axis=0)
-    rungs = {key: contestant.rungs(reference) for key, contestant in ready.items()}
+    known = convergence.reference(replications["gpt"])
+    rungs = {key: contestant.rungs(known) for key, contestant in ready.items()}
     result = {"size": list(scene.size), "left_out": scene.without, "renderers": {}, "pairs": {}}
     for key, contestant in ready.items():
         result["renderers"][key] = {
@@ -192,8 +222,8 @@ def evaluate(scene, ready):
         }
         if key == "gpt":
             continue
-        offset, reason = scene.allowed.get(key, (1e-4, ""))
-        judgement = judge(replications["gpt"], replications[key], offset=offset)
+        offset, reason = scene.allowed.get(key, DEFAULT_ALLOWED)
+        judgement = judgements.get(key) or judge(replications["gpt"], replications[key], AGREEMENT_LEVEL, offset)
         ratio = convergence.ratio(rungs["gpt"], rungs[key])
         cpu = [convergence.time_to(rungs[each], ratio.error, ready[each].cpu_seconds(rungs[each])) for each in (key, "gpt")]
         whole = [np.median(convergence.time_to(rungs[each], ratio.error)) + ready[each].start_up for each in (key, "gpt")]
@@ -205,7 +235,7 @@ def evaluate(scene, ready):
             "cpu_ratio": float(np.median(cpu[0] / cpu[1])),
             "ratio_with_start_up": float(whole[0] / whole[1]),
         }
-        say(f"  {key}: {judgement.verdict}, channels {', '.join(f'{d:+.2%}' for d in judgement.difference)}; takes {ratio} times gpt's time")
+        say(f"  {key}: {judgement.verdict} ({judgement.channels} channels, {judgement.tiles} tiles rejected), channels {', '.join(f'{d:+.2%}' for d in judgement.difference)}; takes {ratio} times gpt's time")
     result["pictures"] = {key: pictures.mean(axis=0) for key, pictures in replications.items()}
     return result
 

@@ -1,9 +1,9 @@
 """Time to equal error, from replications of pictures at several sample counts.
 
-The error is the relative mean squared error as `gpt compare` defines it: (a − b)² / (b² + 0.01), averaged over pixels and channels. What b
-is does not have to be known without noise: of K pictures with different seeds, Σ (x − mean)² / (K − 1) is the variance of one of them
-without bias. So every renderer is its own reference, whose noise is accounted for, and none needs a longer one. Bias would not show:
-agreement.py looks for it.
+The error is the relative mean squared error as `gpt compare` defines it: (a − b)² / (b² + 0.01), averaged over pixels and channels. The
+reference b is the mean of all that gpt rendered of the scene, and its own noise, which its replications tell, is taken off. For gpt's own
+pictures it is their mean instead: of K pictures with different seeds, Σ (x − mean)² / (K − 1) is the variance of one of them without
+bias. That gpt's mean is the others' as well is what agreement.py shows.
 """
 
 from dataclasses import dataclass
@@ -11,15 +11,35 @@ from dataclasses import dataclass
 import numpy as np
 
 RELATIVE_EPSILON = 1e-2
-# Random points have slope −1 in variance against samples, good ones down to −1.5 and less in smooth scenes; noise in the fit stays within this.
-SLOPES = (-2.0, -0.8)
+# The variance of a mean falls at least as fast as 1/N; with the best points in smooth scenes a little faster than N to the −1.5. What a fit
+# finds beyond that is noise, and would be blown up where it is carried far.
+SLOPES = (-1.6, -1.0)
 
 
 def relative_errors(pictures, reference):
-    """The relative mean squared error of each of the pictures (first axis), whose mean over the pictures is unbiased."""
+    """The relative mean squared error of each of the pictures (first axis) about their own mean, without bias on the average."""
     count = len(pictures)
     squares = (pictures - pictures.mean(axis=0)) ** 2 * (count / (count - 1))
     return (squares / (reference**2 + RELATIVE_EPSILON)).mean(axis=(1, 2, 3))
+
+
+@dataclass
+class Reference:
+    """The mean of independent pictures and how uncertain it is."""
+
+    picture: np.ndarray
+    noise: float
+    """Its own expected relative mean squared error."""
+
+    def errors(self, pictures):
+        """The relative mean squared error of each of the pictures (first axis), which took no part in the reference."""
+        squares = (pictures - self.picture) ** 2 / (self.picture**2 + RELATIVE_EPSILON)
+        return np.maximum(squares.mean(axis=(1, 2, 3)) - self.noise, 1e-12)
+
+
+def reference(pictures):
+    mean = pictures.mean(axis=0)
+    return Reference(mean, float(relative_errors(pictures, mean).mean()) / len(pictures))
 
 
 @dataclass
@@ -61,13 +81,13 @@ class Ratio:
     least: float
     largest: float
     error: float
-    """The relative mean squared error at which the two are compared: between those both were rendered at."""
+    """The relative mean squared error at which the two are compared: what gpt has in the middle of its sample counts."""
 
     def __str__(self):
         return f"{self.median:.2f} ({self.least:.2f}–{self.largest:.2f})"
 
 
 def ratio(ours, theirs):
-    error = float(np.sqrt(middle_error(ours) * middle_error(theirs)))
+    error = middle_error(ours)
     values = time_to(theirs, error) / time_to(ours, error)
     return Ratio(float(np.median(values)), float(values.min()), float(values.max()), error)

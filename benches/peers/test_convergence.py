@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 
 from agreement import judge
-from convergence import Rung, ratio, relative_errors, slope, time_to
+from convergence import Rung, ratio, reference, relative_errors, slope, time_to
 
 
 def pictures(spp, seeds, generator, sigma=0.3, mean=0.5):
@@ -27,6 +27,16 @@ class Statistics(unittest.TestCase):
     def test_known_variance_is_found_without_a_reference(self):
         errors = relative_errors(pictures(4, 5, self.generator), np.full((64, 64, 3), 0.5))
         self.assertAlmostEqual(errors.mean() / (0.3**2 / 4 / 0.26), 1.0, delta=0.03)
+
+    def test_noise_of_the_reference_is_taken_off(self):
+        expected = 0.3**2 / 64 / 0.26
+        noisy = reference(pictures(64, 5, self.generator))
+        self.assertAlmostEqual(noisy.errors(pictures(64, 5, self.generator)).mean() / expected, 1.0, delta=0.04)
+        self.assertAlmostEqual(noisy.noise / expected, 0.2, delta=0.01)
+
+    def test_missing_light_is_an_error_though_nothing_scatters(self):
+        known = reference(pictures(256, 5, self.generator))
+        self.assertAlmostEqual(known.errors(np.zeros((3, 64, 64, 3))).mean(), 0.25 / 0.26, delta=0.01)
 
     def test_slope_of_random_points(self):
         self.assertAlmostEqual(slope(rungs(0.01, self.generator)), -1.0, delta=0.05)

@@ -10,8 +10,14 @@ import pyluxcore
 import export_luxcore
 import scene_file
 
-# Sampler, and by what a light is chosen.
-SETTINGS = {"Sobol, lights by log of power": ("SOBOL", "LOG_POWER"), "Sobol, lights by power": ("SOBOL", "POWER"), "random": ("RANDOM", "LOG_POWER")}
+# Sampler, and by what a light is chosen; every triangle of a mesh that emits is a light.
+SETTINGS = {
+    "Sobol, lights by log of power": ("SOBOL", "LOG_POWER"),
+    "Sobol, lights by power": ("SOBOL", "POWER"),
+    "Sobol, lights uniformly": ("SOBOL", "UNIFORM"),
+    "random, lights by log of power": ("RANDOM", "LOG_POWER"),
+    "random, lights uniformly": ("RANDOM", "UNIFORM"),
+}
 POLL_SECONDS = 0.002
 
 
