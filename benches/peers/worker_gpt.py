@@ -17,7 +17,7 @@ import numpy as np
 
 
 # Of the samplers these two are the best nearly everywhere; the first is the program's own choice.
-SETTINGS = {"Halton": ["--sampler", "halton"], "Sobol": ["--sampler", "sobol"]}
+SETTINGS = {"Sobol": ["--sampler", "sobol"], "Halton": ["--sampler", "halton"]}
 
 
 class Gpt:
