@@ -221,7 +221,7 @@ fn ratio_at(at: f64, replications: usize, curves: impl Fn(usize) -> [Vec<(f64, f
 }
 
 /// How far beyond its ends a curve is believed, as a factor: single runs scatter around the median that chose the place.
-const BEYOND: f64 = 1.5;
+const BEYOND: f64 = 2.0;
 
 /// The value at `x` of the curve through the points, straight between them on logarithmic axes.
 pub fn interpolate(points: &[(f64, f64)], x: f64) -> Option<f64> {

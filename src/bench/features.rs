@@ -21,7 +21,8 @@ pub struct Feature {
     room: Room,
     /// Empty where nothing but use brings it in.
     switches: &'static [&'static str],
-    /// It needs the hierarchy: the plain room is then measured with one as well.
+    /// It needs the hierarchy: the plain room is then measured with one as well. What does not move may still stand outside of it, where few
+    /// shapes are faster, so that the two differ by more than the feature.
     hierarchy: bool,
 }
 
@@ -116,7 +117,8 @@ pub fn features() -> Vec<Feature> {
         with(
             "gaussian filter",
             Room { film: "filter = { type = \"gaussian\", radius = 1.5 }", ..plain() },
-            &["FILTER", "FILTER_CURVE"],
+            // A box sampled as another filter's curve is another picture.
+            &[],
         ),
         with("sobol sampler", Room { render: "sampler = \"sobol\"", ..plain() }, &[]),
         with("independent sampler", Room { render: "sampler = \"independent\"", ..plain() }, &[]),

@@ -89,12 +89,10 @@ fn multiply<T>(settings: Vec<Setting>, values: &[T], set: impl Fn(&mut Setting, 
 
 /// Names that occur twice get a number, and a setting without alternatives is called by sampler and estimator.
 fn name_apart(settings: &mut [Setting], own: &RenderSettings) {
-    for index in 0..settings.len() {
-        if settings[index].name.is_empty() {
-            let render = &settings[index].render;
-            let own = if render == own { " (the scene's own)" } else { "" };
-            settings[index].name = format!("{}, {}{own}", setting_name(render.sampler), setting_name(render.estimator));
-        }
+    for setting in settings.iter_mut().filter(|setting| setting.name.is_empty()) {
+        let render = &setting.render;
+        let own = if render == own { " (the scene's own)" } else { "" };
+        setting.name = format!("{}, {}{own}", setting_name(render.sampler), setting_name(render.estimator));
     }
     let plain: Vec<String> = settings.iter().map(|setting| setting.name.clone()).collect();
     for (index, setting) in settings.iter_mut().enumerate() {

@@ -137,26 +137,12 @@ pub fn measure(
     say: &mut dyn FnMut(&str),
 ) -> Result<SpeedTable, BenchError> {
     let mut entries = Vec::new();
-    let mut planned: Vec<(Scene, u32, Option<u64>)> = Vec::new();
-    if growth == Growth::Scenes {
-        planned.extend(own.iter().map(|scene| {
-            let mut scene = scene.clone();
-            scene.film.size = options.size;
-            (scene, options.spp, None)
-        }));
-    } else if let Some(first) = own.first() {
-        for size in growth.sizes(options.everything) {
-            let (scene, spp) = growth.scene(size, first, options)?;
-            let count = if growth == Growth::Resolution { u64::from(size) * u64::from(size) } else { u64::from(size) };
-            planned.push((scene, spp, Some(count)));
-        }
-    }
-    for (scene, spp, count) in planned {
+    for Planned { scene, spp, count, stages } in plan_rows(growth, own, options, devices)? {
         let what = count.map_or_else(|| scene.name.clone(), |count| format!("{count} {}", growth.label()));
         say(&format!("{}: preparing {what}", growth.label()));
         let [width, height] = scene.film.size;
         let row = SpeedRow { scene: scene.name.clone(), count, width, height, spp, outcome: Outcome::DoesNotFit(String::new()) };
-        let subject = match prepare(&scene, options, devices, observer) {
+        let subject = match prepare(&scene, stages, options, devices, observer) {
             Err(BenchError::Render(RenderError::DoesNotFit(why))) => Err(why),
             outcome => Ok(Box::new(outcome?)),
         };
@@ -171,6 +157,42 @@ pub fn measure(
     }
     let rows = finish(entries);
     Ok(SpeedTable { growth, rows })
+}
+
+/// What a row will render.
+struct Planned {
+    scene: Scene,
+    spp: u32,
+    count: Option<u64>,
+    stages: Option<StageMode>,
+}
+
+/// The rows of a table. Scenes as they are get one for each way of running the stages, where there are two and none was asked for.
+fn plan_rows(growth: Growth, own: &[Scene], options: &SpeedOptions, devices: &mut Devices) -> Result<Vec<Planned>, BenchError> {
+    let both = [Some(StageMode::Fused), Some(StageMode::Wavefront)];
+    let one = [options.stages];
+    let on_a_gpu = devices.get(&options.device)?.is_some();
+    let ways = if options.stages.is_none() && on_a_gpu { &both[..] } else { &one[..] };
+    let mut rows = Vec::new();
+    if growth == Growth::Scenes {
+        for scene in own {
+            let mut scene = scene.clone();
+            scene.film.size = options.size;
+            rows.extend(ways.iter().map(|stages| Planned {
+                scene: scene.clone(),
+                spp: options.spp,
+                count: None,
+                stages: *stages,
+            }));
+        }
+    } else if let Some(first) = own.first() {
+        for size in growth.sizes(options.everything) {
+            let (scene, spp) = growth.scene(size, first, options)?;
+            let count = if growth == Growth::Resolution { u64::from(size) * u64::from(size) } else { u64::from(size) };
+            rows.push(Planned { scene, spp, count: Some(count), stages: options.stages });
+        }
+    }
+    Ok(rows)
 }
 
 /// One run of each.
@@ -194,6 +216,7 @@ fn take_turns(entries: &mut [Entry<'_>], counts: bool) -> Result<(), BenchError>
 
 fn prepare<'a>(
     scene: &Scene,
+    stages: Option<StageMode>,
     options: &SpeedOptions,
     devices: &mut Devices,
     observer: &'a dyn Observer,
@@ -214,7 +237,7 @@ fn prepare<'a>(
             runs: Vec::new(),
         });
     };
-    let plan = PlanOptions { stages: options.stages, ..PlanOptions::default() };
+    let plan = PlanOptions { stages, ..PlanOptions::default() };
     let mut renderer = GpuRenderer::on(&device, scene, &plan)?;
     first_picture(&mut renderer, scene, observer)?;
     let first_picture_seconds = start.elapsed().as_secs_f64();
@@ -265,24 +288,31 @@ fn look_inside(renderer: &GpuRenderer, rounds: u32) -> Result<Profile, BenchErro
     Ok(Profile { stage_times, occupancy })
 }
 
-/// Rows of what was seen; ratios are taken against the first entry that was measured, run by run.
+/// Rows of what was seen; ratios are taken, run by run, against the first row that was measured: of the same scene, where nothing grows.
 fn finish(entries: Vec<Entry<'_>>) -> Vec<SpeedRow> {
     let per_sample =
         |candidate: &Candidate<'_>| -> Vec<f64> { candidate.runs.iter().map(|run| run.seconds / run.samples).collect() };
-    let first = entries.iter().find_map(|entry| entry.subject.as_ref().ok()).map(|one| per_sample(one)).unwrap_or_default();
-    let mut is_first = true;
-    let row = |Entry { mut row, subject }: Entry<'_>| {
+    let mut first: Option<(String, Vec<f64>)> = None;
+    let mut rows = Vec::new();
+    for Entry { mut row, subject } in entries {
         row.outcome = match subject {
             Err(why) => Outcome::DoesNotFit(why),
             Ok(candidate) => {
-                let ratio = Ratio::of_pairs(per_sample(&candidate).into_iter().zip(first.iter().copied()));
-                let against_first = if std::mem::replace(&mut is_first, false) { None } else { Some(ratio) };
-                Outcome::Measured(Box::new(candidate.finish(against_first)))
+                let own = per_sample(&candidate);
+                let group = if row.count.is_none() { row.scene.clone() } else { String::new() };
+                let ratio = match &first {
+                    Some((of, baseline)) if *of == group => Some(Ratio::of_pairs(own.into_iter().zip(baseline.iter().copied()))),
+                    _ => {
+                        first = Some((group, own));
+                        None
+                    }
+                };
+                Outcome::Measured(Box::new(candidate.finish(ratio)))
             }
         };
-        row
-    };
-    entries.into_iter().map(row).collect()
+        rows.push(row);
+    }
+    rows
 }
 
 impl Candidate<'_> {

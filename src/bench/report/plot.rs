@@ -71,11 +71,16 @@ pub fn log_log(series: &[Series], x_label: &str, y_label: &str) -> Result<String
     Ok(scalable(&svg, &format!("{y_label} against {x_label}")))
 }
 
-/// The range of positive numbers, with some space on either side.
+/// The range of positive numbers, with some space on either side; to whole powers of ten where it would hold fewer than two of them, since
+/// those are what is labelled.
 fn padded(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let (least, largest) =
         values.fold((f64::INFINITY, 0.0_f64), |(least, largest), value| (least.min(value), largest.max(value)));
-    (least <= largest).then(|| (least / 1.3, largest * 1.3))
+    let (low, high) = (least / 1.3, largest * 1.3);
+    let [floor, ceiling] = [low.log10().floor(), high.log10().ceil()];
+    let powers = high.log10().floor() - low.log10().ceil() + 1.0;
+    let range = if powers >= 2.0 { (low, high) } else { (10.0_f64.powf(floor), 10.0_f64.powf(ceiling)) };
+    (least <= largest).then_some(range)
 }
 
 type Range = (f64, f64);
@@ -125,7 +130,7 @@ fn draw<'a>(
 
 /// A tick's label: plain where that is short, else a power of ten.
 fn short(value: f64) -> String {
-    if value == 0.0 || (1e-3..1e5).contains(&value.abs()) {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
         let text = format!("{value:.3}");
         return text.trim_end_matches('0').trim_end_matches('.').to_owned();
     }
@@ -150,6 +155,14 @@ mod tests {
         assert!(svg.starts_with("<svg") && svg.contains("viewBox") && svg.contains("seconds"), "{svg}");
         assert!(!svg.contains("width=\"520\" height=\"380\" viewBox"), "the size is the page's to choose");
         assert_eq!(svg.matches("<circle").count(), 3);
+    }
+
+    #[test]
+    fn axes_hold_two_powers_of_ten() {
+        assert_eq!(padded([0.2, 50.0].into_iter()), Some((0.2 / 1.3, 65.0)));
+        let (low, high) = padded([1900.0, 4200.0].into_iter()).unwrap();
+        assert!((low - 1e3).abs() < 1e-6 && (high - 1e4).abs() < 1e-6, "{low} {high}");
+        assert_eq!(padded(std::iter::empty()), None);
     }
 
     #[test]

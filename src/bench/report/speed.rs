@@ -12,8 +12,8 @@ use super::plot::{Point, Series, log_log};
 use super::{csv_text, number, page, ratio, ratio_text, spread, spread_text, table};
 
 /// What a row is called: the scene, or the size.
-fn label(table: &SpeedTable, row: &SpeedRow) -> String {
-    row.count.map_or_else(|| row.scene.clone(), |count| format!("{count} {}", table.growth.label()))
+fn label(row: &SpeedRow) -> String {
+    row.count.map_or_else(|| row.scene.clone(), |count| count.to_string())
 }
 
 /// Every row with its medians.
@@ -82,7 +82,7 @@ pub fn speed_csv(tables: &[SpeedTable]) -> Result<Vec<u8>, BenchError> {
 pub fn speed_text(table: &SpeedTable) -> String {
     let mut text = format!("{}\n", table.growth.label());
     for row in &table.rows {
-        let _ = write!(text, "  {:<28}", label(table, row));
+        let _ = write!(text, "  {:<28}", label(row));
         match &row.outcome {
             Outcome::DoesNotFit(why) => {
                 let _ = writeln!(text, "does not fit: {why}");
@@ -97,7 +97,7 @@ pub fn speed_text(table: &SpeedTable) -> String {
                     number(speed.build_seconds),
                     number(speed.compile_seconds),
                 );
-                if let Some(ratio) = speed.time_per_sample.filter(|_| row.count.is_some()) {
+                if let Some(ratio) = speed.time_per_sample {
                     let _ = write!(text, "; time per sample over the first {}", ratio_text(&ratio));
                 }
                 text.push('\n');
@@ -143,11 +143,9 @@ fn section(table: &SpeedTable) -> Result<Markup, BenchError> {
             }
         }
         (speeds(table))
-        @for (row, speed) in measured(table).filter(|(_, speed)| !speed.stage_times.is_empty()) {
-            @if table.growth == Growth::Scenes || speed.stages == "wavefront" {
-                h3 { "Stages: " (label(table, row)) }
-                (stages(speed))
-            }
+        @for (row, speed) in measured(table).filter(|(_, speed)| speed.stage_times.len() > 1) {
+            h3 { "Stages: " (label(row)) @if row.count.is_some() { " " (name) } }
+            (stages(speed))
         }
     })
 }
@@ -172,7 +170,7 @@ fn speeds(table: &SpeedTable) -> Markup {
         .iter()
         .map(|row| {
             let size = html! { (row.width) " × " (row.height) ", " (row.spp) " spp" };
-            let mut cells = vec![html! { (label(table, row)) }, size];
+            let mut cells = vec![html! { (label(row)) }, size];
             match &row.outcome {
                 Outcome::DoesNotFit(why) => cells.push(html! { span class="flag" { "does not fit: " (why) } }),
                 Outcome::Measured(speed) => cells.extend([
@@ -193,13 +191,13 @@ fn speeds(table: &SpeedTable) -> Markup {
         .collect();
     super::table(
         &[
-            "",
+            if table.growth == Growth::Scenes { "scene" } else { table.growth.label() },
             "picture",
             "stages",
             "Msample/s",
             "Mray/s",
             "rays a sample",
-            "time per sample, ratio to the first",
+            "time per sample over the first",
             "build s",
             "compile s",
             "first picture s",
