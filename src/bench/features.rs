@@ -120,7 +120,7 @@ pub fn features() -> Vec<Feature> {
             // A box sampled as another filter's curve is another picture.
             &[],
         ),
-        with("sobol sampler", Room { render: "sampler = \"sobol\"", ..plain() }, &[]),
+        with("halton sampler", Room { render: "sampler = \"halton\"", ..plain() }, &[]),
         with("independent sampler", Room { render: "sampler = \"independent\"", ..plain() }, &[]),
         Feature {
             name: "motion",

@@ -128,7 +128,8 @@ mod tests {
 
     #[test]
     fn no_choice_is_one_setting_and_the_same_twice_is_two() {
-        let one = Axes::default().settings(&RenderSettings::default());
+        let own = RenderSettings { sampler: SamplerKind::Halton, ..RenderSettings::default() };
+        let one = Axes::default().settings(&own);
         assert_eq!((one.len(), one[0].name.as_str()), (1, "halton, mis (the scene's own)"));
         let twice = Axes { samplers: vec![SamplerKind::Halton; 2], ..Axes::default() }.settings(&RenderSettings::default());
         assert_eq!([&twice[0].name, &twice[1].name], ["halton", "halton again (2)"]);
