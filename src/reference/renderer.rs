@@ -212,7 +212,9 @@ impl Progress<'_> {
 
 /// A film takes radiance that is finite, in f32 too, and not negative.
 fn is_acceptable(radiance: DVec3) -> bool {
-    radiance.as_vec3().is_finite() && radiance.min_element() >= 0.0
+    // Its square goes into the second moment.
+    let square = luminance(radiance).powi(2) as f32;
+    radiance.as_vec3().is_finite() && square.is_finite() && radiance.min_element() >= 0.0
 }
 
 impl BandSums {

@@ -31,7 +31,7 @@ pub fn findings(effort: Effort) -> Vec<Finding> {
         [(1e-5, 1e-5), (1e-5, 1e-2), (1e-5, 1.0), (1.0, 1e-3), (1.0, 1e3), (1.0, 1e6), (1e5, 1.0), (1e5, 1e3), (1e5, 1e6)];
     for &(radius, distance) in &near_and_far[effort.pick(6..7, 0..9)] {
         let scene = sphere(radius, distance);
-        let least = if radius < 1e-3 * distance { LEAST_OF_A_SPECK } else { LEAST_MATCHING };
+        let least = if radius < 1.5e-3 * distance { LEAST_OF_A_SPECK } else { LEAST_MATCHING };
         findings.extend(judge_with(
             format!("sphere of radius {radius:e} seen from {distance:e} above it"),
             &scene,
@@ -63,7 +63,7 @@ fn glowing(film: u32, spp: u32, camera: &str) -> Scene {
 }
 
 /// How many pixels are not 1. What the device sees through a crack is black.
-fn holes(case: String, rays: u64, pixels: &[f64]) -> Finding {
+pub fn holes(case: String, rays: u64, pixels: &[f64]) -> Finding {
     let holes = pixels.iter().filter(|value| (**value - 1.0).abs() > 1e-6).count();
     Finding::new(case)
         .with("rays", rays)
@@ -73,7 +73,7 @@ fn holes(case: String, rays: u64, pixels: &[f64]) -> Finding {
 
 /// From within a crumpled sphere of many triangles, all round by three views: every ray meets it.
 fn closed_mesh(effort: Effort) -> Vec<Finding> {
-    let (rings, film, spp) = effort.pick((60, 256, 4), (700, 1024, 16));
+    let (rings, film, spp) = effort.pick((60, 256, 4), (700, 1024, 32));
     [("[0.1, 0.2, 1]"), ("[-1, 0.1, -0.4]"), ("[0.2, 1, 0.1]")]
         .into_iter()
         .filter_map(|look_at| {
@@ -86,6 +86,18 @@ fn closed_mesh(effort: Effort) -> Vec<Finding> {
             Some(holes(format!("inside a closed mesh of {triangles} triangles, towards {look_at}"), rays, &render(&scene)?))
         })
         .collect()
+}
+
+#[allow(dead_code, reason = "the bench shows it nothing wrong")]
+/// The same with a triangle left out.
+pub fn cracked_mesh() -> Scene {
+    let mut scene = glowing(64, 4, "[camera]\nposition = [0, 0, 0]\nlook_at = [0, 0, 1]\nvfov = 90");
+    let (positions, mut faces) = crumpled_sphere(20);
+    let towards = |face: &[u32; 3]| face.iter().map(|&corner| positions[corner as usize].z).sum::<f32>();
+    let ahead = (0..faces.len()).max_by(|&a, &b| towards(&faces[a]).total_cmp(&towards(&faces[b]))).expect("there are faces");
+    faces.remove(ahead);
+    add_mesh(&mut scene, positions, faces);
+    scene
 }
 
 /// Rings of vertices at distances from the centre that vary at random by as much as the rings are apart, the poles included.

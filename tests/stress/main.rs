@@ -2,8 +2,12 @@
 //!
 //! `cargo bench --bench stress` runs the same cases at full length and writes docs/stress.md.
 
+mod accumulation;
+mod checked_shaders;
+mod controls;
 mod grazing;
 mod intersections;
+mod not_finite;
 mod random_scenes;
 mod range;
 mod scale;
@@ -48,4 +52,27 @@ fn rays_leave_the_surface_they_start_on() {
 #[test]
 fn rays_meet_what_is_hard_to_meet() {
     assert_all(&intersections::findings(effort()));
+}
+
+#[test]
+fn films_hold_very_many_samples() {
+    assert_all(&accumulation::findings(effort()));
+}
+
+#[test]
+fn checked_shaders_make_the_same_pictures() {
+    assert_all(&checked_shaders::findings(effort()));
+}
+
+#[test]
+fn what_is_not_finite_is_refused_and_said() {
+    assert_all(&not_finite::findings(effort()));
+}
+
+/// The same checks, shown something wrong.
+#[test]
+fn what_is_wrong_is_noticed() {
+    for (shown, finding) in controls::complaints() {
+        assert!(finding.complaint.is_some(), "{shown} went unnoticed: {finding:?}");
+    }
 }

@@ -7,7 +7,7 @@ use gpt::gpu::{Device, GpuRenderer};
 use gpt::plan::PlanOptions;
 use gpt::reference::ReferenceRenderer;
 use gpt::render::{DeviceChoice, RenderReport, RenderRequest, Renderer, Silent};
-use gpt::scene::{Scene, load_toml_str};
+use gpt::scene::{SamplerKind, Scene, load_toml_str};
 use gpt::verify::{self, Verdict};
 
 /// One device for all cases. None: the tests were told to go without.
@@ -61,12 +61,6 @@ impl Finding {
     }
 }
 
-/// One section of the page.
-pub struct Section {
-    pub title: &'static str,
-    pub findings: fn(Effort) -> Vec<Finding>,
-}
-
 /// Prints all findings and fails on any complaint.
 #[allow(dead_code, reason = "the bench prints and does not fail")]
 pub fn assert_all(findings: &[Finding]) {
@@ -84,9 +78,14 @@ fn in_one_line(finding: &Finding) -> String {
     format!("{}: {}", finding.case, measures.join(", "))
 }
 
-/// A scene from its text.
+/// A scene from its text. Its sampler is pinned, so that what was measured does not change with a default.
 pub fn scene(text: &str) -> Scene {
-    load_toml_str(text, "stress", std::path::Path::new("")).unwrap_or_else(|error| panic!("{error:?}\n{text}"))
+    let loaded = load_toml_str(text, "stress", std::path::Path::new(""));
+    let mut scene = loaded.unwrap_or_else(|error| panic!("{error:?}\n{text}"));
+    if !text.contains("sampler = ") {
+        scene.render.sampler = SamplerKind::Halton;
+    }
+    scene
 }
 
 /// The device's picture of `scene` against the reference's picture of `truth`, path by path. None without a device.

@@ -1,0 +1,37 @@
+//! What the cases must notice: each kind of check, shown something wrong, complains.
+
+use gpt::plan::PlanOptions;
+use gpt::scene::{ColorInput, Scene};
+use gpt::verify::LEAST_MATCHING;
+
+use super::support::{DEVICE, Finding, compare_with, judged, render};
+use super::{accumulation, intersections, scale, self_intersection};
+
+/// What was shown to a check, and what it made of it.
+pub fn complaints() -> Vec<(&'static str, Finding)> {
+    if DEVICE.is_none() {
+        return Vec::new();
+    }
+    let room = scale::room(scale::HERE);
+    let verdict = compare_with(&brighter(&room), &room, &PlanOptions::default()).expect("there is a device");
+    let pixels = |scene: &Scene| render(scene).expect("there is a device");
+    vec![
+        ("a lamp 1 % too bright", judged("room", &verdict, LEAST_MATCHING)),
+        ("a mesh that lacks one triangle", intersections::holes("mesh".to_owned(), 0, &pixels(&intersections::cracked_mesh()))),
+        (
+            "a speck above a surface",
+            self_intersection::seen_in_white("plate".to_owned(), &pixels(&self_intersection::with_speck())),
+        ),
+        ("a plain sum in single precision", accumulation::plain_sum(1 << 15)),
+    ]
+}
+
+fn brighter(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    for material in &mut scene.materials {
+        if let Some(ColorInput::Constant(radiance)) = material.emission.as_mut().map(|emission| &mut emission.radiance) {
+            *radiance *= 1.01;
+        }
+    }
+    scene
+}
