@@ -1,9 +1,10 @@
 //! Files that are not what they should be: random damage to scenes, models, materials and pictures ends in an answer or one clear error, soon,
-//! and within a bound of memory. `GPT_FUZZ_CASES` says how many cases of each kind, 60 when left out.
+//! and within a bound of memory. `GPT_FUZZ_CASES` says how many cases of each kind, 15 when left out.
 //!
 //! One test, because it watches what the whole process allocates.
 
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -55,15 +56,17 @@ const MOST_FOR_TEXTS: usize = 64 << 20;
 
 #[test]
 fn damaged_files_end_in_an_answer_or_an_error() {
-    let cases = std::env::var("GPT_FUZZ_CASES").ok().and_then(|count| count.parse().ok()).unwrap_or(60);
+    let cases = std::env::var("GPT_FUZZ_CASES").ok().and_then(|count| count.parse().ok()).unwrap_or(15);
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut random = SplitMix64::new(3);
+    let mut extremes = Extremes::default();
     let scenes: Vec<&str> = ["cornell", "spheres", "motion-blur"].into_iter().filter_map(scene::builtin_text).collect();
     for text in scenes {
         for _ in 0..cases {
             let bytes = damaged(text.as_bytes(), &mut random, true);
             let text = String::from_utf8_lossy(&bytes).into_owned();
-            bounded("scene", &bytes, MOST_FOR_TEXTS, || drop(scene::load_toml_str(&text, "damaged.toml", Path::new(""))));
+            extremes
+                .bounded("scene", &bytes, MOST_FOR_TEXTS, || drop(scene::load_toml_str(&text, "damaged.toml", Path::new(""))));
         }
     }
     let [obj, mtl] = ["model.obj", "model.mtl"].map(|name| folder.path().join(name));
@@ -77,7 +80,7 @@ fn damaged_files_end_in_an_answer_or_an_error() {
             std::fs::write(&obj, &model).expect("the folder can be written to");
             std::fs::write(&mtl, &materials).expect("the folder can be written to");
             let written = if damage_materials { materials } else { model };
-            bounded("model", &written, MOST_FOR_TEXTS, || drop(scene::load(obj.to_str())));
+            extremes.bounded("model", &written, MOST_FOR_TEXTS, || drop(scene::load(obj.to_str())));
         }
     }
     for (ending, whole) in pictures(folder.path()) {
@@ -85,9 +88,18 @@ fn damaged_files_end_in_an_answer_or_an_error() {
         for _ in 0..cases {
             let bytes = damaged(&whole, &mut random, false);
             std::fs::write(&path, &bytes).expect("the folder can be written to");
-            bounded(ending, &bytes, MOST_FOR_PICTURES, || drop(scene::read_image(&path, None)));
+            extremes.bounded(ending, &bytes, MOST_FOR_PICTURES, || drop(scene::read_image(&path, None)));
         }
     }
+    for (kind, (longest, most)) in extremes.by_kind {
+        println!("{kind}: at most {longest:.1?} and {:.1} MiB", most as f64 / f64::from(1 << 20));
+    }
+}
+
+/// The longest time and the most memory that a file of each kind took.
+#[derive(Default)]
+struct Extremes {
+    by_kind: BTreeMap<String, (Duration, usize)>,
 }
 
 /// The negative control: what allocates more than its bound is noticed.
@@ -98,19 +110,23 @@ fn notices_memory() -> bool {
     MOST.load(Ordering::Relaxed) - before > MOST_FOR_TEXTS
 }
 
-/// Runs `read` and fails where it takes too long or too much memory; a panic fails by itself. Leaves the file that did it.
-fn bounded(kind: &str, bytes: &[u8], most: usize, read: impl FnOnce() + std::panic::UnwindSafe) {
-    assert!(notices_memory());
-    let before = IN_USE.load(Ordering::Relaxed);
-    MOST.store(before, Ordering::Relaxed);
-    let start = Instant::now();
-    let ended = std::panic::catch_unwind(read);
-    let (took, used) = (start.elapsed(), MOST.load(Ordering::Relaxed).saturating_sub(before));
-    if ended.is_err() || took > LONGEST || used > most {
-        let evidence = std::env::temp_dir().join(format!("gpt-hostile-{kind}"));
-        let kept = std::fs::write(&evidence, bytes).is_ok();
-        let panicked = ended.is_err();
-        panic!("{kind}: panicked {panicked}, {took:?}, {used} bytes; the file is kept ({kept}): {}", evidence.display());
+impl Extremes {
+    /// Runs `read` and fails where it panics or takes too long or too much memory. Leaves the file that did it.
+    fn bounded(&mut self, kind: &str, bytes: &[u8], most: usize, read: impl FnOnce() + std::panic::UnwindSafe) {
+        assert!(notices_memory());
+        let before = IN_USE.load(Ordering::Relaxed);
+        MOST.store(before, Ordering::Relaxed);
+        let start = Instant::now();
+        let ended = std::panic::catch_unwind(read);
+        let (took, used) = (start.elapsed(), MOST.load(Ordering::Relaxed).saturating_sub(before));
+        let extreme = self.by_kind.entry(kind.to_owned()).or_default();
+        *extreme = (extreme.0.max(took), extreme.1.max(used));
+        if ended.is_err() || took > LONGEST || used > most {
+            let evidence = std::env::temp_dir().join(format!("gpt-hostile-{kind}"));
+            let kept = std::fs::write(&evidence, bytes).is_ok();
+            let panicked = ended.is_err();
+            panic!("{kind}: panicked {panicked}, {took:?}, {used} bytes; the file is kept ({kept}): {}", evidence.display());
+        }
     }
 }
 
