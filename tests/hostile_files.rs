@@ -60,6 +60,7 @@ fn damaged_files_end_in_an_answer_or_an_error() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut random = SplitMix64::new(3);
     let mut extremes = Extremes::default();
+    assert!(notices_memory());
     let scenes: Vec<&str> = ["cornell", "spheres", "motion-blur"].into_iter().filter_map(scene::builtin_text).collect();
     for text in scenes {
         for _ in 0..cases {
@@ -113,7 +114,6 @@ fn notices_memory() -> bool {
 impl Extremes {
     /// Runs `read` and fails where it panics or takes too long or too much memory. Leaves the file that did it.
     fn bounded(&mut self, kind: &str, bytes: &[u8], most: usize, read: impl FnOnce() + std::panic::UnwindSafe) {
-        assert!(notices_memory());
         let before = IN_USE.load(Ordering::Relaxed);
         MOST.store(before, Ordering::Relaxed);
         let start = Instant::now();
