@@ -2,7 +2,7 @@
 //!
 //! - [`setting`]: which settings are compared.
 //! - [`subject`]: what renders and tells the time; tests put in estimators of known variance, bias and speed.
-//! - [`reference`]: what errors are measured against, with its own error.
+//! - [`mod@reference`]: what errors are measured against, with its own error.
 //! - [`ladder`]: pictures of rising numbers of samples, over and over, settings in turn.
 //! - [`analysis`]: errors with intervals, slopes, floors, ratios at equal time and at equal error.
 //! - [`convergence`]: all of it for one scene.
