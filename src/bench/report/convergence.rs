@@ -304,7 +304,7 @@ fn equal_time_pictures(index: usize, scene: &SceneConvergence) -> Result<Markup,
         p {
             "Maps of the relative error: "
             @for (label, [r, g, b]) in pictures::HEAT_STOPS {
-                span style=(format!("border-left:1.2em solid rgb({r},{g},{b});padding:0 .8em 0 .3em")) { (label) }
+                span style=(format!("border-left:1.2em solid rgb({r},{g},{b});padding:0 .8em 0 .3em;white-space:nowrap")) { (label) }
             }
         }
         div class="pictures" {
