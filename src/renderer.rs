@@ -1,6 +1,6 @@
 //! Which renderer takes a scene.
 
-use crate::gpu::GpuRenderer;
+use crate::gpu::{GpuRenderer, OpeningDevice};
 use crate::plan::PlanOptions;
 use crate::reference::ReferenceRenderer;
 use crate::render::{DeviceChoice, RenderError, Renderer};
@@ -16,28 +16,38 @@ pub struct ChosenRenderer {
     pub notice: Option<&'static str>,
 }
 
-/// Makes the scene ready on the chosen device. With [`DeviceChoice::Auto`] and no adapter at all, that is the CPU reference,
-/// for which `options` have no meaning.
-///
-/// # Errors
-/// No such device, or a scene that does not fit it.
-pub fn create(scene: &Scene, choice: &DeviceChoice, options: &PlanOptions) -> Result<ChosenRenderer, RenderError> {
-    match choice {
-        DeviceChoice::Cpu => Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: None }),
-        DeviceChoice::Gpu | DeviceChoice::Named(_) => {
-            Ok(ChosenRenderer { renderer: on_a_gpu(scene, choice, options)?, notice: None })
+/// The choice of a device while it is being carried out: an adapter opens while the scene is read.
+pub struct Choice {
+    choice: DeviceChoice,
+    /// None for the CPU, which needs no adapter.
+    opening: Option<OpeningDevice>,
+}
+
+impl Choice {
+    /// Begins to open the adapter, if `choice` means one.
+    pub fn begin(choice: &DeviceChoice) -> Self {
+        let opening = (*choice != DeviceChoice::Cpu).then(|| OpeningDevice::begin(choice));
+        Self { choice: choice.clone(), opening }
+    }
+
+    /// Makes the scene ready on the chosen device. With [`DeviceChoice::Auto`] and no adapter at all, that is the CPU reference, for
+    /// which `options` have no meaning.
+    ///
+    /// # Errors
+    /// No such device, or a scene that does not fit it.
+    pub fn renderer(self, scene: &Scene, options: &PlanOptions) -> Result<ChosenRenderer, RenderError> {
+        let Some(opening) = self.opening else {
+            return Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: None });
+        };
+        match GpuRenderer::once_open(opening, scene, options) {
+            Err(RenderError::NoDevice(_)) if self.choice == DeviceChoice::Auto => {
+                Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: Some(NO_ADAPTER_NOTICE) })
+            }
+            outcome => Ok(ChosenRenderer { renderer: Box::new(outcome?), notice: None }),
         }
-        DeviceChoice::Auto => match on_a_gpu(scene, choice, options) {
-            Err(RenderError::NoDevice(_)) => Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: Some(NO_ADAPTER_NOTICE) }),
-            outcome => Ok(ChosenRenderer { renderer: outcome?, notice: None }),
-        },
     }
 }
 
 fn on_the_cpu(scene: &Scene) -> Result<Box<dyn Renderer>, RenderError> {
     Ok(Box::new(ReferenceRenderer::new(scene)?))
-}
-
-fn on_a_gpu(scene: &Scene, choice: &DeviceChoice, options: &PlanOptions) -> Result<Box<dyn Renderer>, RenderError> {
-    Ok(Box::new(GpuRenderer::new(scene, choice, options)?))
 }

@@ -93,3 +93,19 @@ fn the_stack_covers_the_deepest_way() {
         assert!(deepest <= flat.bvh.stack_size, "{deepest} entries, room for {}", flat.bvh.stack_size);
     }
 }
+
+/// The hierarchy is built on as many cores as there are, and is the same on any number: pictures are.
+#[test]
+fn the_number_of_cores_does_not_show() {
+    let scene = grid(60);
+    let on = |cores: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(cores).build().expect("threads");
+        pool.install(|| FlatScene::new(&scene).expect("the scene packs"))
+    };
+    let alone = on(1);
+    for cores in [2, 5] {
+        let together = on(cores);
+        assert_eq!(alone.bvh.nodes, together.bvh.nodes);
+        assert!(alone.primitives == together.primitives);
+    }
+}

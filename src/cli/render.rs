@@ -8,7 +8,7 @@ use gpt::plan::PlanOptions;
 use gpt::progressive::error::ErrorEstimate;
 use gpt::progressive::{self, Goal, Outcome, STREAMS, Stop};
 use gpt::render::{RenderError, RenderReport, RenderRequest, Renderer};
-use gpt::renderer::{self, ChosenRenderer};
+use gpt::renderer::{Choice, ChosenRenderer};
 use gpt::scene::{self, Scene};
 
 use super::arguments::RenderArguments;
@@ -24,6 +24,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let mut outputs = output_formats(&arguments.outputs, arguments.stats.as_deref())?;
     interrupt::install()?;
 
+    let choice = Choice::begin(&arguments.device);
     let scene = load(arguments)?;
     if outputs.is_empty() {
         let default = PathBuf::from(format!("{}.exr", scene.name));
@@ -33,7 +34,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let scene_hash = scene::digest(&scene);
     let load_seconds = started.elapsed().as_secs_f64();
 
-    let (outcome, pictures) = render(arguments, &scene, &outputs, &scene_hash, started)?;
+    let (outcome, pictures) = render(arguments, choice, &scene, &outputs, &scene_hash, started)?;
     let anything = pictures.any();
     let summary = pictures.finish()?;
 
@@ -81,13 +82,14 @@ fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
 /// Makes the scene ready on its device, and renders it into files that are not in their places yet.
 fn render(
     arguments: &RenderArguments,
+    choice: Choice,
     scene: &Scene,
     outputs: &[(PathBuf, PictureFormat)],
     scene_hash: &str,
     started: Instant,
 ) -> Result<(Outcome, Pictures), Failure> {
     let options = PlanOptions { allocation: arguments.goal.adaptive, ..PlanOptions::default() };
-    let ChosenRenderer { mut renderer, notice } = renderer::create(scene, &arguments.device, &options)?;
+    let ChosenRenderer { mut renderer, notice } = choice.renderer(scene, &options)?;
     if let Some(notice) = notice {
         terminal::note(notice);
     }

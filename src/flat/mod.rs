@@ -17,6 +17,7 @@ pub mod view;
 pub mod world;
 
 use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 
 use crate::scene::Scene;
 use bvh4::Bvh4;
@@ -66,7 +67,7 @@ impl FlatScene {
         let environment = FlatEnvironment::new(scene, &mut textures.texels)?;
         let lights = light::collect(scene, &mut world, &environment);
         let (bvh, order) = Bvh4::build(&world.primitives, &world.motions)?;
-        let primitives: Vec<Primitive> = order.iter().map(|&index| world.primitives[index].pack()).collect();
+        let primitives: Vec<Primitive> = order.par_iter().map(|&index| world.primitives[index].pack()).collect();
         let flat = Self {
             primitives,
             attributes: world.attributes,

@@ -61,8 +61,8 @@ impl Buffers {
         let tables = flat.tables().words;
         let mut upload = |number, label, bytes: &[u8], usage| {
             // A binding may not be empty.
-            let padded = if bytes.is_empty() { vec![0; 48] } else { bytes.to_vec() };
-            let descriptor = wgpu::util::BufferInitDescriptor { label: Some(label), contents: &padded, usage };
+            let contents = if bytes.is_empty() { &[0; 48] } else { bytes };
+            let descriptor = wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage };
             buffers.insert(number, device.device.create_buffer_init(&descriptor));
         };
         upload(binding::PRIMITIVES, "primitives", bytemuck::cast_slice(&flat.primitives), usage(plan.uniform_primitives));

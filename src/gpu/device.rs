@@ -1,6 +1,7 @@
 //! An open device, and what went wrong on it.
 
 use std::sync::{Arc, Mutex};
+use std::thread::{self, JoinHandle};
 
 use crate::plan::DeviceLimits;
 use crate::render::{DeviceChoice, RenderError};
@@ -13,6 +14,55 @@ pub struct Device {
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
     failure: Arc<Mutex<Option<Failure>>>,
+}
+
+/// A device that a thread of its own opens, which takes a tenth of a second or more.
+pub struct OpeningDevice(Opening);
+
+enum Opening {
+    Open(Box<Device>),
+    /// None once it was waited for.
+    Thread(Option<JoinHandle<Result<Device, RenderError>>>),
+}
+
+impl OpeningDevice {
+    /// Begins to open the adapter that `choice` means; see [`Device::open`].
+    pub fn begin(choice: &DeviceChoice) -> Self {
+        let choice = choice.clone();
+        Self(Opening::Thread(Some(thread::spawn(move || Device::open(&choice)))))
+    }
+
+    /// One that needs no waiting.
+    pub fn is_open(device: &Device) -> Self {
+        Self(Opening::Open(Box::new(device.clone())))
+    }
+
+    /// The device, once it is open.
+    ///
+    /// # Errors
+    /// As [`Device::open`].
+    pub fn wait(mut self) -> Result<Device, RenderError> {
+        match &mut self.0 {
+            Opening::Open(device) => Ok(Device::clone(device)),
+            Opening::Thread(thread) => {
+                let opened = thread.take().map(JoinHandle::join);
+                let panicked = || Err(RenderError::Internal("opening the device panicked".to_owned()));
+                opened.unwrap_or_else(|| Ok(panicked())).unwrap_or_else(|_| panicked())
+            }
+        }
+    }
+}
+
+impl Drop for OpeningDevice {
+    /// Waits: a process must not end while a driver is being loaded.
+    fn drop(&mut self) {
+        if let Opening::Thread(thread) = &mut self.0
+            && let Some(thread) = thread.take()
+        {
+            // Whether it opened does not matter any more.
+            let _ = thread.join();
+        }
+    }
 }
 
 enum Failure {

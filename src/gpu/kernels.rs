@@ -1,6 +1,7 @@
 //! Compute pipelines, their bindings read off the shaders by naga.
 
 use naga::{AddressSpace, StorageAccess, TypeInner};
+use rayon::prelude::*;
 
 use super::buffers::{Buffers, binding};
 use super::device::Device;
@@ -64,28 +65,29 @@ pub fn used_bindings(module: &naga::Module, info: &naga::valid::ModuleInfo, entr
     bindings
 }
 
-/// Compiles the plan's stages and binds them.
+/// A stage that is compiled and not bound to anything yet, so that the scene can be uploaded meanwhile.
+pub struct CompiledStage {
+    file: &'static str,
+    entry: &'static str,
+    used: Vec<UsedBinding>,
+    layout: wgpu::BindGroupLayout,
+    pipeline: wgpu::ComputePipeline,
+}
+
+/// Compiles the plan's stages, side by side.
 ///
 /// # Errors
 /// [`RenderError::Internal`] for a mistake in the shaders, with file and line.
-pub fn build(device: &Device, plan: &Plan, buffers: &Buffers) -> Result<Vec<Kernel>, RenderError> {
-    let kernels = plan.stage_files().iter();
-    let needed = kernels.filter(|(_, entry)| *entry != "connect" || plan.samples_lights());
-    needed.map(|(file, entry)| build_kernel(device, plan, buffers, file, entry)).collect()
+pub fn compile(device: &Device, plan: &Plan) -> Result<Vec<CompiledStage>, RenderError> {
+    let stages: Vec<_> = plan.stage_files().iter().filter(|(_, entry)| *entry != "connect" || plan.samples_lights()).collect();
+    stages.par_iter().map(|(file, entry)| compile_stage(device, plan, file, entry)).collect()
 }
 
-fn build_kernel(
-    device: &Device,
-    plan: &Plan,
-    buffers: &Buffers,
-    file: &'static str,
-    entry: &'static str,
-) -> Result<Kernel, RenderError> {
+fn compile_stage(device: &Device, plan: &Plan, file: &'static str, entry: &'static str) -> Result<CompiledStage, RenderError> {
     let internal = |error: ComposeError| RenderError::Internal(error.to_string());
     let composed = shader::compose(file, &plan.switches).map_err(internal)?;
     let (module, info) = composed.validate().map_err(internal)?;
     let used = used_bindings(&module, &info, entry);
-
     let entries: Vec<wgpu::BindGroupLayoutEntry> = used
         .iter()
         .map(|used| wgpu::BindGroupLayoutEntry {
@@ -120,7 +122,20 @@ fn build_kernel(
         compilation_options: wgpu::PipelineCompilationOptions { zero_initialize_workgroup_memory: false, ..Default::default() },
         cache: None,
     });
+    device.check()?;
+    Ok(CompiledStage { file, entry, used, layout, pipeline })
+}
 
+/// Binds compiled stages to their buffers.
+///
+/// # Errors
+/// [`RenderError::Internal`] where a stage uses a binding that the plan does not have.
+pub fn bind(device: &Device, stages: Vec<CompiledStage>, buffers: &Buffers) -> Result<Vec<Kernel>, RenderError> {
+    stages.into_iter().map(|stage| bind_stage(device, stage, buffers)).collect()
+}
+
+fn bind_stage(device: &Device, stage: CompiledStage, buffers: &Buffers) -> Result<Kernel, RenderError> {
+    let CompiledStage { file, entry, used, layout, pipeline } = stage;
     let mut bound = Vec::new();
     for used in &used {
         let resource = buffers.resource(used.number);

@@ -12,5 +12,5 @@ pub mod renderer;
 pub mod trace;
 
 pub use adapters::{AdapterSummary, list_devices, select_adapter};
-pub use device::Device;
+pub use device::{Device, OpeningDevice};
 pub use renderer::GpuRenderer;

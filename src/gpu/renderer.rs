@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::time::Instant;
 
 use super::buffers::{Buffers, EDGES_PER_SUBMISSION, STATISTICS_BYTES, binding, edge_parameters};
-use super::device::Device;
+use super::device::{Device, OpeningDevice};
 use super::kernels::{self, Kernel};
 use super::parameters::PassParameters;
 use super::passes::{Pass, PassSizer};
@@ -86,7 +86,7 @@ impl GpuRenderer {
     /// # Errors
     /// [`RenderError::NoDevice`], or [`RenderError::DoesNotFit`] where the scene is too large for the device.
     pub fn new(scene: &Scene, choice: &DeviceChoice, options: &PlanOptions) -> Result<Self, RenderError> {
-        Self::on(&Device::open(choice)?, scene, options)
+        Self::once_open(OpeningDevice::begin(choice), scene, options)
     }
 
     /// As [`GpuRenderer::new`], on a device that is already open.
@@ -94,9 +94,19 @@ impl GpuRenderer {
     /// # Errors
     /// [`RenderError::DoesNotFit`] where the scene is too large for the device.
     pub fn on(device: &Device, scene: &Scene, options: &PlanOptions) -> Result<Self, RenderError> {
-        let device = device.clone();
+        Self::once_open(OpeningDevice::is_open(device), scene, options)
+    }
+
+    /// As [`GpuRenderer::new`], on a device that opens while the scene is packed.
+    ///
+    /// # Errors
+    /// As [`GpuRenderer::new`].
+    pub fn once_open(opening: OpeningDevice, scene: &Scene, options: &PlanOptions) -> Result<Self, RenderError> {
         let start = Instant::now();
-        let flat = FlatScene::new(scene).map_err(|error| RenderError::DoesNotFit(error.to_string()))?;
+        let flat = FlatScene::new(scene).map_err(|error| RenderError::DoesNotFit(error.to_string()));
+        // Where there is no device, that is what is told, whatever the scene: it may then go to the CPU.
+        let device = opening.wait()?;
+        let flat = flat?;
         let plan = Plan::new(scene, &flat, &device.limits, options)?;
         // Where paths may pass through surfaces without ending an edge, edges do not bound the number of vertices; most paths still
         // end by then.
@@ -104,11 +114,17 @@ impl GpuRenderer {
         let depth = Some(scene.render.max_depth).filter(|depth| *depth > 0);
         let edges_per_submission = depth.unwrap_or(EDGES_PER_SUBMISSION).min(EDGES_PER_SUBMISSION);
         let max_depth = depth.filter(|_| !passes);
-        let buffers = Buffers::new(&device, &flat, &plan, scene.film.size[0]);
+        // The compiler needs the plan and not the scene, which is uploaded meanwhile.
+        let (compiled, (buffers, build_seconds)) = rayon::join(
+            || {
+                let start = Instant::now();
+                (kernels::compile(&device, &plan), start.elapsed().as_secs_f64())
+            },
+            || (Buffers::new(&device, &flat, &plan, scene.film.size[0]), start.elapsed().as_secs_f64()),
+        );
         device.check()?;
-        let build_seconds = start.elapsed().as_secs_f64();
-        let start = Instant::now();
-        let kernels = kernels::build(&device, &plan, &buffers)?;
+        let (stages, compile_seconds) = compiled;
+        let kernels = kernels::bind(&device, stages?, &buffers)?;
         let sizer = PassSizer::new(plan.stages, plan.path_capacity);
         Ok(Self {
             device,
@@ -121,7 +137,7 @@ impl GpuRenderer {
             max_depth,
             edges_per_submission,
             build_seconds,
-            compile_seconds: start.elapsed().as_secs_f64(),
+            compile_seconds,
         })
     }
 

@@ -1,8 +1,10 @@
 //! `[[texture]]`
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 use std::sync::Arc;
+
+use rayon::prelude::*;
 
 use super::Resolver;
 use crate::scene::error::show;
@@ -19,6 +21,7 @@ pub type ImageCache = HashMap<(PathBuf, Option<ColorSpace>), Arc<ImageData>>;
 impl Resolver<'_> {
     pub(super) fn textures(&mut self, written: &[TextureEntry]) -> Result<(), SceneError> {
         self.texture_names = self.register("texture", written.iter().map(TextureEntry::name))?;
+        self.decode_side_by_side(written);
         for entry in written {
             let kind = match entry {
                 TextureEntry::Image(image) => TextureKind::Image(self.image_texture(image)?),
@@ -47,13 +50,21 @@ impl Resolver<'_> {
         Ok(())
     }
 
+    /// Reads the files of all image textures on all cores. What cannot be read is left to be found again, and told, in its turn.
+    fn decode_side_by_side(&mut self, written: &[TextureEntry]) {
+        let key = |entry: &TextureEntry| match entry {
+            TextureEntry::Image(image) => Some((self.path(&image.file.value), image.color_space.map(Into::into))),
+            _ => None,
+        };
+        let keys: HashSet<(PathBuf, Option<ColorSpace>)> = written.iter().filter_map(key).collect();
+        let decode = |key: (PathBuf, Option<ColorSpace>)| read_image(&key.0, key.1).ok().map(|image| (key, Arc::new(image)));
+        let decoded: Vec<_> = keys.into_par_iter().filter_map(decode).collect();
+        self.images.extend(decoded);
+    }
+
     fn image_texture(&mut self, written: &ImageEntry) -> Result<ImageTexture, SceneError> {
-        let color_space = written.color_space.map(|space| match space {
-            ColorSpaceEntry::Srgb => ColorSpace::Srgb,
-            ColorSpaceEntry::Linear => ColorSpace::Linear,
-        });
         Ok(ImageTexture {
-            image: self.image(&written.file, color_space)?,
+            image: self.image(&written.file, written.color_space.map(Into::into))?,
             wrap: match written.wrap {
                 None | Some(WrapEntry::Repeat) => TextureWrap::Repeat,
                 Some(WrapEntry::Clamp) => TextureWrap::Clamp,
@@ -108,6 +119,15 @@ impl Resolver<'_> {
         match written {
             Scalar::Constant(value) => Ok(ColorInput::grey(value.0)),
             Scalar::Texture(name) => self.texture_in_range::<R>(name),
+        }
+    }
+}
+
+impl From<ColorSpaceEntry> for ColorSpace {
+    fn from(written: ColorSpaceEntry) -> Self {
+        match written {
+            ColorSpaceEntry::Srgb => Self::Srgb,
+            ColorSpaceEntry::Linear => Self::Linear,
         }
     }
 }
