@@ -192,7 +192,9 @@ impl<'a> Work<'a> {
         let done = self.picture.samples();
         let growth = match (&self.error, self.goal.target_error) {
             (Some(error), Some(target)) => (error.upper / target).clamp(schedule::LEAST_GROWTH, 2.0) - 1.0,
-            _ => schedule::GROWTH,
+            _ if self.goal.deadline.is_some() => schedule::GROWTH,
+            // Nothing is to be looked at before the phase is over.
+            _ => f64::INFINITY,
         };
         ((done * growth / samples_per_request) as u32).max(1)
     }

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-/// Steps without another rule add this much of what is done.
+/// Steps before a deadline add this much of what is done.
 pub const GROWTH: f64 = 0.25;
 /// And at least this factor is rendered before the error is looked at again.
 pub const LEAST_GROWTH: f64 = 1.05;
@@ -19,8 +19,8 @@ const PILOT_SHARE: u32 = 16;
 /// Each further phase ends at this many times the samples of the ones before it, so that what is known gets better and
 /// little is spent by knowing less.
 const PHASE_GROWTH: u32 = 4;
-/// Samples per request of later phases at most: a quiet pixel gets 1, a noisy one up to 2⁷.
-const LARGEST_SHARE: u32 = 8;
+/// Samples per pixel that a request of a later phase is worth on average: the calmest pixel gets 1, half of that.
+const SHARE: u32 = 2;
 
 /// Samples that are distributed in one way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,7 +47,7 @@ impl Phases {
         let (fewest, most) = PILOT_SAMPLES;
         let pilot = ((samples.saturating_mul(streams) / PILOT_SHARE).clamp(fewest, most) / streams).max(1).min(samples);
         // Later phases take whole requests; the first takes along what would be left over.
-        let pilot = pilot + (samples - pilot) % LARGEST_SHARE;
+        let pilot = pilot + (samples - pilot) % SHARE;
         Self { samples, done: 0, end_of_first: if adaptive { pilot } else { samples }, index: 0 }
     }
 }
@@ -63,12 +63,10 @@ impl Iterator for Phases {
         let phase = if self.index == 0 {
             Phase { index: 0, requests: self.end_of_first, share: 1 }
         } else {
-            let wanted = (PHASE_GROWTH - 1).saturating_mul(self.done).max(LARGEST_SHARE);
-            let wanted = wanted - wanted % LARGEST_SHARE;
+            let wanted = (PHASE_GROWTH - 1).saturating_mul(self.done);
             // A rest that is short beside the phase is no phase of its own.
             let samples = if left - wanted.min(left) < wanted / 2 { left } else { wanted };
-            let share = if samples >= 2 * LARGEST_SHARE { LARGEST_SHARE } else { LARGEST_SHARE / 2 };
-            Phase { index: self.index, requests: samples / share, share }
+            Phase { index: self.index, requests: samples.div_ceil(SHARE), share: SHARE }
         };
         self.done += phase.requests * phase.share;
         self.index += 1;
@@ -117,8 +115,8 @@ mod tests {
     #[test]
     fn phases_grow_and_add_up() {
         assert_eq!(phases(100, 1, false), [(100, 1)]);
-        assert_eq!(phases(256, 1, true), [(16, 1), (6, 8), (24, 8)]);
-        assert_eq!(phases(64, 8, true), [(8, 1), (3, 8), (4, 8)]);
+        assert_eq!(phases(256, 1, true), [(16, 1), (24, 2), (96, 2)]);
+        assert_eq!(phases(64, 8, true), [(4, 1), (6, 2), (24, 2)]);
         for samples in 1..5_000 {
             for streams in [1, 8] {
                 let spent: u32 = phases(samples, streams, true).iter().map(|(requests, share)| requests * share).sum();

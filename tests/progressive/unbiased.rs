@@ -1,6 +1,5 @@
 //! Samples that follow the noise leave the mean where it is.
 
-use gpt::progressive::allocation::allocate;
 use gpt::statistics::{Moments, TestResult, one_sample_t_test};
 
 use super::*;
@@ -20,17 +19,16 @@ fn judge(truth: f64, mut picture: impl FnMut(u32) -> Vec<[f32; 3]>) -> TestResul
     one_sample_t_test(&means, truth)
 }
 
-/// What `adaptive` must not do: a second round where the first was noisy, and then the plain mean of all samples. Pixels that were
-/// dark by chance stay so.
+/// What `adaptive` must not do: more samples where the first ones met light, and then the plain mean of all. Pixels that were dark by
+/// chance stay so.
 fn naive(renderer: &mut dyn Renderer, scene: &Scene, seed: u32) -> Vec<[f32; 3]> {
-    let (first, share) = (8, 8);
-    let pilot = render_batch(renderer, scene, first, seed, None);
-    let squares: Vec<f32> = pilot.iter().flat_map(|band| band.second_moment.iter().copied()).collect();
-    let pilot = pixels(&pilot);
-    let allocation = allocate(scene.film.size, &pilot, &squares, share);
-    let rest = pixels(&render_batch(renderer, scene, (SPP - first) / share, seed + 1_000_000, Some(&allocation)));
+    let (first, requests) = (8, 7);
+    let pilot = pixels(&render_batch(renderer, scene, first, seed, None));
+    let levels: Vec<u8> = pilot.iter().map(|pixel| if pixel[0] > 0.0 { 4 } else { 0 }).collect();
+    let allocation = Allocation { levels };
+    let rest = pixels(&render_batch(renderer, scene, requests, seed + 1_000_000, Some(&allocation)));
     let weighed = |((a, b), level): (([f32; 3], [f32; 3]), &u8)| {
-        let more = (((SPP - first) / share) << level) as f32;
+        let more = (requests << level) as f32;
         std::array::from_fn(|channel| (first as f32 * a[channel] + more * b[channel]) / (first as f32 + more))
     };
     pilot.into_iter().zip(rest).zip(&allocation.levels).map(weighed).collect()
