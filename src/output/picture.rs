@@ -147,7 +147,7 @@ mod tests {
         let attribute = |name: &str| header.own_attributes.other[&Text::from(name)].clone();
         assert_eq!(attribute("gpt:scene"), AttributeValue::Text(Text::from("küche ??")));
         assert_eq!(attribute("gpt:seed"), AttributeValue::Text(Text::from("4294967295")));
-        assert_eq!(attribute("gpt:sampler"), AttributeValue::Text(Text::from("halton")));
+        assert_eq!(attribute("gpt:sampler"), AttributeValue::Text(Text::from("sobol")));
         assert_eq!(attribute("gpt:device"), AttributeValue::Text(Text::from("a device")));
         assert_eq!(attribute("gpt:firstSample"), AttributeValue::I32(128));
         assert_eq!(attribute("gpt:samples"), AttributeValue::I32(64));
