@@ -55,7 +55,7 @@ const SIDE: u32 = 16;
 /// Parallel rays along −z towards one shape that emits radiance 1 and nothing else.
 fn glow(shutter: [f64; 2], shape: &str) -> Scene {
     let text = format!(
-        "[film]\nsize = [{SIDE}, {SIDE}]\n[render]\nspp = 1024\nmax_depth = 1\n[camera]\nposition = [0, 0, 9]\nlook_at = [0, 0, 0]\n\
+        "[film]\nsize = [{SIDE}, {SIDE}]\n[render]\nspp = 1024\nmax_depth = 1\nsampler = \"halton\"\n[camera]\nposition = [0, 0, 9]\nlook_at = [0, 0, 0]\n\
          projection = \"orthographic\"\nheight = 2\nshutter = {shutter:?}\n[[material]]\nname = \"glow\"\ntype = \"emissive\"\n\
          radiance = 1\n[[shape]]\nmaterial = \"glow\"\n{shape}\n"
     );

@@ -99,7 +99,7 @@ pub fn compare_unequal(ours: &Scene, theirs: &Scene) -> Option<Verdict> {
 fn another_sampler_is_noticed() {
     let scene = small("spheres", 24, 4);
     let mut changes = vec![scene.clone(), scene.clone(), scene.clone()];
-    changes[0].render.sampler = SamplerKind::Sobol;
+    changes[0].render.sampler = SamplerKind::Halton;
     changes[1].render.pixel_sampler = PixelSampler::Other(SamplerKind::Independent);
     changes[2].render.pixel_sampler = PixelSampler::Centre;
     for changed in changes {
