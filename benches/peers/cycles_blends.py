@@ -25,6 +25,7 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 from agreement import print_means, verdict
+from export_cycles import new_tree, node
 
 HERE = Path(__file__).resolve().parent
 
@@ -122,24 +123,6 @@ def render_gpt(options, scene, seed):
 
 
 # Cycles
-
-
-def new_tree(material):
-    material.use_nodes = True
-    material.node_tree.nodes.clear()
-    return material.node_tree
-
-
-def node(tree, kind, inputs=(), **properties):
-    made = tree.nodes.new(kind)
-    for key, value in properties.items():
-        setattr(made, key, value)
-    for key, value in dict(inputs).items():
-        if isinstance(value, bpy.types.NodeSocket):
-            tree.links.new(value, made.inputs[key])
-        else:
-            made.inputs[key].default_value = value
-    return made
 
 
 def finish(tree, shader):
