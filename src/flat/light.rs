@@ -1,4 +1,4 @@
-//! Lights that next event estimation samples, in the scene's order, with the table that chooses among them by power.
+//! Lights that next event estimation samples, in the scene's order, with the table that chooses among them.
 
 use std::f64::consts::PI;
 
@@ -9,7 +9,7 @@ use super::environment::FlatEnvironment;
 use super::material::mean_emission;
 use super::primitive::{PrimitiveGeometry, WorldPrimitive};
 use super::world::WorldGeometry;
-use crate::sampling::AliasTable;
+use crate::sampling::{Lamp, LightChoice};
 use crate::scene::{ColorInput, Estimator, Light, Scene, TextureKind};
 
 /// Kinds in `shaders/shading/light.wgsl`.
@@ -79,8 +79,7 @@ pub fn collect(scene: &Scene, world: &mut WorldGeometry, environment: &FlatEnvir
     if scene.render.estimator == Estimator::Bsdf {
         return Vec::new();
     }
-    let mut lights = Vec::new();
-    let mut powers = Vec::new();
+    let (mut lights, mut choice) = (Vec::new(), LightChoice::default());
     // Asked once a material, not once a triangle: a texture's mean looks at all of it.
     let emissions: Vec<_> = (0..scene.materials.len()).map(|material| SurfaceEmission::of(scene, material)).collect();
     for primitive in &mut world.primitives {
@@ -89,24 +88,18 @@ pub fn collect(scene: &Scene, world: &mut WorldGeometry, environment: &FlatEnvir
         if let Some(light) = surface_light(primitive, emission).filter(|_| power > 0.0) {
             primitive.light = lights.len() as u32;
             lights.push(light);
-            powers.push(power);
+            choice.add(Lamp::Surface { shape: primitive.shape, material: primitive.material }, power);
         }
     }
     for (light, power) in scene.lights.iter().filter_map(from_a_point).filter(|(_, power)| *power > 0.0) {
         lights.push(light);
-        powers.push(power);
+        choice.add(Lamp::Alone, power);
     }
-    let local = powers.len();
-    for (light, irradiance) in at_infinity(scene, world, environment) {
+    for (light, lamp, irradiance) in at_infinity(scene, world, environment) {
         lights.push(light);
-        powers.push(irradiance);
+        choice.add_at_infinity(lamp, irradiance);
     }
-    // What lights at infinity send depends on how large the scene is taken to be: together they are as likely as all others.
-    let sums = [&powers[..local], &powers[local..]].map(|part| part.iter().sum::<f64>());
-    if sums[0] > 0.0 {
-        powers[local..].iter_mut().for_each(|power| *power *= sums[0] / sums[1]);
-    }
-    let table = AliasTable::new(&powers);
+    let table = choice.table();
     for (index, light) in lights.iter_mut().enumerate() {
         light.alias = table.alias[index];
         light.alias_threshold = table.threshold[index];
@@ -136,14 +129,15 @@ fn from_a_point(light: &Light) -> Option<(FlatLight, f64)> {
 }
 
 /// Directional lights, the environment and the portals to it, each with a measure of the irradiance it makes.
-fn at_infinity(scene: &Scene, world: &WorldGeometry, environment: &FlatEnvironment) -> Vec<(FlatLight, f64)> {
+fn at_infinity(scene: &Scene, world: &WorldGeometry, environment: &FlatEnvironment) -> Vec<(FlatLight, Lamp, f64)> {
     let mut lights = Vec::new();
     for light in &scene.lights {
         if let Light::Directional { direction, irradiance } = *light
             && luminance(irradiance) > 0.0
         {
             let p1 = (-direction).as_vec3().to_array();
-            lights.push((FlatLight { p1, ..plain(LightKind::Directional, DVec3::ZERO, irradiance) }, luminance(irradiance)));
+            let light = FlatLight { p1, ..plain(LightKind::Directional, DVec3::ZERO, irradiance) };
+            lights.push((light, Lamp::Alone, luminance(irradiance)));
         }
     }
     let irradiance = PI * environment.mean_luminance();
@@ -153,7 +147,7 @@ fn at_infinity(scene: &Scene, world: &WorldGeometry, environment: &FlatEnvironme
     // Under `mis` a constant environment is left to BSDF sampling, which covers it without a shadow ray.
     let constant = matches!(environment, FlatEnvironment::Constant { .. });
     if scene.render.estimator == Estimator::Nee || !constant {
-        lights.push((plain(LightKind::Environment, DVec3::ZERO, DVec3::ZERO), irradiance));
+        lights.push((plain(LightKind::Environment, DVec3::ZERO, DVec3::ZERO), Lamp::Environment, irradiance));
     }
     let total: f64 = world.portals.iter().map(WorldPrimitive::area).sum();
     for portal in &world.portals {
@@ -168,7 +162,7 @@ fn at_infinity(scene: &Scene, world: &WorldGeometry, environment: &FlatEnvironme
             p2: p2.as_vec3().to_array(),
             ..plain(LightKind::Portal, p0, DVec3::ZERO)
         };
-        lights.push((light, irradiance * portal.area() / total));
+        lights.push((light, Lamp::Environment, irradiance * portal.area() / total));
     }
     lights
 }

@@ -45,6 +45,8 @@ pub enum PrimitiveGeometry {
 pub struct WorldPrimitive {
     pub geometry: PrimitiveGeometry,
     pub material: usize,
+    /// Index into the scene's shapes.
+    pub shape: usize,
     /// Index of the light it is, or NONE.
     pub light: u32,
     /// Index into the attributes, or NONE.
@@ -141,7 +143,7 @@ impl PrimitiveGeometry {
 
 impl WorldPrimitive {
     pub fn new(geometry: PrimitiveGeometry, material: usize) -> Self {
-        Self { geometry, material, light: NONE, attributes: NONE, motion: NONE }
+        Self { geometry, material, shape: 0, light: NONE, attributes: NONE, motion: NONE }
     }
 
     pub fn kind(&self) -> PrimitiveKind {

@@ -22,7 +22,7 @@ pub struct WorldGeometry {
 /// Surfaces made of `pass` are left out: to every ray they are not there.
 pub fn collect(scene: &Scene) -> WorldGeometry {
     let mut world = WorldGeometry::default();
-    for shape in &scene.shapes {
+    for (index, shape) in scene.shapes.iter().enumerate() {
         let transform = shape.transform.to_affine();
         let first = world.primitives.len();
         if let Geometry::Mesh(mesh) = &shape.geometry {
@@ -34,6 +34,7 @@ pub fn collect(scene: &Scene) -> WorldGeometry {
                 world.portals.extend(unseen.filter(|primitive| shape.portal && !primitive.is_plane()));
             }
         }
+        world.primitives[first..].iter_mut().for_each(|primitive| primitive.shape = index);
         if let Some(motion) = FlatMotion::new(shape, scene.camera.shutter) {
             world.set_in_motion(first, motion);
         }

@@ -1,8 +1,7 @@
-//! What light is sampled from: emitting primitives, then lights that are no surfaces, then portals, chosen by power.
+//! What light is sampled from: emitting primitives, then lights that are no surfaces, then portals, chosen by [`LightChoice`].
 //!
-//! Lights at infinity have no power of their own: it depends on how large the scene is taken to be. Together they are chosen as often as
-//! all others together, among themselves by the irradiance that they could make. Portals are one more way of drawing directions to the
-//! environment. A direction to it then has one density, that of all ways together, whichever of them drew it.
+//! Portals are one more way of drawing directions to the environment. A direction to it then has one density, that of all ways together,
+//! whichever of them drew it.
 
 mod primitive;
 
@@ -12,9 +11,9 @@ use glam::DVec3;
 
 use super::emission::{emitted, mean_exitance};
 use super::environment::Environment;
-use super::intersect::{Moment, PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
-use crate::sampling::AliasTable;
+use super::intersect::{Moment, Owner, PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
 use crate::sampling::sampler::uniform;
+use crate::sampling::{AliasTable, Lamp, LightChoice};
 use crate::scene::{Estimator, Light, LightSampling, Scene};
 use primitive::{pdf_of_direction, pdf_solid_angle, sample_primitive};
 
@@ -119,29 +118,28 @@ pub fn luminance(color: DVec3) -> f64 {
 
 impl Lights {
     pub fn new(scene: &Scene, world: &World) -> Self {
-        let (mut sources, mut weights) = (Vec::new(), Vec::new());
+        let (mut sources, mut choice) = (Vec::new(), LightChoice::default());
         let mut of_primitive = vec![None; world.places_in_scene_order().len()];
         // Once a material, not once a primitive: a texture's mean looks at all of it.
         let exitances: Vec<f64> = (0..scene.materials.len()).map(|material| mean_exitance(scene, material)).collect();
         for &place in world.places_in_scene_order() {
-            let material = world.owner(SurfaceId::Primitive(place)).material;
+            let Owner { shape, material, .. } = world.owner(SurfaceId::Primitive(place));
             let power = world.primitive(place).area() * exitances[material];
             if power > 0.0 {
                 of_primitive[place] = Some(sources.len() as u32);
                 sources.push(Source::Area(place));
-                weights.push(power);
+                choice.add(Lamp::Surface { shape, material }, power);
             }
         }
         for source in scene.lights.iter().filter_map(Source::of).filter(|source| source.power() > 0.0) {
-            weights.push(source.power());
+            choice.add(Lamp::Alone, source.power());
             sources.push(source);
         }
-        let local = weights.len();
         for source in scene.lights.iter().filter_map(Source::of) {
             if let Source::Directional { irradiance, .. } = source
                 && luminance(irradiance) > 0.0
             {
-                weights.push(luminance(irradiance));
+                choice.add_at_infinity(Lamp::Alone, luminance(irradiance));
                 sources.push(source);
             }
         }
@@ -153,19 +151,19 @@ impl Lights {
         if from_environment > 0.0 && is_sampled {
             environment_source = Some(sources.len());
             sources.push(Source::Environment);
-            weights.push(from_environment);
+            choice.add_at_infinity(Lamp::Environment, from_environment);
         }
         let first_portal = sources.len();
         let areas: Vec<f64> = world.portals().iter().map(Primitive::area).collect();
         if from_environment > 0.0 {
             let total: f64 = areas.iter().sum();
-            sources.extend((0..areas.len()).map(Source::Portal));
-            weights.extend(areas.iter().map(|area| from_environment * area / total));
+            for (portal, area) in areas.iter().enumerate() {
+                sources.push(Source::Portal(portal));
+                choice.add_at_infinity(Lamp::Environment, from_environment * area / total);
+            }
         }
-        share_with_infinity(&mut weights, local);
         let sphere_sampling = scene.render.light_sampling;
-        let table = AliasTable::new(&weights);
-        Self { sources, table, of_primitive, environment, environment_source, first_portal, sphere_sampling }
+        Self { sources, table: choice.table(), of_primitive, environment, environment_source, first_portal, sphere_sampling }
     }
 
     pub fn is_empty(&self) -> bool {
@@ -261,15 +259,6 @@ impl Lights {
         let pose = world.pose(place, moment);
         let pdf = pdf_solid_angle(world.primitive(place), pose, self.sphere_sampling, reference, &surface.point);
         self.table.pmf[light as usize] * pdf
-    }
-}
-
-/// Scales the weights from `first` on, those of lights at infinity, so that together they weigh what the others do.
-fn share_with_infinity(weights: &mut [f64], first: usize) {
-    let (local, infinite) = weights.split_at_mut(first);
-    let (sum, at_infinity): (f64, f64) = (local.iter().sum(), infinite.iter().sum());
-    if sum > 0.0 {
-        infinite.iter_mut().for_each(|weight| *weight *= sum / at_infinity);
     }
 }
 

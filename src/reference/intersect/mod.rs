@@ -12,7 +12,7 @@ pub use hierarchy::PreparedRay;
 pub use pose::{Moment, Pose};
 pub use primitive::{Local, Primitive, Sphere};
 use triangle::Triangle;
-pub use world::{Surface, SurfaceId, World};
+pub use world::{Owner, Surface, SurfaceId, World};
 
 use glam::DVec3;
 
