@@ -6,8 +6,9 @@ use gpt::gpu::kernels::used_bindings;
 use gpt::plan::switches::{ALL, DEBUG};
 use gpt::shader::{ComposeError, Switches, compose};
 
-const STAGES: [(&str, &str); 7] = [
+const STAGES: [(&str, &str); 8] = [
     ("stages/fused.wgsl", "trace_paths"),
+    ("stages/fused_lanes.wgsl", "trace_paths"),
     ("stages/generate.wgsl", "generate"),
     ("stages/extend.wgsl", "extend"),
     ("stages/shade.wgsl", "shade"),
@@ -102,8 +103,10 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
         "FIRST_MOTION_WORD",
         "FIRST_PORTAL",
         "FIRST_TEXTURE_WORD",
+        "LANES",
         "LIGHT_COUNT",
         "MAX_DEPTH",
+        "MAX_SAMPLES_PER_PASS",
         "PATH_CAPACITY",
         "PLANTED_LIGHT",
         "PLANTED_MATERIAL",
@@ -111,6 +114,7 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
         "PRIMITIVE_WORDS",
         "RAYS_PER_INVOCATION",
         "ROULETTE_DEPTH",
+        "RUNS",
         "SEQUENCE_BLOCKS",
         "SEQUENCE_POINTS",
         "STACK_SIZE",
@@ -190,7 +194,7 @@ fn ordinary_kernels_hold_nothing_for_debugging() {
 fn ordinary_kernels_look_up_no_pixels() {
     let without: BTreeSet<&'static str> = ALL.iter().copied().filter(|name| !["ALLOCATION", "TRACE"].contains(name)).collect();
     let with: BTreeSet<&'static str> = ALL.iter().copied().filter(|name| *name != "TRACE").collect();
-    for (file, entry) in [STAGES[0], STAGES[1], STAGES[6]] {
+    for (file, entry) in [STAGES[0], STAGES[1], STAGES[2], STAGES[7]] {
         let looks_up = |wanted: &BTreeSet<&'static str>| {
             compose(file, &shippable(wanted.clone())).expect("it composes").text.contains("listed_pixel")
         };
@@ -239,7 +243,11 @@ fn layouts_match_between_wgsl_and_rust() {
         sample_count,
         film_is_empty,
         opaque_zero,
-        seed
+        seed,
+        run_length,
+        padding_0,
+        padding_1,
+        padding_2
     );
     check!(EdgeParameters, "EdgeParameters", edge, queue, padding);
     check!(

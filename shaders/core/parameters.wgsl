@@ -15,6 +15,11 @@ struct PassParameters {
     // Always 0. Adding it to a number's bits hides the number from the optimiser, which then cannot cancel terms.
     opaque_zero: u32,
     seed: u32,
+    // Workgroups of one run, where workgroups are spread over runs.
+    run_length: u32,
+    padding_0: u32,
+    padding_1: u32,
+    padding_2: u32,
 }
 
 // Which edge of its path a dispatch extends: 1 is the camera ray.

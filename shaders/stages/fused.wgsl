@@ -1,38 +1,23 @@
 // All stages in one kernel, for scenes so simple that storing paths between stages costs more than tracing them.
-#import core/camera.wgsl
 #import geometry/closest.wgsl
 #import shading/path.wgsl
 #import stages/film.wgsl
-
-const WORKGROUP: u32 = 64u;
-
-fn start_path(pixel: u32, sample_in_pass: u32) -> Path {
-#if MOTION
-    set_path_time(pixel, sample_in_pass);
-#endif
-    let ray = camera_ray(pixel, camera_block(pixel, sample_in_pass));
-    return new_path(ray, pixel, sample_in_pass);
-}
+#import stages/fused_pixels.wgsl
 
 // Reads the pass's parameters. One invocation traces all samples of one pixel, starting the next path where one ends so that no
 // lane waits for its neighbours' longer paths, and adds them to the film.
 @compute @workgroup_size(WORKGROUP)
-fn trace_paths(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= pass_parameters.pixel_count {
+fn trace_paths(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) invocation: u32) {
+    let place = place_in_pass(workgroup.x, invocation);
+    if place >= pass_parameters.pixel_count {
         return;
     }
-#if ALLOCATION
-    let pixel_in_band = listed_pixel_in_band(id.x);
-    let pixel = pass_parameters.first_pixel + pixel_in_band;
-#else
-    let pixel = pass_parameters.first_pixel + id.x;
-    let pixel_in_band = pass_parameters.first_pixel_in_band + id.x;
-#endif
-    var film_pixel = load_film_pixel(pixel_in_band);
+    let pixel = pass_pixel(place);
+    var film_pixel = load_film_pixel(pixel.in_band);
     var rays = 0u;
     var visit = 1u;
     var radiance = vec3<f32>(0.0);
-    var path = start_path(pixel, 0u);
+    var path = start_path(pixel.pixel, 0u);
     loop {
         let hit = closest_hit(path.ray, INFINITY_DISTANCE);
         let vertex = shade_vertex(&path, hit, visit);
@@ -61,9 +46,9 @@ fn trace_paths(@builtin(global_invocation_id) id: vec3<u32>) {
             }
             radiance = vec3<f32>(0.0);
             visit = 1u;
-            path = start_path(pixel, next_sample);
+            path = start_path(pixel.pixel, next_sample);
         }
     }
-    store_film_pixel(pixel_in_band, film_pixel);
+    store_film_pixel(pixel.in_band, film_pixel);
     count_rays(rays);
 }

@@ -83,6 +83,9 @@ impl Device {
         if limits.read_write_rgba32float {
             features |= wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES;
         }
+        if limits.subgroup_size.is_some() {
+            features |= wgpu::Features::SUBGROUP;
+        }
         // Only measurements ask for the time; nothing else of the device changes by it.
         features |= adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
         let descriptor = wgpu::DeviceDescriptor {

@@ -34,13 +34,15 @@ impl Pass {
 pub struct PassSizer {
     stages: StageMode,
     capacity: u32,
+    /// Lanes that trace samples of one pixel side by side.
+    lanes: Option<u32>,
     /// Paths that should take the target time.
     paths: f64,
 }
 
 impl PassSizer {
-    pub fn new(stages: StageMode, capacity: u32) -> Self {
-        Self { stages, capacity, paths: FIRST_PASS }
+    pub fn new(stages: StageMode, capacity: u32, lanes: Option<u32>) -> Self {
+        Self { stages, capacity, lanes, paths: FIRST_PASS }
     }
 
     /// Learns from a finished pass.
@@ -58,7 +60,13 @@ impl PassSizer {
             // The first sweeps are short so that an interrupted render has all its pixels.
             StageMode::Fused => whole_band.max(f64::from(FUSED_SAMPLES.min(samples_done.max(1)))),
         };
-        (samples as u32).clamp(1, MAX_SAMPLES_PER_PASS).min(samples_left)
+        let samples = (samples as u32).clamp(1, MAX_SAMPLES_PER_PASS);
+        // After the first sample, as many as fill the lanes.
+        let filling = match self.lanes {
+            Some(lanes) if samples_done > 0 => (samples / lanes).max(1) * lanes - samples_done % lanes,
+            _ => samples,
+        };
+        filling.min(samples_left)
     }
 
     /// Pixels of the next pass of a sweep with this many samples each.
@@ -80,8 +88,8 @@ mod tests {
 
     #[test]
     fn every_pixel_gets_every_sample_once_whatever_the_times() {
-        for stages in [StageMode::Wavefront, StageMode::Fused] {
-            let mut sizer = PassSizer::new(stages, 1 << 18);
+        for (stages, lanes) in [(StageMode::Wavefront, None), (StageMode::Fused, None), (StageMode::Fused, Some(8))] {
+            let mut sizer = PassSizer::new(stages, 1 << 18, lanes);
             let (band, spp) = (300_000_u32, 37);
             let mut counts = vec![0; band as usize];
             let mut done = 0;

@@ -123,7 +123,7 @@ impl GpuRenderer {
 
     fn profile_fused(&self, pass: &Pass) -> Result<Profile, RenderError> {
         let mut recorder = self.recorder(1);
-        recorder.record(&self.step("trace_paths", pass.pixel_count)?, 0);
+        recorder.record(&self.step("trace_paths", 64 * self.fused_workgroups(pass))?, 0);
         let paths = pass.paths() as u32;
         Ok(Profile { stages: recorder.finish()?, paths, capacity: paths, alive: Vec::new() })
     }

@@ -125,7 +125,7 @@ impl GpuRenderer {
         device.check()?;
         let (stages, compile_seconds) = compiled;
         let kernels = kernels::bind(&device, stages?, &buffers)?;
-        let sizer = PassSizer::new(plan.stages, plan.path_capacity);
+        let sizer = PassSizer::new(plan.stages, plan.path_capacity, plan.lanes);
         Ok(Self {
             device,
             plan,
@@ -163,6 +163,15 @@ impl GpuRenderer {
         self.kernels.iter().find(|kernel| kernel.entry == entry)
     }
 
+    /// Workgroups of a fused kernel: as many in every run.
+    pub(super) fn fused_workgroups(&self, pass: &Pass) -> u32 {
+        self.run_length(pass) * self.plan.runs
+    }
+
+    fn run_length(&self, pass: &Pass) -> u32 {
+        pass.pixel_count.div_ceil(64).div_ceil(self.plan.runs)
+    }
+
     fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>, entry: &str, invocations: u32) {
         if let Some(kernel) = self.kernel(entry) {
             kernel.set(pass, 0);
@@ -183,6 +192,8 @@ impl GpuRenderer {
             film_is_empty: u32::from(pass.film_is_empty),
             opaque_zero: 0,
             seed: sampling.seed,
+            run_length: self.run_length(pass),
+            ..Default::default()
         };
         self.write(binding::PASS, bytemuck::bytes_of(&parameters));
         if sampling.uses_sequence() {
@@ -198,7 +209,7 @@ impl GpuRenderer {
             StageMode::Fused => {
                 let mut encoder = self.device.device.create_command_encoder(&Default::default());
                 let mut compute = encoder.begin_compute_pass(&Default::default());
-                self.dispatch(&mut compute, "trace_paths", pass.pixel_count);
+                self.dispatch(&mut compute, "trace_paths", 64 * self.fused_workgroups(pass));
                 drop(compute);
                 self.device.submit_and_wait(encoder.finish())
             }

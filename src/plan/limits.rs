@@ -14,6 +14,10 @@ pub struct DeviceLimits {
     pub read_write_rgba32float: bool,
     /// The device is the CPU in disguise: its memory is the machine's, and its caches reward small working sets.
     pub software: bool,
+    /// Of a software device: how many threads share a dispatch; 1 of others.
+    pub threads: u32,
+    /// Invocations of a subgroup, where all subgroups have as many and can exchange values.
+    pub subgroup_size: Option<u32>,
 }
 
 impl Default for DeviceLimits {
@@ -27,6 +31,8 @@ impl Default for DeviceLimits {
             max_workgroups: 65_535,
             read_write_rgba32float: false,
             software: false,
+            threads: 1,
+            subgroup_size: None,
         }
     }
 }
@@ -35,6 +41,9 @@ impl DeviceLimits {
     pub fn of(adapter: &wgpu::Adapter) -> Self {
         let limits = adapter.limits();
         let features = adapter.get_texture_format_features(wgpu::TextureFormat::Rgba32Float);
+        let info = adapter.get_info();
+        let software = info.device_type == wgpu::DeviceType::Cpu;
+        let exchanges = adapter.features().contains(wgpu::Features::SUBGROUP) && info.subgroup_min_size == info.subgroup_max_size;
         let specific = adapter.features().contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
         Self {
             max_storage_binding: limits.max_storage_buffer_binding_size,
@@ -43,7 +52,9 @@ impl DeviceLimits {
             max_texture_side: limits.max_texture_dimension_2d,
             max_workgroups: limits.max_compute_workgroups_per_dimension,
             read_write_rgba32float: specific && features.flags.contains(wgpu::TextureFormatFeatureFlags::STORAGE_READ_WRITE),
-            software: adapter.get_info().device_type == wgpu::DeviceType::Cpu,
+            software,
+            threads: if software { std::thread::available_parallelism().map_or(1, |count| count.get() as u32) } else { 1 },
+            subgroup_size: exchanges.then_some(info.subgroup_min_size),
         }
     }
 

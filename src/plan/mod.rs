@@ -59,6 +59,8 @@ pub struct PlanOptions {
     pub stages: Option<StageMode>,
     pub film: Option<FilmStorage>,
     pub path_capacity: Option<u32>,
+    /// Let the lanes of a subgroup trace samples of one pixel; without effect where the stages or the device do not allow it.
+    pub share_pixels: Option<bool>,
     /// Keep naga's bounds checks and loop bounds in the kernels.
     pub checked_shaders: bool,
     /// Write down what happens along a path, for [`crate::gpu::GpuRenderer::trace`]; one kernel then traces whole paths.
@@ -87,6 +89,11 @@ pub struct Plan {
     pub path_capacity: u32,
     /// Rays that one invocation of extend or connect traces, one after the other.
     pub rays_per_invocation: u32,
+    /// Lanes that trace samples of one pixel side by side; None: each has a pixel of its own.
+    pub lanes: Option<u32>,
+    /// Runs of workgroups into which the device cuts a dispatch, one for each of its threads. Neighbouring workgroups are dealt to
+    /// different runs, because no thread helps another with its own.
+    pub runs: u32,
     /// Rows of a band at most.
     pub band_rows: u32,
     pub switches: Switches,
@@ -111,6 +118,11 @@ impl Plan {
             GeometryPlacement::Hierarchy if !limits.software => options.stages.unwrap_or(StageMode::Wavefront),
             _ => options.stages.unwrap_or(StageMode::Fused),
         };
+        // On software devices the arithmetic of a step through a hierarchy costs the same for one lane as for all, so lanes should go
+        // the same way. Geometry that is code is met by all lanes anyway, and there a lane that starts its next path at once gains.
+        let may_share = limits.software && stages == StageMode::Fused && !options.trace;
+        let lanes = limits.subgroup_size.filter(|size| may_share && (2..=64).contains(size) && size.is_power_of_two());
+        let lanes = lanes.filter(|_| options.share_pixels.unwrap_or(geometry == GeometryPlacement::Hierarchy));
         let width = scene.film.size[0];
         let film = options.film.unwrap_or(if limits.read_write_rgba32float && width <= limits.max_texture_side {
             FilmStorage::Texture
@@ -134,6 +146,8 @@ impl Plan {
             film,
             path_capacity,
             rays_per_invocation: if limits.software { 32 } else { 1 },
+            lanes,
+            runs: limits.threads.max(1),
             band_rows,
             switches: Switches::default(),
             memory: Memory::default(),
@@ -161,6 +175,7 @@ impl Plan {
     /// The shader files whose entry points run, in the order of the data's way.
     pub fn stage_files(&self) -> &'static [(&'static str, &'static str)] {
         match self.stages {
+            StageMode::Fused if self.lanes.is_some() => &[("stages/fused_lanes.wgsl", "trace_paths")],
             StageMode::Fused => &[("stages/fused.wgsl", "trace_paths")],
             StageMode::Wavefront => &[
                 ("stages/generate.wgsl", "generate"),
@@ -199,6 +214,9 @@ impl fmt::Display for Plan {
         writeln!(f, "tables         {}", buffers(self.uniform_tables))?;
         let stages: Vec<&str> = self.stage_files().iter().map(|(_, entry)| *entry).collect();
         writeln!(f, "stages         {}", stages.join(", "))?;
+        if let Some(lanes) = self.lanes {
+            writeln!(f, "lanes          {lanes} samples of one pixel side by side")?;
+        }
         let film = match self.film {
             FilmStorage::Texture => "rgba32float storage textures",
             FilmStorage::Buffer => "storage buffers",

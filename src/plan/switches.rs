@@ -84,6 +84,7 @@ pub const ALL: &[&str] = &[
     "SPHERE_LIGHTS_BY_POINT",
     "SPHERE_LIGHTS_VISIBLE_HALF",
     "SPOT_LIGHTS",
+    "SPREAD",
     "TEXELS",
     "TEXTURES",
     "TRACE",
@@ -149,6 +150,7 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     switches.enable("UNIFORM_HEMISPHERE", render.hemisphere == HemisphereSampling::Uniform);
     let blades = enable_camera(&mut switches, scene);
     switches.enable("FILM_TEXTURE", plan.film == FilmStorage::Texture);
+    switches.enable("SPREAD", plan.runs > 1);
 
     let tables = flat.tables();
     let map = flat.environment.map().unwrap_or_default();
@@ -170,14 +172,17 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
         ("FIRST_MOTION_WORD", tables.first_motion),
         ("FIRST_PORTAL", first_light(LightKind::Portal)),
         ("FIRST_TEXTURE_WORD", tables.first_texture),
+        ("LANES", plan.lanes.unwrap_or(1)),
         ("LIGHT_COUNT", flat.lights.len() as u32),
         // Depth 0 means no limit: an edge that is never reached.
         ("MAX_DEPTH", if render.max_depth == 0 { u32::MAX } else { render.max_depth }),
+        ("MAX_SAMPLES_PER_PASS", MAX_SAMPLES_PER_PASS),
         ("PATH_CAPACITY", plan.path_capacity),
         ("PORTAL_COUNT", flat.lights.iter().filter(|light| light.is(LightKind::Portal)).count() as u32),
         ("PRIMITIVE_WORDS", (3 * flat.primitives.len() as u32).max(1)),
         ("RAYS_PER_INVOCATION", plan.rays_per_invocation),
         ("ROULETTE_DEPTH", render.roulette_depth),
+        ("RUNS", plan.runs),
         ("SEQUENCE_BLOCKS", SEQUENCE_BLOCKS),
         ("SEQUENCE_POINTS", SEQUENCE_BLOCKS * MAX_SAMPLES_PER_PASS),
         ("STACK_SIZE", flat.bvh.stack_size),

@@ -42,6 +42,8 @@ shader_files![
     "stages/extend.wgsl",
     "stages/film.wgsl",
     "stages/fused.wgsl",
+    "stages/fused_lanes.wgsl",
+    "stages/fused_pixels.wgsl",
     "stages/generate.wgsl",
     "stages/prepare.wgsl",
     "stages/shade.wgsl",

@@ -1,0 +1,41 @@
+// Which pixels an invocation of a fused kernel has.
+#import core/camera.wgsl
+#import shading/path.wgsl
+#import stages/film.wgsl
+
+const WORKGROUP: u32 = 64u;
+
+struct PassPixel {
+    // Over the whole film, and in the band's film.
+    pixel: u32,
+    in_band: u32,
+}
+
+fn pass_pixel(place: u32) -> PassPixel {
+#if ALLOCATION
+    let in_band = listed_pixel_in_band(place);
+    return PassPixel(pass_parameters.first_pixel + in_band, in_band);
+#else
+    return PassPixel(pass_parameters.first_pixel + place, pass_parameters.first_pixel_in_band + place);
+#endif
+}
+
+// Place in the pass of an invocation. A software device gives each of its threads one run of consecutive workgroups, and none helps
+// another: with neighbouring workgroups in different runs, the threads' shares of the picture cost the same.
+fn place_in_pass(workgroup: u32, invocation: u32) -> u32 {
+#if SPREAD
+    let run = workgroup / pass_parameters.run_length;
+    let spread = (workgroup - run * pass_parameters.run_length) * RUNS + run;
+    return spread * WORKGROUP + invocation;
+#else
+    return workgroup * WORKGROUP + invocation;
+#endif
+}
+
+fn start_path(pixel: u32, sample_in_pass: u32) -> Path {
+#if MOTION
+    set_path_time(pixel, sample_in_pass);
+#endif
+    let ray = camera_ray(pixel, camera_block(pixel, sample_in_pass));
+    return new_path(ray, pixel, sample_in_pass);
+}

@@ -1,0 +1,66 @@
+//! Ways to run that only rearrange the work: every one gives the same picture, bit for bit.
+
+use std::path::Path;
+use std::sync::LazyLock;
+
+use gpt::gpu::{Device, GpuRenderer};
+use gpt::plan::{FilmStorage, GeometryPlacement, PlanOptions};
+use gpt::render::{DeviceChoice, RenderRequest, Renderer, Silent};
+use gpt::scene::{self, Scene};
+
+static DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| match std::env::var("GPT_TEST_GPU").as_deref() {
+    Ok("skip") => None,
+    _ => Some(Device::open(&DeviceChoice::Gpu).expect("a graphics adapter; GPT_TEST_GPU=skip tests the CPU alone")),
+});
+
+/// Spheres, a mesh and an environment, of a size that no number of lanes divides.
+fn scene(spp: u32) -> Scene {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/knot-plastic.toml");
+    let mut scene = scene::load(Some(&path.display().to_string())).expect("a shipped scene");
+    scene.film.size = [37, 29];
+    scene.render.spp = spp;
+    scene
+}
+
+/// Means of all pixels as bits, after several passes.
+fn picture(scene: &Scene, options: &PlanOptions) -> Option<Vec<[u32; 3]>> {
+    let mut renderer = GpuRenderer::on(DEVICE.as_ref()?, scene, options).expect("the scene fits");
+    let request = RenderRequest { rows: 0..scene.film.size[1], samples: 3..3 + scene.render.spp };
+    let mut pixels = Vec::new();
+    let mut on_band = |band: gpt::film::Band| {
+        pixels.extend(band.mean.iter().map(|pixel| pixel.map(f32::to_bits)));
+        Ok(())
+    };
+    renderer.render(&request, &Silent, &mut on_band).expect("rendering succeeds");
+    Some(pixels)
+}
+
+#[test]
+fn lanes_that_share_a_pixel_change_nothing() {
+    for spp in [1, 4, 5, 8, 21, 40] {
+        let mut scene = scene(spp);
+        for (film, geometry) in [(None, GeometryPlacement::Hierarchy), (Some(FilmStorage::Buffer), GeometryPlacement::Hierarchy)]
+        {
+            let sharing = |share| PlanOptions { share_pixels: Some(share), film, geometry: Some(geometry), ..Default::default() };
+            let [alone, together] = [false, true].map(|share| picture(&scene, &sharing(share)));
+            let (Some(alone), Some(together)) = (alone, together) else { return };
+            assert_eq!(alone.len(), 37 * 29);
+            assert!(alone == together, "{spp} samples, film {film:?}");
+            // The comparison sees other samples.
+            scene.render.seed += 1;
+            assert!(picture(&scene, &sharing(true)).as_ref() != Some(&alone));
+        }
+    }
+}
+
+/// Otherwise the test above would compare a way with itself.
+#[test]
+fn lanes_share_pixels_where_they_are_told_to() {
+    let Some(device) = DEVICE.as_ref() else { return };
+    let of = |share| {
+        let options = PlanOptions { share_pixels: share, ..Default::default() };
+        GpuRenderer::on(device, &scene(1), &options).expect("the scene fits").plan().lanes
+    };
+    let possible = if device.limits.software { device.limits.subgroup_size } else { None };
+    assert_eq!([of(None), of(Some(true)), of(Some(false))], [possible, possible, None]);
+}
