@@ -35,7 +35,9 @@ pub fn collect(scene: &Scene) -> WorldGeometry {
             }
         }
         world.primitives[first..].iter_mut().for_each(|primitive| primitive.shape = index);
-        if let Some(motion) = FlatMotion::new(shape, scene.camera.shutter) {
+        // What no ray meets, a shape of `pass` or a mesh without faces, need not move.
+        let met = world.primitives.len() > first;
+        if let Some(motion) = FlatMotion::new(shape, scene.camera.shutter).filter(|_| met) {
             world.set_in_motion(first, motion);
         }
     }

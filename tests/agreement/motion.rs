@@ -47,6 +47,9 @@ type = "emissive"
 radiance = { texture = "checks" }
 two_sided = true
 [[material]]
+name = "nothing"
+type = "pass"
+[[material]]
 name = "half-glow"
 type = "blend"
 materials = ["checked-glow", "white"]
@@ -162,6 +165,18 @@ fn all_together_agree_for_every_strategy() {
         scene.render.sampler = [SamplerKind::Sobol, SamplerKind::Stratified, SamplerKind::Independent][index];
         assert_agrees(&format!("all, {sampling:?}"), &scene, &ways()[index % 2]);
     }
+}
+
+/// What no ray meets moves in vain: nothing is compiled for it.
+#[test]
+fn a_moving_shape_of_pass_is_still() {
+    let unseen =
+        "type = \"sphere\"\ncenter = [0, 1, 0]\nradius = 0.5\nmaterial = \"nothing\"\nmotion = [{ translate = [1, 0, 0] }]";
+    let scene = stage(&[unseen]);
+    assert!(scene.shapes.last().is_some_and(|shape| shape.motion.is_some()));
+    let flat = gpt::flat::FlatScene::new(&scene).expect("it can be packed");
+    assert!(!flat.moves());
+    assert_agrees("unseen", &scene, &ways()[0]);
 }
 
 /// A motion that differs by a hundredth in one step is noticed, and so is another shutter.
