@@ -156,6 +156,7 @@ def enter(name, scene, path, options, running):
             contestant = Contestant(process, path, scene.size)
             # The scalar variant is the same renderer with the same points, only slower: it takes what the fast one chose.
             settings = [chosen] if key == "mitsuba-scalar" and chosen else contestant.settings
+            settings = [setting for setting in settings if setting not in scene.biased.get(key, ())]
             contestant.choose(options.seconds, settings, known)
         except PeerError as error:
             say(f"  {key}: left out of {name}: {error}")
@@ -193,9 +194,6 @@ def agreements(scene, path, options, ready):
     """The judgement on every peer's means, from pictures of half the size."""
     found, ours = {}, None
     for key, contestant in ready.items():
-        # The scalar variant is slow; its pictures are those of the comparison itself.
-        if key == "mitsuba-scalar":
-            continue
         contestant.process.load(path, [side // 2 for side in scene.size])
         spp = options.agreement_spp * (4 if key == "gpt" else 1)
         pictures = [contestant.process.render(contestant.setting, spp, 1000 + seed)["picture"] for seed in range(AGREEMENT_SEEDS)]
@@ -223,7 +221,7 @@ def evaluate(scene, ready, judgements):
         if key == "gpt":
             continue
         offset, reason = scene.allowed.get(key, DEFAULT_ALLOWED)
-        judgement = judgements.get(key) or judge(replications["gpt"], replications[key], AGREEMENT_LEVEL, offset)
+        judgement = judgements[key]
         ratio = convergence.ratio(rungs["gpt"], rungs[key])
         cpu = [convergence.time_to(rungs[each], ratio.error, ready[each].cpu_seconds(rungs[each])) for each in (key, "gpt")]
         whole = [np.median(convergence.time_to(rungs[each], ratio.error)) + ready[each].start_up for each in (key, "gpt")]

@@ -13,6 +13,10 @@ TESSELLATED = (2e-3, "its spheres are meshes")
 FEW_SAMPLES = (1e-3, "its points are biased at few samples")
 
 
+# In `glass` the means of Mitsuba's ldsampler are 0.5 % (30 standard errors) below those of its four other samplers, at 16 samples as at 256.
+LOW_DISCREPANCY = {"mitsuba-llvm": ("ldsampler",)}
+
+
 @dataclass
 class Scene:
     file: str
@@ -22,6 +26,8 @@ class Scene:
     """Renderers that do not take part, and why."""
     allowed: dict = field(default_factory=dict)
     """What relative difference of the means is not judged, by renderer, and why."""
+    biased: dict = field(default_factory=dict)
+    """Settings that do not take part because their means are off, by renderer."""
     kind: str = "small"
     """`small` (at most 100 primitives) or `model`."""
 
@@ -74,7 +80,7 @@ ALL = {
         "benches/scenes/blend-mirror.toml",
         without=dict.fromkeys(("mitsuba-llvm", "mitsuba-scalar"), "its blend is wrong where a part is a mirror"),
     ),
-    "glass": Scene("benches/scenes/glass.toml", allowed={"cycles": TESSELLATED, "luxcore": TESSELLATED}),
+    "glass": Scene("benches/scenes/glass.toml", allowed={"cycles": TESSELLATED, "luxcore": TESSELLATED}, biased=LOW_DISCREPANCY),
     "textured": Scene("benches/scenes/textured.toml"),
     "ogre-area": Scene("benches/scenes/ogre-area.toml", kind="model"),
     "ogre-environment": Scene("benches/scenes/ogre-environment.toml", kind="model"),
