@@ -7,8 +7,7 @@ use std::path::Path;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gpt::bench::scenes;
-use gpt::flat::bvh4::Bvh4;
-use gpt::flat::{FlatScene, world};
+use gpt::flat::{FlatScene, hierarchy::HierarchyKind, tree::Tree, world};
 use gpt::reference::ReferenceRenderer;
 use gpt::sampling::{BounceDimension, Dimension, PathSampler, Sampling, SequencePoint};
 use gpt::scene::{self, RenderSettings, SamplerKind, setting_name};
@@ -39,7 +38,8 @@ fn pack(criterion: &mut Criterion) {
         });
         let geometry = world::collect(&scene);
         group.bench_with_input(BenchmarkId::new("hierarchy", triangles), &geometry, |bencher, geometry| {
-            bencher.iter(|| Bvh4::build(&geometry.primitives, &geometry.motions));
+            bencher
+                .iter(|| Tree::build(&geometry.primitives, &geometry.motions).map(|tree| tree.arrange(HierarchyKind::default())));
         });
     }
     group.finish();

@@ -1,6 +1,7 @@
 //! Plans: what fits a device, and what is refused with sizes named. No device is needed.
 
-use gpt::flat::FlatScene;
+use gpt::flat::hierarchy::{Child, HierarchyKind};
+use gpt::flat::{FlatScene, Unarranged};
 use gpt::plan::{DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanOptions, StageMode};
 use gpt::render::RenderError;
 use gpt::scene::{self, Scene};
@@ -9,6 +10,10 @@ use std::path::Path;
 fn plan(scene: &Scene, limits: &DeviceLimits) -> Result<Plan, RenderError> {
     let flat = FlatScene::new(scene).expect("the scene packs");
     Plan::new(scene, &flat, limits, &PlanOptions::default())
+}
+
+fn packed(scene: &Scene, kind: HierarchyKind) -> FlatScene {
+    Unarranged::new(scene).and_then(|unarranged| unarranged.arrange(kind)).expect("the scene packs")
 }
 
 /// A grid of triangles, `side` quads along each side, under an environment.
@@ -76,21 +81,48 @@ fn an_8k_picture_needs_no_more_device_memory_than_one_band() {
     assert!(large <= small.max(40 << 20), "{small} and {large} bytes");
 }
 
+/// Only the form of hierarchy that was chosen is packed and compiled, and what the options ask for is what runs.
+#[test]
+fn one_form_of_hierarchy_is_in_use() {
+    let scene = grid(20);
+    let software = DeviceLimits { software: true, ..DeviceLimits::default() };
+    for limits in [DeviceLimits::default(), software.clone()] {
+        for wanted in [None, Some(HierarchyKind::Bvh2), Some(HierarchyKind::Bvh4), Some(HierarchyKind::CwBvh)] {
+            let options = PlanOptions { hierarchy: wanted, ..PlanOptions::default() };
+            let kind = options.hierarchy(&limits);
+            assert_eq!(kind, wanted.unwrap_or(kind));
+            let flat = packed(&scene, kind);
+            let plan = Plan::new(&scene, &flat, &limits, &options).expect("it fits");
+            let compiled: Vec<HierarchyKind> =
+                HierarchyKind::ALL.into_iter().filter(|kind| plan.switches.enabled.contains(kind.switch())).collect();
+            assert_eq!((plan.hierarchy, compiled), (kind, vec![kind]));
+            assert!(plan.to_string().contains(&kind.to_string()), "{plan}");
+        }
+    }
+    let options = PlanOptions { hierarchy: Some(HierarchyKind::Bvh2), ..PlanOptions::default() };
+    let refused = Plan::new(&scene, &packed(&scene, HierarchyKind::Bvh4), &software, &options);
+    assert!(matches!(refused, Err(RenderError::Internal(_))), "{refused:?}");
+}
+
 /// The stack a traversal needs is found from the tree; every tree of these grids fits what is compiled in.
 #[test]
 fn the_stack_covers_the_deepest_way() {
-    for side in [1, 6, 30, 90] {
-        let flat = FlatScene::new(&grid(side)).expect("the scene packs");
-        // Walk every path with the pushes of the kernel: all children on, one off.
+    for (side, kind) in [1, 6, 30, 90].into_iter().flat_map(|side| HierarchyKind::ALL.map(|kind| (side, kind))) {
+        let hierarchy = packed(&grid(side), kind).hierarchy;
+        // Walk every path with the pushes of the kernel: all children on, one off, where each child is an entry; else the children left.
         let mut deepest = 0;
         let mut pending = vec![(0_usize, 0_u32)];
         while let Some((node, waiting)) = pending.pop() {
-            let children = flat.bvh.children(&flat.bvh.nodes[node]);
-            deepest = deepest.max(waiting + children.len() as u32);
-            let others = waiting + (children.len() as u32).saturating_sub(1);
-            pending.extend(children.iter().filter_map(|child| child.ok()).map(|inner| (inner, others)));
+            let children = hierarchy.nodes.children(node);
+            let pushed = if kind == HierarchyKind::CwBvh { 1 } else { children.len() as u32 };
+            deepest = deepest.max(waiting + pushed);
+            let others = if kind == HierarchyKind::CwBvh { waiting + 1 } else { (waiting + pushed).saturating_sub(1) };
+            pending.extend(children.iter().filter_map(|child| match child {
+                Child::Inner(inner) => Some((*inner, others)),
+                Child::Leaf { .. } => None,
+            }));
         }
-        assert!(deepest <= flat.bvh.stack_size, "{deepest} entries, room for {}", flat.bvh.stack_size);
+        assert_eq!(deepest, hierarchy.stack_size, "{kind}");
     }
 }
 
@@ -100,12 +132,13 @@ fn the_number_of_cores_does_not_show() {
     let scene = grid(60);
     let on = |cores: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(cores).build().expect("threads");
-        pool.install(|| FlatScene::new(&scene).expect("the scene packs"))
+        pool.install(|| HierarchyKind::ALL.map(|kind| packed(&scene, kind)))
     };
     let alone = on(1);
     for cores in [2, 5] {
-        let together = on(cores);
-        assert_eq!(alone.bvh.nodes, together.bvh.nodes);
-        assert!(alone.primitives == together.primitives);
+        for (alone, together) in alone.iter().zip(on(cores)) {
+            assert_eq!(alone.hierarchy.nodes, together.hierarchy.nodes);
+            assert!(alone.primitives == together.primitives);
+        }
     }
 }

@@ -58,6 +58,13 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
             wanted.extend(needed);
         }
     }
+    // A hierarchy has one form.
+    let forms = ["BVH2", "BVH4", "CWBVH"];
+    let form = forms.into_iter().find(|form| wanted.contains(form)).unwrap_or("BVH4");
+    wanted.retain(|name| !forms.contains(name));
+    if wanted.contains("BVH") {
+        wanted.insert(form);
+    }
     // A blend is a mixture unless a leaf of it is picked; only mixtures have lobes to tell apart.
     if wanted.contains("BLENDS") && !wanted.contains("PICK") {
         wanted.insert("MIXTURE");
@@ -270,10 +277,12 @@ fn layouts_match_between_wgsl_and_rust() {
 /// Packed records are whole numbers of vec4: the shaders index them in words of 16 bytes.
 #[test]
 fn packed_records_are_the_words_that_shaders_count() {
-    use gpt::flat::{bvh4::Node, heuristic::FlatHeuristic, light::FlatLight, material::*, primitive::*, texture::*};
+    use gpt::flat::{bvh2, bvh4, cwbvh, heuristic::FlatHeuristic, light::FlatLight, material::*, primitive::*, texture::*};
     assert_eq!(size_of::<Primitive>(), 3 * 16);
     assert_eq!(size_of::<TriangleAttributes>(), 4 * 16);
-    assert_eq!(size_of::<Node>(), 3 * 16);
+    assert_eq!(size_of::<bvh2::Node>(), 4 * 16);
+    assert_eq!(size_of::<bvh4::Node>(), 3 * 16);
+    assert_eq!(size_of::<cwbvh::Node>(), 5 * 16);
     assert_eq!(size_of::<FlatMaterial>(), 5 * 16);
     assert_eq!(size_of::<FlatLight>(), 5 * 16);
     assert_eq!(size_of::<FlatLeaf>(), 16);

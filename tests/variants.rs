@@ -3,8 +3,9 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
+use gpt::flat::hierarchy::HierarchyKind;
 use gpt::gpu::{Device, GpuRenderer};
-use gpt::plan::{FilmStorage, GeometryPlacement, PlanOptions};
+use gpt::plan::{FilmStorage, GeometryPlacement, PlanOptions, StageMode};
 use gpt::render::{DeviceChoice, RenderRequest, Renderer, Silent};
 use gpt::scene::{self, Scene};
 
@@ -63,4 +64,35 @@ fn lanes_share_pixels_where_they_are_told_to() {
     };
     let possible = if device.limits.software { device.limits.subgroup_size } else { None };
     assert_eq!([of(None), of(Some(true)), of(Some(false))], [possible, possible, None]);
+}
+
+/// A hierarchy only says what need not be tested: the nearest hit is the nearest in every form. Where two primitives are met at the same
+/// distance to the last bit, the first to be tested stays, which is why edges that primitives share may show another one's material; a
+/// mesh of one smooth material does not show even that.
+#[test]
+fn every_form_of_hierarchy_makes_the_same_picture() {
+    let mut moving = scene::load(Some("motion-blur")).expect("it is built in");
+    moving.film.size = [32, 24];
+    moving.render.spp = 6;
+    let mut spheres = scene::load(Some("spheres")).expect("it is built in");
+    spheres.film.size = [48, 27];
+    spheres.render.spp = 8;
+    for (name, mut scene) in [("knot", scene(8)), ("moving", moving), ("spheres", spheres)] {
+        for stages in [StageMode::Fused, StageMode::Wavefront] {
+            let form = |kind| PlanOptions {
+                geometry: Some(GeometryPlacement::Hierarchy),
+                hierarchy: Some(kind),
+                stages: Some(stages),
+                ..Default::default()
+            };
+            let [binary, four, eight] = HierarchyKind::ALL.map(|kind| picture(&scene, &form(kind)));
+            let (Some(binary), Some(four), Some(eight)) = (binary, four, eight) else { return };
+            let different = |other: &[[u32; 3]]| four.iter().zip(other).filter(|(a, b)| a != b).count();
+            println!("{name}, {stages:?}: {} and {} of {} pixels differ", different(&binary), different(&eight), four.len());
+            assert!(four == binary && four == eight, "{name}, {stages:?}");
+            // The comparison sees other samples.
+            scene.render.seed += 1;
+            assert!(picture(&scene, &form(HierarchyKind::CwBvh)).as_ref() != Some(&four));
+        }
+    }
 }

@@ -1,6 +1,6 @@
 // closest_hit and occluded, wherever the plan put the geometry.
 #if BVH
-#import geometry/bvh4.wgsl
+#import geometry/traversal.wgsl
 #else
 #import geometry/unrolled.wgsl
 #endif

@@ -11,7 +11,7 @@ fn connect(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
     let stride = workgroups.x * WORKGROUP;
     var next = id.x;
 #if BVH
-    var stack: array<u32, STACK_SIZE>;
+    var stack: array<StackEntry, STACK_SIZE>;
     var traversal = no_traversal();
     var place = NONE;
     loop {

@@ -1,6 +1,6 @@
 //! `gpt check`.
 
-use gpt::flat::FlatScene;
+use gpt::flat::{FlatError, Unarranged};
 use gpt::gpu::select_adapter;
 use gpt::plan::{DeviceLimits, Plan, PlanOptions};
 use gpt::render::{DeviceChoice, RenderError};
@@ -26,13 +26,16 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
         return Ok(Exit::Done);
     }
     terminal::answer(&summary.to_string())?;
-    let flat = FlatScene::new(&scene).map_err(|error| RenderError::DoesNotFit(error.to_string()))?;
+    let does_not_fit = |error: FlatError| RenderError::DoesNotFit(error.to_string());
+    let unarranged = Unarranged::new(&scene).map_err(does_not_fit)?;
     // Without an adapter the plan is the one for a device that has just what WebGPU promises.
     let (device, limits) = match select_adapter(&DeviceChoice::Auto) {
         Ok(adapter) => (adapter.get_info().name, DeviceLimits::of(&adapter)),
         Err(_) => ("a device with the limits that WebGPU promises".to_owned(), DeviceLimits::default()),
     };
-    let plan = Plan::new(&scene, &flat, &limits, &PlanOptions::default())?;
+    let options = PlanOptions::default();
+    let flat = unarranged.arrange(options.hierarchy(&limits)).map_err(does_not_fit)?;
+    let plan = Plan::new(&scene, &flat, &limits, &options)?;
     terminal::answer(&format!("\nplan for {device}\n{plan}\n"))?;
     Ok(Exit::Done)
 }

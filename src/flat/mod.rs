@@ -3,15 +3,20 @@
 //! Orders matter. Lights stand in the order in which the scene names them, so that a random choice picks the same light on the CPU;
 //! primitives stand in the order of the hierarchy's leaves, those outside of it behind them.
 
+pub mod bvh2;
 pub mod bvh4;
+pub mod cwbvh;
 pub mod environment;
+pub mod grid;
 pub mod heuristic;
+pub mod hierarchy;
 pub mod light;
 pub mod material;
 pub mod motion;
 pub mod primitive;
 pub mod tables;
 pub mod texture;
+pub mod tree;
 pub mod validate;
 pub mod view;
 pub mod world;
@@ -20,13 +25,14 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::scene::Scene;
-use bvh4::Bvh4;
 use environment::FlatEnvironment;
+use hierarchy::{Hierarchy, HierarchyKind};
 use light::FlatLight;
 use material::FlatMaterials;
-use primitive::{Primitive, TriangleAttributes};
+use primitive::{Primitive, TriangleAttributes, WorldPrimitive};
 use tables::Tables;
 use texture::FlatTextures;
+use tree::Tree;
 
 pub use validate::FlatError;
 pub use view::View;
@@ -40,7 +46,7 @@ pub struct FlatScene {
     /// In leaf order; behind them those that the hierarchy does not hold.
     pub primitives: Vec<Primitive>,
     pub attributes: Vec<TriangleAttributes>,
-    pub bvh: Bvh4,
+    pub hierarchy: Hierarchy,
     pub materials: FlatMaterials,
     /// Lights that are sampled; empty where the estimator never asks.
     pub lights: Vec<FlatLight>,
@@ -51,11 +57,20 @@ pub struct FlatScene {
     pub view: View,
 }
 
-impl FlatScene {
+/// A scene packed but for the form of its hierarchy, and with it the order of its primitives: that depends on the device, which may still
+/// be opening.
+pub struct Unarranged {
+    /// Without primitives and hierarchy.
+    rest: FlatScene,
+    primitives: Vec<WorldPrimitive>,
+    tree: Tree,
+}
+
+impl Unarranged {
     /// Packs a scene, relative to its [center](Scene::center).
     ///
     /// # Errors
-    /// [`FlatError`] where something is too large for the packed form or came out inconsistent.
+    /// [`FlatError`] where something is too large for the packed form.
     pub fn new(scene: &Scene) -> Result<Self, FlatError> {
         let scene = &*scene.centered();
         for shape in &scene.shapes {
@@ -66,21 +81,40 @@ impl FlatScene {
         let mut textures = FlatTextures::new(scene)?;
         let environment = FlatEnvironment::new(scene, &mut textures.texels)?;
         let lights = light::collect(scene, &mut world, &environment);
-        let (bvh, order) = Bvh4::build(&world.primitives, &world.motions)?;
-        let primitives: Vec<Primitive> = order.par_iter().map(|&index| world.primitives[index].pack()).collect();
-        let flat = Self {
-            primitives,
+        let tree = Tree::build(&world.primitives, &world.motions)?;
+        let rest = FlatScene {
             attributes: world.attributes,
-            bvh,
             materials: FlatMaterials::new(scene)?,
             lights,
             textures,
             environment,
             motions: world.motion_words,
             view: View::new(scene),
+            ..FlatScene::default()
         };
+        Ok(Self { rest, primitives: world.primitives, tree })
+    }
+
+    /// Gives the hierarchy its form.
+    ///
+    /// # Errors
+    /// [`FlatError`] where the packed scene came out inconsistent.
+    pub fn arrange(self, kind: HierarchyKind) -> Result<FlatScene, FlatError> {
+        let (hierarchy, order) = self.tree.arrange(kind);
+        let primitives = order.par_iter().map(|&index| self.primitives[index].pack()).collect();
+        let flat = FlatScene { primitives, hierarchy, ..self.rest };
         flat.validate()?;
         Ok(flat)
+    }
+}
+
+impl FlatScene {
+    /// Packs a scene, with the hierarchy of most devices.
+    ///
+    /// # Errors
+    /// [`FlatError`] where something is too large for the packed form or came out inconsistent.
+    pub fn new(scene: &Scene) -> Result<Self, FlatError> {
+        Unarranged::new(scene)?.arrange(HierarchyKind::default())
     }
 
     /// Something moves while the shutter is open.

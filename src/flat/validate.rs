@@ -1,5 +1,6 @@
 //! What must hold of a packed scene before a kernel may read it.
 
+use super::hierarchy::Child;
 use super::texture::FlatTextureKind;
 use super::{FlatScene, NONE};
 
@@ -58,15 +59,16 @@ impl FlatScene {
 
     fn validate_hierarchy(&self) -> Result<(), FlatError> {
         let fail = |message: String| Err(FlatError::Inconsistent(message));
-        let mut seen = vec![false; self.bvh.primitive_count as usize];
-        for (index, node) in self.bvh.nodes.iter().enumerate() {
-            for child in self.bvh.children(node) {
+        let mut seen = vec![false; self.hierarchy.primitive_count as usize];
+        let nodes = &self.hierarchy.nodes;
+        for index in 0..nodes.count() {
+            for child in nodes.children(index) {
                 match child {
-                    Ok(inner) if inner <= index || inner >= self.bvh.nodes.len() => {
+                    Child::Inner(inner) if inner <= index || inner >= nodes.count() => {
                         return fail(format!("node {index} has the child {inner}"));
                     }
-                    Ok(_) => {}
-                    Err((first, count)) => {
+                    Child::Inner(_) => {}
+                    Child::Leaf { first, count } => {
                         for primitive in first..first + count {
                             match seen.get_mut(primitive as usize) {
                                 Some(seen) if !*seen => *seen = true,

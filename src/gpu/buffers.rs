@@ -70,7 +70,7 @@ impl Buffers {
         upload(binding::VIEW, "view", bytemuck::bytes_of(&flat.view), BufferUsages::UNIFORM);
         upload(binding::EDGE, "edges", &edge_parameters(1), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
         if plan.geometry == GeometryPlacement::Hierarchy {
-            upload(binding::NODES, "hierarchy", bytemuck::cast_slice(&flat.bvh.nodes), usage(plan.uniform_nodes));
+            upload(binding::NODES, "hierarchy", flat.hierarchy.nodes.bytes(), usage(plan.uniform_nodes));
         }
         let compiled = |switch: &str| plan.switches.enabled.contains(switch);
         if compiled("ATTRIBUTES") {

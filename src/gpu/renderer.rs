@@ -9,7 +9,7 @@ use super::kernels::{self, Kernel};
 use super::parameters::PassParameters;
 use super::passes::{Pass, PassSizer};
 use crate::film::Band;
-use crate::flat::FlatScene;
+use crate::flat::{FlatError, Unarranged};
 use crate::plan::{Plan, PlanOptions, StageMode};
 use crate::render::{Allocation, Batch, DeviceChoice, Observer, RenderError, RenderReport, Renderer};
 use crate::sampling::{Sampling, SequencePoint};
@@ -103,10 +103,11 @@ impl GpuRenderer {
     /// As [`GpuRenderer::new`].
     pub fn once_open(opening: OpeningDevice, scene: &Scene, options: &PlanOptions) -> Result<Self, RenderError> {
         let start = Instant::now();
-        let flat = FlatScene::new(scene).map_err(|error| RenderError::DoesNotFit(error.to_string()));
+        let does_not_fit = |error: FlatError| RenderError::DoesNotFit(error.to_string());
+        let unarranged = Unarranged::new(scene).map_err(does_not_fit);
         // Where there is no device, that is what is told, whatever the scene: it may then go to the CPU.
         let device = opening.wait()?;
-        let flat = flat?;
+        let flat = unarranged?.arrange(options.hierarchy(&device.limits)).map_err(does_not_fit)?;
         let plan = Plan::new(scene, &flat, &device.limits, options)?;
         // Where paths may pass through surfaces without ending an edge, edges do not bound the number of vertices; most paths still
         // end by then.

@@ -35,7 +35,7 @@ impl Memory {
             ("film compensation", pixels * FILM_BYTES / 2),
         ];
         if plan.geometry == GeometryPlacement::Hierarchy {
-            arrays.push(("hierarchy", 48 * flat.bvh.nodes.len() as u64));
+            arrays.push(("hierarchy", flat.hierarchy.nodes.bytes().len() as u64));
         }
         if has_attributes(flat) {
             arrays.push(("normals and texture coordinates", 64 * flat.attributes.len() as u64));

@@ -11,6 +11,7 @@ pub mod unroll;
 
 use std::fmt;
 
+use crate::flat::hierarchy::HierarchyKind;
 use crate::flat::{FlatScene, NONE};
 use crate::render::RenderError;
 use crate::scene::Scene;
@@ -22,6 +23,8 @@ pub use memory::Memory;
 
 /// Primitives up to which geometry is written into the kernels as constants.
 pub const UNROLL_LIMIT: usize = 64;
+/// The fastest form of hierarchy on software devices (BENCHMARKS.md).
+const SOFTWARE_HIERARCHY: HierarchyKind = HierarchyKind::Bvh4;
 /// Samples of one pixel in one pass.
 pub const MAX_SAMPLES_PER_PASS: u32 = 64;
 
@@ -30,7 +33,7 @@ pub const MAX_SAMPLES_PER_PASS: u32 = 64;
 pub enum GeometryPlacement {
     /// Every primitive is code with constant coordinates; there is no hierarchy.
     Unrolled,
-    /// A four-wide hierarchy in storage buffers.
+    /// A bounding volume hierarchy in buffers.
     Hierarchy,
 }
 
@@ -56,6 +59,8 @@ pub enum FilmStorage {
 #[derive(Debug, Clone, Default)]
 pub struct PlanOptions {
     pub geometry: Option<GeometryPlacement>,
+    /// The form of the hierarchy, where there is one; the scene must have been packed with it ([`PlanOptions::hierarchy`]).
+    pub hierarchy: Option<HierarchyKind>,
     pub stages: Option<StageMode>,
     pub film: Option<FilmStorage>,
     pub path_capacity: Option<u32>,
@@ -73,10 +78,20 @@ pub struct PlanOptions {
     pub fault: Option<Fault>,
 }
 
+impl PlanOptions {
+    /// The form of hierarchy in which a scene has to be packed for a device.
+    pub fn hierarchy(&self, limits: &DeviceLimits) -> HierarchyKind {
+        let preferred = if limits.software { SOFTWARE_HIERARCHY } else { HierarchyKind::default() };
+        self.hierarchy.unwrap_or(preferred)
+    }
+}
+
 /// The decisions for one scene on one device.
 #[derive(Debug, Clone)]
 pub struct Plan {
     pub geometry: GeometryPlacement,
+    /// The form of the hierarchy; without effect where there is none.
+    pub hierarchy: HierarchyKind,
     /// Primitives are few enough for a uniform buffer, whose loads cost less.
     pub uniform_primitives: bool,
     /// So are the tables of materials, lights and textures.
@@ -105,8 +120,13 @@ impl Plan {
     /// Decides.
     ///
     /// # Errors
-    /// [`RenderError::DoesNotFit`] where an array is larger than the device can bind, naming both sizes.
+    /// [`RenderError::DoesNotFit`] where an array is larger than the device can bind, naming both sizes. [`RenderError::Internal`] where
+    /// the scene was packed with another hierarchy than the options say.
     pub fn new(scene: &Scene, flat: &FlatScene, limits: &DeviceLimits, options: &PlanOptions) -> Result<Self, RenderError> {
+        let hierarchy = flat.hierarchy.kind();
+        if options.hierarchy.is_some_and(|wanted| wanted != hierarchy) {
+            return Err(RenderError::Internal(format!("the scene was packed with a hierarchy that is {hierarchy}")));
+        }
         let few = flat.primitives.len() <= UNROLL_LIMIT;
         let preferred = if few { GeometryPlacement::Unrolled } else { GeometryPlacement::Hierarchy };
         // What moves is no constant.
@@ -134,11 +154,12 @@ impl Plan {
         let uniform_primitives = 48 * flat.primitives.len() as u64 <= uniform_limit;
         let uniform_tables = 16 * tables.len() as u64 <= uniform_limit;
         // Real GPUs serialise divergent reads of uniform buffers; software ones read them faster than storage.
-        let uniform_nodes = limits.software && std::mem::size_of_val(&flat.bvh.nodes[..]) as u64 <= uniform_limit;
+        let uniform_nodes = limits.software && flat.hierarchy.nodes.bytes().len() as u64 <= uniform_limit;
         let path_capacity = options.path_capacity.unwrap_or_else(|| limits.path_capacity());
         let band_rows = limits.band_rows(scene.film.size, film);
         let mut plan = Self {
             geometry,
+            hierarchy,
             uniform_primitives,
             uniform_tables,
             uniform_nodes,
@@ -164,7 +185,7 @@ impl Plan {
         }
         let first_constant = match geometry {
             GeometryPlacement::Unrolled => 0,
-            GeometryPlacement::Hierarchy => flat.bvh.primitive_count as usize,
+            GeometryPlacement::Hierarchy => flat.hierarchy.primitive_count as usize,
         };
         plan.switches.generated.insert("geometry/constants.wgsl", unroll::constants(flat, first_constant));
         plan.memory = Memory::new(flat, &plan, width);
@@ -203,12 +224,12 @@ impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let geometry = match self.geometry {
             GeometryPlacement::Unrolled => "written into the kernels as constants",
-            GeometryPlacement::Hierarchy => "triangles in a four-wide hierarchy with 8-bit boxes; few other shapes as constants",
+            GeometryPlacement::Hierarchy => "triangles in a hierarchy; few other shapes as constants",
         };
         writeln!(f, "geometry       {geometry}")?;
         let buffers = |uniform| if uniform { "uniform buffer" } else { "storage buffer" };
         if self.geometry == GeometryPlacement::Hierarchy {
-            writeln!(f, "hierarchy      {}", buffers(self.uniform_nodes))?;
+            writeln!(f, "hierarchy      {}, {}", self.hierarchy, buffers(self.uniform_nodes))?;
         }
         writeln!(f, "primitives     {}", buffers(self.uniform_primitives))?;
         writeln!(f, "tables         {}", buffers(self.uniform_tables))?;

@@ -21,9 +21,12 @@ pub const ALL: &[&str] = &[
     "ATTRIBUTES",
     "BLENDS",
     "BVH",
+    "BVH2",
+    "BVH4",
     "CHECKERS",
     "CONDUCTOR",
     "COSINE_POWER",
+    "CWBVH",
     "DIGITAL_SHIFT",
     "DIRECTIONAL_LIGHTS",
     "DISKS_IN_HIERARCHY",
@@ -109,7 +112,7 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     let render = &scene.render;
 
     let has = |primitives: &[Primitive], kind: PrimitiveKind| primitives.iter().any(|primitive| primitive.kind() == kind as u32);
-    let (in_hierarchy, _) = flat.primitives.split_at(flat.bvh.primitive_count as usize);
+    let (in_hierarchy, _) = flat.primitives.split_at(flat.hierarchy.primitive_count as usize);
     let [triangles, quads, spheres, disks] =
         [PrimitiveKind::Triangle, PrimitiveKind::Quad, PrimitiveKind::Sphere, PrimitiveKind::Disk]
             .map(|kind| has(in_hierarchy, kind));
@@ -122,6 +125,7 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     switches.enable("SPHERES", has_kind(PrimitiveKind::Sphere));
     switches.enable("FLAT_ROUND", has_kind(PrimitiveKind::Disk) || has_kind(PrimitiveKind::Plane));
     switches.enable("BVH", plan.geometry == GeometryPlacement::Hierarchy);
+    switches.enable(plan.hierarchy.switch(), plan.geometry == GeometryPlacement::Hierarchy);
     switches.enable("UNIFORM_NODES", plan.geometry == GeometryPlacement::Hierarchy && plan.uniform_nodes);
     switches.enable("UNIFORM_PRIMITIVES", plan.uniform_primitives);
     switches.enable("UNIFORM_TABLES", plan.uniform_tables);
@@ -185,8 +189,8 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
         ("RUNS", plan.runs),
         ("SEQUENCE_BLOCKS", SEQUENCE_BLOCKS),
         ("SEQUENCE_POINTS", SEQUENCE_BLOCKS * MAX_SAMPLES_PER_PASS),
-        ("STACK_SIZE", flat.bvh.stack_size),
-        ("NODE_WORDS", 3 * flat.bvh.nodes.len() as u32),
+        ("STACK_SIZE", flat.hierarchy.stack_size),
+        ("NODE_WORDS", (flat.hierarchy.nodes.bytes().len() / 16) as u32),
         ("TABLE_WORDS", (tables.words.len() as u32).max(1)),
     ]);
     switches

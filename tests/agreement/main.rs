@@ -8,6 +8,7 @@ mod strategies;
 
 use std::sync::LazyLock;
 
+use gpt::flat::hierarchy::HierarchyKind;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::plan::{FilmStorage, GeometryPlacement, PlanOptions, StageMode};
 use gpt::reference::ReferenceRenderer;
@@ -70,6 +71,21 @@ fn every_way_to_run_agrees() {
     ];
     for (way, options) in ways {
         assert_agrees(way, &small("spheres", 48, 4), &options);
+    }
+}
+
+#[test]
+fn every_form_of_hierarchy_agrees() {
+    for (kind, stages) in HierarchyKind::ALL.into_iter().flat_map(|kind| [(kind, StageMode::Fused), (kind, StageMode::Wavefront)])
+    {
+        let geometry = Some(GeometryPlacement::Hierarchy);
+        let options = PlanOptions { geometry, hierarchy: Some(kind), stages: Some(stages), ..PlanOptions::default() };
+        assert_agrees(&format!("spheres, {kind}, {stages:?}"), &small("spheres", 48, 4), &options);
+    }
+    // Boxes that move, and triangles with normals.
+    for (kind, name) in HierarchyKind::ALL.into_iter().flat_map(|kind| [(kind, "motion-blur"), (kind, "teapot-plastic")]) {
+        let options = PlanOptions { hierarchy: Some(kind), ..PlanOptions::default() };
+        assert_agrees(&format!("{name}, {kind}"), &small(name, 32, 4), &options);
     }
 }
 

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
+use gpt::flat::hierarchy::HierarchyKind;
 use gpt::plan::{GeometryPlacement, PlanOptions};
 use gpt::scene::{Geometry, Mesh, Scene, Shape, Transform};
 use gpt::statistics::random::SplitMix64;
@@ -51,6 +52,10 @@ pub fn findings(effort: Effort) -> Vec<Finding> {
     findings
 }
 
+fn in_hierarchy(kind: HierarchyKind) -> PlanOptions {
+    PlanOptions { geometry: Some(GeometryPlacement::Hierarchy), hierarchy: Some(kind), ..PlanOptions::default() }
+}
+
 const WHITE: &str = "[[material]]\nname = \"glow\"\ntype = \"emissive\"\nradiance = 1\ntwo_sided = true\n";
 
 fn add_mesh(scene: &mut Scene, positions: Vec<Vec3>, faces: Vec<[u32; 3]>) {
@@ -81,16 +86,18 @@ pub fn holes(case: String, rays: u64, pixels: &[f64]) -> Finding {
 /// From within a crumpled sphere of many triangles, all round by three views: every ray meets it.
 fn closed_mesh(effort: Effort) -> Vec<Finding> {
     let (rings, film, spp) = effort.pick((60, 256, 4), (700, 1024, 32));
-    [("[0.1, 0.2, 1]"), ("[-1, 0.1, -0.4]"), ("[0.2, 1, 0.1]")]
+    HierarchyKind::ALL
         .into_iter()
-        .filter_map(|look_at| {
+        .flat_map(|kind| ["[0.1, 0.2, 1]", "[-1, 0.1, -0.4]", "[0.2, 1, 0.1]"].map(|look_at| (kind, look_at)))
+        .filter_map(|(kind, look_at)| {
             let camera = format!("[camera]\nposition = [0, 0, 0]\nlook_at = {look_at}\nup = [0.3, 0.2, 1]\nvfov = 120");
             let mut scene = glowing(film, spp, &camera);
             let (positions, faces) = crumpled_sphere(rings);
             let triangles = faces.len();
             add_mesh(&mut scene, positions, faces);
             let rays = u64::from(film) * u64::from(film) * u64::from(spp);
-            Some(holes(format!("inside a closed mesh of {triangles} triangles, towards {look_at}"), rays, &render(&scene)?))
+            let case = format!("inside a closed mesh of {triangles} triangles, towards {look_at}, {}", kind.switch());
+            Some(holes(case, rays, &render_with(&scene, &in_hierarchy(kind))?))
         })
         .collect()
 }
@@ -158,23 +165,23 @@ fn aimed(name: &str, offset: f32, effort: Effort) -> Vec<Finding> {
         .flat_map(|row| (0..side - 1).map(move |column| row * side + column))
         .flat_map(|a| [[a, a + 1, a + side + 1], [a, a + side + 1, a + side]])
         .collect();
-    [GeometryPlacement::Hierarchy]
+    HierarchyKind::ALL
         .into_iter()
-        .filter_map(|geometry| {
+        .filter_map(|kind| {
             let camera =
                 format!("[camera]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\nprojection = \"orthographic\"\nheight = {film}");
             let mut scene = glowing(film, 1, &camera);
             scene.render.pixel_sampler = gpt::scene::PixelSampler::Centre;
             add_mesh(&mut scene, positions.clone(), faces.clone());
-            let options = PlanOptions { geometry: Some(geometry), ..PlanOptions::default() };
-            let pixels = render_with(&scene, &options)?;
-            Some(holes(format!("rays at the {name} of {} triangles", faces.len()), u64::from(film) * u64::from(film), &pixels))
+            let pixels = render_with(&scene, &in_hierarchy(kind))?;
+            let case = format!("rays at the {name} of {} triangles, {}", faces.len(), kind.switch());
+            Some(holes(case, u64::from(film) * u64::from(film), &pixels))
         })
         .collect()
 }
 
 /// A square cut into 2,000 slivers from one corner, some a millionth as wide as they are long.
-fn slivers() -> Option<Finding> {
+fn slivers() -> Vec<Finding> {
     let mut positions = vec![Vec3::new(-1.0, -1.0, 0.0)];
     let count = 2_000;
     for index in 0..=count {
@@ -187,7 +194,11 @@ fn slivers() -> Option<Finding> {
     let camera = "[camera]\nposition = [0.1, 0.2, 2]\nlook_at = [0, 0, 0]\nvfov = 40";
     let mut scene = glowing(256, 4, camera);
     add_mesh(&mut scene, positions, faces);
-    Some(holes(format!("a square of {count} slivers"), 256 * 256 * 4, &render(&scene)?))
+    let of_kind = |kind: HierarchyKind| {
+        let pixels = render_with(&scene, &in_hierarchy(kind))?;
+        Some(holes(format!("a square of {count} slivers, {}", kind.switch()), 256 * 256 * 4, &pixels))
+    };
+    HierarchyKind::ALL.into_iter().filter_map(of_kind).collect()
 }
 
 /// Triangles twice, triangles without area, and surfaces of one material in one plane.
