@@ -59,7 +59,7 @@ pub enum FilmStorage {
 #[derive(Debug, Clone, Default)]
 pub struct PlanOptions {
     pub geometry: Option<GeometryPlacement>,
-    /// The form of the hierarchy, where there is one; the scene must have been packed with it ([`PlanOptions::hierarchy`]).
+    /// The form of the hierarchy, where there is one; the scene must have been packed with it ([`PlanOptions::hierarchy()`]).
     pub hierarchy: Option<HierarchyKind>,
     pub stages: Option<StageMode>,
     pub film: Option<FilmStorage>,
