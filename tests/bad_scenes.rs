@@ -1,33 +1,18 @@
 //! Scenes that are wrong: each is one error that names the file, the line, the key and what would be right.
 
 mod common;
+#[path = "common/sphere.rs"]
+mod sphere;
+
+use std::sync::LazyLock;
 
 use common::{TRIANGLE, folder_with, png_bytes};
 use gpt::scene::{self, SceneError};
+use sphere::grey_sphere;
 
 /// A scene that is right, to put mistakes into.
-const GOOD: &str = r#"
-[film]
-size = [4, 4]
-[render]
-spp = 1
-[camera]
-position = [0, 0, 5]
-look_at = [0, 0, 0]
-vfov = 40
-[[material]]
-name = "grey"
-type = "diffuse"
-reflectance = 0.5
-[[shape]]
-type = "sphere"
-center = [0, 0, 0]
-radius = 1
-material = "grey"
-[[light]]
-type = "environment"
-radiance = 1
-"#;
+static GOOD: LazyLock<String> =
+    LazyLock::new(|| grey_sphere("[film]\nsize = [4, 4]\n[render]\nspp = 1", "type = \"environment\"\nradiance = 1"));
 
 fn error_of(text: &str) -> SceneError {
     match scene::load_toml_str(text, "test.toml", std::path::Path::new("")) {
@@ -51,7 +36,7 @@ fn show(error: &SceneError) -> String {
 
 #[test]
 fn the_good_scene_is_good() {
-    assert!(scene::load_toml_str(GOOD, "test.toml", std::path::Path::new("")).is_ok());
+    assert!(scene::load_toml_str(&GOOD, "test.toml", std::path::Path::new("")).is_ok());
 }
 
 /// Each row: what is replaced by what, and the complaint.
@@ -107,7 +92,7 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
             "test.toml:13:15: material[0].reflectance: wrong number of values: 2, expected 3 numbers, [r, g, b]",
         ),
         (
-            "position = [0, 0, 5]",
+            "position = [0, 0, 4]",
             "position = [0, 0]",
             "test.toml:7:12: camera.position: wrong number of values: 2, expected an array of length 3",
         ),
@@ -220,7 +205,7 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
         // Geometry without meaning.
         (
             "look_at = [0, 0, 0]",
-            "look_at = [0, 0, 5]",
+            "look_at = [0, 0, 4]",
             "test.toml:8:11: camera.look_at: the camera looks at the point it stands at",
         ),
         (

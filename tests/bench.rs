@@ -1,37 +1,24 @@
 //! `gpt bench` as its users meet it. What its figures are worth is tested beside the code, on estimators whose variance, bias and speed are
 //! known.
 
+#[path = "common/sphere.rs"]
+mod sphere;
+
 use std::fs;
 use std::process::{Command, Output};
 
 use serde_json::Value;
+use sphere::grey_sphere;
 use tempfile::TempDir;
 
 /// A scene that renders fast on the CPU: a lit sphere over nothing.
-const SCENE: &str = r#"
-[film]
-size = [24, 16]
-[camera]
-position = [0, 0, 4]
-look_at = [0, 0, 0]
-vfov = 40
-[[material]]
-name = "grey"
-type = "diffuse"
-reflectance = 0.5
-[[shape]]
-type = "sphere"
-center = [0, 0, 0]
-radius = 1
-material = "grey"
-[[light]]
-type = "environment"
-radiance = 1
-"#;
+fn scene() -> String {
+    grey_sphere("[film]\nsize = [24, 16]", "type = \"environment\"\nradiance = 1")
+}
 
 fn workplace() -> TempDir {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    fs::write(folder.path().join("scene.toml"), SCENE).expect("the scene file");
+    fs::write(folder.path().join("scene.toml"), scene()).expect("the scene file");
     folder
 }
 
@@ -177,7 +164,7 @@ fn features_are_compared_off_compiled_in_and_used() {
 fn mistakes_have_the_contracts_exit_codes() {
     let folder = workplace();
     fs::write(folder.path().join("file"), "").expect("a file");
-    let dark = SCENE.replace("radiance = 1", "radiance = 0");
+    let dark = scene().replace("radiance = 1", "radiance = 0");
     fs::write(folder.path().join("dark.toml"), dark).expect("the scene file");
     for (code, arguments, said) in [
         (2, "", "Usage"),

@@ -1,20 +1,17 @@
 //! What the device's film holds: precision over many samples, samples that add up, bands that cover the picture.
 
-use std::sync::LazyLock;
+#[path = "common/device.rs"]
+mod device;
 
+use device::DEVICE;
 use gpt::film::Band;
-use gpt::gpu::{Device, GpuRenderer};
+use gpt::gpu::GpuRenderer;
 use gpt::plan::{FilmStorage, PlanOptions, StageMode};
-use gpt::render::{DeviceChoice, RenderRequest, Renderer, Silent};
+use gpt::render::{RenderRequest, Renderer, Silent};
 use gpt::scene::{self, Scene};
 use gpt::verify;
 use std::ops::Range;
 use std::path::Path;
-
-static DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| match std::env::var("GPT_TEST_GPU").as_deref() {
-    Ok("skip") => None,
-    _ => Some(Device::open(&DeviceChoice::Gpu).expect("a graphics adapter; GPT_TEST_GPU=skip tests the CPU alone")),
-});
 
 fn render(scene: &Scene, options: &PlanOptions, samples: Range<u32>) -> Option<Vec<Band>> {
     let mut renderer = GpuRenderer::on(DEVICE.as_ref()?, scene, options).expect("the scene fits");

@@ -1,25 +1,23 @@
 //! Motion blur: coverage over time in closed form, a shutter that stands still, what moving shapes sweep, and what is refused.
 
+#[path = "common/device.rs"]
+mod device;
+
 use std::io;
 use std::path::Path;
-use std::sync::LazyLock;
 
+use device::DEVICE;
 use glam::{DVec3, Vec3};
 use gpt::film::Band;
 use gpt::flat::motion::FlatMotion;
 use gpt::flat::primitive::{PrimitiveGeometry, WorldPrimitive};
-use gpt::gpu::{Device, GpuRenderer};
+use gpt::gpu::GpuRenderer;
 use gpt::plan::{PlanOptions, StageMode};
 use gpt::reference::ReferenceRenderer;
-use gpt::render::{DeviceChoice, RenderRequest, Renderer, Silent};
+use gpt::render::{RenderRequest, Renderer, Silent};
 use gpt::scene::{self, Motion, MotionStep, Scene, SceneError, Shape, Transform, TransformStep};
 use gpt::statistics::random::SplitMix64;
 use gpt::statistics::{Moments, one_sample_t_test_beyond, sidak};
-
-static DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| match std::env::var("GPT_TEST_GPU").as_deref() {
-    Ok("skip") => None,
-    _ => Some(Device::open(&DeviceChoice::Gpu).expect("a graphics adapter; GPT_TEST_GPU=skip tests the CPU alone")),
-});
 
 /// The picture by the reference, the fused kernel and the wavefront.
 fn pictures(scene: &Scene) -> Vec<(&'static str, Vec<[f32; 3]>)> {

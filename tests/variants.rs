@@ -1,18 +1,16 @@
 //! Ways to run that only rearrange the work: every one gives the same picture, bit for bit.
 
+#[path = "common/device.rs"]
+mod device;
+
 use std::path::Path;
-use std::sync::LazyLock;
 
+use device::DEVICE;
 use gpt::flat::hierarchy::HierarchyKind;
-use gpt::gpu::{Device, GpuRenderer};
+use gpt::gpu::GpuRenderer;
 use gpt::plan::{FilmStorage, GeometryPlacement, PlanOptions, StageMode};
-use gpt::render::{DeviceChoice, RenderRequest, Renderer, Silent};
+use gpt::render::{RenderRequest, Renderer, Silent};
 use gpt::scene::{self, Scene};
-
-static DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| match std::env::var("GPT_TEST_GPU").as_deref() {
-    Ok("skip") => None,
-    _ => Some(Device::open(&DeviceChoice::Gpu).expect("a graphics adapter; GPT_TEST_GPU=skip tests the CPU alone")),
-});
 
 /// Spheres, a mesh and an environment, of a size that no number of lanes divides.
 fn scene(spp: u32) -> Scene {

@@ -1,26 +1,21 @@
 //! The GPU's picture against the reference's, path by path, for every built-in scene and every way to run it.
 
+#[path = "../common/device.rs"]
+mod device;
+
 mod features;
 mod lights;
 mod materials;
 mod motion;
 mod strategies;
 
-use std::sync::LazyLock;
-
+use device::DEVICE;
 use gpt::flat::hierarchy::HierarchyKind;
-use gpt::gpu::{Device, GpuRenderer};
+use gpt::gpu::GpuRenderer;
 use gpt::plan::{FilmStorage, GeometryPlacement, PlanOptions, StageMode};
 use gpt::reference::ReferenceRenderer;
-use gpt::render::DeviceChoice;
 use gpt::scene::{self, Estimator, MisHeuristic, SamplerKind, Scene};
 use gpt::verify::{self, Verdict};
-
-/// One device for all tests. None: the tests were told to go without.
-static DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| match std::env::var("GPT_TEST_GPU").as_deref() {
-    Ok("skip") => None,
-    _ => Some(Device::open(&DeviceChoice::Gpu).expect("a graphics adapter; GPT_TEST_GPU=skip tests the CPU alone")),
-});
 
 /// A built-in scene, small.
 fn small(name: &str, side: u32, spp: u32) -> Scene {

@@ -3,6 +3,8 @@
 mod goals;
 #[cfg(unix)]
 mod on_unix;
+#[path = "../common/sphere.rs"]
+mod sphere;
 
 use std::fs;
 use std::path::Path;
@@ -10,32 +12,14 @@ use std::process::{Command, Output, Stdio};
 
 use gpt::output::{Image, read_image};
 use serde_json::Value;
+use sphere::grey_sphere;
 use tempfile::TempDir;
 
 /// A scene that renders fast on the CPU: a lit sphere over nothing.
-const SCENE: &str = r#"
-[film]
-size = [24, 16]
-[render]
-spp = 8
-[camera]
-position = [0, 0, 4]
-look_at = [0, 0, 0]
-vfov = 40
-[[material]]
-name = "grey"
-type = "diffuse"
-reflectance = 0.5
-[[shape]]
-type = "sphere"
-center = [0, 0, 0]
-radius = 1
-material = "grey"
-[[light]]
-type = "point"
-position = [3, 4, 5]
-intensity = [40, 30, 20]
-"#;
+fn scene() -> String {
+    let light = "type = \"point\"\nposition = [3, 4, 5]\nintensity = [40, 30, 20]";
+    grey_sphere("[film]\nsize = [24, 16]\n[render]\nspp = 8", light)
+}
 
 /// An empty folder with the scene `scene.toml`; the program runs in it.
 struct Workplace(TempDir);
@@ -43,7 +27,7 @@ struct Workplace(TempDir);
 impl Workplace {
     fn new() -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        fs::write(folder.path().join("scene.toml"), SCENE).expect("the scene file");
+        fs::write(folder.path().join("scene.toml"), scene()).expect("the scene file");
         Self(folder)
     }
 
@@ -279,7 +263,7 @@ fn impossible_targets_are_found_before_rendering() {
 #[test]
 fn a_black_picture_is_worth_a_warning() {
     let place = Workplace::new();
-    let looking_away = SCENE.replace("look_at = [0, 0, 0]", "look_at = [0, 0, 9]");
+    let looking_away = scene().replace("look_at = [0, 0, 0]", "look_at = [0, 0, 9]");
     fs::write(place.path("away.toml"), looking_away).expect("a file");
     assert!(place.expect(0, "render away.toml --device cpu").contains("every pixel is black"));
     assert!(!place.expect(0, "render scene.toml --device cpu").contains("black"));

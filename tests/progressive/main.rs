@@ -1,21 +1,19 @@
 //! Renders that time or their error ends, and samples that follow the noise.
 
+#[path = "../common/device.rs"]
+mod device;
+
 use std::path::Path;
-use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
+use device::DEVICE;
 use gpt::film::Band;
-use gpt::gpu::{Device, GpuRenderer};
+use gpt::gpu::GpuRenderer;
 use gpt::plan::{FilmStorage, PlanOptions, StageMode};
 use gpt::progressive::{self, Goal, Outcome, Stop};
 use gpt::reference::ReferenceRenderer;
-use gpt::render::{Allocation, Batch, DeviceChoice, RenderRequest, Renderer, Silent};
+use gpt::render::{Allocation, Batch, RenderRequest, Renderer, Silent};
 use gpt::scene::{self, SamplerKind, Scene};
-
-static DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| match std::env::var("GPT_TEST_GPU").as_deref() {
-    Ok("skip") => None,
-    _ => Some(Device::open(&DeviceChoice::Gpu).expect("a graphics adapter; GPT_TEST_GPU=skip tests the CPU alone")),
-});
 
 fn gpu(scene: &Scene, options: &PlanOptions) -> Option<Box<dyn Renderer>> {
     Some(Box::new(GpuRenderer::on(DEVICE.as_ref()?, scene, options).expect("the scene fits")))

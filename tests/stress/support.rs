@@ -1,20 +1,16 @@
 //! What the cases share: a device, effort, findings and how they are judged.
 
-use std::sync::LazyLock;
+#[path = "../common/device.rs"]
+mod device;
 
+pub use device::DEVICE;
 use gpt::film::Band;
-use gpt::gpu::{Device, GpuRenderer};
+use gpt::gpu::GpuRenderer;
 use gpt::plan::PlanOptions;
 use gpt::reference::ReferenceRenderer;
-use gpt::render::{DeviceChoice, RenderReport, RenderRequest, Renderer, Silent};
+use gpt::render::{RenderReport, RenderRequest, Renderer, Silent};
 use gpt::scene::{SamplerKind, Scene, load_toml_str};
 use gpt::verify::{self, Verdict};
-
-/// One device for all cases. None: the tests were told to go without.
-pub static DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| match std::env::var("GPT_TEST_GPU").as_deref() {
-    Ok("skip") => None,
-    _ => Some(Device::open(&DeviceChoice::Gpu).expect("a graphics adapter; GPT_TEST_GPU=skip tests the CPU alone")),
-});
 
 /// How long a case may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,0 +1,12 @@
+//! The graphics adapter that tests run on.
+
+use std::sync::LazyLock;
+
+use gpt::gpu::Device;
+use gpt::render::DeviceChoice;
+
+/// Opened once a test program. None where tests are told to do without.
+pub static DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| match std::env::var("GPT_TEST_GPU").as_deref() {
+    Ok("skip") => None,
+    _ => Some(Device::open(&DeviceChoice::Gpu).expect("a graphics adapter; GPT_TEST_GPU=skip tests the CPU alone")),
+});
