@@ -50,15 +50,21 @@ fn small_scenes_are_constants_and_large_ones_a_hierarchy() {
 
 #[test]
 fn an_array_beyond_the_largest_binding_is_refused_with_both_sizes() {
-    let scene = grid(60);
+    let mut scene = grid(60);
+    scene.film.size = [64, 64];
     let limits = DeviceLimits { max_storage_binding: 100 << 10, ..DeviceLimits::default() };
     match plan(&scene, &limits) {
         Err(RenderError::DoesNotFit(message)) => {
-            assert_eq!(message, "its primitives need 0.3 MiB, and the device can bind 0.1 MiB at once");
+            let expected = "its primitives need 0.3 MiB, and the device can bind 0.1 MiB at once; in chunks of that size a stage would \
+                            need up to 9 buffers, and can have 8";
+            assert_eq!(message, expected);
         }
         other => panic!("{other:?}"),
     }
     assert!(plan(&scene, &DeviceLimits::default()).is_ok());
+    // A device that binds more buffers takes it in chunks.
+    let more = DeviceLimits { max_storage_buffers: 9, ..limits };
+    assert_eq!(plan(&scene, &more).expect("it fits").chunks.iter().map(|array| array.count).collect::<Vec<_>>(), [4, 1]);
 }
 
 #[test]

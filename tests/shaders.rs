@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use gpt::flat::hierarchy::HierarchyKind;
 use gpt::gpu::kernels::used_bindings;
+use gpt::plan::chunks::{ATTRIBUTES, Chunks, PRIMITIVES, RecordArray, nodes};
 use gpt::plan::switches::{ALL, DEBUG};
 use gpt::shader::{ComposeError, Switches, compose};
 
@@ -37,10 +39,18 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
     if wanted.contains("TRACE") {
         wanted.remove("ALLOCATION");
     }
+    // What fits a uniform buffer is not cut.
+    for (chunks, uniform) in [("PRIMITIVE_CHUNKS", "UNIFORM_PRIMITIVES"), ("NODE_CHUNKS", "UNIFORM_NODES")] {
+        if wanted.contains(chunks) {
+            wanted.remove(uniform);
+        }
+    }
     for (name, needed) in [
         ("VARYING_LIGHTS", &["EMISSION", "LIGHTS"][..]),
         ("MOVING_LIGHTS", &["MOTION", "ATTRIBUTES", "BVH"]),
         ("MOTION", &["ATTRIBUTES", "BVH"]),
+        ("NODE_CHUNKS", &["BVH"]),
+        ("ATTRIBUTE_CHUNKS", &["ATTRIBUTES"]),
         ("PASS", &["BLENDS"]),
         ("PICK", &["BLENDS"]),
         ("CHECKERS", &["TEXTURES", "PROCEDURAL_TEXTURES"]),
@@ -131,10 +141,15 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
     let geometry = "#import geometry/primitives.wgsl\n#import geometry/scene.wgsl\n\
                     fn closest_of_constants(ray: PreparedRay, hit: ptr<function, Hit>) {}\n\
                     fn any_of_constants(ray: PreparedRay, t_max: f32) -> bool { return false; }\n";
+    let kind = HierarchyKind::ALL.into_iter().find(|kind| wanted.contains(kind.switch())).unwrap_or_default();
+    // Three chunks, the last of half the size.
+    let chunks =
+        |array: RecordArray| (array.file, Chunks::new(array, 2500 * array.record_bytes(), 1000 * array.record_bytes()).wgsl());
+    let cut = [PRIMITIVES, nodes(kind), ATTRIBUTES].into_iter().map(chunks);
     Switches {
         enabled: wanted,
         constants: constants.into_iter().map(|name| (name, 7)).collect(),
-        generated: [("geometry/constants.wgsl", geometry.to_owned())].into(),
+        generated: cut.chain([("geometry/constants.wgsl", geometry.to_owned())]).collect(),
     }
 }
 
@@ -295,6 +310,10 @@ fn packed_records_are_the_words_that_shaders_count() {
 fn no_stage_needs_more_storage_buffers_than_webgpu_promises() {
     let mut wanted: BTreeSet<&'static str> = ALL.iter().copied().collect();
     for absent in ["ONLY_TRIANGLES_IN_HIERARCHY", "UNIFORM_PRIMITIVES", "UNIFORM_TABLES", "FILM_TEXTURE"] {
+        wanted.remove(absent);
+    }
+    // Scenes too large for that are refused where a device has no more.
+    for absent in ["PRIMITIVE_CHUNKS", "NODE_CHUNKS", "ATTRIBUTE_CHUNKS"] {
         wanted.remove(absent);
     }
     for (file, entry) in STAGES {

@@ -13,10 +13,11 @@ fn crossings(planes: vec4<u32>, origin: f32, inverse_direction: f32) -> vec4<f32
 fn descend(node: u32, traversal: ptr<function, Traversal>, stack: ptr<function, array<StackEntry, STACK_SIZE>>) -> u32 {
     let origin = (*traversal).ray.origin;
     let inverse_direction = (*traversal).inverse_direction;
-    let x = crossings(nodes[node * 4u], origin.x, inverse_direction.x);
-    let y = crossings(nodes[node * 4u + 1u], origin.y, inverse_direction.y);
-    let z = crossings(nodes[node * 4u + 2u], origin.z, inverse_direction.z);
-    let entries = nodes[node * 4u + 3u].xy;
+    let words = node_words(node);
+    let x = crossings(words.w0, origin.x, inverse_direction.x);
+    let y = crossings(words.w1, origin.y, inverse_direction.y);
+    let z = crossings(words.w2, origin.z, inverse_direction.z);
+    let entries = words.w3.xy;
     let near = larger(larger(x, y), larger(z, vec4<f32>(0.0))).xy;
     let far = smaller(smaller(x, y), smaller(z, vec4<f32>((*traversal).hit.t))).zw;
     // A child that does not exist has a box turned inside out.

@@ -11,9 +11,10 @@ struct NodeHits {
 }
 
 fn intersect_node(node: u32, origin: vec3<f32>, inverse_direction: vec3<f32>, t_max: f32) -> NodeHits {
-    let n0 = nodes[node * 3u];
-    let n1 = nodes[node * 3u + 1u];
-    let n2 = nodes[node * 3u + 2u];
+    let words = node_words(node);
+    let n0 = words.w0;
+    let n1 = words.w1;
+    let n2 = words.w2;
     let exponents = vec3<u32>(n0.w, n0.w >> 8u, n0.w >> 16u) & vec3<u32>(255u);
     let scale = bitcast<vec3<f32>>(exponents << vec3<u32>(23u)) * inverse_direction;
     let offset = (bitcast<vec3<f32>>(n0.xyz) - origin) * inverse_direction;

@@ -63,11 +63,12 @@ fn child_bits(met: vec4<bool>, meta_word: u32, inner: u32, octant: u32) -> u32 {
 
 // Goes on with the children of a node that are met.
 fn visit(node: u32, octant: u32, traversal: ptr<function, Traversal>) {
-    let n0 = nodes[node * 5u];
-    let n1 = nodes[node * 5u + 1u];
-    let n2 = nodes[node * 5u + 2u];
-    let n3 = nodes[node * 5u + 3u];
-    let n4 = nodes[node * 5u + 4u];
+    let words = node_words(node);
+    let n0 = words.w0;
+    let n1 = words.w1;
+    let n2 = words.w2;
+    let n3 = words.w3;
+    let n4 = words.w4;
     let inverse_direction = (*traversal).inverse_direction;
     let exponents = vec3<u32>(n0.w, n0.w >> 8u, n0.w >> 16u) & vec3<u32>(255u);
     let scale = bitcast<vec3<f32>>(exponents << vec3<u32>(23u)) * inverse_direction;

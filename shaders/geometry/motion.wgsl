@@ -69,7 +69,7 @@ fn motion_at_path_time(first: u32) -> Motion {
 
 // Index of the motion of whatever has these attributes; NONE where it rests.
 fn motion_of_attributes(first: u32) -> u32 {
-    return bitcast<u32>(attributes[first * 4u + 3u].w);
+    return bitcast<u32>(attribute_words(first).w3.w);
 }
 
 fn moved_point(motion: Motion, p: vec3<f32>) -> vec3<f32> {
@@ -105,9 +105,10 @@ struct PlacedPrimitive {
 }
 
 fn placed_primitive(index: u32) -> PlacedPrimitive {
-    let p0 = primitives[index * 3u];
-    let p1 = primitives[index * 3u + 1u];
-    let p2 = primitives[index * 3u + 2u];
+    let words = primitive_words(index);
+    let p0 = words.w0;
+    let p1 = words.w1;
+    let p2 = words.w2;
     if (bitcast<u32>(p0.w) & MOVES) == 0u {
         return PlacedPrimitive(p0, p1, p2, vec3<f32>(0.0));
     }

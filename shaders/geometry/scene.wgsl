@@ -1,29 +1,12 @@
 // The scene's arrays. Small scenes keep them in uniform buffers, the rest in storage buffers; the plan says which.
 
-// Primitives, three vec4 each (src/flat/primitive.rs):
-//   (first point, kind and material), (second, light or NONE), (third, attributes or NONE)
+#import geometry/records.wgsl
+
 // Tables, vec4s: materials, then lights, then textures (src/flat/tables.rs).
-#if UNIFORM_PRIMITIVES
-@group(0) @binding(4) var<uniform> primitives: array<vec4<f32>, PRIMITIVE_WORDS>;
-#else
-@group(0) @binding(4) var<storage, read> primitives: array<vec4<f32>>;
-#endif
 #if UNIFORM_TABLES
 @group(0) @binding(5) var<uniform> tables: array<vec4<f32>, TABLE_WORDS>;
 #else
 @group(0) @binding(5) var<storage, read> tables: array<vec4<f32>>;
-#endif
-#if BVH
-#if UNIFORM_NODES
-@group(0) @binding(6) var<uniform> nodes: array<vec4<u32>, NODE_WORDS>;
-#else
-@group(0) @binding(6) var<storage, read> nodes: array<vec4<u32>>;
-#endif
-#endif
-#if ATTRIBUTES
-// Normals and texture coordinates of triangles, four vec4 each:
-//   (n0, u0), (n1, v0), (n2, u1), (v1, u2, v2, motion or NONE)
-@group(0) @binding(7) var<storage, read> attributes: array<vec4<f32>>;
 #endif
 #if TEXELS
 @group(0) @binding(8) var<storage, read> texels: array<f32>;

@@ -13,9 +13,10 @@ fn intersect_stored(ray: PreparedRay, index: u32, hit: ptr<function, Hit>) {
     let p1 = placed.p1;
     let p2 = placed.p2;
 #else
-    let p0 = primitives[index * 3u];
-    let p1 = primitives[index * 3u + 1u];
-    let p2 = primitives[index * 3u + 2u];
+    let words = primitive_words(index);
+    let p0 = words.w0;
+    let p1 = words.w1;
+    let p2 = words.w2;
 #endif
     var found = vec3<f32>(-1.0, 0.0, 0.0);
     let t_max = (*hit).t;

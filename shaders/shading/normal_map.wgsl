@@ -26,10 +26,10 @@ fn surface_tangents(kind: u32, first: u32, normal: vec3<f32>, edge_u: vec3<f32>,
             return sphere_tangents(first, normal);
         }
 #endif
-        let a3 = attributes[first * 4u + 3u];
-        let uv0 = vec2<f32>(attributes[first * 4u].w, attributes[first * 4u + 1u].w);
-        let du = vec2<f32>(attributes[first * 4u + 2u].w, a3.x) - uv0;
-        let dv = a3.yz - uv0;
+        let words = attribute_words(first);
+        let uv0 = vec2<f32>(words.w0.w, words.w1.w);
+        let du = vec2<f32>(words.w2.w, words.w3.x) - uv0;
+        let dv = words.w3.yz - uv0;
         // Only directions matter, so the determinant's sign is enough.
         let orientation = sign(du.x * dv.y - du.y * dv.x);
         return Tangents((edge_u * dv.y - edge_v * du.y) * orientation, (edge_v * du.x - edge_u * dv.x) * orientation);
@@ -51,9 +51,10 @@ fn sphere_tangents(first: u32, normal_now: vec3<f32>) -> Tangents {
         normal = normalize(normal * to_now);
     }
 #endif
-    let row_x = attributes[first * 4u].xyz;
-    let row_y = attributes[first * 4u + 1u].xyz;
-    let row_z = attributes[first * 4u + 2u].xyz;
+    let words = attribute_words(first);
+    let row_x = words.w0.xyz;
+    let row_y = words.w1.xyz;
+    let row_z = words.w2.xyz;
     let d = vec3<f32>(dot(row_x, normal), dot(row_y, normal), dot(row_z, normal));
     let radius = length(d.xz);
     if radius == 0.0 {

@@ -35,10 +35,11 @@ struct Attribute {
 }
 
 fn interpolate_attributes(first: u32, weights: vec2<f32>) -> Attribute {
-    let a0 = attributes[first * 4u];
-    let a1 = attributes[first * 4u + 1u];
-    let a2 = attributes[first * 4u + 2u];
-    let a3 = attributes[first * 4u + 3u];
+    let words = attribute_words(first);
+    let a0 = words.w0;
+    let a1 = words.w1;
+    let a2 = words.w2;
+    let a3 = words.w3;
     let w = 1.0 - weights.x - weights.y;
 #if MOTION
     var normals = array<vec3<f32>, 3>(a0.xyz, a1.xyz, a2.xyz);
@@ -85,9 +86,10 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
     let p1 = placed.p1;
     let p2 = placed.p2;
 #else
-    let p0 = primitives[hit.primitive * 3u];
-    let p1 = primitives[hit.primitive * 3u + 1u];
-    let p2 = primitives[hit.primitive * 3u + 2u];
+    let words = primitive_words(hit.primitive);
+    let p0 = words.w0;
+    let p1 = words.w1;
+    let p2 = words.w2;
 #endif
     let kind = primitive_kind(p0.w);
     let wo = -ray.direction;
@@ -177,11 +179,8 @@ fn sphere_uv(first: u32, normal_now: vec3<f32>) -> vec2<f32> {
 #else
 fn sphere_uv(first: u32, normal: vec3<f32>) -> vec2<f32> {
 #endif
-    let direction = vec3<f32>(
-        dot(attributes[first * 4u].xyz, normal),
-        dot(attributes[first * 4u + 1u].xyz, normal),
-        dot(attributes[first * 4u + 2u].xyz, normal)
-    );
+    let words = attribute_words(first);
+    let direction = vec3<f32>(dot(words.w0.xyz, normal), dot(words.w1.xyz, normal), dot(words.w2.xyz, normal));
     let turns = atan2_turns(direction.x, -direction.z);
     return vec2<f32>(select(turns, turns + 1.0, turns < 0.0), 2.0 * atan2_turns(length(direction.xz), -direction.y));
 }

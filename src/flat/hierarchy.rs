@@ -20,6 +20,15 @@ pub enum HierarchyKind {
 impl HierarchyKind {
     pub const ALL: [Self; 3] = [Self::Bvh2, Self::Bvh4, Self::CwBvh];
 
+    /// Words of 16 bytes that a node takes.
+    pub fn node_words(self) -> u32 {
+        match self {
+            Self::Bvh2 => 4,
+            Self::Bvh4 => 3,
+            Self::CwBvh => 5,
+        }
+    }
+
     /// The switch under which the shaders know it.
     pub fn switch(self) -> &'static str {
         match self {

@@ -8,7 +8,8 @@ use wgpu::{BufferUsages, TextureFormat};
 use super::device::Device;
 use super::parameters::{EdgeParameters, PassParameters};
 use crate::flat::FlatScene;
-use crate::plan::{FilmStorage, GeometryPlacement, MAX_SAMPLES_PER_PASS, Plan, StageMode, memory, switches::SEQUENCE_BLOCKS};
+use crate::plan::chunks::{ATTRIBUTES, PRIMITIVES, nodes};
+use crate::plan::{FilmStorage, MAX_SAMPLES_PER_PASS, Plan, StageMode, memory, switches::SEQUENCE_BLOCKS};
 
 /// Edges that one submission can hold; longer paths take further submissions.
 pub const EDGES_PER_SUBMISSION: u32 = 32;
@@ -23,10 +24,8 @@ pub mod binding {
     pub const EDGE: u32 = 1;
     pub const SEQUENCE: u32 = 2;
     pub const VIEW: u32 = 3;
-    pub const PRIMITIVES: u32 = 4;
     pub const TABLES: u32 = 5;
-    pub const NODES: u32 = 6;
-    pub const ATTRIBUTES: u32 = 7;
+    // 4, 6 and 7 are the arrays of `plan::chunks`, which also take numbers from 400 on.
     pub const TEXELS: u32 = 8;
     pub const PATH_STATE: u32 = 9;
     pub const SHADOW_RAYS: u32 = 10;
@@ -65,16 +64,20 @@ impl Buffers {
             let descriptor = wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage };
             buffers.insert(number, device.device.create_buffer_init(&descriptor));
         };
-        upload(binding::PRIMITIVES, "primitives", bytemuck::cast_slice(&flat.primitives), usage(plan.uniform_primitives));
         upload(binding::TABLES, "tables", bytemuck::cast_slice(&tables), usage(plan.uniform_tables));
         upload(binding::VIEW, "view", bytemuck::bytes_of(&flat.view), BufferUsages::UNIFORM);
         upload(binding::EDGE, "edges", &edge_parameters(1), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
-        if plan.geometry == GeometryPlacement::Hierarchy {
-            upload(binding::NODES, "hierarchy", flat.hierarchy.nodes.bytes(), usage(plan.uniform_nodes));
-        }
         let compiled = |switch: &str| plan.switches.enabled.contains(switch);
-        if compiled("ATTRIBUTES") {
-            upload(binding::ATTRIBUTES, "attributes", bytemuck::cast_slice(&flat.attributes), BufferUsages::STORAGE);
+        let arrays: [(_, &[u8], _, _); 3] = [
+            (PRIMITIVES, bytemuck::cast_slice(&flat.primitives), usage(plan.uniform_primitives), true),
+            (nodes(flat.hierarchy.kind()), flat.hierarchy.nodes.bytes(), usage(plan.uniform_nodes), compiled("BVH")),
+            (ATTRIBUTES, bytemuck::cast_slice(&flat.attributes), BufferUsages::STORAGE, compiled("ATTRIBUTES")),
+        ];
+        for (array, bytes, usage, _) in arrays.into_iter().filter(|(.., is_read)| *is_read) {
+            match plan.chunks.iter().find(|chunks| chunks.array == array) {
+                Some(chunks) => chunks.bindings().for_each(|(number, range)| upload(number, array.name, &bytes[range], usage)),
+                None => upload(array.binding, array.name, bytes, usage),
+            }
         }
         if compiled("TEXELS") {
             upload(binding::TEXELS, "texels", bytemuck::cast_slice(&flat.textures.texels), BufferUsages::STORAGE);

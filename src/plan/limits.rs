@@ -8,6 +8,8 @@ pub struct DeviceLimits {
     pub max_storage_binding: u64,
     pub max_uniform_binding: u32,
     pub max_buffer: u64,
+    /// Storage buffers that one stage can bind.
+    pub max_storage_buffers: u32,
     /// In pixels.
     pub max_texture_side: u32,
     pub max_workgroups: u32,
@@ -27,6 +29,7 @@ impl Default for DeviceLimits {
             max_storage_binding: 128 << 20,
             max_uniform_binding: 64 << 10,
             max_buffer: 256 << 20,
+            max_storage_buffers: 8,
             max_texture_side: 8192,
             max_workgroups: 65_535,
             read_write_rgba32float: false,
@@ -49,6 +52,7 @@ impl DeviceLimits {
             max_storage_binding: limits.max_storage_buffer_binding_size,
             max_uniform_binding: limits.max_uniform_buffer_binding_size.min(64 << 10) as u32,
             max_buffer: limits.max_buffer_size,
+            max_storage_buffers: limits.max_storage_buffers_per_shader_stage,
             max_texture_side: limits.max_texture_dimension_2d,
             max_workgroups: limits.max_compute_workgroups_per_dimension,
             read_write_rgba32float: specific && features.flags.contains(wgpu::TextureFormatFeatureFlags::STORAGE_READ_WRITE),
@@ -58,10 +62,15 @@ impl DeviceLimits {
         }
     }
 
+    /// Bytes of an array that one binding can hold.
+    pub fn largest_array(&self) -> u64 {
+        self.max_storage_binding.min(self.max_buffer)
+    }
+
     /// Paths in flight: enough to fill the device, few enough for its caches and for the largest binding.
     pub fn path_capacity(&self) -> u32 {
         let wanted: u64 = if self.software { 1 << 18 } else { 1 << 20 };
-        let bound = self.max_storage_binding.min(self.max_buffer) / super::memory::PATH_STATE_BYTES;
+        let bound = self.largest_array() / super::memory::PATH_STATE_BYTES;
         wanted.min(bound).min(u64::from(self.max_workgroups) * 64) as u32
     }
 

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::{GeometryPlacement, Plan, StageMode, has_attributes, limits::DeviceLimits};
 use crate::flat::FlatScene;
+use crate::flat::primitive::{Primitive, TriangleAttributes};
 use crate::render::RenderError;
 
 /// Bytes of state per path: ray, throughput, radiance, hit (`shaders/stages/wavefront.wgsl`).
@@ -18,6 +19,15 @@ pub const FILM_BYTES: u64 = 2 * 16;
 /// Bytes per pixel of a band in the list of pixels, where samples are allocated.
 pub const LIST_BYTES: u64 = 4;
 
+/// Bytes of a primitive, and of a triangle's attributes.
+pub const PRIMITIVE_BYTES: u64 = size_of::<Primitive>() as u64;
+pub const ATTRIBUTE_BYTES: u64 = size_of::<TriangleAttributes>() as u64;
+
+/// What the arrays are called that can be cut into chunks.
+pub const PRIMITIVES: &str = "primitives";
+pub const NODES: &str = "hierarchy";
+pub const ATTRIBUTES: &str = "normals and texture coordinates";
+
 /// Named arrays and their sizes in bytes.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Memory {
@@ -29,16 +39,16 @@ impl Memory {
         let tables = flat.tables().words;
         let pixels = u64::from(width) * u64::from(plan.band_rows);
         let mut arrays = vec![
-            ("primitives", 48 * flat.primitives.len() as u64),
+            (PRIMITIVES, PRIMITIVE_BYTES * flat.primitives.len() as u64),
             ("tables", 16 * tables.len() as u64),
             ("film sum", pixels * FILM_BYTES / 2),
             ("film compensation", pixels * FILM_BYTES / 2),
         ];
         if plan.geometry == GeometryPlacement::Hierarchy {
-            arrays.push(("hierarchy", flat.hierarchy.nodes.bytes().len() as u64));
+            arrays.push((NODES, flat.hierarchy.nodes.bytes().len() as u64));
         }
         if has_attributes(flat) {
-            arrays.push(("normals and texture coordinates", 64 * flat.attributes.len() as u64));
+            arrays.push((ATTRIBUTES, ATTRIBUTE_BYTES * flat.attributes.len() as u64));
         }
         if !flat.textures.texels.is_empty() {
             arrays.push(("texels", 4 * flat.textures.texels.len() as u64));
@@ -62,10 +72,11 @@ impl Memory {
     }
 
     /// # Errors
-    /// [`RenderError::DoesNotFit`] for the first array larger than the device can bind.
+    /// [`RenderError::DoesNotFit`] for the first array larger than the device can bind, of those that are never cut into chunks.
     pub fn check(&self, limits: &DeviceLimits) -> Result<(), RenderError> {
-        let limit = limits.max_storage_binding.min(limits.max_buffer);
-        match self.arrays.iter().find(|(_, bytes)| *bytes > limit) {
+        let limit = limits.largest_array();
+        let cut = [PRIMITIVES, NODES, ATTRIBUTES];
+        match self.arrays.iter().find(|(name, bytes)| *bytes > limit && !cut.contains(name)) {
             Some((name, bytes)) => Err(RenderError::DoesNotFit(format!(
                 "its {name} need {}, and the device can bind {} at once",
                 megabytes(*bytes),
@@ -76,7 +87,7 @@ impl Memory {
     }
 }
 
-fn megabytes(bytes: u64) -> String {
+pub(super) fn megabytes(bytes: u64) -> String {
     format!("{:.1} MiB", bytes as f64 / f64::from(1 << 20))
 }
 

@@ -3,6 +3,7 @@
 //! The plan looks at a packed scene and the device's limits, and decides where geometry lives, which stages run, how many paths are in
 //! flight, and which parts of the shaders are compiled at all. `gpt check` prints it.
 
+pub mod chunks;
 pub mod fault;
 pub mod limits;
 pub mod memory;
@@ -17,6 +18,7 @@ use crate::render::RenderError;
 use crate::scene::Scene;
 use crate::shader::Switches;
 
+pub use chunks::Chunks;
 pub use fault::Fault;
 pub use limits::DeviceLimits;
 pub use memory::Memory;
@@ -64,6 +66,8 @@ pub struct PlanOptions {
     pub stages: Option<StageMode>,
     pub film: Option<FilmStorage>,
     pub path_capacity: Option<u32>,
+    /// Bytes of primitives, nodes or attributes that one binding may hold, where the device would allow more.
+    pub largest_chunk: Option<u64>,
     /// Let the lanes of a subgroup trace samples of one pixel; without effect where the stages or the device do not allow it.
     pub share_pixels: Option<bool>,
     /// Keep naga's bounds checks and loop bounds in the kernels.
@@ -98,6 +102,8 @@ pub struct Plan {
     pub uniform_tables: bool,
     /// So are the hierarchy's nodes.
     pub uniform_nodes: bool,
+    /// Those of the arrays of primitives, nodes and attributes that stand in storage buffers, cut where one binding cannot hold them.
+    pub chunks: Vec<Chunks>,
     pub stages: StageMode,
     pub film: FilmStorage,
     /// Paths in flight at most.
@@ -151,10 +157,12 @@ impl Plan {
         });
         let tables = flat.tables().words;
         let uniform_limit = u64::from(limits.max_uniform_binding);
-        let uniform_primitives = 48 * flat.primitives.len() as u64 <= uniform_limit;
+        let largest_chunk = options.largest_chunk.unwrap_or(u64::MAX).min(limits.largest_array());
+        let fits_uniform = |bytes: usize| bytes as u64 <= uniform_limit.min(largest_chunk);
+        let uniform_primitives = fits_uniform(size_of_val(&flat.primitives[..]));
         let uniform_tables = 16 * tables.len() as u64 <= uniform_limit;
         // Real GPUs serialise divergent reads of uniform buffers; software ones read them faster than storage.
-        let uniform_nodes = limits.software && flat.hierarchy.nodes.bytes().len() as u64 <= uniform_limit;
+        let uniform_nodes = limits.software && fits_uniform(flat.hierarchy.nodes.bytes().len());
         let path_capacity = options.path_capacity.unwrap_or_else(|| limits.path_capacity());
         let band_rows = limits.band_rows(scene.film.size, film);
         let mut plan = Self {
@@ -163,6 +171,7 @@ impl Plan {
             uniform_primitives,
             uniform_tables,
             uniform_nodes,
+            chunks: Vec::new(),
             stages,
             film,
             path_capacity,
@@ -174,6 +183,9 @@ impl Plan {
             memory: Memory::default(),
             checked_shaders: options.checked_shaders,
         };
+        plan.chunks = chunks::cut(flat, &plan, largest_chunk);
+        let other_arrays = u32::from(!uniform_tables) + u32::from(!flat.textures.texels.is_empty());
+        chunks::check(&plan.chunks, other_arrays, largest_chunk, limits)?;
         plan.switches = switches::choose(scene, flat, &plan);
         plan.switches.enable("TRACE", options.trace);
         plan.switches.enable("ALLOCATION", options.allocation && !options.trace);
@@ -188,6 +200,10 @@ impl Plan {
             GeometryPlacement::Hierarchy => flat.hierarchy.primitive_count as usize,
         };
         plan.switches.generated.insert("geometry/constants.wgsl", unroll::constants(flat, first_constant));
+        for array in plan.chunks.iter().filter(|array| !array.is_whole()) {
+            plan.switches.enable(array.array.switch, true);
+            plan.switches.generated.insert(array.array.file, array.wgsl());
+        }
         plan.memory = Memory::new(flat, &plan, width);
         plan.memory.check(limits)?;
         Ok(plan)
@@ -233,6 +249,10 @@ impl fmt::Display for Plan {
         }
         writeln!(f, "primitives     {}", buffers(self.uniform_primitives))?;
         writeln!(f, "tables         {}", buffers(self.uniform_tables))?;
+        let cut: Vec<String> = self.chunks.iter().filter(|array| !array.is_whole()).map(Chunks::to_string).collect();
+        if !cut.is_empty() {
+            writeln!(f, "in chunks      {}", cut.join(", "))?;
+        }
         let stages: Vec<&str> = self.stage_files().iter().map(|(_, entry)| *entry).collect();
         writeln!(f, "stages         {}", stages.join(", "))?;
         if let Some(lanes) = self.lanes {

@@ -19,6 +19,7 @@ shader_files![
     "geometry/entries.wgsl",
     "geometry/motion.wgsl",
     "geometry/primitives.wgsl",
+    "geometry/records.wgsl",
     "geometry/scene.wgsl",
     "geometry/stored.wgsl",
     "geometry/traversal.wgsl",

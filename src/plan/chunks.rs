@@ -1,0 +1,189 @@
+//! Arrays too large for one binding, cut into chunks.
+//!
+//! A device may have memory for an array and yet bind no more than a part of it at once. Such an array becomes several buffers of whole
+//! records, and its loads ask in which of them a record lies. Arrays that fit one binding are read as ever.
+
+use std::fmt::{self, Write as _};
+
+use super::limits::DeviceLimits;
+use super::memory::{self, megabytes};
+use super::{GeometryPlacement, Plan, has_attributes};
+use crate::flat::FlatScene;
+use crate::flat::hierarchy::HierarchyKind;
+use crate::render::RenderError;
+
+/// Chunks of an array at most: binding numbers stay below 1,000, which WebGPU allows.
+const MAX_CHUNKS: u32 = 100;
+/// Storage buffers that a stage may bind besides the scene's: of paths, queues, film, statistics.
+const OTHER_BUFFERS: u32 = 4;
+
+/// What shaders have to know of an array of records (`shaders/geometry/records.wgsl`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RecordArray {
+    /// For people.
+    pub label: &'static str,
+    pub name: &'static str,
+    /// A record: its fields are `w0`, `w1`, …
+    pub words_type: &'static str,
+    pub word: &'static str,
+    /// Words of a record, of 16 bytes each.
+    pub words: u32,
+    /// The function that loads a record.
+    pub load: &'static str,
+    /// Of the first chunk.
+    pub binding: u32,
+    pub switch: &'static str,
+    /// Generated where the array is cut.
+    pub file: &'static str,
+}
+
+pub const PRIMITIVES: RecordArray = RecordArray {
+    label: memory::PRIMITIVES,
+    name: "primitives",
+    words_type: "PrimitiveWords",
+    word: "vec4<f32>",
+    words: 3,
+    load: "primitive_words",
+    binding: 4,
+    switch: "PRIMITIVE_CHUNKS",
+    file: "geometry/primitive_chunks.wgsl",
+};
+
+/// Nodes of a hierarchy of this form.
+pub fn nodes(kind: HierarchyKind) -> RecordArray {
+    RecordArray {
+        label: memory::NODES,
+        name: "nodes",
+        words_type: "NodeWords",
+        word: "vec4<u32>",
+        words: kind.node_words(),
+        load: "node_words",
+        binding: 6,
+        switch: "NODE_CHUNKS",
+        file: "geometry/node_chunks.wgsl",
+    }
+}
+
+pub const ATTRIBUTES: RecordArray = RecordArray {
+    label: memory::ATTRIBUTES,
+    name: "attributes",
+    words_type: "AttributeWords",
+    word: "vec4<f32>",
+    words: 4,
+    load: "attribute_words",
+    binding: 7,
+    switch: "ATTRIBUTE_CHUNKS",
+    file: "geometry/attribute_chunks.wgsl",
+};
+
+/// How an array is cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Chunks {
+    pub array: RecordArray,
+    /// Bytes of the whole array.
+    pub bytes: u64,
+    /// Bytes of every chunk but the last, which has the rest: a whole number of records.
+    pub chunk_bytes: u64,
+    pub count: u32,
+}
+
+impl Chunks {
+    /// Cuts an array so that no chunk is larger than `limit` bytes, which hold at least one record.
+    pub fn new(array: RecordArray, bytes: u64, limit: u64) -> Self {
+        let record_bytes = array.record_bytes();
+        let chunk_bytes = (limit / record_bytes).max(1) * record_bytes;
+        let count = bytes.div_ceil(chunk_bytes).max(1).min(u64::from(u32::MAX)) as u32;
+        Self { array, bytes, chunk_bytes, count }
+    }
+
+    /// One binding holds everything.
+    pub fn is_whole(&self) -> bool {
+        self.count == 1
+    }
+
+    /// Binding numbers, each with the bytes of the array that stand there.
+    pub fn bindings(&self) -> impl Iterator<Item = (u32, std::ops::Range<usize>)> + use<> {
+        let Self { array, bytes, chunk_bytes, count } = *self;
+        (0..count).map(move |chunk| {
+            let first = u64::from(chunk) * chunk_bytes;
+            (array.chunk_binding(chunk), first as usize..bytes.min(first + chunk_bytes) as usize)
+        })
+    }
+
+    /// WGSL with the chunks' bindings and the function that loads a record from whichever has it.
+    pub fn wgsl(&self) -> String {
+        let RecordArray { name, words_type, word, words, load, .. } = self.array;
+        let records = (self.chunk_bytes / self.array.record_bytes()) as u32;
+        let mut text = String::new();
+        let mut body = String::new();
+        for chunk in 0..self.count {
+            let number = self.array.chunk_binding(chunk);
+            let _ = writeln!(text, "@group(0) @binding({number}) var<storage, read> {name}_{chunk}: array<{word}>;");
+            let first_record = chunk * records;
+            let condition =
+                if chunk + 1 == self.count { String::new() } else { format!("if index < {}u ", first_record + records) };
+            let fields: Vec<String> = (0..words).map(|word| format!("{name}_{chunk}[first + {word}u]")).collect();
+            let _ = write!(
+                body,
+                "{}{condition}{{\n        let first = (index - {first_record}u) * {words}u;\n        \
+                 found = {words_type}({});\n    }}",
+                if chunk == 0 { "" } else { " else " },
+                fields.join(", ")
+            );
+        }
+        format!(
+            "{text}\nfn {load}(index: u32) -> {words_type} {{\n    var found: {words_type};\n    {body}\n    return found;\n}}\n"
+        )
+    }
+}
+
+impl fmt::Display for Chunks {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} in {} of at most {}", self.array.label, self.count, megabytes(self.chunk_bytes))
+    }
+}
+
+impl RecordArray {
+    pub fn record_bytes(&self) -> u64 {
+        16 * u64::from(self.words)
+    }
+
+    /// The first chunk stands where the whole array would; the others in a range that no other array has.
+    fn chunk_binding(&self, chunk: u32) -> u32 {
+        if chunk == 0 { self.binding } else { MAX_CHUNKS * self.binding + chunk }
+    }
+}
+
+/// The arrays of a plan that stand in storage buffers and may be cut, in chunks of at most `limit` bytes.
+pub fn cut(flat: &FlatScene, plan: &Plan, limit: u64) -> Vec<Chunks> {
+    let mut arrays = Vec::new();
+    if !plan.uniform_primitives {
+        arrays.push(Chunks::new(PRIMITIVES, size_of_val(&flat.primitives[..]) as u64, limit));
+    }
+    if plan.geometry == GeometryPlacement::Hierarchy && !plan.uniform_nodes {
+        arrays.push(Chunks::new(nodes(flat.hierarchy.kind()), flat.hierarchy.nodes.bytes().len() as u64, limit));
+    }
+    if has_attributes(flat) {
+        arrays.push(Chunks::new(ATTRIBUTES, size_of_val(&flat.attributes[..]) as u64, limit));
+    }
+    arrays
+}
+
+/// Refuses what cannot be bound even in chunks of at most `limit` bytes. `others` counts the scene's further storage buffers.
+///
+/// # Errors
+/// [`RenderError::DoesNotFit`] naming the largest array that is cut, where a stage would need more buffers than the device allows.
+pub fn check(arrays: &[Chunks], others: u32, limit: u64, limits: &DeviceLimits) -> Result<(), RenderError> {
+    let needed = arrays.iter().fold(others + OTHER_BUFFERS, |sum, array| sum.saturating_add(array.count));
+    let cut = arrays.iter().filter(|array| !array.is_whole());
+    match cut.max_by_key(|array| array.bytes) {
+        Some(array) if needed > limits.max_storage_buffers || array.count > MAX_CHUNKS => Err(RenderError::DoesNotFit(format!(
+            "its {} need {}, and the device can bind {} at once; in chunks of that size a stage would need up to {needed} buffers, and can have {}",
+            array.array.label,
+            megabytes(array.bytes),
+            megabytes(limit),
+            limits.max_storage_buffers.min(MAX_CHUNKS),
+        ))),
+        _ => Ok(()),
+    }
+}
