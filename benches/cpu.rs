@@ -37,10 +37,12 @@ fn pack(criterion: &mut Criterion) {
             bencher.iter(|| FlatScene::new(scene));
         });
         let geometry = world::collect(&scene);
-        group.bench_with_input(BenchmarkId::new("hierarchy", triangles), &geometry, |bencher, geometry| {
-            bencher
-                .iter(|| Tree::build(&geometry.primitives, &geometry.motions).map(|tree| tree.arrange(HierarchyKind::default())));
-        });
+        for kind in HierarchyKind::ALL {
+            let name = format!("hierarchy {}", kind.switch());
+            group.bench_with_input(BenchmarkId::new(name, triangles), &geometry, |bencher, geometry| {
+                bencher.iter(|| Tree::build(&geometry.primitives, &geometry.motions).map(|tree| tree.arrange(kind)));
+            });
+        }
     }
     group.finish();
 }

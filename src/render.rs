@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::film::Band;
+use crate::flat::hierarchy::HierarchyKind;
 
 /// Which device renders (`--device`).
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -88,6 +89,8 @@ impl Observer for Silent {
 pub struct RenderReport {
     /// The device as people call it, for example `llvmpipe (LLVM 15.0.6, 256 bits)` or `CPU reference`.
     pub device: String,
+    /// The form of the hierarchy that a graphics device goes through; None where geometry is code.
+    pub hierarchy: Option<HierarchyKind>,
     /// Camera, bounce and shadow rays traced.
     pub rays: u64,
     /// Samples finished, over all pixels.

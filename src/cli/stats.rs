@@ -10,6 +10,8 @@ pub struct Stats {
     pub scene: String,
     pub scene_hash: String,
     pub device: String,
+    /// `bvh2`, `bvh4` or `cwbvh`; null where the device tests every primitive, and for the CPU reference.
+    pub hierarchy: Option<String>,
     pub width: u32,
     pub height: u32,
     /// Samples per pixel that were asked for.
@@ -71,6 +73,7 @@ impl Stats {
             scene: scene.name.clone(),
             scene_hash: String::new(),
             device: report.device.clone(),
+            hierarchy: report.hierarchy.map(|kind| kind.switch().to_lowercase()),
             width,
             height,
             spp: scene.render.spp,

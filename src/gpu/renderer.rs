@@ -10,7 +10,7 @@ use super::parameters::PassParameters;
 use super::passes::{Pass, PassSizer};
 use crate::film::Band;
 use crate::flat::{FlatError, Unarranged};
-use crate::plan::{Plan, PlanOptions, StageMode};
+use crate::plan::{GeometryPlacement, Plan, PlanOptions, StageMode};
 use crate::render::{Allocation, Batch, DeviceChoice, Observer, RenderError, RenderReport, Renderer};
 use crate::sampling::{Sampling, SequencePoint};
 use crate::scene::Scene;
@@ -433,6 +433,7 @@ impl Renderer for GpuRenderer {
         let [low, high, non_finite_samples, _] = self.read_words(binding::STATISTICS)?;
         Ok(RenderReport {
             device: self.device.name.clone(),
+            hierarchy: Some(self.plan.hierarchy).filter(|_| self.plan.geometry == GeometryPlacement::Hierarchy),
             rays: (u64::from(high) << 32 | u64::from(low)) + camera_rays,
             samples: finished,
             non_finite_samples: u64::from(non_finite_samples),
