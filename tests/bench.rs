@@ -117,6 +117,21 @@ fn without_a_gpu() -> bool {
     std::env::var("GPT_TEST_GPU").is_ok_and(|value| value == "skip")
 }
 
+/// One edge is one ray, without a second for light.
+#[test]
+fn paths_are_as_long_as_asked_for() {
+    let folder = workplace();
+    for (depth, least, most) in [(1, 1.0, 1.0), (2, 1.1, 3.0)] {
+        let arguments = "speed scene.toml --device cpu --growth scenes,samples --size 12x8 --spp 2 --rounds 1 --output out";
+        expect(&folder, 0, &format!("{arguments} --depth {depth}"));
+        let tables = &json(&folder, "out/speed.json")["tables"];
+        for table in 0..2 {
+            let rays = tables[table]["rows"][0]["measured"]["rays_per_sample"].as_f64().unwrap_or(f64::NAN);
+            assert!((least..=most).contains(&rays), "{rays} rays at depth {depth}");
+        }
+    }
+}
+
 #[test]
 fn stages_are_timed_and_the_pool_is_watched() {
     if without_a_gpu() {

@@ -65,6 +65,7 @@ impl Growth {
             Self::Leaves => scenes::leaves(size)?,
             Self::Scenes | Self::Resolution | Self::Samples => own.clone(),
         };
+        options.limit_depth(&mut scene);
         scene.film.size = if self == Self::Resolution { [size, size] } else { options.size };
         Ok((scene, if self == Self::Samples { size } else { options.spp }))
     }

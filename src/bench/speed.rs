@@ -24,8 +24,17 @@ pub struct SpeedOptions {
     pub everything: bool,
     pub size: [u32; 2],
     pub spp: u32,
+    /// Edges of a path at most; None: as the scenes say.
+    pub depth: Option<u32>,
     /// Measured rounds, after one that is thrown away.
     pub rounds: u32,
+}
+
+impl SpeedOptions {
+    /// Gives a scene the paths' length that is wanted.
+    pub(super) fn limit_depth(&self, scene: &mut Scene) {
+        scene.render.max_depth = self.depth.unwrap_or(scene.render.max_depth);
+    }
 }
 
 /// One stage's share of a pass.
@@ -178,6 +187,7 @@ fn plan_rows(growth: Growth, own: &[Scene], options: &SpeedOptions, devices: &mu
         for scene in own {
             let mut scene = scene.clone();
             scene.film.size = options.size;
+            options.limit_depth(&mut scene);
             rows.extend(ways.iter().map(|stages| Planned {
                 scene: scene.clone(),
                 spp: options.spp,

@@ -82,6 +82,9 @@ pub struct SpeedArguments {
     /// Samples per pixel of a run
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub spp: u32,
+    /// Edges of a path at most in every scene, 0 for no limit; 2 is the camera's ray and one bounce [default: as the scenes say]
+    #[arg(long, value_name = "N")]
+    pub depth: Option<u32>,
     /// Measured runs of each, after one that is thrown away; 6 are needed for a verdict
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub rounds: u32,

@@ -40,6 +40,7 @@ pub fn run(arguments: &SpeedArguments) -> Result<Exit, Failure> {
         everything: arguments.all,
         size: arguments.size,
         spp: arguments.spp,
+        depth: arguments.depth,
         rounds: arguments.rounds,
     };
     let results = Results::prepare(&arguments.output, "speed")?;
