@@ -81,7 +81,7 @@ impl Tally {
 
 /// The scene that belongs to a seed.
 pub fn text(seed: u64) -> String {
-    let mut writer = Writer { random: SplitMix64::new(seed), text: String::new() };
+    let mut writer = Writer { random: SplitMix64::new(seed), text: String::new(), emits: Vec::new() };
     writer.settings();
     writer.textures();
     let materials = writer.materials();
@@ -90,10 +90,15 @@ pub fn text(seed: u64) -> String {
     writer.text
 }
 
+/// Said of a box whose faces coincide.
+const NO_THICKNESS: &str = " # no thickness";
+
 /// Writes tables, drawing every choice from one stream.
 struct Writer {
     random: SplitMix64,
     text: String,
+    /// Of each material so far: it emits, or some part of it does.
+    emits: Vec<bool>,
 }
 
 impl Writer {
@@ -185,16 +190,19 @@ impl Writer {
         let plain = 2 + self.below(4);
         for index in 0..plain {
             let keys = self.plain_material();
+            self.emits.push(keys.contains("emissive"));
             self.line(format_args!("[[material]]\nname = \"m{index}\"\n{keys}"));
             if self.chance(0.1) && !keys.contains("emissive") && !keys.contains("\"pass\"") {
                 let radiance = self.magnitude(1e-3, 1e3);
                 self.line(format_args!("emission = {radiance:e}"));
+                self.emits[index] = true;
             }
         }
         let blends = self.below(4);
         for index in plain..plain + blends {
             let (first, second) = (self.below(index), self.below(index));
             let weight = self.weight(0);
+            self.emits.push(self.emits[first] || self.emits[second]);
             self.line(format_args!(
                 "[[material]]\nname = \"m{index}\"\ntype = \"blend\"\nmaterials = [\"m{first}\", \"m{second}\"]\nweight = {weight}"
             ));
@@ -253,8 +261,12 @@ impl Writer {
         let shapes = 1 + self.below(7);
         for _ in 0..shapes {
             let geometry = self.geometry();
-            // Disks have no texture coordinates.
-            let material = if geometry.contains("disk") { "ground".to_owned() } else { format!("m{}", self.below(materials)) };
+            // Disks have no texture coordinates. Where a box has no thickness, two faces lie in one place, and rounding says which of them a
+            // ray meets: they must look the same.
+            let plain = geometry.contains("disk");
+            let chosen = if plain { None } else { Some(self.below(materials)) };
+            let chosen = chosen.filter(|&index| !(geometry.contains(NO_THICKNESS) && self.emits[index]));
+            let material = chosen.map_or("ground".to_owned(), |index| format!("m{index}"));
             self.line(format_args!("[[shape]]\n{geometry}\nmaterial = \"{material}\""));
             self.placement();
         }
@@ -279,7 +291,8 @@ impl Writer {
                 // Boxes of zero thickness, too.
                 let flat = self.below(6);
                 let far: [f64; 3] = std::array::from_fn(|axis| corner[axis] + if axis == flat { 0.0 } else { 1.0 });
-                format!("type = \"box\"\nmin = {corner:?}\nmax = {far:?}")
+                let remark = if flat < 3 { NO_THICKNESS } else { "" };
+                format!("type = \"box\"\nmin = {corner:?}\nmax = {far:?}{remark}")
             }
             _ => {
                 let points: Vec<String> = (0..4).map(|_| self.triple(1.5)).collect();
@@ -308,6 +321,11 @@ impl Writer {
         }
     }
 
+    /// Where a light is: not in the ground, of which it would be on both sides or on none.
+    fn light_position(&mut self) -> String {
+        self.triple(3.0).replace(", 0.0, ", ", 0.01, ")
+    }
+
     fn lights(&mut self) {
         let environment = match self.below(3) {
             0 => format!("type = \"environment\"\nradiance = {:e}", self.magnitude(1e-3, 1e3)),
@@ -316,11 +334,11 @@ impl Writer {
         };
         self.line(format_args!("[[light]]\n{environment}"));
         if self.chance(0.4) {
-            let (position, intensity) = (self.triple(3.0), self.magnitude(1e-3, 1e3));
+            let (position, intensity) = (self.light_position(), self.magnitude(1e-3, 1e3));
             self.line(format_args!("[[light]]\ntype = \"point\"\nposition = {position}\nintensity = {intensity:e}"));
         }
         if self.chance(0.3) {
-            let (position, angle) = (self.triple(3.0), self.magnitude(1e-2, 90.0));
+            let (position, angle) = (self.light_position(), self.magnitude(1e-2, 90.0));
             self.line(format_args!(
                 "[[light]]\ntype = \"spot\"\nposition = {position}\ndirection = [0, -1, 0.1]\nintensity = 5\nangle = {angle:?}"
             ));
