@@ -47,6 +47,7 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
     }
     for (name, needed) in [
         ("VARYING_LIGHTS", &["EMISSION", "LIGHTS"][..]),
+        ("PACKETS", &["BVH"]),
         ("MOVING_LIGHTS", &["MOTION", "ATTRIBUTES", "BVH"]),
         ("MOTION", &["ATTRIBUTES", "BVH"]),
         ("NODE_CHUNKS", &["BVH"]),
@@ -70,7 +71,7 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
     }
     // A hierarchy has one form.
     let forms = ["BVH2", "BVH4", "CWBVH"];
-    let form = forms.into_iter().find(|form| wanted.contains(form)).unwrap_or("BVH4");
+    let form = forms.into_iter().find(|form| wanted.contains(form) && !wanted.contains("PACKETS")).unwrap_or("BVH4");
     wanted.retain(|name| !forms.contains(name));
     if wanted.contains("BVH") {
         wanted.insert(form);

@@ -64,6 +64,48 @@ fn lanes_share_pixels_where_they_are_told_to() {
     assert_eq!([of(None), of(Some(true)), of(Some(false))], [possible, possible, None]);
 }
 
+/// A packet's rays meet what each of them would meet alone: the nearest hit is the nearest, whoever else is on the way. Lanes without a
+/// ray are among them at every path's end, and where a subgroup has more lanes than the pass samples.
+#[test]
+fn rays_in_packets_meet_what_they_meet_alone() {
+    let mut moving = scene::load(Some("motion-blur")).expect("it is built in");
+    moving.film.size = [32, 24];
+    let mut spheres = scene::load(Some("spheres")).expect("it is built in");
+    spheres.film.size = [48, 27];
+    for (name, mut scene) in [("knot", scene(0)), ("moving", moving), ("spheres", spheres)] {
+        for spp in [3, 8, 19] {
+            scene.render.spp = spp;
+            let way = |packets, largest_chunk| PlanOptions {
+                geometry: Some(GeometryPlacement::Hierarchy),
+                packets: Some(packets),
+                largest_chunk,
+                ..Default::default()
+            };
+            let [alone, together] = [false, true].map(|packets| picture(&scene, &way(packets, None)));
+            let (Some(alone), Some(together)) = (alone, together) else { return };
+            assert!(alone == together, "{name}, {spp} samples");
+            // From arrays in several chunks as well, where they are large enough to cut.
+            assert!(picture(&scene, &way(true, Some(1 << 18))).as_ref() == Some(&alone), "{name}, {spp} samples, chunks");
+            // The comparison sees other samples.
+            scene.render.seed += 1;
+            assert!(picture(&scene, &way(true, None)).as_ref() != Some(&alone));
+        }
+    }
+}
+
+/// Otherwise the test above would compare a way with itself.
+#[test]
+fn packets_are_used_where_they_can_be() {
+    let Some(device) = DEVICE.as_ref() else { return };
+    let of = |packets, hierarchy| {
+        let options = PlanOptions { packets, hierarchy, ..Default::default() };
+        GpuRenderer::on(device, &scene(1), &options).expect("the scene fits").plan().packets
+    };
+    let possible = device.limits.software && device.limits.subgroup_size.is_some_and(|size| size >= 4);
+    assert_eq!([of(None, None), of(Some(true), None), of(Some(false), None)], [possible, possible, false]);
+    assert!(!of(Some(true), Some(HierarchyKind::Bvh2)), "there are no packets for binary trees");
+}
+
 /// A hierarchy only says what need not be tested: the nearest hit is the nearest in every form. Where two primitives are met at the same
 /// distance to the last bit, the first to be tested stays, which is why edges that primitives share may show another one's material; a
 /// mesh of one smooth material does not show even that.

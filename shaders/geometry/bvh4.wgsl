@@ -4,14 +4,8 @@
 //   (low z; high x; high y; high z)
 #import geometry/entries.wgsl
 
-struct NodeHits {
-    // Entry distance per child; INFINITY_DISTANCE where the ray misses it.
-    t: vec4<f32>,
-    entry: vec4<u32>,
-}
-
-fn intersect_node(node: u32, origin: vec3<f32>, inverse_direction: vec3<f32>, t_max: f32) -> NodeHits {
-    let words = node_words(node);
+// Distances at which the ray enters the children; INFINITY_DISTANCE where it misses one.
+fn entry_distances(words: NodeWords, origin: vec3<f32>, inverse_direction: vec3<f32>, t_max: f32) -> vec4<f32> {
     let n0 = words.w0;
     let n1 = words.w1;
     let n2 = words.w2;
@@ -26,33 +20,46 @@ fn intersect_node(node: u32, origin: vec3<f32>, inverse_direction: vec3<f32>, t_
     let far_words = select(n2.yzw, low, backward);
     let near = larger(
         larger(unpack_bytes(near_words.x) * scale.x + offset.x, unpack_bytes(near_words.y) * scale.y + offset.y),
-        larger(unpack_bytes(near_words.z) * scale.z + offset.z, vec4<f32>(0.0))
+        larger(vec4<f32>(0.0), unpack_bytes(near_words.z) * scale.z + offset.z)
     );
     let far = smaller(
         smaller(unpack_bytes(far_words.x) * scale.x + offset.x, unpack_bytes(far_words.y) * scale.y + offset.y),
-        smaller(unpack_bytes(far_words.z) * scale.z + offset.z, vec4<f32>(t_max))
+        smaller(vec4<f32>(t_max), unpack_bytes(far_words.z) * scale.z + offset.z)
     );
-
-    let flags = n0.w >> 24u;
-    let child_bit = vec4<u32>(1u, 2u, 4u, 8u);
-    let exists = (vec4<u32>(flags >> 4u) & child_bit) != vec4<u32>(0u);
-    let met = exists & (near <= far * WIDER);
-
-    let inner = (vec4<u32>(flags) & child_bit) != vec4<u32>(0u);
-    let inner_rank = vec4<u32>(0u, flags & 1u, countOneBits(flags & 3u), countOneBits(flags & 7u));
-    let sizes = (vec4<u32>(n1.y >> 24u) >> vec4<u32>(0u, 2u, 4u, 6u)) & vec4<u32>(3u);
-    let counts = select(sizes + 1u, vec4<u32>(0u), inner);
-    let starts = vec4<u32>(0u, counts.x, counts.x + counts.y, counts.x + counts.y + counts.z) + (n1.y & 0x00ffffffu);
-    let leaf_entry = starts | (sizes << vec4<u32>(24u)) | vec4<u32>(LEAF);
-
-    return NodeHits(select(vec4<f32>(INFINITY_DISTANCE), near, met), select(leaf_entry, inner_rank + n1.x, inner));
+    let exists = (vec4<u32>(n0.w) & vec4<u32>(1u << 28u, 1u << 29u, 1u << 30u, 1u << 31u)) != vec4<u32>(0u);
+    return select(vec4<f32>(INFINITY_DISTANCE), near, exists & (near <= far * WIDER));
 }
 
+// What stands for the children on a stack.
+fn child_entries(words: NodeWords) -> vec4<u32> {
+    let flags = words.w0.w >> 24u;
+    let inner = (vec4<u32>(flags) & vec4<u32>(1u, 2u, 4u, 8u)) != vec4<u32>(0u);
+    let inner_rank = vec4<u32>(0u, flags & 1u, countOneBits(flags & 3u), countOneBits(flags & 7u));
+    let sizes = (vec4<u32>(words.w1.y >> 24u) >> vec4<u32>(0u, 2u, 4u, 6u)) & vec4<u32>(3u);
+    let counts = select(sizes + 1u, vec4<u32>(0u), inner);
+    let starts = vec4<u32>(0u, counts.x, counts.x + counts.y, counts.x + counts.y + counts.z) + (words.w1.y & 0x00ffffffu);
+    let leaf_entry = starts | (sizes << vec4<u32>(24u)) | vec4<u32>(LEAF);
+    return select(leaf_entry, inner_rank + words.w1.x, inner);
+}
+
+#if PACKETS
+// One of them. An inner child's leaf size is 0, and counts no primitive.
+fn child_entry(words: NodeWords, child: u32) -> u32 {
+    let flags = words.w0.w >> 24u;
+    let inner_before = countOneBits(flags & ((1u << child) - 1u));
+    let sizes = words.w1.y >> 24u;
+    let before = sizes & ((1u << (2u * child)) - 1u);
+    let start = (words.w1.y & 0x00ffffffu) + (child - inner_before) + (before & 3u) + ((before >> 2u) & 3u) + (before >> 4u);
+    let leaf_entry = start | (((sizes >> (2u * child)) & 3u) << 24u) | LEAF;
+    return select(leaf_entry, inner_before + words.w1.x, ((flags >> child) & 1u) != 0u);
+}
+#endif
+
 fn descend(node: u32, traversal: ptr<function, Traversal>, stack: ptr<function, array<StackEntry, STACK_SIZE>>) -> u32 {
-    let children = intersect_node(node, (*traversal).ray.origin, (*traversal).inverse_direction, (*traversal).hit.t);
+    let words = node_words(node);
     // Sorted by distance with a network of five exchanges; the nearest is visited next, the others wait, farthest deepest.
-    var t = children.t;
-    var e = children.entry;
+    var t = entry_distances(words, (*traversal).ray.origin, (*traversal).inverse_direction, (*traversal).hit.t);
+    var e = child_entries(words);
     if t.y < t.x { t = t.yxzw; e = e.yxzw; }
     if t.w < t.z { t = t.xywz; e = e.xywz; }
     if t.z < t.x { t = t.zyxw; e = e.zyxw; }

@@ -104,8 +104,7 @@ struct PlacedPrimitive {
     magnitude: vec3<f32>,
 }
 
-fn placed_primitive(index: u32) -> PlacedPrimitive {
-    let words = primitive_words(index);
+fn placed_primitive(words: PrimitiveWords) -> PlacedPrimitive {
     let p0 = words.w0;
     let p1 = words.w1;
     let p2 = words.w2;

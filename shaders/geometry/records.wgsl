@@ -20,6 +20,11 @@ struct PrimitiveWords {
 fn primitive_words(index: u32) -> PrimitiveWords {
     return PrimitiveWords(primitives[index * 3u], primitives[index * 3u + 1u], primitives[index * 3u + 2u]);
 }
+
+// One of a record's words.
+fn primitive_word(index: u32, word: u32) -> vec4<f32> {
+    return primitives[index * 3u + word];
+}
 #endif
 
 #if BVH
@@ -60,6 +65,13 @@ fn node_words(index: u32) -> NodeWords {
     return NodeWords(nodes[first], nodes[first + 1u], nodes[first + 2u], nodes[first + 3u], nodes[first + 4u]);
 #endif
 }
+
+#if PACKETS
+// One of a record's words.
+fn node_word(index: u32, word: u32) -> vec4<u32> {
+    return nodes[index * 3u + word];
+}
+#endif
 #endif
 #endif
 

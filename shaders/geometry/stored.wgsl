@@ -5,15 +5,14 @@
 #import geometry/motion.wgsl
 #endif
 
-// Replaces `hit` where primitive `index` is nearer.
-fn intersect_stored(ray: PreparedRay, index: u32, hit: ptr<function, Hit>) {
+// Replaces `hit` where primitive `index`, whose record is `words`, is nearer.
+fn intersect_stored(ray: PreparedRay, index: u32, words: PrimitiveWords, hit: ptr<function, Hit>) {
 #if MOTION
-    let placed = placed_primitive(index);
+    let placed = placed_primitive(words);
     let p0 = placed.p0;
     let p1 = placed.p1;
     let p2 = placed.p2;
 #else
-    let words = primitive_words(index);
     let p0 = words.w0;
     let p1 = words.w1;
     let p2 = words.w2;

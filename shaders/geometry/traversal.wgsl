@@ -108,6 +108,6 @@ fn unpack_bytes(word: u32) -> vec4<f32> {
 // Tests one primitive.
 fn test_primitive(traversal: ptr<function, Traversal>, primitive: u32) {
     var hit = (*traversal).hit;
-    intersect_stored((*traversal).ray, primitive, &hit);
+    intersect_stored((*traversal).ray, primitive, primitive_words(primitive), &hit);
     (*traversal).hit = hit;
 }

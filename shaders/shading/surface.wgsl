@@ -81,7 +81,7 @@ fn triangle_error(edge_u: vec3<f32>, edge_v: vec3<f32>) -> f32 {
 
 fn hit_surface(ray: Ray, hit: Hit) -> Surface {
 #if MOTION
-    let placed = placed_primitive(hit.primitive);
+    let placed = placed_primitive(primitive_words(hit.primitive));
     let p0 = placed.p0;
     let p1 = placed.p1;
     let p2 = placed.p2;

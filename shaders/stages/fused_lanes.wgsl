@@ -1,31 +1,67 @@
 // All stages in one kernel, for hierarchies on software devices. The lanes of a subgroup trace samples of one pixel at a time: their
 // camera rays and shadow rays are neighbours, which visit the same nodes at the same time.
+#import core/lanes.wgsl
 #import geometry/closest.wgsl
+#if PACKETS
+#import geometry/packet.wgsl
+#endif
 #import shading/path.wgsl
 #import stages/film.wgsl
 #import stages/fused_pixels.wgsl
 
-// What a whole path brings, counting its rays.
-fn path_radiance(first: Path, rays: ptr<function, u32>) -> vec3<f32> {
+// What the ray meets first, of the lanes that have one.
+fn nearest(ray: Ray, has_ray: bool) -> Hit {
+#if PACKETS
+    return closest_hit_together(ray, select(-1.0, INFINITY_DISTANCE, has_ray));
+#else
+    var hit: Hit;
+    if has_ray {
+        hit = closest_hit(ray, INFINITY_DISTANCE);
+    }
+    return hit;
+#endif
+}
+
+#if LIGHTS
+// Whether nothing is in the shadow ray's way, of the lanes that have one.
+fn is_lit(shadow: ShadowRay, has_ray: bool) -> bool {
+#if PACKETS
+    return !occluded_together(shadow.ray, select(-1.0, shadow.distance, has_ray)) && has_ray;
+#else
+    var lit = false;
+    if has_ray {
+        lit = !occluded(shadow.ray, shadow.distance);
+    }
+    return lit;
+#endif
+}
+#endif
+
+// What whole paths bring, of the lanes that have one, all on the same vertex at a time; counts their rays. All lanes take part.
+fn path_radiance(first: Path, exists: bool, rays: ptr<function, u32>) -> vec3<f32> {
     var path = first;
     var radiance = vec3<f32>(0.0);
     var visit = 1u;
+    var alive = exists;
     loop {
-        let hit = closest_hit(path.ray, INFINITY_DISTANCE);
-        let vertex = shade_vertex(&path, hit, visit);
-        radiance += vertex.radiance;
-        (*rays)++;
-#if LIGHTS
-        if any(vertex.shadow.radiance != vec3<f32>(0.0)) {
+        let hit = nearest(path.ray, alive);
+        var vertex = Vertex(false, vec3<f32>(0.0), no_shadow());
+        if alive {
+            vertex = shade_vertex(&path, hit, visit);
+            radiance += vertex.radiance;
             (*rays)++;
-            if !occluded(vertex.shadow.ray, vertex.shadow.distance) {
-                radiance += vertex.shadow.radiance;
-            }
+        }
+        alive = vertex.alive;
+#if LIGHTS
+        let asks = any(vertex.shadow.radiance != vec3<f32>(0.0));
+        (*rays) += select(0u, 1u, asks);
+        if is_lit(vertex.shadow, asks) {
+            radiance += vertex.shadow.radiance;
         }
 #endif
         visit++;
-        if !vertex.alive {
-            return radiance;
+        continuing {
+            break if !any_lane(alive);
         }
     }
     return radiance;
@@ -36,7 +72,7 @@ fn path_radiance(first: Path, rays: ptr<function, u32>) -> vec3<f32> {
 @compute @workgroup_size(WORKGROUP)
 fn trace_paths(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) invocation: u32) {
     let place = place_in_pass(workgroup.x, invocation);
-    let lane = invocation % LANES;
+    lane = invocation % LANES;
     let samples = pass_parameters.sample_count;
     // How many lanes share a pixel: all, or one.
     let sharing = select(1u, LANES, samples > LANES / 2u);
@@ -51,10 +87,8 @@ fn trace_paths(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
         film_pixel = load_film_pixel(pixel.in_band);
         for (var round = 0u; round < rounds; round++) {
             let sample = select(round, round * LANES + lane, sharing == LANES);
-            var radiance = vec3<f32>(0.0);
-            if exists && sample < samples {
-                radiance = path_radiance(start_path(pixel.pixel, sample), &rays);
-            }
+            let path = start_path(pixel.pixel, min(sample, samples - 1u));
+            let radiance = path_radiance(path, exists && sample < samples, &rays);
             for (var other = 0u; other < min(sharing, samples - round * sharing); other++) {
                 add_sample(&film_pixel, subgroupShuffle(radiance, select(lane, other, sharing == LANES)));
             }

@@ -30,6 +30,8 @@ pub struct RecordArray {
     pub words: u32,
     /// The function that loads a record.
     pub load: &'static str,
+    /// The function that loads one word of a record.
+    pub load_word: &'static str,
     /// Of the first chunk.
     pub binding: u32,
     pub switch: &'static str,
@@ -44,6 +46,7 @@ pub const PRIMITIVES: RecordArray = RecordArray {
     word: "vec4<f32>",
     words: 3,
     load: "primitive_words",
+    load_word: "primitive_word",
     binding: 4,
     switch: "PRIMITIVE_CHUNKS",
     file: "geometry/primitive_chunks.wgsl",
@@ -58,6 +61,7 @@ pub fn nodes(kind: HierarchyKind) -> RecordArray {
         word: "vec4<u32>",
         words: kind.node_words(),
         load: "node_words",
+        load_word: "node_word",
         binding: 6,
         switch: "NODE_CHUNKS",
         file: "geometry/node_chunks.wgsl",
@@ -71,6 +75,7 @@ pub const ATTRIBUTES: RecordArray = RecordArray {
     word: "vec4<f32>",
     words: 4,
     load: "attribute_words",
+    load_word: "attribute_word",
     binding: 7,
     switch: "ATTRIBUTE_CHUNKS",
     file: "geometry/attribute_chunks.wgsl",
@@ -110,12 +115,12 @@ impl Chunks {
         })
     }
 
-    /// WGSL with the chunks' bindings and the function that loads a record from whichever has it.
+    /// WGSL with the chunks' bindings and the functions that load a record, or one of its words, from whichever has it.
     pub fn wgsl(&self) -> String {
-        let RecordArray { name, words_type, word, words, load, .. } = self.array;
+        let RecordArray { name, words_type, word, words, load, load_word, .. } = self.array;
         let records = (self.chunk_bytes / self.array.record_bytes()) as u32;
         let mut text = String::new();
-        let mut body = String::new();
+        let (mut body, mut word_body) = (String::new(), String::new());
         for chunk in 0..self.count {
             let number = self.array.chunk_binding(chunk);
             let _ = writeln!(text, "@group(0) @binding({number}) var<storage, read> {name}_{chunk}: array<{word}>;");
@@ -123,16 +128,15 @@ impl Chunks {
             let condition =
                 if chunk + 1 == self.count { String::new() } else { format!("if index < {}u ", first_record + records) };
             let fields: Vec<String> = (0..words).map(|word| format!("{name}_{chunk}[first + {word}u]")).collect();
-            let _ = write!(
-                body,
-                "{}{condition}{{\n        let first = (index - {first_record}u) * {words}u;\n        \
-                 found = {words_type}({});\n    }}",
-                if chunk == 0 { "" } else { " else " },
-                fields.join(", ")
-            );
+            let before = if chunk == 0 { "" } else { " else " };
+            let first =
+                format!("{before}{condition}{{\n        let first = (index - {first_record}u) * {words}u;\n        found = ");
+            let _ = write!(body, "{first}{words_type}({});\n    }}", fields.join(", "));
+            let _ = write!(word_body, "{first}{name}_{chunk}[first + word];\n    }}");
         }
         format!(
-            "{text}\nfn {load}(index: u32) -> {words_type} {{\n    var found: {words_type};\n    {body}\n    return found;\n}}\n"
+            "{text}\nfn {load}(index: u32) -> {words_type} {{\n    var found: {words_type};\n    {body}\n    return found;\n}}\n\n\
+             fn {load_word}(index: u32, word: u32) -> {word} {{\n    var found: {word};\n    {word_body}\n    return found;\n}}\n"
         )
     }
 }

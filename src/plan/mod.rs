@@ -27,6 +27,8 @@ pub use memory::Memory;
 pub const UNROLL_LIMIT: usize = 64;
 /// The fastest form of hierarchy on software devices (BENCHMARKS.md).
 const SOFTWARE_HIERARCHY: HierarchyKind = HierarchyKind::Bvh4;
+/// Registers that a packet's stack may take: few enough that compilers keep them, enough for hundreds of millions of primitives.
+const MOST_STACK_REGISTERS: u32 = 16;
 /// Samples of one pixel in one pass.
 pub const MAX_SAMPLES_PER_PASS: u32 = 64;
 
@@ -70,6 +72,8 @@ pub struct PlanOptions {
     pub largest_chunk: Option<u64>,
     /// Let the lanes of a subgroup trace samples of one pixel; without effect where the stages or the device do not allow it.
     pub share_pixels: Option<bool>,
+    /// Let those lanes go through the hierarchy together; without effect where they do not share a pixel.
+    pub packets: Option<bool>,
     /// Keep naga's bounds checks and loop bounds in the kernels.
     pub checked_shaders: bool,
     /// Write down what happens along a path, for [`crate::gpu::GpuRenderer::trace`]; one kernel then traces whole paths.
@@ -112,6 +116,8 @@ pub struct Plan {
     pub rays_per_invocation: u32,
     /// Lanes that trace samples of one pixel side by side; None: each has a pixel of its own.
     pub lanes: Option<u32>,
+    /// Those lanes go through the hierarchy together.
+    pub packets: bool,
     /// Runs of workgroups into which the device cuts a dispatch, one for each of its threads. Neighbouring workgroups are dealt to
     /// different runs, because no thread helps another with its own.
     pub runs: u32,
@@ -149,6 +155,11 @@ impl Plan {
         let may_share = limits.software && stages == StageMode::Fused && !options.trace;
         let lanes = limits.subgroup_size.filter(|size| may_share && (2..=64).contains(size) && size.is_power_of_two());
         let lanes = lanes.filter(|_| options.share_pixels.unwrap_or(geometry == GeometryPlacement::Hierarchy));
+        // Packets are written for that form alone, and their stack lies in registers, an entry a lane (shaders/geometry/packet.wgsl).
+        let packets = geometry == GeometryPlacement::Hierarchy
+            && hierarchy == HierarchyKind::Bvh4
+            && lanes.is_some_and(|lanes| lanes >= 4 && flat.hierarchy.stack_size <= MOST_STACK_REGISTERS * lanes)
+            && options.packets.unwrap_or(true);
         let width = scene.film.size[0];
         let film = options.film.unwrap_or(if limits.read_write_rgba32float && width <= limits.max_texture_side {
             FilmStorage::Texture
@@ -177,6 +188,7 @@ impl Plan {
             path_capacity,
             rays_per_invocation: if limits.software { 32 } else { 1 },
             lanes,
+            packets,
             runs: limits.threads.max(1),
             band_rows,
             switches: Switches::default(),
@@ -256,7 +268,8 @@ impl fmt::Display for Plan {
         let stages: Vec<&str> = self.stage_files().iter().map(|(_, entry)| *entry).collect();
         writeln!(f, "stages         {}", stages.join(", "))?;
         if let Some(lanes) = self.lanes {
-            writeln!(f, "lanes          {lanes} samples of one pixel side by side")?;
+            let way = if self.packets { ", their rays in packets" } else { "" };
+            writeln!(f, "lanes          {lanes} samples of one pixel side by side{way}")?;
         }
         let film = match self.film {
             FilmStorage::Texture => "rgba32float storage textures",

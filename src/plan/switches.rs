@@ -61,6 +61,7 @@ pub const ALL: &[&str] = &[
     "ONE_LIGHT",
     "ONLY_TRIANGLES_IN_HIERARCHY",
     "ORTHOGRAPHIC",
+    "PACKETS",
     "PASS",
     "PERLIN",
     "PHONG",
@@ -129,6 +130,7 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     switches.enable("FLAT_ROUND", has_kind(PrimitiveKind::Disk) || has_kind(PrimitiveKind::Plane));
     switches.enable("BVH", plan.geometry == GeometryPlacement::Hierarchy);
     switches.enable(plan.hierarchy.switch(), plan.geometry == GeometryPlacement::Hierarchy);
+    switches.enable("PACKETS", plan.packets);
     switches.enable("UNIFORM_NODES", plan.geometry == GeometryPlacement::Hierarchy && plan.uniform_nodes);
     switches.enable("UNIFORM_PRIMITIVES", plan.uniform_primitives);
     switches.enable("UNIFORM_TABLES", plan.uniform_tables);

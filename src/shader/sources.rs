@@ -9,6 +9,7 @@ macro_rules! shader_files {
 
 shader_files![
     "core/camera.wgsl",
+    "core/lanes.wgsl",
     "core/math.wgsl",
     "core/parameters.wgsl",
     "core/sampler.wgsl",
@@ -18,6 +19,7 @@ shader_files![
     "geometry/cwbvh.wgsl",
     "geometry/entries.wgsl",
     "geometry/motion.wgsl",
+    "geometry/packet.wgsl",
     "geometry/primitives.wgsl",
     "geometry/records.wgsl",
     "geometry/scene.wgsl",
