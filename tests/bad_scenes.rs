@@ -56,7 +56,7 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
             "spp = 1",
             "samples = 1",
             "test.toml:5:1: render.samples: unknown key `samples` [did you mean `sampler`? valid choices: spp, max_depth, sampler, pixel_sampler, \
-             estimator, heuristic, hemisphere, light_sampling, roulette_depth, seed]",
+             estimator, heuristic, hemisphere, light_sampling, light_samples, roulette_depth, seed]",
         ),
         (
             "type = \"diffuse\"",
@@ -105,6 +105,11 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
             "spp = 1",
             "max_depth = -1",
             "test.toml:5:13: render.max_depth: invalid value: integer `-1`, expected a whole number of at least 0",
+        ),
+        (
+            "spp = 1",
+            "light_samples = 17",
+            "test.toml:5:17: render.light_samples: 17 light samples are not possible [from 1 to 16]",
         ),
         (
             "size = [4, 4]",

@@ -21,7 +21,7 @@ const PAIRS: [[Dimension; 2]; 6] = [
 ];
 
 fn sampling(path: SamplerKind, samples: u32, seed: u32) -> Sampling {
-    Sampling { path, pixel: PixelSampler::SameAsPath, seed, samples }
+    Sampling { path, pixel: PixelSampler::SameAsPath, seed, samples, light_samples: 1 }
 }
 
 /// The numbers that the first `count` paths of a pixel draw for some dimensions.
@@ -275,4 +275,36 @@ fn the_shared_point_is_the_sequence() {
     let settings = sampling(SamplerKind::Sobol, 1, 9);
     let point = SequencePoint::new(&settings, 1234);
     assert!((0..40).all(|d| point.bits[d as usize] == sobol_bits(9, d, 1234)));
+}
+
+/// The light samples of a pixel at the first surface are one sequence: those of four samples with four each are as even as of sixteen with
+/// one each, and no two pixels or samples share them.
+#[test]
+fn light_samples_of_a_pixel_are_one_sequence() {
+    use SamplerKind::{Independent, Sobol, Stratified};
+    for (kind, most) in [(Sobol, 1), (Stratified, 1), (Independent, 2)] {
+        let mut several = sampling(kind, 16, 77);
+        several.light_samples = 4;
+        let light_points = |pixel| -> Vec<[f64; 2]> {
+            let point_of = |sample, number| {
+                let point = SequencePoint::new(&several, sample);
+                let [_, u, v] = PathSampler::new(&several, pixel, &point).light_bits(0, number);
+                [u, v].map(gpt::sampling::sampler::uniform)
+            };
+            (0..16).flat_map(|sample| (0..4).map(move |number| (sample, number))).map(|(s, n)| point_of(s, n)).collect()
+        };
+        let points = light_points(4711);
+        assert_eq!(points.len(), 64);
+        let shapes: &[[u32; 2]] = if kind == Sobol { &[[64, 1], [16, 4], [8, 8], [2, 32]] } else { &[[8, 8]] };
+        for &parts in shapes {
+            // The pixel moves strata by a rotation, which may put two points into a cell that is not theirs.
+            let allowed = if kind == Stratified { 4 } else { most };
+            let fullest = fullest_cell(&points, parts);
+            // Independent points are the control: they are not even.
+            assert!(if kind == Independent { fullest >= 2 } else { fullest <= allowed }, "{kind:?}, {parts:?}: {fullest}");
+        }
+        let distinct: std::collections::BTreeSet<[u64; 2]> =
+            points.iter().chain(&light_points(4712)).map(|point| point.map(f64::to_bits)).collect();
+        assert_eq!(distinct.len(), 128);
+    }
 }

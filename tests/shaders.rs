@@ -48,6 +48,7 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
     for (name, needed) in [
         ("VARYING_LIGHTS", &["EMISSION", "LIGHTS"][..]),
         ("PACKETS", &["BVH"]),
+        ("SEVERAL_LIGHT_SAMPLES", &["LIGHTS"]),
         ("MOVING_LIGHTS", &["MOTION", "ATTRIBUTES", "BVH"]),
         ("MOTION", &["ATTRIBUTES", "BVH"]),
         ("NODE_CHUNKS", &["BVH"]),
@@ -123,6 +124,7 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
         "FIRST_TEXTURE_WORD",
         "LANES",
         "LIGHT_COUNT",
+        "LIGHT_SAMPLES",
         "MAX_DEPTH",
         "MAX_SAMPLES_PER_PASS",
         "PATH_CAPACITY",
@@ -135,6 +137,7 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
         "RUNS",
         "SEQUENCE_BLOCKS",
         "SEQUENCE_POINTS",
+        "SEQUENCE_STRIDE",
         "STACK_SIZE",
         "TABLE_WORDS",
         "NODE_WORDS",

@@ -201,3 +201,35 @@ fn a_small_light_is_as_large_as_the_thin_lens_equation_says() {
         }
     }
 }
+
+/// Several light samples leave the mean where it is, whatever estimator shares light out, and independent ones cut the variance by their number.
+#[test]
+fn several_light_samples_have_the_same_mean_and_less_noise() {
+    use gpt::statistics::{Moments, hypothesis};
+    let exact = 0.5 * 10.0 * (1.5_f64 / 2.0).powi(2);
+    let mut scene = load(FLOOR_AND_LIGHT);
+    scene.render.sampler = SamplerKind::Independent;
+    scene.render.spp = 64;
+    scene.film.size = [32, 32];
+    for estimator in [scene::Estimator::Mis, scene::Estimator::Nee] {
+        scene.render.estimator = estimator;
+        let variances = [1, 4].map(|count| {
+            scene.render.light_samples = count;
+            let check = |(device, pixels): (&str, Vec<[f32; 3]>)| {
+                let moments: Moments = pixels.iter().map(|pixel| f64::from(pixel[1])).collect();
+                let held = hypothesis::one_sample_t_test(&moments, exact);
+                assert!(held.p_value > 1e-4, "{device}, {estimator:?}, {count}: {moments:?} instead of {exact}: {held:?}");
+                let control = hypothesis::one_sample_t_test(&moments, 1.01 * exact);
+                assert!(control.p_value < 1e-4, "{device}, {estimator:?}, {count}: 1 % goes unnoticed: {control:?}");
+                moments.variance()
+            };
+            on_every_device(&scene).into_iter().map(check).collect::<Vec<_>>()
+        });
+        for (one, four) in variances[0].iter().zip(&variances[1]) {
+            // The ratio of two variances of 1,024 observations each is within a factor of 1.25 of the truth but for one in a thousand.
+            let gain = one / four;
+            println!("{estimator:?}: {gain:.2} times the variance with one light sample");
+            assert!(estimator != scene::Estimator::Nee || (4.0 / 1.25..4.0 * 1.25).contains(&gain), "{gain}");
+        }
+    }
+}

@@ -42,7 +42,7 @@ fn random_block(pixel: u32, sample_in_pass: u32, block: u32) -> vec4<u32> {
     let key = pixel_key(pixel);
 #if SEQUENCE
     if block < SEQUENCE_BLOCKS {
-        let shared_bits = sequence_points[sample_in_pass * SEQUENCE_BLOCKS + block];
+        let shared_bits = sequence_points[sample_in_pass * SEQUENCE_STRIDE + block];
 #if DIGITAL_SHIFT
         return shared_bits ^ dimension_bits4(key, block * 4u);
 #else
@@ -52,6 +52,28 @@ fn random_block(pixel: u32, sample_in_pass: u32, block: u32) -> vec4<u32> {
 #endif
     return dimension_bits4(path_key(key, pass_parameters.first_sample + sample_in_pass), block * 4u);
 }
+
+#if SEVERAL_LIGHT_SAMPLES
+// Hashed light samples after the first of a surface have blocks from here on.
+const HASHED_LIGHT_BLOCK: u32 = 1u << 28u;
+
+// Bits of light sample `number`, not the first, at a surface that ends the first edge, vertex number `visit` of the path: choice of the light (x), point on it (y, z).
+fn more_light_bits(pixel: u32, sample_in_pass: u32, visit: u32, number: u32) -> vec4<u32> {
+    let key = pixel_key(pixel);
+#if SEQUENCE
+    let shared_bits = sequence_points[sample_in_pass * SEQUENCE_STRIDE + SEQUENCE_BLOCKS + number - 1u];
+    // The shift of the first one's block: together they stay one sequence.
+    let shift = dimension_bits4(key, 8u * visit);
+#if DIGITAL_SHIFT
+    return shared_bits ^ shift;
+#else
+    return shared_bits + shift;
+#endif
+#else
+    return dimension_bits4(path_key(key, pass_parameters.first_sample + sample_in_pass), (HASHED_LIGHT_BLOCK + 16u * visit + number) * 4u);
+#endif
+}
+#endif
 
 // Bits for the position in the pixel (x, y) and on the lens (z, w). The pixel's may have a sampler of their own.
 fn camera_block(pixel: u32, sample_in_pass: u32) -> vec4<u32> {
@@ -64,11 +86,11 @@ fn camera_block(pixel: u32, sample_in_pass: u32) -> vec4<u32> {
     return vec4<u32>(dimension_bits4(key, 0u).xy, random.zw);
 #else
 #if PIXEL_ROTATION
-    let own_bits = sequence_points[sample_in_pass * SEQUENCE_BLOCKS] + dimension_bits4(pixel_key(pixel), 0u);
+    let own_bits = sequence_points[sample_in_pass * SEQUENCE_STRIDE] + dimension_bits4(pixel_key(pixel), 0u);
     return vec4<u32>(own_bits.xy, random.zw);
 #else
 #if PIXEL_DIGITAL_SHIFT
-    let own_bits = sequence_points[sample_in_pass * SEQUENCE_BLOCKS] ^ dimension_bits4(pixel_key(pixel), 0u);
+    let own_bits = sequence_points[sample_in_pass * SEQUENCE_STRIDE] ^ dimension_bits4(pixel_key(pixel), 0u);
     return vec4<u32>(own_bits.xy, random.zw);
 #else
     return random;

@@ -53,7 +53,7 @@ fn new_path(ray: Ray, pixel: u32, sample_in_pass: u32) -> Path {
     return path;
 }
 
-// Weight of emission met by a ray of the given density, where light sampling has density `pdf_light`.
+// Weight of emission met by a ray of the given density, where all light samples together have density `pdf_light`.
 fn emission_weight(pdf_solid_angle: f32, pdf_light: f32) -> f32 {
     if pdf_solid_angle < 0.0 || pdf_light == 0.0 {
         return 1.0;
@@ -69,12 +69,30 @@ fn emission_weight(pdf_solid_angle: f32, pdf_light: f32) -> f32 {
 #endif
 }
 
+// How many light samples the surface at the end of edge number `edge` takes.
+fn light_samples_at(edge: u32) -> f32 {
+#if SEVERAL_LIGHT_SAMPLES
+    return select(1.0, f32(LIGHT_SAMPLES), edge == 1u);
+#else
+    return 1.0;
+#endif
+}
+
+// Which edge of the path ends at its vertex number `visit`.
+fn edge_at(path: Path, visit: u32) -> u32 {
+#if PASS
+    return visit - path.passed;
+#else
+    return visit;
+#endif
+}
+
 fn no_shadow() -> ShadowRay {
     return ShadowRay(Ray(vec3<f32>(0.0), vec3<f32>(0.0, 0.0, 1.0)), 0.0, vec3<f32>(0.0));
 }
 
 // Radiance that a path gains where its ray leaves the scene.
-fn escaped_radiance(path: Path) -> vec3<f32> {
+fn escaped_radiance(path: Path, edge: u32) -> vec3<f32> {
 #if ENVIRONMENT
     let radiance = path.throughput * environment_radiance(path.ray.direction);
 #if TRACE
@@ -83,11 +101,12 @@ fn escaped_radiance(path: Path) -> vec3<f32> {
 #if ENVIRONMENT_SAMPLED
     // After the camera or a delta lobe no light sample could have found it.
     if path.pdf_solid_angle >= 0.0 {
+        let pdf_light = light_samples_at(edge - 1u) * environment_pdf_solid_angle(path.ray);
+        let weight = emission_weight(path.pdf_solid_angle, pdf_light);
 #if TRACE
-        let traced_weight = emission_weight(path.pdf_solid_angle, environment_pdf_solid_angle(path.ray));
-        trace_found(radiance * traced_weight, traced_weight);
+        trace_found(radiance * weight, weight);
 #endif
-        return radiance * emission_weight(path.pdf_solid_angle, environment_pdf_solid_angle(path.ray));
+        return radiance * weight;
     }
 #endif
     return radiance;
@@ -109,8 +128,9 @@ fn light_reference(surface: Surface) -> vec3<f32> {
     return surface.position + surface.error * surface.facing_normal;
 }
 
-// What the path gains from a light sample, chosen by `light_bits`, given the surface's value towards it.
-fn next_event(path: Path, surface: Surface, light: LightSample, light_bits: u32, value: BsdfValue) -> ShadowRay {
+// What the path gains from one of the light samples that the surface at the end of `edge` takes, chosen by `light_bits`, given the surface's
+// value towards it.
+fn next_event(path: Path, surface: Surface, edge: u32, light: LightSample, light_bits: u32, value: BsdfValue) -> ShadowRay {
 #if TRANSMISSIVE_SMOOTH
     let origin = offset_origin(surface, light.wi);
 #else
@@ -120,22 +140,47 @@ fn next_event(path: Path, surface: Surface, light: LightSample, light_bits: u32,
 #if PLANT_BRDF
     radiance *= planted_factor(surface.material);
 #endif
+    let count = light_samples_at(edge);
+    // Several samples are as dense together as one of as many times its density.
+    let pdf_light = count * light.pdf_solid_angle;
+    var weight = 1.0;
     if light.pdf_solid_angle >= 0.0 {
-        radiance = radiance / light.pdf_solid_angle;
+        radiance = radiance / pdf_light;
 #if ESTIMATOR_MIS
-        radiance *= mis_weight(light.pdf_solid_angle, value.pdf_solid_angle);
+        weight = mis_weight(pdf_light, value.pdf_solid_angle);
+        radiance *= weight;
 #endif
+    } else {
+        radiance = radiance / count;
     }
 #if TRACE
-    var traced_weight = 1.0;
-#if ESTIMATOR_MIS
-    if light.pdf_solid_angle >= 0.0 {
-        traced_weight = mis_weight(light.pdf_solid_angle, value.pdf_solid_angle);
-    }
-#endif
-    trace_light(light.wi, light.pdf_solid_angle, radiance, traced_weight, choose_light(light_bits), value.pdf_solid_angle);
+    trace_light(light.wi, pdf_light, radiance, weight, choose_light(light_bits), value.pdf_solid_angle);
 #endif
     return ShadowRay(Ray(origin, light.wi), light.distance, radiance);
+}
+#endif
+
+#if SEVERAL_LIGHT_SAMPLES
+// Whether the surface that a path met at its vertex number `visit` takes more light samples than the one of shade_vertex.
+fn takes_more_light(path: Path, hit: Hit, visit: u32) -> bool {
+    return hit.primitive != NONE && edge_at(path, visit) == 1u;
+}
+
+// The shadow ray of light sample `number`, not the first, of the surface that a path met at its vertex number `visit`; `path` is as it
+// arrived there.
+fn more_light(path: Path, hit: Hit, visit: u32, number: u32) -> ShadowRay {
+    let surface = hit_surface(path.ray, hit);
+    let wo = -path.ray.direction;
+    // The same of a blend's materials that shade_vertex looks at.
+    let random = random_block(path.pixel, path.sample_in_pass, 2u * visit + 1u);
+    let bsdf = load_bsdf(surface, wo, uniform_float(random.w));
+    if !has_smooth_lobe(bsdf) {
+        return no_shadow();
+    }
+    let light_bits = more_light_bits(path.pixel, path.sample_in_pass, visit, number);
+    let light = sample_light(light_reference(surface), light_bits);
+    let value = evaluate_bsdf(bsdf, surface, wo, light.wi);
+    return next_event(path, surface, edge_at(path, visit), light, light_bits.x, value);
 }
 #endif
 
@@ -143,12 +188,13 @@ fn next_event(path: Path, surface: Surface, light: LightSample, light_bits: u32,
 // A vertex ends an edge of the path unless the ray passes through it.
 fn shade_vertex(path: ptr<function, Path>, hit: Hit, visit: u32) -> Vertex {
     let incoming = *path;
+    let edge = edge_at(incoming, visit);
     var vertex = Vertex(false, vec3<f32>(0.0), no_shadow());
 #if TRACE
     trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
 #endif
     if hit.primitive == NONE {
-        vertex.radiance = escaped_radiance(incoming);
+        vertex.radiance = escaped_radiance(incoming, edge);
         return vertex;
     }
     let surface = hit_surface(incoming.ray, hit);
@@ -163,7 +209,9 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, visit: u32) -> Vertex {
     );
     if max_component(emitted) > 0.0 {
 #if LIGHTS
-        let weight = emission_weight(incoming.pdf_solid_angle, light_pdf_solid_angle(incoming.ray, surface));
+        let weight = emission_weight(
+            incoming.pdf_solid_angle, light_samples_at(edge - 1u) * light_pdf_solid_angle(incoming.ray, surface)
+        );
 #else
         let weight = 1.0;
 #endif
@@ -174,11 +222,6 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, visit: u32) -> Vertex {
     }
 #endif
 
-#if PASS
-    let edge = visit - incoming.passed;
-#else
-    let edge = visit;
-#endif
     let last_edge = edge == MAX_DEPTH;
 #if !PASS
     if last_edge {
@@ -233,7 +276,7 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, visit: u32) -> Vertex {
 #endif
 #if LIGHTS
     if samples_light {
-        vertex.shadow = next_event(incoming, surface, light, random.x, light_value);
+        vertex.shadow = next_event(incoming, surface, edge, light, random.x, light_value);
     }
 #endif
 #if PASS

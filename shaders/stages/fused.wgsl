@@ -20,6 +20,9 @@ fn trace_paths(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
     var path = start_path(pixel.pixel, 0u);
     loop {
         let hit = closest_hit(path.ray, INFINITY_DISTANCE);
+#if SEVERAL_LIGHT_SAMPLES
+        let incoming = path;
+#endif
         let vertex = shade_vertex(&path, hit, visit);
         radiance += vertex.radiance;
         rays++;
@@ -33,6 +36,20 @@ fn trace_paths(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
                 radiance += vertex.shadow.radiance;
             }
         }
+#if SEVERAL_LIGHT_SAMPLES
+        for (var number = 1u; number < LIGHT_SAMPLES && takes_more_light(incoming, hit, visit); number++) {
+            let shadow = more_light(incoming, hit, visit, number);
+            if any(shadow.radiance != vec3<f32>(0.0)) {
+                rays++;
+                if !occluded(shadow.ray, shadow.distance) {
+#if TRACE
+                    trace_note(TRACED_LIGHT_SEEN);
+#endif
+                    radiance += shadow.radiance;
+                }
+            }
+        }
+#endif
 #endif
 #if TRACE
         store_trace(visit - 1u);

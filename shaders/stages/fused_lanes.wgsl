@@ -46,6 +46,11 @@ fn path_radiance(first: Path, exists: bool, rays: ptr<function, u32>) -> vec3<f3
     loop {
         let hit = nearest(path.ray, alive);
         var vertex = Vertex(false, vec3<f32>(0.0), no_shadow());
+#if SEVERAL_LIGHT_SAMPLES
+        let incoming = path;
+        let takes_more = alive && takes_more_light(path, hit, visit);
+        var number = 1u;
+#endif
         if alive {
             vertex = shade_vertex(&path, hit, visit);
             radiance += vertex.radiance;
@@ -53,11 +58,28 @@ fn path_radiance(first: Path, exists: bool, rays: ptr<function, u32>) -> vec3<f3
         }
         alive = vertex.alive;
 #if LIGHTS
-        let asks = any(vertex.shadow.radiance != vec3<f32>(0.0));
+        var shadow = vertex.shadow;
+#if SEVERAL_LIGHT_SAMPLES
+        // One shadow ray a turn, the next one made at its end.
+        loop {
+#endif
+        let asks = any(shadow.radiance != vec3<f32>(0.0));
         (*rays) += select(0u, 1u, asks);
-        if is_lit(vertex.shadow, asks) {
-            radiance += vertex.shadow.radiance;
+        if is_lit(shadow, asks) {
+            radiance += shadow.radiance;
         }
+#if SEVERAL_LIGHT_SAMPLES
+            let goes_on = takes_more && number < LIGHT_SAMPLES;
+            shadow = no_shadow();
+            if goes_on {
+                shadow = more_light(incoming, hit, visit, number);
+            }
+            number++;
+            continuing {
+                break if !any_lane(goes_on);
+            }
+        }
+#endif
 #endif
         visit++;
         continuing {

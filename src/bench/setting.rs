@@ -16,6 +16,7 @@ pub struct Axes {
     pub heuristics: Vec<MisHeuristic>,
     pub hemispheres: Vec<HemisphereSampling>,
     pub light_samplings: Vec<LightSampling>,
+    pub light_samples: Vec<u32>,
     pub blends: Vec<BlendMode>,
 }
 
@@ -52,6 +53,10 @@ impl Axes {
         axis!(heuristics, heuristic);
         axis!(hemispheres, hemisphere);
         axis!(light_samplings, light_sampling);
+        settings = multiply(settings, &self.light_samples, |setting, count| {
+            setting.render.light_samples = *count;
+            if *count == 1 { "1 light sample".to_owned() } else { format!("{count} light samples") }
+        });
         axis!(blends, blend);
         name_apart(&mut settings, own);
         settings

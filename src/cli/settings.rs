@@ -24,6 +24,7 @@ pub fn apply(arguments: &EstimateArguments, scene: &mut Scene) -> Result<(), Fai
     set(&mut render.seed, arguments.seed);
     set(&mut render.hemisphere, arguments.hemisphere);
     set(&mut render.light_sampling, arguments.light_sampling);
+    set(&mut render.light_samples, arguments.light_samples);
     set(&mut render.pixel_sampler, arguments.pixel_sampler.map(Into::into));
     set(&mut render.blend, arguments.blend);
 

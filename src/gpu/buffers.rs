@@ -9,7 +9,7 @@ use super::device::Device;
 use super::parameters::{EdgeParameters, PassParameters};
 use crate::flat::FlatScene;
 use crate::plan::chunks::{ATTRIBUTES, PRIMITIVES, nodes};
-use crate::plan::{FilmStorage, MAX_SAMPLES_PER_PASS, Plan, StageMode, memory, switches::SEQUENCE_BLOCKS};
+use crate::plan::{FilmStorage, MAX_SAMPLES_PER_PASS, Plan, StageMode, memory};
 
 /// Edges that one submission can hold; longer paths take further submissions.
 pub const EDGES_PER_SUBMISSION: u32 = 32;
@@ -89,7 +89,7 @@ impl Buffers {
         };
         let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         make(binding::PASS, "pass", size_of::<PassParameters>() as u64, uniform);
-        make(binding::SEQUENCE, "sequence points", 16 * u64::from(SEQUENCE_BLOCKS * MAX_SAMPLES_PER_PASS), uniform);
+        make(binding::SEQUENCE, "sequence points", 16 * u64::from(plan.sequence_stride() * MAX_SAMPLES_PER_PASS), uniform);
         let storage = BufferUsages::STORAGE;
         let listed = if plan.switches.enabled.contains("ALLOCATION") { width * plan.band_rows } else { 0 };
         let statistics = STATISTICS_BYTES + u64::from(listed) * memory::LIST_BYTES;

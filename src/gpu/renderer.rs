@@ -199,8 +199,12 @@ impl GpuRenderer {
         self.write(binding::PASS, bytemuck::bytes_of(&parameters));
         if sampling.uses_sequence() {
             let samples = pass.first_sample..pass.first_sample + pass.sample_count;
-            let points: Vec<u32> = samples.flat_map(|sample| SequencePoint::new(sampling, sample).bits).collect();
-            self.write(binding::SEQUENCE, bytemuck::cast_slice(&points));
+            let mut words = Vec::new();
+            for point in samples.map(|sample| SequencePoint::new(sampling, sample)) {
+                words.extend(point.bits);
+                words.extend(point.more_lights.as_flattened());
+            }
+            self.write(binding::SEQUENCE, bytemuck::cast_slice(&words));
         }
     }
 

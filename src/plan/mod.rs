@@ -118,6 +118,8 @@ pub struct Plan {
     pub lanes: Option<u32>,
     /// Those lanes go through the hierarchy together.
     pub packets: bool,
+    /// Light samples at a path's first surface.
+    pub light_samples: u32,
     /// Runs of workgroups into which the device cuts a dispatch, one for each of its threads. Neighbouring workgroups are dealt to
     /// different runs, because no thread helps another with its own.
     pub runs: u32,
@@ -143,10 +145,13 @@ impl Plan {
         let preferred = if few { GeometryPlacement::Unrolled } else { GeometryPlacement::Hierarchy };
         // What moves is no constant.
         let geometry = if flat.moves() { GeometryPlacement::Hierarchy } else { options.geometry.unwrap_or(preferred) };
+        let light_samples = if switches::samples_lights(scene, flat) { scene.render.light_samples } else { 1 };
         // Software devices move every word on its own: there, paths kept in registers beat queues whatever the geometry
         // (BENCHMARKS.md).
         let stages = match geometry {
             _ if options.trace => StageMode::Fused,
+            // A queue holds one shadow ray of a path.
+            _ if light_samples > 1 => StageMode::Fused,
             GeometryPlacement::Hierarchy if !limits.software => options.stages.unwrap_or(StageMode::Wavefront),
             _ => options.stages.unwrap_or(StageMode::Fused),
         };
@@ -189,6 +194,7 @@ impl Plan {
             rays_per_invocation: if limits.software { 32 } else { 1 },
             lanes,
             packets,
+            light_samples,
             runs: limits.threads.max(1),
             band_rows,
             switches: Switches::default(),
@@ -237,6 +243,11 @@ impl Plan {
         }
     }
 
+    /// Blocks of four numbers that the table of the sampler's sequence holds for each sample.
+    pub fn sequence_stride(&self) -> u32 {
+        switches::SEQUENCE_BLOCKS + self.light_samples - 1
+    }
+
     /// Whether any shadow ray is ever traced.
     pub fn samples_lights(&self) -> bool {
         self.switches.enabled.contains("LIGHTS")
@@ -267,6 +278,9 @@ impl fmt::Display for Plan {
         }
         let stages: Vec<&str> = self.stage_files().iter().map(|(_, entry)| *entry).collect();
         writeln!(f, "stages         {}", stages.join(", "))?;
+        if self.light_samples > 1 {
+            writeln!(f, "light samples  {} at the first surface, in one kernel with the rest of the path", self.light_samples)?;
+        }
         if let Some(lanes) = self.lanes {
             let way = if self.packets { ", their rays in packets" } else { "" };
             writeln!(f, "lanes          {lanes} samples of one pixel side by side{way}")?;

@@ -84,6 +84,7 @@ pub const ALL: &[&str] = &[
     "SCALARS",
     "SECOND_COLORS",
     "SEQUENCE",
+    "SEVERAL_LIGHT_SAMPLES",
     "SKY",
     "SPHERES",
     "SPHERES_IN_HIERARCHY",
@@ -149,7 +150,7 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
 
     choose_materials(scene, flat, &mut switches);
 
-    choose_lights(scene, flat, &mut switches);
+    choose_lights(scene, flat, plan, &mut switches);
 
     switches.enable("ESTIMATOR_MIS", render.estimator == Estimator::Mis);
     switches.enable("ESTIMATOR_NEE", render.estimator == Estimator::Nee);
@@ -183,6 +184,7 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
         ("FIRST_TEXTURE_WORD", tables.first_texture),
         ("LANES", plan.lanes.unwrap_or(1)),
         ("LIGHT_COUNT", flat.lights.len() as u32),
+        ("LIGHT_SAMPLES", plan.light_samples),
         // Depth 0 means no limit: an edge that is never reached.
         ("MAX_DEPTH", if render.max_depth == 0 { u32::MAX } else { render.max_depth }),
         ("MAX_SAMPLES_PER_PASS", MAX_SAMPLES_PER_PASS),
@@ -193,7 +195,8 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
         ("ROULETTE_DEPTH", render.roulette_depth),
         ("RUNS", plan.runs),
         ("SEQUENCE_BLOCKS", SEQUENCE_BLOCKS),
-        ("SEQUENCE_POINTS", SEQUENCE_BLOCKS * MAX_SAMPLES_PER_PASS),
+        ("SEQUENCE_POINTS", plan.sequence_stride() * MAX_SAMPLES_PER_PASS),
+        ("SEQUENCE_STRIDE", plan.sequence_stride()),
         ("STACK_SIZE", flat.hierarchy.stack_size),
         ("NODE_WORDS", (flat.hierarchy.nodes.bytes().len() / 16) as u32),
         ("TABLE_WORDS", (tables.words.len() as u32).max(1)),
@@ -201,12 +204,17 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     switches
 }
 
-fn choose_lights(scene: &Scene, flat: &FlatScene, switches: &mut Switches) {
+/// Whether any surface samples light. Paths of one edge have no vertex to sample it from.
+pub fn samples_lights(scene: &Scene, flat: &FlatScene) -> bool {
+    !flat.lights.is_empty() && scene.render.max_depth != 1
+}
+
+fn choose_lights(scene: &Scene, flat: &FlatScene, plan: &Plan, switches: &mut Switches) {
     let render = &scene.render;
     let has = |kind: LightKind| flat.lights.iter().any(|light| light.is(kind));
-    // Paths of one edge have no vertex to sample light from.
-    let sampled = !flat.lights.is_empty() && render.max_depth != 1;
+    let sampled = samples_lights(scene, flat);
     switches.enable("LIGHTS", sampled);
+    switches.enable("SEVERAL_LIGHT_SAMPLES", plan.light_samples > 1);
     switches.enable("ONE_LIGHT", flat.lights.len() == 1);
     switches.enable("FLAT_LIGHTS", [LightKind::Triangle, LightKind::Quad, LightKind::Disk].into_iter().any(has));
     switches.enable("SPHERE_LIGHTS", has(LightKind::Sphere));

@@ -12,7 +12,7 @@ use super::bsdf::{Bsdf, BsdfSample, Density};
 use super::camera::ProjectiveCamera;
 use super::emission::emitted;
 use super::intersect::{Moment, Ray, Surface, World};
-use super::lights::Lights;
+use super::lights::{LightSample, Lights};
 use super::trace::{LightConnection, PathVisitor};
 use super::{mis, support};
 use crate::render::RenderError;
@@ -122,7 +122,9 @@ impl Integrator {
         let bsdf = Bsdf::new(&self.scene, &surface, wo, random(BounceDimension::Blend));
         visitor.view(&bsdf.view);
         if !is_last {
-            self.add_direct_light(path, &surface, &bsdf, sampler, visitor);
+            for number in 0..self.scene.render.light_samples_at(path.edge) {
+                self.add_direct_light(path, &surface, &bsdf, sampler.light_bits(bounce, number), visitor);
+            }
         }
         let (u1, u2) = (random(BounceDimension::BsdfU), random(BounceDimension::BsdfV));
         let Some(scattered) = bsdf.sample(random(BounceDimension::Lobe), u1, u2) else { return false };
@@ -148,7 +150,7 @@ impl Integrator {
     fn add_environment<V: PathVisitor>(&self, path: &mut Path, visitor: &mut V) {
         let radiance = self.lights.environment().radiance(path.ray.direction);
         let light_pdf = || self.lights.environment_pdf(&self.world, path.ray.origin, path.ray.direction);
-        let weight = self.weight_of_found(path.previous, light_pdf);
+        let weight = self.weight_of_found(path, light_pdf);
         let contribution = path.throughput * radiance * weight;
         path.radiance += contribution;
         visitor.escaped(radiance, weight, contribution);
@@ -160,21 +162,22 @@ impl Integrator {
         if radiance == DVec3::ZERO {
             return;
         }
-        let weight =
-            self.weight_of_found(path.previous, || self.lights.pdf((&self.world, &path.moment), path.ray.origin, surface));
+        let weight = self.weight_of_found(path, || self.lights.pdf((&self.world, &path.moment), path.ray.origin, surface));
         let contribution = path.throughput * radiance * weight;
         path.radiance += contribution;
         visitor.emission(radiance, weight, contribution);
     }
 
-    /// The weight of light that a ray sampled with density `previous` found, where light sampling has the density `light_pdf`.
-    fn weight_of_found(&self, previous: Density, light_pdf: impl Fn() -> f64) -> f64 {
-        match (previous, self.scene.render.estimator) {
+    /// The weight of light that a path's ray found, where one light sample of the surface before has the density `light_pdf`.
+    fn weight_of_found(&self, path: &Path, light_pdf: impl Fn() -> f64) -> f64 {
+        let settings = &self.scene.render;
+        let light_pdf = || light_pdf() * f64::from(settings.light_samples_at(path.edge - 1));
+        match (path.previous, settings.estimator) {
             (Density::Delta, _) | (_, Estimator::Bsdf) => 1.0,
             (Density::Smooth(pdf), estimator) => match (light_pdf(), estimator) {
                 (0.0, _) => 1.0,
                 (_, Estimator::Nee) => 0.0,
-                (light_pdf, Estimator::Mis | Estimator::Bsdf) => mis::weight(self.scene.render.heuristic, pdf, light_pdf),
+                (light_pdf, Estimator::Mis | Estimator::Bsdf) => mis::weight(settings.heuristic, pdf, light_pdf),
             },
         }
     }
@@ -185,18 +188,17 @@ impl Integrator {
         path: &mut Path,
         surface: &Surface,
         bsdf: &Bsdf,
-        sampler: &PathSampler,
+        [choice, u, v]: [u32; 3],
         visitor: &mut V,
     ) {
         let settings = &self.scene.render;
         if settings.estimator == Estimator::Bsdf || self.lights.is_empty() || !bsdf.has_smooth_lobe() {
             return;
         }
-        let dimension = |dimension| Dimension::bounce(path.bounce, dimension);
-        let choice = sampler.bits(dimension(BounceDimension::LightChoice));
-        let point = [BounceDimension::LightU, BounceDimension::LightV].map(|name| sampler.bits(dimension(name)));
         let reference = surface.point.leave_towards(bsdf.view.wo);
-        let Some(light) = self.lights.sample(&self.scene, (&self.world, &path.moment), reference, choice, point) else { return };
+        let Some(light) = self.lights.sample(&self.scene, (&self.world, &path.moment), reference, choice, [u, v]) else { return };
+        // Several samples are as dense together as one of as many times its density.
+        let light = LightSample { pdf: light.pdf * f64::from(settings.light_samples_at(path.edge)), ..light };
         let scattering = bsdf.evaluate(light.wi);
         if scattering.value == DVec3::ZERO {
             return;

@@ -1,6 +1,7 @@
 //! What the reference integrator renders. What it does not, it refuses by name.
 
 use crate::render::RenderError;
+use crate::scene::settings::MOST_LIGHT_SAMPLES;
 use crate::scene::{
     ColorInput, EnvironmentRadiance, Geometry, Heuristic, Light, Material, MaterialId, MaterialKind, Mesh, Scene, Shape,
     TextureId, TextureKind, check_blends,
@@ -26,6 +27,12 @@ fn settings(scene: &Scene) -> Check {
     let settings = &scene.render;
     if scene.film.size.contains(&0) {
         return Err("the picture has no pixels".into());
+    }
+    if !(1..=MOST_LIGHT_SAMPLES).contains(&settings.light_samples) {
+        return Err(format!(
+            "{} light samples at a path's first surface; 1 to {MOST_LIGHT_SAMPLES} are possible",
+            settings.light_samples
+        ));
     }
     if settings.max_depth == 0 && settings.roulette_depth == 0 {
         return Err("paths never end: max_depth and roulette_depth are both 0".into());

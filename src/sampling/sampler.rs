@@ -7,6 +7,9 @@ use super::sequence::{Decorrelation, Sampling, SequencePoint};
 /// The middle of [0, 1), where a position inside the pixel is its centre.
 const CENTRE_BITS: u32 = 1 << 31;
 
+/// Dimensions of hashed light samples after the first of a surface start here, past all bounces that a path can have numbers for.
+const HASHED_LIGHTS: u32 = 1 << 30;
+
 /// Draws the coordinates of one path's point in primary sample space, in any order.
 #[derive(Debug, Clone, Copy)]
 pub struct PathSampler<'a> {
@@ -34,6 +37,25 @@ impl<'a> PathSampler<'a> {
         }
     }
 
+    /// The bits of light sample `number` at bounce `bounce`: those of the light's choice, then of the point on it. Only surfaces that end a
+    /// path's first edge take more than one.
+    pub fn light_bits(&self, bounce: u32, number: u32) -> [u32; 3] {
+        use super::dimension::BounceDimension::{LightChoice, LightU, LightV};
+        let dimensions = [LightChoice, LightU, LightV].map(|name| Dimension::bounce(bounce, name));
+        if number == 0 {
+            return dimensions.map(|dimension| self.bits(dimension));
+        }
+        let shared = self.point.more_lights.get(number as usize - 1);
+        std::array::from_fn(|axis| {
+            let Dimension(d) = dimensions[axis];
+            match (self.sampling.path.decorrelation(), shared) {
+                (Decorrelation::Rotation, Some(shared)) => shared[axis].wrapping_add(dimension_bits(self.pixel_key, d)),
+                (Decorrelation::DigitalShift, Some(shared)) => shared[axis] ^ dimension_bits(self.pixel_key, d),
+                _ => dimension_bits(self.path_key, HASHED_LIGHTS.wrapping_add(64 * (bounce + 1) + 4 * number + axis as u32)),
+            }
+        })
+    }
+
     /// Uniform in [0, 1): a multiple of 2⁻²⁴, exact in f32 as well.
     pub fn uniform(&self, dimension: Dimension) -> f64 {
         uniform(self.bits(dimension))
@@ -53,7 +75,7 @@ mod tests {
     /// The first two dimensions follow the pixel's sampler, all others the path's.
     #[test]
     fn the_pixel_has_its_own_sampler() {
-        let of = |path, pixel| Sampling { path, pixel, seed: 3, samples: 16 };
+        let of = |path, pixel| Sampling { path, pixel, seed: 3, samples: 16, light_samples: 1 };
         let bits =
             |sampling: Sampling, d| PathSampler::new(&sampling, 1234, &SequencePoint::new(&sampling, 7)).bits(Dimension(d));
         for path in SamplerKind::ALL {

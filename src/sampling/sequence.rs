@@ -1,9 +1,10 @@
 //! What all pixels share of a sampler's numbers: worked out once per sample on the host.
 
-use super::dimension::{Dimension, SEQUENCE_DIMENSIONS};
+use super::dimension::{BounceDimension, Dimension, SEQUENCE_DIMENSIONS};
 use super::halton::radical_inverse_bits;
 use super::sobol::sobol_bits;
 use super::strata::{quadrant_bits, stratified_bits};
+use crate::scene::settings::MOST_LIGHT_SAMPLES;
 use crate::scene::{PixelSampler, RenderSettings, SamplerKind};
 
 /// Everything a render's random numbers depend on beside pixel and sample.
@@ -14,6 +15,8 @@ pub struct Sampling {
     pub seed: u32,
     /// Samples per pixel for which `stratified` lays out its strata, at least 1.
     pub samples: u32,
+    /// Light samples at the first surface of a path, at least 1.
+    pub light_samples: u32,
 }
 
 impl From<&RenderSettings> for Sampling {
@@ -23,9 +26,18 @@ impl From<&RenderSettings> for Sampling {
             pixel: settings.pixel_sampler,
             seed: settings.seed,
             samples: settings.spp.clamp(1, 1 << 31),
+            light_samples: settings.light_samples.clamp(1, MOST_LIGHT_SAMPLES),
         }
     }
 }
+
+/// The dimensions of a light sample at the first surface, as they lie in their block.
+const FIRST_LIGHT: [Option<Dimension>; 4] = [
+    Some(Dimension::bounce(0, BounceDimension::LightChoice)),
+    Some(Dimension::bounce(0, BounceDimension::LightU)),
+    Some(Dimension::bounce(0, BounceDimension::LightV)),
+    None,
+];
 
 /// How pixels are made independent of each other where they share a sequence: each moves it by a hash of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,10 +78,25 @@ impl Sampling {
 
     /// Bits that all pixels share; 0 where there are none.
     fn shared_bits(&self, dimension: Dimension, sample: u32) -> u32 {
+        if dimension.is_first_light() {
+            return self.light_bits(dimension, sample, 0);
+        }
+        self.bits_at(dimension, sample, self.samples)
+    }
+
+    /// Those of light sample `number` at the first surface. All light samples of a pixel there are points of one sequence.
+    fn light_bits(&self, dimension: Dimension, sample: u32, number: u32) -> u32 {
+        let count = self.light_samples;
+        let index = sample.wrapping_mul(count).wrapping_add(number);
+        self.bits_at(dimension, index, self.samples.saturating_mul(count).min(1 << 31))
+    }
+
+    /// Point number `sample` of a sequence that lays out strata for `samples`.
+    fn bits_at(&self, dimension: Dimension, sample: u32, samples: u32) -> u32 {
         let Dimension(d) = dimension;
         match self.sampler_of(dimension) {
             None | Some(SamplerKind::Independent) => 0,
-            Some(SamplerKind::Stratified) => stratified_bits(self.seed, self.samples, dimension, sample),
+            Some(SamplerKind::Stratified) => stratified_bits(self.seed, samples, dimension, sample),
             Some(SamplerKind::Quadrant) => quadrant_bits(self.seed, dimension, sample),
             Some(SamplerKind::Halton) => radical_inverse_bits(self.seed, d, sample),
             Some(SamplerKind::Sobol) => sobol_bits(self.seed, d, sample),
@@ -84,10 +111,22 @@ pub struct SequencePoint {
     pub sample: u32,
     /// 32-bit fractions, one for each dimension that sequences cover.
     pub bits: [u32; SEQUENCE_DIMENSIONS as usize],
+    /// The choice of the light and the point on it of each light sample at the first surface but the first; the fourth is not used.
+    pub more_lights: Vec<[u32; 4]>,
 }
 
 impl SequencePoint {
     pub fn new(sampling: &Sampling, sample: u32) -> Self {
-        Self { sample, bits: std::array::from_fn(|d| sampling.shared_bits(Dimension(d as u32), sample)) }
+        let light = |number| {
+            FIRST_LIGHT.map(|dimension| match dimension {
+                Some(dimension) => sampling.light_bits(dimension, sample, number),
+                None => 0,
+            })
+        };
+        Self {
+            sample,
+            bits: std::array::from_fn(|d| sampling.shared_bits(Dimension(d as u32), sample)),
+            more_lights: (1..sampling.light_samples).map(light).collect(),
+        }
     }
 }

@@ -73,7 +73,19 @@ pub struct RenderSettings {
     pub seed: u32,
     pub hemisphere: HemisphereSampling,
     pub light_sampling: LightSampling,
+    /// Light samples at the first surface of a path, 1 to [`MOST_LIGHT_SAMPLES`]; every later surface takes one.
+    pub light_samples: u32,
     pub blend: BlendMode,
+}
+
+/// Most light samples at a path's first surface.
+pub const MOST_LIGHT_SAMPLES: u32 = 16;
+
+impl RenderSettings {
+    /// How many light samples the surface at the end of a path's edge number `edge` takes: 1 is the camera's ray.
+    pub fn light_samples_at(&self, edge: u32) -> u32 {
+        if edge == 1 { self.light_samples } else { 1 }
+    }
 }
 
 impl Default for RenderSettings {
@@ -90,6 +102,7 @@ impl Default for RenderSettings {
             seed: 0,
             hemisphere: HemisphereSampling::Cosine,
             light_sampling: LightSampling::Cone,
+            light_samples: 1,
             blend: BlendMode::Mixture,
         }
     }

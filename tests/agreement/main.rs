@@ -4,6 +4,7 @@
 mod device;
 
 mod features;
+mod light_samples;
 mod lights;
 mod materials;
 mod motion;

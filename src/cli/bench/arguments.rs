@@ -6,6 +6,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use gpt::bench::growth::Growth;
 use gpt::bench::setting::Axes;
 use gpt::render::DeviceChoice;
+use gpt::scene::settings::MOST_LIGHT_SAMPLES;
 use gpt::scene::{BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeuristic, PixelSamplerName, SamplerKind};
 
 use crate::cli::arguments::{MAX_SAMPLES, parse_device, parse_size};
@@ -183,6 +184,9 @@ pub struct AxisArguments {
     /// How a point on a sphere light is drawn
     #[arg(long, value_name = "STRATEGY,…", value_delimiter = ',')]
     light_sampling: Vec<LightSampling>,
+    /// Light samples at the first surface of a path
+    #[arg(long, value_name = "N,…", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_LIGHT_SAMPLES)))]
+    light_samples: Vec<u32>,
     /// Whether a blend evaluates every lobe or picks one material per hit
     #[arg(long, value_name = "MODE,…", value_delimiter = ',')]
     blend: Vec<BlendMode>,
@@ -198,6 +202,7 @@ impl From<&AxisArguments> for Axes {
             heuristics: arguments.heuristic.clone(),
             hemispheres: arguments.hemisphere.clone(),
             light_samplings: arguments.light_sampling.clone(),
+            light_samples: arguments.light_samples.clone(),
             blends: arguments.blend.clone(),
         }
     }

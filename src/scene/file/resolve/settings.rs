@@ -2,6 +2,7 @@
 
 use super::Resolver;
 use crate::scene::file::syntax::{FilterEntry, SceneFile};
+use crate::scene::settings::MOST_LIGHT_SAMPLES;
 use crate::scene::{Filter, FilterKind, SceneError};
 
 /// Most pixels on a side and in all.
@@ -34,6 +35,13 @@ impl Resolver<'_> {
         render.hemisphere = written.hemisphere.unwrap_or(render.hemisphere);
         render.light_sampling = written.light_sampling.unwrap_or(render.light_sampling);
         render.seed = written.seed.unwrap_or(render.seed);
+        if let Some(count) = &written.light_samples {
+            render.light_samples = count.value;
+            if !(1..=MOST_LIGHT_SAMPLES).contains(&count.value) {
+                let message = format!("{} light samples are not possible", count.value);
+                return Err(self.error(&count.span, message).with_help(format!("from 1 to {MOST_LIGHT_SAMPLES}")));
+            }
+        }
         if let Some(depth) = &written.roulette_depth {
             render.roulette_depth = depth.value;
             if render.max_depth == 0 && depth.value == 0 {

@@ -1,0 +1,50 @@
+//! Several light samples at a path's first surface, on both devices and with every way to trace it.
+
+use gpt::gpu::GpuRenderer;
+use gpt::plan::{GeometryPlacement, PlanOptions, StageMode};
+use gpt::reference::ReferenceRenderer;
+use gpt::scene::{Estimator, SamplerKind};
+use gpt::verify;
+
+use super::{DEVICE, assert_agrees, small};
+
+#[test]
+fn several_light_samples_agree() {
+    // An area light; spheres that emit; a sky and things that move; a mesh of thousands of triangles.
+    for (name, count) in [("cornell", 5), ("veach-mis", 2), ("motion-blur", 3), ("knot-plastic", 3)] {
+        let mut scene = small(name, 32, 4);
+        scene.render.light_samples = count;
+        for share_pixels in [false, true] {
+            let geometry = Some(GeometryPlacement::Hierarchy);
+            let options = PlanOptions { geometry, share_pixels: Some(share_pixels), ..PlanOptions::default() };
+            assert_agrees(&format!("{name}, {count} light samples, lanes share pixels: {share_pixels}"), &scene, &options);
+        }
+        assert_agrees(&format!("{name}, {count} light samples"), &scene, &PlanOptions::default());
+    }
+}
+
+#[test]
+fn every_estimator_and_sampler_agrees_on_several_light_samples() {
+    for sampler in SamplerKind::ALL {
+        for estimator in [Estimator::Mis, Estimator::Nee] {
+            let mut scene = small("cornell", 32, 4);
+            (scene.render.sampler, scene.render.estimator, scene.render.light_samples) = (sampler, estimator, 3);
+            assert_agrees(&format!("{sampler:?}, {estimator:?}"), &scene, &PlanOptions::default());
+        }
+    }
+}
+
+/// One kernel traces such paths, whatever was asked for; the comparison tells 3 light samples from 4.
+#[test]
+fn the_number_of_light_samples_matters() {
+    let Some(device) = DEVICE.as_ref() else { return };
+    let mut scene = small("cornell", 32, 8);
+    scene.render.light_samples = 3;
+    let mut cpu = ReferenceRenderer::new(&scene).expect("the scene is supported");
+    scene.render.light_samples = 4;
+    let options = PlanOptions { stages: Some(StageMode::Wavefront), ..PlanOptions::default() };
+    let mut gpu = GpuRenderer::on(device, &scene, &options).expect("the scene fits");
+    assert_eq!((gpu.plan().stages, gpu.plan().light_samples), (StageMode::Fused, 4));
+    let verdict = verify::compare(&scene, device.name.clone(), &mut gpu, &mut cpu).expect("both render");
+    assert!(verdict.matching_share() < 0.5, "{verdict:#?}");
+}
