@@ -65,8 +65,8 @@ struct MapCell {
     position: vec2<f32>,
 }
 
-// The cell that a point of the primary square, 2^31 points a side, is warped to: down a quadtree, at each node first to the upper or the
-// lower row of children, then to the left or the right of it. Nothing but comparisons of integers: the same on every device.
+// The cell that a point of the primary square, 2^31 points a side, is warped to: down a quadtree, at each node first to the left or the
+// right column of children, then up or down in it. Nothing but comparisons of integers: the same on every device.
 fn map_cell(point: vec2<u32>) -> MapCell {
     // The node's rectangle of the primary square, and its place in its level.
     var low = vec2<u32>(0u);
@@ -78,11 +78,11 @@ fn map_cell(point: vec2<u32>) -> MapCell {
         let columns = (ENVIRONMENT_GRID_WIDTH + round_up) >> level;
         let rows = (ENVIRONMENT_GRID_HEIGHT + round_up) >> level;
         let node = first + 3u * (place.y * columns + place.x);
-        let split_v = map_split(node);
-        let below = point.y >= split_v;
-        let split_u = map_split(node + select(1u, 2u, below));
+        let split_u = map_split(node);
+        let right = point.x >= split_u;
+        let split_v = map_split(node + select(1u, 2u, right));
         let split = vec2<u32>(split_u, split_v);
-        let second = vec2<bool>(point.x >= split_u, below);
+        let second = vec2<bool>(right, point.y >= split_v);
         low = select(low, split, second);
         high = select(split, high, second);
         place = 2u * place + select(vec2<u32>(0u), vec2<u32>(1u), second);
