@@ -107,13 +107,14 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
     }
     let constants = [
         "BLADES",
-        "ENVIRONMENT_FIRST_COLUMN",
-        "ENVIRONMENT_FIRST_ROW",
+        "ENVIRONMENT_FIRST_DENSITY",
+        "ENVIRONMENT_FIRST_NODE",
         "ENVIRONMENT_FIRST_TEXEL",
         "ENVIRONMENT_GRID_HEIGHT",
         "ENVIRONMENT_GRID_WIDTH",
         "ENVIRONMENT_HEIGHT",
         "ENVIRONMENT_LIGHT_INDEX",
+        "ENVIRONMENT_QUADTREE_LEVELS",
         "ENVIRONMENT_WIDTH",
         "FILM_WIDTH",
         "FIRST_HEURISTIC_WORD",

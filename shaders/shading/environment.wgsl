@@ -42,64 +42,64 @@ fn map_pdf_per_steradian(sine: f32) -> f32 {
     return 1.0 / (2.0 * PI * PI * max(sine, 1.0e-6));
 }
 
-fn map_border(index: u32) -> u32 {
-    return bitcast<u32>(texels[index]);
-}
-
-// Of the 2^31 points of a line.
-const MAP_SHARE: f32 = 4.656612873077393e-10;
-
-// Density over the unit square in a cell of the grid, before the number of cells.
-fn map_cell_share(row: u32, column: u32) -> f32 {
-    let first = ENVIRONMENT_FIRST_ROW + row;
-    let place = ENVIRONMENT_FIRST_COLUMN + row * (ENVIRONMENT_GRID_WIDTH + 1u) + column;
-    let height = f32(map_border(first + 1u) - map_border(first)) * MAP_SHARE;
-    return height * f32(map_border(place + 1u) - map_border(place)) * MAP_SHARE;
-}
-
-const MAP_CELLS: f32 = f32(ENVIRONMENT_GRID_WIDTH) * f32(ENVIRONMENT_GRID_HEIGHT);
-
 fn map_pdf(wi: vec3<f32>) -> f32 {
     let uv = map_coordinates(wi);
     let column = min(u32(uv.x * f32(ENVIRONMENT_GRID_WIDTH)), ENVIRONMENT_GRID_WIDTH - 1u);
     let row = min(u32(uv.y * f32(ENVIRONMENT_GRID_HEIGHT)), ENVIRONMENT_GRID_HEIGHT - 1u);
-    return map_cell_share(row, column) * MAP_CELLS * map_pdf_per_steradian(length(wi.xz));
+    return map_cell_density(column, row) * map_pdf_per_steradian(length(wi.xz));
 }
 
-struct MapInterval {
-    index: u32,
-    // Where in the interval the point lies, in (0, 1).
-    fraction: f32,
+// Density over the unit square in a cell of the grid.
+fn map_cell_density(column: u32, row: u32) -> f32 {
+    return texels[ENVIRONMENT_FIRST_DENSITY + row * ENVIRONMENT_GRID_WIDTH + column];
 }
 
-// The interval between `count` + 1 borders that holds a point of the line: the same in integers on every device.
-fn map_interval(first: u32, count: u32, point: u32) -> MapInterval {
-    var low = 0u;
-    var high = count;
-    while high - low > 1u {
-        let middle = (low + high) >> 1u;
-        if map_border(first + middle) <= point {
-            low = middle;
-        } else {
-            high = middle;
-        }
+fn map_split(index: u32) -> u32 {
+    return bitcast<u32>(texels[index]);
+}
+
+struct MapCell {
+    column: u32,
+    row: u32,
+    // Where in the cell the point lies, in (0, 1) x (0, 1).
+    position: vec2<f32>,
+}
+
+// The cell that a point of the primary square, 2^31 points a side, is warped to: down a quadtree, at each node first to the left or the
+// right column of children, then up or down in it. Nothing but comparisons of integers: the same on every device.
+fn map_cell(point: vec2<u32>) -> MapCell {
+    // The node's rectangle of the primary square, and its place in its level.
+    var low = vec2<u32>(0u);
+    var high = vec2<u32>(0x80000000u);
+    var place = vec2<u32>(0u);
+    var first = ENVIRONMENT_FIRST_NODE;
+    for (var level = ENVIRONMENT_QUADTREE_LEVELS; level > 0u; level--) {
+        let round_up = (1u << level) - 1u;
+        let columns = (ENVIRONMENT_GRID_WIDTH + round_up) >> level;
+        let rows = (ENVIRONMENT_GRID_HEIGHT + round_up) >> level;
+        let node = first + 3u * (place.y * columns + place.x);
+        let split_u = map_split(node);
+        let right = point.x >= split_u;
+        let split_v = map_split(node + select(1u, 2u, right));
+        let split = vec2<u32>(split_u, split_v);
+        let second = vec2<bool>(right, point.y >= split_v);
+        low = select(low, split, second);
+        high = select(split, high, second);
+        place = 2u * place + select(vec2<u32>(0u), vec2<u32>(1u), second);
+        first += 3u * columns * rows;
     }
-    let start = map_border(first + low);
-    let length = map_border(first + low + 1u) - start;
-    return MapInterval(low, (f32(point - start) + 0.5) / f32(length));
+    return MapCell(place.x, place.y, (vec2<f32>(point - low) + 0.5) / vec2<f32>(high - low));
 }
 
 fn sample_map(bits_u: u32, bits_v: u32) -> EnvironmentSample {
-    let row = map_interval(ENVIRONMENT_FIRST_ROW, ENVIRONMENT_GRID_HEIGHT, bits_v >> 1u);
-    let first = ENVIRONMENT_FIRST_COLUMN + row.index * (ENVIRONMENT_GRID_WIDTH + 1u);
-    let column = map_interval(first, ENVIRONMENT_GRID_WIDTH, bits_u >> 1u);
+    let cell = map_cell(vec2<u32>(bits_u >> 1u, bits_v >> 1u));
     let uv = vec2<f32>(
-        (f32(column.index) + column.fraction) / f32(ENVIRONMENT_GRID_WIDTH),
-        (f32(row.index) + row.fraction) / f32(ENVIRONMENT_GRID_HEIGHT)
+        (f32(cell.column) + cell.position.x) / f32(ENVIRONMENT_GRID_WIDTH),
+        (f32(cell.row) + cell.position.y) / f32(ENVIRONMENT_GRID_HEIGHT)
     );
     let polar = sin_cos_turns(0.5 * uv.y);
     let azimuth = sin_cos_turns(fract(uv.x - view.environment.w));
-    let pdf = map_cell_share(row.index, column.index) * MAP_CELLS * map_pdf_per_steradian(polar.x);
+    let pdf = map_cell_density(cell.column, cell.row) * map_pdf_per_steradian(polar.x);
     return EnvironmentSample(vec3<f32>(polar.x * azimuth.x, polar.y, -polar.x * azimuth.y), map_radiance(uv), pdf);
 }
 #endif

@@ -9,17 +9,18 @@ use super::validate::FlatError;
 use crate::sampling::MapDistribution;
 use crate::scene::{Environment, EnvironmentRadiance, ImageData, Light, Scene};
 
-/// A map's place among the texels: radiance row by row, then the borders of the rows of the grid that directions are drawn by, then those
-/// of each row's cells.
+/// A map's place among the texels: radiance row by row, then the quadtree that directions are drawn by, three words for each inner node,
+/// then the densities of the cells that it lies over.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct FlatMap {
     pub first_texel: u32,
     pub width: u32,
     pub height: u32,
-    pub first_row: u32,
-    pub first_column: u32,
+    pub first_node: u32,
+    pub first_density: u32,
     pub grid_width: u32,
     pub grid_height: u32,
+    pub levels: u32,
 }
 
 /// What kind of environment there is; its colours are in the view.
@@ -90,20 +91,28 @@ pub fn sky_halves(zenith: DVec3, horizon: DVec3, ground: DVec3) -> [f64; 2] {
 }
 
 fn map(image: &ImageData, texels: &mut Vec<f32>) -> Result<FlatEnvironment, FlatError> {
-    let Some(MapDistribution { grid, mean_luminance }) = MapDistribution::new(image) else {
+    let Some(MapDistribution { warp, mean_luminance }) = MapDistribution::new(image) else {
         return Ok(FlatEnvironment::Black);
     };
-    let end = texels.len() + 3 * image.texels.len() + grid.rows.len() + grid.columns.len();
+    let end = texels.len() + 3 * image.texels.len() + 3 * warp.splits.len() + warp.densities.len();
     if end > u32::MAX as usize {
         return Err(FlatError::TooManyTexels { found: end / 3 });
     }
     let first_texel = texels.len() as u32;
     texels.extend(image.texels.iter().flat_map(|texel| texel.to_array()));
-    let first_row = texels.len() as u32;
-    texels.extend(grid.rows.iter().map(|&border| f32::from_bits(border)));
-    let first_column = texels.len() as u32;
-    texels.extend(grid.columns.iter().map(|&border| f32::from_bits(border)));
-    let (width, height) = (image.width, image.height);
-    let map = FlatMap { first_texel, width, height, first_row, first_column, grid_width: grid.width, grid_height: grid.height };
+    let first_node = texels.len() as u32;
+    texels.extend(warp.splits.iter().flatten().map(|&split| f32::from_bits(split)));
+    let first_density = texels.len() as u32;
+    texels.extend(warp.densities.iter().map(|&density| density as f32));
+    let map = FlatMap {
+        first_texel,
+        width: image.width,
+        height: image.height,
+        first_node,
+        first_density,
+        grid_width: warp.width,
+        grid_height: warp.height,
+        levels: warp.levels(),
+    };
     Ok(FlatEnvironment::Map { map, mean_luminance })
 }

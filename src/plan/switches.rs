@@ -167,13 +167,14 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     let first_light = |kind: LightKind| flat.lights.iter().position(|light| light.is(kind)).unwrap_or(0) as u32;
     switches.constants.extend([
         ("BLADES", blades),
-        ("ENVIRONMENT_FIRST_COLUMN", map.first_column),
-        ("ENVIRONMENT_FIRST_ROW", map.first_row),
+        ("ENVIRONMENT_FIRST_DENSITY", map.first_density),
+        ("ENVIRONMENT_FIRST_NODE", map.first_node),
         ("ENVIRONMENT_FIRST_TEXEL", map.first_texel),
         ("ENVIRONMENT_GRID_HEIGHT", map.grid_height),
         ("ENVIRONMENT_GRID_WIDTH", map.grid_width),
         ("ENVIRONMENT_HEIGHT", map.height),
         ("ENVIRONMENT_LIGHT_INDEX", first_light(LightKind::Environment)),
+        ("ENVIRONMENT_QUADTREE_LEVELS", map.levels),
         ("ENVIRONMENT_WIDTH", map.width),
         ("FILM_WIDTH", scene.film.size[0]),
         ("FIRST_HEURISTIC_WORD", tables.first_heuristic),

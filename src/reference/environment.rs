@@ -74,7 +74,7 @@ impl Environment {
             Self::Constant(_) => warp::UNIFORM_SPHERE_PDF,
             Self::Map(map) => {
                 let (u, v) = map.coordinates(wi);
-                map.distribution.grid.density(u, v) * per_steradian(wi.x.hypot(wi.z))
+                map.distribution.warp.density(u, v) * per_steradian(wi.x.hypot(wi.z))
             }
             Self::Sky(sky) => luminance(sky.radiance(wi)) / sky.integral(),
         }
@@ -137,7 +137,7 @@ impl Map {
     }
 
     fn sample(&self, bits_u: u32, bits_v: u32) -> EnvironmentSample {
-        let point = self.distribution.grid.sample(bits_u, bits_v);
+        let point = self.distribution.warp.sample(bits_u, bits_v);
         let (sine, cosine) = (PI * point.v).sin_cos();
         let (x, minus_z) = (TAU * (point.u - self.rotation)).sin_cos();
         EnvironmentSample {

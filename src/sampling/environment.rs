@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::GridDistribution;
+use super::HierarchicalWarp;
 use crate::scene::ImageData;
 
 /// Most cells along u and v. Larger maps have several texels in a cell.
@@ -12,7 +12,7 @@ const MOST_CELLS: [u32; 2] = [1024, 512];
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapDistribution {
     /// Over (u, v) of the map.
-    pub grid: GridDistribution,
+    pub warp: HierarchicalWarp,
     /// Over all directions.
     pub mean_luminance: f64,
 }
@@ -26,8 +26,8 @@ impl MapDistribution {
         // The solid angle of a texel is 2π/width · π/height · sinθ.
         let solid_angle = 2.0 * PI * PI / (f64::from(size[0]) * f64::from(size[1]));
         let mean_luminance = weights.iter().sum::<f64>() * solid_angle / (4.0 * PI);
-        let grid = GridDistribution::new(cells[0], cells[1], &gather(&weights, size, cells))?;
-        Some(Self { grid, mean_luminance })
+        let warp = HierarchicalWarp::new(cells[0], cells[1], &gather(&weights, size, cells))?;
+        Some(Self { warp, mean_luminance })
     }
 }
 
@@ -118,10 +118,10 @@ mod tests {
     #[test]
     fn a_single_bright_texel_can_be_found_wherever_interpolation_spreads_it() {
         let distribution = MapDistribution::new(&map(8, 8, |x, y| if (x, y) == (0, 3) { 1.0 } else { 0.0 }));
-        let grid = distribution.expect("it is not black").grid;
+        let warp = distribution.expect("it is not black").warp;
         for (x, y) in (0..8).flat_map(|y| (0..8).map(move |x| (x, y))) {
             let near = [7, 0, 1].contains(&x) && (2..5).contains(&y);
-            assert_eq!(grid.density((f64::from(x) + 0.5) / 8.0, (f64::from(y) + 0.5) / 8.0) > 0.0, near, "{x} {y}");
+            assert_eq!(warp.density((f64::from(x) + 0.5) / 8.0, (f64::from(y) + 0.5) / 8.0) > 0.0, near, "{x} {y}");
         }
     }
 }

@@ -114,6 +114,14 @@ scale = 1.5
 rotate = 40
 "#;
 
+/// One texel 10¹² times as bright as the others, sides that are no powers of two.
+const EXTREME_MAP: &str = r#"
+[[light]]
+type = "environment"
+file = "extreme.exr"
+rotate = -75
+"#;
+
 const CONSTANT: &str = "[[light]]\ntype = \"environment\"\nradiance = [0.2, 0.5, 1]\n";
 
 /// One of every shape.
@@ -159,6 +167,8 @@ fn load(parts: &[&str]) -> Scene {
         (0.2 + sun + if y < 8 { 0.5 } else { 0.0 }, 0.3 + 0.02 * x as f32, 0.9 - 0.03 * y as f32)
     };
     exr::prelude::write_rgb_file(folder.path().join("map.exr"), 32, 16, texel).expect("the map is written");
+    let extreme = |x: usize, y: usize| if (x, y) == (3, 1) { (1e6, 2e6, 1e6) } else { (1e-6, 1e-6, 2e-6) };
+    exr::prelude::write_rgb_file(folder.path().join("extreme.exr"), 13, 7, extreme).expect("the map is written");
     let dim = if parts.is_empty() { CONSTANT } else { "" };
     let text = [&[HEAD], parts, &[dim]].concat().concat();
     scene::load_toml_str(&text, "lights", folder.path()).unwrap_or_else(|error| panic!("{error}"))
@@ -188,6 +198,7 @@ fn every_light_that_is_no_surface_agrees() {
         ("directional", &[DIRECTIONAL]),
         ("sky", &[SKY]),
         ("map", &[MAP]),
+        ("extreme map", &[EXTREME_MAP]),
         ("all with a map", &[SPOT, DIRECTIONAL, MAP, SPHERES]),
     ] {
         let mut scene = load(parts);

@@ -32,6 +32,7 @@ fn environments() -> Vec<(&'static str, Environment)> {
         ("7 x 5, turned back", map(7, 5, -20.0, noise)),
         ("a bright texel", dotted(16, 8, 3, 2)),
         ("a bright texel at a pole", dotted(16, 8, 0, 0)),
+        ("a texel 10¹² times the others", map(16, 8, 0.0, |x, y| Vec3::splat(if (x, y) == (5, 3) { 1e12 } else { 1.0 }))),
         ("sky", sky(0.3, 1.0, 0.2)),
         ("sky, dark at the horizon", sky(1.0, 0.0, 0.0)),
         ("sky, all ground", sky(0.0, 0.0, 1.0)),
