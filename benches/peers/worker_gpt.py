@@ -13,11 +13,14 @@ import worker  # first: it takes standard output for itself
 
 import mitsuba as mi
 import numpy as np
-
-
-
-# Of the samplers these two are the best nearly everywhere; the first is the program's own choice.
-SETTINGS = {"Sobol": ["--sampler", "sobol"], "Halton": ["--sampler", "halton"]}
+# Of the samplers these two are the best nearly everywhere; the first is the program's own choice. Several light samples pay where direct
+# light is most of the noise.
+SETTINGS = {
+    "Sobol": ["--sampler", "sobol"],
+    "Halton": ["--sampler", "halton"],
+    "Sobol, 2 light samples": ["--sampler", "sobol", "--light-samples", "2"],
+    "Sobol, 4 light samples": ["--sampler", "sobol", "--light-samples", "4"],
+}
 
 
 class Gpt:
