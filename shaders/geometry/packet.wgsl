@@ -40,16 +40,17 @@ fn write_above_top(stack: ptr<function, PacketStack>, entry: u32) {
     }
 }
 
-// Each of four keys that lanes 0 to 3 have, least first.
+// The keys of lanes 0 to 3, least first, by a network of five exchanges.
 fn sorted_keys(key: u32) -> vec4<u32> {
-    let odd = vec2<u32>(subgroupShuffle(key, 0u), subgroupShuffle(key, 2u));
-    let even = vec2<u32>(subgroupShuffle(key, 1u), subgroupShuffle(key, 3u));
-    let low = min(odd, even);
-    let high = max(odd, even);
+    let first = vec2<u32>(subgroupShuffle(key, 0u), subgroupShuffle(key, 2u));
+    let second = vec2<u32>(subgroupShuffle(key, 1u), subgroupShuffle(key, 3u));
+    let low = min(first, second);
+    let high = max(first, second);
     let inner = vec2<u32>(max(low.x, low.y), min(high.x, high.y));
     return vec4<u32>(min(low.x, low.y), min(inner.x, inner.y), max(inner.x, inner.y), max(high.x, high.y));
 }
 
+// A record of three words, loaded by as many lanes.
 fn shared_node(node: u32) -> NodeWords {
     var word = vec4<u32>(0u);
     if lane < 3u {
@@ -89,7 +90,7 @@ fn descend_together(ray: PreparedRay, inverse_direction: vec3<f32>, t_max: f32, 
 fn traverse_together(ray: PreparedRay, inverse_direction: vec3<f32>, first_hit: Hit, any_hit: bool) -> Hit {
     var hit = first_hit;
     var stack: PacketStack;
-    // Software devices run both sides of a branch, but no loop that is over: nodes and primitives have one each.
+    // Software devices run what a branch leaves out, with all lanes masked; only loops end. So nodes have one, and primitives have one.
     loop {
         loop {
             descend_together(ray, inverse_direction, hit.t, &stack);
