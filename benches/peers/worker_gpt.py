@@ -13,6 +13,7 @@ import worker  # first: it takes standard output for itself
 
 import mitsuba as mi
 import numpy as np
+
 # Of the samplers these two are the best nearly everywhere; the first is the program's own choice. Several light samples pay where direct
 # light is most of the noise.
 SETTINGS = {

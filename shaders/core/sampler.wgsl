@@ -57,7 +57,8 @@ fn random_block(pixel: u32, sample_in_pass: u32, block: u32) -> vec4<u32> {
 // Hashed light samples after the first of a surface have blocks from here on.
 const HASHED_LIGHT_BLOCK: u32 = 1u << 28u;
 
-// Bits of light sample `number`, not the first, at a surface that ends the first edge, vertex number `visit` of the path: choice of the light (x), point on it (y, z).
+// Bits of light sample `number`, not the first, at a surface that ends the first edge, vertex number `visit` of the path: choice of the
+// light (x), point on it (y, z).
 fn more_light_bits(pixel: u32, sample_in_pass: u32, visit: u32, number: u32) -> vec4<u32> {
     let key = pixel_key(pixel);
 #if SEQUENCE
@@ -70,7 +71,8 @@ fn more_light_bits(pixel: u32, sample_in_pass: u32, visit: u32, number: u32) -> 
     return shared_bits + shift;
 #endif
 #else
-    return dimension_bits4(path_key(key, pass_parameters.first_sample + sample_in_pass), (HASHED_LIGHT_BLOCK + 16u * visit + number) * 4u);
+    let block = HASHED_LIGHT_BLOCK + 16u * visit + number;
+    return dimension_bits4(path_key(key, pass_parameters.first_sample + sample_in_pass), block * 4u);
 #endif
 }
 #endif

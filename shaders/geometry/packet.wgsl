@@ -86,7 +86,7 @@ fn descend_together(ray: PreparedRay, inverse_direction: vec3<f32>, t_max: f32, 
     pop(stack);
 }
 
-// Goes through the hierarchy. A ray that asks for `any` hit is done with its first.
+// Goes through the hierarchy. With `any_hit`, each ray is done with its first hit, and the packet when all are.
 fn traverse_together(ray: PreparedRay, inverse_direction: vec3<f32>, first_hit: Hit, any_hit: bool) -> Hit {
     var hit = first_hit;
     var stack: PacketStack;

@@ -123,7 +123,7 @@ impl Integrator {
         visitor.view(&bsdf.view);
         if !is_last {
             for number in 0..self.scene.render.light_samples_at(path.edge) {
-                self.add_direct_light(path, &surface, &bsdf, sampler.light_bits(bounce, number), visitor);
+                self.add_direct_light(path, &surface, &bsdf, || sampler.light_bits(bounce, number), visitor);
             }
         }
         let (u1, u2) = (random(BounceDimension::BsdfU), random(BounceDimension::BsdfV));
@@ -188,13 +188,14 @@ impl Integrator {
         path: &mut Path,
         surface: &Surface,
         bsdf: &Bsdf,
-        [choice, u, v]: [u32; 3],
+        bits: impl Fn() -> [u32; 3],
         visitor: &mut V,
     ) {
         let settings = &self.scene.render;
         if settings.estimator == Estimator::Bsdf || self.lights.is_empty() || !bsdf.has_smooth_lobe() {
             return;
         }
+        let [choice, u, v] = bits();
         let reference = surface.point.leave_towards(bsdf.view.wo);
         let Some(light) = self.lights.sample(&self.scene, (&self.world, &path.moment), reference, choice, [u, v]) else { return };
         // Several samples are as dense together as one of as many times its density.
