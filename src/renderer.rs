@@ -1,6 +1,6 @@
 //! Which renderer takes a scene.
 
-use crate::gpu::{GpuRenderer, OpeningDevice};
+use crate::gpu::{GpuRenderer, OpeningDevice, list_devices};
 use crate::plan::PlanOptions;
 use crate::reference::ReferenceRenderer;
 use crate::render::{DeviceChoice, RenderError, Renderer};
@@ -13,7 +13,7 @@ const NO_ADAPTER_NOTICE: &str = "no Vulkan, Metal or Direct3D 12 adapter was fou
 /// A renderer ready to work, and what the user should know about the choice.
 pub struct ChosenRenderer {
     pub renderer: Box<dyn Renderer>,
-    pub notice: Option<&'static str>,
+    pub notice: Option<String>,
 }
 
 /// The choice of a device while it is being carried out: an adapter opens while the scene is read.
@@ -30,7 +30,7 @@ impl Choice {
         Self { choice: choice.clone(), opening }
     }
 
-    /// Makes the scene ready on the chosen device. With [`DeviceChoice::Auto`] and no adapter at all, that is the CPU reference, for
+    /// Makes the scene ready on the chosen device. With [`DeviceChoice::Auto`] and no adapter that can be used, that is the CPU reference, for
     /// which `options` have no meaning.
     ///
     /// # Errors
@@ -41,11 +41,23 @@ impl Choice {
         };
         match GpuRenderer::once_open(opening, scene, options) {
             Err(RenderError::NoDevice(_)) if self.choice == DeviceChoice::Auto => {
-                Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: Some(NO_ADAPTER_NOTICE) })
+                Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: Some(no_adapter_notice()) })
             }
             outcome => Ok(ChosenRenderer { renderer: Box::new(outcome?), notice: None }),
         }
     }
+}
+
+/// Why `auto` means the CPU: no adapter, or what keeps each from being used.
+fn no_adapter_notice() -> String {
+    let obstacles: Vec<String> = list_devices()
+        .into_iter()
+        .filter_map(|adapter| adapter.unusable.map(|obstacle| format!("{} {obstacle}", adapter.name)))
+        .collect();
+    if obstacles.is_empty() {
+        return NO_ADAPTER_NOTICE.to_owned();
+    }
+    format!("rendering on the CPU, which is slower, because {}", obstacles.join("; "))
 }
 
 fn on_the_cpu(scene: &Scene) -> Result<Box<dyn Renderer>, RenderError> {

@@ -31,3 +31,27 @@ fn least_of_lanes(values: vec4<u32>) -> u32 {
     }
     return least;
 }
+
+// The less of this lane's value and that of the lane `distance` away.
+fn lesser(value: u32, distance: u32) -> u32 {
+    return min(value, subgroupShuffle(value, lane ^ distance));
+}
+
+// Of how many lanes out of four that stand together the condition holds.
+fn count_of_four(condition: bool) -> u32 {
+    let one = select(0u, 1u, condition);
+    let two = one + subgroupShuffle(one, lane ^ 1u);
+    return two + subgroupShuffle(two, lane ^ 2u);
+}
+
+// Compares with the lane `distance` away: the lower one of the two keeps the less where `rises`, else the other one does.
+fn exchanged(value: u32, distance: u32, rises: bool) -> u32 {
+    let other = subgroupShuffle(value, lane ^ distance);
+    return select(max(value, other), min(value, other), ((lane & distance) == 0u) == rises);
+}
+
+// The values of four lanes that stand together, in rising order (Batcher's bitonic sort).
+fn sorted_four(value: u32) -> u32 {
+    let pairs = exchanged(value, 1u, (lane & 2u) == 0u);
+    return exchanged(exchanged(pairs, 2u, true), 1u, true);
+}

@@ -4,7 +4,8 @@
 //   (low z; high x; high y; high z)
 #import geometry/entries.wgsl
 
-// Distances at which the ray enters the children; INFINITY_DISTANCE where it misses one.
+// Distances at which the ray enters the children's boxes; INFINITY_DISTANCE where it misses one. Those of children that do not exist
+// mean nothing.
 fn entry_distances(words: NodeWords, origin: vec3<f32>, inverse_direction: vec3<f32>, t_max: f32) -> vec4<f32> {
     let n0 = words.w0;
     let n1 = words.w1;
@@ -18,16 +19,25 @@ fn entry_distances(words: NodeWords, origin: vec3<f32>, inverse_direction: vec3<
     let low = vec3<u32>(n1.z, n1.w, n2.x);
     let near_words = select(low, n2.yzw, backward);
     let far_words = select(n2.yzw, low, backward);
+    // Not the constant: compilers make bit operations of comparisons with it, which take longer than a maximum.
+    let zero = vec4<f32>(t_max * 0.0);
+    let limit = t_max * WIDER;
+    let far_scale = scale * WIDER;
+    let far_offset = offset * WIDER;
     let near = larger(
         larger(unpack_bytes(near_words.x) * scale.x + offset.x, unpack_bytes(near_words.y) * scale.y + offset.y),
-        larger(vec4<f32>(0.0), unpack_bytes(near_words.z) * scale.z + offset.z)
+        larger(zero, unpack_bytes(near_words.z) * scale.z + offset.z)
     );
     let far = smaller(
-        smaller(unpack_bytes(far_words.x) * scale.x + offset.x, unpack_bytes(far_words.y) * scale.y + offset.y),
-        smaller(vec4<f32>(t_max), unpack_bytes(far_words.z) * scale.z + offset.z)
+        smaller(unpack_bytes(far_words.x) * far_scale.x + far_offset.x, unpack_bytes(far_words.y) * far_scale.y + far_offset.y),
+        smaller(vec4<f32>(limit), unpack_bytes(far_words.z) * far_scale.z + far_offset.z)
     );
-    let exists = (vec4<u32>(n0.w) & vec4<u32>(1u << 28u, 1u << 29u, 1u << 30u, 1u << 31u)) != vec4<u32>(0u);
-    return select(vec4<f32>(INFINITY_DISTANCE), near, exists & (near <= far * WIDER));
+    return select(vec4<f32>(INFINITY_DISTANCE), near, near <= far);
+}
+
+// Which children there are, a bit each.
+fn existing_children(words: NodeWords) -> u32 {
+    return words.w0.w >> 28u;
 }
 
 // What stands for the children on a stack.
@@ -43,7 +53,7 @@ fn child_entries(words: NodeWords) -> vec4<u32> {
 }
 
 #if PACKETS
-// One of them. An inner child's leaf size is 0, and counts no primitive.
+// One of them, an inner child as the place of its words. An inner child's leaf size is 0, and counts no primitive.
 fn child_entry(words: NodeWords, child: u32) -> u32 {
     let flags = words.w0.w >> 24u;
     let inner_before = countOneBits(flags & ((1u << child) - 1u));
@@ -51,14 +61,16 @@ fn child_entry(words: NodeWords, child: u32) -> u32 {
     let before = sizes & ((1u << (2u * child)) - 1u);
     let start = (words.w1.y & 0x00ffffffu) + (child - inner_before) + (before & 3u) + ((before >> 2u) & 3u) + (before >> 4u);
     let leaf_entry = start | (((sizes >> (2u * child)) & 3u) << 24u) | LEAF;
-    return select(leaf_entry, inner_before + words.w1.x, ((flags >> child) & 1u) != 0u);
+    return select(leaf_entry, node_place(inner_before + words.w1.x), ((flags >> child) & 1u) != 0u);
 }
 #endif
 
 fn descend(node: u32, traversal: ptr<function, Traversal>, stack: ptr<function, array<StackEntry, STACK_SIZE>>) -> u32 {
     let words = node_words(node);
     // Sorted by distance with a network of five exchanges; the nearest is visited next, the others wait, farthest deepest.
-    var t = entry_distances(words, (*traversal).ray.origin, (*traversal).inverse_direction, (*traversal).hit.t);
+    let distances = entry_distances(words, (*traversal).ray.origin, (*traversal).inverse_direction, (*traversal).hit.t);
+    let exists = (vec4<u32>(existing_children(words)) & vec4<u32>(1u, 2u, 4u, 8u)) != vec4<u32>(0u);
+    var t = select(vec4<f32>(INFINITY_DISTANCE), distances, exists);
     var e = child_entries(words);
     if t.y < t.x { t = t.yxzw; e = e.yxzw; }
     if t.w < t.z { t = t.xywz; e = e.xywz; }

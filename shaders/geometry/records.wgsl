@@ -65,11 +65,25 @@ fn node_words(index: u32) -> NodeWords {
     return NodeWords(nodes[first], nodes[first + 1u], nodes[first + 2u], nodes[first + 3u], nodes[first + 4u]);
 #endif
 }
+#endif
 
 #if PACKETS
-// One of a record's words.
-fn node_word(index: u32, word: u32) -> vec4<u32> {
-    return nodes[index * 3u + word];
+// Where a node's words stand, so that nothing is left to multiply when the way leads there; and one of them.
+#if NODE_CHUNKS
+fn node_place(index: u32) -> u32 {
+    return index;
+}
+
+fn node_word_at(place: u32, word: u32) -> vec4<u32> {
+    return node_word(place, word);
+}
+#else
+fn node_place(index: u32) -> u32 {
+    return index * 3u;
+}
+
+fn node_word_at(place: u32, word: u32) -> vec4<u32> {
+    return nodes[place + word];
 }
 #endif
 #endif

@@ -91,7 +91,7 @@ fn render(
     let options = PlanOptions { allocation: arguments.goal.adaptive, ..PlanOptions::default() };
     let ChosenRenderer { mut renderer, notice } = choice.renderer(scene, &options)?;
     if let Some(notice) = notice {
-        terminal::note(notice);
+        terminal::note(&notice);
     }
     let [width, height] = scene.film.size;
     let provenance = Provenance {

@@ -8,6 +8,10 @@ use crate::render::{DeviceChoice, RenderError};
 /// The interfaces worth asking: the ones whose compute shaders meet WebGPU. OpenGL is left out on purpose.
 const BACKENDS: Backends = Backends::VULKAN.union(Backends::METAL).union(Backends::DX12);
 
+/// Lanes of a software adapter's vectors. Lavapipe makes wider ones only where it is told to, and Mesa 25.0.7 then computes half of the
+/// lanes' paths wrong, without a word.
+const MOST_SOFTWARE_LANES: u32 = 8;
+
 /// What a person wants to know of an adapter before trusting it with a scene. Sizes are in bytes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AdapterSummary {
@@ -87,7 +91,11 @@ pub fn list_devices() -> Vec<AdapterSummary> {
 /// [`RenderError::NoDevice`] where there is none, saying what there is; also for [`DeviceChoice::Cpu`], which needs no adapter.
 pub fn select_adapter(choice: &DeviceChoice) -> Result<Adapter, RenderError> {
     let adapters = adapters_best_first();
-    let names: Vec<_> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
+    let named = |adapter: &Adapter| match obstacle(adapter) {
+        Some(obstacle) => format!("{}, which {obstacle}", adapter.get_info().name),
+        None => adapter.get_info().name,
+    };
+    let names: Vec<_> = adapters.iter().map(named).collect();
     let found = match choice {
         DeviceChoice::Cpu => None,
         DeviceChoice::Auto | DeviceChoice::Gpu => adapters.into_iter().find(|adapter| obstacle(adapter).is_none()),
@@ -103,7 +111,7 @@ fn no_device_message(choice: &DeviceChoice, names: &[String]) -> String {
     let available = if names.is_empty() {
         "no Vulkan, Metal or Direct3D 12 adapter was found; `cpu` renders without one".to_owned()
     } else {
-        format!("the adapters are: {}; `cpu` renders without one", names.join(", "))
+        format!("the adapters are: {}; `cpu` renders without one", names.join("; "))
     };
     match choice {
         DeviceChoice::Named(part) => format!("no usable adapter's name contains `{part}` ({available})"),
@@ -138,8 +146,17 @@ fn backend_rank(backend: Backend) -> u8 {
 
 /// Why the renderer cannot use this adapter.
 fn obstacle(adapter: &Adapter) -> Option<String> {
-    let capabilities = adapter.get_downlevel_capabilities();
-    (!capabilities.is_webgpu_compliant()).then(|| "does not meet the WebGPU standard".to_owned())
+    if !adapter.get_downlevel_capabilities().is_webgpu_compliant() {
+        return Some("does not meet the WebGPU standard".to_owned());
+    }
+    let info = adapter.get_info();
+    let wide = info.device_type == DeviceType::Cpu && info.subgroup_min_size > MOST_SOFTWARE_LANES;
+    wide.then(|| {
+        format!(
+            "leaves parts of pictures black with vectors of {} lanes; unset LP_NATIVE_VECTOR_WIDTH or set it to 256",
+            info.subgroup_min_size
+        )
+    })
 }
 
 fn summarise(adapter: &Adapter) -> AdapterSummary {

@@ -20,6 +20,7 @@ shader_files![
     "geometry/entries.wgsl",
     "geometry/motion.wgsl",
     "geometry/packet.wgsl",
+    "geometry/packet_stack.wgsl",
     "geometry/primitives.wgsl",
     "geometry/records.wgsl",
     "geometry/scene.wgsl",

@@ -1,0 +1,51 @@
+// What a packet of rays has still to visit (geometry/packet.wgsl). It lies in registers, an entry a lane. What is visited next never is on
+// it: how long a node takes, from its loading to that of the next, is what counts, and the nearest child is known before the others are
+// sorted.
+#import core/lanes.wgsl
+#import geometry/entries.wgsl
+
+// Registers that hold the stack.
+const STACK_REGISTERS: u32 = (STACK_SIZE + LANES - 1u) / LANES;
+
+// The same in all lanes, but for the registers: register r of lane l is entry r * LANES + l from the top; FINISHED below the last. They are
+// an array whose every index is a constant once loops are unrolled.
+struct PacketStack {
+    // The entry to visit next.
+    current: u32,
+    registers: array<u32, STACK_REGISTERS>,
+}
+
+fn packet_at_root() -> PacketStack {
+    var stack: PacketStack;
+    for (var number = 0u; number < STACK_REGISTERS; number++) {
+        stack.registers[number] = FINISHED;
+    }
+    return stack;
+}
+
+// Of the entries of lanes 0 to count - 1, that of lane 0, which is `first` as well, is visited next; the others go onto the stack, that of
+// lane 1 on top. With none, what is on top of the stack is next; FINISHED where it is empty.
+fn go_on(stack: ptr<function, PacketStack>, first: u32, entry: u32, count: u32) {
+    let top = subgroupShuffle((*stack).registers[0], 0u);
+    (*stack).current = select(first, top, count == 0u);
+    // Registers move down by count - 1 entries, or up by one.
+    let source = (lane + 1u - count) & (LANES - 1u);
+    let comes_from_above = lane + 1u < count;
+    let comes_from_below = count == 0u && lane == LANES - 1u;
+    var above = subgroupShuffle(entry, (lane + 1u) & (LANES - 1u));
+    var here = subgroupShuffle((*stack).registers[0], source);
+    for (var number = 0u; number < STACK_REGISTERS; number++) {
+        var below = FINISHED;
+        if number + 1u < STACK_REGISTERS {
+            below = subgroupShuffle((*stack).registers[min(number + 1u, STACK_REGISTERS - 1u)], source);
+        }
+        (*stack).registers[number] = select(select(here, above, comes_from_above), below, comes_from_below);
+        above = here;
+        here = below;
+    }
+}
+
+// Goes on with what is on top of the stack.
+fn pop(stack: ptr<function, PacketStack>) {
+    go_on(stack, FINISHED, FINISHED, 0u);
+}
