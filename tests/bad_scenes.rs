@@ -56,7 +56,7 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
             "spp = 1",
             "samples = 1",
             "test.toml:5:1: render.samples: unknown key `samples` [did you mean `sampler`? valid choices: spp, max_depth, sampler, pixel_sampler, \
-             estimator, heuristic, hemisphere, light_sampling, light_samples, roulette_depth, seed]",
+             estimator, heuristic, hemisphere, light_sampling, light_samples, light_samples_depth, roulette_depth, seed]",
         ),
         (
             "type = \"diffuse\"",
@@ -110,6 +110,11 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
             "spp = 1",
             "light_samples = 17",
             "test.toml:5:17: render.light_samples: 17 light samples are not possible [from 1 to 16]",
+        ),
+        (
+            "spp = 1",
+            "light_samples_depth = 4",
+            "test.toml:5:23: render.light_samples_depth: several light samples at the surfaces of 4 edges are not possible [from 1 to 3]",
         ),
         (
             "size = [4, 4]",

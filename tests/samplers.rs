@@ -21,7 +21,7 @@ const PAIRS: [[Dimension; 2]; 6] = [
 ];
 
 fn sampling(path: SamplerKind, samples: u32, seed: u32) -> Sampling {
-    Sampling { path, pixel: PixelSampler::SameAsPath, seed, samples, light_samples: 1 }
+    Sampling { path, pixel: PixelSampler::SameAsPath, seed, samples, light_samples: 1, light_samples_depth: 1 }
 }
 
 /// The numbers that the first `count` paths of a pixel draw for some dimensions.
@@ -277,7 +277,7 @@ fn the_shared_point_is_the_sequence() {
     assert!((0..40).all(|d| point.bits[d as usize] == sobol_bits(9, d, 1234)));
 }
 
-/// The light samples of a pixel at the first surface are one sequence: those of four samples with four each are as even as of sixteen with
+/// The light samples of a pixel at a surface that takes several are one sequence: those of four samples with four each are as even as of sixteen with
 /// one each, and no two pixels or samples share them.
 #[test]
 fn light_samples_of_a_pixel_are_one_sequence() {
@@ -285,25 +285,27 @@ fn light_samples_of_a_pixel_are_one_sequence() {
     // The pixel moves strata by a rotation, which may put points into a cell that is not theirs: at most four cells overlap one.
     for (kind, most) in [(Sobol, 1), (Stratified, 4), (Independent, 64)] {
         let mut several = sampling(kind, 16, 77);
-        several.light_samples = 4;
-        let light_points = |pixel| -> Vec<[f64; 2]> {
+        (several.light_samples, several.light_samples_depth) = (4, 2);
+        let light_points = |pixel, bounce| -> Vec<[f64; 2]> {
             let point_of = |sample, number| {
                 let point = SequencePoint::new(&several, sample);
-                let [_, u, v] = PathSampler::new(&several, pixel, &point).light_bits(0, number);
+                let [_, u, v] = PathSampler::new(&several, pixel, &point).light_bits(bounce, bounce + 1, number);
                 [u, v].map(gpt::sampling::sampler::uniform)
             };
             (0..16).flat_map(|sample| (0..4).map(move |number| (sample, number))).map(|(s, n)| point_of(s, n)).collect()
         };
-        let points = light_points(4711);
-        assert_eq!(points.len(), 64);
+        let [points, later] = [0, 1].map(|bounce| light_points(4711, bounce));
+        assert_eq!([points.len(), later.len()], [64; 2]);
         let shapes: &[[u32; 2]] = if kind == Sobol { &[[64, 1], [16, 4], [8, 8], [2, 32]] } else { &[[8, 8]] };
         for &parts in shapes {
-            let fullest = fullest_cell(&points, parts);
-            // Independent points are the control: they are not even.
-            assert!(fullest <= most && (kind != Independent || fullest > 1), "{kind:?}, {parts:?}: {fullest}");
+            for points in [&points, &later] {
+                let fullest = fullest_cell(points, parts);
+                // Independent points are the control: they are not even.
+                assert!(fullest <= most && (kind != Independent || fullest > 1), "{kind:?}, {parts:?}: {fullest}");
+            }
         }
         let distinct: std::collections::BTreeSet<[u64; 2]> =
-            points.iter().chain(&light_points(4712)).map(|point| point.map(f64::to_bits)).collect();
-        assert_eq!(distinct.len(), 128);
+            points.iter().chain(&later).chain(&light_points(4712, 0)).map(|point| point.map(f64::to_bits)).collect();
+        assert_eq!(distinct.len(), 192);
     }
 }

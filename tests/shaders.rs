@@ -126,6 +126,7 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
         "LANES",
         "LIGHT_COUNT",
         "LIGHT_SAMPLES",
+        "LIGHT_SAMPLES_DEPTH",
         "MAX_DEPTH",
         "MAX_SAMPLES_PER_PASS",
         "PATH_CAPACITY",

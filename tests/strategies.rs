@@ -202,6 +202,34 @@ fn a_small_light_is_as_large_as_the_thin_lens_equation_says() {
     }
 }
 
+/// At later surfaces as well: light that comes by way of another surface keeps its mean.
+#[test]
+fn several_light_samples_at_later_surfaces_have_the_same_mean() {
+    use gpt::statistics::{Moments, hypothesis};
+    let mut scene = scene::load(Some("cornell")).expect("it is built in");
+    (scene.film.size, scene.render.spp, scene.render.max_depth) = ([48, 48], 64, 4);
+    let means = |count, depth| -> Vec<Vec<f64>> {
+        let mut scene = scene.clone();
+        (scene.render.light_samples, scene.render.light_samples_depth) = (count, depth);
+        let mut of_devices = vec![Vec::new(); 2];
+        for seed in 0..8 {
+            scene.render.seed = 100 * (count + 10 * depth) + seed;
+            for (means, (_, pixels)) in of_devices.iter_mut().zip(on_every_device(&scene)) {
+                means.push(pixels.iter().map(|pixel| f64::from(pixel[1])).sum::<f64>() / pixels.len() as f64);
+            }
+        }
+        of_devices
+    };
+    for (one, several) in means(1, 1).into_iter().zip(means(4, 2)).filter(|(one, _)| !one.is_empty()) {
+        let [one, several, planted]: [Moments; 3] = [(&one, 1.0), (&several, 1.0), (&several, 1.01)]
+            .map(|(means, factor)| means.iter().map(|mean| factor * mean).collect());
+        let held = hypothesis::welch_t_test(&one, &several);
+        assert!(held.p_value > 1e-4, "{one:?} and {several:?}: {held:?}");
+        let control = hypothesis::welch_t_test(&one, &planted);
+        assert!(control.p_value < 1e-4, "1 % goes unnoticed: {one:?}, {planted:?}, {control:?}");
+    }
+}
+
 /// Several light samples leave the mean where it is, whatever estimator shares light out, and independent ones cut the variance by their number.
 #[test]
 fn several_light_samples_have_the_same_mean_and_less_noise() {

@@ -21,6 +21,8 @@ SETTINGS = {
     "Halton": ["--sampler", "halton"],
     "Sobol, 2 light samples": ["--sampler", "sobol", "--light-samples", "2"],
     "Sobol, 4 light samples": ["--sampler", "sobol", "--light-samples", "4"],
+    "Sobol, 4 light samples at 2 surfaces": ["--sampler", "sobol", "--light-samples", "4", "--light-samples-depth", "2"],
+    "Sobol, 8 light samples at 2 surfaces": ["--sampler", "sobol", "--light-samples", "8", "--light-samples-depth", "2"],
 }
 
 

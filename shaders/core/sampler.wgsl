@@ -57,12 +57,13 @@ fn random_block(pixel: u32, sample_in_pass: u32, block: u32) -> vec4<u32> {
 // Hashed light samples after the first of a surface have blocks from here on.
 const HASHED_LIGHT_BLOCK: u32 = 1u << 28u;
 
-// Bits of light sample `number`, not the first, at a surface that ends the first edge, vertex number `visit` of the path: choice of the
-// light (x), point on it (y, z).
-fn more_light_bits(pixel: u32, sample_in_pass: u32, visit: u32, number: u32) -> vec4<u32> {
+// Bits of light sample `number`, not the first, at the end of edge number `edge`, vertex number `visit` of the path: choice of the light
+// (x), point on it (y, z).
+fn more_light_bits(pixel: u32, sample_in_pass: u32, visit: u32, edge: u32, number: u32) -> vec4<u32> {
     let key = pixel_key(pixel);
 #if SEQUENCE
-    let shared_bits = sequence_points[sample_in_pass * SEQUENCE_STRIDE + SEQUENCE_BLOCKS + number - 1u];
+    let place = SEQUENCE_BLOCKS + (edge - 1u) * (LIGHT_SAMPLES - 1u) + number - 1u;
+    let shared_bits = sequence_points[sample_in_pass * SEQUENCE_STRIDE + place];
     // The shift of the first one's block: together they stay one sequence.
     let shift = dimension_bits4(key, 8u * visit);
 #if DIGITAL_SHIFT

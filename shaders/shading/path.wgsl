@@ -72,7 +72,7 @@ fn emission_weight(pdf_solid_angle: f32, pdf_light: f32) -> f32 {
 // How many light samples the surface at the end of edge number `edge` takes.
 fn light_samples_at(edge: u32) -> f32 {
 #if SEVERAL_LIGHT_SAMPLES
-    return select(1.0, f32(LIGHT_SAMPLES), edge == 1u);
+    return select(1.0, f32(LIGHT_SAMPLES), edge >= 1u && edge <= LIGHT_SAMPLES_DEPTH);
 #else
     return 1.0;
 #endif
@@ -163,7 +163,8 @@ fn next_event(path: Path, surface: Surface, edge: u32, light: LightSample, light
 #if SEVERAL_LIGHT_SAMPLES
 // Whether the surface that a path met at its vertex number `visit` takes more light samples than the one of shade_vertex.
 fn takes_more_light(path: Path, hit: Hit, visit: u32) -> bool {
-    return hit.primitive != NONE && edge_at(path, visit) == 1u;
+    let edge = edge_at(path, visit);
+    return hit.primitive != NONE && edge <= LIGHT_SAMPLES_DEPTH && edge != MAX_DEPTH;
 }
 
 // The shadow ray of light sample `number`, not the first, of the surface that a path met at its vertex number `visit`; `path` is as it
@@ -177,10 +178,11 @@ fn more_light(path: Path, hit: Hit, visit: u32, number: u32) -> ShadowRay {
     if !has_smooth_lobe(bsdf) {
         return no_shadow();
     }
-    let light_bits = more_light_bits(path.pixel, path.sample_in_pass, visit, number);
+    let edge = edge_at(path, visit);
+    let light_bits = more_light_bits(path.pixel, path.sample_in_pass, visit, edge, number);
     let light = sample_light(light_reference(surface), light_bits);
     let value = evaluate_bsdf(bsdf, surface, wo, light.wi);
-    return next_event(path, surface, edge_at(path, visit), light, light_bits.x, value);
+    return next_event(path, surface, edge, light, light_bits.x, value);
 }
 #endif
 

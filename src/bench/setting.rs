@@ -17,6 +17,7 @@ pub struct Axes {
     pub hemispheres: Vec<HemisphereSampling>,
     pub light_samplings: Vec<LightSampling>,
     pub light_samples: Vec<u32>,
+    pub light_samples_depths: Vec<u32>,
     pub blends: Vec<BlendMode>,
 }
 
@@ -56,6 +57,10 @@ impl Axes {
         settings = multiply(settings, &self.light_samples, |setting, count| {
             setting.render.light_samples = *count;
             if *count == 1 { "1 light sample".to_owned() } else { format!("{count} light samples") }
+        });
+        settings = multiply(settings, &self.light_samples_depths, |setting, depth| {
+            setting.render.light_samples_depth = *depth;
+            if *depth == 1 { "at the first surface".to_owned() } else { format!("at {depth} surfaces") }
         });
         axis!(blends, blend);
         name_apart(&mut settings, own);

@@ -8,7 +8,7 @@ use gpt::compare::Metric;
 use gpt::output::{MAX_PIXELS, MAX_SIDE};
 use gpt::plan::Fault;
 use gpt::render::DeviceChoice;
-use gpt::scene::settings::MOST_LIGHT_SAMPLES;
+use gpt::scene::settings::{MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH};
 use gpt::scene::{BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeuristic, PixelSamplerName, SamplerKind};
 
 /// Sample indices stay below this, because picture headers hold signed 32-bit numbers.
@@ -115,9 +115,12 @@ pub struct EstimateArguments {
     /// How a point on a sphere light is drawn
     #[arg(long)]
     pub light_sampling: Option<LightSampling>,
-    /// Light samples at the first surface of a path; every later surface takes one
+    /// Light samples at the first surface of a path; later surfaces take one
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_LIGHT_SAMPLES)))]
     pub light_samples: Option<u32>,
+    /// How many of a path's first surfaces take that many
+    #[arg(long, value_name = "EDGES", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_LIGHT_SAMPLES_DEPTH)))]
+    pub light_samples_depth: Option<u32>,
     /// The sampler of the position inside the pixel; none: always the pixel's centre
     #[arg(long, value_name = "SAMPLER")]
     pub pixel_sampler: Option<PixelSamplerName>,

@@ -25,6 +25,7 @@ pub fn apply(arguments: &EstimateArguments, scene: &mut Scene) -> Result<(), Fai
     set(&mut render.hemisphere, arguments.hemisphere);
     set(&mut render.light_sampling, arguments.light_sampling);
     set(&mut render.light_samples, arguments.light_samples);
+    set(&mut render.light_samples_depth, arguments.light_samples_depth);
     set(&mut render.pixel_sampler, arguments.pixel_sampler.map(Into::into));
     set(&mut render.blend, arguments.blend);
 

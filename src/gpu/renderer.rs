@@ -127,13 +127,19 @@ impl GpuRenderer {
         let (stages, compile_seconds) = compiled;
         let kernels = kernels::bind(&device, stages?, &buffers)?;
         let sizer = PassSizer::new(plan.stages, plan.path_capacity, plan.lanes);
+        // The table of the sequence is laid out for the light samples that the kernels take.
+        let sampling = Sampling {
+            light_samples: plan.light_samples,
+            light_samples_depth: plan.light_samples_depth,
+            ..Sampling::from(&scene.render)
+        };
         Ok(Self {
             device,
             plan,
             buffers,
             kernels,
             size: scene.film.size,
-            sampling: Sampling::from(&scene.render),
+            sampling,
             sizer,
             max_depth,
             edges_per_submission,

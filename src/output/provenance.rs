@@ -48,6 +48,7 @@ impl Provenance {
             ("gpt:heuristic", text(&setting_name(settings.heuristic))),
             ("gpt:hemisphere", text(&setting_name(settings.hemisphere))),
             ("gpt:lightSamples", Entry::Number(settings.light_samples)),
+            ("gpt:lightSamplesDepth", Entry::Number(settings.light_samples_depth)),
             // As text, because a seed may need all 32 bits and the header's integers are signed.
             ("gpt:seed", Entry::Text(settings.seed.to_string())),
             ("gpt:maxDepth", Entry::Number(settings.max_depth)),

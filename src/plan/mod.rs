@@ -118,8 +118,9 @@ pub struct Plan {
     pub lanes: Option<u32>,
     /// Those lanes go through the hierarchy together.
     pub packets: bool,
-    /// Light samples at a path's first surface.
+    /// Light samples at a path's first surfaces, and at how many of them; 1 and 0 where each takes one at most.
     pub light_samples: u32,
+    pub light_samples_depth: u32,
     /// Runs of workgroups into which the device cuts a dispatch, one for each of its threads. Neighbouring workgroups are dealt to
     /// different runs, because no thread helps another with its own.
     pub runs: u32,
@@ -195,6 +196,7 @@ impl Plan {
             lanes,
             packets,
             light_samples,
+            light_samples_depth: if light_samples > 1 { scene.render.light_samples_depth } else { 0 },
             runs: limits.threads.max(1),
             band_rows,
             switches: Switches::default(),
@@ -245,7 +247,7 @@ impl Plan {
 
     /// Blocks of four numbers that the table of the sampler's sequence holds for each sample.
     pub fn sequence_stride(&self) -> u32 {
-        switches::SEQUENCE_BLOCKS + self.light_samples - 1
+        switches::SEQUENCE_BLOCKS + self.light_samples_depth * (self.light_samples - 1)
     }
 
     /// Whether any shadow ray is ever traced.
@@ -279,7 +281,11 @@ impl fmt::Display for Plan {
         let stages: Vec<&str> = self.stage_files().iter().map(|(_, entry)| *entry).collect();
         writeln!(f, "stages         {}", stages.join(", "))?;
         if self.light_samples > 1 {
-            writeln!(f, "light samples  {} at the first surface, in one kernel with the rest of the path", self.light_samples)?;
+            let surfaces = match self.light_samples_depth {
+                1 => "at the first surface".to_owned(),
+                depth => format!("at each of the first {depth} surfaces"),
+            };
+            writeln!(f, "light samples  {} {surfaces}, in one kernel with the rest of the path", self.light_samples)?;
         }
         if let Some(lanes) = self.lanes {
             let way = if self.packets { ", their rays in packets" } else { "" };

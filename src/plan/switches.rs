@@ -186,6 +186,7 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
         ("LANES", plan.lanes.unwrap_or(1)),
         ("LIGHT_COUNT", flat.lights.len() as u32),
         ("LIGHT_SAMPLES", plan.light_samples),
+        ("LIGHT_SAMPLES_DEPTH", plan.light_samples_depth),
         // Depth 0 means no limit: an edge that is never reached.
         ("MAX_DEPTH", if render.max_depth == 0 { u32::MAX } else { render.max_depth }),
         ("MAX_SAMPLES_PER_PASS", MAX_SAMPLES_PER_PASS),

@@ -122,8 +122,9 @@ impl Integrator {
         let bsdf = Bsdf::new(&self.scene, &surface, wo, random(BounceDimension::Blend));
         visitor.view(&bsdf.view);
         if !is_last {
-            for number in 0..self.scene.render.light_samples_at(path.edge) {
-                self.add_direct_light(path, &surface, &bsdf, || sampler.light_bits(bounce, number), visitor);
+            let edge = path.edge;
+            for number in 0..self.scene.render.light_samples_at(edge) {
+                self.add_direct_light(path, &surface, &bsdf, || sampler.light_bits(bounce, edge, number), visitor);
             }
         }
         let (u1, u2) = (random(BounceDimension::BsdfU), random(BounceDimension::BsdfV));

@@ -1,7 +1,7 @@
 //! What the reference integrator renders. What it does not, it refuses by name.
 
 use crate::render::RenderError;
-use crate::scene::settings::MOST_LIGHT_SAMPLES;
+use crate::scene::settings::{MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH};
 use crate::scene::{
     ColorInput, EnvironmentRadiance, Geometry, Heuristic, Light, Material, MaterialId, MaterialKind, Mesh, Scene, Shape,
     TextureId, TextureKind, check_blends,
@@ -32,6 +32,12 @@ fn settings(scene: &Scene) -> Check {
         return Err(format!(
             "{} light samples at a path's first surface; 1 to {MOST_LIGHT_SAMPLES} are possible",
             settings.light_samples
+        ));
+    }
+    if !(1..=MOST_LIGHT_SAMPLES_DEPTH).contains(&settings.light_samples_depth) {
+        return Err(format!(
+            "several light samples at the surfaces of {} edges; 1 to {MOST_LIGHT_SAMPLES_DEPTH} are possible",
+            settings.light_samples_depth
         ));
     }
     if settings.max_depth == 0 && settings.roulette_depth == 0 {

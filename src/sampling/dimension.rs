@@ -68,10 +68,12 @@ impl Dimension {
         self.0 <= CameraDimension::PixelY as u32
     }
 
-    /// Whether this belongs to a light sample at the first surface.
-    pub const fn is_first_light(self) -> bool {
-        let first = CAMERA_DIMENSIONS + BounceDimension::LightChoice as u32;
-        first <= self.0 && self.0 <= CAMERA_DIMENSIONS + BounceDimension::LightV as u32
+    /// The bounce to whose light sample this belongs, if it does to one.
+    pub const fn light_bounce(self) -> Option<u32> {
+        if self.0 < CAMERA_DIMENSIONS || (self.0 - CAMERA_DIMENSIONS) % BOUNCE_DIMENSIONS > BounceDimension::LightV as u32 {
+            return None;
+        }
+        Some((self.0 - CAMERA_DIMENSIONS) / BOUNCE_DIMENSIONS)
     }
 
     /// The pairs are the positions in the pixel, on the lens and on a light, and the direction that a material samples.

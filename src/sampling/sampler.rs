@@ -37,15 +37,15 @@ impl<'a> PathSampler<'a> {
         }
     }
 
-    /// The bits of light sample `number` at bounce `bounce`: those of the light's choice, then of the point on it. Only surfaces that end a
-    /// path's first edge take more than one.
-    pub fn light_bits(&self, bounce: u32, number: u32) -> [u32; 3] {
+    /// The bits of light sample `number` at bounce `bounce`, the end of the path's edge number `edge`: those of the light's choice, then of
+    /// the point on it.
+    pub fn light_bits(&self, bounce: u32, edge: u32, number: u32) -> [u32; 3] {
         use super::dimension::BounceDimension::{LightChoice, LightU, LightV};
         let dimensions = [LightChoice, LightU, LightV].map(|name| Dimension::bounce(bounce, name));
         if number == 0 {
             return dimensions.map(|dimension| self.bits(dimension));
         }
-        let shared = self.point.more_lights.get(number as usize - 1);
+        let shared = self.point.more_lights.get(((edge - 1) * (self.sampling.light_samples - 1) + number - 1) as usize);
         std::array::from_fn(|axis| {
             let Dimension(d) = dimensions[axis];
             match (self.sampling.path.decorrelation(), shared) {
@@ -75,7 +75,7 @@ mod tests {
     /// The first two dimensions follow the pixel's sampler, all others the path's.
     #[test]
     fn the_pixel_has_its_own_sampler() {
-        let of = |path, pixel| Sampling { path, pixel, seed: 3, samples: 16, light_samples: 1 };
+        let of = |path, pixel| Sampling { path, pixel, seed: 3, samples: 16, light_samples: 1, light_samples_depth: 1 };
         let bits =
             |sampling: Sampling, d| PathSampler::new(&sampling, 1234, &SequencePoint::new(&sampling, 7)).bits(Dimension(d));
         for path in SamplerKind::ALL {

@@ -4,7 +4,7 @@ use super::dimension::{BounceDimension, Dimension, SEQUENCE_DIMENSIONS};
 use super::halton::radical_inverse_bits;
 use super::sobol::sobol_bits;
 use super::strata::{quadrant_bits, stratified_bits};
-use crate::scene::settings::MOST_LIGHT_SAMPLES;
+use crate::scene::settings::{MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH};
 use crate::scene::{PixelSampler, RenderSettings, SamplerKind};
 
 /// Everything a render's random numbers depend on beside pixel and sample.
@@ -15,8 +15,9 @@ pub struct Sampling {
     pub seed: u32,
     /// Samples per pixel for which `stratified` lays out its strata, at least 1.
     pub samples: u32,
-    /// Light samples at the first surface of a path, at least 1.
+    /// Light samples at the first surfaces of a path, at least 1, and at how many of them.
     pub light_samples: u32,
+    pub light_samples_depth: u32,
 }
 
 impl From<&RenderSettings> for Sampling {
@@ -27,17 +28,13 @@ impl From<&RenderSettings> for Sampling {
             seed: settings.seed,
             samples: settings.spp.clamp(1, 1 << 31),
             light_samples: settings.light_samples.clamp(1, MOST_LIGHT_SAMPLES),
+            light_samples_depth: settings.light_samples_depth.clamp(1, MOST_LIGHT_SAMPLES_DEPTH),
         }
     }
 }
 
-/// The dimensions of a light sample at the first surface, as they lie in their block.
-const FIRST_LIGHT: [Option<Dimension>; 4] = [
-    Some(Dimension::bounce(0, BounceDimension::LightChoice)),
-    Some(Dimension::bounce(0, BounceDimension::LightU)),
-    Some(Dimension::bounce(0, BounceDimension::LightV)),
-    None,
-];
+/// The dimensions of a light sample.
+const LIGHT: [BounceDimension; 3] = [BounceDimension::LightChoice, BounceDimension::LightU, BounceDimension::LightV];
 
 /// How pixels are made independent of each other where they share a sequence: each moves it by a hash of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,13 +75,13 @@ impl Sampling {
 
     /// Bits that all pixels share; 0 where there are none.
     fn shared_bits(&self, dimension: Dimension, sample: u32) -> u32 {
-        if dimension.is_first_light() {
+        if dimension.light_bounce().is_some_and(|bounce| bounce < self.light_samples_depth) {
             return self.light_bits(dimension, sample, 0);
         }
         self.bits_at(dimension, sample, self.samples)
     }
 
-    /// Those of light sample `number` at the first surface. All light samples of a pixel there are points of one sequence.
+    /// Those of light sample `number` at a surface that takes several. All light samples of a pixel at that bounce are points of one sequence.
     fn light_bits(&self, dimension: Dimension, sample: u32, number: u32) -> u32 {
         let count = self.light_samples;
         let index = sample.wrapping_mul(count).wrapping_add(number);
@@ -111,22 +108,22 @@ pub struct SequencePoint {
     pub sample: u32,
     /// 32-bit fractions, one for each dimension that sequences cover.
     pub bits: [u32; SEQUENCE_DIMENSIONS as usize],
-    /// The choice of the light and the point on it of each light sample at the first surface but the first; the fourth is not used.
+    /// The choice of the light and the point on it of each light sample but the first, at each surface that takes several, surface after
+    /// surface; the fourth is not used.
     pub more_lights: Vec<[u32; 4]>,
 }
 
 impl SequencePoint {
     pub fn new(sampling: &Sampling, sample: u32) -> Self {
-        let light = |number| {
-            FIRST_LIGHT.map(|dimension| match dimension {
-                Some(dimension) => sampling.light_bits(dimension, sample, number),
-                None => 0,
-            })
+        let light = |bounce, number| {
+            let [choice, u, v] = LIGHT.map(|name| sampling.light_bits(Dimension::bounce(bounce, name), sample, number));
+            [choice, u, v, 0]
         };
+        let lights = |bounce| (1..sampling.light_samples).map(move |number| light(bounce, number));
         Self {
             sample,
             bits: std::array::from_fn(|d| sampling.shared_bits(Dimension(d as u32), sample)),
-            more_lights: (1..sampling.light_samples).map(light).collect(),
+            more_lights: (0..sampling.light_samples_depth).flat_map(lights).collect(),
         }
     }
 }

@@ -73,18 +73,23 @@ pub struct RenderSettings {
     pub seed: u32,
     pub hemisphere: HemisphereSampling,
     pub light_sampling: LightSampling,
-    /// Light samples at the first surface of a path, 1 to [`MOST_LIGHT_SAMPLES`]; every later surface takes one.
+    /// Light samples at the first surfaces of a path, 1 to [`MOST_LIGHT_SAMPLES`]; every later surface takes one.
     pub light_samples: u32,
+    /// Of which edges the surfaces at their ends take `light_samples`: of that many from the camera on, 1 to
+    /// [`MOST_LIGHT_SAMPLES_DEPTH`].
+    pub light_samples_depth: u32,
     pub blend: BlendMode,
 }
 
-/// Most light samples at a path's first surface.
+/// Most light samples at a surface.
 pub const MOST_LIGHT_SAMPLES: u32 = 16;
+/// Most edges of a path whose surfaces take more than one: their points stand in a table that has to fit a uniform buffer.
+pub const MOST_LIGHT_SAMPLES_DEPTH: u32 = 3;
 
 impl RenderSettings {
     /// How many light samples the surface at the end of a path's edge number `edge` takes: 1 is the camera's ray.
     pub fn light_samples_at(&self, edge: u32) -> u32 {
-        if edge == 1 { self.light_samples } else { 1 }
+        if (1..=self.light_samples_depth).contains(&edge) { self.light_samples } else { 1 }
     }
 }
 
@@ -103,6 +108,7 @@ impl Default for RenderSettings {
             hemisphere: HemisphereSampling::Cosine,
             light_sampling: LightSampling::Cone,
             light_samples: 1,
+            light_samples_depth: 1,
             blend: BlendMode::Mixture,
         }
     }

@@ -11,9 +11,9 @@ use super::{DEVICE, assert_agrees, small};
 #[test]
 fn several_light_samples_agree() {
     // An area light; spheres that emit; a sky and things that move; a mesh of thousands of triangles.
-    for (name, count) in [("cornell", 5), ("veach-mis", 2), ("motion-blur", 3), ("knot-plastic", 3)] {
+    for (name, count, depth) in [("cornell", 5, 2), ("veach-mis", 2, 1), ("motion-blur", 3, 3), ("knot-plastic", 3, 2)] {
         let mut scene = small(name, 32, 4);
-        scene.render.light_samples = count;
+        (scene.render.light_samples, scene.render.light_samples_depth) = (count, depth);
         for share_pixels in [false, true] {
             let geometry = Some(GeometryPlacement::Hierarchy);
             let options = PlanOptions { geometry, share_pixels: Some(share_pixels), ..PlanOptions::default() };
@@ -29,9 +29,37 @@ fn every_estimator_and_sampler_agrees_on_several_light_samples() {
         for estimator in [Estimator::Mis, Estimator::Nee] {
             let mut scene = small("cornell", 32, 4);
             (scene.render.sampler, scene.render.estimator, scene.render.light_samples) = (sampler, estimator, 3);
-            assert_agrees(&format!("{sampler:?}, {estimator:?}"), &scene, &PlanOptions::default());
+            for depth in 1..=3 {
+                scene.render.light_samples_depth = depth;
+                assert_agrees(&format!("{sampler:?}, {estimator:?}, {depth} surfaces"), &scene, &PlanOptions::default());
+            }
         }
     }
+}
+
+/// The last edge ends at no surface that takes light samples, however many of its surfaces would; and where lights are not sampled at all,
+/// nothing is laid out for them.
+#[test]
+fn several_light_samples_end_with_the_path() {
+    for (max_depth, estimator) in [(1, Estimator::Mis), (2, Estimator::Mis), (3, Estimator::Nee), (4, Estimator::Bsdf)] {
+        let mut scene = small("cornell", 32, 4);
+        (scene.render.max_depth, scene.render.estimator) = (max_depth, estimator);
+        (scene.render.light_samples, scene.render.light_samples_depth) = (4, 3);
+        assert_agrees(&format!("{max_depth} edges, {estimator:?}"), &scene, &PlanOptions::default());
+    }
+}
+
+/// The comparison tells light samples at two surfaces from light samples at one, of paths that have a second surface: two in five.
+#[test]
+fn the_number_of_surfaces_matters() {
+    let Some(device) = DEVICE.as_ref() else { return };
+    let mut scene = small("cornell", 32, 8);
+    (scene.render.light_samples, scene.render.light_samples_depth) = (3, 2);
+    let mut cpu = ReferenceRenderer::new(&scene).expect("the scene is supported");
+    scene.render.light_samples_depth = 1;
+    let mut gpu = GpuRenderer::on(device, &scene, &PlanOptions::default()).expect("the scene fits");
+    let verdict = verify::compare(&scene, device.name.clone(), &mut gpu, &mut cpu).expect("both render");
+    assert!(verdict.matching_share() < 0.7, "{verdict:#?}");
 }
 
 /// One kernel traces such paths, whatever was asked for; the comparison tells 3 light samples from 4.

@@ -6,7 +6,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use gpt::bench::growth::Growth;
 use gpt::bench::setting::Axes;
 use gpt::render::DeviceChoice;
-use gpt::scene::settings::MOST_LIGHT_SAMPLES;
+use gpt::scene::settings::{MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH};
 use gpt::scene::{BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeuristic, PixelSamplerName, SamplerKind};
 
 use crate::cli::arguments::{MAX_SAMPLES, parse_device, parse_size};
@@ -187,6 +187,9 @@ pub struct AxisArguments {
     /// Light samples at the first surface of a path
     #[arg(long, value_name = "N,…", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_LIGHT_SAMPLES)))]
     light_samples: Vec<u32>,
+    /// How many of a path's first surfaces take that many
+    #[arg(long, value_name = "EDGES,…", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_LIGHT_SAMPLES_DEPTH)))]
+    light_samples_depth: Vec<u32>,
     /// Whether a blend evaluates every lobe or picks one material per hit
     #[arg(long, value_name = "MODE,…", value_delimiter = ',')]
     blend: Vec<BlendMode>,
@@ -203,6 +206,7 @@ impl From<&AxisArguments> for Axes {
             hemispheres: arguments.hemisphere.clone(),
             light_samplings: arguments.light_sampling.clone(),
             light_samples: arguments.light_samples.clone(),
+            light_samples_depths: arguments.light_samples_depth.clone(),
             blends: arguments.blend.clone(),
         }
     }

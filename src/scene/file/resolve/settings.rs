@@ -2,7 +2,7 @@
 
 use super::Resolver;
 use crate::scene::file::syntax::{FilterEntry, SceneFile};
-use crate::scene::settings::MOST_LIGHT_SAMPLES;
+use crate::scene::settings::{MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH};
 use crate::scene::{Filter, FilterKind, SceneError};
 
 /// Most pixels on a side and in all.
@@ -40,6 +40,13 @@ impl Resolver<'_> {
             if !(1..=MOST_LIGHT_SAMPLES).contains(&count.value) {
                 let message = format!("{} light samples are not possible", count.value);
                 return Err(self.error(&count.span, message).with_help(format!("from 1 to {MOST_LIGHT_SAMPLES}")));
+            }
+        }
+        if let Some(depth) = &written.light_samples_depth {
+            render.light_samples_depth = depth.value;
+            if !(1..=MOST_LIGHT_SAMPLES_DEPTH).contains(&depth.value) {
+                let message = format!("several light samples at the surfaces of {} edges are not possible", depth.value);
+                return Err(self.error(&depth.span, message).with_help(format!("from 1 to {MOST_LIGHT_SAMPLES_DEPTH}")));
             }
         }
         if let Some(depth) = &written.roulette_depth {

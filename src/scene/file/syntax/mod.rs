@@ -91,9 +91,11 @@ pub struct RenderTable {
     /// How a point on a sphere light is drawn: uniform in the cone of directions that meet it, over the half of its surface that faces
     /// the point, or over all of it. "cone" when left out.
     pub light_sampling: Option<LightSampling>,
-    /// Light samples at the first surface of a path, 1 to 16; every later surface takes one. 1 when left out. Several pay where direct
-    /// light is most of the noise.
+    /// Light samples at the first surface of a path, 1 to 16; later surfaces take one. 1 when left out. Several pay where direct light is
+    /// most of the noise.
     pub light_samples: Option<Located<u32>>,
+    /// How many of a path's first surfaces take `light_samples`, counted by edges from the camera on, 1 to 3. 1 when left out.
+    pub light_samples_depth: Option<Located<u32>>,
     /// First depth at which Russian roulette may end a path, 0 = never. 5 when left out.
     pub roulette_depth: Option<Located<u32>>,
     /// Key of every random number, 0 when left out.
