@@ -29,6 +29,9 @@ pub struct Stats {
     pub first_sample: u32,
     pub seed: u32,
     pub max_depth: u32,
+    /// Light samples at the first surfaces of a path, and at how many of them.
+    pub light_samples: u32,
+    pub light_samples_depth: u32,
     pub sampler: String,
     pub estimator: String,
     pub heuristic: String,
@@ -86,6 +89,8 @@ impl Stats {
             first_sample: 0,
             seed: scene.render.seed,
             max_depth: scene.render.max_depth,
+            light_samples: scene.render.light_samples,
+            light_samples_depth: scene.render.light_samples_depth,
             sampler: setting_name(scene.render.sampler),
             estimator: setting_name(scene.render.estimator),
             heuristic: setting_name(scene.render.heuristic),

@@ -108,7 +108,10 @@ fn a_render_writes_its_files_whole_and_says_nothing_on_stdout() {
 #[test]
 fn stats_have_the_keys_that_other_programs_rely_on() {
     let place = Workplace::new();
-    place.expect(0, "render scene.toml --device cpu --spp 4 --size 10x6 --seed 9 --stats stats.json -q");
+    place.expect(
+        0,
+        "render scene.toml --device cpu --spp 4 --size 10x6 --seed 9 --light-samples 3 --light-samples-depth 2 --stats stats.json -q",
+    );
     let stats = place.stats("stats.json");
     for key in ["load", "build", "compile", "render", "write"] {
         assert!(stats["seconds"][key].is_number(), "seconds.{key}");
@@ -122,6 +125,7 @@ fn stats_have_the_keys_that_other_programs_rely_on() {
     assert_eq!((&stats["width"], &stats["height"], &stats["spp"]), (&10.into(), &6.into(), &4.into()));
     assert_eq!(stats["samples"], 240);
     assert_eq!(stats["seed"], 9);
+    assert_eq!((&stats["light_samples"], &stats["light_samples_depth"]), (&3.into(), &2.into()));
     assert_eq!(stats["interrupted"], false);
     assert_eq!(stats["version"], env!("CARGO_PKG_VERSION"));
     assert!(stats["rays"].as_u64() >= Some(240), "a sample is at least one ray");
