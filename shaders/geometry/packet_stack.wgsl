@@ -36,6 +36,7 @@ fn go_on(stack: ptr<function, PacketStack>, first: u32, entry: u32, count: u32) 
     var here = subgroupShuffle((*stack).registers[0], source);
     for (var number = 0u; number < STACK_REGISTERS; number++) {
         var below = FINISHED;
+        // The index stays in the array's bounds even where the branch is not taken: software devices run it masked.
         if number + 1u < STACK_REGISTERS {
             below = subgroupShuffle((*stack).registers[min(number + 1u, STACK_REGISTERS - 1u)], source);
         }
