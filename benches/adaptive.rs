@@ -1,4 +1,5 @@
-//! What samples that follow the noise are worth: `cargo bench --bench adaptive [-- cornell|veach-mis|spheres|caustic|behind-glass]`.
+//! What samples that follow the noise are worth: `cargo bench --bench adaptive [-- SCENES]`, of
+//! cornell, veach-mis, spheres, caustic, behind-glass, ogre-area, bunny-area; the last two want models that are not part of the project.
 //!
 //! The same number of samples with and without `--adaptive`, in turn, and with the independent streams that `--target-error` needs. Error:
 //! relative mean squared error against a long render, less that render's own. Time times error is what equal error costs; its ratio, pair
@@ -17,6 +18,9 @@ use gpt::verify;
 const LONGER_SIDE: u32 = 128;
 const SPP: u32 = 256;
 const REFERENCE_SPP: u32 = 8192;
+const SCENES: [&str; 5] = ["cornell", "veach-mis", "spheres", "caustic", "behind-glass"];
+/// With two light samples at a path's first surface, which is their best.
+const MODELS: [&str; 2] = ["ogre-area", "bunny-area"];
 /// Pairs after one that is thrown away.
 const PAIRS: u32 = 5;
 
@@ -46,9 +50,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         "| scene | error | with --adaptive | time, ratio | equal error, ratio (median, range) | streams: equal error, ratio |"
     );
     println!("| --- | --- | --- | --- | --- | --- |");
-    for name in ["cornell", "veach-mis", "spheres", "caustic", "behind-glass"] {
+    for name in SCENES.into_iter().chain(MODELS) {
         if wanted.is_empty() || wanted.iter().any(|other| other == name) {
-            measure(&device, name)?;
+            match load(name) {
+                Ok(scene) => measure(&device, &scene, name)?,
+                Err(error) if MODELS.contains(&name) => eprintln!("{name}: left out: {error}"),
+                Err(error) => return Err(error),
+            }
         }
     }
     Ok(())
@@ -58,6 +66,12 @@ fn load(name: &str) -> Result<Scene, Box<dyn std::error::Error>> {
     let mut scene = match name {
         "caustic" => scene::load_toml_str(CAUSTIC, name, std::path::Path::new(""))?,
         "behind-glass" => scene::load_toml_str(BEHIND_GLASS, name, std::path::Path::new(""))?,
+        _ if MODELS.contains(&name) => {
+            let file = format!("{}/benches/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+            let mut scene = scene::load(Some(&file))?;
+            scene.render.light_samples = 2;
+            scene
+        }
         _ => scene::load(Some(name))?,
     };
     verify::shrink(&mut scene, LONGER_SIDE);
@@ -76,11 +90,10 @@ struct Ways<'a> {
 /// Error and seconds of one picture.
 type Cost = (f64, f64);
 
-fn measure(device: &Device, name: &str) -> Result<(), Box<dyn std::error::Error>> {
-    let scene = load(name)?;
-    let plain = GpuRenderer::on(device, &scene, &PlanOptions::default())?;
-    let allocating = GpuRenderer::on(device, &scene, &PlanOptions { allocation: true, ..PlanOptions::default() })?;
-    let mut ways = Ways { scene: &scene, plain, allocating, truth: Vec::new() };
+fn measure(device: &Device, scene: &Scene, name: &str) -> Result<(), Box<dyn std::error::Error>> {
+    let plain = GpuRenderer::on(device, scene, &PlanOptions::default())?;
+    let allocating = GpuRenderer::on(device, scene, &PlanOptions { pixel_list: true, ..PlanOptions::default() })?;
+    let mut ways = Ways { scene, plain, allocating, truth: Vec::new() };
     // Far from the samples of the pictures.
     ways.truth = ways.plain_picture(1 << 20..(1 << 20) + REFERENCE_SPP)?;
     let mut rows: Vec<[Cost; 3]> = Vec::new();

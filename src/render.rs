@@ -25,32 +25,15 @@ pub struct RenderRequest {
     pub samples: Range<u32>,
 }
 
-/// What a pixel gets in place of the samples that all pixels get.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Allocation {
-    /// Per pixel of the whole film, row by row: the binary logarithm of the samples that stand for one sample of the request.
-    pub levels: Vec<u8>,
-}
-
-impl Allocation {
-    /// Levels stay below this.
-    pub const LEVELS: u8 = 8;
-
-    /// The indices of the samples that a pixel of this level gets where the request asks for `samples`.
-    pub fn samples(level: u8, samples: &Range<u32>) -> Range<u32> {
-        samples.start << level..samples.end << level
-    }
-}
-
 /// A request that is one of several for the same picture.
 #[derive(Debug, Clone, Copy)]
 pub struct Batch<'a> {
     pub request: &'a RenderRequest,
     /// Key of all random numbers; None: the scene's.
     pub seed: Option<u32>,
-    /// None: every pixel gets the request's samples. A renderer on a GPU must have been made for it
-    /// ([`crate::plan::PlanOptions::allocation`]).
-    pub allocation: Option<&'a Allocation>,
+    /// Which pixels take part, of the whole film, row by row; None: all of them. The others' means are 0. A renderer on a GPU must have
+    /// been made for it ([`crate::plan::PlanOptions::pixel_list`]).
+    pub selection: Option<&'a [bool]>,
 }
 
 impl Batch<'_> {
@@ -58,11 +41,11 @@ impl Batch<'_> {
     pub fn total_samples(&self, width: u32) -> u64 {
         let RenderRequest { rows, samples } = self.request;
         let pixels = rows.start as usize * width as usize..rows.end as usize * width as usize;
-        let per_sample = match self.allocation {
-            None => pixels.len() as u64,
-            Some(allocation) => allocation.levels[pixels].iter().map(|level| 1 << level).sum(),
+        let taking_part = match self.selection {
+            None => pixels.len(),
+            Some(selection) => selection[pixels].iter().filter(|selected| **selected).count(),
         };
-        per_sample * samples.len() as u64
+        taking_part as u64 * samples.len() as u64
     }
 }
 
@@ -143,7 +126,7 @@ pub trait Renderer {
         observer: &dyn Observer,
         on_band: &mut dyn FnMut(Band) -> std::io::Result<()>,
     ) -> Result<RenderReport, RenderError> {
-        self.render_batch(&Batch { request, seed: None, allocation: None }, observer, on_band)
+        self.render_batch(&Batch { request, seed: None, selection: None }, observer, on_band)
     }
 
     /// As [`Renderer::render`], with random numbers and numbers of samples that the scene does not decide.

@@ -37,7 +37,7 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
         wanted.insert("SPHERES");
     }
     if wanted.contains("TRACE") {
-        wanted.remove("ALLOCATION");
+        wanted.remove("PIXEL_LIST");
     }
     // What fits a uniform buffer is not cut.
     for (chunks, uniform) in [("PRIMITIVE_CHUNKS", "UNIFORM_PRIMITIVES"), ("NODE_CHUNKS", "UNIFORM_NODES")] {
@@ -220,7 +220,7 @@ fn ordinary_kernels_hold_nothing_for_debugging() {
 /// Nor for pixels with different numbers of samples, which would cost a load a pixel.
 #[test]
 fn ordinary_kernels_look_up_no_pixels() {
-    let without: BTreeSet<&'static str> = ALL.iter().copied().filter(|name| !["ALLOCATION", "TRACE"].contains(name)).collect();
+    let without: BTreeSet<&'static str> = ALL.iter().copied().filter(|name| !["PIXEL_LIST", "TRACE"].contains(name)).collect();
     let with: BTreeSet<&'static str> = ALL.iter().copied().filter(|name| *name != "TRACE").collect();
     for (file, entry) in [STAGES[0], STAGES[1], STAGES[2], STAGES[7]] {
         let looks_up = |wanted: &BTreeSet<&'static str>| {

@@ -14,9 +14,10 @@ import scene_file
 
 # The light tree pays where there are many lights; either point set is a scrambled Sobol' sequence.
 SETTINGS = {
-    "Sobol, light tree": ("TABULATED_SOBOL", True),
-    "Sobol": ("TABULATED_SOBOL", False),
-    "blue noise": ("BLUE_NOISE", False),
+    "Sobol, light tree": ("TABULATED_SOBOL", True, False),
+    "Sobol": ("TABULATED_SOBOL", False, False),
+    "blue noise": ("BLUE_NOISE", False, False),
+    "Sobol, adaptive": ("TABULATED_SOBOL", False, True),
 }
 RENDER_TIME = re.compile(rb"(?:(\d+):)?(\d+):(\d+\.\d+)")
 
@@ -34,7 +35,8 @@ class Cycles:
 
     def render(self, setting, spp, seed):
         cycles, file = self.scene.cycles, Path(self.folder.name) / "picture.exr"
-        cycles.sampling_pattern, cycles.use_light_tree = SETTINGS[setting]
+        cycles.sampling_pattern, cycles.use_light_tree, cycles.use_adaptive_sampling = SETTINGS[setting]
+        cycles.adaptive_threshold = 0.0  # Cycles derives it from the number of samples
         cycles.samples, cycles.seed = spp, seed
         self.scene.render.filepath = str(file)
         bpy.ops.render.render(write_still=True)

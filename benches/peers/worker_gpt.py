@@ -15,13 +15,16 @@ import mitsuba as mi
 import numpy as np
 
 # Of the samplers these two are the best nearly everywhere; the first is the program's own choice. Several light samples pay where direct
-# light is most of the noise.
+# light is most of the noise, adaptive sampling where noise is uneven.
 SETTINGS = {
     "Sobol": ["--sampler", "sobol"],
     "Halton": ["--sampler", "halton"],
     "Sobol, 2 light samples": ["--sampler", "sobol", "--light-samples", "2"],
     "Sobol, 4 light samples": ["--sampler", "sobol", "--light-samples", "4"],
     "Sobol, 4 light samples at 2 surfaces": ["--sampler", "sobol", "--light-samples", "4", "--light-samples-depth", "2"],
+    "Sobol, adaptive": ["--sampler", "sobol", "--adaptive"],
+    "Sobol, 2 light samples, adaptive": ["--sampler", "sobol", "--light-samples", "2", "--adaptive"],
+    "Sobol, 4 light samples, adaptive": ["--sampler", "sobol", "--light-samples", "4", "--adaptive"],
     "Sobol, 8 light samples at 2 surfaces": ["--sampler", "sobol", "--light-samples", "8", "--light-samples-depth", "2"],
 }
 

@@ -2,7 +2,7 @@
 
 // One pass: a run of consecutive pixels of the band, each with the same samples.
 struct PassParameters {
-    // First pixel of the pass, counted over the whole film (y * width + x), and counted within the band. Where samples are allocated:
+    // First pixel of the pass, counted over the whole film (y * width + x), and counted within the band. Where pixels are listed:
     // of the band; and the first place in the list of the band's pixels.
     first_pixel: u32,
     first_pixel_in_band: u32,

@@ -10,7 +10,7 @@ fn accumulate(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= pixel_count {
         return;
     }
-#if ALLOCATION
+#if PIXEL_LIST
     let pixel_in_band = listed_pixel_in_band(id.x);
 #else
     let pixel_in_band = pass_parameters.first_pixel_in_band + id.x;

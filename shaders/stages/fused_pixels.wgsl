@@ -12,7 +12,7 @@ struct PassPixel {
 }
 
 fn pass_pixel(place: u32) -> PassPixel {
-#if ALLOCATION
+#if PIXEL_LIST
     let in_band = listed_pixel_in_band(place);
     return PassPixel(pass_parameters.first_pixel + in_band, in_band);
 #else

@@ -1,7 +1,7 @@
 // Starts the paths of a pass.
 #import core/camera.wgsl
 #import stages/wavefront.wgsl
-#if ALLOCATION
+#if PIXEL_LIST
 #import stages/statistics.wgsl
 #endif
 
@@ -14,7 +14,7 @@ fn generate(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let sample_in_pass = slot / pass_parameters.pixel_count;
-#if ALLOCATION
+#if PIXEL_LIST
     let pixel = pass_parameters.first_pixel + listed_pixel_in_band(slot - sample_in_pass * pass_parameters.pixel_count);
 #else
     let pixel = pass_parameters.first_pixel + slot - sample_in_pass * pass_parameters.pixel_count;

@@ -6,7 +6,7 @@ fn count_rays(rays: u32) {}
 
 fn count_refused_samples(samples: u32) {}
 #else
-#if ALLOCATION
+#if PIXEL_LIST
 // Rays traced (low and high word), samples refused because they were not finite; then, in the same binding lest a stage need more than
 // eight storage buffers, the band's pixels in the order in which passes take them.
 struct Statistics {

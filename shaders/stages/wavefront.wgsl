@@ -4,7 +4,7 @@
 #import shading/path.wgsl
 
 // Five planes of PATH_CAPACITY vec4 each:
-//   ray origin and pixel within the pass (within the band where samples are allocated) | sample in the pass << 24; ray direction and its density; throughput and eta scale;
+//   ray origin and pixel within the pass (within the band where pixels are listed) | sample in the pass << 24; ray direction and its density; throughput and eta scale;
 //   radiance and vertices passed; hit
 @group(0) @binding(9) var<storage, read_write> path_state: array<vec4<f32>>;
 // Three planes of PATH_CAPACITY vec4: origin and distance; direction and path slot; radiance.

@@ -88,7 +88,7 @@ fn render(
     scene_hash: &str,
     started: Instant,
 ) -> Result<(Outcome, Pictures), Failure> {
-    let options = PlanOptions { allocation: arguments.goal.adaptive, ..PlanOptions::default() };
+    let options = PlanOptions { pixel_list: arguments.goal.adaptive, ..PlanOptions::default() };
     let ChosenRenderer { mut renderer, notice } = choice.renderer(scene, &options)?;
     if let Some(notice) = notice {
         terminal::note(&notice);

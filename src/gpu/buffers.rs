@@ -91,7 +91,7 @@ impl Buffers {
         make(binding::PASS, "pass", size_of::<PassParameters>() as u64, uniform);
         make(binding::SEQUENCE, "sequence points", 16 * u64::from(plan.sequence_stride() * MAX_SAMPLES_PER_PASS), uniform);
         let storage = BufferUsages::STORAGE;
-        let listed = if plan.switches.enabled.contains("ALLOCATION") { width * plan.band_rows } else { 0 };
+        let listed = if plan.switches.enabled.contains("PIXEL_LIST") { width * plan.band_rows } else { 0 };
         let statistics = STATISTICS_BYTES + u64::from(listed) * memory::LIST_BYTES;
         make(binding::STATISTICS, "statistics", statistics, storage | BufferUsages::COPY_SRC | BufferUsages::COPY_DST);
         if plan.switches.enabled.contains("TRACE") {

@@ -3,7 +3,7 @@
 use super::buffers::FilmHalf;
 use super::renderer::{BandState, GpuRenderer};
 use crate::film::Band;
-use crate::render::{Allocation, RenderError};
+use crate::render::{Batch, RenderError};
 
 impl GpuRenderer {
     /// One half of the film of the band's first `rows` rows.
@@ -35,19 +35,21 @@ impl GpuRenderer {
         Ok(rows.flat_map(|row| row.chunks_exact(16).map(bytemuck::pod_read_unaligned)).collect())
     }
 
-    /// Means of a band from its sums. Where samples are allocated, `Band::samples` counts those of the request.
-    pub(super) fn finish_band(&self, band: &BandState, allocation: Option<&Allocation>) -> Result<Band, RenderError> {
+    /// Means of a band from its sums. Pixels that took no part have nothing: what the film holds of them is an earlier batch's.
+    pub(super) fn finish_band(&self, band: &BandState, batch: &Batch<'_>) -> Result<Band, RenderError> {
         let sums = self.read_film(&self.buffers.film[0], band.rows)?;
         let compensations = self.read_film(&self.buffers.film[1], band.rows)?;
-        let mut samples = u32::MAX;
+        let mut samples = batch.request.samples.len() as u32;
         let mut mean = Vec::with_capacity(sums.len());
         let mut second_moment = Vec::with_capacity(sums.len());
         let first_of_band = (band.first_row * self.size[0]) as usize;
         for (pixel, (sum, compensation)) in sums.iter().zip(&compensations).enumerate() {
             let count = f64::from(sum[3]);
-            let level = allocation.map_or(0, |allocation| allocation.levels[first_of_band + pixel]);
-            samples = samples.min(sum[3] as u32 >> level);
-            let per_sample = |x: f64| if count > 0.0 { (x / count) as f32 } else { 0.0 };
+            let takes_part = batch.selection.is_none_or(|selection| selection[first_of_band + pixel]);
+            if takes_part {
+                samples = samples.min(sum[3] as u32);
+            }
+            let per_sample = |x: f64| if takes_part && count > 0.0 { (x / count) as f32 } else { 0.0 };
             // The true sum is the stored one less what its compensation still owes.
             mean.push([0, 1, 2].map(|c| per_sample(f64::from(sum[c]) - f64::from(compensation[c]))));
             second_moment.push(per_sample(f64::from(compensation[3])));

@@ -4,9 +4,9 @@
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct PassParameters {
-    /// Of the pass, over the whole film; where samples are allocated, of the band.
+    /// Of the pass, over the whole film; where pixels are listed, of the band.
     pub first_pixel: u32,
-    /// Of the pass; where samples are allocated, in the list of the band's pixels.
+    /// Of the pass; where pixels are listed, in the list of the band's pixels.
     pub first_pixel_in_band: u32,
     pub pixel_count: u32,
     /// Absolute index.

@@ -11,7 +11,7 @@ use super::passes::{Pass, PassSizer};
 use crate::film::Band;
 use crate::flat::{FlatError, Unarranged};
 use crate::plan::{GeometryPlacement, Plan, PlanOptions, StageMode};
-use crate::render::{Allocation, Batch, DeviceChoice, Observer, RenderError, RenderReport, Renderer};
+use crate::render::{Batch, DeviceChoice, Observer, RenderError, RenderReport, Renderer};
 use crate::sampling::{Sampling, SequencePoint};
 use crate::scene::Scene;
 
@@ -62,22 +62,6 @@ pub(super) struct BandState {
     pub(super) rows: u32,
     /// Finished samples, over all pixels of the band.
     pub(super) samples_done: u64,
-}
-
-/// Pixels of a band that get the same samples.
-struct PixelGroup {
-    /// In the list of the band's pixels, or in the band where there is no list.
-    first: u32,
-    count: u32,
-    /// Absolute indices.
-    samples: Range<u32>,
-}
-
-impl PixelGroup {
-    /// The same pixels with their first sample.
-    fn first_sample_alone(self) -> Self {
-        Self { samples: self.samples.start..self.samples.start + 1, ..self }
-    }
 }
 
 impl GpuRenderer {
@@ -191,7 +175,7 @@ impl GpuRenderer {
         let first_of_band = band.first_row * self.size[0];
         let parameters = PassParameters {
             // A list of pixels counts them within the band.
-            first_pixel: if self.takes_allocations() { first_of_band } else { first_of_band + pass.first_pixel },
+            first_pixel: if self.takes_pixel_list() { first_of_band } else { first_of_band + pass.first_pixel },
             first_pixel_in_band: pass.first_pixel,
             pixel_count: pass.pixel_count,
             first_sample: pass.first_sample,
@@ -324,58 +308,44 @@ impl GpuRenderer {
     }
 
     /// Whether the kernels look up their pixels in a list.
-    fn takes_allocations(&self) -> bool {
-        self.plan.switches.enabled.contains("ALLOCATION")
+    fn takes_pixel_list(&self) -> bool {
+        self.plan.switches.enabled.contains("PIXEL_LIST")
     }
 
-    /// What the pixels of a band get, and the upload of their list where there is one: sorted by level, in the order of the film
-    /// within a level.
-    fn pixel_groups(&self, band: &BandState, batch: &Batch<'_>) -> Result<Vec<PixelGroup>, RenderError> {
+    /// How many pixels of a band take part, and the upload of their list, in the order of the film, where the kernels look them up.
+    fn listed_pixels(&self, band: &BandState, batch: &Batch<'_>) -> Result<u32, RenderError> {
         let count = self.size[0] * band.rows;
-        let samples = &batch.request.samples;
-        let everything = || vec![PixelGroup { first: 0, count, samples: samples.clone() }];
-        if !self.takes_allocations() {
-            let missing = || RenderError::Internal("the kernels were not compiled for allocated samples".into());
-            return if batch.allocation.is_none() { Ok(everything()) } else { Err(missing()) };
+        if !self.takes_pixel_list() {
+            let missing = || RenderError::Internal("the kernels were not compiled for lists of pixels".into());
+            return if batch.selection.is_none() { Ok(count) } else { Err(missing()) };
         }
-        let Some(allocation) = batch.allocation else {
-            let list: Vec<u32> = (0..count).collect();
-            self.write_list(&list);
-            return Ok(everything());
-        };
-        let first_of_band = (band.first_row * self.size[0]) as usize;
-        let levels = &allocation.levels[first_of_band..first_of_band + count as usize];
-        let mut list: Vec<u32> = Vec::with_capacity(levels.len());
-        let mut groups = Vec::new();
-        for level in 0..Allocation::LEVELS {
-            let first = list.len() as u32;
-            list.extend((0..count).zip(levels).filter(|(_, of_pixel)| **of_pixel == level).map(|(pixel, _)| pixel));
-            let count = list.len() as u32 - first;
-            groups.push(PixelGroup { first, count, samples: Allocation::samples(level, samples) });
-        }
+        let first_of_band = band.first_row * self.size[0];
+        let takes_part = |pixel: &u32| batch.selection.is_none_or(|selection| selection[(first_of_band + pixel) as usize]);
+        let list: Vec<u32> = (0..count).filter(takes_part).collect();
         self.write_list(&list);
-        groups.retain(|group| group.count > 0);
-        Ok(groups)
+        Ok(list.len() as u32)
     }
 
-    /// Renders one band's pixels of a group; true where the observer stopped it.
-    fn render_group(
+    /// Renders these samples, by their absolute indices, of the band's first `pixels` pixels, or of as many that its list has; true where
+    /// the observer stopped it.
+    fn render_pixels(
         &mut self,
         band: &mut BandState,
-        group: &PixelGroup,
+        pixels: u32,
+        indices: Range<u32>,
         sampling: &Sampling,
         progress: &dyn Fn(u64) -> bool,
     ) -> Result<bool, RenderError> {
-        let samples = group.samples.len() as u32;
+        let samples = if pixels > 0 { indices.len() as u32 } else { 0 };
         let mut done = 0;
         while done < samples {
-            let sweep = self.sizer.sweep_samples(group.count, done, samples - done);
+            let sweep = self.sizer.sweep_samples(pixels, done, samples - done);
             let mut first_pixel = 0;
-            while first_pixel < group.count {
+            while first_pixel < pixels {
                 let pass = Pass {
-                    first_pixel: group.first + first_pixel,
-                    pixel_count: self.sizer.pass_pixels(sweep, group.count - first_pixel),
-                    first_sample: group.samples.start + done,
+                    first_pixel,
+                    pixel_count: self.sizer.pass_pixels(sweep, pixels - first_pixel),
+                    first_sample: indices.start + done,
                     sample_count: sweep,
                     film_is_empty: done == 0,
                 };
@@ -386,7 +356,7 @@ impl GpuRenderer {
                 first_pixel += pass.pixel_count;
                 band.samples_done += pass.paths();
                 // A first sweep is finished, so that no pixel is left without a sample.
-                if progress(band.samples_done) && (done > 0 || first_pixel == group.count) {
+                if progress(band.samples_done) && (done > 0 || first_pixel == pixels) {
                     return Ok(true);
                 }
             }
@@ -427,17 +397,14 @@ impl Renderer for GpuRenderer {
                 observer.progress(finished + done, total);
                 observer.stop_requested()
             };
-            for group in self.pixel_groups(&band, batch)? {
-                // Every group gets a first sample, even where the observer has had enough.
-                let group = if interrupted { group.first_sample_alone() } else { group };
-                interrupted |= self.render_group(&mut band, &group, &sampling, &progress)?;
-            }
+            let pixels = self.listed_pixels(&band, batch)?;
+            interrupted = self.render_pixels(&mut band, pixels, request.samples.clone(), &sampling, &progress)?;
             finished += band.samples_done;
             if self.plan.stages == StageMode::Wavefront {
                 // `prepare` counts the rays of later edges; the first edge's are the paths themselves.
                 camera_rays += band.samples_done;
             }
-            on_band(self.finish_band(&band, batch.allocation)?)?;
+            on_band(self.finish_band(&band, batch)?)?;
             first_row += rows;
         }
         let [low, high, non_finite_samples, _] = self.read_words(binding::STATISTICS)?;

@@ -16,7 +16,7 @@ pub const QUEUE_BYTES: u64 = 2 * 4;
 /// Bytes of film per pixel of a band: sum and compensation.
 pub const FILM_BYTES: u64 = 2 * 16;
 
-/// Bytes per pixel of a band in the list of pixels, where samples are allocated.
+/// Bytes per pixel of a band in the list of pixels, where pixels are listed.
 pub const LIST_BYTES: u64 = 4;
 
 /// Bytes of a primitive, and of a triangle's attributes.
@@ -53,7 +53,7 @@ impl Memory {
         if !flat.textures.texels.is_empty() {
             arrays.push(("texels", 4 * flat.textures.texels.len() as u64));
         }
-        if plan.switches.enabled.contains("ALLOCATION") {
+        if plan.switches.enabled.contains("PIXEL_LIST") {
             arrays.push(("pixels", pixels * LIST_BYTES));
         }
         if plan.stages == StageMode::Wavefront {

@@ -78,8 +78,8 @@ pub struct PlanOptions {
     pub checked_shaders: bool,
     /// Write down what happens along a path, for [`crate::gpu::GpuRenderer::trace`]; one kernel then traces whole paths.
     pub trace: bool,
-    /// Let pixels have different numbers of samples ([`crate::render::Allocation`]).
-    pub allocation: bool,
+    /// Let a batch leave pixels out ([`crate::render::Batch::selection`]).
+    pub pixel_list: bool,
     /// Switches of parts that are compiled though the scene does not need them, to measure what leaving them out is worth.
     pub compile_in: Vec<&'static str>,
     /// Compute wrongly, so that tests can see whether it is noticed.
@@ -208,7 +208,7 @@ impl Plan {
         chunks::check(&plan.chunks, other_arrays, largest_chunk, limits)?;
         plan.switches = switches::choose(scene, flat, &plan);
         plan.switches.enable("TRACE", options.trace);
-        plan.switches.enable("ALLOCATION", options.allocation && !options.trace);
+        plan.switches.enable("PIXEL_LIST", options.pixel_list && !options.trace);
         for switch in &options.compile_in {
             plan.switches.enable(switch, true);
         }

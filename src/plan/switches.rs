@@ -15,7 +15,6 @@ use crate::shader::Switches;
 
 /// Every switch that the shaders know.
 pub const ALL: &[&str] = &[
-    "ALLOCATION",
     "APERTURE_POLYGON",
     "APERTURE_SQUARE",
     "ATTRIBUTES",
@@ -70,6 +69,7 @@ pub const ALL: &[&str] = &[
     "PIXEL_CENTRE",
     "PIXEL_DIGITAL_SHIFT",
     "PIXEL_HASHED",
+    "PIXEL_LIST",
     "PIXEL_ROTATION",
     "PLANT_BRDF",
     "PLANT_LIGHT",

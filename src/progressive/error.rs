@@ -33,10 +33,8 @@ pub struct ErrorEstimator {
     total_pixels: u64,
     /// Index of each pixel looked at, ascending.
     pixels: Vec<u64>,
-    /// Per stream: weighted sums of these pixels.
-    sums: Vec<Vec<[f32; 3]>>,
-    /// Per stream: the sum of weights.
-    weights: Vec<f64>,
+    /// Per stream: weighted sums of these pixels, and of their weights, which are samples.
+    sums: Vec<Vec<[f32; 4]>>,
     looks: u32,
 }
 
@@ -47,21 +45,23 @@ impl ErrorEstimator {
         // One pixel of each run of `stride`, at random, so that no pattern of the picture is missed.
         let in_run = |run: u64| run * stride + u64::from(mix(run as u32)) % stride;
         let pixels: Vec<u64> = (0..total_pixels / stride).map(in_run).collect();
-        let sums = vec![vec![[0.0; 3]; pixels.len()]; streams as usize];
-        Self { width, total_pixels, pixels, sums, weights: vec![0.0; streams as usize], looks: 0 }
+        let sums = vec![vec![[0.0; 4]; pixels.len()]; streams as usize];
+        Self { width, total_pixels, pixels, sums, looks: 0 }
     }
 
-    /// Adds a stream's band with the weight it has in the picture.
-    pub fn add(&mut self, stream: u32, band: &Band, weight: f32) {
+    /// Adds a stream's band, of the pixels that took part.
+    pub fn add(&mut self, stream: u32, band: &Band, selection: Option<&[bool]>) {
+        let weight = band.samples as f32;
         let first = u64::from(band.first_row) * u64::from(self.width);
         let start = self.pixels.partition_point(|pixel| *pixel < first);
         let end = self.pixels.partition_point(|pixel| *pixel < first + band.mean.len() as u64);
         let sums = &mut self.sums[stream as usize];
         for (sum, pixel) in sums[start..end].iter_mut().zip(&self.pixels[start..end]) {
-            let mean = band.mean[(pixel - first) as usize];
-            sum.iter_mut().zip(mean).for_each(|(sum, mean)| *sum += weight * mean);
+            if selection.is_none_or(|selection| selection[*pixel as usize]) {
+                let [r, g, b] = band.mean[(pixel - first) as usize];
+                sum.iter_mut().zip([r, g, b, 1.0]).for_each(|(sum, mean)| *sum += weight * mean);
+            }
         }
-        self.weights[stream as usize] += f64::from(weight) * band.mean.len() as f64 / self.total_pixels as f64;
     }
 
     /// The error of the mean of all streams. Looking again and again makes it likelier that once the estimate is too low by chance, so each
@@ -74,7 +74,8 @@ impl ErrorEstimator {
         for pixel in 0..self.pixels.len() {
             let mut error = 0.0;
             for channel in 0..3 {
-                let values = (0..streams).map(|stream| f64::from(self.sums[stream][pixel][channel]) / self.weights[stream]);
+                let values = (0..streams)
+                    .map(|stream| f64::from(self.sums[stream][pixel][channel]) / f64::from(self.sums[stream][pixel][3]));
                 error += squared_error_of_mean(values) / 3.0;
             }
             sum += error;
@@ -146,12 +147,13 @@ mod tests {
             for first_row in (0..1000).step_by(100) {
                 let value = |index: u32| [(first_row * 1024 + index) as f32; 3];
                 let mean = (0..102_400).map(value).collect();
-                let band = Band { first_row, width: 1024, rows: 100, samples: 1, mean, second_moment: Vec::new() };
-                estimator.add(stream, &band, 2.0);
+                let band = Band { first_row, width: 1024, rows: 100, samples: 2, mean, second_moment: Vec::new() };
+                estimator.add(stream, &band, None);
             }
         }
-        assert!((estimator.weights[0] - 2.0).abs() < 1e-6);
-        assert!(estimator.pixels.iter().zip(&estimator.sums[1]).all(|(pixel, sum)| sum[0] == 2.0 * *pixel as f32));
+        assert!(
+            estimator.pixels.iter().zip(&estimator.sums[1]).all(|(pixel, sum)| sum[0] == 2.0 * *pixel as f32 && sum[3] == 2.0)
+        );
         assert_eq!(estimator.look().mean, 0.0);
     }
 }

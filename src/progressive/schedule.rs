@@ -1,4 +1,4 @@
-//! How samples are cut into phases and steps.
+//! How samples are cut into stages and steps.
 
 use std::time::{Duration, Instant};
 
@@ -12,66 +12,38 @@ const SHORTEST_STEP: Duration = Duration::from_millis(200);
 /// A step must be expected to end within this part of the time left.
 const CAUTION: f64 = 0.95;
 
-/// Fewest and most samples per pixel of the first phase, whose samples show where the noise is.
-const PILOT_SAMPLES: (u32, u32) = (8, 32);
-/// The first phase is this part of all.
-const PILOT_SHARE: u32 = 16;
-/// Each further phase ends at this many times the samples of the ones before it, so that what is known gets better and
-/// little is spent by knowing less.
-const PHASE_GROWTH: u32 = 4;
-/// Samples per pixel that a request of a later phase is worth on average: the calmest pixel gets 1, half of that.
-const SHARE: u32 = 2;
+/// Where a render may end before its last sample, its first stage has at least so many samples per pixel, all streams together.
+const FEWEST_SAMPLES: u32 = 16;
+/// Halves of what all pixels get, in each stream, need a sample each; and half of all samples goes where the noise is.
+const FEWEST_ADAPTIVE_SAMPLES: u32 = 4;
 
-/// Samples that are distributed in one way.
+/// Samples that are distributed at once. Their numbers are those of each stream.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Phase {
-    pub index: u32,
-    /// Samples that a request asks for.
-    pub requests: u32,
-    /// Samples per pixel that one of them is worth on average; 1: every pixel gets one.
-    pub share: u32,
+pub struct Stage {
+    /// Samples that every pixel has, those of earlier stages included; even, and twice the last stage's.
+    pub floor: u32,
+    /// Samples per pixel that are spent at the end of the stage, on average.
+    pub budget: u32,
 }
 
-/// The phases of a stream, one after the other. They depend on numbers of samples alone, never on what was seen.
-#[derive(Debug)]
-pub struct Phases {
-    samples: u32,
-    done: u32,
-    end_of_first: u32,
-    index: u32,
-}
-
-impl Phases {
-    /// Of `samples` samples in each of `streams`; one phase unless the samples shall follow the noise.
-    pub fn new(samples: u32, streams: u32, adaptive: bool) -> Self {
-        let (fewest, most) = PILOT_SAMPLES;
-        let pilot = ((samples.saturating_mul(streams) / PILOT_SHARE).clamp(fewest, most) / streams).max(1).min(samples);
-        // Later phases take whole requests; the first takes along what would be left over.
-        let pilot = pilot + (samples - pilot) % SHARE;
-        Self { samples, done: 0, end_of_first: if adaptive { pilot } else { samples }, index: 0 }
+/// The stages of `samples` samples per pixel in each of `streams` that follow the noise. One, unless the render may end earlier: then each has twice the
+/// samples of the one before, so that what is spent is always distributed by about the best that is known. None where samples are too few. They
+/// depend on numbers of samples alone, never on what was seen.
+pub fn stages(samples: u32, streams: u32, may_end_early: bool) -> Vec<Stage> {
+    if samples < FEWEST_ADAPTIVE_SAMPLES {
+        return Vec::new();
     }
-}
-
-impl Iterator for Phases {
-    type Item = Phase;
-
-    fn next(&mut self) -> Option<Phase> {
-        let left = self.samples - self.done;
-        if left == 0 {
-            return None;
-        }
-        let phase = if self.index == 0 {
-            Phase { index: 0, requests: self.end_of_first, share: 1 }
-        } else {
-            let wanted = (PHASE_GROWTH - 1).saturating_mul(self.done);
-            // A rest that is short beside the phase is no phase of its own.
-            let samples = if left - wanted.min(left) < wanted / 2 { left } else { wanted };
-            Phase { index: self.index, requests: samples.div_ceil(SHARE), share: SHARE }
-        };
-        self.done += phase.requests * phase.share;
-        self.index += 1;
-        Some(phase)
+    // Of every pixel's samples, a half, in the last stage.
+    let half = samples / FEWEST_ADAPTIVE_SAMPLES;
+    let mut doublings = 0;
+    while may_end_early && (2 * (half >> (doublings + 1))).saturating_mul(streams) >= FEWEST_SAMPLES {
+        doublings += 1;
     }
+    let stage = |number: u32| {
+        let floor = (2 * (half >> doublings)) << number;
+        Stage { floor, budget: if number == doublings { samples } else { 2 * floor } }
+    };
+    (0..=doublings).map(stage).collect()
 }
 
 /// Keeps steps within the time.
@@ -108,19 +80,23 @@ impl Clock {
 mod tests {
     use super::*;
 
-    fn phases(samples: u32, streams: u32, adaptive: bool) -> Vec<(u32, u32)> {
-        Phases::new(samples, streams, adaptive).map(|phase| (phase.requests, phase.share)).collect()
+    fn numbers(samples: u32, streams: u32, may_end_early: bool) -> Vec<(u32, u32)> {
+        stages(samples, streams, may_end_early).iter().map(|stage| (stage.floor, stage.budget)).collect()
     }
 
     #[test]
-    fn phases_grow_and_add_up() {
-        assert_eq!(phases(100, 1, false), [(100, 1)]);
-        assert_eq!(phases(256, 1, true), [(16, 1), (24, 2), (96, 2)]);
-        assert_eq!(phases(64, 8, true), [(4, 1), (6, 2), (24, 2)]);
-        for samples in 1..5_000 {
-            for streams in [1, 8] {
-                let spent: u32 = phases(samples, streams, true).iter().map(|(requests, share)| requests * share).sum();
-                assert_eq!(spent, samples);
+    fn stages_double_and_end_with_all_samples() {
+        assert_eq!(numbers(3, 1, true), []);
+        assert_eq!(numbers(4, 1, true), [(2, 4)]);
+        assert_eq!(numbers(100, 1, false), [(50, 100)]);
+        assert_eq!(numbers(256, 1, true), [(16, 32), (32, 64), (64, 128), (128, 256)]);
+        assert_eq!(numbers(35, 8, true), [(2, 4), (4, 8), (8, 16), (16, 35)]);
+        for samples in FEWEST_ADAPTIVE_SAMPLES..5_000 {
+            for (streams, may_end_early) in [(1, false), (1, true), (8, true)] {
+                let stages = stages(samples, streams, may_end_early);
+                assert!(stages.windows(2).all(|pair| pair[1].floor == 2 * pair[0].floor && pair[0].budget <= pair[1].floor));
+                assert!(stages.iter().all(|stage| stage.floor >= 2 && stage.floor % 2 == 0 && stage.budget >= 2 * stage.floor));
+                assert_eq!(stages.last().map(|stage| stage.budget), Some(samples));
             }
         }
     }

@@ -10,7 +10,7 @@ use super::integrator::Integrator;
 use super::lights::luminance;
 use super::trace::{PathTrace, PathVisitor, RayCounter};
 use crate::film::Band;
-use crate::render::{Allocation, Batch, Observer, RenderError, RenderReport, RenderRequest, Renderer};
+use crate::render::{Batch, Observer, RenderError, RenderReport, RenderRequest, Renderer};
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
 use crate::scene::{RenderSettings, Scene};
 
@@ -53,28 +53,18 @@ struct BandSums {
 struct BatchSamples<'a> {
     range: Range<u32>,
     sampling: Sampling,
-    allocation: Option<&'a Allocation>,
-    /// Of the highest level of the allocation; 0 without one.
-    highest_level: u8,
+    selection: Option<&'a [bool]>,
 }
 
 impl<'a> BatchSamples<'a> {
     fn new(batch: &Batch<'a>, settings: &RenderSettings) -> Self {
         let scenes = Sampling::from(settings);
         let sampling = Sampling { seed: batch.seed.unwrap_or(scenes.seed), ..scenes };
-        let highest_level = batch.allocation.and_then(|allocation| allocation.levels.iter().max().copied()).unwrap_or(0);
-        Self { range: batch.request.samples.clone(), sampling, allocation: batch.allocation, highest_level }
+        Self { range: batch.request.samples.clone(), sampling, selection: batch.selection }
     }
 
-    fn level(&self, pixel: usize) -> u8 {
-        self.allocation.map_or(0, |allocation| allocation.levels[pixel])
-    }
-
-    /// The points of the request's samples `range` for a pixel of each level.
-    fn points(&self, range: &Range<u32>) -> Vec<Vec<SequencePoint>> {
-        let of_level =
-            |level| Allocation::samples(level, range).map(|sample| SequencePoint::new(&self.sampling, sample)).collect();
-        (0..=self.highest_level).map(of_level).collect()
+    fn takes_part(&self, pixel: usize) -> bool {
+        self.selection.is_none_or(|selection| selection[pixel])
     }
 }
 
@@ -148,19 +138,21 @@ impl ReferenceRenderer {
     fn sample_band(&mut self, band: &mut BandSums, batch: &BatchSamples<'_>, range: &Range<u32>) -> Tally {
         let start = Instant::now();
         let width = self.integrator.scene().film.size[0] as usize;
-        let points = batch.points(range);
+        let points: Vec<_> = range.clone().map(|sample| SequencePoint::new(&batch.sampling, sample)).collect();
         let this = &*self;
         let sample_row = |(row, y): (&mut [PixelSum], u32)| {
             let sample = |(x, sum): (usize, &mut PixelSum)| {
-                let level = batch.level(y as usize * width + x);
-                this.sample_pixel(x as u32, y, &batch.sampling, &points[usize::from(level)], sum)
+                if !batch.takes_part(y as usize * width + x) {
+                    return Tally::default();
+                }
+                this.sample_pixel(x as u32, y, &batch.sampling, &points, sum)
             };
             row.iter_mut().enumerate().map(sample).fold(Tally::default(), Tally::add)
         };
         let rows = band.pixels.par_chunks_mut(width).zip(band.first_row..band.first_row + band.rows);
         let tally = rows.map(sample_row).reduce(Tally::default, Tally::add);
         band.samples += range.len() as u32;
-        self.timed_samples += band.pixels.len() as f64 * range.len() as f64;
+        self.timed_samples += tally.samples as f64;
         self.timed_seconds += start.elapsed().as_secs_f64();
         tally
     }
@@ -169,8 +161,7 @@ impl ReferenceRenderer {
     fn next_samples(&self, pixels: usize, batch: &BatchSamples<'_>, first: u32) -> Range<u32> {
         let rate = if self.timed_seconds > 0.0 { self.timed_samples / self.timed_seconds } else { 0.0 };
         let fitting = rate * PASS_DURATION.as_secs_f64() / pixels.max(1) as f64;
-        let most = (SAMPLES_PER_PASS >> batch.highest_level).max(1);
-        first..first + (fitting as u32).clamp(1, most).min(batch.range.end - first)
+        first..first + (fitting as u32).clamp(1, SAMPLES_PER_PASS).min(batch.range.end - first)
     }
 
     /// Renders all samples of a group of bands, pass by pass. False when the observer asked to stop.
@@ -218,17 +209,15 @@ fn is_acceptable(radiance: DVec3) -> bool {
 }
 
 impl BandSums {
-    fn finish(&self, width: u32, batch: &BatchSamples<'_>) -> Band {
-        let first_pixel = self.first_row as usize * width as usize;
-        let scale = |index: usize| 1.0 / (f64::from(self.samples.max(1)) * f64::from(1 << batch.level(first_pixel + index)));
-        let sums = || self.pixels.iter().enumerate();
+    fn finish(&self, width: u32) -> Band {
+        let scale = 1.0 / f64::from(self.samples.max(1));
         Band {
             first_row: self.first_row,
             width,
             rows: self.rows,
             samples: self.samples,
-            mean: sums().map(|(index, sum)| (sum.radiance * scale(index)).as_vec3().to_array()).collect(),
-            second_moment: sums().map(|(index, sum)| (sum.squared_luminance * scale(index)) as f32).collect(),
+            mean: self.pixels.iter().map(|sum| (sum.radiance * scale).as_vec3().to_array()).collect(),
+            second_moment: self.pixels.iter().map(|sum| (sum.squared_luminance * scale) as f32).collect(),
         }
     }
 }
@@ -268,7 +257,7 @@ impl Renderer for ReferenceRenderer {
             };
             let mut bands: Vec<BandSums> = group.iter().map(new_band).collect();
             let completed = self.render_group(&mut bands, &samples, &mut progress);
-            bands.iter().filter(|band| band.samples > 0).try_for_each(|band| on_band(band.finish(width, &samples)))?;
+            bands.iter().filter(|band| band.samples > 0).try_for_each(|band| on_band(band.finish(width)))?;
             if !completed {
                 break;
             }

@@ -3,6 +3,7 @@
 #[path = "../common/device.rs"]
 mod device;
 
+use std::ops::Range;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -12,7 +13,7 @@ use gpt::gpu::GpuRenderer;
 use gpt::plan::{FilmStorage, PlanOptions, StageMode};
 use gpt::progressive::{self, Goal, Outcome, Stop};
 use gpt::reference::ReferenceRenderer;
-use gpt::render::{Allocation, Batch, RenderRequest, Renderer, Silent};
+use gpt::render::{Batch, RenderRequest, Renderer, Silent};
 use gpt::scene::{self, SamplerKind, Scene};
 
 fn gpu(scene: &Scene, options: &PlanOptions) -> Option<Box<dyn Renderer>> {
@@ -23,9 +24,9 @@ fn cpu(scene: &Scene) -> Box<dyn Renderer> {
     Box::new(ReferenceRenderer::new(scene).expect("the reference renders it"))
 }
 
-/// The devices that there are, made for allocated samples.
+/// The devices that there are, made to leave pixels out.
 fn renderers(scene: &Scene) -> Vec<Box<dyn Renderer>> {
-    let options = PlanOptions { allocation: true, ..PlanOptions::default() };
+    let options = PlanOptions { pixel_list: true, ..PlanOptions::default() };
     [Some(cpu(scene)), gpu(scene, &options)].into_iter().flatten().collect()
 }
 
@@ -57,46 +58,69 @@ fn render_goal(renderer: &mut dyn Renderer, scene: &Scene, seed: u32, goal: &Goa
 fn render_batch(
     renderer: &mut dyn Renderer,
     scene: &Scene,
-    samples: u32,
+    samples: Range<u32>,
     seed: u32,
-    allocation: Option<&Allocation>,
+    selection: Option<&[bool]>,
 ) -> Vec<Band> {
-    let request = RenderRequest { rows: 0..scene.film.size[1], samples: 0..samples };
+    let request = RenderRequest { rows: 0..scene.film.size[1], samples };
     let mut bands = Vec::new();
     let mut on_band = |band| {
         bands.push(band);
         Ok(())
     };
-    let batch = Batch { request: &request, seed: Some(seed), allocation };
+    let batch = Batch { request: &request, seed: Some(seed), selection };
     renderer.render_batch(&batch, &Silent, &mut on_band).expect("it renders");
     bands
 }
 
-/// Every pixel of an allocated batch is, bit for bit, the same pixel of a render that gives all pixels as many samples.
+/// Every selected pixel is, bit for bit, the same pixel of a render of all, and the others have nothing, though an earlier batch left its
+/// samples in the device's film.
 #[test]
-fn an_allocated_pixel_is_the_pixel_of_a_render_with_its_samples() {
+fn a_selected_pixel_is_the_pixel_of_a_render_of_all() {
     let mut scene = cornell([24, 18]);
     for sampler in [SamplerKind::Halton, SamplerKind::Sobol] {
         scene.render.sampler = sampler;
-        let levels: Vec<u8> = (0..24 * 18).map(|pixel| (gpt::sampling::hash::mix(pixel) % 5) as u8).collect();
-        let allocation = Allocation { levels: levels.clone() };
-        let way = |stages, film| PlanOptions { stages: Some(stages), film, allocation: true, ..PlanOptions::default() };
+        let selection: Vec<bool> = (0..24 * 18).map(|pixel| gpt::sampling::hash::mix(pixel).is_multiple_of(3)).collect();
+        let way = |stages, film| PlanOptions { stages: Some(stages), film, pixel_list: true, ..PlanOptions::default() };
         let ways =
             [way(StageMode::Fused, None), way(StageMode::Wavefront, None), way(StageMode::Wavefront, Some(FilmStorage::Buffer))];
         let mut renderers = vec![cpu(&scene)];
         renderers.extend(ways.iter().filter_map(|options| gpu(&scene, options)));
         for mut renderer in renderers {
-            let allocated = render_batch(renderer.as_mut(), &scene, 3, 9, Some(&allocation));
-            assert!(allocated.iter().all(|band| band.samples == 3));
-            for level in 0..5 {
-                let uniform = pixels(&render_batch(renderer.as_mut(), &scene, 3 << level, 9, None));
-                let pairs = pixels(&allocated).into_iter().zip(uniform).zip(&levels);
-                let different = pairs.clone().filter(|((a, b), of_pixel)| **of_pixel == level && a != b).count();
-                assert_eq!(different, 0, "level {level} on {}", renderer.device());
-                // The control: pixels of other levels are other means.
-                assert!(pairs.filter(|((a, b), of_pixel)| **of_pixel != level && a != b).count() > 200);
+            let all = pixels(&render_batch(renderer.as_mut(), &scene, 5..12, 9, None));
+            let bands = render_batch(renderer.as_mut(), &scene, 5..12, 9, Some(&selection));
+            assert!(bands.iter().all(|band| band.samples == 7));
+            let selected = pixels(&bands);
+            for ((pixel, of_all), takes_part) in selected.iter().zip(&all).zip(&selection) {
+                assert_eq!(*pixel, if *takes_part { *of_all } else { [0.0; 3] }, "on {}", renderer.device());
             }
+            // The control: other samples are another picture.
+            let others = pixels(&render_batch(renderer.as_mut(), &scene, 0..7, 9, Some(&selection)));
+            assert!(selected.iter().zip(others).filter(|(a, b)| *a != b).count() > 100);
         }
+    }
+}
+
+/// The samples of one pixel are the first of one sequence, however they were found to be wanted.
+#[test]
+fn a_pixel_that_follows_the_noise_has_the_first_samples_of_its_sequence() {
+    let scene = cornell([32, 24]);
+    for mut renderer in renderers(&scene) {
+        let adaptive = Goal { adaptive: true, ..goal(16) };
+        let (outcome, bands) = render_goal(renderer.as_mut(), &scene, 5, &adaptive);
+        assert_eq!(outcome.stop, Stop::Samples);
+        assert!(bands.iter().all(|band| band.samples == 16));
+        let spent = outcome.report.samples as f64 / (32.0 * 24.0);
+        assert!((14.0..=16.0).contains(&spent), "{spent}");
+        let picture = pixels(&bands);
+        let prefixes = [8, 16, 32, 64].map(|samples| pixels(&render_batch(renderer.as_mut(), &scene, 0..samples, 5, None)));
+        let close = |a: &[f32; 3], b: &[f32; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-5 * (b + 0.01));
+        let mut of_prefix = [0; 4];
+        for (pixel, radiance) in picture.iter().enumerate() {
+            let found = prefixes.iter().position(|prefix| close(radiance, &prefix[pixel]));
+            of_prefix[found.expect("it is one of the four means")] += 1;
+        }
+        assert!(of_prefix[0] > 50 && of_prefix[1..].iter().sum::<i32>() > 50, "{of_prefix:?}");
     }
 }
 
@@ -134,8 +158,8 @@ fn a_picture_that_time_ended_is_the_one_of_its_samples() {
             .find(|(samples, _)| *samples > 1)
             .expect("several samples of a small picture in twenty seconds");
         assert!(bands.iter().all(|band| band.samples == samples), "{samples}");
-        let plain = pixels(&render_batch(renderer.as_mut(), &scene, samples, scene.render.seed, None));
-        let one_more = pixels(&render_batch(renderer.as_mut(), &scene, samples + 1, scene.render.seed, None));
+        let plain = pixels(&render_batch(renderer.as_mut(), &scene, 0..samples, scene.render.seed, None));
+        let one_more = pixels(&render_batch(renderer.as_mut(), &scene, 0..samples + 1, scene.render.seed, None));
         let picture = pixels(&bands);
         let distance = |other: &[[f32; 3]]| {
             let pairs = picture.iter().flatten().zip(other.iter().flatten());

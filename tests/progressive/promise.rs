@@ -29,7 +29,7 @@ struct Series {
 /// The truth is the mean of many samples of `sampled`, which shows what `scene` shows.
 fn series(scene: &Scene, sampled: &Scene, target: f64) -> Series {
     let make = |scene: &Scene| gpu(scene, &PlanOptions::default()).unwrap_or_else(|| cpu(scene));
-    let truth = pixels(&render_batch(make(sampled).as_mut(), sampled, 16_384, 987_654, None));
+    let truth = pixels(&render_batch(make(sampled).as_mut(), sampled, 0..16_384, 987_654, None));
     let wanted = Goal { target_error: Some(target), ..goal(1 << 20) };
     let mut renderer = make(scene);
     let mut series = Series { errors: Vec::new(), above_expectation: 0 };

@@ -22,24 +22,23 @@ fn judge(truth: f64, mut picture: impl FnMut(u32) -> Vec<[f32; 3]>) -> TestResul
 /// What `adaptive` must not do: more samples where the first ones met light, and then the plain mean of all. Pixels that were dark by
 /// chance stay so.
 fn naive(renderer: &mut dyn Renderer, scene: &Scene, seed: u32) -> Vec<[f32; 3]> {
-    let (first, requests) = (8, 7);
-    let pilot = pixels(&render_batch(renderer, scene, first, seed, None));
-    let levels: Vec<u8> = pilot.iter().map(|pixel| if pixel[0] > 0.0 { 4 } else { 0 }).collect();
-    let allocation = Allocation { levels };
-    let rest = pixels(&render_batch(renderer, scene, requests, seed + 1_000_000, Some(&allocation)));
-    let weighed = |((a, b), level): (([f32; 3], [f32; 3]), &u8)| {
-        let more = (requests << level) as f32;
-        std::array::from_fn(|channel| (first as f32 * a[channel] + more * b[channel]) / (first as f32 + more))
+    let (first, all) = (8, 120);
+    let pilot = pixels(&render_batch(renderer, scene, 0..first, seed, None));
+    let lit: Vec<bool> = pilot.iter().map(|pixel| pixel[0] > 0.0).collect();
+    let rest = pixels(&render_batch(renderer, scene, first..all, seed, Some(&lit)));
+    let share = first as f32 / all as f32;
+    let weighed = |((a, b), lit): (([f32; 3], [f32; 3]), &bool)| {
+        if *lit { std::array::from_fn(|channel| share * a[channel] + (1.0 - share) * b[channel]) } else { a }
     };
-    pilot.into_iter().zip(rest).zip(&allocation.levels).map(weighed).collect()
+    pilot.into_iter().zip(rest).zip(&lit).map(weighed).collect()
 }
 
 #[test]
 fn samples_that_follow_the_noise_leave_the_mean_where_it_is() {
     let scene = rare_light();
     let sampled = sampling_light(&scene);
-    let truth = mean_radiance(&pixels(&render_batch(cpu(&sampled).as_mut(), &sampled, 4096, 77, None)));
-    let options = PlanOptions { allocation: true, ..PlanOptions::default() };
+    let truth = mean_radiance(&pixels(&render_batch(cpu(&sampled).as_mut(), &sampled, 0..4096, 77, None)));
+    let options = PlanOptions { pixel_list: true, ..PlanOptions::default() };
     let mut renderer = gpu(&scene, &options).unwrap_or_else(|| cpu(&scene));
     let adaptive = Goal { adaptive: true, ..goal(SPP) };
     let fair = judge(truth, |seed| pixels(&render_goal(renderer.as_mut(), &scene, 7 * seed, &adaptive).1));
@@ -55,7 +54,7 @@ fn the_reference_and_streams_are_unbiased_too() {
     let scene = rare_light();
     let sampled = sampling_light(&scene);
     let mut renderer = cpu(&scene);
-    let truth = mean_radiance(&pixels(&render_batch(cpu(&sampled).as_mut(), &sampled, 4096, 78, None)));
+    let truth = mean_radiance(&pixels(&render_batch(cpu(&sampled).as_mut(), &sampled, 0..4096, 78, None)));
     let wanted = Goal { adaptive: true, target_error: Some(1e-9), ..goal(8 * SPP) };
     let mut means = Moments::default();
     for seed in 0..40 {
