@@ -166,9 +166,10 @@ impl<'a> Work<'a> {
             levels.iter_mut().for_each(|level| *level = level.saturating_sub(1));
             let wanted = allocate(self.size, doublings.halves(), f64::from(budget) / f64::from(floor), &levels);
             for level in 0..MOST_DOUBLINGS {
+                // Indices of samples end somewhere.
+                let Some(end) = floor.checked_mul(2 << level) else { break };
                 let lacks: Vec<bool> = levels.iter().zip(&wanted).map(|(has, wanted)| *has <= level && level < *wanted).collect();
-                let samples = floor << level..floor << (level + 1);
-                if let Some(stop) = self.run_selected(samples, &lacks, &mut doublings, usize::from(level) + 2)? {
+                if let Some(stop) = self.run_selected(end / 2..end, &lacks, &mut doublings, usize::from(level) + 2)? {
                     return Ok(Some(stop));
                 }
             }

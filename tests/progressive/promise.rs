@@ -27,14 +27,15 @@ struct Series {
 }
 
 /// The truth is the mean of many samples of `sampled`, which shows what `scene` shows.
-fn series(scene: &Scene, sampled: &Scene, target: f64) -> Series {
-    let make = |scene: &Scene| gpu(scene, &PlanOptions::default()).unwrap_or_else(|| cpu(scene));
+fn series(scene: &Scene, sampled: &Scene, wanted: &Goal) -> Series {
+    let target = wanted.target_error.expect("a promise");
+    let options = PlanOptions { pixel_list: wanted.adaptive, ..PlanOptions::default() };
+    let make = |scene: &Scene| gpu(scene, &options).unwrap_or_else(|| cpu(scene));
     let truth = pixels(&render_batch(make(sampled).as_mut(), sampled, 0..16_384, 987_654, None));
-    let wanted = Goal { target_error: Some(target), ..goal(1 << 20) };
     let mut renderer = make(scene);
     let mut series = Series { errors: Vec::new(), above_expectation: 0 };
     for seed in 0..RUNS {
-        let (outcome, bands) = render_goal(renderer.as_mut(), scene, seed, &wanted);
+        let (outcome, bands) = render_goal(renderer.as_mut(), scene, seed, wanted);
         assert_eq!(outcome.stop, Stop::TargetError);
         let error = relative_error(&pixels(&bands), &truth);
         series.above_expectation += u64::from(outcome.error.is_some_and(|estimate| error > estimate.mean));
@@ -44,8 +45,12 @@ fn series(scene: &Scene, sampled: &Scene, target: f64) -> Series {
     series
 }
 
-fn keeps_its_promise(scene: &Scene, sampled: &Scene, target: f64) {
-    let Series { errors, above_expectation } = series(scene, sampled, target);
+fn promise(target: f64) -> Goal {
+    Goal { target_error: Some(target), ..goal(1 << 20) }
+}
+
+fn keeps_its_promise(scene: &Scene, sampled: &Scene, wanted: &Goal) {
+    let Series { errors, above_expectation } = series(scene, sampled, wanted);
     let [median, five_of_hundred, largest] = [50, 95, 99].map(|rank| errors[rank]);
     println!(
         "{}: {median:.3} {five_of_hundred:.3} {largest:.3} of the target, {above_expectation} above expectation",
@@ -63,7 +68,7 @@ fn keeps_its_promise(scene: &Scene, sampled: &Scene, target: f64) {
 fn the_error_is_below_the_target_in_95_of_100_renders() {
     let mut scene = cornell([20, 20]);
     scene.render.max_depth = 4;
-    keeps_its_promise(&scene, &scene, 0.01);
+    keeps_its_promise(&scene, &scene, &promise(0.01));
 }
 
 /// Points of a sequence are not independent of each other, streams of them are.
@@ -72,11 +77,20 @@ fn so_it_is_with_points_of_a_sequence() {
     let mut scene = cornell([20, 20]);
     scene.render.max_depth = 4;
     scene.render.sampler = SamplerKind::Sobol;
-    keeps_its_promise(&scene, &scene, 0.01);
+    keeps_its_promise(&scene, &scene, &promise(0.01));
 }
 
 #[test]
 fn so_it_is_where_light_is_rare() {
     let scene = rare_light();
-    keeps_its_promise(&scene, &sampling_light(&scene), 0.03);
+    keeps_its_promise(&scene, &sampling_light(&scene), &promise(0.03));
+}
+
+/// Streams are independent of each other where they share what decides their pixels' numbers of samples, because that is nothing of their own.
+#[test]
+fn so_it_is_where_samples_follow_the_noise() {
+    let mut scene = cornell([20, 20]);
+    scene.render.max_depth = 4;
+    // Small enough for several stages.
+    keeps_its_promise(&scene, &scene, &Goal { adaptive: true, ..promise(0.003) });
 }
