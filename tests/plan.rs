@@ -148,3 +148,62 @@ fn the_number_of_cores_does_not_show() {
         }
     }
 }
+
+/// What no surface is made of costs nothing: not a word of the kernels, of the tables or of the texels.
+#[test]
+fn materials_and_textures_that_nothing_uses_leave_no_trace() {
+    let room = include_str!("../scenes/cornell.toml");
+    let unused = "
+        [[texture]]
+        name = \"marble\"
+        type = \"perlin\"
+        a = 0.2
+        b = 0.8
+        scale = 4
+        octaves = 4
+        [[material]]
+        name = \"frosted\"
+        type = \"rough_glass\"
+        ior = 1.5
+        roughness = 0.2
+        [[material]]
+        name = \"veined\"
+        type = \"mirror\"
+        reflectance = { texture = \"marble\" }
+        [[material]]
+        name = \"mixed\"
+        type = \"blend\"
+        materials = [\"frosted\", \"veined\"]
+        weight = { type = \"facing\" }
+        emission = 3
+        ";
+    let on_a_surface = "
+        [[shape]]
+        type = \"sphere\"
+        center = [100, 100, 100]
+        radius = 50
+        material = \"mixed\"
+        ";
+    let packed = |more: &[&str]| {
+        let text = format!("{room}{}", more.concat());
+        let scene = scene::load_toml_str(&text, "room", Path::new(".")).expect("the scene is valid");
+        let flat = FlatScene::new(&scene).expect("the scene packs");
+        let plan = Plan::new(&scene, &flat, &DeviceLimits::default(), &PlanOptions::default()).expect("it fits");
+        // As bits: "no index" is a NaN.
+        let tables: Vec<_> = flat.tables().words.iter().map(|word| word.map(f32::to_bits)).collect();
+        (tables, flat.materials.scene_ids, plan)
+    };
+    let (tables, materials, plan) = packed(&[]);
+    assert_eq!(materials, [0, 1, 2, 3]);
+    let (tables_beside, materials_beside, plan_beside) = packed(&[unused]);
+    assert_eq!((tables_beside, materials_beside), (tables, materials));
+    assert_eq!(plan_beside.switches, plan.switches);
+
+    let (_, materials_used, plan_used) = packed(&[unused, on_a_surface]);
+    // The surface's own, and behind it what it blends.
+    assert_eq!(materials_used, [0, 1, 2, 3, 6, 4, 5]);
+    for switch in ["BLENDS", "MIRROR", "PERLIN", "ROUGH_GLASS", "VARYING_LIGHTS"] {
+        assert!(plan_used.switches.enabled.contains(switch), "{switch}");
+        assert!(!plan_beside.switches.enabled.contains(switch), "{switch}");
+    }
+}

@@ -1,6 +1,8 @@
 //! Materials as the device reads them. A blend becomes a run of leaves, each with the weights along its branch: data, whatever the
 //! depth of the tree.
 
+use std::collections::{BTreeSet, HashMap};
+
 use glam::DVec3;
 
 use super::NONE;
@@ -78,10 +80,12 @@ pub struct FlatLeaf {
     pub constant_factor: f32,
 }
 
-/// All materials of a scene.
+/// The materials that a scene's surfaces are made of. Others that the scene names are left out: kernels have the code of what stands here.
 #[derive(Debug, Clone, Default)]
 pub struct FlatMaterials {
     pub materials: Vec<FlatMaterial>,
+    /// Which of the scene's materials each one is.
+    pub scene_ids: Vec<MaterialId>,
     pub leaves: Vec<FlatLeaf>,
     pub heuristics: Vec<FlatHeuristic>,
 }
@@ -98,18 +102,52 @@ pub fn color_and_texture(input: &ColorInput) -> ([f32; 3], u32) {
 }
 
 impl FlatMaterials {
+    /// Packs the materials that surfaces have, in the scene's order, and behind them those that only their blends are made of. Textures
+    /// keep the scene's numbers ([`FlatMaterials::textures_mut`]).
+    ///
     /// # Errors
     /// [`FlatError::TooManyWeights`] where the branches of nested blends have more weights than can be kept.
-    pub fn new(scene: &Scene) -> Result<Self, FlatError> {
+    pub fn new(scene: &Scene, of_surfaces: &BTreeSet<MaterialId>) -> Result<Self, FlatError> {
         let mut flat = Self::default();
-        for (id, material) in scene.materials.iter().enumerate() {
-            let packed = match material.kind {
+        for &id in of_surfaces {
+            let packed = match scene.materials[id].kind {
                 MaterialKind::Blend { .. } => flat.blend(scene, id)?,
-                _ => FlatMaterial::new(material),
+                _ => FlatMaterial::new(&scene.materials[id]),
             };
             flat.materials.push(packed);
+            flat.scene_ids.push(id);
         }
+        flat.add_parts(scene);
         Ok(flat)
+    }
+
+    /// Adds the parts of blends that no surface is made of alone; leaves then name their places instead of the scene's numbers.
+    fn add_parts(&mut self, scene: &Scene) {
+        let mut places: HashMap<MaterialId, usize> = self.scene_ids.iter().enumerate().map(|(place, id)| (*id, place)).collect();
+        for leaf in &mut self.leaves {
+            let id = leaf.material as MaterialId;
+            let place = *places.entry(id).or_insert_with(|| {
+                self.materials.push(FlatMaterial::new(&scene.materials[id]));
+                self.scene_ids.push(id);
+                self.materials.len() - 1
+            });
+            leaf.material = place as u32;
+        }
+    }
+
+    /// Where each of the scene's materials stands; [`NONE`] where it is left out.
+    pub fn places(&self, scene: &Scene) -> Vec<u32> {
+        let mut places = vec![NONE; scene.materials.len()];
+        for (place, &id) in self.scene_ids.iter().enumerate() {
+            places[id] = place as u32;
+        }
+        places
+    }
+
+    /// Every mention of a texture, to be renumbered.
+    pub(super) fn textures_mut(&mut self) -> impl Iterator<Item = &mut u32> {
+        let of_heuristics = self.heuristics.iter_mut().map(|heuristic| &mut heuristic.texture);
+        self.materials.iter_mut().flat_map(FlatMaterial::textures_mut).chain(of_heuristics).filter(|texture| **texture != NONE)
     }
 
     fn blend(&mut self, scene: &Scene, id: MaterialId) -> Result<FlatMaterial, FlatError> {
@@ -243,6 +281,11 @@ impl FlatMaterial {
             scalar_is_squared: u32::from(matches!(parameters.scalar, ColorInput::SquaredTexture(_))),
             padding: 0,
         }
+    }
+
+    fn textures_mut(&mut self) -> [&mut u32; 5] {
+        let Self { first_texture, emission_texture, second_texture, scalar_texture, normal_map, .. } = self;
+        [first_texture, emission_texture, second_texture, scalar_texture, normal_map]
     }
 
     pub fn kind(&self) -> u32 {

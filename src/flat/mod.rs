@@ -78,13 +78,19 @@ impl Unarranged {
             shape.check_motion(scene.camera.shutter).map_err(fail)?;
         }
         let mut world = world::collect(scene);
-        let mut textures = FlatTextures::new(scene)?;
+        let mut materials = FlatMaterials::new(scene, &world.materials())?;
+        let mut textures = FlatTextures::new(scene, materials.textures_mut())?;
         let environment = FlatEnvironment::new(scene, &mut textures.texels)?;
-        let lights = light::collect(scene, &mut world, &environment);
+        let mut lights = light::collect(scene, &mut world, &environment);
+        let places = materials.places(scene);
+        world.primitives.iter_mut().for_each(|primitive| primitive.material = places[primitive.material] as usize);
+        for light in lights.iter_mut().filter(|light| light.material != NONE) {
+            light.material = places[light.material as usize];
+        }
         let tree = Tree::build(&world.primitives, &world.motions)?;
         let rest = FlatScene {
             attributes: world.attributes,
-            materials: FlatMaterials::new(scene)?,
+            materials,
             lights,
             textures,
             environment,

@@ -44,6 +44,7 @@ pub enum PrimitiveGeometry {
 #[derive(Debug, Clone, Copy)]
 pub struct WorldPrimitive {
     pub geometry: PrimitiveGeometry,
+    /// Index into the scene's materials, in the end into the packed ones.
     pub material: usize,
     /// Index into the scene's shapes.
     pub shape: usize,

@@ -1,9 +1,11 @@
 //! Textures as the device reads them.
 
+use std::collections::HashMap;
+
 use glam::DVec3;
 
 use super::validate::FlatError;
-use crate::scene::{ImageTexture, Scene, TextureFilter, TextureKind, TextureWrap};
+use crate::scene::{ImageTexture, Scene, Texture, TextureFilter, TextureId, TextureKind, TextureWrap};
 
 /// Kinds in `shaders/shading/texture.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,7 +36,7 @@ pub struct FlatTexture {
     pub b: [f32; 4],
 }
 
-/// All textures of a scene.
+/// The textures that something looks up.
 #[derive(Debug, Clone, Default)]
 pub struct FlatTextures {
     pub textures: Vec<FlatTexture>,
@@ -43,31 +45,48 @@ pub struct FlatTextures {
 }
 
 impl FlatTextures {
+    /// Packs the textures that are mentioned by their numbers in the scene, each once; the mentions become places here.
+    ///
     /// # Errors
     /// [`FlatError::TooManyTexels`] where 32 bits cannot number them.
-    pub fn new(scene: &Scene) -> Result<Self, FlatError> {
+    pub fn new<'a>(scene: &Scene, mentions: impl Iterator<Item = &'a mut u32>) -> Result<Self, FlatError> {
         let mut flat = Self::default();
-        for texture in &scene.textures {
-            let packed = match &texture.kind {
-                TextureKind::Image(image) => flat.add_image(image)?,
-                TextureKind::Checker { a, b, scale } => {
-                    FlatTexture { scale: scale.map(|x| x as f32), ..procedural(FlatTextureKind::Checker, *a, *b) }
+        let mut places: HashMap<TextureId, u32> = HashMap::new();
+        for mention in mentions {
+            let id = *mention as TextureId;
+            *mention = match places.get(&id) {
+                Some(&place) => place,
+                None => {
+                    let place = flat.add(&scene.textures[id])?;
+                    places.insert(id, place);
+                    place
                 }
-                TextureKind::Perlin { scale, octaves, a, b, seed } => FlatTexture {
-                    scale: [*scale as f32; 2],
-                    width_or_octaves: *octaves,
-                    first_texel_or_seed: *seed,
-                    ..procedural(FlatTextureKind::Perlin, *a, *b)
-                },
-                TextureKind::Worley { scale, a, b, seed } => FlatTexture {
-                    scale: [*scale as f32; 2],
-                    first_texel_or_seed: *seed,
-                    ..procedural(FlatTextureKind::Worley, *a, *b)
-                },
             };
-            flat.textures.push(packed);
         }
         Ok(flat)
+    }
+
+    /// Its place.
+    fn add(&mut self, texture: &Texture) -> Result<u32, FlatError> {
+        let packed = match &texture.kind {
+            TextureKind::Image(image) => self.add_image(image)?,
+            TextureKind::Checker { a, b, scale } => {
+                FlatTexture { scale: scale.map(|x| x as f32), ..procedural(FlatTextureKind::Checker, *a, *b) }
+            }
+            TextureKind::Perlin { scale, octaves, a, b, seed } => FlatTexture {
+                scale: [*scale as f32; 2],
+                width_or_octaves: *octaves,
+                first_texel_or_seed: *seed,
+                ..procedural(FlatTextureKind::Perlin, *a, *b)
+            },
+            TextureKind::Worley { scale, a, b, seed } => FlatTexture {
+                scale: [*scale as f32; 2],
+                first_texel_or_seed: *seed,
+                ..procedural(FlatTextureKind::Worley, *a, *b)
+            },
+        };
+        self.textures.push(packed);
+        Ok(self.textures.len() as u32 - 1)
     }
 
     fn add_image(&mut self, image: &ImageTexture) -> Result<FlatTexture, FlatError> {

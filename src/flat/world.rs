@@ -1,11 +1,13 @@
 //! Shapes to primitives in world space, in the order in which the scene names them.
 
+use std::collections::BTreeSet;
+
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
 use super::NONE;
 use super::motion::FlatMotion;
 use super::primitive::{PrimitiveGeometry, TriangleAttributes, WorldPrimitive};
-use crate::scene::{Geometry, MaterialKind, Mesh, Scene, Shape};
+use crate::scene::{Geometry, MaterialId, MaterialKind, Mesh, Scene, Shape};
 
 /// All primitives of a scene, and the attributes of those that have some.
 #[derive(Debug, Default)]
@@ -45,6 +47,11 @@ pub fn collect(scene: &Scene) -> WorldGeometry {
 }
 
 impl WorldGeometry {
+    /// What its surfaces are made of.
+    pub fn materials(&self) -> BTreeSet<MaterialId> {
+        self.primitives.iter().map(|primitive| primitive.material).collect()
+    }
+
     /// Moves the primitives from `first` on. Their attributes say how.
     fn set_in_motion(&mut self, first: usize, motion: FlatMotion) {
         let word = self.motion_words.len() as u32;

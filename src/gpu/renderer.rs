@@ -13,7 +13,7 @@ use crate::flat::{FlatError, Unarranged};
 use crate::plan::{GeometryPlacement, Plan, PlanOptions, StageMode};
 use crate::render::{Batch, DeviceChoice, Observer, RenderError, RenderReport, Renderer};
 use crate::sampling::{Sampling, SequencePoint};
-use crate::scene::Scene;
+use crate::scene::{MaterialId, Scene};
 
 /// A scene uploaded, its kernels compiled.
 pub struct GpuRenderer {
@@ -23,6 +23,8 @@ pub struct GpuRenderer {
     kernels: Vec<Kernel>,
     pub(super) size: [u32; 2],
     pub(super) sampling: Sampling,
+    /// Which of the scene's materials the packed ones are.
+    pub(super) scene_materials: Vec<MaterialId>,
     sizer: PassSizer,
     /// Edges of a path at most; None: no limit.
     pub(super) max_depth: Option<u32>,
@@ -124,6 +126,7 @@ impl GpuRenderer {
             kernels,
             size: scene.film.size,
             sampling,
+            scene_materials: flat.materials.scene_ids,
             sizer,
             max_depth,
             edges_per_submission,

@@ -5,6 +5,7 @@ use super::passes::Pass;
 use super::renderer::{BandState, GpuRenderer};
 use crate::flat::NONE;
 use crate::render::RenderError;
+use crate::scene::MaterialId;
 
 /// Vertices that the kernel writes down; of longer paths the rest is not seen.
 pub const TRACED_VERTICES: usize = 64;
@@ -60,8 +61,8 @@ pub struct TracedSample {
 /// One vertex of a path, or its end outside the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TracedVertex {
-    /// Position, shading normal on wo's side, and index of the material; None: the ray left the scene.
-    pub surface: Option<([f32; 3], [f32; 3], u32)>,
+    /// Position, shading normal on wo's side, and which of the scene's materials; None: the ray left the scene.
+    pub surface: Option<([f32; 3], [f32; 3], MaterialId)>,
     /// Of the ray that led here.
     pub direction: [f32; 3],
     pub throughput: [f32; 3],
@@ -97,21 +98,22 @@ impl GpuRenderer {
         encoder.copy_buffer_to_buffer(source, 0, &target, 0, BYTES);
         self.device.submit_and_wait(encoder.finish())?;
         let words: Vec<[f32; 4]> = self.device.read(&target)?.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect();
-        let vertices = words.chunks_exact(WORDS).map_while(read_vertex).collect();
+        let vertices = words.chunks_exact(WORDS).map_while(|words| read_vertex(words, &self.scene_materials)).collect();
         let sums = self.read_film(&self.buffers.film[0], 1)?;
         let [r, g, b, _] = sums[x as usize];
         Ok(GpuPathTrace { vertices, radiance: [r, g, b] })
     }
 }
 
-/// None past the last vertex.
-fn read_vertex(words: &[[f32; 4]]) -> Option<TracedVertex> {
+/// None past the last vertex. `scene_materials`: which of the scene's materials the packed ones are.
+fn read_vertex(words: &[[f32; 4]], scene_materials: &[MaterialId]) -> Option<TracedVertex> {
     let xyz = |word: usize| [words[word][0], words[word][1], words[word][2]];
     let w = |word: usize| words[word][3];
     let notes = w(3).to_bits();
     let has = |note: u32| notes & note != 0;
+    let material = scene_materials.get(w(1).to_bits() as usize);
     has(VERTEX).then(|| TracedVertex {
-        surface: (w(0).to_bits() != NONE).then(|| (xyz(0), xyz(1), w(1).to_bits())),
+        surface: if w(0).to_bits() == NONE { None } else { material.map(|&material| (xyz(0), xyz(1), material)) },
         direction: xyz(2),
         throughput: xyz(3),
         found: has(FOUND).then(|| TracedFind { contribution: xyz(4), weight: w(4) }),

@@ -285,8 +285,7 @@ fn device_vertex(scene: &Scene, vertex: &TracedVertex) -> Quantities {
     match vertex.surface {
         None => quantities.push(outside()),
         Some((position, normal, material)) => {
-            let name = scene.materials.get(material as usize).map_or("?", |material| &material.name);
-            quantities.push(("material", Value::Text(name.into())));
+            quantities.push(("material", Value::Text(scene.materials[material].name.clone())));
             quantities.push(("position", vector(DVec3::from(position.map(f64::from)) + scene.center())));
             quantities.push(("shading normal", single(normal)));
         }
