@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::film::Band;
 use crate::flat::hierarchy::HierarchyKind;
+use crate::plan::Decision;
 
 /// Which device renders (`--device`).
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,6 +75,10 @@ pub struct RenderReport {
     pub device: String,
     /// The form of the hierarchy that a graphics device goes through; None where geometry is code.
     pub hierarchy: Option<HierarchyKind>,
+    /// What the plan decided for a graphics device, and why; empty for the CPU.
+    pub decisions: Vec<Decision>,
+    /// The parts of the shaders that a graphics device's kernels hold.
+    pub compiled_in: Vec<&'static str>,
     /// Camera, bounce and shadow rays traced.
     pub rays: u64,
     /// Samples finished, over all pixels.

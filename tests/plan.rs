@@ -49,6 +49,35 @@ fn small_scenes_are_constants_and_large_ones_a_hierarchy() {
 }
 
 #[test]
+fn every_decision_has_its_reason() {
+    let because = |plan: &Plan, about: &str| {
+        let decision = plan.decisions.iter().find(|decision| decision.about == about).expect("it is decided");
+        assert!(plan.to_string().contains(&format!("{} ({})", decision.choice, decision.because)), "{plan}");
+        decision.because.clone()
+    };
+    let hardware = DeviceLimits::default();
+    let software = DeviceLimits { software: true, subgroup_size: Some(8), ..hardware.clone() };
+    let grid = grid(20);
+    let plan_for_hardware = plan(&grid, &hardware).expect("it fits");
+    assert_eq!(because(&plan_for_hardware, "geometry"), "800 primitives, more than 64");
+    assert_eq!(because(&plan_for_hardware, "primitives"), "38 KiB, at most 64");
+    assert!(because(&plan_for_hardware, "stages").contains("hardware"));
+    assert!(plan_for_hardware.decisions.iter().all(|decision| decision.about != "lanes"));
+    let plan_for_software = plan(&grid, &software).expect("it fits");
+    assert!(because(&plan_for_software, "stages").contains("software"));
+    assert!(because(&plan_for_software, "lanes").contains("software"));
+
+    let options = PlanOptions {
+        stages: Some(StageMode::Wavefront),
+        geometry: Some(GeometryPlacement::Hierarchy),
+        ..PlanOptions::default()
+    };
+    let flat = FlatScene::new(&grid).expect("the scene packs");
+    let forced = Plan::new(&grid, &flat, &software, &options).expect("it fits");
+    assert_eq!([because(&forced, "stages"), because(&forced, "geometry")], ["asked for", "asked for"]);
+}
+
+#[test]
 fn an_array_beyond_the_largest_binding_is_refused_with_both_sizes() {
     let mut scene = grid(60);
     scene.film.size = [64, 64];

@@ -1,5 +1,6 @@
 //! `--stats`: what a render did, as JSON for other programs.
 
+use gpt::plan::Decision;
 use gpt::render::RenderReport;
 use gpt::scene::{Scene, setting_name};
 use serde::Serialize;
@@ -12,6 +13,10 @@ pub struct Stats {
     pub device: String,
     /// `bvh2`, `bvh4` or `cwbvh`; null where the device tests every primitive, and for the CPU reference.
     pub hierarchy: Option<String>,
+    /// What the plan decided for the device, and why; empty for the CPU reference.
+    pub decisions: Vec<Decision>,
+    /// The parts of the shaders that are compiled; the rest of them is left out.
+    pub compiled_in: Vec<&'static str>,
     pub width: u32,
     pub height: u32,
     /// Samples per pixel that were asked for.
@@ -77,6 +82,8 @@ impl Stats {
             scene_hash: String::new(),
             device: report.device.clone(),
             hierarchy: report.hierarchy.map(|kind| kind.switch().to_lowercase()),
+            decisions: report.decisions.clone(),
+            compiled_in: report.compiled_in.clone(),
             width,
             height,
             spp: scene.render.spp,

@@ -414,6 +414,8 @@ impl Renderer for GpuRenderer {
         Ok(RenderReport {
             device: self.device.name.clone(),
             hierarchy: Some(self.plan.hierarchy).filter(|_| self.plan.geometry == GeometryPlacement::Hierarchy),
+            decisions: self.plan.decisions.clone(),
+            compiled_in: self.plan.switches.enabled.iter().copied().collect(),
             rays: (u64::from(high) << 32 | u64::from(low)) + camera_rays,
             samples: finished,
             non_finite_samples: u64::from(non_finite_samples),

@@ -4,6 +4,7 @@
 //! flight, and which parts of the shaders are compiled at all. `gpt check` prints it.
 
 pub mod chunks;
+pub mod decisions;
 pub mod fault;
 pub mod limits;
 pub mod memory;
@@ -19,6 +20,7 @@ use crate::scene::Scene;
 use crate::shader::Switches;
 
 pub use chunks::Chunks;
+pub use decisions::Decision;
 pub use fault::Fault;
 pub use limits::DeviceLimits;
 pub use memory::Memory;
@@ -129,6 +131,8 @@ pub struct Plan {
     pub switches: Switches,
     pub memory: Memory,
     pub checked_shaders: bool,
+    /// The choices above in words, with the reason for each.
+    pub decisions: Vec<Decision>,
 }
 
 impl Plan {
@@ -142,20 +146,9 @@ impl Plan {
         if options.hierarchy.is_some_and(|wanted| wanted != hierarchy) {
             return Err(RenderError::Internal(format!("the scene was packed with a hierarchy that is {hierarchy}")));
         }
-        let few = flat.primitives.len() <= UNROLL_LIMIT;
-        let preferred = if few { GeometryPlacement::Unrolled } else { GeometryPlacement::Hierarchy };
-        // What moves is no constant.
-        let geometry = if flat.moves() { GeometryPlacement::Hierarchy } else { options.geometry.unwrap_or(preferred) };
+        let (geometry, why_geometry) = decisions::geometry(flat, options);
         let light_samples = if switches::samples_lights(scene, flat) { scene.render.light_samples } else { 1 };
-        // Software devices move every word on its own: there, paths kept in registers beat queues whatever the geometry
-        // (BENCHMARKS.md).
-        let stages = match geometry {
-            _ if options.trace => StageMode::Fused,
-            // A queue holds one shadow ray of a path.
-            _ if light_samples > 1 => StageMode::Fused,
-            GeometryPlacement::Hierarchy if !limits.software => options.stages.unwrap_or(StageMode::Wavefront),
-            _ => options.stages.unwrap_or(StageMode::Fused),
-        };
+        let (stages, why_stages) = decisions::stages(geometry, light_samples, limits, options);
         // On software devices the arithmetic of a step through a hierarchy costs the same for one lane as for all, so lanes should go
         // the same way. Geometry that is code is met by all lanes anyway, and there a lane that starts its next path at once gains.
         let may_share = limits.software && stages == StageMode::Fused && !options.trace;
@@ -202,6 +195,7 @@ impl Plan {
             switches: Switches::default(),
             memory: Memory::default(),
             checked_shaders: options.checked_shaders,
+            decisions: Vec::new(),
         };
         plan.chunks = chunks::cut(flat, &plan, largest_chunk);
         let other_arrays = u32::from(!uniform_tables) + u32::from(!flat.textures.texels.is_empty());
@@ -226,6 +220,7 @@ impl Plan {
         }
         plan.memory = Memory::new(flat, &plan, width);
         plan.memory.check(limits)?;
+        plan.decisions = decisions::explain(&plan, scene, flat, limits, options, why_geometry, why_stages);
         Ok(plan)
     }
 
@@ -263,39 +258,9 @@ pub(crate) fn has_attributes(flat: &FlatScene) -> bool {
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let geometry = match self.geometry {
-            GeometryPlacement::Unrolled => "written into the kernels as constants",
-            GeometryPlacement::Hierarchy => "triangles in a hierarchy; few other shapes as constants",
-        };
-        writeln!(f, "geometry       {geometry}")?;
-        let buffers = |uniform| if uniform { "uniform buffer" } else { "storage buffer" };
-        if self.geometry == GeometryPlacement::Hierarchy {
-            writeln!(f, "hierarchy      {}, {}", self.hierarchy, buffers(self.uniform_nodes))?;
+        for Decision { about, choice, because } in &self.decisions {
+            writeln!(f, "{about:<14} {choice} ({because})")?;
         }
-        writeln!(f, "primitives     {}", buffers(self.uniform_primitives))?;
-        writeln!(f, "tables         {}", buffers(self.uniform_tables))?;
-        let cut: Vec<String> = self.chunks.iter().filter(|array| !array.is_whole()).map(Chunks::to_string).collect();
-        if !cut.is_empty() {
-            writeln!(f, "in chunks      {}", cut.join(", "))?;
-        }
-        let stages: Vec<&str> = self.stage_files().iter().map(|(_, entry)| *entry).collect();
-        writeln!(f, "stages         {}", stages.join(", "))?;
-        if self.light_samples > 1 {
-            let surfaces = match self.light_samples_depth {
-                1 => "at the first surface".to_owned(),
-                depth => format!("at each of the first {depth} surfaces"),
-            };
-            writeln!(f, "light samples  {} {surfaces}, in one kernel with the rest of the path", self.light_samples)?;
-        }
-        if let Some(lanes) = self.lanes {
-            let way = if self.packets { ", their rays in packets" } else { "" };
-            writeln!(f, "lanes          {lanes} samples of one pixel side by side{way}")?;
-        }
-        let film = match self.film {
-            FilmStorage::Texture => "rgba32float storage textures",
-            FilmStorage::Buffer => "storage buffers",
-        };
-        writeln!(f, "film           {film}, bands of {} rows", self.band_rows)?;
         let features: Vec<&str> = self.switches.enabled.iter().copied().collect();
         writeln!(f, "compiled in    {}", features.join(" "))?;
         let skipped: Vec<&str> = switches::ALL

@@ -122,6 +122,7 @@ fn stats_have_the_keys_that_other_programs_rely_on() {
     assert_eq!(stats["scene"], "scene");
     assert_eq!(stats["device"], "CPU reference");
     assert!(stats["hierarchy"].is_null());
+    assert_eq!((&stats["decisions"], &stats["compiled_in"]), (&serde_json::json!([]), &serde_json::json!([])));
     assert_eq!((&stats["width"], &stats["height"], &stats["spp"]), (&10.into(), &6.into(), &4.into()));
     assert_eq!(stats["samples"], 240);
     assert_eq!(stats["seed"], 9);

@@ -1,0 +1,139 @@
+//! What the plan decided, and why: what `gpt check` and `--stats` tell.
+
+use serde::Serialize;
+
+use super::{
+    Chunks, DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanOptions, SOFTWARE_HIERARCHY, StageMode, UNROLL_LIMIT,
+};
+use crate::flat::FlatScene;
+use crate::scene::Scene;
+
+/// One decision, in words.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Decision {
+    /// What is decided, for example `geometry`.
+    pub about: &'static str,
+    pub choice: String,
+    /// The facts of scene and device that led to it.
+    pub because: String,
+}
+
+const ASKED_FOR: &str = "asked for";
+
+/// Where geometry lives, and why.
+pub(super) fn geometry(flat: &FlatScene, options: &PlanOptions) -> (GeometryPlacement, String) {
+    let count = flat.primitives.len();
+    match options.geometry {
+        // What moves is no constant.
+        _ if flat.moves() => (GeometryPlacement::Hierarchy, "something moves, and is no constant".into()),
+        Some(placement) => (placement, ASKED_FOR.into()),
+        None if count <= UNROLL_LIMIT => (GeometryPlacement::Unrolled, format!("{count} primitives, at most {UNROLL_LIMIT}")),
+        None => (GeometryPlacement::Hierarchy, format!("{count} primitives, more than {UNROLL_LIMIT}")),
+    }
+}
+
+/// How stages run, and why.
+pub(super) fn stages(
+    geometry: GeometryPlacement,
+    light_samples: u32,
+    limits: &DeviceLimits,
+    options: &PlanOptions,
+) -> (StageMode, String) {
+    let (stages, because) = match options.stages {
+        _ if options.trace => (StageMode::Fused, "one path is followed from its start to its end"),
+        _ if light_samples > 1 => (StageMode::Fused, "a queue would hold one shadow ray of a path, and several are wanted"),
+        Some(stages) => (stages, ASKED_FOR),
+        // Software devices move every word on its own: there, paths kept in registers beat queues whatever the geometry
+        // (BENCHMARKS.md).
+        None if limits.software => (StageMode::Fused, "a software device moves each word of a queue on its own"),
+        None if geometry == GeometryPlacement::Unrolled => (StageMode::Fused, "without a hierarchy, rays take equally long"),
+        None => (StageMode::Wavefront, "rays take differently long, and queues keep the lanes of hardware together"),
+    };
+    (stages, because.into())
+}
+
+/// All decisions in words, in the order of the data's way. `geometry` and `stages` are the reasons for those.
+pub(super) fn explain(
+    plan: &Plan,
+    scene: &Scene,
+    flat: &FlatScene,
+    limits: &DeviceLimits,
+    options: &PlanOptions,
+    geometry: String,
+    stages: String,
+) -> Vec<Decision> {
+    let mut decisions = materials(scene, flat).into_iter().collect::<Vec<_>>();
+    let mut add = |about, choice: String, because: String| decisions.push(Decision { about, choice, because });
+    let placement = match plan.geometry {
+        GeometryPlacement::Unrolled => "written into the kernels as constants",
+        GeometryPlacement::Hierarchy => "triangles in a hierarchy; few other shapes as constants",
+    };
+    add("geometry", placement.into(), geometry);
+    if plan.geometry == GeometryPlacement::Hierarchy {
+        let buffer = buffer_name(plan.uniform_nodes);
+        add("hierarchy", format!("{}, {buffer}", plan.hierarchy), why_hierarchy(plan, limits, options));
+    }
+    let (bytes, tables) = (size_of_val(&flat.primitives[..]), 16 * flat.tables().words.len());
+    add("primitives", buffer_name(plan.uniform_primitives).into(), size_in_uniform(bytes, limits));
+    add("tables", buffer_name(plan.uniform_tables).into(), size_in_uniform(tables, limits));
+    let cut: Vec<String> = plan.chunks.iter().filter(|array| !array.is_whole()).map(Chunks::to_string).collect();
+    if !cut.is_empty() {
+        let largest = options.largest_chunk.unwrap_or(u64::MAX).min(limits.largest_array());
+        add("in chunks", cut.join(", "), format!("one binding holds {} KiB", largest >> 10));
+    }
+    let entries: Vec<&str> = plan.stage_files().iter().map(|(_, entry)| *entry).collect();
+    add("stages", entries.join(", "), stages);
+    if plan.light_samples > 1 {
+        let surfaces = match plan.light_samples_depth {
+            1 => "at the first surface".to_owned(),
+            depth => format!("at each of the first {depth} surfaces"),
+        };
+        let because = "the scene or the command line says so".into();
+        add("light samples", format!("{} {surfaces}, in one kernel with the rest of the path", plan.light_samples), because);
+    }
+    if let Some(lanes) = plan.lanes {
+        let way = if plan.packets { ", their rays in packets" } else { "" };
+        let because = "on a software device all lanes pay for the way that one of them takes".into();
+        add("lanes", format!("{lanes} samples of one pixel side by side{way}"), because);
+    }
+    let (film, because) = match plan.film {
+        _ if options.film.is_some() => (plan.film, ASKED_FOR),
+        FilmStorage::Texture => (plan.film, "the device reads and writes them"),
+        FilmStorage::Buffer => (plan.film, "the device cannot read and write textures of four floats, or none so wide"),
+    };
+    let film = match film {
+        FilmStorage::Texture => "rgba32float storage textures",
+        FilmStorage::Buffer => "storage buffers",
+    };
+    add("film", format!("{film}, bands of {} rows", plan.band_rows), because.into());
+    decisions
+}
+
+/// Which materials are packed, where some are not.
+fn materials(scene: &Scene, flat: &FlatScene) -> Option<Decision> {
+    let (packed, all) = (flat.materials.scene_ids.len(), scene.materials.len());
+    (packed < all).then(|| Decision {
+        about: "materials",
+        choice: format!("{packed} of {all}"),
+        because: "no surface is made of the others".into(),
+    })
+}
+
+fn why_hierarchy(plan: &Plan, limits: &DeviceLimits, options: &PlanOptions) -> String {
+    let because = match options.hierarchy {
+        Some(_) => ASKED_FOR,
+        None if limits.software && plan.hierarchy == SOFTWARE_HIERARCHY => "the fastest of three on software devices",
+        None => "the one for hardware, where the three have not been compared",
+    };
+    because.into()
+}
+
+fn buffer_name(uniform: bool) -> &'static str {
+    if uniform { "uniform buffer" } else { "storage buffer" }
+}
+
+fn size_in_uniform(bytes: usize, limits: &DeviceLimits) -> String {
+    let most = limits.max_uniform_binding as usize;
+    let compared = if bytes <= most { "at most" } else { "more than" };
+    format!("{} KiB, {compared} {}", bytes.div_ceil(1 << 10), most >> 10)
+}
