@@ -116,6 +116,20 @@ fn an_8k_picture_needs_no_more_device_memory_than_one_band() {
     assert!(large <= small.max(40 << 20), "{small} and {large} bytes");
 }
 
+/// The plan says who takes places in queues, where there are queues, and kernels exchange values only on devices that can.
+#[test]
+fn subgroups_take_places_in_queues_on_devices_that_have_them() {
+    let scene = grid(20);
+    let said = |subgroups, software| {
+        let plan = plan(&scene, &DeviceLimits { subgroups, software, ..DeviceLimits::default() }).expect("it fits");
+        assert_eq!(plan.switches.enabled.contains("SUBGROUP_QUEUES"), plan.subgroup_queues);
+        plan.to_string().lines().find(|line| line.starts_with("queues")).map(str::to_owned)
+    };
+    assert_eq!(said(true, false).as_deref(), Some("queues         one atomic a subgroup (the device has subgroups)"));
+    assert_eq!(said(false, false).as_deref(), Some("queues         one atomic a path (the device has no subgroups)"));
+    assert_eq!(said(true, true), None, "paths stay in one kernel");
+}
+
 /// Only the form of hierarchy that was chosen is packed and compiled, and what the options ask for is what runs.
 #[test]
 fn one_form_of_hierarchy_is_in_use() {

@@ -106,6 +106,49 @@ fn packets_are_used_where_they_can_be() {
     assert!(!of(Some(true), Some(HierarchyKind::Bvh2)), "there are no packets for binary trees");
 }
 
+/// Which place a path or a shadow ray has in a queue is nothing that its samples know of. Queues end within a subgroup at most edges, and
+/// lanes of one leave the scene, die and miss lights at different vertices.
+#[test]
+fn places_taken_by_a_subgroup_at_once_change_nothing() {
+    let mut cornell = scene::load(Some("cornell")).expect("it is built in");
+    cornell.film.size = [41, 31];
+    let mut spheres = scene::load(Some("spheres")).expect("it is built in");
+    spheres.film.size = [48, 27];
+    for (name, mut scene) in [("knot", scene(0)), ("cornell", cornell), ("spheres", spheres)] {
+        for spp in [1, 5, 24] {
+            scene.render.spp = spp;
+            let way = |together, path_capacity| PlanOptions {
+                stages: Some(StageMode::Wavefront),
+                subgroup_queues: Some(together),
+                path_capacity,
+                ..Default::default()
+            };
+            let [alone, together] = [false, true].map(|together| picture(&scene, &way(together, None)));
+            let (Some(alone), Some(together)) = (alone, together) else { return };
+            assert!(alone == together, "{name}, {spp} samples");
+            // In passes whose last subgroup is never full.
+            assert!(picture(&scene, &way(true, Some(1001))).as_ref() == Some(&alone), "{name}, {spp} samples, small passes");
+            // The comparison sees other samples.
+            scene.render.seed += 1;
+            assert!(picture(&scene, &way(true, None)).as_ref() != Some(&alone));
+        }
+    }
+}
+
+/// Otherwise the test above would compare a way with itself.
+#[test]
+fn subgroups_take_places_where_they_can() {
+    let Some(device) = DEVICE.as_ref() else { return };
+    let of = |together, stages| {
+        let options = PlanOptions { subgroup_queues: together, stages: Some(stages), ..Default::default() };
+        GpuRenderer::on(device, &scene(1), &options).expect("the scene fits").plan().subgroup_queues
+    };
+    let possible = device.limits.subgroups;
+    let wavefront = [None, Some(true), Some(false)].map(|together| of(together, StageMode::Wavefront));
+    assert_eq!(wavefront, [possible, possible, false]);
+    assert!(!of(Some(true), StageMode::Fused), "there are no queues where one kernel traces whole paths");
+}
+
 /// A hierarchy only says what need not be tested: the nearest hit is the nearest in every form. Where two primitives are met at the same
 /// distance to the last bit, the first to be tested stays, which is why edges that primitives share may show another one's material; a
 /// mesh of one smooth material does not show even that.

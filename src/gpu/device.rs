@@ -83,7 +83,7 @@ impl Device {
         if limits.read_write_rgba32float {
             features |= wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES;
         }
-        if limits.subgroup_size.is_some() {
+        if limits.subgroups {
             features |= wgpu::Features::SUBGROUP;
         }
         // Only measurements ask for the time; nothing else of the device changes by it.

@@ -96,6 +96,14 @@ pub(super) fn explain(
         let because = "on a software device all lanes pay for the way that one of them takes".into();
         add("lanes", format!("{lanes} samples of one pixel side by side{way}"), because);
     }
+    if plan.stages == StageMode::Wavefront {
+        let (taker, because) = match options.subgroup_queues {
+            Some(_) if limits.subgroups => (if plan.subgroup_queues { "subgroup" } else { "path" }, ASKED_FOR),
+            _ if plan.subgroup_queues => ("subgroup", "the device has subgroups"),
+            _ => ("path", "the device has no subgroups"),
+        };
+        add("queues", format!("one atomic a {taker}"), because.into());
+    }
     let (film, because) = match plan.film {
         _ if options.film.is_some() => (plan.film, ASKED_FOR),
         FilmStorage::Texture => (plan.film, "the device reads and writes them"),

@@ -18,6 +18,8 @@ pub struct DeviceLimits {
     pub software: bool,
     /// Of a software device: how many threads share a dispatch; 1 of others.
     pub threads: u32,
+    /// Invocations of a subgroup can exchange values, however many they are.
+    pub subgroups: bool,
     /// Invocations of a subgroup, where all subgroups have as many and can exchange values.
     pub subgroup_size: Option<u32>,
 }
@@ -35,6 +37,7 @@ impl Default for DeviceLimits {
             read_write_rgba32float: false,
             software: false,
             threads: 1,
+            subgroups: false,
             subgroup_size: None,
         }
     }
@@ -46,7 +49,8 @@ impl DeviceLimits {
         let features = adapter.get_texture_format_features(wgpu::TextureFormat::Rgba32Float);
         let info = adapter.get_info();
         let software = info.device_type == wgpu::DeviceType::Cpu;
-        let exchanges = adapter.features().contains(wgpu::Features::SUBGROUP) && info.subgroup_min_size == info.subgroup_max_size;
+        let subgroups = adapter.features().contains(wgpu::Features::SUBGROUP);
+        let one_size = subgroups && info.subgroup_min_size == info.subgroup_max_size;
         let specific = adapter.features().contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
         Self {
             max_storage_binding: limits.max_storage_buffer_binding_size,
@@ -58,7 +62,8 @@ impl DeviceLimits {
             read_write_rgba32float: specific && features.flags.contains(wgpu::TextureFormatFeatureFlags::STORAGE_READ_WRITE),
             software,
             threads: if software { std::thread::available_parallelism().map_or(1, |count| count.get() as u32) } else { 1 },
-            subgroup_size: exchanges.then_some(info.subgroup_min_size),
+            subgroups,
+            subgroup_size: one_size.then_some(info.subgroup_min_size),
         }
     }
 

@@ -76,6 +76,9 @@ pub struct PlanOptions {
     pub share_pixels: Option<bool>,
     /// Let those lanes go through the hierarchy together; without effect where they do not share a pixel.
     pub packets: Option<bool>,
+    /// Let a subgroup take its places in the wavefront's queues by one atomic; without effect where the stages or the device do not
+    /// allow it.
+    pub subgroup_queues: Option<bool>,
     /// Keep naga's bounds checks and loop bounds in the kernels.
     pub checked_shaders: bool,
     /// Write down what happens along a path, for [`crate::gpu::GpuRenderer::trace`]; one kernel then traces whole paths.
@@ -120,6 +123,8 @@ pub struct Plan {
     pub lanes: Option<u32>,
     /// Those lanes go through the hierarchy together.
     pub packets: bool,
+    /// A subgroup takes its places in queues by one atomic, not one for each invocation.
+    pub subgroup_queues: bool,
     /// Light samples at a path's first surfaces, and at how many of them; 1 and 0 where each takes one at most.
     pub light_samples: u32,
     pub light_samples_depth: u32,
@@ -159,6 +164,8 @@ impl Plan {
             && hierarchy == HierarchyKind::Bvh4
             && lanes.is_some_and(|lanes| lanes >= 4 && flat.hierarchy.stack_size <= MOST_STACK_REGISTERS * lanes)
             && options.packets.unwrap_or(true);
+        // Outside of hardware as well: never slower, on lavapipe by a few hundredths faster (BENCHMARKS.md).
+        let subgroup_queues = stages == StageMode::Wavefront && limits.subgroups && options.subgroup_queues.unwrap_or(true);
         let width = scene.film.size[0];
         let film = options.film.unwrap_or(if limits.read_write_rgba32float && width <= limits.max_texture_side {
             FilmStorage::Texture
@@ -188,6 +195,7 @@ impl Plan {
             rays_per_invocation: if limits.software { 32 } else { 1 },
             lanes,
             packets,
+            subgroup_queues,
             light_samples,
             light_samples_depth: if light_samples > 1 { scene.render.light_samples_depth } else { 0 },
             runs: limits.threads.max(1),

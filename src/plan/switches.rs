@@ -93,6 +93,7 @@ pub const ALL: &[&str] = &[
     "SPHERE_LIGHTS_VISIBLE_HALF",
     "SPOT_LIGHTS",
     "SPREAD",
+    "SUBGROUP_QUEUES",
     "TEXELS",
     "TEXTURES",
     "TRACE",
@@ -161,6 +162,7 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     let blades = enable_camera(&mut switches, scene);
     switches.enable("FILM_TEXTURE", plan.film == FilmStorage::Texture);
     switches.enable("SPREAD", plan.runs > 1);
+    switches.enable("SUBGROUP_QUEUES", plan.subgroup_queues);
 
     let tables = flat.tables();
     let map = flat.environment.map().unwrap_or_default();

@@ -54,6 +54,7 @@ shader_files![
     "stages/fused_pixels.wgsl",
     "stages/generate.wgsl",
     "stages/prepare.wgsl",
+    "stages/queue.wgsl",
     "stages/shade.wgsl",
     "stages/statistics.wgsl",
     "stages/wavefront.wgsl",
