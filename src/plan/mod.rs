@@ -164,7 +164,7 @@ impl Plan {
             && hierarchy == HierarchyKind::Bvh4
             && lanes.is_some_and(|lanes| lanes >= 4 && flat.hierarchy.stack_size <= MOST_STACK_REGISTERS * lanes)
             && options.packets.unwrap_or(true);
-        // Outside of hardware as well: never slower, on lavapipe by a few hundredths faster (BENCHMARKS.md).
+        // Known practice on hardware, and on lavapipe no slower (BENCHMARKS.md).
         let subgroup_queues = stages == StageMode::Wavefront && limits.subgroups && options.subgroup_queues.unwrap_or(true);
         let width = scene.film.size[0];
         let film = options.film.unwrap_or(if limits.read_write_rgba32float && width <= limits.max_texture_side {
