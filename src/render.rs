@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::film::Band;
 use crate::flat::hierarchy::HierarchyKind;
+use crate::plan::Traversal;
 
 /// Which device renders (`--device`).
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,6 +75,8 @@ pub struct RenderReport {
     pub device: String,
     /// The form of the hierarchy that a graphics device goes through; None where geometry is code.
     pub hierarchy: Option<HierarchyKind>,
+    /// How rays find what they meet on a graphics device, and why so.
+    pub traversal: Option<Traversal>,
     /// Camera, bounce and shadow rays traced.
     pub rays: u64,
     /// Samples finished, over all pixels.

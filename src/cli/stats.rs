@@ -10,8 +10,11 @@ pub struct Stats {
     pub scene: String,
     pub scene_hash: String,
     pub device: String,
-    /// `bvh2`, `bvh4` or `cwbvh`; null where the device tests every primitive, and for the CPU reference.
+    /// `bvh2`, `bvh4`, `cwbvh` or `ray_query`; null where the device tests every primitive, and for the CPU reference.
     pub hierarchy: Option<String>,
+    /// How rays find what they meet, `constants`, `bvh` or `ray-query`, and a clause that says why; null for the CPU reference.
+    pub traversal: Option<&'static str>,
+    pub traversal_because: Option<&'static str>,
     pub width: u32,
     pub height: u32,
     /// Samples per pixel that were asked for.
@@ -77,6 +80,8 @@ impl Stats {
             scene_hash: String::new(),
             device: report.device.clone(),
             hierarchy: report.hierarchy.map(|kind| kind.switch().to_lowercase()),
+            traversal: report.traversal.map(|traversal| traversal.way.name()),
+            traversal_because: report.traversal.map(|traversal| traversal.why),
             width,
             height,
             spp: scene.render.spp,

@@ -8,6 +8,7 @@ pub mod fault;
 pub mod limits;
 pub mod memory;
 pub mod switches;
+pub mod traversal;
 pub mod unroll;
 
 use std::fmt;
@@ -22,6 +23,7 @@ pub use chunks::Chunks;
 pub use fault::Fault;
 pub use limits::DeviceLimits;
 pub use memory::Memory;
+pub use traversal::{Traversal, TraversalWay};
 
 /// Primitives up to which geometry is written into the kernels as constants.
 pub const UNROLL_LIMIT: usize = 64;
@@ -37,7 +39,7 @@ pub const MAX_SAMPLES_PER_PASS: u32 = 64;
 pub enum GeometryPlacement {
     /// Every primitive is code with constant coordinates; there is no hierarchy.
     Unrolled,
-    /// A bounding volume hierarchy in buffers.
+    /// A bounding volume hierarchy, in buffers or the device's own.
     Hierarchy,
 }
 
@@ -63,7 +65,8 @@ pub enum FilmStorage {
 #[derive(Debug, Clone, Default)]
 pub struct PlanOptions {
     pub geometry: Option<GeometryPlacement>,
-    /// The form of the hierarchy, where there is one; the scene must have been packed with it ([`PlanOptions::hierarchy()`]).
+    /// The form of the hierarchy, where there is one; the scene must have been packed with it ([`PlanOptions::hierarchy()`]). With
+    /// [`HierarchyKind::RayQuery`] the device must have been opened for it ([`crate::gpu::Device::open_for`]).
     pub hierarchy: Option<HierarchyKind>,
     pub stages: Option<StageMode>,
     pub film: Option<FilmStorage>,
@@ -91,6 +94,11 @@ impl PlanOptions {
     pub fn hierarchy(&self, limits: &DeviceLimits) -> HierarchyKind {
         let preferred = if limits.software { SOFTWARE_HIERARCHY } else { HierarchyKind::default() };
         self.hierarchy.unwrap_or(preferred)
+    }
+
+    /// Whether plans may need ray queries of the device, which has to be opened for them.
+    pub fn asks_for_ray_queries(&self) -> bool {
+        self.hierarchy == Some(HierarchyKind::RayQuery)
     }
 }
 
@@ -142,10 +150,18 @@ impl Plan {
         if options.hierarchy.is_some_and(|wanted| wanted != hierarchy) {
             return Err(RenderError::Internal(format!("the scene was packed with a hierarchy that is {hierarchy}")));
         }
+        let ray_queries = hierarchy == HierarchyKind::RayQuery;
+        if ray_queries {
+            traversal::check_ray_queries(flat, limits)?;
+        }
         let few = flat.primitives.len() <= UNROLL_LIMIT;
         let preferred = if few { GeometryPlacement::Unrolled } else { GeometryPlacement::Hierarchy };
-        // What moves is no constant.
-        let geometry = if flat.moves() { GeometryPlacement::Hierarchy } else { options.geometry.unwrap_or(preferred) };
+        // What moves is no constant; and where there is nothing to ask, nobody is asked.
+        let geometry = match options.geometry.unwrap_or(preferred) {
+            _ if flat.moves() => GeometryPlacement::Hierarchy,
+            _ if ray_queries && flat.hierarchy.primitive_count == 0 => GeometryPlacement::Unrolled,
+            geometry => geometry,
+        };
         let light_samples = if switches::samples_lights(scene, flat) { scene.render.light_samples } else { 1 };
         // Software devices move every word on its own: there, paths kept in registers beat queues whatever the geometry
         // (BENCHMARKS.md).
@@ -158,7 +174,7 @@ impl Plan {
         };
         // On software devices the arithmetic of a step through a hierarchy costs the same for one lane as for all, so lanes should go
         // the same way. Geometry that is code is met by all lanes anyway, and there a lane that starts its next path at once gains.
-        let may_share = limits.software && stages == StageMode::Fused && !options.trace;
+        let may_share = limits.software && stages == StageMode::Fused && !options.trace && !ray_queries;
         let lanes = limits.subgroup_size.filter(|size| may_share && (2..=64).contains(size) && size.is_power_of_two());
         let lanes = lanes.filter(|_| options.share_pixels.unwrap_or(geometry == GeometryPlacement::Hierarchy));
         // Packets are written for that form alone, and their stack lies in registers, an entry a lane (shaders/geometry/packet.wgsl).
@@ -179,7 +195,7 @@ impl Plan {
         let uniform_primitives = fits_uniform(size_of_val(&flat.primitives[..]));
         let uniform_tables = 16 * tables.len() as u64 <= uniform_limit;
         // Real GPUs serialise divergent reads of uniform buffers; software ones read them faster than storage.
-        let uniform_nodes = limits.software && fits_uniform(flat.hierarchy.nodes.bytes().len());
+        let uniform_nodes = limits.software && !ray_queries && fits_uniform(flat.hierarchy.nodes.bytes().len());
         let path_capacity = options.path_capacity.unwrap_or_else(|| limits.path_capacity());
         let band_rows = limits.band_rows(scene.film.size, film);
         let mut plan = Self {
@@ -250,6 +266,16 @@ impl Plan {
         switches::SEQUENCE_BLOCKS + self.light_samples_depth * (self.light_samples - 1)
     }
 
+    /// Whether kernels walk nodes of ours.
+    pub(crate) fn has_nodes(&self) -> bool {
+        self.geometry == GeometryPlacement::Hierarchy && self.hierarchy != HierarchyKind::RayQuery
+    }
+
+    /// How rays find what they meet, and why so.
+    pub fn traversal(&self) -> Traversal {
+        Traversal::of(self)
+    }
+
     /// Whether any shadow ray is ever traced.
     pub fn samples_lights(&self) -> bool {
         self.switches.enabled.contains("LIGHTS")
@@ -269,8 +295,13 @@ impl fmt::Display for Plan {
         };
         writeln!(f, "geometry       {geometry}")?;
         let buffers = |uniform| if uniform { "uniform buffer" } else { "storage buffer" };
-        if self.geometry == GeometryPlacement::Hierarchy {
-            writeln!(f, "hierarchy      {}, {}", self.hierarchy, buffers(self.uniform_nodes))?;
+        writeln!(f, "traversal      {}", self.traversal())?;
+        match (self.geometry, self.hierarchy) {
+            (GeometryPlacement::Unrolled, _) => {}
+            (GeometryPlacement::Hierarchy, HierarchyKind::RayQuery) => writeln!(f, "hierarchy      {}", self.hierarchy)?,
+            (GeometryPlacement::Hierarchy, _) => {
+                writeln!(f, "hierarchy      {}, {}", self.hierarchy, buffers(self.uniform_nodes))?;
+            }
         }
         writeln!(f, "primitives     {}", buffers(self.uniform_primitives))?;
         writeln!(f, "tables         {}", buffers(self.uniform_tables))?;
