@@ -1,5 +1,7 @@
 //! The device's own acceleration structure, which kernels ask by ray queries.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use wgpu::util::DeviceExt;
 use wgpu::{
     AccelerationStructureFlags, AccelerationStructureGeometryFlags, AccelerationStructureUpdateMode, BlasAabbGeometry,
@@ -11,6 +13,7 @@ use crate::flat::FlatScene;
 use crate::flat::hierarchy::Nodes;
 use crate::flat::primitive::Primitive;
 use crate::flat::ray_query::ShapeBox;
+use crate::plan::memory::ACCELERATION_BYTES;
 
 /// Not moved.
 const IN_PLACE: [f32; 12] = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
@@ -21,19 +24,25 @@ const VERTEX_STRIDE: u64 = size_of::<Primitive>() as u64 / 3;
 /// there are any. Their custom data is the first primitive of each.
 pub struct Acceleration {
     pub structure: wgpu::Tlas,
+    /// What it takes on the device; estimated where that is not told.
+    pub bytes: u64,
 }
+
+/// Structures built so far: each has a name of its own, under which its memory is found.
+static BUILT: AtomicU64 = AtomicU64::new(0);
 
 impl Acceleration {
     /// Has the device build it. None where the scene was packed with a hierarchy of ours.
     pub fn build(device: &Device, flat: &FlatScene) -> Option<Self> {
         let Nodes::RayQuery(boxes) = &flat.hierarchy.nodes else { return None };
         let triangles = flat.hierarchy.primitive_count - boxes.len() as u32;
+        let name = format!("acceleration structure {}", BUILT.fetch_add(1, Ordering::Relaxed));
         let parts = [
-            (triangles > 0).then(|| Part::of_triangles(device, &flat.primitives[..triangles as usize])),
-            (!boxes.is_empty()).then(|| Part::of_boxes(device, boxes, triangles)),
+            (triangles > 0).then(|| Part::of_triangles(device, &name, &flat.primitives[..triangles as usize])),
+            (!boxes.is_empty()).then(|| Part::of_boxes(device, &name, boxes, triangles)),
         ];
         let mut structure = device.device.create_tlas(&wgpu::CreateTlasDescriptor {
-            label: Some("acceleration structure"),
+            label: Some(&name),
             max_instances: parts.len() as u32,
             flags: AccelerationStructureFlags::PREFER_FAST_TRACE,
             update_mode: AccelerationStructureUpdateMode::Build,
@@ -46,8 +55,15 @@ impl Acceleration {
         encoder.build_acceleration_structures(&entries, [&structure]);
         // Whoever renders waits for it, and sees what went wrong.
         device.queue.submit([encoder.finish()]);
-        Some(Self { structure })
+        let estimate = ACCELERATION_BYTES * u64::from(flat.hierarchy.primitive_count);
+        Some(Self { structure, bytes: allocated(device, &name).unwrap_or(estimate) })
     }
+}
+
+/// Bytes that the device holds under a name. None where the interface does not tell.
+fn allocated(device: &Device, name: &str) -> Option<u64> {
+    let report = device.device.generate_allocator_report()?;
+    Some(report.allocations.iter().filter(|allocation| allocation.name == name).map(|allocation| allocation.size).sum())
 }
 
 /// Primitives of one kind.
@@ -64,7 +80,7 @@ enum Size {
 }
 
 impl Part {
-    fn of_triangles(device: &Device, primitives: &[Primitive]) -> Self {
+    fn of_triangles(device: &Device, name: &str, primitives: &[Primitive]) -> Self {
         let size = wgpu::BlasTriangleGeometrySizeDescriptor {
             vertex_format: wgpu::VertexFormat::Float32x3,
             vertex_count: 3 * primitives.len() as u32,
@@ -72,18 +88,18 @@ impl Part {
             index_count: None,
             flags: AccelerationStructureGeometryFlags::OPAQUE,
         };
-        Self::new(device, bytemuck::cast_slice(primitives), Size::Triangles(size), 0)
+        Self::new(device, name, bytemuck::cast_slice(primitives), Size::Triangles(size), 0)
     }
 
-    fn of_boxes(device: &Device, boxes: &[ShapeBox], first_primitive: u32) -> Self {
+    fn of_boxes(device: &Device, name: &str, boxes: &[ShapeBox], first_primitive: u32) -> Self {
         let size = wgpu::BlasAABBGeometrySizeDescriptor {
             primitive_count: boxes.len() as u32,
             flags: AccelerationStructureGeometryFlags::empty(),
         };
-        Self::new(device, bytemuck::cast_slice(boxes), Size::Boxes(size), first_primitive)
+        Self::new(device, name, bytemuck::cast_slice(boxes), Size::Boxes(size), first_primitive)
     }
 
-    fn new(device: &Device, contents: &[u8], size: Size, first_primitive: u32) -> Self {
+    fn new(device: &Device, name: &str, contents: &[u8], size: Size, first_primitive: u32) -> Self {
         let descriptor =
             wgpu::util::BufferInitDescriptor { label: Some("acceleration input"), contents, usage: BufferUsages::BLAS_INPUT };
         let input = device.device.create_buffer_init(&descriptor);
@@ -92,7 +108,7 @@ impl Part {
             Size::Boxes(size) => BlasGeometrySizeDescriptors::AABBs { descriptors: vec![size.clone()] },
         };
         let descriptor = wgpu::CreateBlasDescriptor {
-            label: Some("acceleration structure of one kind"),
+            label: Some(name),
             flags: AccelerationStructureFlags::PREFER_FAST_TRACE,
             update_mode: AccelerationStructureUpdateMode::Build,
         };

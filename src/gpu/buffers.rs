@@ -52,7 +52,6 @@ pub struct Buffers {
     pub film: [FilmHalf; 2],
     film_views: [Option<wgpu::TextureView>; 2],
     acceleration: Option<Acceleration>,
-    /// As far as they are known: devices do not tell what acceleration structures take.
     pub bytes: u64,
 }
 
@@ -118,7 +117,9 @@ impl Buffers {
             FilmHalf::Buffer(_) => None,
         });
         let film_bytes = u64::from(width) * u64::from(plan.band_rows) * memory::FILM_BYTES;
-        let bytes = buffers.values().map(wgpu::Buffer::size).sum::<u64>() + film_bytes;
+        let bytes = buffers.values().map(wgpu::Buffer::size).sum::<u64>()
+            + film_bytes
+            + acceleration.as_ref().map_or(0, |acceleration| acceleration.bytes);
         Self { buffers, film, film_views, acceleration, bytes }
     }
 
