@@ -23,7 +23,8 @@ pub const LIST_BYTES: u64 = 4;
 pub const PRIMITIVE_BYTES: u64 = size_of::<Primitive>() as u64;
 pub const ATTRIBUTE_BYTES: u64 = size_of::<TriangleAttributes>() as u64;
 
-/// Bytes of a device's own acceleration structure per primitive. Drivers do not tell: it is an estimate.
+/// Bytes of a device's own acceleration structure per primitive. No driver tells before it builds one: an estimate, and what it
+/// takes while it builds comes on top. Lavapipe takes 104 for a triangle.
 pub const ACCELERATION_BYTES: u64 = 128;
 
 /// What the arrays are called that can be cut into chunks.
@@ -33,6 +34,7 @@ pub const ATTRIBUTES: &str = "normals and texture coordinates";
 
 /// What the device builds where ray queries find hits.
 pub const ACCELERATION: &str = "acceleration structure";
+const ESTIMATED_ACCELERATION: &str = "acceleration structure by estimate";
 
 /// Named arrays and their sizes in bytes.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -51,7 +53,7 @@ impl Memory {
             ("film compensation", pixels * FILM_BYTES / 2),
         ];
         if plan.switches.enabled.contains("RAY_QUERY") {
-            arrays.push((ACCELERATION, ACCELERATION_BYTES * u64::from(flat.hierarchy.primitive_count)));
+            arrays.push((ESTIMATED_ACCELERATION, ACCELERATION_BYTES * u64::from(flat.hierarchy.primitive_count)));
         }
         if plan.has_nodes() {
             arrays.push((NODES, flat.hierarchy.nodes.bytes().len() as u64));
@@ -85,7 +87,7 @@ impl Memory {
     pub fn check(&self, limits: &DeviceLimits) -> Result<(), RenderError> {
         let limit = limits.largest_array();
         // The last is no array of ours, and bound whole.
-        let cut = [PRIMITIVES, NODES, ATTRIBUTES, ACCELERATION];
+        let cut = [PRIMITIVES, NODES, ATTRIBUTES, ESTIMATED_ACCELERATION];
         match self.arrays.iter().find(|(name, bytes)| *bytes > limit && !cut.contains(name)) {
             Some((name, bytes)) => Err(RenderError::DoesNotFit(format!(
                 "its {name} need {}, and the device can bind {} at once",

@@ -106,6 +106,8 @@ impl PlanOptions {
 #[derive(Debug, Clone)]
 pub struct Plan {
     pub geometry: GeometryPlacement,
+    /// The options named that place.
+    pub geometry_asked: bool,
     /// The form of the hierarchy; without effect where there is none.
     pub hierarchy: HierarchyKind,
     /// Primitives are few enough for a uniform buffer, whose loads cost less.
@@ -200,6 +202,7 @@ impl Plan {
         let band_rows = limits.band_rows(scene.film.size, film);
         let mut plan = Self {
             geometry,
+            geometry_asked: options.geometry == Some(geometry),
             hierarchy,
             uniform_primitives,
             uniform_tables,

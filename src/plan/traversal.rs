@@ -41,11 +41,17 @@ impl TraversalWay {
 
 impl Traversal {
     pub(super) fn of(plan: &Plan) -> Self {
-        let (way, why) = match (plan.geometry, plan.hierarchy) {
-            (GeometryPlacement::Unrolled, _) => (TraversalWay::Constants, "the primitives are few"),
-            // Nothing chooses it by itself.
-            (GeometryPlacement::Hierarchy, HierarchyKind::RayQuery) => (TraversalWay::RayQuery, "it was asked for"),
-            (GeometryPlacement::Hierarchy, _) => (TraversalWay::Bvh, "no device was measured on which ray queries are faster"),
+        let way = match (plan.geometry, plan.hierarchy) {
+            (GeometryPlacement::Unrolled, _) => TraversalWay::Constants,
+            (GeometryPlacement::Hierarchy, HierarchyKind::RayQuery) => TraversalWay::RayQuery,
+            (GeometryPlacement::Hierarchy, _) => TraversalWay::Bvh,
+        };
+        let why = match way {
+            // Nothing chooses ray queries by itself.
+            TraversalWay::RayQuery => "it was asked for",
+            _ if plan.geometry_asked => "it was asked for",
+            TraversalWay::Constants => "the primitives are few",
+            TraversalWay::Bvh => "no device was measured on which ray queries are faster",
         };
         Self { way, why }
     }
