@@ -12,6 +12,8 @@ enable wgpu_ray_query;
 const MOST_QUERIES: u32 = 3u;
 // By how much of its distance, or of the origin's coordinates, the device's hit may be off.
 const DEVICE_ERROR: f32 = 1.0e-6;
+// Coordinates of rays that start at 0.
+const TINY: f32 = 1.0e-20;
 
 // The nearest of what the structure holds between the origin and before.t; where nothing is, `before`. With
 // RAY_FLAG_TERMINATE_ON_FIRST_HIT anything in between.
@@ -20,7 +22,7 @@ fn hit_by_query(ray: PreparedRay, before: Hit, flags: u32) -> Hit {
     var t_min = 0.0;
     var t_max = before.t;
     var query: ray_query;
-    for (var count = 0u; count < MOST_QUERIES; count++) {
+    for (var count = 0u; count < MOST_QUERIES && t_min < t_max; count++) {
         rayQueryInitialize(&query, acceleration, RayDesc(flags, 0xffu, t_min, t_max, ray.origin, ray.direction));
         while rayQueryProceed(&query) {
 #if !ONLY_TRIANGLES_IN_HIERARCHY
@@ -49,14 +51,16 @@ fn hit_by_query(ray: PreparedRay, before: Hit, flags: u32) -> Hit {
             break;
         }
         let primitive = committed.instance_custom_data + committed.primitive_index;
-        var found = Hit(INFINITY_DISTANCE, NONE, 0.0, 0.0);
-        intersect_stored(ray, primitive, primitive_words(primitive), &found);
-        if found.primitive == NONE {
+        let words = primitive_words(primitive);
+        let own = intersect_triangle(ray, INFINITY_DISTANCE, words.w0.xyz, words.w1.xyz, words.w2.xyz);
+        var found = Hit(own.x, primitive, own.y, own.z);
+        if own.x < 0.0 {
+            let behind = min(own.y, own.z) >= 0.0 && own.y + own.z <= 1.0;
             let places = abs(ray.origin);
-            let touching = DEVICE_ERROR * max(places.x, max(places.y, places.z));
-            if committed.t < touching && t_min < touching {
-                // The surface that the ray leaves lies at its origin, and is not met.
-                t_min = touching;
+            let touching = DEVICE_ERROR * max(max(places.x, TINY), max(places.y, places.z));
+            if behind || committed.t < touching {
+                // The surface that the ray leaves, or one that touches it there, is not met. What comes after it may be.
+                t_min = max(touching, committed.t * (1.0 + DEVICE_ERROR));
                 continue;
             }
             // An edge that the device counts to this triangle, and our test to its neighbour.

@@ -10,7 +10,7 @@ use super::exit::Failure;
 /// A way, as it is typed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub enum TraversalName {
-    /// As the plan decides: few primitives are tested one by one, others stand in a hierarchy of ours
+    /// As the plan decides: few primitives are tested one by one, others stand in a hierarchy of ours; never ray queries
     #[default]
     Auto,
     /// A hierarchy of ours, however few the primitives
@@ -21,7 +21,7 @@ pub enum TraversalName {
 
 #[derive(Debug, Default, Args)]
 pub struct TraversalArguments {
-    /// How rays find what they meet on a graphics device; no ray queries were measured faster yet
+    /// How rays find what they meet on a graphics device
     #[arg(long, value_name = "WAY", default_value = "auto")]
     traversal: TraversalName,
 }
