@@ -40,7 +40,10 @@ fn pack(criterion: &mut Criterion) {
         for kind in HierarchyKind::ALL {
             let name = format!("hierarchy {}", kind.switch());
             group.bench_with_input(BenchmarkId::new(name, triangles), &geometry, |bencher, geometry| {
-                bencher.iter(|| Tree::build(&geometry.primitives, &geometry.motions).map(|tree| tree.arrange(kind)));
+                bencher.iter(|| {
+                    let tree = Tree::build(&geometry.primitives, &geometry.motions, Some(kind));
+                    tree.and_then(|tree| tree.arrange(kind, &geometry.primitives))
+                });
             });
         }
     }

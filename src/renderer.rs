@@ -24,14 +24,15 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// Begins to open the adapter, if `choice` means one.
-    pub fn begin(choice: &DeviceChoice) -> Self {
-        let opening = (*choice != DeviceChoice::Cpu).then(|| OpeningDevice::begin(choice));
+    /// Begins to open the adapter, if `choice` means one, for plans with these options.
+    pub fn begin(choice: &DeviceChoice, options: &PlanOptions) -> Self {
+        let opening = (*choice != DeviceChoice::Cpu).then(|| OpeningDevice::begin(choice, options));
         Self { choice: choice.clone(), opening }
     }
 
     /// Makes the scene ready on the chosen device. With [`DeviceChoice::Auto`] and no adapter that can be used, that is the CPU reference, for
-    /// which `options` have no meaning.
+    /// which `options` have no meaning; ray queries, which only an adapter has, are not given up that way. `options` are those that the choice
+    /// began with.
     ///
     /// # Errors
     /// No such device, or a scene that does not fit it.
@@ -40,7 +41,7 @@ impl Choice {
             return Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: None });
         };
         match GpuRenderer::once_open(opening, scene, options) {
-            Err(RenderError::NoDevice(_)) if self.choice == DeviceChoice::Auto => {
+            Err(RenderError::NoDevice(_)) if self.choice == DeviceChoice::Auto && !options.asks_for_ray_queries() => {
                 Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: Some(no_adapter_notice()) })
             }
             outcome => Ok(ChosenRenderer { renderer: Box::new(outcome?), notice: None }),

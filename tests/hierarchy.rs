@@ -118,6 +118,7 @@ fn a_box_that_cuts_is_noticed() {
             Nodes::Bvh2(nodes) => nodes.iter_mut().for_each(|node| node.planes[1][2] *= 1.0 - 5e-7),
             Nodes::Bvh4(nodes) => nodes.iter_mut().for_each(|node| node.high[1] -= 1),
             Nodes::CwBvh(nodes) => nodes.iter_mut().for_each(|node| node.high[1][0] = node.high[1][0].saturating_sub(0x01010101)),
+            Nodes::RayQuery(_) => panic!("{kind} has no nodes of ours"),
         }
         let mut seen = vec![0; flat.hierarchy.primitive_count as usize];
         flat.hierarchy.nodes = nodes;

@@ -21,6 +21,7 @@ const STAGES: [(&str, &str); 8] = [
 
 /// A set of switches that some plan can make: implications of `plan::switches::choose` hold.
 fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
+    let by_query = !wanted.contains("BVH");
     if wanted.contains("ONLY_TRIANGLES_IN_HIERARCHY") {
         wanted.insert("TRIANGLES_IN_HIERARCHY");
         for other in ["QUADS_IN_HIERARCHY", "SPHERES_IN_HIERARCHY", "DISKS_IN_HIERARCHY"] {
@@ -69,6 +70,14 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
         if wanted.contains(name) {
             wanted.extend(needed);
         }
+    }
+    // Ray queries stand where no hierarchy of ours does, and see a scene at rest.
+    if wanted.contains("RAY_QUERY") && by_query {
+        for needing_nodes in ["BVH", "PACKETS", "MOTION", "MOVING_LIGHTS", "NODE_CHUNKS"] {
+            wanted.remove(needing_nodes);
+        }
+    } else {
+        wanted.remove("RAY_QUERY");
     }
     // A hierarchy has one form.
     let forms = ["BVH2", "BVH4", "CWBVH"];

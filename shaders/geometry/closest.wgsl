@@ -2,5 +2,9 @@
 #if BVH
 #import geometry/traversal.wgsl
 #else
+#if RAY_QUERY
+#import geometry/ray_query.wgsl
+#else
 #import geometry/unrolled.wgsl
+#endif
 #endif

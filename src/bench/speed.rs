@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::growth::Growth;
 use super::interval::{Ratio, Spread};
 use super::subject::{BenchError, Devices, SceneSubject, Subject};
+use crate::flat::hierarchy::HierarchyKind;
 use crate::gpu::GpuRenderer;
 use crate::plan::{PlanOptions, StageMode, memory};
 use crate::reference::ReferenceRenderer;
@@ -19,6 +20,8 @@ pub struct SpeedOptions {
     pub device: DeviceChoice,
     /// None: the plan decides.
     pub stages: Option<StageMode>,
+    /// Everything else that is asked of the plan.
+    pub plan: PlanOptions,
     pub growths: Vec<Growth>,
     /// The larger sizes too.
     pub everything: bool,
@@ -53,6 +56,8 @@ pub struct Speed {
     pub device: String,
     /// `fused`, `wavefront`, or `cpu`.
     pub stages: String,
+    /// How rays find what they meet: `constants`, `bvh` or `ray-query`; null on the CPU.
+    pub traversal: Option<&'static str>,
     pub build_seconds: f64,
     pub compile_seconds: f64,
     /// From nothing to one finished sample of every pixel, the driver's compiler included.
@@ -110,6 +115,7 @@ struct Entry<'a> {
 struct Candidate<'a> {
     subject: SceneSubject<'a>,
     stages: &'static str,
+    traversal: Option<&'static str>,
     bytes_per_path: Option<u64>,
     device_bytes: u64,
     profile: Profile,
@@ -241,13 +247,14 @@ fn prepare<'a>(
             first_picture_seconds: start.elapsed().as_secs_f64(),
             subject: SceneSubject { renderer: Box::new(renderer), size: scene.film.size, observer },
             stages: "cpu",
+            traversal: None,
             bytes_per_path: None,
             device_bytes: 0,
             profile: Profile::default(),
             runs: Vec::new(),
         });
     };
-    let plan = PlanOptions { stages, ..PlanOptions::default() };
+    let plan = PlanOptions { stages, ..options.plan.clone() };
     let mut renderer = GpuRenderer::on(&device, scene, &plan)?;
     first_picture(&mut renderer, scene, observer)?;
     let first_picture_seconds = start.elapsed().as_secs_f64();
@@ -256,6 +263,7 @@ fn prepare<'a>(
     Ok(Candidate {
         first_picture_seconds,
         stages: if wavefront { "wavefront" } else { "fused" },
+        traversal: Some(renderer.plan().hierarchy_in_use().map_or("constants", HierarchyKind::switch)),
         bytes_per_path: wavefront.then_some(memory::PATH_STATE_BYTES + memory::QUEUE_BYTES + shadow_rays),
         device_bytes: renderer.plan().memory.total(),
         profile: look_inside(&renderer, options.rounds)?,
@@ -332,6 +340,7 @@ impl Candidate<'_> {
         Speed {
             device: self.subject.renderer.device().to_owned(),
             stages: self.stages.to_owned(),
+            traversal: self.traversal,
             build_seconds: last.map_or(f64::NAN, |run| run.build_seconds),
             compile_seconds: last.map_or(f64::NAN, |run| run.compile_seconds),
             first_picture_seconds: self.first_picture_seconds,

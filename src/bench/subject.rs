@@ -60,10 +60,17 @@ pub trait Subject {
 /// Devices that are open, so that settings share them.
 #[derive(Default)]
 pub struct Devices {
+    /// What they are opened for.
+    options: PlanOptions,
     open: Vec<(DeviceChoice, Option<Device>)>,
 }
 
 impl Devices {
+    /// Devices that will be opened for plans with these options.
+    pub fn for_plans(options: &PlanOptions) -> Self {
+        Self { options: options.clone(), open: Vec::new() }
+    }
+
     /// The device of a choice; None for the CPU.
     ///
     /// # Errors
@@ -74,11 +81,11 @@ impl Devices {
         }
         let device = match choice {
             DeviceChoice::Cpu => None,
-            DeviceChoice::Auto => match Device::open(choice) {
-                Err(RenderError::NoDevice(_)) => None,
+            DeviceChoice::Auto => match Device::open_for(choice, &self.options) {
+                Err(RenderError::NoDevice(_)) if !self.options.asks_for_ray_queries() => None,
                 opened => Some(opened?),
             },
-            _ => Some(Device::open(choice)?),
+            _ => Some(Device::open_for(choice, &self.options)?),
         };
         self.open.push((choice.clone(), device.clone()));
         Ok(device)

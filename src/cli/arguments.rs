@@ -15,6 +15,7 @@ use gpt::scene::{BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeu
 pub const MAX_SAMPLES: u32 = i32::MAX as u32;
 
 use super::bench::BenchArguments;
+use super::traversal::TraversalArguments;
 
 /// A headless GPU path tracer that proves its pictures against a CPU reference.
 #[derive(Debug, Parser)]
@@ -54,6 +55,8 @@ pub struct RenderArguments {
     /// auto (discrete, integrated, then software GPU; the CPU integrator if there is none), gpu, cpu, or part of an adapter's name
     #[arg(long, default_value = "auto", value_parser = parse_device)]
     pub device: DeviceChoice,
+    #[command(flatten)]
+    pub traversal: TraversalArguments,
     /// Stops by which PNG previews are brightened
     #[arg(long, value_name = "EV", default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_exposure)]
     pub exposure: f32,
@@ -170,6 +173,8 @@ pub struct VerifyArguments {
     /// auto, gpu, or part of an adapter's name
     #[arg(long, default_value = "gpu", value_parser = parse_device)]
     pub device: DeviceChoice,
+    #[command(flatten)]
+    pub traversal: TraversalArguments,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -186,6 +191,8 @@ pub struct CheckArguments {
     /// A .toml scene, an .obj model, or the name of a built-in scene
     #[arg(required_unless_present = "schema")]
     pub scene: Option<String>,
+    #[command(flatten)]
+    pub traversal: TraversalArguments,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

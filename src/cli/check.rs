@@ -2,7 +2,7 @@
 
 use gpt::flat::{FlatError, Unarranged};
 use gpt::gpu::select_adapter;
-use gpt::plan::{DeviceLimits, Plan, PlanOptions};
+use gpt::plan::{DeviceLimits, Plan};
 use gpt::render::{DeviceChoice, RenderError};
 use gpt::scene::{self, SceneSummary};
 
@@ -27,13 +27,13 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
     }
     terminal::answer(&summary.to_string())?;
     let does_not_fit = |error: FlatError| RenderError::DoesNotFit(error.to_string());
-    let unarranged = Unarranged::new(&scene).map_err(does_not_fit)?;
+    let options = arguments.traversal.options();
+    let unarranged = Unarranged::for_form(&scene, options.hierarchy).map_err(does_not_fit)?;
     // Without an adapter the plan is the one for a device that has just what WebGPU promises.
     let (device, limits) = match select_adapter(&DeviceChoice::Auto) {
         Ok(adapter) => (adapter.get_info().name, DeviceLimits::of(&adapter)),
         Err(_) => ("a device with the limits that WebGPU promises".to_owned(), DeviceLimits::default()),
     };
-    let options = PlanOptions::default();
     let flat = unarranged.arrange(options.hierarchy(&limits)).map_err(does_not_fit)?;
     let plan = Plan::new(&scene, &flat, &limits, &options)?;
     terminal::answer(&format!("\nplan for {device}\n{plan}\n"))?;

@@ -56,9 +56,10 @@ fn describe(text: &mut String, device: &AdapterSummary) {
     let [least, most] = device.subgroup_sizes;
     let _ = writeln!(
         text,
-        "  rgba32float read and write {}, timestamps {}, subgroups of {least} to {most}",
+        "  rgba32float read and write {}, timestamps {}, ray queries {}, subgroups of {least} to {most}",
         yes_no(device.read_write_rgba32float),
-        yes_no(device.timestamps)
+        yes_no(device.timestamps),
+        yes_no(device.ray_queries)
     );
 }
 

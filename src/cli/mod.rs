@@ -13,6 +13,7 @@ mod render;
 mod settings;
 mod stats;
 mod terminal;
+mod traversal;
 mod verify;
 
 use std::process::ExitCode;

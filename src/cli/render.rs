@@ -24,7 +24,8 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let mut outputs = output_formats(&arguments.outputs, arguments.stats.as_deref())?;
     interrupt::install()?;
 
-    let choice = Choice::begin(&arguments.device);
+    let options = PlanOptions { pixel_list: arguments.goal.adaptive, ..arguments.traversal.options_on(&arguments.device)? };
+    let choice = Choice::begin(&arguments.device, &options);
     let scene = load(arguments)?;
     if outputs.is_empty() {
         let default = PathBuf::from(format!("{}.exr", scene.name));
@@ -34,7 +35,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let scene_hash = scene::digest(&scene);
     let load_seconds = started.elapsed().as_secs_f64();
 
-    let (outcome, pictures) = render(arguments, choice, &scene, &outputs, &scene_hash, started)?;
+    let (outcome, pictures) = render(arguments, (choice, &options), &scene, &outputs, &scene_hash, started)?;
     let anything = pictures.any();
     let summary = pictures.finish()?;
 
@@ -82,14 +83,13 @@ fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
 /// Makes the scene ready on its device, and renders it into files that are not in their places yet.
 fn render(
     arguments: &RenderArguments,
-    choice: Choice,
+    (choice, options): (Choice, &PlanOptions),
     scene: &Scene,
     outputs: &[(PathBuf, PictureFormat)],
     scene_hash: &str,
     started: Instant,
 ) -> Result<(Outcome, Pictures), Failure> {
-    let options = PlanOptions { pixel_list: arguments.goal.adaptive, ..PlanOptions::default() };
-    let ChosenRenderer { mut renderer, notice } = choice.renderer(scene, &options)?;
+    let ChosenRenderer { mut renderer, notice } = choice.renderer(scene, options)?;
     if let Some(notice) = notice {
         terminal::note(&notice);
     }

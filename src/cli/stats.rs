@@ -11,7 +11,7 @@ pub struct Stats {
     pub scene: String,
     pub scene_hash: String,
     pub device: String,
-    /// `bvh2`, `bvh4` or `cwbvh`; null where the device tests every primitive, and for the CPU reference.
+    /// `bvh2`, `bvh4`, `cwbvh` or `ray_query`; null where the device tests every primitive, and for the CPU reference.
     pub hierarchy: Option<String>,
     /// What the plan decided for the device, and why; empty for the CPU reference.
     pub decisions: Vec<Decision>,

@@ -6,6 +6,7 @@ use std::path::Path;
 use clap::ValueEnum;
 use gpt::gpu::Device;
 use gpt::plan::{Fault, PlanOptions};
+use gpt::render::RenderError;
 use gpt::scene::{self, Scene};
 use gpt::verify::closed_forms::{self, ClosedForm, ClosedFormError};
 use gpt::verify::{self, DEFAULT_SIDE, DEFAULT_SPP, Verdict, evidence, path};
@@ -48,7 +49,7 @@ impl Finding {
 
 /// Verifies one scene, or the closed forms and all scenes that are built in, and prints the verdicts; or follows one path.
 pub fn run(arguments: &VerifyArguments) -> Result<Exit, Failure> {
-    let options = PlanOptions { fault: arguments.plant, ..PlanOptions::default() };
+    let options = PlanOptions { fault: arguments.plant, ..arguments.traversal.options() };
     if let Some(pixel) = arguments.pixel {
         return follow(arguments, pixel, &options);
     }
@@ -62,7 +63,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<Exit, Failure> {
     };
     // A scene that cannot be read is reported before a device is asked for.
     let named = arguments.scene.as_deref().map(|name| load(name, arguments)).transpose()?;
-    let device = Device::open(&arguments.device)?;
+    let device = Device::open_for(&arguments.device, &options)?;
     if let (Some(name), Some(scene)) = (&arguments.scene, named) {
         report(verify_scene(&device, name, &scene, arguments, &options)?)?;
     } else {
@@ -70,7 +71,13 @@ pub fn run(arguments: &VerifyArguments) -> Result<Exit, Failure> {
             report(Finding::ClosedForm(closed_forms::check(index, &device, &options).map_err(failure)?))?;
         }
         for name in scene::builtin_names() {
-            report(verify_scene(&device, name, &load(name, arguments)?, arguments, &options)?)?;
+            match verify_scene(&device, name, &load(name, arguments)?, arguments, &options) {
+                // Not every scene can be traversed in every way; the others still are.
+                Err(Failure::Render(RenderError::DoesNotFit(why))) if options.asks_for_ray_queries() => {
+                    terminal::warn(&format!("{name} is left out: {why}"));
+                }
+                outcome => report(outcome?)?,
+            }
         }
     }
     if arguments.json {
@@ -111,7 +118,7 @@ fn follow(arguments: &VerifyArguments, [x, y]: [u32; 2], options: &PlanOptions) 
             "there is no pixel {x},{y} in a picture of {width}x{height}: columns and rows count from 0; --size sets the size"
         )));
     }
-    let device = Device::open(&arguments.device)?;
+    let device = Device::open_for(&arguments.device, options)?;
     let comparison = path::compare_path(&device, &scene, [x, y], arguments.sample, options)?;
     if arguments.json {
         terminal::answer_json(&comparison)?;

@@ -1,9 +1,9 @@
-//! The bounding volume hierarchy, in one of three forms.
+//! The bounding volume hierarchy, in one of three forms or left to the device.
 
 use std::fmt;
 
 use super::grid::Box3;
-use super::{bvh2, bvh4, cwbvh};
+use super::{bvh2, bvh4, cwbvh, ray_query};
 
 /// Which form it has. BENCHMARKS.md compares them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -15,17 +15,21 @@ pub enum HierarchyKind {
     Bvh4,
     /// Eight-wide, 8-bit boxes, 80 bytes a node, children in the order of the ray's octant.
     CwBvh,
+    /// None of ours: the device builds an acceleration structure, and kernels ask it by ray queries. Only where it was asked for.
+    RayQuery,
 }
 
 impl HierarchyKind {
+    /// Those that are packed here, which every device can go through.
     pub const ALL: [Self; 3] = [Self::Bvh2, Self::Bvh4, Self::CwBvh];
 
-    /// Words of 16 bytes that a node takes.
+    /// Words of 16 bytes that a node takes; 0 where there are no nodes of ours.
     pub fn node_words(self) -> u32 {
         match self {
             Self::Bvh2 => 4,
             Self::Bvh4 => 3,
             Self::CwBvh => 5,
+            Self::RayQuery => 0,
         }
     }
 
@@ -35,6 +39,7 @@ impl HierarchyKind {
             Self::Bvh2 => "BVH2",
             Self::Bvh4 => "BVH4",
             Self::CwBvh => "CWBVH",
+            Self::RayQuery => "RAY_QUERY",
         }
     }
 }
@@ -45,6 +50,7 @@ impl fmt::Display for HierarchyKind {
             Self::Bvh2 => "binary with float boxes (BVH2)",
             Self::Bvh4 => "four-wide with 8-bit boxes (BVH4)",
             Self::CwBvh => "eight-wide with 8-bit boxes (CWBVH)",
+            Self::RayQuery => "the device's own, asked by ray queries",
         })
     }
 }
@@ -65,6 +71,8 @@ pub enum Nodes {
     Bvh2(Vec<bvh2::Node>),
     Bvh4(Vec<bvh4::Node>),
     CwBvh(Vec<cwbvh::Node>),
+    /// None of ours: boxes around what is no triangle, of which the device makes its own.
+    RayQuery(Vec<ray_query::ShapeBox>),
 }
 
 impl Default for Nodes {
@@ -79,6 +87,7 @@ impl Nodes {
             Self::Bvh2(_) => HierarchyKind::Bvh2,
             Self::Bvh4(_) => HierarchyKind::Bvh4,
             Self::CwBvh(_) => HierarchyKind::CwBvh,
+            Self::RayQuery(_) => HierarchyKind::RayQuery,
         }
     }
 
@@ -88,6 +97,7 @@ impl Nodes {
             Self::Bvh2(nodes) => nodes.len(),
             Self::Bvh4(nodes) => nodes.len(),
             Self::CwBvh(nodes) => nodes.len(),
+            Self::RayQuery(_) => 0,
         }
     }
 
@@ -96,6 +106,7 @@ impl Nodes {
             Self::Bvh2(nodes) => bytemuck::cast_slice(nodes),
             Self::Bvh4(nodes) => bytemuck::cast_slice(nodes),
             Self::CwBvh(nodes) => bytemuck::cast_slice(nodes),
+            Self::RayQuery(boxes) => bytemuck::cast_slice(boxes),
         }
     }
 
@@ -104,6 +115,7 @@ impl Nodes {
             Self::Bvh2(nodes) => nodes[node].children(),
             Self::Bvh4(nodes) => nodes[node].children(),
             Self::CwBvh(nodes) => nodes[node].children(),
+            Self::RayQuery(_) => Vec::new(),
         }
     }
 
@@ -113,6 +125,7 @@ impl Nodes {
             Self::Bvh2(nodes) => nodes[node].boxes(),
             Self::Bvh4(nodes) => nodes[node].boxes(),
             Self::CwBvh(nodes) => nodes[node].boxes(),
+            Self::RayQuery(_) => Vec::new(),
         }
     }
 
@@ -130,6 +143,7 @@ impl Nodes {
                 Self::Bvh2(_) | Self::Bvh4(_) => count.max((count + deepest).saturating_sub(1)),
                 // All children of a node but the one taken, together one entry.
                 Self::CwBvh(_) => 1 + deepest,
+                Self::RayQuery(_) => 0,
             };
         }
         need.first().map_or(1, |need| (*need).max(1))
@@ -142,7 +156,7 @@ pub struct Hierarchy {
     pub nodes: Nodes,
     /// Most entries a traversal's stack can hold.
     pub stack_size: u32,
-    /// Primitives in leaves.
+    /// Primitives that it holds: those in leaves, or in the device's acceleration structure.
     pub primitive_count: u32,
 }
 

@@ -14,6 +14,7 @@ pub mod light;
 pub mod material;
 pub mod motion;
 pub mod primitive;
+pub mod ray_query;
 pub mod tables;
 pub mod texture;
 pub mod tree;
@@ -72,6 +73,14 @@ impl Unarranged {
     /// # Errors
     /// [`FlatError`] where something is too large for the packed form.
     pub fn new(scene: &Scene) -> Result<Self, FlatError> {
+        Self::for_form(scene, None)
+    }
+
+    /// As [`Unarranged::new`], without what a form that is already known does not need.
+    ///
+    /// # Errors
+    /// As [`Unarranged::new`].
+    pub fn for_form(scene: &Scene, form: Option<HierarchyKind>) -> Result<Self, FlatError> {
         let scene = &*scene.centered();
         for shape in &scene.shapes {
             let fail = |(_, message)| FlatError::Motion { shape: shape.label.clone(), message };
@@ -87,7 +96,7 @@ impl Unarranged {
         for light in lights.iter_mut().filter(|light| light.material != NONE) {
             light.material = places[light.material as usize];
         }
-        let tree = Tree::build(&world.primitives, &world.motions)?;
+        let tree = Tree::build(&world.primitives, &world.motions, form)?;
         let rest = FlatScene {
             attributes: world.attributes,
             materials,
@@ -106,7 +115,7 @@ impl Unarranged {
     /// # Errors
     /// [`FlatError`] where the packed scene came out inconsistent.
     pub fn arrange(self, kind: HierarchyKind) -> Result<FlatScene, FlatError> {
-        let (hierarchy, order) = self.tree.arrange(kind);
+        let (hierarchy, order) = self.tree.arrange(kind, &self.primitives)?;
         let primitives = order.par_iter().map(|&index| self.primitives[index].pack()).collect();
         let flat = FlatScene { primitives, hierarchy, ..self.rest };
         flat.validate()?;

@@ -8,7 +8,7 @@ use super::hierarchy::{Hierarchy, HierarchyKind, Nodes};
 use super::motion::FlatMotion;
 use super::primitive::{PrimitiveKind, WorldPrimitive};
 use super::validate::FlatError;
-use super::{bvh2, bvh4, cwbvh};
+use super::{bvh2, bvh4, cwbvh, ray_query};
 
 /// Leaves of two- and four-wide nodes hold at most this many primitives: their size takes two bits.
 const MAX_LEAF: u32 = 4;
@@ -24,7 +24,8 @@ const REINSERT_MANY: usize = 1 << 18;
 
 /// A tree over the primitives that a hierarchy holds, one a leaf.
 pub struct Tree {
-    binary: Bvh2,
+    /// None where the form that is wanted needs none.
+    binary: Option<Bvh2>,
     /// Part of the nodes that is tried elsewhere in the tree.
     reinsertion: f32,
     /// Which primitives it holds, and which it does not.
@@ -44,11 +45,12 @@ const PARAMETERS: BvhBuildParams = BvhBuildParams::medium_build();
 
 impl Tree {
     /// Builds it. Planes, which nothing bounds, stay outside, and other shapes where they are few, so that a model on a ground under a lamp
-    /// needs a hierarchy of triangles alone. What moves is always in it, bounded over the time for which the shutter is open.
+    /// needs a hierarchy of triangles alone. What moves is always in it, bounded over the time for which the shutter is open. `form` is the
+    /// one that it will be given, where that is known.
     ///
     /// # Errors
     /// [`FlatError`] for more primitives or planes than can be held.
-    pub fn build(primitives: &[WorldPrimitive], motions: &[FlatMotion]) -> Result<Self, FlatError> {
+    pub fn build(primitives: &[WorldPrimitive], motions: &[FlatMotion], form: Option<HierarchyKind>) -> Result<Self, FlatError> {
         let belongs = |primitive: &WorldPrimitive| primitive.kind() == PrimitiveKind::Triangle || primitive.moves();
         let others = primitives.iter().filter(|primitive| !belongs(primitive)).count();
         let few_others = others <= MAX_OUTSIDE && others < primitives.len();
@@ -59,6 +61,12 @@ impl Tree {
         if outside.len() > MAX_PLANES {
             return Err(FlatError::TooManyPlanes { found: outside.len(), limit: MAX_PLANES });
         }
+        if inside.len() > MAX_PRIMITIVES {
+            return Err(FlatError::TooManyPrimitives { found: inside.len(), limit: MAX_PRIMITIVES });
+        }
+        if form == Some(HierarchyKind::RayQuery) {
+            return Ok(Self { binary: None, reinsertion: 0.0, inside, outside });
+        }
         let bounds: Vec<Bounds> = inside
             .iter()
             .filter_map(|&index| {
@@ -67,9 +75,6 @@ impl Tree {
             })
             .map(|(low, high)| Bounds(Aabb::new(low.into(), high.into())))
             .collect();
-        if bounds.len() > MAX_PRIMITIVES {
-            return Err(FlatError::TooManyPrimitives { found: bounds.len(), limit: MAX_PRIMITIVES });
-        }
         let reinsertion = if bounds.len() <= REINSERT_MANY { 0.3 } else { PARAMETERS.reinsertion_batch_ratio };
         let mut binary = PlocBuilder::with_capacity(bounds.len()).build(
             PARAMETERS.ploc_search_distance,
@@ -81,30 +86,38 @@ impl Tree {
         if !bounds.is_empty() {
             ReinsertionOptimizer::default().run(&mut binary, reinsertion, None);
         }
-        Ok(Self { binary, reinsertion, inside, outside })
+        Ok(Self { binary: Some(binary), reinsertion, inside, outside })
     }
 
     /// Gives it the form that the device reads. The second value is the order in which primitives have to stand: the leaves' first, then
-    /// those that it does not hold, which kernels test one by one.
-    pub fn arrange(self, kind: HierarchyKind) -> (Hierarchy, Vec<usize>) {
-        let count = self.binary.primitive_indices.len() as u32;
-        let (nodes, order) = match kind {
-            HierarchyKind::Bvh2 => {
-                let (nodes, order) = bvh2::build(&with_larger_leaves(self.binary, self.reinsertion));
+    /// those that it does not hold, which kernels test one by one. `primitives` are those that it was built over.
+    ///
+    /// # Errors
+    /// [`FlatError::Inconsistent`] where the tree was built for a form that needs none.
+    pub fn arrange(self, kind: HierarchyKind, primitives: &[WorldPrimitive]) -> Result<(Hierarchy, Vec<usize>), FlatError> {
+        let Self { binary, reinsertion, inside, outside } = self;
+        let count = inside.len() as u32;
+        let (nodes, order) = match (kind, binary) {
+            (HierarchyKind::RayQuery, _) => {
+                let (boxes, order) = ray_query::build(primitives, &inside);
+                (Nodes::RayQuery(boxes), order)
+            }
+            (_, None) => return Err(FlatError::Inconsistent(format!("there is no tree for a hierarchy that is {kind}"))),
+            (HierarchyKind::Bvh2, Some(binary)) => {
+                let (nodes, order) = bvh2::build(&with_larger_leaves(binary, reinsertion));
                 (Nodes::Bvh2(nodes), order)
             }
-            HierarchyKind::Bvh4 => {
-                let (nodes, order) = bvh4::build(&with_larger_leaves(self.binary, self.reinsertion));
-                (Nodes::Bvh4(nodes), order)
-            }
-            HierarchyKind::CwBvh => {
-                let (nodes, order) = cwbvh::build(self.binary);
+            (HierarchyKind::CwBvh, Some(binary)) => {
+                let (nodes, order) = cwbvh::build(binary);
                 (Nodes::CwBvh(nodes), order)
             }
+            (HierarchyKind::Bvh4, Some(binary)) => {
+                let (nodes, order) = bvh4::build(&with_larger_leaves(binary, reinsertion));
+                (Nodes::Bvh4(nodes), order)
+            }
         };
-        let inside = self.inside;
-        let order = order.into_iter().map(|index| inside[index]).chain(self.outside).collect();
-        (Hierarchy::new(nodes, count), order)
+        let order = order.into_iter().map(|index| inside[index]).chain(outside).collect();
+        Ok((Hierarchy::new(nodes, count), order))
     }
 }
 

@@ -1,6 +1,7 @@
 //! What must hold of a packed scene before a kernel may read it.
 
-use super::hierarchy::Child;
+use super::hierarchy::{Child, Nodes};
+use super::primitive::{Primitive, PrimitiveKind};
 use super::texture::FlatTextureKind;
 use super::{FlatScene, NONE};
 
@@ -59,6 +60,16 @@ impl FlatScene {
 
     fn validate_hierarchy(&self) -> Result<(), FlatError> {
         let fail = |message: String| Err(FlatError::Inconsistent(message));
+        if let Nodes::RayQuery(boxes) = &self.hierarchy.nodes {
+            // The device knows them by their places alone.
+            let held = self.primitives.get(..self.hierarchy.primitive_count as usize).unwrap_or_default();
+            let is_triangle = |primitive: &Primitive| primitive.kind() == PrimitiveKind::Triangle as u32;
+            let first_box = held.len().saturating_sub(boxes.len());
+            return match held.iter().position(|primitive| !is_triangle(primitive)).unwrap_or(held.len()) {
+                first_shape if first_shape == first_box && !held[first_shape..].iter().any(is_triangle) => Ok(()),
+                first_shape => fail(format!("boxes stand for primitives from {first_box} on, and shapes from {first_shape}")),
+            };
+        }
         let mut seen = vec![false; self.hierarchy.primitive_count as usize];
         let nodes = &self.hierarchy.nodes;
         for index in 0..nodes.count() {

@@ -36,6 +36,8 @@ pub struct AdapterSummary {
     /// A shader may read and write one rgba32float storage texture.
     pub read_write_rgba32float: bool,
     pub timestamps: bool,
+    /// Kernels can ask an acceleration structure of the device's own (`--traversal ray-query`).
+    pub ray_queries: bool,
     /// What keeps the renderer from using it; `auto` passes it over.
     pub unusable: Option<String>,
 }
@@ -180,6 +182,7 @@ fn summarise(adapter: &Adapter) -> AdapterSummary {
         subgroup_sizes: [info.subgroup_min_size, info.subgroup_max_size],
         read_write_rgba32float: can_read_and_write(adapter, TextureFormat::Rgba32Float),
         timestamps: features.contains(Features::TIMESTAMP_QUERY),
+        ray_queries: features.contains(Features::EXPERIMENTAL_RAY_QUERY),
         unusable: obstacle(adapter),
     }
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use wgpu::util::DeviceExt;
 use wgpu::{BufferUsages, TextureFormat};
 
+use super::acceleration::Acceleration;
 use super::device::Device;
 use super::parameters::{EdgeParameters, PassParameters};
 use crate::flat::FlatScene;
@@ -35,6 +36,7 @@ pub mod binding {
     pub const STATISTICS: u32 = 14;
     pub const FILM_SUM: u32 = 15;
     pub const FILM_COMPENSATION: u32 = 16;
+    pub const ACCELERATION: u32 = 17;
     pub const TRACE: u32 = 18;
 }
 
@@ -49,6 +51,7 @@ pub struct Buffers {
     buffers: BTreeMap<u32, wgpu::Buffer>,
     pub film: [FilmHalf; 2],
     film_views: [Option<wgpu::TextureView>; 2],
+    acceleration: Option<Acceleration>,
     pub bytes: u64,
 }
 
@@ -107,14 +110,17 @@ impl Buffers {
                 make(binding::SHADOW_RAYS, "shadow rays", paths * memory::SHADOW_RAY_BYTES, storage);
             }
         }
+        let acceleration = if compiled("RAY_QUERY") { Acceleration::build(device, flat) } else { None };
         let film = ["film sum", "film compensation"].map(|label| film_half(device, plan, width, label));
         let film_views = film.each_ref().map(|half| match half {
             FilmHalf::Texture(texture) => Some(texture.create_view(&Default::default())),
             FilmHalf::Buffer(_) => None,
         });
         let film_bytes = u64::from(width) * u64::from(plan.band_rows) * memory::FILM_BYTES;
-        let bytes = buffers.values().map(wgpu::Buffer::size).sum::<u64>() + film_bytes;
-        Self { buffers, film, film_views, bytes }
+        let bytes = buffers.values().map(wgpu::Buffer::size).sum::<u64>()
+            + film_bytes
+            + acceleration.as_ref().map_or(0, |acceleration| acceleration.bytes);
+        Self { buffers, film, film_views, acceleration, bytes }
     }
 
     /// The buffer bound at `number`; None for what this plan does not have.
@@ -129,6 +135,9 @@ impl Buffers {
                 (FilmHalf::Buffer(buffer), _) => buffer.as_entire_binding(),
                 (FilmHalf::Texture(_), view) => wgpu::BindingResource::TextureView(view.as_ref()?),
             });
+        }
+        if number == binding::ACCELERATION {
+            return Some(self.acceleration.as_ref()?.structure.as_binding());
         }
         let buffer = self.buffers.get(&number)?;
         if number == binding::EDGE {

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
 
-use crate::plan::DeviceLimits;
+use crate::plan::{DeviceLimits, PlanOptions};
 use crate::render::{DeviceChoice, RenderError};
 
 /// A device with its queue, and the first error it reported. Clones are the same device.
@@ -26,10 +26,10 @@ enum Opening {
 }
 
 impl OpeningDevice {
-    /// Begins to open the adapter that `choice` means; see [`Device::open`].
-    pub fn begin(choice: &DeviceChoice) -> Self {
-        let choice = choice.clone();
-        Self(Opening::Thread(Some(thread::spawn(move || Device::open(&choice)))))
+    /// Begins to open the adapter that `choice` means; see [`Device::open_for`].
+    pub fn begin(choice: &DeviceChoice, options: &PlanOptions) -> Self {
+        let (choice, options) = (choice.clone(), options.clone());
+        Self(Opening::Thread(Some(thread::spawn(move || Device::open_for(&choice, &options)))))
     }
 
     /// One that needs no waiting.
@@ -40,7 +40,7 @@ impl OpeningDevice {
     /// The device, once it is open.
     ///
     /// # Errors
-    /// As [`Device::open`].
+    /// As [`Device::open_for`].
     pub fn wait(mut self) -> Result<Device, RenderError> {
         match &mut self.0 {
             Opening::Open(device) => Ok(Device::clone(device)),
@@ -77,8 +77,22 @@ impl Device {
     /// # Errors
     /// [`RenderError::NoDevice`] where there is no such adapter or it cannot be opened.
     pub fn open(choice: &DeviceChoice) -> Result<Self, RenderError> {
+        Self::open_for(choice, &PlanOptions::default())
+    }
+
+    /// As [`Device::open`], with what plans with these options need besides.
+    ///
+    /// # Errors
+    /// As [`Device::open`]; [`RenderError::DoesNotFit`] where the adapter lacks what they ask for.
+    pub fn open_for(choice: &DeviceChoice, options: &PlanOptions) -> Result<Self, RenderError> {
         let adapter = super::select_adapter(choice)?;
-        let limits = DeviceLimits::of(&adapter);
+        let mut limits = DeviceLimits::of(&adapter);
+        if options.asks_for_ray_queries() {
+            limits.check_ray_queries(&adapter.get_info().name)?;
+        } else {
+            // What is not enabled is not there.
+            limits.ray_queries = None;
+        }
         let mut features = wgpu::Features::empty();
         if limits.read_write_rgba32float {
             features |= wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES;
@@ -86,12 +100,20 @@ impl Device {
         if limits.subgroups {
             features |= wgpu::Features::SUBGROUP;
         }
+        let mut experimental_features = wgpu::ExperimentalFeatures::disabled();
+        if limits.ray_queries.is_some() {
+            features |= wgpu::Features::EXPERIMENTAL_RAY_QUERY;
+            // SAFETY: it is acknowledged that wgpu's ray queries may have bugs of their own. They are enabled on request alone; what is asked
+            // of them keeps to their contract: ranges are finite and ordered, and hits that kernels report lie within them.
+            experimental_features = unsafe { wgpu::ExperimentalFeatures::enabled() };
+        }
         // Only measurements ask for the time; nothing else of the device changes by it.
         features |= adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("gpt"),
             required_features: features,
             required_limits: adapter.limits(),
+            experimental_features,
             ..Default::default()
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))

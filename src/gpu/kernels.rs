@@ -56,6 +56,9 @@ pub fn used_bindings(module: &naga::Module, info: &naga::valid::ModuleInfo, entr
                     format: wgpu::TextureFormat::Rgba32Float,
                     view_dimension: wgpu::TextureViewDimension::D2,
                 },
+                (_, TypeInner::AccelerationStructure { vertex_return }) => {
+                    wgpu::BindingType::AccelerationStructure { vertex_return: *vertex_return }
+                }
                 _ => return None,
             };
             Some(UsedBinding { number, kind })

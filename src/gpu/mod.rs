@@ -1,5 +1,6 @@
 //! The wavefront renderer on wgpu.
 
+pub mod acceleration;
 pub mod adapters;
 pub mod buffers;
 pub mod device;

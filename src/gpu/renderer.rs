@@ -10,7 +10,7 @@ use super::parameters::PassParameters;
 use super::passes::{Pass, PassSizer};
 use crate::film::Band;
 use crate::flat::{FlatError, Unarranged};
-use crate::plan::{GeometryPlacement, Plan, PlanOptions, StageMode};
+use crate::plan::{Plan, PlanOptions, StageMode};
 use crate::render::{Batch, DeviceChoice, Observer, RenderError, RenderReport, Renderer};
 use crate::sampling::{Sampling, SequencePoint};
 use crate::scene::{MaterialId, Scene};
@@ -72,7 +72,7 @@ impl GpuRenderer {
     /// # Errors
     /// [`RenderError::NoDevice`], or [`RenderError::DoesNotFit`] where the scene is too large for the device.
     pub fn new(scene: &Scene, choice: &DeviceChoice, options: &PlanOptions) -> Result<Self, RenderError> {
-        Self::once_open(OpeningDevice::begin(choice), scene, options)
+        Self::once_open(OpeningDevice::begin(choice, options), scene, options)
     }
 
     /// As [`GpuRenderer::new`], on a device that is already open.
@@ -90,7 +90,7 @@ impl GpuRenderer {
     pub fn once_open(opening: OpeningDevice, scene: &Scene, options: &PlanOptions) -> Result<Self, RenderError> {
         let start = Instant::now();
         let does_not_fit = |error: FlatError| RenderError::DoesNotFit(error.to_string());
-        let unarranged = Unarranged::new(scene).map_err(does_not_fit);
+        let unarranged = Unarranged::for_form(scene, options.hierarchy).map_err(does_not_fit);
         // Where there is no device, that is what is told, whatever the scene: it may then go to the CPU.
         let device = opening.wait()?;
         let flat = unarranged?.arrange(options.hierarchy(&device.limits)).map_err(does_not_fit)?;
@@ -413,7 +413,7 @@ impl Renderer for GpuRenderer {
         let [low, high, non_finite_samples, _] = self.read_words(binding::STATISTICS)?;
         Ok(RenderReport {
             device: self.device.name.clone(),
-            hierarchy: Some(self.plan.hierarchy).filter(|_| self.plan.geometry == GeometryPlacement::Hierarchy),
+            hierarchy: self.plan.hierarchy_in_use(),
             decisions: self.plan.decisions.clone(),
             compiled_in: self.plan.switches.enabled.iter().copied().collect(),
             rays: (u64::from(high) << 32 | u64::from(low)) + camera_rays,

@@ -7,7 +7,7 @@ use std::fmt::{self, Write as _};
 
 use super::limits::DeviceLimits;
 use super::memory::{self, megabytes};
-use super::{GeometryPlacement, Plan, has_attributes};
+use super::{Plan, has_attributes};
 use crate::flat::FlatScene;
 use crate::flat::hierarchy::HierarchyKind;
 use crate::render::RenderError;
@@ -164,7 +164,7 @@ pub fn cut(flat: &FlatScene, plan: &Plan, limit: u64) -> Vec<Chunks> {
     if !plan.uniform_primitives {
         arrays.push(Chunks::new(PRIMITIVES, size_of_val(&flat.primitives[..]) as u64, limit));
     }
-    if plan.geometry == GeometryPlacement::Hierarchy && !plan.uniform_nodes {
+    if plan.has_nodes() && !plan.uniform_nodes {
         arrays.push(Chunks::new(nodes(flat.hierarchy.kind()), flat.hierarchy.nodes.bytes().len() as u64, limit));
     }
     if has_attributes(flat) {

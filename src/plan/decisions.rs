@@ -6,6 +6,7 @@ use super::{
     Chunks, DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanOptions, SOFTWARE_HIERARCHY, StageMode, UNROLL_LIMIT,
 };
 use crate::flat::FlatScene;
+use crate::flat::hierarchy::HierarchyKind;
 use crate::scene::Scene;
 
 /// One decision, in words.
@@ -26,6 +27,10 @@ pub(super) fn geometry(flat: &FlatScene, options: &PlanOptions) -> (GeometryPlac
     match options.geometry {
         // What moves is no constant.
         _ if flat.moves() => (GeometryPlacement::Hierarchy, "something moves, and is no constant".into()),
+        // Where there is nothing to ask for, the device is not asked.
+        _ if flat.hierarchy.kind() == HierarchyKind::RayQuery && flat.hierarchy.primitive_count == 0 => {
+            (GeometryPlacement::Unrolled, "a hierarchy would hold nothing".into())
+        }
         Some(placement) => (placement, ASKED_FOR.into()),
         None if count <= UNROLL_LIMIT => (GeometryPlacement::Unrolled, format!("{count} primitives, at most {UNROLL_LIMIT}")),
         None => (GeometryPlacement::Hierarchy, format!("{count} primitives, more than {UNROLL_LIMIT}")),
@@ -69,9 +74,9 @@ pub(super) fn explain(
         GeometryPlacement::Hierarchy => "triangles in a hierarchy; few other shapes as constants",
     };
     add("geometry", placement.into(), geometry);
-    if plan.geometry == GeometryPlacement::Hierarchy {
-        let buffer = buffer_name(plan.uniform_nodes);
-        add("hierarchy", format!("{}, {buffer}", plan.hierarchy), why_hierarchy(plan, limits, options));
+    if let Some(kind) = plan.hierarchy_in_use() {
+        let place = if plan.has_nodes() { format!(", {}", buffer_name(plan.uniform_nodes)) } else { String::new() };
+        add("hierarchy", format!("{kind}{place}"), why_hierarchy(plan, limits, options));
     }
     let (bytes, tables) = (size_of_val(&flat.primitives[..]), 16 * flat.tables().words.len());
     add("primitives", buffer_name(plan.uniform_primitives).into(), size_in_uniform(bytes, limits));

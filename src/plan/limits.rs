@@ -1,6 +1,7 @@
 //! What the plan has to know of a device.
 
 use super::FilmStorage;
+use crate::render::RenderError;
 
 /// Limits in bytes unless the name says otherwise.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -22,6 +23,15 @@ pub struct DeviceLimits {
     pub subgroups: bool,
     /// Invocations of a subgroup, where all subgroups have as many and can exchange values.
     pub subgroup_size: Option<u32>,
+    /// What acceleration structures can hold, where kernels can ask them.
+    pub ray_queries: Option<RayQueryLimits>,
+}
+
+/// Limits of acceleration structures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RayQueryLimits {
+    /// Vertices of triangles, or boxes, of one part.
+    pub max_primitives: u32,
 }
 
 impl Default for DeviceLimits {
@@ -39,6 +49,7 @@ impl Default for DeviceLimits {
             threads: 1,
             subgroups: false,
             subgroup_size: None,
+            ray_queries: None,
         }
     }
 }
@@ -64,7 +75,20 @@ impl DeviceLimits {
             threads: if software { std::thread::available_parallelism().map_or(1, |count| count.get() as u32) } else { 1 },
             subgroups,
             subgroup_size: one_size.then_some(info.subgroup_min_size),
+            ray_queries: Some(RayQueryLimits { max_primitives: limits.max_blas_primitive_count })
+                .filter(|_| adapter.features().contains(wgpu::Features::EXPERIMENTAL_RAY_QUERY)),
         }
+    }
+
+    /// # Errors
+    /// [`RenderError::DoesNotFit`] where the device, so called, has no ray queries.
+    pub fn check_ray_queries(&self, device: &str) -> Result<RayQueryLimits, RenderError> {
+        let missing = || {
+            RenderError::DoesNotFit(format!(
+                "{device} has no ray queries, or its driver does not offer them; without `--traversal ray-query` it renders all the same"
+            ))
+        };
+        self.ray_queries.ok_or_else(missing)
     }
 
     /// Bytes of an array that one binding can hold.

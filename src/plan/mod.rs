@@ -8,6 +8,7 @@ pub mod decisions;
 pub mod fault;
 pub mod limits;
 pub mod memory;
+mod ray_query;
 pub mod switches;
 pub mod unroll;
 
@@ -39,7 +40,7 @@ pub const MAX_SAMPLES_PER_PASS: u32 = 64;
 pub enum GeometryPlacement {
     /// Every primitive is code with constant coordinates; there is no hierarchy.
     Unrolled,
-    /// A bounding volume hierarchy in buffers.
+    /// A bounding volume hierarchy, in buffers or the device's own.
     Hierarchy,
 }
 
@@ -65,7 +66,8 @@ pub enum FilmStorage {
 #[derive(Debug, Clone, Default)]
 pub struct PlanOptions {
     pub geometry: Option<GeometryPlacement>,
-    /// The form of the hierarchy, where there is one; the scene must have been packed with it ([`PlanOptions::hierarchy()`]).
+    /// The form of the hierarchy, where there is one; the scene must have been packed with it ([`PlanOptions::hierarchy()`]). With
+    /// [`HierarchyKind::RayQuery`] the device must have been opened for it ([`crate::gpu::Device::open_for`]).
     pub hierarchy: Option<HierarchyKind>,
     pub stages: Option<StageMode>,
     pub film: Option<FilmStorage>,
@@ -96,6 +98,11 @@ impl PlanOptions {
     pub fn hierarchy(&self, limits: &DeviceLimits) -> HierarchyKind {
         let preferred = if limits.software { SOFTWARE_HIERARCHY } else { HierarchyKind::default() };
         self.hierarchy.unwrap_or(preferred)
+    }
+
+    /// Whether plans may need ray queries of the device, which has to be opened for them.
+    pub fn asks_for_ray_queries(&self) -> bool {
+        self.hierarchy == Some(HierarchyKind::RayQuery)
     }
 }
 
@@ -151,12 +158,16 @@ impl Plan {
         if options.hierarchy.is_some_and(|wanted| wanted != hierarchy) {
             return Err(RenderError::Internal(format!("the scene was packed with a hierarchy that is {hierarchy}")));
         }
+        let ray_queries = hierarchy == HierarchyKind::RayQuery;
+        if ray_queries {
+            ray_query::check(flat, limits)?;
+        }
         let (geometry, why_geometry) = decisions::geometry(flat, options);
         let light_samples = if switches::samples_lights(scene, flat) { scene.render.light_samples } else { 1 };
         let (stages, why_stages) = decisions::stages(geometry, light_samples, limits, options);
         // On software devices the arithmetic of a step through a hierarchy costs the same for one lane as for all, so lanes should go
         // the same way. Geometry that is code is met by all lanes anyway, and there a lane that starts its next path at once gains.
-        let may_share = limits.software && stages == StageMode::Fused && !options.trace;
+        let may_share = limits.software && stages == StageMode::Fused && !options.trace && !ray_queries;
         let lanes = limits.subgroup_size.filter(|size| may_share && (2..=64).contains(size) && size.is_power_of_two());
         let lanes = lanes.filter(|_| options.share_pixels.unwrap_or(geometry == GeometryPlacement::Hierarchy));
         // Packets are written for that form alone, and their stack lies in registers, an entry a lane (shaders/geometry/packet.wgsl).
@@ -179,7 +190,7 @@ impl Plan {
         let uniform_primitives = fits_uniform(size_of_val(&flat.primitives[..]));
         let uniform_tables = 16 * tables.len() as u64 <= uniform_limit;
         // Real GPUs serialise divergent reads of uniform buffers; software ones read them faster than storage.
-        let uniform_nodes = limits.software && fits_uniform(flat.hierarchy.nodes.bytes().len());
+        let uniform_nodes = limits.software && !ray_queries && fits_uniform(flat.hierarchy.nodes.bytes().len());
         let path_capacity = options.path_capacity.unwrap_or_else(|| limits.path_capacity());
         let band_rows = limits.band_rows(scene.film.size, film);
         let mut plan = Self {
@@ -251,6 +262,16 @@ impl Plan {
     /// Blocks of four numbers that the table of the sampler's sequence holds for each sample.
     pub fn sequence_stride(&self) -> u32 {
         switches::SEQUENCE_BLOCKS + self.light_samples_depth * (self.light_samples - 1)
+    }
+
+    /// The form of the hierarchy, where rays go through one.
+    pub fn hierarchy_in_use(&self) -> Option<HierarchyKind> {
+        Some(self.hierarchy).filter(|_| self.geometry == GeometryPlacement::Hierarchy)
+    }
+
+    /// Whether kernels walk nodes of ours.
+    pub(crate) fn has_nodes(&self) -> bool {
+        self.hierarchy_in_use().is_some_and(|kind| kind != HierarchyKind::RayQuery)
     }
 
     /// Whether any shadow ray is ever traced.

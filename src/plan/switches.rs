@@ -79,6 +79,7 @@ pub const ALL: &[&str] = &[
     "PRIMITIVE_CHUNKS",
     "PROCEDURAL_TEXTURES",
     "QUADS_IN_HIERARCHY",
+    "RAY_QUERY",
     "ROUGH_GLASS",
     "ROULETTE",
     "SCALARS",
@@ -130,10 +131,10 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     let has_kind = |kind: PrimitiveKind| has(&flat.primitives, kind);
     switches.enable("SPHERES", has_kind(PrimitiveKind::Sphere));
     switches.enable("FLAT_ROUND", has_kind(PrimitiveKind::Disk) || has_kind(PrimitiveKind::Plane));
-    switches.enable("BVH", plan.geometry == GeometryPlacement::Hierarchy);
+    switches.enable("BVH", plan.has_nodes());
     switches.enable(plan.hierarchy.switch(), plan.geometry == GeometryPlacement::Hierarchy);
     switches.enable("PACKETS", plan.packets);
-    switches.enable("UNIFORM_NODES", plan.geometry == GeometryPlacement::Hierarchy && plan.uniform_nodes);
+    switches.enable("UNIFORM_NODES", plan.has_nodes() && plan.uniform_nodes);
     switches.enable("UNIFORM_PRIMITIVES", plan.uniform_primitives);
     switches.enable("UNIFORM_TABLES", plan.uniform_tables);
     switches.enable("ATTRIBUTES", has_attributes(flat));

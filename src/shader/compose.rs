@@ -1,6 +1,6 @@
 //! Joins WGSL files: `#import file`, `#if SWITCH` / `#if !SWITCH` / `#else` / `#endif`, and a map from lines back to files.
 //!
-//! A file is included once, where it is first imported. Switches and constants come from the plan, so that a scene's kernels hold
+//! A file is included once, where it is first imported; lines that `enable` an extension go to the front, where WGSL wants them. Switches and constants come from the plan, so that a scene's kernels hold
 //! only what the scene uses.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -24,7 +24,7 @@ impl Switches {
 }
 
 /// WGSL text, and where each of its lines came from.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct ComposedShader {
     pub text: String,
     /// File and line (from 1) of every line of `text`.
@@ -67,12 +67,12 @@ pub enum ComposeError {
 /// Composes the file `root` with all that it imports.
 pub fn compose(root: &'static str, switches: &Switches) -> Result<ComposedShader, ComposeError> {
     let mut composer =
-        Composer { switches, included: BTreeSet::new(), out: ComposedShader { text: String::new(), origin: Vec::new() } };
+        Composer { switches, included: BTreeSet::new(), enables: ComposedShader::default(), out: ComposedShader::default() };
     for (name, value) in &switches.constants {
         composer.push("(constants of the plan)", 1, &format!("const {name}: u32 = {value}u;"));
     }
     composer.include(root, root, 0)?;
-    Ok(composer.out)
+    Ok(composer.finish())
 }
 
 /// The embedded text, or that of the same file in the folder that `GPT_SHADERS` names: for work on kernels without compiling Rust.
@@ -84,13 +84,23 @@ fn current_text(name: &str, embedded: &str) -> String {
 struct Composer<'a> {
     switches: &'a Switches,
     included: BTreeSet<&'static str>,
+    /// Lines that enable extensions.
+    enables: ComposedShader,
     out: ComposedShader,
 }
 
 impl Composer<'_> {
     fn push(&mut self, file: &'static str, line: u32, text: &str) {
-        let _ = writeln!(self.out.text, "{text}");
-        self.out.origin.push((file, line));
+        let part = if text.starts_with("enable ") { &mut self.enables } else { &mut self.out };
+        let _ = writeln!(part.text, "{text}");
+        part.origin.push((file, line));
+    }
+
+    fn finish(self) -> ComposedShader {
+        let Self { mut enables, out, .. } = self;
+        enables.text.push_str(&out.text);
+        enables.origin.extend(out.origin);
+        enables
     }
 
     fn find(&self, name: &str) -> Option<(&'static str, String)> {
@@ -167,6 +177,15 @@ mod tests {
         let composed = compose("a", &switches).unwrap();
         assert_eq!(composed.text, "b\nx\nx only\n");
         assert_eq!(composed.locate(3), "shaders/a:8");
+    }
+
+    #[test]
+    fn extensions_are_enabled_first() {
+        let mut switches = switches(&[("a", "a\n#import b"), ("b", "// b\nenable x;\nb")]);
+        switches.constants.insert("C", 1);
+        let composed = compose("a", &switches).unwrap();
+        assert_eq!(composed.text, "enable x;\nconst C: u32 = 1u;\na\n// b\nb\n");
+        assert_eq!([1, 3, 5].map(|line| composed.locate(line)), ["shaders/b:2", "shaders/a:1", "shaders/b:3"]);
     }
 
     #[test]

@@ -22,6 +22,7 @@ shader_files![
     "geometry/packet.wgsl",
     "geometry/packet_stack.wgsl",
     "geometry/primitives.wgsl",
+    "geometry/ray_query.wgsl",
     "geometry/records.wgsl",
     "geometry/scene.wgsl",
     "geometry/stored.wgsl",

@@ -92,7 +92,7 @@ pub fn shrink(scene: &mut Scene, side: u32) {
 /// # Errors
 /// What either renderer reports.
 pub fn verify(scene: &Scene, choice: &DeviceChoice, options: &PlanOptions) -> Result<Verdict, RenderError> {
-    verify_on(&Device::open(choice)?, scene, options)
+    verify_on(&Device::open_for(choice, options)?, scene, options)
 }
 
 /// As [`verify`], on a device that is already open.

@@ -5,6 +5,7 @@ mod goals;
 mod on_unix;
 #[path = "../common/sphere.rs"]
 mod sphere;
+mod traversal;
 
 use std::fs;
 use std::path::Path;

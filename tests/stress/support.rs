@@ -2,6 +2,8 @@
 
 #[path = "../common/device.rs"]
 mod device;
+#[path = "../common/ray_queries.rs"]
+mod ray_queries;
 
 pub use device::DEVICE;
 use gpt::film::Band;
@@ -11,6 +13,7 @@ use gpt::reference::ReferenceRenderer;
 use gpt::render::{RenderReport, RenderRequest, Renderer, Silent};
 use gpt::scene::{SamplerKind, Scene, load_toml_str};
 use gpt::verify::{self, Verdict};
+use ray_queries::RAY_QUERY_DEVICE;
 
 /// How long a case may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -144,7 +147,8 @@ pub fn render_with(scene: &Scene, options: &PlanOptions) -> Option<Vec<f64>> {
 
 /// The whole picture as one band, and what the render counted.
 pub fn render_band(scene: &Scene, options: &PlanOptions) -> Option<(Band, RenderReport)> {
-    let mut renderer = GpuRenderer::on(DEVICE.as_ref()?, scene, options).expect("the scene fits");
+    let device = if options.asks_for_ray_queries() { &RAY_QUERY_DEVICE } else { &DEVICE };
+    let mut renderer = GpuRenderer::on(device.as_ref()?, scene, options).expect("the scene fits");
     Some(whole_picture(&mut renderer, scene))
 }
 

@@ -10,6 +10,7 @@ use gpt::scene::settings::{MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH};
 use gpt::scene::{BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeuristic, PixelSamplerName, SamplerKind};
 
 use crate::cli::arguments::{MAX_SAMPLES, parse_device, parse_size};
+use crate::cli::traversal::TraversalArguments;
 
 #[derive(Debug, Args)]
 pub struct BenchArguments {
@@ -71,6 +72,8 @@ pub struct SpeedArguments {
     /// How the stages run [default: as the plan decides]
     #[arg(long)]
     pub stages: Option<StagesName>,
+    #[command(flatten)]
+    pub traversal: TraversalArguments,
     /// What grows [default: everything, and the scenes as they are]
     #[arg(long, value_name = "WHAT,…", value_delimiter = ',')]
     pub growth: Vec<Growth>,

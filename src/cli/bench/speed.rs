@@ -30,12 +30,14 @@ pub fn run(arguments: &SpeedArguments) -> Result<Exit, Failure> {
     for warning in scenes.iter().flat_map(|scene| &scene.warnings) {
         terminal::warn(warning);
     }
+    let plan = arguments.traversal.options_on(&arguments.device)?;
     let options = SpeedOptions {
         device: arguments.device.clone(),
         stages: arguments.stages.map(|stages| match stages {
             StagesName::Fused => StageMode::Fused,
             StagesName::Wavefront => StageMode::Wavefront,
         }),
+        plan,
         growths: if arguments.growth.is_empty() { Growth::ALL.to_vec() } else { arguments.growth.clone() },
         everything: arguments.all,
         size: arguments.size,
@@ -45,7 +47,7 @@ pub fn run(arguments: &SpeedArguments) -> Result<Exit, Failure> {
     };
     let results = Results::prepare(&arguments.output, "speed")?;
     interrupt::install()?;
-    let mut devices = Devices::default();
+    let mut devices = Devices::for_plans(&options.plan);
     let mut tables: Vec<SpeedTable> = Vec::new();
     for growth in &options.growths {
         match measure(*growth, &scenes, &options, &mut devices, &OnlyStops, &mut |what| results.say(what)) {

@@ -1,0 +1,38 @@
+//! What ray queries can see, and what they cannot.
+
+use super::limits::{DeviceLimits, RayQueryLimits};
+use super::memory::{ACCELERATION, PRIMITIVE_BYTES, megabytes};
+use crate::flat::FlatScene;
+use crate::render::RenderError;
+
+/// Refuses scenes that ray queries cannot see, or that no structure can hold.
+///
+/// # Errors
+/// [`RenderError::DoesNotFit`], saying what to do.
+pub(super) fn check(flat: &FlatScene, limits: &DeviceLimits) -> Result<(), RenderError> {
+    let RayQueryLimits { max_primitives } = limits.check_ray_queries("the device")?;
+    let refuse =
+        |why: String| Err(RenderError::DoesNotFit(format!("{why}; without `--traversal ray-query` it renders all the same")));
+    if flat.moves() {
+        return refuse("its shapes move, and acceleration structures hold a scene at rest".to_owned());
+    }
+    let held = u64::from(flat.hierarchy.primitive_count);
+    let boxes = (flat.hierarchy.nodes.bytes().len() / size_of::<crate::flat::ray_query::ShapeBox>()) as u64;
+    let triangles = held - boxes;
+    // Of triangles, vertices are counted.
+    if 3 * triangles > u64::from(max_primitives) || boxes > u64::from(max_primitives) {
+        return refuse(format!(
+            "it has {triangles} triangles and {boxes} other shapes, and an {ACCELERATION} holds {} or {max_primitives}",
+            max_primitives / 3
+        ));
+    }
+    let input = triangles * PRIMITIVE_BYTES;
+    if input > limits.max_buffer {
+        return refuse(format!(
+            "an {ACCELERATION} of its triangles is built from {} at once, and a buffer holds {}",
+            megabytes(input),
+            megabytes(limits.max_buffer)
+        ));
+    }
+    Ok(())
+}
