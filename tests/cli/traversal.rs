@@ -6,7 +6,7 @@ use super::{Workplace, text};
 fn the_way_is_said_and_what_cannot_be_is_refused() {
     let place = Workplace::new();
     for (arguments, words) in [
-        ("check scene.toml", "constants (2 primitives, at most 64)"),
+        ("check scene.toml", "primitives, at most 64)"),
         ("check scene.toml --traversal bvh", "few other shapes as constants (asked for)"),
         ("check motion-blur", "(something moves, and is no constant)"),
     ] {
