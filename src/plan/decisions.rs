@@ -95,6 +95,9 @@ pub(super) fn explain(
         };
         let because = "the scene or the command line says so".into();
         add("light samples", format!("{} {surfaces}, in one kernel with the rest of the path", plan.light_samples), because);
+    } else if plan.geometry == GeometryPlacement::Hierarchy && plan.samples_lights() && flat.environment.map().is_some() {
+        let because = "nothing else is asked for; under maps, several lower the error in less time: docs/strategies.md".into();
+        add("light samples", "1".into(), because);
     }
     if let Some(lanes) = plan.lanes {
         let way = if plan.packets { ", their rays in packets" } else { "" };
