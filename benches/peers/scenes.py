@@ -73,7 +73,9 @@ def write_environment(path, width=512, height=256):
 
 ALL = {
     "cornell": Scene("scenes/cornell.toml", biased=LOW_DISCREPANCY),
-    "veach-mis": Scene("scenes/veach-mis.toml", (384, 256), allowed={"cycles": TESSELLATED, "luxcore": TESSELLATED}),
+    "veach-mis": Scene(
+        "scenes/veach-mis.toml", (384, 256), allowed={"cycles": TESSELLATED, "luxcore": TESSELLATED}, biased=LOW_DISCREPANCY
+    ),
     "spheres": Scene(
         "scenes/spheres.toml", (320, 180), allowed={"cycles": TESSELLATED, "luxcore": TESSELLATED}, biased=LOW_DISCREPANCY
     ),
