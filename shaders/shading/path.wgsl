@@ -161,28 +161,36 @@ fn next_event(path: Path, surface: Surface, edge: u32, light: LightSample, light
 #endif
 
 #if SEVERAL_LIGHT_SAMPLES
-// Whether the surface that a path met at its vertex number `visit` takes more light samples than the one of shade_vertex.
-fn takes_more_light(path: Path, hit: Hit, visit: u32) -> bool {
-    let edge = edge_at(path, visit);
-    return hit.primitive != NONE && edge <= LIGHT_SAMPLES_DEPTH && edge != MAX_DEPTH;
+// A surface on which several light samples are taken, worked out once for all of them.
+struct LitSurface {
+    // Whether it takes more than the one of shade_vertex.
+    takes_more: bool,
+    surface: Surface,
+    bsdf: Bsdf,
 }
 
-// The shadow ray of light sample `number`, not the first, of the surface that a path met at its vertex number `visit`; `path` is as it
-// arrived there.
-fn more_light(path: Path, hit: Hit, visit: u32, number: u32) -> ShadowRay {
-    let surface = hit_surface(path.ray, hit);
-    let wo = -path.ray.direction;
+// The surface that a path met at its vertex number `visit`; `path` is as it arrived there.
+fn lit_surface(path: Path, hit: Hit, visit: u32) -> LitSurface {
+    var lit: LitSurface;
+    let edge = edge_at(path, visit);
+    if hit.primitive == NONE || edge > LIGHT_SAMPLES_DEPTH || edge == MAX_DEPTH {
+        return lit;
+    }
+    lit.surface = hit_surface(path.ray, hit);
     // The same of a blend's materials that shade_vertex looks at.
     let random = random_block(path.pixel, path.sample_in_pass, 2u * visit + 1u);
-    let bsdf = load_bsdf(surface, wo, uniform_float(random.w));
-    if !has_smooth_lobe(bsdf) {
-        return no_shadow();
-    }
+    lit.bsdf = load_bsdf(lit.surface, -path.ray.direction, uniform_float(random.w));
+    lit.takes_more = has_smooth_lobe(lit.bsdf);
+    return lit;
+}
+
+// The shadow ray of light sample `number`, not the first, of a surface that takes more; `path` is as it arrived there.
+fn more_light(path: Path, lit: LitSurface, visit: u32, number: u32) -> ShadowRay {
     let edge = edge_at(path, visit);
     let light_bits = more_light_bits(path.pixel, path.sample_in_pass, visit, edge, number);
-    let light = sample_light(light_reference(surface), light_bits);
-    let value = evaluate_bsdf(bsdf, surface, wo, light.wi);
-    return next_event(path, surface, edge, light, light_bits.x, value);
+    let light = sample_light(light_reference(lit.surface), light_bits);
+    let value = evaluate_bsdf(lit.bsdf, lit.surface, -path.ray.direction, light.wi);
+    return next_event(path, lit.surface, edge, light, light_bits.x, value);
 }
 #endif
 

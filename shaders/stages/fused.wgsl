@@ -37,8 +37,9 @@ fn trace_paths(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
             }
         }
 #if SEVERAL_LIGHT_SAMPLES
-        for (var number = 1u; number < LIGHT_SAMPLES && takes_more_light(incoming, hit, visit); number++) {
-            let shadow = more_light(incoming, hit, visit, number);
+        let lit = lit_surface(incoming, hit, visit);
+        for (var number = 1u; number < LIGHT_SAMPLES && lit.takes_more; number++) {
+            let shadow = more_light(incoming, lit, visit, number);
             if any(shadow.radiance != vec3<f32>(0.0)) {
                 rays++;
                 if !occluded(shadow.ray, shadow.distance) {

@@ -48,7 +48,10 @@ fn path_radiance(first: Path, exists: bool, rays: ptr<function, u32>) -> vec3<f3
         var vertex = Vertex(false, vec3<f32>(0.0), no_shadow());
 #if SEVERAL_LIGHT_SAMPLES
         let incoming = path;
-        let takes_more = alive && takes_more_light(path, hit, visit);
+        var lit: LitSurface;
+        if alive {
+            lit = lit_surface(path, hit, visit);
+        }
         var number = 1u;
 #endif
         if alive {
@@ -69,10 +72,10 @@ fn path_radiance(first: Path, exists: bool, rays: ptr<function, u32>) -> vec3<f3
             radiance += shadow.radiance;
         }
 #if SEVERAL_LIGHT_SAMPLES
-            let goes_on = takes_more && number < LIGHT_SAMPLES;
+            let goes_on = lit.takes_more && number < LIGHT_SAMPLES;
             shadow = no_shadow();
             if goes_on {
-                shadow = more_light(incoming, hit, visit, number);
+                shadow = more_light(incoming, lit, visit, number);
             }
             number++;
             continuing {

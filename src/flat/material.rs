@@ -103,7 +103,7 @@ pub fn color_and_texture(input: &ColorInput) -> ([f32; 3], u32) {
 
 impl FlatMaterials {
     /// Packs the materials that surfaces have, in the scene's order, and behind them those that only their blends are made of. Textures
-    /// keep the scene's numbers ([`FlatMaterials::textures_mut`]).
+    /// keep the scene's numbers until they are packed.
     ///
     /// # Errors
     /// [`FlatError::TooManyWeights`] where the branches of nested blends have more weights than can be kept.
