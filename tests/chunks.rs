@@ -1,5 +1,8 @@
 //! Arrays that one binding cannot hold: cut into chunks, they give the same picture, bit for bit.
 
+#[path = "common/pixel_bits.rs"]
+mod pixel_bits;
+
 use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
@@ -7,10 +10,11 @@ use std::sync::{Arc, LazyLock};
 use glam::Vec3;
 use gpt::flat::FlatScene;
 use gpt::flat::hierarchy::HierarchyKind;
-use gpt::gpu::{Device, GpuRenderer};
+use gpt::gpu::Device;
 use gpt::plan::{Chunks, DeviceLimits, Plan, PlanOptions, StageMode};
-use gpt::render::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
+use gpt::render::{DeviceChoice, RenderError};
 use gpt::scene::{self, Geometry, Scene};
+use pixel_bits::pixel_bits;
 
 static DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| match std::env::var("GPT_TEST_GPU").as_deref() {
     Ok("skip") => None,
@@ -85,15 +89,7 @@ fn options(stages: StageMode, largest_chunk: Option<u64>) -> PlanOptions {
 
 /// Means of all pixels as bits, and the plan.
 fn picture(device: &Device, scene: &Scene, options: &PlanOptions) -> (Vec<[u32; 3]>, Plan) {
-    let mut renderer = GpuRenderer::on(device, scene, options).expect("the scene fits");
-    let request = RenderRequest { rows: 0..scene.film.size[1], samples: 0..scene.render.spp };
-    let mut pixels = Vec::new();
-    let mut on_band = |band: gpt::film::Band| {
-        pixels.extend(band.mean.iter().map(|pixel| pixel.map(f32::to_bits)));
-        Ok(())
-    };
-    renderer.render(&request, &Silent, &mut on_band).expect("rendering succeeds");
-    (pixels, renderer.plan().clone())
+    pixel_bits(device, scene, options, 0..scene.render.spp)
 }
 
 /// Chunks of primitives, nodes and attributes.

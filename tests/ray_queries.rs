@@ -1,5 +1,7 @@
 //! Ray queries find what a hierarchy of ours finds, and are refused where they cannot.
 
+#[path = "common/pixel_bits.rs"]
+mod pixel_bits;
 #[path = "common/ray_queries.rs"]
 mod ray_queries;
 
@@ -11,8 +13,9 @@ use gpt::flat::{FlatScene, Unarranged};
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::plan::limits::RayQueryLimits;
 use gpt::plan::{DeviceLimits, GeometryPlacement, Plan, PlanOptions, StageMode};
-use gpt::render::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
+use gpt::render::{DeviceChoice, RenderError};
 use gpt::scene::{self, Scene, load_toml_str};
+use pixel_bits::pixel_bits;
 use ray_queries::{RAY_QUERY_DEVICE, by_ray_queries};
 
 /// A shipped scene as small as tests want it.
@@ -55,15 +58,7 @@ fn everything() -> Scene {
 
 /// Means of all pixels as bits.
 fn picture(device: &Device, scene: &Scene, options: &PlanOptions) -> Vec<[u32; 3]> {
-    let mut renderer = GpuRenderer::on(device, scene, options).expect("the scene fits");
-    let request = RenderRequest { rows: 0..scene.film.size[1], samples: 0..scene.render.spp };
-    let mut pixels = Vec::new();
-    let mut on_band = |band: gpt::film::Band| {
-        pixels.extend(band.mean.iter().map(|pixel| pixel.map(f32::to_bits)));
-        Ok(())
-    };
-    renderer.render(&request, &Silent, &mut on_band).expect("rendering succeeds");
-    pixels
+    pixel_bits(device, scene, options, 0..scene.render.spp).0
 }
 
 /// What the device meets is tested again by our arithmetic, so hits are the same to the last bit. Only where rays meet two primitives at the

@@ -2,6 +2,8 @@
 
 #[path = "common/device.rs"]
 mod device;
+#[path = "common/pixel_bits.rs"]
+mod pixel_bits;
 
 use std::path::Path;
 
@@ -9,8 +11,8 @@ use device::DEVICE;
 use gpt::flat::hierarchy::HierarchyKind;
 use gpt::gpu::GpuRenderer;
 use gpt::plan::{FilmStorage, GeometryPlacement, PlanOptions, StageMode};
-use gpt::render::{RenderRequest, Renderer, Silent};
 use gpt::scene::{self, Scene};
+use pixel_bits::pixel_bits;
 
 /// Spheres, a mesh and an environment, of a size that no number of lanes divides.
 fn scene(spp: u32) -> Scene {
@@ -23,15 +25,7 @@ fn scene(spp: u32) -> Scene {
 
 /// Means of all pixels as bits, after several passes.
 fn picture(scene: &Scene, options: &PlanOptions) -> Option<Vec<[u32; 3]>> {
-    let mut renderer = GpuRenderer::on(DEVICE.as_ref()?, scene, options).expect("the scene fits");
-    let request = RenderRequest { rows: 0..scene.film.size[1], samples: 3..3 + scene.render.spp };
-    let mut pixels = Vec::new();
-    let mut on_band = |band: gpt::film::Band| {
-        pixels.extend(band.mean.iter().map(|pixel| pixel.map(f32::to_bits)));
-        Ok(())
-    };
-    renderer.render(&request, &Silent, &mut on_band).expect("rendering succeeds");
-    Some(pixels)
+    Some(pixel_bits(DEVICE.as_ref()?, scene, options, 3..3 + scene.render.spp).0)
 }
 
 #[test]

@@ -56,8 +56,8 @@ pub struct Speed {
     pub device: String,
     /// `fused`, `wavefront`, or `cpu`.
     pub stages: String,
-    /// How rays find what they meet: `constants`, `bvh` or `ray-query`; null on the CPU.
-    pub traversal: Option<&'static str>,
+    /// The form of the hierarchy that rays go through, as in `--stats`; null where there is none, and on the CPU.
+    pub hierarchy: Option<String>,
     pub build_seconds: f64,
     pub compile_seconds: f64,
     /// From nothing to one finished sample of every pixel, the driver's compiler included.
@@ -115,7 +115,7 @@ struct Entry<'a> {
 struct Candidate<'a> {
     subject: SceneSubject<'a>,
     stages: &'static str,
-    traversal: Option<&'static str>,
+    hierarchy: Option<HierarchyKind>,
     bytes_per_path: Option<u64>,
     device_bytes: u64,
     profile: Profile,
@@ -247,7 +247,7 @@ fn prepare<'a>(
             first_picture_seconds: start.elapsed().as_secs_f64(),
             subject: SceneSubject { renderer: Box::new(renderer), size: scene.film.size, observer },
             stages: "cpu",
-            traversal: None,
+            hierarchy: None,
             bytes_per_path: None,
             device_bytes: 0,
             profile: Profile::default(),
@@ -263,7 +263,7 @@ fn prepare<'a>(
     Ok(Candidate {
         first_picture_seconds,
         stages: if wavefront { "wavefront" } else { "fused" },
-        traversal: Some(renderer.plan().hierarchy_in_use().map_or("constants", HierarchyKind::switch)),
+        hierarchy: renderer.plan().hierarchy_in_use(),
         bytes_per_path: wavefront.then_some(memory::PATH_STATE_BYTES + memory::QUEUE_BYTES + shadow_rays),
         device_bytes: renderer.plan().memory.total(),
         profile: look_inside(&renderer, options.rounds)?,
@@ -340,7 +340,7 @@ impl Candidate<'_> {
         Speed {
             device: self.subject.renderer.device().to_owned(),
             stages: self.stages.to_owned(),
-            traversal: self.traversal,
+            hierarchy: self.hierarchy.map(HierarchyKind::key),
             build_seconds: last.map_or(f64::NAN, |run| run.build_seconds),
             compile_seconds: last.map_or(f64::NAN, |run| run.compile_seconds),
             first_picture_seconds: self.first_picture_seconds,

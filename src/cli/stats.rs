@@ -1,5 +1,6 @@
 //! `--stats`: what a render did, as JSON for other programs.
 
+use gpt::flat::hierarchy::HierarchyKind;
 use gpt::plan::Decision;
 use gpt::render::RenderReport;
 use gpt::scene::{Scene, setting_name};
@@ -81,7 +82,7 @@ impl Stats {
             scene: scene.name.clone(),
             scene_hash: String::new(),
             device: report.device.clone(),
-            hierarchy: report.hierarchy.map(|kind| kind.switch().to_lowercase()),
+            hierarchy: report.hierarchy.map(HierarchyKind::key),
             decisions: report.decisions.clone(),
             compiled_in: report.compiled_in.clone(),
             width,

@@ -33,6 +33,11 @@ impl HierarchyKind {
         }
     }
 
+    /// As statistics have it: `bvh2`, `bvh4`, `cwbvh` or `ray_query`.
+    pub fn key(self) -> String {
+        self.switch().to_lowercase()
+    }
+
     /// The switch under which the shaders know it.
     pub fn switch(self) -> &'static str {
         match self {

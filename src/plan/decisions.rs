@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::memory::{PRIMITIVES, TABLES};
 use super::{
     Chunks, DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanOptions, SOFTWARE_HIERARCHY, StageMode, UNROLL_LIMIT,
 };
@@ -57,7 +58,7 @@ pub(super) fn stages(
     (stages, because.into())
 }
 
-/// All decisions in words, in the order of the data's way. `geometry` and `stages` are the reasons for those.
+/// All decisions of a plan whose memory is counted, in words, in the order of the data's way. `geometry` and `stages` are the reasons for those.
 pub(super) fn explain(
     plan: &Plan,
     scene: &Scene,
@@ -78,9 +79,9 @@ pub(super) fn explain(
         let place = if plan.has_nodes() { format!(", {}", buffer_name(plan.uniform_nodes)) } else { String::new() };
         add("hierarchy", format!("{kind}{place}"), why_hierarchy(plan, limits, options));
     }
-    let (bytes, tables) = (size_of_val(&flat.primitives[..]), 16 * flat.tables().words.len());
-    add("primitives", buffer_name(plan.uniform_primitives).into(), size_in_uniform(bytes, limits));
-    add("tables", buffer_name(plan.uniform_tables).into(), size_in_uniform(tables, limits));
+    for (name, uniform) in [(PRIMITIVES, plan.uniform_primitives), (TABLES, plan.uniform_tables)] {
+        add(name, buffer_name(uniform).into(), size_in_uniform(plan.memory.bytes(name), limits));
+    }
     let cut: Vec<String> = plan.chunks.iter().filter(|array| !array.is_whole()).map(Chunks::to_string).collect();
     if !cut.is_empty() {
         let largest = options.largest_chunk.unwrap_or(u64::MAX).min(limits.largest_array());
@@ -148,8 +149,8 @@ fn buffer_name(uniform: bool) -> &'static str {
     if uniform { "uniform buffer" } else { "storage buffer" }
 }
 
-fn size_in_uniform(bytes: usize, limits: &DeviceLimits) -> String {
-    let most = limits.max_uniform_binding as usize;
+fn size_in_uniform(bytes: u64, limits: &DeviceLimits) -> String {
+    let most = u64::from(limits.max_uniform_binding);
     let compared = if bytes <= most { "at most" } else { "more than" };
     format!("{} KiB, {compared} {}", bytes.div_ceil(1 << 10), most >> 10)
 }

@@ -32,6 +32,9 @@ pub const PRIMITIVES: &str = "primitives";
 pub const NODES: &str = "hierarchy";
 pub const ATTRIBUTES: &str = "normals and texture coordinates";
 
+/// What materials, lights and textures are called together.
+pub const TABLES: &str = "tables";
+
 /// What the device builds where ray queries find hits.
 pub const ACCELERATION: &str = "acceleration structure";
 const ESTIMATED_ACCELERATION: &str = "acceleration structure by estimate";
@@ -48,7 +51,7 @@ impl Memory {
         let pixels = u64::from(width) * u64::from(plan.band_rows);
         let mut arrays = vec![
             (PRIMITIVES, PRIMITIVE_BYTES * flat.primitives.len() as u64),
-            ("tables", 16 * tables.len() as u64),
+            (TABLES, 16 * tables.len() as u64),
             ("film sum", pixels * FILM_BYTES / 2),
             ("film compensation", pixels * FILM_BYTES / 2),
         ];
@@ -76,6 +79,11 @@ impl Memory {
             }
         }
         Self { arrays }
+    }
+
+    /// Of the array of that name; 0 where there is none.
+    pub fn bytes(&self, name: &str) -> u64 {
+        self.arrays.iter().find(|(array, _)| *array == name).map_or(0, |(_, bytes)| *bytes)
     }
 
     pub fn total(&self) -> u64 {

@@ -1,7 +1,7 @@
 //! Joins WGSL files: `#import file`, `#if SWITCH` / `#if !SWITCH` / `#else` / `#endif`, and a map from lines back to files.
 //!
-//! A file is included once, where it is first imported; lines that `enable` an extension go to the front, where WGSL wants them. Switches and constants come from the plan, so that a scene's kernels hold
-//! only what the scene uses.
+//! A file is included once, where it is first imported; lines that `enable` an extension go to the front, where WGSL wants them. Switches
+//! and constants come from the plan, so that a scene's kernels hold only what the scene uses.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
