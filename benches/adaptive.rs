@@ -9,10 +9,11 @@ use std::time::Instant;
 
 use gpt::compare::RELATIVE_EPSILON;
 use gpt::gpu::{Device, GpuRenderer};
+use gpt::load;
 use gpt::plan::PlanOptions;
-use gpt::progressive::{self, Goal};
-use gpt::render::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
-use gpt::scene::{self, Scene};
+use gpt::render::progressive::{self, Goal};
+use gpt::renderer::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
+use gpt::scene::Scene;
 use gpt::verify;
 
 const LONGER_SIDE: u32 = 128;
@@ -64,15 +65,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
 fn load(name: &str) -> Result<Scene, Box<dyn std::error::Error>> {
     let mut scene = match name {
-        "caustic" => scene::load_toml_str(CAUSTIC, name, std::path::Path::new(""))?,
-        "behind-glass" => scene::load_toml_str(BEHIND_GLASS, name, std::path::Path::new(""))?,
+        "caustic" => load::load_toml_str(CAUSTIC, name, std::path::Path::new(""))?,
+        "behind-glass" => load::load_toml_str(BEHIND_GLASS, name, std::path::Path::new(""))?,
         _ if MODELS.contains(&name) => {
             let file = format!("{}/benches/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-            let mut scene = scene::load(Some(&file))?;
+            let mut scene = load::load(Some(&file))?;
             scene.render.light_samples = 2;
             scene
         }
-        _ => scene::load(Some(name))?,
+        _ => load::load(Some(name))?,
     };
     verify::shrink(&mut scene, LONGER_SIDE);
     scene.render.spp = SPP;

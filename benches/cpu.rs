@@ -7,23 +7,24 @@ use std::path::Path;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gpt::bench::scenes;
-use gpt::flat::{FlatScene, hierarchy::HierarchyKind, tree::Tree, world};
+use gpt::load;
+use gpt::packed::{PackedScene, hierarchy::HierarchyKind, tree::Tree, world};
 use gpt::reference::ReferenceRenderer;
 use gpt::sampling::{BounceDimension, Dimension, PathSampler, Sampling, SequencePoint};
-use gpt::scene::{self, RenderSettings, SamplerKind, setting_name};
+use gpt::scene::{RenderSettings, SamplerKind, setting_name};
 
 /// Triangles of the scenes that are packed.
 const TRIANGLES: [u32; 3] = [1_000, 10_000, 100_000];
 
 fn parse(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("parse");
-    let text = scene::builtin_text("cornell").unwrap_or_default();
+    let text = load::builtin_text("cornell").unwrap_or_default();
     group.throughput(Throughput::Bytes(text.len() as u64));
-    group.bench_function("cornell.toml", |bencher| bencher.iter(|| scene::load_toml_str(text, "cornell", Path::new(""))));
+    group.bench_function("cornell.toml", |bencher| bencher.iter(|| load::load_toml_str(text, "cornell", Path::new(""))));
     // The scene file and the model that it names, both part of the program.
     let model = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/models/teapot.obj");
     group.throughput(Throughput::Bytes(std::fs::metadata(model).map_or(0, |file| file.len())));
-    group.bench_function("teapot.obj", |bencher| bencher.iter(|| scene::load(Some("teapot-plastic"))));
+    group.bench_function("teapot.obj", |bencher| bencher.iter(|| load::load(Some("teapot-plastic"))));
     group.finish();
 }
 
@@ -34,7 +35,7 @@ fn pack(criterion: &mut Criterion) {
         let Ok(scene) = scenes::hills(triangles) else { continue };
         group.throughput(Throughput::Elements(triangles.into()));
         group.bench_with_input(BenchmarkId::new("flatten", triangles), &scene, |bencher, scene| {
-            bencher.iter(|| FlatScene::new(scene));
+            bencher.iter(|| PackedScene::new(scene));
         });
         let geometry = world::collect(&scene);
         for kind in HierarchyKind::ALL {
@@ -74,7 +75,7 @@ fn sample(criterion: &mut Criterion) {
 fn trace(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("reference path");
     for name in ["cornell", "veach-mis"] {
-        let Ok(scene) = scene::load(Some(name)) else { continue };
+        let Ok(scene) = load::load(Some(name)) else { continue };
         let Ok(renderer) = ReferenceRenderer::new(&scene) else { continue };
         let [width, height] = scene.film.size;
         group.throughput(Throughput::Elements(1));

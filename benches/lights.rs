@@ -9,8 +9,9 @@ use std::time::Instant;
 
 use glam::{DVec3, Vec3};
 use gpt::gpu::{Device, GpuRenderer};
+use gpt::load;
 use gpt::plan::PlanOptions;
-use gpt::render::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
+use gpt::renderer::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
 use gpt::scene::{self, ColorInput, Emission, Geometry, LightSampling, Material, MaterialKind, Mesh, Scene, Shape, Transform};
 
 const SIDE: u32 = 96;
@@ -58,7 +59,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 fn load(text: &str) -> Scene {
-    let mut scene = scene::load_toml_str(text, "lights", std::path::Path::new("")).unwrap_or_else(|error| panic!("{error}"));
+    let mut scene = load::load_toml_str(text, "lights", std::path::Path::new("")).unwrap_or_else(|error| panic!("{error}"));
     scene.film.size = [SIDE; 2];
     scene.render.spp = SPP;
     scene

@@ -8,10 +8,11 @@ use std::path::Path;
 use std::time::Instant;
 
 use gpt::gpu::GpuRenderer;
+use gpt::load;
 use gpt::plan::{PlanOptions, StageMode};
 use gpt::reference::ReferenceRenderer;
-use gpt::render::{DeviceChoice, RenderReport, RenderRequest, Renderer, Silent};
-use gpt::scene::{self, Scene};
+use gpt::renderer::{DeviceChoice, RenderReport, RenderRequest, Renderer, Silent};
+use gpt::scene::Scene;
 
 /// Pairs measured after one that is thrown away.
 const PAIRS: usize = 5;
@@ -33,7 +34,7 @@ fn main() {
     println!("| scene | stages | set-up s | first sample s | GPU Msample/s | GPU Mray/s | CPU reference Msample/s | GPU / CPU |");
     println!("| --- | --- | --- | --- | --- | --- | --- | --- |");
     for name in names {
-        match scene::load(Some(&name)) {
+        match load::load(Some(&name)) {
             Ok(mut scene) => {
                 scene.render.max_depth = 8;
                 measure(&scene);

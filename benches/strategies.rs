@@ -8,9 +8,10 @@
 use std::time::Instant;
 
 use gpt::gpu::{Device, GpuRenderer};
+use gpt::load;
 use gpt::plan::PlanOptions;
-use gpt::render::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
-use gpt::scene::{self, Filter, FilterKind, PixelSampler, SamplerKind, Scene, setting_name};
+use gpt::renderer::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
+use gpt::scene::{Filter, FilterKind, PixelSampler, SamplerKind, Scene, setting_name};
 
 const SIDE: u32 = 128;
 const SPP: [u32; 3] = [16, 64, 256];
@@ -23,7 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let wanted: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
     let is_wanted = |name: &str| wanted.is_empty() || wanted.iter().any(|other| other == name);
     let device = Device::open(&DeviceChoice::Gpu)?;
-    let mut scene = scene::load(Some("cornell"))?;
+    let mut scene = load::load(Some("cornell"))?;
     scene.film.size = [SIDE; 2];
     if is_wanted("samplers") {
         samplers(&device, &scene)?;

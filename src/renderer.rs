@@ -1,66 +1,144 @@
-//! Which renderer takes a scene.
+//! What every renderer, GPU or CPU, takes and gives back.
 
-use crate::gpu::{GpuRenderer, OpeningDevice, list_devices};
-use crate::plan::PlanOptions;
-use crate::reference::ReferenceRenderer;
-use crate::render::{DeviceChoice, RenderError, Renderer};
-use crate::scene::Scene;
+use std::ops::Range;
 
-/// What is said where `auto` finds no graphics adapter.
-const NO_ADAPTER_NOTICE: &str = "no Vulkan, Metal or Direct3D 12 adapter was found: rendering on the CPU, which is slower. \
-    On Debian and Ubuntu, scripts/install-lavapipe installs Mesa's software Vulkan driver.";
+use crate::film::Band;
+use crate::packed::hierarchy::HierarchyKind;
+use crate::plan::Decision;
 
-/// A renderer ready to work, and what the user should know about the choice.
-pub struct ChosenRenderer {
-    pub renderer: Box<dyn Renderer>,
-    pub notice: Option<String>,
+/// Which device renders (`--device`).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum DeviceChoice {
+    /// Discrete, integrated, then software Vulkan; with no adapter at all, the CPU integrator.
+    Auto,
+    /// As `Auto`, but the CPU integrator is no way out.
+    Gpu,
+    /// The reference integrator.
+    Cpu,
+    /// The adapter whose name contains this, ignoring case.
+    Named(String),
 }
 
-/// The choice of a device while it is being carried out: an adapter opens while the scene is read.
-pub struct Choice {
-    choice: DeviceChoice,
-    /// None for the CPU, which needs no adapter.
-    opening: Option<OpeningDevice>,
+/// The part of a render that is wanted: all pixels of `rows`, the samples with these absolute indices.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RenderRequest {
+    pub rows: Range<u32>,
+    pub samples: Range<u32>,
 }
 
-impl Choice {
-    /// Begins to open the adapter, if `choice` means one, for plans with these options.
-    pub fn begin(choice: &DeviceChoice, options: &PlanOptions) -> Self {
-        let opening = (*choice != DeviceChoice::Cpu).then(|| OpeningDevice::begin(choice, options));
-        Self { choice: choice.clone(), opening }
-    }
+/// A request that is one of several for the same picture.
+#[derive(Debug, Clone, Copy)]
+pub struct Batch<'a> {
+    pub request: &'a RenderRequest,
+    /// Key of all random numbers; None: the scene's.
+    pub seed: Option<u32>,
+    /// Which pixels take part, of the whole film, row by row; None: all of them. The others' means are 0. A renderer on a GPU must have
+    /// been made for it ([`crate::plan::PlanOptions::pixel_list`]).
+    pub selection: Option<&'a [bool]>,
+}
 
-    /// Makes the scene ready on the chosen device. With [`DeviceChoice::Auto`] and no adapter that can be used, that is the CPU reference, for
-    /// which `options` have no meaning; ray queries, which only an adapter has, are not given up that way. `options` are those that the choice
-    /// began with.
-    ///
-    /// # Errors
-    /// No such device, or a scene that does not fit it.
-    pub fn renderer(self, scene: &Scene, options: &PlanOptions) -> Result<ChosenRenderer, RenderError> {
-        let Some(opening) = self.opening else {
-            return Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: None });
+impl Batch<'_> {
+    /// Samples of all pixels together, in a film of this width.
+    pub fn total_samples(&self, width: u32) -> u64 {
+        let RenderRequest { rows, samples } = self.request;
+        let pixels = rows.start as usize * width as usize..rows.end as usize * width as usize;
+        let taking_part = match self.selection {
+            None => pixels.len(),
+            Some(selection) => selection[pixels].iter().filter(|selected| **selected).count(),
         };
-        match GpuRenderer::once_open(opening, scene, options) {
-            Err(RenderError::NoDevice(_)) if self.choice == DeviceChoice::Auto && !options.asks_for_ray_queries() => {
-                Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: Some(no_adapter_notice()) })
-            }
-            outcome => Ok(ChosenRenderer { renderer: Box::new(outcome?), notice: None }),
-        }
+        taking_part as u64 * samples.len() as u64
     }
 }
 
-/// Why `auto` means the CPU: no adapter, or what keeps each from being used.
-fn no_adapter_notice() -> String {
-    let obstacles: Vec<String> = list_devices()
-        .into_iter()
-        .filter_map(|adapter| adapter.unusable.map(|obstacle| format!("{} {obstacle}", adapter.name)))
-        .collect();
-    if obstacles.is_empty() {
-        return NO_ADAPTER_NOTICE.to_owned();
-    }
-    format!("rendering on the CPU, which is slower, because {}", obstacles.join("; "))
+/// Is told how far a render is, and says whether it should go on. Called from the rendering thread, several times a second.
+pub trait Observer: Sync {
+    /// `done` of `total` samples (pixels × spp) are finished.
+    fn progress(&self, done: u64, total: u64);
+    /// True: stop soon, deliver what is done.
+    fn stop_requested(&self) -> bool;
 }
 
-fn on_the_cpu(scene: &Scene) -> Result<Box<dyn Renderer>, RenderError> {
-    Ok(Box::new(ReferenceRenderer::new(scene)?))
+/// An observer that shows nothing and never stops.
+pub struct Silent;
+
+impl Observer for Silent {
+    fn progress(&self, _done: u64, _total: u64) {}
+    fn stop_requested(&self) -> bool {
+        false
+    }
+}
+
+/// What a render did, for `--stats`.
+#[derive(Debug, Clone, Default)]
+pub struct RenderReport {
+    /// The device as people call it, for example `llvmpipe (LLVM 15.0.6, 256 bits)` or `CPU reference`.
+    pub device: String,
+    /// The form of the hierarchy that a graphics device goes through; None where geometry is code.
+    pub hierarchy: Option<HierarchyKind>,
+    /// What the plan decided for a graphics device, and why; empty for the CPU.
+    pub decisions: Vec<Decision>,
+    /// The parts of the shaders that a graphics device's kernels hold.
+    pub compiled_in: Vec<&'static str>,
+    /// Camera, bounce and shadow rays traced.
+    pub rays: u64,
+    /// Samples finished, over all pixels.
+    pub samples: u64,
+    /// Samples that were not finite and that the film refused.
+    pub non_finite_samples: u64,
+    /// Most bytes allocated on the device at once (0 for the CPU).
+    pub peak_device_bytes: u64,
+    /// Seconds spent building acceleration structures and packing the scene.
+    pub build_seconds: f64,
+    /// Seconds spent making shaders and pipelines.
+    pub compile_seconds: f64,
+    pub render_seconds: f64,
+    /// The observer asked to stop before all samples were done.
+    pub interrupted: bool,
+}
+
+/// Why a render could not be done or finished.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    #[error("no usable device: {0}")]
+    NoDevice(String),
+    /// Needs and limits are part of the message.
+    #[error("the scene does not fit the device: {0}")]
+    DoesNotFit(String),
+    #[error("the device was lost: {0}")]
+    DeviceLost(String),
+    #[error("{0}")]
+    Internal(String),
+    /// The receiver of the bands failed (a full disk, say).
+    #[error(transparent)]
+    Output(#[from] std::io::Error),
+}
+
+/// A scene made ready on one device.
+pub trait Renderer {
+    /// The device as people call it; the same text as [`RenderReport::device`], known before the render because picture files
+    /// carry it in their header.
+    fn device(&self) -> &str;
+
+    /// Changes the samples per pixel for which samplers with strata lay them out from what the scene says. Nothing is built or compiled
+    /// anew.
+    fn set_samples_per_pixel(&mut self, spp: u32);
+
+    /// Renders the request and hands over finished bands in order from the top, each once. When the observer stops it, bands hold
+    /// what was done so far: `samples` of a band says how many, rows never begun are not delivered.
+    fn render(
+        &mut self,
+        request: &RenderRequest,
+        observer: &dyn Observer,
+        on_band: &mut dyn FnMut(Band) -> std::io::Result<()>,
+    ) -> Result<RenderReport, RenderError> {
+        self.render_batch(&Batch { request, seed: None, selection: None }, observer, on_band)
+    }
+
+    /// As [`Renderer::render`], with random numbers and numbers of samples that the scene does not decide.
+    fn render_batch(
+        &mut self,
+        batch: &Batch<'_>,
+        observer: &dyn Observer,
+        on_band: &mut dyn FnMut(Band) -> std::io::Result<()>,
+    ) -> Result<RenderReport, RenderError>;
 }

@@ -4,9 +4,11 @@
 use std::path::Path;
 
 use gpt::film::Band;
+use gpt::load;
+use gpt::load::SceneError;
 use gpt::reference::ReferenceRenderer;
-use gpt::render::{RenderRequest, Renderer, Silent};
-use gpt::scene::{self, Scene, SceneError};
+use gpt::renderer::{RenderRequest, Renderer, Silent};
+use gpt::scene::Scene;
 
 const HEADER: &str = r#"
 [film]
@@ -37,7 +39,7 @@ material = "white"
 "#;
 
 fn load_in(folder: &Path, lights: &str) -> Result<Scene, SceneError> {
-    scene::load_toml_str(&format!("{HEADER}{lights}"), "test.toml", folder)
+    load::load_toml_str(&format!("{HEADER}{lights}"), "test.toml", folder)
 }
 
 fn load(lights: &str) -> Scene {

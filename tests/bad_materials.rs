@@ -6,8 +6,10 @@ mod common;
 use std::path::Path;
 
 use common::folder_with;
-use gpt::flat::{FlatError, FlatScene};
-use gpt::scene::{self, Scene, SceneError};
+use gpt::load;
+use gpt::load::SceneError;
+use gpt::packed::{PackError, PackedScene};
+use gpt::scene::Scene;
 
 const HEADER: &str = r#"
 [film]
@@ -39,7 +41,7 @@ type = "mirror"
 "#;
 
 fn load_in(folder: &Path, materials: &str) -> Result<Scene, SceneError> {
-    scene::load_toml_str(&format!("{HEADER}{materials}"), "test.toml", folder)
+    load::load_toml_str(&format!("{HEADER}{materials}"), "test.toml", folder)
 }
 
 fn load(materials: &str) -> Result<Scene, SceneError> {
@@ -146,9 +148,9 @@ fn a_chain_of_blends_as_long_as_it_may_be_is_packed_or_refused_by_name() {
         }
         load(&text).unwrap_or_else(|error| panic!("{error}"))
     };
-    assert!(FlatScene::new(&chain(40)).is_ok());
-    match FlatScene::new(&chain(3000)) {
-        Err(FlatError::TooManyWeights { limit, .. }) => assert_eq!(limit, 1 << 20),
+    assert!(PackedScene::new(&chain(40)).is_ok());
+    match PackedScene::new(&chain(3000)) {
+        Err(PackError::TooManyWeights { limit, .. }) => assert_eq!(limit, 1 << 20),
         other => panic!("{:?}", other.map(|_| ())),
     }
 }
@@ -181,6 +183,6 @@ fn limits_with_a_meaning_are_accepted() {
         "{ type = \"threshold\", tau = 0.5, of = { type = \"threshold\", tau = 0.2, of = { type = \"facing\" } } }",
     ] {
         let scene = load(&blend(weight)).unwrap_or_else(|error| panic!("{error}"));
-        assert!(FlatScene::new(&scene).is_ok(), "{weight}");
+        assert!(PackedScene::new(&scene).is_ok(), "{weight}");
     }
 }

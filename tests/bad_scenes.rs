@@ -7,7 +7,8 @@ mod sphere;
 use std::sync::LazyLock;
 
 use common::{TRIANGLE, folder_with, png_bytes};
-use gpt::scene::{self, SceneError};
+use gpt::load;
+use gpt::load::SceneError;
 use sphere::grey_sphere;
 
 /// A scene that is right, to put mistakes into.
@@ -15,7 +16,7 @@ static GOOD: LazyLock<String> =
     LazyLock::new(|| grey_sphere("[film]\nsize = [4, 4]\n[render]\nspp = 1", "type = \"environment\"\nradiance = 1"));
 
 fn error_of(text: &str) -> SceneError {
-    match scene::load_toml_str(text, "test.toml", std::path::Path::new("")) {
+    match load::load_toml_str(text, "test.toml", std::path::Path::new("")) {
         Ok(_) => panic!("no complaint about\n{text}"),
         Err(error) => error,
     }
@@ -36,7 +37,7 @@ fn show(error: &SceneError) -> String {
 
 #[test]
 fn the_good_scene_is_good() {
-    assert!(scene::load_toml_str(&GOOD, "test.toml", std::path::Path::new("")).is_ok());
+    assert!(load::load_toml_str(&GOOD, "test.toml", std::path::Path::new("")).is_ok());
 }
 
 /// Each row: what is replaced by what, and the complaint.
@@ -322,9 +323,7 @@ fn a_scene_without_light_is_refused() {
     // An emissive material that no shape uses lights nothing.
     let unused = format!("{dark}[[material]]\nname = \"lamp\"\ntype = \"emissive\"\nradiance = 1\n");
     assert_eq!(error_of(&unused).to_string(), error.to_string());
-    assert!(
-        scene::load_toml_str(&unused.replace("material = \"grey\"", "material = \"lamp\""), "test.toml", "".as_ref()).is_ok()
-    );
+    assert!(load::load_toml_str(&unused.replace("material = \"grey\"", "material = \"lamp\""), "test.toml", "".as_ref()).is_ok());
 }
 
 #[test]
@@ -338,7 +337,7 @@ fn the_report_shows_the_line() {
 
 #[test]
 fn sources_that_are_not_there_are_named() {
-    let complaint = |name: &str| scene::load(Some(name)).map(|_| ()).map_err(|error| show(&error)).unwrap_err();
+    let complaint = |name: &str| load::load(Some(name)).map(|_| ()).map_err(|error| show(&error)).unwrap_err();
     assert!(complaint("absent.toml").starts_with("absent.toml: cannot be read: No such file"));
     assert!(complaint("absent.obj").starts_with("absent.obj: cannot be read: No such file"));
     let misspelt = complaint("cornel");
@@ -365,7 +364,7 @@ fn bad_models_name_file_and_line() {
     ];
     for (rest, expected) in rows {
         let folder = folder_with(&[("bad.obj", format!("{positions}{rest}\n").as_bytes())]);
-        let error = scene::load(folder.path().join("bad.obj").to_str()).map(|_| ()).unwrap_err().to_string();
+        let error = load::load(folder.path().join("bad.obj").to_str()).map(|_| ()).unwrap_err().to_string();
         assert!(error.contains(expected), "{error}");
     }
 }
@@ -385,7 +384,7 @@ fn bad_textures_name_the_key() {
         let text = GOOD
             .replace("reflectance = 0.5", &texture)
             .replace("type = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1", &format!("type = \"mesh\"\nfile = \"{mesh}\""));
-        scene::load_toml_str(&text, "test.toml", folder.path()).map(|_| ()).map_err(|error| error.to_string())
+        load::load_toml_str(&text, "test.toml", folder.path()).map(|_| ()).map_err(|error| error.to_string())
     };
     assert_eq!(load("good.png", "uv.obj"), Ok(()));
     let complaint = |file, mesh| load(file, mesh).err().unwrap_or_default();
@@ -416,7 +415,7 @@ fn bad_material_libraries_name_file_and_line() {
     ];
     for (library, expected) in rows {
         let folder = folder_with(&[("a.obj", model.as_bytes()), ("a.mtl", library.as_bytes())]);
-        let error = scene::load(folder.path().join("a.obj").to_str()).map(|_| ()).unwrap_err().to_string();
+        let error = load::load(folder.path().join("a.obj").to_str()).map(|_| ()).unwrap_err().to_string();
         assert!(error.contains(expected), "{error}");
     }
 }
@@ -425,7 +424,7 @@ fn bad_material_libraries_name_file_and_line() {
 fn deep_nesting_is_an_error_not_a_stack_overflow() {
     let weight = format!("weight{} = 1", ".of".repeat(200_000));
     let text = GOOD.replace("reflectance = 0.5", &weight);
-    assert!(scene::load_toml_str(&text, "test.toml", "".as_ref()).is_err());
+    assert!(load::load_toml_str(&text, "test.toml", "".as_ref()).is_err());
     let inline = format!("weight = {}1{}", "{ of = ".repeat(100_000), " }".repeat(100_000));
-    assert!(scene::load_toml_str(&GOOD.replace("reflectance = 0.5", &inline), "test.toml", "".as_ref()).is_err());
+    assert!(load::load_toml_str(&GOOD.replace("reflectance = 0.5", &inline), "test.toml", "".as_ref()).is_err());
 }

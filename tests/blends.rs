@@ -2,11 +2,11 @@
 //! and a blend of one material is that material.
 
 use glam::DVec3;
+use gpt::compare::{ImageComparison, Picture, TileSettings, compare_replications};
 use gpt::film::Band;
 use gpt::reference::ReferenceRenderer;
-use gpt::render::{RenderRequest, Renderer, Silent};
+use gpt::renderer::{RenderRequest, Renderer, Silent};
 use gpt::scene::*;
-use gpt::statistics::{ImageComparison, Picture, TileSettings, compare_replications};
 
 const SIDE: u32 = 24;
 /// Renders of each picture, every one with a seed of its own.

@@ -8,12 +8,13 @@ use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 use glam::Vec3;
-use gpt::flat::FlatScene;
-use gpt::flat::hierarchy::HierarchyKind;
 use gpt::gpu::Device;
+use gpt::load;
+use gpt::packed::PackedScene;
+use gpt::packed::hierarchy::HierarchyKind;
 use gpt::plan::{Chunks, DeviceLimits, Plan, PlanOptions, StageMode};
-use gpt::render::{DeviceChoice, RenderError};
-use gpt::scene::{self, Geometry, Scene};
+use gpt::renderer::{DeviceChoice, RenderError};
+use gpt::scene::{Geometry, Scene};
 use pixel_bits::pixel_bits;
 
 static DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| match std::env::var("GPT_TEST_GPU").as_deref() {
@@ -80,7 +81,7 @@ radiance = [1, 1.5, 2]
              positions = {positions:?}\nuvs = {uvs:?}\nfaces = {faces:?}\n"
         );
     }
-    scene::load_toml_str(&text, "grid", Path::new(".")).expect("the scene is valid")
+    load::load_toml_str(&text, "grid", Path::new(".")).expect("the scene is valid")
 }
 
 fn options(stages: StageMode, largest_chunk: Option<u64>) -> PlanOptions {
@@ -123,14 +124,14 @@ fn primitives_on_both_sides_of_a_cut_are_seen() {
     let mut scene = grid();
     scene.shapes.truncate(1);
     let options = options(StageMode::Fused, Some(CHUNK));
-    let flat = FlatScene::new(&scene).expect("the scene packs");
+    let packed = PackedScene::new(&scene).expect("the scene packs");
     let in_chunk = (CHUNK / 48) as usize;
-    let cuts = (in_chunk..flat.primitives.len()).step_by(in_chunk);
+    let cuts = (in_chunk..packed.primitives.len()).step_by(in_chunk);
     // The packed scene is relative to its centre.
     let center = scene.center().as_vec3();
     let beside: Vec<[Vec3; 3]> = cuts
         .flat_map(|first| [first - 1, first])
-        .map(|index| flat.primitives[index])
+        .map(|index| packed.primitives[index])
         .map(|primitive| [primitive.p0, primitive.p1, primitive.p2].map(|corner| Vec3::from(corner) + center))
         .collect();
     assert!(beside.len() >= 10);
@@ -157,8 +158,8 @@ fn primitives_on_both_sides_of_a_cut_are_seen() {
 
 fn plan(limits: &DeviceLimits, largest_chunk: Option<u64>) -> Result<Plan, RenderError> {
     let scene = grid();
-    let flat = FlatScene::new(&scene).expect("the scene packs");
-    Plan::new(&scene, &flat, limits, &options(StageMode::Fused, largest_chunk))
+    let packed = PackedScene::new(&scene).expect("the scene packs");
+    Plan::new(&scene, &packed, limits, &options(StageMode::Fused, largest_chunk))
 }
 
 /// What binds no more than the grid takes whole, in a few buffers of half its primitives, or not at all.

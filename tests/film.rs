@@ -6,9 +6,10 @@ mod device;
 use device::DEVICE;
 use gpt::film::Band;
 use gpt::gpu::GpuRenderer;
+use gpt::load;
 use gpt::plan::{FilmStorage, PlanOptions, StageMode};
-use gpt::render::{RenderRequest, Renderer, Silent};
-use gpt::scene::{self, Scene};
+use gpt::renderer::{RenderRequest, Renderer, Silent};
+use gpt::scene::Scene;
 use gpt::verify;
 use std::ops::Range;
 use std::path::Path;
@@ -41,7 +42,7 @@ fn light_in_view() -> Scene {
          [[material]]\nname = \"light\"\ntype = \"emissive\"\nradiance = {LIGHT:?}\n\
          [[shape]]\ntype = \"rectangle\"\ncorner = [-9, -9, 0]\nedge_u = [18, 0, 0]\nedge_v = [0, 18, 0]\nmaterial = \"light\"\n"
     );
-    scene::load_toml_str(&text, "light", Path::new(".")).expect("the scene is valid")
+    load::load_toml_str(&text, "light", Path::new(".")).expect("the scene is valid")
 }
 
 #[test]
@@ -68,7 +69,7 @@ fn sums_hold_their_precision_at_65536_samples() {
 
 #[test]
 fn two_halves_of_the_samples_make_the_whole_picture() {
-    let mut scene = scene::load(Some("cornell")).expect("it is built in");
+    let mut scene = load::load(Some("cornell")).expect("it is built in");
     verify::shrink(&mut scene, 32);
     for options in ways() {
         let (Some(first), Some(second), Some(whole)) =
@@ -90,7 +91,7 @@ fn two_halves_of_the_samples_make_the_whole_picture() {
 /// The same picture, whether it is made in one band or in many, with passes of any size.
 #[test]
 fn bands_cover_the_picture_and_do_not_show() {
-    let mut scene = scene::load(Some("spheres")).expect("it is built in");
+    let mut scene = load::load(Some("spheres")).expect("it is built in");
     scene.film.size = [1500, 1000];
     scene.render.max_depth = 3;
     let Some(bands) = render(&scene, &PlanOptions::default(), 0..1) else { return };
@@ -114,7 +115,7 @@ fn bands_cover_the_picture_and_do_not_show() {
 /// Passes are sized by time, so their borders differ from run to run; the picture must not. Bit for bit.
 #[test]
 fn the_picture_does_not_depend_on_how_samples_are_cut_into_passes() {
-    let mut scene = scene::load(Some("spheres")).expect("it is built in");
+    let mut scene = load::load(Some("spheres")).expect("it is built in");
     verify::shrink(&mut scene, 48);
     let pool = |paths| PlanOptions { stages: Some(StageMode::Wavefront), path_capacity: Some(paths), ..PlanOptions::default() };
     let (Some(one), Some(other)) = (render(&scene, &pool(1 << 18), 0..50), render(&scene, &pool(1_001), 0..50)) else {

@@ -1,22 +1,25 @@
 //! The packed hierarchies: every primitive is reached, and no box cuts what is in it. No device is needed.
 
+#[path = "statistics/mod.rs"]
+mod statistics;
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::statistics::random::SplitMix64;
 use glam::Vec3;
-use gpt::flat::grid::Box3;
-use gpt::flat::hierarchy::{Child, HierarchyKind, Nodes};
-use gpt::flat::primitive::PrimitiveKind;
-use gpt::flat::{FlatScene, Unarranged};
-use gpt::scene::{self, Geometry, Mesh, Scene};
-use gpt::statistics::random::SplitMix64;
+use gpt::load;
+use gpt::packed::grid::Box3;
+use gpt::packed::hierarchy::{Child, HierarchyKind, Nodes};
+use gpt::packed::primitive::PrimitiveKind;
+use gpt::packed::{PackedScene, Unarranged};
+use gpt::scene::{Geometry, Mesh, Scene};
 
 /// A mesh in front of a camera.
 fn mesh(positions: Vec<Vec3>, faces: Vec<[u32; 3]>) -> Scene {
     let text = "[camera]\nposition = [0, 0, 9]\nlook_at = [0, 0, 0]\nvfov = 40\n\
                 [[material]]\nname = \"grey\"\ntype = \"emissive\"\nradiance = 1\n\
                 [[shape]]\ntype = \"mesh\"\nmaterial = \"grey\"\npositions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nfaces = [[0, 1, 2]]\n";
-    let mut scene = scene::load_toml_str(text, "mesh", Path::new("")).expect("the scene is valid");
+    let mut scene = load::load_toml_str(text, "mesh", Path::new("")).expect("the scene is valid");
     scene.shapes[0].geometry = Geometry::Mesh(Arc::new(Mesh { positions, faces, ..Mesh::default() }));
     scene
 }
@@ -42,7 +45,7 @@ fn nested(count: u32, factor: f32) -> Scene {
 }
 
 fn scenes() -> Vec<(&'static str, Scene)> {
-    let builtin = |name: &'static str| (name, scene::load(Some(name)).expect("it is built in"));
+    let builtin = |name: &'static str| (name, load::load(Some(name)).expect("it is built in"));
     vec![
         builtin("motion-blur"),
         builtin("spheres"),
@@ -59,12 +62,12 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     ]
 }
 
-fn packed(scene: &Scene, kind: HierarchyKind) -> FlatScene {
+fn packed(scene: &Scene, kind: HierarchyKind) -> PackedScene {
     Unarranged::new(scene).and_then(|unarranged| unarranged.arrange(kind)).expect("the scene packs")
 }
 
 /// Where primitives stick out of a box on the way to them, and how often each is met there.
-fn walk(nodes: &Nodes, flat: &FlatScene, seen: &mut [u32]) -> Vec<String> {
+fn walk(nodes: &Nodes, packed: &PackedScene, seen: &mut [u32]) -> Vec<String> {
     let mut complaints = Vec::new();
     // Every node with what all boxes on the way to it have in common.
     let mut pending = vec![(0_usize, Box3 { low: Vec3::NEG_INFINITY, high: Vec3::INFINITY })];
@@ -82,7 +85,7 @@ fn walk(nodes: &Nodes, flat: &FlatScene, seen: &mut [u32]) -> Vec<String> {
             };
             for index in first..first + count {
                 seen[index as usize] += 1;
-                let primitive = &flat.primitives[index as usize];
+                let primitive = &packed.primitives[index as usize];
                 let corners = [primitive.p0, primitive.p1, primitive.p2].map(Vec3::from);
                 let inside = corners.iter().all(|&corner| common.contains(&Box3 { low: corner, high: corner }));
                 // What moves, and shapes without corners, are for pictures to judge.
@@ -99,9 +102,9 @@ fn walk(nodes: &Nodes, flat: &FlatScene, seen: &mut [u32]) -> Vec<String> {
 fn every_primitive_is_reached_once_and_no_box_cuts_one() {
     for (name, scene) in scenes() {
         for kind in HierarchyKind::ALL {
-            let flat = packed(&scene, kind);
-            let mut seen = vec![0; flat.hierarchy.primitive_count as usize];
-            let complaints = walk(&flat.hierarchy.nodes, &flat, &mut seen);
+            let packed = packed(&scene, kind);
+            let mut seen = vec![0; packed.hierarchy.primitive_count as usize];
+            let complaints = walk(&packed.hierarchy.nodes, &packed, &mut seen);
             assert!(complaints.is_empty(), "{name}, {kind}: {complaints:#?}");
             assert!(seen.iter().all(|&times| times == 1), "{name}, {kind}: {seen:?}");
         }
@@ -112,17 +115,17 @@ fn every_primitive_is_reached_once_and_no_box_cuts_one() {
 #[test]
 fn a_box_that_cuts_is_noticed() {
     for kind in HierarchyKind::ALL {
-        let mut flat = packed(&soup(3_000, 1.0, Vec3::ZERO), kind);
-        let mut nodes = flat.hierarchy.nodes.clone();
+        let mut packed = packed(&soup(3_000, 1.0, Vec3::ZERO), kind);
+        let mut nodes = packed.hierarchy.nodes.clone();
         match &mut nodes {
             Nodes::Bvh2(nodes) => nodes.iter_mut().for_each(|node| node.planes[1][2] *= 1.0 - 5e-7),
             Nodes::Bvh4(nodes) => nodes.iter_mut().for_each(|node| node.high[1] -= 1),
             Nodes::CwBvh(nodes) => nodes.iter_mut().for_each(|node| node.high[1][0] = node.high[1][0].saturating_sub(0x01010101)),
             Nodes::RayQuery(_) => panic!("{kind} has no nodes of ours"),
         }
-        let mut seen = vec![0; flat.hierarchy.primitive_count as usize];
-        flat.hierarchy.nodes = nodes;
-        assert!(!walk(&flat.hierarchy.nodes, &flat, &mut seen).is_empty(), "{kind}");
+        let mut seen = vec![0; packed.hierarchy.primitive_count as usize];
+        packed.hierarchy.nodes = nodes;
+        assert!(!walk(&packed.hierarchy.nodes, &packed, &mut seen).is_empty(), "{kind}");
     }
 }
 
@@ -150,7 +153,7 @@ fn a_box_as_obvhs_rounds_it_would_cut() {
 
     let triangle = |x: f32| [Vec3::new(x, 0.0, 0.0), Vec3::new(x, 0.1, 0.0), Vec3::new(x, 0.0, 0.1)];
     let positions = points.iter().flat_map(|point| triangle(point.0)).collect();
-    let flat =
+    let packed =
         packed(&mesh(positions, (0..3).map(|index| [3 * index, 3 * index + 1, 3 * index + 2]).collect()), HierarchyKind::CwBvh);
-    assert!(walk(&flat.hierarchy.nodes, &flat, &mut [0; 3]).is_empty());
+    assert!(walk(&packed.hierarchy.nodes, &packed, &mut [0; 3]).is_empty());
 }

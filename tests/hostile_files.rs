@@ -3,6 +3,8 @@
 //!
 //! One test, because it watches what the whole process allocates.
 
+#[path = "statistics/mod.rs"]
+mod statistics;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::collections::BTreeMap;
 use std::io::Cursor;
@@ -10,8 +12,8 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use gpt::scene;
-use gpt::statistics::random::SplitMix64;
+use crate::statistics::random::SplitMix64;
+use gpt::load;
 use image::ImageFormat;
 
 /// Counts the bytes in use, and the most there ever were.
@@ -61,13 +63,12 @@ fn damaged_files_end_in_an_answer_or_an_error() {
     let mut random = SplitMix64::new(3);
     let mut extremes = Extremes::default();
     assert!(notices_memory());
-    let scenes: Vec<&str> = ["cornell", "spheres", "motion-blur"].into_iter().filter_map(scene::builtin_text).collect();
+    let scenes: Vec<&str> = ["cornell", "spheres", "motion-blur"].into_iter().filter_map(load::builtin_text).collect();
     for text in scenes {
         for _ in 0..cases {
             let bytes = damaged(text.as_bytes(), &mut random, true);
             let text = String::from_utf8_lossy(&bytes).into_owned();
-            extremes
-                .bounded("scene", &bytes, MOST_FOR_TEXTS, || drop(scene::load_toml_str(&text, "damaged.toml", Path::new(""))));
+            extremes.bounded("scene", &bytes, MOST_FOR_TEXTS, || drop(load::load_toml_str(&text, "damaged.toml", Path::new(""))));
         }
     }
     let [obj, mtl] = ["model.obj", "model.mtl"].map(|name| folder.path().join(name));
@@ -81,7 +82,7 @@ fn damaged_files_end_in_an_answer_or_an_error() {
             std::fs::write(&obj, &model).expect("the folder can be written to");
             std::fs::write(&mtl, &materials).expect("the folder can be written to");
             let written = if damage_materials { materials } else { model };
-            extremes.bounded("model", &written, MOST_FOR_TEXTS, || drop(scene::load(obj.to_str())));
+            extremes.bounded("model", &written, MOST_FOR_TEXTS, || drop(load::load(obj.to_str())));
         }
     }
     for (ending, whole) in pictures(folder.path()) {
@@ -89,7 +90,7 @@ fn damaged_files_end_in_an_answer_or_an_error() {
         for _ in 0..cases {
             let bytes = damaged(&whole, &mut random, false);
             std::fs::write(&path, &bytes).expect("the folder can be written to");
-            extremes.bounded(ending, &bytes, MOST_FOR_PICTURES, || drop(scene::read_image(&path, None)));
+            extremes.bounded(ending, &bytes, MOST_FOR_PICTURES, || drop(load::read_image(&path, None)));
         }
     }
     for (kind, (longest, most)) in extremes.by_kind {

@@ -1,10 +1,11 @@
 //! Ways of sampling the same light make the same picture: Welch's t-test on every tile and the whole picture, over replications.
 
+use gpt::compare::image_tests::{Picture, TileSettings, compare_replications};
 use gpt::film::Band;
+use gpt::load;
 use gpt::reference::ReferenceRenderer;
-use gpt::render::{RenderRequest, Renderer, Silent};
-use gpt::scene::{self, Estimator, LightSampling, Scene};
-use gpt::statistics::image_tests::{Picture, TileSettings, compare_replications};
+use gpt::renderer::{RenderRequest, Renderer, Silent};
+use gpt::scene::{Estimator, LightSampling, Scene};
 
 const SIDE: u32 = 24;
 const REPLICATIONS: u32 = 12;
@@ -50,7 +51,7 @@ const PORTAL: &str = "[[shape]]\ntype = \"box\"\nmin = [1, 0.5, -1]\nmax = [1.5,
 
 fn load(parts: &[&str]) -> Scene {
     let text = [&[SCENE], parts].concat().concat();
-    scene::load_toml_str(&text, "strategies", std::path::Path::new("")).unwrap_or_else(|error| panic!("{error}"))
+    load::load_toml_str(&text, "strategies", std::path::Path::new("")).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Pictures of independent seeds, the first of which is `first`.

@@ -2,10 +2,11 @@
 
 use std::collections::HashMap;
 
-use gpt::scene::{self, Geometry, Mesh};
+use gpt::load;
+use gpt::scene::{Geometry, Mesh};
 
 fn model(scene: &str) -> Mesh {
-    let scene = scene::load(Some(scene)).unwrap_or_else(|error| panic!("{error}"));
+    let scene = load::load(Some(scene)).unwrap_or_else(|error| panic!("{error}"));
     let mut meshes = scene.shapes.iter().filter_map(|shape| match &shape.geometry {
         Geometry::Mesh(mesh) => Some((**mesh).clone()),
         _ => None,

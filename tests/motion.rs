@@ -2,22 +2,26 @@
 
 #[path = "common/device.rs"]
 mod device;
+#[path = "statistics/mod.rs"]
+mod statistics;
 
 use std::io;
 use std::path::Path;
 
+use crate::statistics::random::SplitMix64;
 use device::DEVICE;
 use glam::{DVec3, Vec3};
+use gpt::compare::{Moments, one_sample_t_test_beyond, sidak};
 use gpt::film::Band;
-use gpt::flat::motion::FlatMotion;
-use gpt::flat::primitive::{PrimitiveGeometry, WorldPrimitive};
 use gpt::gpu::GpuRenderer;
+use gpt::load;
+use gpt::load::SceneError;
+use gpt::packed::motion::PackedMotion;
+use gpt::packed::primitive::{PrimitiveGeometry, WorldPrimitive};
 use gpt::plan::{PlanOptions, StageMode};
 use gpt::reference::ReferenceRenderer;
-use gpt::render::{RenderRequest, Renderer, Silent};
-use gpt::scene::{self, Motion, MotionStep, Scene, SceneError, Shape, Transform, TransformStep};
-use gpt::statistics::random::SplitMix64;
-use gpt::statistics::{Moments, one_sample_t_test_beyond, sidak};
+use gpt::renderer::{RenderRequest, Renderer, Silent};
+use gpt::scene::{Motion, MotionStep, Scene, Shape, Transform, TransformStep};
 
 /// The picture by the reference, the fused kernel and the wavefront.
 fn pictures(scene: &Scene) -> Vec<(&'static str, Vec<[f32; 3]>)> {
@@ -44,7 +48,7 @@ fn render(renderer: &mut dyn Renderer, scene: &Scene) -> Vec<[f32; 3]> {
 }
 
 fn load(text: &str) -> Result<Scene, SceneError> {
-    scene::load_toml_str(text, "test.toml", Path::new(""))
+    load::load_toml_str(text, "test.toml", Path::new(""))
 }
 
 /// Pixels along a side of the pictures of the closed forms, which show x and y from −1 to 1.
@@ -278,7 +282,7 @@ fn boxes_hold_all_that_moving_shapes_sweep() {
         }
         let (geometry, point) = random_primitive(&mut random);
         let swept = |shutter| {
-            let motion = FlatMotion::new(&shape, shutter).expect("the shape moves");
+            let motion = PackedMotion::new(&shape, shutter).expect("the shape moves");
             motion.swept(&WorldPrimitive::new(geometry, 0)).expect("the primitive is finite")
         };
         let (low, high) = swept(shutter);

@@ -1,18 +1,19 @@
 //! Plans: what fits a device, and what is refused with sizes named. No device is needed.
 
-use gpt::flat::hierarchy::{Child, HierarchyKind};
-use gpt::flat::{FlatScene, Unarranged};
+use gpt::load;
+use gpt::packed::hierarchy::{Child, HierarchyKind};
+use gpt::packed::{PackedScene, Unarranged};
 use gpt::plan::{DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanOptions, StageMode};
-use gpt::render::RenderError;
-use gpt::scene::{self, Scene};
+use gpt::renderer::RenderError;
+use gpt::scene::Scene;
 use std::path::Path;
 
 fn plan(scene: &Scene, limits: &DeviceLimits) -> Result<Plan, RenderError> {
-    let flat = FlatScene::new(scene).expect("the scene packs");
-    Plan::new(scene, &flat, limits, &PlanOptions::default())
+    let packed = PackedScene::new(scene).expect("the scene packs");
+    Plan::new(scene, &packed, limits, &PlanOptions::default())
 }
 
-fn packed(scene: &Scene, kind: HierarchyKind) -> FlatScene {
+fn packed(scene: &Scene, kind: HierarchyKind) -> PackedScene {
     Unarranged::new(scene).and_then(|unarranged| unarranged.arrange(kind)).expect("the scene packs")
 }
 
@@ -36,13 +37,13 @@ fn grid(side: usize) -> Scene {
         positions.join(", "),
         faces.join(", ")
     );
-    scene::load_toml_str(&text, "grid", Path::new(".")).expect("the scene is valid")
+    load::load_toml_str(&text, "grid", Path::new(".")).expect("the scene is valid")
 }
 
 #[test]
 fn small_scenes_are_constants_and_large_ones_a_hierarchy() {
     let limits = DeviceLimits::default();
-    let cornell = plan(&scene::load(Some("cornell")).expect("it is built in"), &limits).expect("it fits");
+    let cornell = plan(&load::load(Some("cornell")).expect("it is built in"), &limits).expect("it fits");
     assert_eq!((cornell.geometry, cornell.stages), (GeometryPlacement::Unrolled, StageMode::Fused));
     let grid = plan(&grid(20), &limits).expect("it fits");
     assert_eq!((grid.geometry, grid.stages), (GeometryPlacement::Hierarchy, StageMode::Wavefront));
@@ -72,8 +73,8 @@ fn every_decision_has_its_reason() {
         geometry: Some(GeometryPlacement::Hierarchy),
         ..PlanOptions::default()
     };
-    let flat = FlatScene::new(&grid).expect("the scene packs");
-    let forced = Plan::new(&grid, &flat, &software, &options).expect("it fits");
+    let packed = PackedScene::new(&grid).expect("the scene packs");
+    let forced = Plan::new(&grid, &packed, &software, &options).expect("it fits");
     assert_eq!([because(&forced, "stages"), because(&forced, "geometry")], ["asked for", "asked for"]);
 }
 
@@ -98,7 +99,7 @@ fn an_array_beyond_the_largest_binding_is_refused_with_both_sizes() {
 
 #[test]
 fn the_film_goes_into_buffers_where_textures_cannot_be_read_and_written() {
-    let scene = scene::load(Some("spheres")).expect("it is built in");
+    let scene = load::load(Some("spheres")).expect("it is built in");
     let with = DeviceLimits { read_write_rgba32float: true, ..DeviceLimits::default() };
     assert_eq!(plan(&scene, &with).expect("it fits").film, FilmStorage::Texture);
     assert_eq!(plan(&scene, &DeviceLimits::default()).expect("it fits").film, FilmStorage::Buffer);
@@ -109,7 +110,7 @@ fn the_film_goes_into_buffers_where_textures_cannot_be_read_and_written() {
 /// Device memory does not grow with the picture beyond one band.
 #[test]
 fn an_8k_picture_needs_no_more_device_memory_than_one_band() {
-    let mut scene = scene::load(Some("cornell")).expect("it is built in");
+    let mut scene = load::load(Some("cornell")).expect("it is built in");
     let small = plan(&scene, &DeviceLimits::default()).expect("it fits").memory.total();
     scene.film.size = [7680, 4320];
     let large = plan(&scene, &DeviceLimits::default()).expect("it fits").memory.total();
@@ -140,8 +141,8 @@ fn one_form_of_hierarchy_is_in_use() {
             let options = PlanOptions { hierarchy: wanted, ..PlanOptions::default() };
             let kind = options.hierarchy(&limits);
             assert_eq!(kind, wanted.unwrap_or(kind));
-            let flat = packed(&scene, kind);
-            let plan = Plan::new(&scene, &flat, &limits, &options).expect("it fits");
+            let packed = packed(&scene, kind);
+            let plan = Plan::new(&scene, &packed, &limits, &options).expect("it fits");
             let compiled: Vec<HierarchyKind> =
                 HierarchyKind::ALL.into_iter().filter(|kind| plan.switches.enabled.contains(kind.switch())).collect();
             assert_eq!((plan.hierarchy, compiled), (kind, vec![kind]));
@@ -229,12 +230,12 @@ fn materials_and_textures_that_nothing_uses_leave_no_trace() {
         ";
     let packed = |more: &[&str]| {
         let text = format!("{room}{}", more.concat());
-        let scene = scene::load_toml_str(&text, "room", Path::new(".")).expect("the scene is valid");
-        let flat = FlatScene::new(&scene).expect("the scene packs");
-        let plan = Plan::new(&scene, &flat, &DeviceLimits::default(), &PlanOptions::default()).expect("it fits");
+        let scene = load::load_toml_str(&text, "room", Path::new(".")).expect("the scene is valid");
+        let packed = PackedScene::new(&scene).expect("the scene packs");
+        let plan = Plan::new(&scene, &packed, &DeviceLimits::default(), &PlanOptions::default()).expect("it fits");
         // As bits: "no index" is a NaN.
-        let tables: Vec<_> = flat.tables().words.iter().map(|word| word.map(f32::to_bits)).collect();
-        (tables, flat.materials.scene_ids, plan)
+        let tables: Vec<_> = packed.tables().words.iter().map(|word| word.map(f32::to_bits)).collect();
+        (tables, packed.materials.scene_ids, plan)
     };
     let (tables, materials, plan) = packed(&[]);
     assert_eq!(materials, [0, 1, 2, 3]);

@@ -8,19 +8,21 @@ mod ray_queries;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use gpt::flat::hierarchy::HierarchyKind;
-use gpt::flat::{FlatScene, Unarranged};
 use gpt::gpu::{Device, GpuRenderer};
+use gpt::load;
+use gpt::load::load_toml_str;
+use gpt::packed::hierarchy::HierarchyKind;
+use gpt::packed::{PackedScene, Unarranged};
 use gpt::plan::limits::RayQueryLimits;
 use gpt::plan::{DeviceLimits, GeometryPlacement, Plan, PlanOptions, StageMode};
-use gpt::render::{DeviceChoice, RenderError};
-use gpt::scene::{self, Scene, load_toml_str};
+use gpt::renderer::{DeviceChoice, RenderError};
+use gpt::scene::Scene;
 use pixel_bits::pixel_bits;
 use ray_queries::{RAY_QUERY_DEVICE, by_ray_queries};
 
 /// A shipped scene as small as tests want it.
 fn small(name: &str, size: [u32; 2], spp: u32) -> Scene {
-    let mut scene = scene::load(Some(name)).expect("a shipped scene");
+    let mut scene = load::load(Some(name)).expect("a shipped scene");
     scene.film.size = size;
     scene.render.spp = spp;
     scene
@@ -123,7 +125,7 @@ fn with_ray_queries(max_primitives: u32) -> DeviceLimits {
     DeviceLimits { ray_queries: Some(RayQueryLimits { max_primitives }), ..DeviceLimits::default() }
 }
 
-fn packed(scene: &Scene) -> FlatScene {
+fn packed(scene: &Scene) -> PackedScene {
     let packed = Unarranged::for_form(scene, Some(HierarchyKind::RayQuery));
     packed.and_then(|unarranged| unarranged.arrange(HierarchyKind::RayQuery)).expect("the scene packs")
 }
@@ -181,13 +183,13 @@ fn a_device_opened_without_them_has_none() {
 /// Triangles stand before what boxes stand for, each primitive once, and every box holds its shape.
 #[test]
 fn what_a_structure_is_built_from_is_in_order() {
-    use gpt::flat::hierarchy::Nodes;
-    use gpt::flat::primitive::PrimitiveKind;
-    let flat = packed(&everything());
-    let Nodes::RayQuery(boxes) = &flat.hierarchy.nodes else { panic!("{:?}", flat.hierarchy.kind()) };
-    let held = &flat.primitives[..flat.hierarchy.primitive_count as usize];
+    use gpt::packed::hierarchy::Nodes;
+    use gpt::packed::primitive::PrimitiveKind;
+    let packed = packed(&everything());
+    let Nodes::RayQuery(boxes) = &packed.hierarchy.nodes else { panic!("{:?}", packed.hierarchy.kind()) };
+    let held = &packed.primitives[..packed.hierarchy.primitive_count as usize];
     let (triangles, shapes) = held.split_at(held.len() - boxes.len());
-    assert_eq!((triangles.len(), shapes.len(), flat.primitives.len()), (4, 21, 26));
+    assert_eq!((triangles.len(), shapes.len(), packed.primitives.len()), (4, 21, 26));
     assert!(triangles.iter().all(|primitive| primitive.kind() == PrimitiveKind::Triangle as u32));
     for (shape, bounds) in shapes.iter().zip(boxes) {
         assert!(shape.kind() != PrimitiveKind::Triangle as u32);
@@ -197,7 +199,7 @@ fn what_a_structure_is_built_from_is_in_order() {
         );
     }
     // Validation sees primitives out of order.
-    let mut turned = flat.clone();
+    let mut turned = packed.clone();
     turned.primitives.reverse();
     assert!(turned.validate().is_err());
 }

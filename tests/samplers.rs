@@ -1,13 +1,16 @@
 //! The structure of sample sequences: evenness of every prefix, independence of pixels, samples and dimensions. No device is needed.
 
+#[path = "statistics/mod.rs"]
+mod statistics;
 use std::collections::BTreeMap;
 
+use crate::statistics::chi_squared_test;
+use crate::statistics::random::SplitMix64;
+use gpt::compare::{Moments, sidak};
 use gpt::sampling::halton::{BASES, radical_inverse_bits};
 use gpt::sampling::sobol::sobol_bits;
 use gpt::sampling::{BounceDimension, CameraDimension, Dimension, PathSampler, Sampling, SequencePoint};
 use gpt::scene::{PixelSampler, SamplerKind};
-use gpt::statistics::random::SplitMix64;
-use gpt::statistics::{Moments, chi_squared_test, sidak};
 
 /// Named pairs that a path uses as one point of a square: in the pixel, on the lens, on a light, a direction; the last two at the
 /// first and at the fourth bounce.

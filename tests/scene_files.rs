@@ -6,6 +6,7 @@ use std::path::Path;
 
 use common::{TRIANGLE, folder_with, png_bytes};
 use glam::{DVec3, Vec3};
+use gpt::load;
 use gpt::scene::{
     self, ColorInput, Geometry, Heuristic, Material, MaterialKind, Mesh, MisHeuristic, Projection, SamplerKind, Scene,
     TextureKind, TextureWrap,
@@ -24,7 +25,7 @@ radiance = 1
 
 fn read_in(folder: &Path, rest: &str) -> Scene {
     let text = format!("{rest}\n{CAMERA_AND_LIGHT}");
-    scene::load_toml_str(&text, "folder/test.toml", folder).unwrap_or_else(|error| panic!("{error}"))
+    load::load_toml_str(&text, "folder/test.toml", folder).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn read(rest: &str) -> Scene {
@@ -32,7 +33,7 @@ fn read(rest: &str) -> Scene {
 }
 
 fn model(folder: &Path) -> Scene {
-    scene::load(folder.join("model.obj").to_str()).unwrap_or_else(|error| panic!("{error}"))
+    load::load(folder.join("model.obj").to_str()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn mesh(scene: &Scene) -> &Mesh {
@@ -48,13 +49,13 @@ fn material<'a>(scene: &'a Scene, name: &str) -> &'a Material {
 
 #[test]
 fn every_built_in_scene_loads_without_warnings() {
-    for name in scene::builtin_names() {
-        let scene = scene::load(Some(name)).unwrap_or_else(|error| panic!("{error}"));
+    for name in load::builtin_names() {
+        let scene = load::load(Some(name)).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(scene.name, name);
         assert_eq!(scene.warnings, Vec::<String>::new());
         assert!(!scene.shapes.is_empty());
     }
-    assert_eq!(scene::load(None).unwrap_or_else(|error| panic!("{error}")).name, "cornell");
+    assert_eq!(load::load(None).unwrap_or_else(|error| panic!("{error}")).name, "cornell");
 }
 
 #[test]
@@ -62,7 +63,7 @@ fn the_checked_in_schema_is_current() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/scene.schema.json");
     let checked_in = std::fs::read_to_string(path).unwrap_or_default();
     assert!(
-        checked_in == scene::json_schema(),
+        checked_in == load::json_schema(),
         "scenes/scene.schema.json is out of date: cargo run --release -- check --schema > scenes/scene.schema.json"
     );
 }
@@ -277,7 +278,7 @@ fn colour_spaces_follow_the_format_and_the_wish() {
     };
     let folder = folder_with(&[("a.png", &png_bytes([128, 0, 255]))]);
     exr(&folder.path().join("a.exr"));
-    let first = |file: &str, space| scene::read_image(&folder.path().join(file), space).map(|image| image.texels[0]);
+    let first = |file: &str, space| load::read_image(&folder.path().join(file), space).map(|image| image.texels[0]);
     assert_eq!(first("a.exr", None), Ok(Vec3::new(0.5, 4.0, 0.0)));
     let linear = first("a.png", Some(scene::ColorSpace::Linear));
     assert!(linear.is_ok_and(|texel| texel.abs_diff_eq(Vec3::new(128.0 / 255.0, 0.0, 1.0), 1e-6)));
@@ -308,12 +309,12 @@ fn a_model_alone_is_framed() {
 
 /// A text of a built-in scene with some bytes cut out, doubled or replaced.
 fn mutated() -> impl Strategy<Value = String> {
-    let scene = prop::sample::select(scene::builtin_names().collect::<Vec<_>>());
+    let scene = prop::sample::select(load::builtin_names().collect::<Vec<_>>());
     let pieces =
         prop::sample::select(vec!["-1", "nan", "inf", "1e308", "0", "[", "]", "{", "\"", "=", ".", "type", "\n", "9e99", ""]);
     let edits = prop::collection::vec((any::<prop::sample::Index>(), 0_usize..12, pieces), 1..6);
     (scene, edits).prop_map(|(name, edits)| {
-        let mut text = scene::builtin_text(name).unwrap_or_default().to_owned();
+        let mut text = load::builtin_text(name).unwrap_or_default().to_owned();
         for (place, length, piece) in edits {
             let starts: Vec<usize> = text.char_indices().map(|(at, _)| at).collect();
             let start = place.index(starts.len());
@@ -329,7 +330,7 @@ proptest! {
 
     #[test]
     fn mutated_scenes_load_or_complain_with_their_name(text in mutated()) {
-        if let Err(error) = scene::load_toml_str(&text, "mutated.toml", Path::new("")) {
+        if let Err(error) = load::load_toml_str(&text, "mutated.toml", Path::new("")) {
             prop_assert!(error.to_string().starts_with("mutated.toml"));
             prop_assert!(!error.message().is_empty());
         }

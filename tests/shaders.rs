@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use gpt::flat::hierarchy::HierarchyKind;
 use gpt::gpu::kernels::used_bindings;
+use gpt::packed::hierarchy::HierarchyKind;
 use gpt::plan::chunks::{ATTRIBUTES, Chunks, PRIMITIVES, RecordArray, nodes};
 use gpt::plan::switches::{ALL, DEBUG};
 use gpt::shader::{ComposeError, Switches, compose};
@@ -249,8 +249,8 @@ fn a_planted_mistake_is_found() {
 /// Sizes and offsets of structs and array strides in WGSL, by naga, against Rust's.
 #[test]
 fn layouts_match_between_wgsl_and_rust() {
-    use gpt::flat::View;
     use gpt::gpu::parameters::{EdgeParameters, PassParameters};
+    use gpt::packed::View;
     use std::mem::offset_of;
 
     let mut wanted: BTreeSet<&'static str> = ALL.iter().copied().collect();
@@ -307,17 +307,17 @@ fn layouts_match_between_wgsl_and_rust() {
 /// Packed records are whole numbers of vec4: the shaders index them in words of 16 bytes.
 #[test]
 fn packed_records_are_the_words_that_shaders_count() {
-    use gpt::flat::{bvh2, bvh4, cwbvh, heuristic::FlatHeuristic, light::FlatLight, material::*, primitive::*, texture::*};
+    use gpt::packed::{bvh2, bvh4, cwbvh, heuristic::PackedHeuristic, light::PackedLight, material::*, primitive::*, texture::*};
     assert_eq!(size_of::<Primitive>(), 3 * 16);
     assert_eq!(size_of::<TriangleAttributes>(), 4 * 16);
     assert_eq!(size_of::<bvh2::Node>(), 4 * 16);
     assert_eq!(size_of::<bvh4::Node>(), 3 * 16);
     assert_eq!(size_of::<cwbvh::Node>(), 5 * 16);
-    assert_eq!(size_of::<FlatMaterial>(), 5 * 16);
-    assert_eq!(size_of::<FlatLight>(), 5 * 16);
-    assert_eq!(size_of::<FlatLeaf>(), 16);
-    assert_eq!(size_of::<FlatHeuristic>(), 16);
-    assert_eq!(size_of::<FlatTexture>(), 4 * 16);
+    assert_eq!(size_of::<PackedMaterial>(), 5 * 16);
+    assert_eq!(size_of::<PackedLight>(), 5 * 16);
+    assert_eq!(size_of::<PackedLeaf>(), 16);
+    assert_eq!(size_of::<PackedHeuristic>(), 16);
+    assert_eq!(size_of::<PackedTexture>(), 4 * 16);
 }
 
 /// WebGPU promises eight storage buffers a stage; no stage may need more.

@@ -3,13 +3,14 @@
 use std::path::Path;
 
 use gpt::gpu::{Device, GpuRenderer};
+use gpt::load;
 use gpt::plan::PlanOptions;
 use gpt::reference::ReferenceRenderer;
-use gpt::render::{DeviceChoice, RenderRequest, Renderer, Silent};
+use gpt::renderer::{DeviceChoice, RenderRequest, Renderer, Silent};
 use gpt::scene::{self, Aperture, ApertureShape, Projection, SamplerKind, Scene};
 
 fn load(text: &str) -> Scene {
-    scene::load_toml_str(text, "strategies", Path::new(".")).unwrap_or_else(|error| panic!("{error}"))
+    load::load_toml_str(text, "strategies", Path::new(".")).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn render(renderer: &mut dyn Renderer, scene: &Scene) -> Vec<[f32; 3]> {
@@ -205,8 +206,8 @@ fn a_small_light_is_as_large_as_the_thin_lens_equation_says() {
 /// At later surfaces as well: light that comes by way of another surface keeps its mean.
 #[test]
 fn several_light_samples_at_later_surfaces_have_the_same_mean() {
-    use gpt::statistics::{Moments, hypothesis};
-    let mut scene = scene::load(Some("cornell")).expect("it is built in");
+    use gpt::compare::{Moments, hypothesis};
+    let mut scene = load::load(Some("cornell")).expect("it is built in");
     (scene.film.size, scene.render.spp, scene.render.max_depth) = ([48, 48], 64, 4);
     let means = |count, depth| -> Vec<Vec<f64>> {
         let mut scene = scene.clone();
@@ -233,7 +234,7 @@ fn several_light_samples_at_later_surfaces_have_the_same_mean() {
 /// Several light samples leave the mean where it is, whatever estimator shares light out, and independent ones cut the variance by their number.
 #[test]
 fn several_light_samples_have_the_same_mean_and_less_noise() {
-    use gpt::statistics::{Moments, hypothesis};
+    use gpt::compare::{Moments, hypothesis};
     let exact = 0.5 * 10.0 * (1.5_f64 / 2.0).powi(2);
     let mut scene = load(FLOOR_AND_LIGHT);
     scene.render.sampler = SamplerKind::Independent;

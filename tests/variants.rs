@@ -8,16 +8,17 @@ mod pixel_bits;
 use std::path::Path;
 
 use device::DEVICE;
-use gpt::flat::hierarchy::HierarchyKind;
 use gpt::gpu::GpuRenderer;
+use gpt::load;
+use gpt::packed::hierarchy::HierarchyKind;
 use gpt::plan::{FilmStorage, GeometryPlacement, PlanOptions, StageMode};
-use gpt::scene::{self, Scene};
+use gpt::scene::Scene;
 use pixel_bits::pixel_bits;
 
 /// Spheres, a mesh and an environment, of a size that no number of lanes divides.
 fn scene(spp: u32) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/knot-plastic.toml");
-    let mut scene = scene::load(Some(&path.display().to_string())).expect("a shipped scene");
+    let mut scene = load::load(Some(&path.display().to_string())).expect("a shipped scene");
     scene.film.size = [37, 29];
     scene.render.spp = spp;
     scene
@@ -62,9 +63,9 @@ fn lanes_share_pixels_where_they_are_told_to() {
 /// ray are among them at every path's end, and where a subgroup has more lanes than the pass samples.
 #[test]
 fn rays_in_packets_meet_what_they_meet_alone() {
-    let mut moving = scene::load(Some("motion-blur")).expect("it is built in");
+    let mut moving = load::load(Some("motion-blur")).expect("it is built in");
     moving.film.size = [32, 24];
-    let mut spheres = scene::load(Some("spheres")).expect("it is built in");
+    let mut spheres = load::load(Some("spheres")).expect("it is built in");
     spheres.film.size = [48, 27];
     for (name, mut scene) in [("knot", scene(0)), ("moving", moving), ("spheres", spheres)] {
         for spp in [3, 8, 19] {
@@ -104,9 +105,9 @@ fn packets_are_used_where_they_can_be() {
 /// lanes of one leave the scene, die and miss lights at different vertices.
 #[test]
 fn places_taken_by_a_subgroup_at_once_change_nothing() {
-    let mut cornell = scene::load(Some("cornell")).expect("it is built in");
+    let mut cornell = load::load(Some("cornell")).expect("it is built in");
     cornell.film.size = [41, 31];
-    let mut spheres = scene::load(Some("spheres")).expect("it is built in");
+    let mut spheres = load::load(Some("spheres")).expect("it is built in");
     spheres.film.size = [48, 27];
     for (name, mut scene) in [("knot", scene(0)), ("cornell", cornell), ("spheres", spheres)] {
         for spp in [1, 5, 24] {
@@ -148,10 +149,10 @@ fn subgroups_take_places_where_they_can() {
 /// mesh of one smooth material does not show even that.
 #[test]
 fn every_form_of_hierarchy_makes_the_same_picture() {
-    let mut moving = scene::load(Some("motion-blur")).expect("it is built in");
+    let mut moving = load::load(Some("motion-blur")).expect("it is built in");
     moving.film.size = [32, 24];
     moving.render.spp = 6;
-    let mut spheres = scene::load(Some("spheres")).expect("it is built in");
+    let mut spheres = load::load(Some("spheres")).expect("it is built in");
     spheres.film.size = [48, 27];
     spheres.render.spp = 8;
     for (name, mut scene) in [("knot", scene(8)), ("moving", moving), ("spheres", spheres)] {

@@ -2,7 +2,7 @@
 
 use gpt::gpu::Device;
 use gpt::plan::{Fault, PlanOptions};
-use gpt::render::DeviceChoice;
+use gpt::renderer::DeviceChoice;
 use gpt::verify::closed_forms::{self, ClosedForm};
 
 /// Where there is no GPU, its tests fail, unless `GPT_TEST_GPU=skip` leaves them out.

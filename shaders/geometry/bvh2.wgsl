@@ -1,4 +1,4 @@
-// A binary hierarchy with float boxes, four vec4<u32> a node (src/flat/bvh2.rs):
+// A binary hierarchy with float boxes, four vec4<u32> a node (src/packed/bvh2.rs):
 //   per axis: (low of both children, high of both)
 //   (both children's entries, -, -)
 #import geometry/entries.wgsl

@@ -1,4 +1,4 @@
-// A four-wide hierarchy with 8-bit boxes, three vec4<u32> a node (src/flat/bvh4.rs):
+// A four-wide hierarchy with 8-bit boxes, three vec4<u32> a node (src/packed/bvh4.rs):
 //   (origin x, y, z; exponents x, y, z and which children are inner nodes (4 bits) and exist (4 bits))
 //   (first inner child; first primitive (24 bits) and leaf sizes less one (2 bits each); low x of 4 children; low y)
 //   (low z; high x; high y; high z)

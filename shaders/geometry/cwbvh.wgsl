@@ -1,4 +1,4 @@
-// obvhs's eight-wide compressed hierarchy (Ylitie, Karras and Laine 2017), five vec4<u32> a node (src/flat/cwbvh.rs):
+// obvhs's eight-wide compressed hierarchy (Ylitie, Karras and Laine 2017), five vec4<u32> a node (src/packed/cwbvh.rs):
 //   (origin x, y, z; exponents x, y, z and which slots hold inner nodes (8 bits))
 //   (first inner child; first primitive; a byte a slot, eight)
 //   (low x of 8 children; low y)

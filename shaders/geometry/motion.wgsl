@@ -33,7 +33,7 @@ fn rotated(v: vec3<f32>, axis: vec3<f32>, sine_cosine: vec2<f32>) -> vec3<f32> {
     return v * sine_cosine.y + cross(axis, v) * sine_cosine.x + axis * (dot(axis, v) * (1.0 - sine_cosine.y));
 }
 
-// A motion takes 1 + 2 steps vec4 of the tables (src/flat/motion.rs):
+// A motion takes 1 + 2 steps vec4 of the tables (src/packed/motion.rs):
 //   (origin; number of steps), then of each step (start; kind), (change until the shutter closes; -)
 //   a rotation: (axis; kind), (turns as the shutter opens, turns until it closes, -, -)
 fn motion_at_path_time(first: u32) -> Motion {

@@ -1,7 +1,7 @@
 // The arrays of primitives, nodes and attributes, and how a record of each is loaded: from one binding, or, where the array is larger than
 // a binding may be, from the one of several that holds it (src/plan/chunks.rs writes those loads).
 
-// (first point, kind and material), (second, light or NONE), (third, attributes or NONE); src/flat/primitive.rs.
+// (first point, kind and material), (second, light or NONE), (third, attributes or NONE); src/packed/primitive.rs.
 struct PrimitiveWords {
     w0: vec4<f32>,
     w1: vec4<f32>,
@@ -28,7 +28,7 @@ fn primitive_word(index: u32, word: u32) -> vec4<f32> {
 #endif
 
 #if BVH
-// src/flat/bvh2.rs, bvh4.rs, cwbvh.rs.
+// src/packed/bvh2.rs, bvh4.rs, cwbvh.rs.
 struct NodeWords {
     w0: vec4<u32>,
     w1: vec4<u32>,

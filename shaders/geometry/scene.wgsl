@@ -2,7 +2,7 @@
 
 #import geometry/records.wgsl
 
-// Tables, vec4s: materials, then lights, then textures (src/flat/tables.rs).
+// Tables, vec4s: materials, then lights, then textures (src/packed/tables.rs).
 #if UNIFORM_TABLES
 @group(0) @binding(5) var<uniform> tables: array<vec4<f32>, TABLE_WORDS>;
 #else

@@ -6,7 +6,7 @@ use super::interval::{Interval, Ratio, Spread};
 use super::ladder::{Ladder, Observation, Observations, by_brightness, no_weight};
 use super::reference::Reference;
 use crate::compare::Metric;
-use crate::statistics::z_test;
+use crate::compare::z_test;
 
 /// A floor is reported where chance would show one as high in fewer than one measurement of so many.
 const FLOOR_LEVEL: f64 = 1e-3;

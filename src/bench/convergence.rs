@@ -12,7 +12,7 @@ use super::setting::{Axes, Setting};
 use super::subject::{BenchError, Devices, SceneSubject, Subject};
 use crate::compare::compare;
 use crate::output::Image;
-use crate::render::Observer;
+use crate::renderer::Observer;
 use crate::scene::{self, Scene};
 
 /// What is wanted.

@@ -12,7 +12,7 @@ use super::scenes::Room;
 use super::subject::{BenchError, Devices, SceneSubject, Subject};
 use crate::gpu::{Device, GpuRenderer};
 use crate::plan::{GeometryPlacement, PlanOptions};
-use crate::render::{DeviceChoice, Observer, RenderError, RenderRequest, Renderer};
+use crate::renderer::{DeviceChoice, Observer, RenderError, RenderRequest, Renderer};
 use crate::scene::Scene;
 
 /// A feature, where it is used, and the switches that compile it.
@@ -275,7 +275,7 @@ fn agree(one: &[[f32; 3]], other: &[[f32; 3]]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::flat::FlatScene;
+    use crate::packed::PackedScene;
     use crate::plan::switches::ALL;
     use crate::plan::{DeviceLimits, Plan};
 
@@ -284,10 +284,10 @@ mod tests {
     fn rooms_use_what_they_are_named_for() {
         let enabled = |room: &Room, feature: &Feature| {
             let scene = room.scene().unwrap();
-            let flat = FlatScene::new(&scene).unwrap();
+            let packed = PackedScene::new(&scene).unwrap();
             let geometry = feature.hierarchy.then_some(GeometryPlacement::Hierarchy);
             let options = PlanOptions { geometry, ..PlanOptions::default() };
-            Plan::new(&scene, &flat, &DeviceLimits::default(), &options).unwrap().switches.enabled
+            Plan::new(&scene, &packed, &DeviceLimits::default(), &options).unwrap().switches.enabled
         };
         for feature in features() {
             let [off, used] = [&Room::default(), &feature.room].map(|room| enabled(room, &feature));

@@ -5,7 +5,8 @@ use serde::Serialize;
 
 use super::scenes;
 use super::speed::SpeedOptions;
-use crate::scene::{Scene, SceneError};
+use crate::load::SceneError;
+use crate::scene::Scene;
 
 /// What is measured side by side: one thing grows, the rest stays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]

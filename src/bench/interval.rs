@@ -3,7 +3,7 @@
 use serde::Serialize;
 use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, StudentsT};
 
-use crate::statistics::Moments;
+use crate::compare::Moments;
 
 /// The confidence that intervals are made for. Intervals of few values may have less, and say so.
 pub const CONFIDENCE: f64 = 0.95;

@@ -2,9 +2,9 @@
 
 use super::reference::Reference;
 use super::subject::{BenchError, Subject};
+use crate::compare::Moments;
 use crate::compare::{compare, relative_weight};
 use crate::sampling::hash::mix;
-use crate::statistics::Moments;
 
 /// Which pictures are made.
 #[derive(Debug, Clone)]

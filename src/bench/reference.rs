@@ -7,11 +7,11 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use super::subject::{BenchError, Subject};
+use crate::compare::Moments;
 use crate::compare::relative_weight;
 use crate::film::Band;
 use crate::output::{AtomicFile, Image, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, read_image};
 use crate::scene::{self, Scene};
-use crate::statistics::Moments;
 
 /// Independent pictures that a reference is the mean of: their scatter says how far it is from the truth.
 pub const PARTS: u32 = 8;

@@ -6,9 +6,8 @@ use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
-use crate::scene::{
-    ColorInput, Emission, Geometry, Material, MaterialKind, Mesh, Scene, SceneError, Shape, Transform, load_toml_str,
-};
+use crate::load::{SceneError, load_toml_str};
+use crate::scene::{ColorInput, Emission, Geometry, Material, MaterialKind, Mesh, Scene, Shape, Transform};
 
 /// Camera, floor and a ball that several of the scenes share.
 const STAGE: &str = r#"

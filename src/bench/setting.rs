@@ -1,6 +1,6 @@
 //! Which settings are compared: every combination of the options given.
 
-use crate::render::DeviceChoice;
+use crate::renderer::DeviceChoice;
 use crate::scene::{
     BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeuristic, PixelSamplerName, RenderSettings, SamplerKind,
     setting_name,

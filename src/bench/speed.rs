@@ -7,11 +7,11 @@ use serde::Serialize;
 use super::growth::Growth;
 use super::interval::{Ratio, Spread};
 use super::subject::{BenchError, Devices, SceneSubject, Subject};
-use crate::flat::hierarchy::HierarchyKind;
 use crate::gpu::GpuRenderer;
+use crate::packed::hierarchy::HierarchyKind;
 use crate::plan::{PlanOptions, StageMode, memory};
 use crate::reference::ReferenceRenderer;
-use crate::render::{DeviceChoice, Observer, RenderError, RenderRequest, Renderer};
+use crate::renderer::{DeviceChoice, Observer, RenderError, RenderRequest, Renderer};
 use crate::scene::Scene;
 
 /// What is wanted.

@@ -2,11 +2,12 @@
 
 use crate::compare::SizeMismatch;
 use crate::gpu::{Device, GpuRenderer};
+use crate::load::SceneError;
 use crate::output::{Image, OutputError, ReadError};
 use crate::plan::PlanOptions;
 use crate::reference::ReferenceRenderer;
-use crate::render::{Batch, DeviceChoice, Observer, RenderError, RenderRequest, Renderer};
-use crate::scene::{Scene, SceneError};
+use crate::renderer::{Batch, DeviceChoice, Observer, RenderError, RenderRequest, Renderer};
+use crate::scene::Scene;
 
 /// Why a measurement could not be done.
 #[derive(Debug, thiserror::Error)]

@@ -7,7 +7,7 @@ use clap::{Args, Parser, Subcommand};
 use gpt::compare::Metric;
 use gpt::output::{MAX_PIXELS, MAX_SIDE};
 use gpt::plan::Fault;
-use gpt::render::DeviceChoice;
+use gpt::renderer::DeviceChoice;
 use gpt::scene::settings::{MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH};
 use gpt::scene::{BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeuristic, PixelSamplerName, SamplerKind};
 

@@ -1,10 +1,11 @@
 //! `gpt check`.
 
-use gpt::flat::{FlatError, Unarranged};
 use gpt::gpu::select_adapter;
+use gpt::load;
+use gpt::packed::{PackError, Unarranged};
 use gpt::plan::{DeviceLimits, Plan};
-use gpt::render::{DeviceChoice, RenderError};
-use gpt::scene::{self, SceneSummary};
+use gpt::renderer::{DeviceChoice, RenderError};
+use gpt::scene::SceneSummary;
 
 use super::arguments::CheckArguments;
 use super::exit::{Exit, Failure};
@@ -13,10 +14,10 @@ use super::terminal;
 /// Loads the scene, which validates all of it, and prints what is in it.
 pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
     let Some(name) = arguments.scene.as_deref().filter(|_| !arguments.schema) else {
-        terminal::answer(&scene::json_schema())?;
+        terminal::answer(&load::json_schema())?;
         return Ok(Exit::Done);
     };
-    let scene = scene::load(Some(name))?;
+    let scene = load::load(Some(name))?;
     for warning in &scene.warnings {
         terminal::warn(warning);
     }
@@ -26,7 +27,7 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
         return Ok(Exit::Done);
     }
     terminal::answer(&summary.to_string())?;
-    let does_not_fit = |error: FlatError| RenderError::DoesNotFit(error.to_string());
+    let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
     let options = arguments.traversal.options();
     let unarranged = Unarranged::for_form(&scene, options.hierarchy).map_err(does_not_fit)?;
     // Without an adapter the plan is the one for a device that has just what WebGPU promises.
@@ -34,8 +35,8 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
         Ok(adapter) => (adapter.get_info().name, DeviceLimits::of(&adapter)),
         Err(_) => ("a device with the limits that WebGPU promises".to_owned(), DeviceLimits::default()),
     };
-    let flat = unarranged.arrange(options.hierarchy(&limits)).map_err(does_not_fit)?;
-    let plan = Plan::new(&scene, &flat, &limits, &options)?;
+    let packed = unarranged.arrange(options.hierarchy(&limits)).map_err(does_not_fit)?;
+    let plan = Plan::new(&scene, &packed, &limits, &options)?;
     terminal::answer(&format!("\nplan for {device}\n{plan}\n"))?;
     Ok(Exit::Done)
 }

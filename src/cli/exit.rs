@@ -4,9 +4,9 @@ use std::process::ExitCode;
 
 use gpt::bench::subject::BenchError;
 use gpt::compare::SizeMismatch;
+use gpt::load::SceneError;
 use gpt::output::{OutputError, ReadError};
-use gpt::render::RenderError;
-use gpt::scene::SceneError;
+use gpt::renderer::RenderError;
 use miette::Diagnostic;
 
 /// What a run came to; other programs rely on the numbers.

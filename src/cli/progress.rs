@@ -5,7 +5,7 @@ use std::io::{self, IsTerminal};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use gpt::render::Observer;
+use gpt::renderer::Observer;
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
 use super::{interrupt, terminal};

@@ -3,12 +3,13 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
+use gpt::load;
 use gpt::output::{AtomicFile, PictureFormat, PictureSpec, Provenance, check_target};
 use gpt::plan::PlanOptions;
-use gpt::progressive::error::ErrorEstimate;
-use gpt::progressive::{self, Goal, Outcome, STREAMS, Stop};
-use gpt::render::{RenderError, RenderReport, RenderRequest, Renderer};
-use gpt::renderer::{Choice, ChosenRenderer};
+use gpt::render::choice::{Choice, ChosenRenderer};
+use gpt::render::progressive::error::ErrorEstimate;
+use gpt::render::progressive::{self, Goal, Outcome, STREAMS, Stop};
+use gpt::renderer::{RenderError, RenderReport, RenderRequest, Renderer};
 use gpt::scene::{self, Scene};
 
 use super::arguments::RenderArguments;
@@ -67,7 +68,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
 
 /// The scene as the file and the command line together want it.
 fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
-    let mut scene = scene::load(arguments.scene.as_deref())?;
+    let mut scene = load::load(arguments.scene.as_deref())?;
     for warning in &scene.warnings {
         terminal::warn(warning);
     }

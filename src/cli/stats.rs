@@ -1,8 +1,8 @@
 //! `--stats`: what a render did, as JSON for other programs.
 
-use gpt::flat::hierarchy::HierarchyKind;
+use gpt::packed::hierarchy::HierarchyKind;
 use gpt::plan::Decision;
-use gpt::render::RenderReport;
+use gpt::renderer::RenderReport;
 use gpt::scene::{Scene, setting_name};
 use serde::Serialize;
 

@@ -1,9 +1,9 @@
 //! `--traversal`: how rays find what they meet on a graphics device.
 
 use clap::{Args, ValueEnum};
-use gpt::flat::hierarchy::HierarchyKind;
+use gpt::packed::hierarchy::HierarchyKind;
 use gpt::plan::{GeometryPlacement, PlanOptions};
-use gpt::render::DeviceChoice;
+use gpt::renderer::DeviceChoice;
 
 use super::exit::Failure;
 

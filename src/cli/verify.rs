@@ -5,9 +5,10 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use gpt::gpu::Device;
+use gpt::load;
 use gpt::plan::{Fault, PlanOptions};
-use gpt::render::RenderError;
-use gpt::scene::{self, Scene};
+use gpt::renderer::RenderError;
+use gpt::scene::Scene;
 use gpt::verify::closed_forms::{self, ClosedForm, ClosedFormError};
 use gpt::verify::{self, DEFAULT_SIDE, DEFAULT_SPP, Verdict, evidence, path};
 use serde::Serialize;
@@ -70,7 +71,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<Exit, Failure> {
         for index in 0..closed_forms::count() {
             report(Finding::ClosedForm(closed_forms::check(index, &device, &options).map_err(failure)?))?;
         }
-        for name in scene::builtin_names() {
+        for name in load::builtin_names() {
             match verify_scene(&device, name, &load(name, arguments)?, arguments, &options) {
                 // Not every scene can be traversed in every way; the others still are.
                 Err(Failure::Render(RenderError::DoesNotFit(why))) if options.asks_for_ray_queries() => {
@@ -130,7 +131,7 @@ fn follow(arguments: &VerifyArguments, [x, y]: [u32; 2], options: &PlanOptions) 
 }
 
 fn load(name: &str, arguments: &VerifyArguments) -> Result<Scene, Failure> {
-    let mut scene = scene::load(Some(name))?;
+    let mut scene = load::load(Some(name))?;
     match arguments.size {
         Some(size) => scene.film.size = size,
         None => verify::shrink(&mut scene, DEFAULT_SIDE),

@@ -1,5 +1,16 @@
-//! How far two pictures are apart.
+//! Whether two pictures show the same, and how far they are apart.
+//!
+//! - [`metrics`]: errors of one picture against another.
+//! - [`image_tests`]: tests with a stated level, tile by tile and as a whole.
+//! - [`hypothesis`]: Student's t, Welch's t, the z-test, and Šidák's correction for many tests at once.
+//! - [`moments`]: mean and variance of a stream of numbers.
 
-mod metrics;
+pub mod hypothesis;
+pub mod image_tests;
+pub mod metrics;
+pub mod moments;
 
+pub use hypothesis::{TestResult, one_sample_t_test, one_sample_t_test_beyond, paired_t_test, sidak, welch_t_test, z_test};
+pub use image_tests::{ImageComparison, Picture, TileSettings, compare_independent, compare_paired, compare_replications};
 pub use metrics::{Comparison, Extreme, Metric, MetricValue, RELATIVE_EPSILON, SizeMismatch, compare, relative_weight};
+pub use moments::Moments;

@@ -9,10 +9,10 @@ use wgpu::{
 };
 
 use super::device::Device;
-use crate::flat::FlatScene;
-use crate::flat::hierarchy::Nodes;
-use crate::flat::primitive::Primitive;
-use crate::flat::ray_query::ShapeBox;
+use crate::packed::PackedScene;
+use crate::packed::hierarchy::Nodes;
+use crate::packed::primitive::Primitive;
+use crate::packed::ray_query::ShapeBox;
 use crate::plan::memory::ACCELERATION_BYTES;
 
 /// Not moved.
@@ -33,12 +33,12 @@ static BUILT: AtomicU64 = AtomicU64::new(0);
 
 impl Acceleration {
     /// Has the device build it. None where the scene was packed with a hierarchy of ours.
-    pub fn build(device: &Device, flat: &FlatScene) -> Option<Self> {
-        let Nodes::RayQuery(boxes) = &flat.hierarchy.nodes else { return None };
-        let triangles = flat.hierarchy.primitive_count - boxes.len() as u32;
+    pub fn build(device: &Device, packed: &PackedScene) -> Option<Self> {
+        let Nodes::RayQuery(boxes) = &packed.hierarchy.nodes else { return None };
+        let triangles = packed.hierarchy.primitive_count - boxes.len() as u32;
         let name = format!("acceleration structure {}", BUILT.fetch_add(1, Ordering::Relaxed));
         let parts = [
-            (triangles > 0).then(|| Part::of_triangles(device, &name, &flat.primitives[..triangles as usize])),
+            (triangles > 0).then(|| Part::of_triangles(device, &name, &packed.primitives[..triangles as usize])),
             (!boxes.is_empty()).then(|| Part::of_boxes(device, &name, boxes, triangles)),
         ];
         let mut structure = device.device.create_tlas(&wgpu::CreateTlasDescriptor {
@@ -55,7 +55,7 @@ impl Acceleration {
         encoder.build_acceleration_structures(&entries, [&structure]);
         // Whoever renders waits for it, and sees what went wrong.
         device.queue.submit([encoder.finish()]);
-        let estimate = ACCELERATION_BYTES * u64::from(flat.hierarchy.primitive_count);
+        let estimate = ACCELERATION_BYTES * u64::from(packed.hierarchy.primitive_count);
         Some(Self { structure, bytes: allocated(device, &name).unwrap_or(estimate) })
     }
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use wgpu::{Adapter, Backend, Backends, DeviceType, Features, Instance, InstanceDescriptor, TextureFormat};
 
-use crate::render::{DeviceChoice, RenderError};
+use crate::renderer::{DeviceChoice, RenderError};
 
 /// The interfaces worth asking: the ones whose compute shaders meet WebGPU. OpenGL is left out on purpose.
 const BACKENDS: Backends = Backends::VULKAN.union(Backends::METAL).union(Backends::DX12);

@@ -8,7 +8,7 @@ use wgpu::{BufferUsages, TextureFormat};
 use super::acceleration::Acceleration;
 use super::device::Device;
 use super::parameters::{EdgeParameters, PassParameters};
-use crate::flat::FlatScene;
+use crate::packed::PackedScene;
 use crate::plan::chunks::{ATTRIBUTES, PRIMITIVES, nodes};
 use crate::plan::{FilmStorage, MAX_SAMPLES_PER_PASS, Plan, StageMode, memory};
 
@@ -57,10 +57,10 @@ pub struct Buffers {
 
 impl Buffers {
     /// Uploads the scene and makes room for the paths and the film of one band.
-    pub fn new(device: &Device, flat: &FlatScene, plan: &Plan, width: u32) -> Self {
+    pub fn new(device: &Device, packed: &PackedScene, plan: &Plan, width: u32) -> Self {
         let mut buffers = BTreeMap::new();
         let usage = |uniform| if uniform { BufferUsages::UNIFORM } else { BufferUsages::STORAGE };
-        let tables = flat.tables().words;
+        let tables = packed.tables().words;
         let mut upload = |number, label, bytes: &[u8], usage| {
             // A binding may not be empty.
             let contents = if bytes.is_empty() { &[0; 48] } else { bytes };
@@ -68,13 +68,13 @@ impl Buffers {
             buffers.insert(number, device.device.create_buffer_init(&descriptor));
         };
         upload(binding::TABLES, "tables", bytemuck::cast_slice(&tables), usage(plan.uniform_tables));
-        upload(binding::VIEW, "view", bytemuck::bytes_of(&flat.view), BufferUsages::UNIFORM);
+        upload(binding::VIEW, "view", bytemuck::bytes_of(&packed.view), BufferUsages::UNIFORM);
         upload(binding::EDGE, "edges", &edge_parameters(1), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
         let compiled = |switch: &str| plan.switches.enabled.contains(switch);
         let arrays: [(_, &[u8], _, _); 3] = [
-            (PRIMITIVES, bytemuck::cast_slice(&flat.primitives), usage(plan.uniform_primitives), true),
-            (nodes(flat.hierarchy.kind()), flat.hierarchy.nodes.bytes(), usage(plan.uniform_nodes), compiled("BVH")),
-            (ATTRIBUTES, bytemuck::cast_slice(&flat.attributes), BufferUsages::STORAGE, compiled("ATTRIBUTES")),
+            (PRIMITIVES, bytemuck::cast_slice(&packed.primitives), usage(plan.uniform_primitives), true),
+            (nodes(packed.hierarchy.kind()), packed.hierarchy.nodes.bytes(), usage(plan.uniform_nodes), compiled("BVH")),
+            (ATTRIBUTES, bytemuck::cast_slice(&packed.attributes), BufferUsages::STORAGE, compiled("ATTRIBUTES")),
         ];
         for (array, bytes, usage, _) in arrays.into_iter().filter(|(.., is_read)| *is_read) {
             match plan.chunks.iter().find(|chunks| chunks.array == array) {
@@ -83,7 +83,7 @@ impl Buffers {
             }
         }
         if compiled("TEXELS") {
-            upload(binding::TEXELS, "texels", bytemuck::cast_slice(&flat.textures.texels), BufferUsages::STORAGE);
+            upload(binding::TEXELS, "texels", bytemuck::cast_slice(&packed.textures.texels), BufferUsages::STORAGE);
         }
 
         let mut make = |number, label, size: u64, usage| {
@@ -110,7 +110,7 @@ impl Buffers {
                 make(binding::SHADOW_RAYS, "shadow rays", paths * memory::SHADOW_RAY_BYTES, storage);
             }
         }
-        let acceleration = if compiled("RAY_QUERY") { Acceleration::build(device, flat) } else { None };
+        let acceleration = if compiled("RAY_QUERY") { Acceleration::build(device, packed) } else { None };
         let film = ["film sum", "film compensation"].map(|label| film_half(device, plan, width, label));
         let film_views = film.each_ref().map(|half| match half {
             FilmHalf::Texture(texture) => Some(texture.create_view(&Default::default())),

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
 
 use crate::plan::{DeviceLimits, PlanOptions};
-use crate::render::{DeviceChoice, RenderError};
+use crate::renderer::{DeviceChoice, RenderError};
 
 /// A device with its queue, and the first error it reported. Clones are the same device.
 #[derive(Clone)]

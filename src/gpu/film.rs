@@ -3,7 +3,7 @@
 use super::buffers::FilmHalf;
 use super::renderer::{BandState, GpuRenderer};
 use crate::film::Band;
-use crate::render::{Batch, RenderError};
+use crate::renderer::{Batch, RenderError};
 
 impl GpuRenderer {
     /// One half of the film of the band's first `rows` rows.

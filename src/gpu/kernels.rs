@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::buffers::{Buffers, binding};
 use super::device::Device;
 use crate::plan::Plan;
-use crate::render::RenderError;
+use crate::renderer::RenderError;
 use crate::shader::{self, ComposeError};
 
 /// One stage: a pipeline and what it is bound to.
@@ -112,7 +112,7 @@ fn compile_stage(device: &Device, plan: &Plan, file: &'static str, entry: &'stat
     let module = if plan.checked_shaders {
         device.device.create_shader_module(descriptor)
     } else {
-        // SAFETY: every index the kernels use comes from arrays that `FlatScene::validate` checked or is bounded by the sizes that
+        // SAFETY: every index the kernels use comes from arrays that `PackedScene::validate` checked or is bounded by the sizes that
         // the plan also compiled in, and every loop ends: traversal visits each node once, sampling loops count up to constants.
         // A test renders with the checks on and compares.
         unsafe { device.device.create_shader_module_trusted(descriptor, wgpu::ShaderRuntimeChecks::unchecked()) }

@@ -4,7 +4,7 @@ use super::buffers::{binding, edge_parameters};
 use super::passes::Pass;
 use super::renderer::{BandState, GpuRenderer, Step, Workgroups};
 use crate::plan::{MAX_SAMPLES_PER_PASS, StageMode};
-use crate::render::RenderError;
+use crate::renderer::RenderError;
 
 /// What one stage took in one pass, over all edges.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -9,9 +9,9 @@ use super::kernels::{self, Kernel};
 use super::parameters::PassParameters;
 use super::passes::{Pass, PassSizer};
 use crate::film::Band;
-use crate::flat::{FlatError, Unarranged};
+use crate::packed::{PackError, Unarranged};
 use crate::plan::{Plan, PlanOptions, StageMode};
-use crate::render::{Batch, DeviceChoice, Observer, RenderError, RenderReport, Renderer};
+use crate::renderer::{Batch, DeviceChoice, Observer, RenderError, RenderReport, Renderer};
 use crate::sampling::{Sampling, SequencePoint};
 use crate::scene::{MaterialId, Scene};
 
@@ -89,12 +89,12 @@ impl GpuRenderer {
     /// As [`GpuRenderer::new`].
     pub fn once_open(opening: OpeningDevice, scene: &Scene, options: &PlanOptions) -> Result<Self, RenderError> {
         let start = Instant::now();
-        let does_not_fit = |error: FlatError| RenderError::DoesNotFit(error.to_string());
+        let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
         let unarranged = Unarranged::for_form(scene, options.hierarchy).map_err(does_not_fit);
         // Where there is no device, that is what is told, whatever the scene: it may then go to the CPU.
         let device = opening.wait()?;
-        let flat = unarranged?.arrange(options.hierarchy(&device.limits)).map_err(does_not_fit)?;
-        let plan = Plan::new(scene, &flat, &device.limits, options)?;
+        let packed = unarranged?.arrange(options.hierarchy(&device.limits)).map_err(does_not_fit)?;
+        let plan = Plan::new(scene, &packed, &device.limits, options)?;
         // Where paths may pass through surfaces without ending an edge, edges do not bound the number of vertices; most paths still
         // end by then.
         let passes = plan.switches.enabled.contains("PASS");
@@ -107,7 +107,7 @@ impl GpuRenderer {
                 let start = Instant::now();
                 (kernels::compile(&device, &plan), start.elapsed().as_secs_f64())
             },
-            || (Buffers::new(&device, &flat, &plan, scene.film.size[0]), start.elapsed().as_secs_f64()),
+            || (Buffers::new(&device, &packed, &plan, scene.film.size[0]), start.elapsed().as_secs_f64()),
         );
         device.check()?;
         let (stages, compile_seconds) = compiled;
@@ -126,7 +126,7 @@ impl GpuRenderer {
             kernels,
             size: scene.film.size,
             sampling,
-            scene_materials: flat.materials.scene_ids,
+            scene_materials: packed.materials.scene_ids,
             sizer,
             max_depth,
             edges_per_submission,

@@ -3,8 +3,8 @@
 use super::buffers::binding;
 use super::passes::Pass;
 use super::renderer::{BandState, GpuRenderer};
-use crate::flat::NONE;
-use crate::render::RenderError;
+use crate::packed::NONE;
+use crate::renderer::RenderError;
 use crate::scene::MaterialId;
 
 /// Vertices that the kernel writes down; of longer paths the rest is not seen.

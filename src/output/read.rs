@@ -9,7 +9,7 @@ use exr::meta::MetaData;
 use exr::prelude::{ReadChannels, ReadLayers, f16};
 
 use super::{MAX_PIXELS, MAX_SIDE};
-use crate::scene::srgb_to_linear;
+use crate::math::srgb_to_linear;
 
 /// A picture in memory, linear.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,9 +8,9 @@ use std::fmt::{self, Write as _};
 use super::limits::DeviceLimits;
 use super::memory::{self, megabytes};
 use super::{Plan, has_attributes};
-use crate::flat::FlatScene;
-use crate::flat::hierarchy::HierarchyKind;
-use crate::render::RenderError;
+use crate::packed::PackedScene;
+use crate::packed::hierarchy::HierarchyKind;
+use crate::renderer::RenderError;
 
 /// Chunks of an array at most: binding numbers stay below 1,000, which WebGPU allows.
 const MAX_CHUNKS: u32 = 100;
@@ -159,16 +159,16 @@ impl RecordArray {
 }
 
 /// The arrays of a plan that stand in storage buffers and may be cut, in chunks of at most `limit` bytes.
-pub fn cut(flat: &FlatScene, plan: &Plan, limit: u64) -> Vec<Chunks> {
+pub fn cut(packed: &PackedScene, plan: &Plan, limit: u64) -> Vec<Chunks> {
     let mut arrays = Vec::new();
     if !plan.uniform_primitives {
-        arrays.push(Chunks::new(PRIMITIVES, size_of_val(&flat.primitives[..]) as u64, limit));
+        arrays.push(Chunks::new(PRIMITIVES, size_of_val(&packed.primitives[..]) as u64, limit));
     }
     if plan.has_nodes() && !plan.uniform_nodes {
-        arrays.push(Chunks::new(nodes(flat.hierarchy.kind()), flat.hierarchy.nodes.bytes().len() as u64, limit));
+        arrays.push(Chunks::new(nodes(packed.hierarchy.kind()), packed.hierarchy.nodes.bytes().len() as u64, limit));
     }
-    if has_attributes(flat) {
-        arrays.push(Chunks::new(ATTRIBUTES, size_of_val(&flat.attributes[..]) as u64, limit));
+    if has_attributes(packed) {
+        arrays.push(Chunks::new(ATTRIBUTES, size_of_val(&packed.attributes[..]) as u64, limit));
     }
     arrays
 }

@@ -6,8 +6,8 @@ use super::memory::{PRIMITIVES, TABLES};
 use super::{
     Chunks, DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanOptions, SOFTWARE_HIERARCHY, StageMode, UNROLL_LIMIT,
 };
-use crate::flat::FlatScene;
-use crate::flat::hierarchy::HierarchyKind;
+use crate::packed::PackedScene;
+use crate::packed::hierarchy::HierarchyKind;
 use crate::scene::Scene;
 
 /// One decision, in words.
@@ -23,13 +23,13 @@ pub struct Decision {
 const ASKED_FOR: &str = "asked for";
 
 /// Where geometry lives, and why.
-pub(super) fn geometry(flat: &FlatScene, options: &PlanOptions) -> (GeometryPlacement, String) {
-    let count = flat.primitives.len();
+pub(super) fn geometry(packed: &PackedScene, options: &PlanOptions) -> (GeometryPlacement, String) {
+    let count = packed.primitives.len();
     match options.geometry {
         // What moves is no constant.
-        _ if flat.moves() => (GeometryPlacement::Hierarchy, "something moves, and is no constant".into()),
+        _ if packed.moves() => (GeometryPlacement::Hierarchy, "something moves, and is no constant".into()),
         // Where there is nothing to ask for, the device is not asked.
-        _ if flat.hierarchy.kind() == HierarchyKind::RayQuery && flat.hierarchy.primitive_count == 0 => {
+        _ if packed.hierarchy.kind() == HierarchyKind::RayQuery && packed.hierarchy.primitive_count == 0 => {
             (GeometryPlacement::Unrolled, "a hierarchy would hold nothing".into())
         }
         Some(placement) => (placement, ASKED_FOR.into()),
@@ -62,13 +62,13 @@ pub(super) fn stages(
 pub(super) fn explain(
     plan: &Plan,
     scene: &Scene,
-    flat: &FlatScene,
+    packed: &PackedScene,
     limits: &DeviceLimits,
     options: &PlanOptions,
     geometry: String,
     stages: String,
 ) -> Vec<Decision> {
-    let mut decisions = materials(scene, flat).into_iter().collect::<Vec<_>>();
+    let mut decisions = materials(scene, packed).into_iter().collect::<Vec<_>>();
     let mut add = |about, choice: String, because: String| decisions.push(Decision { about, choice, because });
     let placement = match plan.geometry {
         GeometryPlacement::Unrolled => "written into the kernels as constants",
@@ -96,7 +96,7 @@ pub(super) fn explain(
         };
         let because = "the scene or the command line says so".into();
         add("light samples", format!("{} {surfaces}, in one kernel with the rest of the path", plan.light_samples), because);
-    } else if plan.geometry == GeometryPlacement::Hierarchy && plan.samples_lights() && flat.environment.map().is_some() {
+    } else if plan.geometry == GeometryPlacement::Hierarchy && plan.samples_lights() && packed.environment.map().is_some() {
         let because = "nothing else is asked for; under maps, several lower the error in less time: docs/strategies.md".into();
         add("light samples", "1".into(), because);
     }
@@ -127,8 +127,8 @@ pub(super) fn explain(
 }
 
 /// Which materials are packed, where some are not.
-fn materials(scene: &Scene, flat: &FlatScene) -> Option<Decision> {
-    let (packed, all) = (flat.materials.scene_ids.len(), scene.materials.len());
+fn materials(scene: &Scene, packed: &PackedScene) -> Option<Decision> {
+    let (packed, all) = (packed.materials.scene_ids.len(), scene.materials.len());
     (packed < all).then(|| Decision {
         about: "materials",
         choice: format!("{packed} of {all}"),

@@ -3,9 +3,9 @@
 use clap::ValueEnum;
 use serde::Serialize;
 
-use crate::flat::FlatScene;
-use crate::flat::light::{FlatLight, LightKind};
-use crate::flat::material::FlatMaterialKind;
+use crate::packed::PackedScene;
+use crate::packed::light::{LightKind, PackedLight};
+use crate::packed::material::PackedMaterialKind;
 use crate::shader::Switches;
 
 /// A mistake compiled into the device's kernels on request, and only there: the CPU reference stays right.
@@ -31,21 +31,21 @@ impl Fault {
     }
 
     /// Compiles the fault in where the scene has something for it to act on.
-    pub(super) fn plant(self, flat: &FlatScene, switches: &mut Switches) {
+    pub(super) fn plant(self, packed: &PackedScene, switches: &mut Switches) {
         let samples_lights = switches.enabled.contains("LIGHTS");
         match self {
             Self::Brdf => {
-                if let Some(material) = most_used_material(flat) {
+                if let Some(material) = most_used_material(packed) {
                     switches.enable(self.switch(), true);
                     switches.constants.insert("PLANTED_MATERIAL", material);
                 }
             }
             Self::Mis => {
-                let shared = flat.lights.iter().any(found_both_ways) && switches.enabled.contains("ESTIMATOR_MIS");
+                let shared = packed.lights.iter().any(found_both_ways) && switches.enabled.contains("ESTIMATOR_MIS");
                 switches.enable(self.switch(), samples_lights && shared);
             }
             Self::Light => {
-                let likeliest = flat.lights.iter().enumerate().max_by(|(_, a), (_, b)| a.pmf.total_cmp(&b.pmf));
+                let likeliest = packed.lights.iter().enumerate().max_by(|(_, a), (_, b)| a.pmf.total_cmp(&b.pmf));
                 if let Some((light, _)) = likeliest.filter(|_| samples_lights) {
                     switches.enable(self.switch(), true);
                     switches.constants.insert("PLANTED_LIGHT", light as u32);
@@ -56,16 +56,16 @@ impl Fault {
 }
 
 /// BSDF samples find the light too: more than one direction leads to it.
-fn found_both_ways(light: &FlatLight) -> bool {
+fn found_both_ways(light: &PackedLight) -> bool {
     ![LightKind::Point, LightKind::Spot, LightKind::Directional].into_iter().any(|kind| light.is(kind))
 }
 
 /// The scattering material that most primitives have.
-fn most_used_material(flat: &FlatScene) -> Option<u32> {
-    let mut uses = vec![0_u64; flat.materials.materials.len()];
-    for primitive in &flat.primitives {
+fn most_used_material(packed: &PackedScene) -> Option<u32> {
+    let mut uses = vec![0_u64; packed.materials.materials.len()];
+    for primitive in &packed.primitives {
         let material = primitive.material() as usize;
-        if flat.materials.materials[material].kind() != FlatMaterialKind::Emissive as u32 {
+        if packed.materials.materials[material].kind() != PackedMaterialKind::Emissive as u32 {
             uses[material] += 1;
         }
     }

@@ -1,7 +1,7 @@
 //! What the plan has to know of a device.
 
 use super::FilmStorage;
-use crate::render::RenderError;
+use crate::renderer::RenderError;
 
 /// Limits in bytes unless the name says otherwise.
 #[derive(Debug, Clone, PartialEq, Eq)]

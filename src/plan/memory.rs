@@ -3,9 +3,9 @@
 use std::fmt;
 
 use super::{Plan, StageMode, has_attributes, limits::DeviceLimits};
-use crate::flat::FlatScene;
-use crate::flat::primitive::{Primitive, TriangleAttributes};
-use crate::render::RenderError;
+use crate::packed::PackedScene;
+use crate::packed::primitive::{Primitive, TriangleAttributes};
+use crate::renderer::RenderError;
 
 /// Bytes of state per path: ray, throughput, radiance, hit (`shaders/stages/wavefront.wgsl`).
 pub const PATH_STATE_BYTES: u64 = 5 * 16;
@@ -46,26 +46,26 @@ pub struct Memory {
 }
 
 impl Memory {
-    pub fn new(flat: &FlatScene, plan: &Plan, width: u32) -> Self {
-        let tables = flat.tables().words;
+    pub fn new(packed: &PackedScene, plan: &Plan, width: u32) -> Self {
+        let tables = packed.tables().words;
         let pixels = u64::from(width) * u64::from(plan.band_rows);
         let mut arrays = vec![
-            (PRIMITIVES, PRIMITIVE_BYTES * flat.primitives.len() as u64),
+            (PRIMITIVES, PRIMITIVE_BYTES * packed.primitives.len() as u64),
             (TABLES, 16 * tables.len() as u64),
             ("film sum", pixels * FILM_BYTES / 2),
             ("film compensation", pixels * FILM_BYTES / 2),
         ];
         if plan.switches.enabled.contains("RAY_QUERY") {
-            arrays.push((ESTIMATED_ACCELERATION, ACCELERATION_BYTES * u64::from(flat.hierarchy.primitive_count)));
+            arrays.push((ESTIMATED_ACCELERATION, ACCELERATION_BYTES * u64::from(packed.hierarchy.primitive_count)));
         }
         if plan.has_nodes() {
-            arrays.push((NODES, flat.hierarchy.nodes.bytes().len() as u64));
+            arrays.push((NODES, packed.hierarchy.nodes.bytes().len() as u64));
         }
-        if has_attributes(flat) {
-            arrays.push((ATTRIBUTES, ATTRIBUTE_BYTES * flat.attributes.len() as u64));
+        if has_attributes(packed) {
+            arrays.push((ATTRIBUTES, ATTRIBUTE_BYTES * packed.attributes.len() as u64));
         }
-        if !flat.textures.texels.is_empty() {
-            arrays.push(("texels", 4 * flat.textures.texels.len() as u64));
+        if !packed.textures.texels.is_empty() {
+            arrays.push(("texels", 4 * packed.textures.texels.len() as u64));
         }
         if plan.switches.enabled.contains("PIXEL_LIST") {
             arrays.push(("pixels", pixels * LIST_BYTES));

@@ -14,9 +14,9 @@ pub mod unroll;
 
 use std::fmt;
 
-use crate::flat::hierarchy::HierarchyKind;
-use crate::flat::{FlatScene, NONE};
-use crate::render::RenderError;
+use crate::packed::hierarchy::HierarchyKind;
+use crate::packed::{NONE, PackedScene};
+use crate::renderer::RenderError;
 use crate::scene::Scene;
 use crate::shader::Switches;
 
@@ -85,7 +85,7 @@ pub struct PlanOptions {
     pub checked_shaders: bool,
     /// Write down what happens along a path, for [`crate::gpu::GpuRenderer::trace`]; one kernel then traces whole paths.
     pub trace: bool,
-    /// Let a batch leave pixels out ([`crate::render::Batch::selection`]).
+    /// Let a batch leave pixels out ([`crate::renderer::Batch::selection`]).
     pub pixel_list: bool,
     /// Switches of parts that are compiled though the scene does not need them, to measure what leaving them out is worth.
     pub compile_in: Vec<&'static str>,
@@ -153,17 +153,17 @@ impl Plan {
     /// # Errors
     /// [`RenderError::DoesNotFit`] where an array is larger than the device can bind, naming both sizes. [`RenderError::Internal`] where
     /// the scene was packed with another hierarchy than the options say.
-    pub fn new(scene: &Scene, flat: &FlatScene, limits: &DeviceLimits, options: &PlanOptions) -> Result<Self, RenderError> {
-        let hierarchy = flat.hierarchy.kind();
+    pub fn new(scene: &Scene, packed: &PackedScene, limits: &DeviceLimits, options: &PlanOptions) -> Result<Self, RenderError> {
+        let hierarchy = packed.hierarchy.kind();
         if options.hierarchy.is_some_and(|wanted| wanted != hierarchy) {
             return Err(RenderError::Internal(format!("the scene was packed with a hierarchy that is {hierarchy}")));
         }
         let ray_queries = hierarchy == HierarchyKind::RayQuery;
         if ray_queries {
-            ray_query::check(flat, limits)?;
+            ray_query::check(packed, limits)?;
         }
-        let (geometry, why_geometry) = decisions::geometry(flat, options);
-        let light_samples = if switches::samples_lights(scene, flat) { scene.render.light_samples } else { 1 };
+        let (geometry, why_geometry) = decisions::geometry(packed, options);
+        let light_samples = if switches::samples_lights(scene, packed) { scene.render.light_samples } else { 1 };
         let (stages, why_stages) = decisions::stages(geometry, light_samples, limits, options);
         // On software devices the arithmetic of a step through a hierarchy costs the same for one lane as for all, so lanes should go
         // the same way. Geometry that is code is met by all lanes anyway, and there a lane that starts its next path at once gains.
@@ -173,7 +173,7 @@ impl Plan {
         // Packets are written for that form alone, and their stack lies in registers, an entry a lane (shaders/geometry/packet.wgsl).
         let packets = geometry == GeometryPlacement::Hierarchy
             && hierarchy == HierarchyKind::Bvh4
-            && lanes.is_some_and(|lanes| lanes >= 4 && flat.hierarchy.stack_size <= MOST_STACK_REGISTERS * lanes)
+            && lanes.is_some_and(|lanes| lanes >= 4 && packed.hierarchy.stack_size <= MOST_STACK_REGISTERS * lanes)
             && options.packets.unwrap_or(true);
         // Known practice on hardware, and on lavapipe no slower (BENCHMARKS.md).
         let subgroup_queues = stages == StageMode::Wavefront && limits.subgroups && options.subgroup_queues.unwrap_or(true);
@@ -183,14 +183,14 @@ impl Plan {
         } else {
             FilmStorage::Buffer
         });
-        let tables = flat.tables().words;
+        let tables = packed.tables().words;
         let uniform_limit = u64::from(limits.max_uniform_binding);
         let largest_chunk = options.largest_chunk.unwrap_or(u64::MAX).min(limits.largest_array());
         let fits_uniform = |bytes: usize| bytes as u64 <= uniform_limit.min(largest_chunk);
-        let uniform_primitives = fits_uniform(size_of_val(&flat.primitives[..]));
+        let uniform_primitives = fits_uniform(size_of_val(&packed.primitives[..]));
         let uniform_tables = 16 * tables.len() as u64 <= uniform_limit;
         // Real GPUs serialise divergent reads of uniform buffers; software ones read them faster than storage.
-        let uniform_nodes = limits.software && !ray_queries && fits_uniform(flat.hierarchy.nodes.bytes().len());
+        let uniform_nodes = limits.software && !ray_queries && fits_uniform(packed.hierarchy.nodes.bytes().len());
         let path_capacity = options.path_capacity.unwrap_or_else(|| limits.path_capacity());
         let band_rows = limits.band_rows(scene.film.size, film);
         let mut plan = Self {
@@ -216,30 +216,30 @@ impl Plan {
             checked_shaders: options.checked_shaders,
             decisions: Vec::new(),
         };
-        plan.chunks = chunks::cut(flat, &plan, largest_chunk);
-        let other_arrays = u32::from(!uniform_tables) + u32::from(!flat.textures.texels.is_empty());
+        plan.chunks = chunks::cut(packed, &plan, largest_chunk);
+        let other_arrays = u32::from(!uniform_tables) + u32::from(!packed.textures.texels.is_empty());
         chunks::check(&plan.chunks, other_arrays, largest_chunk, limits)?;
-        plan.switches = switches::choose(scene, flat, &plan);
+        plan.switches = switches::choose(scene, packed, &plan);
         plan.switches.enable("TRACE", options.trace);
         plan.switches.enable("PIXEL_LIST", options.pixel_list && !options.trace);
         for switch in &options.compile_in {
             plan.switches.enable(switch, true);
         }
         if let Some(fault) = options.fault {
-            fault.plant(flat, &mut plan.switches);
+            fault.plant(packed, &mut plan.switches);
         }
         let first_constant = match geometry {
             GeometryPlacement::Unrolled => 0,
-            GeometryPlacement::Hierarchy => flat.hierarchy.primitive_count as usize,
+            GeometryPlacement::Hierarchy => packed.hierarchy.primitive_count as usize,
         };
-        plan.switches.generated.insert("geometry/constants.wgsl", unroll::constants(flat, first_constant));
+        plan.switches.generated.insert("geometry/constants.wgsl", unroll::constants(packed, first_constant));
         for array in plan.chunks.iter().filter(|array| !array.is_whole()) {
             plan.switches.enable(array.array.switch, true);
             plan.switches.generated.insert(array.array.file, array.wgsl());
         }
-        plan.memory = Memory::new(flat, &plan, width);
+        plan.memory = Memory::new(packed, &plan, width);
         plan.memory.check(limits)?;
-        plan.decisions = decisions::explain(&plan, scene, flat, limits, options, why_geometry, why_stages);
+        plan.decisions = decisions::explain(&plan, scene, packed, limits, options, why_geometry, why_stages);
         Ok(plan)
     }
 
@@ -281,8 +281,8 @@ impl Plan {
 }
 
 /// Whether some primitive carries normals or texture coordinates.
-pub(crate) fn has_attributes(flat: &FlatScene) -> bool {
-    flat.primitives.iter().any(|primitive| primitive.attributes != NONE)
+pub(crate) fn has_attributes(packed: &PackedScene) -> bool {
+    packed.primitives.iter().any(|primitive| primitive.attributes != NONE)
 }
 
 impl fmt::Display for Plan {

@@ -2,22 +2,22 @@
 
 use super::limits::{DeviceLimits, RayQueryLimits};
 use super::memory::{ACCELERATION, PRIMITIVE_BYTES, megabytes};
-use crate::flat::FlatScene;
-use crate::render::RenderError;
+use crate::packed::PackedScene;
+use crate::renderer::RenderError;
 
 /// Refuses scenes that ray queries cannot see, or that no structure can hold.
 ///
 /// # Errors
 /// [`RenderError::DoesNotFit`], saying what to do.
-pub(super) fn check(flat: &FlatScene, limits: &DeviceLimits) -> Result<(), RenderError> {
+pub(super) fn check(packed: &PackedScene, limits: &DeviceLimits) -> Result<(), RenderError> {
     let RayQueryLimits { max_primitives } = limits.check_ray_queries("the device")?;
     let refuse =
         |why: String| Err(RenderError::DoesNotFit(format!("{why}; without `--traversal ray-query` it renders all the same")));
-    if flat.moves() {
+    if packed.moves() {
         return refuse("its shapes move, and acceleration structures hold a scene at rest".to_owned());
     }
-    let held = u64::from(flat.hierarchy.primitive_count);
-    let boxes = (flat.hierarchy.nodes.bytes().len() / size_of::<crate::flat::ray_query::ShapeBox>()) as u64;
+    let held = u64::from(packed.hierarchy.primitive_count);
+    let boxes = (packed.hierarchy.nodes.bytes().len() / size_of::<crate::packed::ray_query::ShapeBox>()) as u64;
     let triangles = held - boxes;
     // Of triangles, vertices are counted.
     if 3 * triangles > u64::from(max_primitives) || boxes > u64::from(max_primitives) {

@@ -1,12 +1,12 @@
 //! Which parts of the shaders a scene compiles.
 
 use super::{FilmStorage, GeometryPlacement, MAX_SAMPLES_PER_PASS, Plan, has_attributes};
-use crate::flat::environment::FlatEnvironment;
-use crate::flat::light::{FlatLight, LightKind};
-use crate::flat::material::{FlatMaterial, FlatMaterialKind};
-use crate::flat::primitive::{Primitive, PrimitiveKind};
-use crate::flat::texture::FlatTextureKind;
-use crate::flat::{FlatScene, NONE};
+use crate::packed::environment::PackedEnvironment;
+use crate::packed::light::{LightKind, PackedLight};
+use crate::packed::material::{PackedMaterial, PackedMaterialKind};
+use crate::packed::primitive::{Primitive, PrimitiveKind};
+use crate::packed::texture::PackedTextureKind;
+use crate::packed::{NONE, PackedScene};
 use crate::sampling::Decorrelation;
 use crate::sampling::dimension::SEQUENCE_DIMENSIONS;
 use crate::scene::{ApertureShape, Filter, FilterKind, HemisphereSampling, Projection};
@@ -114,12 +114,12 @@ pub const DEBUG: &[&str] = &["PLANT_BRDF", "PLANT_LIGHT", "PLANT_MIS", "TRACE"];
 /// Blocks of four dimensions that the sequence's table holds per sample.
 pub const SEQUENCE_BLOCKS: u32 = SEQUENCE_DIMENSIONS / 4;
 
-pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
+pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
     let mut switches = Switches::default();
     let render = &scene.render;
 
     let has = |primitives: &[Primitive], kind: PrimitiveKind| primitives.iter().any(|primitive| primitive.kind() == kind as u32);
-    let (in_hierarchy, _) = flat.primitives.split_at(flat.hierarchy.primitive_count as usize);
+    let (in_hierarchy, _) = packed.primitives.split_at(packed.hierarchy.primitive_count as usize);
     let [triangles, quads, spheres, disks] =
         [PrimitiveKind::Triangle, PrimitiveKind::Quad, PrimitiveKind::Sphere, PrimitiveKind::Disk]
             .map(|kind| has(in_hierarchy, kind));
@@ -128,7 +128,7 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     switches.enable("SPHERES_IN_HIERARCHY", spheres);
     switches.enable("DISKS_IN_HIERARCHY", disks);
     switches.enable("ONLY_TRIANGLES_IN_HIERARCHY", triangles && !(quads || spheres || disks));
-    let has_kind = |kind: PrimitiveKind| has(&flat.primitives, kind);
+    let has_kind = |kind: PrimitiveKind| has(&packed.primitives, kind);
     switches.enable("SPHERES", has_kind(PrimitiveKind::Sphere));
     switches.enable("FLAT_ROUND", has_kind(PrimitiveKind::Disk) || has_kind(PrimitiveKind::Plane));
     switches.enable("BVH", plan.has_nodes());
@@ -137,22 +137,22 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     switches.enable("UNIFORM_NODES", plan.has_nodes() && plan.uniform_nodes);
     switches.enable("UNIFORM_PRIMITIVES", plan.uniform_primitives);
     switches.enable("UNIFORM_TABLES", plan.uniform_tables);
-    switches.enable("ATTRIBUTES", has_attributes(flat));
-    switches.enable("TEXTURES", !flat.textures.textures.is_empty());
-    let has_texture = |kind: FlatTextureKind| flat.textures.textures.iter().any(|texture| texture.kind() == kind as u32);
-    switches.enable("IMAGES", has_texture(FlatTextureKind::Image));
-    switches.enable("TEXELS", !flat.textures.texels.is_empty());
-    switches.enable("CHECKERS", has_texture(FlatTextureKind::Checker));
-    switches.enable("PERLIN", has_texture(FlatTextureKind::Perlin));
-    switches.enable("WORLEY", has_texture(FlatTextureKind::Worley));
-    let procedural = [FlatTextureKind::Checker, FlatTextureKind::Perlin, FlatTextureKind::Worley];
+    switches.enable("ATTRIBUTES", has_attributes(packed));
+    switches.enable("TEXTURES", !packed.textures.textures.is_empty());
+    let has_texture = |kind: PackedTextureKind| packed.textures.textures.iter().any(|texture| texture.kind() == kind as u32);
+    switches.enable("IMAGES", has_texture(PackedTextureKind::Image));
+    switches.enable("TEXELS", !packed.textures.texels.is_empty());
+    switches.enable("CHECKERS", has_texture(PackedTextureKind::Checker));
+    switches.enable("PERLIN", has_texture(PackedTextureKind::Perlin));
+    switches.enable("WORLEY", has_texture(PackedTextureKind::Worley));
+    let procedural = [PackedTextureKind::Checker, PackedTextureKind::Perlin, PackedTextureKind::Worley];
     switches.enable("PROCEDURAL_TEXTURES", procedural.into_iter().any(has_texture));
 
-    switches.enable("MOTION", flat.moves());
+    switches.enable("MOTION", packed.moves());
 
-    choose_materials(scene, flat, &mut switches);
+    choose_materials(scene, packed, &mut switches);
 
-    choose_lights(scene, flat, plan, &mut switches);
+    choose_lights(scene, packed, plan, &mut switches);
 
     switches.enable("ESTIMATOR_MIS", render.estimator == Estimator::Mis);
     switches.enable("ESTIMATOR_NEE", render.estimator == Estimator::Nee);
@@ -165,9 +165,9 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
     switches.enable("SPREAD", plan.runs > 1);
     switches.enable("SUBGROUP_QUEUES", plan.subgroup_queues);
 
-    let tables = flat.tables();
-    let map = flat.environment.map().unwrap_or_default();
-    let first_light = |kind: LightKind| flat.lights.iter().position(|light| light.is(kind)).unwrap_or(0) as u32;
+    let tables = packed.tables();
+    let map = packed.environment.map().unwrap_or_default();
+    let first_light = |kind: LightKind| packed.lights.iter().position(|light| light.is(kind)).unwrap_or(0) as u32;
     switches.constants.extend([
         ("BLADES", blades),
         ("ENVIRONMENT_FIRST_DENSITY", map.first_density),
@@ -187,40 +187,40 @@ pub fn choose(scene: &Scene, flat: &FlatScene, plan: &Plan) -> Switches {
         ("FIRST_PORTAL", first_light(LightKind::Portal)),
         ("FIRST_TEXTURE_WORD", tables.first_texture),
         ("LANES", plan.lanes.unwrap_or(1)),
-        ("LIGHT_COUNT", flat.lights.len() as u32),
+        ("LIGHT_COUNT", packed.lights.len() as u32),
         ("LIGHT_SAMPLES", plan.light_samples),
         ("LIGHT_SAMPLES_DEPTH", plan.light_samples_depth),
         // Depth 0 means no limit: an edge that is never reached.
         ("MAX_DEPTH", if render.max_depth == 0 { u32::MAX } else { render.max_depth }),
         ("MAX_SAMPLES_PER_PASS", MAX_SAMPLES_PER_PASS),
         ("PATH_CAPACITY", plan.path_capacity),
-        ("PORTAL_COUNT", flat.lights.iter().filter(|light| light.is(LightKind::Portal)).count() as u32),
-        ("PRIMITIVE_WORDS", (3 * flat.primitives.len() as u32).max(1)),
+        ("PORTAL_COUNT", packed.lights.iter().filter(|light| light.is(LightKind::Portal)).count() as u32),
+        ("PRIMITIVE_WORDS", (3 * packed.primitives.len() as u32).max(1)),
         ("RAYS_PER_INVOCATION", plan.rays_per_invocation),
         ("ROULETTE_DEPTH", render.roulette_depth),
         ("RUNS", plan.runs),
         ("SEQUENCE_BLOCKS", SEQUENCE_BLOCKS),
         ("SEQUENCE_POINTS", plan.sequence_stride() * MAX_SAMPLES_PER_PASS),
         ("SEQUENCE_STRIDE", plan.sequence_stride()),
-        ("STACK_SIZE", flat.hierarchy.stack_size),
-        ("NODE_WORDS", (flat.hierarchy.nodes.bytes().len() / 16) as u32),
+        ("STACK_SIZE", packed.hierarchy.stack_size),
+        ("NODE_WORDS", (packed.hierarchy.nodes.bytes().len() / 16) as u32),
         ("TABLE_WORDS", (tables.words.len() as u32).max(1)),
     ]);
     switches
 }
 
 /// Whether any surface samples light. Paths of one edge have no vertex to sample it from.
-pub fn samples_lights(scene: &Scene, flat: &FlatScene) -> bool {
-    !flat.lights.is_empty() && scene.render.max_depth != 1
+pub fn samples_lights(scene: &Scene, packed: &PackedScene) -> bool {
+    !packed.lights.is_empty() && scene.render.max_depth != 1
 }
 
-fn choose_lights(scene: &Scene, flat: &FlatScene, plan: &Plan, switches: &mut Switches) {
+fn choose_lights(scene: &Scene, packed: &PackedScene, plan: &Plan, switches: &mut Switches) {
     let render = &scene.render;
-    let has = |kind: LightKind| flat.lights.iter().any(|light| light.is(kind));
-    let sampled = samples_lights(scene, flat);
+    let has = |kind: LightKind| packed.lights.iter().any(|light| light.is(kind));
+    let sampled = samples_lights(scene, packed);
     switches.enable("LIGHTS", sampled);
     switches.enable("SEVERAL_LIGHT_SAMPLES", plan.light_samples > 1);
-    switches.enable("ONE_LIGHT", flat.lights.len() == 1);
+    switches.enable("ONE_LIGHT", packed.lights.len() == 1);
     switches.enable("FLAT_LIGHTS", [LightKind::Triangle, LightKind::Quad, LightKind::Disk].into_iter().any(has));
     switches.enable("SPHERE_LIGHTS", has(LightKind::Sphere));
     switches.enable("SPHERE_LIGHTS_BY_POINT", has(LightKind::Sphere) && render.light_sampling != LightSampling::Cone);
@@ -228,11 +228,11 @@ fn choose_lights(scene: &Scene, flat: &FlatScene, plan: &Plan, switches: &mut Sw
     switches.enable("POINT_LIGHTS", has(LightKind::Point));
     switches.enable("SPOT_LIGHTS", has(LightKind::Spot));
     switches.enable("DIRECTIONAL_LIGHTS", has(LightKind::Directional));
-    switches.enable("ENVIRONMENT", flat.environment != FlatEnvironment::Black);
-    switches.enable("ENVIRONMENT_MAP", matches!(flat.environment, FlatEnvironment::Map { .. }));
-    switches.enable("SKY", matches!(flat.environment, FlatEnvironment::Sky { .. }));
+    switches.enable("ENVIRONMENT", packed.environment != PackedEnvironment::Black);
+    switches.enable("ENVIRONMENT_MAP", matches!(packed.environment, PackedEnvironment::Map { .. }));
+    switches.enable("SKY", matches!(packed.environment, PackedEnvironment::Sky { .. }));
     switches.enable("ENVIRONMENT_LIGHT", sampled && has(LightKind::Environment));
-    switches.enable("MOVING_LIGHTS", flat.lights.iter().any(FlatLight::moves));
+    switches.enable("MOVING_LIGHTS", packed.lights.iter().any(PackedLight::moves));
     switches.enable("PORTALS", sampled && has(LightKind::Portal));
     switches.enable("ENVIRONMENT_SAMPLED", sampled && (has(LightKind::Environment) || has(LightKind::Portal)));
 }
@@ -273,9 +273,9 @@ fn enable_camera(switches: &mut Switches, scene: &Scene) -> u32 {
 }
 
 /// Materials, lobe by lobe, and blends of them.
-fn choose_materials(scene: &Scene, flat: &FlatScene, switches: &mut Switches) {
-    use FlatMaterialKind as Kind;
-    let has = |kind: Kind| flat.materials.has(kind);
+fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
+    use PackedMaterialKind as Kind;
+    let has = |kind: Kind| packed.materials.has(kind);
     switches.enable("MIRROR", has(Kind::Mirror));
     // Rough glass whose width comes from a texture may be smooth somewhere.
     switches.enable("GLASS", has(Kind::Glass) || has(Kind::RoughGlass));
@@ -287,21 +287,21 @@ fn choose_materials(scene: &Scene, flat: &FlatScene, switches: &mut Switches) {
     switches.enable("ROUGH_GLASS", has(Kind::RoughGlass));
     switches.enable("MICROFACETS", has(Kind::Conductor) || has(Kind::RoughGlass));
     switches.enable("TRANSMISSIVE_SMOOTH", has(Kind::RoughGlass) || has(Kind::PhongGlass));
-    switches.enable("SECOND_COLORS", flat.materials.materials.iter().any(FlatMaterial::has_second_color));
+    switches.enable("SECOND_COLORS", packed.materials.materials.iter().any(PackedMaterial::has_second_color));
     let scalars = [Kind::Glossy, Kind::Phong, Kind::PhongGlass, Kind::Conductor, Kind::RoughGlass];
     switches.enable("SCALARS", scalars.into_iter().any(has));
     // Surfaces of nothing but `pass` are no primitives; inside a blend it is a lobe.
     let blends = has(Kind::Blend);
     switches.enable("BLENDS", blends);
     let one_lobe = [Kind::Diffuse, Kind::Emissive, Kind::Blend].map(|kind| kind as u32);
-    let more_lobes = flat.materials.materials.iter().any(|material| !one_lobe.contains(&material.kind()));
+    let more_lobes = packed.materials.materials.iter().any(|material| !one_lobe.contains(&material.kind()));
     let mixture = scene.render.blend == BlendMode::Mixture;
     switches.enable("MIXTURE", blends && mixture);
     switches.enable("MORE_LOBES", blends && mixture && more_lobes);
     switches.enable("PICK", blends && !mixture);
-    let is_pass = |material: u32| flat.materials.materials[material as usize].kind() == Kind::Pass as u32;
-    switches.enable("PASS", flat.materials.leaves.iter().any(|leaf| is_pass(leaf.material)));
-    switches.enable("NORMAL_MAPS", flat.materials.materials.iter().any(|material| material.normal_map != NONE));
-    switches.enable("EMISSION", flat.materials.materials.iter().any(|material| material.emission_flags != 0));
-    switches.enable("VARYING_LIGHTS", flat.lights.iter().any(FlatLight::varies));
+    let is_pass = |material: u32| packed.materials.materials[material as usize].kind() == Kind::Pass as u32;
+    switches.enable("PASS", packed.materials.leaves.iter().any(|leaf| is_pass(leaf.material)));
+    switches.enable("NORMAL_MAPS", packed.materials.materials.iter().any(|material| material.normal_map != NONE));
+    switches.enable("EMISSION", packed.materials.materials.iter().any(|material| material.emission_flags != 0));
+    switches.enable("VARYING_LIGHTS", packed.lights.iter().any(PackedLight::varies));
 }

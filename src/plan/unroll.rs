@@ -7,14 +7,14 @@ use std::fmt::Write as _;
 
 use glam::{DVec3, Vec3};
 
-use crate::flat::FlatScene;
-use crate::flat::primitive::{Primitive, PrimitiveKind};
+use crate::packed::PackedScene;
+use crate::packed::primitive::{Primitive, PrimitiveKind};
 
 /// WGSL with `closest_of_constants` and `any_of_constants` for the primitives from `first` on.
-pub fn constants(flat: &FlatScene, first: usize) -> String {
+pub fn constants(packed: &PackedScene, first: usize) -> String {
     let mut closest = String::new();
     let mut any = String::new();
-    for (index, primitive) in flat.primitives.iter().enumerate().skip(first) {
+    for (index, primitive) in packed.primitives.iter().enumerate().skip(first) {
         let test = test_for(primitive, "best.t");
         // Selects instead of branches: every lane runs every test anyway.
         let _ = writeln!(

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::lights::luminance;
 use super::warp;
+use crate::math::luminance;
 use crate::sampling::{MapDistribution, sampler::uniform};
 use crate::scene::{self, EnvironmentRadiance, ImageData, ImageTexture, Light, Scene, TextureFilter, TextureWrap};
 

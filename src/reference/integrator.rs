@@ -15,7 +15,7 @@ use super::intersect::{Moment, Ray, Surface, World};
 use super::lights::{LightSample, Lights};
 use super::trace::{LightConnection, PathVisitor};
 use super::{mis, support};
-use crate::render::RenderError;
+use crate::renderer::RenderError;
 use crate::sampling::{BounceDimension, CameraDimension, Dimension, PathSampler};
 use crate::scene::{Estimator, Scene};
 

@@ -12,6 +12,7 @@ use glam::DVec3;
 use super::emission::{emitted, mean_exitance};
 use super::environment::Environment;
 use super::intersect::{Moment, Owner, PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
+use crate::math::luminance;
 use crate::sampling::sampler::uniform;
 use crate::sampling::{AliasTable, Lamp, LightChoice};
 use crate::scene::{Estimator, Light, LightSampling, Scene};
@@ -109,11 +110,6 @@ pub struct LightSample {
     pub delta: bool,
     /// The primitive the segment ends on. It is convex seen from outside and hollow from inside, so it cannot block itself.
     pub target: Option<usize>,
-}
-
-/// Rec.709 luminance.
-pub fn luminance(color: DVec3) -> f64 {
-    color.dot(DVec3::new(0.2126, 0.7152, 0.0722))
 }
 
 impl Lights {

@@ -7,10 +7,10 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::integrator::Integrator;
-use super::lights::luminance;
 use super::trace::{PathTrace, PathVisitor, RayCounter};
 use crate::film::Band;
-use crate::render::{Batch, Observer, RenderError, RenderReport, RenderRequest, Renderer};
+use crate::math::luminance;
+use crate::renderer::{Batch, Observer, RenderError, RenderReport, RenderRequest, Renderer};
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
 use crate::scene::{RenderSettings, Scene};
 

@@ -1,6 +1,6 @@
 //! What the reference integrator renders. What it does not, it refuses by name.
 
-use crate::render::RenderError;
+use crate::renderer::RenderError;
 use crate::scene::settings::{MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH};
 use crate::scene::{
     ColorInput, EnvironmentRadiance, Geometry, Heuristic, Light, Material, MaterialId, MaterialKind, Mesh, Scene, Shape,

@@ -35,7 +35,7 @@ impl MapDistribution {
 /// the texel and its neighbours with weights 1, 6, 1 in each direction: it is positive wherever the looked-up radiance is.
 fn texel_weights(image: &ImageData) -> Vec<f64> {
     let (width, height) = (image.width as usize, image.height as usize);
-    let luminance: Vec<f64> = image.texels.iter().map(|t| t.as_dvec3().dot(glam::DVec3::new(0.2126, 0.7152, 0.0722))).collect();
+    let luminance: Vec<f64> = image.texels.iter().map(|texel| crate::math::luminance(texel.as_dvec3())).collect();
     let smoothed = |before: f64, here: f64, after: f64| (before + 6.0 * here + after) / 8.0;
     let across: Vec<f64> = luminance
         .chunks_exact(width)

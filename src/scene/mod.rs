@@ -1,39 +1,28 @@
 //! What a person wrote, resolved: names looked up, files read, units known, nothing of the GPU.
 //!
-//! A [`Scene`] is plain data. [`crate::flat`] packs it for the device, [`crate::reference`] renders it as it stands, so
+//! A [`Scene`] is plain data. [`crate::packed`] packs it for the device, [`crate::reference`] renders it as it stands, so
 //! that a mistake in packing shows as a difference between the two.
 //!
 //! Conventions: right-handed, +Y up by default, lengths in scene units, angles in degrees as written and in radians where a
 //! name says so, colours linear Rec.709 RGB, radiance in W·sr⁻¹·m⁻².
 
 mod blend_tree;
-mod builtin;
 pub mod camera;
 mod digest;
-mod error;
-mod file;
-mod framing;
-mod image_file;
 pub mod light;
 pub mod material;
 mod mesh;
 pub mod motion;
-mod obj;
 mod placement;
 pub mod settings;
 pub mod shape;
-mod source;
 mod summary;
 pub mod texture;
 pub mod transform;
 
 pub use blend_tree::{MOST_LEAVES, check_blends};
-pub use builtin::{builtin_names, builtin_text};
 pub use camera::{Aperture, ApertureShape, Camera, Projection};
 pub use digest::digest;
-pub use error::SceneError;
-pub use file::{json_schema, load_toml_str};
-pub use image_file::{read_image, srgb_to_linear};
 pub use light::{Environment, EnvironmentRadiance, Light};
 pub use material::{ConductorFresnel, Emission, Heuristic, Material, MaterialKind, MicrofacetDistribution};
 pub use motion::{Motion, MotionStep};
@@ -42,7 +31,6 @@ pub use settings::{
     PixelSamplerName, RenderSettings, SamplerKind, setting_name,
 };
 pub use shape::{Geometry, Mesh, Shape};
-pub use source::{SceneSource, load};
 pub use summary::SceneSummary;
 pub use texture::{ColorInput, ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap};
 pub use transform::{Transform, TransformStep};
@@ -111,10 +99,4 @@ impl Scene {
         }
         false
     }
-}
-
-/// A file's name without folder and ending.
-fn stem(name: &str) -> String {
-    let path = std::path::Path::new(name);
-    path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned())
 }

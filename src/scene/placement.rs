@@ -80,7 +80,7 @@ impl Shape {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::load_toml_str;
+    use crate::load::load_toml_str;
 
     fn room(offset: f64) -> Scene {
         let text = format!(
@@ -98,8 +98,8 @@ mod tests {
     #[test]
     fn a_scene_near_the_origin_stays_as_it_is() {
         assert!(matches!(room(5.0).centered(), Cow::Borrowed(_)));
-        for name in crate::scene::builtin_names() {
-            assert_eq!(crate::scene::load(Some(name)).expect("built-in scenes load").center(), DVec3::ZERO, "{name}");
+        for name in crate::load::builtin_names() {
+            assert_eq!(crate::load::load(Some(name)).expect("built-in scenes load").center(), DVec3::ZERO, "{name}");
         }
     }
 

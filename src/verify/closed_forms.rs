@@ -10,12 +10,14 @@ use std::sync::Mutex;
 use serde::Serialize;
 
 use super::planted;
+use crate::compare::{Moments, one_sample_t_test_beyond, sidak};
 use crate::film::Band;
 use crate::gpu::{Device, GpuRenderer};
+use crate::load;
+use crate::load::SceneError;
 use crate::plan::{Fault, PlanOptions};
-use crate::render::{RenderError, RenderRequest, Renderer, Silent};
-use crate::scene::{self, Scene, SceneError};
-use crate::statistics::{Moments, one_sample_t_test_beyond, sidak};
+use crate::renderer::{RenderError, RenderRequest, Renderer, Silent};
+use crate::scene::Scene;
 
 /// Probability that the whole family fails a device that is right; the seeds are fixed, so one that passed goes on passing.
 const ALPHA: f64 = 1e-3;
@@ -117,7 +119,7 @@ pub fn check(index: usize, device: &Device, options: &PlanOptions) -> Result<Clo
 }
 
 fn load(case: &Case) -> Result<Scene, SceneError> {
-    scene::load_toml_str(case.text, case.name, Path::new(""))
+    load::load_toml_str(case.text, case.name, Path::new(""))
 }
 
 /// All pixels, and how many samples the film refused.

@@ -15,13 +15,13 @@ use std::sync::Mutex;
 
 use serde::Serialize;
 
+use crate::compare::image_tests::{ImageComparison, Picture, TileSettings, compare_paired};
 use crate::film::Band;
 use crate::gpu::{Device, GpuRenderer};
 use crate::plan::{Fault, PlanOptions};
 use crate::reference::ReferenceRenderer;
-use crate::render::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
+use crate::renderer::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
 use crate::scene::Scene;
-use crate::statistics::image_tests::{ImageComparison, Picture, TileSettings, compare_paired};
 
 /// A path matches where all channels of its radiance agree to this share of the largest. Single precision gives a normal on a
 /// curved mesh to some 1e-5, and a lobe of exponent 40 makes tens of times that of it.

@@ -12,7 +12,7 @@ use crate::plan::{Fault, PlanOptions};
 use crate::reference::ReferenceRenderer;
 use crate::reference::bsdf::Density;
 use crate::reference::trace::{FoundLight, PathTrace, PathVertex};
-use crate::render::RenderError;
+use crate::renderer::RenderError;
 use crate::scene::Scene;
 
 /// Quantities of a path part where they differ by more than this share of their size: rounding, which bounces off curved surfaces

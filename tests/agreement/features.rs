@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use gpt::load;
 use gpt::plan::{GeometryPlacement, PlanOptions, StageMode};
-use gpt::scene::{self, Scene};
+use gpt::scene::Scene;
 
 use super::assert_agrees;
 
@@ -17,7 +18,7 @@ fn folder_with_texture() -> tempfile::TempDir {
 }
 
 fn load(text: &str, folder: &tempfile::TempDir) -> Scene {
-    scene::load_toml_str(text, "features", folder.path()).unwrap_or_else(|error| panic!("{error}"))
+    load::load_toml_str(text, "features", folder.path()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 const HEAD: &str = r#"
@@ -187,7 +188,7 @@ fn a_textured_model_agrees() {
     );
     write("tent.mtl", "newmtl cloth\nKd 0.8 0.9 0.7\nmap_Kd texture.png\nnewmtl glow\nKd 0.2 0.2 0.2\nKe 1 0.7 0.3\n");
     let path: PathBuf = folder.path().join("tent.obj");
-    let mut scene = scene::load(path.to_str()).unwrap_or_else(|error| panic!("{error}"));
+    let mut scene = load::load(path.to_str()).unwrap_or_else(|error| panic!("{error}"));
     scene.film.size = [48, 36];
     scene.render.spp = 8;
     assert_agrees("textured model", &scene, &PlanOptions::default());

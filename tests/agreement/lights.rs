@@ -2,9 +2,10 @@
 
 use glam::Vec3;
 use gpt::gpu::GpuRenderer;
+use gpt::load;
 use gpt::plan::{GeometryPlacement, PlanOptions, StageMode};
 use gpt::reference::ReferenceRenderer;
-use gpt::scene::{self, Estimator, Geometry, Light, LightSampling, Mesh, Scene, Shape};
+use gpt::scene::{Estimator, Geometry, Light, LightSampling, Mesh, Scene, Shape};
 use gpt::verify::{self, Verdict};
 
 use super::{DEVICE, assert_agrees, compare};
@@ -171,7 +172,7 @@ fn load(parts: &[&str]) -> Scene {
     exr::prelude::write_rgb_file(folder.path().join("extreme.exr"), 13, 7, extreme).expect("the map is written");
     let dim = if parts.is_empty() { CONSTANT } else { "" };
     let text = [&[HEAD], parts, &[dim]].concat().concat();
-    scene::load_toml_str(&text, "lights", folder.path()).unwrap_or_else(|error| panic!("{error}"))
+    load::load_toml_str(&text, "lights", folder.path()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn by_wavefront() -> PlanOptions {
@@ -275,7 +276,7 @@ material = "grey"
 
 #[test]
 fn a_wide_panel_in_a_coordinate_plane_does_not_shade_itself() {
-    let scene = scene::load_toml_str(WIDE_PANEL, "wide panel", std::path::Path::new(".")).expect("the scene loads");
+    let scene = load::load_toml_str(WIDE_PANEL, "wide panel", std::path::Path::new(".")).expect("the scene loads");
     for geometry in [None, Some(GeometryPlacement::Hierarchy)] {
         let options = PlanOptions { geometry, ..PlanOptions::default() };
         let Some(verdict) = compare(&scene, &options) else { return };

@@ -11,8 +11,9 @@ mod motion;
 mod strategies;
 
 use device::DEVICE;
-use gpt::flat::hierarchy::HierarchyKind;
 use gpt::gpu::GpuRenderer;
+use gpt::load;
+use gpt::packed::hierarchy::HierarchyKind;
 use gpt::plan::{FilmStorage, GeometryPlacement, PlanOptions, StageMode};
 use gpt::reference::ReferenceRenderer;
 use gpt::scene::{self, Estimator, MisHeuristic, SamplerKind, Scene};
@@ -20,7 +21,7 @@ use gpt::verify::{self, Verdict};
 
 /// A built-in scene, small.
 fn small(name: &str, side: u32, spp: u32) -> Scene {
-    let mut scene = scene::load(Some(name)).expect("built-in scenes load");
+    let mut scene = load::load(Some(name)).expect("built-in scenes load");
     verify::shrink(&mut scene, side);
     scene.render.spp = spp;
     scene
@@ -47,7 +48,7 @@ fn assert_agrees(what: &str, scene: &Scene, options: &PlanOptions) {
 
 #[test]
 fn every_built_in_scene_agrees_path_by_path() {
-    for name in scene::builtin_names() {
+    for name in load::builtin_names() {
         assert_agrees(name, &small(name, 64, 16), &PlanOptions::default());
     }
 }

@@ -2,8 +2,9 @@
 
 use std::sync::LazyLock;
 
+use gpt::load;
 use gpt::plan::{GeometryPlacement, PlanOptions, StageMode};
-use gpt::scene::{self, BlendMode, Estimator, Scene};
+use gpt::scene::{BlendMode, Estimator, Scene};
 
 use super::{DEVICE, assert_agrees, compare};
 
@@ -100,7 +101,7 @@ fn stage(material: &str) -> Scene {
     let is_used = |name: &str| material.contains(&format!("\"{name}\""));
     let textures: String = TEXTURES.into_iter().filter(|(name, _)| is_used(name)).map(|(_, text)| text).collect();
     let text = format!("{STAGE}{textures}\n[[material]]\nname = \"m\"\n{material}\n");
-    scene::load_toml_str(&text, "stage.toml", BUMPS.path()).unwrap_or_else(|error| panic!("{error}\n{material}"))
+    load::load_toml_str(&text, "stage.toml", BUMPS.path()).unwrap_or_else(|error| panic!("{error}\n{material}"))
 }
 
 /// A folder with a picture of 8 × 8 normals, up to 35 degrees askew.

@@ -1,7 +1,8 @@
 //! Shapes that move while the shutter is open: the device's paths against the reference's.
 
+use gpt::load;
 use gpt::plan::{PlanOptions, StageMode};
-use gpt::scene::{self, Estimator, LightSampling, MotionStep, SamplerKind, Scene};
+use gpt::scene::{Estimator, LightSampling, MotionStep, SamplerKind, Scene};
 
 use super::assert_agrees;
 use super::strategies::compare_unequal;
@@ -129,7 +130,7 @@ const MOVING: &[(&str, &str)] = &[
 fn stage(shapes: &[&str]) -> Scene {
     let shapes: String = shapes.iter().map(|shape| format!("[[shape]]\n{shape}\n")).collect();
     let text = format!("{STAGE}{shapes}");
-    scene::load_toml_str(&text, "motion.toml", std::path::Path::new("")).unwrap_or_else(|error| panic!("{error}\n{text}"))
+    load::load_toml_str(&text, "motion.toml", std::path::Path::new("")).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
 fn mesh(material: &str) -> String {
@@ -174,8 +175,8 @@ fn a_moving_shape_of_pass_is_still() {
         "type = \"sphere\"\ncenter = [0, 1, 0]\nradius = 0.5\nmaterial = \"nothing\"\nmotion = [{ translate = [1, 0, 0] }]";
     let scene = stage(&[unseen]);
     assert!(scene.shapes.last().is_some_and(|shape| shape.motion.is_some()));
-    let flat = gpt::flat::FlatScene::new(&scene).expect("it can be packed");
-    assert!(!flat.moves());
+    let packed = gpt::packed::PackedScene::new(&scene).expect("it can be packed");
+    assert!(!packed.moves());
     assert_agrees("unseen", &scene, &ways()[0]);
 }
 

@@ -427,5 +427,5 @@ fn verify_without_a_scene_tries_closed_forms_and_every_built_in_scene() {
     let findings: Vec<Value> = serde_json::from_slice(&output.stdout).expect("it is JSON");
     let closed = findings.iter().filter(|finding| finding["closed_form"].is_string()).count();
     let scenes = findings.iter().filter(|finding| finding["scene"].is_string()).count();
-    assert_eq!((closed, scenes), (gpt::verify::closed_forms::count(), gpt::scene::builtin_names().count()));
+    assert_eq!((closed, scenes), (gpt::verify::closed_forms::count(), gpt::load::builtin_names().count()));
 }

@@ -13,13 +13,13 @@ mod scenes;
 use std::io;
 use std::sync::LazyLock;
 
+use gpt::compare::{Moments, one_sample_t_test_beyond, sidak};
 use gpt::film::Band;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::plan::{GeometryPlacement, PlanOptions, StageMode};
 use gpt::reference::ReferenceRenderer;
-use gpt::render::{DeviceChoice, RenderRequest, Renderer, Silent};
+use gpt::renderer::{DeviceChoice, RenderRequest, Renderer, Silent};
 use gpt::scene::Scene;
-use gpt::statistics::{Moments, one_sample_t_test_beyond, sidak};
 
 use cases::Case;
 

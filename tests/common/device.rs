@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use gpt::gpu::Device;
-use gpt::render::DeviceChoice;
+use gpt::renderer::DeviceChoice;
 
 /// Opened once a test program. None where tests are told to do without.
 pub static DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| match std::env::var("GPT_TEST_GPU").as_deref() {

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::plan::{Plan, PlanOptions};
-use gpt::render::{RenderRequest, Renderer, Silent};
+use gpt::renderer::{RenderRequest, Renderer, Silent};
 use gpt::scene::Scene;
 
 /// Means of all pixels as bits, and the plan.

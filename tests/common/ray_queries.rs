@@ -2,10 +2,10 @@
 
 use std::sync::LazyLock;
 
-use gpt::flat::hierarchy::HierarchyKind;
 use gpt::gpu::Device;
+use gpt::packed::hierarchy::HierarchyKind;
 use gpt::plan::{GeometryPlacement, PlanOptions};
-use gpt::render::{DeviceChoice, RenderError};
+use gpt::renderer::{DeviceChoice, RenderError};
 
 /// As `--traversal ray-query` has it.
 pub fn by_ray_queries() -> PlanOptions {

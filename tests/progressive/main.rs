@@ -10,10 +10,11 @@ use std::time::{Duration, Instant};
 use device::DEVICE;
 use gpt::film::Band;
 use gpt::gpu::GpuRenderer;
+use gpt::load;
 use gpt::plan::{FilmStorage, PlanOptions, StageMode};
-use gpt::progressive::{self, Goal, Outcome, Stop};
 use gpt::reference::ReferenceRenderer;
-use gpt::render::{Batch, RenderRequest, Renderer, Silent};
+use gpt::render::progressive::{self, Goal, Outcome, Stop};
+use gpt::renderer::{Batch, RenderRequest, Renderer, Silent};
 use gpt::scene::{self, SamplerKind, Scene};
 
 fn gpu(scene: &Scene, options: &PlanOptions) -> Option<Box<dyn Renderer>> {
@@ -31,7 +32,7 @@ fn renderers(scene: &Scene) -> Vec<Box<dyn Renderer>> {
 }
 
 fn cornell(size: [u32; 2]) -> Scene {
-    let mut scene = scene::load(Some("cornell")).expect("it is built in");
+    let mut scene = load::load(Some("cornell")).expect("it is built in");
     scene.film.size = size;
     scene
 }
@@ -179,7 +180,7 @@ fn rare_light() -> Scene {
                 [[material]]\nname = \"light\"\ntype = \"emissive\"\nradiance = 20\n\
                 [[shape]]\ntype = \"rectangle\"\ncorner = [-5, -5, 0]\nedge_u = [10, 0, 0]\nedge_v = [0, 10, 0]\nmaterial = \"grey\"\n\
                 [[shape]]\ntype = \"rectangle\"\ncorner = [-0.4, -0.4, 4]\nedge_u = [0, 0.8, 0]\nedge_v = [0.8, 0, 0]\nmaterial = \"light\"\n";
-    scene::load_toml_str(text, "rare light", Path::new(".")).expect("the scene is valid")
+    load::load_toml_str(text, "rare light", Path::new(".")).expect("the scene is valid")
 }
 
 /// The same means with next to no noise.

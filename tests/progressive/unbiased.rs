@@ -1,6 +1,6 @@
 //! Samples that follow the noise leave the mean where it is.
 
-use gpt::statistics::{Moments, TestResult, one_sample_t_test};
+use gpt::compare::{Moments, TestResult, one_sample_t_test};
 
 use super::*;
 

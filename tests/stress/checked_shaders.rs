@@ -1,17 +1,19 @@
 //! Kernels with naga's checks of indices and loops make the same pictures, bit for bit, as those without.
 
+use gpt::load;
+use gpt::load::load_toml_str;
 use gpt::plan::{GeometryPlacement, PlanOptions, StageMode};
-use gpt::scene::{self, Scene, load_toml_str};
+use gpt::scene::Scene;
 use gpt::verify;
 
 use super::random_scenes;
 use super::support::{Effort, Finding, render_band};
 
 pub fn findings(effort: Effort) -> Vec<Finding> {
-    let names: Vec<&str> = scene::builtin_names().collect();
+    let names: Vec<&str> = load::builtin_names().collect();
     let few = ["cornell", "motion-blur", "teapot-iridescent"];
     let built_in = names.into_iter().filter(|name| effort == Effort::Full || few.contains(name)).map(|name| {
-        let mut scene = scene::load(Some(name)).expect("built-in scenes load");
+        let mut scene = load::load(Some(name)).expect("built-in scenes load");
         verify::shrink(&mut scene, 32);
         scene.render.spp = 2;
         (name.to_owned(), scene)

@@ -3,11 +3,11 @@
 use std::fmt::Write as _;
 use std::sync::Arc;
 
+use crate::statistics::random::SplitMix64;
 use glam::{DVec3, Vec3};
-use gpt::flat::hierarchy::HierarchyKind;
+use gpt::packed::hierarchy::HierarchyKind;
 use gpt::plan::{GeometryPlacement, PlanOptions};
 use gpt::scene::{Geometry, Mesh, Scene, Shape, Transform};
-use gpt::statistics::random::SplitMix64;
 use gpt::verify::LEAST_MATCHING;
 
 use super::support::{Effort, Finding, judge, judge_with, render, render_with, scene};
@@ -47,8 +47,8 @@ pub fn findings(effort: Effort) -> Vec<Finding> {
             least,
         ));
     }
-    let flat = flat_boxes();
-    findings.extend(judge("boxes without thickness", &flat, &flat));
+    let packed = flat_boxes();
+    findings.extend(judge("boxes without thickness", &packed, &packed));
     findings
 }
 

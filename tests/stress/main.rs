@@ -12,6 +12,8 @@ mod random_scenes;
 mod range;
 mod scale;
 mod self_intersection;
+#[path = "../statistics/mod.rs"]
+mod statistics;
 mod support;
 
 use support::{Effort, assert_all};

@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
+use crate::statistics::random::SplitMix64;
+use gpt::load::load_toml_str;
 use gpt::plan::PlanOptions;
-use gpt::scene::{Scene, load_toml_str};
-use gpt::statistics::random::SplitMix64;
+use gpt::scene::Scene;
 
 use super::support::{Effort, Finding, compare_with, mean_difference};
 

@@ -8,10 +8,11 @@ mod ray_queries;
 pub use device::DEVICE;
 use gpt::film::Band;
 use gpt::gpu::GpuRenderer;
+use gpt::load::load_toml_str;
 use gpt::plan::PlanOptions;
 use gpt::reference::ReferenceRenderer;
-use gpt::render::{RenderReport, RenderRequest, Renderer, Silent};
-use gpt::scene::{SamplerKind, Scene, load_toml_str};
+use gpt::renderer::{RenderReport, RenderRequest, Renderer, Silent};
+use gpt::scene::{SamplerKind, Scene};
 use gpt::verify::{self, Verdict};
 use ray_queries::RAY_QUERY_DEVICE;
 

@@ -7,7 +7,8 @@ use gpt::bench::reference::Store;
 use gpt::bench::report::{convergence_csv, convergence_page, convergence_text};
 use gpt::bench::setting::Axes;
 use gpt::bench::subject::{BenchError, Devices};
-use gpt::scene::{self, Scene};
+use gpt::load;
+use gpt::scene::Scene;
 use gpt::verify;
 use serde::Serialize;
 
@@ -77,7 +78,7 @@ fn load(arguments: &ConvergenceArguments) -> Result<Vec<Scene>, Failure> {
 }
 
 fn load_one(name: &str, arguments: &ConvergenceArguments) -> Result<Scene, Failure> {
-    let mut scene = scene::load(Some(name))?;
+    let mut scene = load::load(Some(name))?;
     for warning in &scene.warnings {
         terminal::warn(warning);
     }

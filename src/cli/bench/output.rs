@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
 use gpt::output::{AtomicFile, OutputError};
-use gpt::render::Observer;
+use gpt::renderer::Observer;
 use serde::Serialize;
 
 use super::arguments::OutputArguments;

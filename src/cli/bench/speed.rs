@@ -5,8 +5,9 @@ use gpt::bench::machine::Machine;
 use gpt::bench::report::{speed_csv, speed_page, speed_text};
 use gpt::bench::speed::{SpeedOptions, SpeedTable, measure};
 use gpt::bench::subject::{BenchError, Devices};
+use gpt::load;
 use gpt::plan::StageMode;
-use gpt::scene::{self, Scene};
+use gpt::scene::Scene;
 use serde::Serialize;
 
 use super::arguments::{SpeedArguments, StagesName};
@@ -25,7 +26,7 @@ struct File<'a> {
 pub fn run(arguments: &SpeedArguments) -> Result<Exit, Failure> {
     let default = ["cornell", "spheres", "veach-mis"].map(str::to_owned);
     let names = if arguments.scenes.is_empty() { &default[..] } else { &arguments.scenes };
-    let scenes: Result<Vec<Scene>, Failure> = names.iter().map(|name| Ok(scene::load(Some(name))?)).collect();
+    let scenes: Result<Vec<Scene>, Failure> = names.iter().map(|name| Ok(load::load(Some(name))?)).collect();
     let scenes = scenes?;
     for warning in scenes.iter().flat_map(|scene| &scene.warnings) {
         terminal::warn(warning);

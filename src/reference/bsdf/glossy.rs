@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::mirror::reflect;
 use super::{BsdfSample, Density, Evaluation, View};
-use crate::reference::frame::Frame;
+use crate::math::Frame;
 use crate::reference::warp;
 
 /// f = ρ (n+2)/(2π) cosⁿα, α the angle with the mirror direction.

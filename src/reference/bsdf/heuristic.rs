@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use super::Lookup;
 use super::fresnel::{dielectric_reflectance, normal_incidence_reflectance, schlick_reflectance};
-use crate::reference::{lights::luminance, texture};
+use crate::math::luminance;
+use crate::reference::texture;
 use crate::scene::Heuristic;
 
 /// w0 in [0, 1] at one hit. Nested heuristics are evaluated from the inside out, as plain numbers.

@@ -28,9 +28,9 @@ pub use mixture::Bsdf;
 
 use glam::{DVec2, DVec3};
 
-use super::frame::Frame;
 use super::intersect::Surface;
 use super::texture;
+use crate::math::Frame;
 use crate::scene::{ColorInput, HemisphereSampling, Scene};
 
 /// How densely a direction was sampled.

@@ -1,5 +1,6 @@
 use super::*;
-use crate::statistics::{chi_squared_test, random::SplitMix64, sidak};
+use crate::compare::sidak;
+use crate::statistics::{chi_squared_test, random::SplitMix64};
 
 fn camera(projection: Projection, aperture: Option<Aperture>) -> ProjectiveCamera {
     let camera = Camera { position: DVec3::new(0.0, 0.0, 5.0), projection, aperture, focus_distance: 4.0, ..Camera::default() };

@@ -1,8 +1,9 @@
 use glam::Vec3;
 
 use super::*;
+use crate::compare::sidak;
+use crate::statistics::chi_squared_test;
 use crate::statistics::random::SplitMix64;
-use crate::statistics::{chi_squared_test, sidak};
 
 fn of_light(radiance: EnvironmentRadiance, rotation_degrees: f64) -> Environment {
     let light = Light::Environment(scene::Environment { radiance, rotation_degrees });

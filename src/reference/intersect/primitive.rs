@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use super::normal_map::Tangents;
 use super::triangle::Triangle;
 use super::{PreparedRay, Ray, SurfacePoint};
-use crate::reference::frame::Frame;
+use crate::math::Frame;
 
 /// Where on a primitive a point lies, in the primitive's own coordinates: along the two edges of a parallelogram, the weights of the
 /// second and third vertex of a triangle, unused elsewhere.

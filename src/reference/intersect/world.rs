@@ -8,8 +8,8 @@ use super::normal_map::{NormalMaps, Tangents};
 use super::pose::{self, Moment, Pose};
 use super::primitive::{Disk, Local, Parallelogram, Plane, Primitive, Sphere};
 use super::{Hierarchy, PreparedRay, Ray, SurfacePoint, Triangle};
-use crate::reference::frame::Frame;
-use crate::render::RenderError;
+use crate::math::Frame;
+use crate::renderer::RenderError;
 use crate::scene::{Geometry, MaterialId, MaterialKind, Mesh, Scene, Shape};
 
 /// Which of the world's surfaces.

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-use crate::reference::frame::Frame;
+use crate::math::Frame;
 use crate::reference::intersect::{Pose, PreparedRay, Primitive, Ray, Sphere, SurfacePoint};
 use crate::reference::warp;
 use crate::scene::LightSampling;

@@ -4,11 +4,12 @@ use glam::{DVec2, Vec3};
 
 use super::primitive::Direction;
 use super::*;
+use crate::compare::sidak;
 use crate::reference::intersect::Sphere;
 use crate::scene::{
     ColorInput, Emission, Environment, EnvironmentRadiance, Geometry, Material, MaterialKind, Mesh, Shape, Transform,
 };
-use crate::statistics::{SphereBins, density_by_differences, sidak, test_directional_sampler};
+use crate::statistics::{SphereBins, density_by_differences, test_directional_sampler};
 
 /// A scene whose shapes all emit grey radiance 2 from both sides, with a point light of intensity 3.
 fn glowing(shapes: Vec<Geometry>) -> (Scene, World) {

@@ -1,7 +1,7 @@
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::*;
-use crate::render::Silent;
+use crate::renderer::Silent;
 use crate::scene::{
     Camera, ColorInput, Emission, FilmSettings, Geometry, Heuristic, Light, Material, MaterialKind, Projection, Shape, Transform,
 };

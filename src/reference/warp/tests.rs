@@ -1,7 +1,8 @@
 //! Every map against its density: by χ² over the sphere, and by its Jacobian.
 
 use super::*;
-use crate::statistics::{SphereBins, sidak, test_directional_sampler, worst_jacobian_deviation};
+use crate::compare::sidak;
+use crate::statistics::{SphereBins, test_directional_sampler, worst_jacobian_deviation};
 
 struct Warp {
     name: String,

@@ -1,7 +1,8 @@
 //! The maps against the filters' formulas.
 
 use super::*;
-use crate::statistics::{chi_squared_test, random::SplitMix64, sidak};
+use crate::compare::sidak;
+use crate::statistics::{chi_squared_test, random::SplitMix64};
 
 const KINDS: [FilterKind; 4] = [FilterKind::Box, FilterKind::Tent, FilterKind::Gaussian, FilterKind::BlackmanHarris];
 const BINS: usize = 64;

@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 
 use super::*;
-use crate::statistics::{DirectionalReport, SphereBins, density_by_differences, sidak, test_directional_sampler};
+use crate::compare::sidak;
+use crate::statistics::{DirectionalReport, SphereBins, density_by_differences, test_directional_sampler};
 
 const TILTED: &str = "tilted";
 /// From in front, at grazing angles, from behind.

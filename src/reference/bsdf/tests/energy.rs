@@ -1,7 +1,7 @@
 //! How much of the light comes back, and whether light could go the other way.
 
 use super::*;
-use crate::statistics::{Moments, TestResult, one_sample_t_test_beyond, sidak, welch_t_test};
+use crate::compare::{Moments, TestResult, one_sample_t_test_beyond, sidak, welch_t_test};
 
 /// Independent estimates of the radiance that a uniform environment of 1 leaves towards wo.
 fn reflected_radiance(bsdf: &Bsdf, seed: u64) -> [Moments; 3] {

@@ -1,0 +1,162 @@
+//! TOML text as a tree that remembers where everything is written, and serde's complaints turned into scene errors.
+
+use std::ops::Range;
+
+use serde::Deserialize;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::syntax::SceneFile;
+use super::wording;
+use crate::load::SceneError;
+
+/// A scene file's text.
+#[derive(Clone, Copy)]
+pub struct Document<'a> {
+    /// How errors call the file.
+    pub name: &'a str,
+    pub text: &'a str,
+}
+
+impl<'a> Document<'a> {
+    /// Reads the text into the file's types.
+    pub fn read(self) -> Result<SceneFile, SceneError> {
+        let mut root = self.parse()?;
+        self.name_variants(root.get_mut())?;
+        SceneFile::deserialize(toml::Deserializer::from(root)).map_err(|error| self.translate(&error))
+    }
+
+    /// An error about the value written at `span`.
+    pub fn error(self, span: Range<usize>, message: impl Into<String>) -> SceneError {
+        let key = self.key_at(&span);
+        SceneError::in_text(self.name, self.text, span, message).with_key(key)
+    }
+
+    fn parse(self) -> Result<Spanned<DeTable<'a>>, SceneError> {
+        DeTable::parse(self.text).map_err(|error| self.translate(&error))
+    }
+
+    fn translate(self, error: &toml::de::Error) -> SceneError {
+        let span = error.span().unwrap_or(0..self.text.len().min(1));
+        let (mut message, help) = wording::in_plain_words(error.message());
+        if message == "duplicate key" {
+            // A text that does not parse has no tree to find the key in.
+            message = format!("duplicate key `{}`", self.text.get(span.clone()).unwrap_or_default());
+        }
+        let located = self.error(span, message);
+        match help {
+            Some(help) => located.with_help(help),
+            None => located,
+        }
+    }
+
+    /// Rewrites every table whose shape depends on a key, `{ type = "mirror", … }`, to `{ mirror = { … } }`.
+    fn name_variants(self, root: &mut DeTable<'a>) -> Result<(), SceneError> {
+        for list in ["texture", "material", "shape", "light"] {
+            let Some(entries) = root.get_mut(list) else { continue };
+            let DeValue::Array(entries) = entries.get_mut() else { continue };
+            for entry in entries.iter_mut() {
+                if let DeValue::Table(table) = entry.get_mut()
+                    && let Some(weight) = table.get_mut("weight")
+                {
+                    self.name_heuristic(weight)?;
+                }
+                self.name_variant(entry, "type")?;
+            }
+        }
+        for (table, key, tag) in [("film", "filter", "type"), ("camera", "aperture", "shape")] {
+            let Some(table) = root.get_mut(table) else { continue };
+            let DeValue::Table(table) = table.get_mut() else { continue };
+            if let Some(value) = table.get_mut(key) {
+                self.name_variant(value, tag)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Heuristics nest by the key `of`; the parser bounds how deep.
+    fn name_heuristic(self, weight: &mut Spanned<DeValue<'a>>) -> Result<(), SceneError> {
+        if let DeValue::Table(table) = weight.get_mut()
+            && let Some(inner) = table.get_mut("of")
+        {
+            self.name_heuristic(inner)?;
+        }
+        self.name_variant(weight, "type")
+    }
+
+    fn name_variant(self, entry: &mut Spanned<DeValue<'a>>, tag: &str) -> Result<(), SceneError> {
+        let span = entry.span();
+        let DeValue::Table(table) = entry.get_mut() else {
+            let found = entry.get_ref().type_str();
+            return Err(self.error(span, format!("expected a table with the key `{tag}`, found {found}")));
+        };
+        // A missing tag becomes a name that is no choice, so that serde's complaint lists the choices.
+        let name = match table.remove(tag) {
+            None => Spanned::new(span.clone(), format!("{}{tag}", wording::MISSING).into()),
+            Some(value) => {
+                let at = value.span();
+                match value.into_inner() {
+                    DeValue::String(name) => Spanned::new(at, name),
+                    other => return Err(self.error(at, format!("expected a name in quotes, found {}", other.type_str()))),
+                }
+            }
+        };
+        let keys = Spanned::new(span, DeValue::Table(std::mem::take(table)));
+        table.insert(name, keys);
+        Ok(())
+    }
+
+    /// The dotted path of the innermost key or value around `span`; empty at the top.
+    fn key_at(self, span: &Range<usize>) -> String {
+        let Ok(root) = DeTable::parse(self.text) else { return String::new() };
+        let mut innermost = Innermost { wanted: span, path: String::new(), width: usize::MAX };
+        innermost.search_table(root.get_ref(), "");
+        innermost.path
+    }
+}
+
+/// Looks for the narrowest key or value that contains a span.
+struct Innermost<'s> {
+    wanted: &'s Range<usize>,
+    path: String,
+    width: usize,
+}
+
+impl Innermost<'_> {
+    fn search_table(&mut self, table: &DeTable, path: &str) {
+        for (key, value) in table {
+            let dot = if path.is_empty() { "" } else { "." };
+            let path = format!("{path}{dot}{}", key.get_ref());
+            self.consider(&key.span(), &path);
+            self.search_value(value, &path);
+        }
+    }
+
+    fn search_value(&mut self, value: &Spanned<DeValue>, path: &str) {
+        self.consider(&value.span(), path);
+        match value.get_ref() {
+            DeValue::Table(table) => self.search_table(table, path),
+            DeValue::Array(items) => {
+                for (index, item) in items.iter().enumerate() {
+                    // Numbers of long arrays are not named one by one: only what can contain the span is looked at.
+                    if matches!(item.get_ref(), DeValue::Table(_)) || contains(&item.span(), self.wanted) {
+                        self.search_value(item, &format!("{path}[{index}]"));
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn consider(&mut self, span: &Range<usize>, path: &str) {
+        let width = span.end - span.start;
+        if contains(span, self.wanted) && width <= self.width {
+            self.width = width;
+            self.path = path.to_owned();
+        }
+    }
+}
+
+fn contains(outer: &Range<usize>, inner: &Range<usize>) -> bool {
+    outer.start <= inner.start && inner.end <= outer.end
+}

@@ -1,0 +1,54 @@
+//! Scene files: from TOML text to a [`Scene`].
+//!
+//! [`document`] reads the text into the types of [`syntax`], which know every key and range; [`resolve`] looks up names and reads the
+//! files that are named. Each complains about the place where the mistake is written.
+
+mod document;
+mod resolve;
+mod syntax;
+mod value;
+mod wording;
+
+use std::path::Path;
+
+use document::Document;
+pub(super) use wording::did_you_mean;
+
+use crate::load::error::SceneError;
+use crate::scene::Scene;
+
+/// Reads a scene from TOML text. `name` is what errors call it and what the scene's name is taken from; paths in the text are
+/// relative to `folder`.
+pub fn load_toml_str(text: &str, name: &str, folder: &Path) -> Result<Scene, SceneError> {
+    let document = Document { name, text };
+    let file = document.read()?;
+    let mut scene = resolve::resolve(document, folder, file)?;
+    scene.name = stem(name);
+    if !scene.has_light() {
+        let message = "nothing in the scene gives light, so the picture would be black";
+        return Err(
+            SceneError::in_file(name, message).with_help("add a [[light]], or a material of type \"emissive\" that a shape uses")
+        );
+    }
+    Ok(scene)
+}
+
+/// Reads a model file alone: its meshes with its own materials, in a scene without a camera of its own and without lights.
+pub(super) fn load_model(path: &Path) -> Result<Scene, SceneError> {
+    resolve::resolve_model(path)
+}
+
+/// The JSON Schema (2020-12) of scene files, as text that ends in a newline. Editors complete and check scene files with it.
+pub fn json_schema() -> String {
+    let schema = schemars::schema_for!(syntax::SceneFile);
+    // A schema is a tree of strings, numbers and lists: it can always be written.
+    let mut text = serde_json::to_string_pretty(&schema).unwrap_or_default();
+    text.push('\n');
+    text
+}
+
+/// A file's name without folder and ending.
+pub(super) fn stem(name: &str) -> String {
+    let path = std::path::Path::new(name);
+    path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned())
+}

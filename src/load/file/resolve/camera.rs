@@ -1,0 +1,86 @@
+//! `[camera]`
+
+use glam::DVec3;
+
+use super::Resolver;
+use crate::load::SceneError;
+use crate::load::file::syntax::{ApertureEntry, CameraTable, ProjectionName};
+use crate::load::file::value::vector;
+use crate::scene::{Aperture, ApertureShape, Camera, Projection};
+
+impl Resolver<'_> {
+    pub(super) fn camera(&mut self, written: &CameraTable) -> Result<(), SceneError> {
+        let position = vector(written.position);
+        let look_at = vector(written.look_at.value);
+        let up = written.up.as_ref().map_or(DVec3::Y, |up| vector(up.value));
+        let Some(forward) = (look_at - position).try_normalize() else {
+            return Err(self.error(&written.look_at.span, "the camera looks at the point it stands at"));
+        };
+        if up.try_normalize().is_none_or(|up| up.cross(forward).length() < 1e-6) {
+            let span = written.up.as_ref().map_or(&written.look_at.span, |up| &up.span);
+            let message = "`up` is zero or lies along the viewing direction, so which way is up is not known";
+            return Err(self.error(span, message).with_help("choose an `up` that is not parallel to look_at - position"));
+        }
+        let aperture = self.aperture(written)?;
+        let shutter = written.shutter.as_ref().map_or([0.0, 1.0], |shutter| shutter.value.map(|time| time.0));
+        if let Some(written) = &written.shutter
+            && shutter[0] > shutter[1]
+        {
+            return Err(self.error(&written.span, "the shutter closes before it opens"));
+        }
+        self.scene.camera = Camera {
+            position,
+            look_at,
+            up,
+            projection: self.projection(written)?,
+            aperture,
+            focus_distance: written.focus_distance.map_or((look_at - position).length(), |distance| distance.0),
+            shutter,
+        };
+        Ok(())
+    }
+
+    fn projection(&self, written: &CameraTable) -> Result<Projection, SceneError> {
+        let name = written.projection.as_ref().map_or(ProjectionName::Perspective, |name| name.value);
+        let missing = |key: &str| self.error(&written.look_at.span, format!("the camera needs the key `{key}`"));
+        match name {
+            ProjectionName::Perspective => {
+                if let Some(height) = &written.height {
+                    return Err(self.error(&height.span, "`height` belongs to projection = \"orthographic\""));
+                }
+                let vfov = written.vfov.as_ref().ok_or_else(|| missing("vfov"))?;
+                Ok(Projection::Perspective { vertical_fov_degrees: vfov.value.0 })
+            }
+            ProjectionName::Orthographic => {
+                if let Some(vfov) = &written.vfov {
+                    return Err(self.error(&vfov.span, "`vfov` belongs to projection = \"perspective\""));
+                }
+                let height = written.height.as_ref().ok_or_else(|| missing("height"))?;
+                Ok(Projection::Orthographic { height: height.value.0 })
+            }
+        }
+    }
+
+    /// None for a pinhole: no aperture, or one of radius 0.
+    fn aperture(&self, written: &CameraTable) -> Result<Option<Aperture>, SceneError> {
+        let Some(aperture) = &written.aperture else { return Ok(None) };
+        if written.focus_distance.is_none() {
+            return Err(self.error(&aperture.span, "an aperture needs the key `focus_distance`"));
+        }
+        let (shape, radius) = match &aperture.value {
+            ApertureEntry::Disk(disk) => (ApertureShape::Disk, disk.radius),
+            ApertureEntry::Square(square) => (ApertureShape::Square, square.radius),
+            ApertureEntry::Polygon(polygon) => {
+                let blades = polygon.blades.as_ref().map_or(6, |blades| blades.value);
+                if let Some(written) = &polygon.blades
+                    && !(3..=64).contains(&blades)
+                {
+                    return Err(self.error(&written.span, "an aperture has 3 to 64 blades"));
+                }
+                let rotation_degrees = polygon.rotation.map_or(0.0, |rotation| rotation.0);
+                (ApertureShape::Polygon { blades, rotation_degrees }, polygon.radius)
+            }
+        };
+        Ok((radius.0 > 0.0).then_some(Aperture { shape, radius: radius.0 }))
+    }
+}

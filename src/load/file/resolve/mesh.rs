@@ -1,0 +1,214 @@
+//! `type = "mesh"`: triangles from an OBJ file or written in the scene file.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use glam::{Vec2, Vec3};
+
+use super::Resolver;
+use crate::load::SceneError;
+use crate::load::builtin;
+use crate::load::error::show;
+use crate::load::file::syntax::{MeshShape, ShapeEntry};
+use crate::load::file::value::{Located, vector};
+use crate::load::obj::{self, ObjFile, Part};
+use crate::scene::ColorInput;
+use crate::scene::{Material, MaterialId, MaterialKind, Mesh};
+
+/// What decides how a mesh file is read: the file, `smooth`, and the material that wins over the file's own.
+pub type MeshFileKey = (PathBuf, Option<bool>, Option<MaterialId>);
+
+/// A mesh and its material, or that of its first face where faces have their own.
+#[derive(Clone)]
+pub struct LoadedMesh {
+    pub mesh: Arc<Mesh>,
+    pub material: MaterialId,
+}
+
+/// Reflectance of faces without a material.
+const DEFAULT_REFLECTANCE: f64 = 0.8;
+
+impl Resolver<'_> {
+    pub(super) fn mesh(
+        &mut self,
+        entry: &Located<ShapeEntry>,
+        written: &MeshShape,
+        material: Option<MaterialId>,
+    ) -> Result<LoadedMesh, SceneError> {
+        let Some(file) = &written.file else {
+            let Some(material) = material else {
+                return Err(self.error(&entry.span, "the key `material` is missing: only a mesh file can have its own"));
+            };
+            let mesh = Arc::new(self.inline_mesh(entry, written)?);
+            return Ok(LoadedMesh { mesh, material });
+        };
+        let given = [
+            ("positions", written.positions.is_some()),
+            ("faces", written.faces.is_some()),
+            ("uvs", written.uvs.is_some()),
+            ("normals", written.normals.is_some()),
+        ];
+        if let Some((key, _)) = given.iter().find(|(_, given)| *given) {
+            return Err(self.error(&file.span, format!("a mesh has either `file` or `{key}`")));
+        }
+        let path = self.path(&file.value);
+        if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj")) {
+            return Err(self.error(&file.span, "a mesh file is an OBJ file: its name ends in .obj"));
+        }
+        if !builtin::is_file(&path) {
+            return Err(self.error(&file.span, format!("there is no file {}", show(&path))));
+        }
+        self.mesh_file(&path, written.smooth, material)
+    }
+
+    /// Reads an OBJ file, once for all shapes that use it alike.
+    pub(super) fn mesh_file(
+        &mut self,
+        path: &Path,
+        smooth: Option<bool>,
+        material: Option<MaterialId>,
+    ) -> Result<LoadedMesh, SceneError> {
+        let key = (path.to_owned(), smooth, material);
+        if let Some(loaded) = self.mesh_files.get(&key) {
+            return Ok(loaded.clone());
+        }
+        let mut file = obj::load(path, material.is_none())?;
+        self.scene.warnings.append(&mut file.warnings);
+        let loaded = match material {
+            Some(material) => LoadedMesh { mesh: Arc::new(merge(file, smooth)), material },
+            None => self.with_own_materials(path, file, smooth)?,
+        };
+        self.mesh_files.insert(key, loaded.clone());
+        Ok(loaded)
+    }
+
+    fn with_own_materials(&mut self, path: &Path, mut file: ObjFile, smooth: Option<bool>) -> Result<LoadedMesh, SceneError> {
+        let mut used: Vec<Option<MaterialId>> = vec![None; file.materials.len()];
+        let any_uvs = file.parts.iter().any(|part| !part.mesh.uvs.is_empty());
+        for Part { mesh, material } in &mut file.parts {
+            let id = match *material {
+                Some(index) => match used[index] {
+                    Some(id) => id,
+                    None => *used[index].insert(self.mtl_material(&file.materials[index])?),
+                },
+                None => self.material_of_unnamed_faces(),
+            };
+            if any_uvs && mesh.uvs.is_empty() && self.scene.uses_texture(id) {
+                let name = &self.scene.materials[id].name;
+                let message = format!("faces of the material `{name}` have a texture and no uv coordinates");
+                return Err(SceneError::in_file(show(path), message));
+            }
+            mesh.uvs.resize(if any_uvs { mesh.positions.len() } else { 0 }, Vec2::ZERO);
+            mesh.face_materials = vec![id; mesh.faces.len()];
+        }
+        let mut mesh = merge(file, smooth);
+        let material = mesh.face_materials[0];
+        if mesh.face_materials.iter().all(|&other| other == material) {
+            mesh.face_materials.clear();
+        }
+        Ok(LoadedMesh { mesh: Arc::new(mesh), material })
+    }
+
+    /// A grey that every mesh file's faces without a material share.
+    fn material_of_unnamed_faces(&mut self) -> MaterialId {
+        if let Some(id) = self.unnamed_material {
+            return id;
+        }
+        let id = self.scene.materials.len();
+        self.scene.materials.push(Material {
+            name: "(faces without a material)".to_owned(),
+            kind: MaterialKind::Diffuse { reflectance: ColorInput::grey(DEFAULT_REFLECTANCE) },
+            normal_map: None,
+            emission: None,
+        });
+        *self.unnamed_material.insert(id)
+    }
+
+    fn inline_mesh(&mut self, entry: &Located<ShapeEntry>, written: &MeshShape) -> Result<Mesh, SceneError> {
+        let (Some(positions), Some(faces)) = (&written.positions, &written.faces) else {
+            return Err(self.error(&entry.span, "a mesh needs the key `file`, or both `positions` and `faces`"));
+        };
+        let count = positions.len();
+        for face in faces {
+            if let Some(index) = face.value.iter().find(|&&index| index as usize >= count) {
+                let message = format!("the face uses position {index}, but there are only {count} (counted from 0)");
+                return Err(self.error(&face.span, message));
+            }
+        }
+        let lengths = [
+            ("uvs", written.uvs.as_ref().map(|uvs| (uvs.value.len(), &uvs.span))),
+            ("normals", written.normals.as_ref().map(|normals| (normals.value.len(), &normals.span))),
+        ];
+        for (key, given) in lengths {
+            if let Some((length, span)) = given
+                && length != count
+            {
+                return Err(self.error(span, format!("there are {length} `{key}` for {count} positions")));
+            }
+        }
+        let mut mesh = Mesh {
+            positions: positions.iter().map(|position| vector(position.value).as_vec3()).collect(),
+            faces: faces.iter().map(|face| face.value).collect(),
+            ..Mesh::default()
+        };
+        if let Some(uvs) = &written.uvs {
+            mesh.uvs = uvs.value.iter().map(|uv| Vec2::new(uv[0].0 as f32, uv[1].0 as f32)).collect();
+        }
+        if let Some(normals) = &written.normals {
+            let unit = |normal| self.direction(normal).map(|normal| normal.as_vec3());
+            mesh.normals = normals.value.iter().map(unit).collect::<Result<_, _>>()?;
+        }
+        let dropped = mesh.drop_degenerate_faces();
+        if mesh.faces.is_empty() {
+            return Err(self.error(&entry.span, "the mesh has no faces with an area"));
+        }
+        if dropped > 0 {
+            let key = self.document.error(entry.span.clone(), "").key().unwrap_or("mesh").to_owned();
+            let warning = format!("{}: {key}: {dropped} triangles without area were left out", self.document.name);
+            self.scene.warnings.push(warning);
+        }
+        choose_normals(&mut mesh, written.smooth);
+        Ok(mesh)
+    }
+}
+
+/// All parts as one mesh. Normals are kept, made or left out as `smooth` asks; without a wish, a file with normals is smooth.
+fn merge(mut file: ObjFile, smooth: Option<bool>) -> Mesh {
+    let has_normals = |part: &Part| !part.mesh.normals.is_empty();
+    let some = file.parts.iter().any(has_normals);
+    let all = file.parts.iter().all(has_normals);
+    if !file.parts.iter().all(|part| !part.mesh.uvs.is_empty()) {
+        file.parts.iter_mut().for_each(|part| part.mesh.uvs.clear());
+    }
+    if some && !all {
+        for part in file.parts.iter_mut().filter(|part| part.mesh.normals.is_empty()) {
+            if smooth == Some(true) { part.mesh.compute_smooth_normals() } else { part.mesh.compute_flat_normals() }
+        }
+    }
+    let mut mesh = Mesh::default();
+    for part in file.parts {
+        mesh.append(part.mesh);
+    }
+    choose_normals(&mut mesh, smooth);
+    mesh
+}
+
+fn choose_normals(mesh: &mut Mesh, smooth: Option<bool>) {
+    mesh.smooth = smooth.unwrap_or(!mesh.normals.is_empty());
+    if !mesh.smooth {
+        mesh.normals.clear();
+        return;
+    }
+    let has_length = |normal: &Vec3| normal.length_squared() > 1e-20;
+    if mesh.normals.iter().all(has_length) && !mesh.normals.is_empty() {
+        return;
+    }
+    // Normals of length 0 say nothing; the computed ones stand in for them.
+    let written = std::mem::take(&mut mesh.normals);
+    mesh.compute_smooth_normals();
+    for (normal, written) in mesh.normals.iter_mut().zip(written) {
+        if has_length(&written) {
+            *normal = written;
+        }
+    }
+}

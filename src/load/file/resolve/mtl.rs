@@ -1,0 +1,218 @@
+//! MTL materials as materials of the scene.
+//!
+//! | MTL | here |
+//! | --- | --- |
+//! | `illum` 4, 6, 7, or `d` < 1 with `Ni` ≠ 1 | glass of index `Ni`, transmittance `Tf` |
+//! | `illum` 3, 5, or black `Kd` with white `Ks` and `Ns` ≥ 1000 | mirror of reflectance `Ks` |
+//! | `d` = 0 | pass |
+//! | 0 < `d` < 1 | blend of the rest and pass |
+//! | `illum` ≥ 2 and `Ks` above 0 | phong: `Kd` times `map_Kd`, `Ks`, exponent `Ns` |
+//! | else | diffuse `Kd` times `map_Kd` |
+//! | `Ke` | emission, from the front |
+
+use std::path::Path;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::Resolver;
+use crate::load::SceneError;
+use crate::load::error::show;
+use crate::load::image_file::read_image;
+use crate::load::obj::{MtlMaterial, TextureMap};
+use crate::scene::{
+    ColorInput, Emission, Heuristic, ImageTexture, Material, MaterialId, MaterialKind, Texture, TextureFilter, TextureId,
+    TextureKind, TextureWrap,
+};
+
+impl Resolver<'_> {
+    /// Adds the material to the scene.
+    pub(super) fn mtl_material(&mut self, written: &MtlMaterial) -> Result<MaterialId, SceneError> {
+        let opacity = self.opacity(written)?;
+        let kind = self.mtl_kind(written, opacity)?;
+        let emission = self.mtl_emission(written)?;
+        let see_through = matches!(kind, MaterialKind::Glass { .. } | MaterialKind::Pass);
+        let material = Material { name: written.material.name.clone(), kind, normal_map: None, emission };
+        let id = self.add(material);
+        if opacity >= 1.0 || see_through {
+            return Ok(id);
+        }
+        let name = &written.material.name;
+        let pass = self.add(Material {
+            name: format!("{name} (what is behind)"),
+            kind: MaterialKind::Pass,
+            normal_map: None,
+            emission: None,
+        });
+        let weight = Heuristic::Constant { value: opacity };
+        Ok(self.add(Material {
+            name: format!("{name} (d = {opacity})"),
+            kind: MaterialKind::Blend { materials: [id, pass], weight },
+            normal_map: None,
+            emission: None,
+        }))
+    }
+
+    fn add(&mut self, material: Material) -> MaterialId {
+        self.scene.materials.push(material);
+        self.scene.materials.len() - 1
+    }
+
+    fn mtl_kind(&mut self, written: &MtlMaterial, opacity: f64) -> Result<MaterialKind, SceneError> {
+        let material = &written.material;
+        let specular = colour(material.specular).unwrap_or(DVec3::ZERO);
+        let illumination = material.illumination_model.unwrap_or(2);
+        let ior = f64::from(material.optical_density.unwrap_or(1.0));
+        if matches!(illumination, 4 | 6 | 7) || (opacity > 0.0 && opacity < 1.0 && (ior - 1.0).abs() > 1e-3) {
+            return self.mtl_glass(written, ior);
+        }
+        if opacity == 0.0 {
+            return Ok(MaterialKind::Pass);
+        }
+        let polished = colour(material.diffuse) == Some(DVec3::ZERO)
+            && specular.min_element() > 0.9
+            && material.shininess.is_some_and(|exponent| exponent >= 1000.0);
+        if matches!(illumination, 3 | 5) || polished {
+            let tint = if specular.max_element() > 0.0 { specular } else { DVec3::ONE };
+            return Ok(MaterialKind::Mirror { reflectance: ColorInput::Constant(self.at_most_one(written, "Ks", tint)) });
+        }
+        if specular.max_element() > 0.0 && illumination >= 2 {
+            return self.mtl_phong(written, specular);
+        }
+        Ok(MaterialKind::Diffuse { reflectance: self.mtl_diffuse(written)? })
+    }
+
+    /// Kd, Ks and Ns as they are; Kd gives way where both together would make energy.
+    fn mtl_phong(&mut self, written: &MtlMaterial, specular: DVec3) -> Result<MaterialKind, SceneError> {
+        let specular = self.at_most_one(written, "Ks", specular);
+        let diffuse = self.mtl_diffuse(written)?;
+        let brightest_texel = |texture: TextureId| self.scene.textures[texture].kind.range().1;
+        let brightest = match diffuse {
+            ColorInput::Constant(colour) => colour,
+            ColorInput::Texture(texture) => DVec3::splat(brightest_texel(texture)),
+            ColorInput::ScaledTexture(texture, factor) => factor * brightest_texel(texture),
+            // MTL has none.
+            ColorInput::SquaredTexture(texture) => DVec3::splat(brightest_texel(texture)),
+        };
+        // f32 texels of 1 come out as 1 + 6e-8 at most.
+        let fits = (brightest + specular).max_element() <= 1.0 + 1e-6;
+        let room = ((DVec3::ONE - specular) / brightest.max(DVec3::splat(1e-30))).min(DVec3::ONE);
+        if !fits {
+            let name = &written.material.name;
+            self.warn(written, &format!("Kd + Ks of the material `{name}` is above 1: Kd is reduced to 1 - Ks"));
+        }
+        let diffuse = match diffuse {
+            _ if fits => diffuse,
+            ColorInput::SquaredTexture(_) => diffuse,
+            ColorInput::Constant(colour) => ColorInput::Constant(colour * room),
+            ColorInput::Texture(texture) => ColorInput::ScaledTexture(texture, room),
+            ColorInput::ScaledTexture(texture, factor) => ColorInput::ScaledTexture(texture, factor * room),
+        };
+        let exponent = f64::from(written.material.shininess.unwrap_or(0.0)).max(0.0);
+        Ok(MaterialKind::Phong { diffuse, specular: ColorInput::Constant(specular), exponent: ColorInput::grey(exponent) })
+    }
+
+    fn mtl_glass(&mut self, written: &MtlMaterial, ior: f64) -> Result<MaterialKind, SceneError> {
+        let name = &written.material.name;
+        if !(0.1..=10.0).contains(&ior) {
+            let message = format!("the material `{name}` has the index of refraction Ni = {ior}, possible are 0.1 to 10");
+            return Err(SceneError::in_file(show(&written.file), message));
+        }
+        let filter = written.material.unknown_param.get("Tf").and_then(|text| {
+            let values: Vec<f64> = text.split_whitespace().map_while(|word| word.parse().ok()).collect();
+            <[f64; 3]>::try_from(values).ok().map(DVec3::from_array)
+        });
+        let transmittance = filter.map_or(DVec3::ONE, |filter| self.at_most_one(written, "Tf", filter));
+        Ok(MaterialKind::Glass { ior, reflectance: ColorInput::grey(1.0), transmittance: ColorInput::Constant(transmittance) })
+    }
+
+    fn mtl_diffuse(&mut self, written: &MtlMaterial) -> Result<ColorInput, SceneError> {
+        let tint = colour(written.material.diffuse);
+        let tint = tint.map(|tint| self.at_most_one(written, "Kd", tint));
+        match written.material.diffuse_texture.clone() {
+            Some(map) => self.mtl_texture(written, &map, tint),
+            None => Ok(tint.map_or(ColorInput::grey(0.8), ColorInput::Constant)),
+        }
+    }
+
+    fn mtl_emission(&mut self, written: &MtlMaterial) -> Result<Option<Emission>, SceneError> {
+        let factor = colour(written.material.emissive);
+        let radiance = match (written.material.unknown_param.get("map_Ke").cloned(), factor) {
+            (_, Some(factor)) if factor.max_element() == 0.0 => return Ok(None),
+            (Some(map), factor) => self.mtl_texture(written, &map, factor)?,
+            (None, Some(factor)) => ColorInput::Constant(factor),
+            (None, None) => return Ok(None),
+        };
+        Ok(Some(Emission { radiance, two_sided: false }))
+    }
+
+    fn mtl_texture(&mut self, written: &MtlMaterial, map: &str, tint: Option<DVec3>) -> Result<ColorInput, SceneError> {
+        let of_material = |message: String| {
+            SceneError::in_file(show(&written.file), format!("the material `{}`: {message}", written.material.name))
+        };
+        let folder = written.file.parent().unwrap_or(Path::new(""));
+        let map = TextureMap::parse(map, folder).map_err(of_material)?;
+        let key = (map.file.clone(), None);
+        let image = match self.images.get(&key) {
+            Some(image) => image.clone(),
+            None => {
+                let read = read_image(&map.file, None).map_err(|reason| of_material(format!("{}: {reason}", show(&map.file))))?;
+                self.images.entry(key).or_insert(Arc::new(read)).clone()
+            }
+        };
+        if !map.unsupported.is_empty() {
+            let options = map.unsupported.join(", ");
+            self.warn(written, &format!("texture options without effect: {options}"));
+        }
+        let texture = self.scene.textures.len();
+        self.scene.textures.push(Texture {
+            name: show(&map.file),
+            kind: TextureKind::Image(ImageTexture {
+                image,
+                wrap: if map.clamp { TextureWrap::Clamp } else { TextureWrap::Repeat },
+                filter: TextureFilter::Bilinear,
+                scale: map.scale,
+                offset: map.offset,
+            }),
+        });
+        self.linear_textures.push(false);
+        Ok(match tint {
+            Some(tint) if tint != DVec3::ONE => ColorInput::ScaledTexture(texture, tint),
+            _ => ColorInput::Texture(texture),
+        })
+    }
+
+    /// `d`, or 1 − `Tr`; 1 where neither is written.
+    fn opacity(&self, written: &MtlMaterial) -> Result<f64, SceneError> {
+        let transparency = written.material.unknown_param.get("Tr").and_then(|text| text.parse::<f64>().ok());
+        let opacity = written.material.dissolve.map(f64::from).or(transparency.map(|transparency| 1.0 - transparency));
+        let opacity = opacity.unwrap_or(1.0);
+        if (0.0..=1.0).contains(&opacity) {
+            return Ok(opacity);
+        }
+        let name = &written.material.name;
+        Err(SceneError::in_file(show(&written.file), format!("the material `{name}` has d or Tr outside 0 to 1")))
+    }
+
+    /// A reflectance above 1 would make energy.
+    fn at_most_one(&mut self, written: &MtlMaterial, key: &str, colour: DVec3) -> DVec3 {
+        if colour.max_element() > 1.0 {
+            self.warn(written, &format!("{key} of the material `{}` is above 1 and taken as 1", written.material.name));
+        }
+        colour.min(DVec3::ONE)
+    }
+
+    fn warn(&mut self, written: &MtlMaterial, what: &str) {
+        self.scene.warnings.push(format!("{}: {what}", show(&written.file)));
+    }
+}
+
+/// As single precision wrote it: 0.8 stays 0.8.
+fn colour(written: Option<[f32; 3]>) -> Option<DVec3> {
+    written.map(|channels| DVec3::from_array(channels.map(shortest)))
+}
+
+/// The double nearest to the shortest decimal number that reads as this float.
+fn shortest(value: f32) -> f64 {
+    value.to_string().parse().unwrap_or(f64::from(value))
+}

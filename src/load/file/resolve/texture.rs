@@ -1,0 +1,140 @@
+//! `[[texture]]`
+
+use std::collections::{HashMap, HashSet};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::Resolver;
+use crate::load::SceneError;
+use crate::load::error::show;
+use crate::load::file::syntax::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
+use crate::load::file::value::{Checked, Colour, Located, Number, Positive, Rule, Scalar};
+use crate::load::image_file::read_image;
+use crate::scene::{ColorInput, ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap};
+
+/// Images by file and by how their values are read, so that each is decoded once.
+pub type ImageCache = HashMap<(PathBuf, Option<ColorSpace>), Arc<ImageData>>;
+
+impl Resolver<'_> {
+    pub(super) fn textures(&mut self, written: &[TextureEntry]) -> Result<(), SceneError> {
+        self.texture_names = self.register("texture", written.iter().map(TextureEntry::name))?;
+        self.decode_side_by_side(written);
+        for entry in written {
+            let kind = match entry {
+                TextureEntry::Image(image) => TextureKind::Image(self.image_texture(image)?),
+                TextureEntry::Checker(checker) => {
+                    TextureKind::Checker { a: checker.a.0, b: checker.b.0, scale: factors(checker.scale) }
+                }
+                TextureEntry::Perlin(perlin) => {
+                    let octaves = perlin.octaves.as_ref().map_or(1, |octaves| octaves.value.get());
+                    if let Some(written) = &perlin.octaves
+                        && octaves > 16
+                    {
+                        return Err(self.error(&written.span, "at most 16 octaves"));
+                    }
+                    let (scale, seed) = (factor(perlin.scale), perlin.seed.unwrap_or(0));
+                    TextureKind::Perlin { scale, octaves, a: perlin.a.0, b: perlin.b.0, seed }
+                }
+                TextureEntry::Worley(worley) => {
+                    let (scale, seed) = (factor(worley.scale), worley.seed.unwrap_or(0));
+                    TextureKind::Worley { scale, a: worley.a.0, b: worley.b.0, seed }
+                }
+            };
+            self.linear_textures
+                .push(matches!(entry, TextureEntry::Image(ImageEntry { color_space: Some(ColorSpaceEntry::Linear), .. })));
+            self.scene.textures.push(Texture { name: entry.name().value.clone(), kind });
+        }
+        Ok(())
+    }
+
+    /// Reads the files of all image textures on all cores. What cannot be read is left to be found again, and told, in its turn.
+    fn decode_side_by_side(&mut self, written: &[TextureEntry]) {
+        let key = |entry: &TextureEntry| match entry {
+            TextureEntry::Image(image) => Some((self.path(&image.file.value), image.color_space.map(Into::into))),
+            _ => None,
+        };
+        let keys: HashSet<(PathBuf, Option<ColorSpace>)> = written.iter().filter_map(key).collect();
+        let decode = |key: (PathBuf, Option<ColorSpace>)| read_image(&key.0, key.1).ok().map(|image| (key, Arc::new(image)));
+        let decoded: Vec<_> = keys.into_par_iter().filter_map(decode).collect();
+        self.images.extend(decoded);
+    }
+
+    fn image_texture(&mut self, written: &ImageEntry) -> Result<ImageTexture, SceneError> {
+        Ok(ImageTexture {
+            image: self.image(&written.file, written.color_space.map(Into::into))?,
+            wrap: match written.wrap {
+                None | Some(WrapEntry::Repeat) => TextureWrap::Repeat,
+                Some(WrapEntry::Clamp) => TextureWrap::Clamp,
+                Some(WrapEntry::Mirror) => TextureWrap::Mirror,
+            },
+            filter: match written.filter {
+                None | Some(TextureFilterEntry::Bilinear) => TextureFilter::Bilinear,
+                Some(TextureFilterEntry::Nearest) => TextureFilter::Nearest,
+            },
+            scale: factors(written.scale),
+            offset: [0.0, 0.0],
+        })
+    }
+
+    /// Reads the image file that a key names.
+    pub(super) fn image(&mut self, file: &Located<String>, space: Option<ColorSpace>) -> Result<Arc<ImageData>, SceneError> {
+        let path = self.path(&file.value);
+        let key = (path, space);
+        if let Some(image) = self.images.get(&key) {
+            return Ok(image.clone());
+        }
+        let read = read_image(&key.0, space);
+        let image = Arc::new(read.map_err(|reason| self.error(&file.span, format!("{}: {reason}", show(&key.0))))?);
+        self.images.insert(key, image.clone());
+        Ok(image)
+    }
+
+    pub(super) fn colour<R: Rule>(&self, written: &Colour<R>) -> Result<ColorInput, SceneError> {
+        match written {
+            Colour::Constant(colour) => Ok(ColorInput::Constant(colour.0)),
+            Colour::Texture(name) => self.texture_in_range::<R>(name),
+        }
+    }
+
+    /// A texture whose every value is possible where it is used: a reflectance above 1 would make energy.
+    fn texture_in_range<R: Rule>(&self, name: &Located<String>) -> Result<ColorInput, SceneError> {
+        let id = self.texture_id(name)?;
+        let (low, high) = self.scene.textures[id].kind.range();
+        match [low, high].into_iter().find(|&value| !R::accepts(value)) {
+            None => Ok(ColorInput::Texture(id)),
+            Some(found) => {
+                Err(self.error(&name.span, format!("expected {}, found {found} in the texture `{}`", R::WORDS, name.value)))
+            }
+        }
+    }
+
+    pub(super) fn colour_or_white<R: Rule>(&self, written: &Option<Colour<R>>) -> Result<ColorInput, SceneError> {
+        written.as_ref().map_or(Ok(ColorInput::grey(1.0)), |colour| self.colour(colour))
+    }
+
+    pub(super) fn scalar<R: Rule>(&self, written: &Scalar<R>) -> Result<ColorInput, SceneError> {
+        match written {
+            Scalar::Constant(value) => Ok(ColorInput::grey(value.0)),
+            Scalar::Texture(name) => self.texture_in_range::<R>(name),
+        }
+    }
+}
+
+impl From<ColorSpaceEntry> for ColorSpace {
+    fn from(written: ColorSpaceEntry) -> Self {
+        match written {
+            ColorSpaceEntry::Srgb => Self::Srgb,
+            ColorSpaceEntry::Linear => Self::Linear,
+        }
+    }
+}
+
+fn factor(written: Option<Checked<Positive>>) -> f64 {
+    written.map_or(1.0, |scale| scale.0)
+}
+
+fn factors(written: Option<[Number; 2]>) -> [f64; 2] {
+    written.map_or([1.0, 1.0], |scale| scale.map(|factor| factor.0))
+}

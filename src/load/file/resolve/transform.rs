@@ -1,0 +1,109 @@
+//! `transform` and `motion`
+
+use std::ops::Range;
+
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::Resolver;
+use crate::load::SceneError;
+use crate::load::file::syntax::{StepEntry, TransformEntry};
+use crate::load::file::value::{Located, Number, vector};
+use crate::scene::{Motion, MotionStep, Shape, Transform, TransformStep};
+
+impl Resolver<'_> {
+    pub(super) fn transform(&self, written: &Located<TransformEntry>) -> Result<Transform, SceneError> {
+        let steps = match &written.value {
+            TransformEntry::Steps(steps) => {
+                steps.iter().map(|step| self.step(&step.span, &step.value)).collect::<Result<_, _>>()?
+            }
+            TransformEntry::Single(step) => vec![self.step(&written.span, step)?],
+        };
+        let transform = Transform { steps };
+        let map = transform.to_affine();
+        if !map.is_finite() || is_singular(map.matrix3) {
+            return Err(self.error(&written.span, "the transform flattens the shape or leaves the range of numbers"));
+        }
+        Ok(transform)
+    }
+
+    /// None where nothing is written in the list: the shape rests.
+    pub(super) fn motion(&self, written: &Located<TransformEntry>) -> Result<Option<Motion>, SceneError> {
+        let steps: Vec<MotionStep> = match &written.value {
+            TransformEntry::Steps(steps) => {
+                steps.iter().map(|step| self.motion_step(&step.span, &step.value)).collect::<Result<_, _>>()?
+            }
+            TransformEntry::Single(step) => vec![self.motion_step(&written.span, step)?],
+        };
+        Ok((!steps.is_empty()).then_some(Motion { steps }))
+    }
+
+    fn motion_step(&self, span: &Range<usize>, written: &StepEntry) -> Result<MotionStep, SceneError> {
+        match self.step(span, written)? {
+            TransformStep::Scale(factors) => Ok(MotionStep::Scale(factors)),
+            TransformStep::Rotate { axis, degrees } => Ok(MotionStep::Rotate { axis, degrees }),
+            TransformStep::Translate(offset) => Ok(MotionStep::Translate(offset)),
+            TransformStep::Matrix(_) => Err(self
+                .error(span, "a motion has no matrices: what lies between one and rest is not defined")
+                .with_help("write it as steps of `scale`, `rotate` and `translate`")),
+        }
+    }
+
+    /// The shape with this motion written can be followed while the shutter is open. The camera has been read.
+    pub(super) fn check_motion(&self, written: &Located<TransformEntry>, shape: &Shape) -> Result<(), SceneError> {
+        shape.check_motion(self.scene.camera.shutter).map_err(|(step, message)| {
+            let span = match (&written.value, step) {
+                (TransformEntry::Steps(steps), Some(step)) => &steps[step].span,
+                _ => &written.span,
+            };
+            self.error(span, message)
+        })
+    }
+
+    fn step(&self, span: &Range<usize>, written: &StepEntry) -> Result<TransformStep, SceneError> {
+        if let Some(degrees) = &written.degrees
+            && written.rotate.is_none()
+        {
+            return Err(self.error(&degrees.span, "`degrees` belongs to `rotate`, which is missing"));
+        }
+        let mut steps = Vec::with_capacity(1);
+        if let Some(scale) = &written.scale {
+            if scale.value.0.abs().min_element() == 0.0 {
+                return Err(self.error(&scale.span, "a scale of 0 flattens the shape"));
+            }
+            steps.push(TransformStep::Scale(scale.value.0));
+        }
+        if let Some(axis) = &written.rotate {
+            let Some(degrees) = &written.degrees else {
+                return Err(self.error(span, "`rotate` needs the key `degrees`"));
+            };
+            steps.push(TransformStep::Rotate { axis: self.direction(axis)?, degrees: degrees.value.0 });
+        }
+        if let Some(offset) = written.translate {
+            steps.push(TransformStep::Translate(vector(offset)));
+        }
+        if let Some(matrix) = &written.matrix {
+            steps.push(TransformStep::Matrix(self.matrix(matrix)?));
+        }
+        match steps[..] {
+            [step] => Ok(step),
+            _ => Err(self
+                .error(span, format!("a step has one of `scale`, `rotate`, `translate`, `matrix`; this has {}", steps.len()))
+                .with_help("write several steps as several tables: they are applied in the order of the array")),
+        }
+    }
+
+    fn matrix(&self, written: &Located<[Number; 16]>) -> Result<DAffine3, SceneError> {
+        let rows = written.value.map(|number| number.0);
+        if rows[12..] != [0.0, 0.0, 0.0, 1.0] {
+            return Err(self.error(&written.span, "the last row of a matrix is 0, 0, 0, 1 (numbers are row by row)"));
+        }
+        let column = |index: usize| DVec3::new(rows[index], rows[4 + index], rows[8 + index]);
+        Ok(DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) })
+    }
+}
+
+/// The columns are so nearly dependent that nothing of the volume is left.
+fn is_singular(matrix: DMat3) -> bool {
+    let lengths = matrix.x_axis.length() * matrix.y_axis.length() * matrix.z_axis.length();
+    matrix.determinant().abs() <= 1e-12 * lengths
+}

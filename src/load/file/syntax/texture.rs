@@ -1,0 +1,106 @@
+//! `[[texture]]`
+
+use std::num::NonZeroU32;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::load::file::value::{Any, Checked, Located, Number, Positive, Rgb};
+
+/// A colour that varies over a surface.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(tag = "type")]
+pub enum TextureEntry {
+    Image(ImageEntry),
+    Checker(CheckerEntry),
+    Perlin(PerlinEntry),
+    Worley(WorleyEntry),
+}
+
+/// A picture file, looked up by uv.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct ImageEntry {
+    pub name: Located<String>,
+    /// Path relative to the scene file.
+    pub file: Located<String>,
+    /// "srgb" for integer formats, "linear" for floating-point ones when left out.
+    pub color_space: Option<ColorSpaceEntry>,
+    /// "repeat" when left out.
+    pub wrap: Option<WrapEntry>,
+    /// "bilinear" when left out.
+    pub filter: Option<TextureFilterEntry>,
+    /// Factors of u and v, [1, 1] when left out.
+    pub scale: Option<[Number; 2]>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ColorSpaceEntry {
+    Srgb,
+    Linear,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum WrapEntry {
+    Repeat,
+    Clamp,
+    Mirror,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum TextureFilterEntry {
+    Bilinear,
+    Nearest,
+}
+
+/// Two colours in squares.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct CheckerEntry {
+    pub name: Located<String>,
+    pub a: Rgb<Any>,
+    pub b: Rgb<Any>,
+    /// Squares per unit of u and v, [1, 1] when left out.
+    pub scale: Option<[Number; 2]>,
+}
+
+/// Improved Perlin noise between two colours.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct PerlinEntry {
+    pub name: Located<String>,
+    /// Factor of u and v, 1 when left out.
+    pub scale: Option<Checked<Positive>>,
+    /// 1 when left out, at most 16.
+    pub octaves: Option<Located<NonZeroU32>>,
+    pub a: Rgb<Any>,
+    pub b: Rgb<Any>,
+    pub seed: Option<u32>,
+}
+
+/// Distance to the nearest feature point, between two colours.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct WorleyEntry {
+    pub name: Located<String>,
+    /// Factor of u and v, 1 when left out.
+    pub scale: Option<Checked<Positive>>,
+    pub a: Rgb<Any>,
+    pub b: Rgb<Any>,
+    pub seed: Option<u32>,
+}
+
+impl TextureEntry {
+    pub fn name(&self) -> &Located<String> {
+        match self {
+            Self::Image(entry) => &entry.name,
+            Self::Checker(entry) => &entry.name,
+            Self::Perlin(entry) => &entry.name,
+            Self::Worley(entry) => &entry.name,
+        }
+    }
+}

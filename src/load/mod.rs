@@ -1,0 +1,21 @@
+//! From a file, a model or a name to a [`Scene`](crate::scene::Scene).
+//!
+//! - [`source`]: what a person may name as the scene.
+//! - [`file`]: scene files in TOML; `obj`: models and their materials; `image_file`: textures and environment maps.
+//! - `framing`: camera, ground and light for a model that comes without them.
+//! - `builtin`: scenes that are part of the program.
+//! - [`error`]: what is wrong with an input file, and where.
+
+mod builtin;
+pub mod error;
+pub mod file;
+mod framing;
+mod image_file;
+mod obj;
+pub mod source;
+
+pub use builtin::{builtin_names, builtin_text};
+pub use error::SceneError;
+pub use file::{json_schema, load_toml_str};
+pub use image_file::read_image;
+pub use source::{SceneSource, load};

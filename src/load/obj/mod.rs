@@ -1,0 +1,111 @@
+//! Wavefront OBJ files and their MTL materials, read by `tobj` after a check that names the line of every mistake.
+//!
+//! Polygons become fans of triangles about their first corner: right for convex ones and for those that are star-shaped from that
+//! corner, wrong for other concave ones. Lines and points have no surface and are left out.
+
+mod check;
+mod mtl;
+
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use glam::{Vec2, Vec3};
+use tobj::LoadOptions;
+
+use crate::load::builtin;
+use crate::load::error::{SceneError, show};
+use crate::scene::Mesh;
+pub use mtl::{MtlMaterial, TextureMap};
+
+/// A model as its file describes it.
+#[derive(Debug, Default)]
+pub struct ObjFile {
+    /// Runs of faces of one object and one material, each with at least one face that has area.
+    pub parts: Vec<Part>,
+    pub materials: Vec<MtlMaterial>,
+    /// What could not be taken as written, in sentences.
+    pub warnings: Vec<String>,
+}
+
+#[derive(Debug)]
+pub struct Part {
+    pub mesh: Mesh,
+    /// Index into [`ObjFile::materials`].
+    pub material: Option<usize>,
+}
+
+/// Reads an OBJ file. Its MTL files are read only where `with_materials` asks for them; one that is missing is a warning.
+pub fn load(path: &Path, with_materials: bool) -> Result<ObjFile, SceneError> {
+    let name = show(path);
+    let bytes = builtin::read(path).map_err(|error| SceneError::in_file(&name, format!("cannot be read: {error}")))?;
+    // Names may be in any encoding; everything that matters is ASCII.
+    let text = String::from_utf8_lossy(&bytes);
+    let checked = check::check(&name, &text)?;
+    let mut libraries = mtl::Libraries::default();
+    if with_materials {
+        libraries.read(path, &checked.libraries)?;
+    }
+    let mut file = parse(&name, &checked.text, &libraries)?;
+    file.warnings.extend(checked.warnings);
+    if with_materials {
+        file.warnings.append(&mut libraries.warnings);
+        file.warnings.extend(unknown_materials(&name, &checked.used_materials, &libraries));
+    }
+    file.materials = libraries.materials;
+    Ok(file)
+}
+
+fn parse(name: &str, text: &str, libraries: &mtl::Libraries) -> Result<ObjFile, SceneError> {
+    let options = LoadOptions { triangulate: true, single_index: true, ignore_points: true, ignore_lines: true };
+    // Every library of the file was read already: the first `mtllib` stands for them all.
+    let given = RefCell::new(false);
+    let materials = |_: &Path| match given.replace(true) {
+        true => Ok(Default::default()),
+        false => Ok(libraries.for_tobj()),
+    };
+    let loaded = tobj::load_obj_buf(&mut text.as_bytes(), &options, materials);
+    let (models, _) = loaded.map_err(|error| SceneError::in_file(name, format!("is not a valid OBJ file: {error}")))?;
+    let mut file = ObjFile::default();
+    let mut degenerate = 0;
+    let mut incomplete = false;
+    for model in models {
+        let mut part = Part { mesh: to_mesh(&model.mesh, &mut incomplete), material: model.mesh.material_id };
+        degenerate += part.mesh.drop_degenerate_faces();
+        if !part.mesh.faces.is_empty() {
+            file.parts.push(part);
+        }
+    }
+    if file.parts.is_empty() {
+        let why = if degenerate > 0 { "none of its faces has an area" } else { "it has no faces" };
+        return Err(SceneError::in_file(name, format!("there is nothing to render in the model: {why}")));
+    }
+    if degenerate > 0 {
+        file.warnings.push(format!("{name}: {degenerate} triangles without area were left out"));
+    }
+    if incomplete {
+        file.warnings.push(format!("{name}: normals or uv coordinates that only some corners of an object have were left out"));
+    }
+    Ok(file)
+}
+
+/// `incomplete` is set where some corners have a normal or uv and others have none: tobj's arrays then do not match the positions.
+fn to_mesh(mesh: &tobj::Mesh, incomplete: &mut bool) -> Mesh {
+    let triples = |values: &[f32]| values.chunks_exact(3).map(Vec3::from_slice).collect::<Vec<_>>();
+    let positions = triples(&mesh.positions);
+    let mut normals = triples(&mesh.normals);
+    let mut uvs: Vec<Vec2> = mesh.texcoords.chunks_exact(2).map(Vec2::from_slice).collect();
+    for (length, clear) in [(normals.len(), true), (uvs.len(), false)] {
+        if length != 0 && length != positions.len() {
+            *incomplete = true;
+            if clear { normals.clear() } else { uvs.clear() }
+        }
+    }
+    let faces = mesh.indices.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]]).collect();
+    Mesh { positions, normals, uvs, faces, ..Mesh::default() }
+}
+
+fn unknown_materials(name: &str, used: &BTreeSet<String>, libraries: &mtl::Libraries) -> Option<String> {
+    let unknown: Vec<&str> = used.iter().map(String::as_str).filter(|name| !libraries.has(name)).collect();
+    (!unknown.is_empty()).then(|| format!("{name}: no MTL file has the materials {}; their faces are grey", unknown.join(", ")))
+}

@@ -1,0 +1,238 @@
+//! MTL files: checked line by line, then read by `tobj`, which panics on a colour of fewer than three numbers.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use crate::load::SceneError;
+use crate::load::error::show;
+
+/// One `newmtl` and where it stands.
+#[derive(Debug, Clone)]
+pub struct MtlMaterial {
+    pub file: PathBuf,
+    pub material: tobj::Material,
+}
+
+/// All MTL files of one model.
+#[derive(Default)]
+pub struct Libraries {
+    pub materials: Vec<MtlMaterial>,
+    pub warnings: Vec<String>,
+}
+
+/// An image and how it lies on the surface, from `map_Kd`'s options.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TextureMap {
+    pub file: PathBuf,
+    /// Factors of u and v (`-s`).
+    pub scale: [f64; 2],
+    /// Added to u and v after scaling (`-o`).
+    pub offset: [f64; 2],
+    /// Do not repeat (`-clamp on`).
+    pub clamp: bool,
+    /// Options that were left out.
+    pub unsupported: Vec<String>,
+}
+
+/// Keys that change the look in ways that are not rendered.
+const WITHOUT_EFFECT: [&str; 15] = [
+    "map_Ks", "map_Ns", "map_d", "map_Ka", "map_Bump", "map_bump", "bump", "norm", "disp", "decal", "refl", "Pr", "Pm", "Ps",
+    "aniso",
+];
+
+impl Libraries {
+    /// Reads what stands after each `mtllib`: one name, which may contain blanks, or several.
+    pub fn read(&mut self, model: &Path, libraries: &[String]) -> Result<(), SceneError> {
+        let folder = model.parent().unwrap_or(Path::new(""));
+        let mut seen = BTreeSet::new();
+        for written in libraries {
+            let whole = locate(folder, written);
+            let files = match whole.is_file() {
+                true => vec![whole],
+                false => written.split_whitespace().map(|name| locate(folder, name)).collect(),
+            };
+            for file in files {
+                if seen.insert(file.clone()) {
+                    self.read_file(model, file)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// What `tobj` wants: the materials and the place of each name.
+    pub fn for_tobj<Places: FromIterator<(String, usize)>>(&self) -> (Vec<tobj::Material>, Places) {
+        let names = self.materials.iter().enumerate().map(|(place, entry)| (entry.material.name.clone(), place)).collect();
+        (self.materials.iter().map(|entry| entry.material.clone()).collect(), names)
+    }
+
+    pub fn has(&self, name: &str) -> bool {
+        self.materials.iter().any(|entry| entry.material.name == name)
+    }
+
+    fn read_file(&mut self, model: &Path, file: PathBuf) -> Result<(), SceneError> {
+        let bytes = match std::fs::read(&file) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                let warning = format!("{}: the material library {} cannot be read: {error}", show(model), show(&file));
+                self.warnings.push(warning);
+                return Ok(());
+            }
+        };
+        let text = String::from_utf8_lossy(&bytes);
+        let (text, without_effect) = check(&show(&file), &text)?;
+        if !without_effect.is_empty() {
+            let list = without_effect.into_iter().collect::<Vec<_>>().join(", ");
+            self.warnings.push(format!("{}: keys that have no effect: {list}", show(&file)));
+        }
+        let loaded = tobj::load_mtl_buf(&mut text.as_bytes());
+        let (materials, _) = loaded.map_err(|error| SceneError::in_file(show(&file), error.to_string()))?;
+        self.materials.extend(materials.into_iter().map(|material| MtlMaterial { file: file.clone(), material }));
+        Ok(())
+    }
+}
+
+/// The text with every colour as three numbers, and the keys in it that have no effect.
+fn check(name: &str, text: &str) -> Result<(String, BTreeSet<String>), SceneError> {
+    let mut checked = String::with_capacity(text.len());
+    let mut without_effect = BTreeSet::new();
+    for (index, line) in text.lines().enumerate() {
+        let wrong = |message: String| SceneError::in_line(name, index + 1, message);
+        let line = line.trim();
+        let (key, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+        let rest = rest.trim();
+        match key {
+            "Kd" | "Ks" | "Ke" | "Tf" => {
+                let [r, g, b] = colour(rest).map_err(|reason| wrong(format!("{key}: {reason}")))?;
+                checked.push_str(&format!("{key} {r} {g} {b}\n"));
+                continue;
+            }
+            "Ns" | "Ni" | "d" | "Tr" => {
+                let [value, ..] = colour(rest).map_err(|reason| wrong(format!("{key}: {reason}")))?;
+                checked.push_str(&format!("{key} {value}\n"));
+                continue;
+            }
+            "illum" if rest.parse::<u8>().is_err() => {
+                return Err(wrong(format!("illum: expected an illumination model from 0 to 10, found `{rest}`")));
+            }
+            "newmtl" | "map_Kd" | "map_Ke" if rest.is_empty() => return Err(wrong(format!("{key}: the name is missing"))),
+            // The ambient colour has no meaning in a path tracer.
+            "Ka" => continue,
+            key if WITHOUT_EFFECT.contains(&key) => {
+                without_effect.insert(key.to_owned());
+                continue;
+            }
+            _ => {}
+        }
+        checked.push_str(line);
+        checked.push('\n');
+    }
+    Ok((checked, without_effect))
+}
+
+/// One or three numbers from 0 up.
+fn colour(rest: &str) -> Result<[f64; 3], String> {
+    let values: Vec<f64> = rest
+        .split_whitespace()
+        .map(|word| word.parse().ok().filter(|value| (0.0..=1e18).contains(value)).ok_or(word))
+        .collect::<Result<_, _>>()
+        .map_err(|word| format!("expected numbers from 0 to 1e18, found `{word}`"))?;
+    match values[..] {
+        [grey] => Ok([grey; 3]),
+        [r, g, b] => Ok([r, g, b]),
+        _ => Err(format!("expected 1 or 3 numbers, found {}", values.len())),
+    }
+}
+
+fn locate(folder: &Path, name: &str) -> PathBuf {
+    let path = folder.join(name);
+    // Files written on Windows separate folders by backslashes.
+    if path.exists() { path } else { folder.join(name.replace('\\', "/")) }
+}
+
+impl TextureMap {
+    /// Parses `[options] file`; `folder` is that of the MTL file.
+    pub fn parse(written: &str, folder: &Path) -> Result<Self, String> {
+        let mut map = Self { file: PathBuf::new(), scale: [1.0; 2], offset: [0.0; 2], clamp: false, unsupported: Vec::new() };
+        let mut rest = written.trim();
+        while rest.starts_with('-') {
+            let (option, after) = next_word(rest);
+            rest = after;
+            match option {
+                "-s" => rest = numbers(rest, &mut map.scale)?,
+                "-o" => rest = numbers(rest, &mut map.offset)?,
+                "-clamp" => {
+                    let (state, after) = next_word(rest);
+                    map.clamp = state == "on";
+                    rest = after;
+                }
+                "-t" => rest = numbers(rest, &mut [0.0; 2])?,
+                "-mm" => rest = next_word(next_word(rest).1).1,
+                "-blendu" | "-blendv" | "-cc" | "-boost" | "-texres" | "-bm" | "-imfchan" | "-type" => rest = next_word(rest).1,
+                other => return Err(format!("the texture option `{other}` is not known")),
+            }
+            if !["-s", "-o", "-clamp", "-blendu", "-blendv", "-texres"].contains(&option) {
+                map.unsupported.push(option.to_owned());
+            }
+        }
+        if rest.is_empty() {
+            return Err(format!("`{written}` names no image"));
+        }
+        map.file = locate(folder, rest);
+        Ok(map)
+    }
+}
+
+/// Reads one to three numbers, the second and third being optional.
+fn numbers<'a>(rest: &'a str, into: &mut [f64; 2]) -> Result<&'a str, String> {
+    let mut rest = rest;
+    for place in 0..3 {
+        let (word, after) = next_word(rest);
+        match word.parse::<f64>() {
+            Ok(value) if value.is_finite() && value.abs() < 1e18 => {
+                // One factor alone is that of u; the third is for volumes.
+                if let Some(slot) = into.get_mut(place) {
+                    *slot = value;
+                }
+                rest = after;
+            }
+            _ if place == 0 => return Err(format!("expected a number, found `{word}`")),
+            _ => break,
+        }
+    }
+    Ok(rest)
+}
+
+fn next_word(text: &str) -> (&str, &str) {
+    let (word, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
+    (word, rest.trim_start())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texture_options_are_read() {
+        let map = TextureMap::parse("-s 2 3 1 -o 0.5 -clamp on my wood.png", Path::new("textures"));
+        let expected = TextureMap {
+            file: "textures/my wood.png".into(),
+            scale: [2.0, 3.0],
+            offset: [0.5, 0.0],
+            clamp: true,
+            unsupported: Vec::new(),
+        };
+        assert_eq!(map, Ok(expected));
+        assert!(TextureMap::parse("-s wood.png", Path::new("")).is_err());
+        assert!(TextureMap::parse("-clamp on", Path::new("")).is_err());
+        assert!(TextureMap::parse("-nonsense 3 wood.png", Path::new("")).is_err());
+    }
+
+    #[test]
+    fn a_short_colour_is_grey_and_a_wrong_one_names_its_line() {
+        let (text, _) = check("a.mtl", "newmtl a\nKd 0.5\nKa 1\nmap_Kd a.png").unwrap_or_default();
+        assert_eq!(text, "newmtl a\nKd 0.5 0.5 0.5\nmap_Kd a.png\n");
+        let error = check("a.mtl", "newmtl a\nKd 0.5 0.5").map_err(|error| error.to_string());
+        assert_eq!(error, Err("a.mtl:2:1: Kd: expected 1 or 3 numbers, found 2".to_owned()));
+    }
+}

@@ -1,0 +1,88 @@
+//! Small mathematics that several steps of the data's way share: colour, outward rounding, frames.
+
+use glam::{DVec3, Vec3};
+
+/// Luminance of a linear Rec.709 colour.
+pub fn luminance(color: DVec3) -> f64 {
+    color.dot(DVec3::new(0.2126, 0.7152, 0.0722))
+}
+
+/// As [`luminance`], in single precision, of a film's pixel.
+pub fn luminance_f32([r, g, b]: [f32; 3]) -> f32 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
+}
+
+/// The sRGB transfer function, from encoded to linear (IEC 61966-2-1), exact at both pieces.
+pub fn srgb_to_linear(encoded: f32) -> f32 {
+    if encoded <= 0.04045 { encoded / 12.92 } else { ((f64::from(encoded) + 0.055) / 1.055).powf(2.4) as f32 }
+}
+
+/// A box rounded to f32, and grown by two rounding errors on every side: it holds whatever the given one holds.
+pub fn outward(min: DVec3, max: DVec3) -> (Vec3, Vec3) {
+    let margin = min.abs().max(max.abs()) * 2.4e-7;
+    ((min - margin).as_vec3(), (max + margin).as_vec3())
+}
+
+/// A right-handed frame whose z axis is a given unit vector.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    pub tangent: DVec3,
+    pub bitangent: DVec3,
+    pub normal: DVec3,
+}
+
+impl Frame {
+    /// The frame of Duff et al. (2017), "Building an Orthonormal Basis, Revisited". `normal` has unit length.
+    ///
+    /// The two halves of the construction meet at z = -0.2137 and not at z = 0, so that the many normals whose z is a zero of
+    /// either sign, or rounds to one, give the same frame at every precision.
+    pub fn around(normal: DVec3) -> Self {
+        let sign = if normal.z < -0.2137 { -1.0 } else { 1.0 };
+        let a = -1.0 / (sign + normal.z);
+        let b = normal.x * normal.y * a;
+        Self {
+            tangent: DVec3::new(1.0 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x),
+            bitangent: DVec3::new(b, sign + normal.y * normal.y * a, -normal.y),
+            normal,
+        }
+    }
+
+    /// From frame coordinates to the world.
+    pub fn to_world(&self, local: DVec3) -> DVec3 {
+        self.tangent * local.x + self.bitangent * local.y + self.normal * local.z
+    }
+
+    /// From the world to frame coordinates.
+    pub fn to_local(&self, world: DVec3) -> DVec3 {
+        DVec3::new(world.dot(self.tangent), world.dot(self.bitangent), world.dot(self.normal))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn frames_are_orthonormal_and_right_handed(z in -1.0..=1.0_f64, phi in 0.0..6.3_f64) {
+            let r = (1.0 - z * z).sqrt();
+            let n = DVec3::new(r * phi.cos(), r * phi.sin(), z).normalize();
+            let frame = Frame::around(n);
+            let determinant = frame.tangent.cross(frame.bitangent).dot(frame.normal);
+            prop_assert!((determinant - 1.0).abs() < 1e-14);
+            prop_assert!(frame.tangent.dot(frame.bitangent).abs() < 1e-14);
+            prop_assert!((frame.tangent.length() - 1.0).abs() < 1e-14);
+            let v = DVec3::new(0.3, -2.0, 0.7);
+            prop_assert!((frame.to_world(frame.to_local(v)) - v).length() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_zero_of_either_sign_gives_the_same_frame() {
+        let tiny = DVec3::new(0.6, 0.8, -1e-9);
+        let (a, b) = (Frame::around(DVec3::new(0.6, 0.8, 0.0)), Frame::around(DVec3::new(0.6, 0.8, -0.0)));
+        assert_eq!(a.to_world(DVec3::ONE), b.to_world(DVec3::ONE));
+        assert!((Frame::around(tiny).tangent - a.tangent).length() < 1e-8);
+    }
+}

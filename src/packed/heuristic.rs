@@ -1,0 +1,81 @@
+//! What decides the weights of a blend, as the device reads it.
+
+use super::NONE;
+use crate::scene::Heuristic;
+
+/// Kinds in `shaders/shading/heuristic.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u32)]
+enum HeuristicKind {
+    Constant = 0,
+    Facing = 1,
+    FresnelSchlick = 2,
+    FresnelExact = 3,
+    Texture = 4,
+}
+
+/// Applied in this order: 1 − w; w ≥ threshold; 1 − w.
+const REVERSED_WITHIN: u32 = 256;
+const THRESHOLDED: u32 = 512;
+const REVERSED: u32 = 1024;
+
+/// What decides a weight, 16 bytes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct PackedHeuristic {
+    pub kind_and_flags: u32,
+    /// Value, power or index of refraction.
+    pub value: f32,
+    pub threshold: f32,
+    pub texture: u32,
+}
+
+/// The weight where it is the same at every hit.
+pub(super) fn constant_weight(heuristic: &Heuristic) -> Option<f64> {
+    match heuristic {
+        Heuristic::Constant { value } => Some(*value),
+        Heuristic::Reverse { of } => constant_weight(of).map(|value| 1.0 - value),
+        Heuristic::Threshold { tau, of } => constant_weight(of).map(|value| f64::from(u8::from(value >= *tau))),
+        // x⁰
+        Heuristic::Facing { power } if *power == 0.0 => Some(1.0),
+        Heuristic::Facing { .. } | Heuristic::Fresnel { .. } | Heuristic::Texture { .. } => None,
+    }
+}
+
+impl PackedHeuristic {
+    /// Packs a heuristic; `reversed` where it stands for a blend's second material.
+    pub(super) fn new(heuristic: &Heuristic, reversed: bool) -> Self {
+        let plain = |kind: HeuristicKind, value: f64, texture| Self {
+            kind_and_flags: kind as u32,
+            value: value as f32,
+            threshold: 0.0,
+            texture,
+        };
+        let packed = match heuristic {
+            Heuristic::Constant { value } => plain(HeuristicKind::Constant, *value, NONE),
+            Heuristic::Facing { power } => plain(HeuristicKind::Facing, *power, NONE),
+            Heuristic::Fresnel { ior, exact: false } => plain(HeuristicKind::FresnelSchlick, *ior, NONE),
+            Heuristic::Fresnel { ior, exact: true } => plain(HeuristicKind::FresnelExact, *ior, NONE),
+            Heuristic::Texture { texture } => plain(HeuristicKind::Texture, 0.0, *texture as u32),
+            Heuristic::Reverse { of } => Self::new(of, true),
+            Heuristic::Threshold { tau, of } => Self::new(of, false).thresholded(*tau),
+        };
+        if reversed { Self { kind_and_flags: packed.kind_and_flags ^ REVERSED, ..packed } } else { packed }
+    }
+
+    /// 1 where the weight is at least tau, else 0.
+    fn thresholded(self, tau: f64) -> Self {
+        let reversed = self.kind_and_flags & REVERSED != 0;
+        if self.kind_and_flags & THRESHOLDED == 0 {
+            let within = if reversed { REVERSED_WITHIN } else { 0 };
+            let kind_and_flags = self.kind_and_flags & !REVERSED | within | THRESHOLDED;
+            return Self { kind_and_flags, threshold: tau as f32, ..self };
+        }
+        // A threshold of a threshold: 0 and 1 stay as they are where 0 < tau ≤ 1, and all is 1 or 0 beyond.
+        if tau > 0.0 && tau <= 1.0 {
+            return self;
+        }
+        let value = if tau <= 0.0 { 1.0 } else { 0.0 };
+        Self { kind_and_flags: HeuristicKind::Constant as u32, value, threshold: 0.0, texture: NONE }
+    }
+}

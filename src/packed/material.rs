@@ -1,0 +1,372 @@
+//! Materials as the device reads them. A blend becomes a run of leaves, each with the weights along its branch: data, whatever the
+//! depth of the tree.
+
+use std::collections::{BTreeSet, HashMap};
+
+use glam::DVec3;
+
+use super::NONE;
+use super::heuristic::{PackedHeuristic, constant_weight};
+use super::validate::PackError;
+use crate::scene::{BlendMode, ColorInput, ConductorFresnel, Material, MaterialId, MaterialKind, MicrofacetDistribution, Scene};
+
+/// Kinds in `shaders/shading/leaf.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u32)]
+pub enum PackedMaterialKind {
+    Diffuse = 0,
+    Mirror = 1,
+    Glass = 2,
+    Emissive = 3,
+    Glossy = 4,
+    Phong = 5,
+    Conductor = 6,
+    RoughGlass = 7,
+    /// Rough glass of cosine-power lobes.
+    PhongGlass = 8,
+    Pass = 9,
+    Blend = 10,
+}
+
+/// Beside the kind of a conductor: its colours are eta and k.
+const COMPLEX_FRESNEL: u32 = 256;
+
+const EMITS: u32 = 1;
+const EMITS_TWO_SIDED: u32 = 2;
+/// Some leaf of the blend emits.
+const LEAVES_EMIT: u32 = 4;
+
+/// GGX narrower than this is a delta lobe: f32 no longer resolves it. `SMOOTH_ALPHA` in `shaders/shading/leaf.wgsl`.
+const SMOOTH_ALPHA: f64 = 1.0e-4;
+/// Rough glass whose index of refraction is this close to 1 is smooth: its refraction is a delta lobe.
+const SMALLEST_BEND: f64 = 1.0e-4;
+
+/// 80 bytes, five vec4 of the tables.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct PackedMaterial {
+    /// Reflectance, diffuse reflectance or eta.
+    pub first: [f32; 3],
+    pub kind_and_flags: u32,
+    /// Transmittance, specular reflectance or k. Of a blend, as bits: its first leaf, their number, and the number of inner blends
+    /// behind them that emit by themselves.
+    pub second: [f32; 3],
+    pub ior: f32,
+    pub emission: [f32; 3],
+    pub emission_flags: u32,
+    pub first_texture: u32,
+    pub emission_texture: u32,
+    pub second_texture: u32,
+    pub scalar_texture: u32,
+    /// GGX width or cosine exponent.
+    pub scalar: f32,
+    pub normal_map: u32,
+    /// 1 where the scalar's texture holds a roughness, whose square is the GGX width.
+    pub scalar_is_squared: u32,
+    pub padding: u32,
+}
+
+/// Most weights of all leaves together: 16 MiB of them.
+const MOST_WEIGHTS: usize = 1 << 20;
+
+/// One leaf of a blend, 16 bytes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct PackedLeaf {
+    pub material: u32,
+    /// Its weight is the constant factor times those of the heuristics `first_factor..first_factor + factor_count`.
+    pub first_factor: u32,
+    pub factor_count: u32,
+    pub constant_factor: f32,
+}
+
+/// The materials that a scene's surfaces are made of. Others that the scene names are left out: kernels have the code of what stands here.
+#[derive(Debug, Clone, Default)]
+pub struct PackedMaterials {
+    pub materials: Vec<PackedMaterial>,
+    /// Which of the scene's materials each one is.
+    pub scene_ids: Vec<MaterialId>,
+    pub leaves: Vec<PackedLeaf>,
+    pub heuristics: Vec<PackedHeuristic>,
+}
+
+/// A colour as a constant factor and a texture index or NONE.
+pub fn color_and_texture(input: &ColorInput) -> ([f32; 3], u32) {
+    match input {
+        ColorInput::Constant(color) => (color.as_vec3().to_array(), NONE),
+        ColorInput::Texture(texture) => ([1.0; 3], *texture as u32),
+        ColorInput::ScaledTexture(texture, factor) => (factor.as_vec3().to_array(), *texture as u32),
+        // That it is squared stands beside the scalar it is for: colours never are.
+        ColorInput::SquaredTexture(texture) => ([1.0; 3], *texture as u32),
+    }
+}
+
+impl PackedMaterials {
+    /// Packs the materials that surfaces have, in the scene's order, and behind them those that only their blends are made of. Textures
+    /// keep the scene's numbers until they are packed.
+    ///
+    /// # Errors
+    /// [`PackError::TooManyWeights`] where the branches of nested blends have more weights than can be kept.
+    pub fn new(scene: &Scene, of_surfaces: &BTreeSet<MaterialId>) -> Result<Self, PackError> {
+        let mut packed = Self::default();
+        for &id in of_surfaces {
+            let material = match scene.materials[id].kind {
+                MaterialKind::Blend { .. } => packed.blend(scene, id)?,
+                _ => PackedMaterial::new(&scene.materials[id]),
+            };
+            packed.materials.push(material);
+            packed.scene_ids.push(id);
+        }
+        packed.add_parts(scene);
+        Ok(packed)
+    }
+
+    /// Adds the parts of blends that no surface is made of alone; leaves then name their places instead of the scene's numbers.
+    fn add_parts(&mut self, scene: &Scene) {
+        let mut places: HashMap<MaterialId, usize> = self.scene_ids.iter().enumerate().map(|(place, id)| (*id, place)).collect();
+        for leaf in &mut self.leaves {
+            let id = leaf.material as MaterialId;
+            let place = *places.entry(id).or_insert_with(|| {
+                self.materials.push(PackedMaterial::new(&scene.materials[id]));
+                self.scene_ids.push(id);
+                self.materials.len() - 1
+            });
+            leaf.material = place as u32;
+        }
+    }
+
+    /// Where each of the scene's materials stands; [`NONE`] where it is left out.
+    pub fn places(&self, scene: &Scene) -> Vec<u32> {
+        let mut places = vec![NONE; scene.materials.len()];
+        for (place, &id) in self.scene_ids.iter().enumerate() {
+            places[id] = place as u32;
+        }
+        places
+    }
+
+    /// Every mention of a texture, to be renumbered.
+    pub(super) fn textures_mut(&mut self) -> impl Iterator<Item = &mut u32> {
+        let of_heuristics = self.heuristics.iter_mut().map(|heuristic| &mut heuristic.texture);
+        self.materials.iter_mut().flat_map(PackedMaterial::textures_mut).chain(of_heuristics).filter(|texture| **texture != NONE)
+    }
+
+    fn blend(&mut self, scene: &Scene, id: MaterialId) -> Result<PackedMaterial, PackError> {
+        let Parts { leaves, emitting_blends } = parts(scene, id)?;
+        let mut packed = PackedMaterial::new(&scene.materials[id]);
+        // A blend that always is one of its materials is that material.
+        if let [Part { material, constant: 1.0, factors }] = leaves.as_slice()
+            && factors.is_empty()
+            && emitting_blends.is_empty()
+            && packed.emission_flags == 0
+            && packed.normal_map == NONE
+        {
+            return Ok(PackedMaterial::new(&scene.materials[*material]));
+        }
+        if scene.render.blend == BlendMode::Mixture
+            && emitting_blends.is_empty()
+            && let Some(reflectance) = lambert_of_the_mean(scene, &leaves)
+        {
+            packed.kind_and_flags = PackedMaterialKind::Diffuse as u32;
+            packed.first = reflectance.as_vec3().to_array();
+            return Ok(packed);
+        }
+        if !emitting_blends.is_empty() || leaves.iter().any(|leaf| scene.materials[leaf.material].emission.is_some()) {
+            packed.emission_flags |= LEAVES_EMIT;
+        }
+        packed.second = [self.leaves.len(), leaves.len(), emitting_blends.len()].map(|number| f32::from_bits(number as u32));
+        for leaf in leaves.into_iter().chain(emitting_blends) {
+            self.leaves.push(PackedLeaf {
+                material: leaf.material as u32,
+                first_factor: self.heuristics.len() as u32,
+                factor_count: leaf.factors.len() as u32,
+                constant_factor: leaf.constant as f32,
+            });
+            self.heuristics.extend(leaf.factors);
+        }
+        if self.heuristics.len() > MOST_WEIGHTS {
+            return Err(PackError::TooManyWeights { material: scene.materials[id].name.clone(), limit: MOST_WEIGHTS });
+        }
+        Ok(packed)
+    }
+
+    pub fn has(&self, kind: PackedMaterialKind) -> bool {
+        self.materials.iter().any(|material| material.kind() == kind as u32)
+    }
+}
+
+/// A part of a blend on the way from the tree to the tables.
+#[derive(Clone)]
+struct Part {
+    material: MaterialId,
+    constant: f64,
+    factors: Vec<PackedHeuristic>,
+}
+
+struct Parts {
+    /// In the tree's order: the first child's before the second's.
+    leaves: Vec<Part>,
+    /// Blends below the root that emit besides what their parts do.
+    emitting_blends: Vec<Part>,
+}
+
+/// The parts of a blend; those that never have any weight are left out.
+fn parts(scene: &Scene, id: MaterialId) -> Result<Parts, PackError> {
+    let mut weights = 0;
+    let mut found = Parts { leaves: Vec::new(), emitting_blends: Vec::new() };
+    let mut to_visit = vec![Part { material: id, constant: 1.0, factors: Vec::new() }];
+    while let Some(branch) = to_visit.pop() {
+        // Checked on the way: a deep chain of blends would fill the memory before it ends.
+        weights += branch.factors.len();
+        if weights > 2 * MOST_WEIGHTS {
+            return Err(PackError::TooManyWeights { material: scene.materials[id].name.clone(), limit: MOST_WEIGHTS });
+        }
+        let MaterialKind::Blend { materials, weight } = &scene.materials[branch.material].kind else {
+            found.leaves.push(branch);
+            continue;
+        };
+        for (child, reversed) in [(1, true), (0, false)] {
+            let mut below = Part { material: materials[child], ..branch.clone() };
+            match constant_weight(weight) {
+                Some(value) => below.constant *= if reversed { 1.0 - value } else { value },
+                None => below.factors.push(PackedHeuristic::new(weight, reversed)),
+            }
+            if below.constant > 0.0 {
+                to_visit.push(below);
+            }
+        }
+        if branch.material != id && scene.materials[branch.material].emission.is_some() {
+            found.emitting_blends.push(branch);
+        }
+    }
+    Ok(found)
+}
+
+/// Lambert surfaces blended by weights that never change are one of their mean reflectance. None where a leaf is anything else, varies
+/// over the surface, or emits.
+fn lambert_of_the_mean(scene: &Scene, leaves: &[Part]) -> Option<DVec3> {
+    let weighted =
+        leaves.iter().map(|leaf| match &scene.materials[leaf.material] {
+            Material {
+                kind: MaterialKind::Diffuse { reflectance: ColorInput::Constant(reflectance) }, emission: None, ..
+            } if leaf.factors.is_empty() => Some(leaf.constant * *reflectance),
+            _ => None,
+        });
+    weighted.sum()
+}
+
+impl PackedMaterial {
+    /// Packs a material; of a blend, what it is besides its leaves.
+    fn new(material: &Material) -> Self {
+        let parameters = Parameters::of(&material.kind);
+        let emission = material.emission.map_or(ColorInput::grey(0.0), |emission| emission.radiance);
+        let two_sided = material.emission.is_some_and(|emission| emission.two_sided);
+        let (first, first_texture) = color_and_texture(&parameters.first);
+        let (second, second_texture) = color_and_texture(&parameters.second);
+        let (scalar, scalar_texture) = color_and_texture(&parameters.scalar);
+        let emits = emission != ColorInput::grey(0.0);
+        let (emission, emission_texture) = color_and_texture(&emission);
+        Self {
+            first,
+            kind_and_flags: parameters.kind as u32 | parameters.flags,
+            second,
+            ior: parameters.ior as f32,
+            emission,
+            emission_flags: if emits { EMITS } else { 0 } | if two_sided { EMITS_TWO_SIDED } else { 0 },
+            first_texture,
+            emission_texture,
+            second_texture,
+            scalar_texture,
+            scalar: scalar[0],
+            normal_map: material.normal_map.map_or(NONE, |texture| texture as u32),
+            scalar_is_squared: u32::from(matches!(parameters.scalar, ColorInput::SquaredTexture(_))),
+            padding: 0,
+        }
+    }
+
+    fn textures_mut(&mut self) -> [&mut u32; 5] {
+        let Self { first_texture, emission_texture, second_texture, scalar_texture, normal_map, .. } = self;
+        [first_texture, emission_texture, second_texture, scalar_texture, normal_map]
+    }
+
+    pub fn kind(&self) -> u32 {
+        self.kind_and_flags & 255
+    }
+
+    /// A colour or scalar comes from a texture, or a blend's leaves are looked up: not known without the scene.
+    pub fn has_second_color(&self) -> bool {
+        use PackedMaterialKind::{Glass, Phong, PhongGlass, RoughGlass};
+        let of_kind = [Glass, Phong, RoughGlass, PhongGlass].map(|kind| kind as u32).contains(&self.kind());
+        of_kind || self.kind_and_flags & COMPLEX_FRESNEL != 0
+    }
+}
+
+/// A material's parameters in the slots of the tables.
+struct Parameters {
+    kind: PackedMaterialKind,
+    flags: u32,
+    first: ColorInput,
+    second: ColorInput,
+    scalar: ColorInput,
+    ior: f64,
+}
+
+impl Parameters {
+    fn of(kind: &MaterialKind) -> Self {
+        use PackedMaterialKind as Kind;
+        let none = ColorInput::grey(0.0);
+        let plain = |kind, first| Self { kind, flags: 0, first, second: none, scalar: none, ior: 1.0 };
+        match kind {
+            MaterialKind::Diffuse { reflectance } => plain(Kind::Diffuse, *reflectance),
+            MaterialKind::Mirror { reflectance } => plain(Kind::Mirror, *reflectance),
+            MaterialKind::Glossy { reflectance, exponent } => Self { scalar: *exponent, ..plain(Kind::Glossy, *reflectance) },
+            MaterialKind::Phong { diffuse, specular, exponent } => {
+                Self { second: *specular, scalar: *exponent, ..plain(Kind::Phong, *diffuse) }
+            }
+            MaterialKind::Glass { ior, reflectance, transmittance } => {
+                Self { second: *transmittance, ior: *ior, ..plain(Kind::Glass, *reflectance) }
+            }
+            MaterialKind::RoughGlass { ior, alpha, distribution, reflectance, transmittance } => {
+                let kind = match (distribution, alpha) {
+                    (MicrofacetDistribution::Phong, _) => Kind::PhongGlass,
+                    (MicrofacetDistribution::Ggx, ColorInput::Constant(alpha)) if alpha.x < SMOOTH_ALPHA => Kind::Glass,
+                    // What hardly bends light sends it straight on, however rough.
+                    (MicrofacetDistribution::Ggx, _) if (ior - 1.0).abs() < SMALLEST_BEND => Kind::Glass,
+                    (MicrofacetDistribution::Ggx, _) => Kind::RoughGlass,
+                };
+                Self { second: *transmittance, scalar: *alpha, ior: *ior, ..plain(kind, *reflectance) }
+            }
+            MaterialKind::Conductor { fresnel, alpha } => {
+                let conductor = match fresnel {
+                    ConductorFresnel::Complex { eta, k } => Self {
+                        flags: COMPLEX_FRESNEL,
+                        second: ColorInput::Constant(*k),
+                        ..plain(Kind::Conductor, ColorInput::Constant(*eta))
+                    },
+                    ConductorFresnel::Reflectance(reflectance) => plain(Kind::Conductor, *reflectance),
+                };
+                Self { scalar: *alpha, ..conductor }
+            }
+            MaterialKind::Emissive => plain(Kind::Emissive, none),
+            MaterialKind::Pass => plain(Kind::Pass, none),
+            MaterialKind::Blend { .. } => plain(Kind::Blend, none),
+        }
+    }
+}
+
+/// What a material sends out by itself, each part with the share of it that a light's power counts: the weight of a constant
+/// heuristic, one half of any other's.
+pub fn mean_emission(scene: &Scene, id: MaterialId, mean: &dyn Fn(&ColorInput) -> DVec3) -> DVec3 {
+    let mut sum = DVec3::ZERO;
+    let mut to_visit = vec![(id, 1.0)];
+    while let Some((id, share)) = to_visit.pop() {
+        let material = &scene.materials[id];
+        if let Some(emission) = material.emission {
+            sum += share * mean(&emission.radiance);
+        }
+        if let MaterialKind::Blend { materials: [first, second], weight } = &material.kind {
+            let w0 = constant_weight(weight).unwrap_or(0.5);
+            to_visit.extend([(*second, share * (1.0 - w0)), (*first, share * w0)].into_iter().filter(|(_, share)| *share > 0.0));
+        }
+    }
+    sum
+}

@@ -1,0 +1,34 @@
+//! One array for all that shading looks up: materials, the leaves and heuristics of blends, lights, textures, motions.
+
+use super::PackedScene;
+
+/// The tables as vec4s, and where each begins.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Tables {
+    pub words: Vec<[f32; 4]>,
+    pub first_leaf: u32,
+    pub first_heuristic: u32,
+    pub first_light: u32,
+    pub first_texture: u32,
+    pub first_motion: u32,
+}
+
+impl Tables {
+    pub fn new(packed: &PackedScene) -> Self {
+        let mut tables = Self::default();
+        tables.append(&packed.materials.materials);
+        tables.first_leaf = tables.append(&packed.materials.leaves);
+        tables.first_heuristic = tables.append(&packed.materials.heuristics);
+        tables.first_light = tables.append(&packed.lights);
+        tables.first_texture = tables.append(&packed.textures.textures);
+        tables.first_motion = tables.append(&packed.motions);
+        tables
+    }
+
+    /// Index of the first of the words added.
+    fn append<T: bytemuck::Pod>(&mut self, rows: &[T]) -> u32 {
+        let first = self.words.len() as u32;
+        self.words.extend_from_slice(bytemuck::cast_slice(rows));
+        first
+    }
+}

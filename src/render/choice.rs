@@ -1,0 +1,66 @@
+//! Which renderer takes a scene.
+
+use crate::gpu::{GpuRenderer, OpeningDevice, list_devices};
+use crate::plan::PlanOptions;
+use crate::reference::ReferenceRenderer;
+use crate::renderer::{DeviceChoice, RenderError, Renderer};
+use crate::scene::Scene;
+
+/// What is said where `auto` finds no graphics adapter.
+const NO_ADAPTER_NOTICE: &str = "no Vulkan, Metal or Direct3D 12 adapter was found: rendering on the CPU, which is slower. \
+    On Debian and Ubuntu, scripts/install-lavapipe installs Mesa's software Vulkan driver.";
+
+/// A renderer ready to work, and what the user should know about the choice.
+pub struct ChosenRenderer {
+    pub renderer: Box<dyn Renderer>,
+    pub notice: Option<String>,
+}
+
+/// The choice of a device while it is being carried out: an adapter opens while the scene is read.
+pub struct Choice {
+    choice: DeviceChoice,
+    /// None for the CPU, which needs no adapter.
+    opening: Option<OpeningDevice>,
+}
+
+impl Choice {
+    /// Begins to open the adapter, if `choice` means one, for plans with these options.
+    pub fn begin(choice: &DeviceChoice, options: &PlanOptions) -> Self {
+        let opening = (*choice != DeviceChoice::Cpu).then(|| OpeningDevice::begin(choice, options));
+        Self { choice: choice.clone(), opening }
+    }
+
+    /// Makes the scene ready on the chosen device. With [`DeviceChoice::Auto`] and no adapter that can be used, that is the CPU reference, for
+    /// which `options` have no meaning; ray queries, which only an adapter has, are not given up that way. `options` are those that the choice
+    /// began with.
+    ///
+    /// # Errors
+    /// No such device, or a scene that does not fit it.
+    pub fn renderer(self, scene: &Scene, options: &PlanOptions) -> Result<ChosenRenderer, RenderError> {
+        let Some(opening) = self.opening else {
+            return Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: None });
+        };
+        match GpuRenderer::once_open(opening, scene, options) {
+            Err(RenderError::NoDevice(_)) if self.choice == DeviceChoice::Auto && !options.asks_for_ray_queries() => {
+                Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: Some(no_adapter_notice()) })
+            }
+            outcome => Ok(ChosenRenderer { renderer: Box::new(outcome?), notice: None }),
+        }
+    }
+}
+
+/// Why `auto` means the CPU: no adapter, or what keeps each from being used.
+fn no_adapter_notice() -> String {
+    let obstacles: Vec<String> = list_devices()
+        .into_iter()
+        .filter_map(|adapter| adapter.unusable.map(|obstacle| format!("{} {obstacle}", adapter.name)))
+        .collect();
+    if obstacles.is_empty() {
+        return NO_ADAPTER_NOTICE.to_owned();
+    }
+    format!("rendering on the CPU, which is slower, because {}", obstacles.join("; "))
+}
+
+fn on_the_cpu(scene: &Scene) -> Result<Box<dyn Renderer>, RenderError> {
+    Ok(Box::new(ReferenceRenderer::new(scene)?))
+}
