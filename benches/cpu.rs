@@ -8,7 +8,7 @@ use std::path::Path;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gpt::bench::scenes;
 use gpt::load;
-use gpt::packed::{PackedScene, hierarchy::HierarchyKind, tree::Tree, world};
+use gpt::packed::{PackedScene, hierarchy::Traversal, tree, world};
 use gpt::reference::ReferenceRenderer;
 use gpt::sampling::{BounceDimension, Dimension, PathSampler, Sampling, SequencePoint};
 use gpt::scene::{RenderSettings, SamplerKind, setting_name};
@@ -38,15 +38,9 @@ fn pack(criterion: &mut Criterion) {
             bencher.iter(|| PackedScene::new(scene));
         });
         let geometry = world::collect(&scene);
-        for kind in HierarchyKind::ALL {
-            let name = format!("hierarchy {}", kind.switch());
-            group.bench_with_input(BenchmarkId::new(name, triangles), &geometry, |bencher, geometry| {
-                bencher.iter(|| {
-                    let tree = Tree::build(&geometry.primitives, &geometry.motions, Some(kind));
-                    tree.and_then(|tree| tree.arrange(kind, &geometry.primitives))
-                });
-            });
-        }
+        group.bench_with_input(BenchmarkId::new("hierarchy", triangles), &geometry, |bencher, geometry| {
+            bencher.iter(|| tree::build(&geometry.primitives, &geometry.motions, Traversal::Bvh));
+        });
     }
     group.finish();
 }

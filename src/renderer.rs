@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::film::Band;
-use crate::packed::hierarchy::HierarchyKind;
+use crate::packed::hierarchy::Traversal;
 use crate::plan::Decision;
 
 /// Which device renders (`--device`).
@@ -73,8 +73,8 @@ impl Observer for Silent {
 pub struct RenderReport {
     /// The device as people call it, for example `llvmpipe (LLVM 15.0.6, 256 bits)` or `CPU reference`.
     pub device: String,
-    /// The form of the hierarchy that a graphics device goes through; None where geometry is code.
-    pub hierarchy: Option<HierarchyKind>,
+    /// How rays find what stands in a graphics device's hierarchy; None where geometry is code.
+    pub traversal: Option<Traversal>,
     /// What the plan decided for a graphics device, and why; empty for the CPU.
     pub decisions: Vec<Decision>,
     /// The parts of the shaders that a graphics device's kernels hold.

@@ -11,7 +11,6 @@ use glam::Vec3;
 use gpt::gpu::Device;
 use gpt::load;
 use gpt::packed::PackedScene;
-use gpt::packed::hierarchy::HierarchyKind;
 use gpt::plan::{Chunks, DeviceLimits, Plan, PlanOptions, StageMode};
 use gpt::renderer::{DeviceChoice, RenderError};
 use gpt::scene::{Geometry, Scene};
@@ -84,8 +83,15 @@ radiance = [1, 1.5, 2]
     load::load_toml_str(&text, "grid", Path::new(".")).expect("the scene is valid")
 }
 
-fn options(stages: StageMode, largest_chunk: Option<u64>) -> PlanOptions {
-    PlanOptions { stages: Some(stages), largest_chunk, ..PlanOptions::default() }
+fn options(stages: StageMode) -> PlanOptions {
+    PlanOptions { stages: Some(stages), ..PlanOptions::default() }
+}
+
+/// The device as if one binding held no more of an array than a chunk.
+fn small_bindings(device: &Device) -> Device {
+    let mut device = device.clone();
+    device.limits.max_array = CHUNK;
+    device
 }
 
 /// Means of all pixels as bits, and the plan.
@@ -102,16 +108,13 @@ fn counts(plan: &Plan) -> Vec<u32> {
 fn arrays_in_chunks_give_the_same_picture() {
     let Some(device) = DEVICE.as_ref() else { return };
     let scene = grid();
-    let [binary, four, eight] = HierarchyKind::ALL;
-    let ways = [(StageMode::Fused, four), (StageMode::Wavefront, four), (StageMode::Fused, binary), (StageMode::Fused, eight)];
-    for (stages, kind) in ways {
-        let options = |largest_chunk| PlanOptions { hierarchy: Some(kind), ..options(stages, largest_chunk) };
-        let (whole, plan) = picture(device, &scene, &options(None));
+    for stages in [StageMode::Fused, StageMode::Wavefront] {
+        let (whole, plan) = picture(device, &scene, &options(stages));
         assert!(plan.chunks.iter().all(Chunks::is_whole) && !plan.to_string().contains("in chunks"), "{plan}");
-        let (cut, plan) = picture(device, &scene, &options(Some(CHUNK)));
+        let (cut, plan) = picture(&small_bindings(device), &scene, &options(stages));
         assert!(counts(&plan).iter().zip([7, 2, 3]).all(|(&count, least)| count >= least), "{plan}");
         assert!(plan.to_string().contains("in chunks      primitives in "), "{plan}");
-        assert!(whole == cut, "{stages:?} {kind}");
+        assert!(whole == cut, "{stages:?}");
     }
 }
 
@@ -123,7 +126,7 @@ fn primitives_on_both_sides_of_a_cut_are_seen() {
     // At rest, so that every triangle is where the mesh has it.
     let mut scene = grid();
     scene.shapes.truncate(1);
-    let options = options(StageMode::Fused, Some(CHUNK));
+    let (device, options) = (&small_bindings(device), options(StageMode::Fused));
     let packed = PackedScene::new(&scene).expect("the scene packs");
     let in_chunk = (CHUNK / 48) as usize;
     let cuts = (in_chunk..packed.primitives.len()).step_by(in_chunk);
@@ -156,21 +159,21 @@ fn primitives_on_both_sides_of_a_cut_are_seen() {
     }
 }
 
-fn plan(limits: &DeviceLimits, largest_chunk: Option<u64>) -> Result<Plan, RenderError> {
+fn plan(limits: &DeviceLimits) -> Result<Plan, RenderError> {
     let scene = grid();
     let packed = PackedScene::new(&scene).expect("the scene packs");
-    Plan::new(&scene, &packed, limits, &options(StageMode::Fused, largest_chunk))
+    Plan::new(&scene, &packed, limits, &options(StageMode::Fused))
 }
 
 /// What binds no more than the grid takes whole, in a few buffers of half its primitives, or not at all.
 #[test]
 fn too_many_chunks_are_refused_with_both_sizes() {
-    let limits = |max_storage_buffers| DeviceLimits { max_storage_buffers, ..DeviceLimits::default() };
+    let limits = |max_storage_buffers| DeviceLimits { max_storage_buffers, max_array: CHUNK, ..DeviceLimits::default() };
     // Eight are promised: enough for what need not be cut.
-    assert!(plan(&limits(8), None).is_ok());
-    let needed: u32 = plan(&limits(100), Some(CHUNK)).map(|plan| counts(&plan).iter().sum()).expect("they are enough");
+    assert!(plan(&DeviceLimits::default()).is_ok());
+    let needed: u32 = plan(&limits(100)).map(|plan| counts(&plan).iter().sum()).expect("they are enough");
     assert!(needed > 8);
-    match plan(&limits(8), Some(CHUNK)) {
+    match plan(&limits(8)) {
         Err(RenderError::DoesNotFit(message)) => {
             let expected = "its primitives need 0.1 MiB, and the device can bind 0.0 MiB at once; in chunks of that size a stage";
             assert!(message.starts_with(expected), "{message}");
@@ -182,9 +185,9 @@ fn too_many_chunks_are_refused_with_both_sizes() {
 /// Chunks hold whole records, all of them, and no two arrays share a binding.
 #[test]
 fn chunks_cover_the_array_in_whole_records() {
-    use gpt::plan::chunks::{ATTRIBUTES, PRIMITIVES, nodes};
+    use gpt::plan::chunks::{ATTRIBUTES, NODES, PRIMITIVES};
     let mut numbers = std::collections::BTreeSet::new();
-    for array in HierarchyKind::ALL.map(nodes).into_iter().chain([PRIMITIVES, ATTRIBUTES]) {
+    for array in [PRIMITIVES, NODES, ATTRIBUTES] {
         let record = array.record_bytes() as usize;
         for (records, limit) in [(1, record), (7, 3 * record), (9, 3 * record), (100, 3 * record + record / 2), (5, 1 << 20)] {
             let chunks = Chunks::new(array, (records * record) as u64, limit as u64);

@@ -3,9 +3,9 @@
 #[path = "common/device.rs"]
 mod device;
 
-use device::DEVICE;
+use device::{DEVICE, with_limits};
 use gpt::film::Band;
-use gpt::gpu::GpuRenderer;
+use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;
 use gpt::plan::{FilmStorage, PlanOptions, StageMode};
 use gpt::renderer::{RenderRequest, Renderer, Silent};
@@ -14,8 +14,11 @@ use gpt::verify;
 use std::ops::Range;
 use std::path::Path;
 
-fn render(scene: &Scene, options: &PlanOptions, samples: Range<u32>) -> Option<Vec<Band>> {
-    let mut renderer = GpuRenderer::on(DEVICE.as_ref()?, scene, options).expect("the scene fits");
+fn render(scene: &Scene, (device, options): &Way, samples: Range<u32>) -> Option<Vec<Band>> {
+    let mut renderer = GpuRenderer::on(device.as_ref()?, scene, options).expect("the scene fits");
+    assert!(
+        device.as_ref().is_none_or(|device| device.limits.read_write_rgba32float || renderer.plan().film == FilmStorage::Buffer)
+    );
     let mut bands = Vec::new();
     let request = RenderRequest { rows: 0..scene.film.size[1], samples };
     let mut on_band = |band| {
@@ -26,10 +29,24 @@ fn render(scene: &Scene, options: &PlanOptions, samples: Range<u32>) -> Option<V
     Some(bands)
 }
 
-fn ways() -> [PlanOptions; 3] {
-    let stages = |mode| PlanOptions { stages: Some(mode), ..PlanOptions::default() };
-    let buffer = PlanOptions { film: Some(FilmStorage::Buffer), ..stages(StageMode::Wavefront) };
-    [stages(StageMode::Fused), stages(StageMode::Wavefront), buffer]
+type Way = (Option<Device>, PlanOptions);
+
+fn stages(mode: StageMode) -> PlanOptions {
+    PlanOptions { stages: Some(mode), ..PlanOptions::default() }
+}
+
+fn ways() -> [Way; 3] {
+    let without_textures = with_limits(|limits| limits.read_write_rgba32float = false);
+    [
+        (DEVICE.clone(), stages(StageMode::Fused)),
+        (DEVICE.clone(), stages(StageMode::Wavefront)),
+        (without_textures, stages(StageMode::Wavefront)),
+    ]
+}
+
+/// A wavefront with so many paths in flight.
+fn pool(paths: u32) -> Way {
+    (with_limits(|limits| limits.path_capacity = paths), stages(StageMode::Wavefront))
 }
 
 /// A light that fills the view: every sample of every pixel is the same number, the hardest case for a sum in f32, because every
@@ -49,12 +66,12 @@ fn light_in_view() -> Scene {
 fn sums_hold_their_precision_at_65536_samples() {
     const SPP: u32 = 65_536;
     let scene = light_in_view();
-    for options in ways() {
-        let Some(bands) = render(&scene, &options, 0..SPP) else { return };
+    for way in ways() {
+        let Some(bands) = render(&scene, &way, 0..SPP) else { return };
         for pixel in &bands[0].mean {
             for (value, expected) in pixel.iter().zip(LIGHT) {
                 let error = (f64::from(*value) / expected - 1.0).abs();
-                assert!(error <= 1e-6, "{options:?}: {value} instead of {expected}");
+                assert!(error <= 1e-6, "{:?}: {value} instead of {expected}", way.1);
             }
         }
         assert_eq!(bands[0].samples, SPP);
@@ -71,9 +88,9 @@ fn sums_hold_their_precision_at_65536_samples() {
 fn two_halves_of_the_samples_make_the_whole_picture() {
     let mut scene = load::load(Some("cornell")).expect("it is built in");
     verify::shrink(&mut scene, 32);
-    for options in ways() {
+    for way in ways() {
         let (Some(first), Some(second), Some(whole)) =
-            (render(&scene, &options, 0..128), render(&scene, &options, 128..256), render(&scene, &options, 0..256))
+            (render(&scene, &way, 0..128), render(&scene, &way, 128..256), render(&scene, &way, 0..256))
         else {
             return;
         };
@@ -81,7 +98,7 @@ fn two_halves_of_the_samples_make_the_whole_picture() {
             for channel in 0..3 {
                 let mean = 0.5 * (f64::from(a[channel]) + f64::from(b[channel]));
                 let error = (mean - f64::from(both[channel])).abs();
-                assert!(error <= 1e-6 * mean, "{options:?}: {mean} against {both:?}");
+                assert!(error <= 1e-6 * mean, "{:?}: {mean} against {both:?}", way.1);
             }
         }
         assert_ne!(first[0].mean, second[0].mean, "the halves are different samples");
@@ -94,10 +111,9 @@ fn bands_cover_the_picture_and_do_not_show() {
     let mut scene = load::load(Some("spheres")).expect("it is built in");
     scene.film.size = [1500, 1000];
     scene.render.max_depth = 3;
-    let Some(bands) = render(&scene, &PlanOptions::default(), 0..1) else { return };
+    let Some(bands) = render(&scene, &(DEVICE.clone(), PlanOptions::default()), 0..1) else { return };
     assert!(bands.len() > 1, "the picture is larger than a band");
-    let small_pool = PlanOptions { stages: Some(StageMode::Wavefront), path_capacity: Some(10_007), ..PlanOptions::default() };
-    let Some(other) = render(&scene, &small_pool, 0..1) else { return };
+    let Some(other) = render(&scene, &pool(10_007), 0..1) else { return };
     let mut next_row = 0;
     for (band, same) in bands.iter().zip(&other) {
         assert_eq!((band.first_row, band.samples), (next_row, 1));
@@ -117,7 +133,6 @@ fn bands_cover_the_picture_and_do_not_show() {
 fn the_picture_does_not_depend_on_how_samples_are_cut_into_passes() {
     let mut scene = load::load(Some("spheres")).expect("it is built in");
     verify::shrink(&mut scene, 48);
-    let pool = |paths| PlanOptions { stages: Some(StageMode::Wavefront), path_capacity: Some(paths), ..PlanOptions::default() };
     let (Some(one), Some(other)) = (render(&scene, &pool(1 << 18), 0..50), render(&scene, &pool(1_001), 0..50)) else {
         return;
     };

@@ -1,9 +1,9 @@
 //! Plans: what fits a device, and what is refused with sizes named. No device is needed.
 
 use gpt::load;
-use gpt::packed::hierarchy::{Child, HierarchyKind};
-use gpt::packed::{PackedScene, Unarranged};
-use gpt::plan::{DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanOptions, StageMode};
+use gpt::packed::PackedScene;
+use gpt::packed::hierarchy::{Child, Traversal};
+use gpt::plan::{DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanOptions, RayQueryLimits, StageMode, TraversalChoice};
 use gpt::renderer::RenderError;
 use gpt::scene::Scene;
 use std::path::Path;
@@ -13,8 +13,8 @@ fn plan(scene: &Scene, limits: &DeviceLimits) -> Result<Plan, RenderError> {
     Plan::new(scene, &packed, limits, &PlanOptions::default())
 }
 
-fn packed(scene: &Scene, kind: HierarchyKind) -> PackedScene {
-    Unarranged::new(scene).and_then(|unarranged| unarranged.arrange(kind)).expect("the scene packs")
+fn packed(scene: &Scene) -> PackedScene {
+    PackedScene::new(scene).expect("the scene packs")
 }
 
 /// A grid of triangles, `side` quads along each side, under an environment.
@@ -68,11 +68,7 @@ fn every_decision_has_its_reason() {
     assert!(because(&plan_for_software, "stages").contains("software"));
     assert!(because(&plan_for_software, "lanes").contains("software"));
 
-    let options = PlanOptions {
-        stages: Some(StageMode::Wavefront),
-        geometry: Some(GeometryPlacement::Hierarchy),
-        ..PlanOptions::default()
-    };
+    let options = PlanOptions { stages: Some(StageMode::Wavefront), traversal: TraversalChoice::Bvh, ..PlanOptions::default() };
     let packed = PackedScene::new(&grid).expect("the scene packs");
     let forced = Plan::new(&grid, &packed, &software, &options).expect("it fits");
     assert_eq!([because(&forced, "stages"), because(&forced, "geometry")], ["asked for", "asked for"]);
@@ -82,7 +78,7 @@ fn every_decision_has_its_reason() {
 fn an_array_beyond_the_largest_binding_is_refused_with_both_sizes() {
     let mut scene = grid(60);
     scene.film.size = [64, 64];
-    let limits = DeviceLimits { max_storage_binding: 100 << 10, ..DeviceLimits::default() };
+    let limits = DeviceLimits { max_array: 100 << 10, ..DeviceLimits::default() };
     match plan(&scene, &limits) {
         Err(RenderError::DoesNotFit(message)) => {
             let expected = "its primitives need 0.3 MiB, and the device can bind 0.1 MiB at once; in chunks of that size a stage would \
@@ -131,48 +127,47 @@ fn subgroups_take_places_in_queues_on_devices_that_have_them() {
     assert_eq!(said(true, true), None, "paths stay in one kernel");
 }
 
-/// Only the form of hierarchy that was chosen is packed and compiled, and what the options ask for is what runs.
+/// A plan for another traversal than the scene was packed for would read arrays that are not there.
 #[test]
-fn one_form_of_hierarchy_is_in_use() {
+fn a_scene_packed_for_another_traversal_is_refused() {
     let scene = grid(20);
-    let software = DeviceLimits { software: true, ..DeviceLimits::default() };
-    for limits in [DeviceLimits::default(), software.clone()] {
-        for wanted in [None, Some(HierarchyKind::Bvh2), Some(HierarchyKind::Bvh4), Some(HierarchyKind::CwBvh)] {
-            let options = PlanOptions { hierarchy: wanted, ..PlanOptions::default() };
-            let kind = options.hierarchy(&limits);
-            assert_eq!(kind, wanted.unwrap_or(kind));
-            let packed = packed(&scene, kind);
-            let plan = Plan::new(&scene, &packed, &limits, &options).expect("it fits");
-            let compiled: Vec<HierarchyKind> =
-                HierarchyKind::ALL.into_iter().filter(|kind| plan.switches.enabled.contains(kind.switch())).collect();
-            assert_eq!((plan.hierarchy, compiled), (kind, vec![kind]));
-            assert!(plan.to_string().contains(&kind.to_string()), "{plan}");
+    let limits = DeviceLimits { ray_queries: Some(RayQueryLimits { max_primitives: 1 << 24 }), ..DeviceLimits::default() };
+    for traversal in [TraversalChoice::Auto, TraversalChoice::Bvh, TraversalChoice::RayQuery] {
+        for packed_for in [Traversal::Bvh, Traversal::RayQuery] {
+            let packed = PackedScene::for_traversal(&scene, packed_for).expect("the scene packs");
+            let options = PlanOptions { traversal, ..PlanOptions::default() };
+            match Plan::new(&scene, &packed, &limits, &options) {
+                Ok(plan) => {
+                    assert_eq!((options.packed_traversal(), plan.traversal_in_use()), (packed_for, Some(packed_for)));
+                    assert_eq!(plan.switches.enabled.contains("BVH"), packed_for == Traversal::Bvh);
+                    assert_eq!(plan.switches.enabled.contains("RAY_QUERY"), packed_for == Traversal::RayQuery);
+                }
+                Err(RenderError::Internal(_)) => assert_ne!(options.packed_traversal(), packed_for),
+                Err(error) => panic!("{error}"),
+            }
         }
     }
-    let options = PlanOptions { hierarchy: Some(HierarchyKind::Bvh2), ..PlanOptions::default() };
-    let refused = Plan::new(&scene, &packed(&scene, HierarchyKind::Bvh4), &software, &options);
-    assert!(matches!(refused, Err(RenderError::Internal(_))), "{refused:?}");
 }
 
 /// The stack a traversal needs is found from the tree; every tree of these grids fits what is compiled in.
 #[test]
 fn the_stack_covers_the_deepest_way() {
-    for (side, kind) in [1, 6, 30, 90].into_iter().flat_map(|side| HierarchyKind::ALL.map(|kind| (side, kind))) {
-        let hierarchy = packed(&grid(side), kind).hierarchy;
-        // Walk every path with the pushes of the kernel: all children on, one off, where each child is an entry; else the children left.
+    for side in [1, 6, 30, 90] {
+        let hierarchy = packed(&grid(side)).hierarchy;
+        // Walk every path with the pushes of the kernel: all children on, one off.
         let mut deepest = 0;
         let mut pending = vec![(0_usize, 0_u32)];
         while let Some((node, waiting)) = pending.pop() {
-            let children = hierarchy.nodes.children(node);
-            let pushed = if kind == HierarchyKind::CwBvh { 1 } else { children.len() as u32 };
+            let children = hierarchy.nodes[node].children();
+            let pushed = children.len() as u32;
             deepest = deepest.max(waiting + pushed);
-            let others = if kind == HierarchyKind::CwBvh { waiting + 1 } else { (waiting + pushed).saturating_sub(1) };
+            let others = (waiting + pushed).saturating_sub(1);
             pending.extend(children.iter().filter_map(|child| match child {
                 Child::Inner(inner) => Some((*inner, others)),
                 Child::Leaf { .. } => None,
             }));
         }
-        assert_eq!(deepest, hierarchy.stack_size, "{kind}");
+        assert_eq!(deepest, hierarchy.stack_size, "{side}");
     }
 }
 
@@ -182,14 +177,13 @@ fn the_number_of_cores_does_not_show() {
     let scene = grid(60);
     let on = |cores: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(cores).build().expect("threads");
-        pool.install(|| HierarchyKind::ALL.map(|kind| packed(&scene, kind)))
+        pool.install(|| packed(&scene))
     };
     let alone = on(1);
     for cores in [2, 5] {
-        for (alone, together) in alone.iter().zip(on(cores)) {
-            assert_eq!(alone.hierarchy.nodes, together.hierarchy.nodes);
-            assert!(alone.primitives == together.primitives);
-        }
+        let together = on(cores);
+        assert_eq!(alone.hierarchy.nodes, together.hierarchy.nodes);
+        assert!(alone.primitives == together.primitives);
     }
 }
 

@@ -11,10 +11,10 @@ use std::path::Path;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;
 use gpt::load::load_toml_str;
-use gpt::packed::hierarchy::HierarchyKind;
-use gpt::packed::{PackedScene, Unarranged};
+use gpt::packed::PackedScene;
+use gpt::packed::hierarchy::Traversal;
 use gpt::plan::limits::RayQueryLimits;
-use gpt::plan::{DeviceLimits, GeometryPlacement, Plan, PlanOptions, StageMode};
+use gpt::plan::{DeviceLimits, Plan, PlanOptions, StageMode, TraversalChoice};
 use gpt::renderer::{DeviceChoice, RenderError};
 use gpt::scene::Scene;
 use pixel_bits::pixel_bits;
@@ -77,7 +77,7 @@ fn they_make_the_picture_of_our_hierarchy() {
     for (name, mut scene) in scenes {
         for (stages, checked_shaders) in [(StageMode::Fused, false), (StageMode::Wavefront, false), (StageMode::Fused, true)] {
             let asked = PlanOptions { stages: Some(stages), checked_shaders, ..by_ray_queries() };
-            let ours = PlanOptions { hierarchy: Some(HierarchyKind::Bvh4), ..asked.clone() };
+            let ours = PlanOptions { traversal: TraversalChoice::Bvh, ..asked.clone() };
             let [asked, expected] = [&asked, &ours].map(|options| picture(device, &scene, options));
             let different = |other: &[[u32; 3]]| expected.iter().zip(other).filter(|(a, b)| a != b).count();
             println!("{name}, {stages:?}: {} of {} pixels differ", different(&asked), expected.len());
@@ -102,11 +102,11 @@ fn they_are_used_where_they_were_asked_for_and_only_there() {
     let way = |options: &PlanOptions| {
         let renderer = GpuRenderer::on(device, &everything(), options).expect("the scene fits");
         let plan = renderer.plan();
-        (plan.hierarchy_in_use(), plan.switches.enabled.contains("RAY_QUERY"), plan.switches.enabled.contains("BVH"))
+        (plan.traversal_in_use(), plan.switches.enabled.contains("RAY_QUERY"), plan.switches.enabled.contains("BVH"))
     };
-    assert_eq!(way(&by_ray_queries()), (Some(HierarchyKind::RayQuery), true, false));
-    let ours = PlanOptions { geometry: Some(GeometryPlacement::Hierarchy), ..PlanOptions::default() };
-    assert_eq!(way(&ours), (Some(HierarchyKind::Bvh4), false, true));
+    assert_eq!(way(&by_ray_queries()), (Some(Traversal::RayQuery), true, false));
+    let ours = PlanOptions { traversal: TraversalChoice::Bvh, ..PlanOptions::default() };
+    assert_eq!(way(&ours), (Some(Traversal::Bvh), false, true));
     assert_eq!(way(&PlanOptions::default()).0, None);
 }
 
@@ -118,7 +118,7 @@ fn a_scene_with_nothing_to_ask_for_asks_nothing() {
                 [[light]]\ntype = \"environment\"\nradiance = 1\n";
     let scene = load_toml_str(text, "plane", Path::new("")).expect("the scene is valid");
     let plan = plan(&scene, &with_ray_queries(1 << 24)).expect("it fits");
-    assert_eq!(plan.hierarchy_in_use(), None);
+    assert_eq!(plan.traversal_in_use(), None);
 }
 
 fn with_ray_queries(max_primitives: u32) -> DeviceLimits {
@@ -126,8 +126,7 @@ fn with_ray_queries(max_primitives: u32) -> DeviceLimits {
 }
 
 fn packed(scene: &Scene) -> PackedScene {
-    let packed = Unarranged::for_form(scene, Some(HierarchyKind::RayQuery));
-    packed.and_then(|unarranged| unarranged.arrange(HierarchyKind::RayQuery)).expect("the scene packs")
+    PackedScene::for_traversal(scene, Traversal::RayQuery).expect("the scene packs")
 }
 
 fn plan(scene: &Scene, limits: &DeviceLimits) -> Result<Plan, RenderError> {
@@ -183,10 +182,9 @@ fn a_device_opened_without_them_has_none() {
 /// Triangles stand before what boxes stand for, each primitive once, and every box holds its shape.
 #[test]
 fn what_a_structure_is_built_from_is_in_order() {
-    use gpt::packed::hierarchy::Nodes;
     use gpt::packed::primitive::PrimitiveKind;
     let packed = packed(&everything());
-    let Nodes::RayQuery(boxes) = &packed.hierarchy.nodes else { panic!("{:?}", packed.hierarchy.kind()) };
+    let boxes = &packed.hierarchy.boxes;
     let held = &packed.primitives[..packed.hierarchy.primitive_count as usize];
     let (triangles, shapes) = held.split_at(held.len() - boxes.len());
     assert_eq!((triangles.len(), shapes.len(), packed.primitives.len()), (4, 21, 26));

@@ -3,8 +3,7 @@
 use std::collections::BTreeSet;
 
 use gpt::gpu::kernels::used_bindings;
-use gpt::packed::hierarchy::HierarchyKind;
-use gpt::plan::chunks::{ATTRIBUTES, Chunks, PRIMITIVES, RecordArray, nodes};
+use gpt::plan::chunks::{ATTRIBUTES, Chunks, NODES, PRIMITIVES, RecordArray};
 use gpt::plan::switches::{ALL, DEBUG};
 use gpt::shader::{ComposeError, Switches, compose};
 
@@ -79,13 +78,6 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
     } else {
         wanted.remove("RAY_QUERY");
     }
-    // A hierarchy has one form.
-    let forms = ["BVH2", "BVH4", "CWBVH"];
-    let form = forms.into_iter().find(|form| wanted.contains(form) && !wanted.contains("PACKETS")).unwrap_or("BVH4");
-    wanted.retain(|name| !forms.contains(name));
-    if wanted.contains("BVH") {
-        wanted.insert(form);
-    }
     // A blend is a mixture unless a leaf of it is picked; only mixtures have lobes to tell apart.
     if wanted.contains("BLENDS") && !wanted.contains("PICK") {
         wanted.insert("MIXTURE");
@@ -156,11 +148,10 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
     let geometry = "#import geometry/primitives.wgsl\n#import geometry/scene.wgsl\n\
                     fn closest_of_constants(ray: PreparedRay, hit: ptr<function, Hit>) {}\n\
                     fn any_of_constants(ray: PreparedRay, t_max: f32) -> bool { return false; }\n";
-    let kind = HierarchyKind::ALL.into_iter().find(|kind| wanted.contains(kind.switch())).unwrap_or_default();
     // Three chunks, the last of half the size.
     let chunks =
         |array: RecordArray| (array.file, Chunks::new(array, 2500 * array.record_bytes(), 1000 * array.record_bytes()).wgsl());
-    let cut = [PRIMITIVES, nodes(kind), ATTRIBUTES].into_iter().map(chunks);
+    let cut = [PRIMITIVES, NODES, ATTRIBUTES].into_iter().map(chunks);
     Switches {
         enabled: wanted,
         constants: constants.into_iter().map(|name| (name, 7)).collect(),
@@ -169,7 +160,9 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
 }
 
 fn validate_all(switches: &Switches) -> Result<(), (String, ComposeError)> {
-    for (file, entry) in STAGES {
+    // Lanes side by side are always a packet.
+    let runs = |file: &str| file != "stages/fused_lanes.wgsl" || switches.enabled.contains("PACKETS");
+    for (file, entry) in STAGES.into_iter().filter(|(file, _)| runs(file)) {
         let describe = |error| (format!("{entry} with {:?}", switches.enabled), error);
         let composed = compose(file, switches).map_err(describe)?;
         composed.validate().map_err(describe)?;
@@ -307,12 +300,10 @@ fn layouts_match_between_wgsl_and_rust() {
 /// Packed records are whole numbers of vec4: the shaders index them in words of 16 bytes.
 #[test]
 fn packed_records_are_the_words_that_shaders_count() {
-    use gpt::packed::{bvh2, bvh4, cwbvh, heuristic::PackedHeuristic, light::PackedLight, material::*, primitive::*, texture::*};
+    use gpt::packed::{bvh4, heuristic::PackedHeuristic, light::PackedLight, material::*, primitive::*, texture::*};
     assert_eq!(size_of::<Primitive>(), 3 * 16);
     assert_eq!(size_of::<TriangleAttributes>(), 4 * 16);
-    assert_eq!(size_of::<bvh2::Node>(), 4 * 16);
     assert_eq!(size_of::<bvh4::Node>(), 3 * 16);
-    assert_eq!(size_of::<cwbvh::Node>(), 5 * 16);
     assert_eq!(size_of::<PackedMaterial>(), 5 * 16);
     assert_eq!(size_of::<PackedLight>(), 5 * 16);
     assert_eq!(size_of::<PackedLeaf>(), 16);

@@ -2,7 +2,31 @@
 //   (origin x, y, z; exponents x, y, z and which children are inner nodes (4 bits) and exist (4 bits))
 //   (first inner child; first primitive (24 bits) and leaf sizes less one (2 bits each); low x of 4 children; low y)
 //   (low z; high x; high y; high z)
-#import geometry/entries.wgsl
+#import core/math.wgsl
+#import geometry/records.wgsl
+
+// What stands for a child on a traversal's stack.
+// Inner child: node index. Leaf: LEAF | (size - 1) << 24 | first primitive.
+const LEAF: u32 = 0x80000000u;
+// No entry is left. No leaf has this entry: its size would be above any.
+const FINISHED: u32 = 0xffffffffu;
+
+// Widening the far side covers the rounding of both distances (Ize 2013).
+const WIDER: f32 = 1.000001;
+
+// Without the care for NaN that min and max take: there is none here, because reciprocals are finite.
+fn smaller(a: vec4<f32>, b: vec4<f32>) -> vec4<f32> {
+    return select(a, b, b < a);
+}
+
+fn larger(a: vec4<f32>, b: vec4<f32>) -> vec4<f32> {
+    return select(a, b, b > a);
+}
+
+// The bytes go through i32: software drivers convert signed integers in one instruction, unsigned ones in seven.
+fn unpack_bytes(word: u32) -> vec4<f32> {
+    return vec4<f32>(vec4<i32>((vec4<u32>(word) >> vec4<u32>(0u, 8u, 16u, 24u)) & vec4<u32>(255u)));
+}
 
 // Distances at which the ray enters the children's boxes; INFINITY_DISTANCE where it misses one. Those of children that do not exist
 // mean nothing.
@@ -64,27 +88,3 @@ fn child_entry(words: NodeWords, child: u32) -> u32 {
     return select(leaf_entry, node_place(inner_before + words.w1.x), ((flags >> child) & 1u) != 0u);
 }
 #endif
-
-fn descend(node: u32, traversal: ptr<function, Traversal>, stack: ptr<function, array<StackEntry, STACK_SIZE>>) -> u32 {
-    let words = node_words(node);
-    // Sorted by distance with a network of five exchanges; the nearest is visited next, the others wait, farthest deepest.
-    let distances = entry_distances(words, (*traversal).ray.origin, (*traversal).inverse_direction, (*traversal).hit.t);
-    let exists = (vec4<u32>(existing_children(words)) & vec4<u32>(1u, 2u, 4u, 8u)) != vec4<u32>(0u);
-    var t = select(vec4<f32>(INFINITY_DISTANCE), distances, exists);
-    var e = child_entries(words);
-    if t.y < t.x { t = t.yxzw; e = e.yxzw; }
-    if t.w < t.z { t = t.xywz; e = e.xywz; }
-    if t.z < t.x { t = t.zyxw; e = e.zyxw; }
-    if t.w < t.y { t = t.xwzy; e = e.xwzy; }
-    if t.z < t.y { t = t.xzyw; e = e.xzyw; }
-    // All are written and those met are kept: that costs less than branches that depend on the ray.
-    var depth = (*traversal).pending.depth;
-    (*stack)[depth] = e.w;
-    depth += select(0u, 1u, t.w < INFINITY_DISTANCE);
-    (*stack)[depth] = e.z;
-    depth += select(0u, 1u, t.z < INFINITY_DISTANCE);
-    (*stack)[depth] = e.y;
-    depth += select(0u, 1u, t.y < INFINITY_DISTANCE);
-    (*traversal).pending.depth = depth;
-    return select(e.x, FINISHED, t.x == INFINITY_DISTANCE);
-}

@@ -2,7 +2,7 @@
 // it: how long a node takes, from its loading to that of the next, is what counts, and the nearest child is known before the others are
 // sorted.
 #import core/lanes.wgsl
-#import geometry/entries.wgsl
+#import geometry/bvh4.wgsl
 
 // Registers that hold the stack.
 const STACK_REGISTERS: u32 = (STACK_SIZE + LANES - 1u) / LANES;

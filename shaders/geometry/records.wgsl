@@ -28,18 +28,11 @@ fn primitive_word(index: u32, word: u32) -> vec4<f32> {
 #endif
 
 #if BVH
-// src/packed/bvh2.rs, bvh4.rs, cwbvh.rs.
+// src/packed/bvh4.rs.
 struct NodeWords {
     w0: vec4<u32>,
     w1: vec4<u32>,
     w2: vec4<u32>,
-#if BVH2
-    w3: vec4<u32>,
-#endif
-#if CWBVH
-    w3: vec4<u32>,
-    w4: vec4<u32>,
-#endif
 }
 
 #if NODE_CHUNKS
@@ -52,18 +45,8 @@ struct NodeWords {
 #endif
 
 fn node_words(index: u32) -> NodeWords {
-#if BVH2
-    let first = index * 4u;
-    return NodeWords(nodes[first], nodes[first + 1u], nodes[first + 2u], nodes[first + 3u]);
-#endif
-#if BVH4
     let first = index * 3u;
     return NodeWords(nodes[first], nodes[first + 1u], nodes[first + 2u]);
-#endif
-#if CWBVH
-    let first = index * 5u;
-    return NodeWords(nodes[first], nodes[first + 1u], nodes[first + 2u], nodes[first + 3u], nodes[first + 4u]);
-#endif
 }
 #endif
 

@@ -1,17 +1,33 @@
-// Closest hit and occlusion through the hierarchy, whatever its form. A form's file has
-//   StackEntry, Pending: what waits to be visited; nothing_pending, pending_root, is_pending
-//   step_closest: visits one node and tests one primitive
+// Closest hit and occlusion through the hierarchy: nodes sort their children by distance, and each child that waits is an entry of one word.
+#import core/math.wgsl
+#import geometry/bvh4.wgsl
+#import geometry/primitives.wgsl
+#import geometry/records.wgsl
 #import geometry/stored.wgsl
 #import geometry/constants.wgsl
-#if BVH2
-#import geometry/bvh2.wgsl
-#endif
-#if BVH4
-#import geometry/bvh4.wgsl
-#endif
-#if CWBVH
-#import geometry/cwbvh.wgsl
-#endif
+
+alias StackEntry = u32;
+
+struct Pending {
+    // The entry to visit next, and how many wait on the stack.
+    current: u32,
+    depth: u32,
+    // Primitives of the leaf entered last that are still to be tested.
+    primitive: u32,
+    primitive_end: u32,
+}
+
+fn nothing_pending() -> Pending {
+    return Pending(FINISHED, 0u, 0u, 0u);
+}
+
+fn pending_root() -> Pending {
+    return Pending(0u, 0u, 0u, 0u);
+}
+
+fn is_pending(pending: Pending) -> bool {
+    return pending.current != FINISHED || pending.primitive != pending.primitive_end;
+}
 
 // A ray on its way through the hierarchy. Its stack is a variable beside it, because arrays in structs are copied.
 struct Traversal {
@@ -41,6 +57,67 @@ fn no_traversal() -> Traversal {
 
 fn is_finished(traversal: Traversal) -> bool {
     return !is_pending(traversal.pending);
+}
+
+// Tests one primitive.
+fn test_primitive(traversal: ptr<function, Traversal>, primitive: u32) {
+    var hit = (*traversal).hit;
+    intersect_stored((*traversal).ray, primitive, primitive_words(primitive), &hit);
+    (*traversal).hit = hit;
+}
+
+// Visits a node: puts the children met onto the stack but for the nearest, and returns that; FINISHED where there is none.
+fn descend(node: u32, traversal: ptr<function, Traversal>, stack: ptr<function, array<StackEntry, STACK_SIZE>>) -> u32 {
+    let words = node_words(node);
+    // Sorted by distance with a network of five exchanges; the nearest is visited next, the others wait, farthest deepest.
+    let distances = entry_distances(words, (*traversal).ray.origin, (*traversal).inverse_direction, (*traversal).hit.t);
+    let exists = (vec4<u32>(existing_children(words)) & vec4<u32>(1u, 2u, 4u, 8u)) != vec4<u32>(0u);
+    var t = select(vec4<f32>(INFINITY_DISTANCE), distances, exists);
+    var e = child_entries(words);
+    if t.y < t.x { t = t.yxzw; e = e.yxzw; }
+    if t.w < t.z { t = t.xywz; e = e.xywz; }
+    if t.z < t.x { t = t.zyxw; e = e.zyxw; }
+    if t.w < t.y { t = t.xwzy; e = e.xwzy; }
+    if t.z < t.y { t = t.xzyw; e = e.xzyw; }
+    // All are written and those met are kept: that costs less than branches that depend on the ray.
+    var depth = (*traversal).pending.depth;
+    (*stack)[depth] = e.w;
+    depth += select(0u, 1u, t.w < INFINITY_DISTANCE);
+    (*stack)[depth] = e.z;
+    depth += select(0u, 1u, t.z < INFINITY_DISTANCE);
+    (*stack)[depth] = e.y;
+    depth += select(0u, 1u, t.y < INFINITY_DISTANCE);
+    (*traversal).pending.depth = depth;
+    return select(e.x, FINISHED, t.x == INFINITY_DISTANCE);
+}
+
+// Visits one node, nearest first, and tests one primitive of a leaf met before. Lanes that run together pay for both anyway, so a
+// leaf's primitives are tested while the way goes on, not before it does.
+fn step_closest(traversal: ptr<function, Traversal>, stack: ptr<function, array<StackEntry, STACK_SIZE>>) {
+    var current = (*traversal).pending.current;
+    var leads_nowhere = false;
+    if (current & LEAF) == 0u {
+        current = descend(current, traversal, stack);
+        leads_nowhere = current == FINISHED;
+    }
+    let is_leaf = (current & LEAF) != 0u && current != FINISHED;
+    if !leads_nowhere && is_leaf && (*traversal).pending.primitive == (*traversal).pending.primitive_end {
+        (*traversal).pending.primitive = current & 0x00ffffffu;
+        (*traversal).pending.primitive_end = (*traversal).pending.primitive + ((current >> 24u) & 3u) + 1u;
+        leads_nowhere = true;
+    }
+    if leads_nowhere {
+        current = FINISHED;
+        if (*traversal).pending.depth != 0u {
+            (*traversal).pending.depth--;
+            current = (*stack)[(*traversal).pending.depth];
+        }
+    }
+    (*traversal).pending.current = current;
+    if (*traversal).pending.primitive != (*traversal).pending.primitive_end {
+        test_primitive(traversal, (*traversal).pending.primitive);
+        (*traversal).pending.primitive++;
+    }
 }
 
 // As step_closest, for a ray that only asks whether it meets anything: it is finished at the first primitive met.
@@ -86,28 +163,4 @@ fn occluded(traced: Ray, t_max: f32) -> bool {
         step_any(&traversal, &stack);
     }
     return traversal.hit.primitive != NONE;
-}
-
-// Widening the far side covers the rounding of both distances (Ize 2013).
-const WIDER: f32 = 1.000001;
-
-// Without the care for NaN that min and max take: there is none here, because reciprocals are finite.
-fn smaller(a: vec4<f32>, b: vec4<f32>) -> vec4<f32> {
-    return select(a, b, b < a);
-}
-
-fn larger(a: vec4<f32>, b: vec4<f32>) -> vec4<f32> {
-    return select(a, b, b > a);
-}
-
-// The bytes go through i32: software drivers convert signed integers in one instruction, unsigned ones in seven.
-fn unpack_bytes(word: u32) -> vec4<f32> {
-    return vec4<f32>(vec4<i32>((vec4<u32>(word) >> vec4<u32>(0u, 8u, 16u, 24u)) & vec4<u32>(255u)));
-}
-
-// Tests one primitive.
-fn test_primitive(traversal: ptr<function, Traversal>, primitive: u32) {
-    var hit = (*traversal).hit;
-    intersect_stored((*traversal).ray, primitive, primitive_words(primitive), &hit);
-    (*traversal).hit = hit;
 }

@@ -2,38 +2,20 @@
 // camera rays and shadow rays are neighbours, which visit the same nodes at the same time.
 #import core/lanes.wgsl
 #import geometry/closest.wgsl
-#if PACKETS
 #import geometry/packet.wgsl
-#endif
 #import shading/path.wgsl
 #import stages/film.wgsl
 #import stages/fused_pixels.wgsl
 
 // What the ray meets first, of the lanes that have one.
 fn nearest(ray: Ray, has_ray: bool) -> Hit {
-#if PACKETS
     return closest_hit_together(ray, select(-1.0, INFINITY_DISTANCE, has_ray));
-#else
-    var hit: Hit;
-    if has_ray {
-        hit = closest_hit(ray, INFINITY_DISTANCE);
-    }
-    return hit;
-#endif
 }
 
 #if LIGHTS
 // Whether nothing is in the shadow ray's way, of the lanes that have one.
 fn is_lit(shadow: ShadowRay, has_ray: bool) -> bool {
-#if PACKETS
     return !occluded_together(shadow.ray, select(-1.0, shadow.distance, has_ray)) && has_ray;
-#else
-    var lit = false;
-    if has_ray {
-        lit = !occluded(shadow.ray, shadow.distance);
-    }
-    return lit;
-#endif
 }
 #endif
 

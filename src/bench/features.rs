@@ -11,7 +11,7 @@ use super::interval::{Ratio, Spread};
 use super::scenes::Room;
 use super::subject::{BenchError, Devices, SceneSubject, Subject};
 use crate::gpu::{Device, GpuRenderer};
-use crate::plan::{GeometryPlacement, PlanOptions};
+use crate::plan::{PlanOptions, TraversalChoice};
 use crate::renderer::{DeviceChoice, Observer, RenderError, RenderRequest, Renderer};
 use crate::scene::Scene;
 
@@ -191,7 +191,7 @@ pub fn measure(
     };
     let (plain, with) = (sized(&Room::default())?, sized(&feature.room)?);
     let plan = |switches: &[&'static str]| PlanOptions {
-        geometry: feature.hierarchy.then_some(GeometryPlacement::Hierarchy),
+        traversal: if feature.hierarchy { TraversalChoice::Bvh } else { TraversalChoice::Auto },
         compile_in: switches.to_vec(),
         ..PlanOptions::default()
     };
@@ -285,8 +285,8 @@ mod tests {
         let enabled = |room: &Room, feature: &Feature| {
             let scene = room.scene().unwrap();
             let packed = PackedScene::new(&scene).unwrap();
-            let geometry = feature.hierarchy.then_some(GeometryPlacement::Hierarchy);
-            let options = PlanOptions { geometry, ..PlanOptions::default() };
+            let traversal = if feature.hierarchy { TraversalChoice::Bvh } else { TraversalChoice::Auto };
+            let options = PlanOptions { traversal, ..PlanOptions::default() };
             Plan::new(&scene, &packed, &DeviceLimits::default(), &options).unwrap().switches.enabled
         };
         for feature in features() {

@@ -8,7 +8,7 @@ use super::growth::Growth;
 use super::interval::{Ratio, Spread};
 use super::subject::{BenchError, Devices, SceneSubject, Subject};
 use crate::gpu::GpuRenderer;
-use crate::packed::hierarchy::HierarchyKind;
+use crate::packed::hierarchy::Traversal;
 use crate::plan::{PlanOptions, StageMode, memory};
 use crate::reference::ReferenceRenderer;
 use crate::renderer::{DeviceChoice, Observer, RenderError, RenderRequest, Renderer};
@@ -115,7 +115,7 @@ struct Entry<'a> {
 struct Candidate<'a> {
     subject: SceneSubject<'a>,
     stages: &'static str,
-    hierarchy: Option<HierarchyKind>,
+    traversal: Option<Traversal>,
     bytes_per_path: Option<u64>,
     device_bytes: u64,
     profile: Profile,
@@ -247,7 +247,7 @@ fn prepare<'a>(
             first_picture_seconds: start.elapsed().as_secs_f64(),
             subject: SceneSubject { renderer: Box::new(renderer), size: scene.film.size, observer },
             stages: "cpu",
-            hierarchy: None,
+            traversal: None,
             bytes_per_path: None,
             device_bytes: 0,
             profile: Profile::default(),
@@ -263,7 +263,7 @@ fn prepare<'a>(
     Ok(Candidate {
         first_picture_seconds,
         stages: if wavefront { "wavefront" } else { "fused" },
-        hierarchy: renderer.plan().hierarchy_in_use(),
+        traversal: renderer.plan().traversal_in_use(),
         bytes_per_path: wavefront.then_some(memory::PATH_STATE_BYTES + memory::QUEUE_BYTES + shadow_rays),
         device_bytes: renderer.plan().memory.total(),
         profile: look_inside(&renderer, options.rounds)?,
@@ -340,7 +340,7 @@ impl Candidate<'_> {
         Speed {
             device: self.subject.renderer.device().to_owned(),
             stages: self.stages.to_owned(),
-            hierarchy: self.hierarchy.map(HierarchyKind::key),
+            hierarchy: self.traversal.map(|traversal| traversal.key().to_owned()),
             build_seconds: last.map_or(f64::NAN, |run| run.build_seconds),
             compile_seconds: last.map_or(f64::NAN, |run| run.compile_seconds),
             first_picture_seconds: self.first_picture_seconds,

@@ -2,7 +2,7 @@
 
 use gpt::gpu::select_adapter;
 use gpt::load;
-use gpt::packed::{PackError, Unarranged};
+use gpt::packed::{PackError, PackedScene};
 use gpt::plan::{DeviceLimits, Plan};
 use gpt::renderer::{DeviceChoice, RenderError};
 use gpt::scene::SceneSummary;
@@ -29,13 +29,12 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
     terminal::answer(&summary.to_string())?;
     let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
     let options = arguments.traversal.options();
-    let unarranged = Unarranged::for_form(&scene, options.hierarchy).map_err(does_not_fit)?;
+    let packed = PackedScene::for_traversal(&scene, options.packed_traversal()).map_err(does_not_fit)?;
     // Without an adapter the plan is the one for a device that has just what WebGPU promises.
     let (device, limits) = match select_adapter(&DeviceChoice::Auto) {
         Ok(adapter) => (adapter.get_info().name, DeviceLimits::of(&adapter)),
         Err(_) => ("a device with the limits that WebGPU promises".to_owned(), DeviceLimits::default()),
     };
-    let packed = unarranged.arrange(options.hierarchy(&limits)).map_err(does_not_fit)?;
     let plan = Plan::new(&scene, &packed, &limits, &options)?;
     terminal::answer(&format!("\nplan for {device}\n{plan}\n"))?;
     Ok(Exit::Done)

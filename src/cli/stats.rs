@@ -1,6 +1,6 @@
 //! `--stats`: what a render did, as JSON for other programs.
 
-use gpt::packed::hierarchy::HierarchyKind;
+use gpt::packed::hierarchy::Traversal;
 use gpt::plan::Decision;
 use gpt::renderer::RenderReport;
 use gpt::scene::{Scene, setting_name};
@@ -12,8 +12,8 @@ pub struct Stats {
     pub scene: String,
     pub scene_hash: String,
     pub device: String,
-    /// `bvh2`, `bvh4`, `cwbvh` or `ray_query`; null where the device tests every primitive, and for the CPU reference.
-    pub hierarchy: Option<String>,
+    /// `bvh4` or `ray_query`; null where the device tests every primitive, and for the CPU reference.
+    pub hierarchy: Option<&'static str>,
     /// What the plan decided for the device, and why; empty for the CPU reference.
     pub decisions: Vec<Decision>,
     /// The parts of the shaders that are compiled; the rest of them is left out.
@@ -82,7 +82,7 @@ impl Stats {
             scene: scene.name.clone(),
             scene_hash: String::new(),
             device: report.device.clone(),
-            hierarchy: report.hierarchy.map(HierarchyKind::key),
+            hierarchy: report.traversal.map(Traversal::key),
             decisions: report.decisions.clone(),
             compiled_in: report.compiled_in.clone(),
             width,

@@ -1,8 +1,7 @@
 //! `--traversal`: how rays find what they meet on a graphics device.
 
 use clap::{Args, ValueEnum};
-use gpt::packed::hierarchy::HierarchyKind;
-use gpt::plan::{GeometryPlacement, PlanOptions};
+use gpt::plan::{PlanOptions, TraversalChoice};
 use gpt::renderer::DeviceChoice;
 
 use super::exit::Failure;
@@ -10,12 +9,12 @@ use super::exit::Failure;
 /// A way, as it is typed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub enum TraversalName {
-    /// As the plan decides: few primitives are tested one by one, others stand in a hierarchy of ours; never ray queries
+    /// Few primitives are tested one by one, others stand in a bounding volume hierarchy; never ray queries
     #[default]
     Auto,
-    /// A hierarchy of ours, however few the primitives
+    /// A bounding volume hierarchy, however few the primitives
     Bvh,
-    /// The device's own hierarchy, by its ray queries; what the device lacks, and what moves, is refused
+    /// The device's own acceleration structure, by ray queries; refused where the device has none or the scene moves
     RayQuery,
 }
 
@@ -29,12 +28,12 @@ pub struct TraversalArguments {
 impl TraversalArguments {
     /// What a plan has to be told.
     pub fn options(&self) -> PlanOptions {
-        let (geometry, hierarchy) = match self.traversal {
-            TraversalName::Auto => (None, None),
-            TraversalName::Bvh => (Some(GeometryPlacement::Hierarchy), None),
-            TraversalName::RayQuery => (Some(GeometryPlacement::Hierarchy), Some(HierarchyKind::RayQuery)),
+        let traversal = match self.traversal {
+            TraversalName::Auto => TraversalChoice::Auto,
+            TraversalName::Bvh => TraversalChoice::Bvh,
+            TraversalName::RayQuery => TraversalChoice::RayQuery,
         };
-        PlanOptions { geometry, hierarchy, ..PlanOptions::default() }
+        PlanOptions { traversal, ..PlanOptions::default() }
     }
 
     /// As [`TraversalArguments::options`], for a command that may be told to go without a graphics device.

@@ -10,7 +10,7 @@ use wgpu::{
 
 use super::device::Device;
 use crate::packed::PackedScene;
-use crate::packed::hierarchy::Nodes;
+use crate::packed::hierarchy::Traversal;
 use crate::packed::primitive::Primitive;
 use crate::packed::ray_query::ShapeBox;
 use crate::plan::memory::ACCELERATION_BYTES;
@@ -32,9 +32,12 @@ pub struct Acceleration {
 static BUILT: AtomicU64 = AtomicU64::new(0);
 
 impl Acceleration {
-    /// Has the device build it. None where the scene was packed with a hierarchy of ours.
+    /// Has the device build it. None where the scene was packed with nodes.
     pub fn build(device: &Device, packed: &PackedScene) -> Option<Self> {
-        let Nodes::RayQuery(boxes) = &packed.hierarchy.nodes else { return None };
+        if packed.hierarchy.traversal != Traversal::RayQuery {
+            return None;
+        }
+        let boxes = &packed.hierarchy.boxes;
         let triangles = packed.hierarchy.primitive_count - boxes.len() as u32;
         let name = format!("acceleration structure {}", BUILT.fetch_add(1, Ordering::Relaxed));
         let parts = [

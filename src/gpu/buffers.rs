@@ -9,7 +9,7 @@ use super::acceleration::Acceleration;
 use super::device::Device;
 use super::parameters::{EdgeParameters, PassParameters};
 use crate::packed::PackedScene;
-use crate::plan::chunks::{ATTRIBUTES, PRIMITIVES, nodes};
+use crate::plan::chunks::{ATTRIBUTES, NODES, PRIMITIVES};
 use crate::plan::{FilmStorage, MAX_SAMPLES_PER_PASS, Plan, StageMode, memory};
 
 /// Edges that one submission can hold; longer paths take further submissions.
@@ -73,7 +73,7 @@ impl Buffers {
         let compiled = |switch: &str| plan.switches.enabled.contains(switch);
         let arrays: [(_, &[u8], _, _); 3] = [
             (PRIMITIVES, bytemuck::cast_slice(&packed.primitives), usage(plan.uniform_primitives), true),
-            (nodes(packed.hierarchy.kind()), packed.hierarchy.nodes.bytes(), usage(plan.uniform_nodes), compiled("BVH")),
+            (NODES, bytemuck::cast_slice(&packed.hierarchy.nodes), usage(plan.uniform_nodes), compiled("BVH")),
             (ATTRIBUTES, bytemuck::cast_slice(&packed.attributes), BufferUsages::STORAGE, compiled("ATTRIBUTES")),
         ];
         for (array, bytes, usage, _) in arrays.into_iter().filter(|(.., is_read)| *is_read) {

@@ -9,7 +9,7 @@ use super::kernels::{self, Kernel};
 use super::parameters::PassParameters;
 use super::passes::{Pass, PassSizer};
 use crate::film::Band;
-use crate::packed::{PackError, Unarranged};
+use crate::packed::{PackError, PackedScene};
 use crate::plan::{Plan, PlanOptions, StageMode};
 use crate::renderer::{Batch, DeviceChoice, Observer, RenderError, RenderReport, Renderer};
 use crate::sampling::{Sampling, SequencePoint};
@@ -90,10 +90,10 @@ impl GpuRenderer {
     pub fn once_open(opening: OpeningDevice, scene: &Scene, options: &PlanOptions) -> Result<Self, RenderError> {
         let start = Instant::now();
         let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
-        let unarranged = Unarranged::for_form(scene, options.hierarchy).map_err(does_not_fit);
+        let packed = PackedScene::for_traversal(scene, options.packed_traversal()).map_err(does_not_fit);
         // Where there is no device, that is what is told, whatever the scene: it may then go to the CPU.
         let device = opening.wait()?;
-        let packed = unarranged?.arrange(options.hierarchy(&device.limits)).map_err(does_not_fit)?;
+        let packed = packed?;
         let plan = Plan::new(scene, &packed, &device.limits, options)?;
         // Where paths may pass through surfaces without ending an edge, edges do not bound the number of vertices; most paths still
         // end by then.
@@ -413,7 +413,7 @@ impl Renderer for GpuRenderer {
         let [low, high, non_finite_samples, _] = self.read_words(binding::STATISTICS)?;
         Ok(RenderReport {
             device: self.device.name.clone(),
-            hierarchy: self.plan.hierarchy_in_use(),
+            traversal: self.plan.traversal_in_use(),
             decisions: self.plan.decisions.clone(),
             compiled_in: self.plan.switches.enabled.iter().copied().collect(),
             rays: (u64::from(high) << 32 | u64::from(low)) + camera_rays,

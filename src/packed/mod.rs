@@ -3,9 +3,7 @@
 //! Orders matter. Lights stand in the order in which the scene names them, so that a random choice picks the same light on the CPU;
 //! primitives stand in the order of the hierarchy's leaves, those outside of it behind them.
 
-pub mod bvh2;
 pub mod bvh4;
-pub mod cwbvh;
 pub mod environment;
 pub mod grid;
 pub mod heuristic;
@@ -26,13 +24,12 @@ use rayon::prelude::*;
 
 use crate::scene::Scene;
 use environment::PackedEnvironment;
-use hierarchy::{Hierarchy, HierarchyKind};
+use hierarchy::{Hierarchy, Traversal};
 use light::PackedLight;
 use material::PackedMaterials;
-use primitive::{Primitive, TriangleAttributes, WorldPrimitive};
+use primitive::{Primitive, TriangleAttributes};
 use tables::Tables;
 use texture::PackedTextures;
-use tree::Tree;
 
 pub use validate::PackError;
 pub use view::View;
@@ -57,29 +54,20 @@ pub struct PackedScene {
     pub view: View,
 }
 
-/// A scene packed but for the form of its hierarchy, and with it the order of its primitives: that depends on the device, which may still
-/// be opening.
-pub struct Unarranged {
-    /// Without primitives and hierarchy.
-    rest: PackedScene,
-    primitives: Vec<WorldPrimitive>,
-    tree: Tree,
-}
-
-impl Unarranged {
-    /// Packs a scene, relative to its [center](Scene::center).
+impl PackedScene {
+    /// Packs a scene for kernels that walk a bounding volume hierarchy.
     ///
     /// # Errors
-    /// [`PackError`] where something is too large for the packed form.
+    /// As [`PackedScene::for_traversal`].
     pub fn new(scene: &Scene) -> Result<Self, PackError> {
-        Self::for_form(scene, None)
+        Self::for_traversal(scene, Traversal::Bvh)
     }
 
-    /// As [`Unarranged::new`], without what a form that is already known does not need.
+    /// Packs a scene, relative to its [center](Scene::center), for rays that find primitives in this way.
     ///
     /// # Errors
-    /// As [`Unarranged::new`].
-    pub fn for_form(scene: &Scene, form: Option<HierarchyKind>) -> Result<Self, PackError> {
+    /// [`PackError`] where something is too large for the packed form or came out inconsistent.
+    pub fn for_traversal(scene: &Scene, traversal: Traversal) -> Result<Self, PackError> {
         let scene = &*scene.centered();
         for shape in &scene.shapes {
             let fail = |(_, message)| PackError::Motion { shape: shape.label.clone(), message };
@@ -95,40 +83,20 @@ impl Unarranged {
         for light in lights.iter_mut().filter(|light| light.material != NONE) {
             light.material = places[light.material as usize];
         }
-        let tree = Tree::build(&world.primitives, &world.motions, form)?;
-        let rest = PackedScene {
+        let (hierarchy, order) = tree::build(&world.primitives, &world.motions, traversal)?;
+        let packed = Self {
+            primitives: order.par_iter().map(|&index| world.primitives[index].pack()).collect(),
             attributes: world.attributes,
+            hierarchy,
             materials,
             lights,
             textures,
             environment,
             motions: world.motion_words,
             view: View::new(scene),
-            ..PackedScene::default()
         };
-        Ok(Self { rest, primitives: world.primitives, tree })
-    }
-
-    /// Gives the hierarchy its form.
-    ///
-    /// # Errors
-    /// [`PackError`] where the packed scene came out inconsistent.
-    pub fn arrange(self, kind: HierarchyKind) -> Result<PackedScene, PackError> {
-        let (hierarchy, order) = self.tree.arrange(kind, &self.primitives)?;
-        let primitives = order.par_iter().map(|&index| self.primitives[index].pack()).collect();
-        let packed = PackedScene { primitives, hierarchy, ..self.rest };
         packed.validate()?;
         Ok(packed)
-    }
-}
-
-impl PackedScene {
-    /// Packs a scene, with the hierarchy of most devices.
-    ///
-    /// # Errors
-    /// [`PackError`] where something is too large for the packed form or came out inconsistent.
-    pub fn new(scene: &Scene) -> Result<Self, PackError> {
-        Unarranged::new(scene)?.arrange(HierarchyKind::default())
     }
 
     /// Something moves while the shutter is open.

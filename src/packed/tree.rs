@@ -1,16 +1,16 @@
-//! The binary tree that every form of the hierarchy is made of.
+//! Builds the hierarchy over a scene's primitives.
 
 use obvhs::bvh2::{Bvh2, leaf_collapser::collapse, reinsertion::ReinsertionOptimizer};
 use obvhs::ploc::PlocBuilder;
 use obvhs::{Boundable, BvhBuildParams, aabb::Aabb};
 
-use super::hierarchy::{Hierarchy, HierarchyKind, Nodes};
+use super::hierarchy::{Hierarchy, Traversal};
 use super::motion::PackedMotion;
 use super::primitive::{PrimitiveKind, WorldPrimitive};
 use super::validate::PackError;
-use super::{bvh2, bvh4, cwbvh, ray_query};
+use super::{bvh4, ray_query};
 
-/// Leaves of two- and four-wide nodes hold at most this many primitives: their size takes two bits.
+/// Leaves hold at most this many primitives: their size takes two bits.
 const MAX_LEAF: u32 = 4;
 /// First primitive of a node's leaves: 24 bits.
 pub const MAX_PRIMITIVES: usize = 1 << 24;
@@ -22,17 +22,6 @@ const MAX_PLANES: usize = 256;
 /// per cent fewer steps in every ray.
 const REINSERT_MANY: usize = 1 << 18;
 
-/// A tree over the primitives that a hierarchy holds, one a leaf.
-pub struct Tree {
-    /// None where the form that is wanted needs none.
-    binary: Option<Bvh2>,
-    /// Part of the nodes that is tried elsewhere in the tree.
-    reinsertion: f32,
-    /// Which primitives it holds, and which it does not.
-    inside: Vec<usize>,
-    outside: Vec<usize>,
-}
-
 struct Bounds(Aabb);
 
 impl Boundable for Bounds {
@@ -43,91 +32,67 @@ impl Boundable for Bounds {
 
 const PARAMETERS: BvhBuildParams = BvhBuildParams::medium_build();
 
-impl Tree {
-    /// Builds it. Planes, which nothing bounds, stay outside, and other shapes where they are few, so that a model on a ground under a lamp
-    /// needs a hierarchy of triangles alone. What moves is always in it, bounded over the time for which the shutter is open. `form` is the
-    /// one that it will be given, where that is known.
-    ///
-    /// # Errors
-    /// [`PackError`] for more primitives or planes than can be held.
-    pub fn build(
-        primitives: &[WorldPrimitive],
-        motions: &[PackedMotion],
-        form: Option<HierarchyKind>,
-    ) -> Result<Self, PackError> {
-        let belongs = |primitive: &WorldPrimitive| primitive.kind() == PrimitiveKind::Triangle || primitive.moves();
-        let others = primitives.iter().filter(|primitive| !belongs(primitive)).count();
-        let few_others = others <= MAX_OUTSIDE && others < primitives.len();
-        let (inside, outside): (Vec<usize>, Vec<usize>) = (0..primitives.len()).partition(|&index| {
-            let primitive = &primitives[index];
-            belongs(primitive) || !(few_others || primitive.is_plane())
-        });
-        if outside.len() > MAX_PLANES {
-            return Err(PackError::TooManyPlanes { found: outside.len(), limit: MAX_PLANES });
-        }
-        if inside.len() > MAX_PRIMITIVES {
-            return Err(PackError::TooManyPrimitives { found: inside.len(), limit: MAX_PRIMITIVES });
-        }
-        if form == Some(HierarchyKind::RayQuery) {
-            return Ok(Self { binary: None, reinsertion: 0.0, inside, outside });
-        }
-        let bounds: Vec<Bounds> = inside
-            .iter()
-            .filter_map(|&index| {
-                let primitive = &primitives[index];
-                motions.get(primitive.motion as usize).map_or_else(|| primitive.bounds(), |motion| motion.swept(primitive))
-            })
-            .map(|(low, high)| Bounds(Aabb::new(low.into(), high.into())))
-            .collect();
-        let reinsertion = if bounds.len() <= REINSERT_MANY { 0.3 } else { PARAMETERS.reinsertion_batch_ratio };
-        let mut binary = PlocBuilder::with_capacity(bounds.len()).build(
-            PARAMETERS.ploc_search_distance,
-            &bounds,
-            (0..bounds.len() as u32).collect(),
-            PARAMETERS.sort_precision,
-            PARAMETERS.search_depth_threshold,
-        );
-        if !bounds.is_empty() {
-            ReinsertionOptimizer::default().run(&mut binary, reinsertion, None);
-        }
-        Ok(Self { binary: Some(binary), reinsertion, inside, outside })
+/// Builds the hierarchy. The second value is the order in which primitives have to stand: the leaves' first, then those that it does not
+/// hold, which kernels test one by one.
+///
+/// Planes, which nothing bounds, stay outside, and other shapes where they are few, so that a model on a ground under a lamp needs a
+/// hierarchy of triangles alone. What moves is always in it, bounded over the time for which the shutter is open.
+///
+/// # Errors
+/// [`PackError`] for more primitives or planes than can be held.
+pub fn build(
+    primitives: &[WorldPrimitive],
+    motions: &[PackedMotion],
+    traversal: Traversal,
+) -> Result<(Hierarchy, Vec<usize>), PackError> {
+    let belongs = |primitive: &WorldPrimitive| primitive.kind() == PrimitiveKind::Triangle || primitive.moves();
+    let others = primitives.iter().filter(|primitive| !belongs(primitive)).count();
+    let few_others = others <= MAX_OUTSIDE && others < primitives.len();
+    let (inside, outside): (Vec<usize>, Vec<usize>) = (0..primitives.len()).partition(|&index| {
+        let primitive = &primitives[index];
+        belongs(primitive) || !(few_others || primitive.is_plane())
+    });
+    if outside.len() > MAX_PLANES {
+        return Err(PackError::TooManyPlanes { found: outside.len(), limit: MAX_PLANES });
     }
-
-    /// Gives it the form that the device reads. The second value is the order in which primitives have to stand: the leaves' first, then
-    /// those that it does not hold, which kernels test one by one. `primitives` are those that it was built over.
-    ///
-    /// # Errors
-    /// [`PackError::Inconsistent`] where the tree was built for a form that needs none.
-    pub fn arrange(self, kind: HierarchyKind, primitives: &[WorldPrimitive]) -> Result<(Hierarchy, Vec<usize>), PackError> {
-        let Self { binary, reinsertion, inside, outside } = self;
-        let count = inside.len() as u32;
-        let (nodes, order) = match (kind, binary) {
-            (HierarchyKind::RayQuery, _) => {
-                let (boxes, order) = ray_query::build(primitives, &inside);
-                (Nodes::RayQuery(boxes), order)
-            }
-            (_, None) => return Err(PackError::Inconsistent(format!("there is no tree for a hierarchy that is {kind}"))),
-            (HierarchyKind::Bvh2, Some(binary)) => {
-                let (nodes, order) = bvh2::build(&with_larger_leaves(binary, reinsertion));
-                (Nodes::Bvh2(nodes), order)
-            }
-            (HierarchyKind::CwBvh, Some(binary)) => {
-                let (nodes, order) = cwbvh::build(binary);
-                (Nodes::CwBvh(nodes), order)
-            }
-            (HierarchyKind::Bvh4, Some(binary)) => {
-                let (nodes, order) = bvh4::build(&with_larger_leaves(binary, reinsertion));
-                (Nodes::Bvh4(nodes), order)
-            }
-        };
-        let order = order.into_iter().map(|index| inside[index]).chain(outside).collect();
-        Ok((Hierarchy::new(nodes, count), order))
+    if inside.len() > MAX_PRIMITIVES {
+        return Err(PackError::TooManyPrimitives { found: inside.len(), limit: MAX_PRIMITIVES });
     }
+    let count = inside.len() as u32;
+    let (hierarchy, order) = match traversal {
+        Traversal::Bvh => {
+            let (nodes, order) = bvh4::build(&binary_tree(primitives, motions, &inside));
+            (Hierarchy::of_nodes(nodes, count), order)
+        }
+        Traversal::RayQuery => {
+            let (boxes, order) = ray_query::build(primitives, &inside);
+            (Hierarchy::of_boxes(boxes, count), order)
+        }
+    };
+    Ok((hierarchy, order.into_iter().map(|index| inside[index]).chain(outside).collect()))
 }
 
-/// Joins leaves where testing their primitives costs less than another node. Fewer nodes are worth another attempt to move them.
-fn with_larger_leaves(mut binary: Bvh2, reinsertion: f32) -> Bvh2 {
-    if !binary.nodes.is_empty() {
+/// A binary tree over the primitives `inside`, leaves of which hold up to [`MAX_LEAF`].
+fn binary_tree(primitives: &[WorldPrimitive], motions: &[PackedMotion], inside: &[usize]) -> Bvh2 {
+    let bounds: Vec<Bounds> = inside
+        .iter()
+        .filter_map(|&index| {
+            let primitive = &primitives[index];
+            motions.get(primitive.motion as usize).map_or_else(|| primitive.bounds(), |motion| motion.swept(primitive))
+        })
+        .map(|(low, high)| Bounds(Aabb::new(low.into(), high.into())))
+        .collect();
+    let reinsertion = if bounds.len() <= REINSERT_MANY { 0.3 } else { PARAMETERS.reinsertion_batch_ratio };
+    let mut binary = PlocBuilder::with_capacity(bounds.len()).build(
+        PARAMETERS.ploc_search_distance,
+        &bounds,
+        (0..bounds.len() as u32).collect(),
+        PARAMETERS.sort_precision,
+        PARAMETERS.search_depth_threshold,
+    );
+    if !bounds.is_empty() {
+        ReinsertionOptimizer::default().run(&mut binary, reinsertion, None);
+        // Leaves are joined where testing their primitives costs less than another node. Fewer nodes are worth another attempt to move them.
         collapse(&mut binary, MAX_LEAF, 1.0);
         let ratio = reinsertion * PARAMETERS.post_collapse_reinsertion_batch_ratio_multiplier;
         ReinsertionOptimizer::default().run(&mut binary, ratio, None);

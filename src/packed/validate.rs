@@ -1,6 +1,6 @@
 //! What must hold of a packed scene before a kernel may read it.
 
-use super::hierarchy::{Child, Nodes};
+use super::hierarchy::{Child, Traversal};
 use super::primitive::{Primitive, PrimitiveKind};
 use super::texture::PackedTextureKind;
 use super::{NONE, PackedScene};
@@ -60,7 +60,8 @@ impl PackedScene {
 
     fn validate_hierarchy(&self) -> Result<(), PackError> {
         let fail = |message: String| Err(PackError::Inconsistent(message));
-        if let Nodes::RayQuery(boxes) = &self.hierarchy.nodes {
+        if self.hierarchy.traversal == Traversal::RayQuery {
+            let boxes = &self.hierarchy.boxes;
             // The device knows them by their places alone.
             let held = self.primitives.get(..self.hierarchy.primitive_count as usize).unwrap_or_default();
             let is_triangle = |primitive: &Primitive| primitive.kind() == PrimitiveKind::Triangle as u32;
@@ -72,10 +73,10 @@ impl PackedScene {
         }
         let mut seen = vec![false; self.hierarchy.primitive_count as usize];
         let nodes = &self.hierarchy.nodes;
-        for index in 0..nodes.count() {
-            for child in nodes.children(index) {
+        for (index, node) in nodes.iter().enumerate() {
+            for child in node.children() {
                 match child {
-                    Child::Inner(inner) if inner <= index || inner >= nodes.count() => {
+                    Child::Inner(inner) if inner <= index || inner >= nodes.len() => {
                         return fail(format!("node {index} has the child {inner}"));
                     }
                     Child::Inner(_) => {}

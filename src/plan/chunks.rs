@@ -9,7 +9,6 @@ use super::limits::DeviceLimits;
 use super::memory::{self, megabytes};
 use super::{Plan, has_attributes};
 use crate::packed::PackedScene;
-use crate::packed::hierarchy::HierarchyKind;
 use crate::renderer::RenderError;
 
 /// Chunks of an array at most: binding numbers stay below 1,000, which WebGPU allows.
@@ -52,21 +51,18 @@ pub const PRIMITIVES: RecordArray = RecordArray {
     file: "geometry/primitive_chunks.wgsl",
 };
 
-/// Nodes of a hierarchy of this form.
-pub fn nodes(kind: HierarchyKind) -> RecordArray {
-    RecordArray {
-        label: memory::NODES,
-        name: "nodes",
-        words_type: "NodeWords",
-        word: "vec4<u32>",
-        words: kind.node_words(),
-        load: "node_words",
-        load_word: "node_word",
-        binding: 6,
-        switch: "NODE_CHUNKS",
-        file: "geometry/node_chunks.wgsl",
-    }
-}
+pub const NODES: RecordArray = RecordArray {
+    label: memory::NODES,
+    name: "nodes",
+    words_type: "NodeWords",
+    word: "vec4<u32>",
+    words: 3,
+    load: "node_words",
+    load_word: "node_word",
+    binding: 6,
+    switch: "NODE_CHUNKS",
+    file: "geometry/node_chunks.wgsl",
+};
 
 pub const ATTRIBUTES: RecordArray = RecordArray {
     label: memory::ATTRIBUTES,
@@ -165,7 +161,7 @@ pub fn cut(packed: &PackedScene, plan: &Plan, limit: u64) -> Vec<Chunks> {
         arrays.push(Chunks::new(PRIMITIVES, size_of_val(&packed.primitives[..]) as u64, limit));
     }
     if plan.has_nodes() && !plan.uniform_nodes {
-        arrays.push(Chunks::new(nodes(packed.hierarchy.kind()), packed.hierarchy.nodes.bytes().len() as u64, limit));
+        arrays.push(Chunks::new(NODES, size_of_val(&packed.hierarchy.nodes[..]) as u64, limit));
     }
     if has_attributes(packed) {
         arrays.push(Chunks::new(ATTRIBUTES, size_of_val(&packed.attributes[..]) as u64, limit));

@@ -3,11 +3,9 @@
 use serde::Serialize;
 
 use super::memory::{PRIMITIVES, TABLES};
-use super::{
-    Chunks, DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanOptions, SOFTWARE_HIERARCHY, StageMode, UNROLL_LIMIT,
-};
+use super::{Chunks, DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanOptions, StageMode, TraversalChoice, UNROLL_LIMIT};
 use crate::packed::PackedScene;
-use crate::packed::hierarchy::HierarchyKind;
+use crate::packed::hierarchy::Traversal;
 use crate::scene::Scene;
 
 /// One decision, in words.
@@ -25,16 +23,18 @@ const ASKED_FOR: &str = "asked for";
 /// Where geometry lives, and why.
 pub(super) fn geometry(packed: &PackedScene, options: &PlanOptions) -> (GeometryPlacement, String) {
     let count = packed.primitives.len();
-    match options.geometry {
+    match options.traversal {
         // What moves is no constant.
         _ if packed.moves() => (GeometryPlacement::Hierarchy, "something moves, and is no constant".into()),
         // Where there is nothing to ask for, the device is not asked.
-        _ if packed.hierarchy.kind() == HierarchyKind::RayQuery && packed.hierarchy.primitive_count == 0 => {
+        TraversalChoice::RayQuery if packed.hierarchy.primitive_count == 0 => {
             (GeometryPlacement::Unrolled, "a hierarchy would hold nothing".into())
         }
-        Some(placement) => (placement, ASKED_FOR.into()),
-        None if count <= UNROLL_LIMIT => (GeometryPlacement::Unrolled, format!("{count} primitives, at most {UNROLL_LIMIT}")),
-        None => (GeometryPlacement::Hierarchy, format!("{count} primitives, more than {UNROLL_LIMIT}")),
+        TraversalChoice::Bvh | TraversalChoice::RayQuery => (GeometryPlacement::Hierarchy, ASKED_FOR.into()),
+        TraversalChoice::Auto if count <= UNROLL_LIMIT => {
+            (GeometryPlacement::Unrolled, format!("{count} primitives, at most {UNROLL_LIMIT}"))
+        }
+        TraversalChoice::Auto => (GeometryPlacement::Hierarchy, format!("{count} primitives, more than {UNROLL_LIMIT}")),
     }
 }
 
@@ -64,7 +64,6 @@ pub(super) fn explain(
     scene: &Scene,
     packed: &PackedScene,
     limits: &DeviceLimits,
-    options: &PlanOptions,
     geometry: String,
     stages: String,
 ) -> Vec<Decision> {
@@ -75,17 +74,20 @@ pub(super) fn explain(
         GeometryPlacement::Hierarchy => "triangles in a hierarchy; few other shapes as constants",
     };
     add("geometry", placement.into(), geometry);
-    if let Some(kind) = plan.hierarchy_in_use() {
-        let place = if plan.has_nodes() { format!(", {}", buffer_name(plan.uniform_nodes)) } else { String::new() };
-        add("hierarchy", format!("{kind}{place}"), why_hierarchy(plan, limits, options));
+    match plan.traversal_in_use() {
+        Some(Traversal::Bvh) => {
+            let because = "of the forms measured, the one that loads the fewest words";
+            add("hierarchy", format!("four-wide with 8-bit boxes (BVH4), {}", buffer_name(plan.uniform_nodes)), because.into());
+        }
+        Some(Traversal::RayQuery) => add("hierarchy", "the device's own, by ray queries".into(), ASKED_FOR.into()),
+        None => {}
     }
     for (name, uniform) in [(PRIMITIVES, plan.uniform_primitives), (TABLES, plan.uniform_tables)] {
         add(name, buffer_name(uniform).into(), size_in_uniform(plan.memory.bytes(name), limits));
     }
     let cut: Vec<String> = plan.chunks.iter().filter(|array| !array.is_whole()).map(Chunks::to_string).collect();
     if !cut.is_empty() {
-        let largest = options.largest_chunk.unwrap_or(u64::MAX).min(limits.largest_array());
-        add("in chunks", cut.join(", "), format!("one binding holds {} KiB", largest >> 10));
+        add("in chunks", cut.join(", "), format!("one binding holds {} KiB", limits.max_array >> 10));
     }
     let entries: Vec<&str> = plan.stage_files().iter().map(|(_, entry)| *entry).collect();
     add("stages", entries.join(", "), stages);
@@ -101,26 +103,17 @@ pub(super) fn explain(
         add("light samples", "1".into(), because);
     }
     if let Some(lanes) = plan.lanes {
-        let way = if plan.packets { ", their rays in packets" } else { "" };
         let because = "on a software device all lanes pay for the way that one of them takes".into();
-        add("lanes", format!("{lanes} samples of one pixel side by side{way}"), because);
+        add("lanes", format!("{lanes} samples of one pixel side by side, their rays in packets"), because);
     }
     if plan.stages == StageMode::Wavefront {
-        let (taker, because) = match options.subgroup_queues {
-            Some(_) if limits.subgroups => (if plan.subgroup_queues { "subgroup" } else { "path" }, ASKED_FOR),
-            _ if plan.subgroup_queues => ("subgroup", "the device has subgroups"),
-            _ => ("path", "the device has no subgroups"),
-        };
+        let (taker, because) =
+            if plan.subgroup_queues { ("subgroup", "the device has subgroups") } else { ("path", "the device has no subgroups") };
         add("queues", format!("one atomic a {taker}"), because.into());
     }
     let (film, because) = match plan.film {
-        _ if options.film.is_some() => (plan.film, ASKED_FOR),
-        FilmStorage::Texture => (plan.film, "the device reads and writes them"),
-        FilmStorage::Buffer => (plan.film, "the device cannot read and write textures of four floats, or none so wide"),
-    };
-    let film = match film {
-        FilmStorage::Texture => "rgba32float storage textures",
-        FilmStorage::Buffer => "storage buffers",
+        FilmStorage::Texture => ("rgba32float storage textures", "the device reads and writes them"),
+        FilmStorage::Buffer => ("storage buffers", "the device cannot read and write textures of four floats, or none so wide"),
     };
     add("film", format!("{film}, bands of {} rows", plan.band_rows), because.into());
     decisions
@@ -134,15 +127,6 @@ fn materials(scene: &Scene, packed: &PackedScene) -> Option<Decision> {
         choice: format!("{packed} of {all}"),
         because: "no surface is made of the others".into(),
     })
-}
-
-fn why_hierarchy(plan: &Plan, limits: &DeviceLimits, options: &PlanOptions) -> String {
-    let because = match options.hierarchy {
-        Some(_) => ASKED_FOR,
-        None if limits.software && plan.hierarchy == SOFTWARE_HIERARCHY => "the fastest of three on software devices",
-        None => "the one for hardware, where the three have not been compared",
-    };
-    because.into()
 }
 
 fn buffer_name(uniform: bool) -> &'static str {

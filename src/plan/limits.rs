@@ -9,6 +9,10 @@ pub struct DeviceLimits {
     pub max_storage_binding: u64,
     pub max_uniform_binding: u32,
     pub max_buffer: u64,
+    /// Of an array that one binding holds.
+    pub max_array: u64,
+    /// Paths in flight: enough to fill the device, few enough for its caches and for the largest binding.
+    pub path_capacity: u32,
     /// Storage buffers that one stage can bind.
     pub max_storage_buffers: u32,
     /// In pixels.
@@ -41,6 +45,8 @@ impl Default for DeviceLimits {
             max_storage_binding: 128 << 20,
             max_uniform_binding: 64 << 10,
             max_buffer: 256 << 20,
+            max_array: 128 << 20,
+            path_capacity: 1 << 20,
             max_storage_buffers: 8,
             max_texture_side: 8192,
             max_workgroups: 65_535,
@@ -63,13 +69,19 @@ impl DeviceLimits {
         let subgroups = adapter.features().contains(wgpu::Features::SUBGROUP);
         let one_size = subgroups && info.subgroup_min_size == info.subgroup_max_size;
         let specific = adapter.features().contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
+        let max_array = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        let max_workgroups = limits.max_compute_workgroups_per_dimension;
+        let wanted_paths: u64 = if software { 1 << 18 } else { 1 << 20 };
+        let most_paths = (max_array / super::memory::PATH_STATE_BYTES).min(u64::from(max_workgroups) * 64);
         Self {
             max_storage_binding: limits.max_storage_buffer_binding_size,
             max_uniform_binding: limits.max_uniform_buffer_binding_size.min(64 << 10) as u32,
             max_buffer: limits.max_buffer_size,
+            max_array,
+            path_capacity: wanted_paths.min(most_paths) as u32,
             max_storage_buffers: limits.max_storage_buffers_per_shader_stage,
             max_texture_side: limits.max_texture_dimension_2d,
-            max_workgroups: limits.max_compute_workgroups_per_dimension,
+            max_workgroups,
             read_write_rgba32float: specific && features.flags.contains(wgpu::TextureFormatFeatureFlags::STORAGE_READ_WRITE),
             software,
             threads: if software { std::thread::available_parallelism().map_or(1, |count| count.get() as u32) } else { 1 },
@@ -89,18 +101,6 @@ impl DeviceLimits {
             ))
         };
         self.ray_queries.ok_or_else(missing)
-    }
-
-    /// Bytes of an array that one binding can hold.
-    pub fn largest_array(&self) -> u64 {
-        self.max_storage_binding.min(self.max_buffer)
-    }
-
-    /// Paths in flight: enough to fill the device, few enough for its caches and for the largest binding.
-    pub fn path_capacity(&self) -> u32 {
-        let wanted: u64 = if self.software { 1 << 18 } else { 1 << 20 };
-        let bound = self.largest_array() / super::memory::PATH_STATE_BYTES;
-        wanted.min(bound).min(u64::from(self.max_workgroups) * 64) as u32
     }
 
     /// Rows per band so that a band's film stays below 16 MiB a texture and within the device's limits.

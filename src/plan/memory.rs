@@ -59,7 +59,7 @@ impl Memory {
             arrays.push((ESTIMATED_ACCELERATION, ACCELERATION_BYTES * u64::from(packed.hierarchy.primitive_count)));
         }
         if plan.has_nodes() {
-            arrays.push((NODES, packed.hierarchy.nodes.bytes().len() as u64));
+            arrays.push((NODES, size_of_val(&packed.hierarchy.nodes[..]) as u64));
         }
         if has_attributes(packed) {
             arrays.push((ATTRIBUTES, ATTRIBUTE_BYTES * packed.attributes.len() as u64));
@@ -93,7 +93,7 @@ impl Memory {
     /// # Errors
     /// [`RenderError::DoesNotFit`] for the first array larger than the device can bind, of those that are never cut into chunks.
     pub fn check(&self, limits: &DeviceLimits) -> Result<(), RenderError> {
-        let limit = limits.largest_array();
+        let limit = limits.max_array;
         // The last is no array of ours, and bound whole.
         let cut = [PRIMITIVES, NODES, ATTRIBUTES, ESTIMATED_ACCELERATION];
         match self.arrays.iter().find(|(name, bytes)| *bytes > limit && !cut.contains(name)) {

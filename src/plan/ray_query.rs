@@ -17,7 +17,7 @@ pub(super) fn check(packed: &PackedScene, limits: &DeviceLimits) -> Result<(), R
         return refuse("its shapes move, and acceleration structures hold a scene at rest".to_owned());
     }
     let held = u64::from(packed.hierarchy.primitive_count);
-    let boxes = (packed.hierarchy.nodes.bytes().len() / size_of::<crate::packed::ray_query::ShapeBox>()) as u64;
+    let boxes = packed.hierarchy.boxes.len() as u64;
     let triangles = held - boxes;
     // Of triangles, vertices are counted.
     if 3 * triangles > u64::from(max_primitives) || boxes > u64::from(max_primitives) {

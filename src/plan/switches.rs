@@ -1,7 +1,8 @@
 //! Which parts of the shaders a scene compiles.
 
-use super::{FilmStorage, GeometryPlacement, MAX_SAMPLES_PER_PASS, Plan, has_attributes};
+use super::{FilmStorage, MAX_SAMPLES_PER_PASS, Plan, has_attributes};
 use crate::packed::environment::PackedEnvironment;
+use crate::packed::hierarchy::Traversal;
 use crate::packed::light::{LightKind, PackedLight};
 use crate::packed::material::{PackedMaterial, PackedMaterialKind};
 use crate::packed::primitive::{Primitive, PrimitiveKind};
@@ -21,12 +22,9 @@ pub const ALL: &[&str] = &[
     "ATTRIBUTE_CHUNKS",
     "BLENDS",
     "BVH",
-    "BVH2",
-    "BVH4",
     "CHECKERS",
     "CONDUCTOR",
     "COSINE_POWER",
-    "CWBVH",
     "DIGITAL_SHIFT",
     "DIRECTIONAL_LIGHTS",
     "DISKS_IN_HIERARCHY",
@@ -132,8 +130,8 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
     switches.enable("SPHERES", has_kind(PrimitiveKind::Sphere));
     switches.enable("FLAT_ROUND", has_kind(PrimitiveKind::Disk) || has_kind(PrimitiveKind::Plane));
     switches.enable("BVH", plan.has_nodes());
-    switches.enable(plan.hierarchy.switch(), plan.geometry == GeometryPlacement::Hierarchy);
-    switches.enable("PACKETS", plan.packets);
+    switches.enable("RAY_QUERY", plan.traversal_in_use() == Some(Traversal::RayQuery));
+    switches.enable("PACKETS", plan.lanes.is_some());
     switches.enable("UNIFORM_NODES", plan.has_nodes() && plan.uniform_nodes);
     switches.enable("UNIFORM_PRIMITIVES", plan.uniform_primitives);
     switches.enable("UNIFORM_TABLES", plan.uniform_tables);
@@ -203,7 +201,7 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
         ("SEQUENCE_POINTS", plan.sequence_stride() * MAX_SAMPLES_PER_PASS),
         ("SEQUENCE_STRIDE", plan.sequence_stride()),
         ("STACK_SIZE", packed.hierarchy.stack_size),
-        ("NODE_WORDS", (packed.hierarchy.nodes.bytes().len() / 16) as u32),
+        ("NODE_WORDS", (size_of_val(&packed.hierarchy.nodes[..]) / 16) as u32),
         ("TABLE_WORDS", (tables.words.len() as u32).max(1)),
     ]);
     switches

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use gpt::load;
-use gpt::plan::{GeometryPlacement, PlanOptions, StageMode};
+use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
 use gpt::scene::Scene;
 
 use super::assert_agrees;
@@ -170,9 +170,9 @@ fn every_shape_light_and_texture_agrees() {
 fn analytic_shapes_agree_as_constants_and_in_the_hierarchy() {
     let folder = folder_with_texture();
     let scene = load(&[HEAD, SHAPES].concat(), &folder);
-    for geometry in [GeometryPlacement::Unrolled, GeometryPlacement::Hierarchy] {
-        let options = PlanOptions { geometry: Some(geometry), ..PlanOptions::default() };
-        assert_agrees(&format!("analytic shapes, {geometry:?}"), &scene, &options);
+    for traversal in [TraversalChoice::Auto, TraversalChoice::Bvh] {
+        let options = PlanOptions { traversal, ..PlanOptions::default() };
+        assert_agrees(&format!("analytic shapes, {traversal:?}"), &scene, &options);
     }
 }
 

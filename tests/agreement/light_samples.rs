@@ -1,12 +1,12 @@
 //! Several light samples at a path's first surface, on both devices and with every way to trace it.
 
 use gpt::gpu::GpuRenderer;
-use gpt::plan::{GeometryPlacement, PlanOptions, StageMode};
+use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
 use gpt::reference::ReferenceRenderer;
 use gpt::scene::{Estimator, SamplerKind};
 use gpt::verify;
 
-use super::{DEVICE, assert_agrees, small};
+use super::{DEVICE, assert_agrees, assert_agrees_on, small, with_limits};
 
 #[test]
 fn several_light_samples_agree() {
@@ -14,10 +14,10 @@ fn several_light_samples_agree() {
     for (name, count, depth) in [("cornell", 5, 2), ("veach-mis", 2, 1), ("motion-blur", 3, 3), ("knot-plastic", 3, 2)] {
         let mut scene = small(name, 32, 4);
         (scene.render.light_samples, scene.render.light_samples_depth) = (count, depth);
-        for share_pixels in [false, true] {
-            let geometry = Some(GeometryPlacement::Hierarchy);
-            let options = PlanOptions { geometry, share_pixels: Some(share_pixels), ..PlanOptions::default() };
-            assert_agrees(&format!("{name}, {count} light samples, lanes share pixels: {share_pixels}"), &scene, &options);
+        let options = PlanOptions { traversal: TraversalChoice::Bvh, ..PlanOptions::default() };
+        assert_agrees(&format!("{name}, {count} light samples, hierarchy"), &scene, &options);
+        if let Some(device) = with_limits(|limits| limits.subgroup_size = None) {
+            assert_agrees_on(&device, &format!("{name}, {count} light samples, rays alone"), &scene, &options);
         }
         assert_agrees(&format!("{name}, {count} light samples"), &scene, &PlanOptions::default());
     }

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use gpt::gpu::GpuRenderer;
 use gpt::load;
-use gpt::plan::{GeometryPlacement, PlanOptions, StageMode};
+use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
 use gpt::reference::ReferenceRenderer;
 use gpt::scene::{Estimator, Geometry, Light, LightSampling, Mesh, Scene, Shape};
 use gpt::verify::{self, Verdict};
@@ -176,8 +176,8 @@ fn load(parts: &[&str]) -> Scene {
 }
 
 fn by_wavefront() -> PlanOptions {
-    let (geometry, stages) = (Some(GeometryPlacement::Hierarchy), Some(StageMode::Wavefront));
-    PlanOptions { geometry, stages, ..PlanOptions::default() }
+    let (traversal, stages) = (TraversalChoice::Bvh, Some(StageMode::Wavefront));
+    PlanOptions { traversal, stages, ..PlanOptions::default() }
 }
 
 #[test]
@@ -277,11 +277,11 @@ material = "grey"
 #[test]
 fn a_wide_panel_in_a_coordinate_plane_does_not_shade_itself() {
     let scene = load::load_toml_str(WIDE_PANEL, "wide panel", std::path::Path::new(".")).expect("the scene loads");
-    for geometry in [None, Some(GeometryPlacement::Hierarchy)] {
-        let options = PlanOptions { geometry, ..PlanOptions::default() };
+    for traversal in [TraversalChoice::Auto, TraversalChoice::Bvh] {
+        let options = PlanOptions { traversal, ..PlanOptions::default() };
         let Some(verdict) = compare(&scene, &options) else { return };
         // A panel in its own shadow loses whole light samples, of few paths: no test of means would see it.
-        assert!(verdict.agrees && verdict.largest_difference < 0.01, "wide panel, {geometry:?}: {verdict:#?}");
+        assert!(verdict.agrees && verdict.largest_difference < 0.01, "wide panel, {traversal:?}: {verdict:#?}");
     }
 }
 

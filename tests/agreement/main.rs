@@ -10,11 +10,10 @@ mod materials;
 mod motion;
 mod strategies;
 
-use device::DEVICE;
-use gpt::gpu::GpuRenderer;
+use device::{DEVICE, with_limits};
+use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;
-use gpt::packed::hierarchy::HierarchyKind;
-use gpt::plan::{FilmStorage, GeometryPlacement, PlanOptions, StageMode};
+use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
 use gpt::reference::ReferenceRenderer;
 use gpt::scene::{self, Estimator, MisHeuristic, SamplerKind, Scene};
 use gpt::verify::{self, Verdict};
@@ -28,14 +27,22 @@ fn small(name: &str, side: u32, spp: u32) -> Scene {
 }
 
 fn compare(scene: &Scene, options: &PlanOptions) -> Option<Verdict> {
-    let device = DEVICE.as_ref()?;
+    Some(compare_on(DEVICE.as_ref()?, scene, options))
+}
+
+fn compare_on(device: &Device, scene: &Scene, options: &PlanOptions) -> Verdict {
     let mut gpu = GpuRenderer::on(device, scene, options).expect("the scene fits");
     let mut cpu = ReferenceRenderer::new(scene).expect("the scene is supported");
-    Some(verify::compare(scene, device.name.clone(), &mut gpu, &mut cpu).expect("both render"))
+    verify::compare(scene, device.name.clone(), &mut gpu, &mut cpu).expect("both render")
 }
 
 fn assert_agrees(what: &str, scene: &Scene, options: &PlanOptions) {
-    let Some(verdict) = compare(scene, options) else { return };
+    let Some(device) = DEVICE.as_ref() else { return };
+    assert_agrees_on(device, what, scene, options);
+}
+
+fn assert_agrees_on(device: &Device, what: &str, scene: &Scene, options: &PlanOptions) {
+    let verdict = compare_on(device, scene, options);
     println!(
         "{what}: {:.4} % of {} paths match, rms {:.1e}, largest {:.1e}",
         100.0 * verdict.matching_share(),
@@ -55,34 +62,31 @@ fn every_built_in_scene_agrees_path_by_path() {
 
 #[test]
 fn every_way_to_run_agrees() {
-    let hierarchy = Some(GeometryPlacement::Hierarchy);
     let ways = [
         ("unrolled wavefront", PlanOptions { stages: Some(StageMode::Wavefront), ..PlanOptions::default() }),
-        ("hierarchy, fused", PlanOptions { geometry: hierarchy, stages: Some(StageMode::Fused), ..PlanOptions::default() }),
+        (
+            "hierarchy, fused",
+            PlanOptions { traversal: TraversalChoice::Bvh, stages: Some(StageMode::Fused), ..PlanOptions::default() },
+        ),
         (
             "hierarchy, wavefront",
-            PlanOptions { geometry: hierarchy, stages: Some(StageMode::Wavefront), ..PlanOptions::default() },
+            PlanOptions { traversal: TraversalChoice::Bvh, stages: Some(StageMode::Wavefront), ..PlanOptions::default() },
         ),
-        ("film in buffers", PlanOptions { film: Some(FilmStorage::Buffer), ..PlanOptions::default() }),
         ("checked shaders", PlanOptions { checked_shaders: true, ..PlanOptions::default() }),
     ];
     for (way, options) in ways {
         assert_agrees(way, &small("spheres", 48, 4), &options);
     }
+    if let Some(device) = with_limits(|limits| limits.read_write_rgba32float = false) {
+        assert_agrees_on(&device, "film in buffers", &small("spheres", 48, 4), &PlanOptions::default());
+    }
 }
 
+/// Boxes that move, and triangles with normals.
 #[test]
-fn every_form_of_hierarchy_agrees() {
-    for (kind, stages) in HierarchyKind::ALL.into_iter().flat_map(|kind| [(kind, StageMode::Fused), (kind, StageMode::Wavefront)])
-    {
-        let geometry = Some(GeometryPlacement::Hierarchy);
-        let options = PlanOptions { geometry, hierarchy: Some(kind), stages: Some(stages), ..PlanOptions::default() };
-        assert_agrees(&format!("spheres, {kind}, {stages:?}"), &small("spheres", 48, 4), &options);
-    }
-    // Boxes that move, and triangles with normals.
-    for (kind, name) in HierarchyKind::ALL.into_iter().flat_map(|kind| [(kind, "motion-blur"), (kind, "teapot-plastic")]) {
-        let options = PlanOptions { hierarchy: Some(kind), ..PlanOptions::default() };
-        assert_agrees(&format!("{name}, {kind}"), &small(name, 32, 4), &options);
+fn the_hierarchy_agrees_on_what_moves_and_on_meshes() {
+    for name in ["motion-blur", "teapot-plastic"] {
+        assert_agrees(name, &small(name, 32, 4), &PlanOptions { traversal: TraversalChoice::Bvh, ..PlanOptions::default() });
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use gpt::load;
-use gpt::plan::{GeometryPlacement, PlanOptions, StageMode};
+use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
 use gpt::scene::{BlendMode, Estimator, Scene};
 
 use super::{DEVICE, assert_agrees, compare};
@@ -200,10 +200,9 @@ fn every_kind_of_blend_agrees_in_every_way_to_run() {
             blend("gone", "gold", "{ type = \"threshold\", tau = 0.5, of = { type = \"texture\", texture = \"clouds\" } }"),
         ),
     ];
-    let hierarchy = Some(GeometryPlacement::Hierarchy);
     let ways = [
         PlanOptions::default(),
-        PlanOptions { geometry: hierarchy, stages: Some(StageMode::Wavefront), ..PlanOptions::default() },
+        PlanOptions { traversal: TraversalChoice::Bvh, stages: Some(StageMode::Wavefront), ..PlanOptions::default() },
     ];
     for (index, (name, material)) in scenes.iter().enumerate() {
         for (mode, way) in [(BlendMode::Mixture, &ways[index % 2]), (BlendMode::Pick, &ways[(index + 1) % 2])] {

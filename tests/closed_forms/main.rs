@@ -16,7 +16,7 @@ use std::sync::LazyLock;
 use gpt::compare::{Moments, one_sample_t_test_beyond, sidak};
 use gpt::film::Band;
 use gpt::gpu::{Device, GpuRenderer};
-use gpt::plan::{GeometryPlacement, PlanOptions, StageMode};
+use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
 use gpt::reference::ReferenceRenderer;
 use gpt::renderer::{DeviceChoice, RenderRequest, Renderer, Silent};
 use gpt::scene::Scene;
@@ -55,8 +55,8 @@ fn render_fused(scene: &Scene) -> Vec<[f32; 3]> {
 
 /// What the plan chooses for large scenes: a hierarchy, a kernel per stage.
 fn render_by_wavefront(scene: &Scene) -> Vec<[f32; 3]> {
-    let (geometry, stages) = (Some(GeometryPlacement::Hierarchy), Some(StageMode::Wavefront));
-    render_on_gpu(scene, &PlanOptions { geometry, stages, ..PlanOptions::default() })
+    let (traversal, stages) = (TraversalChoice::Bvh, Some(StageMode::Wavefront));
+    render_on_gpu(scene, &PlanOptions { traversal, stages, ..PlanOptions::default() })
 }
 
 fn render_on_gpu(scene: &Scene, options: &PlanOptions) -> Vec<[f32; 3]> {

@@ -10,3 +10,11 @@ pub static DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| match std::env::v
     Ok("skip") => None,
     _ => Some(Device::open(&DeviceChoice::Gpu).expect("a graphics adapter; GPT_TEST_GPU=skip tests the CPU alone")),
 });
+
+/// The same device as if it had lower limits: what it lacks, plans do without.
+#[allow(dead_code, reason = "not every test program lowers them")]
+pub fn with_limits(lower: impl FnOnce(&mut gpt::plan::DeviceLimits)) -> Option<Device> {
+    let mut device = DEVICE.as_ref()?.clone();
+    lower(&mut device.limits);
+    Some(device)
+}

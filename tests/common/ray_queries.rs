@@ -3,14 +3,12 @@
 use std::sync::LazyLock;
 
 use gpt::gpu::Device;
-use gpt::packed::hierarchy::HierarchyKind;
-use gpt::plan::{GeometryPlacement, PlanOptions};
+use gpt::plan::{PlanOptions, TraversalChoice};
 use gpt::renderer::{DeviceChoice, RenderError};
 
 /// As `--traversal ray-query` has it.
 pub fn by_ray_queries() -> PlanOptions {
-    let geometry = Some(GeometryPlacement::Hierarchy);
-    PlanOptions { geometry, hierarchy: Some(HierarchyKind::RayQuery), ..PlanOptions::default() }
+    PlanOptions { traversal: TraversalChoice::RayQuery, ..PlanOptions::default() }
 }
 
 /// Opened once a test program, with ray queries. None where tests are told to do without a device, or it has none: that is said.

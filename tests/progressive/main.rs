@@ -7,18 +7,18 @@ use std::ops::Range;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use device::DEVICE;
+use device::{DEVICE, with_limits};
 use gpt::film::Band;
-use gpt::gpu::GpuRenderer;
+use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;
-use gpt::plan::{FilmStorage, PlanOptions, StageMode};
+use gpt::plan::{PlanOptions, StageMode};
 use gpt::reference::ReferenceRenderer;
 use gpt::render::progressive::{self, Goal, Outcome, Stop};
 use gpt::renderer::{Batch, RenderRequest, Renderer, Silent};
 use gpt::scene::{self, SamplerKind, Scene};
 
-fn gpu(scene: &Scene, options: &PlanOptions) -> Option<Box<dyn Renderer>> {
-    Some(Box::new(GpuRenderer::on(DEVICE.as_ref()?, scene, options).expect("the scene fits")))
+fn gpu(device: Option<&Device>, scene: &Scene, options: &PlanOptions) -> Option<Box<dyn Renderer>> {
+    Some(Box::new(GpuRenderer::on(device?, scene, options).expect("the scene fits")))
 }
 
 fn cpu(scene: &Scene) -> Box<dyn Renderer> {
@@ -28,7 +28,7 @@ fn cpu(scene: &Scene) -> Box<dyn Renderer> {
 /// The devices that there are, made to leave pixels out.
 fn renderers(scene: &Scene) -> Vec<Box<dyn Renderer>> {
     let options = PlanOptions { pixel_list: true, ..PlanOptions::default() };
-    [Some(cpu(scene)), gpu(scene, &options)].into_iter().flatten().collect()
+    [Some(cpu(scene)), gpu(DEVICE.as_ref(), scene, &options)].into_iter().flatten().collect()
 }
 
 fn cornell(size: [u32; 2]) -> Scene {
@@ -82,11 +82,12 @@ fn a_selected_pixel_is_the_pixel_of_a_render_of_all() {
     for sampler in [SamplerKind::Halton, SamplerKind::Sobol] {
         scene.render.sampler = sampler;
         let selection: Vec<bool> = (0..24 * 18).map(|pixel| gpt::sampling::hash::mix(pixel).is_multiple_of(3)).collect();
-        let way = |stages, film| PlanOptions { stages: Some(stages), film, pixel_list: true, ..PlanOptions::default() };
-        let ways =
-            [way(StageMode::Fused, None), way(StageMode::Wavefront, None), way(StageMode::Wavefront, Some(FilmStorage::Buffer))];
+        let way = |stages| PlanOptions { stages: Some(stages), pixel_list: true, ..PlanOptions::default() };
+        let film_in_buffers = with_limits(|limits| limits.read_write_rgba32float = false);
         let mut renderers = vec![cpu(&scene)];
-        renderers.extend(ways.iter().filter_map(|options| gpu(&scene, options)));
+        renderers.extend(gpu(DEVICE.as_ref(), &scene, &way(StageMode::Fused)));
+        renderers.extend(gpu(DEVICE.as_ref(), &scene, &way(StageMode::Wavefront)));
+        renderers.extend(gpu(film_in_buffers.as_ref(), &scene, &way(StageMode::Wavefront)));
         for mut renderer in renderers {
             let all = pixels(&render_batch(renderer.as_mut(), &scene, 5..12, 9, None));
             let bands = render_batch(renderer.as_mut(), &scene, 5..12, 9, Some(&selection));

@@ -30,7 +30,7 @@ struct Series {
 fn series(scene: &Scene, sampled: &Scene, wanted: &Goal) -> Series {
     let target = wanted.target_error.expect("a promise");
     let options = PlanOptions { pixel_list: wanted.adaptive, ..PlanOptions::default() };
-    let make = |scene: &Scene| gpu(scene, &options).unwrap_or_else(|| cpu(scene));
+    let make = |scene: &Scene| gpu(DEVICE.as_ref(), scene, &options).unwrap_or_else(|| cpu(scene));
     let truth = pixels(&render_batch(make(sampled).as_mut(), sampled, 0..16_384, 987_654, None));
     let mut renderer = make(scene);
     let mut series = Series { errors: Vec::new(), above_expectation: 0 };

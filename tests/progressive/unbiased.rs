@@ -39,7 +39,7 @@ fn samples_that_follow_the_noise_leave_the_mean_where_it_is() {
     let sampled = sampling_light(&scene);
     let truth = mean_radiance(&pixels(&render_batch(cpu(&sampled).as_mut(), &sampled, 0..4096, 77, None)));
     let options = PlanOptions { pixel_list: true, ..PlanOptions::default() };
-    let mut renderer = gpu(&scene, &options).unwrap_or_else(|| cpu(&scene));
+    let mut renderer = gpu(DEVICE.as_ref(), &scene, &options).unwrap_or_else(|| cpu(&scene));
     let adaptive = Goal { adaptive: true, ..goal(SPP) };
     let fair = judge(truth, |seed| pixels(&render_goal(renderer.as_mut(), &scene, 7 * seed, &adaptive).1));
     let control = judge(truth, |seed| naive(renderer.as_mut(), &scene, 7 * seed));

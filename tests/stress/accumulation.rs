@@ -1,10 +1,11 @@
 //! The film after very many samples: means keep their digits, second moments stay what they are.
 
-use gpt::plan::{FilmStorage, PlanOptions, StageMode};
+use gpt::gpu::Device;
+use gpt::plan::{PlanOptions, StageMode};
 use gpt::reference::ReferenceRenderer;
 use gpt::scene::Scene;
 
-use super::support::{DEVICE, Effort, Finding, render_band, scene, whole_picture};
+use super::support::{DEVICE, Effort, Finding, render_band_on, scene, whole_picture, with_limits};
 
 /// Largest relative error of a mean.
 const MEAN_ERROR: f64 = 1e-6;
@@ -17,14 +18,16 @@ pub fn findings(effort: Effort) -> Vec<Finding> {
     }
     let spp = effort.pick(1 << 15, 1_000_000);
     let mut findings = Vec::new();
-    for (storage, film) in [("textures", FilmStorage::Texture), ("buffers", FilmStorage::Buffer)] {
+    let in_buffers = with_limits(|limits| limits.read_write_rgba32float = false);
+    for (storage, device) in [("textures", DEVICE.as_ref()), ("buffers", in_buffers.as_ref())] {
         for (stage, stages) in [("fused", StageMode::Fused), ("wavefront", StageMode::Wavefront)] {
-            if effort == Effort::Bounded && (film == FilmStorage::Buffer) == (stages == StageMode::Fused) {
+            if effort == Effort::Bounded && (storage == "buffers") == (stages == StageMode::Fused) {
                 continue;
             }
-            let options = PlanOptions { film: Some(film), stages: Some(stages), ..PlanOptions::default() };
+            let Some(device) = device else { continue };
+            let options = PlanOptions { stages: Some(stages), ..PlanOptions::default() };
             for (name, scene) in [("of 0.1", constant(spp)), ("between 1e-3 and 1e3", varying(spp))] {
-                findings.push(accumulated(format!("{spp} samples {name}; film in {storage}, {stage}"), &scene, &options));
+                findings.push(accumulated(format!("{spp} samples {name}; film in {storage}, {stage}"), device, &scene, &options));
             }
         }
     }
@@ -56,8 +59,8 @@ pub fn plain_sum(spp: u32) -> Finding {
     Finding::new("a plain sum").require(error <= MEAN_ERROR, || format!("the mean is off by {error:e}"))
 }
 
-fn accumulated(case: String, scene: &Scene, options: &PlanOptions) -> Finding {
-    let (ours, report) = render_band(scene, options).expect("there is a device");
+fn accumulated(case: String, device: &Device, scene: &Scene, options: &PlanOptions) -> Finding {
+    let (ours, report) = render_band_on(device, scene, options);
     let (truth, _) = whole_picture(&mut ReferenceRenderer::new(scene).expect("the scene is supported"), scene);
     let relative = |a: f32, b: f32| (f64::from(a) / f64::from(b) - 1.0).abs();
     let means = ours.mean.iter().zip(&truth.mean).map(|(a, b)| relative(a[0], b[0])).fold(0.0, f64::max);

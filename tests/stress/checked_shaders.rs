@@ -2,7 +2,7 @@
 
 use gpt::load;
 use gpt::load::load_toml_str;
-use gpt::plan::{GeometryPlacement, PlanOptions, StageMode};
+use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
 use gpt::scene::Scene;
 use gpt::verify;
 
@@ -27,11 +27,7 @@ pub fn findings(effort: Effort) -> Vec<Finding> {
 
 /// As the plan would have it, and as real GPUs run it.
 fn both_ways(effort: Effort, name: &str, scene: &Scene) -> Vec<Finding> {
-    let wavefront = PlanOptions {
-        geometry: Some(GeometryPlacement::Hierarchy),
-        stages: Some(StageMode::Wavefront),
-        ..PlanOptions::default()
-    };
+    let wavefront = PlanOptions { traversal: TraversalChoice::Bvh, stages: Some(StageMode::Wavefront), ..PlanOptions::default() };
     let ways = [("fused", PlanOptions::default()), ("wavefront", wavefront)];
     ways[..effort.pick(1, 2)].iter().filter_map(|(way, options)| same(format!("{name}, {way}"), scene, options)).collect()
 }

@@ -5,8 +5,7 @@ use std::sync::Arc;
 
 use crate::statistics::random::SplitMix64;
 use glam::{DVec3, Vec3};
-use gpt::packed::hierarchy::HierarchyKind;
-use gpt::plan::{GeometryPlacement, PlanOptions};
+use gpt::plan::{PlanOptions, TraversalChoice};
 use gpt::scene::{Geometry, Mesh, Scene, Shape, Transform};
 use gpt::verify::LEAST_MATCHING;
 
@@ -52,11 +51,11 @@ pub fn findings(effort: Effort) -> Vec<Finding> {
     findings
 }
 
-/// Every form of the hierarchy, and the device's own where it has one.
-const FORMS: [HierarchyKind; 4] = [HierarchyKind::Bvh2, HierarchyKind::Bvh4, HierarchyKind::CwBvh, HierarchyKind::RayQuery];
+/// The bounding volume hierarchy, and the device's own structure where it has one.
+const WAYS: [TraversalChoice; 2] = [TraversalChoice::Bvh, TraversalChoice::RayQuery];
 
-fn in_hierarchy(kind: HierarchyKind) -> PlanOptions {
-    PlanOptions { geometry: Some(GeometryPlacement::Hierarchy), hierarchy: Some(kind), ..PlanOptions::default() }
+fn in_hierarchy(traversal: TraversalChoice) -> PlanOptions {
+    PlanOptions { traversal, ..PlanOptions::default() }
 }
 
 const WHITE: &str = "[[material]]\nname = \"glow\"\ntype = \"emissive\"\nradiance = 1\ntwo_sided = true\n";
@@ -89,18 +88,17 @@ pub fn holes(case: String, rays: u64, pixels: &[f64]) -> Finding {
 /// From within a crumpled sphere of many triangles, all round by three views: every ray meets it.
 fn closed_mesh(effort: Effort) -> Vec<Finding> {
     let (rings, film, spp) = effort.pick((60, 256, 4), (700, 1024, 32));
-    FORMS
-        .into_iter()
-        .flat_map(|kind| ["[0.1, 0.2, 1]", "[-1, 0.1, -0.4]", "[0.2, 1, 0.1]"].map(|look_at| (kind, look_at)))
-        .filter_map(|(kind, look_at)| {
+    WAYS.into_iter()
+        .flat_map(|way| ["[0.1, 0.2, 1]", "[-1, 0.1, -0.4]", "[0.2, 1, 0.1]"].map(|look_at| (way, look_at)))
+        .filter_map(|(way, look_at)| {
             let camera = format!("[camera]\nposition = [0, 0, 0]\nlook_at = {look_at}\nup = [0.3, 0.2, 1]\nvfov = 120");
             let mut scene = glowing(film, spp, &camera);
             let (positions, faces) = crumpled_sphere(rings);
             let triangles = faces.len();
             add_mesh(&mut scene, positions, faces);
             let rays = u64::from(film) * u64::from(film) * u64::from(spp);
-            let case = format!("inside a closed mesh of {triangles} triangles, towards {look_at}, {}", kind.switch());
-            Some(holes(case, rays, &render_with(&scene, &in_hierarchy(kind))?))
+            let case = format!("inside a closed mesh of {triangles} triangles, towards {look_at}, {way:?}");
+            Some(holes(case, rays, &render_with(&scene, &in_hierarchy(way))?))
         })
         .collect()
 }
@@ -168,16 +166,15 @@ fn aimed(name: &str, offset: f32, effort: Effort) -> Vec<Finding> {
         .flat_map(|row| (0..side - 1).map(move |column| row * side + column))
         .flat_map(|a| [[a, a + 1, a + side + 1], [a, a + side + 1, a + side]])
         .collect();
-    FORMS
-        .into_iter()
-        .filter_map(|kind| {
+    WAYS.into_iter()
+        .filter_map(|way| {
             let camera =
                 format!("[camera]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\nprojection = \"orthographic\"\nheight = {film}");
             let mut scene = glowing(film, 1, &camera);
             scene.render.pixel_sampler = gpt::scene::PixelSampler::Centre;
             add_mesh(&mut scene, positions.clone(), faces.clone());
-            let pixels = render_with(&scene, &in_hierarchy(kind))?;
-            let case = format!("rays at the {name} of {} triangles, {}", faces.len(), kind.switch());
+            let pixels = render_with(&scene, &in_hierarchy(way))?;
+            let case = format!("rays at the {name} of {} triangles, {way:?}", faces.len());
             Some(holes(case, u64::from(film) * u64::from(film), &pixels))
         })
         .collect()
@@ -197,11 +194,11 @@ fn slivers() -> Vec<Finding> {
     let camera = "[camera]\nposition = [0.1, 0.2, 2]\nlook_at = [0, 0, 0]\nvfov = 40";
     let mut scene = glowing(256, 4, camera);
     add_mesh(&mut scene, positions, faces);
-    let of_kind = |kind: HierarchyKind| {
-        let pixels = render_with(&scene, &in_hierarchy(kind))?;
-        Some(holes(format!("a square of {count} slivers, {}", kind.switch()), 256 * 256 * 4, &pixels))
+    let by = |way: TraversalChoice| {
+        let pixels = render_with(&scene, &in_hierarchy(way))?;
+        Some(holes(format!("a square of {count} slivers, {way:?}"), 256 * 256 * 4, &pixels))
     };
-    FORMS.into_iter().filter_map(of_kind).collect()
+    WAYS.into_iter().filter_map(by).collect()
 }
 
 /// Triangles twice, triangles without area, and surfaces of one material in one plane.

@@ -5,9 +5,9 @@ mod device;
 #[path = "../common/ray_queries.rs"]
 mod ray_queries;
 
-pub use device::DEVICE;
+pub use device::{DEVICE, with_limits};
 use gpt::film::Band;
-use gpt::gpu::GpuRenderer;
+use gpt::gpu::{Device, GpuRenderer};
 use gpt::load::load_toml_str;
 use gpt::plan::PlanOptions;
 use gpt::reference::ReferenceRenderer;
@@ -149,8 +149,13 @@ pub fn render_with(scene: &Scene, options: &PlanOptions) -> Option<Vec<f64>> {
 /// The whole picture as one band, and what the render counted.
 pub fn render_band(scene: &Scene, options: &PlanOptions) -> Option<(Band, RenderReport)> {
     let device = if options.asks_for_ray_queries() { &RAY_QUERY_DEVICE } else { &DEVICE };
-    let mut renderer = GpuRenderer::on(device.as_ref()?, scene, options).expect("the scene fits");
-    Some(whole_picture(&mut renderer, scene))
+    Some(render_band_on(device.as_ref()?, scene, options))
+}
+
+/// As [`render_band`], on this device.
+pub fn render_band_on(device: &Device, scene: &Scene, options: &PlanOptions) -> (Band, RenderReport) {
+    let mut renderer = GpuRenderer::on(device, scene, options).expect("the scene fits");
+    whole_picture(&mut renderer, scene)
 }
 
 /// All rows of a picture put together.
