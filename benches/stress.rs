@@ -3,8 +3,11 @@
 //! Writes the tables of docs/stress.md in place; all of them, or those that are named. `GPT_STRESS_COUNT` says how many random scenes.
 //! Ends with an error where a case complains.
 
+#[path = "../tests/common/mod.rs"]
+mod common;
 #[path = "../tests/statistics/mod.rs"]
 mod statistics;
+
 use std::fmt::Write as _;
 use std::path::Path;
 

@@ -1,19 +1,21 @@
 //! The program as its users meet it: exit codes, messages and files.
 
+#[path = "../common/mod.rs"]
+mod common;
+
+mod bench;
 mod goals;
 #[cfg(unix)]
 mod on_unix;
-#[path = "../common/sphere.rs"]
-mod sphere;
 mod traversal;
 
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
+use common::sphere::grey_sphere;
 use gpt::output::{Image, read_image};
 use serde_json::Value;
-use sphere::grey_sphere;
 use tempfile::TempDir;
 
 /// A scene that renders fast on the CPU: a lit sphere over nothing.

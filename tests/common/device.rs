@@ -12,7 +12,6 @@ pub static DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| match std::env::v
 });
 
 /// The same device as if it had lower limits: what it lacks, plans do without.
-#[allow(dead_code, reason = "not every test program lowers them")]
 pub fn with_limits(lower: impl FnOnce(&mut gpt::plan::DeviceLimits)) -> Option<Device> {
     let mut device = DEVICE.as_ref()?.clone();
     lower(&mut device.limits);

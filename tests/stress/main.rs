@@ -2,6 +2,11 @@
 //!
 //! `cargo bench --bench stress` runs the same cases at full length and writes docs/stress.md.
 
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../statistics/mod.rs"]
+mod statistics;
+
 mod accumulation;
 mod checked_shaders;
 mod controls;
@@ -12,8 +17,6 @@ mod random_scenes;
 mod range;
 mod scale;
 mod self_intersection;
-#[path = "../statistics/mod.rs"]
-mod statistics;
 mod support;
 
 use support::{Effort, assert_all};

@@ -1,11 +1,7 @@
 //! What the cases share: a device, effort, findings and how they are judged.
 
-#[path = "../common/device.rs"]
-mod device;
-#[path = "../common/ray_queries.rs"]
-mod ray_queries;
-
-pub use device::{DEVICE, with_limits};
+pub use crate::common::device::{DEVICE, with_limits};
+use crate::common::ray_queries::RAY_QUERY_DEVICE;
 use gpt::film::Band;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::load::load_toml_str;
@@ -14,7 +10,6 @@ use gpt::reference::ReferenceRenderer;
 use gpt::renderer::{RenderReport, RenderRequest, Renderer, Silent};
 use gpt::scene::{SamplerKind, Scene};
 use gpt::verify::{self, Verdict};
-use ray_queries::RAY_QUERY_DEVICE;
 
 /// How long a case may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

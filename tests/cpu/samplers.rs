@@ -1,7 +1,5 @@
 //! The structure of sample sequences: evenness of every prefix, independence of pixels, samples and dimensions. No device is needed.
 
-#[path = "statistics/mod.rs"]
-mod statistics;
 use std::collections::BTreeMap;
 
 use crate::statistics::chi_squared_test;

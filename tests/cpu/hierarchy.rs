@@ -1,7 +1,5 @@
 //! The packed hierarchies: every primitive is reached, and no box cuts what is in it. No device is needed.
 
-#[path = "statistics/mod.rs"]
-mod statistics;
 use std::path::Path;
 use std::sync::Arc;
 

@@ -1,10 +1,8 @@
-//! Memory while pictures are written does not grow with their size. One test alone in its process, because the kernel counts the
-//! whole process's memory.
-
-#![cfg(target_os = "linux")]
+//! Memory while pictures are written does not grow with their size.
 
 use std::sync::Arc;
 
+use crate::counting::{Peak, take_turn};
 use gpt::film::Band;
 use gpt::output::{PictureFile, PictureFormat, PictureSpec, Provenance};
 use gpt::scene::{Filter, RenderSettings};
@@ -12,13 +10,6 @@ use gpt::scene::{Filter, RenderSettings};
 /// 8K: 133 MB of 8-bit pixels at three bytes, 398 MB of floats.
 const SIZE: [u32; 2] = [7680, 4320];
 const BAND_ROWS: u32 = 32;
-
-/// The kernel's high-water mark of resident memory, in MiB.
-fn peak_mebibytes() -> u64 {
-    let status = std::fs::read_to_string("/proc/self/status").expect("Linux tells a process about itself");
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).expect("the high-water mark");
-    line.trim().trim_end_matches(" kB").parse::<u64>().expect("a number of KiB") >> 10
-}
 
 fn band(first_row: u32) -> Arc<Band> {
     let pixels = SIZE[0] * BAND_ROWS;
@@ -28,6 +19,7 @@ fn band(first_row: u32) -> Arc<Band> {
 
 #[test]
 fn an_8k_picture_takes_a_fraction_of_its_size_in_memory() {
+    let _turn = take_turn();
     let folder = tempfile::tempdir().expect("a temporary folder");
     let provenance = Provenance {
         scene: "gradient".to_owned(),
@@ -40,7 +32,7 @@ fn an_8k_picture_takes_a_fraction_of_its_size_in_memory() {
         device: "none".to_owned(),
     };
     let spec = PictureSpec { width: SIZE[0], height: SIZE[1], exposure: 0.0, provenance };
-    let before = peak_mebibytes();
+    let peak = Peak::from_now();
     let mut files = [("a.exr", PictureFormat::Exr), ("a.png", PictureFormat::Png)].map(|(name, format)| {
         PictureFile::create(&folder.path().join(name), format, &spec).expect("a file in a folder that exists")
     });
@@ -53,12 +45,12 @@ fn an_8k_picture_takes_a_fraction_of_its_size_in_memory() {
     for file in files {
         file.finish().expect("a whole picture");
     }
-    let grown = peak_mebibytes() - before;
+    let grown = peak.bytes() >> 20;
     assert!(grown < 96, "writing took {grown} MiB");
 
     // The whole picture does not fit into that, so a writer that kept it would have been caught.
     let image = gpt::output::read_image(&folder.path().join("a.exr")).expect("a readable picture");
     assert_eq!(image.pixels.len(), SIZE[0] as usize * SIZE[1] as usize);
-    assert!(peak_mebibytes() - before > 300);
+    assert!(peak.bytes() >> 20 > 300);
     assert_eq!(image.pixels[SIZE[0] as usize * 2160 + 7], [0.5, 0.5, 0.25]);
 }

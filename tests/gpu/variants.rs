@@ -1,18 +1,13 @@
 //! Ways to run that only rearrange the work: every one gives the same picture, bit for bit.
 
-#[path = "common/device.rs"]
-mod device;
-#[path = "common/pixel_bits.rs"]
-mod pixel_bits;
-
 use std::path::Path;
 
-use device::{DEVICE, with_limits};
+use crate::common::device::{DEVICE, with_limits};
+use crate::common::pixel_bits::pixel_bits;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;
 use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
 use gpt::scene::Scene;
-use pixel_bits::pixel_bits;
 
 /// Spheres, a mesh and an environment, of a size that no number of lanes divides.
 fn scene(spp: u32) -> Scene {

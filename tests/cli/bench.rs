@@ -1,14 +1,11 @@
 //! `gpt bench` as its users meet it. What its figures are worth is tested beside the code, on estimators whose variance, bias and speed are
 //! known.
 
-#[path = "common/sphere.rs"]
-mod sphere;
-
 use std::fs;
 use std::process::{Command, Output};
 
+use crate::common::sphere::grey_sphere;
 use serde_json::Value;
-use sphere::grey_sphere;
 use tempfile::TempDir;
 
 /// A scene that renders fast on the CPU: a lit sphere over nothing.

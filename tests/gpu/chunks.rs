@@ -1,25 +1,18 @@
 //! Arrays that one binding cannot hold: cut into chunks, they give the same picture, bit for bit.
 
-#[path = "common/pixel_bits.rs"]
-mod pixel_bits;
-
 use std::fmt::Write as _;
 use std::path::Path;
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
+use crate::common::device::DEVICE;
+use crate::common::pixel_bits::pixel_bits;
 use glam::Vec3;
 use gpt::gpu::Device;
 use gpt::load;
 use gpt::packed::PackedScene;
 use gpt::plan::{Chunks, DeviceLimits, Plan, PlanOptions, StageMode};
-use gpt::renderer::{DeviceChoice, RenderError};
+use gpt::renderer::RenderError;
 use gpt::scene::{Geometry, Scene};
-use pixel_bits::pixel_bits;
-
-static DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| match std::env::var("GPT_TEST_GPU").as_deref() {
-    Ok("skip") => None,
-    _ => Some(Device::open(&DeviceChoice::Gpu).expect("a graphics adapter; GPT_TEST_GPU=skip tests the CPU alone")),
-});
 
 /// Quads along each side of the grid.
 const SIDE: usize = 24;

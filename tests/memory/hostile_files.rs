@@ -1,52 +1,15 @@
 //! Files that are not what they should be: random damage to scenes, models, materials and pictures ends in an answer or one clear error, soon,
 //! and within a bound of memory. `GPT_FUZZ_CASES` says how many cases of each kind, 15 when left out.
-//!
-//! One test, because it watches what the whole process allocates.
 
-#[path = "statistics/mod.rs"]
-mod statistics;
-use std::alloc::{GlobalAlloc, Layout, System};
 use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use crate::statistics::random::SplitMix64;
+use crate::counting::{Peak, take_turn};
+use crate::random::SplitMix64;
 use gpt::load;
 use image::ImageFormat;
-
-/// Counts the bytes in use, and the most there ever were.
-struct Counting;
-
-static IN_USE: AtomicUsize = AtomicUsize::new(0);
-static MOST: AtomicUsize = AtomicUsize::new(0);
-
-// SAFETY: every request goes to the system's allocator as it came.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        let now = IN_USE.fetch_add(layout.size(), Ordering::Relaxed) + layout.size();
-        MOST.fetch_max(now, Ordering::Relaxed);
-        // SAFETY: as the caller promises.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
-        let now = IN_USE.fetch_add(layout.size(), Ordering::Relaxed) + layout.size();
-        MOST.fetch_max(now, Ordering::Relaxed);
-        // SAFETY: as the caller promises.
-        unsafe { System.alloc_zeroed(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        IN_USE.fetch_sub(layout.size(), Ordering::Relaxed);
-        // SAFETY: as the caller promises.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static MEMORY: Counting = Counting;
 
 /// A file of a few thousand bytes is answered within this time, on a busy machine and with 16,384² texels to fill.
 const LONGEST: Duration = Duration::from_secs(60);
@@ -58,6 +21,7 @@ const MOST_FOR_TEXTS: usize = 64 << 20;
 
 #[test]
 fn damaged_files_end_in_an_answer_or_an_error() {
+    let _turn = take_turn();
     let cases = std::env::var("GPT_FUZZ_CASES").ok().and_then(|count| count.parse().ok()).unwrap_or(15);
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut random = SplitMix64::new(3);
@@ -106,20 +70,18 @@ struct Extremes {
 
 /// The negative control: what allocates more than its bound is noticed.
 fn notices_memory() -> bool {
-    let before = IN_USE.load(Ordering::Relaxed);
-    MOST.store(before, Ordering::Relaxed);
+    let peak = Peak::from_now();
     drop(std::hint::black_box(vec![1_u8; MOST_FOR_TEXTS + 1]));
-    MOST.load(Ordering::Relaxed) - before > MOST_FOR_TEXTS
+    peak.bytes() > MOST_FOR_TEXTS
 }
 
 impl Extremes {
     /// Runs `read` and fails where it panics or takes too long or too much memory. Leaves the file that did it.
     fn bounded(&mut self, kind: &str, bytes: &[u8], most: usize, read: impl FnOnce() + std::panic::UnwindSafe) {
-        let before = IN_USE.load(Ordering::Relaxed);
-        MOST.store(before, Ordering::Relaxed);
+        let peak = Peak::from_now();
         let start = Instant::now();
         let ended = std::panic::catch_unwind(read);
-        let (took, used) = (start.elapsed(), MOST.load(Ordering::Relaxed).saturating_sub(before));
+        let (took, used) = (start.elapsed(), peak.bytes());
         let extreme = self.by_kind.entry(kind.to_owned()).or_default();
         *extreme = (extreme.0.max(took), extreme.1.max(used));
         if ended.is_err() || took > LONGEST || used > most {

@@ -11,14 +11,14 @@ mod materials;
 mod scenes;
 
 use std::io;
-use std::sync::LazyLock;
 
+use crate::common::device::DEVICE;
 use gpt::compare::{Moments, one_sample_t_test_beyond, sidak};
 use gpt::film::Band;
-use gpt::gpu::{Device, GpuRenderer};
+use gpt::gpu::GpuRenderer;
 use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
 use gpt::reference::ReferenceRenderer;
-use gpt::renderer::{DeviceChoice, RenderRequest, Renderer, Silent};
+use gpt::renderer::{RenderRequest, Renderer, Silent};
 use gpt::scene::Scene;
 
 use cases::Case;
@@ -36,17 +36,12 @@ const DEVICES: [(&str, Render, f64); 3] =
 
 /// All devices. Where there is no GPU, its tests fail, unless `GPT_TEST_GPU=skip` leaves them out.
 pub fn devices() -> &'static [(&'static str, Render, f64)] {
-    let skip_gpu = std::env::var("GPT_TEST_GPU").is_ok_and(|value| value == "skip");
-    if skip_gpu { &DEVICES[..1] } else { &DEVICES }
+    if DEVICE.is_some() { &DEVICES } else { &DEVICES[..1] }
 }
 
 fn render_on_cpu(scene: &Scene) -> Vec<[f32; 3]> {
     collect(&mut ReferenceRenderer::new(scene).expect("the scene is supported"), scene)
 }
-
-/// One device for all cases: opening it costs more than a case.
-static DEVICE: LazyLock<Device> =
-    LazyLock::new(|| Device::open(&DeviceChoice::Gpu).expect("a graphics adapter; GPT_TEST_GPU=skip tests the CPU alone"));
 
 /// What the plan chooses for such small scenes: unrolled geometry, one kernel.
 fn render_fused(scene: &Scene) -> Vec<[f32; 3]> {
@@ -60,7 +55,8 @@ fn render_by_wavefront(scene: &Scene) -> Vec<[f32; 3]> {
 }
 
 fn render_on_gpu(scene: &Scene, options: &PlanOptions) -> Vec<[f32; 3]> {
-    collect(&mut GpuRenderer::on(&DEVICE, scene, options).expect("the scene fits"), scene)
+    let device = DEVICE.as_ref().expect("asked for only where there is one");
+    collect(&mut GpuRenderer::on(device, scene, options).expect("the scene fits"), scene)
 }
 
 fn collect(renderer: &mut dyn Renderer, scene: &Scene) -> Vec<[f32; 3]> {
@@ -105,7 +101,7 @@ fn closed_forms_of_normal_maps_hold() {
     assert_all_hold(&materials::with_normal_maps(), devices());
 }
 
-/// The wavefront is held to the reference for the same lights elsewhere (`tests/agreement`).
+/// The wavefront is held to the reference for the same lights elsewhere (`tests/gpu/agreement`).
 #[test]
 fn closed_forms_of_lights_hold() {
     assert_all_hold(&lights::all(), &devices()[..devices().len().min(2)]);

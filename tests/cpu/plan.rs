@@ -190,7 +190,7 @@ fn the_number_of_cores_does_not_show() {
 /// What no surface is made of costs nothing: not a word of the kernels, of the tables or of the texels.
 #[test]
 fn materials_and_textures_that_nothing_uses_leave_no_trace() {
-    let room = include_str!("../scenes/cornell.toml");
+    let room = include_str!("../../scenes/cornell.toml");
     let unused = "
         [[texture]]
         name = \"marble\"

@@ -1,15 +1,9 @@
 //! The closed forms that `gpt verify` asks a device for hold, and stop holding with each fault that has something to act on.
 
+use crate::common::device::DEVICE;
 use gpt::gpu::Device;
 use gpt::plan::{Fault, PlanOptions};
-use gpt::renderer::DeviceChoice;
 use gpt::verify::closed_forms::{self, ClosedForm};
-
-/// Where there is no GPU, its tests fail, unless `GPT_TEST_GPU=skip` leaves them out.
-fn device() -> Option<Device> {
-    let skip_gpu = std::env::var("GPT_TEST_GPU").is_ok_and(|value| value == "skip");
-    (!skip_gpu).then(|| Device::open(&DeviceChoice::Gpu).expect("a graphics adapter; GPT_TEST_GPU=skip leaves it out"))
-}
 
 fn check_all(device: &Device, fault: Option<Fault>) -> Vec<ClosedForm> {
     let options = PlanOptions { fault, ..PlanOptions::default() };
@@ -18,18 +12,18 @@ fn check_all(device: &Device, fault: Option<Fault>) -> Vec<ClosedForm> {
 
 #[test]
 fn closed_forms_hold_on_the_device() {
-    let Some(device) = device() else { return };
-    for closed in check_all(&device, None) {
+    let Some(device) = DEVICE.as_ref() else { return };
+    for closed in check_all(device, None) {
         assert!(closed.agrees && closed.planted.is_none(), "{closed:#?}");
     }
 }
 
 #[test]
 fn closed_forms_notice_each_fault() {
-    let Some(device) = device() else { return };
+    let Some(device) = DEVICE.as_ref() else { return };
     // How many of them have something for the fault to act on.
     for (fault, acted_on) in [(Fault::Brdf, closed_forms::count()), (Fault::Mis, 3), (Fault::Light, 3)] {
-        let found = check_all(&device, Some(fault));
+        let found = check_all(device, Some(fault));
         assert_eq!(found.iter().filter(|closed| closed.planted.is_some()).count(), acted_on, "{fault:?}");
         for closed in found {
             assert_eq!(closed.agrees, closed.planted.is_none(), "{fault:?}: {closed:#?}");

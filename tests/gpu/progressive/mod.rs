@@ -1,13 +1,10 @@
 //! Renders that time or their error ends, and samples that follow the noise.
 
-#[path = "../common/device.rs"]
-mod device;
-
 use std::ops::Range;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use device::{DEVICE, with_limits};
+use crate::common::device::{DEVICE, with_limits};
 use gpt::film::Band;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;

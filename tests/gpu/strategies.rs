@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
-use gpt::gpu::{Device, GpuRenderer};
+use crate::common::device::DEVICE;
+use gpt::gpu::GpuRenderer;
 use gpt::load;
 use gpt::plan::PlanOptions;
 use gpt::reference::ReferenceRenderer;
-use gpt::renderer::{DeviceChoice, RenderRequest, Renderer, Silent};
+use gpt::renderer::{RenderRequest, Renderer, Silent};
 use gpt::scene::{self, Aperture, ApertureShape, Projection, SamplerKind, Scene};
 
 fn load(text: &str) -> Scene {
@@ -31,9 +32,8 @@ fn render_on_cpu(scene: &Scene) -> Vec<[f32; 3]> {
 /// The same picture by the reference and by the GPU, unless the latter is to be left out.
 fn on_every_device(scene: &Scene) -> Vec<(&'static str, Vec<[f32; 3]>)> {
     let mut pictures = vec![("cpu", render_on_cpu(scene))];
-    if std::env::var("GPT_TEST_GPU").as_deref() != Ok("skip") {
-        let device = Device::open(&DeviceChoice::Gpu).expect("a graphics adapter; GPT_TEST_GPU=skip tests the CPU alone");
-        let mut gpu = GpuRenderer::on(&device, scene, &PlanOptions::default()).expect("the scene fits");
+    if let Some(device) = DEVICE.as_ref() {
+        let mut gpu = GpuRenderer::on(device, scene, &PlanOptions::default()).expect("the scene fits");
         pictures.push(("gpu", render(&mut gpu, scene)));
     }
     pictures

@@ -1,13 +1,10 @@
 //! Ray queries find what a hierarchy of ours finds, and are refused where they cannot.
 
-#[path = "common/pixel_bits.rs"]
-mod pixel_bits;
-#[path = "common/ray_queries.rs"]
-mod ray_queries;
-
 use std::fmt::Write as _;
 use std::path::Path;
 
+use crate::common::pixel_bits::pixel_bits;
+use crate::common::ray_queries::{RAY_QUERY_DEVICE, by_ray_queries};
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;
 use gpt::load::load_toml_str;
@@ -17,8 +14,6 @@ use gpt::plan::limits::RayQueryLimits;
 use gpt::plan::{DeviceLimits, Plan, PlanOptions, StageMode, TraversalChoice};
 use gpt::renderer::{DeviceChoice, RenderError};
 use gpt::scene::Scene;
-use pixel_bits::pixel_bits;
-use ray_queries::{RAY_QUERY_DEVICE, by_ray_queries};
 
 /// A shipped scene as small as tests want it.
 fn small(name: &str, size: [u32; 2], spp: u32) -> Scene {

@@ -1,10 +1,8 @@
 //! Scene files that are right, and what becomes of them.
 
-mod common;
-
 use std::path::Path;
 
-use common::{TRIANGLE, folder_with, png_bytes};
+use crate::common::files::{TRIANGLE, folder_with, png_bytes};
 use glam::{DVec3, Vec3};
 use gpt::load;
 use gpt::scene::{

@@ -1,15 +1,10 @@
 //! Motion blur: coverage over time in closed form, a shutter that stands still, what moving shapes sweep, and what is refused.
 
-#[path = "common/device.rs"]
-mod device;
-#[path = "statistics/mod.rs"]
-mod statistics;
-
 use std::io;
 use std::path::Path;
 
+use crate::common::device::DEVICE;
 use crate::statistics::random::SplitMix64;
-use device::DEVICE;
 use glam::{DVec3, Vec3};
 use gpt::compare::{Moments, one_sample_t_test_beyond, sidak};
 use gpt::film::Band;

@@ -1,15 +1,11 @@
 //! Scenes that are wrong: each is one error that names the file, the line, the key and what would be right.
 
-mod common;
-#[path = "common/sphere.rs"]
-mod sphere;
-
 use std::sync::LazyLock;
 
-use common::{TRIANGLE, folder_with, png_bytes};
+use crate::common::files::{TRIANGLE, folder_with, png_bytes};
+use crate::common::sphere::grey_sphere;
 use gpt::load;
 use gpt::load::SceneError;
-use sphere::grey_sphere;
 
 /// A scene that is right, to put mistakes into.
 static GOOD: LazyLock<String> =

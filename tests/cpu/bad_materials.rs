@@ -1,11 +1,9 @@
 //! Materials and blends that are wrong: each is one error that names the place, the key and what would be right. And some that look
 //! wrong and are not.
 
-mod common;
-
 use std::path::Path;
 
-use common::folder_with;
+use crate::common::files::folder_with;
 use gpt::load;
 use gpt::load::SceneError;
 use gpt::packed::{PackError, PackedScene};

@@ -1,8 +1,5 @@
 //! The GPU's picture against the reference's, path by path, for every built-in scene and every way to run it.
 
-#[path = "../common/device.rs"]
-mod device;
-
 mod features;
 mod light_samples;
 mod lights;
@@ -10,7 +7,7 @@ mod materials;
 mod motion;
 mod strategies;
 
-use device::{DEVICE, with_limits};
+use crate::common::device::{DEVICE, with_limits};
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;
 use gpt::plan::{PlanOptions, StageMode, TraversalChoice};

@@ -1,9 +1,6 @@
 //! What the device's film holds: precision over many samples, samples that add up, bands that cover the picture.
 
-#[path = "common/device.rs"]
-mod device;
-
-use device::{DEVICE, with_limits};
+use crate::common::device::{DEVICE, with_limits};
 use gpt::film::Band;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;

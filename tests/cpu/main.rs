@@ -1,0 +1,18 @@
+//! What needs no graphics device: files and their errors, packing, plans, shader texts, samplers, and pictures by the reference.
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../statistics/mod.rs"]
+mod statistics;
+
+mod bad_lights;
+mod bad_materials;
+mod bad_scenes;
+mod blends;
+mod hierarchy;
+mod light_strategies;
+mod models;
+mod plan;
+mod samplers;
+mod scene_files;
+mod shaders;

@@ -1,0 +1,18 @@
+//! The device against the reference, against closed forms, and against itself. `GPT_TEST_GPU=skip` leaves out what needs a device; what both
+//! devices must satisfy is then tested on the CPU alone.
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../statistics/mod.rs"]
+mod statistics;
+
+mod agreement;
+mod chunks;
+mod closed_forms;
+mod film;
+mod motion;
+mod progressive;
+mod ray_queries;
+mod strategies;
+mod variants;
+mod verify;

@@ -1,0 +1,8 @@
+//! How much memory is taken, counted by an allocator of this program's own. It counts for the whole process, so its tests take turns.
+
+#[path = "../statistics/random.rs"]
+mod random;
+
+mod counting;
+mod hostile_files;
+mod large_pictures;
