@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::film::Band;
 use crate::packed::hierarchy::Traversal;
 use crate::plan::Decision;
+use crate::scene::InvalidScene;
 
 /// Which device renders (`--device`).
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -104,6 +105,9 @@ pub enum RenderError {
     /// Needs and limits are part of the message.
     #[error("the scene does not fit the device: {0}")]
     DoesNotFit(String),
+    /// A scene built by a program, not read from a file, that cannot be rendered as it is.
+    #[error("the scene is not valid: {0}")]
+    InvalidScene(#[from] InvalidScene),
     #[error("the device was lost: {0}")]
     DeviceLost(String),
     #[error("{0}")]

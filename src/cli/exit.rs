@@ -89,6 +89,7 @@ impl From<&Failure> for Exit {
         match failure {
             Failure::Usage { .. } => Self::Usage,
             Failure::Scene(_) | Failure::Picture(_) | Failure::Sizes(_) | Failure::BadScene(_) => Self::Input,
+            Failure::Render(RenderError::InvalidScene(_)) => Self::Input,
             Failure::Render(RenderError::NoDevice(_) | RenderError::DoesNotFit(_)) => Self::Device,
             Failure::Render(RenderError::DeviceLost(_)) => Self::DeviceLost,
             Failure::Render(RenderError::Internal(_) | RenderError::Output(_)) => Self::OtherFailure,
@@ -100,6 +101,8 @@ impl From<&Failure> for Exit {
 
 #[cfg(test)]
 mod tests {
+    use gpt::scene::InvalidScene;
+
     use super::*;
 
     #[test]
@@ -107,6 +110,8 @@ mod tests {
         let code = |error: RenderError| Exit::from(&Failure::from(error)) as u8;
         assert_eq!(code(RenderError::Internal(String::new())), 1);
         assert_eq!(code(RenderError::Output(std::io::Error::other("full"))), 1);
+        let invalid = InvalidScene { part: String::new(), message: String::new() };
+        assert_eq!(code(RenderError::InvalidScene(invalid)), 3);
         assert_eq!(code(RenderError::NoDevice(String::new())), 4);
         assert_eq!(code(RenderError::DoesNotFit(String::new())), 4);
         assert_eq!(code(RenderError::DeviceLost(String::new())), 5);

@@ -90,7 +90,8 @@ impl GpuRenderer {
     pub fn once_open(opening: OpeningDevice, scene: &Scene, options: &PlanOptions) -> Result<Self, RenderError> {
         let start = Instant::now();
         let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
-        let packed = PackedScene::for_traversal(scene, options.packed_traversal()).map_err(does_not_fit);
+        let pack = |()| PackedScene::for_traversal(scene, options.packed_traversal()).map_err(does_not_fit);
+        let packed = scene.validate().map_err(RenderError::from).and_then(pack);
         // Where there is no device, that is what is told, whatever the scene: it may then go to the CPU.
         let device = opening.wait()?;
         let packed = packed?;

@@ -13,8 +13,8 @@ use super::camera::ProjectiveCamera;
 use super::emission::emitted;
 use super::intersect::{Moment, Ray, Surface, World};
 use super::lights::{LightSample, Lights};
+use super::mis;
 use super::trace::{LightConnection, PathVisitor};
-use super::{mis, support};
 use crate::renderer::RenderError;
 use crate::sampling::{BounceDimension, CameraDimension, Dimension, PathSampler};
 use crate::scene::{Estimator, Scene};
@@ -58,7 +58,7 @@ struct Path {
 impl Integrator {
     /// Takes positions relative to the scene's [center](Scene::center). Fails on what the reference cannot render.
     pub fn new(scene: &Scene) -> Result<Self, RenderError> {
-        support::check(scene)?;
+        scene.validate()?;
         let scene = &*scene.centered();
         let world = World::new(scene)?;
         let lights = Lights::new(scene, &world);

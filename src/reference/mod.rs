@@ -14,7 +14,6 @@ pub mod intersect;
 pub mod lights;
 pub mod mis;
 mod renderer;
-pub mod support;
 pub mod texture;
 pub mod trace;
 pub mod warp;

@@ -19,6 +19,7 @@ pub mod shape;
 mod summary;
 pub mod texture;
 pub mod transform;
+pub mod validate;
 
 pub use blend_tree::{MOST_LEAVES, check_blends};
 pub use camera::{Aperture, ApertureShape, Camera, Projection};
@@ -34,6 +35,7 @@ pub use shape::{Geometry, Mesh, Shape};
 pub use summary::SceneSummary;
 pub use texture::{ColorInput, ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap};
 pub use transform::{Transform, TransformStep};
+pub use validate::InvalidScene;
 
 /// Index into [`Scene::materials`].
 pub type MaterialId = usize;

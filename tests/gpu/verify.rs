@@ -1,8 +1,10 @@
 //! The closed forms that `gpt verify` asks a device for hold, and stop holding with each fault that has something to act on.
 
 use crate::common::device::DEVICE;
-use gpt::gpu::Device;
+use gpt::gpu::{Device, GpuRenderer};
 use gpt::plan::{Fault, PlanOptions};
+use gpt::renderer::RenderError;
+use gpt::scene::{Geometry, Shape, Transform};
 use gpt::verify::closed_forms::{self, ClosedForm};
 
 fn check_all(device: &Device, fault: Option<Fault>) -> Vec<ClosedForm> {
@@ -28,5 +30,25 @@ fn closed_forms_notice_each_fault() {
         for closed in found {
             assert_eq!(closed.agrees, closed.planted.is_none(), "{fault:?}: {closed:#?}");
         }
+    }
+}
+
+/// A scene built by hand whose shape names a material that is not there: packing it would end the program.
+#[test]
+fn a_scene_that_is_not_valid_is_refused_by_the_device() {
+    let Some(device) = DEVICE.as_ref() else { return };
+    let mut scene = gpt::load::load(Some("furnace-mirror")).expect("it is built in");
+    assert!(GpuRenderer::on(device, &scene, &PlanOptions::default()).is_ok());
+    scene.shapes.push(Shape {
+        label: "a disk".into(),
+        geometry: Geometry::Disk { center: glam::DVec3::ZERO, normal: glam::DVec3::Y, radius: 1.0 },
+        material: 99,
+        transform: Transform::default(),
+        motion: None,
+        portal: false,
+    });
+    match GpuRenderer::on(device, &scene, &PlanOptions::default()).map(drop) {
+        Err(RenderError::InvalidScene(invalid)) => assert_eq!(invalid.to_string(), "a disk: there is no material 99"),
+        other => panic!("{other:?}"),
     }
 }

@@ -77,7 +77,7 @@ struct ShapeData {
 }
 
 impl World {
-    /// The scene has been checked by [`crate::reference::support::check`].
+    /// The scene has been checked by [`Scene::validate`].
     pub fn new(scene: &Scene) -> Result<Self, RenderError> {
         let mut collected = Collected::default();
         for (index, shape) in scene.shapes.iter().enumerate() {

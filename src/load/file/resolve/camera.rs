@@ -6,6 +6,7 @@ use super::Resolver;
 use crate::load::SceneError;
 use crate::load::file::syntax::{ApertureEntry, CameraTable, ProjectionName};
 use crate::load::file::value::vector;
+use crate::scene::validate::BLADES;
 use crate::scene::{Aperture, ApertureShape, Camera, Projection};
 
 impl Resolver<'_> {
@@ -73,9 +74,10 @@ impl Resolver<'_> {
             ApertureEntry::Polygon(polygon) => {
                 let blades = polygon.blades.as_ref().map_or(6, |blades| blades.value);
                 if let Some(written) = &polygon.blades
-                    && !(3..=64).contains(&blades)
+                    && !BLADES.contains(&blades)
                 {
-                    return Err(self.error(&written.span, "an aperture has 3 to 64 blades"));
+                    let message = format!("an aperture has {} to {} blades", BLADES.start(), BLADES.end());
+                    return Err(self.error(&written.span, message));
                 }
                 let rotation_degrees = polygon.rotation.map_or(0.0, |rotation| rotation.0);
                 (ApertureShape::Polygon { blades, rotation_degrees }, polygon.radius)

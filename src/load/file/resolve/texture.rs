@@ -12,6 +12,7 @@ use crate::load::error::show;
 use crate::load::file::syntax::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 use crate::load::file::value::{Checked, Colour, Located, Number, Positive, Rule, Scalar};
 use crate::load::image_file::read_image;
+use crate::scene::validate::MOST_OCTAVES;
 use crate::scene::{ColorInput, ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap};
 
 /// Images by file and by how their values are read, so that each is decoded once.
@@ -30,9 +31,9 @@ impl Resolver<'_> {
                 TextureEntry::Perlin(perlin) => {
                     let octaves = perlin.octaves.as_ref().map_or(1, |octaves| octaves.value.get());
                     if let Some(written) = &perlin.octaves
-                        && octaves > 16
+                        && octaves > MOST_OCTAVES
                     {
-                        return Err(self.error(&written.span, "at most 16 octaves"));
+                        return Err(self.error(&written.span, format!("at most {MOST_OCTAVES} octaves")));
                     }
                     let (scale, seed) = (factor(perlin.scale), perlin.seed.unwrap_or(0));
                     TextureKind::Perlin { scale, octaves, a: perlin.a.0, b: perlin.b.0, seed }

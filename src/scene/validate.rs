@@ -1,0 +1,364 @@
+//! What must hold of a scene before a renderer may take it.
+//!
+//! Files are checked as they are read, with the line of each mistake. A scene that a program builds by hand is checked here, whichever
+//! device renders it: both the packed scene and the reference look indices up without asking again.
+
+use glam::{DVec3, Vec3};
+
+use super::settings::{MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH};
+use super::{
+    ApertureShape, Camera, ColorInput, ConductorFresnel, EnvironmentRadiance, Geometry, Heuristic, ImageData, Light, Material,
+    MaterialId, MaterialKind, Mesh, Projection, Scene, Shape, TextureId, TextureKind, check_blends,
+};
+
+/// Most octaves of Perlin noise: further ones are finer than the numbers that they are computed in.
+pub const MOST_OCTAVES: u32 = 16;
+/// Corners of a polygonal aperture.
+pub const BLADES: std::ops::RangeInclusive<u32> = 3..=64;
+/// Most texels along a side of an image: twice as many still are a positive number of 32 bits.
+const LONGEST_SIDE: u32 = 1 << 30;
+
+/// What is wrong with a scene, and with which part of it.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{part}: {message}")]
+pub struct InvalidScene {
+    /// As reports name it: a shape's label, "material `name`", "camera".
+    pub part: String,
+    pub message: String,
+}
+
+/// What is wrong, in words.
+type Check = Result<(), String>;
+
+/// Names the part that a check was of.
+fn of(part: impl FnOnce() -> String, check: Check) -> Result<(), InvalidScene> {
+    check.map_err(|message| InvalidScene { part: part(), message })
+}
+
+impl Scene {
+    /// Checks that every index is in range, that numbers are finite and in their range, and that paths end. It takes time in proportion to
+    /// the scene's size.
+    ///
+    /// # Errors
+    /// The first part of the scene that cannot be rendered, and what is wrong with it.
+    pub fn validate(&self) -> Result<(), InvalidScene> {
+        of(|| "film".into(), film(self))?;
+        of(|| "render settings".into(), settings(self))?;
+        of(|| "camera".into(), camera(&self.camera))?;
+        for texture in &self.textures {
+            of(|| format!("texture `{}`", texture.name), texture_kind(&texture.kind))?;
+        }
+        for material in &self.materials {
+            of(|| format!("material `{}`", material.name), self.check_material(material))?;
+        }
+        check_blends(&self.materials).map_err(|(id, message)| {
+            let part = format!("material `{}`", self.materials[id].name);
+            InvalidScene { part, message }
+        })?;
+        let textured = self.textured_materials();
+        for shape in &self.shapes {
+            of(|| shape.label.clone(), self.check_shape(shape, &textured))?;
+        }
+        for (index, entry) in self.lights.iter().enumerate() {
+            of(|| format!("light[{index}]"), light(entry))?;
+        }
+        of(|| "environment".into(), self.check_environments())
+    }
+
+    fn check_material(&self, material: &Material) -> Check {
+        if let Some(id) = material.normal_map {
+            self.texture_exists(id)?;
+        }
+        if let Some(emission) = &material.emission {
+            self.color(&emission.radiance)?;
+        }
+        match &material.kind {
+            MaterialKind::Glass { ior, .. } | MaterialKind::RoughGlass { ior, .. } if !is_positive(*ior) => {
+                return Err("the index of refraction must be positive".into());
+            }
+            MaterialKind::Conductor { fresnel: ConductorFresnel::Complex { eta, k }, .. }
+                if !(is_amount(*eta) && is_amount(*k)) =>
+            {
+                return Err("the complex index of refraction must be finite and not negative".into());
+            }
+            MaterialKind::Blend { materials, weight } => {
+                materials.iter().try_for_each(|&id| self.material_exists(id))?;
+                if materials.iter().any(|&id| self.materials[id].normal_map.is_some()) {
+                    return Err("the normal map of a blend is its own, not that of a part".into());
+                }
+                self.weight(weight)?;
+            }
+            _ => {}
+        }
+        material.kind.colors().try_for_each(|input| self.color(&input))
+    }
+
+    fn weight(&self, mut weight: &Heuristic) -> Check {
+        loop {
+            weight = match weight {
+                Heuristic::Texture { texture } => return self.texture_exists(*texture),
+                Heuristic::Reverse { of } => of,
+                Heuristic::Threshold { tau, of } if tau.is_finite() => of,
+                Heuristic::Constant { value } if (0.0..=1.0).contains(value) => return Ok(()),
+                Heuristic::Facing { power } if power.is_finite() && *power >= 0.0 => return Ok(()),
+                Heuristic::Fresnel { ior, .. } if is_positive(*ior) => return Ok(()),
+                _ => return Err("a number of the blend's weight is out of its range".into()),
+            }
+        }
+    }
+
+    fn color(&self, input: &ColorInput) -> Check {
+        match input {
+            ColorInput::Constant(color) if is_amount(*color) => Ok(()),
+            ColorInput::Constant(_) => Err("a colour must be finite and not negative".into()),
+            ColorInput::ScaledTexture(_, factor) if !is_amount(*factor) => {
+                Err("the factor of a texture must be finite and not negative".into())
+            }
+            ColorInput::Texture(id) | ColorInput::ScaledTexture(id, _) | ColorInput::SquaredTexture(id) => {
+                self.texture_exists(*id)
+            }
+        }
+    }
+
+    fn texture_exists(&self, id: TextureId) -> Check {
+        if id < self.textures.len() { Ok(()) } else { Err(format!("there is no texture {id}")) }
+    }
+
+    fn material_exists(&self, id: MaterialId) -> Check {
+        if id < self.materials.len() { Ok(()) } else { Err(format!("there is no material {id}")) }
+    }
+
+    /// Which materials look up a texture, by themselves or through a part: from those that do, up to all that are made of them.
+    fn textured_materials(&self) -> Vec<bool> {
+        let mut wholes: Vec<Vec<MaterialId>> = vec![Vec::new(); self.materials.len()];
+        for (id, material) in self.materials.iter().enumerate() {
+            material.parts().iter().for_each(|&part| wholes[part].push(id));
+        }
+        let mut textured: Vec<bool> = self.materials.iter().map(Material::uses_texture).collect();
+        let mut to_visit: Vec<MaterialId> = (0..textured.len()).filter(|&id| textured[id]).collect();
+        while let Some(id) = to_visit.pop() {
+            for &whole in &wholes[id] {
+                if !std::mem::replace(&mut textured[whole], true) {
+                    to_visit.push(whole);
+                }
+            }
+        }
+        textured
+    }
+
+    fn check_shape(&self, shape: &Shape, textured: &[bool]) -> Check {
+        let map = shape.transform.to_affine();
+        let determinant = map.matrix3.determinant();
+        if determinant == 0.0 || !determinant.is_finite() || !map.translation.is_finite() {
+            return Err("the transform is singular".into());
+        }
+        let round = matches!(shape.geometry, Geometry::Sphere { .. } | Geometry::Disk { .. });
+        if round && shape.transform.uniform_scale().is_none() {
+            return Err("spheres and disks cannot be scaled unevenly".into());
+        }
+        shape.check_motion(self.camera.shutter).map_err(|(_, message)| message)?;
+        let has_uv = geometry(&shape.geometry)?;
+        if shape.portal && matches!(shape.geometry, Geometry::Plane { .. }) {
+            return Err("a plane cannot be a portal".into());
+        }
+        self.material_exists(shape.material)?;
+        if let Geometry::Mesh(mesh) = &shape.geometry {
+            mesh.face_materials.iter().try_for_each(|&id| self.material_exists(id))?;
+        }
+        if !has_uv && materials_of(shape).any(|id| textured[id]) {
+            return Err("a textured material needs texture coordinates".into());
+        }
+        Ok(())
+    }
+
+    /// Constant ones add up; a map or a sky stands alone.
+    fn check_environments(&self) -> Check {
+        let environments =
+            || self.lights.iter().filter_map(|light| if let Light::Environment(found) = light { Some(found) } else { None });
+        let varies = environments().any(|environment| !matches!(environment.radiance, EnvironmentRadiance::Constant(_)));
+        if varies && environments().count() > 1 {
+            return Err("a map or a sky is the scene's only environment".into());
+        }
+        Ok(())
+    }
+}
+
+fn is_positive(number: f64) -> bool {
+    number.is_finite() && number > 0.0
+}
+
+/// A quantity of light, or a share of it.
+fn is_amount(color: DVec3) -> bool {
+    color.is_finite() && color.min_element() >= 0.0
+}
+
+fn is_direction(direction: DVec3) -> bool {
+    (direction.length_squared() - 1.0).abs() < 1e-6
+}
+
+fn film(scene: &Scene) -> Check {
+    let [width, height] = scene.film.size;
+    if width == 0 || height == 0 {
+        return Err("the picture has no pixels".into());
+    }
+    // Pixels are numbered in 32 bits.
+    if u64::from(width) * u64::from(height) > u64::from(u32::MAX) {
+        return Err(format!("{width} × {height} pixels are more than can be numbered"));
+    }
+    let radius = scene.film.filter.radius;
+    if !is_positive(radius) {
+        return Err(format!("a filter cannot have the radius {radius}"));
+    }
+    Ok(())
+}
+
+fn settings(scene: &Scene) -> Check {
+    let settings = &scene.render;
+    if !(1..=MOST_LIGHT_SAMPLES).contains(&settings.light_samples) {
+        return Err(format!(
+            "{} light samples at a path's first surface; 1 to {MOST_LIGHT_SAMPLES} are possible",
+            settings.light_samples
+        ));
+    }
+    if !(1..=MOST_LIGHT_SAMPLES_DEPTH).contains(&settings.light_samples_depth) {
+        return Err(format!(
+            "several light samples at the surfaces of {} edges; 1 to {MOST_LIGHT_SAMPLES_DEPTH} are possible",
+            settings.light_samples_depth
+        ));
+    }
+    if settings.max_depth == 0 && settings.roulette_depth == 0 {
+        return Err("paths never end: max_depth and roulette_depth are both 0".into());
+    }
+    Ok(())
+}
+
+fn camera(camera: &Camera) -> Check {
+    if !camera.frame().into_iter().all(DVec3::is_finite) || !camera.position.is_finite() {
+        return Err("it looks at the point it stands at, or along `up`".into());
+    }
+    match camera.projection {
+        Projection::Perspective { vertical_fov_degrees: angle } if !(angle > 0.0 && angle < 180.0) => {
+            return Err(format!("the field of view must be between 0 and 180 degrees and is {angle}"));
+        }
+        Projection::Orthographic { height } if !is_positive(height) => {
+            return Err(format!("the height of its window must be positive and is {height}"));
+        }
+        _ => {}
+    }
+    if let Some(aperture) = camera.aperture {
+        if !is_positive(aperture.radius) || !is_positive(camera.focus_distance) {
+            return Err("the aperture's radius and the distance in focus must be positive".into());
+        }
+        if let ApertureShape::Polygon { blades, rotation_degrees } = aperture.shape
+            && !(BLADES.contains(&blades) && rotation_degrees.is_finite())
+        {
+            return Err(format!("an aperture has {} to {} blades, not {blades}", BLADES.start(), BLADES.end()));
+        }
+    }
+    let [open, close] = camera.shutter;
+    if !(open.is_finite() && close.is_finite() && open <= close) {
+        return Err("the shutter closes before it opens".into());
+    }
+    Ok(())
+}
+
+fn texture_kind(kind: &TextureKind) -> Check {
+    match kind {
+        TextureKind::Image(texture) => {
+            let finite = texture.scale.into_iter().chain(texture.offset).all(f64::is_finite);
+            if finite { image(&texture.image) } else { Err("its scale and offset must be finite".into()) }
+        }
+        TextureKind::Checker { a, b, scale } => between(*a, *b, scale.iter().all(|factor| factor.is_finite())),
+        TextureKind::Perlin { octaves, .. } if !(1..=MOST_OCTAVES).contains(octaves) => {
+            Err(format!("{octaves} octaves; 1 to {MOST_OCTAVES} are possible"))
+        }
+        TextureKind::Perlin { a, b, scale, .. } | TextureKind::Worley { a, b, scale, .. } => between(*a, *b, scale.is_finite()),
+    }
+}
+
+fn between(a: DVec3, b: DVec3, scale_is_finite: bool) -> Check {
+    let possible = a.is_finite() && b.is_finite() && scale_is_finite;
+    if possible { Ok(()) } else { Err("its colours and its scale must be finite".into()) }
+}
+
+fn image(image: &ImageData) -> Check {
+    let ImageData { width, height, texels, .. } = image;
+    let count = u64::from(*width) * u64::from(*height);
+    if count == 0 || count != texels.len() as u64 || *width.max(height) > LONGEST_SIDE {
+        return Err(format!("it has {} texels and not {width} × {height}", texels.len()));
+    }
+    Ok(())
+}
+
+/// Whether it has texture coordinates.
+fn geometry(geometry: &Geometry) -> Result<bool, String> {
+    let has_uv = match geometry {
+        Geometry::Mesh(mesh) => {
+            check_mesh(mesh)?;
+            return Ok(!mesh.uvs.is_empty());
+        }
+        Geometry::Sphere { center, radius } if center.is_finite() && is_positive(*radius) => true,
+        Geometry::Disk { center, normal, radius } if center.is_finite() && is_direction(*normal) && is_positive(*radius) => false,
+        Geometry::Plane { point, normal } if point.is_finite() && is_direction(*normal) => false,
+        Geometry::Rectangle { corner, edge_u, edge_v } if [corner, edge_u, edge_v].into_iter().all(|v| v.is_finite()) => true,
+        Geometry::Box { min, max } if min.is_finite() && max.is_finite() && min.cmple(*max).all() => true,
+        _ => return Err("its numbers must be finite, radii positive, and normals of length 1".into()),
+    };
+    Ok(has_uv)
+}
+
+/// Every list of a mesh is as long as the others need it.
+fn check_mesh(mesh: &Mesh) -> Check {
+    let vertices = mesh.positions.len();
+    if mesh.faces.iter().flatten().any(|&vertex| vertex as usize >= vertices) {
+        return Err(format!("a face names a vertex beyond the last, {}", vertices.saturating_sub(1)));
+    }
+    let fits = |length: usize, needed: usize| length == 0 || length == needed;
+    if !fits(mesh.normals.len(), vertices) || !fits(mesh.uvs.len(), vertices) {
+        return Err("normals and uvs must be as many as positions".into());
+    }
+    if !fits(mesh.face_materials.len(), mesh.faces.len()) {
+        return Err("face materials must be as many as faces".into());
+    }
+    if !mesh.positions.iter().copied().all(Vec3::is_finite) {
+        return Err("positions must be finite".into());
+    }
+    Ok(())
+}
+
+/// Those of its faces, else its own.
+fn materials_of(shape: &Shape) -> impl Iterator<Item = MaterialId> {
+    let of_faces: &[MaterialId] = match &shape.geometry {
+        Geometry::Mesh(mesh) => &mesh.face_materials,
+        _ => &[],
+    };
+    of_faces.iter().copied().chain(of_faces.is_empty().then_some(shape.material))
+}
+
+fn light(light: &Light) -> Check {
+    let amounts = |lights: &[DVec3]| {
+        let possible = lights.iter().copied().all(is_amount);
+        if possible { Ok(()) } else { Err("its light must be finite and not negative".to_owned()) }
+    };
+    match light {
+        Light::Point { position, intensity } if position.is_finite() => amounts(&[*intensity]),
+        Light::Spot { position, direction, intensity, angle_degrees, falloff_degrees }
+            if position.is_finite() && is_direction(*direction) =>
+        {
+            if !(0.0 <= *falloff_degrees && falloff_degrees <= angle_degrees && *angle_degrees <= 180.0) {
+                return Err(format!("its light falls off from {falloff_degrees} to {angle_degrees} degrees"));
+            }
+            amounts(&[*intensity])
+        }
+        Light::Directional { direction, irradiance } if is_direction(*direction) => amounts(&[*irradiance]),
+        Light::Environment(environment) if environment.rotation_degrees.is_finite() => match &environment.radiance {
+            EnvironmentRadiance::Constant(radiance) => amounts(&[*radiance]),
+            EnvironmentRadiance::Sky { zenith, horizon, ground } => amounts(&[*zenith, *horizon, *ground]),
+            EnvironmentRadiance::Map(map) => image(map),
+        },
+        _ => Err("its position must be finite and its direction of length 1".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests;

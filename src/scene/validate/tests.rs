@@ -1,0 +1,270 @@
+use std::sync::Arc;
+
+use glam::Vec2;
+
+use super::*;
+use crate::reference::ReferenceRenderer;
+use crate::renderer::RenderError;
+use crate::scene::{
+    Aperture, Emission, Environment, ImageTexture, Motion, MotionStep, Texture, TextureFilter, TextureWrap, Transform,
+    TransformStep,
+};
+
+fn material(name: &str, kind: MaterialKind) -> Material {
+    Material { name: name.into(), kind, normal_map: None, emission: None }
+}
+
+fn shape(label: &str, geometry: Geometry, material: MaterialId) -> Shape {
+    Shape { label: label.into(), geometry, material, transform: Transform::default(), motion: None, portal: false }
+}
+
+fn pixels(width: u32, height: u32) -> Arc<ImageData> {
+    let texels = vec![Vec3::splat(0.5); (width * height) as usize];
+    Arc::new(ImageData { width, height, texels, has_alpha: false })
+}
+
+/// Something of every kind that has a number or an index of its own.
+fn scene() -> Scene {
+    let mut scene = Scene::default();
+    scene.film.size = [8, 4];
+    let image = ImageTexture {
+        image: pixels(2, 3),
+        wrap: TextureWrap::Repeat,
+        filter: TextureFilter::Bilinear,
+        scale: [1.0; 2],
+        offset: [0.0; 2],
+    };
+    let [a, b] = [DVec3::ZERO, DVec3::ONE];
+    for (name, kind) in [
+        ("picture", TextureKind::Image(image)),
+        ("checks", TextureKind::Checker { a, b, scale: [4.0; 2] }),
+        ("clouds", TextureKind::Perlin { scale: 3.0, octaves: 4, a, b, seed: 1 }),
+        ("cells", TextureKind::Worley { scale: 3.0, a, b, seed: 1 }),
+    ] {
+        scene.textures.push(Texture { name: name.into(), kind });
+    }
+    let grey = ColorInput::grey(0.5);
+    let textured = MaterialKind::Diffuse { reflectance: ColorInput::Texture(0) };
+    let glass = MaterialKind::Glass { ior: 1.5, reflectance: grey, transmittance: grey };
+    let metal = MaterialKind::Conductor { fresnel: ConductorFresnel::Complex { eta: DVec3::ONE, k: DVec3::ONE }, alpha: grey };
+    let weight = Heuristic::Reverse { of: Box::new(Heuristic::Texture { texture: 1 }) };
+    let blend = MaterialKind::Blend { materials: [1, 2], weight };
+    for (name, kind) in [
+        ("grey", MaterialKind::Diffuse { reflectance: grey }),
+        ("textured", textured),
+        ("glass", glass),
+        ("metal", metal),
+        ("blend", blend),
+    ] {
+        scene.materials.push(material(name, kind));
+    }
+    scene.materials[0].emission = Some(Emission { radiance: grey, two_sided: false });
+    let mesh = Mesh {
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+        uvs: vec![Vec2::ZERO, Vec2::X, Vec2::Y],
+        faces: vec![[0, 1, 2]],
+        face_materials: vec![4],
+        ..Mesh::default()
+    };
+    let center = DVec3::new(0.0, 0.0, -2.0);
+    for (label, geometry, material) in [
+        ("mesh", Geometry::Mesh(Arc::new(mesh)), 0),
+        ("sphere", Geometry::Sphere { center, radius: 1.0 }, 1),
+        ("disk", Geometry::Disk { center, normal: DVec3::Z, radius: 1.0 }, 2),
+        ("rectangle", Geometry::Rectangle { corner: center, edge_u: DVec3::X, edge_v: DVec3::Y }, 3),
+        ("box", Geometry::Box { min: center, max: DVec3::ONE }, 4),
+        ("plane", Geometry::Plane { point: center, normal: DVec3::Y }, 0),
+    ] {
+        scene.shapes.push(shape(label, geometry, material));
+    }
+    let spot = Light::Spot { position: b, direction: DVec3::Y, intensity: b, angle_degrees: 30.0, falloff_degrees: 20.0 };
+    let map = Environment { radiance: EnvironmentRadiance::Map(pixels(4, 2)), rotation_degrees: 0.0 };
+    scene.lights = vec![
+        Light::Point { position: b, intensity: b },
+        spot,
+        Light::Directional { direction: DVec3::X, irradiance: b },
+        Light::Environment(map),
+    ];
+    scene
+}
+
+#[test]
+fn what_can_be_rendered_passes() {
+    assert_eq!(scene().validate(), Ok(()));
+    assert_eq!(Scene::default().validate(), Ok(()));
+}
+
+/// The same scene with one thing wrong, and the words that name the part and the mistake.
+#[test]
+fn each_mistake_is_named_with_its_part() {
+    type Change = fn(&mut Scene);
+    fn mesh(scene: &mut Scene) -> &mut Mesh {
+        match &mut scene.shapes[0].geometry {
+            Geometry::Mesh(mesh) => Arc::make_mut(mesh),
+            other => panic!("{other:?} is no mesh"),
+        }
+    }
+    fn aperture(scene: &mut Scene, radius: f64, blades: u32) {
+        let shape = ApertureShape::Polygon { blades, rotation_degrees: 0.0 };
+        scene.camera.aperture = Some(Aperture { shape, radius });
+    }
+    fn emission(scene: &mut Scene, radiance: ColorInput) {
+        scene.materials[0].emission = Some(Emission { radiance, two_sided: false });
+    }
+    fn environment(radiance: EnvironmentRadiance) -> Light {
+        Light::Environment(Environment { radiance, rotation_degrees: 0.0 })
+    }
+    let cases: &[(Change, &str)] = &[
+        (|s| s.film.size = [0, 4], "film: the picture has no pixels"),
+        (|s| s.film.size = [1 << 16, 1 << 16], "film: 65536 × 65536 pixels are more than can be numbered"),
+        (|s| s.film.filter.radius = f64::NAN, "film: a filter cannot have the radius NaN"),
+        (|s| s.render.light_samples = 17, "render settings: 17 light samples"),
+        (|s| s.render.light_samples_depth = 0, "render settings: several light samples at the surfaces of 0 edges"),
+        (|s| (s.render.max_depth, s.render.roulette_depth) = (0, 0), "render settings: paths never end"),
+        (|s| s.camera.look_at = s.camera.position, "camera: it looks at the point it stands at"),
+        (|s| s.camera.up = DVec3::Z, "camera: it looks at the point it stands at, or along `up`"),
+        (|s| s.camera.projection = Projection::Perspective { vertical_fov_degrees: 180.0 }, "camera: the field of view"),
+        (|s| s.camera.projection = Projection::Orthographic { height: 0.0 }, "camera: the height of its window"),
+        (|s| aperture(s, -1.0, 6), "camera: the aperture's radius"),
+        (|s| aperture(s, 1.0, 2), "camera: an aperture has 3 to 64 blades, not 2"),
+        (|s| s.camera.shutter = [1.0, 0.0], "camera: the shutter closes before it opens"),
+        (
+            |s| {
+                let TextureKind::Image(texture) = &mut s.textures[0].kind else { panic!("the first is an image") };
+                Arc::make_mut(&mut texture.image).texels.pop();
+            },
+            "texture `picture`: it has 5 texels and not 2 × 3",
+        ),
+        (
+            |s| s.textures[2].kind = TextureKind::Perlin { scale: 1.0, octaves: 17, a: DVec3::ZERO, b: DVec3::ONE, seed: 0 },
+            "texture `clouds`: 17 octaves",
+        ),
+        (
+            |s| s.textures[3].kind = TextureKind::Worley { scale: f64::INFINITY, a: DVec3::ZERO, b: DVec3::ONE, seed: 0 },
+            "texture `cells`: its colours and its scale must be finite",
+        ),
+        (|s| s.materials[0].normal_map = Some(4), "material `grey`: there is no texture 4"),
+        (|s| emission(s, ColorInput::grey(-1.0)), "material `grey`: a colour must be finite and not negative"),
+        (|s| emission(s, ColorInput::SquaredTexture(9)), "material `grey`: there is no texture 9"),
+        (|s| emission(s, ColorInput::ScaledTexture(0, DVec3::NAN)), "material `grey`: the factor of a texture"),
+        (
+            |s| s.materials[1].kind = MaterialKind::Mirror { reflectance: ColorInput::Texture(usize::MAX) },
+            "material `textured`: there is no texture",
+        ),
+        (
+            |s| {
+                let white = ColorInput::grey(1.0);
+                s.materials[2].kind = MaterialKind::Glass { ior: 0.0, reflectance: white, transmittance: white };
+            },
+            "material `glass`: the index of refraction must be positive",
+        ),
+        (
+            |s| {
+                let fresnel = ConductorFresnel::Complex { eta: DVec3::NAN, k: DVec3::ONE };
+                s.materials[3].kind = MaterialKind::Conductor { fresnel, alpha: ColorInput::grey(0.1) };
+            },
+            "material `metal`: the complex index of refraction",
+        ),
+        (
+            |s| s.materials[4].kind = MaterialKind::Blend { materials: [0, 5], weight: Heuristic::Constant { value: 0.5 } },
+            "material `blend`: there is no material 5",
+        ),
+        (
+            |s| s.materials[4].kind = MaterialKind::Blend { materials: [0, 4], weight: Heuristic::Constant { value: 0.5 } },
+            "material `blend`: the blend `blend` contains itself",
+        ),
+        (
+            |s| s.materials[4].kind = MaterialKind::Blend { materials: [0, 1], weight: Heuristic::Texture { texture: 4 } },
+            "material `blend`: there is no texture 4",
+        ),
+        (
+            |s| s.materials[4].kind = MaterialKind::Blend { materials: [0, 1], weight: Heuristic::Constant { value: 1.5 } },
+            "material `blend`: a number of the blend's weight is out of its range",
+        ),
+        (|s| s.materials[1].normal_map = Some(0), "material `blend`: the normal map of a blend is its own"),
+        (|s| mesh(s).faces.push([0, 1, 3]), "mesh: a face names a vertex beyond the last, 2"),
+        (|s| mesh(s).uvs.truncate(2), "mesh: normals and uvs must be as many as positions"),
+        (|s| mesh(s).normals = vec![Vec3::Z], "mesh: normals and uvs must be as many as positions"),
+        (|s| mesh(s).face_materials.push(0), "mesh: face materials must be as many as faces"),
+        (|s| mesh(s).face_materials[0] = 5, "mesh: there is no material 5"),
+        (|s| mesh(s).positions[1].x = f32::INFINITY, "mesh: positions must be finite"),
+        (|s| mesh(s).uvs.clear(), "mesh: a textured material needs texture coordinates"),
+        (|s| s.shapes[1].material = 5, "sphere: there is no material 5"),
+        (|s| s.shapes[1].geometry = Geometry::Sphere { center: DVec3::ZERO, radius: 0.0 }, "sphere: its numbers must be finite"),
+        (|s| s.shapes[1].transform.steps.push(TransformStep::Scale(DVec3::new(1.0, 1.0, 2.0))), "sphere: spheres and disks"),
+        (|s| s.shapes[2].material = 4, "disk: a textured material needs texture coordinates"),
+        (
+            |s| s.shapes[3].transform.steps.push(TransformStep::Scale(DVec3::new(1.0, 0.0, 1.0))),
+            "rectangle: the transform is singular",
+        ),
+        (
+            |s| s.shapes[3].motion = Some(Motion { steps: vec![MotionStep::Scale(DVec3::ZERO)] }),
+            "rectangle: the scale shrinks the shape to nothing",
+        ),
+        (|s| s.shapes[4].geometry = Geometry::Box { min: DVec3::ONE, max: DVec3::ZERO }, "box: its numbers"),
+        (|s| s.shapes[5].portal = true, "plane: a plane cannot be a portal"),
+        (|s| s.shapes[5].geometry = Geometry::Plane { point: DVec3::ZERO, normal: DVec3::ZERO }, "plane: its numbers"),
+        (|s| s.lights[0] = Light::Point { position: DVec3::ONE, intensity: DVec3::NEG_ONE }, "light[0]: its light must be"),
+        (|s| s.lights[0] = Light::Point { position: DVec3::NAN, intensity: DVec3::ONE }, "light[0]: its position must be finite"),
+        (
+            |s| {
+                let [position, intensity] = [DVec3::ZERO, DVec3::ONE];
+                s.lights[1] =
+                    Light::Spot { position, direction: DVec3::Y, intensity, angle_degrees: 10.0, falloff_degrees: 20.0 };
+            },
+            "light[1]: its light falls off from 20 to 10 degrees",
+        ),
+        (
+            |s| s.lights[2] = Light::Directional { direction: DVec3::ONE, irradiance: DVec3::ONE },
+            "light[2]: its position must be",
+        ),
+        (
+            |s| {
+                let image = ImageData { width: 3, ..(*pixels(4, 2)).clone() };
+                s.lights[3] = environment(EnvironmentRadiance::Map(Arc::new(image)));
+            },
+            "light[3]: it has 8 texels and not 3 × 2",
+        ),
+        (
+            |s| s.lights.push(environment(EnvironmentRadiance::Constant(DVec3::ONE))),
+            "environment: a map or a sky is the scene's only",
+        ),
+    ];
+    for (index, (change, words)) in cases.iter().enumerate() {
+        let mut changed = scene();
+        change(&mut changed);
+        let error = changed.validate().expect_err(words).to_string();
+        assert!(error.starts_with(words), "case {index}: `{error}` and not `{words}`");
+        // The reference asks, so that it never follows what is wrong.
+        assert!(matches!(ReferenceRenderer::new(&changed), Err(RenderError::InvalidScene(_))), "{words}");
+    }
+}
+
+/// Twice the scene takes about twice the time, whatever its parts name: blends of blends, and shapes of all of them.
+#[test]
+fn it_takes_time_in_proportion_to_the_scene() {
+    let chain = |length: usize| {
+        let mut scene = scene();
+        scene.shapes.retain(|shape| shape.label == "disk");
+        let first = scene.materials.len();
+        for id in first..first + length {
+            // Of one material of its own and the blend before.
+            let before = if id == first { 0 } else { id - 1 };
+            let weight = Heuristic::Constant { value: 0.5 };
+            scene.materials.push(material("chain", MaterialKind::Blend { materials: [2, before], weight }));
+            let disk = Shape { material: id, ..scene.shapes[0].clone() };
+            scene.shapes.push(disk);
+        }
+        scene
+    };
+    let seconds = |length: usize| {
+        let scene = chain(length);
+        let start = std::time::Instant::now();
+        assert_eq!(scene.validate(), Ok(()));
+        start.elapsed().as_secs_f64()
+    };
+    // The least of several, so that whatever else runs does not count.
+    let least = |length: usize| (0..5).map(|_| seconds(length)).fold(f64::INFINITY, f64::min);
+    let [short, long] = [4_000, 32_000].map(least);
+    assert!(long < 32.0 * short + 0.01, "{short} s for 4,000 blends and {long} s for 32,000");
+}
