@@ -6,7 +6,7 @@ use std::collections::{BTreeSet, HashMap};
 use glam::DVec3;
 
 use super::NONE;
-use super::heuristic::{PackedHeuristic, constant_weight};
+use super::blend_weight::{PackedBlendWeight, constant_weight};
 use super::validate::PackError;
 use crate::scene::{BlendMode, ColorInput, ConductorFresnel, Material, MaterialId, MaterialKind, MicrofacetDistribution, Scene};
 
@@ -74,7 +74,7 @@ const MOST_WEIGHTS: usize = 1 << 20;
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct PackedLeaf {
     pub material: u32,
-    /// Its weight is the constant factor times those of the heuristics `first_factor..first_factor + factor_count`.
+    /// Its weight is the constant factor times the blend weights `first_factor..first_factor + factor_count`.
     pub first_factor: u32,
     pub factor_count: u32,
     pub constant_factor: f32,
@@ -87,7 +87,7 @@ pub struct PackedMaterials {
     /// Which of the scene's materials each one is.
     pub scene_ids: Vec<MaterialId>,
     pub leaves: Vec<PackedLeaf>,
-    pub heuristics: Vec<PackedHeuristic>,
+    pub weights: Vec<PackedBlendWeight>,
 }
 
 /// A colour as a constant factor and a texture index or NONE.
@@ -146,8 +146,8 @@ impl PackedMaterials {
 
     /// Every mention of a texture, to be renumbered.
     pub(super) fn textures_mut(&mut self) -> impl Iterator<Item = &mut u32> {
-        let of_heuristics = self.heuristics.iter_mut().map(|heuristic| &mut heuristic.texture);
-        self.materials.iter_mut().flat_map(PackedMaterial::textures_mut).chain(of_heuristics).filter(|texture| **texture != NONE)
+        let of_weights = self.weights.iter_mut().map(|weight| &mut weight.texture);
+        self.materials.iter_mut().flat_map(PackedMaterial::textures_mut).chain(of_weights).filter(|texture| **texture != NONE)
     }
 
     fn blend(&mut self, scene: &Scene, id: MaterialId) -> Result<PackedMaterial, PackError> {
@@ -177,13 +177,13 @@ impl PackedMaterials {
         for leaf in leaves.into_iter().chain(emitting_blends) {
             self.leaves.push(PackedLeaf {
                 material: leaf.material as u32,
-                first_factor: self.heuristics.len() as u32,
+                first_factor: self.weights.len() as u32,
                 factor_count: leaf.factors.len() as u32,
                 constant_factor: leaf.constant as f32,
             });
-            self.heuristics.extend(leaf.factors);
+            self.weights.extend(leaf.factors);
         }
-        if self.heuristics.len() > MOST_WEIGHTS {
+        if self.weights.len() > MOST_WEIGHTS {
             return Err(PackError::TooManyWeights { material: scene.materials[id].name.clone(), limit: MOST_WEIGHTS });
         }
         Ok(packed)
@@ -199,7 +199,7 @@ impl PackedMaterials {
 struct Part {
     material: MaterialId,
     constant: f64,
-    factors: Vec<PackedHeuristic>,
+    factors: Vec<PackedBlendWeight>,
 }
 
 struct Parts {
@@ -228,7 +228,7 @@ fn parts(scene: &Scene, id: MaterialId) -> Result<Parts, PackError> {
             let mut below = Part { material: materials[child], ..branch.clone() };
             match constant_weight(weight) {
                 Some(value) => below.constant *= if reversed { 1.0 - value } else { value },
-                None => below.factors.push(PackedHeuristic::new(weight, reversed)),
+                None => below.factors.push(PackedBlendWeight::new(weight, reversed)),
             }
             if below.constant > 0.0 {
                 to_visit.push(below);
@@ -354,7 +354,7 @@ impl Parameters {
 }
 
 /// What a material sends out by itself, each part with the share of it that a light's power counts: the weight of a constant
-/// heuristic, one half of any other's.
+/// weight, one half of any other's.
 pub fn mean_emission(scene: &Scene, id: MaterialId, mean: &dyn Fn(&ColorInput) -> DVec3) -> DVec3 {
     let mut sum = DVec3::ZERO;
     let mut to_visit = vec![(id, 1.0)];

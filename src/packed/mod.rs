@@ -3,10 +3,10 @@
 //! Orders matter. Lights stand in the order in which the scene names them, so that a random choice picks the same light on the CPU;
 //! primitives stand in the order of the hierarchy's leaves, those outside of it behind them.
 
+pub mod blend_weight;
 pub mod bvh4;
 pub mod environment;
 pub mod grid;
-pub mod heuristic;
 pub mod hierarchy;
 pub mod light;
 pub mod material;

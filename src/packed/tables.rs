@@ -1,4 +1,4 @@
-//! One array for all that shading looks up: materials, the leaves and heuristics of blends, lights, textures, motions.
+//! One array for all that shading looks up: materials, the leaves and weights of blends, lights, textures, motions.
 
 use super::PackedScene;
 
@@ -7,7 +7,7 @@ use super::PackedScene;
 pub struct Tables {
     pub words: Vec<[f32; 4]>,
     pub first_leaf: u32,
-    pub first_heuristic: u32,
+    pub first_blend_weight: u32,
     pub first_light: u32,
     pub first_texture: u32,
     pub first_motion: u32,
@@ -18,7 +18,7 @@ impl Tables {
         let mut tables = Self::default();
         tables.append(&packed.materials.materials);
         tables.first_leaf = tables.append(&packed.materials.leaves);
-        tables.first_heuristic = tables.append(&packed.materials.heuristics);
+        tables.first_blend_weight = tables.append(&packed.materials.weights);
         tables.first_light = tables.append(&packed.lights);
         tables.first_texture = tables.append(&packed.textures.textures);
         tables.first_motion = tables.append(&packed.motions);

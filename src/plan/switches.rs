@@ -178,7 +178,7 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
         ("ENVIRONMENT_QUADTREE_LEVELS", map.levels),
         ("ENVIRONMENT_WIDTH", map.width),
         ("FILM_WIDTH", scene.film.size[0]),
-        ("FIRST_HEURISTIC_WORD", tables.first_heuristic),
+        ("FIRST_HEURISTIC_WORD", tables.first_blend_weight),
         ("FIRST_LEAF_WORD", tables.first_leaf),
         ("FIRST_LIGHT_WORD", tables.first_light),
         ("FIRST_MOTION_WORD", tables.first_motion),

@@ -47,7 +47,7 @@ pub enum MaterialKind {
     /// Reflects nothing; what it emits is the material's `emission`.
     Emissive,
     /// w0·first + (1 − w0)·second.
-    Blend { materials: [MaterialId; 2], weight: Heuristic },
+    Blend { materials: [MaterialId; 2], weight: BlendWeight },
     /// The ray goes on as if nothing were there.
     Pass,
 }
@@ -89,7 +89,7 @@ impl Material {
     }
 }
 
-impl Heuristic {
+impl BlendWeight {
     /// The weight comes from a texture at some depth.
     pub fn uses_texture(&self) -> bool {
         match self {
@@ -102,7 +102,7 @@ impl Heuristic {
 
 /// The weight w0 of a blend's first material.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Heuristic {
+pub enum BlendWeight {
     Constant {
         value: f64,
     },
@@ -121,12 +121,12 @@ pub enum Heuristic {
     },
     /// w0' = 1 − w0
     Reverse {
-        of: Box<Heuristic>,
+        of: Box<BlendWeight>,
     },
     /// w0' = 1 where w0 >= tau, else 0
     Threshold {
         tau: f64,
-        of: Box<Heuristic>,
+        of: Box<BlendWeight>,
     },
 }
 

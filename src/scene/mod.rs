@@ -25,7 +25,7 @@ pub use blend_tree::{MOST_LEAVES, check_blends};
 pub use camera::{Aperture, ApertureShape, Camera, Projection};
 pub use digest::digest;
 pub use light::{Environment, EnvironmentRadiance, Light};
-pub use material::{ConductorFresnel, Emission, Heuristic, Material, MaterialKind, MicrofacetDistribution};
+pub use material::{BlendWeight, ConductorFresnel, Emission, Material, MaterialKind, MicrofacetDistribution};
 pub use motion::{Motion, MotionStep};
 pub use settings::{
     BlendMode, Estimator, FilmSettings, Filter, FilterKind, HemisphereSampling, LightSampling, MisHeuristic, PixelSampler,

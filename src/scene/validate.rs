@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 
 use super::settings::{MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH};
 use super::{
-    ApertureShape, Camera, ColorInput, ConductorFresnel, EnvironmentRadiance, Geometry, Heuristic, ImageData, Light, Material,
+    ApertureShape, BlendWeight, Camera, ColorInput, ConductorFresnel, EnvironmentRadiance, Geometry, ImageData, Light, Material,
     MaterialId, MaterialKind, Mesh, Projection, Scene, Shape, TextureId, TextureKind, check_blends,
 };
 
@@ -93,15 +93,15 @@ impl Scene {
         material.kind.colors().try_for_each(|input| self.color(&input))
     }
 
-    fn weight(&self, mut weight: &Heuristic) -> Check {
+    fn weight(&self, mut weight: &BlendWeight) -> Check {
         loop {
             weight = match weight {
-                Heuristic::Texture { texture } => return self.texture_exists(*texture),
-                Heuristic::Reverse { of } => of,
-                Heuristic::Threshold { tau, of } if tau.is_finite() => of,
-                Heuristic::Constant { value } if (0.0..=1.0).contains(value) => return Ok(()),
-                Heuristic::Facing { power } if power.is_finite() && *power >= 0.0 => return Ok(()),
-                Heuristic::Fresnel { ior, .. } if is_positive(*ior) => return Ok(()),
+                BlendWeight::Texture { texture } => return self.texture_exists(*texture),
+                BlendWeight::Reverse { of } => of,
+                BlendWeight::Threshold { tau, of } if tau.is_finite() => of,
+                BlendWeight::Constant { value } if (0.0..=1.0).contains(value) => return Ok(()),
+                BlendWeight::Facing { power } if power.is_finite() && *power >= 0.0 => return Ok(()),
+                BlendWeight::Fresnel { ior, .. } if is_positive(*ior) => return Ok(()),
                 _ => return Err("a number of the blend's weight is out of its range".into()),
             }
         }

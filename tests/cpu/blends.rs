@@ -94,7 +94,7 @@ fn ball(scene: &mut Scene, x: f64, material: MaterialId) {
     shape(scene, Geometry::Sphere { center: DVec3::new(x, 0.8, 0.0), radius: 0.8 }, material);
 }
 
-fn blend(scene: &mut Scene, first: MaterialId, second: MaterialId, weight: Heuristic) -> MaterialId {
+fn blend(scene: &mut Scene, first: MaterialId, second: MaterialId, weight: BlendWeight) -> MaterialId {
     material(scene, MaterialKind::Blend { materials: [first, second], weight }, None)
 }
 
@@ -126,10 +126,10 @@ fn blended_balls() -> Scene {
     let frosted = material(&mut scene, rough_glass(0.3, MicrofacetDistribution::Ggx), None);
     let emission = Emission { radiance: grey(0.5), two_sided: false };
     let glow = material(&mut scene, MaterialKind::Emissive, Some(emission));
-    let marble = blend(&mut scene, red, blue, Heuristic::Texture { texture: 0 });
-    let ceramic = blend(&mut scene, marble, mirror, Heuristic::Fresnel { ior: 1.5, exact: true });
-    let spotted = blend(&mut scene, steel, frosted, Heuristic::Texture { texture: 1 });
-    let ember = blend(&mut scene, glow, spotted, Heuristic::Reverse { of: Box::new(Heuristic::Facing { power: 0.5 }) });
+    let marble = blend(&mut scene, red, blue, BlendWeight::Texture { texture: 0 });
+    let ceramic = blend(&mut scene, marble, mirror, BlendWeight::Fresnel { ior: 1.5, exact: true });
+    let spotted = blend(&mut scene, steel, frosted, BlendWeight::Texture { texture: 1 });
+    let ember = blend(&mut scene, glow, spotted, BlendWeight::Reverse { of: Box::new(BlendWeight::Facing { power: 0.5 }) });
     ball(&mut scene, -1.1, ceramic);
     ball(&mut scene, 1.1, ember);
     scene
@@ -191,9 +191,13 @@ fn a_blend_of_one_material_is_that_material() {
         let pure = material(&mut scene, kind.clone(), None);
         let other =
             material(&mut scene, MaterialKind::Phong { diffuse: grey(0.1), specular: grey(0.3), exponent: grey(9.0) }, None);
-        let first = blend(&mut scene, pure, other, Heuristic::Constant { value: 1.0 });
-        let second =
-            blend(&mut scene, other, first, Heuristic::Threshold { tau: 2.0, of: Box::new(Heuristic::Facing { power: 1.0 }) });
+        let first = blend(&mut scene, pure, other, BlendWeight::Constant { value: 1.0 });
+        let second = blend(
+            &mut scene,
+            other,
+            first,
+            BlendWeight::Threshold { tau: 2.0, of: Box::new(BlendWeight::Facing { power: 1.0 }) },
+        );
         for mode in [BlendMode::Mixture, BlendMode::Pick] {
             scene.render.blend = mode;
             let of = |material: MaterialId| {

@@ -6,7 +6,7 @@ use crate::common::files::{TRIANGLE, folder_with, png_bytes};
 use glam::{DVec3, Vec3};
 use gpt::load;
 use gpt::scene::{
-    self, ColorInput, Geometry, Heuristic, Material, MaterialKind, Mesh, MisHeuristic, Projection, SamplerKind, Scene,
+    self, BlendWeight, ColorInput, Geometry, Material, MaterialKind, Mesh, MisHeuristic, Projection, SamplerKind, Scene,
     TextureKind, TextureWrap,
 };
 use proptest::prelude::*;
@@ -235,7 +235,8 @@ fn material_libraries_become_materials() {
     assert!(matches!(kind("bright"), MaterialKind::Phong { diffuse: ColorInput::Constant(diffuse), .. }
         if diffuse.abs_diff_eq(DVec3::new(0.5, 0.4, 0.1), 1e-9)));
     assert!(matches!(kind("veil"), MaterialKind::Diffuse { .. }));
-    let MaterialKind::Blend { materials: [veil, behind], weight: Heuristic::Constant { value: 0.25 } } = *kind("veil (d = 0.25)")
+    let MaterialKind::Blend { materials: [veil, behind], weight: BlendWeight::Constant { value: 0.25 } } =
+        *kind("veil (d = 0.25)")
     else {
         panic!("the veil is no blend")
     };

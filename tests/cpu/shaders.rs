@@ -300,14 +300,14 @@ fn layouts_match_between_wgsl_and_rust() {
 /// Packed records are whole numbers of vec4: the shaders index them in words of 16 bytes.
 #[test]
 fn packed_records_are_the_words_that_shaders_count() {
-    use gpt::packed::{bvh4, heuristic::PackedHeuristic, light::PackedLight, material::*, primitive::*, texture::*};
+    use gpt::packed::{blend_weight::PackedBlendWeight, bvh4, light::PackedLight, material::*, primitive::*, texture::*};
     assert_eq!(size_of::<Primitive>(), 3 * 16);
     assert_eq!(size_of::<TriangleAttributes>(), 4 * 16);
     assert_eq!(size_of::<bvh4::Node>(), 3 * 16);
     assert_eq!(size_of::<PackedMaterial>(), 5 * 16);
     assert_eq!(size_of::<PackedLight>(), 5 * 16);
     assert_eq!(size_of::<PackedLeaf>(), 16);
-    assert_eq!(size_of::<PackedHeuristic>(), 16);
+    assert_eq!(size_of::<PackedBlendWeight>(), 16);
     assert_eq!(size_of::<PackedTexture>(), 4 * 16);
 }
 

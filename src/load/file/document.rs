@@ -74,7 +74,7 @@ impl<'a> Document<'a> {
         Ok(())
     }
 
-    /// Heuristics nest by the key `of`; the parser bounds how deep.
+    /// Weights of blends nest by the key `of`; the parser bounds how deep.
     fn name_heuristic(self, weight: &mut Spanned<DeValue<'a>>) -> Result<(), SceneError> {
         if let DeValue::Table(table) = weight.get_mut()
             && let Some(inner) = table.get_mut("of")

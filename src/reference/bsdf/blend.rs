@@ -4,24 +4,24 @@
 //! leaves, from the first to the last, each with the product of the weights on the way to it from the root.
 
 use super::Lookup;
-use super::heuristic;
-use crate::scene::{Heuristic, Material, MaterialId, MaterialKind, Scene};
+use super::blend_weight;
+use crate::scene::{BlendWeight, Material, MaterialId, MaterialKind, Scene};
 
 /// Calls `visit` with the material itself, the blends in it and its leaves, each before its own parts, the first of two before the
 /// second, with their weights at one hit. Parts of weight 0 do nothing and are left out.
 pub fn for_each_part<'a>(lookup: &Lookup<'a>, material: MaterialId, visit: impl FnMut(&'a Material, f64)) {
-    walk(lookup.scene, material, |blend| heuristic::weight(blend, lookup), visit);
+    walk(lookup.scene, material, |blend| blend_weight::weight(blend, lookup), visit);
 }
 
 /// The same with the weights to be expected before any hit is known.
 pub fn for_each_part_on_average<'a>(scene: &'a Scene, material: MaterialId, visit: impl FnMut(&'a Material, f64)) {
-    walk(scene, material, heuristic::mean_weight, visit);
+    walk(scene, material, blend_weight::mean_weight, visit);
 }
 
 fn walk<'a>(
     scene: &'a Scene,
     material: MaterialId,
-    first_weight: impl Fn(&Heuristic) -> f64,
+    first_weight: impl Fn(&BlendWeight) -> f64,
     mut visit: impl FnMut(&'a Material, f64),
 ) {
     let mut next = Some((material, 1.0));
@@ -30,8 +30,8 @@ fn walk<'a>(
     while let Some((id, weight)) = next.take().or_else(|| waiting.pop()) {
         let part = &scene.materials[id];
         visit(part, weight);
-        if let MaterialKind::Blend { materials: [first, second], weight: heuristic } = &part.kind {
-            let w0 = first_weight(heuristic);
+        if let MaterialKind::Blend { materials: [first, second], weight: blend_weight } = &part.kind {
+            let w0 = first_weight(blend_weight);
             waiting
                 .extend([(*second, weight * (1.0 - w0)), (*first, weight * w0)].into_iter().filter(|&(_, weight)| weight > 0.0));
         }

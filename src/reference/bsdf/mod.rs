@@ -9,12 +9,12 @@
 //! A surface is a weighted list of lobes, one per material of its blend, and follows the same contract as a single one: see [`Bsdf`].
 
 pub mod blend;
+mod blend_weight;
 mod conductor;
 mod diffuse;
 mod fresnel;
 mod glass;
 mod glossy;
-mod heuristic;
 mod lobe;
 mod microfacet;
 mod mirror;

@@ -3,7 +3,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use super::*;
 use crate::renderer::Silent;
 use crate::scene::{
-    Camera, ColorInput, Emission, FilmSettings, Geometry, Heuristic, Light, Material, MaterialKind, Projection, Shape, Transform,
+    BlendWeight, Camera, ColorInput, Emission, FilmSettings, Geometry, Light, Material, MaterialKind, Projection, Shape,
+    Transform,
 };
 
 /// A diffuse, a mirror and a glass sphere on a floor, under a sphere light and a point light.
@@ -162,7 +163,7 @@ fn what_is_not_finite_is_counted_and_left_out() {
 }
 
 fn blend(first: usize, second: usize) -> MaterialKind {
-    MaterialKind::Blend { materials: [first, second], weight: Heuristic::Constant { value: 0.5 } }
+    MaterialKind::Blend { materials: [first, second], weight: BlendWeight::Constant { value: 0.5 } }
 }
 
 fn blends_of_twice_the_blend_before(scene: &mut Scene, count: usize) {

@@ -47,7 +47,7 @@ fn scene() -> Scene {
     let textured = MaterialKind::Diffuse { reflectance: ColorInput::Texture(0) };
     let glass = MaterialKind::Glass { ior: 1.5, reflectance: grey, transmittance: grey };
     let metal = MaterialKind::Conductor { fresnel: ConductorFresnel::Complex { eta: DVec3::ONE, k: DVec3::ONE }, alpha: grey };
-    let weight = Heuristic::Reverse { of: Box::new(Heuristic::Texture { texture: 1 }) };
+    let weight = BlendWeight::Reverse { of: Box::new(BlendWeight::Texture { texture: 1 }) };
     let blend = MaterialKind::Blend { materials: [1, 2], weight };
     for (name, kind) in [
         ("grey", MaterialKind::Diffuse { reflectance: grey }),
@@ -166,19 +166,19 @@ fn each_mistake_is_named_with_its_part() {
             "material `metal`: the complex index of refraction",
         ),
         (
-            |s| s.materials[4].kind = MaterialKind::Blend { materials: [0, 5], weight: Heuristic::Constant { value: 0.5 } },
+            |s| s.materials[4].kind = MaterialKind::Blend { materials: [0, 5], weight: BlendWeight::Constant { value: 0.5 } },
             "material `blend`: there is no material 5",
         ),
         (
-            |s| s.materials[4].kind = MaterialKind::Blend { materials: [0, 4], weight: Heuristic::Constant { value: 0.5 } },
+            |s| s.materials[4].kind = MaterialKind::Blend { materials: [0, 4], weight: BlendWeight::Constant { value: 0.5 } },
             "material `blend`: the blend `blend` contains itself",
         ),
         (
-            |s| s.materials[4].kind = MaterialKind::Blend { materials: [0, 1], weight: Heuristic::Texture { texture: 4 } },
+            |s| s.materials[4].kind = MaterialKind::Blend { materials: [0, 1], weight: BlendWeight::Texture { texture: 4 } },
             "material `blend`: there is no texture 4",
         ),
         (
-            |s| s.materials[4].kind = MaterialKind::Blend { materials: [0, 1], weight: Heuristic::Constant { value: 1.5 } },
+            |s| s.materials[4].kind = MaterialKind::Blend { materials: [0, 1], weight: BlendWeight::Constant { value: 1.5 } },
             "material `blend`: a number of the blend's weight is out of its range",
         ),
         (|s| s.materials[1].normal_map = Some(0), "material `blend`: the normal map of a blend is its own"),
@@ -250,7 +250,7 @@ fn it_takes_time_in_proportion_to_the_scene() {
         for id in first..first + length {
             // Of one material of its own and the blend before.
             let before = if id == first { 0 } else { id - 1 };
-            let weight = Heuristic::Constant { value: 0.5 };
+            let weight = BlendWeight::Constant { value: 0.5 };
             scene.materials.push(material("chain", MaterialKind::Blend { materials: [2, before], weight }));
             let disk = Shape { material: id, ..scene.shapes[0].clone() };
             scene.shapes.push(disk);

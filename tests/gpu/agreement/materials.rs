@@ -1,4 +1,4 @@
-//! Every material, heuristic, blend and procedural texture: the device's paths against the reference's.
+//! Every material, blend weight, blend and procedural texture: the device's paths against the reference's.
 
 use std::sync::LazyLock;
 
@@ -138,7 +138,7 @@ const LOBES: &[(&str, &str)] = &[
     ("worley", "type = \"diffuse\"\nreflectance = { texture = \"cells\" }"),
 ];
 
-const HEURISTICS: &[(&str, &str)] = &[
+const BLEND_WEIGHTS: &[(&str, &str)] = &[
     ("constant", "{ type = \"constant\", value = 0.3 }"),
     ("facing", "{ type = \"facing\", power = 0.4 }"),
     ("schlick", "{ type = \"fresnel\", ior = 1.6 }"),
@@ -164,8 +164,8 @@ fn every_lobe_and_texture_agrees() {
 }
 
 #[test]
-fn every_heuristic_agrees_for_both_ways_to_blend() {
-    for (name, weight) in HEURISTICS {
+fn every_blend_weight_agrees_for_both_ways_to_blend() {
+    for (name, weight) in BLEND_WEIGHTS {
         for mode in [BlendMode::Mixture, BlendMode::Pick] {
             let mut scene = stage(&blend("red", "mirror", weight));
             scene.render.blend = mode;

@@ -34,12 +34,12 @@ fn push_modes(cases: &mut Vec<Case>, name: &str, scene: &Scene, expected: DVec3,
     }
 }
 
-fn blend(scene: &mut Scene, first: MaterialId, second: MaterialId, weight: Heuristic) -> MaterialId {
+fn blend(scene: &mut Scene, first: MaterialId, second: MaterialId, weight: BlendWeight) -> MaterialId {
     material(scene, MaterialKind::Blend { materials: [first, second], weight }, None)
 }
 
-fn half() -> Heuristic {
-    Heuristic::Constant { value: 0.5 }
+fn half() -> BlendWeight {
+    BlendWeight::Constant { value: 0.5 }
 }
 
 /// A floor under a uniform environment, all round the floor too, whose radiance is the same in all pixels: the camera sees a spot
@@ -100,28 +100,28 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
 
 /// ρ1 + (ρ0 − ρ1)·w0, w0 by the angle of view or by a texture.
 fn blends_by_angle(cases: &mut Vec<Case>) {
-    let facing = |power| Heuristic::Facing { power };
-    let reverse = |of| Heuristic::Reverse { of: Box::new(of) };
-    let threshold = |tau, of| Heuristic::Threshold { tau, of: Box::new(of) };
+    let facing = |power| BlendWeight::Facing { power };
+    let reverse = |of| BlendWeight::Reverse { of: Box::new(of) };
+    let threshold = |tau, of| BlendWeight::Threshold { tau, of: Box::new(of) };
     // ior 2 in air: normal reflectance 1/9; refraction at 60° from the normal has the cosine √(1 − ¾/4).
     let schlick = |cosine: f64| 1.0 / 9.0 + 8.0 / 9.0 * (1.0 - cosine).powi(5);
     let refracted = (13.0_f64 / 16.0).sqrt();
     let (parallel, perpendicular) = ((1.0 - refracted) / (1.0 + refracted), (0.5 - 2.0 * refracted) / (0.5 + 2.0 * refracted));
     let exact = 0.5 * (parallel * parallel + perpendicular * perpendicular);
     let cosine = 0.5_f64;
-    let heuristics = [
+    let weights = [
         ("facing", facing(1.0), cosine),
         ("facing to the fifth root", facing(0.2), cosine.powf(0.2)),
-        ("Schlick", Heuristic::Fresnel { ior: 2.0, exact: false }, 1.0 - schlick(cosine)),
-        ("exact Fresnel", Heuristic::Fresnel { ior: 2.0, exact: true }, 1.0 - exact),
-        ("texture", Heuristic::Texture { texture: 0 }, 0.2126 * 0.8 + 0.7152 * 0.25 + 0.0722 * 0.5),
+        ("Schlick", BlendWeight::Fresnel { ior: 2.0, exact: false }, 1.0 - schlick(cosine)),
+        ("exact Fresnel", BlendWeight::Fresnel { ior: 2.0, exact: true }, 1.0 - exact),
+        ("texture", BlendWeight::Texture { texture: 0 }, 0.2126 * 0.8 + 0.7152 * 0.25 + 0.0722 * 0.5),
         ("reverse", reverse(facing(1.0)), 1.0 - cosine),
         ("threshold above", threshold(0.49, facing(1.0)), 1.0),
         ("threshold below", threshold(0.51, facing(1.0)), 0.0),
         ("reversed threshold of a reverse", reverse(threshold(0.6, reverse(facing(0.2)))), 1.0),
     ];
     let tint = DVec3::new(0.9, 0.6, 0.3);
-    for (name, weight, w0) in heuristics {
+    for (name, weight, w0) in weights {
         let mut scene = spot(256, 60.0);
         let colors = (DVec3::new(0.8, 0.25, 0.5), DVec3::ONE);
         let kind = TextureKind::Checker { a: colors.0, b: colors.1, scale: [1.0, 1.0] };
@@ -157,7 +157,7 @@ fn blends_with_delta_lobes(cases: &mut Vec<Case>) {
     }
     let mut scene = sphere_before(256);
     let (shiny, clear) = (mirror(&mut scene), glass(&mut scene, 1.5));
-    let both = blend(&mut scene, shiny, clear, Heuristic::Facing { power: 1.0 });
+    let both = blend(&mut scene, shiny, clear, BlendWeight::Facing { power: 1.0 });
     shape(&mut scene, sphere(DVec3::ZERO, 1.0), both);
     push_modes(cases, "mirror and glass", &scene, DVec3::ONE, &[Estimator::Mis]);
 
@@ -167,8 +167,8 @@ fn blends_with_delta_lobes(cases: &mut Vec<Case>) {
     let fresnel = ConductorFresnel::Reflectance(ColorInput::grey(1.0));
     let metal = material(&mut scene, MaterialKind::Conductor { fresnel, alpha: ColorInput::grey(0.0) }, None);
     let inner = blend(&mut scene, dark, metal, half());
-    let middle = blend(&mut scene, light, inner, Heuristic::Constant { value: 0.4 });
-    let outer = blend(&mut scene, shiny, middle, Heuristic::Constant { value: 0.25 });
+    let middle = blend(&mut scene, light, inner, BlendWeight::Constant { value: 0.4 });
+    let outer = blend(&mut scene, shiny, middle, BlendWeight::Constant { value: 0.25 });
     shape(&mut scene, sphere(DVec3::ZERO, 1.0), outer);
     let expected = 0.25 + 0.75 * (0.4 * 0.6 + 0.6 * (0.5 * 0.2 + 0.5));
     push_modes(cases, "nested blend", &scene, DVec3::splat(expected), &ALL);
@@ -182,7 +182,7 @@ fn furnaces_of_blends(cases: &mut Vec<Case>) {
     let (bright, dark) = (glowing(&mut scene, 0.9, 2.0), glowing(&mut scene, 0.1, 0.4));
     let middle = diffuse(&mut scene, 0.5);
     let inner = blend(&mut scene, dark, middle, half());
-    let outer = blend(&mut scene, bright, inner, Heuristic::Constant { value: 0.25 });
+    let outer = blend(&mut scene, bright, inner, BlendWeight::Constant { value: 0.25 });
     scene.materials[outer].emission = Some(Emission { radiance: ColorInput::grey(0.2), two_sided: true });
     shape(&mut scene, sphere(DVec3::ZERO, 1.0), outer);
     let albedo = 0.25 * 0.9 + 0.375 * 0.1 + 0.375 * 0.5;
@@ -203,7 +203,7 @@ fn veils(cases: &mut Vec<Case>) {
 
     let mut scene = spot(256, 40.0);
     let (light, nothing) = (emissive(&mut scene, DVec3::new(2.0, 1.0, 0.5)), pass(&mut scene));
-    let flame = blend(&mut scene, light, nothing, Heuristic::Constant { value: 0.3 });
+    let flame = blend(&mut scene, light, nothing, BlendWeight::Constant { value: 0.3 });
     floor_at_spot(&mut scene, flame);
     push_modes(cases, "glowing veil", &scene, DVec3::new(2.0, 1.0, 0.5) * 0.3 + 0.7, &ALL);
 
@@ -212,7 +212,7 @@ fn veils(cases: &mut Vec<Case>) {
     scene.lights.clear();
     scene.render.max_depth = 1;
     let (nothing, black) = (pass(&mut scene), diffuse(&mut scene, 0.0));
-    let gauze = blend(&mut scene, nothing, black, Heuristic::Constant { value: 0.9 });
+    let gauze = blend(&mut scene, nothing, black, BlendWeight::Constant { value: 0.9 });
     shape(&mut scene, sphere(DVec3::ZERO, 1.0), gauze);
     let light = emissive(&mut scene, DVec3::splat(3.0));
     shape(&mut scene, sphere(DVec3::ZERO, 100.0), light);
@@ -229,7 +229,7 @@ fn blended_lights(cases: &mut Vec<Case>) {
     let white = diffuse(&mut scene, albedo);
     floor_at_spot(&mut scene, white);
     let (light, black) = (emissive(&mut scene, DVec3::new(1.0, 2.0, 4.0)), diffuse(&mut scene, 0.0));
-    let lamp = blend(&mut scene, black, light, Heuristic::Constant { value: 0.75 });
+    let lamp = blend(&mut scene, black, light, BlendWeight::Constant { value: 0.75 });
     shape(&mut scene, sphere(DVec3::Y * distance, radius), lamp);
     let expected = DVec3::new(1.0, 2.0, 4.0) * 0.25 * albedo * (radius / distance).powi(2);
     push_modes(cases, "blended sphere light", &scene, expected, &ALL);

@@ -5,12 +5,12 @@ use glam::DVec3;
 use super::Resolver;
 use crate::load::SceneError;
 use crate::load::file::syntax::{
-    AlphaKeys, Blend, CommonMaterial, ConductorMaterial, HeuristicEntry, MaterialEntry, MetalEntry, MicrofacetEntry,
+    AlphaKeys, Blend, BlendWeightEntry, CommonMaterial, ConductorMaterial, MaterialEntry, MetalEntry, MicrofacetEntry,
     RoughGlassMaterial,
 };
 use crate::load::file::value::{Colour, Located, Scalar};
 use crate::scene::{
-    ColorInput, ConductorFresnel, Emission, Heuristic, Material, MaterialKind, MicrofacetDistribution, TextureId, TextureKind,
+    BlendWeight, ColorInput, ConductorFresnel, Emission, Material, MaterialKind, MicrofacetDistribution, TextureId, TextureKind,
     check_blends,
 };
 
@@ -64,7 +64,7 @@ impl Resolver<'_> {
             MaterialEntry::Emissive(_) => MaterialKind::Emissive,
             MaterialEntry::Blend(blend) => MaterialKind::Blend {
                 materials: [self.material_id(&blend.materials[0])?, self.material_id(&blend.materials[1])?],
-                weight: self.heuristic(&blend.weight.value)?,
+                weight: self.blend_weight(&blend.weight.value)?,
             },
             MaterialEntry::Pass(_) => MaterialKind::Pass,
         })
@@ -177,17 +177,17 @@ impl Resolver<'_> {
         Ok((!dark).then_some(Emission { radiance, two_sided }))
     }
 
-    fn heuristic(&self, written: &HeuristicEntry) -> Result<Heuristic, SceneError> {
+    fn blend_weight(&self, written: &BlendWeightEntry) -> Result<BlendWeight, SceneError> {
         Ok(match written {
-            HeuristicEntry::Constant(constant) => Heuristic::Constant { value: constant.value.0 },
-            HeuristicEntry::Facing(facing) => Heuristic::Facing { power: facing.power.map_or(1.0, |power| power.0) },
-            HeuristicEntry::Fresnel(fresnel) => {
-                Heuristic::Fresnel { ior: fresnel.ior.map_or(DEFAULT_IOR, |ior| ior.0), exact: fresnel.exact }
+            BlendWeightEntry::Constant(constant) => BlendWeight::Constant { value: constant.value.0 },
+            BlendWeightEntry::Facing(facing) => BlendWeight::Facing { power: facing.power.map_or(1.0, |power| power.0) },
+            BlendWeightEntry::Fresnel(fresnel) => {
+                BlendWeight::Fresnel { ior: fresnel.ior.map_or(DEFAULT_IOR, |ior| ior.0), exact: fresnel.exact }
             }
-            HeuristicEntry::Texture(texture) => Heuristic::Texture { texture: self.weight_texture(&texture.texture)? },
-            HeuristicEntry::Reverse(reverse) => Heuristic::Reverse { of: Box::new(self.heuristic(&reverse.of)?) },
-            HeuristicEntry::Threshold(threshold) => {
-                Heuristic::Threshold { tau: threshold.tau.0, of: Box::new(self.heuristic(&threshold.of)?) }
+            BlendWeightEntry::Texture(texture) => BlendWeight::Texture { texture: self.weight_texture(&texture.texture)? },
+            BlendWeightEntry::Reverse(reverse) => BlendWeight::Reverse { of: Box::new(self.blend_weight(&reverse.of)?) },
+            BlendWeightEntry::Threshold(threshold) => {
+                BlendWeight::Threshold { tau: threshold.tau.0, of: Box::new(self.blend_weight(&threshold.of)?) }
             }
         })
     }

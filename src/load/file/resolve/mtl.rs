@@ -21,7 +21,7 @@ use crate::load::error::show;
 use crate::load::image_file::read_image;
 use crate::load::obj::{MtlMaterial, TextureMap};
 use crate::scene::{
-    ColorInput, Emission, Heuristic, ImageTexture, Material, MaterialId, MaterialKind, Texture, TextureFilter, TextureId,
+    BlendWeight, ColorInput, Emission, ImageTexture, Material, MaterialId, MaterialKind, Texture, TextureFilter, TextureId,
     TextureKind, TextureWrap,
 };
 
@@ -44,7 +44,7 @@ impl Resolver<'_> {
             normal_map: None,
             emission: None,
         });
-        let weight = Heuristic::Constant { value: opacity };
+        let weight = BlendWeight::Constant { value: opacity };
         Ok(self.add(Material {
             name: format!("{name} (d = {opacity})"),
             kind: MaterialKind::Blend { materials: [id, pass], weight },

@@ -117,7 +117,7 @@ materials! {
     Blend(Blend) {
         materials: [Located<String>; 2],
         /// The weight w0 of the first material.
-        weight: Located<HeuristicEntry>,
+        weight: Located<BlendWeightEntry>,
     }
     /// The ray goes on as if nothing were there.
     Pass(PassMaterial) {}
@@ -149,7 +149,7 @@ pub struct AlphaKeys<'a> {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(tag = "type")]
-pub enum HeuristicEntry {
+pub enum BlendWeightEntry {
     Constant(ConstantWeight),
     Facing(FacingWeight),
     Fresnel(FresnelWeight),
@@ -194,7 +194,7 @@ pub struct TextureWeight {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct ReverseWeight {
-    pub of: Box<HeuristicEntry>,
+    pub of: Box<BlendWeightEntry>,
 }
 
 /// w0' = 1 where w0 >= tau, else 0
@@ -202,5 +202,5 @@ pub struct ReverseWeight {
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct ThresholdWeight {
     pub tau: Number,
-    pub of: Box<HeuristicEntry>,
+    pub of: Box<BlendWeightEntry>,
 }

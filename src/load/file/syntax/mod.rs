@@ -16,7 +16,7 @@ use serde::Deserialize;
 
 pub use light::{EnvironmentLight, LightEntry, SpotLight};
 pub use material::{
-    AlphaKeys, Blend, CommonMaterial, ConductorMaterial, HeuristicEntry, MaterialEntry, MetalEntry, MicrofacetEntry,
+    AlphaKeys, Blend, BlendWeightEntry, CommonMaterial, ConductorMaterial, MaterialEntry, MetalEntry, MicrofacetEntry,
     RoughGlassMaterial,
 };
 pub use shape::{BoxShape, MeshShape, RectangleShape, ShapeEntry, StepEntry, TransformEntry};

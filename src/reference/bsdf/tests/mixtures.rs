@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::reference::intersect::{Moment, Ray, World};
-use crate::scene::{BlendMode, Emission, Geometry, Heuristic, Material, MaterialKind, Shape, Transform};
+use crate::scene::{BlendMode, BlendWeight, Emission, Geometry, Material, MaterialKind, Shape, Transform};
 
 /// A scene of one rectangle in the plane z = 0, front up, made of the last material.
 fn scene(kinds: Vec<MaterialKind>, mode: BlendMode) -> Scene {
@@ -38,7 +38,7 @@ fn mirror_kind(reflectance: f64) -> MaterialKind {
 }
 
 fn blend(first: usize, second: usize, value: f64) -> MaterialKind {
-    MaterialKind::Blend { materials: [first, second], weight: Heuristic::Constant { value } }
+    MaterialKind::Blend { materials: [first, second], weight: BlendWeight::Constant { value } }
 }
 
 fn samples(bsdf: &Bsdf) -> Vec<Option<BsdfSample>> {
@@ -192,7 +192,7 @@ fn emission_is_blended() {
     assert!((mean_exitance(&scene, 4) - 2.0 * PI * 2.75).abs() < 1e-12);
     assert_eq!(mean_exitance(&scene, 3), 0.0);
     // Seen at an angle, a facing weight dims it.
-    scene.materials[4].kind = MaterialKind::Blend { materials: [0, 3], weight: Heuristic::Facing { power: 1.0 } };
+    scene.materials[4].kind = MaterialKind::Blend { materials: [0, 3], weight: BlendWeight::Facing { power: 1.0 } };
     assert!((emitted(&scene, &surface, at_degrees(60.0, 1.0)).x - 5.0).abs() < 1e-12);
     assert!((mean_exitance(&scene, 4) - PI * 5.0).abs() < 1e-12);
 }

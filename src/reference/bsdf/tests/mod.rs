@@ -1,10 +1,10 @@
 //! Every lobe and many mixtures of them, judged by what they state about themselves and by what is known of them.
 
+mod blend_weights;
 mod densities;
 mod dielectrics;
 mod energy;
 mod fresnel;
-mod heuristics;
 mod mixtures;
 mod views;
 

@@ -1,12 +1,12 @@
 //! What decides the weights of a blend, as the device reads it.
 
 use super::NONE;
-use crate::scene::Heuristic;
+use crate::scene::BlendWeight;
 
 /// Kinds in `shaders/shading/heuristic.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
-enum HeuristicKind {
+enum WeightKind {
     Constant = 0,
     Facing = 1,
     FresnelSchlick = 2,
@@ -22,7 +22,7 @@ const REVERSED: u32 = 1024;
 /// What decides a weight, 16 bytes.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct PackedHeuristic {
+pub struct PackedBlendWeight {
     pub kind_and_flags: u32,
     /// Value, power or index of refraction.
     pub value: f32,
@@ -31,34 +31,34 @@ pub struct PackedHeuristic {
 }
 
 /// The weight where it is the same at every hit.
-pub(super) fn constant_weight(heuristic: &Heuristic) -> Option<f64> {
-    match heuristic {
-        Heuristic::Constant { value } => Some(*value),
-        Heuristic::Reverse { of } => constant_weight(of).map(|value| 1.0 - value),
-        Heuristic::Threshold { tau, of } => constant_weight(of).map(|value| f64::from(u8::from(value >= *tau))),
+pub(super) fn constant_weight(weight: &BlendWeight) -> Option<f64> {
+    match weight {
+        BlendWeight::Constant { value } => Some(*value),
+        BlendWeight::Reverse { of } => constant_weight(of).map(|value| 1.0 - value),
+        BlendWeight::Threshold { tau, of } => constant_weight(of).map(|value| f64::from(u8::from(value >= *tau))),
         // x⁰
-        Heuristic::Facing { power } if *power == 0.0 => Some(1.0),
-        Heuristic::Facing { .. } | Heuristic::Fresnel { .. } | Heuristic::Texture { .. } => None,
+        BlendWeight::Facing { power } if *power == 0.0 => Some(1.0),
+        BlendWeight::Facing { .. } | BlendWeight::Fresnel { .. } | BlendWeight::Texture { .. } => None,
     }
 }
 
-impl PackedHeuristic {
-    /// Packs a heuristic; `reversed` where it stands for a blend's second material.
-    pub(super) fn new(heuristic: &Heuristic, reversed: bool) -> Self {
-        let plain = |kind: HeuristicKind, value: f64, texture| Self {
+impl PackedBlendWeight {
+    /// Packs the weight of a blend's first material; `reversed` for that of its second.
+    pub(super) fn new(weight: &BlendWeight, reversed: bool) -> Self {
+        let plain = |kind: WeightKind, value: f64, texture| Self {
             kind_and_flags: kind as u32,
             value: value as f32,
             threshold: 0.0,
             texture,
         };
-        let packed = match heuristic {
-            Heuristic::Constant { value } => plain(HeuristicKind::Constant, *value, NONE),
-            Heuristic::Facing { power } => plain(HeuristicKind::Facing, *power, NONE),
-            Heuristic::Fresnel { ior, exact: false } => plain(HeuristicKind::FresnelSchlick, *ior, NONE),
-            Heuristic::Fresnel { ior, exact: true } => plain(HeuristicKind::FresnelExact, *ior, NONE),
-            Heuristic::Texture { texture } => plain(HeuristicKind::Texture, 0.0, *texture as u32),
-            Heuristic::Reverse { of } => Self::new(of, true),
-            Heuristic::Threshold { tau, of } => Self::new(of, false).thresholded(*tau),
+        let packed = match weight {
+            BlendWeight::Constant { value } => plain(WeightKind::Constant, *value, NONE),
+            BlendWeight::Facing { power } => plain(WeightKind::Facing, *power, NONE),
+            BlendWeight::Fresnel { ior, exact: false } => plain(WeightKind::FresnelSchlick, *ior, NONE),
+            BlendWeight::Fresnel { ior, exact: true } => plain(WeightKind::FresnelExact, *ior, NONE),
+            BlendWeight::Texture { texture } => plain(WeightKind::Texture, 0.0, *texture as u32),
+            BlendWeight::Reverse { of } => Self::new(of, true),
+            BlendWeight::Threshold { tau, of } => Self::new(of, false).thresholded(*tau),
         };
         if reversed { Self { kind_and_flags: packed.kind_and_flags ^ REVERSED, ..packed } } else { packed }
     }
@@ -76,6 +76,6 @@ impl PackedHeuristic {
             return self;
         }
         let value = if tau <= 0.0 { 1.0 } else { 0.0 };
-        Self { kind_and_flags: HeuristicKind::Constant as u32, value, threshold: 0.0, texture: NONE }
+        Self { kind_and_flags: WeightKind::Constant as u32, value, threshold: 0.0, texture: NONE }
     }
 }

@@ -1,0 +1,49 @@
+//! The weight of a blend's first material.
+
+use glam::DVec3;
+
+use super::Lookup;
+use super::fresnel::{dielectric_reflectance, normal_incidence_reflectance, schlick_reflectance};
+use crate::math::luminance;
+use crate::reference::texture;
+use crate::scene::BlendWeight;
+
+/// w0 in [0, 1] at one hit. Nested weights are evaluated from the inside out, as plain numbers.
+pub fn weight(blend_weight: &BlendWeight, lookup: &Lookup) -> f64 {
+    let cosine = lookup.cosine;
+    match *blend_weight {
+        BlendWeight::Constant { value } => value,
+        BlendWeight::Facing { power } => cosine.powf(power).clamp(0.0, 1.0),
+        // As seen from outside, on either side.
+        BlendWeight::Fresnel { ior, exact: true } => 1.0 - dielectric_reflectance(cosine, ior),
+        BlendWeight::Fresnel { ior, exact: false } => {
+            1.0 - schlick_reflectance(cosine, DVec3::splat(normal_incidence_reflectance(ior))).x
+        }
+        BlendWeight::Texture { texture } => {
+            luminance(texture::look_up(&lookup.scene.textures, texture, lookup.uv)).clamp(0.0, 1.0)
+        }
+        BlendWeight::Reverse { ref of } => 1.0 - weight(of, lookup),
+        BlendWeight::Threshold { tau, ref of } => {
+            if weight(of, lookup) >= tau {
+                1.0
+            } else {
+                0.0
+            }
+        }
+    }
+}
+
+/// What to expect of w0 without a hit, for choosing lights by power: its value where it is the same everywhere, else one half.
+pub fn mean_weight(blend_weight: &BlendWeight) -> f64 {
+    constant_weight(blend_weight).unwrap_or(0.5)
+}
+
+/// w0 where it is the same everywhere.
+fn constant_weight(blend_weight: &BlendWeight) -> Option<f64> {
+    match blend_weight {
+        BlendWeight::Constant { value } => Some(*value),
+        BlendWeight::Facing { .. } | BlendWeight::Fresnel { .. } | BlendWeight::Texture { .. } => None,
+        BlendWeight::Reverse { of } => constant_weight(of).map(|weight| 1.0 - weight),
+        BlendWeight::Threshold { tau, of } => constant_weight(of).map(|weight| if weight >= *tau { 1.0 } else { 0.0 }),
+    }
+}
