@@ -3,7 +3,7 @@
 //!
 //! The same number of samples with and without `--adaptive`, in turn, and with the independent streams that `--target-error` needs. Error:
 //! relative mean squared error against a long render, less that render's own. Time times error is what equal error costs; its ratio, pair
-//! by pair, is the table of BENCHMARKS.md.
+//! by pair, is the table of docs/performance.md.
 
 use std::time::Instant;
 

@@ -1,7 +1,7 @@
 //! The marks this project set itself, measured: `cargo bench --bench marks [-- SCENE…]`.
 //!
 //! For each scene the GPU and the CPU reference render in turn, so that both meet the machine in the same state, and the ratio is taken
-//! pair by pair. Prints medians with their spread, as a table for BENCHMARKS.md. Times start at the first finished pixel and leave out
+//! pair by pair. Prints medians with their spread, as a table for docs/performance.md. Times start at the first finished pixel and leave out
 //! loading; set-up is its own column.
 
 use std::path::Path;

@@ -50,7 +50,7 @@ pub(super) fn stages(
         _ if light_samples > 1 => (StageMode::Fused, "a queue would hold one shadow ray of a path, and several are wanted"),
         Some(stages) => (stages, ASKED_FOR),
         // Software devices move every word on its own: there, paths kept in registers beat queues whatever the geometry
-        // (BENCHMARKS.md).
+        // (docs/performance.md).
         None if limits.software => (StageMode::Fused, "a software device moves each word of a queue on its own"),
         None if geometry == GeometryPlacement::Unrolled => (StageMode::Fused, "without a hierarchy, rays take equally long"),
         None => (StageMode::Wavefront, "rays take differently long, and queues keep the lanes of hardware together"),

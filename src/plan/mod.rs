@@ -133,7 +133,7 @@ impl Plan {
                 && lanes.is_power_of_two()
                 && packed.hierarchy.stack_size <= MOST_STACK_REGISTERS * lanes
         });
-        // Known practice on hardware, and on lavapipe no slower (BENCHMARKS.md).
+        // Known practice on hardware, and on lavapipe no slower (docs/notes/2026-11-22-wavefront-queues.md).
         let subgroup_queues = stages == StageMode::Wavefront && limits.subgroups;
         let width = scene.film.size[0];
         let film = if limits.read_write_rgba32float && width <= limits.max_texture_side {

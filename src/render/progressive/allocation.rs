@@ -9,7 +9,7 @@
 //! varies, not how much a single sample does.
 //!
 //! Where few samples hold most of the light, pixels that have not met one yet look calm: hence the half that goes everywhere, by which no
-//! pixel's expected error is more than about twice what it would have been (BENCHMARKS.md).
+//! pixel's expected error is more than about twice what it would have been (docs/notes/2026-11-22-adaptive-sampling.md).
 
 use rayon::prelude::*;
 
