@@ -6,7 +6,7 @@ use crate::scene::BlendWeight;
 /// Kinds in `shaders/shading/heuristic.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
-enum WeightKind {
+pub(super) enum WeightKind {
     Constant = 0,
     Facing = 1,
     FresnelSchlick = 2,
@@ -18,6 +18,8 @@ enum WeightKind {
 const REVERSED_WITHIN: u32 = 256;
 const THRESHOLDED: u32 = 512;
 const REVERSED: u32 = 1024;
+/// All of these.
+pub(super) const FLAGS: u32 = REVERSED_WITHIN | THRESHOLDED | REVERSED;
 
 /// What decides a weight, 16 bytes.
 #[repr(C)]

@@ -29,14 +29,14 @@ impl Node {
     /// What its children are, in the order of their places.
     pub fn children(&self) -> Vec<Child> {
         let flags = self.exponents_and_flags >> 24;
-        let mut inner = self.first_child;
+        let mut inner = self.first_child as usize;
         let mut primitive = self.first_primitive_and_sizes & 0x00ff_ffff;
         (0..4)
             .filter(|child| flags >> (4 + child) & 1 == 1)
             .map(|child| {
                 if flags >> child & 1 == 1 {
                     inner += 1;
-                    Child::Inner(inner as usize - 1)
+                    Child::Inner(inner - 1)
                 } else {
                     let count = (self.first_primitive_and_sizes >> (24 + 2 * child) & 3) + 1;
                     primitive += count;
@@ -44,6 +44,16 @@ impl Node {
                 }
             })
             .collect()
+    }
+
+    /// Kernels count children by their places and primitives by leaf sizes, whether or not the child before exists. So the first places
+    /// are taken, and only leaves have sizes.
+    pub fn is_well_formed(&self) -> bool {
+        let flags = self.exponents_and_flags >> 24;
+        let (inner, exists) = (flags & 15, flags >> 4);
+        let sizes = self.first_primitive_and_sizes >> 24;
+        let is_leaf = |child: u32| exists & !inner & 1 << child != 0;
+        exists & (exists + 1) == 0 && inner & !exists == 0 && (0..4).all(|child| is_leaf(child) || sizes >> (2 * child) & 3 == 0)
     }
 
     /// The boxes of [`Node::children`], as the device sees them.

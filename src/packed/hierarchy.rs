@@ -60,7 +60,7 @@ impl Hierarchy {
 }
 
 /// Most entries that wait on a traversal's stack: all children of a node but the one taken, each an entry.
-fn deepest_stack(nodes: &[bvh4::Node]) -> u32 {
+pub(super) fn deepest_stack(nodes: &[bvh4::Node]) -> u32 {
     // One pass from the back sees every child before its parent.
     let mut need = vec![0_u32; nodes.len()];
     for index in (0..need.len()).rev() {

@@ -13,7 +13,7 @@ use crate::math::luminance;
 use crate::sampling::{Lamp, LightChoice};
 use crate::scene::{ColorInput, Estimator, Light, Scene, TextureKind};
 
-/// Kinds in `shaders/shading/light.wgsl`.
+/// Kinds in `shaders/shading/light.wgsl`. The first four are those of primitives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u32)]
 pub enum LightKind {
@@ -25,15 +25,17 @@ pub enum LightKind {
     Environment = 5,
     Spot = 6,
     Directional = 7,
-    /// Of any of the first four kinds, in bits 12 to 15.
+    /// Of any of the first four kinds, from bit [`PORTAL_SHIFT`] on.
     Portal = 8,
 }
 
-const TWO_SIDED: u32 = 256;
+pub(super) const TWO_SIDED: u32 = 256;
 /// The radiance is that of the whole material, seen from where the light goes.
-const VARIES: u32 = 512;
+pub(super) const VARIES: u32 = 512;
 /// Its points move as its attributes say.
-const MOVES: u32 = 1024;
+pub(super) const MOVES: u32 = 1024;
+/// Of a portal: where the kind of its shape stands.
+pub(super) const PORTAL_SHIFT: u32 = 12;
 
 /// 80 bytes, the layout of `light_word` in `shaders/shading/light.wgsl`.
 #[repr(C)]
@@ -70,8 +72,12 @@ impl PackedLight {
         self.kind_and_flags & MOVES != 0
     }
 
+    pub fn kind(&self) -> u32 {
+        self.kind_and_flags & 255
+    }
+
     pub fn is(&self, kind: LightKind) -> bool {
-        self.kind_and_flags & 255 == kind as u32
+        self.kind() == kind as u32
     }
 }
 
@@ -157,7 +163,7 @@ fn at_infinity(scene: &Scene, world: &WorldGeometry, environment: &PackedEnviron
             None => continue,
         };
         let light = PackedLight {
-            kind_and_flags: LightKind::Portal as u32 | (kind as u32) << 12,
+            kind_and_flags: LightKind::Portal as u32 | (kind as u32) << PORTAL_SHIFT,
             size: size as f32,
             p1: p1.as_vec3().to_array(),
             p2: p2.as_vec3().to_array(),

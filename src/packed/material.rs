@@ -29,12 +29,12 @@ pub enum PackedMaterialKind {
 }
 
 /// Beside the kind of a conductor: its colours are eta and k.
-const COMPLEX_FRESNEL: u32 = 256;
+pub(super) const COMPLEX_FRESNEL: u32 = 256;
 
-const EMITS: u32 = 1;
-const EMITS_TWO_SIDED: u32 = 2;
+pub(super) const EMITS: u32 = 1;
+pub(super) const EMITS_TWO_SIDED: u32 = 2;
 /// Some leaf of the blend emits.
-const LEAVES_EMIT: u32 = 4;
+pub(super) const LEAVES_EMIT: u32 = 4;
 
 /// GGX narrower than this is a delta lobe: f32 no longer resolves it. `SMOOTH_ALPHA` in `shaders/shading/leaf.wgsl`.
 const SMOOTH_ALPHA: f64 = 1.0e-4;

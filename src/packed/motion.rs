@@ -10,6 +10,7 @@ use crate::scene::{MotionStep, Shape};
 const TRANSLATE: u32 = 0;
 const SCALE: u32 = 1;
 const ROTATE: u32 = 2;
+pub(super) const KINDS_OF_STEPS: u32 = 3;
 
 /// How finely what a shape sweeps is sampled: deviations from straight lines stay below this share of its radius, if few enough times do.
 const DEVIATION: f64 = 0.01;

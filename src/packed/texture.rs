@@ -18,6 +18,10 @@ pub enum PackedTextureKind {
 }
 
 const NEAREST: u32 = 1 << 10;
+/// Where the way of wrapping stands.
+pub(super) const WRAP_SHIFT: u32 = 8;
+/// Of an image, beside its kind.
+pub(super) const IMAGE_FLAGS: u32 = NEAREST | 3 << WRAP_SHIFT;
 
 /// 64 bytes, four vec4 of the tables.
 #[repr(C)]
@@ -102,7 +106,7 @@ impl PackedTextures {
         }
         self.texels.extend(image.image.texels.iter().flat_map(|texel| texel.to_array()));
         Ok(PackedTexture {
-            kind_and_flags: PackedTextureKind::Image as u32 | wrap << 8 | nearest,
+            kind_and_flags: PackedTextureKind::Image as u32 | wrap << WRAP_SHIFT | nearest,
             first_texel_or_seed: first_texel as u32,
             width_or_octaves: image.image.width,
             height: image.image.height,

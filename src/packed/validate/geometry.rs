@@ -1,0 +1,139 @@
+//! Primitives, how they move, and the hierarchy.
+
+use rayon::prelude::*;
+
+use super::{Check, MANY};
+use crate::packed::hierarchy::{Child, Traversal, deepest_stack};
+use crate::packed::motion::KINDS_OF_STEPS;
+use crate::packed::primitive::{Primitive, PrimitiveKind};
+use crate::packed::tree::MAX_PRIMITIVES;
+use crate::packed::{NONE, PackedScene};
+
+impl PackedScene {
+    /// Motions stand one behind the other and end where the array does; attributes name the first word of one.
+    pub(super) fn check_motions(&self) -> Check {
+        let mut is_first = vec![false; self.motions.len()];
+        let mut word = 0;
+        while word < self.motions.len() {
+            is_first[word] = true;
+            let steps = self.motions[word][3].to_bits() as usize;
+            let end = word + 1 + 2 * steps;
+            let Some(rows) = self.motions.get(word + 1..end) else {
+                return Err(format!("the motion at word {word} has {steps} steps"));
+            };
+            if let Some(step) = rows.chunks_exact(2).find(|step| step[0][3].to_bits() >= KINDS_OF_STEPS) {
+                return Err(format!("the motion at word {word} has a step of kind {}", step[0][3].to_bits()));
+            }
+            word = end;
+        }
+        let is_wrong = |motion: u32| motion != NONE && is_first.get(motion as usize) != Some(&true);
+        match self.attributes.iter().position(|attributes| is_wrong(attributes.motion)) {
+            Some(index) => Err(format!("attributes {index} move by {}", self.attributes[index].motion)),
+            None => Ok(()),
+        }
+    }
+
+    pub(super) fn check_primitives(&self) -> Check {
+        let check = |(index, primitive): (usize, &Primitive)| {
+            self.check_primitive(primitive).map_err(|message| format!("primitive {index} {message}"))
+        };
+        self.primitives.par_iter().enumerate().with_min_len(MANY).try_for_each(check)
+    }
+
+    fn check_primitive(&self, primitive: &Primitive) -> Check {
+        if primitive.material() as usize >= self.materials.materials.len() {
+            return Err(format!("has material {}", primitive.material()));
+        }
+        if primitive.kind() > PrimitiveKind::Plane as u32 {
+            return Err(format!("is of kind {}", primitive.kind()));
+        }
+        // What moves has attributes, which say how.
+        if primitive.moves() && self.motion_of(primitive.attributes).is_none() {
+            return Err("moves, and nothing says how".to_owned());
+        }
+        let Some(light) = self.lights.get(primitive.light as usize) else { return Ok(()) };
+        // Lights that are surfaces have the kinds of primitives.
+        let is_that_light = light.kind() == primitive.kind()
+            && light.material == primitive.material()
+            && light.attributes == primitive.attributes
+            && light.moves() == primitive.moves();
+        if is_that_light { Ok(()) } else { Err(format!("is light {}, which is another surface", primitive.light)) }
+    }
+
+    /// The first word of the motion that attributes name; None where they name none or do not exist.
+    pub(super) fn motion_of(&self, attributes: u32) -> Option<u32> {
+        self.attributes.get(attributes as usize).map(|attributes| attributes.motion).filter(|&motion| motion != NONE)
+    }
+
+    pub(super) fn check_hierarchy(&self) -> Check {
+        let held = self.hierarchy.primitive_count as usize;
+        let Some(held) = self.primitives.get(..held).filter(|_| held <= MAX_PRIMITIVES) else {
+            return Err(format!("the hierarchy holds {held} primitives of {}", self.primitives.len()));
+        };
+        if let Some(index) = held.iter().position(|primitive| primitive.kind() == PrimitiveKind::Plane as u32) {
+            return Err(format!("primitive {index} is a plane, and in the hierarchy"));
+        }
+        match self.hierarchy.traversal {
+            Traversal::Bvh => self.check_nodes(held.len()),
+            Traversal::RayQuery => self.check_boxes(held),
+        }
+    }
+
+    /// A device knows primitives by their places alone: triangles first, then those that have boxes.
+    fn check_boxes(&self, held: &[Primitive]) -> Check {
+        if !self.hierarchy.nodes.is_empty() {
+            return Err("there are nodes, and the device has its own".to_owned());
+        }
+        let is_triangle = |primitive: &Primitive| primitive.kind() == PrimitiveKind::Triangle as u32;
+        let boxes = self.hierarchy.boxes.len();
+        let first_shape = held.iter().position(|primitive| !is_triangle(primitive)).unwrap_or(held.len());
+        if held.len() - first_shape != boxes || held[first_shape..].iter().any(is_triangle) {
+            return Err(format!("{boxes} boxes stand for the primitives from {first_shape} to {}", held.len()));
+        }
+        Ok(())
+    }
+
+    /// Every node but the root is the child of one before it, every primitive is in one leaf, and the stack holds what waits.
+    fn check_nodes(&self, primitive_count: usize) -> Check {
+        let nodes = &self.hierarchy.nodes;
+        if nodes.is_empty() {
+            return Err("there is no root".to_owned());
+        }
+        let mut has_parent = vec![false; nodes.len()];
+        let mut is_held = vec![false; primitive_count];
+        for (index, node) in nodes.iter().enumerate() {
+            if !node.is_well_formed() {
+                return Err(format!("node {index} has children between which none is, or sizes of what are no leaves"));
+            }
+            for child in node.children() {
+                match child {
+                    Child::Inner(inner) => match has_parent.get_mut(inner) {
+                        Some(seen) if inner > index && !*seen => *seen = true,
+                        _ => {
+                            return Err(format!("node {index} has the child {inner}, which is missing, before it, or another's"));
+                        }
+                    },
+                    Child::Leaf { first, count } => {
+                        for primitive in first..first + count {
+                            match is_held.get_mut(primitive as usize) {
+                                Some(held) if !*held => *held = true,
+                                _ => return Err(format!("node {index} holds primitive {primitive}, missing or held twice")),
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        if let Some(orphan) = has_parent.iter().skip(1).position(|seen| !seen) {
+            return Err(format!("node {} is nobody's child", orphan + 1));
+        }
+        if let Some(missing) = is_held.iter().position(|held| !held) {
+            return Err(format!("primitive {missing} is in no leaf"));
+        }
+        let needed = deepest_stack(nodes);
+        if self.hierarchy.stack_size != needed {
+            return Err(format!("the stack has {} entries, and {needed} wait", self.hierarchy.stack_size));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,107 @@
+//! What must hold of a packed scene before a kernel may read it.
+//!
+//! Kernels are compiled without bounds checks and without bounds on loops. So every word that a kernel makes an index of, or counts a loop
+//! by, is checked here first, in time proportional to the scene. [`words`] lists those words; most are plain indices, the others have
+//! functions of their own.
+
+mod environment;
+mod geometry;
+mod shading;
+pub mod words;
+
+use rayon::prelude::*;
+
+use super::{NONE, PackedScene};
+use words::{Array, Word};
+
+/// Why a scene could not be packed.
+#[derive(Debug, thiserror::Error)]
+pub enum PackError {
+    #[error("the scene has {found} primitives; the hierarchy can number {limit}")]
+    TooManyPrimitives { found: usize, limit: usize },
+    #[error("the scene has {found} infinite planes; {limit} are possible")]
+    TooManyPlanes { found: usize, limit: usize },
+    #[error("the scene's textures have {found} texels, more than can be numbered")]
+    TooManyTexels { found: usize },
+    #[error("the blend `{material}` and those before it have more than {limit} weights along their branches")]
+    TooManyWeights { material: String, limit: usize },
+    #[error("{shape}: {message}")]
+    Motion { shape: String, message: String },
+    /// A mistake of this program, not of the scene.
+    #[error("the packed scene is inconsistent: {0}")]
+    Inconsistent(String),
+}
+
+/// Records that are checked one after the other before another thread is worth its while.
+const MANY: usize = 1 << 14;
+
+/// What is wrong, in words.
+type Check = Result<(), String>;
+
+impl PackedScene {
+    /// Every index points into its array, every run ends in it, every loop ends, every leaf's primitives exist, each exactly once.
+    ///
+    /// # Errors
+    /// [`PackError::Inconsistent`]
+    pub fn validate(&self) -> Result<(), PackError> {
+        self.check().map_err(PackError::Inconsistent)
+    }
+
+    fn check(&self) -> Check {
+        self.check_lengths()?;
+        Array::ALL.into_iter().try_for_each(|array| self.check_indices(array))?;
+        self.check_motions()?;
+        self.check_primitives()?;
+        self.check_hierarchy()?;
+        self.check_materials()?;
+        self.check_textures()?;
+        self.check_lights()?;
+        self.check_environment()
+    }
+
+    /// Kernels number the words of an array in 32 bits.
+    fn check_lengths(&self) -> Check {
+        let tables: usize = [Array::Materials, Array::Leaves, Array::Weights, Array::Lights, Array::Textures]
+            .into_iter()
+            .map(|array| array.of(self).len() / 4)
+            .sum();
+        let lengths = [
+            ("primitives", 3 * self.primitives.len()),
+            ("attributes", 4 * self.attributes.len()),
+            ("nodes", 3 * self.hierarchy.nodes.len()),
+            ("tables", tables + self.motions.len()),
+            ("texels", self.textures.texels.len()),
+        ];
+        match lengths.into_iter().find(|&(_, length)| length >= NONE as usize) {
+            Some((name, length)) => Err(format!("the {name} have {length} words, more than 32 bits can number")),
+            None => Ok(()),
+        }
+    }
+
+    /// The words that are indices and nothing else.
+    fn check_indices(&self, array: Array) -> Check {
+        let indices: Vec<(usize, Array, bool)> = array
+            .words()
+            .iter()
+            .filter_map(|&(place, word)| match word {
+                Word::Index(into) => Some((place, into, false)),
+                Word::Optional(into) => Some((place, into, true)),
+                Word::Checked | Word::CheckedIn(_) => None,
+            })
+            .collect();
+        let check = |(number, record): (usize, &[u32])| {
+            for &(place, into, optional) in &indices {
+                let index = record[place];
+                if index as usize >= into.len(self) && !(optional && index == NONE) {
+                    return Err(format!("word {place} of number {number} of the {array:?} names number {index} of the {into:?}"));
+                }
+            }
+            Ok(())
+        };
+        let records = array.of(self).par_chunks_exact(array.record_words());
+        records.enumerate().with_min_len(MANY).try_for_each(check)
+    }
+}
+
+#[cfg(test)]
+mod tests;

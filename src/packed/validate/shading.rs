@@ -1,0 +1,141 @@
+//! Materials, blends, textures and lights.
+
+use super::Check;
+use crate::packed::blend_weight::{self, WeightKind};
+use crate::packed::environment::PackedEnvironment;
+use crate::packed::light::{self, LightKind, PackedLight};
+use crate::packed::material::{self, PackedMaterial, PackedMaterialKind};
+use crate::packed::texture::{self, PackedTexture, PackedTextureKind};
+use crate::packed::{NONE, PackedScene};
+use crate::scene::validate::MOST_OCTAVES;
+
+/// Most texels along a side of an image: kernels compute with twice as many in signed numbers.
+const LONGEST_SIDE: u32 = 1 << 30;
+
+/// Whether `count` records from `first` on stand within `length`.
+fn is_within(first: u32, count: u32, length: usize) -> bool {
+    u64::from(first) + u64::from(count) <= length as u64
+}
+
+impl PackedScene {
+    pub(super) fn check_materials(&self) -> Check {
+        let materials = &self.materials;
+        if materials.scene_ids.len() != materials.materials.len() {
+            return Err(format!("{} materials are {} of the scene's", materials.materials.len(), materials.scene_ids.len()));
+        }
+        for (index, material) in materials.materials.iter().enumerate() {
+            self.check_material(material).map_err(|message| format!("material {index} {message}"))?;
+        }
+        for (index, leaf) in materials.leaves.iter().enumerate() {
+            if !is_within(leaf.first_factor, leaf.factor_count, materials.weights.len()) {
+                return Err(format!("leaf {index} has {} factors from {} on", leaf.factor_count, leaf.first_factor));
+            }
+        }
+        for (index, weight) in materials.weights.iter().enumerate() {
+            let kind = weight.kind_and_flags & 255;
+            let known = kind <= WeightKind::Texture as u32 && weight.kind_and_flags & !(255 | blend_weight::FLAGS) == 0;
+            let looks_up = kind == WeightKind::Texture as u32;
+            if !known || looks_up != (weight.texture != NONE) {
+                return Err(format!("weight {index} is of kind {:#x} and has texture {}", weight.kind_and_flags, weight.texture));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_material(&self, material: &PackedMaterial) -> Check {
+        let is_blend = material.kind() == PackedMaterialKind::Blend as u32;
+        if material.kind() > PackedMaterialKind::Blend as u32 || material.kind_and_flags & !(255 | material::COMPLEX_FRESNEL) != 0
+        {
+            return Err(format!("is of kind {:#x}", material.kind_and_flags));
+        }
+        let known_flags = material::EMITS | material::EMITS_TWO_SIDED | if is_blend { material::LEAVES_EMIT } else { 0 };
+        if material.emission_flags & !known_flags != 0 {
+            return Err(format!("emits by {:#x}", material.emission_flags));
+        }
+        if is_blend {
+            let leaves = &self.materials.leaves;
+            let [first, count, emitting] = material.second.map(f32::to_bits);
+            // Behind the leaves stand the inner blends that emit by themselves, and only they may be blends.
+            let run = leaves.get(first as usize..).filter(|_| is_within(first, count, leaves.len()));
+            let Some((run, behind)) = run.map(|run| run.split_at(count as usize)) else {
+                return Err(format!("has {count} leaves from {first} on"));
+            };
+            if emitting as usize > behind.len() {
+                return Err(format!("has {emitting} blends that emit behind its {count} leaves from {first} on"));
+            }
+            let is_blend = |id: u32| self.materials.materials[id as usize].kind() == PackedMaterialKind::Blend as u32;
+            if let Some(leaf) = run.iter().find(|leaf| is_blend(leaf.material)) {
+                return Err(format!("has material {}, a blend, for a leaf", leaf.material));
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn check_textures(&self) -> Check {
+        for (index, texture) in self.textures.textures.iter().enumerate() {
+            self.check_texture(texture).map_err(|message| format!("texture {index} {message}"))?;
+        }
+        Ok(())
+    }
+
+    fn check_texture(&self, texture: &PackedTexture) -> Check {
+        let PackedTexture { kind_and_flags, first_texel_or_seed, width_or_octaves, height, .. } = *texture;
+        let is = |kind: PackedTextureKind| texture.kind() == kind as u32;
+        let flags = if is(PackedTextureKind::Image) { texture::IMAGE_FLAGS } else { 0 };
+        let wrap = kind_and_flags >> texture::WRAP_SHIFT & 3;
+        if texture.kind() > PackedTextureKind::Worley as u32 || kind_and_flags & !(255 | flags) != 0 || wrap > 2 {
+            return Err(format!("is of kind {kind_and_flags:#x}"));
+        }
+        if is(PackedTextureKind::Perlin) && width_or_octaves > MOST_OCTAVES {
+            return Err(format!("has {width_or_octaves} octaves"));
+        }
+        if is(PackedTextureKind::Image) {
+            let possible = 1..=LONGEST_SIDE;
+            let end = u64::from(first_texel_or_seed) + 3 * u64::from(width_or_octaves) * u64::from(height).min(1 << 30);
+            if !possible.contains(&width_or_octaves) || !possible.contains(&height) || end > self.textures.texels.len() as u64 {
+                return Err(format!("has {width_or_octaves} × {height} texels from {first_texel_or_seed} on"));
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn check_lights(&self) -> Check {
+        for (index, light) in self.lights.iter().enumerate() {
+            self.check_light(light).map_err(|message| format!("light {index} {message}"))?;
+        }
+        // Kernels know environments and portals by the number of the first.
+        let numbers_of = |kind: LightKind| (0..self.lights.len()).filter(move |&index| self.lights[index].is(kind));
+        let portals: Vec<usize> = numbers_of(LightKind::Portal).collect();
+        if portals.windows(2).any(|pair| pair[0] + 1 != pair[1]) {
+            return Err("between portals there are other lights".to_owned());
+        }
+        if numbers_of(LightKind::Environment).count() > 1 {
+            return Err("two lights are the environment".to_owned());
+        }
+        Ok(())
+    }
+
+    fn check_light(&self, light: &PackedLight) -> Check {
+        let kind = light.kind();
+        let is_surface = kind <= LightKind::Disk as u32;
+        let known = match kind {
+            _ if is_surface => 255 | light::TWO_SIDED | light::VARIES | light::MOVES,
+            portal if portal == LightKind::Portal as u32 => 255 | (LightKind::Disk as u32) << light::PORTAL_SHIFT,
+            _ => 255,
+        };
+        if kind > LightKind::Portal as u32 || light.kind_and_flags & !known != 0 {
+            return Err(format!("is of kind {:#x}", light.kind_and_flags));
+        }
+        let shines_from_outside = [LightKind::Portal, LightKind::Environment].into_iter().any(|kind| light.is(kind));
+        if shines_from_outside && self.environment == PackedEnvironment::Black {
+            return Err("is the environment, and there is none".to_owned());
+        }
+        if is_surface && light.material == NONE {
+            return Err("is a surface without a material".to_owned());
+        }
+        if light.moves() && self.motion_of(light.attributes).is_none() {
+            return Err("moves, and nothing says how".to_owned());
+        }
+        Ok(())
+    }
+}

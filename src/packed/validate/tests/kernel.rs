@@ -1,0 +1,340 @@
+//! What kernels read of a packed scene, written after the shaders and not after the checks: every index that they compute from it, with
+//! their arithmetic of 32 bits, and every loop that they count by it.
+
+use std::cell::{Cell, RefCell};
+use std::collections::HashSet;
+
+use crate::packed::environment::PackedMap;
+use crate::packed::hierarchy::Traversal;
+use crate::packed::tables::Tables;
+use crate::packed::{NONE, PackedScene};
+
+/// What a kernel would do that it must not.
+type Read<T> = Result<T, String>;
+
+/// Steps after which a kernel is taken to be in a loop without an end: far more than the scenes of these tests have use for.
+const MOST_STEPS: u64 = 20_000;
+
+pub struct Kernel<'a> {
+    scene: &'a PackedScene,
+    tables: Tables,
+    steps: Cell<u64>,
+    /// What was followed before: materials and textures by their number, which lead to the same place every time.
+    known: RefCell<HashSet<(Part, u32)>>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+enum Part {
+    Material,
+    Leaf,
+    Texture,
+    Motion,
+}
+
+/// Follows everything that a ray may meet, whatever it samples.
+///
+/// # Errors
+/// The first read out of bounds, or that a loop has no end.
+pub fn follow(scene: &PackedScene) -> Read<()> {
+    let kernel = Kernel { scene, tables: scene.tables(), steps: Cell::new(0), known: RefCell::default() };
+    kernel.constants()?;
+    match scene.hierarchy.traversal {
+        Traversal::Bvh => kernel.traverse()?,
+        Traversal::RayQuery => kernel.query()?,
+    }
+    kernel.lights()?;
+    scene.environment.map().map_or(Ok(()), |map| kernel.map(&map))
+}
+
+impl Kernel<'_> {
+    fn step(&self) -> Read<()> {
+        self.steps.set(self.steps.get() + 1);
+        if self.steps.get() > MOST_STEPS { Err("a loop without an end".to_owned()) } else { Ok(()) }
+    }
+
+    /// Whether a part is met for the first time.
+    fn is_new(&self, part: Part, number: u32) -> bool {
+        self.known.borrow_mut().insert((part, number))
+    }
+
+    fn table(&self, index: u32) -> Read<[u32; 4]> {
+        self.step()?;
+        let word = self.tables.words.get(index as usize).ok_or_else(|| format!("word {index} of the tables"))?;
+        Ok(word.map(f32::to_bits))
+    }
+
+    fn texel(&self, index: u32) -> Read<u32> {
+        self.step()?;
+        let texel = self.scene.textures.texels.get(index as usize).ok_or_else(|| format!("texel word {index}"))?;
+        Ok(texel.to_bits())
+    }
+
+    /// geometry/unrolled.wgsl: primitives that stand outside of the hierarchy, or all of them.
+    fn constants(&self) -> Read<()> {
+        (0..self.scene.primitives.len() as u32).try_for_each(|index| self.primitive(index))
+    }
+
+    /// geometry/traversal.wgsl and bvh4.wgsl, with every child met, so that as many wait as can.
+    fn traverse(&self) -> Read<()> {
+        const LEAF: u32 = 1 << 31;
+        let nodes: &[[u32; 12]] = bytemuck::cast_slice(&self.scene.hierarchy.nodes);
+        let mut to_visit = vec![(0_u32, 0_u32)];
+        while let Some((entry, depth)) = to_visit.pop() {
+            self.step()?;
+            if entry & LEAF != 0 {
+                let first = entry & 0x00ff_ffff;
+                (first..=first + (entry >> 24 & 3)).try_for_each(|primitive| self.primitive(primitive))?;
+                continue;
+            }
+            let node = nodes.get(entry as usize).ok_or_else(|| format!("node {entry}"))?;
+            let flags = node[3] >> 24;
+            let (exists, sizes) = (node[3] >> 28, node[5] >> 24);
+            let count = exists.count_ones();
+            if depth + count.saturating_sub(2) >= self.scene.hierarchy.stack_size {
+                return Err(format!("entry {} of the stack", depth + count.saturating_sub(2)));
+            }
+            let mut start = node[5] & 0x00ff_ffff;
+            for child in 0..4 {
+                let inner = flags >> child & 1 == 1;
+                let size = sizes >> (2 * child) & 3;
+                let entry = if inner {
+                    node[4].wrapping_add((flags & ((1 << child) - 1)).count_ones())
+                } else {
+                    start | size << 24 | LEAF
+                };
+                start += if inner { 0 } else { size + 1 };
+                if exists >> child & 1 == 1 {
+                    to_visit.push((entry, depth + count - 1));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// geometry/ray_query.wgsl: a device names triangles and boxes by their number.
+    fn query(&self) -> Read<()> {
+        (0..self.scene.hierarchy.primitive_count).try_for_each(|index| self.primitive(index))
+    }
+
+    /// shading/surface.wgsl
+    fn primitive(&self, index: u32) -> Read<()> {
+        self.step()?;
+        let words: &[[u32; 12]] = bytemuck::cast_slice(&self.scene.primitives);
+        let words = words.get(index as usize).ok_or_else(|| format!("primitive {index}"))?;
+        let [kind_and_material, light, attributes] = [words[3], words[7], words[11]];
+        if kind_and_material >> 31 == 1 {
+            let motion = self.attribute(attributes)?;
+            self.motion(motion)?;
+        }
+        if attributes != NONE {
+            self.interpolate(attributes)?;
+        }
+        if light != NONE && !self.scene.lights.is_empty() {
+            self.light_word(light, 0)?;
+        }
+        self.material(kind_and_material & 0x0fff_ffff)
+    }
+
+    /// The first word of a motion.
+    fn attribute(&self, index: u32) -> Read<u32> {
+        self.step()?;
+        let attributes = self.scene.attributes.get(index as usize).ok_or_else(|| format!("attributes {index}"))?;
+        Ok(attributes.motion)
+    }
+
+    fn interpolate(&self, attributes: u32) -> Read<()> {
+        match self.attribute(attributes)? {
+            motion if motion != NONE && self.scene.moves() => self.motion(motion),
+            _ => Ok(()),
+        }
+    }
+
+    /// geometry/motion.wgsl
+    fn motion(&self, first: u32) -> Read<()> {
+        if !self.is_new(Part::Motion, first) {
+            return Ok(());
+        }
+        let word = |index: u32| self.table(self.tables.first_motion.wrapping_add(index));
+        let steps = word(first)?[3];
+        let end = first.wrapping_add(1).wrapping_add(steps.wrapping_mul(2));
+        let mut index = first.wrapping_add(1);
+        while index < end {
+            word(index)?;
+            word(index.wrapping_add(1))?;
+            index = index.wrapping_add(2);
+        }
+        Ok(())
+    }
+
+    /// shading/bsdf.wgsl, blend.wgsl: what a surface emits and how it scatters.
+    fn material(&self, material: u32) -> Read<()> {
+        if !self.is_new(Part::Material, material) {
+            return Ok(());
+        }
+        let first = material.wrapping_mul(5);
+        let words = (0..5).map(|word| self.table(first.wrapping_add(word))).collect::<Read<Vec<_>>>()?;
+        let is_blend = words[0][3] & 255 == 10;
+        if words[4][1] != NONE {
+            self.texture(words[4][1])?;
+        }
+        self.emission(material)?;
+        let leaves_emit = words[2][3] & 4 != 0;
+        let (run, count) = if is_blend { (words[1][0], words[1][1]) } else { (NONE, 1) };
+        let behind = if leaves_emit { words[1][2] } else { 0 };
+        if run == NONE {
+            // All emitting parts are the material itself, as often as the loop counts.
+            (0..behind).try_for_each(|_| self.step())?;
+            return self.load(material);
+        }
+        let mut index = 0;
+        while index < count.wrapping_add(behind) {
+            let leaf = self.table(self.tables.first_leaf.wrapping_add(run).wrapping_add(index))?;
+            let mut factor = leaf[1];
+            while factor < leaf[1].wrapping_add(leaf[2]) {
+                self.weight(factor)?;
+                factor += 1;
+            }
+            self.emission(leaf[0])?;
+            if index < count {
+                self.load(leaf[0])?;
+            }
+            index += 1;
+        }
+        Ok(())
+    }
+
+    fn load(&self, material: u32) -> Read<()> {
+        if !self.is_new(Part::Leaf, material) {
+            return Ok(());
+        }
+        let textures = self.table(material.wrapping_mul(5).wrapping_add(3))?;
+        [0, 2, 3].into_iter().filter(|&slot| textures[slot] != NONE).try_for_each(|slot| self.texture(textures[slot]))
+    }
+
+    fn emission(&self, material: u32) -> Read<()> {
+        let texture = self.table(material.wrapping_mul(5).wrapping_add(3))?[1];
+        if texture == NONE { Ok(()) } else { self.texture(texture) }
+    }
+
+    /// shading/heuristic.wgsl
+    fn weight(&self, weight: u32) -> Read<()> {
+        let words = self.table(self.tables.first_blend_weight.wrapping_add(weight))?;
+        if words[0] & 255 == 4 { self.texture(words[3]) } else { Ok(()) }
+    }
+
+    /// shading/texture.wgsl; kernels without textures have no code for them.
+    fn texture(&self, texture: u32) -> Read<()> {
+        if self.scene.textures.textures.is_empty() || !self.is_new(Part::Texture, texture) {
+            return Ok(());
+        }
+        let first = self.tables.first_texture.wrapping_add(texture.wrapping_mul(4));
+        let words = (0..4).map(|word| self.table(first.wrapping_add(word))).collect::<Read<Vec<_>>>()?;
+        let [flags, first, width, height] = words[0];
+        match flags & 255 {
+            0 => self.image(first, [width, height].map(|side| side as i32), flags >> 8 & 3),
+            2 => (0..width).try_for_each(|_| self.step()),
+            _ => Ok(()),
+        }
+    }
+
+    fn image(&self, first: u32, [width, height]: [i32; 2], wrap: u32) -> Read<()> {
+        let ends = |size: i32| [i32::MIN, -1, 0, size.wrapping_sub(1), size, i32::MAX];
+        for x in ends(width) {
+            for y in ends(height) {
+                let (column, row) = (wrapped(x, width, wrap)?, wrapped(y, height, wrap)?);
+                let place = row.wrapping_mul(width).wrapping_add(column) as u32;
+                (0..3).try_for_each(|channel| {
+                    self.texel(first.wrapping_add(place.wrapping_mul(3)).wrapping_add(channel)).map(drop)
+                })?;
+            }
+        }
+        Ok(())
+    }
+
+    fn light_word(&self, light: u32, word: u32) -> Read<[u32; 4]> {
+        self.table(self.tables.first_light.wrapping_add(light.wrapping_mul(5)).wrapping_add(word))
+    }
+
+    /// shading/light.wgsl: every entry of the alias table, and the light that it leads to.
+    fn lights(&self) -> Read<()> {
+        for entry in 0..self.scene.lights.len() as u32 {
+            let alias = self.light_word(entry, 0)?[2];
+            for light in [entry, alias] {
+                let flags = self.light_word(light, 0)?[0];
+                let [attributes, material] = [self.light_word(light, 3)?[3], self.light_word(light, 4)?[3]];
+                if flags & 1024 != 0 {
+                    let motion = self.attribute(attributes)?;
+                    self.motion(motion)?;
+                }
+                if flags & 512 != 0 && flags & 255 < 4 {
+                    if attributes != NONE {
+                        self.interpolate(attributes)?;
+                    }
+                    self.material(material)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// shading/environment.wgsl: every node that some point of the square leads to, and every cell and texel.
+    fn map(&self, map: &PackedMap) -> Read<()> {
+        for y in [0, map.height.wrapping_sub(1)] {
+            for x in [0, map.width.wrapping_sub(1)] {
+                let place = y.wrapping_mul(map.width).wrapping_add(x).wrapping_mul(3);
+                (0..3).try_for_each(|channel| self.texel(map.first_texel.wrapping_add(place).wrapping_add(channel)).map(drop))?;
+            }
+        }
+        // What the look-up clamps to.
+        let [last_row, last_column] = [map.grid_height, map.grid_width].map(|side| side.wrapping_sub(1));
+        self.cell(map, last_column, last_row)?;
+        const SIDE: u64 = 1 << 31;
+        let mut to_visit = vec![(map.levels, [0, 0], map.first_node, [[0, SIDE]; 2])];
+        while let Some((level, [column, row], first, [u, v])) = to_visit.pop() {
+            self.step()?;
+            if level == 0 {
+                self.cell(map, column, row)?;
+                continue;
+            }
+            let round_up = 1_u32.wrapping_shl(level).wrapping_sub(1);
+            let size = [map.grid_width, map.grid_height].map(|cells| cells.wrapping_add(round_up).wrapping_shr(level));
+            let node = first.wrapping_add(row.wrapping_mul(size[0]).wrapping_add(column).wrapping_mul(3));
+            let below = first.wrapping_add(size[0].wrapping_mul(size[1]).wrapping_mul(3));
+            let split = u64::from(self.texel(node)?);
+            for (right, u) in [(0, [u[0], u[1].min(split)]), (1, [u[0].max(split), u[1]])] {
+                if u[0] >= u[1] {
+                    continue;
+                }
+                let middle = u64::from(self.texel(node.wrapping_add(1 + right))?);
+                for (lower, v) in [(0, [v[0], v[1].min(middle)]), (1, [v[0].max(middle), v[1]])] {
+                    if v[0] < v[1] {
+                        let place = [column.wrapping_mul(2) + right, row.wrapping_mul(2) + lower];
+                        to_visit.push((level - 1, place, below, [u, v]));
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn cell(&self, map: &PackedMap, column: u32, row: u32) -> Read<()> {
+        // A cell beyond the row's end is the next row's first: no other memory, and yet wrong.
+        if column >= map.grid_width || row >= map.grid_height {
+            return Err(format!("cell ({column}, {row})"));
+        }
+        self.texel(map.first_density.wrapping_add(row.wrapping_mul(map.grid_width)).wrapping_add(column)).map(drop)
+    }
+}
+
+fn wrapped(index: i32, size: i32, wrap: u32) -> Read<i32> {
+    let by_zero = || "a remainder by zero".to_owned();
+    match wrap {
+        1 => Ok(index.min(size.wrapping_sub(1)).max(0)),
+        2 => {
+            let period = size.wrapping_mul(2);
+            let folded = index.checked_rem(period).ok_or_else(by_zero)?.wrapping_add(period) % period;
+            Ok(if folded >= size { period.wrapping_sub(1).wrapping_sub(folded) } else { folded })
+        }
+        _ => Ok(index.checked_rem(size).ok_or_else(by_zero)?.wrapping_add(size) % size),
+    }
+}

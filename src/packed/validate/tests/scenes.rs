@@ -1,0 +1,134 @@
+//! Packed scenes that use every array.
+
+use std::sync::Arc;
+
+use glam::{DVec3, Vec2, Vec3};
+
+use crate::packed::PackedScene;
+use crate::packed::hierarchy::Traversal;
+use crate::scene::{
+    BlendWeight, ColorInput, Emission, Environment, EnvironmentRadiance, Geometry, ImageData, ImageTexture, Light, Material,
+    MaterialKind, Mesh, MicrofacetDistribution, Motion, MotionStep, Scene, Shape, Texture, TextureFilter, TextureKind,
+    TextureWrap, Transform,
+};
+
+/// By name: walked by kernels, and left to the device.
+pub fn all() -> Vec<(&'static str, PackedScene)> {
+    let pack = |traversal| PackedScene::for_traversal(&everything(), traversal).expect("it is valid");
+    vec![("nodes", pack(Traversal::Bvh)), ("boxes", pack(Traversal::RayQuery))]
+}
+
+/// `side` × `side` squares, each of two triangles.
+pub fn grid(side: u32) -> PackedScene {
+    let mut scene = Scene::default();
+    scene.materials.push(plain("grey", MaterialKind::Diffuse { reflectance: ColorInput::grey(0.5) }));
+    scene.shapes.push(shape(Geometry::Mesh(Arc::new(mesh(side, &[]))), 0));
+    PackedScene::new(&scene).expect("it is valid")
+}
+
+fn plain(name: &str, kind: MaterialKind) -> Material {
+    Material { name: name.into(), kind, normal_map: None, emission: None }
+}
+
+fn shape(geometry: Geometry, material: usize) -> Shape {
+    Shape { label: "shape".into(), geometry, material, transform: Transform::default(), motion: None, portal: false }
+}
+
+fn mesh(side: u32, face_materials: &[usize]) -> Mesh {
+    let mut mesh = Mesh { smooth: true, ..Mesh::default() };
+    for y in 0..=side {
+        for x in 0..=side {
+            mesh.positions.push(Vec3::new(x as f32, y as f32, 0.0));
+            mesh.normals.push(Vec3::Z);
+            mesh.uvs.push(Vec2::new(x as f32, y as f32) / side as f32);
+        }
+    }
+    for y in 0..side {
+        for x in 0..side {
+            let [a, b] = [y * (side + 1) + x, (y + 1) * (side + 1) + x];
+            mesh.faces.extend([[a, a + 1, b], [b, a + 1, b + 1]]);
+        }
+    }
+    mesh.face_materials.extend((0..mesh.faces.len()).filter_map(|face| face_materials.get(face % face_materials.len().max(1))));
+    mesh
+}
+
+fn image(width: u32, height: u32) -> Arc<ImageData> {
+    let texel = |index: u32| Vec3::new(0.1 * index as f32, 0.5, 0.2);
+    Arc::new(ImageData { width, height, texels: (0..width * height).map(texel).collect(), has_alpha: false })
+}
+
+/// Every kind of primitive, material, texture and light; shapes that move, a blend of blends of which one emits, a map and portals.
+fn everything() -> Scene {
+    let mut scene = Scene::default();
+    let [a, b] = [DVec3::splat(0.1), DVec3::splat(0.9)];
+    let picture = |width, wrap, filter| {
+        TextureKind::Image(ImageTexture { image: image(width, 2), wrap, filter, scale: [2.0, 1.0], offset: [0.1, 0.0] })
+    };
+    for kind in [
+        picture(2, TextureWrap::Repeat, TextureFilter::Bilinear),
+        picture(3, TextureWrap::Mirror, TextureFilter::Nearest),
+        picture(1, TextureWrap::Clamp, TextureFilter::Bilinear),
+        TextureKind::Checker { a, b, scale: [4.0; 2] },
+        TextureKind::Perlin { scale: 3.0, octaves: 4, a, b, seed: 1 },
+        TextureKind::Worley { scale: 3.0, a, b, seed: 2 },
+    ] {
+        scene.textures.push(Texture { name: "texture".into(), kind });
+    }
+    let (grey, of) = (ColorInput::grey(0.5), ColorInput::Texture);
+    let rough =
+        |alpha, distribution| MaterialKind::RoughGlass { ior: 1.5, alpha, distribution, reflectance: grey, transmittance: grey };
+    let blend = |materials, weight| MaterialKind::Blend { materials, weight };
+    let threshold = BlendWeight::Threshold { tau: 0.5, of: Box::new(BlendWeight::Texture { texture: 4 }) };
+    for (kind, emission) in [
+        (MaterialKind::Diffuse { reflectance: of(0) }, None),
+        (MaterialKind::Mirror { reflectance: of(3) }, None),
+        (MaterialKind::Glossy { reflectance: grey, exponent: of(1) }, None),
+        (MaterialKind::Phong { diffuse: grey, specular: of(5), exponent: grey }, None),
+        (rough(ColorInput::SquaredTexture(2), MicrofacetDistribution::Ggx), None),
+        (rough(ColorInput::grey(50.0), MicrofacetDistribution::Phong), None),
+        (MaterialKind::Emissive, Some(of(4))),
+        (blend([0, 1], BlendWeight::Facing { power: 2.0 }), Some(grey)),
+        (blend([7, 2], BlendWeight::Fresnel { ior: 1.5, exact: true }), None),
+        (blend([3, 8], threshold), None),
+        (MaterialKind::Pass, None),
+    ] {
+        let emission = emission.map(|radiance| Emission { radiance, two_sided: true });
+        scene.materials.push(Material { emission, ..plain("material", kind) });
+    }
+    scene.materials[5].normal_map = Some(2);
+    let turning = Motion {
+        steps: vec![MotionStep::Rotate { axis: DVec3::Y, degrees: 40.0 }, MotionStep::Translate(DVec3::X), MotionStep::Scale(b)],
+    };
+    let ball = |x: f64| Geometry::Sphere { center: DVec3::new(x, 4.0, 0.0), radius: 1.0 };
+    let sheet = |z: f64| Geometry::Rectangle { corner: DVec3::new(0.0, 0.0, z), edge_u: DVec3::X, edge_v: DVec3::Y };
+    let disk = Geometry::Disk { center: DVec3::new(0.0, 8.0, 0.0), normal: DVec3::Y, radius: 1.0 };
+    for (geometry, material, moves) in [
+        (Geometry::Mesh(Arc::new(mesh(3, &[0, 1, 2, 4, 9]))), 0, false),
+        (Geometry::Mesh(Arc::new(mesh(2, &[]))), 5, true),
+        (ball(0.0), 6, false),
+        (ball(3.0), 8, true),
+        (ball(6.0), 9, false),
+        (sheet(2.0), 6, true),
+        (sheet(3.0), 3, false),
+        (disk, 5, false),
+        (Geometry::Plane { point: DVec3::NEG_Y, normal: DVec3::Y }, 5, false),
+        (Geometry::Box { min: DVec3::ZERO, max: DVec3::ONE }, 0, false),
+    ] {
+        scene.shapes.push(Shape { motion: moves.then(|| turning.clone()), ..shape(geometry, material) });
+    }
+    scene.shapes.push(Shape { portal: true, ..shape(sheet(5.0), 10) });
+    scene.shapes.push(Shape { portal: true, ..shape(ball(9.0), 10) });
+    // What has no texture coordinates has no texture either.
+    scene.materials.push(plain("grey", MaterialKind::Diffuse { reflectance: grey }));
+    let last = scene.materials.len() - 1;
+    scene.shapes[7].material = last;
+    scene.shapes[8].material = last;
+    scene.lights = vec![
+        Light::Point { position: DVec3::ONE, intensity: b },
+        Light::Spot { position: DVec3::ONE, direction: DVec3::Y, intensity: b, angle_degrees: 30.0, falloff_degrees: 20.0 },
+        Light::Directional { direction: DVec3::X, irradiance: b },
+        Light::Environment(Environment { radiance: EnvironmentRadiance::Map(image(5, 3)), rotation_degrees: 30.0 }),
+    ];
+    scene
+}

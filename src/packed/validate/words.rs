@@ -1,0 +1,176 @@
+//! What each 32-bit word of a packed record means to a kernel, in one place.
+//!
+//! The [checks](super) go by this list, and their tests corrupt every word of every record by it.
+
+use std::mem::offset_of;
+
+use crate::packed::PackedScene;
+use crate::packed::blend_weight::PackedBlendWeight;
+use crate::packed::bvh4::Node;
+use crate::packed::light::PackedLight;
+use crate::packed::material::{PackedLeaf, PackedMaterial, PackedMaterialKind};
+use crate::packed::primitive::{Primitive, TriangleAttributes};
+use crate::packed::texture::{PackedTexture, PackedTextureKind};
+
+/// An array of records.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Array {
+    Primitives,
+    Attributes,
+    Nodes,
+    Materials,
+    Leaves,
+    Weights,
+    Lights,
+    Textures,
+}
+
+impl Array {
+    pub const ALL: [Self; 8] = [
+        Self::Primitives,
+        Self::Attributes,
+        Self::Nodes,
+        Self::Materials,
+        Self::Leaves,
+        Self::Weights,
+        Self::Lights,
+        Self::Textures,
+    ];
+
+    /// The words of a record that are not free, by their place in it.
+    pub fn words(self) -> &'static [(usize, Word)] {
+        match self {
+            Self::Primitives => &PRIMITIVE,
+            Self::Attributes => &ATTRIBUTES,
+            Self::Nodes => &NODE,
+            Self::Materials => &MATERIAL,
+            Self::Leaves => &LEAF,
+            Self::Weights => &WEIGHT,
+            Self::Lights => &LIGHT,
+            Self::Textures => &TEXTURE,
+        }
+    }
+
+    /// 32-bit words of a record.
+    pub fn record_words(self) -> usize {
+        let bytes = match self {
+            Self::Primitives => size_of::<Primitive>(),
+            Self::Attributes => size_of::<TriangleAttributes>(),
+            Self::Nodes => size_of::<Node>(),
+            Self::Materials => size_of::<PackedMaterial>(),
+            Self::Leaves => size_of::<PackedLeaf>(),
+            Self::Weights => size_of::<PackedBlendWeight>(),
+            Self::Lights => size_of::<PackedLight>(),
+            Self::Textures => size_of::<PackedTexture>(),
+        };
+        bytes / 4
+    }
+
+    /// All records of a scene, word by word.
+    pub fn of(self, scene: &PackedScene) -> &[u32] {
+        match self {
+            Self::Primitives => bytemuck::cast_slice(&scene.primitives),
+            Self::Attributes => bytemuck::cast_slice(&scene.attributes),
+            Self::Nodes => bytemuck::cast_slice(&scene.hierarchy.nodes),
+            Self::Materials => bytemuck::cast_slice(&scene.materials.materials),
+            Self::Leaves => bytemuck::cast_slice(&scene.materials.leaves),
+            Self::Weights => bytemuck::cast_slice(&scene.materials.weights),
+            Self::Lights => bytemuck::cast_slice(&scene.lights),
+            Self::Textures => bytemuck::cast_slice(&scene.textures.textures),
+        }
+    }
+
+    /// How many records a scene has.
+    pub fn len(self, scene: &PackedScene) -> usize {
+        self.of(scene).len() / self.record_words()
+    }
+}
+
+/// What a word is for. All that stand in no list are free: numbers to compute with, seeds, thresholds. Whatever bits such a word has, no
+/// kernel reads out of bounds by it.
+#[derive(Debug, Clone, Copy)]
+pub enum Word {
+    /// An index into an array.
+    Index(Array),
+    /// An index into an array, or [`crate::packed::NONE`].
+    Optional(Array),
+    /// A kind, a flag, a count or the beginning of a run: checked together with other words, by functions of their own.
+    Checked,
+    /// Such a word in the records of which this holds; free in others.
+    CheckedIn(fn(&[u32]) -> bool),
+}
+
+use Word::{Checked, CheckedIn, Index, Optional};
+
+macro_rules! word {
+    ($record:ty, $field:ident) => {
+        offset_of!($record, $field) / 4
+    };
+}
+
+const PRIMITIVE: [(usize, Word); 3] = [
+    (word!(Primitive, kind_and_material), Checked),
+    (word!(Primitive, light), Optional(Array::Lights)),
+    (word!(Primitive, attributes), Optional(Array::Attributes)),
+];
+
+const ATTRIBUTES: [(usize, Word); 1] = [(word!(TriangleAttributes, motion), Checked)];
+
+const NODE: [(usize, Word); 3] = [
+    (word!(Node, exponents_and_flags), Checked),
+    (word!(Node, first_child), CheckedIn(has_inner_children)),
+    (word!(Node, first_primitive_and_sizes), Checked),
+];
+
+const MATERIAL: [(usize, Word); 10] = [
+    (word!(PackedMaterial, kind_and_flags), Checked),
+    // The run of a blend's leaves.
+    (word!(PackedMaterial, second), CheckedIn(is_blend)),
+    (word!(PackedMaterial, second) + 1, CheckedIn(is_blend)),
+    (word!(PackedMaterial, second) + 2, CheckedIn(is_blend)),
+    (word!(PackedMaterial, emission_flags), Checked),
+    (word!(PackedMaterial, first_texture), Optional(Array::Textures)),
+    (word!(PackedMaterial, emission_texture), Optional(Array::Textures)),
+    (word!(PackedMaterial, second_texture), Optional(Array::Textures)),
+    (word!(PackedMaterial, scalar_texture), Optional(Array::Textures)),
+    (word!(PackedMaterial, normal_map), Optional(Array::Textures)),
+];
+
+const LEAF: [(usize, Word); 3] = [
+    (word!(PackedLeaf, material), Index(Array::Materials)),
+    (word!(PackedLeaf, first_factor), Checked),
+    (word!(PackedLeaf, factor_count), Checked),
+];
+
+const WEIGHT: [(usize, Word); 2] =
+    [(word!(PackedBlendWeight, kind_and_flags), Checked), (word!(PackedBlendWeight, texture), Optional(Array::Textures))];
+
+const LIGHT: [(usize, Word); 4] = [
+    (word!(PackedLight, kind_and_flags), Checked),
+    (word!(PackedLight, alias), Index(Array::Lights)),
+    (word!(PackedLight, attributes), Optional(Array::Attributes)),
+    (word!(PackedLight, material), Optional(Array::Materials)),
+];
+
+const TEXTURE: [(usize, Word); 4] = [
+    (word!(PackedTexture, kind_and_flags), Checked),
+    (word!(PackedTexture, first_texel_or_seed), CheckedIn(is_image)),
+    (word!(PackedTexture, width_or_octaves), CheckedIn(|texture| is_image(texture) || is_perlin(texture))),
+    (word!(PackedTexture, height), CheckedIn(is_image)),
+];
+
+fn is_blend(material: &[u32]) -> bool {
+    material[word!(PackedMaterial, kind_and_flags)] & 255 == PackedMaterialKind::Blend as u32
+}
+
+fn is_image(texture: &[u32]) -> bool {
+    texture[word!(PackedTexture, kind_and_flags)] & 255 == PackedTextureKind::Image as u32
+}
+
+fn is_perlin(texture: &[u32]) -> bool {
+    texture[word!(PackedTexture, kind_and_flags)] & 255 == PackedTextureKind::Perlin as u32
+}
+
+fn has_inner_children(node: &[u32]) -> bool {
+    node[word!(Node, exponents_and_flags)] >> 24 & 15 != 0
+}
