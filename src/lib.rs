@@ -5,6 +5,7 @@
 //!                 └────────────────▶ reference integrator (CPU, f64) ────┘
 //! ```
 
+#[cfg(feature = "bench")]
 pub mod bench;
 pub mod compare;
 pub mod film;

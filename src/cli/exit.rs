@@ -9,6 +9,8 @@ use gpt::output::{OutputError, ReadError};
 use gpt::renderer::RenderError;
 use miette::Diagnostic;
 
+use super::scene_error::SceneDiagnostic;
+
 /// What a run came to; other programs rely on the numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exit {
@@ -45,7 +47,7 @@ pub enum Failure {
     },
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Scene(#[from] SceneError),
+    Scene(SceneDiagnostic),
     #[error(transparent)]
     Picture(#[from] ReadError),
     #[error(transparent)]
@@ -69,6 +71,12 @@ impl Failure {
     }
 }
 
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        Self::Scene(SceneDiagnostic::from(error))
+    }
+}
+
 impl From<BenchError> for Failure {
     fn from(error: BenchError) -> Self {
         match error {
@@ -76,7 +84,7 @@ impl From<BenchError> for Failure {
             BenchError::Picture(error) => Self::Picture(error),
             BenchError::Sizes(error) => Self::Sizes(error),
             BenchError::Output(error) => Self::Output(error),
-            BenchError::Scene(error) => Self::Scene(error),
+            BenchError::Scene(error) => error.into(),
             BenchError::UnsuitableReference(message) => Self::BadScene(message),
             BenchError::Internal(message) => Self::Other(message),
             BenchError::Interrupted => Self::Interrupted,

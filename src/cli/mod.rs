@@ -10,6 +10,7 @@ mod interrupt;
 mod pictures;
 mod progress;
 mod render;
+mod scene_error;
 mod settings;
 mod stats;
 mod terminal;

@@ -4,9 +4,7 @@ use std::fmt;
 use std::ops::Range;
 use std::path::Path;
 
-use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
-
-/// One mistake in a scene file or in a file it names. Displays as `file:line:column: key: message`; miette adds the lines around it.
+/// One mistake in a scene file or in a file it names. Displays as `file:line:column: key: message`.
 #[derive(Debug, Clone)]
 pub struct SceneError(Box<Details>);
 
@@ -23,8 +21,8 @@ struct Details {
 struct Place {
     line: usize,
     column: usize,
-    /// The bytes in question and the text they are in; None where the text is too large to be worth keeping.
-    snippet: Option<(Range<usize>, NamedSource<String>)>,
+    /// None where the text is too large to be worth keeping.
+    snippet: Option<(String, Range<usize>)>,
 }
 
 impl SceneError {
@@ -49,9 +47,8 @@ impl SceneError {
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
         let line = before.matches('\n').count() + 1;
         let column = text[line_start..start].chars().count() + 1;
-        let source = NamedSource::new(file, text.to_owned()).with_language("toml");
         let mut error = Self::in_file(file, message);
-        error.0.place = Some(Place { line, column, snippet: Some((start..end, source)) });
+        error.0.place = Some(Place { line, column, snippet: Some((text.to_owned(), start..end)) });
         error
     }
 
@@ -96,6 +93,12 @@ impl SceneError {
     pub fn help_text(&self) -> Option<&str> {
         self.0.help.as_deref()
     }
+
+    /// The file's text and which of its bytes are wrong, where the file is one that a person writes.
+    pub fn snippet(&self) -> Option<(&str, Range<usize>)> {
+        let (text, span) = self.0.place.as_ref()?.snippet.as_ref()?;
+        Some((text, span.clone()))
+    }
 }
 
 /// The file's name as errors show it.
@@ -122,20 +125,3 @@ impl fmt::Display for SceneError {
 }
 
 impl std::error::Error for SceneError {}
-
-impl Diagnostic for SceneError {
-    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.0.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
-    }
-
-    fn source_code(&self) -> Option<&dyn SourceCode> {
-        let (_, source) = self.0.place.as_ref()?.snippet.as_ref()?;
-        Some(source)
-    }
-
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let (span, _) = self.0.place.as_ref()?.snippet.as_ref()?;
-        let label = LabeledSpan::new_with_span(Some("here".to_owned()), span.clone());
-        Some(Box::new(std::iter::once(label)))
-    }
-}

@@ -323,12 +323,12 @@ fn a_scene_without_light_is_refused() {
 }
 
 #[test]
-fn the_report_shows_the_line() {
-    let error = error_of(&GOOD.replace("radius = 1", "radius = -1"));
-    let mut report = String::new();
-    let handler = miette::GraphicalReportHandler::new_themed(miette::GraphicalTheme::unicode_nocolor());
-    handler.render_report(&mut report, &error).unwrap_or_else(|error| panic!("{error}"));
-    assert!(report.contains("radius = -1") && report.contains("test.toml:17:10"), "{report}");
+fn the_error_holds_the_text_and_the_place_in_it() {
+    let text = GOOD.replace("radius = 1", "radius = -1");
+    let error = error_of(&text);
+    assert_eq!((error.file(), error.line(), error.column()), ("test.toml", Some(17), Some(10)));
+    let (snippet, span) = error.snippet().expect("the mistake is in the text");
+    assert_eq!((snippet, &snippet[span]), (text.as_str(), "-1"));
 }
 
 #[test]
