@@ -3,11 +3,6 @@
 use clap::ValueEnum;
 use serde::Serialize;
 
-use super::scenes;
-use super::speed::SpeedOptions;
-use crate::load::SceneError;
-use crate::scene::Scene;
-
 /// What is measured side by side: one thing grows, the rest stays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -53,21 +48,5 @@ impl Growth {
             Self::Leaves => (&[1, 2, 4, 8], &[16, 32, 64]),
         };
         if everything { [bounded, rest].concat() } else { bounded.to_vec() }
-    }
-
-    /// The scene of a size, at the base size of pictures, and the samples to take of it.
-    ///
-    /// # Errors
-    /// None that a test would not find.
-    pub fn scene(self, size: u32, own: &Scene, options: &SpeedOptions) -> Result<(Scene, u32), SceneError> {
-        let mut scene = match self {
-            Self::Triangles => scenes::hills(size)?,
-            Self::Lights => scenes::panel(size)?,
-            Self::Leaves => scenes::leaves(size)?,
-            Self::Scenes | Self::Resolution | Self::Samples => own.clone(),
-        };
-        options.limit_depth(&mut scene);
-        scene.film.size = if self == Self::Resolution { [size, size] } else { options.size };
-        Ok((scene, if self == Self::Samples { size } else { options.spp }))
     }
 }

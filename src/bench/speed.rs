@@ -6,8 +6,10 @@ use serde::Serialize;
 
 use super::growth::Growth;
 use super::interval::{Ratio, Spread};
+use super::scenes;
 use super::subject::{BenchError, Devices, SceneSubject, Subject};
 use crate::gpu::GpuRenderer;
+use crate::load::SceneError;
 use crate::packed::hierarchy::Traversal;
 use crate::plan::{PlanOptions, StageMode, memory};
 use crate::reference::ReferenceRenderer;
@@ -37,6 +39,22 @@ impl SpeedOptions {
     /// Gives a scene the paths' length that is wanted.
     pub(super) fn limit_depth(&self, scene: &mut Scene) {
         scene.render.max_depth = self.depth.unwrap_or(scene.render.max_depth);
+    }
+
+    /// The scene of a size, at the base size of pictures, and the samples to take of it.
+    ///
+    /// # Errors
+    /// None that a test would not find.
+    fn grown(&self, growth: Growth, size: u32, own: &Scene) -> Result<(Scene, u32), SceneError> {
+        let mut scene = match growth {
+            Growth::Triangles => scenes::hills(size)?,
+            Growth::Lights => scenes::panel(size)?,
+            Growth::Leaves => scenes::leaves(size)?,
+            Growth::Scenes | Growth::Resolution | Growth::Samples => own.clone(),
+        };
+        self.limit_depth(&mut scene);
+        scene.film.size = if growth == Growth::Resolution { [size, size] } else { self.size };
+        Ok((scene, if growth == Growth::Samples { size } else { self.spp }))
     }
 }
 
@@ -203,7 +221,7 @@ fn plan_rows(growth: Growth, own: &[Scene], options: &SpeedOptions, devices: &mu
         }
     } else if let Some(first) = own.first() {
         for size in growth.sizes(options.everything) {
-            let (scene, spp) = growth.scene(size, first, options)?;
+            let (scene, spp) = options.grown(growth, size, first)?;
             let count = if growth == Growth::Resolution { u64::from(size) * u64::from(size) } else { u64::from(size) };
             rows.push(Planned { scene, spp, count: Some(count), stages: options.stages });
         }

@@ -85,7 +85,7 @@ impl Device {
     /// # Errors
     /// As [`Device::open`]; [`RenderError::DoesNotFit`] where the adapter lacks what they ask for.
     pub fn open_for(choice: &DeviceChoice, options: &PlanOptions) -> Result<Self, RenderError> {
-        let adapter = super::select_adapter(choice)?;
+        let adapter = super::adapters::select_adapter(choice)?;
         let mut limits = DeviceLimits::of(&adapter);
         if options.asks_for_ray_queries() {
             limits.check_ray_queries(&adapter.get_info().name)?;

@@ -6,15 +6,14 @@ use std::thread::available_parallelism;
 use exr::block::UncompressedBlock;
 use exr::block::writer::{ChunkWriter, ChunksWriter, ParallelBlocksCompressor};
 use exr::error::{Error, UnitResult};
-use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, ChannelDescription, Chromaticities, LineOrder, SampleType, Text};
 use exr::meta::header::Header;
-use exr::meta::{BlockDescription, Headers};
+use exr::meta::{BlockDescription, Headers, MetaData};
 use exr::prelude::{Compression, Vec2};
 
-use super::PictureSpec;
 use super::provenance::Entry;
 use super::rows::Rows;
+use super::spec::PictureSpec;
 
 /// Blocks compressed at once. Each takes 32 rows of memory, so more would be felt at 8K.
 const COMPRESSING_THREADS: usize = 4;

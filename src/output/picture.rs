@@ -6,22 +6,16 @@ use std::sync::Arc;
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread::{self, JoinHandle};
 
+use super::atomic::AtomicFile;
+use super::error::OutputError;
+use super::format::PictureFormat;
 use super::rows::{Message, Rows};
-use super::{AtomicFile, OutputError, PictureFormat, Provenance, exr_file, png_file};
+use super::spec::PictureSpec;
+use super::{exr_file, png_file};
 use crate::film::Band;
 
 /// Bands that wait for the encoder; with the one it works on and the one being rendered, this bounds the memory.
 const WAITING_BANDS: usize = 1;
-
-/// What a file's encoder needs to know before the first row.
-#[derive(Debug, Clone)]
-pub struct PictureSpec {
-    pub width: u32,
-    pub height: u32,
-    /// Stops by which a preview is brightened: radiance is multiplied by 2^exposure. Float files are not changed.
-    pub exposure: f32,
-    pub provenance: Provenance,
-}
 
 /// A file that takes bands and appears, whole, at [`PictureFile::finish`]. Dropped before that, it leaves nothing.
 pub struct PictureFile {
@@ -99,7 +93,7 @@ mod tests {
     use exr::prelude::{Text, Vec2};
 
     use super::*;
-    use crate::output::{read_image, srgb_byte};
+    use crate::output::{Provenance, read_image, srgb_byte};
     use crate::scene::{Filter, RenderSettings};
 
     fn spec(width: u32, height: u32, spp: u32) -> PictureSpec {

@@ -4,9 +4,9 @@ use std::io::Write;
 
 use png::{BitDepth, ColorType, Compression, Encoder, SrgbRenderingIntent};
 
-use super::PictureSpec;
 use super::provenance::Entry;
 use super::rows::{Abandoned, Rows};
+use super::spec::PictureSpec;
 
 /// Encodes all rows of the picture. The error is a sentence.
 pub(super) fn write(writer: impl Write, mut rows: Rows, spec: &PictureSpec) -> Result<(), String> {

@@ -8,7 +8,7 @@ use exr::image::{AnyChannels, FlatSamples, Layer};
 use exr::meta::MetaData;
 use exr::prelude::{ReadChannels, ReadLayers, f16};
 
-use super::{MAX_PIXELS, MAX_SIDE};
+use super::format::{MAX_PIXELS, MAX_SIDE};
 use crate::math::srgb_to_linear;
 
 /// A picture in memory, linear.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::HierarchicalWarp;
+use super::hierarchical_warp::HierarchicalWarp;
 use crate::scene::ImageData;
 
 /// Most cells along u and v. Larger maps have several texels in a cell.

@@ -5,7 +5,7 @@
 
 use std::collections::HashMap;
 
-use super::AliasTable;
+use super::alias::AliasTable;
 
 /// Share of the choices in which all lamps are alike (measured in `docs/strategies.md`).
 const EVEN_SHARE: f64 = 0.3;

@@ -1,6 +1,6 @@
 //! That blends end somewhere, and soon enough.
 
-use super::{Material, MaterialId, MaterialKind};
+use super::material::{Material, MaterialId, MaterialKind};
 
 /// Most leaves of one blend, those of the blends in it included. A blend of the same blend twice, and so on, doubles them at every
 /// level: this stops before memory ends.

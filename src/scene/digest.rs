@@ -6,7 +6,10 @@ use std::sync::Arc;
 use glam::{Vec2, Vec3};
 use sha2::{Digest, Sha256};
 
-use super::{EnvironmentRadiance, Geometry, ImageData, Light, Mesh, Scene, TextureKind};
+use super::light::{EnvironmentRadiance, Light};
+use super::model::Scene;
+use super::shape::{Geometry, Mesh};
+use super::texture::{ImageData, TextureKind};
 
 /// SHA-256, in hexadecimal, of everything that decides what the scene looks like: shapes, materials, textures, lights and camera.
 /// Its name, the picture's size and the way of estimating are left out, since a picture's header states them by themselves.

@@ -3,7 +3,10 @@
 use glam::DVec3;
 
 use super::texture::ColorInput;
-use super::{MaterialId, TextureId};
+use super::texture::TextureId;
+
+/// Index into [`crate::scene::Scene::materials`].
+pub type MaterialId = usize;
 
 #[derive(Debug, Clone)]
 pub struct Material {

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::{DVec3, Vec2, Vec3};
 
-use super::Mesh;
+use super::shape::Mesh;
 
 impl Mesh {
     /// Removes faces that have no area, with repeated corners or corners on one line, and says how many. Such faces have no normal

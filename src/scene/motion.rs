@@ -2,8 +2,6 @@
 
 use glam::{DAffine3, DQuat, DVec3};
 
-use super::shape::{Geometry, Shape};
-
 /// Steps applied in this order after a shape's `transform`, along the world's axes and about the shape's own origin, that is where
 /// `transform` puts the shape's (0, 0, 0). Each is interpolated by itself, at rest at shutter time 0 and reached at time 1: a rotation
 /// turns evenly about its axis, which no blend of matrices does. Times beyond 0 and 1 extrapolate.
@@ -25,7 +23,7 @@ pub const SMALLEST_SCALE: f64 = 1e-6;
 /// Most turns of one step while the shutter is open. Beyond, single precision loses the angle, and the eye lost it long before.
 pub const MOST_TURNS: f64 = 100.0;
 /// Largest number in the map of a motion. Bounding volumes square lengths in single precision.
-const FARTHEST: f64 = 1e18;
+pub(super) const FARTHEST: f64 = 1e18;
 
 impl MotionStep {
     /// The factors of a scale at a time.
@@ -92,49 +90,6 @@ impl Motion {
             }
         }
         speed
-    }
-}
-
-impl Shape {
-    /// Where the shape's own (0, 0, 0) is in the world at time 0: what motions turn and scale about.
-    pub fn origin(&self) -> DVec3 {
-        self.transform.to_affine().translation
-    }
-
-    /// The map from the shape's place in the world at time 0 to that at `time`; None: it rests.
-    pub fn moved_by(&self, time: f64) -> Option<DAffine3> {
-        self.motion.as_ref().map(|motion| motion.at(time, self.origin()))
-    }
-
-    /// Whether renderers can follow the shape's motion while the shutter is open.
-    ///
-    /// # Errors
-    /// What is wrong, in words, and in which step of the motion if it is a single one.
-    pub fn check_motion(&self, shutter: [f64; 2]) -> Result<(), (Option<usize>, String)> {
-        let Some(motion) = &self.motion else { return Ok(()) };
-        if matches!(self.geometry, Geometry::Plane { .. }) {
-            return Err((None, "an infinite plane cannot move; use a large rectangle".to_owned()));
-        }
-        if self.portal {
-            return Err((None, "a portal cannot move".to_owned()));
-        }
-        let round = matches!(self.geometry, Geometry::Sphere { .. } | Geometry::Disk { .. });
-        for (index, step) in motion.steps.iter().enumerate() {
-            step.check(shutter).map_err(|message| (Some(index), message))?;
-            if let MotionStep::Scale(scale) = step
-                && round
-                && scale.max_element() != scale.min_element()
-            {
-                let message = "spheres and disks can only be scaled by the same factor along every axis";
-                return Err((Some(index), message.to_owned()));
-            }
-        }
-        let ends = shutter.map(|time| motion.at(time, self.origin()));
-        let in_range = |map: &DAffine3| map.to_cols_array().iter().all(|number| number.abs() <= FARTHEST);
-        if ends.iter().all(|map| in_range(map) && map.matrix3.determinant().is_normal()) {
-            return Ok(());
-        }
-        Err((None, "the motion leaves the range of numbers".to_owned()))
     }
 }
 

@@ -8,7 +8,10 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::{Geometry, Light, Scene, Shape, TransformStep};
+use super::light::Light;
+use super::model::Scene;
+use super::shape::{Geometry, Shape};
+use super::transform::TransformStep;
 
 /// A scene is moved where its camera is this many times as far from the origin as from the nearest shape.
 const FAR: f64 = 4.0;

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DAffine3, DVec3, Vec2, Vec3};
 
-use super::MaterialId;
-use super::motion::Motion;
+use super::material::MaterialId;
+use super::motion::{FARTHEST, Motion, MotionStep};
 use super::transform::Transform;
 
 /// One surface: geometry in its own space, where it stands, and what it is made of.
@@ -99,5 +99,48 @@ impl Shape {
         let Geometry::Mesh(mesh) = &self.geometry else { return Vec::new() };
         let mirrored = self.is_mirrored();
         mesh.faces.iter().map(|&[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] }).collect()
+    }
+}
+
+impl Shape {
+    /// Where the shape's own (0, 0, 0) is in the world at time 0: what motions turn and scale about.
+    pub fn origin(&self) -> DVec3 {
+        self.transform.to_affine().translation
+    }
+
+    /// The map from the shape's place in the world at time 0 to that at `time`; None: it rests.
+    pub fn moved_by(&self, time: f64) -> Option<DAffine3> {
+        self.motion.as_ref().map(|motion| motion.at(time, self.origin()))
+    }
+
+    /// Whether renderers can follow the shape's motion while the shutter is open.
+    ///
+    /// # Errors
+    /// What is wrong, in words, and in which step of the motion if it is a single one.
+    pub fn check_motion(&self, shutter: [f64; 2]) -> Result<(), (Option<usize>, String)> {
+        let Some(motion) = &self.motion else { return Ok(()) };
+        if matches!(self.geometry, Geometry::Plane { .. }) {
+            return Err((None, "an infinite plane cannot move; use a large rectangle".to_owned()));
+        }
+        if self.portal {
+            return Err((None, "a portal cannot move".to_owned()));
+        }
+        let round = matches!(self.geometry, Geometry::Sphere { .. } | Geometry::Disk { .. });
+        for (index, step) in motion.steps.iter().enumerate() {
+            step.check(shutter).map_err(|message| (Some(index), message))?;
+            if let MotionStep::Scale(scale) = step
+                && round
+                && scale.max_element() != scale.min_element()
+            {
+                let message = "spheres and disks can only be scaled by the same factor along every axis";
+                return Err((Some(index), message.to_owned()));
+            }
+        }
+        let ends = shutter.map(|time| motion.at(time, self.origin()));
+        let in_range = |map: &DAffine3| map.to_cols_array().iter().all(|number| number.abs() <= FARTHEST);
+        if ends.iter().all(|map| in_range(map) && map.matrix3.determinant().is_normal()) {
+            return Ok(());
+        }
+        Err((None, "the motion leaves the range of numbers".to_owned()))
     }
 }

@@ -5,7 +5,12 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::{EnvironmentRadiance, Geometry, Light, Material, MaterialKind, Scene, Shape, TextureKind, setting_name};
+use super::light::{EnvironmentRadiance, Light};
+use super::material::{Material, MaterialKind};
+use super::model::Scene;
+use super::settings::setting_name;
+use super::shape::{Geometry, Shape};
+use super::texture::TextureKind;
 
 /// What a scene consists of. Maps go from the scene file's name of a type to how often it occurs.
 #[derive(Debug, Clone, PartialEq, Serialize)]

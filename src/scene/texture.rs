@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use super::TextureId;
+/// Index into [`crate::scene::Scene::textures`].
+pub type TextureId = usize;
 
 /// A parameter that is one colour or comes from a texture. Scalars are grey colours; their first channel counts.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,11 +5,14 @@
 
 use glam::{DVec3, Vec3};
 
+use super::blend_tree::check_blends;
+use super::camera::{ApertureShape, Camera, Projection};
+use super::light::{EnvironmentRadiance, Light};
+use super::material::{BlendWeight, ConductorFresnel, Material, MaterialId, MaterialKind};
+use super::model::Scene;
 use super::settings::{MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH};
-use super::{
-    ApertureShape, BlendWeight, Camera, ColorInput, ConductorFresnel, EnvironmentRadiance, Geometry, ImageData, Light, Material,
-    MaterialId, MaterialKind, Mesh, Projection, Scene, Shape, TextureId, TextureKind, check_blends,
-};
+use super::shape::{Geometry, Mesh, Shape};
+use super::texture::{ColorInput, ImageData, TextureId, TextureKind};
 
 /// Most octaves of Perlin noise: further ones are finer than the numbers that they are computed in.
 pub const MOST_OCTAVES: u32 = 16;

@@ -8,8 +8,9 @@ use super::super::analysis::{Comparison, Floor, METRICS, Trend};
 use super::super::convergence::{SceneConvergence, SettingConvergence};
 use super::super::machine::Machine;
 use super::super::subject::BenchError;
+use super::elements::{self, csv_text, interval, number, page, ratio, ratio_text, spread, spread_text, table};
+use super::pictures;
 use super::plot::{Point, Series, css_color, log_log};
-use super::{csv_text, interval, number, page, pictures, ratio, ratio_text, spread, spread_text, table};
 use crate::compare::Metric;
 
 /// As papers write it.
@@ -282,7 +283,7 @@ fn equal_time_pictures(index: usize, scene: &SceneConvergence) -> Result<Markup,
                 setting.setting.clone(),
                 pictures::picture_address(&at.picture)?,
                 Some(pictures::heat_address(&at.picture, &scene.reference_picture)?),
-                format!("{} spp, {} s, relMSE {}", at.spp, super::number(at.seconds), super::number(at.relmse)),
+                format!("{} spp, {} s, relMSE {}", at.spp, elements::number(at.seconds), elements::number(at.relmse)),
             ));
         }
     }

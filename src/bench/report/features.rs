@@ -7,7 +7,7 @@ use maud::{Markup, html};
 use super::super::features::{FeatureCost, Variant};
 use super::super::machine::Machine;
 use super::super::subject::BenchError;
-use super::{csv_text, number, page, ratio, ratio_text, spread, table};
+use super::elements::{csv_text, number, page, ratio, ratio_text, spread, table};
 
 /// Every variant, one a row.
 ///

@@ -8,8 +8,8 @@ use super::super::growth::Growth;
 use super::super::machine::Machine;
 use super::super::speed::{Outcome, Speed, SpeedRow, SpeedTable};
 use super::super::subject::BenchError;
+use super::elements::{self, csv_text, number, page, ratio, ratio_text, spread, spread_text};
 use super::plot::{Point, Series, log_log};
-use super::{csv_text, number, page, ratio, ratio_text, spread, spread_text, table};
 
 /// What a row is called: the scene, or the size.
 fn label(row: &SpeedRow) -> String {
@@ -189,7 +189,7 @@ fn speeds(table: &SpeedTable) -> Markup {
             cells
         })
         .collect();
-    super::table(
+    elements::table(
         &[
             if table.growth == Growth::Scenes { "scene" } else { table.growth.label() },
             "picture",
@@ -222,7 +222,7 @@ fn stages(speed: &Speed) -> Markup {
         })
         .collect();
     html! {
-        (table(&["stage", "ms a pass", "share", "dispatches"], &rows))
+        (elements::table(&["stage", "ms a pass", "share", "dispatches"], &rows))
         @if !speed.occupancy.is_empty() {
             p {
                 "Paths alive, as shares of the pool, edge by edge: "

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 
 /// What the check found, and the text `tobj` is to read.
 pub struct Checked {

@@ -3,8 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use crate::load::SceneError;
-use crate::load::error::show;
+use crate::load::error::{SceneError, show};
 
 /// One `newmtl` and where it stands.
 #[derive(Debug, Clone)]

@@ -7,7 +7,7 @@ use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::builder::build_bvh2;
 
-use super::Ray;
+use super::ray::Ray;
 
 /// A ray with what intersection tests need of it over and over.
 #[derive(Debug, Clone, Copy)]

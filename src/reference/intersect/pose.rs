@@ -7,7 +7,8 @@
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::normal_map::Tangents;
-use super::{Ray, Sphere, SurfacePoint};
+use super::primitive::Sphere;
+use super::ray::{Ray, SurfacePoint};
 use crate::scene::{Scene, Shape};
 
 /// Times at which a shape is looked at to find what it sweeps.

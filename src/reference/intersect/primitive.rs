@@ -6,14 +6,11 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 
+use super::hierarchy::PreparedRay;
 use super::normal_map::Tangents;
+use super::ray::{Local, Ray, SurfacePoint};
 use super::triangle::Triangle;
-use super::{PreparedRay, Ray, SurfacePoint};
 use crate::math::Frame;
-
-/// Where on a primitive a point lies, in the primitive's own coordinates: along the two edges of a parallelogram, the weights of the
-/// second and third vertex of a triangle, unused elsewhere.
-pub type Local = DVec2;
 
 #[derive(Debug, Clone, PartialEq)]
 pub enum Primitive {
@@ -142,7 +139,7 @@ impl Parallelogram {
     }
 
     pub fn intersect(&self, ray: &Ray, limit: f64) -> Option<(f64, Local)> {
-        let distance = plane_distance(ray, self.corner, self.normal, limit)?;
+        let distance = ray.distance_to_plane(self.corner, self.normal, limit)?;
         let offset = ray.at(distance) - self.corner;
         let local = DVec2::new(offset.dot(self.dual_u), offset.dot(self.dual_v));
         let inside = local.cmpge(-self.slack) & local.cmple(DVec2::ONE + self.slack);
@@ -184,7 +181,7 @@ pub struct Disk {
 
 impl Disk {
     fn intersect(&self, ray: &Ray, limit: f64) -> Option<f64> {
-        plane_distance(ray, self.center, self.frame.normal, limit)
+        ray.distance_to_plane(self.center, self.frame.normal, limit)
             .filter(|&distance| (ray.at(distance) - self.center).length_squared() <= self.radius * self.radius)
     }
 
@@ -212,7 +209,7 @@ pub struct Plane {
 
 impl Plane {
     pub fn intersect(&self, ray: &Ray, limit: f64) -> Option<f64> {
-        plane_distance(ray, self.point, self.normal, limit)
+        ray.distance_to_plane(self.point, self.normal, limit)
     }
 
     /// `near` projected onto the plane.
@@ -220,11 +217,4 @@ impl Plane {
         let position = near - self.normal * (near - self.point).dot(self.normal);
         SurfacePoint::new(position, self.normal, self.point.abs().max(near.abs()).max_element())
     }
-}
-
-/// Distance to the plane through `point`, in (0, limit).
-pub fn plane_distance(ray: &Ray, point: DVec3, normal: DVec3, limit: f64) -> Option<f64> {
-    let distance = (point - ray.origin).dot(normal) / ray.direction.dot(normal);
-    // A ray in the plane gives 0/0 or an infinity, which fails the comparisons.
-    (distance > 0.0 && distance < limit).then_some(distance)
 }

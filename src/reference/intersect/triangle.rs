@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
-use super::primitive::Local;
-use super::{PreparedRay, SurfacePoint, primitive::plane_distance};
+use super::hierarchy::PreparedRay;
+use super::ray::{Local, SurfacePoint};
 
 /// Three corners, counter-clockwise seen from the front. They are stored as they are, in f32; all arithmetic is f64, where
 /// differences and products of such numbers are all but exact.
@@ -29,7 +29,7 @@ impl Triangle {
         }
         // The distance comes from the plane and not from the sheared corners: a point that was moved off the surface then lies on
         // its side for certain, however the ray grazes.
-        let distance = plane_distance(&ray.ray, self.corners[0].as_dvec3(), self.scaled_normal(), limit)?;
+        let distance = ray.ray.distance_to_plane(self.corners[0].as_dvec3(), self.scaled_normal(), limit)?;
         Some((distance, DVec2::new(weight_b, weight_c) / sum))
     }
 

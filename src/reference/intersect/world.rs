@@ -4,10 +4,12 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec2, DVec3, Vec3};
 
+use super::hierarchy::{Hierarchy, PreparedRay};
 use super::normal_map::{NormalMaps, Tangents};
 use super::pose::{self, Moment, Pose};
-use super::primitive::{Disk, Local, Parallelogram, Plane, Primitive, Sphere};
-use super::{Hierarchy, PreparedRay, Ray, SurfacePoint, Triangle};
+use super::primitive::{Disk, Parallelogram, Plane, Primitive, Sphere};
+use super::ray::{Local, Ray, SurfacePoint};
+use super::triangle::Triangle;
 use crate::math::Frame;
 use crate::renderer::RenderError;
 use crate::scene::{Geometry, MaterialId, MaterialKind, Mesh, Scene, Shape};

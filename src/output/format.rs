@@ -1,0 +1,40 @@
+//! The kinds of picture files.
+
+use std::path::Path;
+
+/// Width and height a picture may have, in pixels.
+pub const MAX_SIDE: u32 = 32_768;
+/// Pixels a picture may have.
+pub const MAX_PIXELS: u64 = 1 << 28;
+
+/// What a picture file can be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PictureFormat {
+    /// Linear float scan lines, lossless.
+    Exr,
+    /// 8-bit sRGB preview.
+    Png,
+}
+
+impl PictureFormat {
+    /// The format that the file name's ending asks for, ignoring case; None for any other ending.
+    pub fn from_path(path: &Path) -> Option<Self> {
+        let ending = path.extension()?.to_str()?;
+        [("exr", Self::Exr), ("png", Self::Png)]
+            .into_iter()
+            .find_map(|(known, format)| ending.eq_ignore_ascii_case(known).then_some(format))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ending_names_the_format() {
+        assert_eq!(PictureFormat::from_path(Path::new("a/b.exr")), Some(PictureFormat::Exr));
+        assert_eq!(PictureFormat::from_path(Path::new("B.PNG")), Some(PictureFormat::Png));
+        assert_eq!(PictureFormat::from_path(Path::new("b.jpg")), None);
+        assert_eq!(PictureFormat::from_path(Path::new("exr")), None);
+    }
+}
