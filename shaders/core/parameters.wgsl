@@ -22,9 +22,9 @@ struct PassParameters {
     padding_2: u32,
 }
 
-// Which edge of its path a dispatch extends: 1 is the camera ray.
-struct EdgeParameters {
-    edge: u32,
+// Which vertex of its path a dispatch works on: 1 ends the camera's ray.
+struct VertexParameters {
+    vertex: u32,
     // Which half of the queues is read; the other is written.
     queue: u32,
     padding: vec2<u32>,
@@ -55,6 +55,6 @@ struct View {
 }
 
 @group(0) @binding(0) var<uniform> pass_parameters: PassParameters;
-@group(0) @binding(1) var<uniform> edge_parameters: EdgeParameters;
+@group(0) @binding(1) var<uniform> vertex_parameters: VertexParameters;
 @group(0) @binding(2) var<uniform> sequence_points: array<vec4<u32>, SEQUENCE_POINTS>;
 @group(0) @binding(3) var<uniform> view: View;

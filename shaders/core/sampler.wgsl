@@ -1,5 +1,4 @@
 // Randomness as a pure function of (seed, pixel, sample index, named dimension): the device's half of src/sampling.
-#import core/math.wgsl
 #import core/parameters.wgsl
 
 const GOLDEN: u32 = 0x9e3779b9u;
@@ -37,7 +36,7 @@ fn dimension_bits4(key: u32, first_dimension: u32) -> vec4<u32> {
     return mix_bits4(vec4<u32>(key) + dimensions * GOLDEN);
 }
 
-// Bits of dimensions 4·block .. 4·block + 3 of a path. Blocks 0 and 1 are the camera's, bounce b has blocks 2 + 2b and 3 + 2b.
+// Bits of dimensions 4·block .. 4·block + 3 of a path. Blocks 0 and 1 are the camera's, vertex v has blocks 2v and 2v + 1.
 fn random_block(pixel: u32, sample_in_pass: u32, block: u32) -> vec4<u32> {
     let key = pixel_key(pixel);
 #if SEQUENCE
@@ -53,30 +52,28 @@ fn random_block(pixel: u32, sample_in_pass: u32, block: u32) -> vec4<u32> {
     return dimension_bits4(path_key(key, pass_parameters.first_sample + sample_in_pass), block * 4u);
 }
 
-#if SEVERAL_LIGHT_SAMPLES
 // Hashed light samples after the first of a surface have blocks from here on.
 const HASHED_LIGHT_BLOCK: u32 = 1u << 28u;
 
-// Bits of light sample `number`, not the first, at the end of edge number `edge`, vertex number `visit` of the path: choice of the light
+// Bits of light sample `number`, not the first, at a path's vertex number `vertex`, which ends an edge of this depth: choice of the light
 // (x), point on it (y, z).
-fn more_light_bits(pixel: u32, sample_in_pass: u32, visit: u32, edge: u32, number: u32) -> vec4<u32> {
+fn further_light_bits(pixel: u32, sample_in_pass: u32, vertex: u32, depth: u32, number: u32) -> vec4<u32> {
     let key = pixel_key(pixel);
 #if SEQUENCE
-    let place = SEQUENCE_BLOCKS + (edge - 1u) * (LIGHT_SAMPLES - 1u) + number - 1u;
-    let shared_bits = sequence_points[sample_in_pass * SEQUENCE_STRIDE + place];
+    let block = SEQUENCE_BLOCKS + (depth - 1u) * (LIGHT_SAMPLES - 1u) + number - 1u;
+    let shared_bits = sequence_points[sample_in_pass * SEQUENCE_STRIDE + block];
     // The shift of the first one's block: together they stay one sequence.
-    let shift = dimension_bits4(key, 8u * visit);
+    let shift = dimension_bits4(key, 8u * vertex);
 #if DIGITAL_SHIFT
     return shared_bits ^ shift;
 #else
     return shared_bits + shift;
 #endif
 #else
-    let block = HASHED_LIGHT_BLOCK + 16u * visit + number;
+    let block = HASHED_LIGHT_BLOCK + 16u * vertex + number;
     return dimension_bits4(path_key(key, pass_parameters.first_sample + sample_in_pass), block * 4u);
 #endif
 }
-#endif
 
 // Bits for the position in the pixel (x, y) and on the lens (z, w). The pixel's may have a sampler of their own.
 fn camera_block(pixel: u32, sample_in_pass: u32) -> vec4<u32> {

@@ -77,7 +77,7 @@ fn child_entries(words: NodeWords) -> vec4<u32> {
 }
 
 #if PACKETS
-// One of them, an inner child as the place of its words. An inner child's leaf size is 0, and counts no primitive.
+// One of them, an inner child as the index of its first word. An inner child's leaf size is 0, and counts no primitive.
 fn child_entry(words: NodeWords, child: u32) -> u32 {
     let flags = words.w0.w >> 24u;
     let inner_before = countOneBits(flags & ((1u << child) - 1u));
@@ -85,6 +85,6 @@ fn child_entry(words: NodeWords, child: u32) -> u32 {
     let before = sizes & ((1u << (2u * child)) - 1u);
     let start = (words.w1.y & 0x00ffffffu) + (child - inner_before) + (before & 3u) + ((before >> 2u) & 3u) + (before >> 4u);
     let leaf_entry = start | (((sizes >> (2u * child)) & 3u) << 24u) | LEAF;
-    return select(leaf_entry, node_place(inner_before + words.w1.x), ((flags >> child) & 1u) != 0u);
+    return select(leaf_entry, first_word_of_node(inner_before + words.w1.x), ((flags >> child) & 1u) != 0u);
 }
 #endif

@@ -1,10 +1,10 @@
 // closest_hit and occluded, wherever the plan put the geometry.
 #if BVH
-#import geometry/traversal.wgsl
+#export geometry/traversal.wgsl
 #else
 #if RAY_QUERY
-#import geometry/ray_query.wgsl
+#export geometry/ray_query.wgsl
 #else
-#import geometry/unrolled.wgsl
+#export geometry/unrolled.wgsl
 #endif
 #endif

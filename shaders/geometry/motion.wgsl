@@ -1,6 +1,7 @@
 // Shapes that move while the shutter is open. Everything is moved to where it is at the path's time before it is looked at.
 #import core/math.wgsl
 #import core/sampler.wgsl
+#import geometry/records.wgsl
 #import geometry/scene.wgsl
 
 // In the words of a primitive and of a light.

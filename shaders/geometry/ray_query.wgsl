@@ -2,7 +2,10 @@
 // triangles itself, and asks about the other shapes whose boxes it meets. What it finds is tested again as everywhere else, so that hits
 // are the same whatever the device computes.
 enable wgpu_ray_query;
+#import core/math.wgsl
 #import geometry/constants.wgsl
+#import geometry/primitives.wgsl
+#import geometry/records.wgsl
 #import geometry/stored.wgsl
 
 // Instances: triangles, opaque, and boxes. An instance's custom data is its first primitive.

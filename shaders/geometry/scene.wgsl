@@ -1,7 +1,5 @@
 // The scene's arrays. Small scenes keep them in uniform buffers, the rest in storage buffers; the plan says which.
 
-#import geometry/records.wgsl
-
 // Tables, vec4s: materials, then lights, then textures (src/packed/tables.rs).
 #if UNIFORM_TABLES
 @group(0) @binding(5) var<uniform> tables: array<vec4<f32>, TABLE_WORDS>;

@@ -1,5 +1,7 @@
 // A ray against primitive `index` of the hierarchy. Kinds that it does not hold are left out; planes never are in it.
+#import core/math.wgsl
 #import geometry/primitives.wgsl
+#import geometry/records.wgsl
 #import geometry/scene.wgsl
 #if MOTION
 #import geometry/motion.wgsl

@@ -1,5 +1,7 @@
 // Closest hit and occlusion without any hierarchy: every primitive is a constant of the code.
+#import core/math.wgsl
 #import geometry/constants.wgsl
+#import geometry/primitives.wgsl
 
 fn closest_hit(traced: Ray, t_max: f32) -> Hit {
     var hit = Hit(t_max, NONE, 0.0, 0.0);

@@ -2,6 +2,7 @@
 // A leaf takes one vec4 of the tables: (material; first factor; number of factors; constant factor). A factor is a heuristic; where it
 // stands for the second child it is stored reversed.
 #import core/math.wgsl
+#import geometry/scene.wgsl
 #import shading/heuristic.wgsl
 #import shading/leaf.wgsl
 
@@ -39,7 +40,6 @@ fn weighted_leaf(run: LeafRun, index: u32, cosine: f32, uv: vec2<f32>) -> Weight
     return WeightedLeaf(leaf.x, weight);
 }
 
-#if EMISSION
 // Σ wᵢ Leᵢ, and what the blend emits by itself.
 fn material_emission(material: u32, cosine: f32, front: bool, uv: vec2<f32>) -> vec3<f32> {
     var radiance = leaf_emission(material, front, uv);
@@ -56,4 +56,3 @@ fn material_emission(material: u32, cosine: f32, front: bool, uv: vec2<f32>) -> 
     }
     return radiance;
 }
-#endif

@@ -1,11 +1,14 @@
 // What a surface does to light, whatever its material is made of: load, evaluate, sample.
-#if MIXTURE
-#import shading/mixture.wgsl
-#else
+#import shading/scattering.wgsl
+#import shading/surface.wgsl
 #if BLENDS
-#import shading/blend.wgsl
+#export shading/blend.wgsl
 #endif
+#if MIXTURE
+#export shading/mixture.wgsl
+#else
 #import shading/leaf.wgsl
+#import shading/lobes.wgsl
 
 // The material is a single leaf, by itself or because one was picked.
 struct Bsdf {
@@ -50,8 +53,8 @@ fn material_emission(material: u32, cosine: f32, front: bool, uv: vec2<f32>) -> 
 #endif
 
 // Whether light sampling can contribute: some lobe is not a delta, and not black.
-fn has_smooth_lobe(bsdf: Bsdf) -> bool {
-    return leaf_is_smooth(bsdf.leaf);
+fn has_non_delta_lobe(bsdf: Bsdf) -> bool {
+    return leaf_is_non_delta(bsdf.leaf);
 }
 
 fn evaluate_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
@@ -60,5 +63,45 @@ fn evaluate_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> 
 
 fn sample_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, lobe: f32, u: f32, v: f32) -> BsdfSample {
     return sample_leaf(bsdf.leaf, surface, wo, lobe, u, v);
+}
+#endif
+
+// A surface's value towards a light, and the direction in which the path goes on.
+struct Scattering {
+    towards_light: BsdfValue,
+    drawn: BsdfSample,
+}
+
+#if MORE_LOBES
+// The surface is evaluated towards the light and along the drawn direction by the same code, one after the other: drivers that copy what
+// is called to wherever it is called have half of it to compile.
+fn scatter(
+    bsdf: Bsdf, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, lobe: f32, u: f32, v: f32
+) -> Scattering {
+    let draw = draw_direction(bsdf, surface, wo, lobe, u, v);
+    var light_value = no_value();
+    var draw_value = no_value();
+    for (var direction = select(1u, 0u, HAS_LIGHTS); direction < 2u; direction++) {
+        let towards_light = direction == 0u;
+        if select(draw.mixed, samples_light, towards_light) {
+            let value = evaluate_bsdf(bsdf, surface, wo, select(draw.chosen.wi, light_wi, towards_light));
+            if towards_light {
+                light_value = value;
+            } else {
+                draw_value = value;
+            }
+        }
+    }
+    return Scattering(light_value, mixed_sample(draw, draw_value));
+}
+#else
+fn scatter(
+    bsdf: Bsdf, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, lobe: f32, u: f32, v: f32
+) -> Scattering {
+    var light_value = no_value();
+    if samples_light {
+        light_value = evaluate_bsdf(bsdf, surface, wo, light_wi);
+    }
+    return Scattering(light_value, sample_bsdf(bsdf, surface, wo, lobe, u, v));
 }
 #endif

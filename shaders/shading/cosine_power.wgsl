@@ -1,6 +1,12 @@
 // Lobes whose shape is a power of a cosine: glossy, phong, and rough glass after Honsdorf. What such a lobe has below the horizon is cut
 // off. Imported where some material has one.
 #import core/math.wgsl
+#import shading/diffuse.wgsl
+#import shading/fresnel.wgsl
+#import shading/glass.wgsl
+#import shading/leaf.wgsl
+#import shading/scattering.wgsl
+#import shading/sides.wgsl
 #import shading/surface.wgsl
 
 // The cosine of a narrow lobe is next to 1, where f32 has no digits left for the angle. So what is computed with is 1 - cos.

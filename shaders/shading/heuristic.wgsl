@@ -1,7 +1,11 @@
 // What decides the weights of a blend: one vec4 of the tables each,
 //   (kind and flags; value, power or index of refraction; threshold; texture or NONE)
 #import core/math.wgsl
-#import shading/leaf.wgsl
+#import geometry/scene.wgsl
+#import shading/fresnel.wgsl
+#if TEXTURES
+#import shading/texture.wgsl
+#endif
 
 // 0, the constant weight, is the value itself.
 const FACING: u32 = 1u;

@@ -1,66 +1,25 @@
 // Light sampling and its densities.
 #import core/math.wgsl
 #import core/sampler.wgsl
-#import geometry/scene.wgsl
-#import shading/sphere_light.wgsl
-#import shading/surface.wgsl
-#if MOVING_LIGHTS
-#import geometry/motion.wgsl
-#endif
-#if ENVIRONMENT
 #import shading/environment.wgsl
+#import shading/light_record.wgsl
+#import shading/light_sample.wgsl
+#import shading/planted.wgsl
+#import shading/surface.wgsl
+#if SPHERE_LIGHTS
+#import shading/sphere_light.wgsl
 #endif
 #if PORTALS
 #import shading/portal.wgsl
 #endif
 #if VARYING_LIGHTS
+#import geometry/scene.wgsl
 #import shading/bsdf.wgsl
+#if NORMAL_MAPS
+#import shading/normal_map.wgsl
+#endif
 #endif
 
-const LIGHT_TRIANGLE: u32 = 0u;
-const LIGHT_QUAD: u32 = 1u;
-const LIGHT_SPHERE: u32 = 2u;
-const LIGHT_DISK: u32 = 3u;
-const LIGHT_POINT: u32 = 4u;
-const LIGHT_ENVIRONMENT: u32 = 5u;
-const LIGHT_SPOT: u32 = 6u;
-const LIGHT_DIRECTIONAL: u32 = 7u;
-const LIGHT_PORTAL: u32 = 8u;
-
-const LIGHT_TWO_SIDED: u32 = 256u;
-// The radiance is that of the whole material, seen from the light's normal.
-const LIGHT_VARIES: u32 = 512u;
-
-// A light takes five vec4 of the tables:
-//   (kind and flags; alias threshold; alias; probability of being chosen)
-//   (first point; area or radius), (second; -), (third; attributes or NONE), (radiance or intensity; material)
-fn light_word(light: u32, word: u32) -> vec4<f32> {
-#if MOVING_LIGHTS
-    let flags = bitcast<u32>(tables[FIRST_LIGHT_WORD + light * 5u].x);
-    if word != 0u && word != 4u && (flags & LIGHT_MOVES) != 0u {
-        let word_3 = tables[FIRST_LIGHT_WORD + light * 5u + 3u];
-        return placed_light_word(
-            bitcast<u32>(word_3.w), word, (flags & 255u) == LIGHT_SPHERE, tables[FIRST_LIGHT_WORD + light * 5u + 1u],
-            tables[FIRST_LIGHT_WORD + light * 5u + 2u], word_3
-        );
-    }
-#endif
-    return tables[FIRST_LIGHT_WORD + light * 5u + word];
-}
-
-#if MOVING_LIGHTS
-// The magnitude that rounding of a moving light's points is relative to; 0 where it rests.
-fn moved_light_magnitude(light: u32) -> vec3<f32> {
-    let word_3 = tables[FIRST_LIGHT_WORD + light * 5u + 3u];
-    if (bitcast<u32>(tables[FIRST_LIGHT_WORD + light * 5u].x) & LIGHT_MOVES) == 0u {
-        return vec3<f32>(0.0);
-    }
-    let size = abs(tables[FIRST_LIGHT_WORD + light * 5u + 1u].xyz) + abs(tables[FIRST_LIGHT_WORD + light * 5u + 2u].xyz);
-    return moved_magnitude(motion_at_path_time(motion_of_attributes(bitcast<u32>(word_3.w))), size + abs(word_3.xyz));
-}
-#endif
-
-#if LIGHTS
 #if VARYING_LIGHTS
 #if NORMAL_MAPS
 fn varying_light_kind(light: u32) -> u32 {
@@ -172,8 +131,7 @@ fn spot_falloff(wi: vec3<f32>, axis: vec3<f32>, limits: vec2<f32>) -> f32 {
 }
 #endif
 
-#if ENVIRONMENT_SAMPLED
-// Density with which light sampling from `ray.origin` draws the ray's direction for the environment, by whichever way.
+// Density with which light sampling from `ray.origin` draws the ray's direction for the environment, by whichever way; 0 where it does not.
 fn environment_pdf_solid_angle(ray: Ray) -> f32 {
     var pdf = 0.0;
 #if ENVIRONMENT_LIGHT
@@ -184,16 +142,12 @@ fn environment_pdf_solid_angle(ray: Ray) -> f32 {
 #endif
     return pdf;
 }
-#endif
 
 fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
     let light = choose_light(bits.x);
-#if PLANT_LIGHT
-    // A planted fault: one light is forgotten.
-    if light == PLANTED_LIGHT {
+    if is_forgotten(light) {
         return no_light();
     }
-#endif
     let u = uniform_float(bits.y);
     let v = uniform_float(bits.z);
     let l0 = light_word(light, 0u);
@@ -336,4 +290,3 @@ fn light_pdf_solid_angle(ray: Ray, surface: Surface) -> f32 {
     let to_light = surface.position - ray.origin;
     return pmf * dot(to_light, to_light) / (abs(dot(ray.direction, surface.facing_normal)) * surface.area);
 }
-#endif

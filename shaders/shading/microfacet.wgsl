@@ -1,7 +1,15 @@
 // GGX microfacets: sampling of visible normals, height-correlated Smith shadowing, metals and rough dielectrics.
 // Local directions: z along the shading normal.
 #import core/math.wgsl
+#import shading/fresnel.wgsl
+#import shading/glass.wgsl
+#import shading/leaf.wgsl
+#import shading/scattering.wgsl
+#import shading/sides.wgsl
 #import shading/surface.wgsl
+
+// GGX narrower than this is a delta lobe: f32 no longer resolves it.
+const DELTA_ALPHA: f32 = 1.0e-4;
 
 fn to_local(frame: Frame, w: vec3<f32>) -> vec3<f32> {
     return vec3<f32>(dot(w, frame.tangent), dot(w, frame.bitangent), dot(w, frame.normal));
@@ -40,7 +48,7 @@ fn sample_visible_normal(wo: vec3<f32>, alpha: f32, u: f32, v: f32) -> vec3<f32>
 
 #if CONDUCTOR
 fn evaluate_conductor(leaf: Leaf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
-    if leaf.scalar < SMOOTH_ALPHA || !on_wo_side(surface, wi) {
+    if leaf.scalar < DELTA_ALPHA || !on_wo_side(surface, wi) {
         return no_value();
     }
     let frame = frame_from_normal(surface.shading_normal);
@@ -59,7 +67,7 @@ fn conductor_value(leaf: Leaf, o: vec3<f32>, i: vec3<f32>, m: vec3<f32>) -> Bsdf
 }
 
 fn sample_conductor(leaf: Leaf, surface: Surface, wo: vec3<f32>, u: f32, v: f32) -> BsdfSample {
-    if leaf.scalar < SMOOTH_ALPHA {
+    if leaf.scalar < DELTA_ALPHA {
         let wi = mirrored(surface, wo);
         if dot(wi, surface.facing_normal) <= 0.0 {
             return no_sample();
@@ -88,7 +96,7 @@ fn sample_conductor(leaf: Leaf, surface: Surface, wo: vec3<f32>, u: f32, v: f32)
 // Both lobes by the side of wi. The refraction's half vector lies along wo + eta wi; its Jacobian is Walter et al. 2007, equation 17
 // with eta = transmitted over incident: |wi·m| / (wi·m + wo·m / eta)². Radiance is scaled by 1 / eta².
 fn evaluate_rough_glass(leaf: Leaf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
-    if leaf.scalar < SMOOTH_ALPHA {
+    if leaf.scalar < DELTA_ALPHA {
         return no_value();
     }
     let reflects = on_wo_side(surface, wi);
@@ -130,8 +138,8 @@ fn rough_glass_value(leaf: Leaf, o: vec3<f32>, i: vec3<f32>, m: vec3<f32>, eta: 
 }
 
 fn sample_rough_glass(leaf: Leaf, surface: Surface, wo: vec3<f32>, lobe: f32, u: f32, v: f32) -> BsdfSample {
-    if leaf.scalar < SMOOTH_ALPHA {
-        return sample_smooth_glass(leaf, surface, wo, lobe);
+    if leaf.scalar < DELTA_ALPHA {
+        return sample_delta_glass(leaf, surface, wo, lobe);
     }
     let frame = frame_from_normal(surface.shading_normal);
     let o = to_local(frame, wo);

@@ -1,7 +1,11 @@
 // The Bsdf of a blend in mixture mode.
 #import core/math.wgsl
 #import shading/blend.wgsl
+#import shading/diffuse.wgsl
 #import shading/leaf.wgsl
+#import shading/lobes.wgsl
+#import shading/scattering.wgsl
+#import shading/surface.wgsl
 
 // Every lobe is evaluated, one is sampled. All diffuse leaves together are one lobe, the first: a blend of Lamberts is a Lambert.
 struct Bsdf {
@@ -11,7 +15,7 @@ struct Bsdf {
     diffuse: vec3<f32>,
     // The sum of all lobes' sampling weights: the denominator of their probabilities.
     total: f32,
-    smooth_lobe: bool,
+    non_delta_lobe: bool,
 #if MORE_LOBES
     // There are lobes besides the diffuse one.
     more_lobes: bool,
@@ -52,21 +56,21 @@ fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
         if lobe.share > 0.0 {
             bsdf.total += lobe.share;
             bsdf.more_lobes = true;
-            bsdf.smooth_lobe = bsdf.smooth_lobe || leaf_is_smooth(lobe.leaf);
+            bsdf.non_delta_lobe = bsdf.non_delta_lobe || leaf_is_non_delta(lobe.leaf);
         }
 #endif
     }
     let diffuse_share = max_component(bsdf.diffuse);
     bsdf.total += diffuse_share;
-    bsdf.smooth_lobe = bsdf.smooth_lobe || diffuse_share > 0.0;
+    bsdf.non_delta_lobe = bsdf.non_delta_lobe || diffuse_share > 0.0;
     return bsdf;
 }
 
-fn has_smooth_lobe(bsdf: Bsdf) -> bool {
-    return bsdf.smooth_lobe;
+fn has_non_delta_lobe(bsdf: Bsdf) -> bool {
+    return bsdf.non_delta_lobe;
 }
 
-// Σ wⱼ fⱼ |cos| and Σ Pⱼ pdfⱼ over the smooth lobes: what next event estimation and sampling agree on.
+// Σ wⱼ fⱼ |cos| and Σ Pⱼ pdfⱼ over the non-delta lobes: what next event estimation and sampling agree on.
 fn evaluate_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
     if bsdf.total <= 0.0 {
         return no_value();
@@ -92,11 +96,11 @@ fn evaluate_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> 
 // A direction drawn from one lobe, before the others have had their say.
 struct Draw {
     chosen: BsdfSample,
-    // Other smooth lobes may draw the same direction: the sample counts what all of them make of it.
+    // Other non-delta lobes may draw the same direction: the sample counts what all of them make of it.
     mixed: bool,
 }
 
-// A delta lobe i chosen with probability Pᵢ carries wᵢ fᵢ / Pᵢ; a smooth one Σ wⱼ fⱼ / Σ Pⱼ pdfⱼ over all smooth lobes.
+// A delta lobe i chosen with probability Pᵢ carries wᵢ fᵢ / Pᵢ; a non-delta one Σ wⱼ fⱼ / Σ Pⱼ pdfⱼ over all non-delta lobes.
 fn draw_direction(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> Draw {
     if bsdf.total <= 0.0 {
         return Draw(no_sample(), false);
@@ -133,7 +137,7 @@ fn draw_direction(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f
     return Draw(chosen, probability != 1.0 && max_component(chosen.weight) > 0.0);
 }
 
-// The sample, given what all smooth lobes make of its direction.
+// The sample, given what all non-delta lobes make of its direction.
 fn mixed_sample(draw: Draw, all: BsdfValue) -> BsdfSample {
     var chosen = draw.chosen;
     if draw.mixed {

@@ -1,6 +1,5 @@
 // Procedural textures over uv; the lattice's hash is integer arithmetic, the same on every device. src/reference/texture has the same in
 // f64.
-#import core/math.wgsl
 #import core/sampler.wgsl
 
 fn lattice_hash(cell: vec2<i32>, seed: u32) -> u32 {

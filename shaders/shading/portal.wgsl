@@ -1,8 +1,7 @@
 // Portals: shapes that directions to the environment are drawn through. Rays do not meet them.
 #import core/math.wgsl
-#import core/sampler.wgsl
 #import geometry/primitives.wgsl
-#import shading/light.wgsl
+#import shading/light_record.wgsl
 #import shading/sphere_light.wgsl
 
 // A direction to a portal: to a point uniform over it, or to a sphere by its cone.

@@ -1,5 +1,6 @@
 // What a hit is: position, normals, texture coordinates, material.
 #import core/math.wgsl
+#import geometry/records.wgsl
 #import geometry/scene.wgsl
 #if MOTION
 #import geometry/motion.wgsl
@@ -168,16 +169,14 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
 #if ATTRIBUTES
 // u = atan2(x, -z) / 2π (mod 1), v = acos(-y) / π of the direction from the centre in the sphere's own space: the attributes' first
 // three vec4 hold the rows of the rotation into it.
-#if MOTION
 fn sphere_uv(first: u32, normal_now: vec3<f32>) -> vec2<f32> {
     var normal = normal_now;
+#if MOTION
     let moving = motion_of_attributes(first);
     if moving != NONE {
         // The transpose of a rotation, up to a factor, takes it back.
         normal = normal * motion_at_path_time(moving).linear;
     }
-#else
-fn sphere_uv(first: u32, normal: vec3<f32>) -> vec2<f32> {
 #endif
     let words = attribute_words(first);
     let direction = vec3<f32>(dot(words.w0.xyz, normal), dot(words.w1.xyz, normal), dot(words.w2.xyz, normal));

@@ -1,7 +1,8 @@
-// A debug build of the fused kernel writes down what happens at each vertex of one path: src/gpu/trace.rs reads it.
-#import core/math.wgsl
+// A debug build of the fused kernel writes down what happens at each vertex of one path: src/gpu/trace.rs reads it. In all other kernels
+// these functions do nothing.
 
-// Vertices that are written down, and vec4s of each; src/gpu/trace.rs has the same.
+#if TRACE
+// How many vertices are written down, and vec4s of each; src/gpu/trace.rs has the same.
 const TRACED_VERTICES: u32 = 64u;
 const TRACE_WORDS: u32 = 10u;
 
@@ -17,7 +18,7 @@ const TRACED_VERTEX: u32 = 1u;
 const TRACED_LIGHT: u32 = 2u;
 const TRACED_LIGHT_SEEN: u32 = 4u;
 const TRACED_SAMPLE: u32 = 8u;
-const TRACED_PASS: u32 = 16u;
+const TRACED_NULL: u32 = 16u;
 const TRACED_ROULETTE: u32 = 32u;
 const TRACED_FOUND: u32 = 64u;
 
@@ -54,10 +55,10 @@ fn trace_light(wi: vec3<f32>, pdf: f32, contribution: vec3<f32>, weight: f32, li
     trace_note(TRACED_LIGHT);
 }
 
-fn trace_sample(wi: vec3<f32>, pdf: f32, weight: vec3<f32>, eta_scale: f32, passes: bool) {
+fn trace_sample(wi: vec3<f32>, pdf: f32, weight: vec3<f32>, eta_scale: f32, is_null: bool) {
     traced[8] = vec4<f32>(wi, pdf);
     traced[9] = vec4<f32>(weight, eta_scale);
-    trace_note(TRACED_SAMPLE | select(0u, TRACED_PASS, passes));
+    trace_note(TRACED_SAMPLE | select(0u, TRACED_NULL, is_null));
 }
 
 fn trace_roulette(survival: f32) {
@@ -65,10 +66,33 @@ fn trace_roulette(survival: f32) {
     trace_note(TRACED_ROULETTE);
 }
 
+// The light sample written down last reaches its light.
+fn trace_light_seen() {
+    trace_note(TRACED_LIGHT_SEEN);
+}
+
+// Ends vertex number `vertex`.
 fn store_trace(vertex: u32) {
-    if vertex < TRACED_VERTICES {
+    if vertex <= TRACED_VERTICES {
         for (var word = 0u; word < TRACE_WORDS; word++) {
-            path_trace[vertex * TRACE_WORDS + word] = traced[word];
+            path_trace[(vertex - 1u) * TRACE_WORDS + word] = traced[word];
         }
     }
 }
+#else
+fn trace_arrival(direction: vec3<f32>, pdf: f32, throughput: vec3<f32>, primitive: u32) {}
+
+fn trace_surface(position: vec3<f32>, normal: vec3<f32>, material: u32) {}
+
+fn trace_found(contribution: vec3<f32>, weight: f32) {}
+
+fn trace_light(wi: vec3<f32>, pdf: f32, contribution: vec3<f32>, weight: f32, light: u32, bsdf_pdf: f32) {}
+
+fn trace_light_seen() {}
+
+fn trace_sample(wi: vec3<f32>, pdf: f32, weight: vec3<f32>, eta_scale: f32, is_null: bool) {}
+
+fn trace_roulette(survival: f32) {}
+
+fn store_trace(vertex: u32) {}
+#endif

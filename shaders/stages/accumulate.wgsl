@@ -1,5 +1,9 @@
 // Adds the finished samples of a pass to the film.
+#import core/parameters.wgsl
 #import stages/film.wgsl
+#if PIXEL_LIST
+#import stages/statistics.wgsl
+#endif
 #import stages/wavefront.wgsl
 
 // Reads the paths' radiance. Adds each pixel's samples to the film in a fixed order, so the picture does not depend on the order in

@@ -1,34 +1,50 @@
 // Traces the shadow rays.
+#import core/math.wgsl
+#import core/parameters.wgsl
 #import geometry/closest.wgsl
 #import stages/wavefront.wgsl
 
-// Reads the shadow rays and their count. Adds to the radiance of the paths that see their light; a path has at most one shadow ray
-// at a time, so no two invocations touch the same radiance. Leaves everything else alone.
-// An invocation takes several rays, as in `extend`.
+// Reads the queue of paths with shadow rays and its count. Adds to the radiance of the paths that see their light: one invocation traces all
+// shadow rays of a path, in the order of its light samples, so no two touch the same radiance, and sums do not depend on the queue's order.
+// Leaves everything else alone.
+// An invocation takes several paths, as in `extend`.
 @compute @workgroup_size(WORKGROUP)
 fn connect(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>) {
-    let count = atomicLoad(&counts[2u + edge_parameters.queue]);
+    let count = atomicLoad(&counts[2u + vertex_parameters.queue]);
     let stride = workgroups.x * WORKGROUP;
     var next = id.x;
 #if BVH
     var stack: array<StackEntry, STACK_SIZE>;
     var traversal = no_traversal();
-    var place = NONE;
+    // The path at hand, as an index in the queue; how many shadow rays it has, and how many of them are traced.
+    var index = 0u;
+    var rays = 0u;
+    var traced = 0u;
     loop {
         if is_finished(traversal) {
-            if place != NONE && traversal.hit.primitive == NONE {
-                add_light(place);
+            if traced < rays {
+                if traversal.hit.primitive == NONE {
+                    add_light(index, traced);
+                }
+                traced++;
             }
-            if next >= count {
-                break;
+            if traced == rays {
+                if next >= count {
+                    break;
+                }
+                index = next;
+                next += stride;
+                rays = shadow_ray_count(index);
+                traced = 0u;
             }
-            place = next;
-            next += stride;
+            if traced < rays {
+                let s0 = shadow_rays[SHADOW_ORIGIN + shadow_ray_index(index, traced)];
+                let s1 = shadow_rays[SHADOW_DIRECTION + shadow_ray_index(index, traced)];
 #if MOTION
-            set_path_time_of(bitcast<u32>(shadow_rays[SHADOW_DIRECTION + place].w));
+                set_path_time_of(bitcast<u32>(s1.w));
 #endif
-            let s0 = shadow_rays[SHADOW_ORIGIN + place];
-            traversal = begin_any(Ray(s0.xyz, shadow_rays[SHADOW_DIRECTION + place].xyz), s0.w);
+                traversal = begin_any(Ray(s0.xyz, s1.xyz), s0.w);
+            }
         }
         if !is_finished(traversal) {
             step_any(&traversal, &stack);
@@ -36,17 +52,31 @@ fn connect(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
     }
 #else
     for (; next < count; next += stride) {
-        let s0 = shadow_rays[SHADOW_ORIGIN + next];
-        if !occluded(Ray(s0.xyz, shadow_rays[SHADOW_DIRECTION + next].xyz), s0.w) {
-            add_light(next);
+        let rays = shadow_ray_count(next);
+        for (var number = 0u; number < rays; number++) {
+            let s0 = shadow_rays[SHADOW_ORIGIN + shadow_ray_index(next, number)];
+            if !occluded(Ray(s0.xyz, shadow_rays[SHADOW_DIRECTION + shadow_ray_index(next, number)].xyz), s0.w) {
+                add_light(next, number);
+            }
         }
     }
 #endif
 }
 
-fn add_light(place: u32) {
-    let slot = bitcast<u32>(shadow_rays[SHADOW_DIRECTION + place].w);
-    let gained = shadow_rays[SHADOW_RADIANCE + place].xyz;
+// Of the path with this index in the queue.
+fn shadow_ray_count(index: u32) -> u32 {
+    var rays = 1u;
+    if LIGHT_SAMPLES > 1u {
+        rays = bitcast<u32>(shadow_rays[SHADOW_RADIANCE + index].w);
+    }
+    return rays;
+}
+
+// Adds what shadow ray `number` of the path with this index in the queue carries.
+fn add_light(index: u32, number: u32) {
+    let at = shadow_ray_index(index, number);
+    let slot = bitcast<u32>(shadow_rays[SHADOW_DIRECTION + at].w);
+    let gained = shadow_rays[SHADOW_RADIANCE + at].xyz;
     // The fourth word holds bits, not a number: it is copied, never added to.
     let before = path_state[PLANE_RADIANCE + slot];
     path_state[PLANE_RADIANCE + slot] = vec4<f32>(before.xyz + gained, before.w);

@@ -1,4 +1,6 @@
 // Finds what every living path's ray meets.
+#import core/math.wgsl
+#import core/parameters.wgsl
 #import geometry/closest.wgsl
 #import stages/wavefront.wgsl
 
@@ -6,7 +8,7 @@
 // An invocation takes several rays, the next one as soon as the last is done: lanes do not wait for each other's longer ways.
 @compute @workgroup_size(WORKGROUP)
 fn extend(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>) {
-    let queue = edge_parameters.queue;
+    let queue = vertex_parameters.queue;
     let count = atomicLoad(&counts[queue]);
     let stride = workgroups.x * WORKGROUP;
     var next = id.x;

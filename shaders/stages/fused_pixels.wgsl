@@ -1,7 +1,14 @@
 // Which pixels an invocation of a fused kernel has.
 #import core/camera.wgsl
+#import core/parameters.wgsl
+#import core/sampler.wgsl
 #import shading/path.wgsl
-#import stages/film.wgsl
+#if MOTION
+#import geometry/motion.wgsl
+#endif
+#if PIXEL_LIST
+#import stages/statistics.wgsl
+#endif
 
 const WORKGROUP: u32 = 64u;
 
@@ -11,18 +18,19 @@ struct PassPixel {
     in_band: u32,
 }
 
-fn pass_pixel(place: u32) -> PassPixel {
+// The pixel with this index in the pass.
+fn pass_pixel(index: u32) -> PassPixel {
 #if PIXEL_LIST
-    let in_band = listed_pixel_in_band(place);
+    let in_band = listed_pixel_in_band(index);
     return PassPixel(pass_parameters.first_pixel + in_band, in_band);
 #else
-    return PassPixel(pass_parameters.first_pixel + place, pass_parameters.first_pixel_in_band + place);
+    return PassPixel(pass_parameters.first_pixel + index, pass_parameters.first_pixel_in_band + index);
 #endif
 }
 
-// Place in the pass of an invocation. A software device gives each of its threads one run of consecutive workgroups, and none helps
+// The pixel that an invocation has, as an index in the pass. A software device gives each of its threads one run of consecutive workgroups, and none helps
 // another: with neighbouring workgroups in different runs, the threads' shares of the picture cost the same.
-fn place_in_pass(workgroup: u32, invocation: u32) -> u32 {
+fn index_in_pass(workgroup: u32, invocation: u32) -> u32 {
 #if SPREAD
     let run = workgroup / pass_parameters.run_length;
     let spread = (workgroup - run * pass_parameters.run_length) * RUNS + run;

@@ -1,5 +1,8 @@
 // Starts the paths of a pass.
 #import core/camera.wgsl
+#import core/parameters.wgsl
+#import core/sampler.wgsl
+#import shading/path.wgsl
 #import stages/wavefront.wgsl
 #if PIXEL_LIST
 #import stages/statistics.wgsl

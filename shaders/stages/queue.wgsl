@@ -1,13 +1,13 @@
-// Places at the end of queues.
+// Indices at the end of queues.
 #import stages/wavefront.wgsl
 
 #if SUBGROUP_QUEUES
-// This invocation's number in its subgroup; to be set before places are taken.
+// This invocation's number in its subgroup; to be set before indices are taken.
 var<private> subgroup_lane: u32;
 
-// A place for each invocation that wants one, by one atomic for the subgroup; of no meaning to the others. All invocations of a workgroup
-// have to call this together, outside of every branch: lanes that are elsewhere are not counted, and the first lane adds for all.
-fn take_place(queue: u32, wants: bool) -> u32 {
+// An index in the queue for each invocation that wants one, by one atomic for the subgroup; of no meaning to the others. All invocations of a
+// workgroup have to call this together, outside of every branch: lanes that are elsewhere are not counted, and the first lane adds for all.
+fn take_index(queue: u32, wants: bool) -> u32 {
     let wanted = select(0u, 1u, wants);
     let before = subgroupExclusiveAdd(wanted);
     let together = subgroupAdd(wanted);
@@ -17,13 +17,28 @@ fn take_place(queue: u32, wants: bool) -> u32 {
     }
     return subgroupBroadcastFirst(first) + before;
 }
-#else
-// A place for each invocation that wants one; of no meaning to the others.
-fn take_place(queue: u32, wants: bool) -> u32 {
-    var place = 0u;
-    if wants {
-        place = atomicAdd(&counts[queue], 1u);
+
+// Counts this invocation's shadow rays; likewise.
+fn count_shadow_rays(rays: u32) {
+    let together = subgroupAdd(rays);
+    if subgroup_lane == 0u && together != 0u {
+        atomicAdd(&counts[COUNT_OF_SHADOW_RAYS], together);
     }
-    return place;
+}
+#else
+// An index in the queue for each invocation that wants one; of no meaning to the others.
+fn take_index(queue: u32, wants: bool) -> u32 {
+    var index = 0u;
+    if wants {
+        index = atomicAdd(&counts[queue], 1u);
+    }
+    return index;
+}
+
+// Counts this invocation's shadow rays.
+fn count_shadow_rays(rays: u32) {
+    if rays > 0u {
+        atomicAdd(&counts[COUNT_OF_SHADOW_RAYS], rays);
+    }
 }
 #endif

@@ -1,10 +1,17 @@
 // Evaluates the vertices found: emission, next event estimation, the next direction, Russian roulette.
+#import core/math.wgsl
+#import core/parameters.wgsl
+#if MOTION
+#import geometry/motion.wgsl
+#endif
+#import shading/path.wgsl
 #import stages/queue.wgsl
 #import stages/wavefront.wgsl
 
 // Reads the queue, the paths and their hits. Adds emission to the paths' radiance, replaces their rays, appends the survivors to the
-// other queue and shadow rays to theirs. Neither can overflow: a path appends at most one of each, and there is a slot per path.
-// Invocations beyond the queue's end have no path, and stay to take places together with the others of their subgroup.
+// other queue, and those with shadow rays to the queue of these. Neither can overflow: a path is in each once at most, and there is a slot
+// per path. Leaves everything else alone.
+// Invocations beyond the queue's end have no path, and stay to take slots together with the others of their subgroup.
 @compute @workgroup_size(WORKGROUP)
 fn shade(
     @builtin(global_invocation_id) id: vec3<u32>,
@@ -15,10 +22,9 @@ fn shade(
 #if SUBGROUP_QUEUES
     subgroup_lane = lane_in_subgroup;
 #endif
-    let queue = edge_parameters.queue;
+    let queue = vertex_parameters.queue;
     var slot = 0u;
-    var survives = false;
-    var shadow = no_shadow();
+    var shading = no_shading();
     if id.x < atomicLoad(&counts[queue]) {
         slot = queues[queue * PATH_CAPACITY + id.x];
         let h = path_state[PLANE_HIT + slot];
@@ -26,33 +32,56 @@ fn shade(
 #if MOTION
         set_path_time(path.pixel, path.sample_in_pass);
 #endif
-        let vertex = shade_vertex(&path, Hit(h.x, bitcast<u32>(h.y), h.z, h.w), edge_parameters.edge);
-#if PASS
-        let radiance = path_state[PLANE_RADIANCE + slot].xyz + vertex.radiance;
-        path_state[PLANE_RADIANCE + slot] = vec4<f32>(radiance, bitcast<f32>(path.passed));
-#else
-        if any(vertex.radiance != vec3<f32>(0.0)) {
-            let radiance = path_state[PLANE_RADIANCE + slot].xyz + vertex.radiance;
-            path_state[PLANE_RADIANCE + slot] = vec4<f32>(radiance, 0.0);
+        shading = shade_vertex(&path, Hit(h.x, bitcast<u32>(h.y), h.z, h.w), vertex_parameters.vertex);
+        if HAS_NULL_SURFACES || any(shading.radiance != vec3<f32>(0.0)) {
+            let radiance = path_state[PLANE_RADIANCE + slot].xyz + shading.radiance;
+            path_state[PLANE_RADIANCE + slot] = vec4<f32>(radiance, bitcast<f32>(path.null_vertices));
         }
-#endif
-        survives = vertex.alive;
-        if survives {
+        if shading.alive {
             store_path(slot, path);
         }
-        shadow = vertex.shadow;
     }
-    let place = take_place(1u - queue, survives);
-    if survives {
-        queues[(1u - queue) * PATH_CAPACITY + place] = slot;
+    let index = take_index(1u - queue, shading.alive);
+    if shading.alive {
+        queues[(1u - queue) * PATH_CAPACITY + index] = slot;
     }
 #if LIGHTS
-    let asks = any(shadow.radiance != vec3<f32>(0.0));
-    let shadow_place = take_place(2u + queue, asks);
-    if asks {
-        shadow_rays[SHADOW_ORIGIN + shadow_place] = vec4<f32>(shadow.ray.origin, shadow.distance);
-        shadow_rays[SHADOW_DIRECTION + shadow_place] = vec4<f32>(shadow.ray.direction, bitcast<f32>(slot));
-        shadow_rays[SHADOW_RADIANCE + shadow_place] = vec4<f32>(shadow.radiance, 0.0);
+    // Whether any of several is needed shows when they are made, one by one: such a path may be in the queue with none.
+    let is_listed = is_needed(shading.shadow) || (LIGHT_SAMPLES > 1u && shading.light_samples > 1u);
+    let shadow_index = take_index(2u + queue, is_listed);
+    var rays = 0u;
+    if is_listed {
+        rays = store_shadow_rays(shadow_index, slot, shading);
+    }
+    if LIGHT_SAMPLES > 1u {
+        count_shadow_rays(rays);
     }
 #endif
 }
+
+#if LIGHTS
+// Writes the shadow rays of the path in a slot to its place in their queue. How many there are.
+fn store_shadow_rays(index: u32, slot: u32, shading: Shading) -> u32 {
+    var shadow = shading.shadow;
+    var rays = 0u;
+    var number = 0u;
+    loop {
+        if is_needed(shadow) {
+            let at = shadow_ray_index(index, rays);
+            shadow_rays[SHADOW_ORIGIN + at] = vec4<f32>(shadow.ray.origin, shadow.distance);
+            shadow_rays[SHADOW_DIRECTION + at] = vec4<f32>(shadow.ray.direction, bitcast<f32>(slot));
+            shadow_rays[SHADOW_RADIANCE + at] = vec4<f32>(shadow.radiance, 0.0);
+            rays++;
+        }
+        number++;
+        if LIGHT_SAMPLES == 1u || number >= shading.light_samples {
+            break;
+        }
+        shadow = further_shadow_ray(shading.lit, number);
+    }
+    if LIGHT_SAMPLES > 1u {
+        shadow_rays[SHADOW_RADIANCE + index].w = bitcast<f32>(rays);
+    }
+    return rays;
+}
+#endif

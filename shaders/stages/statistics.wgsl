@@ -1,4 +1,5 @@
 // What a render counts on the device.
+#import core/parameters.wgsl
 
 #if TRACE
 // A path that is written down is not counted: its record takes the binding's place, lest a stage need more than eight storage buffers.

@@ -57,7 +57,7 @@ pub fn features() -> Vec<Feature> {
         material(
             "rough glass",
             "type = \"rough_glass\"\nior = 1.5\nroughness = 0.4",
-            &["GLASS", "MICROFACETS", "ROUGH_GLASS", "SCALARS", "SECOND_COLORS", "TRANSMISSIVE_SMOOTH"],
+            &["GLASS", "MICROFACETS", "ROUGH_GLASS", "SCALARS", "SECOND_COLORS", "NON_DELTA_TRANSMISSION"],
         ),
         with(
             "blend of two lobes",

@@ -277,7 +277,7 @@ fn prepare<'a>(
     first_picture(&mut renderer, scene, observer)?;
     let first_picture_seconds = start.elapsed().as_secs_f64();
     let wavefront = renderer.plan().stages == StageMode::Wavefront;
-    let shadow_rays = if renderer.plan().samples_lights() { memory::SHADOW_RAY_BYTES } else { 0 };
+    let shadow_rays = if renderer.plan().samples_lights() { renderer.plan().shadow_ray_bytes() } else { 0 };
     Ok(Candidate {
         first_picture_seconds,
         stages: if wavefront { "wavefront" } else { "fused" },

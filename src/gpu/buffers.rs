@@ -7,22 +7,22 @@ use wgpu::{BufferUsages, TextureFormat};
 
 use super::acceleration::Acceleration;
 use super::device::Device;
-use super::parameters::{EdgeParameters, PassParameters};
+use super::parameters::{PassParameters, VertexParameters};
 use crate::packed::PackedScene;
 use crate::plan::chunks::{ATTRIBUTES, NODES, PRIMITIVES};
 use crate::plan::{FilmStorage, MAX_SAMPLES_PER_PASS, Plan, StageMode, memory};
 
-/// Edges that one submission can hold; longer paths take further submissions.
-pub const EDGES_PER_SUBMISSION: u32 = 32;
+/// Vertices that one submission can hold; longer paths take further submissions.
+pub const VERTICES_PER_SUBMISSION: u32 = 32;
 /// Bytes of the statistics; the list of a band's pixels follows them.
 pub const STATISTICS_BYTES: u64 = 16;
-/// Distance between the parameters of successive edges: the largest alignment a device may ask for.
-const EDGE_STRIDE: usize = 256;
+/// Distance between the parameters of successive vertices: the largest alignment a device may ask for.
+const VERTEX_STRIDE: usize = 256;
 
 /// Binding numbers as in `shaders/`.
 pub mod binding {
     pub const PASS: u32 = 0;
-    pub const EDGE: u32 = 1;
+    pub const VERTEX: u32 = 1;
     pub const SEQUENCE: u32 = 2;
     pub const VIEW: u32 = 3;
     pub const TABLES: u32 = 5;
@@ -69,7 +69,7 @@ impl Buffers {
         };
         upload(binding::TABLES, "tables", bytemuck::cast_slice(&tables), usage(plan.uniform_tables));
         upload(binding::VIEW, "view", bytemuck::bytes_of(&packed.view), BufferUsages::UNIFORM);
-        upload(binding::EDGE, "edges", &edge_parameters(1), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
+        upload(binding::VERTEX, "vertices", &vertex_parameters(1), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
         let compiled = |switch: &str| plan.switches.enabled.contains(switch);
         let arrays: [(_, &[u8], _, _); 3] = [
             (PRIMITIVES, bytemuck::cast_slice(&packed.primitives), usage(plan.uniform_primitives), true),
@@ -104,10 +104,10 @@ impl Buffers {
             let paths = u64::from(plan.path_capacity);
             make(binding::PATH_STATE, "path state", paths * memory::PATH_STATE_BYTES, storage);
             make(binding::QUEUES, "queues", paths * memory::QUEUE_BYTES, storage);
-            make(binding::COUNTS, "counts", 16, storage | BufferUsages::COPY_DST | BufferUsages::COPY_SRC);
+            make(binding::COUNTS, "counts", 20, storage | BufferUsages::COPY_DST | BufferUsages::COPY_SRC);
             make(binding::DISPATCH_SIZES, "dispatch sizes", 36, storage | BufferUsages::INDIRECT);
             if plan.samples_lights() {
-                make(binding::SHADOW_RAYS, "shadow rays", paths * memory::SHADOW_RAY_BYTES, storage);
+                make(binding::SHADOW_RAYS, "shadow rays", paths * plan.shadow_ray_bytes(), storage);
             }
         }
         let acceleration = if compiled("RAY_QUERY") { Acceleration::build(device, packed) } else { None };
@@ -140,26 +140,26 @@ impl Buffers {
             return Some(self.acceleration.as_ref()?.structure.as_binding());
         }
         let buffer = self.buffers.get(&number)?;
-        if number == binding::EDGE {
-            let size = wgpu::BufferSize::new(size_of::<EdgeParameters>() as u64);
+        if number == binding::VERTEX {
+            let size = wgpu::BufferSize::new(size_of::<VertexParameters>() as u64);
             return Some(wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size }));
         }
         Some(buffer.as_entire_binding())
     }
 }
 
-/// Dynamic offset of the parameters of the submission's edge number `index`, from 0.
-pub fn edge_offset(index: u32) -> u32 {
-    index * EDGE_STRIDE as u32
+/// Dynamic offset of the parameters of the submission's vertex number `index`, from 0.
+pub fn vertex_offset(index: u32) -> u32 {
+    index * VERTEX_STRIDE as u32
 }
 
-/// Parameters of a submission's edges, the first of which is `first_edge`.
-pub fn edge_parameters(first_edge: u32) -> Vec<u8> {
-    let mut bytes = vec![0; EDGE_STRIDE * EDGES_PER_SUBMISSION as usize];
-    for (index, slot) in bytes.chunks_mut(EDGE_STRIDE).enumerate() {
-        let edge = first_edge + index as u32;
-        let parameters = EdgeParameters { edge, queue: (edge - 1) % 2, padding: [0; 2] };
-        slot[..size_of::<EdgeParameters>()].copy_from_slice(bytemuck::bytes_of(&parameters));
+/// Parameters of a submission's vertices, the first of which is `first_vertex`.
+pub fn vertex_parameters(first_vertex: u32) -> Vec<u8> {
+    let mut bytes = vec![0; VERTEX_STRIDE * VERTICES_PER_SUBMISSION as usize];
+    for (index, slot) in bytes.chunks_mut(VERTEX_STRIDE).enumerate() {
+        let vertex = first_vertex + index as u32;
+        let parameters = VertexParameters { vertex, queue: (vertex - 1) % 2, padding: [0; 2] };
+        slot[..size_of::<VertexParameters>()].copy_from_slice(bytemuck::bytes_of(&parameters));
     }
     bytes
 }

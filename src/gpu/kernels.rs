@@ -14,16 +14,16 @@ pub struct Kernel {
     pub entry: &'static str,
     pipeline: wgpu::ComputePipeline,
     bind_group: wgpu::BindGroup,
-    /// It reads the edge's parameters, so its bind group takes their offset.
-    takes_edge: bool,
+    /// It reads the vertex's parameters, so its bind group takes their offset.
+    takes_vertex: bool,
 }
 
 impl Kernel {
-    /// Makes this kernel the pass's, for the submission's edge number `edge_index` (from 0).
-    pub fn set(&self, pass: &mut wgpu::ComputePass<'_>, edge_index: u32) {
+    /// Makes this kernel the pass's, for the submission's vertex number `vertex_index` (from 0).
+    pub fn set(&self, pass: &mut wgpu::ComputePass<'_>, vertex_index: u32) {
         pass.set_pipeline(&self.pipeline);
-        let offset = [super::buffers::edge_offset(edge_index)];
-        pass.set_bind_group(0, &self.bind_group, if self.takes_edge { &offset } else { &[] });
+        let offset = [super::buffers::vertex_offset(vertex_index)];
+        pass.set_bind_group(0, &self.bind_group, if self.takes_vertex { &offset } else { &[] });
     }
 }
 
@@ -45,7 +45,7 @@ pub fn used_bindings(module: &naga::Module, info: &naga::valid::ModuleInfo, entr
         .filter_map(|(_, variable)| {
             let number = variable.binding.as_ref()?.binding;
             let buffer =
-                |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: number == binding::EDGE, min_binding_size: None };
+                |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: number == binding::VERTEX, min_binding_size: None };
             let kind = match (variable.space, &module.types[variable.ty].inner) {
                 (AddressSpace::Uniform, _) => buffer(wgpu::BufferBindingType::Uniform),
                 (AddressSpace::Storage { access }, _) => {
@@ -148,6 +148,6 @@ fn bind_stage(device: &Device, stage: CompiledStage, buffers: &Buffers) -> Resul
     let bind_group =
         device.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(entry), layout: &layout, entries: &bound });
     device.check()?;
-    let takes_edge = used.iter().any(|used| used.number == binding::EDGE);
-    Ok(Kernel { entry, pipeline, bind_group, takes_edge })
+    let takes_vertex = used.iter().any(|used| used.number == binding::VERTEX);
+    Ok(Kernel { entry, pipeline, bind_group, takes_vertex })
 }

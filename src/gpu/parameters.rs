@@ -24,11 +24,11 @@ pub struct PassParameters {
     pub padding_2: u32,
 }
 
-/// Which edge of its path a dispatch extends, from 1.
+/// Which vertex of its path a dispatch works on, from 1.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct EdgeParameters {
-    pub edge: u32,
+pub struct VertexParameters {
+    pub vertex: u32,
     /// Which half of the queues is read.
     pub queue: u32,
     pub padding: [u32; 2],

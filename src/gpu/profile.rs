@@ -1,12 +1,12 @@
-//! Where a render's time goes, stage by stage, and how full the pool of paths is, edge by edge.
+//! Where a render's time goes, stage by stage, and how full the pool of paths is, vertex by vertex.
 
-use super::buffers::{binding, edge_parameters};
+use super::buffers::{binding, vertex_parameters};
 use super::passes::Pass;
 use super::renderer::{BandState, GpuRenderer, Step, Workgroups};
 use crate::plan::{MAX_SAMPLES_PER_PASS, StageMode};
 use crate::renderer::RenderError;
 
-/// What one stage took in one pass, over all edges.
+/// What one stage took in one pass, over all vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StageTime {
     /// The kernel's entry point.
@@ -24,7 +24,7 @@ pub struct Profile {
     pub paths: u32,
     /// Most paths that the pool holds.
     pub capacity: u32,
-    /// Paths alive at the first edge, the second, … as far as edges were encoded. Empty for the fused kernel, whose lanes take the next
+    /// Paths alive at the first vertex, the second, … as far as vertices were encoded. Empty for the fused kernel, whose lanes take the next
     /// path by themselves.
     pub alive: Vec<u32>,
 }
@@ -38,7 +38,7 @@ struct Recorder<'a> {
 }
 
 impl Recorder<'_> {
-    fn record(&mut self, step: &Step<'_>, edge_index: u32) {
+    fn record(&mut self, step: &Step<'_>, vertex_index: u32) {
         let first = 2 * self.stages.len() as u32;
         let timestamp_writes = Some(wgpu::ComputePassTimestampWrites {
             query_set: &self.stamps,
@@ -47,7 +47,7 @@ impl Recorder<'_> {
         });
         let mut compute =
             self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(step.kernel.entry), timestamp_writes });
-        step.encode(&mut compute, edge_index);
+        step.encode(&mut compute, vertex_index);
         drop(compute);
         self.stages.push(step.kernel.entry);
     }
@@ -85,7 +85,7 @@ impl Recorder<'_> {
 }
 
 impl GpuRenderer {
-    /// Runs one pass that fills the pool, or the first band, with time stamps around every stage. Edges beyond those of one submission are
+    /// Runs one pass that fills the pool, or the first band, with time stamps around every stage. Vertices beyond those of one submission are
     /// left out. The film afterwards holds nothing of use. None where the device has no time stamps.
     ///
     /// # Errors
@@ -130,14 +130,14 @@ impl GpuRenderer {
 
     fn profile_wavefront(&self, pass: &Pass) -> Result<Profile, RenderError> {
         let paths = pass.paths() as u32;
-        let edges = self.max_depth.unwrap_or(u32::MAX).min(self.edges_per_submission);
-        self.write(binding::COUNTS, bytemuck::cast_slice(&[paths, 0, 0, 0]));
-        self.write(binding::EDGE, &edge_parameters(1));
-        let mut recorder = self.recorder(2 + 4 * edges);
-        let counts = self.readback_buffer(16 * u64::from(edges));
+        let vertices = self.max_vertices.unwrap_or(u32::MAX).min(self.vertices_per_submission);
+        self.write(binding::COUNTS, bytemuck::cast_slice(&[paths, 0, 0, 0, 0]));
+        self.write(binding::VERTEX, &vertex_parameters(1));
+        let mut recorder = self.recorder(2 + 4 * vertices);
+        let counts = self.readback_buffer(16 * u64::from(vertices));
         recorder.record(&self.step("generate", paths)?, 0);
-        for index in 0..edges {
-            for step in self.edge_steps(index == 0, paths)? {
+        for index in 0..vertices {
+            for step in self.vertex_steps(index == 0, paths)? {
                 recorder.record(&step, index);
             }
             if let Some(source) = self.buffers.buffer(binding::COUNTS) {
@@ -147,9 +147,9 @@ impl GpuRenderer {
         recorder.record(&self.step("accumulate", pass.pixel_count)?, 0);
         let stages = recorder.finish()?;
         let words: Vec<[u32; 4]> = self.device.read(&counts)?.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect();
-        // After edge number i (from 1) its survivors wait in the queue that edge i + 1 reads.
-        let survivors = words.iter().zip(1..).map(|(counts, edge)| counts[(edge % 2) as usize]);
-        let mut alive: Vec<u32> = std::iter::once(paths).chain(survivors).take(edges as usize).collect();
+        // After vertex number i (from 1) its survivors wait in the queue that vertex i + 1 reads.
+        let survivors = words.iter().zip(1..).map(|(counts, vertex)| counts[(vertex % 2) as usize]);
+        let mut alive: Vec<u32> = std::iter::once(paths).chain(survivors).take(vertices as usize).collect();
         while alive.last() == Some(&0) {
             alive.pop();
         }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::time::Instant;
 
-use super::buffers::{Buffers, EDGES_PER_SUBMISSION, STATISTICS_BYTES, binding, edge_parameters};
+use super::buffers::{Buffers, STATISTICS_BYTES, VERTICES_PER_SUBMISSION, binding, vertex_parameters};
 use super::device::{Device, OpeningDevice};
 use super::kernels::{self, Kernel};
 use super::parameters::PassParameters;
@@ -26,10 +26,10 @@ pub struct GpuRenderer {
     /// Which of the scene's materials the packed ones are.
     pub(super) scene_materials: Vec<MaterialId>,
     sizer: PassSizer,
-    /// Edges of a path at most; None: no limit.
-    pub(super) max_depth: Option<u32>,
-    /// Edges encoded before the host looks again.
-    pub(super) edges_per_submission: u32,
+    /// Vertices of a path at most; None: no limit.
+    pub(super) max_vertices: Option<u32>,
+    /// Vertices encoded before the host looks again.
+    pub(super) vertices_per_submission: u32,
     build_seconds: f64,
     compile_seconds: f64,
 }
@@ -48,9 +48,9 @@ pub(super) enum Workgroups<'a> {
 }
 
 impl Step<'_> {
-    /// Adds it to a pass, for the submission's edge number `edge_index` (from 0).
-    pub(super) fn encode(&self, compute: &mut wgpu::ComputePass<'_>, edge_index: u32) {
-        self.kernel.set(compute, edge_index);
+    /// Adds it to a pass, for the submission's vertex number `vertex_index` (from 0).
+    pub(super) fn encode(&self, compute: &mut wgpu::ComputePass<'_>, vertex_index: u32) {
+        self.kernel.set(compute, vertex_index);
         match self.workgroups {
             Workgroups::Direct(count) => compute.dispatch_workgroups(count, 1, 1),
             Workgroups::Indirect(sizes, offset) => compute.dispatch_workgroups_indirect(sizes, offset),
@@ -96,12 +96,12 @@ impl GpuRenderer {
         let device = opening.wait()?;
         let packed = packed?;
         let plan = Plan::new(scene, &packed, &device.limits, options)?;
-        // Where paths may pass through surfaces without ending an edge, edges do not bound the number of vertices; most paths still
-        // end by then.
-        let passes = plan.switches.enabled.contains("PASS");
+        // Where there are null surfaces, whose vertices end no edge, a path's depth does not bound the number of its vertices; most paths
+        // still end by then.
+        let null_surfaces = plan.switches.enabled.contains("NULL_SURFACES");
         let depth = Some(scene.render.max_depth).filter(|depth| *depth > 0);
-        let edges_per_submission = depth.unwrap_or(EDGES_PER_SUBMISSION).min(EDGES_PER_SUBMISSION);
-        let max_depth = depth.filter(|_| !passes);
+        let vertices_per_submission = depth.unwrap_or(VERTICES_PER_SUBMISSION).min(VERTICES_PER_SUBMISSION);
+        let max_vertices = depth.filter(|_| !null_surfaces);
         // The compiler needs the plan and not the scene, which is uploaded meanwhile.
         let (compiled, (buffers, build_seconds)) = rayon::join(
             || {
@@ -129,8 +129,8 @@ impl GpuRenderer {
             sampling,
             scene_materials: packed.materials.scene_ids,
             sizer,
-            max_depth,
-            edges_per_submission,
+            max_vertices,
+            vertices_per_submission,
             build_seconds,
             compile_seconds,
         })
@@ -216,31 +216,31 @@ impl GpuRenderer {
         }
     }
 
-    /// Edges are encoded ahead, so that no bounce waits for the host; only paths longer than a submission holds do.
+    /// Vertices are encoded ahead, so that none waits for the host; only paths longer than a submission holds do.
     fn run_wavefront(&self, pass: &Pass) -> Result<(), RenderError> {
         let paths = pass.paths() as u32;
-        self.write(binding::COUNTS, bytemuck::cast_slice(&[paths, 0, 0, 0]));
-        let mut first_edge = 1;
+        self.write(binding::COUNTS, bytemuck::cast_slice(&[paths, 0, 0, 0, 0]));
+        let mut first_vertex = 1;
         loop {
-            let edges = self.max_depth.map_or(u32::MAX, |depth| depth - first_edge + 1).min(self.edges_per_submission);
-            let last = self.max_depth.is_some_and(|depth| first_edge + edges > depth);
-            self.write(binding::EDGE, &edge_parameters(first_edge));
+            let vertices = self.max_vertices.map_or(u32::MAX, |depth| depth - first_vertex + 1).min(self.vertices_per_submission);
+            let last = self.max_vertices.is_some_and(|depth| first_vertex + vertices > depth);
+            self.write(binding::VERTEX, &vertex_parameters(first_vertex));
             let mut encoder = self.device.device.create_command_encoder(&Default::default());
             let mut compute = encoder.begin_compute_pass(&Default::default());
-            if first_edge == 1 {
+            if first_vertex == 1 {
                 self.dispatch(&mut compute, "generate", paths);
             }
-            self.encode_edges(&mut compute, first_edge, edges, paths)?;
+            self.encode_vertices(&mut compute, first_vertex, vertices, paths)?;
             if last {
                 self.dispatch(&mut compute, "accumulate", pass.pixel_count);
             }
             drop(compute);
             self.device.submit_and_wait(encoder.finish())?;
-            first_edge += edges;
+            first_vertex += vertices;
             if last {
                 return Ok(());
             }
-            if self.living_paths(first_edge)? == 0 {
+            if self.living_paths(first_vertex)? == 0 {
                 let mut encoder = self.device.device.create_command_encoder(&Default::default());
                 let mut compute = encoder.begin_compute_pass(&Default::default());
                 self.dispatch(&mut compute, "accumulate", pass.pixel_count);
@@ -250,24 +250,24 @@ impl GpuRenderer {
         }
     }
 
-    fn encode_edges(
+    fn encode_vertices(
         &self,
         compute: &mut wgpu::ComputePass<'_>,
-        first_edge: u32,
-        edges: u32,
+        first_vertex: u32,
+        vertices: u32,
         paths: u32,
     ) -> Result<(), RenderError> {
-        for index in 0..edges {
-            for step in self.edge_steps(first_edge == 1 && index == 0, paths)? {
+        for index in 0..vertices {
+            for step in self.vertex_steps(first_vertex == 1 && index == 0, paths)? {
                 step.encode(compute, index);
             }
         }
         Ok(())
     }
 
-    /// What runs for one edge. The first edge's queue holds all paths of the pass; later sizes come from `prepare`: shade's, extend's,
+    /// What runs for one vertex. The first vertex's queue holds all paths of the pass; later sizes come from `prepare`: shade's, extend's,
     /// connect's.
-    pub(super) fn edge_steps(&self, first: bool, paths: u32) -> Result<Vec<Step<'_>>, RenderError> {
+    pub(super) fn vertex_steps(&self, first: bool, paths: u32) -> Result<Vec<Step<'_>>, RenderError> {
         let missing = || RenderError::Internal("a stage of the wavefront is missing".into());
         let [extend, shade, prepare] = ["extend", "shade", "prepare"].map(|entry| self.kernel(entry).ok_or_else(missing));
         let sizes = self.buffers.buffer(binding::DISPATCH_SIZES).ok_or_else(missing)?;
@@ -286,10 +286,10 @@ impl GpuRenderer {
         Ok(steps)
     }
 
-    /// Paths waiting in the queue that `edge` will read.
-    fn living_paths(&self, edge: u32) -> Result<u32, RenderError> {
+    /// Paths waiting in the queue that `vertex` will read.
+    fn living_paths(&self, vertex: u32) -> Result<u32, RenderError> {
         let counts: [u32; 4] = self.read_words(binding::COUNTS)?;
-        Ok(counts[((edge - 1) % 2) as usize])
+        Ok(counts[((vertex - 1) % 2) as usize])
     }
 
     fn read_words(&self, number: u32) -> Result<[u32; 4], RenderError> {
@@ -405,7 +405,7 @@ impl Renderer for GpuRenderer {
             interrupted = self.render_pixels(&mut band, pixels, request.samples.clone(), &sampling, &progress)?;
             finished += band.samples_done;
             if self.plan.stages == StageMode::Wavefront {
-                // `prepare` counts the rays of later edges; the first edge's are the paths themselves.
+                // `prepare` counts the rays to later vertices; those to the first are the paths themselves.
                 camera_rays += band.samples_done;
             }
             on_band(self.finish_band(&band, batch)?)?;

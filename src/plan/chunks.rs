@@ -131,7 +131,7 @@ impl Chunks {
             let _ = write!(word_body, "{first}{name}_{chunk}[first + word];\n    }}");
         }
         format!(
-            "{text}\nfn {load}(index: u32) -> {words_type} {{\n    var found: {words_type};\n    {body}\n    return found;\n}}\n\n\
+            "#import geometry/words.wgsl\n\n{text}\nfn {load}(index: u32) -> {words_type} {{\n    var found: {words_type};\n    {body}\n    return found;\n}}\n\n\
              fn {load_word}(index: u32, word: u32) -> {word} {{\n    var found: {word};\n    {word_body}\n    return found;\n}}\n"
         )
     }

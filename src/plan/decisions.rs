@@ -39,15 +39,9 @@ pub(super) fn geometry(packed: &PackedScene, options: &PlanOptions) -> (Geometry
 }
 
 /// How stages run, and why.
-pub(super) fn stages(
-    geometry: GeometryPlacement,
-    light_samples: u32,
-    limits: &DeviceLimits,
-    options: &PlanOptions,
-) -> (StageMode, String) {
+pub(super) fn stages(geometry: GeometryPlacement, limits: &DeviceLimits, options: &PlanOptions) -> (StageMode, String) {
     let (stages, because) = match options.stages {
         _ if options.trace => (StageMode::Fused, "one path is followed from its start to its end"),
-        _ if light_samples > 1 => (StageMode::Fused, "a queue would hold one shadow ray of a path, and several are wanted"),
         Some(stages) => (stages, ASKED_FOR),
         // Software devices move every word on its own: there, paths kept in registers beat queues whatever the geometry
         // (docs/performance.md).
@@ -97,7 +91,7 @@ pub(super) fn explain(
             depth => format!("at each of the first {depth} surfaces"),
         };
         let because = "the scene or the command line says so".into();
-        add("light samples", format!("{} {surfaces}, in one kernel with the rest of the path", plan.light_samples), because);
+        add("light samples", format!("{} {surfaces}", plan.light_samples), because);
     } else if plan.geometry == GeometryPlacement::Hierarchy && plan.samples_lights() && packed.environment.map().is_some() {
         let because = "nothing else is asked for; under maps, several lower the error in less time: docs/strategies.md".into();
         add("light samples", "1".into(), because);

@@ -3,6 +3,9 @@
 use super::FilmStorage;
 use crate::renderer::RenderError;
 
+/// Bytes that the queue of shadow rays takes at most: five million of them keep any device busy.
+const MOST_SHADOW_RAY_BYTES: u64 = 256 << 20;
+
 /// Limits in bytes unless the name says otherwise.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct DeviceLimits {
@@ -101,6 +104,12 @@ impl DeviceLimits {
             ))
         };
         self.ray_queries.ok_or_else(missing)
+    }
+
+    /// Paths in flight, each with as many bytes of shadow rays.
+    pub fn paths_with_shadow_rays(&self, bytes: u64) -> u32 {
+        let most = self.max_array.min(MOST_SHADOW_RAY_BYTES) / bytes.max(1);
+        u64::from(self.path_capacity).min(most) as u32
     }
 
     /// Rows per band so that a band's film stays below 16 MiB a texture and within the device's limits.

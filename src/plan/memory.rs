@@ -9,7 +9,7 @@ use crate::renderer::RenderError;
 
 /// Bytes of state per path: ray, throughput, radiance, hit (`shaders/stages/wavefront.wgsl`).
 pub const PATH_STATE_BYTES: u64 = 5 * 16;
-/// Bytes per shadow ray.
+/// Bytes per shadow ray; a path has as many at a time as a surface takes light samples.
 pub const SHADOW_RAY_BYTES: u64 = 3 * 16;
 /// Two queues of one word each.
 pub const QUEUE_BYTES: u64 = 2 * 4;
@@ -75,7 +75,7 @@ impl Memory {
             arrays.push(("path state", paths * PATH_STATE_BYTES));
             arrays.push(("queues", paths * QUEUE_BYTES));
             if plan.samples_lights() {
-                arrays.push(("shadow rays", paths * SHADOW_RAY_BYTES));
+                arrays.push(("shadow rays", paths * plan.shadow_ray_bytes()));
             }
         }
         Self { arrays }

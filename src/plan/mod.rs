@@ -116,11 +116,16 @@ impl Plan {
         if ray_queries {
             ray_query::check(packed, limits)?;
         }
+        if options.trace && options.stages == Some(StageMode::Wavefront) {
+            return Err(RenderError::Internal(
+                "a path is written down by the kernel that traces whole paths, not by the wavefront".into(),
+            ));
+        }
         let (geometry, why_geometry) = decisions::geometry(packed, options);
         let light_samples = if switches::samples_lights(scene, packed) { scene.render.light_samples } else { 1 };
-        let (stages, why_stages) = decisions::stages(geometry, light_samples, limits, options);
+        let (stages, why_stages) = decisions::stages(geometry, limits, options);
         // On software devices the arithmetic of a step through a hierarchy costs the same for one lane as for all, so the lanes of a subgroup
-        // go through it as one packet, whose stack lies in registers, an entry a lane (shaders/geometry/packet.wgsl). Geometry that is code is
+        // go through it as one packet, whose stack lies in registers, an entry a lane (shaders/geometry/software/packet.wgsl). Geometry that is code is
         // met by all lanes anyway, and there a lane that starts its next path at once gains.
         let packets = limits.software
             && stages == StageMode::Fused
@@ -158,7 +163,7 @@ impl Plan {
             chunks: Vec::new(),
             stages,
             film,
-            path_capacity: limits.path_capacity,
+            path_capacity: limits.paths_with_shadow_rays(u64::from(light_samples) * memory::SHADOW_RAY_BYTES),
             rays_per_invocation: if limits.software { 32 } else { 1 },
             lanes,
             subgroup_queues,
@@ -217,6 +222,11 @@ impl Plan {
     /// Blocks of four numbers that the table of the sampler's sequence holds for each sample.
     pub fn sequence_stride(&self) -> u32 {
         switches::SEQUENCE_BLOCKS + self.light_samples_depth * (self.light_samples - 1)
+    }
+
+    /// Bytes of the shadow rays that a path in flight has at a time.
+    pub fn shadow_ray_bytes(&self) -> u64 {
+        u64::from(self.light_samples) * memory::SHADOW_RAY_BYTES
     }
 
     /// How rays find what stands in the hierarchy, where there is one.

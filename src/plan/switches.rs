@@ -54,12 +54,13 @@ pub const ALL: &[&str] = &[
     "MOTION",
     "MOVING_LIGHTS",
     "NODE_CHUNKS",
+    "NON_DELTA_TRANSMISSION",
     "NORMAL_MAPS",
+    "NULL_SURFACES",
     "ONE_LIGHT",
     "ONLY_TRIANGLES_IN_HIERARCHY",
     "ORTHOGRAPHIC",
     "PACKETS",
-    "PASS",
     "PERLIN",
     "PHONG",
     "PHONG_GLASS",
@@ -83,7 +84,6 @@ pub const ALL: &[&str] = &[
     "SCALARS",
     "SECOND_COLORS",
     "SEQUENCE",
-    "SEVERAL_LIGHT_SAMPLES",
     "SKY",
     "SPHERES",
     "SPHERES_IN_HIERARCHY",
@@ -96,7 +96,6 @@ pub const ALL: &[&str] = &[
     "TEXELS",
     "TEXTURES",
     "TRACE",
-    "TRANSMISSIVE_SMOOTH",
     "TRIANGLES_IN_HIERARCHY",
     "UNIFORM_HEMISPHERE",
     "UNIFORM_NODES",
@@ -150,7 +149,7 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
 
     choose_materials(scene, packed, &mut switches);
 
-    choose_lights(scene, packed, plan, &mut switches);
+    choose_lights(scene, packed, &mut switches);
 
     switches.enable("ESTIMATOR_MIS", render.estimator == Estimator::Mis);
     switches.enable("ESTIMATOR_NEE", render.estimator == Estimator::Nee);
@@ -212,12 +211,11 @@ pub fn samples_lights(scene: &Scene, packed: &PackedScene) -> bool {
     !packed.lights.is_empty() && scene.render.max_depth != 1
 }
 
-fn choose_lights(scene: &Scene, packed: &PackedScene, plan: &Plan, switches: &mut Switches) {
+fn choose_lights(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
     let render = &scene.render;
     let has = |kind: LightKind| packed.lights.iter().any(|light| light.is(kind));
     let sampled = samples_lights(scene, packed);
     switches.enable("LIGHTS", sampled);
-    switches.enable("SEVERAL_LIGHT_SAMPLES", plan.light_samples > 1);
     switches.enable("ONE_LIGHT", packed.lights.len() == 1);
     switches.enable("FLAT_LIGHTS", [LightKind::Triangle, LightKind::Quad, LightKind::Disk].into_iter().any(has));
     switches.enable("SPHERE_LIGHTS", has(LightKind::Sphere));
@@ -284,7 +282,7 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     switches.enable("CONDUCTOR", has(Kind::Conductor));
     switches.enable("ROUGH_GLASS", has(Kind::RoughGlass));
     switches.enable("MICROFACETS", has(Kind::Conductor) || has(Kind::RoughGlass));
-    switches.enable("TRANSMISSIVE_SMOOTH", has(Kind::RoughGlass) || has(Kind::PhongGlass));
+    switches.enable("NON_DELTA_TRANSMISSION", has(Kind::RoughGlass) || has(Kind::PhongGlass));
     switches.enable("SECOND_COLORS", packed.materials.materials.iter().any(PackedMaterial::has_second_color));
     let scalars = [Kind::Glossy, Kind::Phong, Kind::PhongGlass, Kind::Conductor, Kind::RoughGlass];
     switches.enable("SCALARS", scalars.into_iter().any(has));
@@ -298,7 +296,7 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     switches.enable("MORE_LOBES", blends && mixture && more_lobes);
     switches.enable("PICK", blends && !mixture);
     let is_pass = |material: u32| packed.materials.materials[material as usize].kind() == Kind::Pass as u32;
-    switches.enable("PASS", packed.materials.leaves.iter().any(|leaf| is_pass(leaf.material)));
+    switches.enable("NULL_SURFACES", packed.materials.leaves.iter().any(|leaf| is_pass(leaf.material)));
     switches.enable("NORMAL_MAPS", packed.materials.materials.iter().any(|material| material.normal_map != NONE));
     switches.enable("EMISSION", packed.materials.materials.iter().any(|material| material.emission_flags != 0));
     switches.enable("VARYING_LIGHTS", packed.lights.iter().any(PackedLight::varies));

@@ -26,7 +26,7 @@ pub fn constants(packed: &PackedScene, first: usize) -> String {
         let _ = writeln!(any, "    blocked = blocked || ({}).x > 0.0;", test_for(primitive, "t_max"));
     }
     format!(
-        "#import geometry/primitives.wgsl\n#import geometry/scene.wgsl\n\n\
+        "#import core/math.wgsl\n#import geometry/primitives.wgsl\n\n\
          fn closest_of_constants(ray: PreparedRay, hit: ptr<function, Hit>) {{\n    \
          var best = *hit;\n{closest}    *hit = best;\n}}\n\n\
          fn any_of_constants(ray: PreparedRay, t_max: f32) -> bool {{\n    \

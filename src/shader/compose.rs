@@ -1,7 +1,8 @@
-//! Joins WGSL files: `#import file`, `#if SWITCH` / `#if !SWITCH` / `#else` / `#endif`, and a map from lines back to files.
+//! Joins WGSL files: `#import file`, `#export file` (an import whose names are passed on), `#if SWITCH` / `#if !SWITCH` / `#else` / `#endif`, and a map from lines back to files.
 //!
 //! A file is included once, where it is first imported; lines that `enable` an extension go to the front, where WGSL wants them. Switches
-//! and constants come from the plan, so that a scene's kernels hold only what the scene uses.
+//! and constants come from the plan, so that a scene's kernels hold only what the scene uses. Code may also read the switch `X` as a constant,
+//! `HAS_X`: where both ways are valid WGSL, an `if` that compilers fold reads better than `#if`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -64,15 +65,32 @@ pub enum ComposeError {
     Invalid { place: String, message: String },
 }
 
+/// Where constants come from that stand in no file.
+const PLAN_CONSTANTS: &str = "(constants of the plan)";
+
 /// Composes the file `root` with all that it imports.
 pub fn compose(root: &'static str, switches: &Switches) -> Result<ComposedShader, ComposeError> {
-    let mut composer =
-        Composer { switches, included: BTreeSet::new(), enables: ComposedShader::default(), out: ComposedShader::default() };
+    let mut composer = Composer {
+        switches,
+        included: BTreeSet::new(),
+        read: BTreeSet::new(),
+        enables: ComposedShader::default(),
+        out: ComposedShader::default(),
+    };
     for (name, value) in &switches.constants {
-        composer.push("(constants of the plan)", 1, &format!("const {name}: u32 = {value}u;"));
+        composer.push(PLAN_CONSTANTS, 1, &format!("const {name}: u32 = {value}u;"));
     }
     composer.include(root, root, 0)?;
     Ok(composer.finish())
+}
+
+/// What the names of switches begin with where code reads them as constants.
+const SWITCH_PREFIX: &str = "HAS_";
+
+/// The switches that a line of code reads as constants.
+fn switches_read(line: &str) -> impl Iterator<Item = &str> {
+    let code = line.split("//").next().unwrap_or_default();
+    code.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter_map(|word| word.strip_prefix(SWITCH_PREFIX))
 }
 
 /// The embedded text, or that of the same file in the folder that `GPT_SHADERS` names: for work on kernels without compiling Rust.
@@ -84,6 +102,8 @@ fn current_text(name: &str, embedded: &str) -> String {
 struct Composer<'a> {
     switches: &'a Switches,
     included: BTreeSet<&'static str>,
+    /// Switches that are read as constants.
+    read: BTreeSet<String>,
     /// Lines that enable extensions.
     enables: ComposedShader,
     out: ComposedShader,
@@ -94,10 +114,15 @@ impl Composer<'_> {
         let part = if text.starts_with("enable ") { &mut self.enables } else { &mut self.out };
         let _ = writeln!(part.text, "{text}");
         part.origin.push((file, line));
+        self.read.extend(switches_read(text).map(str::to_owned));
     }
 
     fn finish(self) -> ComposedShader {
-        let Self { mut enables, out, .. } = self;
+        let Self { switches, mut enables, out, read, .. } = self;
+        for name in read {
+            let _ = writeln!(enables.text, "const {SWITCH_PREFIX}{name}: bool = {};", switches.enabled.contains(name.as_str()));
+            enables.origin.push((PLAN_CONSTANTS, 1));
+        }
         enables.text.push_str(&out.text);
         enables.origin.extend(out.origin);
         enables
@@ -139,7 +164,7 @@ impl Composer<'_> {
                 if conditions.pop().is_none() {
                     return fail("#endif without #if");
                 }
-            } else if let Some(import) = trimmed.strip_prefix("#import ") {
+            } else if let Some(import) = trimmed.strip_prefix("#import ").or_else(|| trimmed.strip_prefix("#export ")) {
                 if holds {
                     self.include(import.trim(), file, number)?;
                 }
@@ -186,6 +211,17 @@ mod tests {
         let composed = compose("a", &switches).unwrap();
         assert_eq!(composed.text, "enable x;\nconst C: u32 = 1u;\na\n// b\nb\n");
         assert_eq!([1, 3, 5].map(|line| composed.locate(line)), ["shaders/b:2", "shaders/a:1", "shaders/b:3"]);
+    }
+
+    /// Once each, wherever they are read; a comment reads nothing.
+    #[test]
+    fn switches_are_constants_where_code_reads_them() {
+        let mut switches = switches(&[("a", "enable x;\nif HAS_X && !HAS_Y {}\n// HAS_Z\n#import b"), ("b", "HAS_X")]);
+        switches.enable("X", true);
+        let composed = compose("a", &switches).unwrap();
+        let constants = "const HAS_X: bool = true;\nconst HAS_Y: bool = false;\n";
+        assert_eq!(composed.text, format!("enable x;\n{constants}if HAS_X && !HAS_Y {{}}\n// HAS_Z\nHAS_X\n"));
+        assert_eq!([1, 4, 6].map(|line| composed.locate(line)), ["shaders/a:1", "shaders/a:2", "shaders/b:1"]);
     }
 
     #[test]

@@ -6,3 +6,4 @@ pub mod files;
 pub mod pixel_bits;
 pub mod ray_queries;
 pub mod sphere;
+pub mod veils;

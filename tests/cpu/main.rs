@@ -15,4 +15,5 @@ mod models;
 mod plan;
 mod samplers;
 mod scene_files;
+mod shader_imports;
 mod shaders;

@@ -245,3 +245,44 @@ fn materials_and_textures_that_nothing_uses_leave_no_trace() {
         assert!(!plan_beside.switches.enabled.contains(switch), "{switch}");
     }
 }
+
+/// Several light samples are asked of no stage in particular. The queue of shadow rays grows with them, is counted, and fits one binding; what is
+/// left fewer are paths.
+#[test]
+fn several_light_samples_take_room_for_their_shadow_rays() {
+    let mut scene = grid(20);
+    let mut before = u32::MAX;
+    for count in [1, 2, 4, 16] {
+        scene.render.light_samples = count;
+        for limits in [DeviceLimits::default(), DeviceLimits { max_array: 1 << 30, ..DeviceLimits::default() }] {
+            let plan = plan(&scene, &limits).expect("it fits");
+            assert_eq!((plan.stages, plan.light_samples), (StageMode::Wavefront, count));
+            let bytes = plan.memory.bytes("shadow rays");
+            assert_eq!(bytes, u64::from(plan.path_capacity) * u64::from(count) * 48);
+            assert!(bytes <= limits.max_array.min(256 << 20), "{count}: {bytes}");
+        }
+        let capacity = plan(&scene, &DeviceLimits::default()).expect("it fits").path_capacity;
+        assert!(capacity <= before && (count > 2) == (capacity < 1 << 20), "{count}: {capacity}");
+        before = capacity;
+    }
+}
+
+/// What is asked of the stages is what runs, or is refused.
+#[test]
+fn stages_are_what_was_asked_for() {
+    let mut scene = grid(20);
+    let packed = PackedScene::new(&scene).expect("the scene packs");
+    let plan = |scene: &Scene, stages, trace| {
+        let options = PlanOptions { stages: Some(stages), trace, ..PlanOptions::default() };
+        Plan::new(scene, &packed, &DeviceLimits::default(), &options)
+    };
+    for count in [1, 4] {
+        scene.render.light_samples = count;
+        for stages in [StageMode::Fused, StageMode::Wavefront] {
+            assert_eq!(plan(&scene, stages, false).expect("it fits").stages, stages);
+        }
+    }
+    assert_eq!(plan(&scene, StageMode::Fused, true).expect("it fits").stages, StageMode::Fused);
+    let refused = plan(&scene, StageMode::Wavefront, true);
+    assert!(refused.is_err_and(|error| error.to_string().contains("not by the wavefront")));
+}

@@ -48,12 +48,11 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
     for (name, needed) in [
         ("VARYING_LIGHTS", &["EMISSION", "LIGHTS"][..]),
         ("PACKETS", &["BVH"]),
-        ("SEVERAL_LIGHT_SAMPLES", &["LIGHTS"]),
         ("MOVING_LIGHTS", &["MOTION", "ATTRIBUTES", "BVH"]),
         ("MOTION", &["ATTRIBUTES", "BVH"]),
         ("NODE_CHUNKS", &["BVH"]),
         ("ATTRIBUTE_CHUNKS", &["ATTRIBUTES"]),
-        ("PASS", &["BLENDS"]),
+        ("NULL_SURFACES", &["BLENDS"]),
         ("PICK", &["BLENDS"]),
         ("CHECKERS", &["TEXTURES", "PROCEDURAL_TEXTURES"]),
         ("PERLIN", &["TEXTURES", "PROCEDURAL_TEXTURES"]),
@@ -145,7 +144,7 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
         "TABLE_WORDS",
         "NODE_WORDS",
     ];
-    let geometry = "#import geometry/primitives.wgsl\n#import geometry/scene.wgsl\n\
+    let geometry = "#import core/math.wgsl\n#import geometry/primitives.wgsl\n\
                     fn closest_of_constants(ray: PreparedRay, hit: ptr<function, Hit>) {}\n\
                     fn any_of_constants(ray: PreparedRay, t_max: f32) -> bool { return false; }\n";
     // Three chunks, the last of half the size.
@@ -205,18 +204,33 @@ fn random_half(seed: u32) -> BTreeSet<&'static str> {
     ALL.iter().enumerate().filter(|(index, _)| chosen(*index)).map(|(_, name)| *name).collect()
 }
 
-/// Renders pay nothing for what only debugging needs: without its switches, nothing of it is left in the text.
+/// Renders pay nothing for what only debugging needs: without its switches, the functions that write a path down are empty, and no fault is
+/// looked for.
 #[test]
 fn ordinary_kernels_hold_nothing_for_debugging() {
     let without: BTreeSet<&'static str> = ALL.iter().copied().filter(|name| !DEBUG.contains(name)).collect();
     let with = ALL.iter().copied().collect();
-    let mentions = |switches: &Switches| {
-        let text = compose("stages/fused.wgsl", switches).expect("it composes").text;
-        text.lines().filter(|line| !line.starts_with("const ") && (line.contains("trace_") || line.contains("lanted"))).count()
+    // How many statements write a path down, whether there is a place to write to, and how many lines know of a fault.
+    let left = |switches: &Switches| {
+        let composed = compose("stages/fused.wgsl", switches).expect("it composes");
+        let (module, _) = composed.validate().expect("it is valid");
+        let hooks = module.functions.iter().filter(|(_, function)| {
+            function.name.as_deref().is_some_and(|name| {
+                name == "store_trace" || name.starts_with("trace_") && !["trace_note", "trace_vertex"].contains(&name)
+            })
+        });
+        let mut count = 0;
+        let does_something = |statement: &&naga::Statement| !matches!(statement, naga::Statement::Return { value: None });
+        let statements: usize =
+            hooks.inspect(|_| count += 1).map(|(_, function)| function.body.iter().filter(does_something).count()).sum();
+        assert_eq!(count, 8, "the hooks are where they were");
+        let has_target = module.global_variables.iter().any(|(_, variable)| variable.name.as_deref() == Some("path_trace"));
+        let faults = composed.text.lines().filter(|line| !line.starts_with("const ") && line.contains("PLANTED_")).count();
+        (statements, has_target, faults)
     };
-    // `trace_paths` is the kernel's own name.
-    assert_eq!(mentions(&shippable(without)), 1);
-    assert!(mentions(&shippable(with)) > 20);
+    assert_eq!(left(&shippable(without)), (0, false, 0));
+    let (statements, has_target, faults) = left(&shippable(with));
+    assert!(statements > 10 && has_target && faults == 2, "{statements} {has_target} {faults}");
 }
 
 /// Nor for pixels with different numbers of samples, which would cost a load a pixel.
@@ -242,7 +256,7 @@ fn a_planted_mistake_is_found() {
 /// Sizes and offsets of structs and array strides in WGSL, by naga, against Rust's.
 #[test]
 fn layouts_match_between_wgsl_and_rust() {
-    use gpt::gpu::parameters::{EdgeParameters, PassParameters};
+    use gpt::gpu::parameters::{PassParameters, VertexParameters};
     use gpt::packed::View;
     use std::mem::offset_of;
 
@@ -279,7 +293,7 @@ fn layouts_match_between_wgsl_and_rust() {
         padding_1,
         padding_2
     );
-    check!(EdgeParameters, "EdgeParameters", edge, queue, padding);
+    check!(VertexParameters, "VertexParameters", vertex, queue, padding);
     check!(
         View,
         "View",

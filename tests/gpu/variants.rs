@@ -4,9 +4,11 @@ use std::path::Path;
 
 use crate::common::device::{DEVICE, with_limits};
 use crate::common::pixel_bits::pixel_bits;
+use crate::common::veils::veils;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;
 use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
+use gpt::renderer::{Batch, RenderRequest, Renderer, Silent};
 use gpt::scene::Scene;
 
 /// Spheres, a mesh and an environment, of a size that no number of lanes divides.
@@ -106,4 +108,59 @@ fn subgroups_take_places_where_they_can() {
     let wavefront = [device, &without].map(|device| of(device, StageMode::Wavefront));
     assert_eq!(wavefront, [device.limits.subgroups, false]);
     assert!(!of(device, StageMode::Fused), "there are no queues where one kernel traces whole paths");
+}
+
+/// Means as bits of the pixels that a seventh of them are, picked over the whole film, and how many rays that took. The plan did what the
+/// options ask for.
+fn selected_pixels(device: &Device, scene: &Scene, stages: StageMode, traversal: TraversalChoice) -> (Vec<[u32; 3]>, u64) {
+    let options = PlanOptions { stages: Some(stages), traversal, pixel_list: true, ..PlanOptions::default() };
+    let mut renderer = GpuRenderer::on(device, scene, &options).expect("the scene fits");
+    assert_eq!((renderer.plan().stages, renderer.plan().light_samples), (stages, scene.render.light_samples));
+    let [width, height] = scene.film.size;
+    let selection: Vec<bool> = (0..width * height).map(|pixel| gpt::sampling::hash::mix(pixel).is_multiple_of(7)).collect();
+    let request = RenderRequest { rows: 0..height, samples: 2..2 + scene.render.spp };
+    let mut pixels = Vec::new();
+    let mut on_band = |band: gpt::film::Band| {
+        pixels.extend(band.mean.iter().map(|pixel| pixel.map(f32::to_bits)));
+        Ok(())
+    };
+    let batch = Batch { request: &request, seed: None, selection: Some(&selection) };
+    let rays = renderer.render_batch(&batch, &Silent, &mut on_band).expect("it renders").rays;
+    (pixels, rays)
+}
+
+/// The wavefront has all shadow rays of a path in one place of a queue, and one invocation adds them up in the order of the samples, as the
+/// kernel does that traces whole paths. So pictures are the same, bit for bit, and from run to run, with veils that rays pass through, with
+/// shapes that move, and where pixels are listed.
+#[test]
+fn several_light_samples_are_the_same_in_every_kernel() {
+    let mut moving = load::load(Some("motion-blur")).expect("it is built in");
+    moving.film.size = [32, 24];
+    let mut cornell = load::load(Some("cornell")).expect("it is built in");
+    cornell.film.size = [41, 31];
+    let queues_alone = with_limits(|limits| limits.subgroups = false);
+    let small_passes = with_limits(|limits| limits.path_capacity = 1001);
+    for (name, mut scene) in [("knot", scene(0)), ("cornell", cornell), ("moving", moving), ("veils", veils())] {
+        for (count, depth, spp) in [(1, 1, 9), (2, 1, 8), (5, 3, 5), (16, 2, 3)] {
+            (scene.render.light_samples, scene.render.light_samples_depth, scene.render.spp) = (count, depth, spp);
+            let what = format!("{name}, {count} light samples at {depth} surfaces");
+            for traversal in [TraversalChoice::default(), TraversalChoice::Bvh] {
+                let way = |stages| PlanOptions { stages: Some(stages), traversal, ..PlanOptions::default() };
+                let of = |device: &Option<Device>, stages| picture(device.as_ref(), &scene, &way(stages));
+                let Some(expected) = of(&DEVICE, StageMode::Fused) else { return };
+                for device in [&*DEVICE, &*DEVICE, &queues_alone, &small_passes] {
+                    assert!(of(device, StageMode::Wavefront).as_ref() == Some(&expected), "{what}, {traversal:?}");
+                }
+                if let Some(device) = DEVICE.as_ref() {
+                    let [fused, wavefront] =
+                        [StageMode::Fused, StageMode::Wavefront].map(|stages| selected_pixels(device, &scene, stages, traversal));
+                    assert!(fused == wavefront, "{what}, {traversal:?}, a list of pixels; {} and {} rays", fused.1, wavefront.1);
+                }
+                // The comparison sees one light sample more or less.
+                let mut others = scene.clone();
+                others.render.light_samples = if count == 1 { 2 } else { count - 1 };
+                assert!(picture(DEVICE.as_ref(), &others, &way(StageMode::Wavefront)).as_ref() != Some(&expected), "{what}");
+            }
+        }
+    }
 }

@@ -6,6 +6,8 @@ use gpt::reference::ReferenceRenderer;
 use gpt::scene::{Estimator, SamplerKind};
 use gpt::verify;
 
+use crate::common::veils::veils;
+
 use super::{DEVICE, assert_agrees, assert_agrees_on, small, with_limits};
 
 #[test]
@@ -20,6 +22,22 @@ fn several_light_samples_agree() {
             assert_agrees_on(&device, &format!("{name}, {count} light samples, rays alone"), &scene, &options);
         }
         assert_agrees(&format!("{name}, {count} light samples"), &scene, &PlanOptions::default());
+        let wavefront = PlanOptions { stages: Some(StageMode::Wavefront), ..PlanOptions::default() };
+        assert_agrees(&format!("{name}, {count} light samples, wavefront"), &scene, &wavefront);
+    }
+}
+
+/// Which surfaces take several goes by the depth of the path, of which vertices at null surfaces are no part.
+#[test]
+fn several_light_samples_agree_where_rays_pass_through_surfaces() {
+    let mut scene = veils();
+    scene.render.spp = 4;
+    for (count, depth) in [(4, 1), (3, 2)] {
+        (scene.render.light_samples, scene.render.light_samples_depth) = (count, depth);
+        for stages in [StageMode::Fused, StageMode::Wavefront] {
+            let options = PlanOptions { stages: Some(stages), ..PlanOptions::default() };
+            assert_agrees(&format!("veils, {count} light samples at {depth} surfaces, {stages:?}"), &scene, &options);
+        }
     }
 }
 
@@ -62,7 +80,7 @@ fn the_number_of_surfaces_matters() {
     assert!(verdict.matching_share() < 0.7, "{verdict:#?}");
 }
 
-/// One kernel traces such paths, whatever was asked for; the comparison tells 3 light samples from 4.
+/// The comparison tells 3 light samples from 4, in every kernel.
 #[test]
 fn the_number_of_light_samples_matters() {
     let Some(device) = DEVICE.as_ref() else { return };
@@ -70,9 +88,11 @@ fn the_number_of_light_samples_matters() {
     scene.render.light_samples = 3;
     let mut cpu = ReferenceRenderer::new(&scene).expect("the scene is supported");
     scene.render.light_samples = 4;
-    let options = PlanOptions { stages: Some(StageMode::Wavefront), ..PlanOptions::default() };
-    let mut gpu = GpuRenderer::on(device, &scene, &options).expect("the scene fits");
-    assert_eq!((gpu.plan().stages, gpu.plan().light_samples), (StageMode::Fused, 4));
-    let verdict = verify::compare(&scene, device.name.clone(), &mut gpu, &mut cpu).expect("both render");
-    assert!(verdict.matching_share() < 0.5, "{verdict:#?}");
+    for stages in [StageMode::Fused, StageMode::Wavefront] {
+        let options = PlanOptions { stages: Some(stages), ..PlanOptions::default() };
+        let mut gpu = GpuRenderer::on(device, &scene, &options).expect("the scene fits");
+        assert_eq!((gpu.plan().stages, gpu.plan().light_samples), (stages, 4));
+        let verdict = verify::compare(&scene, device.name.clone(), &mut gpu, &mut cpu).expect("both render");
+        assert!(verdict.matching_share() < 0.5, "{verdict:#?}");
+    }
 }

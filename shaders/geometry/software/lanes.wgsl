@@ -1,5 +1,4 @@
 // What the lanes of a subgroup tell each other. Every lane of the subgroup has to take part in these calls.
-#import core/math.wgsl
 
 // This invocation's place in its subgroup of LANES; to be set before anything else here is called.
 var<private> lane: u32;

@@ -1,7 +1,7 @@
-// What a packet of rays has still to visit (geometry/packet.wgsl). It lies in registers, an entry a lane. What is visited next never is on
+// What a packet of rays has still to visit (geometry/software/packet.wgsl). It lies in registers, an entry a lane. What is visited next never is on
 // it: how long a node takes, from its loading to that of the next, is what counts, and the nearest child is known before the others are
 // sorted.
-#import core/lanes.wgsl
+#import geometry/software/lanes.wgsl
 #import geometry/bvh4.wgsl
 
 // Registers that hold the stack.

@@ -1,0 +1,23 @@
+// What one load of a record brings: its words of 16 bytes. src/plan/chunks.rs writes loads of the same kind.
+
+// (first point, kind and material), (second, light or NONE), (third, attributes or NONE); src/packed/primitive.rs.
+struct PrimitiveWords {
+    w0: vec4<f32>,
+    w1: vec4<f32>,
+    w2: vec4<f32>,
+}
+
+// src/packed/bvh4.rs.
+struct NodeWords {
+    w0: vec4<u32>,
+    w1: vec4<u32>,
+    w2: vec4<u32>,
+}
+
+// Normals and texture coordinates of triangles: (n0, u0), (n1, v0), (n2, u1), (v1, u2, v2, motion or NONE).
+struct AttributeWords {
+    w0: vec4<f32>,
+    w1: vec4<f32>,
+    w2: vec4<f32>,
+    w3: vec4<f32>,
+}

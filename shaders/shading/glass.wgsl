@@ -1,0 +1,53 @@
+// Glass as a delta lobe, and what the rough forms share with it.
+#import core/math.wgsl
+#import shading/fresnel.wgsl
+#import shading/leaf.wgsl
+#import shading/scattering.wgsl
+#import shading/surface.wgsl
+
+// The direction refracted about n, which is on wo's side; the caller rules out total reflection.
+fn refracted(n: vec3<f32>, wo: vec3<f32>, eta: f32) -> vec3<f32> {
+    let cosine = dot(wo, n);
+    let inverse_eta = 1.0 / eta;
+    let cosine_transmitted = sqrt(max(0.0, transmitted_cosine2(cosine, eta)));
+    return normalize((inverse_eta * cosine - cosine_transmitted) * n - inverse_eta * wo);
+}
+
+// Transmitted over incident index of refraction for light that leaves towards wo.
+fn relative_ior(leaf: Leaf, surface: Surface) -> f32 {
+    return select(1.0 / leaf.ior, leaf.ior, surface.front);
+}
+
+// Share of reflection in sampling a dielectric.
+fn reflection_probability(leaf: Leaf, reflected: f32) -> f32 {
+    let reflection = reflected * max_component(leaf.first);
+    let total = reflection + (1.0 - reflected) * max_component(leaf.second);
+    return select(0.0, reflection / total, total > 0.0);
+}
+
+#if GLASS
+fn sample_delta_glass(leaf: Leaf, surface: Surface, wo: vec3<f32>, lobe: f32) -> BsdfSample {
+    let n = surface.shading_normal;
+    let cosine = min(dot(wo, n), 1.0);
+    let eta = relative_ior(leaf, surface);
+    let reflected = fresnel_dielectric(cosine, eta);
+    if max(max_component(leaf.first) * reflected, max_component(leaf.second) * (1.0 - reflected)) <= 0.0 {
+        return no_sample();
+    }
+    let probability = reflection_probability(leaf, reflected);
+    if lobe < probability {
+        let wi = 2.0 * cosine * n - wo;
+        if dot(wi, surface.facing_normal) <= 0.0 {
+            return no_sample();
+        }
+        return BsdfSample(wi, leaf.first * (reflected / probability), -1.0, 1.0, false);
+    }
+    let wi = refracted(n, wo, eta);
+    if dot(wi, surface.facing_normal) >= 0.0 {
+        return no_sample();
+    }
+    // Radiance is squeezed into a smaller cone where it enters the denser side.
+    let weight = (1.0 - reflected) / ((1.0 - probability) * eta * eta);
+    return BsdfSample(wi, leaf.second * weight, -1.0, eta * eta, false);
+}
+#endif

@@ -1,0 +1,18 @@
+// What every light sample consists of.
+
+struct LightSample {
+    wi: vec3<f32>,
+    // Distance at which the shadow ray ends, just before the light.
+    distance: f32,
+    // 0 where the light does not reach the point.
+    radiance: vec3<f32>,
+    // Density of wi, the choice of the light included; negative for a delta light.
+    pdf_solid_angle: f32,
+}
+
+// A shadow ray ends this much of its length early, on top of the light's own error: one rounding error of its distance.
+const SHADOW_SHORTENING: f32 = 0.999999;
+
+fn no_light() -> LightSample {
+    return LightSample(vec3<f32>(0.0, 0.0, 1.0), 0.0, vec3<f32>(0.0), 1.0);
+}

@@ -1,0 +1,86 @@
+// One vertex of a path in a fused kernel: by itself, or side by side with the other lanes of its subgroup, whose paths are then all on
+// the same vertex.
+#import core/math.wgsl
+#import geometry/closest.wgsl
+#if PACKETS
+#import geometry/software/lanes.wgsl
+#import geometry/software/packet.wgsl
+#endif
+#import shading/path.wgsl
+#import shading/trace.wgsl
+
+// Whether the condition holds for any of the paths that are traced side by side.
+fn any_path(condition: bool) -> bool {
+#if PACKETS
+    return any_lane(condition);
+#else
+    return condition;
+#endif
+}
+
+// What the ray meets first, of the lanes that have one.
+fn nearest(ray: Ray, has_ray: bool) -> Hit {
+#if PACKETS
+    return closest_hit_together(ray, select(-1.0, INFINITY_DISTANCE, has_ray));
+#else
+    var hit: Hit;
+    if has_ray {
+        hit = closest_hit(ray, INFINITY_DISTANCE);
+    }
+    return hit;
+#endif
+}
+
+// Whether nothing is in the shadow ray's way, of the lanes that have one.
+fn is_lit(shadow: ShadowRay, has_ray: bool) -> bool {
+#if PACKETS
+    return !occluded_together(shadow.ray, select(-1.0, shadow.distance, has_ray)) && has_ray;
+#else
+    var lit = false;
+    if has_ray {
+        lit = !occluded(shadow.ray, shadow.distance);
+    }
+    return lit;
+#endif
+}
+
+// Traces the ray of a path, of the lanes whose path is alive, to its vertex number `vertex`; adds what the path gains there to `radiance`,
+// and counts rays. Whether the path goes on. All lanes take part.
+fn trace_vertex(
+    path: ptr<function, Path>, vertex: u32, alive: bool, radiance: ptr<function, vec3<f32>>, rays: ptr<function, u32>
+) -> bool {
+    let hit = nearest((*path).ray, alive);
+    var shading = no_shading();
+    if alive {
+        shading = shade_vertex(path, hit, vertex);
+        *radiance += shading.radiance;
+        (*rays)++;
+    }
+    if HAS_LIGHTS {
+        var shadow = shading.shadow;
+        var number = 0u;
+        // One shadow ray a turn, the next one made at its end.
+        loop {
+            let has_ray = is_needed(shadow);
+            *rays += select(0u, 1u, has_ray);
+            if is_lit(shadow, has_ray) {
+                trace_light_seen();
+                *radiance += shadow.radiance;
+            }
+            if LIGHT_SAMPLES == 1u {
+                break;
+            }
+            number++;
+            let goes_on = number < shading.light_samples;
+            if !any_path(goes_on) {
+                break;
+            }
+            shadow = no_shadow_ray();
+            if goes_on {
+                shadow = further_shadow_ray(shading.lit, number);
+            }
+        }
+    }
+    store_trace(vertex);
+    return shading.alive;
+}
