@@ -1,15 +1,9 @@
 // Shapes that move while the shutter is open. Everything is moved to where it is at the path's time before it is looked at.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import core/sampler.wgsl
 #import geometry/records.wgsl
 #import geometry/scene.wgsl
-
-// In the words of a primitive and of a light.
-const MOVES: u32 = 0x80000000u;
-const LIGHT_MOVES: u32 = 1024u;
-
-const STEP_TRANSLATE: u32 = 0u;
-const STEP_SCALE: u32 = 1u;
 
 // p to linear * (p - origin) + place.
 struct Motion {
@@ -109,7 +103,7 @@ fn placed_primitive(words: PrimitiveWords) -> PlacedPrimitive {
     let p0 = words.w0;
     let p1 = words.w1;
     let p2 = words.w2;
-    if (bitcast<u32>(p0.w) & MOVES) == 0u {
+    if (bitcast<u32>(p0.w) & PRIMITIVE_MOVES) == 0u {
         return PlacedPrimitive(p0, p1, p2, vec3<f32>(0.0));
     }
     let motion = motion_at_path_time(motion_of_attributes(bitcast<u32>(p2.w)));

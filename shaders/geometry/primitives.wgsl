@@ -1,4 +1,5 @@
 // One ray against one primitive. Each function returns the nearest t in (0, t_max) in `t`, or -1.
+#import core/layout.wgsl
 #import core/math.wgsl
 
 // A ray with what its tests share: two axes across it, so that points can be projected along the ray.
@@ -41,9 +42,6 @@ fn intersect_triangle(ray: PreparedRay, t_max: f32, p0: vec3<f32>, p1: vec3<f32>
     let met = !mixed && determinant != 0.0 && t > 0.0 && t < t_max;
     return vec3<f32>(select(-1.0, t, met), e1 * inverse, e2 * inverse);
 }
-
-// Quads overlap their neighbours by this much of an edge, so that no ray slips between two that share one.
-const QUAD_OVERLAP: f32 = 1.0e-6;
 
 // A parallelogram; returns (t, u, v).
 fn intersect_quad(ray: PreparedRay, t_max: f32, corner: vec3<f32>, edge_u: vec3<f32>, edge_v: vec3<f32>) -> vec3<f32> {

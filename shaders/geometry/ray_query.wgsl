@@ -1,6 +1,8 @@
 // Closest hit and occlusion by ray queries: the device goes through an acceleration structure of its own (src/gpu/acceleration.rs). It tests
 // triangles itself, and asks about the other shapes whose boxes it meets. What it finds is tested again as everywhere else, so that hits
 // are the same whatever the device computes.
+#import core/layout.wgsl
+
 enable wgpu_ray_query;
 #import core/math.wgsl
 #import geometry/constants.wgsl
@@ -9,7 +11,7 @@ enable wgpu_ray_query;
 #import geometry/stored.wgsl
 
 // Instances: triangles, opaque, and boxes. An instance's custom data is its first primitive.
-@group(0) @binding(17) var acceleration: acceleration_structure;
+@group(0) @binding(BINDING_ACCELERATION) var acceleration: acceleration_structure;
 
 // Queries for one ray at most. A second one is needed where the device and our own test disagree about a hit at an end of the ray.
 const MOST_QUERIES: u32 = 3u;

@@ -1,23 +1,25 @@
 // The arrays of primitives, nodes and attributes, and how a record of each is loaded: from one binding, or, where the array is larger than
 // a binding may be, from the one of several that holds it (src/plan/chunks.rs writes those loads).
+#import core/layout.wgsl
 #export geometry/words.wgsl
 
 #if PRIMITIVE_CHUNKS
 #export geometry/primitive_chunks.wgsl
 #else
 #if UNIFORM_PRIMITIVES
-@group(0) @binding(4) var<uniform> primitives: array<vec4<f32>, PRIMITIVE_WORDS>;
+@group(0) @binding(BINDING_PRIMITIVES) var<uniform> primitives: array<vec4<f32>, PRIMITIVE_WORDS>;
 #else
-@group(0) @binding(4) var<storage, read> primitives: array<vec4<f32>>;
+@group(0) @binding(BINDING_PRIMITIVES) var<storage, read> primitives: array<vec4<f32>>;
 #endif
 
 fn primitive_words(index: u32) -> PrimitiveWords {
-    return PrimitiveWords(primitives[index * 3u], primitives[index * 3u + 1u], primitives[index * 3u + 2u]);
+    let first = index * PRIMITIVE_RECORD_WORDS;
+    return PrimitiveWords(primitives[first], primitives[first + 1u], primitives[first + 2u]);
 }
 
 // One of a record's words.
 fn primitive_word(index: u32, word: u32) -> vec4<f32> {
-    return primitives[index * 3u + word];
+    return primitives[index * PRIMITIVE_RECORD_WORDS + word];
 }
 #endif
 
@@ -26,13 +28,13 @@ fn primitive_word(index: u32, word: u32) -> vec4<f32> {
 #export geometry/node_chunks.wgsl
 #else
 #if UNIFORM_NODES
-@group(0) @binding(6) var<uniform> nodes: array<vec4<u32>, NODE_WORDS>;
+@group(0) @binding(BINDING_NODES) var<uniform> nodes: array<vec4<u32>, NODE_WORDS>;
 #else
-@group(0) @binding(6) var<storage, read> nodes: array<vec4<u32>>;
+@group(0) @binding(BINDING_NODES) var<storage, read> nodes: array<vec4<u32>>;
 #endif
 
 fn node_words(index: u32) -> NodeWords {
-    let first = index * 3u;
+    let first = index * NODE_RECORD_WORDS;
     return NodeWords(nodes[first], nodes[first + 1u], nodes[first + 2u]);
 }
 #endif
@@ -49,7 +51,7 @@ fn node_word_at(first: u32, word: u32) -> vec4<u32> {
 }
 #else
 fn first_word_of_node(index: u32) -> u32 {
-    return index * 3u;
+    return index * NODE_RECORD_WORDS;
 }
 
 fn node_word_at(first: u32, word: u32) -> vec4<u32> {
@@ -63,12 +65,11 @@ fn node_word_at(first: u32, word: u32) -> vec4<u32> {
 #if ATTRIBUTE_CHUNKS
 #export geometry/attribute_chunks.wgsl
 #else
-@group(0) @binding(7) var<storage, read> attributes: array<vec4<f32>>;
+@group(0) @binding(BINDING_ATTRIBUTES) var<storage, read> attributes: array<vec4<f32>>;
 
 fn attribute_words(index: u32) -> AttributeWords {
-    return AttributeWords(
-        attributes[index * 4u], attributes[index * 4u + 1u], attributes[index * 4u + 2u], attributes[index * 4u + 3u]
-    );
+    let first = index * ATTRIBUTE_RECORD_WORDS;
+    return AttributeWords(attributes[first], attributes[first + 1u], attributes[first + 2u], attributes[first + 3u]);
 }
 #endif
 #endif

@@ -1,4 +1,5 @@
 // A ray against primitive `index` of the hierarchy. Kinds that it does not hold are left out; planes never are in it.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/primitives.wgsl
 #import geometry/records.wgsl

@@ -1,4 +1,5 @@
 // Closest hit and occlusion through the hierarchy: nodes sort their children by distance, and each child that waits is an entry of one word.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/bvh4.wgsl
 #import geometry/primitives.wgsl

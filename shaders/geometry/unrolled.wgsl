@@ -1,4 +1,5 @@
 // Closest hit and occlusion without any hierarchy: every primitive is a constant of the code.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/constants.wgsl
 #import geometry/primitives.wgsl

@@ -1,5 +1,6 @@
 // What decides the weights of a blend: one vec4 of the tables each,
 //   (kind and flags; value, power or index of refraction; threshold; texture or NONE)
+#import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/scene.wgsl
 #import shading/fresnel.wgsl
@@ -7,35 +8,25 @@
 #import shading/texture.wgsl
 #endif
 
-// 0, the constant weight, is the value itself.
-const FACING: u32 = 1u;
-const FRESNEL_SCHLICK: u32 = 2u;
-const FRESNEL_EXACT: u32 = 3u;
-const TEXTURE_WEIGHT: u32 = 4u;
-// Applied in this order: 1 - w; w >= threshold; 1 - w.
-const REVERSED_WITHIN: u32 = 256u;
-const THRESHOLDED: u32 = 512u;
-const REVERSED: u32 = 1024u;
-
 fn heuristic_weight(heuristic: u32, cosine: f32, uv: vec2<f32>) -> f32 {
     let h = tables[FIRST_HEURISTIC_WORD + heuristic];
     let flags = bitcast<u32>(h.x);
     var w = h.y;
     switch flags & 255u {
-        case FACING: {
+        case WEIGHT_FACING: {
             w = select(pow(cosine, h.y), 0.0, cosine <= 0.0);
         }
-        case FRESNEL_SCHLICK: {
+        case WEIGHT_FRESNEL_SCHLICK: {
             let r = (h.y - 1.0) / (h.y + 1.0);
             let away = 1.0 - cosine;
             let away2 = away * away;
             w = 1.0 - mix(away2 * away2 * away, 1.0, r * r);
         }
-        case FRESNEL_EXACT: {
+        case WEIGHT_FRESNEL_EXACT: {
             w = 1.0 - fresnel_dielectric(cosine, h.y);
         }
 #if TEXTURES
-        case TEXTURE_WEIGHT: {
+        case WEIGHT_TEXTURE: {
             w = luminance(texture_color(bitcast<u32>(h.w), uv));
         }
 #endif

@@ -1,30 +1,10 @@
 // A leaf: one material that is no blend, with its parameters looked up for one hit.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/scene.wgsl
 #if TEXTURES
 #import shading/texture.wgsl
 #endif
-
-const DIFFUSE: u32 = 0u;
-const MIRROR: u32 = 1u;
-const GLASS: u32 = 2u;
-const EMISSIVE: u32 = 3u;
-const GLOSSY: u32 = 4u;
-const PHONG: u32 = 5u;
-const CONDUCTOR: u32 = 6u;
-const ROUGH_GLASS: u32 = 7u;
-// Rough glass after Honsdorf: cosine-power lobes about the mirror and the refracted direction.
-const PHONG_GLASS: u32 = 8u;
-// The surface is not there: rays go on through it.
-const NULL_SURFACE: u32 = 9u;
-const BLEND: u32 = 10u;
-// Flag beside the kind of a conductor: `first` and `second` are eta and k, not the reflectance at normal incidence.
-const COMPLEX_FRESNEL: u32 = 256u;
-
-const EMITS: u32 = 1u;
-const EMITS_TWO_SIDED: u32 = 2u;
-// Of a blend: some leaf emits.
-const LEAVES_EMIT: u32 = 4u;
 
 struct Leaf {
     // The kind, COMPLEX_FRESNEL beside it.

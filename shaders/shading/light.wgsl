@@ -1,4 +1,5 @@
 // Light sampling and its densities.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import core/sampler.wgsl
 #import shading/environment.wgsl

@@ -1,48 +1,35 @@
 // The lights' records in the tables.
+#import core/layout.wgsl
 #import geometry/scene.wgsl
 #if MOVING_LIGHTS
 #import geometry/motion.wgsl
 #endif
-
-const LIGHT_TRIANGLE: u32 = 0u;
-const LIGHT_QUAD: u32 = 1u;
-const LIGHT_SPHERE: u32 = 2u;
-const LIGHT_DISK: u32 = 3u;
-const LIGHT_POINT: u32 = 4u;
-const LIGHT_ENVIRONMENT: u32 = 5u;
-const LIGHT_SPOT: u32 = 6u;
-const LIGHT_DIRECTIONAL: u32 = 7u;
-const LIGHT_PORTAL: u32 = 8u;
-
-const LIGHT_TWO_SIDED: u32 = 256u;
-// The radiance is that of the whole material, seen from the light's normal.
-const LIGHT_VARIES: u32 = 512u;
 
 // A light takes five vec4 of the tables:
 //   (kind and flags; alias threshold; alias; probability of being chosen)
 //   (first point; area or radius), (second; -), (third; attributes or NONE), (radiance or intensity; material)
 fn light_word(light: u32, word: u32) -> vec4<f32> {
 #if MOVING_LIGHTS
-    let flags = bitcast<u32>(tables[FIRST_LIGHT_WORD + light * 5u].x);
+    let flags = bitcast<u32>(tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS].x);
     if word != 0u && word != 4u && (flags & LIGHT_MOVES) != 0u {
-        let word_3 = tables[FIRST_LIGHT_WORD + light * 5u + 3u];
+        let word_3 = tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS + 3u];
         return placed_light_word(
-            bitcast<u32>(word_3.w), word, (flags & 255u) == LIGHT_SPHERE, tables[FIRST_LIGHT_WORD + light * 5u + 1u],
-            tables[FIRST_LIGHT_WORD + light * 5u + 2u], word_3
+            bitcast<u32>(word_3.w), word, (flags & 255u) == LIGHT_SPHERE, tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS + 1u],
+            tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS + 2u], word_3
         );
     }
 #endif
-    return tables[FIRST_LIGHT_WORD + light * 5u + word];
+    return tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS + word];
 }
 
 #if MOVING_LIGHTS
 // The magnitude that rounding of a moving light's points is relative to; 0 where it rests.
 fn moved_light_magnitude(light: u32) -> vec3<f32> {
-    let word_3 = tables[FIRST_LIGHT_WORD + light * 5u + 3u];
-    if (bitcast<u32>(tables[FIRST_LIGHT_WORD + light * 5u].x) & LIGHT_MOVES) == 0u {
+    let word_3 = tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS + 3u];
+    if (bitcast<u32>(tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS].x) & LIGHT_MOVES) == 0u {
         return vec3<f32>(0.0);
     }
-    let size = abs(tables[FIRST_LIGHT_WORD + light * 5u + 1u].xyz) + abs(tables[FIRST_LIGHT_WORD + light * 5u + 2u].xyz);
+    let size = abs(tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS + 1u].xyz) + abs(tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS + 2u].xyz);
     return moved_magnitude(motion_at_path_time(motion_of_attributes(bitcast<u32>(word_3.w))), size + abs(word_3.xyz));
 }
 #endif

@@ -1,4 +1,5 @@
 // What one leaf does, by its kind.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import shading/diffuse.wgsl
 #import shading/leaf.wgsl

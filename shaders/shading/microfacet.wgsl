@@ -1,5 +1,6 @@
 // GGX microfacets: sampling of visible normals, height-correlated Smith shadowing, metals and rough dielectrics.
 // Local directions: z along the shading normal.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import shading/fresnel.wgsl
 #import shading/glass.wgsl
@@ -7,9 +8,6 @@
 #import shading/scattering.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
-
-// GGX narrower than this is a delta lobe: f32 no longer resolves it.
-const DELTA_ALPHA: f32 = 1.0e-4;
 
 fn to_local(frame: Frame, w: vec3<f32>) -> vec3<f32> {
     return vec3<f32>(dot(w, frame.tangent), dot(w, frame.bitangent), dot(w, frame.normal));

@@ -1,4 +1,5 @@
 // The Bsdf of a blend in mixture mode.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import shading/blend.wgsl
 #import shading/diffuse.wgsl

@@ -2,6 +2,7 @@
 //
 // A path's vertices are counted from 1, the first surface that the camera sees. Its depth counts edges: 1 is the camera's ray. The two
 // differ where rays go on through null surfaces: such a vertex ends no edge.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import core/sampler.wgsl
 #import shading/bsdf.wgsl

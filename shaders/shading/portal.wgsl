@@ -1,4 +1,5 @@
 // Portals: shapes that directions to the environment are drawn through. Rays do not meet them.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/primitives.wgsl
 #import shading/light_record.wgsl
@@ -7,7 +8,7 @@
 // A direction to a portal: to a point uniform over it, or to a sphere by its cone.
 fn sample_portal(light: u32, reference: vec3<f32>, u: f32, v: f32) -> vec3<f32> {
     let l1 = light_word(light, 1u);
-    let kind = bitcast<u32>(light_word(light, 0u).x) >> 12u;
+    let kind = bitcast<u32>(light_word(light, 0u).x) >> PORTAL_SHIFT;
     if kind == LIGHT_SPHERE {
         return sphere_cone_sample(reference, l1.xyz, l1.w, vec3<f32>(1.0), true, 1.0, u, v).wi;
     }
@@ -26,7 +27,7 @@ fn sample_portal(light: u32, reference: vec3<f32>, u: f32, v: f32) -> vec3<f32> 
 // Density with which sample_portal draws the ray's direction from its origin; 0 where the ray does not meet the portal.
 fn portal_pdf(light: u32, ray: PreparedRay) -> f32 {
     let l1 = light_word(light, 1u);
-    let kind = bitcast<u32>(light_word(light, 0u).x) >> 12u;
+    let kind = bitcast<u32>(light_word(light, 0u).x) >> PORTAL_SHIFT;
     if kind == LIGHT_SPHERE {
         let met = intersect_sphere(ray, INFINITY_DISTANCE, l1.xyz, l1.w) > 0.0;
         return select(0.0, sphere_cone_pdf(ray.origin, l1.xyz, l1.w), met);

@@ -1,4 +1,5 @@
 // What a hit is: position, normals, texture coordinates, material.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/records.wgsl
 #import geometry/scene.wgsl

@@ -1,4 +1,5 @@
 // Colours looked up by uv.
+#import core/layout.wgsl
 #import geometry/scene.wgsl
 #if PERLIN
 #import shading/noise.wgsl
@@ -7,15 +8,10 @@
 #import shading/noise.wgsl
 #endif
 
-const IMAGE: u32 = 0u;
-const CHECKER: u32 = 1u;
-const PERLIN_NOISE: u32 = 2u;
-const WORLEY_NOISE: u32 = 3u;
-
 // A texture takes four vec4 of the tables:
 //   (kind and flags; first texel or seed; width or octaves; height), (scale, offset), (colour a), (colour b)
 fn texture_word(texture: u32, word: u32) -> vec4<f32> {
-    return tables[FIRST_TEXTURE_WORD + texture * 4u + word];
+    return tables[FIRST_TEXTURE_WORD + texture * TEXTURE_WORDS + word];
 }
 
 #if IMAGES
@@ -70,23 +66,23 @@ fn texture_color(texture: u32, uv: vec2<f32>) -> vec3<f32> {
     var share = 0.0;
     switch t0.x & 255u {
 #if IMAGES
-        case IMAGE: {
+        case TEXTURE_IMAGE: {
             return image_color(t0, st);
         }
 #endif
 #if CHECKERS
-        case CHECKER: {
+        case TEXTURE_CHECKER: {
             let parity = i32(floor(st.x)) + i32(floor(st.y));
             share = select(0.0, 1.0, (parity & 1) != 0);
         }
 #endif
 #if PERLIN
-        case PERLIN_NOISE: {
+        case TEXTURE_PERLIN: {
             share = clamp(0.5 * (perlin_noise(st, t0.z, t0.y) + 1.0), 0.0, 1.0);
         }
 #endif
 #if WORLEY
-        case WORLEY_NOISE: {
+        case TEXTURE_WORLEY: {
             share = worley_noise(st, t0.y);
         }
 #endif

@@ -1,10 +1,9 @@
 // A debug build of the fused kernel writes down what happens at each vertex of one path: src/gpu/trace.rs reads it. In all other kernels
 // these functions do nothing.
+#import core/layout.wgsl
 
 #if TRACE
 // How many vertices are written down, and vec4s of each; src/gpu/trace.rs has the same.
-const TRACED_VERTICES: u32 = 64u;
-const TRACE_WORDS: u32 = 10u;
 
 // The vertex in the making:
 //   0 (position; primitive or NONE), 1 (shading normal; material), 2 (direction of the ray that met it; its density),
@@ -12,15 +11,7 @@ const TRACE_WORDS: u32 = 10u;
 //   5 (direction to the light; its density), 6 (what the light adds if seen; weight), 7 (light; density of BSDF sampling; survival; -),
 //   8 (sampled direction; its density), 9 (its weight; squared ratio of indices)
 var<private> traced: array<vec4<f32>, TRACE_WORDS>;
-@group(0) @binding(18) var<storage, read_write> path_trace: array<vec4<f32>>;
-
-const TRACED_VERTEX: u32 = 1u;
-const TRACED_LIGHT: u32 = 2u;
-const TRACED_LIGHT_SEEN: u32 = 4u;
-const TRACED_SAMPLE: u32 = 8u;
-const TRACED_NULL: u32 = 16u;
-const TRACED_ROULETTE: u32 = 32u;
-const TRACED_FOUND: u32 = 64u;
+@group(0) @binding(BINDING_TRACE) var<storage, read_write> path_trace: array<vec4<f32>>;
 
 fn trace_note(note: u32) {
     traced[3].w = bitcast<f32>(bitcast<u32>(traced[3].w) | note);

@@ -1,4 +1,5 @@
 // Adds the finished samples of a pass to the film.
+#import core/layout.wgsl
 #import core/parameters.wgsl
 #import stages/film.wgsl
 #if PIXEL_LIST

@@ -1,4 +1,5 @@
 // Traces the shadow rays.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import core/parameters.wgsl
 #import geometry/closest.wgsl

@@ -1,4 +1,5 @@
 // Finds what every living path's ray meets.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import core/parameters.wgsl
 #import geometry/closest.wgsl

@@ -1,11 +1,12 @@
 // The band's film. Per pixel: (sum of radiance, sample count) and (what the sum's rounding lost, sum of squared luminance).
+#import core/layout.wgsl
 #import core/math.wgsl
 #import core/parameters.wgsl
 #import stages/statistics.wgsl
 
 #if FILM_TEXTURE
-@group(0) @binding(15) var film_sum: texture_storage_2d<rgba32float, read_write>;
-@group(0) @binding(16) var film_compensation: texture_storage_2d<rgba32float, read_write>;
+@group(0) @binding(BINDING_FILM_SUM) var film_sum: texture_storage_2d<rgba32float, read_write>;
+@group(0) @binding(BINDING_FILM_COMPENSATION) var film_compensation: texture_storage_2d<rgba32float, read_write>;
 
 fn film_position(pixel_in_band: u32) -> vec2<u32> {
     let y = pixel_in_band / FILM_WIDTH;
@@ -26,8 +27,8 @@ fn store_film(pixel_in_band: u32, sum: vec4<f32>, compensation: vec4<f32>) {
 }
 #else
 // Adapters that cannot read and write rgba32float textures keep the film in storage buffers.
-@group(0) @binding(15) var<storage, read_write> film_sum: array<vec4<f32>>;
-@group(0) @binding(16) var<storage, read_write> film_compensation: array<vec4<f32>>;
+@group(0) @binding(BINDING_FILM_SUM) var<storage, read_write> film_sum: array<vec4<f32>>;
+@group(0) @binding(BINDING_FILM_COMPENSATION) var<storage, read_write> film_compensation: array<vec4<f32>>;
 
 fn load_film_sum(pixel_in_band: u32) -> vec4<f32> {
     return film_sum[pixel_in_band];

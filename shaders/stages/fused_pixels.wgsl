@@ -1,4 +1,5 @@
 // Which pixels an invocation of a fused kernel has.
+#import core/layout.wgsl
 #import core/camera.wgsl
 #import core/parameters.wgsl
 #import core/sampler.wgsl
@@ -9,8 +10,6 @@
 #if PIXEL_LIST
 #import stages/statistics.wgsl
 #endif
-
-const WORKGROUP: u32 = 64u;
 
 struct PassPixel {
     // Over the whole film, and in the band's film.

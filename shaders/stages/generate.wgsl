@@ -1,4 +1,5 @@
 // Starts the paths of a pass.
+#import core/layout.wgsl
 #import core/camera.wgsl
 #import core/parameters.wgsl
 #import core/sampler.wgsl

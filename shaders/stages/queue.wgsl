@@ -1,4 +1,5 @@
 // Indices at the end of queues.
+#import core/layout.wgsl
 #import stages/wavefront.wgsl
 
 #if SUBGROUP_QUEUES

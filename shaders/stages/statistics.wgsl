@@ -1,4 +1,5 @@
 // What a render counts on the device.
+#import core/layout.wgsl
 #import core/parameters.wgsl
 
 #if TRACE
@@ -15,7 +16,7 @@ struct Statistics {
     pixels: array<u32>,
 }
 
-@group(0) @binding(14) var<storage, read_write> statistics: Statistics;
+@group(0) @binding(BINDING_STATISTICS) var<storage, read_write> statistics: Statistics;
 
 fn count_rays(rays: u32) {
     let before = atomicAdd(&statistics.counts[0], rays);
@@ -34,7 +35,7 @@ fn listed_pixel_in_band(index: u32) -> u32 {
 }
 #else
 // Rays traced (low and high word), samples refused because they were not finite.
-@group(0) @binding(14) var<storage, read_write> statistics: array<atomic<u32>, 4>;
+@group(0) @binding(BINDING_STATISTICS) var<storage, read_write> statistics: array<atomic<u32>, 4>;
 
 fn count_rays(rays: u32) {
     let before = atomicAdd(&statistics[0], rays);

@@ -1,4 +1,5 @@
 // State of the paths in flight, and the queues that say which of them still live and which have shadow rays.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import core/parameters.wgsl
 #import shading/path.wgsl
@@ -9,14 +10,14 @@
 // Five planes of PATH_CAPACITY vec4 each:
 //   ray origin and pixel within the pass (within the band where pixels are listed) | sample in the pass << 24; ray direction and its density; throughput and eta scale;
 //   radiance and null vertices; hit
-@group(0) @binding(9) var<storage, read_write> path_state: array<vec4<f32>>;
+@group(0) @binding(BINDING_PATH_STATE) var<storage, read_write> path_state: array<vec4<f32>>;
 // The queue of paths with shadow rays: for each of LIGHT_SAMPLES rays, three planes of PATH_CAPACITY vec4: origin and distance; direction and
 // path slot; radiance and, where paths have several and of the first, how many the path has.
-@group(0) @binding(10) var<storage, read_write> shadow_rays: array<vec4<f32>>;
+@group(0) @binding(BINDING_SHADOW_RAYS) var<storage, read_write> shadow_rays: array<vec4<f32>>;
 // Two queues of PATH_CAPACITY path slots: one is read while the other is filled.
-@group(0) @binding(11) var<storage, read_write> queues: array<u32>;
+@group(0) @binding(BINDING_QUEUES) var<storage, read_write> queues: array<u32>;
 // Paths in queue 0 and 1; paths with shadow rays of vertices that read queue 0 and 1; where paths have several, all shadow rays of a vertex.
-@group(0) @binding(12) var<storage, read_write> counts: array<atomic<u32>, 5>;
+@group(0) @binding(BINDING_COUNTS) var<storage, read_write> counts: array<atomic<u32>, COUNTS>;
 
 const PLANE_ORIGIN: u32 = 0u;
 const PLANE_DIRECTION: u32 = PATH_CAPACITY;
@@ -27,11 +28,10 @@ const PLANE_HIT: u32 = 4u * PATH_CAPACITY;
 const SHADOW_ORIGIN: u32 = 0u;
 const SHADOW_DIRECTION: u32 = PATH_CAPACITY;
 const SHADOW_RADIANCE: u32 = 2u * PATH_CAPACITY;
-const SHADOW_PLANES: u32 = 3u * PATH_CAPACITY;
+const SHADOW_PLANES: u32 = SHADOW_RAY_WORDS * PATH_CAPACITY;
 
-const COUNT_OF_SHADOW_RAYS: u32 = 4u;
-
-const WORKGROUP: u32 = 64u;
+const_assert PLANE_HIT + PATH_CAPACITY == PATH_STATE_WORDS * PATH_CAPACITY;
+const_assert SHADOW_RADIANCE + PATH_CAPACITY == SHADOW_PLANES;
 
 fn load_ray(slot: u32) -> Ray {
     return Ray(path_state[PLANE_ORIGIN + slot].xyz, path_state[PLANE_DIRECTION + slot].xyz);

@@ -7,9 +7,12 @@ use wgpu::{BufferUsages, TextureFormat};
 
 use super::acceleration::Acceleration;
 use super::device::Device;
-use super::parameters::{PassParameters, VertexParameters};
 use crate::packed::PackedScene;
+use crate::plan::bindings::Binding;
 use crate::plan::chunks::{ATTRIBUTES, NODES, PRIMITIVES};
+use crate::plan::parameters::{PassParameters, VertexParameters};
+use crate::plan::path_state::{COUNTS, DISPATCH_SIZE_WORDS};
+use crate::plan::trace_record::TRACE_BYTES;
 use crate::plan::{FilmStorage, MAX_SAMPLES_PER_PASS, Plan, StageMode, memory};
 
 /// Vertices that one submission can hold; longer paths take further submissions.
@@ -18,27 +21,6 @@ pub const VERTICES_PER_SUBMISSION: u32 = 32;
 pub const STATISTICS_BYTES: u64 = 16;
 /// Distance between the parameters of successive vertices: the largest alignment a device may ask for.
 const VERTEX_STRIDE: usize = 256;
-
-/// Binding numbers as in `shaders/`.
-pub mod binding {
-    pub const PASS: u32 = 0;
-    pub const VERTEX: u32 = 1;
-    pub const SEQUENCE: u32 = 2;
-    pub const VIEW: u32 = 3;
-    pub const TABLES: u32 = 5;
-    // 4, 6 and 7 are the arrays of `plan::chunks`, which also take numbers from 400 on.
-    pub const TEXELS: u32 = 8;
-    pub const PATH_STATE: u32 = 9;
-    pub const SHADOW_RAYS: u32 = 10;
-    pub const QUEUES: u32 = 11;
-    pub const COUNTS: u32 = 12;
-    pub const DISPATCH_SIZES: u32 = 13;
-    pub const STATISTICS: u32 = 14;
-    pub const FILM_SUM: u32 = 15;
-    pub const FILM_COMPENSATION: u32 = 16;
-    pub const ACCELERATION: u32 = 17;
-    pub const TRACE: u32 = 18;
-}
 
 /// One of the two halves of the film.
 pub enum FilmHalf {
@@ -67,9 +49,9 @@ impl Buffers {
             let descriptor = wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage };
             buffers.insert(number, device.device.create_buffer_init(&descriptor));
         };
-        upload(binding::TABLES, "tables", bytemuck::cast_slice(&tables), usage(plan.uniform_tables));
-        upload(binding::VIEW, "view", bytemuck::bytes_of(&packed.view), BufferUsages::UNIFORM);
-        upload(binding::VERTEX, "vertices", &vertex_parameters(1), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
+        upload(Binding::Tables as u32, "tables", bytemuck::cast_slice(&tables), usage(plan.uniform_tables));
+        upload(Binding::View as u32, "view", bytemuck::bytes_of(&packed.view), BufferUsages::UNIFORM);
+        upload(Binding::Vertex as u32, "vertices", &vertex_parameters(1), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
         let compiled = |switch: &str| plan.switches.enabled.contains(switch);
         let arrays: [(_, &[u8], _, _); 3] = [
             (PRIMITIVES, bytemuck::cast_slice(&packed.primitives), usage(plan.uniform_primitives), true),
@@ -83,7 +65,7 @@ impl Buffers {
             }
         }
         if compiled("TEXELS") {
-            upload(binding::TEXELS, "texels", bytemuck::cast_slice(&packed.textures.texels), BufferUsages::STORAGE);
+            upload(Binding::Texels as u32, "texels", bytemuck::cast_slice(&packed.textures.texels), BufferUsages::STORAGE);
         }
 
         let mut make = |number, label, size: u64, usage| {
@@ -91,23 +73,33 @@ impl Buffers {
             buffers.insert(number, device.device.create_buffer(&descriptor));
         };
         let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
-        make(binding::PASS, "pass", size_of::<PassParameters>() as u64, uniform);
-        make(binding::SEQUENCE, "sequence points", 16 * u64::from(plan.sequence_stride() * MAX_SAMPLES_PER_PASS), uniform);
+        make(Binding::Pass as u32, "pass", size_of::<PassParameters>() as u64, uniform);
+        make(Binding::Sequence as u32, "sequence points", 16 * u64::from(plan.sequence_stride() * MAX_SAMPLES_PER_PASS), uniform);
         let storage = BufferUsages::STORAGE;
         let listed = if plan.switches.enabled.contains("PIXEL_LIST") { width * plan.band_rows } else { 0 };
         let statistics = STATISTICS_BYTES + u64::from(listed) * memory::LIST_BYTES;
-        make(binding::STATISTICS, "statistics", statistics, storage | BufferUsages::COPY_SRC | BufferUsages::COPY_DST);
+        make(Binding::Statistics as u32, "statistics", statistics, storage | BufferUsages::COPY_SRC | BufferUsages::COPY_DST);
         if plan.switches.enabled.contains("TRACE") {
-            make(binding::TRACE, "trace", super::trace::BYTES, storage | BufferUsages::COPY_SRC | BufferUsages::COPY_DST);
+            make(Binding::Trace as u32, "trace", TRACE_BYTES, storage | BufferUsages::COPY_SRC | BufferUsages::COPY_DST);
         }
         if plan.stages == StageMode::Wavefront {
             let paths = u64::from(plan.path_capacity);
-            make(binding::PATH_STATE, "path state", paths * memory::PATH_STATE_BYTES, storage);
-            make(binding::QUEUES, "queues", paths * memory::QUEUE_BYTES, storage);
-            make(binding::COUNTS, "counts", 20, storage | BufferUsages::COPY_DST | BufferUsages::COPY_SRC);
-            make(binding::DISPATCH_SIZES, "dispatch sizes", 36, storage | BufferUsages::INDIRECT);
+            make(Binding::PathState as u32, "path state", paths * memory::PATH_STATE_BYTES, storage);
+            make(Binding::Queues as u32, "queues", paths * memory::QUEUE_BYTES, storage);
+            make(
+                Binding::Counts as u32,
+                "counts",
+                4 * u64::from(COUNTS),
+                storage | BufferUsages::COPY_DST | BufferUsages::COPY_SRC,
+            );
+            make(
+                Binding::DispatchSizes as u32,
+                "dispatch sizes",
+                4 * u64::from(DISPATCH_SIZE_WORDS),
+                storage | BufferUsages::INDIRECT,
+            );
             if plan.samples_lights() {
-                make(binding::SHADOW_RAYS, "shadow rays", paths * plan.shadow_ray_bytes(), storage);
+                make(Binding::ShadowRays as u32, "shadow rays", paths * plan.shadow_ray_bytes(), storage);
             }
         }
         let acceleration = if compiled("RAY_QUERY") { Acceleration::build(device, packed) } else { None };
@@ -123,24 +115,24 @@ impl Buffers {
         Self { buffers, film, film_views, acceleration, bytes }
     }
 
-    /// The buffer bound at `number`; None for what this plan does not have.
-    pub fn buffer(&self, number: u32) -> Option<&wgpu::Buffer> {
-        self.buffers.get(&number)
+    /// The buffer of a binding; None for what this plan does not have.
+    pub fn buffer(&self, binding: Binding) -> Option<&wgpu::Buffer> {
+        self.buffers.get(&(binding as u32))
     }
 
     /// What a bind group needs for binding `number`.
     pub fn resource(&self, number: u32) -> Option<wgpu::BindingResource<'_>> {
-        if let Some(half) = number.checked_sub(binding::FILM_SUM).filter(|half| *half < 2) {
+        if let Some(half) = number.checked_sub(Binding::FilmSum as u32).filter(|half| *half < 2) {
             return Some(match (&self.film[half as usize], &self.film_views[half as usize]) {
                 (FilmHalf::Buffer(buffer), _) => buffer.as_entire_binding(),
                 (FilmHalf::Texture(_), view) => wgpu::BindingResource::TextureView(view.as_ref()?),
             });
         }
-        if number == binding::ACCELERATION {
+        if number == Binding::Acceleration as u32 {
             return Some(self.acceleration.as_ref()?.structure.as_binding());
         }
         let buffer = self.buffers.get(&number)?;
-        if number == binding::VERTEX {
+        if number == Binding::Vertex as u32 {
             let size = wgpu::BufferSize::new(size_of::<VertexParameters>() as u64);
             return Some(wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size }));
         }

@@ -3,15 +3,17 @@
 use naga::{AddressSpace, StorageAccess, TypeInner};
 use rayon::prelude::*;
 
-use super::buffers::{Buffers, binding};
+use super::buffers::Buffers;
 use super::device::Device;
 use crate::plan::Plan;
+use crate::plan::bindings::Binding;
+use crate::plan::stages::Stage;
 use crate::renderer::RenderError;
 use crate::shader::{self, ComposeError};
 
 /// One stage: a pipeline and what it is bound to.
 pub struct Kernel {
-    pub entry: &'static str,
+    pub stage: &'static Stage,
     pipeline: wgpu::ComputePipeline,
     bind_group: wgpu::BindGroup,
     /// It reads the vertex's parameters, so its bind group takes their offset.
@@ -44,8 +46,11 @@ pub fn used_bindings(module: &naga::Module, info: &naga::valid::ModuleInfo, entr
         .filter(|(handle, _)| !uses[*handle].is_empty())
         .filter_map(|(_, variable)| {
             let number = variable.binding.as_ref()?.binding;
-            let buffer =
-                |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: number == binding::VERTEX, min_binding_size: None };
+            let buffer = |ty| wgpu::BindingType::Buffer {
+                ty,
+                has_dynamic_offset: number == Binding::Vertex as u32,
+                min_binding_size: None,
+            };
             let kind = match (variable.space, &module.types[variable.ty].inner) {
                 (AddressSpace::Uniform, _) => buffer(wgpu::BufferBindingType::Uniform),
                 (AddressSpace::Storage { access }, _) => {
@@ -70,8 +75,7 @@ pub fn used_bindings(module: &naga::Module, info: &naga::valid::ModuleInfo, entr
 
 /// A stage that is compiled and not bound to anything yet, so that the scene can be uploaded meanwhile.
 pub struct CompiledStage {
-    file: &'static str,
-    entry: &'static str,
+    stage: &'static Stage,
     used: Vec<UsedBinding>,
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
@@ -82,11 +86,12 @@ pub struct CompiledStage {
 /// # Errors
 /// [`RenderError::Internal`] for a mistake in the shaders, with file and line.
 pub fn compile(device: &Device, plan: &Plan) -> Result<Vec<CompiledStage>, RenderError> {
-    let stages: Vec<_> = plan.stage_files().iter().filter(|(_, entry)| *entry != "connect" || plan.samples_lights()).collect();
-    stages.par_iter().map(|(file, entry)| compile_stage(device, plan, file, entry)).collect()
+    let stages: Vec<&'static Stage> = plan.pipeline().collect();
+    stages.into_par_iter().map(|stage| compile_stage(device, plan, stage)).collect()
 }
 
-fn compile_stage(device: &Device, plan: &Plan, file: &'static str, entry: &'static str) -> Result<CompiledStage, RenderError> {
+fn compile_stage(device: &Device, plan: &Plan, stage: &'static Stage) -> Result<CompiledStage, RenderError> {
+    let Stage { file, entry, .. } = *stage;
     let internal = |error: ComposeError| RenderError::Internal(error.to_string());
     let composed = shader::compose(file, &plan.switches).map_err(internal)?;
     let (module, info) = composed.validate().map_err(internal)?;
@@ -126,7 +131,7 @@ fn compile_stage(device: &Device, plan: &Plan, file: &'static str, entry: &'stat
         cache: None,
     });
     device.check()?;
-    Ok(CompiledStage { file, entry, used, layout, pipeline })
+    Ok(CompiledStage { stage, used, layout, pipeline })
 }
 
 /// Binds compiled stages to their buffers.
@@ -137,8 +142,9 @@ pub fn bind(device: &Device, stages: Vec<CompiledStage>, buffers: &Buffers) -> R
     stages.into_iter().map(|stage| bind_stage(device, stage, buffers)).collect()
 }
 
-fn bind_stage(device: &Device, stage: CompiledStage, buffers: &Buffers) -> Result<Kernel, RenderError> {
-    let CompiledStage { file, entry, used, layout, pipeline } = stage;
+fn bind_stage(device: &Device, compiled: CompiledStage, buffers: &Buffers) -> Result<Kernel, RenderError> {
+    let CompiledStage { stage, used, layout, pipeline } = compiled;
+    let Stage { file, entry, .. } = *stage;
     let mut bound = Vec::new();
     for used in &used {
         let resource = buffers.resource(used.number);
@@ -148,6 +154,6 @@ fn bind_stage(device: &Device, stage: CompiledStage, buffers: &Buffers) -> Resul
     let bind_group =
         device.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(entry), layout: &layout, entries: &bound });
     device.check()?;
-    let takes_vertex = used.iter().any(|used| used.number == binding::VERTEX);
-    Ok(Kernel { entry, pipeline, bind_group, takes_vertex })
+    let takes_vertex = used.iter().any(|used| used.number == Binding::Vertex as u32);
+    Ok(Kernel { stage, pipeline, bind_group, takes_vertex })
 }

@@ -6,7 +6,6 @@ pub mod buffers;
 pub mod device;
 mod film;
 pub mod kernels;
-pub mod parameters;
 pub mod passes;
 pub mod profile;
 pub mod renderer;

@@ -1,8 +1,10 @@
 //! Where a render's time goes, stage by stage, and how full the pool of paths is, vertex by vertex.
 
-use super::buffers::{binding, vertex_parameters};
+use super::buffers::vertex_parameters;
 use super::passes::Pass;
-use super::renderer::{BandState, GpuRenderer, Step, Workgroups};
+use super::renderer::{BandState, GpuRenderer, Step};
+use crate::plan::bindings::Binding;
+use crate::plan::stages::When;
 use crate::plan::{MAX_SAMPLES_PER_PASS, StageMode};
 use crate::renderer::RenderError;
 
@@ -45,11 +47,12 @@ impl Recorder<'_> {
             beginning_of_pass_write_index: Some(first),
             end_of_pass_write_index: Some(first + 1),
         });
-        let mut compute =
-            self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(step.kernel.entry), timestamp_writes });
+        let mut compute = self
+            .encoder
+            .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(step.kernel.stage.entry), timestamp_writes });
         step.encode(&mut compute, vertex_index);
         drop(compute);
-        self.stages.push(step.kernel.entry);
+        self.stages.push(step.kernel.stage.entry);
     }
 
     /// Runs what was recorded.
@@ -115,15 +118,11 @@ impl GpuRenderer {
         Recorder { renderer: self, encoder, stamps, stages: Vec::new() }
     }
 
-    /// A kernel over so many invocations.
-    fn step(&self, entry: &str, invocations: u32) -> Result<Step<'_>, RenderError> {
-        let kernel = self.kernel(entry).ok_or_else(|| RenderError::Internal(format!("the stage {entry} is missing")))?;
-        Ok(Step { kernel, workgroups: Workgroups::Direct(invocations.div_ceil(64)) })
-    }
-
     fn profile_fused(&self, pass: &Pass) -> Result<Profile, RenderError> {
         let mut recorder = self.recorder(1);
-        recorder.record(&self.step("trace_paths", 64 * self.fused_workgroups(pass))?, 0);
+        for step in self.steps(When::PassStart, true, pass) {
+            recorder.record(&step, 0);
+        }
         let paths = pass.paths() as u32;
         Ok(Profile { stages: recorder.finish()?, paths, capacity: paths, alive: Vec::new() })
     }
@@ -131,20 +130,24 @@ impl GpuRenderer {
     fn profile_wavefront(&self, pass: &Pass) -> Result<Profile, RenderError> {
         let paths = pass.paths() as u32;
         let vertices = self.max_vertices.unwrap_or(u32::MAX).min(self.vertices_per_submission);
-        self.write(binding::COUNTS, bytemuck::cast_slice(&[paths, 0, 0, 0, 0]));
-        self.write(binding::VERTEX, &vertex_parameters(1));
+        self.write(Binding::Counts, bytemuck::cast_slice(&[paths, 0, 0, 0, 0]));
+        self.write(Binding::Vertex, &vertex_parameters(1));
         let mut recorder = self.recorder(2 + 4 * vertices);
         let counts = self.readback_buffer(16 * u64::from(vertices));
-        recorder.record(&self.step("generate", paths)?, 0);
+        for step in self.steps(When::PassStart, true, pass) {
+            recorder.record(&step, 0);
+        }
         for index in 0..vertices {
-            for step in self.vertex_steps(index == 0, paths)? {
+            for step in self.steps(When::EachVertex, index == 0, pass) {
                 recorder.record(&step, index);
             }
-            if let Some(source) = self.buffers.buffer(binding::COUNTS) {
+            if let Some(source) = self.buffers.buffer(Binding::Counts) {
                 recorder.encoder.copy_buffer_to_buffer(source, 0, &counts, 16 * u64::from(index), 16);
             }
         }
-        recorder.record(&self.step("accumulate", pass.pixel_count)?, 0);
+        for step in self.steps(When::PassEnd, false, pass) {
+            recorder.record(&step, 0);
+        }
         let stages = recorder.finish()?;
         let words: Vec<[u32; 4]> = self.device.read(&counts)?.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect();
         // After vertex number i (from 1) its survivors wait in the queue that vertex i + 1 reads.

@@ -3,13 +3,16 @@
 use std::ops::Range;
 use std::time::Instant;
 
-use super::buffers::{Buffers, STATISTICS_BYTES, VERTICES_PER_SUBMISSION, binding, vertex_parameters};
+use super::buffers::{Buffers, STATISTICS_BYTES, VERTICES_PER_SUBMISSION, vertex_parameters};
 use super::device::{Device, OpeningDevice};
 use super::kernels::{self, Kernel};
-use super::parameters::PassParameters;
 use super::passes::{Pass, PassSizer};
 use crate::film::Band;
 use crate::packed::{PackError, PackedScene};
+use crate::plan::bindings::Binding;
+use crate::plan::parameters::PassParameters;
+use crate::plan::path_state::{CONNECT_SIZE, COUNTS, WORKGROUP};
+use crate::plan::stages::{Over, When};
 use crate::plan::{Plan, PlanOptions, StageMode};
 use crate::renderer::{Batch, DeviceChoice, Observer, RenderError, RenderReport, Renderer};
 use crate::sampling::{Sampling, SequencePoint};
@@ -141,37 +144,26 @@ impl GpuRenderer {
         &self.plan
     }
 
-    pub(super) fn write(&self, number: u32, bytes: &[u8]) {
-        if let Some(buffer) = self.buffers.buffer(number) {
+    pub(super) fn write(&self, binding: Binding, bytes: &[u8]) {
+        if let Some(buffer) = self.buffers.buffer(binding) {
             self.device.queue.write_buffer(buffer, 0, bytes);
         }
     }
 
     /// Uploads the order in which passes take the band's pixels.
     fn write_list(&self, pixels: &[u32]) {
-        if let Some(buffer) = self.buffers.buffer(binding::STATISTICS) {
+        if let Some(buffer) = self.buffers.buffer(Binding::Statistics) {
             self.device.queue.write_buffer(buffer, STATISTICS_BYTES, bytemuck::cast_slice(pixels));
         }
     }
 
-    pub(super) fn kernel(&self, entry: &str) -> Option<&Kernel> {
-        self.kernels.iter().find(|kernel| kernel.entry == entry)
-    }
-
     /// Workgroups of a fused kernel: as many in every run.
-    pub(super) fn fused_workgroups(&self, pass: &Pass) -> u32 {
+    fn fused_workgroups(&self, pass: &Pass) -> u32 {
         self.run_length(pass) * self.plan.runs
     }
 
     fn run_length(&self, pass: &Pass) -> u32 {
-        pass.pixel_count.div_ceil(64).div_ceil(self.plan.runs)
-    }
-
-    fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>, entry: &str, invocations: u32) {
-        if let Some(kernel) = self.kernel(entry) {
-            kernel.set(pass, 0);
-            pass.dispatch_workgroups(invocations.div_ceil(64), 1, 1);
-        }
+        pass.pixel_count.div_ceil(WORKGROUP).div_ceil(self.plan.runs)
     }
 
     /// Uploads what a pass needs: its parameters, and its samples' points of the sampler's sequence.
@@ -190,7 +182,7 @@ impl GpuRenderer {
             run_length: self.run_length(pass),
             ..Default::default()
         };
-        self.write(binding::PASS, bytemuck::bytes_of(&parameters));
+        self.write(Binding::Pass, bytemuck::bytes_of(&parameters));
         if sampling.uses_sequence() {
             let samples = pass.first_sample..pass.first_sample + pass.sample_count;
             let mut words = Vec::new();
@@ -198,102 +190,93 @@ impl GpuRenderer {
                 words.extend(point.bits);
                 words.extend(point.more_lights.as_flattened());
             }
-            self.write(binding::SEQUENCE, bytemuck::cast_slice(&words));
+            self.write(Binding::Sequence, bytemuck::cast_slice(&words));
         }
     }
 
     /// Traces the paths of one pass and adds them to the film.
     pub(super) fn run_pass(&self, pass: &Pass) -> Result<(), RenderError> {
         match self.plan.stages {
-            StageMode::Fused => {
-                let mut encoder = self.device.device.create_command_encoder(&Default::default());
-                let mut compute = encoder.begin_compute_pass(&Default::default());
-                self.dispatch(&mut compute, "trace_paths", 64 * self.fused_workgroups(pass));
-                drop(compute);
-                self.device.submit_and_wait(encoder.finish())
-            }
+            StageMode::Fused => self.submit(|compute| self.encode(compute, When::PassStart, 0, true, pass)),
             StageMode::Wavefront => self.run_wavefront(pass),
         }
     }
 
     /// Vertices are encoded ahead, so that none waits for the host; only paths longer than a submission holds do.
     fn run_wavefront(&self, pass: &Pass) -> Result<(), RenderError> {
-        let paths = pass.paths() as u32;
-        self.write(binding::COUNTS, bytemuck::cast_slice(&[paths, 0, 0, 0, 0]));
+        let mut counts = [0_u32; COUNTS as usize];
+        counts[0] = pass.paths() as u32;
+        self.write(Binding::Counts, bytemuck::cast_slice(&counts));
         let mut first_vertex = 1;
         loop {
-            let vertices = self.max_vertices.map_or(u32::MAX, |depth| depth - first_vertex + 1).min(self.vertices_per_submission);
-            let last = self.max_vertices.is_some_and(|depth| first_vertex + vertices > depth);
-            self.write(binding::VERTEX, &vertex_parameters(first_vertex));
-            let mut encoder = self.device.device.create_command_encoder(&Default::default());
-            let mut compute = encoder.begin_compute_pass(&Default::default());
-            if first_vertex == 1 {
-                self.dispatch(&mut compute, "generate", paths);
-            }
-            self.encode_vertices(&mut compute, first_vertex, vertices, paths)?;
-            if last {
-                self.dispatch(&mut compute, "accumulate", pass.pixel_count);
-            }
-            drop(compute);
-            self.device.submit_and_wait(encoder.finish())?;
+            let vertices = self.max_vertices.map_or(u32::MAX, |most| most - first_vertex + 1).min(self.vertices_per_submission);
+            let last = self.max_vertices.is_some_and(|most| first_vertex + vertices > most);
+            self.write(Binding::Vertex, &vertex_parameters(first_vertex));
+            self.submit(|compute| {
+                if first_vertex == 1 {
+                    self.encode(compute, When::PassStart, 0, true, pass);
+                }
+                for index in 0..vertices {
+                    self.encode(compute, When::EachVertex, index, first_vertex == 1 && index == 0, pass);
+                }
+                if last {
+                    self.encode(compute, When::PassEnd, 0, false, pass);
+                }
+            })?;
             first_vertex += vertices;
             if last {
                 return Ok(());
             }
             if self.living_paths(first_vertex)? == 0 {
-                let mut encoder = self.device.device.create_command_encoder(&Default::default());
-                let mut compute = encoder.begin_compute_pass(&Default::default());
-                self.dispatch(&mut compute, "accumulate", pass.pixel_count);
-                drop(compute);
-                return self.device.submit_and_wait(encoder.finish());
+                return self.submit(|compute| self.encode(compute, When::PassEnd, 0, false, pass));
             }
         }
     }
 
-    fn encode_vertices(
-        &self,
-        compute: &mut wgpu::ComputePass<'_>,
-        first_vertex: u32,
-        vertices: u32,
-        paths: u32,
-    ) -> Result<(), RenderError> {
-        for index in 0..vertices {
-            for step in self.vertex_steps(first_vertex == 1 && index == 0, paths)? {
-                step.encode(compute, index);
-            }
-        }
-        Ok(())
+    /// Submits what `encode` adds to a compute pass, and waits.
+    fn submit(&self, encode: impl FnOnce(&mut wgpu::ComputePass<'_>)) -> Result<(), RenderError> {
+        let mut encoder = self.device.device.create_command_encoder(&Default::default());
+        let mut compute = encoder.begin_compute_pass(&Default::default());
+        encode(&mut compute);
+        drop(compute);
+        self.device.submit_and_wait(encoder.finish())
     }
 
-    /// What runs for one vertex. The first vertex's queue holds all paths of the pass; later sizes come from `prepare`: shade's, extend's,
-    /// connect's.
-    pub(super) fn vertex_steps(&self, first: bool, paths: u32) -> Result<Vec<Step<'_>>, RenderError> {
-        let missing = || RenderError::Internal("a stage of the wavefront is missing".into());
-        let [extend, shade, prepare] = ["extend", "shade", "prepare"].map(|entry| self.kernel(entry).ok_or_else(missing));
-        let sizes = self.buffers.buffer(binding::DISPATCH_SIZES).ok_or_else(missing)?;
-        let rays = 64 * self.plan.rays_per_invocation;
-        let queue = |offset, per_workgroup| match first {
-            true => Workgroups::Direct(paths.div_ceil(per_workgroup)),
-            false => Workgroups::Indirect(sizes, offset),
-        };
-        let mut steps = vec![
-            Step { kernel: extend?, workgroups: queue(12, rays) },
-            Step { kernel: shade?, workgroups: queue(0, 64) },
-            Step { kernel: prepare?, workgroups: Workgroups::Direct(1) },
-        ];
-        let connect = self.kernel("connect").map(|kernel| Step { kernel, workgroups: Workgroups::Indirect(sizes, 24) });
-        steps.extend(connect);
-        Ok(steps)
+    /// Adds the stages of this time to a compute pass, for the submission's vertex number `vertex_index` (from 0).
+    fn encode(&self, compute: &mut wgpu::ComputePass<'_>, when: When, vertex_index: u32, first_vertex: bool, pass: &Pass) {
+        for step in self.steps(when, first_vertex, pass) {
+            step.encode(compute, vertex_index);
+        }
+    }
+
+    /// The stages of this time, in order, with the workgroups of each. `first_vertex`: queues hold all paths of the pass.
+    pub(super) fn steps(&self, when: When, first_vertex: bool, pass: &Pass) -> impl Iterator<Item = Step<'_>> {
+        let (paths, pixels, in_runs) = (pass.paths() as u32, pass.pixel_count, self.fused_workgroups(pass));
+        self.kernels.iter().filter(move |kernel| kernel.stage.when == when).map(move |kernel| {
+            let direct = |invocations: u32| Workgroups::Direct(invocations.div_ceil(WORKGROUP));
+            let workgroups = match kernel.stage.over {
+                Over::Paths => direct(paths),
+                Over::Pixels => direct(pixels),
+                Over::PixelsInRuns => Workgroups::Direct(in_runs),
+                Over::Once => Workgroups::Direct(1),
+                Over::Queue { size, rays } => match self.buffers.buffer(Binding::DispatchSizes) {
+                    // Shadow rays come after `prepare`, which knows how many there are, at the first vertex as well.
+                    Some(sizes) if !first_vertex || size == CONNECT_SIZE => Workgroups::Indirect(sizes, 4 * u64::from(size)),
+                    _ => direct(paths.div_ceil(if rays { self.plan.rays_per_invocation } else { 1 })),
+                },
+            };
+            Step { kernel, workgroups }
+        })
     }
 
     /// Paths waiting in the queue that `vertex` will read.
     fn living_paths(&self, vertex: u32) -> Result<u32, RenderError> {
-        let counts: [u32; 4] = self.read_words(binding::COUNTS)?;
+        let counts: [u32; 4] = self.read_words(Binding::Counts)?;
         Ok(counts[((vertex - 1) % 2) as usize])
     }
 
-    fn read_words(&self, number: u32) -> Result<[u32; 4], RenderError> {
-        let Some(source) = self.buffers.buffer(number) else { return Ok([0; 4]) };
+    fn read_words(&self, binding: Binding) -> Result<[u32; 4], RenderError> {
+        let Some(source) = self.buffers.buffer(binding) else { return Ok([0; 4]) };
         let target = self.readback_buffer(16);
         let mut encoder = self.device.device.create_command_encoder(&Default::default());
         encoder.copy_buffer_to_buffer(source, 0, &target, 0, 16);
@@ -386,7 +369,7 @@ impl Renderer for GpuRenderer {
         on_band: &mut dyn FnMut(Band) -> std::io::Result<()>,
     ) -> Result<RenderReport, RenderError> {
         let start = Instant::now();
-        self.write(binding::STATISTICS, &[0; 16]);
+        self.write(Binding::Statistics, &[0; 16]);
         let request = batch.request;
         let sampling = Sampling { seed: batch.seed.unwrap_or(self.sampling.seed), ..self.sampling };
         let total = batch.total_samples(self.size[0]);
@@ -411,7 +394,7 @@ impl Renderer for GpuRenderer {
             on_band(self.finish_band(&band, batch)?)?;
             first_row += rows;
         }
-        let [low, high, non_finite_samples, _] = self.read_words(binding::STATISTICS)?;
+        let [low, high, non_finite_samples, _] = self.read_words(Binding::Statistics)?;
         Ok(RenderReport {
             device: self.device.name.clone(),
             traversal: self.plan.traversal_in_use(),

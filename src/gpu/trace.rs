@@ -1,26 +1,15 @@
 //! What happens along one path on the device, vertex by vertex.
 
-use super::buffers::binding;
 use super::passes::Pass;
 use super::renderer::{BandState, GpuRenderer};
 use crate::packed::NONE;
+use crate::plan::bindings::Binding;
+use crate::plan::trace_record::{
+    TRACE_BYTES, TRACE_WORDS, TRACED_FOUND, TRACED_LIGHT, TRACED_LIGHT_SEEN, TRACED_NULL, TRACED_ROULETTE, TRACED_SAMPLE,
+    TRACED_VERTEX,
+};
 use crate::renderer::RenderError;
 use crate::scene::MaterialId;
-
-/// Vertices that the kernel writes down; of longer paths the rest is not seen.
-pub const TRACED_VERTICES: usize = 64;
-/// vec4s of a vertex; `shaders/shading/trace.wgsl` says what they hold.
-const WORDS: usize = 10;
-/// Size of the buffer.
-pub(super) const BYTES: u64 = (TRACED_VERTICES * WORDS * 16) as u64;
-
-const VERTEX: u32 = 1;
-const LIGHT: u32 = 2;
-const LIGHT_SEEN: u32 = 4;
-const SAMPLE: u32 = 8;
-const PASS: u32 = 16;
-const ROULETTE: u32 = 32;
-const FOUND: u32 = 64;
 
 /// Emission or environment radiance that the path met.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,18 +76,19 @@ impl GpuRenderer {
     /// [`RenderError::Internal`] where the renderer was not made with [`crate::plan::PlanOptions::trace`]; else what the device reports.
     pub fn trace(&self, x: u32, y: u32, sample: u32) -> Result<GpuPathTrace, RenderError> {
         let missing = || RenderError::Internal("the kernels were not compiled to trace paths".into());
-        let source = self.buffers.buffer(binding::TRACE).ok_or_else(missing)?;
+        let source = self.buffers.buffer(Binding::Trace).ok_or_else(missing)?;
         let band = BandState { first_row: y, rows: 1, samples_done: 0 };
         let pass = Pass { first_pixel: x, pixel_count: 1, first_sample: sample, sample_count: 1, film_is_empty: true };
-        self.device.queue.write_buffer(source, 0, &vec![0; BYTES as usize]);
+        self.device.queue.write_buffer(source, 0, &vec![0; TRACE_BYTES as usize]);
         self.write_pass(&band, &pass, &self.sampling);
         self.run_pass(&pass)?;
-        let target = self.readback_buffer(BYTES);
+        let target = self.readback_buffer(TRACE_BYTES);
         let mut encoder = self.device.device.create_command_encoder(&Default::default());
-        encoder.copy_buffer_to_buffer(source, 0, &target, 0, BYTES);
+        encoder.copy_buffer_to_buffer(source, 0, &target, 0, TRACE_BYTES);
         self.device.submit_and_wait(encoder.finish())?;
         let words: Vec<[f32; 4]> = self.device.read(&target)?.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect();
-        let vertices = words.chunks_exact(WORDS).map_while(|words| read_vertex(words, &self.scene_materials)).collect();
+        let vertices =
+            words.chunks_exact(TRACE_WORDS as usize).map_while(|words| read_vertex(words, &self.scene_materials)).collect();
         let sums = self.read_film(&self.buffers.film[0], 1)?;
         let [r, g, b, _] = sums[x as usize];
         Ok(GpuPathTrace { vertices, radiance: [r, g, b] })
@@ -112,21 +102,27 @@ fn read_vertex(words: &[[f32; 4]], scene_materials: &[MaterialId]) -> Option<Tra
     let notes = w(3).to_bits();
     let has = |note: u32| notes & note != 0;
     let material = scene_materials.get(w(1).to_bits() as usize);
-    has(VERTEX).then(|| TracedVertex {
+    has(TRACED_VERTEX).then(|| TracedVertex {
         surface: if w(0).to_bits() == NONE { None } else { material.map(|&material| (xyz(0), xyz(1), material)) },
         direction: xyz(2),
         throughput: xyz(3),
-        found: has(FOUND).then(|| TracedFind { contribution: xyz(4), weight: w(4) }),
-        light: has(LIGHT).then(|| TracedLight {
+        found: has(TRACED_FOUND).then(|| TracedFind { contribution: xyz(4), weight: w(4) }),
+        light: has(TRACED_LIGHT).then(|| TracedLight {
             light: words[7][0].to_bits(),
             wi: xyz(5),
             pdf: w(5),
             bsdf_pdf: words[7][1],
             weight: w(6),
-            visible: has(LIGHT_SEEN),
+            visible: has(TRACED_LIGHT_SEEN),
             unshadowed: xyz(6),
         }),
-        sample: has(SAMPLE).then(|| TracedSample { wi: xyz(8), pdf: w(8), weight: xyz(9), eta_scale: w(9), passes: has(PASS) }),
-        survival: has(ROULETTE).then_some(words[7][2]),
+        sample: has(TRACED_SAMPLE).then(|| TracedSample {
+            wi: xyz(8),
+            pdf: w(8),
+            weight: xyz(9),
+            eta_scale: w(9),
+            passes: has(TRACED_NULL),
+        }),
+        survival: has(TRACED_ROULETTE).then_some(words[7][2]),
     })
 }

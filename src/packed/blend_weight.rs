@@ -2,24 +2,33 @@
 
 use super::NONE;
 use crate::scene::BlendWeight;
+use crate::shader::shared::{Constants, shared_constants, shared_kinds};
 
-/// Kinds in `shaders/shading/heuristic.wgsl`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(u32)]
-pub(super) enum WeightKind {
-    Constant = 0,
-    Facing = 1,
-    FresnelSchlick = 2,
-    FresnelExact = 3,
-    Texture = 4,
+shared_kinds! {
+    /// What decides a weight.
+    pub(super) enum WeightKind {
+        Constant = 0 as WEIGHT_CONSTANT,
+        Facing = 1 as WEIGHT_FACING,
+        FresnelSchlick = 2 as WEIGHT_FRESNEL_SCHLICK,
+        FresnelExact = 3 as WEIGHT_FRESNEL_EXACT,
+        Texture = 4 as WEIGHT_TEXTURE,
+    }
 }
 
-/// Applied in this order: 1 − w; w ≥ threshold; 1 − w.
-const REVERSED_WITHIN: u32 = 256;
-const THRESHOLDED: u32 = 512;
-const REVERSED: u32 = 1024;
+shared_constants!(flags {
+    // Applied in this order: 1 − w; w ≥ threshold; 1 − w.
+    const REVERSED_WITHIN: u32 = 256;
+    const THRESHOLDED: u32 = 512;
+    const REVERSED: u32 = 1024;
+});
+
 /// All of these.
 pub(super) const FLAGS: u32 = REVERSED_WITHIN | THRESHOLDED | REVERSED;
+
+/// Kinds and flags, for WGSL.
+pub fn constants() -> Constants {
+    [WeightKind::constants(), flags()].concat()
+}
 
 /// What decides a weight, 16 bytes.
 #[repr(C)]

@@ -7,6 +7,12 @@ use obvhs::bvh2::Bvh2;
 
 use super::grid::{Box3, Grid};
 use super::hierarchy::Child;
+use crate::shader::shared::shared_constants;
+
+shared_constants!(constants {
+    /// Words of a node's record.
+    pub const NODE_RECORD_WORDS: u32 = (size_of::<Node>() / 16) as u32;
+});
 
 /// Layout in `shaders/geometry/bvh4.wgsl`.
 #[repr(C)]

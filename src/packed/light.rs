@@ -12,30 +12,40 @@ use super::world::WorldGeometry;
 use crate::math::luminance;
 use crate::sampling::{Lamp, LightChoice};
 use crate::scene::{ColorInput, Estimator, Light, Scene, TextureKind};
+use crate::shader::shared::{Constants, shared_constants, shared_kinds};
 
-/// Kinds in `shaders/shading/light.wgsl`. The first four are those of primitives.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[repr(u32)]
-pub enum LightKind {
-    Triangle = 0,
-    Quad = 1,
-    Sphere = 2,
-    Disk = 3,
-    Point = 4,
-    Environment = 5,
-    Spot = 6,
-    Directional = 7,
-    /// Of any of the first four kinds, from bit [`PORTAL_SHIFT`] on.
-    Portal = 8,
+shared_kinds! {
+    /// What a light is. The first four kinds are those of primitives.
+    pub enum LightKind {
+        Triangle = 0 as LIGHT_TRIANGLE,
+        Quad = 1 as LIGHT_QUAD,
+        Sphere = 2 as LIGHT_SPHERE,
+        Disk = 3 as LIGHT_DISK,
+        Point = 4 as LIGHT_POINT,
+        Environment = 5 as LIGHT_ENVIRONMENT,
+        Spot = 6 as LIGHT_SPOT,
+        Directional = 7 as LIGHT_DIRECTIONAL,
+        /// Of any of the first four kinds, from bit [`PORTAL_SHIFT`] on.
+        Portal = 8 as LIGHT_PORTAL,
+    }
 }
 
-pub(super) const TWO_SIDED: u32 = 256;
-/// The radiance is that of the whole material, seen from where the light goes.
-pub(super) const VARIES: u32 = 512;
-/// Its points move as its attributes say.
-pub(super) const MOVES: u32 = 1024;
-/// Of a portal: where the kind of its shape stands.
-pub(super) const PORTAL_SHIFT: u32 = 12;
+shared_constants!(flags {
+    /// Words of a light in the tables.
+    pub const LIGHT_WORDS: u32 = (size_of::<PackedLight>() / 16) as u32;
+    pub(super) const LIGHT_TWO_SIDED: u32 = 256;
+    /// The radiance is that of the whole material, seen from where the light goes.
+    pub(super) const LIGHT_VARIES: u32 = 512;
+    /// Its points move as its attributes say.
+    pub(super) const LIGHT_MOVES: u32 = 1024;
+    /// Of a portal: where the kind of its shape stands.
+    pub(super) const PORTAL_SHIFT: u32 = 12;
+});
+
+/// Kinds, flags and sizes, for WGSL.
+pub fn constants() -> Constants {
+    [LightKind::constants(), flags()].concat()
+}
 
 /// 80 bytes, the layout of `light_word` in `shaders/shading/light.wgsl`.
 #[repr(C)]
@@ -65,11 +75,11 @@ pub struct PackedLight {
 impl PackedLight {
     /// Its radiance is looked up in the whole material.
     pub fn varies(&self) -> bool {
-        self.kind_and_flags & VARIES != 0
+        self.kind_and_flags & LIGHT_VARIES != 0
     }
 
     pub fn moves(&self) -> bool {
-        self.kind_and_flags & MOVES != 0
+        self.kind_and_flags & LIGHT_MOVES != 0
     }
 
     pub fn kind(&self) -> u32 {
@@ -249,7 +259,8 @@ fn surface_light(primitive: &WorldPrimitive, emission: &SurfaceEmission) -> Opti
     let (radiance, _) = super::material::color_and_texture(&emission.radiance);
     let (kind, size, [p0, p1, p2]) = light_geometry(primitive)?;
     let flag = |set: bool, bit: u32| if set { bit } else { 0 };
-    let flags = flag(emission.two_sided, TWO_SIDED) | flag(emission.varies, VARIES) | flag(primitive.moves(), MOVES);
+    let flags =
+        flag(emission.two_sided, LIGHT_TWO_SIDED) | flag(emission.varies, LIGHT_VARIES) | flag(primitive.moves(), LIGHT_MOVES);
     let kind_and_flags = kind as u32 | flags;
     Some(PackedLight {
         kind_and_flags,

@@ -9,35 +9,44 @@ use super::NONE;
 use super::blend_weight::{PackedBlendWeight, constant_weight};
 use super::validate::PackError;
 use crate::scene::{BlendMode, ColorInput, ConductorFresnel, Material, MaterialId, MaterialKind, MicrofacetDistribution, Scene};
+use crate::shader::shared::{Constants, shared_constants, shared_kinds};
 
-/// Kinds in `shaders/shading/leaf.wgsl`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[repr(u32)]
-pub enum PackedMaterialKind {
-    Diffuse = 0,
-    Mirror = 1,
-    Glass = 2,
-    Emissive = 3,
-    Glossy = 4,
-    Phong = 5,
-    Conductor = 6,
-    RoughGlass = 7,
-    /// Rough glass of cosine-power lobes.
-    PhongGlass = 8,
-    Pass = 9,
-    Blend = 10,
+shared_kinds! {
+    /// What a material does to light.
+    pub enum PackedMaterialKind {
+        Diffuse = 0 as DIFFUSE,
+        Mirror = 1 as MIRROR,
+        Glass = 2 as GLASS,
+        Emissive = 3 as EMISSIVE,
+        Glossy = 4 as GLOSSY,
+        Phong = 5 as PHONG,
+        Conductor = 6 as CONDUCTOR,
+        RoughGlass = 7 as ROUGH_GLASS,
+        /// Rough glass after Honsdorf: cosine-power lobes about the mirror and the refracted direction.
+        PhongGlass = 8 as PHONG_GLASS,
+        Pass = 9 as NULL_SURFACE,
+        Blend = 10 as BLEND,
+    }
 }
 
-/// Beside the kind of a conductor: its colours are eta and k.
-pub(super) const COMPLEX_FRESNEL: u32 = 256;
+shared_constants!(flags {
+    /// Words of a material in the tables.
+    pub const MATERIAL_WORDS: u32 = (size_of::<PackedMaterial>() / 16) as u32;
+    /// Flag beside the kind of a conductor: its colours are eta and k.
+    pub(super) const COMPLEX_FRESNEL: u32 = 256;
+    pub(super) const EMITS: u32 = 1;
+    pub(super) const EMITS_TWO_SIDED: u32 = 2;
+    /// Some leaf of the blend emits.
+    pub(super) const LEAVES_EMIT: u32 = 4;
+    /// GGX narrower than this is a delta lobe: f32 no longer resolves it.
+    const DELTA_ALPHA: f32 = 1.0e-4;
+});
 
-pub(super) const EMITS: u32 = 1;
-pub(super) const EMITS_TWO_SIDED: u32 = 2;
-/// Some leaf of the blend emits.
-pub(super) const LEAVES_EMIT: u32 = 4;
+/// Kinds, flags and sizes, for WGSL.
+pub fn constants() -> Constants {
+    [PackedMaterialKind::constants(), flags()].concat()
+}
 
-/// GGX narrower than this is a delta lobe: f32 no longer resolves it. `SMOOTH_ALPHA` in `shaders/shading/leaf.wgsl`.
-const SMOOTH_ALPHA: f64 = 1.0e-4;
 /// Rough glass whose index of refraction is this close to 1 is smooth: its refraction is a delta lobe.
 const SMALLEST_BEND: f64 = 1.0e-4;
 
@@ -328,7 +337,7 @@ impl Parameters {
             MaterialKind::RoughGlass { ior, alpha, distribution, reflectance, transmittance } => {
                 let kind = match (distribution, alpha) {
                     (MicrofacetDistribution::Phong, _) => Kind::PhongGlass,
-                    (MicrofacetDistribution::Ggx, ColorInput::Constant(alpha)) if alpha.x < SMOOTH_ALPHA => Kind::Glass,
+                    (MicrofacetDistribution::Ggx, ColorInput::Constant(alpha)) if alpha.x < f64::from(DELTA_ALPHA) => Kind::Glass,
                     // What hardly bends light sends it straight on, however rough.
                     (MicrofacetDistribution::Ggx, _) if (ior - 1.0).abs() < SMALLEST_BEND => Kind::Glass,
                     (MicrofacetDistribution::Ggx, _) => Kind::RoughGlass,

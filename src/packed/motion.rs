@@ -5,12 +5,15 @@ use glam::{DAffine3, DVec3, Vec3};
 use super::primitive::WorldPrimitive;
 use crate::math::outward;
 use crate::scene::{MotionStep, Shape};
+use crate::shader::shared::shared_constants;
 
-/// Kinds of steps in `shaders/geometry/motion.wgsl`.
-const TRANSLATE: u32 = 0;
-const SCALE: u32 = 1;
-const ROTATE: u32 = 2;
-pub(super) const KINDS_OF_STEPS: u32 = 3;
+shared_constants!(constants {
+    /// Kinds of steps.
+    const STEP_TRANSLATE: u32 = 0;
+    const STEP_SCALE: u32 = 1;
+    const STEP_ROTATE: u32 = 2;
+    pub(super) const KINDS_OF_STEPS: u32 = 3;
+});
 
 /// How finely what a shape sweeps is sampled: deviations from straight lines stay below this share of its radius, if few enough times do.
 const DEVIATION: f64 = 0.01;
@@ -68,9 +71,9 @@ impl PackedMotion {
         let mut words = vec![row(self.origin, self.steps.len() as u32)];
         for step in &self.steps {
             words.extend(match *step {
-                PackedStep::Translate { start, change } => [row(start, TRANSLATE), row(change, 0)],
-                PackedStep::Scale { start, change } => [row(start, SCALE), row(change, 0)],
-                PackedStep::Rotate { axis, start, change } => [row(axis, ROTATE), row(DVec3::new(start, change, 0.0), 0)],
+                PackedStep::Translate { start, change } => [row(start, STEP_TRANSLATE), row(change, 0)],
+                PackedStep::Scale { start, change } => [row(start, STEP_SCALE), row(change, 0)],
+                PackedStep::Rotate { axis, start, change } => [row(axis, STEP_ROTATE), row(DVec3::new(start, change, 0.0), 0)],
             });
         }
         words

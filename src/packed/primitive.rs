@@ -4,16 +4,17 @@ use glam::{DAffine3, DVec3, Vec2, Vec3};
 
 use super::NONE;
 use crate::math::outward;
+use crate::shader::shared::{shared_constants, shared_kinds};
 
-/// Kinds in `shaders/geometry/scene.wgsl`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[repr(u32)]
-pub enum PrimitiveKind {
-    Triangle = 0,
-    Quad = 1,
-    Sphere = 2,
-    Disk = 3,
-    Plane = 4,
+shared_kinds! {
+    /// What a primitive is.
+    pub enum PrimitiveKind {
+        Triangle = 0 as KIND_TRIANGLE,
+        Quad = 1 as KIND_QUAD,
+        Sphere = 2 as KIND_SPHERE,
+        Disk = 3 as KIND_DISK,
+        Plane = 4 as KIND_PLANE,
+    }
 }
 
 /// Where a primitive is, in world space.
@@ -73,8 +74,16 @@ pub struct Primitive {
     pub attributes: u32,
 }
 
-/// Set where a primitive moves.
-const MOVES: u32 = 1 << 31;
+shared_constants!(constants {
+    /// Words of a primitive's record.
+    pub const PRIMITIVE_RECORD_WORDS: u32 = (size_of::<Primitive>() / 16) as u32;
+    /// Words of the record of a triangle's attributes.
+    pub const ATTRIBUTE_RECORD_WORDS: u32 = (size_of::<TriangleAttributes>() / 16) as u32;
+    /// Flag beside the kind of a primitive that moves.
+    const PRIMITIVE_MOVES: u32 = 1 << 31;
+    /// Quads overlap their neighbours by this share of their edges.
+    const QUAD_OVERLAP: f32 = 1.0e-6;
+});
 
 /// Normals and texture coordinates of a triangle's vertices, and how it moves; 64 bytes.
 #[repr(C)]
@@ -129,8 +138,7 @@ impl PrimitiveGeometry {
                 let zero = DVec3::ZERO;
                 let low = edge_u.min(zero) + edge_v.min(zero);
                 let high = edge_u.max(zero) + edge_v.max(zero);
-                // Quads overlap their neighbours by a millionth of their edges (QUAD_OVERLAP).
-                let overlap = (edge_u.abs() + edge_v.abs()) * 2.0e-6;
+                let overlap = (edge_u.abs() + edge_v.abs()) * (2.0 * f64::from(QUAD_OVERLAP));
                 Some(outward(corner + low - overlap, corner + high + overlap))
             }
             Self::Sphere { center, radius } => Some(outward(center - radius, center + radius)),
@@ -194,7 +202,7 @@ impl WorldPrimitive {
             PrimitiveGeometry::Disk { center, normal, radius } => (single(center), single(normal), [radius as f32, 0.0, 0.0]),
             PrimitiveGeometry::Plane { point, normal } => (single(point), single(normal), [0.0; 3]),
         };
-        let moves = if self.moves() { MOVES } else { 0 };
+        let moves = if self.moves() { PRIMITIVE_MOVES } else { 0 };
         let kind_and_material = moves | (self.kind() as u32) << 28 | self.material as u32;
         Primitive { p0, kind_and_material, p1, light: self.light, p2, attributes: self.attributes }
     }
@@ -206,7 +214,7 @@ impl Primitive {
     }
 
     pub fn moves(&self) -> bool {
-        self.kind_and_material & MOVES != 0
+        self.kind_and_material & PRIMITIVE_MOVES != 0
     }
 
     pub fn material(&self) -> u32 {

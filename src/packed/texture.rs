@@ -6,22 +6,34 @@ use glam::DVec3;
 
 use super::validate::PackError;
 use crate::scene::{ImageTexture, Scene, Texture, TextureFilter, TextureId, TextureKind, TextureWrap};
+use crate::shader::shared::{Constants, shared_constants, shared_kinds};
 
-/// Kinds in `shaders/shading/texture.wgsl`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(u32)]
-pub enum PackedTextureKind {
-    Image = 0,
-    Checker = 1,
-    Perlin = 2,
-    Worley = 3,
+shared_kinds! {
+    /// What a texture is.
+    pub enum PackedTextureKind {
+        Image = 0 as TEXTURE_IMAGE,
+        Checker = 1 as TEXTURE_CHECKER,
+        Perlin = 2 as TEXTURE_PERLIN,
+        Worley = 3 as TEXTURE_WORLEY,
+    }
 }
 
-const NEAREST: u32 = 1 << 10;
-/// Where the way of wrapping stands.
-pub(super) const WRAP_SHIFT: u32 = 8;
+shared_constants!(flags {
+    /// Words of a texture in the tables.
+    pub const TEXTURE_WORDS: u32 = (size_of::<PackedTexture>() / 16) as u32;
+    /// Flag beside the kind of an image: texels are not interpolated.
+    const TEXTURE_NEAREST: u32 = 1 << 10;
+    /// Where the way of wrapping stands.
+    pub(super) const WRAP_SHIFT: u32 = 8;
+});
+
 /// Of an image, beside its kind.
-pub(super) const IMAGE_FLAGS: u32 = NEAREST | 3 << WRAP_SHIFT;
+pub(super) const IMAGE_FLAGS: u32 = TEXTURE_NEAREST | 3 << WRAP_SHIFT;
+
+/// Kinds, flags and sizes, for WGSL.
+pub fn constants() -> Constants {
+    [PackedTextureKind::constants(), flags()].concat()
+}
 
 /// 64 bytes, four vec4 of the tables.
 #[repr(C)]
@@ -99,7 +111,7 @@ impl PackedTextures {
             TextureWrap::Clamp => 1,
             TextureWrap::Mirror => 2,
         };
-        let nearest = if image.filter == TextureFilter::Nearest { NEAREST } else { 0 };
+        let nearest = if image.filter == TextureFilter::Nearest { TEXTURE_NEAREST } else { 0 };
         let first_texel = self.texels.len();
         if first_texel + 3 * image.image.texels.len() > u32::MAX as usize {
             return Err(PackError::TooManyTexels { found: first_texel / 3 + image.image.texels.len() });

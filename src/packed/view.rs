@@ -5,10 +5,10 @@ use glam::DVec3;
 use super::environment::{environments, sky_halves};
 use crate::sampling::filter::{CURVE_PIECES, FilterSampler};
 use crate::scene::{Aperture, ApertureShape, EnvironmentRadiance, Projection, Scene};
+use crate::shader::shared::shared_struct;
 
-/// `View` in `shaders/core/parameters.wgsl`.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+shared_struct! {
+/// The camera and what lies outside the scene.
 pub struct View {
     pub position: [f32; 4],
     /// A ray through film position (x, y), in pixels, goes along corner + x·step_x + y·step_y; orthographic: it starts there,
@@ -30,6 +30,7 @@ pub struct View {
     pub sky_ground: [f32; 4],
     /// Inverse cumulative distribution of the filter, piece by piece.
     pub filter_curve: [[f32; 4]; CURVE_PIECES],
+}
 }
 
 impl View {

@@ -5,10 +5,13 @@
 
 use std::fmt::{self, Write as _};
 
+use super::bindings::Binding;
 use super::limits::DeviceLimits;
 use super::memory::{self, megabytes};
 use super::{Plan, has_attributes};
 use crate::packed::PackedScene;
+use crate::packed::bvh4::NODE_RECORD_WORDS;
+use crate::packed::primitive::{ATTRIBUTE_RECORD_WORDS, PRIMITIVE_RECORD_WORDS};
 use crate::renderer::RenderError;
 
 /// Chunks of an array at most: binding numbers stay below 1,000, which WebGPU allows.
@@ -43,10 +46,10 @@ pub const PRIMITIVES: RecordArray = RecordArray {
     name: "primitives",
     words_type: "PrimitiveWords",
     word: "vec4<f32>",
-    words: 3,
+    words: PRIMITIVE_RECORD_WORDS,
     load: "primitive_words",
     load_word: "primitive_word",
-    binding: 4,
+    binding: Binding::Primitives as u32,
     switch: "PRIMITIVE_CHUNKS",
     file: "geometry/primitive_chunks.wgsl",
 };
@@ -56,10 +59,10 @@ pub const NODES: RecordArray = RecordArray {
     name: "nodes",
     words_type: "NodeWords",
     word: "vec4<u32>",
-    words: 3,
+    words: NODE_RECORD_WORDS,
     load: "node_words",
     load_word: "node_word",
-    binding: 6,
+    binding: Binding::Nodes as u32,
     switch: "NODE_CHUNKS",
     file: "geometry/node_chunks.wgsl",
 };
@@ -69,10 +72,10 @@ pub const ATTRIBUTES: RecordArray = RecordArray {
     name: "attributes",
     words_type: "AttributeWords",
     word: "vec4<f32>",
-    words: 4,
+    words: ATTRIBUTE_RECORD_WORDS,
     load: "attribute_words",
     load_word: "attribute_word",
-    binding: 7,
+    binding: Binding::Attributes as u32,
     switch: "ATTRIBUTE_CHUNKS",
     file: "geometry/attribute_chunks.wgsl",
 };

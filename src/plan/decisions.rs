@@ -26,10 +26,7 @@ pub(super) fn geometry(packed: &PackedScene, options: &PlanOptions) -> (Geometry
     match options.traversal {
         // What moves is no constant.
         _ if packed.moves() => (GeometryPlacement::Hierarchy, "something moves, and is no constant".into()),
-        // Where there is nothing to ask for, the device is not asked.
-        TraversalChoice::RayQuery if packed.hierarchy.primitive_count == 0 => {
-            (GeometryPlacement::Unrolled, "a hierarchy would hold nothing".into())
-        }
+        _ if packed.hierarchy.primitive_count == 0 => (GeometryPlacement::Unrolled, "a hierarchy would hold nothing".into()),
         TraversalChoice::Bvh | TraversalChoice::RayQuery => (GeometryPlacement::Hierarchy, ASKED_FOR.into()),
         TraversalChoice::Auto if count <= UNROLL_LIMIT => {
             (GeometryPlacement::Unrolled, format!("{count} primitives, at most {UNROLL_LIMIT}"))
@@ -83,7 +80,7 @@ pub(super) fn explain(
     if !cut.is_empty() {
         add("in chunks", cut.join(", "), format!("one binding holds {} KiB", limits.max_array >> 10));
     }
-    let entries: Vec<&str> = plan.stage_files().iter().map(|(_, entry)| *entry).collect();
+    let entries: Vec<&str> = plan.pipeline().map(|stage| stage.entry).collect();
     add("stages", entries.join(", "), stages);
     if plan.light_samples > 1 {
         let surfaces = match plan.light_samples_depth {

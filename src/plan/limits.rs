@@ -108,7 +108,7 @@ impl DeviceLimits {
 
     /// Paths in flight, each with as many bytes of shadow rays.
     pub fn paths_with_shadow_rays(&self, bytes: u64) -> u32 {
-        let most = self.max_array.min(MOST_SHADOW_RAY_BYTES) / bytes.max(1);
+        let most = self.max_storage_binding.min(self.max_buffer).min(MOST_SHADOW_RAY_BYTES) / bytes.max(1);
         u64::from(self.path_capacity).min(most) as u32
     }
 

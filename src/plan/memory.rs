@@ -2,17 +2,18 @@
 
 use std::fmt;
 
+use super::path_state::{PATH_STATE_WORDS, QUEUES, SHADOW_RAY_WORDS};
 use super::{Plan, StageMode, has_attributes, limits::DeviceLimits};
 use crate::packed::PackedScene;
 use crate::packed::primitive::{Primitive, TriangleAttributes};
 use crate::renderer::RenderError;
 
 /// Bytes of state per path: ray, throughput, radiance, hit (`shaders/stages/wavefront.wgsl`).
-pub const PATH_STATE_BYTES: u64 = 5 * 16;
+pub const PATH_STATE_BYTES: u64 = 16 * PATH_STATE_WORDS as u64;
 /// Bytes per shadow ray; a path has as many at a time as a surface takes light samples.
-pub const SHADOW_RAY_BYTES: u64 = 3 * 16;
-/// Two queues of one word each.
-pub const QUEUE_BYTES: u64 = 2 * 4;
+pub const SHADOW_RAY_BYTES: u64 = 16 * SHADOW_RAY_WORDS as u64;
+/// Bytes of a path's places in the queues.
+pub const QUEUE_BYTES: u64 = 4 * QUEUES as u64;
 /// Bytes of film per pixel of a band: sum and compensation.
 pub const FILM_BYTES: u64 = 2 * 16;
 
@@ -93,8 +94,8 @@ impl Memory {
     /// # Errors
     /// [`RenderError::DoesNotFit`] for the first array larger than the device can bind, of those that are never cut into chunks.
     pub fn check(&self, limits: &DeviceLimits) -> Result<(), RenderError> {
-        let limit = limits.max_array;
-        // The last is no array of ours, and bound whole.
+        let limit = limits.max_storage_binding.min(limits.max_buffer);
+        // These are cut, or bound as a whole by the device itself.
         let cut = [PRIMITIVES, NODES, ATTRIBUTES, ESTIMATED_ACCELERATION];
         match self.arrays.iter().find(|(name, bytes)| *bytes > limit && !cut.contains(name)) {
             Some((name, bytes)) => Err(RenderError::DoesNotFit(format!(

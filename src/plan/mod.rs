@@ -3,14 +3,20 @@
 //! The plan looks at a packed scene and the device's limits, and decides where geometry lives, which stages run, how many paths are in
 //! flight, and which parts of the shaders are compiled at all. `gpt check` prints it.
 
+pub mod bindings;
 pub mod chunks;
 pub mod decisions;
 pub mod fault;
+pub mod layout;
 pub mod limits;
 pub mod memory;
 mod options;
+pub mod parameters;
+pub mod path_state;
 mod ray_query;
+pub mod stages;
 pub mod switches;
+pub mod trace_record;
 pub mod unroll;
 
 use std::fmt;
@@ -20,6 +26,7 @@ use crate::packed::{NONE, PackedScene};
 use crate::renderer::RenderError;
 use crate::scene::Scene;
 use crate::shader::Switches;
+use crate::shader::switches::{SWITCHES, contradiction};
 
 pub use chunks::Chunks;
 pub use decisions::Decision;
@@ -188,10 +195,14 @@ impl Plan {
         if let Some(fault) = options.fault {
             fault.plant(packed, &mut plan.switches);
         }
+        if let Some(contradiction) = contradiction(&plan.switches.enabled) {
+            return Err(RenderError::Internal(format!("the plan turns on switches that do not go together: {contradiction}")));
+        }
         let first_constant = match geometry {
             GeometryPlacement::Unrolled => 0,
             GeometryPlacement::Hierarchy => packed.hierarchy.primitive_count as usize,
         };
+        plan.switches.generated.insert(layout::FILE, layout::wgsl());
         plan.switches.generated.insert("geometry/constants.wgsl", unroll::constants(packed, first_constant));
         for array in plan.chunks.iter().filter(|array| !array.is_whole()) {
             plan.switches.enable(array.array.switch, true);
@@ -201,22 +212,6 @@ impl Plan {
         plan.memory.check(limits)?;
         plan.decisions = decisions::explain(&plan, scene, packed, limits, why_geometry, why_stages);
         Ok(plan)
-    }
-
-    /// The shader files whose entry points run, in the order of the data's way.
-    pub fn stage_files(&self) -> &'static [(&'static str, &'static str)] {
-        match self.stages {
-            StageMode::Fused if self.lanes.is_some() => &[("stages/fused_lanes.wgsl", "trace_paths")],
-            StageMode::Fused => &[("stages/fused.wgsl", "trace_paths")],
-            StageMode::Wavefront => &[
-                ("stages/generate.wgsl", "generate"),
-                ("stages/extend.wgsl", "extend"),
-                ("stages/shade.wgsl", "shade"),
-                ("stages/prepare.wgsl", "prepare"),
-                ("stages/connect.wgsl", "connect"),
-                ("stages/accumulate.wgsl", "accumulate"),
-            ],
-        }
     }
 
     /// Blocks of four numbers that the table of the sampler's sequence holds for each sample.
@@ -257,11 +252,8 @@ impl fmt::Display for Plan {
         }
         let features: Vec<&str> = self.switches.enabled.iter().copied().collect();
         writeln!(f, "compiled in    {}", features.join(" "))?;
-        let skipped: Vec<&str> = switches::ALL
-            .iter()
-            .copied()
-            .filter(|name| !self.switches.enabled.contains(name) && !switches::DEBUG.contains(name))
-            .collect();
+        let left_out = SWITCHES.iter().filter(|row| !row.debug && !self.switches.enabled.contains(row.name));
+        let skipped: Vec<&str> = left_out.map(|row| row.name).collect();
         writeln!(f, "left out       {}", skipped.join(" "))?;
         writeln!(f, "paths          {} in flight", self.path_capacity)?;
         write!(f, "device memory  {}", self.memory)

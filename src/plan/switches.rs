@@ -1,4 +1,4 @@
-//! Which parts of the shaders a scene compiles.
+//! Which of the [switches](crate::shader::switches) a scene turns on.
 
 use super::{FilmStorage, MAX_SAMPLES_PER_PASS, Plan, has_attributes};
 use crate::packed::environment::PackedEnvironment;
@@ -13,100 +13,6 @@ use crate::sampling::dimension::SEQUENCE_DIMENSIONS;
 use crate::scene::{ApertureShape, Filter, FilterKind, HemisphereSampling, Projection};
 use crate::scene::{BlendMode, Estimator, LightSampling, MisHeuristic, PixelSampler, RenderSettings, Scene};
 use crate::shader::Switches;
-
-/// Every switch that the shaders know.
-pub const ALL: &[&str] = &[
-    "APERTURE_POLYGON",
-    "APERTURE_SQUARE",
-    "ATTRIBUTES",
-    "ATTRIBUTE_CHUNKS",
-    "BLENDS",
-    "BVH",
-    "CHECKERS",
-    "CONDUCTOR",
-    "COSINE_POWER",
-    "DIGITAL_SHIFT",
-    "DIRECTIONAL_LIGHTS",
-    "DISKS_IN_HIERARCHY",
-    "EMISSION",
-    "ENVIRONMENT",
-    "ENVIRONMENT_LIGHT",
-    "ENVIRONMENT_MAP",
-    "ENVIRONMENT_SAMPLED",
-    "ESTIMATOR_MIS",
-    "ESTIMATOR_NEE",
-    "FILM_TEXTURE",
-    "FILTER",
-    "FILTER_BOX",
-    "FILTER_CURVE",
-    "FLAT_LIGHTS",
-    "FLAT_ROUND",
-    "GLASS",
-    "GLOSSY",
-    "HEURISTIC_POWER",
-    "IMAGES",
-    "LENS",
-    "LIGHTS",
-    "MICROFACETS",
-    "MIRROR",
-    "MIXTURE",
-    "MORE_LOBES",
-    "MOTION",
-    "MOVING_LIGHTS",
-    "NODE_CHUNKS",
-    "NON_DELTA_TRANSMISSION",
-    "NORMAL_MAPS",
-    "NULL_SURFACES",
-    "ONE_LIGHT",
-    "ONLY_TRIANGLES_IN_HIERARCHY",
-    "ORTHOGRAPHIC",
-    "PACKETS",
-    "PERLIN",
-    "PHONG",
-    "PHONG_GLASS",
-    "PICK",
-    "PIXEL_CENTRE",
-    "PIXEL_DIGITAL_SHIFT",
-    "PIXEL_HASHED",
-    "PIXEL_LIST",
-    "PIXEL_ROTATION",
-    "PLANT_BRDF",
-    "PLANT_LIGHT",
-    "PLANT_MIS",
-    "POINT_LIGHTS",
-    "PORTALS",
-    "PRIMITIVE_CHUNKS",
-    "PROCEDURAL_TEXTURES",
-    "QUADS_IN_HIERARCHY",
-    "RAY_QUERY",
-    "ROUGH_GLASS",
-    "ROULETTE",
-    "SCALARS",
-    "SECOND_COLORS",
-    "SEQUENCE",
-    "SKY",
-    "SPHERES",
-    "SPHERES_IN_HIERARCHY",
-    "SPHERE_LIGHTS",
-    "SPHERE_LIGHTS_BY_POINT",
-    "SPHERE_LIGHTS_VISIBLE_HALF",
-    "SPOT_LIGHTS",
-    "SPREAD",
-    "SUBGROUP_QUEUES",
-    "TEXELS",
-    "TEXTURES",
-    "TRACE",
-    "TRIANGLES_IN_HIERARCHY",
-    "UNIFORM_HEMISPHERE",
-    "UNIFORM_NODES",
-    "UNIFORM_PRIMITIVES",
-    "UNIFORM_TABLES",
-    "VARYING_LIGHTS",
-    "WORLEY",
-];
-
-/// Those among them that no render has: they are for looking into a path and for tests of the tests.
-pub const DEBUG: &[&str] = &["PLANT_BRDF", "PLANT_LIGHT", "PLANT_MIS", "TRACE"];
 
 /// Blocks of four dimensions that the sequence's table holds per sample.
 pub const SEQUENCE_BLOCKS: u32 = SEQUENCE_DIMENSIONS / 4;
@@ -299,5 +205,5 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     switches.enable("NULL_SURFACES", packed.materials.leaves.iter().any(|leaf| is_pass(leaf.material)));
     switches.enable("NORMAL_MAPS", packed.materials.materials.iter().any(|material| material.normal_map != NONE));
     switches.enable("EMISSION", packed.materials.materials.iter().any(|material| material.emission_flags != 0));
-    switches.enable("VARYING_LIGHTS", packed.lights.iter().any(PackedLight::varies));
+    switches.enable("VARYING_LIGHTS", samples_lights(scene, packed) && packed.lights.iter().any(PackedLight::varies));
 }

@@ -7,6 +7,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
+use super::switches;
+
 /// Compile-time choices: which `#if`s hold, and constants that are declared before the first line.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Switches {
@@ -81,6 +83,10 @@ pub fn compose(root: &'static str, switches: &Switches) -> Result<ComposedShader
         composer.push(PLAN_CONSTANTS, 1, &format!("const {name}: u32 = {value}u;"));
     }
     composer.include(root, root, 0)?;
+    if let Some(name) = composer.read.iter().find(|name| switches::find(name).is_none()) {
+        let message = format!("there is no switch {name} for {SWITCH_PREFIX}{name}");
+        return Err(ComposeError::Directive { file: root, line: 1, message });
+    }
     Ok(composer.finish())
 }
 
@@ -151,10 +157,12 @@ impl Composer<'_> {
             let trimmed = line.trim_start();
             if let Some(condition) = trimmed.strip_prefix("#if ") {
                 let condition = condition.trim();
-                conditions.push(match condition.strip_prefix('!') {
-                    Some(name) => !self.switches.enabled.contains(name),
-                    None => self.switches.enabled.contains(condition),
-                });
+                let (name, wanted) = condition.strip_prefix('!').map_or((condition, true), |name| (name, false));
+                // A misspelt name would be false for ever.
+                if switches::find(name).is_none() {
+                    return fail(&format!("there is no switch {name}"));
+                }
+                conditions.push(self.switches.enabled.contains(name) == wanted);
             } else if trimmed.starts_with("#else") {
                 match conditions.last_mut() {
                     Some(holds) => *holds = !*holds,
@@ -194,11 +202,11 @@ mod tests {
     #[test]
     fn conditions_nest_and_files_are_included_once() {
         let mut switches = switches(&[
-            ("a", "#import b\n#import b\n#if X\nx\n#if Y\nxy\n#else\nx only\n#endif\n#else\nno x\n#endif"),
+            ("a", "#import b\n#import b\n#if MIRROR\nx\n#if GLASS\nxy\n#else\nx only\n#endif\n#else\nno x\n#endif"),
             ("b", "b"),
         ]);
         assert_eq!(compose("a", &switches).unwrap().text, "b\nno x\n");
-        switches.enable("X", true);
+        switches.enable("MIRROR", true);
         let composed = compose("a", &switches).unwrap();
         assert_eq!(composed.text, "b\nx\nx only\n");
         assert_eq!(composed.locate(3), "shaders/a:8");
@@ -216,11 +224,12 @@ mod tests {
     /// Once each, wherever they are read; a comment reads nothing.
     #[test]
     fn switches_are_constants_where_code_reads_them() {
-        let mut switches = switches(&[("a", "enable x;\nif HAS_X && !HAS_Y {}\n// HAS_Z\n#import b"), ("b", "HAS_X")]);
-        switches.enable("X", true);
+        let mut switches =
+            switches(&[("a", "enable x;\nif HAS_GLASS && !HAS_MIRROR {}\n// HAS_Z\n#import b"), ("b", "HAS_GLASS")]);
+        switches.enable("GLASS", true);
         let composed = compose("a", &switches).unwrap();
-        let constants = "const HAS_X: bool = true;\nconst HAS_Y: bool = false;\n";
-        assert_eq!(composed.text, format!("enable x;\n{constants}if HAS_X && !HAS_Y {{}}\n// HAS_Z\nHAS_X\n"));
+        let constants = "const HAS_GLASS: bool = true;\nconst HAS_MIRROR: bool = false;\n";
+        assert_eq!(composed.text, format!("enable x;\n{constants}if HAS_GLASS && !HAS_MIRROR {{}}\n// HAS_Z\nHAS_GLASS\n"));
         assert_eq!([1, 4, 6].map(|line| composed.locate(line)), ["shaders/a:1", "shaders/a:2", "shaders/b:1"]);
     }
 
@@ -228,7 +237,9 @@ mod tests {
     fn mistakes_name_file_and_line() {
         let message = |files| compose("a", &switches(files)).unwrap_err().to_string();
         assert_eq!(message(&[("a", "\n#import c")]), "shaders/a:2: no file c to import");
-        assert_eq!(message(&[("a", "#if X")]), "shaders/a:1: #if without #endif");
+        assert_eq!(message(&[("a", "HAS_MIRORR")]), "shaders/a:1: there is no switch MIRORR for HAS_MIRORR");
+        assert_eq!(message(&[("a", "#if MIRROR")]), "shaders/a:1: #if without #endif");
+        assert_eq!(message(&[("a", "\n#if !MIRORR\n#endif")]), "shaders/a:2: there is no switch MIRORR");
         assert_eq!(message(&[("a", "#endif")]), "shaders/a:1: #endif without #if");
         let invalid = compose("a", &switches(&[("a", "\nfn f() -> u32 { return missing; }")])).unwrap();
         assert!(invalid.validate().unwrap_err().to_string().starts_with("shaders/a:2: "));

@@ -6,8 +6,9 @@ use glam::DVec3;
 use serde::Serialize;
 
 use super::{PATH_TOLERANCE, planted};
-use crate::gpu::trace::{TRACED_VERTICES, TracedVertex};
+use crate::gpu::trace::TracedVertex;
 use crate::gpu::{Device, GpuRenderer};
+use crate::plan::trace_record::TRACED_VERTICES;
 use crate::plan::{Fault, PlanOptions};
 use crate::reference::ReferenceRenderer;
 use crate::reference::bsdf::Density;
@@ -174,7 +175,7 @@ fn side_by_side(cpu: &[Quantities], gpu: &[Quantities]) -> Vec<Row> {
                 (Some(a), Some(b)) => a.difference(b) > QUANTITY_TOLERANCE,
                 // The packed scene knows no shapes; vertices past the last that the kernel writes down are not its fault.
                 // Where a path ends, only one may ask for the normal.
-                _ => !["shape", "shading normal"].contains(&quantity) && index < TRACED_VERTICES,
+                _ => !["shape", "shading normal"].contains(&quantity) && index < TRACED_VERTICES as usize,
             };
             rows.push(Row { vertex: index + 1, quantity, cpu: cpu_value, gpu: gpu_value, parts });
         }

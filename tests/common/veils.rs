@@ -34,7 +34,7 @@ type = "pass"
 name = "veil"
 type = "blend"
 materials = ["gone", "grey"]
-weight = { type = "constant", value = 0.25 }
+weight = {{ type = "constant", value = 0.25 }}
 [[material]]
 name = "lamp"
 type = "emissive"

@@ -116,6 +116,7 @@ fn all_files() -> Files {
     }
     let scene = gpt::load::load(Some("spheres")).expect("it is built in");
     let packed = gpt::packed::PackedScene::new(&scene).expect("it packs");
+    texts.insert(gpt::plan::layout::FILE.to_owned(), gpt::plan::layout::wgsl());
     texts.insert("geometry/constants.wgsl".to_owned(), gpt::plan::unroll::constants(&packed, 0));
     texts.into_iter().map(|(name, text)| (name, Names::of(&text))).collect()
 }

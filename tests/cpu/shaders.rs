@@ -3,108 +3,15 @@
 use std::collections::BTreeSet;
 
 use gpt::gpu::kernels::used_bindings;
+use gpt::plan::bindings::Binding;
 use gpt::plan::chunks::{ATTRIBUTES, Chunks, NODES, PRIMITIVES, RecordArray};
-use gpt::plan::switches::{ALL, DEBUG};
+use gpt::plan::layout;
+use gpt::plan::stages::{STAGES, Stage, When};
+use gpt::shader::switches::{SWITCHES, close, contradiction};
 use gpt::shader::{ComposeError, Switches, compose};
 
-const STAGES: [(&str, &str); 8] = [
-    ("stages/fused.wgsl", "trace_paths"),
-    ("stages/fused_lanes.wgsl", "trace_paths"),
-    ("stages/generate.wgsl", "generate"),
-    ("stages/extend.wgsl", "extend"),
-    ("stages/shade.wgsl", "shade"),
-    ("stages/prepare.wgsl", "prepare"),
-    ("stages/connect.wgsl", "connect"),
-    ("stages/accumulate.wgsl", "accumulate"),
-];
-
-/// A set of switches that some plan can make: implications of `plan::switches::choose` hold.
-fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
-    let by_query = !wanted.contains("BVH");
-    if wanted.contains("ONLY_TRIANGLES_IN_HIERARCHY") {
-        wanted.insert("TRIANGLES_IN_HIERARCHY");
-        for other in ["QUADS_IN_HIERARCHY", "SPHERES_IN_HIERARCHY", "DISKS_IN_HIERARCHY"] {
-            wanted.remove(other);
-        }
-    }
-    if wanted.contains("DISKS_IN_HIERARCHY") {
-        wanted.insert("FLAT_ROUND");
-    }
-    if wanted.contains("SPHERES_IN_HIERARCHY") {
-        wanted.insert("SPHERES");
-    }
-    if wanted.contains("SPHERE_LIGHTS") {
-        wanted.insert("SPHERES");
-    }
-    if wanted.contains("TRACE") {
-        wanted.remove("PIXEL_LIST");
-    }
-    // What fits a uniform buffer is not cut.
-    for (chunks, uniform) in [("PRIMITIVE_CHUNKS", "UNIFORM_PRIMITIVES"), ("NODE_CHUNKS", "UNIFORM_NODES")] {
-        if wanted.contains(chunks) {
-            wanted.remove(uniform);
-        }
-    }
-    for (name, needed) in [
-        ("VARYING_LIGHTS", &["EMISSION", "LIGHTS"][..]),
-        ("PACKETS", &["BVH"]),
-        ("MOVING_LIGHTS", &["MOTION", "ATTRIBUTES", "BVH"]),
-        ("MOTION", &["ATTRIBUTES", "BVH"]),
-        ("NODE_CHUNKS", &["BVH"]),
-        ("ATTRIBUTE_CHUNKS", &["ATTRIBUTES"]),
-        ("NULL_SURFACES", &["BLENDS"]),
-        ("PICK", &["BLENDS"]),
-        ("CHECKERS", &["TEXTURES", "PROCEDURAL_TEXTURES"]),
-        ("PERLIN", &["TEXTURES", "PROCEDURAL_TEXTURES"]),
-        ("WORLEY", &["TEXTURES", "PROCEDURAL_TEXTURES"]),
-        ("IMAGES", &["TEXTURES"]),
-        ("NORMAL_MAPS", &["TEXTURES"]),
-        ("CONDUCTOR", &["MICROFACETS", "SCALARS"]),
-        ("GLOSSY", &["COSINE_POWER", "SCALARS"]),
-        ("PHONG", &["COSINE_POWER", "SCALARS", "SECOND_COLORS"]),
-        ("PHONG_GLASS", &["COSINE_POWER", "SCALARS", "SECOND_COLORS"]),
-        ("ROUGH_GLASS", &["GLASS", "MICROFACETS", "SCALARS", "SECOND_COLORS"]),
-    ] {
-        if wanted.contains(name) {
-            wanted.extend(needed);
-        }
-    }
-    // Ray queries stand where no hierarchy of ours does, and see a scene at rest.
-    if wanted.contains("RAY_QUERY") && by_query {
-        for needing_nodes in ["BVH", "PACKETS", "MOTION", "MOVING_LIGHTS", "NODE_CHUNKS"] {
-            wanted.remove(needing_nodes);
-        }
-    } else {
-        wanted.remove("RAY_QUERY");
-    }
-    // A blend is a mixture unless a leaf of it is picked; only mixtures have lobes to tell apart.
-    if wanted.contains("BLENDS") && !wanted.contains("PICK") {
-        wanted.insert("MIXTURE");
-    } else {
-        wanted.remove("MIXTURE");
-        wanted.remove("MORE_LOBES");
-    }
-    for (name, needed) in [
-        ("ENVIRONMENT_LIGHT", &["ENVIRONMENT_SAMPLED"][..]),
-        ("PORTALS", &["ENVIRONMENT_SAMPLED"]),
-        ("ENVIRONMENT_SAMPLED", &["ENVIRONMENT", "LIGHTS"]),
-        ("ENVIRONMENT_MAP", &["ENVIRONMENT", "TEXELS"]),
-        ("IMAGES", &["TEXELS"]),
-        ("SPHERE_LIGHTS_VISIBLE_HALF", &["SPHERE_LIGHTS_BY_POINT"]),
-    ] {
-        if wanted.contains(name) {
-            wanted.extend(needed);
-        }
-    }
-    let lights = ["DIRECTIONAL_LIGHTS", "FLAT_LIGHTS", "SPHERE_LIGHTS", "POINT_LIGHTS", "SPOT_LIGHTS", "ONE_LIGHT"];
-    if !wanted.contains("LIGHTS") {
-        for light in lights {
-            wanted.remove(light);
-        }
-    }
-    if wanted.contains("ESTIMATOR_NEE") {
-        wanted.remove("ESTIMATOR_MIS");
-    }
+/// A set of switches that some plan can make, with what the plan adds to it.
+fn shippable(wanted: &BTreeSet<&'static str>) -> Switches {
     let constants = [
         "BLADES",
         "ENVIRONMENT_FIRST_DENSITY",
@@ -152,16 +59,16 @@ fn shippable(mut wanted: BTreeSet<&'static str>) -> Switches {
         |array: RecordArray| (array.file, Chunks::new(array, 2500 * array.record_bytes(), 1000 * array.record_bytes()).wgsl());
     let cut = [PRIMITIVES, NODES, ATTRIBUTES].into_iter().map(chunks);
     Switches {
-        enabled: wanted,
+        enabled: close(wanted),
         constants: constants.into_iter().map(|name| (name, 7)).collect(),
-        generated: cut.chain([("geometry/constants.wgsl", geometry.to_owned())]).collect(),
+        generated: cut.chain([(layout::FILE, layout::wgsl()), ("geometry/constants.wgsl", geometry.to_owned())]).collect(),
     }
 }
 
 fn validate_all(switches: &Switches) -> Result<(), (String, ComposeError)> {
     // Lanes side by side are always a packet.
     let runs = |file: &str| file != "stages/fused_lanes.wgsl" || switches.enabled.contains("PACKETS");
-    for (file, entry) in STAGES.into_iter().filter(|(file, _)| runs(file)) {
+    for Stage { file, entry, .. } in STAGES.iter().filter(|stage| runs(stage.file)) {
         let describe = |error| (format!("{entry} with {:?}", switches.enabled), error);
         let composed = compose(file, switches).map_err(describe)?;
         composed.validate().map_err(describe)?;
@@ -169,28 +76,37 @@ fn validate_all(switches: &Switches) -> Result<(), (String, ComposeError)> {
     Ok(())
 }
 
-/// All, none, each alone, each missing, and 64 halves at random, among which every two switches stand in all four ways: a switch that
-/// needs another, or excludes one, shows here.
+fn all_names() -> BTreeSet<&'static str> {
+    SWITCHES.iter().map(|row| row.name).collect()
+}
+
+/// All, none, each alone, each missing, and 64 halves at random, among which every two switches stand in all four ways, each with what the
+/// table requires: a switch that needs another, or excludes one, and does not say so in the table shows here.
 #[test]
 fn every_pair_of_switches_composes_to_valid_shaders() {
-    let everything: BTreeSet<&'static str> = ALL.iter().copied().collect();
+    let everything = all_names();
     let mut sets: BTreeSet<BTreeSet<&'static str>> = [everything.clone(), BTreeSet::new()].into();
-    for first in ALL {
+    for row in SWITCHES {
         let mut missing = everything.clone();
-        missing.remove(first);
-        sets.extend([missing, BTreeSet::from([*first])]);
+        missing.remove(row.name);
+        sets.extend([missing, BTreeSet::from([row.name])]);
     }
     let halves: Vec<BTreeSet<&'static str>> = (0..64).map(random_half).collect();
-    for (index, first) in ALL.iter().enumerate() {
-        for second in &ALL[index + 1..] {
-            let ways: BTreeSet<_> = halves.iter().map(|half| (half.contains(first), half.contains(second))).collect();
-            assert_eq!(ways.len(), 4, "{first} and {second} are not tried in every way");
+    for (index, first) in SWITCHES.iter().enumerate() {
+        for second in &SWITCHES[index + 1..] {
+            let ways: BTreeSet<_> = halves.iter().map(|half| (half.contains(first.name), half.contains(second.name))).collect();
+            assert_eq!(ways.len(), 4, "{} and {} are not tried in every way", first.name, second.name);
         }
     }
     sets.extend(halves);
-    let shipped: BTreeSet<BTreeSet<&'static str>> = sets.into_iter().map(|set| shippable(set).enabled).collect();
+    let shipped: BTreeSet<BTreeSet<&'static str>> = sets.iter().map(close).collect();
     assert!(shipped.len() > 100, "{} combinations", shipped.len());
-    for set in shipped {
+    for row in SWITCHES {
+        let on = shipped.iter().filter(|set| set.contains(row.name)).count();
+        assert!(on > 0 && on < shipped.len(), "{} is on in {on} of {} combinations", row.name, shipped.len());
+    }
+    for set in &shipped {
+        assert_eq!(contradiction(set), None);
         if let Err((what, error)) = validate_all(&shippable(set)) {
             panic!("{what}: {error}");
         }
@@ -201,15 +117,16 @@ fn every_pair_of_switches_composes_to_valid_shaders() {
 fn random_half(seed: u32) -> BTreeSet<&'static str> {
     let key = gpt::sampling::hash::mix(seed + 1);
     let chosen = |index: usize| gpt::sampling::hash::dimension_bits(key, index as u32) & 1 == 1;
-    ALL.iter().enumerate().filter(|(index, _)| chosen(*index)).map(|(_, name)| *name).collect()
+    SWITCHES.iter().enumerate().filter(|(index, _)| chosen(*index)).map(|(_, row)| row.name).collect()
 }
 
 /// Renders pay nothing for what only debugging needs: without its switches, the functions that write a path down are empty, and no fault is
 /// looked for.
 #[test]
 fn ordinary_kernels_hold_nothing_for_debugging() {
-    let without: BTreeSet<&'static str> = ALL.iter().copied().filter(|name| !DEBUG.contains(name)).collect();
-    let with = ALL.iter().copied().collect();
+    let without = SWITCHES.iter().filter(|row| !row.debug).map(|row| row.name).collect();
+    let mut with = all_names();
+    with.retain(|name| !["PACKETS", "PIXEL_LIST"].contains(name));
     // How many statements write a path down, whether there is a place to write to, and how many lines know of a fault.
     let left = |switches: &Switches| {
         let composed = compose("stages/fused.wgsl", switches).expect("it composes");
@@ -228,19 +145,21 @@ fn ordinary_kernels_hold_nothing_for_debugging() {
         let faults = composed.text.lines().filter(|line| !line.starts_with("const ") && line.contains("PLANTED_")).count();
         (statements, has_target, faults)
     };
-    assert_eq!(left(&shippable(without)), (0, false, 0));
-    let (statements, has_target, faults) = left(&shippable(with));
+    assert_eq!(left(&shippable(&without)), (0, false, 0));
+    let (statements, has_target, faults) = left(&shippable(&with));
     assert!(statements > 10 && has_target && faults == 2, "{statements} {has_target} {faults}");
 }
 
 /// Nor for pixels with different numbers of samples, which would cost a load a pixel.
 #[test]
 fn ordinary_kernels_look_up_no_pixels() {
-    let without: BTreeSet<&'static str> = ALL.iter().copied().filter(|name| !["PIXEL_LIST", "TRACE"].contains(name)).collect();
-    let with: BTreeSet<&'static str> = ALL.iter().copied().filter(|name| *name != "TRACE").collect();
-    for (file, entry) in [STAGES[0], STAGES[1], STAGES[2], STAGES[7]] {
+    let mut without = all_names();
+    without.retain(|name| !["PIXEL_LIST", "TRACE"].contains(name));
+    let mut with = all_names();
+    with.remove("TRACE");
+    for Stage { file, entry, .. } in STAGES.iter().filter(|stage| stage.when != When::EachVertex) {
         let looks_up = |wanted: &BTreeSet<&'static str>| {
-            compose(file, &shippable(wanted.clone())).expect("it composes").text.contains("listed_pixel")
+            compose(file, &shippable(wanted)).expect("it composes").text.contains("listed_pixel")
         };
         assert!(!looks_up(&without) && looks_up(&with), "{entry}");
     }
@@ -248,87 +167,94 @@ fn ordinary_kernels_look_up_no_pixels() {
 
 #[test]
 fn a_planted_mistake_is_found() {
-    let mut switches = shippable(ALL.iter().copied().collect());
+    let mut switches = shippable(&all_names());
     switches.constants.remove("STACK_SIZE");
     assert!(validate_all(&switches).is_err());
 }
 
-/// Sizes and offsets of structs and array strides in WGSL, by naga, against Rust's.
+/// Sizes and offsets of the structs that both sides have, by naga, against Rust's.
 #[test]
 fn layouts_match_between_wgsl_and_rust() {
-    use gpt::gpu::parameters::{PassParameters, VertexParameters};
     use gpt::packed::View;
-    use std::mem::offset_of;
+    use gpt::plan::parameters::{PassParameters, VertexParameters};
+    use gpt::shader::shared::SharedStruct;
 
-    let mut wanted: BTreeSet<&'static str> = ALL.iter().copied().collect();
-    wanted.remove("ONLY_TRIANGLES_IN_HIERARCHY");
-    let composed = compose("stages/shade.wgsl", &shippable(wanted)).unwrap();
-    let (module, _) = composed.validate().unwrap();
+    let module = naga::front::wgsl::parse_str(&layout::wgsl()).expect("the file stands alone");
     let members = |name: &str| {
         let (_, found) = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name)).expect("the struct exists");
         let naga::TypeInner::Struct { members, span } = &found.inner else { panic!("{name} is no struct") };
-        let members: Vec<(String, u32)> =
-            members.iter().map(|member| (member.name.clone().unwrap_or_default(), member.offset)).collect();
+        let members: Vec<(String, usize)> =
+            members.iter().map(|member| (member.name.clone().unwrap_or_default(), member.offset as usize)).collect();
         (members, *span as usize)
     };
-    macro_rules! check {
-        ($rust:ty, $wgsl:literal, $($field:ident),*) => {
-            let expected = vec![$((stringify!($field).to_owned(), offset_of!($rust, $field) as u32)),*];
-            assert_eq!(members($wgsl), (expected, size_of::<$rust>()), $wgsl);
-        };
+    fn expected<T: SharedStruct>() -> (Vec<(String, usize)>, usize) {
+        (T::fields().into_iter().map(|(name, offset)| (name.to_owned(), offset)).collect(), size_of::<T>())
     }
-    check!(
-        PassParameters,
-        "PassParameters",
-        first_pixel,
-        first_pixel_in_band,
-        pixel_count,
-        first_sample,
-        sample_count,
-        film_is_empty,
-        opaque_zero,
-        seed,
-        run_length,
-        padding_0,
-        padding_1,
-        padding_2
-    );
-    check!(VertexParameters, "VertexParameters", vertex, queue, padding);
-    check!(
-        View,
-        "View",
-        position,
-        corner,
-        step_x,
-        step_y,
-        forward,
-        lens_u,
-        lens_v,
-        environment,
-        sky_zenith,
-        sky_ground,
-        filter_curve
-    );
+    assert_eq!(members("PassParameters"), expected::<PassParameters>());
+    assert_eq!(members("VertexParameters"), expected::<VertexParameters>());
+    assert_eq!(members("View"), expected::<View>());
+    assert_ne!(members("View"), expected::<PassParameters>());
 }
 
-/// Packed records are whole numbers of vec4: the shaders index them in words of 16 bytes.
+/// Every constant has one value and a name of its own, and records are whole numbers of vec4: kernels index them in words of 16 bytes.
 #[test]
-fn packed_records_are_the_words_that_shaders_count() {
-    use gpt::packed::{blend_weight::PackedBlendWeight, bvh4, light::PackedLight, material::*, primitive::*, texture::*};
-    assert_eq!(size_of::<Primitive>(), 3 * 16);
-    assert_eq!(size_of::<TriangleAttributes>(), 4 * 16);
-    assert_eq!(size_of::<bvh4::Node>(), 3 * 16);
-    assert_eq!(size_of::<PackedMaterial>(), 5 * 16);
-    assert_eq!(size_of::<PackedLight>(), 5 * 16);
-    assert_eq!(size_of::<PackedLeaf>(), 16);
-    assert_eq!(size_of::<PackedBlendWeight>(), 16);
-    assert_eq!(size_of::<PackedTexture>(), 4 * 16);
+fn shared_constants_have_names_of_their_own() {
+    use gpt::packed::blend_weight::PackedBlendWeight;
+    use gpt::packed::light::PackedLight;
+    use gpt::packed::material::{PackedLeaf, PackedMaterial};
+    use gpt::packed::primitive::{Primitive, TriangleAttributes};
+    use gpt::packed::{bvh4, texture::PackedTexture};
+    let constants = layout::constants();
+    let names: BTreeSet<&str> = constants.iter().map(|(name, _)| *name).collect();
+    assert_eq!(names.len(), constants.len());
+    let sizes = [
+        size_of::<Primitive>(),
+        size_of::<TriangleAttributes>(),
+        size_of::<bvh4::Node>(),
+        size_of::<PackedMaterial>(),
+        size_of::<PackedLight>(),
+        size_of::<PackedLeaf>(),
+        size_of::<PackedBlendWeight>(),
+        size_of::<PackedTexture>(),
+    ];
+    assert!(sizes.iter().all(|size| size % 16 == 0), "{sizes:?}");
+}
+
+/// The table of stages says what each of them touches: no more and no less than naga finds in its code.
+#[test]
+fn stages_read_and_write_what_their_table_says() {
+    let state: BTreeSet<u32> =
+        STAGES.iter().flat_map(|stage| stage.reads.iter().chain(stage.writes)).map(|binding| *binding as u32).collect();
+    for stage in STAGES {
+        let mut wanted = all_names();
+        wanted.retain(|name| !["ONLY_TRIANGLES_IN_HIERARCHY", "TRACE", "PIXEL_LIST"].contains(name));
+        let (module, info) = compose(stage.file, &shippable(&wanted)).unwrap().validate().unwrap();
+        let entry = module.entry_points.iter().position(|point| point.name == stage.entry).expect("the entry point exists");
+        let (mut read, mut written) = (BTreeSet::new(), BTreeSet::new());
+        for (handle, variable) in module.global_variables.iter() {
+            let Some(number) = variable.binding.as_ref().map(|binding| binding.binding).filter(|number| state.contains(number))
+            else {
+                continue;
+            };
+            let used = info.get_entry_point(entry)[handle];
+            if used.contains(naga::valid::GlobalUse::READ) {
+                read.insert(number);
+            }
+            if used.contains(naga::valid::GlobalUse::WRITE) {
+                written.insert(number);
+            }
+        }
+        let numbers = |bindings: &[Binding]| bindings.iter().map(|binding| *binding as u32).collect::<BTreeSet<u32>>();
+        let (reads, writes) = (numbers(stage.reads), numbers(stage.writes));
+        assert_eq!(written, writes, "{} writes", stage.entry);
+        assert!(read.union(&written).eq(reads.union(&writes)), "{} reads {read:?}, and the table says {reads:?}", stage.entry);
+    }
 }
 
 /// WebGPU promises eight storage buffers a stage; no stage may need more.
 #[test]
 fn no_stage_needs_more_storage_buffers_than_webgpu_promises() {
-    let mut wanted: BTreeSet<&'static str> = ALL.iter().copied().collect();
+    let mut wanted = all_names();
     for absent in ["ONLY_TRIANGLES_IN_HIERARCHY", "UNIFORM_PRIMITIVES", "UNIFORM_TABLES", "FILM_TEXTURE"] {
         wanted.remove(absent);
     }
@@ -336,8 +262,8 @@ fn no_stage_needs_more_storage_buffers_than_webgpu_promises() {
     for absent in ["PRIMITIVE_CHUNKS", "NODE_CHUNKS", "ATTRIBUTE_CHUNKS"] {
         wanted.remove(absent);
     }
-    for (file, entry) in STAGES {
-        let (module, info) = compose(file, &shippable(wanted.clone())).unwrap().validate().unwrap();
+    for Stage { file, entry, .. } in STAGES {
+        let (module, info) = compose(file, &shippable(&wanted)).unwrap().validate().unwrap();
         let storage = used_bindings(&module, &info, entry)
             .iter()
             .filter(|used| matches!(used.kind, wgpu::BindingType::Buffer { ty: wgpu::BufferBindingType::Storage { .. }, .. }))

@@ -6,6 +6,7 @@
 // packets as lane by lane. Hardware loads for all lanes at once, and does not use them.
 //
 // Every lane of the subgroup has to call these functions; one without a ray gives a negative t_max, and meets nothing.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/bvh4.wgsl
 #import geometry/constants.wgsl

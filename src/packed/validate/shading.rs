@@ -119,7 +119,7 @@ impl PackedScene {
         let kind = light.kind();
         let is_surface = kind <= LightKind::Disk as u32;
         let known = match kind {
-            _ if is_surface => 255 | light::TWO_SIDED | light::VARIES | light::MOVES,
+            _ if is_surface => 255 | light::LIGHT_TWO_SIDED | light::LIGHT_VARIES | light::LIGHT_MOVES,
             portal if portal == LightKind::Portal as u32 => 255 | (LightKind::Disk as u32) << light::PORTAL_SHIFT,
             _ => 255,
         };

@@ -1,8 +1,9 @@
-//! What the host tells kernels beside the scene; layouts of `shaders/core/parameters.wgsl`.
+//! What kernels are given beside the scene.
 
+use crate::shader::shared::shared_struct;
+
+shared_struct! {
 /// One pass: a run of consecutive pixels of the band, each with the same samples.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct PassParameters {
     /// Of the pass, over the whole film; where pixels are listed, of the band.
     pub first_pixel: u32,
@@ -23,13 +24,14 @@ pub struct PassParameters {
     pub padding_1: u32,
     pub padding_2: u32,
 }
+}
 
+shared_struct! {
 /// Which vertex of its path a dispatch works on, from 1.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct VertexParameters {
     pub vertex: u32,
     /// Which half of the queues is read.
     pub queue: u32,
     pub padding: [u32; 2],
+}
 }

@@ -1,0 +1,37 @@
+//! The WGSL file of everything that Rust packs and kernels unpack: structs, kinds, flags, sizes, binding numbers. Each is defined once,
+//! beside the Rust code that packs it.
+
+use super::bindings::Binding;
+use super::parameters::{PassParameters, VertexParameters};
+use super::{path_state, trace_record};
+use crate::packed::{NONE, View, blend_weight, bvh4, light, material, motion, primitive, texture};
+use crate::shader::shared::{Constant, Constants, SharedStruct, declare_constant};
+
+/// Name under which kernels import it.
+pub const FILE: &str = "core/layout.wgsl";
+
+/// All constants.
+pub fn constants() -> Constants {
+    [
+        vec![("NONE", Constant::U32(NONE))],
+        Binding::constants(),
+        path_state::constants(),
+        trace_record::constants(),
+        primitive::PrimitiveKind::constants(),
+        primitive::constants(),
+        bvh4::constants(),
+        motion::constants(),
+        material::constants(),
+        blend_weight::constants(),
+        light::constants(),
+        texture::constants(),
+    ]
+    .concat()
+}
+
+/// The file's text.
+pub fn wgsl() -> String {
+    let structs = [PassParameters::wgsl(), VertexParameters::wgsl(), View::wgsl()].join("\n");
+    let constants: String = constants().into_iter().map(|(name, value)| declare_constant(name, value)).collect();
+    format!("// Written by src/plan/layout.rs.\n\n{structs}\n{constants}")
+}

@@ -1,0 +1,232 @@
+//! The table of switches: every part of the shaders that a scene compiles or leaves out, and what each needs of the others.
+//!
+//! The plan turns switches on, the composer refuses names that are not here, the shader tests draw combinations from here, and the bench
+//! forces single ones. A combination is one that a plan may make where it is [closed](close).
+
+use std::collections::BTreeSet;
+
+/// A row of the table.
+#[derive(Debug, Clone, Copy)]
+pub struct Switch {
+    pub name: &'static str,
+    /// All of these are on wherever it is.
+    pub requires: &'static [&'static str],
+    /// At least one of these is on wherever it is; the first is the simplest. Empty: it needs none.
+    pub one_of: &'static [&'static str],
+    /// None of these is on where it is.
+    pub excludes: &'static [&'static str],
+    /// No ordinary render has it: it is for following a path and for tests of the tests.
+    pub debug: bool,
+}
+
+const fn switch(name: &'static str) -> Switch {
+    Switch { name, requires: &[], one_of: &[], excludes: &[], debug: false }
+}
+
+impl Switch {
+    const fn requires(self, requires: &'static [&'static str]) -> Self {
+        Self { requires, ..self }
+    }
+
+    const fn one_of(self, one_of: &'static [&'static str]) -> Self {
+        Self { one_of, ..self }
+    }
+
+    const fn excludes(self, excludes: &'static [&'static str]) -> Self {
+        Self { excludes, ..self }
+    }
+
+    const fn debug(self) -> Self {
+        Self { debug: true, ..self }
+    }
+}
+
+/// Kinds of sampled light; where lights are sampled there is one at least.
+const LIGHT_KINDS: &[&str] =
+    &["POINT_LIGHTS", "FLAT_LIGHTS", "SPHERE_LIGHTS", "SPOT_LIGHTS", "DIRECTIONAL_LIGHTS", "ENVIRONMENT_LIGHT", "PORTALS"];
+/// Kinds of primitive that a hierarchy holds.
+const HELD: &[&str] = &["TRIANGLES_IN_HIERARCHY", "QUADS_IN_HIERARCHY", "SPHERES_IN_HIERARCHY", "DISKS_IN_HIERARCHY"];
+
+/// The table, in alphabetical order.
+pub const SWITCHES: &[Switch] = &[
+    switch("APERTURE_POLYGON").requires(&["LENS"]).excludes(&["APERTURE_SQUARE"]),
+    switch("APERTURE_SQUARE").requires(&["LENS"]),
+    switch("ATTRIBUTES"),
+    switch("ATTRIBUTE_CHUNKS").requires(&["ATTRIBUTES"]),
+    switch("BLENDS").one_of(&["MIXTURE", "PICK"]),
+    // Kernels walk nodes.
+    switch("BVH").one_of(HELD).excludes(&["RAY_QUERY"]),
+    switch("CHECKERS").requires(&["PROCEDURAL_TEXTURES"]),
+    switch("CONDUCTOR").requires(&["MICROFACETS", "SCALARS"]),
+    switch("COSINE_POWER").one_of(&["GLOSSY", "PHONG", "PHONG_GLASS"]),
+    switch("DIGITAL_SHIFT").requires(&["SEQUENCE"]),
+    switch("DIRECTIONAL_LIGHTS"),
+    switch("DISKS_IN_HIERARCHY").requires(&["FLAT_ROUND"]),
+    switch("EMISSION"),
+    switch("ENVIRONMENT"),
+    switch("ENVIRONMENT_LIGHT").requires(&["ENVIRONMENT_SAMPLED"]),
+    switch("ENVIRONMENT_MAP").requires(&["ENVIRONMENT", "TEXELS"]).excludes(&["SKY"]),
+    switch("ENVIRONMENT_SAMPLED").requires(&["ENVIRONMENT", "LIGHTS"]).one_of(&["ENVIRONMENT_LIGHT", "PORTALS"]),
+    switch("ESTIMATOR_MIS").excludes(&["ESTIMATOR_NEE"]),
+    switch("ESTIMATOR_NEE"),
+    switch("FILM_TEXTURE"),
+    switch("FILTER"),
+    switch("FILTER_BOX").requires(&["FILTER"]).excludes(&["FILTER_CURVE"]),
+    switch("FILTER_CURVE").requires(&["FILTER"]),
+    switch("FLAT_LIGHTS"),
+    switch("FLAT_ROUND"),
+    switch("GLASS"),
+    switch("GLOSSY").requires(&["COSINE_POWER", "SCALARS"]),
+    switch("HEURISTIC_POWER"),
+    switch("IMAGES").requires(&["TEXELS", "TEXTURES"]),
+    switch("LENS"),
+    switch("LIGHTS").one_of(LIGHT_KINDS),
+    switch("MICROFACETS").one_of(&["CONDUCTOR", "ROUGH_GLASS"]),
+    switch("MIRROR"),
+    switch("MIXTURE").requires(&["BLENDS"]).excludes(&["PICK"]),
+    // A mixture has lobes besides the diffuse one.
+    switch("MORE_LOBES").requires(&["MIXTURE"]),
+    // What moves stands in the hierarchy, by its attributes.
+    switch("MOTION").requires(&["ATTRIBUTES", "BVH"]),
+    switch("MOVING_LIGHTS").requires(&["MOTION"]),
+    switch("NODE_CHUNKS").requires(&["BVH"]).excludes(&["UNIFORM_NODES"]),
+    switch("NON_DELTA_TRANSMISSION").one_of(&["ROUGH_GLASS", "PHONG_GLASS"]),
+    switch("NORMAL_MAPS").requires(&["TEXTURES"]),
+    // Surfaces that a ray passes as if they were not there; alone they are no primitives, so they are parts of blends.
+    switch("NULL_SURFACES").requires(&["BLENDS"]),
+    switch("ONE_LIGHT"),
+    switch("ONLY_TRIANGLES_IN_HIERARCHY").requires(&["TRIANGLES_IN_HIERARCHY"]).excludes(&[
+        "QUADS_IN_HIERARCHY",
+        "SPHERES_IN_HIERARCHY",
+        "DISKS_IN_HIERARCHY",
+    ]),
+    switch("ORTHOGRAPHIC"),
+    switch("PACKETS").requires(&["BVH"]).excludes(&["TRACE"]),
+    switch("PERLIN").requires(&["PROCEDURAL_TEXTURES"]),
+    switch("PHONG").requires(&["COSINE_POWER", "SCALARS", "SECOND_COLORS"]),
+    switch("PHONG_GLASS").requires(&["COSINE_POWER", "NON_DELTA_TRANSMISSION", "SCALARS", "SECOND_COLORS"]),
+    switch("PICK").requires(&["BLENDS"]),
+    switch("PIXEL_CENTRE").excludes(&["PIXEL_DIGITAL_SHIFT", "PIXEL_HASHED", "PIXEL_ROTATION"]),
+    switch("PIXEL_DIGITAL_SHIFT").excludes(&["PIXEL_HASHED", "PIXEL_ROTATION"]),
+    switch("PIXEL_HASHED").excludes(&["PIXEL_ROTATION"]),
+    switch("PIXEL_LIST").excludes(&["TRACE"]),
+    switch("PIXEL_ROTATION"),
+    switch("PLANT_BRDF").debug(),
+    switch("PLANT_LIGHT").requires(&["LIGHTS"]).debug(),
+    switch("PLANT_MIS").requires(&["ESTIMATOR_MIS", "LIGHTS"]).debug(),
+    switch("POINT_LIGHTS"),
+    switch("PORTALS").requires(&["ENVIRONMENT_SAMPLED"]),
+    switch("PRIMITIVE_CHUNKS").excludes(&["UNIFORM_PRIMITIVES"]),
+    switch("PROCEDURAL_TEXTURES").requires(&["TEXTURES"]).one_of(&["CHECKERS", "PERLIN", "WORLEY"]),
+    switch("QUADS_IN_HIERARCHY"),
+    // Acceleration structures hold a scene at rest.
+    switch("RAY_QUERY").one_of(HELD).excludes(&["MOTION"]),
+    switch("ROUGH_GLASS").requires(&["GLASS", "MICROFACETS", "NON_DELTA_TRANSMISSION", "SCALARS", "SECOND_COLORS"]),
+    switch("ROULETTE"),
+    switch("SCALARS"),
+    switch("SECOND_COLORS"),
+    switch("SEQUENCE"),
+    switch("SKY").requires(&["ENVIRONMENT"]),
+    switch("SPHERES"),
+    switch("SPHERES_IN_HIERARCHY").requires(&["SPHERES"]),
+    switch("SPHERE_LIGHTS").requires(&["SPHERES"]),
+    switch("SPHERE_LIGHTS_BY_POINT").requires(&["SPHERE_LIGHTS"]),
+    switch("SPHERE_LIGHTS_VISIBLE_HALF").requires(&["SPHERE_LIGHTS_BY_POINT"]),
+    switch("SPOT_LIGHTS"),
+    switch("SPREAD"),
+    switch("SUBGROUP_QUEUES"),
+    switch("TEXELS"),
+    switch("TEXTURES"),
+    switch("TRACE").debug(),
+    switch("TRIANGLES_IN_HIERARCHY"),
+    switch("UNIFORM_HEMISPHERE"),
+    switch("UNIFORM_NODES").requires(&["BVH"]),
+    switch("UNIFORM_PRIMITIVES"),
+    switch("UNIFORM_TABLES"),
+    switch("VARYING_LIGHTS").requires(&["EMISSION", "LIGHTS"]),
+    switch("WORLEY").requires(&["PROCEDURAL_TEXTURES"]),
+];
+
+/// The row of a name.
+pub fn find(name: &str) -> Option<&'static Switch> {
+    SWITCHES.binary_search_by(|row| row.name.cmp(name)).ok().map(|index| &SWITCHES[index])
+}
+
+/// What a set of switches breaks of the table, in words; None where a plan may make it.
+pub fn contradiction(enabled: &BTreeSet<&'static str>) -> Option<String> {
+    enabled.iter().find_map(|name| {
+        let Some(row) = find(name) else { return Some(format!("there is no switch {name}")) };
+        if let Some(missing) = row.requires.iter().find(|needed| !enabled.contains(*needed)) {
+            return Some(format!("{name} requires {missing}"));
+        }
+        if !row.one_of.is_empty() && !row.one_of.iter().any(|other| enabled.contains(other)) {
+            return Some(format!("{name} requires one of {}", row.one_of.join(", ")));
+        }
+        row.excludes.iter().find(|other| enabled.contains(*other)).map(|other| format!("{name} excludes {other}"))
+    })
+}
+
+/// A set that keeps to the table, as near to `wanted` as taking what is required goes; of two that exclude each other, what stands first in
+/// the table stays. So every switch can be tried with every other that may stand beside it.
+pub fn close(wanted: &BTreeSet<&'static str>) -> BTreeSet<&'static str> {
+    let mut closed = BTreeSet::new();
+    for row in SWITCHES.iter().filter(|row| wanted.contains(row.name)) {
+        let mut with = closed.clone();
+        add(row, wanted, &mut with);
+        if contradiction(&with).is_none() {
+            closed = with;
+        }
+    }
+    closed
+}
+
+/// Adds a switch and what it requires; of those of which it needs one, a wanted one if there is any.
+fn add(row: &Switch, wanted: &BTreeSet<&'static str>, into: &mut BTreeSet<&'static str>) {
+    if !into.insert(row.name) {
+        return;
+    }
+    for other in row.requires.iter().filter_map(|name| find(name)) {
+        add(other, wanted, into);
+    }
+    if !row.one_of.iter().any(|name| into.contains(name)) {
+        let chosen = row.one_of.iter().find(|name| wanted.contains(*name)).or(row.one_of.first());
+        if let Some(other) = chosen.and_then(|name| find(name)) {
+            add(other, wanted, into);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_is_sorted_and_names_only_its_own_rows() {
+        assert!(SWITCHES.windows(2).all(|pair| pair[0].name < pair[1].name));
+        for row in SWITCHES {
+            for name in row.requires.iter().chain(row.one_of).chain(row.excludes) {
+                assert!(find(name).is_some(), "{}: there is no switch {name}", row.name);
+            }
+        }
+    }
+
+    #[test]
+    fn every_switch_can_be_on_and_a_closed_set_has_no_contradiction() {
+        for row in SWITCHES {
+            let closed = close(&BTreeSet::from([row.name]));
+            assert!(closed.contains(row.name) && contradiction(&closed).is_none(), "{}: {closed:?}", row.name);
+        }
+        let everything = close(&SWITCHES.iter().map(|row| row.name).collect());
+        assert_eq!(contradiction(&everything), None);
+    }
+
+    #[test]
+    fn contradictions_are_named() {
+        let of = |names: &[&'static str]| contradiction(&names.iter().copied().collect()).unwrap_or_default();
+        assert_eq!(of(&["MIRORR"]), "there is no switch MIRORR");
+        assert_eq!(of(&["CHECKERS"]), "CHECKERS requires PROCEDURAL_TEXTURES");
+        assert_eq!(of(&["LIGHTS"]), format!("LIGHTS requires one of {}", LIGHT_KINDS.join(", ")));
+        assert_eq!(of(&["ESTIMATOR_MIS", "ESTIMATOR_NEE"]), "ESTIMATOR_MIS excludes ESTIMATOR_NEE");
+        assert_eq!(of(&["MIRROR"]), "");
+    }
+}
