@@ -1,28 +1,122 @@
 //! A headless GPU path tracer that proves its pictures against a CPU reference.
 //!
+//! ```no_run
+//! let image = gpt::Scene::load("cornell")?.render(&gpt::RenderOptions::default())?;
+//! image.save("cornell.exr")?;
+//! # Ok::<(), gpt::Error>(())
+//! ```
+//!
+//! A [`Scene`] comes from a scene file, from a model, or by the name of a built-in scene. [`Scene::render`] makes an [`Image`] of it on the
+//! best device there is: a discrete, an integrated or a software GPU through Vulkan, Metal or Direct3D 12, else the CPU. A [`Renderer`] hands
+//! over rows as they are finished, so that memory does not grow with the picture, and tells an [`Observer`] how far it is. [`compare()`] measures
+//! how far two pictures are apart. [`verify()`] follows the same paths on the GPU and in the CPU reference and tests whether they agree.
+//!
+//! This one renders on the CPU, with settings of its own:
+//!
+//! ```
+//! let mut scene = gpt::Scene::from_toml(
+//!     r#"
+//!     [camera]
+//!     position = [0, 1, 4]
+//!     look_at = [0, 0, 0]
+//!
+//!     [[material]]
+//!     name = "clay"
+//!     type = "diffuse"
+//!     reflectance = [0.6, 0.3, 0.2]
+//!
+//!     [[shape]]
+//!     type = "sphere"
+//!     radius = 1
+//!     material = "clay"
+//!
+//!     [[light]]
+//!     type = "directional"
+//!     direction = [-1, -2, -1]
+//!     irradiance = 3
+//!     "#,
+//! )?;
+//! scene.render.sampler = gpt::SamplerKind::Halton;
+//!
+//! let device = gpt::DeviceChoice::Cpu;
+//! let options = gpt::RenderOptions { device, size: Some([32, 24]), samples: Some(4), ..Default::default() };
+//! let image = scene.render(&options)?;
+//! let brightest = image.pixels().iter().flatten().copied().fold(0.0, f32::max);
+//! assert!(image.width() == 32 && brightest > 0.1);
+//!
+//! let again = scene.render(&options)?;
+//! assert!(gpt::compare(&image, &again)?.largest.difference == 0.0);
+//! # Ok::<(), gpt::Error>(())
+//! ```
+//!
+//! # Features
+//!
+//! `cli`, on by default, is the program `gpt`. A crate that wants the library alone turns it off: `default-features = false`.
+//!
+//! # Inside
+//!
+//! Modules are public for the program, its tests and its benchmarks; they are not part of the interface and change without notice.
+//!
 //! ```text
 //! scene file ─▶ Scene ─▶ PackedScene ─▶ Plan ─▶ stages (GPU) ─▶ Film ─▶ EXR / PNG / stats
 //!                 └────────────────▶ reference integrator (CPU, f64) ────┘
 //! ```
 
 #[cfg(feature = "bench")]
+#[doc(hidden)]
 pub mod bench;
+#[doc(hidden)]
 pub mod compare;
+mod error;
+#[doc(hidden)]
 pub mod film;
+#[doc(hidden)]
 pub mod gpu;
+#[doc(hidden)]
 pub mod load;
+#[doc(hidden)]
 pub mod math;
+#[doc(hidden)]
 pub mod output;
+#[doc(hidden)]
 pub mod packed;
+#[doc(hidden)]
 pub mod plan;
+#[doc(hidden)]
 pub mod reference;
+#[doc(hidden)]
 pub mod render;
+#[doc(hidden)]
 pub mod renderer;
+#[doc(hidden)]
 pub mod sampling;
+#[doc(hidden)]
 pub mod scene;
+#[doc(hidden)]
 pub mod shader;
+#[doc(hidden)]
 pub mod verify;
 
 #[cfg(test)]
 #[path = "../tests/statistics/mod.rs"]
 mod statistics;
+
+#[doc(inline)]
+pub use {
+    compare::{Comparison, Extreme, Metric, MetricValue, SizeMismatch},
+    error::Error,
+    film::Band,
+    load::SceneError,
+    render::image::{Image, compare},
+    render::options::RenderOptions,
+    render::progressive::error::ErrorEstimate,
+    render::progressive::{Outcome, Stop},
+    render::stream::Renderer,
+    render::verify::verify,
+    renderer::{DeviceChoice, Observer, RenderReport, Silent},
+    scene::{
+        BlendMode, Estimator, FilmSettings, Filter, FilterKind, HemisphereSampling, LightSampling, MisHeuristic, PixelSampler,
+        RenderSettings, SamplerKind, Scene,
+    },
+    verify::Verdict,
+};

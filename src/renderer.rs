@@ -7,10 +7,11 @@ use crate::packed::hierarchy::Traversal;
 use crate::plan::Decision;
 use crate::scene::InvalidScene;
 
-/// Which device renders (`--device`).
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// Which device renders.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub enum DeviceChoice {
     /// Discrete, integrated, then software Vulkan; with no adapter at all, the CPU integrator.
+    #[default]
     Auto,
     /// As `Auto`, but the CPU integrator is no way out.
     Gpu,

@@ -185,7 +185,7 @@ fn write_exr(path: &Path, scene: &Scene, device: &str, reference: &Reference) ->
         target_error: None,
         device: device.to_owned(),
     };
-    let spec = PictureSpec { width: image.width, height: image.height, exposure: 0.0, provenance };
+    let spec = PictureSpec { width: image.width, height: image.height, exposure: 0.0, provenance: Some(provenance) };
     let mut file = PictureFile::create(path, PictureFormat::Exr, &spec)?;
     let mean = image.pixels.clone();
     let band = Band { first_row: 0, width: image.width, rows: image.height, samples, second_moment: vec![0.0; mean.len()], mean };

@@ -5,12 +5,10 @@ use std::time::Instant;
 
 use gpt::load;
 use gpt::output::{AtomicFile, PictureFormat, PictureSpec, Provenance, check_target};
-use gpt::plan::PlanOptions;
-use gpt::render::choice::{Choice, ChosenRenderer};
-use gpt::render::progressive::error::ErrorEstimate;
-use gpt::render::progressive::{self, Goal, Outcome, STREAMS, Stop};
-use gpt::renderer::{RenderError, RenderReport, RenderRequest, Renderer};
-use gpt::scene::{self, Scene};
+use gpt::render::choice::Choice;
+use gpt::render::progressive::STREAMS;
+use gpt::renderer::{RenderError, RenderReport};
+use gpt::{ErrorEstimate, Outcome, RenderOptions, Renderer, Scene, Stop};
 
 use super::arguments::RenderArguments;
 use super::exit::{Exit, Failure};
@@ -25,18 +23,26 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let mut outputs = output_formats(&arguments.outputs, arguments.stats.as_deref())?;
     interrupt::install()?;
 
-    let options = PlanOptions { pixel_list: arguments.goal.adaptive, ..arguments.traversal.options_on(&arguments.device)? };
-    let choice = Choice::begin(&arguments.device, &options);
+    let options = RenderOptions {
+        device: arguments.device.clone(),
+        first_sample: arguments.estimate.first_sample,
+        time_limit: arguments.goal.time_limit,
+        target_error: arguments.goal.target_error,
+        adaptive: arguments.goal.adaptive,
+        plan: arguments.traversal.options_on(&arguments.device)?,
+        ..RenderOptions::default()
+    };
+    // The device opens while the scene is read.
+    let choice = Renderer::begin(&options);
     let scene = load(arguments)?;
     if outputs.is_empty() {
         let default = PathBuf::from(format!("{}.exr", scene.name));
         check_target(&default)?;
         outputs.push((default, PictureFormat::Exr));
     }
-    let scene_hash = scene::digest(&scene);
     let load_seconds = started.elapsed().as_secs_f64();
 
-    let (outcome, pictures) = render(arguments, (choice, &options), &scene, &outputs, &scene_hash, started)?;
+    let (outcome, pictures, provenance) = render(arguments, (choice, &options), &scene, &outputs, started)?;
     let anything = pictures.any();
     let summary = pictures.finish()?;
 
@@ -48,7 +54,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     stats.target_error = arguments.goal.target_error;
     stats.expected_error = outcome.error.map(|error| error.mean);
     stats.error_bound = outcome.error.map(|error| error.upper);
-    stats.scene_hash = scene_hash;
+    stats.scene_hash = provenance.scene_hash;
     stats.first_sample = arguments.estimate.first_sample;
     stats.mean = summary.mean;
     if anything {
@@ -84,61 +90,28 @@ fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
 /// Makes the scene ready on its device, and renders it into files that are not in their places yet.
 fn render(
     arguments: &RenderArguments,
-    (choice, options): (Choice, &PlanOptions),
+    (choice, options): (Choice, &RenderOptions),
     scene: &Scene,
     outputs: &[(PathBuf, PictureFormat)],
-    scene_hash: &str,
     started: Instant,
-) -> Result<(Outcome, Pictures), Failure> {
-    let ChosenRenderer { mut renderer, notice } = choice.renderer(scene, options)?;
-    if let Some(notice) = notice {
-        terminal::note(&notice);
+) -> Result<(Outcome, Pictures, Provenance), Failure> {
+    let mut renderer = Renderer::on(choice, scene, options)?;
+    if let Some(notice) = renderer.notice() {
+        terminal::note(notice);
     }
-    let [width, height] = scene.film.size;
-    let provenance = Provenance {
-        scene: scene.name.clone(),
-        scene_hash: scene_hash.to_owned(),
-        settings: scene.render.clone(),
-        filter: scene.film.filter,
-        first_sample: arguments.estimate.first_sample,
-        target_error: arguments.goal.target_error,
-        adaptive: arguments.goal.adaptive,
-        device: renderer.device().to_owned(),
-    };
-    let mut pictures = Pictures::create(outputs, &PictureSpec { width, height, exposure: arguments.exposure, provenance })?;
+    let [width, height] = renderer.size();
+    let provenance = renderer.provenance().clone();
+    let spec = PictureSpec { width, height, exposure: arguments.exposure, provenance: Some(provenance.clone()) };
+    let mut pictures = Pictures::create(outputs, &spec)?;
     let progress = Progress::new(arguments.quiet);
-    let outcome = render_to(renderer.as_mut(), arguments, scene, started, &progress, &mut pictures);
+    let outcome = renderer.render_from(started, &progress, &mut |band| pictures.write_band(band));
     progress.clear();
     let outcome = outcome?;
     if pictures.any() || outcome.report.interrupted {
-        Ok((outcome, pictures))
+        Ok((outcome, pictures, provenance))
     } else {
         Err(RenderError::Internal("the renderer finished without delivering a picture".to_owned()).into())
     }
-}
-
-/// Renders all samples, band by band, or, where something else may end the render, step by step.
-fn render_to(
-    renderer: &mut dyn Renderer,
-    arguments: &RenderArguments,
-    scene: &Scene,
-    started: Instant,
-    progress: &Progress,
-    pictures: &mut Pictures,
-) -> Result<Outcome, RenderError> {
-    let first_sample = arguments.estimate.first_sample;
-    let samples = first_sample..first_sample + scene.render.spp;
-    let on_band = &mut |band| pictures.write_band(band);
-    let wish = &arguments.goal;
-    if wish.time_limit.is_none() && wish.target_error.is_none() && !wish.adaptive {
-        let report = renderer.render(&RenderRequest { rows: 0..scene.film.size[1], samples }, progress, on_band)?;
-        let stop = if report.interrupted { Stop::Interrupted } else { Stop::Samples };
-        return Ok(Outcome { report, stop, error: None });
-    }
-    // A limit beyond what the clock can tell is none.
-    let deadline = wish.time_limit.and_then(|limit| started.checked_add(limit));
-    let goal = Goal { samples, deadline, target_error: wish.target_error, adaptive: wish.adaptive };
-    progressive::render(renderer, scene.film.size, scene.render.seed, &goal, progress, on_band)
 }
 
 fn stop_name(stop: Stop) -> &'static str {

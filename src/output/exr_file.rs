@@ -22,7 +22,7 @@ const PREAMBLE_BYTES: u64 = 8;
 
 /// Encodes all rows of the picture. The error is a sentence.
 pub(super) fn write<W: Write + Seek>(mut writer: W, mut rows: Rows, spec: &PictureSpec) -> Result<(), String> {
-    let wanted = spec.provenance.settings.spp;
+    let wanted = spec.samples_wanted();
     let headers: Headers = [header(spec, wanted)].into_iter().collect();
     exr::block::write(&mut writer, headers, true, |meta, chunks| write_blocks(&meta, chunks, &mut rows))
         .map_err(|error| error.to_string())?;
@@ -75,7 +75,7 @@ fn header(spec: &PictureSpec, samples: u32) -> Header {
     // A part's name is for files of several parts; some readers would put it before the channels' names.
     header.own_attributes.layer_name = None;
     header.own_attributes.software_name = Some(Text::from(concat!("gpt ", env!("CARGO_PKG_VERSION"))));
-    for (key, entry) in spec.provenance.entries(samples) {
+    for (key, entry) in spec.header_entries(samples) {
         header.own_attributes.other.insert(Text::from(key), attribute(entry));
     }
     header.shared_attributes.chromaticities = Some(REC_709);

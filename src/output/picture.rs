@@ -108,7 +108,7 @@ mod tests {
             adaptive: false,
             device: "a device".to_owned(),
         };
-        PictureSpec { width, height, exposure: 0.0, provenance }
+        PictureSpec { width, height, exposure: 0.0, provenance: Some(provenance) }
     }
 
     fn value(x: u32, y: u32) -> [f32; 3] {

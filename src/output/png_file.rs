@@ -35,7 +35,7 @@ pub(super) fn write(writer: impl Write, mut rows: Rows, spec: &PictureSpec) -> R
 /// The picture's provenance as one line, since a preview has no typed header. Sample counts are left out: they are only known
 /// once the header is written.
 fn software(spec: &PictureSpec) -> String {
-    let entries = spec.provenance.entries(spec.provenance.settings.spp);
+    let entries = spec.header_entries(spec.samples_wanted());
     let wanted =
         entries.iter().filter(|(key, _)| !matches!(*key, super::provenance::SAMPLES_KEY | super::provenance::COMPLETE_KEY));
     let words: Vec<_> = wanted
@@ -44,7 +44,7 @@ fn software(spec: &PictureSpec) -> String {
             Entry::Number(number) => format!("{}={number}", key.trim_start_matches("gpt:")),
         })
         .collect();
-    format!("gpt {}", words.join("; "))
+    format!("gpt {}", words.join("; ")).trim_end().to_owned()
 }
 
 fn sentence(error: png::EncodingError) -> String {

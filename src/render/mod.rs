@@ -1,4 +1,13 @@
-//! From a scene to finished bands: which renderer takes it, and how long it goes on.
+//! From a scene to a picture: which renderer takes the scene, how long it goes on, and what a user of the crate calls.
+//!
+//! - [`scene`], [`options`], [`stream`], [`image`]: what users of the crate see.
+//! - [`choice`]: which device renders.
+//! - [`progressive`]: renders that end by a time or an error, and samples that follow the noise.
 
 pub mod choice;
+pub mod image;
+pub mod options;
 pub mod progressive;
+mod scene;
+pub mod stream;
+pub mod verify;

@@ -7,18 +7,26 @@ use super::settings::{FilmSettings, RenderSettings};
 use super::shape::{Geometry, Shape};
 use super::texture::Texture;
 
-/// Everything a render needs, resolved and checked.
+/// Everything a render needs: a camera, surfaces, materials, lights, and how light is estimated. It is read by [`Scene::load`] or
+/// [`Scene::from_toml`].
 #[derive(Debug, Clone, Default)]
 pub struct Scene {
     /// File stem or built-in name; the default output is `name.exr`.
     pub name: String,
+    /// The picture's size and reconstruction filter.
     pub film: FilmSettings,
+    /// How light is estimated, and by how many samples.
     pub render: RenderSettings,
+    #[doc(hidden)]
     pub camera: Camera,
+    #[doc(hidden)]
     pub textures: Vec<Texture>,
+    #[doc(hidden)]
     pub materials: Vec<Material>,
+    #[doc(hidden)]
     pub shapes: Vec<Shape>,
     /// Lights that are not surfaces. Surfaces emit through their material.
+    #[doc(hidden)]
     pub lights: Vec<Light>,
     /// What could not be taken as written and was replaced or left out, in sentences that name the file.
     pub warnings: Vec<String>,

@@ -57,7 +57,7 @@ fn write_picture(
         adaptive: false,
         device: verdict.device.clone(),
     };
-    let spec = PictureSpec { width: verdict.width, height: verdict.height, exposure: 0.0, provenance };
+    let spec = PictureSpec { width: verdict.width, height: verdict.height, exposure: 0.0, provenance: Some(provenance) };
     let mut file = PictureFile::create(path, format, &spec)?;
     let band = Band {
         first_row: 0,

@@ -31,7 +31,7 @@ fn an_8k_picture_takes_a_fraction_of_its_size_in_memory() {
         adaptive: false,
         device: "none".to_owned(),
     };
-    let spec = PictureSpec { width: SIZE[0], height: SIZE[1], exposure: 0.0, provenance };
+    let spec = PictureSpec { width: SIZE[0], height: SIZE[1], exposure: 0.0, provenance: Some(provenance) };
     let peak = Peak::from_now();
     let mut files = [("a.exr", PictureFormat::Exr), ("a.png", PictureFormat::Png)].map(|(name, format)| {
         PictureFile::create(&folder.path().join(name), format, &spec).expect("a file in a folder that exists")

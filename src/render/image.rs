@@ -1,0 +1,103 @@
+//! A picture in memory.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::progressive::Outcome;
+use crate::compare::{self, Comparison};
+use crate::error::Error;
+use crate::film::Band;
+use crate::output::{self, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, read_image};
+
+/// A picture: linear Rec. 709 radiance, row by row from the top.
+#[derive(Debug, Clone)]
+pub struct Image {
+    pixels: output::Image,
+    /// Of a picture that was rendered; None where it was read.
+    rendered: Option<Rendered>,
+}
+
+/// What is known of a render beside its pixels.
+#[derive(Debug, Clone)]
+struct Rendered {
+    provenance: Provenance,
+    outcome: Outcome,
+    /// Samples of the pixel that has fewest.
+    fewest_samples: u32,
+}
+
+impl Image {
+    /// The picture that bands make together; black where none came.
+    pub(super) fn rendered([width, height]: [u32; 2], bands: &[Band], provenance: Provenance, outcome: Outcome) -> Self {
+        let mut pixels = vec![[0.0; 3]; width as usize * height as usize];
+        let (mut rows, mut fewest_samples) = (0, u32::MAX);
+        for band in bands {
+            let start = band.first_row as usize * width as usize;
+            pixels[start..start + band.mean.len()].copy_from_slice(&band.mean);
+            rows += band.rows;
+            fewest_samples = fewest_samples.min(band.samples);
+        }
+        let fewest_samples = if rows == height { fewest_samples } else { 0 };
+        let pixels = output::Image { width, height, pixels };
+        Self { pixels, rendered: Some(Rendered { provenance, outcome, fewest_samples }) }
+    }
+
+    /// Reads an OpenEXR file, or a PNG, JPEG, Radiance HDR or another of the common formats, by its content. Integers are taken for sRGB.
+    ///
+    /// # Errors
+    /// [`Error::Read`].
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+        Ok(Self { pixels: read_image(path.as_ref())?, rendered: None })
+    }
+
+    /// Columns.
+    pub fn width(&self) -> u32 {
+        self.pixels.width
+    }
+
+    /// Rows.
+    pub fn height(&self) -> u32 {
+        self.pixels.height
+    }
+
+    /// Red, green and blue of every pixel, row by row from the top.
+    pub fn pixels(&self) -> &[[f32; 3]] {
+        &self.pixels.pixels
+    }
+
+    /// What the render did, of a picture that was rendered.
+    pub fn outcome(&self) -> Option<&Outcome> {
+        self.rendered.as_ref().map(|rendered| &rendered.outcome)
+    }
+
+    /// Writes the picture. The ending names the format: `.exr` holds the values as they are, `.png` is a preview in sRGB. The file's header
+    /// says how a rendered picture was made. The file appears whole or not at all, over an older one of that name.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), Error> {
+        Ok(self.write(path.as_ref())?)
+    }
+
+    fn write(&self, path: &Path) -> Result<(), OutputError> {
+        let format = PictureFormat::from_path(path).ok_or_else(|| OutputError::BadTarget {
+            path: path.to_owned(),
+            what: "the ending names no picture format; .exr and .png do",
+        })?;
+        let output::Image { width, height, ref pixels } = self.pixels;
+        let provenance = self.rendered.as_ref().map(|rendered| rendered.provenance.clone());
+        let mut file = PictureFile::create(path, format, &PictureSpec { width, height, exposure: 0.0, provenance })?;
+        let samples = self.rendered.as_ref().map_or(0, |rendered| rendered.fewest_samples);
+        let band = Band { first_row: 0, width, rows: height, samples, mean: pixels.clone(), second_moment: Vec::new() };
+        file.write_band(&Arc::new(band)).map_err(|source| OutputError::Write { path: path.to_owned(), source })?;
+        file.finish()
+    }
+}
+
+/// Measures how far a picture is from its reference.
+///
+/// # Errors
+/// [`Error::Sizes`].
+pub fn compare(image: &Image, reference: &Image) -> Result<Comparison, Error> {
+    Ok(compare::compare(&image.pixels, &reference.pixels)?)
+}

@@ -1,0 +1,131 @@
+//! What a render may be asked for beside the scene.
+
+use std::borrow::Cow;
+use std::time::Duration;
+
+use super::progressive::STREAMS;
+use crate::error::Error;
+use crate::output::{MAX_PIXELS, MAX_SIDE};
+use crate::plan::PlanOptions;
+use crate::renderer::DeviceChoice;
+use crate::scene::Scene;
+
+/// Sample indices stay below this, because picture headers hold signed 32-bit numbers.
+const SAMPLES_END: u32 = i32::MAX as u32;
+
+/// How a scene is rendered. The default renders what the scene says on the best device there is.
+///
+/// How light is estimated is part of the scene: see [`Scene::render`](crate::Scene#structfield.render).
+#[derive(Debug, Clone, Default)]
+pub struct RenderOptions {
+    /// Which device renders.
+    pub device: DeviceChoice,
+    /// Samples per pixel, in place of the scene's; with `target_error`, at most so many.
+    pub samples: Option<u32>,
+    /// Absolute index of the first sample. Samples 0 to 127 and 128 to 255 together are those of one render with 256.
+    pub first_sample: u32,
+    /// Width and height in pixels, in place of the scene's.
+    pub size: Option<[u32; 2]>,
+    /// Key of every random number, in place of the scene's.
+    pub seed: Option<u32>,
+    /// No work begins that would end later than this after the render's start. The picture is whole, with fewer samples.
+    pub time_limit: Option<Duration>,
+    /// The render ends once the picture's relative mean squared error is below this with 95 % confidence.
+    pub target_error: Option<f64>,
+    /// Noisy pixels get more samples and calm ones fewer, the given number on average. The estimate stays unbiased.
+    pub adaptive: bool,
+    /// Choices that are made in place of the plan.
+    #[doc(hidden)]
+    pub plan: PlanOptions,
+}
+
+impl RenderOptions {
+    /// What the plan is told.
+    pub(super) fn plan_options(&self) -> PlanOptions {
+        PlanOptions { pixel_list: self.adaptive, ..self.plan.clone() }
+    }
+
+    /// The scene as these options want it.
+    ///
+    /// # Errors
+    /// [`Error::Options`] where they are out of range or contradict each other.
+    pub(super) fn applied<'a>(&self, scene: &'a Scene) -> Result<Cow<'a, Scene>, Error> {
+        let mut scene = Cow::Borrowed(scene);
+        if let Some(size) = self.size {
+            scene.to_mut().film.size = size;
+        }
+        if let Some(samples) = self.samples {
+            scene.to_mut().render.spp = samples;
+        }
+        if let Some(seed) = self.seed {
+            scene.to_mut().render.seed = seed;
+        }
+        match self.contradiction(&scene) {
+            Some(message) => Err(Error::Options(message)),
+            None => Ok(scene),
+        }
+    }
+
+    /// What is wrong, in a sentence.
+    fn contradiction(&self, scene: &Scene) -> Option<String> {
+        let ([width, height], samples) = (scene.film.size, scene.render.spp);
+        let pixels = u64::from(width) * u64::from(height);
+        if pixels == 0 || width.max(height) > MAX_SIDE || pixels > MAX_PIXELS {
+            let most = format!("1 to {MAX_SIDE} pixels on a side and at most {MAX_PIXELS} in all");
+            return Some(format!("a picture of {width}x{height} pixels cannot be rendered: a picture has {most}"));
+        }
+        if samples == 0 || self.first_sample.checked_add(samples).is_none_or(|end| end > SAMPLES_END) {
+            return Some(format!(
+                "{samples} samples per pixel from sample {} on cannot be rendered: there is at least one, and all indices are below \
+                 {SAMPLES_END}",
+                self.first_sample
+            ));
+        }
+        if self.first_sample > 0 && (self.adaptive || self.target_error.is_some()) {
+            return Some("first_sample belongs to renders with a fixed number of samples".to_owned());
+        }
+        let target = self.target_error?;
+        if !(target.is_finite() && target > 0.0) {
+            return Some(format!("target_error is a number above 0, not {target}"));
+        }
+        let least = 2 * STREAMS;
+        (samples < least).then(|| format!("target_error needs at least {least} samples per pixel; {samples} are allowed"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn options_replace_what_the_scene_says() {
+        let scene = Scene::default();
+        let options = RenderOptions { samples: Some(7), size: Some([3, 4]), seed: Some(5), ..RenderOptions::default() };
+        let applied = options.applied(&scene).unwrap();
+        assert_eq!((applied.render.spp, applied.film.size, applied.render.seed), (7, [3, 4], 5));
+        let applied = RenderOptions::default();
+        let untouched = applied.applied(&scene).unwrap();
+        assert!(matches!(untouched, Cow::Borrowed(_)));
+    }
+
+    #[test]
+    fn contradictions_are_refused() {
+        let default = RenderOptions::default;
+        let bad = [
+            RenderOptions { samples: Some(0), ..default() },
+            RenderOptions { size: Some([0, 5]), ..default() },
+            RenderOptions { size: Some([MAX_SIDE + 1, 1]), ..default() },
+            RenderOptions { first_sample: SAMPLES_END, ..default() },
+            RenderOptions { first_sample: 1, adaptive: true, ..default() },
+            RenderOptions { first_sample: 1, target_error: Some(0.1), ..default() },
+            RenderOptions { target_error: Some(0.0), ..default() },
+            RenderOptions { target_error: Some(f64::NAN), ..default() },
+            RenderOptions { target_error: Some(0.1), samples: Some(2 * STREAMS - 1), ..default() },
+        ];
+        for options in bad {
+            assert!(matches!(options.applied(&Scene::default()), Err(Error::Options(_))), "{options:?}");
+        }
+        let good = RenderOptions { target_error: Some(0.1), samples: Some(2 * STREAMS), ..default() };
+        assert!(good.applied(&Scene::default()).is_ok());
+    }
+}

@@ -1,0 +1,139 @@
+//! A scene made ready on a device, which hands over rows of the picture as they are finished.
+
+use std::io;
+use std::time::Instant;
+
+use super::choice::{Choice, ChosenRenderer};
+use super::image::Image;
+use super::options::RenderOptions;
+use super::progressive::{self, Goal, Outcome, Stop};
+use crate::error::Error;
+use crate::film::Band;
+use crate::output::Provenance;
+use crate::renderer::{self, Observer, RenderError, RenderRequest};
+use crate::scene::{self, Scene};
+
+/// A scene made ready on a device: packed, uploaded, its kernels compiled. It may be rendered any number of times.
+///
+/// ```no_run
+/// let scene = gpt::Scene::load("veach-mis")?;
+/// let mut renderer = gpt::Renderer::new(&scene, &gpt::RenderOptions::default())?;
+/// println!("on {}", renderer.device());
+/// let outcome = renderer.render(&gpt::Silent, &mut |band: gpt::Band| {
+///     println!("rows {} to {} are finished", band.first_row, band.first_row + band.rows);
+///     Ok(())
+/// })?;
+/// println!("{} rays", outcome.report.rays);
+/// # Ok::<(), gpt::Error>(())
+/// ```
+pub struct Renderer {
+    renderer: Box<dyn renderer::Renderer>,
+    notice: Option<String>,
+    options: RenderOptions,
+    size: [u32; 2],
+    provenance: Provenance,
+}
+
+impl Renderer {
+    /// Opens the device and makes the scene ready on it.
+    ///
+    /// # Errors
+    /// Options that contradict each other, no such device, or a scene that does not fit it.
+    pub fn new(scene: &Scene, options: &RenderOptions) -> Result<Self, Error> {
+        let scene = options.applied(scene)?;
+        let choice = Choice::begin(&options.device, &options.plan_options());
+        Ok(Self::on(choice, &scene, options)?)
+    }
+
+    /// Begins to open the device, so that it opens while the scene is read.
+    #[doc(hidden)]
+    pub fn begin(options: &RenderOptions) -> Choice {
+        Choice::begin(&options.device, &options.plan_options())
+    }
+
+    /// As [`Renderer::new`], with a choice that began with these options and a scene to which they are applied.
+    ///
+    /// # Errors
+    /// As [`Renderer::new`].
+    #[doc(hidden)]
+    pub fn on(choice: Choice, scene: &Scene, options: &RenderOptions) -> Result<Self, RenderError> {
+        let ChosenRenderer { renderer, notice } = choice.renderer(scene, &options.plan_options())?;
+        let provenance = Provenance {
+            scene: scene.name.clone(),
+            scene_hash: scene::digest(scene),
+            settings: scene.render.clone(),
+            filter: scene.film.filter,
+            first_sample: options.first_sample,
+            target_error: options.target_error,
+            adaptive: options.adaptive,
+            device: renderer.device().to_owned(),
+        };
+        Ok(Self { renderer, notice, options: options.clone(), size: scene.film.size, provenance })
+    }
+
+    /// The device's name, or `CPU reference`.
+    pub fn device(&self) -> &str {
+        self.renderer.device()
+    }
+
+    /// Why the CPU renders, where [`DeviceChoice::Auto`](crate::DeviceChoice::Auto) found no adapter that can be used.
+    pub fn notice(&self) -> Option<&str> {
+        self.notice.as_deref()
+    }
+
+    /// Width and height of the picture in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Renders, and hands over finished rows from the top, each once. Where the observer stops it, the rows hold what was done until then.
+    ///
+    /// # Errors
+    /// What the device or `on_band` reports.
+    pub fn render(&mut self, observer: &dyn Observer, on_band: &mut dyn FnMut(Band) -> io::Result<()>) -> Result<Outcome, Error> {
+        Ok(self.render_from(Instant::now(), observer, on_band)?)
+    }
+
+    /// Renders the whole picture into memory.
+    ///
+    /// # Errors
+    /// What the device reports.
+    pub fn image(&mut self, observer: &dyn Observer) -> Result<Image, Error> {
+        let mut bands = Vec::new();
+        let outcome = self.render(observer, &mut |band| {
+            bands.push(band);
+            Ok(())
+        })?;
+        Ok(Image::rendered(self.size, &bands, self.provenance.clone(), outcome))
+    }
+
+    /// As [`Renderer::render`], with a time limit that counts from `start`.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    #[doc(hidden)]
+    pub fn render_from(
+        &mut self,
+        start: Instant,
+        observer: &dyn Observer,
+        on_band: &mut dyn FnMut(Band) -> io::Result<()>,
+    ) -> Result<Outcome, RenderError> {
+        let RenderOptions { first_sample, time_limit, target_error, adaptive, .. } = self.options;
+        let samples = first_sample..first_sample + self.provenance.settings.spp;
+        if time_limit.is_none() && target_error.is_none() && !adaptive {
+            let report = self.renderer.render(&RenderRequest { rows: 0..self.size[1], samples }, observer, on_band)?;
+            let stop = if report.interrupted { Stop::Interrupted } else { Stop::Samples };
+            return Ok(Outcome { report, stop, error: None });
+        }
+        // A limit beyond what the clock can tell is none.
+        let deadline = time_limit.and_then(|limit| start.checked_add(limit));
+        let goal = Goal { samples, deadline, target_error, adaptive };
+        progressive::render(self.renderer.as_mut(), self.size, self.provenance.settings.seed, &goal, observer, on_band)
+    }
+
+    /// What the headers of the picture's files say.
+    #[doc(hidden)]
+    pub fn provenance(&self) -> &Provenance {
+        &self.provenance
+    }
+}
