@@ -2,7 +2,6 @@
 // A leaf takes one vec4 of the tables: (material; first factor; number of factors; constant factor). A factor is a heuristic; where it
 // stands for the second child it is stored reversed.
 #import core/layout.wgsl
-#import core/math.wgsl
 #import geometry/scene.wgsl
 #import shading/heuristic.wgsl
 #import shading/leaf.wgsl

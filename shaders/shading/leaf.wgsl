@@ -1,6 +1,5 @@
 // A leaf: one material that is no blend, with its parameters looked up for one hit.
 #import core/layout.wgsl
-#import core/math.wgsl
 #import geometry/scene.wgsl
 #if TEXTURES
 #import shading/texture.wgsl

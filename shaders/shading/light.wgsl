@@ -14,7 +14,6 @@
 #import shading/portal.wgsl
 #endif
 #if VARYING_LIGHTS
-#import geometry/scene.wgsl
 #import shading/bsdf.wgsl
 #if NORMAL_MAPS
 #import shading/normal_map.wgsl

@@ -1,7 +1,6 @@
 // Normals read from textures: red along the tangent, in which u grows; green along the bitangent, on the side where v grows; blue
 // along the shading normal; each colour times 2 minus 1. src/reference/intersect/normal_map.rs is the same in f64.
 #import core/layout.wgsl
-#import core/math.wgsl
 #import geometry/records.wgsl
 #import geometry/scene.wgsl
 #import shading/texture.wgsl

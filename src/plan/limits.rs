@@ -1,6 +1,7 @@
 //! What the plan has to know of a device.
 
 use super::FilmStorage;
+use super::memory::PATH_STATE_BYTES;
 use crate::renderer::RenderError;
 
 /// Bytes that the queue of shadow rays takes at most: five million of them keep any device busy.
@@ -75,7 +76,7 @@ impl DeviceLimits {
         let max_array = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
         let max_workgroups = limits.max_compute_workgroups_per_dimension;
         let wanted_paths: u64 = if software { 1 << 18 } else { 1 << 20 };
-        let most_paths = (max_array / super::memory::PATH_STATE_BYTES).min(u64::from(max_workgroups) * 64);
+        let most_paths = (max_array / PATH_STATE_BYTES).min(u64::from(max_workgroups) * 64);
         Self {
             max_storage_binding: limits.max_storage_buffer_binding_size,
             max_uniform_binding: limits.max_uniform_buffer_binding_size.min(64 << 10) as u32,
@@ -106,10 +107,11 @@ impl DeviceLimits {
         self.ray_queries.ok_or_else(missing)
     }
 
-    /// Paths in flight, each with as many bytes of shadow rays.
+    /// Paths in flight, each with so many bytes of shadow rays: as many as one binding holds of either.
     pub fn paths_with_shadow_rays(&self, bytes: u64) -> u32 {
-        let most = self.max_storage_binding.min(self.max_buffer).min(MOST_SHADOW_RAY_BYTES) / bytes.max(1);
-        u64::from(self.path_capacity).min(most) as u32
+        let binding = self.max_storage_binding.min(self.max_buffer);
+        let by_shadow_rays = binding.min(MOST_SHADOW_RAY_BYTES) / bytes.max(1);
+        u64::from(self.path_capacity).min(binding / PATH_STATE_BYTES).min(by_shadow_rays) as u32
     }
 
     /// Rows per band so that a band's film stays below 16 MiB a texture and within the device's limits.

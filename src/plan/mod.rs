@@ -195,9 +195,6 @@ impl Plan {
         if let Some(fault) = options.fault {
             fault.plant(packed, &mut plan.switches);
         }
-        if let Some(contradiction) = contradiction(&plan.switches.enabled) {
-            return Err(RenderError::Internal(format!("the plan turns on switches that do not go together: {contradiction}")));
-        }
         let first_constant = match geometry {
             GeometryPlacement::Unrolled => 0,
             GeometryPlacement::Hierarchy => packed.hierarchy.primitive_count as usize,
@@ -207,6 +204,9 @@ impl Plan {
         for array in plan.chunks.iter().filter(|array| !array.is_whole()) {
             plan.switches.enable(array.array.switch, true);
             plan.switches.generated.insert(array.array.file, array.wgsl());
+        }
+        if let Some(contradiction) = contradiction(&plan.switches.enabled) {
+            return Err(RenderError::Internal(format!("the plan turns on switches that do not go together: {contradiction}")));
         }
         plan.memory = Memory::new(packed, &plan, width);
         plan.memory.check(limits)?;

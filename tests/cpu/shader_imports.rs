@@ -101,7 +101,10 @@ impl Names {
             _ => BTreeSet::new(),
         };
         let used = names().filter(|(index, token)| ![".", "@"].contains(&at(index - 1)) && !locals.contains(token.as_str()));
-        self.used.extend(used.map(|(_, token)| token.clone()));
+        // Attributes, `@binding(NAME)`, stand before the keyword as well.
+        let attributes =
+            item[..keyword].iter().enumerate().filter(|(index, token)| is_name(token) && *index > 0 && at(index - 1) == "(");
+        self.used.extend(used.chain(attributes).map(|(_, token)| token.clone()));
     }
 }
 
