@@ -7,11 +7,12 @@ use std::path::Path;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gpt::bench::scenes;
+use gpt::choice::Choice;
 use gpt::load;
 use gpt::packed::{PackedScene, hierarchy::Traversal, tree, world};
 use gpt::reference::ReferenceRenderer;
 use gpt::sampling::{BounceDimension, Dimension, PathSampler, Sampling, SequencePoint};
-use gpt::scene::{RenderSettings, SamplerKind, setting_name};
+use gpt::scene::{RenderSettings, SamplerKind};
 
 /// Triangles of the scenes that are packed.
 const TRIANGLES: [u32; 3] = [1_000, 10_000, 100_000];
@@ -50,7 +51,7 @@ fn sample(criterion: &mut Criterion) {
     for sampler in SamplerKind::ALL {
         let sampling = Sampling::from(&RenderSettings { sampler, ..RenderSettings::default() });
         group.throughput(Throughput::Elements(1));
-        group.bench_function(BenchmarkId::new("sequence point", setting_name(sampler)), |bencher| {
+        group.bench_function(BenchmarkId::new("sequence point", sampler.name()), |bencher| {
             let mut index = 0_u32;
             bencher.iter(|| {
                 index = index.wrapping_add(1) & 0xffff;
@@ -58,7 +59,7 @@ fn sample(criterion: &mut Criterion) {
             });
         });
         let point = SequencePoint::new(&sampling, 77);
-        group.bench_function(BenchmarkId::new("number of a path", setting_name(sampler)), |bencher| {
+        group.bench_function(BenchmarkId::new("number of a path", sampler.name()), |bencher| {
             let path = PathSampler::new(&sampling, 1234, &point);
             bencher.iter(|| path.uniform(black_box(Dimension::bounce(1, BounceDimension::BsdfU))));
         });

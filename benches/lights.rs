@@ -8,11 +8,12 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use glam::{DVec3, Vec3};
+use gpt::choice::Choice;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;
 use gpt::plan::PlanOptions;
 use gpt::renderer::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
-use gpt::scene::{self, ColorInput, Emission, Geometry, LightSampling, Material, MaterialKind, Mesh, Scene, Shape, Transform};
+use gpt::scene::{ColorInput, Emission, Geometry, LightSampling, Material, MaterialKind, Mesh, Scene, Shape, Transform};
 
 const SIDE: u32 = 96;
 const SPP: u32 = 64;
@@ -38,7 +39,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let scenes = [LightSampling::Cone, LightSampling::Visible, LightSampling::Area].map(|strategy| {
                 let mut scene = load(&sphere_light(center, radius));
                 scene.render.light_sampling = strategy;
-                (scene::setting_name(strategy), scene)
+                (strategy.name().to_owned(), scene)
             });
             compare(&device, name, &scenes)?;
         }

@@ -7,11 +7,12 @@
 
 use std::time::Instant;
 
+use gpt::choice::Choice;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;
 use gpt::plan::PlanOptions;
 use gpt::renderer::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
-use gpt::scene::{Filter, FilterKind, PixelSampler, SamplerKind, Scene, setting_name};
+use gpt::scene::{Filter, FilterKind, PixelSampler, SamplerKind, Scene};
 
 const SIDE: u32 = 128;
 const SPP: [u32; 3] = [16, 64, 256];
@@ -97,10 +98,10 @@ fn samplers(device: &Device, scene: &Scene) -> Result<(), RenderError> {
         Ok::<(), RenderError>(())
     };
     for sampler in SamplerKind::ALL {
-        row(setting_name(sampler), sampler, PixelSampler::SameAsPath)?;
+        row(sampler.name().to_owned(), sampler, PixelSampler::SameAsPath)?;
     }
     for sampler in SamplerKind::ALL.into_iter().filter(|sampler| *sampler != SamplerKind::Halton) {
-        let name = format!("halton, pixel {}", setting_name(sampler));
+        let name = format!("halton, pixel {}", sampler.name());
         row(name, SamplerKind::Halton, PixelSampler::Other(sampler))?;
     }
     row("halton, pixel none".to_owned(), SamplerKind::Halton, PixelSampler::Centre)
@@ -146,7 +147,7 @@ fn cost(device: &Device, scene: &Scene) -> Result<(), RenderError> {
         let ratios = sorted(rates[index].iter().zip(&rates[halton]).map(|(a, b)| a / b));
         let median = sorted(rates[index].iter().copied())[ROUNDS / 2];
         let (low, high) = (ratios[0], ratios[ROUNDS - 1]);
-        println!("| {} | {median:.2} | {:.3} ({low:.3}–{high:.3}) |", setting_name(*sampler), ratios[ROUNDS / 2]);
+        println!("| {} | {median:.2} | {:.3} ({low:.3}–{high:.3}) |", sampler.name(), ratios[ROUNDS / 2]);
     }
     Ok(())
 }

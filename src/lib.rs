@@ -66,6 +66,8 @@
 #[doc(hidden)]
 pub mod bench;
 #[doc(hidden)]
+pub mod choice;
+#[doc(hidden)]
 pub mod compare;
 mod error;
 #[doc(hidden)]

@@ -1,29 +1,26 @@
 //! What grows in a measurement of speed, and how far.
 
-use clap::ValueEnum;
-use serde::Serialize;
+use crate::choice::choices;
 
-/// What is measured side by side: one thing grows, the rest stays.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Growth {
-    /// Nothing grows: scenes as they are
-    Scenes,
-    /// 1,000 to 100,000 triangles, with --all to ten million
-    Triangles,
-    /// 64 to 512 pixels on a side, with --all to 4096
-    Resolution,
-    /// 1 to 64 samples per pixel, with --all to 1024
-    Samples,
-    /// 1 to 1,000 emitting triangles, with --all to 10,000
-    Lights,
-    /// 1 to 8 leaves of a blend, with --all to 64
-    Leaves,
+choices! {
+    /// What is measured side by side: one thing grows, the rest stays.
+    pub enum Growth {
+        /// Nothing grows: scenes as they are.
+        Scenes = "scenes",
+        /// 1,000 to 100,000 triangles, with --all to ten million.
+        Triangles = "triangles",
+        /// 64 to 512 pixels on a side, with --all to 4096.
+        Resolution = "resolution",
+        /// 1 to 64 samples per pixel, with --all to 1024.
+        Samples = "samples",
+        /// 1 to 1,000 emitting triangles, with --all to 10,000.
+        Lights = "lights",
+        /// 1 to 8 leaves of a blend, with --all to 64.
+        Leaves = "leaves",
+    }
 }
 
 impl Growth {
-    pub const ALL: [Self; 6] = [Self::Scenes, Self::Triangles, Self::Resolution, Self::Samples, Self::Lights, Self::Leaves];
-
     /// What the size counts, as a heading.
     pub fn label(self) -> &'static str {
         match self {

@@ -1,24 +1,16 @@
 //! Which settings are compared: every combination of the options given.
 
+use crate::choice::Choice;
 use crate::renderer::DeviceChoice;
-use crate::scene::{
-    BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeuristic, PixelSamplerName, RenderSettings, SamplerKind,
-    setting_name,
-};
+use crate::scene::RenderSettings;
+use crate::scene::settings::Assignment;
 
-/// Values to try of each option; empty: the scene's own.
+/// Values to try; empty: the scene's own.
 #[derive(Debug, Clone, Default)]
 pub struct Axes {
     pub devices: Vec<DeviceChoice>,
-    pub samplers: Vec<SamplerKind>,
-    pub pixel_samplers: Vec<PixelSamplerName>,
-    pub estimators: Vec<Estimator>,
-    pub heuristics: Vec<MisHeuristic>,
-    pub hemispheres: Vec<HemisphereSampling>,
-    pub light_samplings: Vec<LightSampling>,
-    pub light_samples: Vec<u32>,
-    pub light_samples_depths: Vec<u32>,
-    pub blends: Vec<BlendMode>,
+    /// A list for each setting that is tried.
+    pub settings: Vec<Vec<Assignment>>,
 }
 
 /// One way to render a scene.
@@ -40,29 +32,12 @@ impl Axes {
         };
         let mut settings = vec![Setting { name: String::new(), device: DeviceChoice::Auto, render: own.clone() }];
         settings = multiply(settings, &self.devices, device);
-        macro_rules! axis {
-            ($values:ident, $field:ident) => {
-                settings = multiply(settings, &self.$values, |setting, value| {
-                    setting.render.$field = (*value).into();
-                    setting_name(*value)
-                });
-            };
+        for values in &self.settings {
+            settings = multiply(settings, values, |setting, value| {
+                value.apply(&mut setting.render);
+                value.to_string()
+            });
         }
-        axis!(samplers, sampler);
-        axis!(pixel_samplers, pixel_sampler);
-        axis!(estimators, estimator);
-        axis!(heuristics, heuristic);
-        axis!(hemispheres, hemisphere);
-        axis!(light_samplings, light_sampling);
-        settings = multiply(settings, &self.light_samples, |setting, count| {
-            setting.render.light_samples = *count;
-            if *count == 1 { "1 light sample".to_owned() } else { format!("{count} light samples") }
-        });
-        settings = multiply(settings, &self.light_samples_depths, |setting, depth| {
-            setting.render.light_samples_depth = *depth;
-            if *depth == 1 { "at the first surface".to_owned() } else { format!("at {depth} surfaces") }
-        });
-        axis!(blends, blend);
         name_apart(&mut settings, own);
         settings
     }
@@ -102,7 +77,7 @@ fn name_apart(settings: &mut [Setting], own: &RenderSettings) {
     for setting in settings.iter_mut().filter(|setting| setting.name.is_empty()) {
         let render = &setting.render;
         let own = if render == own { " (the scene's own)" } else { "" };
-        setting.name = format!("{}, {}{own}", setting_name(render.sampler), setting_name(render.estimator));
+        setting.name = format!("{}, {}{own}", render.sampler.name(), render.estimator.name());
     }
     let plain: Vec<String> = settings.iter().map(|setting| setting.name.clone()).collect();
     for (index, setting) in settings.iter_mut().enumerate() {
@@ -116,16 +91,24 @@ fn name_apart(settings: &mut [Setting], own: &RenderSettings) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::PixelSampler;
+    use crate::scene::settings::Setting as Row;
+    use crate::scene::{Estimator, PixelSampler, SamplerKind};
+
+    fn names(setting: &str, names: &[&str]) -> Vec<Assignment> {
+        let row = Row::find(setting).expect("a setting");
+        names.iter().map(|name| row.name(name).expect("one of its values")).collect()
+    }
 
     #[test]
     fn settings_are_every_combination_and_are_named_by_what_differs() {
         let axes = Axes {
             devices: vec![DeviceChoice::Gpu],
-            samplers: vec![SamplerKind::Halton, SamplerKind::Sobol],
-            pixel_samplers: vec![PixelSamplerName::None],
-            estimators: vec![Estimator::Mis, Estimator::Nee],
-            ..Axes::default()
+            settings: vec![
+                names("sampler", &["halton", "sobol"]),
+                names("pixel_sampler", &["none"]),
+                names("estimator", &["mis", "nee"]),
+                Vec::new(),
+            ],
         };
         let settings = axes.settings(&RenderSettings::default());
         let names: Vec<&str> = settings.iter().map(|setting| setting.name.as_str()).collect();
@@ -137,11 +120,21 @@ mod tests {
     }
 
     #[test]
+    fn numbers_say_what_they_count() {
+        let row = Row::find("light_samples").expect("a setting");
+        let counts = [1, 4].map(|count| row.number(count).expect("a possible number"));
+        let settings = Axes { settings: vec![counts.to_vec()], ..Axes::default() }.settings(&RenderSettings::default());
+        let told: Vec<_> = settings.iter().map(|setting| (setting.name.as_str(), setting.render.light_samples)).collect();
+        assert_eq!(told, [("light_samples 1", 1), ("light_samples 4", 4)]);
+    }
+
+    #[test]
     fn no_choice_is_one_setting_and_the_same_twice_is_two() {
         let own = RenderSettings { sampler: SamplerKind::Halton, ..RenderSettings::default() };
         let one = Axes::default().settings(&own);
         assert_eq!((one.len(), one[0].name.as_str()), (1, "halton, mis (the scene's own)"));
-        let twice = Axes { samplers: vec![SamplerKind::Halton; 2], ..Axes::default() }.settings(&RenderSettings::default());
+        let samplers = names("sampler", &["halton", "halton"]);
+        let twice = Axes { settings: vec![samplers], ..Axes::default() }.settings(&RenderSettings::default());
         assert_eq!([&twice[0].name, &twice[1].name], ["halton", "halton again (2)"]);
     }
 }

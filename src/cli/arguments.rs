@@ -5,21 +5,19 @@ use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
 use gpt::compare::Metric;
-use gpt::output::{MAX_PIXELS, MAX_SIDE};
 use gpt::plan::Fault;
 use gpt::renderer::DeviceChoice;
-use gpt::scene::settings::{MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH};
-use gpt::scene::{BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeuristic, PixelSamplerName, SamplerKind};
-
-/// Sample indices stay below this, because picture headers hold signed 32-bit numbers.
-pub const MAX_SAMPLES: u32 = i32::MAX as u32;
+use gpt::scene::settings::{FilmSettings, MOST_SAMPLES};
 
 use super::bench::BenchArguments;
+use super::choice::by_name;
+use super::exit::Exit;
+use super::settings::SettingFlags;
 use super::traversal::TraversalArguments;
 
 /// A headless GPU path tracer that proves its pictures against a CPU reference.
 #[derive(Debug, Parser)]
-#[command(name = "gpt", version)]
+#[command(name = "gpt", version, after_help = Exit::list())]
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Command,
@@ -88,48 +86,14 @@ pub struct GoalArguments {
 /// What overrides the scene's own `[film]` and `[render]`.
 #[derive(Debug, Default, Args)]
 pub struct EstimateArguments {
-    /// Samples per pixel
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
-    pub spp: Option<u32>,
     /// Absolute index of the first sample: 0 and 128, with --spp 128 each, together are the samples of --spp 256
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..i64::from(MAX_SAMPLES)))]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..i64::from(MOST_SAMPLES)))]
     pub first_sample: u32,
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
-    /// Longest path in edges: 1 = only light seen directly, 2 = plus direct lighting, 0 = unlimited
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=i64::from(MAX_SAMPLES)))]
-    pub max_depth: Option<u32>,
-    /// Where random numbers come from
-    #[arg(long)]
-    pub sampler: Option<SamplerKind>,
-    /// How light sampling and BSDF sampling are used
-    #[arg(long)]
-    pub estimator: Option<Estimator>,
-    /// How multiple importance sampling weighs the two
-    #[arg(long)]
-    pub heuristic: Option<MisHeuristic>,
-    /// Key of every random number of the render
-    #[arg(long, value_name = "N")]
-    pub seed: Option<u32>,
-    /// How directions over a diffuse surface are drawn
-    #[arg(long)]
-    pub hemisphere: Option<HemisphereSampling>,
-    /// How a point on a sphere light is drawn
-    #[arg(long)]
-    pub light_sampling: Option<LightSampling>,
-    /// Light samples at the first surface of a path; later surfaces take one
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_LIGHT_SAMPLES)))]
-    pub light_samples: Option<u32>,
-    /// How many of a path's first surfaces take that many
-    #[arg(long, value_name = "EDGES", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_LIGHT_SAMPLES_DEPTH)))]
-    pub light_samples_depth: Option<u32>,
-    /// The sampler of the position inside the pixel; none: always the pixel's centre
-    #[arg(long, value_name = "SAMPLER")]
-    pub pixel_sampler: Option<PixelSamplerName>,
-    /// Whether a blend evaluates every lobe or picks one material per hit
-    #[arg(long)]
-    pub blend: Option<BlendMode>,
+    #[command(flatten)]
+    pub settings: SettingFlags,
 }
 
 #[derive(Debug, Args)]
@@ -141,7 +105,7 @@ pub struct CompareArguments {
     #[arg(value_name = "B")]
     pub reference: PathBuf,
     /// Show this metric only, and judge by it
-    #[arg(long)]
+    #[arg(long, value_parser = by_name::<Metric>())]
     pub metric: Option<Metric>,
     /// What still counts as equal: the metric at most this (psnr: at least); without --metric the largest difference of a value
     #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = parse_tolerance)]
@@ -159,7 +123,7 @@ pub struct VerifyArguments {
     #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
     pub pixel: Option<[u32; 2]>,
     /// Which sample of that pixel
-    #[arg(long, value_name = "N", default_value_t = 0, requires = "pixel", value_parser = clap::value_parser!(u32).range(..i64::from(MAX_SAMPLES)))]
+    #[arg(long, value_name = "N", default_value_t = 0, requires = "pixel", value_parser = clap::value_parser!(u32).range(..i64::from(MOST_SAMPLES)))]
     pub sample: u32,
     /// Samples per pixel [default: 16]
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]
@@ -182,7 +146,7 @@ pub struct VerifyArguments {
     #[arg(long, value_name = "FOLDER", default_value = "gpt-verify")]
     pub evidence: PathBuf,
     /// Compile a fault into the GPU's kernels, to see verify fail: one BSDF times 1.01, no MIS weights, or one light skipped
-    #[arg(long, value_name = "FAULT")]
+    #[arg(long, value_name = "FAULT", value_parser = by_name::<Fault>())]
     pub plant: Option<Fault>,
 }
 
@@ -221,26 +185,15 @@ pub fn parse_device(text: &str) -> Result<DeviceChoice, String> {
 pub fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let parts = text.split_once(['x', 'X']).ok_or("expected WIDTHxHEIGHT, for example 640x480")?;
     let side = |part: &str| part.parse::<u32>().map_err(|_| format!("`{part}` is no number of pixels"));
-    let size = [side(parts.0)?, side(parts.1)?];
-    check_size(size)?;
-    Ok(size)
+    let film = FilmSettings { size: [side(parts.0)?, side(parts.1)?], ..FilmSettings::default() };
+    film.check().map_err(|bad| bad.help.unwrap_or(bad.message))?;
+    Ok(film.size)
 }
 
 fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
     let parts = text.split_once(',').ok_or("expected COLUMN,ROW, for example 64,48")?;
     let place = |part: &str| part.trim().parse::<u32>().map_err(|_| format!("`{part}` is no column or row"));
     Ok([place(parts.0)?, place(parts.1)?])
-}
-
-/// Whether a picture of this size can be rendered; the error is a sentence.
-pub fn check_size([width, height]: [u32; 2]) -> Result<(), String> {
-    if width == 0 || height == 0 {
-        return Err("width and height must be at least 1".to_owned());
-    }
-    if width > MAX_SIDE || height > MAX_SIDE || u64::from(width) * u64::from(height) > MAX_PIXELS {
-        return Err(format!("{width}x{height} is too big: at most {MAX_SIDE} pixels on a side and {MAX_PIXELS} in all"));
-    }
-    Ok(())
 }
 
 fn parse_exposure(text: &str) -> Result<f32, String> {

@@ -2,10 +2,9 @@
 
 use std::fmt::Write;
 
-use clap::ValueEnum;
+use gpt::choice::Choice;
 use gpt::compare::{Comparison, Metric, compare};
 use gpt::output::read_image;
-use gpt::scene::setting_name;
 use serde::Serialize;
 
 use super::arguments::CompareArguments;
@@ -59,14 +58,14 @@ fn text(comparison: &Comparison, metric: Option<Metric>, equal: bool) -> String 
         }
         text.push('\n');
     };
-    let shown = Metric::value_variants().iter().filter(|each| metric.is_none_or(|wanted| wanted == **each));
+    let shown = Metric::VALUES.iter().filter(|each| metric.is_none_or(|wanted| wanted == **each));
     if metric.is_none() {
         row("mean of A", comparison.means[0], None);
         row("mean of B", comparison.means[1], None);
     }
     for each in shown {
         let value = comparison.value(*each);
-        row(&setting_name(*each), value.channels, Some(value.all));
+        row(each.name(), value.channels, Some(value.all));
     }
     let largest = comparison.largest;
     let header = format!("{:<12} {:>13} {:>13} {:>13} {:>13}\n", "", "red", "green", "blue", "all");

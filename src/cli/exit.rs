@@ -30,6 +30,40 @@ pub enum Exit {
     Interrupted = 130,
 }
 
+impl Exit {
+    const ALL: [Self; 9] = [
+        Self::Done,
+        Self::OtherFailure,
+        Self::Usage,
+        Self::Input,
+        Self::Device,
+        Self::DeviceLost,
+        Self::NonFinite,
+        Self::Difference,
+        Self::Interrupted,
+    ];
+
+    fn meaning(self) -> &'static str {
+        match self {
+            Self::Done => "done",
+            Self::OtherFailure => "another failure",
+            Self::Usage => "the command line is wrong",
+            Self::Input => "the scene or another input file is wrong",
+            Self::Device => "there is no usable device, or the scene does not fit it",
+            Self::DeviceLost => "the device was lost",
+            Self::NonFinite => "samples were not finite, with --strict",
+            Self::Difference => "compare or verify found a difference",
+            Self::Interrupted => "interrupted; what was rendered is saved",
+        }
+    }
+
+    /// Every number with its meaning, for help.
+    pub fn list() -> String {
+        let rows = Self::ALL.map(|exit| format!("{:>5}  {}", exit as u8, exit.meaning()));
+        format!("Exit codes:\n{}", rows.join("\n"))
+    }
+}
+
 impl From<Exit> for ExitCode {
     fn from(exit: Exit) -> Self {
         Self::from(exit as u8)

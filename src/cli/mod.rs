@@ -3,12 +3,15 @@
 mod arguments;
 mod bench;
 mod check;
+mod choice;
 mod compare;
 mod devices;
 mod exit;
 mod interrupt;
 mod pictures;
 mod progress;
+#[cfg(test)]
+mod reference_pages;
 mod render;
 mod scene_error;
 mod settings;

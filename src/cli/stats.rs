@@ -3,10 +3,10 @@
 use gpt::packed::hierarchy::Traversal;
 use gpt::plan::Decision;
 use gpt::renderer::RenderReport;
-use gpt::scene::{Scene, setting_name};
+use gpt::scene::{RenderSettings, Scene};
 use serde::Serialize;
 
-/// Everything in the file. Keys stay as they are; new ones may be added.
+/// The keys of the file. They stay as they are; new ones may be added.
 #[derive(Debug, Serialize)]
 pub struct Stats {
     pub scene: String,
@@ -20,8 +20,9 @@ pub struct Stats {
     pub compiled_in: Vec<&'static str>,
     pub width: u32,
     pub height: u32,
-    /// Samples per pixel that were asked for.
-    pub spp: u32,
+    /// Every setting by its key in `[render]`; `spp` is what was asked for.
+    #[serde(flatten)]
+    pub settings: RenderSettings,
     /// Samples per pixel that the least finished row has; on average, where they follow the noise.
     pub spp_done: u32,
     /// `samples`, `time_limit`, `target_error` or `interrupted`.
@@ -33,14 +34,6 @@ pub struct Stats {
     pub expected_error: Option<f64>,
     pub error_bound: Option<f64>,
     pub first_sample: u32,
-    pub seed: u32,
-    pub max_depth: u32,
-    /// Light samples at the first surfaces of a path, and at how many of them.
-    pub light_samples: u32,
-    pub light_samples_depth: u32,
-    pub sampler: String,
-    pub estimator: String,
-    pub heuristic: String,
     pub seconds: Seconds,
     /// Samples finished, over all pixels.
     pub samples: u64,
@@ -87,7 +80,7 @@ impl Stats {
             compiled_in: report.compiled_in.clone(),
             width,
             height,
-            spp: scene.render.spp,
+            settings: scene.render.clone(),
             spp_done: 0,
             stopped_by: "samples",
             adaptive: false,
@@ -95,13 +88,6 @@ impl Stats {
             expected_error: None,
             error_bound: None,
             first_sample: 0,
-            seed: scene.render.seed,
-            max_depth: scene.render.max_depth,
-            light_samples: scene.render.light_samples,
-            light_samples_depth: scene.render.light_samples_depth,
-            sampler: setting_name(scene.render.sampler),
-            estimator: setting_name(scene.render.estimator),
-            heuristic: setting_name(scene.render.heuristic),
             seconds: Seconds {
                 build: report.build_seconds,
                 compile: report.compile_seconds,

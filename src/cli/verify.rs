@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use clap::ValueEnum;
+use gpt::choice::Choice;
 use gpt::gpu::Device;
 use gpt::load;
 use gpt::plan::{Fault, PlanOptions};
@@ -99,14 +99,10 @@ fn failure(error: ClosedFormError) -> Failure {
 fn was_planted(arguments: &VerifyArguments, planted: bool) -> Result<(), Failure> {
     match arguments.plant {
         Some(fault) if !planted => {
-            Err(Failure::usage(format!("the scene has nothing for the fault `{}` to act on", fault_name(fault))))
+            Err(Failure::usage(format!("the scene has nothing for the fault `{}` to act on", fault.name())))
         }
         _ => Ok(()),
     }
-}
-
-fn fault_name(fault: Fault) -> String {
-    fault.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
 }
 
 /// Prints one path on both devices.
@@ -210,7 +206,7 @@ fn path_command(name: &str, scene: &Scene, verdict: &Verdict, arguments: &Verify
         let _ = write!(command, " --spp {spp}");
     }
     if let Some(fault) = arguments.plant {
-        let _ = write!(command, " --plant {}", fault_name(fault));
+        let _ = write!(command, " --plant {}", fault.name());
     }
     command
 }

@@ -1,8 +1,8 @@
 //! Error metrics between a picture and its reference, per channel, in f64.
 
-use clap::ValueEnum;
 use serde::Serialize;
 
+use crate::choice::choices;
 use crate::output::Image;
 
 /// Keeps dark pixels from deciding the relative error, as in pbrt's `imgtool` and Rousselle et al. 2011.
@@ -13,19 +13,18 @@ pub fn relative_weight(reference: f64) -> f64 {
     1.0 / (reference * reference + RELATIVE_EPSILON)
 }
 
-/// What is averaged over pixels and channels; a is the picture, b the reference.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Metric {
-    /// Mean squared error: (a − b)².
-    Mse,
-    /// Relative mean squared error: (a − b)² / (b² + 0.01).
-    #[value(name = "relmse")]
-    RelMse,
-    /// Mean absolute error: |a − b|.
-    Mae,
-    /// Peak signal-to-noise ratio in decibels: 10 log₁₀(p² / MSE), p the reference's largest value.
-    Psnr,
+choices! {
+    /// What is averaged over pixels and channels; a is the picture, b the reference.
+    pub enum Metric {
+        /// Mean squared error: (a − b)².
+        Mse = "mse",
+        /// Relative mean squared error: (a − b)² / (b² + 0.01).
+        RelMse = "relmse",
+        /// Mean absolute error: |a − b|.
+        Mae = "mae",
+        /// Peak signal-to-noise ratio in decibels: 10 log₁₀(p² / MSE), p the reference's largest value.
+        Psnr = "psnr",
+    }
 }
 
 /// A metric's value for red, green and blue, and over all three.

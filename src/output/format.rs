@@ -2,11 +2,6 @@
 
 use std::path::Path;
 
-/// Width and height a picture may have, in pixels.
-pub const MAX_SIDE: u32 = 32_768;
-/// Pixels a picture may have.
-pub const MAX_PIXELS: u64 = 1 << 28;
-
 /// What a picture file can be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PictureFormat {

@@ -15,7 +15,7 @@ mod spec;
 
 pub use atomic::{AtomicFile, check_target, remove_unfinished};
 pub use error::OutputError;
-pub use format::{MAX_PIXELS, MAX_SIDE, PictureFormat};
+pub use format::PictureFormat;
 pub use picture::PictureFile;
 pub use png_file::srgb_byte;
 pub use provenance::Provenance;

@@ -1,6 +1,7 @@
 //! Where a picture comes from: what a file's header says so that the picture can be made again.
 
-use crate::scene::{Filter, RenderSettings, setting_name};
+use crate::scene::settings::{Setting, Value, Values};
+use crate::scene::{Filter, RenderSettings};
 
 /// Everything that decides a picture's pixels, and what they were made on.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,24 +43,21 @@ impl Provenance {
             ("gpt:sceneHash", text(&self.scene_hash)),
             ("gpt:device", text(&self.device)),
             ("gpt:filter", text(&self.filter.to_string())),
-            ("gpt:sampler", text(&setting_name(settings.sampler))),
-            ("gpt:pixelSampler", text(&settings.pixel_sampler.name(settings.sampler))),
-            ("gpt:estimator", text(&setting_name(settings.estimator))),
-            ("gpt:heuristic", text(&setting_name(settings.heuristic))),
-            ("gpt:hemisphere", text(&setting_name(settings.hemisphere))),
-            ("gpt:lightSamples", Entry::Number(settings.light_samples)),
-            ("gpt:lightSamplesDepth", Entry::Number(settings.light_samples_depth)),
-            // As text, because a seed may need all 32 bits and the header's integers are signed.
-            ("gpt:seed", Entry::Text(settings.seed.to_string())),
-            ("gpt:maxDepth", Entry::Number(settings.max_depth)),
-            ("gpt:rouletteDepth", Entry::Number(settings.roulette_depth)),
             ("gpt:firstSample", Entry::Number(self.first_sample)),
-            ("gpt:samplesWanted", Entry::Number(settings.spp)),
             (SAMPLES_KEY, Entry::Number(samples)),
             (COMPLETE_KEY, Entry::Number(u32::from(samples >= settings.spp))),
             ("gpt:adaptive", Entry::Number(u32::from(self.adaptive))),
         ];
+        entries.extend(settings.values().map(|(setting, value)| (setting.header, entry(setting, value))));
         entries.extend(self.target_error.map(|target| ("gpt:targetError", Entry::Text(target.to_string()))));
         entries
+    }
+}
+
+/// Numbers that may need all 32 bits, as a seed may, are text, because the header's integers are signed.
+fn entry(setting: &Setting, value: Value) -> Entry {
+    match (setting.values, value) {
+        (Values::Whole(_, most), Value::Number(number)) if i32::try_from(most).is_ok() => Entry::Number(number),
+        _ => Entry::Text(value.to_string()),
     }
 }

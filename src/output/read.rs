@@ -8,8 +8,8 @@ use exr::image::{AnyChannels, FlatSamples, Layer};
 use exr::meta::MetaData;
 use exr::prelude::{ReadChannels, ReadLayers, f16};
 
-use super::format::{MAX_PIXELS, MAX_SIDE};
 use crate::math::srgb_to_linear;
+use crate::scene::settings::{MAX_PIXELS, MAX_SIDE};
 
 /// A picture in memory, linear.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,23 +1,21 @@
 //! Faults that can be planted in the device's kernels: a check that never fails proves nothing.
 
-use clap::ValueEnum;
-use serde::Serialize;
-
+use crate::choice::choices;
 use crate::packed::PackedScene;
 use crate::packed::light::{LightKind, PackedLight};
 use crate::packed::material::PackedMaterialKind;
 use crate::shader::Switches;
 
-/// A mistake compiled into the device's kernels on request, and only there: the CPU reference stays right.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Fault {
-    /// The material of most primitives that scatter returns 1.01 times what it should.
-    Brdf,
-    /// Multiple importance sampling's weights are all 1.
-    Mis,
-    /// The light chosen most often gives none when it is sampled.
-    Light,
+choices! {
+    /// A mistake compiled into the device's kernels on request, and only there: the CPU reference stays right.
+    pub enum Fault {
+        /// The material of most primitives that scatter returns 1.01 times what it should.
+        Brdf = "brdf",
+        /// Multiple importance sampling's weights are all 1.
+        Mis = "mis",
+        /// The light chosen most often gives none when it is sampled.
+        Light = "light",
+    }
 }
 
 impl Fault {

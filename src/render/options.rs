@@ -5,13 +5,10 @@ use std::time::Duration;
 
 use super::progressive::STREAMS;
 use crate::error::Error;
-use crate::output::{MAX_PIXELS, MAX_SIDE};
 use crate::plan::PlanOptions;
 use crate::renderer::DeviceChoice;
 use crate::scene::Scene;
-
-/// Sample indices stay below this, because picture headers hold signed 32-bit numbers.
-const SAMPLES_END: u32 = i32::MAX as u32;
+use crate::scene::settings::MOST_SAMPLES;
 
 /// How a scene is rendered. The default renders what the scene says on the best device there is.
 ///
@@ -68,16 +65,14 @@ impl RenderOptions {
 
     /// What is wrong, in a sentence.
     fn contradiction(&self, scene: &Scene) -> Option<String> {
-        let ([width, height], samples) = (scene.film.size, scene.render.spp);
-        let pixels = u64::from(width) * u64::from(height);
-        if pixels == 0 || width.max(height) > MAX_SIDE || pixels > MAX_PIXELS {
-            let most = format!("1 to {MAX_SIDE} pixels on a side and at most {MAX_PIXELS} in all");
-            return Some(format!("a picture of {width}x{height} pixels cannot be rendered: a picture has {most}"));
+        if let Err(bad) = scene.film.check() {
+            return Some(bad.to_string());
         }
-        if samples == 0 || self.first_sample.checked_add(samples).is_none_or(|end| end > SAMPLES_END) {
+        let samples = scene.render.spp;
+        if samples == 0 || self.first_sample.checked_add(samples).is_none_or(|end| end > MOST_SAMPLES) {
             return Some(format!(
                 "{samples} samples per pixel from sample {} on cannot be rendered: there is at least one, and all indices are below \
-                 {SAMPLES_END}",
+                 {MOST_SAMPLES}",
                 self.first_sample
             ));
         }
@@ -114,8 +109,8 @@ mod tests {
         let bad = [
             RenderOptions { samples: Some(0), ..default() },
             RenderOptions { size: Some([0, 5]), ..default() },
-            RenderOptions { size: Some([MAX_SIDE + 1, 1]), ..default() },
-            RenderOptions { first_sample: SAMPLES_END, ..default() },
+            RenderOptions { size: Some([100_000, 1]), ..default() },
+            RenderOptions { first_sample: MOST_SAMPLES, ..default() },
             RenderOptions { first_sample: 1, adaptive: true, ..default() },
             RenderOptions { first_sample: 1, target_error: Some(0.1), ..default() },
             RenderOptions { target_error: Some(0.0), ..default() },

@@ -31,7 +31,7 @@ pub use model::Scene;
 pub use motion::{Motion, MotionStep};
 pub use settings::{
     BlendMode, Estimator, FilmSettings, Filter, FilterKind, HemisphereSampling, LightSampling, MisHeuristic, PixelSampler,
-    PixelSamplerName, RenderSettings, SamplerKind, setting_name,
+    RenderSettings, SamplerKind,
 };
 pub use shape::{Geometry, Mesh, Shape};
 pub use summary::SceneSummary;

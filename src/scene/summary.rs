@@ -1,16 +1,17 @@
 //! A scene in numbers, for `gpt check`.
 
 use std::collections::BTreeMap;
-use std::fmt;
+use std::fmt::{self, Write};
 
 use serde::Serialize;
 
 use super::light::{EnvironmentRadiance, Light};
 use super::material::{Material, MaterialKind};
 use super::model::Scene;
-use super::settings::setting_name;
+use super::settings::RenderSettings;
 use super::shape::{Geometry, Shape};
 use super::texture::TextureKind;
+use crate::choice::Choice;
 
 /// What a scene consists of. Maps go from the scene file's name of a type to how often it occurs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -18,13 +19,9 @@ pub struct SceneSummary {
     pub name: String,
     /// Width and height in pixels.
     pub size: [u32; 2],
-    pub spp: u32,
     pub filter: String,
-    pub max_depth: u32,
-    pub sampler: String,
-    pub pixel_sampler: String,
-    pub estimator: String,
-    pub heuristic: String,
+    #[serde(flatten)]
+    pub render: RenderSettings,
     pub shapes: BTreeMap<&'static str, usize>,
     /// Over all meshes.
     pub triangles: usize,
@@ -41,17 +38,11 @@ pub struct SceneSummary {
 impl SceneSummary {
     /// Counts what is in the scene.
     pub fn of(scene: &Scene) -> Self {
-        let render = &scene.render;
         Self {
             name: scene.name.clone(),
             size: scene.film.size,
-            spp: render.spp,
             filter: scene.film.filter.to_string(),
-            max_depth: render.max_depth,
-            sampler: setting_name(render.sampler),
-            pixel_sampler: render.pixel_sampler.name(render.sampler),
-            estimator: setting_name(render.estimator),
-            heuristic: setting_name(render.heuristic),
+            render: scene.render.clone(),
             shapes: count(scene.shapes.iter().map(|shape| shape_type(&shape.geometry))),
             triangles: scene.shapes.iter().map(triangles).sum(),
             moving_shapes: scene.shapes.iter().filter(|shape| shape.motion.is_some()).count(),
@@ -67,15 +58,9 @@ impl SceneSummary {
 impl fmt::Display for SceneSummary {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [width, height] = self.size;
-        let depth = if self.max_depth == 0 { "unlimited depth".to_owned() } else { format!("depth {}", self.max_depth) };
         writeln!(out, "scene      {}", self.name)?;
-        writeln!(out, "film       {width}x{height}, {} spp, filter {}", self.spp, self.filter)?;
-        let pixel = if self.pixel_sampler == self.sampler { String::new() } else { format!(" (pixel: {})", self.pixel_sampler) };
-        writeln!(
-            out,
-            "render     {depth}, {} sampler{pixel}, {} estimator, {} heuristic",
-            self.sampler, self.estimator, self.heuristic
-        )?;
+        writeln!(out, "film       {width}x{height}, {} spp, filter {}", self.render.spp, self.filter)?;
+        writeln!(out, "render     {}", estimation(&self.render))?;
         writeln!(out, "shapes     {}", list(&self.shapes))?;
         writeln!(
             out,
@@ -86,6 +71,21 @@ impl fmt::Display for SceneSummary {
         writeln!(out, "lights     {}", list(&self.lights))?;
         writeln!(out, "textures   {}, {} texels", list(&self.textures), self.texels)
     }
+}
+
+/// The depth and the ways of estimating in words, and whatever else differs from its default.
+fn estimation(render: &RenderSettings) -> String {
+    let depth = if render.max_depth == 0 { "unlimited depth".to_owned() } else { format!("depth {}", render.max_depth) };
+    let [sampler, estimator] = [render.sampler.name(), render.estimator.name()];
+    let mut words = format!("{depth}, {sampler} sampler, {estimator} estimator, {} heuristic", render.heuristic.name());
+    let said = ["spp", "max_depth", "sampler", "estimator", "heuristic"];
+    let defaults = RenderSettings { sampler: render.sampler, ..RenderSettings::default() };
+    for ((setting, value), (_, default)) in render.values().zip(defaults.values()) {
+        if value != default && !said.contains(&setting.name) {
+            let _ = write!(words, ", {} {value}", setting.name);
+        }
+    }
+    words
 }
 
 fn list(counts: &BTreeMap<&'static str, usize>) -> String {

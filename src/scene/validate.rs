@@ -10,7 +10,7 @@ use super::camera::{ApertureShape, Camera, Projection};
 use super::light::{EnvironmentRadiance, Light};
 use super::material::{BlendWeight, ConductorFresnel, Material, MaterialId, MaterialKind};
 use super::model::Scene;
-use super::settings::{MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH};
+use super::settings::BadSetting;
 use super::shape::{Geometry, Mesh, Shape};
 use super::texture::{ColorInput, ImageData, TextureId, TextureKind};
 
@@ -45,8 +45,9 @@ impl Scene {
     /// # Errors
     /// The first part of the scene that cannot be rendered, and what is wrong with it.
     pub fn validate(&self) -> Result<(), InvalidScene> {
-        of(|| "film".into(), film(self))?;
-        of(|| "render settings".into(), settings(self))?;
+        let words = |bad: BadSetting| bad.to_string();
+        of(|| "film".into(), self.film.check().map_err(words))?;
+        of(|| "render settings".into(), self.render.check().map_err(words))?;
         of(|| "camera".into(), camera(&self.camera))?;
         for texture in &self.textures {
             of(|| format!("texture `{}`", texture.name), texture_kind(&texture.kind))?;
@@ -197,42 +198,6 @@ fn is_amount(color: DVec3) -> bool {
 
 fn is_direction(direction: DVec3) -> bool {
     (direction.length_squared() - 1.0).abs() < 1e-6
-}
-
-fn film(scene: &Scene) -> Check {
-    let [width, height] = scene.film.size;
-    if width == 0 || height == 0 {
-        return Err("the picture has no pixels".into());
-    }
-    // Pixels are numbered in 32 bits.
-    if u64::from(width) * u64::from(height) > u64::from(u32::MAX) {
-        return Err(format!("{width} × {height} pixels are more than can be numbered"));
-    }
-    let radius = scene.film.filter.radius;
-    if !is_positive(radius) {
-        return Err(format!("a filter cannot have the radius {radius}"));
-    }
-    Ok(())
-}
-
-fn settings(scene: &Scene) -> Check {
-    let settings = &scene.render;
-    if !(1..=MOST_LIGHT_SAMPLES).contains(&settings.light_samples) {
-        return Err(format!(
-            "{} light samples at a path's first surface; 1 to {MOST_LIGHT_SAMPLES} are possible",
-            settings.light_samples
-        ));
-    }
-    if !(1..=MOST_LIGHT_SAMPLES_DEPTH).contains(&settings.light_samples_depth) {
-        return Err(format!(
-            "several light samples at the surfaces of {} edges; 1 to {MOST_LIGHT_SAMPLES_DEPTH} are possible",
-            settings.light_samples_depth
-        ));
-    }
-    if settings.max_depth == 0 && settings.roulette_depth == 0 {
-        return Err("paths never end: max_depth and roulette_depth are both 0".into());
-    }
-    Ok(())
 }
 
 fn camera(camera: &Camera) -> Check {

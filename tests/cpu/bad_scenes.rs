@@ -6,6 +6,7 @@ use crate::common::files::{TRIANGLE, folder_with, png_bytes};
 use crate::common::sphere::grey_sphere;
 use gpt::load;
 use gpt::load::SceneError;
+use gpt::scene::settings::SETTINGS;
 
 /// A scene that is right, to put mistakes into.
 static GOOD: LazyLock<String> =
@@ -50,12 +51,6 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
              reflectance, normal_map, emission, emission_two_sided]",
         ),
         (
-            "spp = 1",
-            "samples = 1",
-            "test.toml:5:1: render.samples: unknown key `samples` [did you mean `sampler`? valid choices: spp, max_depth, sampler, pixel_sampler, \
-             estimator, heuristic, hemisphere, light_sampling, light_samples, light_samples_depth, roulette_depth, seed]",
-        ),
-        (
             "type = \"diffuse\"",
             "type = \"diffusse\"",
             "test.toml:12:8: material[0].type: `diffusse` is not a valid choice [did you mean `diffuse`? valid choices: diffuse, \
@@ -95,9 +90,25 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
         ),
         ("[film]\nsize = [4, 4]", "film = 3", "test.toml:2:8: film: invalid type: integer `3`, expected a table"),
         ("size = [4, 4]", "filter = \"box\"", "test.toml:3:10: film.filter: expected a table with the key `type`, found string"),
+        (
+            "spp = 1",
+            "estimator = 3",
+            "test.toml:5:13: render.estimator: invalid type: integer `3`, expected one of mis, nee, bsdf",
+        ),
+        ("spp = 1", "seed = [1]", "test.toml:5:8: render.seed: invalid type: array, expected a whole number of at least 0"),
+        (
+            "[film]\nsize = [4, 4]\n[render]\nspp = 1",
+            "render = 3",
+            "test.toml:2:10: render: invalid type: integer `3`, expected a table",
+        ),
         // Ranges.
         ("spp = 1", "spp = 0", "test.toml:5:7: render.spp: invalid value: integer `0`, expected a whole number of at least 1"),
         ("spp = 1", "spp = -1", "test.toml:5:7: render.spp: invalid value: integer `-1`, expected a whole number of at least 1"),
+        (
+            "spp = 1",
+            "spp = 4000000000",
+            "test.toml:5:7: render.spp: invalid value: integer `4000000000`, expected a whole number of at most 2147483647",
+        ),
         (
             "spp = 1",
             "max_depth = -1",
@@ -106,12 +117,12 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
         (
             "spp = 1",
             "light_samples = 17",
-            "test.toml:5:17: render.light_samples: 17 light samples are not possible [from 1 to 16]",
+            "test.toml:5:17: render.light_samples: invalid value: integer `17`, expected a whole number from 1 to 16",
         ),
         (
             "spp = 1",
             "light_samples_depth = 4",
-            "test.toml:5:23: render.light_samples_depth: several light samples at the surfaces of 4 edges are not possible [from 1 to 3]",
+            "test.toml:5:23: render.light_samples_depth: invalid value: integer `4`, expected a whole number from 1 to 3",
         ),
         (
             "size = [4, 4]",
@@ -165,7 +176,12 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
         (
             "spp = 1",
             "pixel_sampler = \"nothing\"",
-            "test.toml:5:17: render.pixel_sampler: `nothing` is not a valid choice [valid choices: independent, stratified, quadrant, halton, sobol, none]",
+            "test.toml:5:17: render.pixel_sampler: `nothing` is not a valid choice [valid choices: independent, stratified, quadrant, halton, sobol, none, same]",
+        ),
+        (
+            "spp = 1",
+            "blend = \"mixtur\"",
+            "test.toml:5:9: render.blend: `mixtur` is not a valid choice [did you mean `mixture`? valid choices: mixture, pick]",
         ),
         ("vfov = 40", "vfov = 40\nshutter = [1, 0.5]", "test.toml:10:11: camera.shutter: the shutter closes before it opens"),
         (
@@ -265,6 +281,16 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
     let different = complaints.iter().zip(&expected).filter(|(found, expected)| found != *expected);
     let report: Vec<String> = different.map(|(found, expected)| format!("found    {found}\nexpected {expected}")).collect();
     assert!(report.is_empty(), "\n{}", report.join("\n"));
+}
+
+#[test]
+fn an_unknown_setting_is_answered_with_all_settings() {
+    let names: Vec<&str> = SETTINGS.iter().map(|setting| setting.name).collect();
+    let expected = format!(
+        "test.toml:5:1: render.samples: unknown key `samples` [did you mean `sampler`? valid choices: {}]",
+        names.join(", ")
+    );
+    assert_eq!(complaint("spp = 1", "samples = 1"), expected);
 }
 
 #[test]

@@ -6,10 +6,11 @@ use clap::{Args, Subcommand, ValueEnum};
 use gpt::bench::growth::Growth;
 use gpt::bench::setting::Axes;
 use gpt::renderer::DeviceChoice;
-use gpt::scene::settings::{MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH};
-use gpt::scene::{BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeuristic, PixelSamplerName, SamplerKind};
+use gpt::scene::settings::MOST_SAMPLES;
 
-use crate::cli::arguments::{MAX_SAMPLES, parse_device, parse_size};
+use crate::cli::arguments::{parse_device, parse_size};
+use crate::cli::choice::by_name;
+use crate::cli::settings::SettingAxes;
 use crate::cli::traversal::TraversalArguments;
 
 #[derive(Debug, Args)]
@@ -75,7 +76,7 @@ pub struct SpeedArguments {
     #[command(flatten)]
     pub traversal: TraversalArguments,
     /// What grows [default: everything, and the scenes as they are]
-    #[arg(long, value_name = "WHAT,…", value_delimiter = ',')]
+    #[arg(long, value_name = "WHAT,…", value_delimiter = ',', value_parser = by_name::<Growth>())]
     pub growth: Vec<Growth>,
     /// The larger sizes too: up to ten million triangles, 4096x4096 pixels, 10,000 lights, 64 leaves. Takes minutes and gigabytes
     #[arg(long)]
@@ -144,7 +145,7 @@ pub struct ConvergenceArguments {
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
     /// Longest path in edges, 0 = unlimited [default: the scene's]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=i64::from(MAX_SAMPLES)))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=i64::from(MOST_SAMPLES)))]
     pub max_depth: Option<u32>,
     /// Key of all random numbers of the measurement
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -153,7 +154,7 @@ pub struct ConvergenceArguments {
     #[arg(long, value_name = "FILE")]
     pub reference: Option<PathBuf>,
     /// Samples per pixel of a reference that is made, with the scene's own settings on the first device [default: 16 times --spp]
-    #[arg(long, value_name = "N", conflicts_with = "reference", value_parser = clap::value_parser!(u32).range(8..=i64::from(MAX_SAMPLES)))]
+    #[arg(long, value_name = "N", conflicts_with = "reference", value_parser = clap::value_parser!(u32).range(8..=i64::from(MOST_SAMPLES)))]
     pub reference_spp: Option<u32>,
     /// Folder in which references are kept [default: the user's folder for caches]
     #[arg(long, value_name = "FOLDER", conflicts_with = "reference")]
@@ -169,49 +170,13 @@ pub struct AxisArguments {
     /// Devices: auto, gpu, cpu, or part of an adapter's name
     #[arg(long, value_name = "DEVICE,…", value_delimiter = ',', value_parser = parse_device)]
     device: Vec<DeviceChoice>,
-    /// Where random numbers come from
-    #[arg(long, value_name = "SAMPLER,…", value_delimiter = ',')]
-    sampler: Vec<SamplerKind>,
-    /// The sampler of the position inside the pixel
-    #[arg(long, value_name = "SAMPLER,…", value_delimiter = ',')]
-    pixel_sampler: Vec<PixelSamplerName>,
-    /// How light sampling and BSDF sampling are used
-    #[arg(long, value_name = "ESTIMATOR,…", value_delimiter = ',')]
-    estimator: Vec<Estimator>,
-    /// How multiple importance sampling weighs the two
-    #[arg(long, value_name = "HEURISTIC,…", value_delimiter = ',')]
-    heuristic: Vec<MisHeuristic>,
-    /// How directions over a diffuse surface are drawn
-    #[arg(long, value_name = "HEMISPHERE,…", value_delimiter = ',')]
-    hemisphere: Vec<HemisphereSampling>,
-    /// How a point on a sphere light is drawn
-    #[arg(long, value_name = "STRATEGY,…", value_delimiter = ',')]
-    light_sampling: Vec<LightSampling>,
-    /// Light samples at the first surface of a path
-    #[arg(long, value_name = "N,…", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_LIGHT_SAMPLES)))]
-    light_samples: Vec<u32>,
-    /// How many of a path's first surfaces take that many
-    #[arg(long, value_name = "EDGES,…", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_LIGHT_SAMPLES_DEPTH)))]
-    light_samples_depth: Vec<u32>,
-    /// Whether a blend evaluates every lobe or picks one material per hit
-    #[arg(long, value_name = "MODE,…", value_delimiter = ',')]
-    blend: Vec<BlendMode>,
+    #[command(flatten)]
+    settings: SettingAxes,
 }
 
 impl From<&AxisArguments> for Axes {
     fn from(arguments: &AxisArguments) -> Self {
-        Self {
-            devices: arguments.device.clone(),
-            samplers: arguments.sampler.clone(),
-            pixel_samplers: arguments.pixel_sampler.clone(),
-            estimators: arguments.estimator.clone(),
-            heuristics: arguments.heuristic.clone(),
-            hemispheres: arguments.hemisphere.clone(),
-            light_samplings: arguments.light_sampling.clone(),
-            light_samples: arguments.light_samples.clone(),
-            light_samples_depths: arguments.light_samples_depth.clone(),
-            blends: arguments.blend.clone(),
-        }
+        Self { devices: arguments.device.clone(), settings: arguments.settings.0.clone() }
     }
 }
 

@@ -14,9 +14,8 @@ use serde::Serialize;
 
 use super::arguments::ConvergenceArguments;
 use super::output::{OnlyStops, Results, command};
-use crate::cli::arguments::check_size;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::{interrupt, terminal};
+use crate::cli::{interrupt, settings, terminal};
 
 /// Settings that are measured side by side at most: each holds a renderer.
 const MOST_SETTINGS: usize = 32;
@@ -86,10 +85,7 @@ fn load_one(name: &str, arguments: &ConvergenceArguments) -> Result<Scene, Failu
         Some(size) => scene.film.size = size,
         None => verify::shrink(&mut scene, DEFAULT_SIDE),
     }
-    check_size(scene.film.size).map_err(|what| Failure::BadScene(format!("{name}: film size: {what}")))?;
     scene.render.max_depth = arguments.max_depth.unwrap_or(scene.render.max_depth);
-    if scene.render.max_depth == 0 && scene.render.roulette_depth == 0 {
-        return Err(Failure::usage("`--max-depth 0` never ends a path, because the scene's roulette_depth is 0"));
-    }
+    settings::check(&scene)?;
     Ok(scene)
 }

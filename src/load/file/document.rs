@@ -106,6 +106,13 @@ impl<'a> Document<'a> {
         Ok(())
     }
 
+    /// The bytes of a key's value in a table at the top; none where it is not written.
+    pub fn span_of(self, table: &str, key: &str) -> Range<usize> {
+        let Ok(root) = DeTable::parse(self.text) else { return 0..0 };
+        let value = root.get_ref().get(table).and_then(|table| table.get_ref().get(key));
+        value.map_or(0..0, Spanned::span)
+    }
+
     /// The dotted path of the innermost key or value around `span`; empty at the top.
     fn key_at(self, span: &Range<usize>) -> String {
         let Ok(root) = DeTable::parse(self.text) else { return String::new() };

@@ -5,6 +5,7 @@
 
 mod document;
 mod resolve;
+mod schema;
 mod syntax;
 mod value;
 mod wording;
@@ -12,6 +13,7 @@ mod wording;
 use std::path::Path;
 
 use document::Document;
+pub use schema::json_schema;
 pub(super) use wording::did_you_mean;
 
 use crate::load::error::SceneError;
@@ -36,15 +38,6 @@ pub fn load_toml_str(text: &str, name: &str, folder: &Path) -> Result<Scene, Sce
 /// Reads a model file alone: its meshes with its own materials, in a scene without a camera of its own and without lights.
 pub(super) fn load_model(path: &Path) -> Result<Scene, SceneError> {
     resolve::resolve_model(path)
-}
-
-/// The JSON Schema (2020-12) of scene files, as text that ends in a newline. Editors complete and check scene files with it.
-pub fn json_schema() -> String {
-    let schema = schemars::schema_for!(syntax::SceneFile);
-    // A schema is a tree of strings, numbers and lists: it can always be written.
-    let mut text = serde_json::to_string_pretty(&schema).unwrap_or_default();
-    text.push('\n');
-    text
 }
 
 /// A file's name without folder and ending.

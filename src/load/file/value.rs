@@ -11,6 +11,8 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 
+use crate::scene::settings::{LARGEST_FILTER_RADIUS, SMALLEST_FILTER_RADIUS};
+
 /// Largest magnitude of any number: its square is still finite in single precision, which is what the device computes in.
 pub const LARGEST: f64 = 1e18;
 
@@ -48,7 +50,9 @@ rules! {
     NonNegative "a number from 0 to 1e18" { const MINIMUM: f64 = 0.0; }
     Positive "a number above 0" { const MINIMUM: f64 = 0.0; const ABOVE_MINIMUM: bool = true; }
     Fraction "a number from 0 to 1" { const MINIMUM: f64 = 0.0; const MAXIMUM: f64 = 1.0; }
-    FilterRadius "a number from 0.5 to 16 (pixels)" { const MINIMUM: f64 = 0.5; const MAXIMUM: f64 = 16.0; }
+    FilterRadius "a number from 0.5 to 16 (pixels)" {
+        const MINIMUM: f64 = SMALLEST_FILTER_RADIUS; const MAXIMUM: f64 = LARGEST_FILTER_RADIUS;
+    }
     FieldOfView "an angle from 0.001 to 179 (degrees)" { const MINIMUM: f64 = 0.001; const MAXIMUM: f64 = 179.0; }
     HalfAngle "an angle above 0, at most 90 (degrees)" {
         const MINIMUM: f64 = 0.0; const MAXIMUM: f64 = 90.0; const ABOVE_MINIMUM: bool = true;

@@ -115,12 +115,18 @@ fn each_mistake_is_named_with_its_part() {
         Light::Environment(Environment { radiance, rotation_degrees: 0.0 })
     }
     let cases: &[(Change, &str)] = &[
-        (|s| s.film.size = [0, 4], "film: the picture has no pixels"),
-        (|s| s.film.size = [1 << 16, 1 << 16], "film: 65536 × 65536 pixels are more than can be numbered"),
-        (|s| s.film.filter.radius = f64::NAN, "film: a filter cannot have the radius NaN"),
-        (|s| s.render.light_samples = 17, "render settings: 17 light samples"),
-        (|s| s.render.light_samples_depth = 0, "render settings: several light samples at the surfaces of 0 edges"),
-        (|s| (s.render.max_depth, s.render.roulette_depth) = (0, 0), "render settings: paths never end"),
+        (|s| s.film.size = [0, 4], "film: size: a picture of 0 x 4 pixels is empty"),
+        (|s| s.film.size = [1 << 16, 1 << 16], "film: size: a picture of 65536 x 65536 pixels is too large"),
+        (|s| s.film.filter.radius = f64::NAN, "film: filter: expected a radius from 0.5 to 16 pixels, found NaN"),
+        (|s| s.render.light_samples = 17, "render settings: light_samples: expected a whole number from 1 to 16, found 17"),
+        (
+            |s| s.render.light_samples_depth = 0,
+            "render settings: light_samples_depth: expected a whole number from 1 to 3, found 0",
+        ),
+        (
+            |s| (s.render.max_depth, s.render.roulette_depth) = (0, 0),
+            "render settings: roulette_depth: with max_depth = 0 and roulette_depth = 0 paths would never end",
+        ),
         (|s| s.camera.look_at = s.camera.position, "camera: it looks at the point it stands at"),
         (|s| s.camera.up = DVec3::Z, "camera: it looks at the point it stands at, or along `up`"),
         (|s| s.camera.projection = Projection::Perspective { vertical_fov_degrees: 180.0 }, "camera: the field of view"),

@@ -6,6 +6,7 @@
 
 mod light;
 mod material;
+mod render;
 mod shape;
 mod texture;
 
@@ -19,11 +20,11 @@ pub use material::{
     AlphaKeys, Blend, BlendWeightEntry, CommonMaterial, ConductorMaterial, MaterialEntry, MetalEntry, MicrofacetEntry,
     RoughGlassMaterial,
 };
+pub use render::RenderTable;
 pub use shape::{BoxShape, MeshShape, RectangleShape, ShapeEntry, StepEntry, TransformEntry};
 pub use texture::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 
 use super::value::{Checked, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
-use crate::scene::{Estimator, HemisphereSampling, LightSampling, MisHeuristic, PixelSamplerName, SamplerKind};
 
 /// A scene of the path tracer gpt. Lengths in scene units, angles in degrees, colours linear Rec.709, radiance in W·sr⁻¹·m⁻².
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -50,7 +51,7 @@ pub struct SceneFile {
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct FilmTable {
     /// Width and height in pixels, 512 × 512 when left out.
-    pub size: Option<Located<[NonZeroU32; 2]>>,
+    pub size: Option<[NonZeroU32; 2]>,
     pub filter: Option<FilterEntry>,
 }
 
@@ -70,36 +71,6 @@ pub enum FilterEntry {
 pub struct FilterKeys {
     /// Half the filter's width in pixels; 0.5 for a box, 1 for a tent, 1.5 for gaussian and 2 for blackman_harris when left out.
     pub radius: Option<Checked<FilterRadius>>,
-}
-
-/// How radiance is estimated. Command-line flags override these.
-#[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table")]
-pub struct RenderTable {
-    /// Samples per pixel, 256 when left out.
-    pub spp: Option<NonZeroU32>,
-    /// Path edges: 1 = only light seen directly, 2 = plus direct lighting, 0 = unlimited (Russian roulette ends paths). 16 when
-    /// left out.
-    pub max_depth: Option<u32>,
-    pub sampler: Option<SamplerKind>,
-    /// The sampler of the position inside the pixel, "none": always its centre. That of the path when left out.
-    pub pixel_sampler: Option<PixelSamplerName>,
-    pub estimator: Option<Estimator>,
-    pub heuristic: Option<MisHeuristic>,
-    /// How directions over a diffuse surface are drawn.
-    pub hemisphere: Option<HemisphereSampling>,
-    /// How a point on a sphere light is drawn: uniform in the cone of directions that meet it, over the half of its surface that faces
-    /// the point, or over all of it. "cone" when left out.
-    pub light_sampling: Option<LightSampling>,
-    /// Light samples at the first surface of a path, 1 to 16; later surfaces take one. 1 when left out. Several pay where direct light is
-    /// most of the noise.
-    pub light_samples: Option<Located<u32>>,
-    /// How many of a path's first surfaces take `light_samples`, counted by edges from the camera on, 1 to 3. 1 when left out.
-    pub light_samples_depth: Option<Located<u32>>,
-    /// First depth at which Russian roulette may end a path, 0 = never. 5 when left out.
-    pub roulette_depth: Option<Located<u32>>,
-    /// Key of every random number, 0 when left out.
-    pub seed: Option<u32>,
 }
 
 /// Where the picture is taken from.

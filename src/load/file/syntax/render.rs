@@ -1,0 +1,134 @@
+//! `[render]`, read and described by the table of settings.
+
+use std::borrow::Cow;
+use std::fmt;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{Deserialize, DeserializeSeed, Deserializer, Error, MapAccess, Unexpected, Visitor};
+use serde_json::{Map, json};
+
+use crate::scene::settings::{Assignment, SETTINGS, Setting, Values};
+
+/// What is written in `[render]`.
+#[derive(Debug, Default)]
+pub struct RenderTable(pub Vec<Assignment>);
+
+impl<'de> Deserialize<'de> for RenderTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(TableVisitor).map(Self)
+    }
+}
+
+struct TableVisitor;
+
+impl<'de> Visitor<'de> for TableVisitor {
+    type Value = Vec<Assignment>;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a table")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+        let mut written = Vec::new();
+        while let Some(setting) = map.next_key_seed(Key)? {
+            written.push(map.next_value_seed(Written(setting))?);
+        }
+        Ok(written)
+    }
+}
+
+/// Reads a setting's name.
+struct Key;
+
+impl<'de> DeserializeSeed<'de> for Key {
+    type Value = &'static Setting;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Self::Value, D::Error> {
+        deserializer.deserialize_identifier(self)
+    }
+}
+
+impl Visitor<'_> for Key {
+    type Value = &'static Setting;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a setting")
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<Self::Value, E> {
+        let known = SETTINGS.iter().map(|setting| setting.name);
+        Setting::find(name).ok_or_else(|| E::custom(not_among("unknown field", name, known)))
+    }
+}
+
+/// Reads a value of this setting.
+struct Written(&'static Setting);
+
+impl<'de> DeserializeSeed<'de> for Written {
+    type Value = Assignment;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Self::Value, D::Error> {
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl Visitor<'_> for Written {
+    type Value = Assignment;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}", self.0.values)
+    }
+
+    fn visit_i64<E: Error>(self, number: i64) -> Result<Self::Value, E> {
+        let wrong = match self.0.values {
+            Values::Whole(..) => E::invalid_value,
+            Values::Names(_) => E::invalid_type,
+        };
+        self.0.number(number).map_err(|expected| wrong(Unexpected::Signed(number), &expected.as_str()))
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<Self::Value, E> {
+        self.0.name(name).map_err(|expected| match self.0.values {
+            Values::Names(names) => E::custom(not_among("unknown variant", name, names.iter().map(|name| name.name))),
+            Values::Whole(..) => E::invalid_type(Unexpected::Str(name), &expected.as_str()),
+        })
+    }
+}
+
+/// A complaint in serde's words, which [`super::super::wording`] puts into a scene file's.
+fn not_among(what: &str, name: &str, known: impl Iterator<Item = &'static str>) -> String {
+    let known: Vec<String> = known.map(|known| format!("`{known}`")).collect();
+    format!("{what} `{name}`, expected one of {}", known.join(", "))
+}
+
+impl JsonSchema for RenderTable {
+    fn schema_name() -> Cow<'static, str> {
+        "RenderTable".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let properties: Map<String, serde_json::Value> =
+            SETTINGS.iter().map(|setting| (setting.name.to_owned(), property(setting))).collect();
+        json_schema!({
+            "description": "How radiance is estimated. Command-line flags override these.",
+            "type": "object",
+            "properties": properties,
+            "additionalProperties": false,
+        })
+    }
+}
+
+fn property(setting: &Setting) -> serde_json::Value {
+    let description = setting.help();
+    let default = setting.default();
+    match setting.values {
+        Values::Whole(least, most) => json!({
+            "description": description, "type": "integer", "minimum": least, "maximum": most, "default": default,
+        }),
+        Values::Names(names) => {
+            let choices: Vec<serde_json::Value> =
+                names.iter().map(|name| json!({ "description": name.help(), "type": "string", "const": name.name })).collect();
+            json!({ "description": description, "oneOf": choices, "default": default })
+        }
+    }
+}

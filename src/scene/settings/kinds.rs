@@ -1,0 +1,110 @@
+//! The settings that are chosen by name.
+
+use crate::choice::{Choice, Named, choices};
+
+choices! {
+    /// Where random numbers come from.
+    pub enum SamplerKind {
+        /// Every number on its own.
+        Independent = "independent",
+        /// As many strata as samples per pixel, one sample in each.
+        Stratified = "stratified",
+        /// Recursive quadrants: strata that get finer as samples come.
+        Quadrant = "quadrant",
+        /// Scrambled Halton sequence.
+        Halton = "halton",
+        /// Owen-scrambled Sobol' sequence.
+        Sobol = "sobol",
+    }
+
+    /// How light sampling and BSDF sampling are used.
+    pub enum Estimator {
+        /// Next event estimation and BSDF sampling combined by multiple importance sampling.
+        Mis = "mis",
+        /// Next event estimation alone; emitters met by a BSDF sample count only where light sampling cannot produce them.
+        Nee = "nee",
+        /// BSDF sampling alone.
+        Bsdf = "bsdf",
+    }
+
+    /// How multiple importance sampling weighs the two strategies (Veach 1997, section 9.2).
+    pub enum MisHeuristic {
+        /// Power heuristic with β = 2.
+        Power = "power",
+        /// Balance heuristic: in proportion to the densities.
+        Balance = "balance",
+    }
+
+    /// How directions over a diffuse surface are drawn.
+    pub enum HemisphereSampling {
+        /// In proportion to the cosine with the normal.
+        Cosine = "cosine",
+        /// The same density in every direction.
+        Uniform = "uniform",
+    }
+
+    /// How a point on a sphere light is drawn.
+    pub enum LightSampling {
+        /// Uniform in the cone of directions that meet the sphere.
+        Cone = "cone",
+        /// Uniform over the half of the surface that faces the point.
+        Visible = "visible",
+        /// Uniform over the whole surface.
+        Area = "area",
+    }
+
+    /// What happens where a ray meets a blend of materials.
+    pub enum BlendMode {
+        /// Every lobe of a blend is evaluated, one is sampled.
+        Mixture = "mixture",
+        /// One material is chosen per hit, as in the thesis.
+        Pick = "pick",
+    }
+}
+
+/// Which sampler draws the position inside the pixel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PixelSampler {
+    /// The path's own sampler.
+    SameAsPath,
+    /// A sampler of its own.
+    Other(SamplerKind),
+    /// Always the pixel's centre: aliased, for comparison.
+    Centre,
+}
+
+/// Every sampler's name, `none` and `same`.
+impl Choice for PixelSampler {
+    const VALUES: &'static [Self] = &{
+        let mut values = [Self::SameAsPath; PIXEL_SAMPLERS];
+        let mut index = 0;
+        while index < SamplerKind::ALL.len() {
+            values[index] = Self::Other(SamplerKind::ALL[index]);
+            index += 1;
+        }
+        values[index] = Self::Centre;
+        values
+    };
+
+    const NAMES: &'static [Named] = &{
+        let mut names = [Named { name: "same", doc: "The sampler of the path's other numbers." }; PIXEL_SAMPLERS];
+        let mut index = 0;
+        while index < SamplerKind::ALL.len() {
+            names[index] = SamplerKind::NAMES[index];
+            index += 1;
+        }
+        names[index] = Named { name: "none", doc: "Always the pixel's centre: aliased, for comparison." };
+        names
+    };
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::SameAsPath => "same",
+            Self::Other(kind) => kind.name(),
+            Self::Centre => "none",
+        }
+    }
+}
+
+/// The samplers, `none` and `same`.
+const PIXEL_SAMPLERS: usize = SamplerKind::ALL.len() + 2;

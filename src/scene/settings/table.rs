@@ -1,0 +1,320 @@
+//! The table of render settings, a row each. Whatever a row says holds everywhere: the scene file's `[render]` and its schema, the flags
+//! of `gpt render`, the keys of `--stats` and `gpt check --json`, a picture's header, what `gpt bench convergence` compares, the check
+//! of scenes that were built by hand, and the pages `docs/scene-format.md` and `docs/cli.md`. What a setting means for light is
+//! in the code that reads its field of [`RenderSettings`].
+
+use std::fmt;
+
+use serde::{Serialize, Serializer};
+
+use super::kinds::{BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeuristic, PixelSampler, SamplerKind};
+use super::row::settings;
+use super::value::Values::{Names, Whole};
+use super::value::{BadSetting, Field, MOST_SAMPLES, Value, Values};
+use crate::choice::Choice;
+
+/// Most light samples at a surface.
+pub const MOST_LIGHT_SAMPLES: u32 = 16;
+/// Most edges of a path whose surfaces take more than one: their points stand in a table that has to fit a uniform buffer.
+pub const MOST_LIGHT_SAMPLES_DEPTH: u32 = 3;
+
+settings! {
+    /// How radiance is estimated. The scene file sets the defaults, the command line overrides them.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct RenderSettings, SETTINGS {
+        /// Samples per pixel.
+        spp: u32 = 256 => {
+            values: Whole(1, MOST_SAMPLES),
+            flag: "--spp",
+            placeholder: "N",
+            header: "gpt:samplesWanted",
+            compared: false,
+        }
+        /// Longest path in edges: 1 = only light seen directly, 2 = plus direct lighting, 0 = unlimited (Russian roulette ends paths).
+        max_depth: u32 = 16 => {
+            values: Whole(0, MOST_SAMPLES),
+            flag: "--max-depth",
+            placeholder: "N",
+            header: "gpt:maxDepth",
+            compared: false,
+        }
+        /// Where random numbers come from.
+        sampler: SamplerKind = SamplerKind::Sobol => { // the one that measures best: docs/strategies.md
+            values: Names(SamplerKind::NAMES),
+            flag: "--sampler",
+            placeholder: "SAMPLER",
+            header: "gpt:sampler",
+            compared: true,
+        }
+        /// The sampler of the position inside the pixel.
+        pixel_sampler: PixelSampler = PixelSampler::SameAsPath => {
+            values: Names(PixelSampler::NAMES),
+            flag: "--pixel-sampler",
+            placeholder: "SAMPLER",
+            header: "gpt:pixelSampler",
+            compared: true,
+        }
+        /// How light sampling and BSDF sampling are used.
+        estimator: Estimator = Estimator::Mis => {
+            values: Names(Estimator::NAMES),
+            flag: "--estimator",
+            placeholder: "ESTIMATOR",
+            header: "gpt:estimator",
+            compared: true,
+        }
+        /// How multiple importance sampling weighs the two.
+        heuristic: MisHeuristic = MisHeuristic::Power => {
+            values: Names(MisHeuristic::NAMES),
+            flag: "--heuristic",
+            placeholder: "HEURISTIC",
+            header: "gpt:heuristic",
+            compared: true,
+        }
+        /// How directions over a diffuse surface are drawn.
+        hemisphere: HemisphereSampling = HemisphereSampling::Cosine => {
+            values: Names(HemisphereSampling::NAMES),
+            flag: "--hemisphere",
+            placeholder: "HEMISPHERE",
+            header: "gpt:hemisphere",
+            compared: true,
+        }
+        /// How a point on a sphere light is drawn.
+        light_sampling: LightSampling = LightSampling::Cone => {
+            values: Names(LightSampling::NAMES),
+            flag: "--light-sampling",
+            placeholder: "STRATEGY",
+            header: "gpt:lightSampling",
+            compared: true,
+        }
+        /// Light samples at the first surfaces of a path; later surfaces take one. Several pay where direct light is most of the noise.
+        light_samples: u32 = 1 => {
+            values: Whole(1, MOST_LIGHT_SAMPLES),
+            flag: "--light-samples",
+            placeholder: "N",
+            header: "gpt:lightSamples",
+            compared: true,
+        }
+        /// How many of a path's first surfaces take `light_samples`, counted by edges from the camera on.
+        light_samples_depth: u32 = 1 => {
+            values: Whole(1, MOST_LIGHT_SAMPLES_DEPTH),
+            flag: "--light-samples-depth",
+            placeholder: "EDGES",
+            header: "gpt:lightSamplesDepth",
+            compared: true,
+        }
+        /// What happens where a ray meets a blend of materials.
+        blend: BlendMode = BlendMode::Mixture => {
+            values: Names(BlendMode::NAMES),
+            flag: "--blend",
+            placeholder: "MODE",
+            header: "gpt:blend",
+            compared: true,
+        }
+        /// First depth at which Russian roulette may end a path; 0 = never.
+        roulette_depth: u32 = 5 => {
+            values: Whole(0, MOST_SAMPLES),
+            flag: "--roulette-depth",
+            placeholder: "N",
+            header: "gpt:rouletteDepth",
+            compared: true,
+        }
+        /// Key of every random number.
+        seed: u32 = 0 => {
+            values: Whole(0, u32::MAX),
+            flag: "--seed",
+            placeholder: "N",
+            header: "gpt:seed",
+            compared: false,
+        }
+    }
+}
+
+/// One row of the table.
+#[derive(Debug)]
+pub struct Setting {
+    /// Its field of [`RenderSettings`], its key in the scene file's `[render]` and its key in JSON.
+    pub name: &'static str,
+    /// The row's doc comment, with the blanks that begin its lines.
+    doc: &'static str,
+    pub values: Values,
+    /// The command line's flag, and what stands for its value in help.
+    pub flag: &'static str,
+    pub placeholder: &'static str,
+    /// Its entry in a picture's header.
+    pub header: &'static str,
+    /// `gpt bench convergence` may compare its values. It cannot where the measurement itself decides the value, or where the value
+    /// decides what picture comes out.
+    pub compared: bool,
+    get: fn(&RenderSettings) -> Value,
+    set: fn(&mut RenderSettings, Value),
+}
+
+impl Setting {
+    /// The setting that is called so.
+    pub fn find(name: &str) -> Option<&'static Self> {
+        SETTINGS.iter().find(|setting| setting.name == name)
+    }
+
+    /// What it is, in one sentence or more.
+    pub fn help(&self) -> &'static str {
+        self.doc.trim_start()
+    }
+
+    /// Its value where nobody sets it.
+    pub fn default(&self) -> Value {
+        (self.get)(&RenderSettings::default())
+    }
+
+    /// The setting with this number.
+    ///
+    /// # Errors
+    /// What would be right, to follow "expected".
+    pub fn number(&'static self, number: i64) -> Result<Assignment, String> {
+        self.values.number(number).map(|value| Assignment { setting: self, value })
+    }
+
+    /// The setting with the value of this name.
+    ///
+    /// # Errors
+    /// What would be right, to follow "expected".
+    pub fn name(&'static self, name: &str) -> Result<Assignment, String> {
+        self.values.name(name).map(|value| Assignment { setting: self, value })
+    }
+}
+
+/// A setting and a value that it may have.
+#[derive(Debug, Clone, Copy)]
+pub struct Assignment {
+    setting: &'static Setting,
+    value: Value,
+}
+
+impl Assignment {
+    pub fn setting(&self) -> &'static Setting {
+        self.setting
+    }
+
+    pub fn value(&self) -> Value {
+        self.value
+    }
+
+    pub fn apply(&self, settings: &mut RenderSettings) {
+        (self.setting.set)(settings, self.value);
+    }
+}
+
+/// What tells it from another value of the same setting: a name, or a number with what it counts.
+impl fmt::Display for Assignment {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.value {
+            Value::Name(name) => out.write_str(name),
+            Value::Number(number) => write!(out, "{} {number}", self.setting.name),
+        }
+    }
+}
+
+impl RenderSettings {
+    /// How many light samples the surface at the end of a path's edge number `edge` takes: 1 is the camera's ray.
+    pub fn light_samples_at(&self, edge: u32) -> u32 {
+        if (1..=self.light_samples_depth).contains(&edge) { self.light_samples } else { 1 }
+    }
+
+    /// Every setting with the value that counts: where the pixel's sampler is the path's, it has that one's name.
+    #[doc(hidden)]
+    pub fn values(&self) -> impl Iterator<Item = (&'static Setting, Value)> {
+        let pixel_sampler = match self.pixel_sampler {
+            PixelSampler::SameAsPath => PixelSampler::Other(self.sampler),
+            other => other,
+        };
+        let counted = Self { pixel_sampler, ..self.clone() };
+        SETTINGS.iter().map(move |setting| (setting, (setting.get)(&counted)))
+    }
+
+    /// Whether a scene can be rendered this way.
+    ///
+    /// # Errors
+    /// The first value out of its range, and combinations that cannot be.
+    #[doc(hidden)]
+    pub fn check(&self) -> Result<(), BadSetting> {
+        for (setting, value) in self.values() {
+            if let Err(expected) = setting.values.check(value) {
+                let message = format!("expected {expected}, found {value}");
+                return Err(BadSetting { setting: setting.name, message, help: None });
+            }
+        }
+        if self.max_depth == 0 && self.roulette_depth == 0 {
+            return Err(BadSetting {
+                setting: "roulette_depth",
+                message: "with max_depth = 0 and roulette_depth = 0 paths would never end".to_owned(),
+                help: Some("bound max_depth, or let Russian roulette end paths".to_owned()),
+            });
+        }
+        Ok(())
+    }
+}
+
+/// A key and a value for each setting.
+impl Serialize for RenderSettings {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.values().map(|(setting, value)| (setting.name, value)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn rows_are_complete_and_told_apart() {
+        let columns: [fn(&Setting) -> &str; 4] = [|row| row.name, |row| row.flag, |row| row.header, |row| row.help()];
+        for column in columns {
+            assert_eq!(SETTINGS.iter().map(column).collect::<BTreeSet<_>>().len(), SETTINGS.len());
+        }
+        for row in SETTINGS {
+            assert_eq!(row.flag, format!("--{}", row.name.replace('_', "-")));
+            assert!(row.header.starts_with("gpt:") && row.help().ends_with('.'), "{row:?}");
+        }
+        assert_eq!(RenderSettings::default().check(), Ok(()));
+    }
+
+    /// Whatever a row lets people write ends up in its own field and in no other.
+    #[test]
+    fn every_value_goes_into_its_field_and_comes_back() {
+        for row in SETTINGS {
+            let values: Vec<Value> = match row.values {
+                Whole(least, most) => [least, least + 1, most].map(Value::Number).to_vec(),
+                Names(names) => names.iter().map(|name| Value::Name(name.name)).collect(),
+            };
+            for value in values {
+                let mut settings = RenderSettings::default();
+                assert_eq!(row.values.check(value), Ok(()));
+                Assignment { setting: row, value }.apply(&mut settings);
+                for other in SETTINGS {
+                    let expected = if other.name == row.name { value } else { other.default() };
+                    assert_eq!((other.get)(&settings), expected, "{} after {} = {value}", other.name, row.name);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn values_that_cannot_be_are_named() {
+        let message = |settings: RenderSettings| settings.check().expect_err("the settings cannot be").to_string();
+        let many = RenderSettings { light_samples: 17, ..RenderSettings::default() };
+        assert_eq!(message(many), "light_samples: expected a whole number from 1 to 16, found 17");
+        let none = RenderSettings { spp: 0, ..RenderSettings::default() };
+        assert_eq!(message(none), "spp: expected a whole number of at least 1, found 0");
+        let endless = RenderSettings { max_depth: 0, roulette_depth: 0, ..RenderSettings::default() };
+        assert_eq!(message(endless), "roulette_depth: with max_depth = 0 and roulette_depth = 0 paths would never end");
+    }
+
+    #[test]
+    fn the_pixels_sampler_is_named_even_where_it_is_the_paths() {
+        let settings = RenderSettings { sampler: SamplerKind::Halton, ..RenderSettings::default() };
+        let json = serde_json::to_value(&settings).expect("names and numbers");
+        assert_eq!((&json["sampler"], &json["pixel_sampler"], &json["spp"]), (&"halton".into(), &"halton".into(), &256.into()));
+        assert_eq!(Setting::find("pixel_sampler").map(Setting::default), Some(Value::Name("same")));
+    }
+}

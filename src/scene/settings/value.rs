@@ -1,0 +1,174 @@
+//! Values of settings: what people may write, what a setting's field holds, and how one becomes the other.
+
+use std::fmt;
+
+use serde::{Serialize, Serializer};
+
+use crate::choice::{Choice, Named};
+
+/// Largest number of samples and of edges: picture headers hold signed 32-bit numbers.
+pub const MOST_SAMPLES: u32 = i32::MAX as u32;
+
+/// A setting's value as people write it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Value {
+    Number(u32),
+    Name(&'static str),
+}
+
+/// As people write it, without quotes.
+impl fmt::Display for Value {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => write!(out, "{number}"),
+            Self::Name(name) => out.write_str(name),
+        }
+    }
+}
+
+impl Serialize for Value {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Number(number) => serializer.serialize_u32(*number),
+            Self::Name(name) => serializer.serialize_str(name),
+        }
+    }
+}
+
+/// Which values a setting may have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Values {
+    /// Whole numbers from the first to the second.
+    Whole(u32, u32),
+    Names(&'static [Named]),
+}
+
+impl Values {
+    /// The number as a value.
+    ///
+    /// # Errors
+    /// What would be right, to follow "expected".
+    pub fn number(self, number: i64) -> Result<Value, String> {
+        match (self, u32::try_from(number)) {
+            (Self::Whole(least, most), Ok(number)) if (least..=most).contains(&number) => Ok(Value::Number(number)),
+            (Self::Whole(_, most), _) if most >= MOST_SAMPLES && number > i64::from(most) => {
+                Err(format!("a whole number of at most {most}"))
+            }
+            _ => Err(self.to_string()),
+        }
+    }
+
+    /// The value of this name.
+    ///
+    /// # Errors
+    /// What would be right, to follow "expected".
+    pub fn name(self, name: &str) -> Result<Value, String> {
+        match self {
+            Self::Names(names) => names.iter().find(|known| known.name == name).map(|known| Value::Name(known.name)),
+            Self::Whole(..) => None,
+        }
+        .ok_or_else(|| self.to_string())
+    }
+
+    /// Whether the value is one of these.
+    ///
+    /// # Errors
+    /// What would be right, to follow "expected".
+    pub fn check(self, value: Value) -> Result<(), String> {
+        match value {
+            Value::Number(number) => self.number(number.into()),
+            Value::Name(name) => self.name(name),
+        }
+        .map(|_| ())
+    }
+}
+
+/// What is expected, in words. The largest number is left out where nobody comes near it.
+impl fmt::Display for Values {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Whole(least, most) if *most >= MOST_SAMPLES => write!(out, "a whole number of at least {least}"),
+            Self::Whole(least, most) => write!(out, "a whole number from {least} to {most}"),
+            Self::Names(names) => {
+                let names: Vec<&str> = names.iter().map(|name| name.name).collect();
+                write!(out, "one of {}", names.join(", "))
+            }
+        }
+    }
+}
+
+/// A setting that no render can have.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{setting}: {message}")]
+pub struct BadSetting {
+    /// The scene file's key.
+    pub setting: &'static str,
+    pub message: String,
+    /// What would be right, where the message does not say.
+    pub help: Option<String>,
+}
+
+/// What a setting's field may be: it becomes a [`Value`] and is made from one.
+pub trait Field: Copy {
+    fn to_value(self) -> Value;
+    /// None for a value of the other kind, and for a name that does not exist.
+    fn from_value(value: Value) -> Option<Self>;
+}
+
+impl Field for u32 {
+    fn to_value(self) -> Value {
+        Value::Number(self)
+    }
+
+    fn from_value(value: Value) -> Option<Self> {
+        match value {
+            Value::Number(number) => Some(number),
+            Value::Name(_) => None,
+        }
+    }
+}
+
+impl<T: Choice> Field for T {
+    fn to_value(self) -> Value {
+        Value::Name(self.name())
+    }
+
+    fn from_value(value: Value) -> Option<Self> {
+        match value {
+            Value::Number(_) => None,
+            Value::Name(name) => T::from_name(name),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::SamplerKind;
+
+    #[test]
+    fn values_out_of_range_are_refused_with_what_would_be_right() {
+        let few = Values::Whole(1, 16);
+        assert_eq!(few.number(16), Ok(Value::Number(16)));
+        for bad in [0, 17, -1, i64::MIN, i64::MAX] {
+            assert_eq!(few.number(bad), Err("a whole number from 1 to 16".to_owned()), "{bad}");
+        }
+        let many = Values::Whole(1, MOST_SAMPLES);
+        assert_eq!(many.number(0), Err("a whole number of at least 1".to_owned()));
+        assert_eq!(many.number(1 << 31), Err("a whole number of at most 2147483647".to_owned()));
+        assert_eq!(few.name("three"), Err("a whole number from 1 to 16".to_owned()));
+    }
+
+    #[test]
+    fn names_are_chosen_from_a_list() {
+        let samplers = Values::Names(SamplerKind::NAMES);
+        assert_eq!(samplers.name("halton"), Ok(Value::Name("halton")));
+        let list = "one of independent, stratified, quadrant, halton, sobol";
+        assert_eq!(samplers.name("Halton"), Err(list.to_owned()));
+        assert_eq!(samplers.number(1), Err(list.to_owned()));
+        for kind in SamplerKind::ALL {
+            assert_eq!(SamplerKind::from_value(kind.to_value()), Some(kind));
+        }
+        assert_eq!((u32::from_value(Value::Name("halton")), SamplerKind::from_value(Value::Number(0))), (None, None));
+    }
+}
