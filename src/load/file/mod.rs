@@ -5,6 +5,7 @@
 
 mod document;
 mod resolve;
+mod resolver;
 mod schema;
 mod syntax;
 mod value;

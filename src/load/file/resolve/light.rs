@@ -2,12 +2,10 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
-
-use super::Resolver;
 use crate::load::SceneError;
+use crate::load::file::resolver::Resolver;
 use crate::load::file::syntax::{EnvironmentLight, LightEntry, SpotLight};
-use crate::load::file::value::{LARGEST, Located, Vector, vector};
+use crate::load::file::value::{LARGEST, Located, vector};
 use crate::scene::{Environment, EnvironmentRadiance, ImageData, Light};
 
 impl Resolver<'_> {
@@ -72,11 +70,5 @@ impl Resolver<'_> {
             angle_degrees: angle,
             falloff_degrees: falloff,
         })
-    }
-
-    /// A vector of length 1.
-    pub(super) fn direction(&self, written: &Located<Vector>) -> Result<DVec3, SceneError> {
-        let direction = vector(written.value).try_normalize();
-        direction.ok_or_else(|| self.error(&written.span, "a direction cannot have length 0"))
     }
 }

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::Resolver;
 use crate::load::SceneError;
+use crate::load::file::resolver::Resolver;
 use crate::load::file::syntax::{
     AlphaKeys, Blend, BlendWeightEntry, CommonMaterial, ConductorMaterial, MaterialEntry, MetalEntry, MicrofacetEntry,
     RoughGlassMaterial,

@@ -1,29 +1,19 @@
 //! `type = "mesh"`: triangles from an OBJ file or written in the scene file.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
-use super::Resolver;
 use crate::load::SceneError;
 use crate::load::builtin;
 use crate::load::error::show;
+use crate::load::file::resolver::{LoadedMesh, Resolver};
 use crate::load::file::syntax::{MeshShape, ShapeEntry};
 use crate::load::file::value::{Located, vector};
 use crate::load::obj::{self, ObjFile, Part};
 use crate::scene::ColorInput;
 use crate::scene::{Material, MaterialId, MaterialKind, Mesh};
-
-/// What decides how a mesh file is read: the file, `smooth`, and the material that wins over the file's own.
-pub type MeshFileKey = (PathBuf, Option<bool>, Option<MaterialId>);
-
-/// A mesh and its material, or that of its first face where faces have their own.
-#[derive(Clone)]
-pub struct LoadedMesh {
-    pub mesh: Arc<Mesh>,
-    pub material: MaterialId,
-}
 
 /// Reflectance of faces without a material.
 const DEFAULT_REFLECTANCE: f64 = 0.8;

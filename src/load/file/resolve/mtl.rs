@@ -15,9 +15,9 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::Resolver;
 use crate::load::SceneError;
 use crate::load::error::show;
+use crate::load::file::resolver::Resolver;
 use crate::load::image_file::read_image;
 use crate::load::obj::{MtlMaterial, TextureMap};
 use crate::scene::{

@@ -1,7 +1,7 @@
 //! `[film]` and `[render]`
 
-use super::Resolver;
 use crate::load::SceneError;
+use crate::load::file::resolver::Resolver;
 use crate::load::file::syntax::{FilterEntry, SceneFile};
 use crate::scene::settings::BadSetting;
 use crate::scene::{Filter, FilterKind};

@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use super::Resolver;
-use super::mesh::LoadedMesh;
 use crate::load::SceneError;
+use crate::load::file::resolver::{LoadedMesh, Resolver};
 use crate::load::file::syntax::{BoxShape, RectangleShape, ShapeEntry};
 use crate::load::file::value::{Located, vector};
 use crate::scene::{Geometry, MaterialId, MaterialKind, Shape, Transform};

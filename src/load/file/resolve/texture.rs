@@ -1,22 +1,19 @@
 //! `[[texture]]`
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::Resolver;
 use crate::load::SceneError;
 use crate::load::error::show;
+use crate::load::file::resolver::Resolver;
 use crate::load::file::syntax::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 use crate::load::file::value::{Checked, Colour, Located, Number, Positive, Rule, Scalar};
 use crate::load::image_file::read_image;
 use crate::scene::validate::MOST_OCTAVES;
 use crate::scene::{ColorInput, ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap};
-
-/// Images by file and by how their values are read, so that each is decoded once.
-pub type ImageCache = HashMap<(PathBuf, Option<ColorSpace>), Arc<ImageData>>;
 
 impl Resolver<'_> {
     pub(super) fn textures(&mut self, written: &[TextureEntry]) -> Result<(), SceneError> {

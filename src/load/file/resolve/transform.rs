@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::Resolver;
 use crate::load::SceneError;
+use crate::load::file::resolver::Resolver;
 use crate::load::file::syntax::{StepEntry, TransformEntry};
 use crate::load::file::value::{Located, Number, vector};
 use crate::scene::{Motion, MotionStep, Shape, Transform, TransformStep};

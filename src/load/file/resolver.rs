@@ -1,0 +1,114 @@
+//! A scene in the making: what is known of a scene file while its tables are read one after the other.
+
+use std::collections::HashMap;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::document::Document;
+use super::value::{Located, Vector, vector};
+use super::wording::did_you_mean;
+use crate::load::SceneError;
+use crate::scene::{ColorSpace, ImageData, MaterialId, Mesh, Scene, TextureId};
+
+/// Images by file and by how their values are read, so that each is decoded once.
+pub type ImageCache = HashMap<(PathBuf, Option<ColorSpace>), Arc<ImageData>>;
+
+/// What decides how a mesh file is read: the file, `smooth`, and the material that wins over the file's own.
+pub type MeshFileKey = (PathBuf, Option<bool>, Option<MaterialId>);
+
+/// A mesh and its material, or that of its first face where faces have their own.
+#[derive(Clone)]
+pub struct LoadedMesh {
+    pub mesh: Arc<Mesh>,
+    pub material: MaterialId,
+}
+
+/// A scene in the making.
+pub struct Resolver<'a> {
+    pub(super) document: Document<'a>,
+    /// What paths in the file are relative to.
+    pub(super) folder: &'a Path,
+    pub(super) scene: Scene,
+    pub(super) texture_names: HashMap<String, TextureId>,
+    pub(super) material_names: HashMap<String, MaterialId>,
+    pub(super) images: ImageCache,
+    /// Per texture: an image whose colour space is written to be linear.
+    pub(super) linear_textures: Vec<bool>,
+    pub(super) mesh_files: HashMap<MeshFileKey, LoadedMesh>,
+    /// The material of faces that name none.
+    pub(super) unnamed_material: Option<MaterialId>,
+}
+
+impl<'a> Resolver<'a> {
+    pub(super) fn new(document: Document<'a>, folder: &'a Path) -> Self {
+        Self {
+            document,
+            folder,
+            scene: Scene::default(),
+            texture_names: HashMap::new(),
+            material_names: HashMap::new(),
+            images: Default::default(),
+            linear_textures: Vec::new(),
+            mesh_files: HashMap::new(),
+            unnamed_material: None,
+        }
+    }
+
+    pub(super) fn error(&self, span: &Range<usize>, message: impl Into<String>) -> SceneError {
+        self.document.error(span.clone(), message)
+    }
+
+    pub(super) fn path(&self, file: &str) -> PathBuf {
+        self.folder.join(file)
+    }
+
+    pub(super) fn texture_id(&self, name: &Located<String>) -> Result<TextureId, SceneError> {
+        self.look_up(&self.texture_names, name, "texture")
+    }
+
+    pub(super) fn material_id(&self, name: &Located<String>) -> Result<MaterialId, SceneError> {
+        self.look_up(&self.material_names, name, "material")
+    }
+
+    pub(super) fn look_up(
+        &self,
+        names: &HashMap<String, usize>,
+        name: &Located<String>,
+        what: &str,
+    ) -> Result<usize, SceneError> {
+        if let Some(&id) = names.get(&name.value) {
+            return Ok(id);
+        }
+        let mut choices: Vec<&str> = names.keys().map(String::as_str).collect();
+        choices.sort_unstable();
+        let help = did_you_mean(&name.value, &choices).unwrap_or_else(|| format!("the file has no [[{what}]]"));
+        Err(self.error(&name.span, format!("there is no {what} named `{}`", name.value)).with_help(help))
+    }
+
+    /// Gives every entry its place by its name; a name may be used once.
+    pub(super) fn register<'n>(
+        &self,
+        what: &str,
+        names: impl Iterator<Item = &'n Located<String>>,
+    ) -> Result<HashMap<String, usize>, SceneError> {
+        let mut places = HashMap::new();
+        for (place, name) in names.enumerate() {
+            if name.value.is_empty() {
+                return Err(self.error(&name.span, "a name cannot be empty"));
+            }
+            if places.insert(name.value.clone(), place).is_some() {
+                return Err(self.error(&name.span, format!("a second {what} is named `{}`", name.value)));
+            }
+        }
+        Ok(places)
+    }
+
+    /// A vector of length 1.
+    pub(super) fn direction(&self, written: &Located<Vector>) -> Result<DVec3, SceneError> {
+        let direction = vector(written.value).try_normalize();
+        direction.ok_or_else(|| self.error(&written.span, "a direction cannot have length 0"))
+    }
+}
