@@ -76,7 +76,7 @@ impl PackedScene {
         let mut world = world::collect(scene);
         let mut materials = PackedMaterials::new(scene, &world.materials())?;
         let mut textures = PackedTextures::new(scene, materials.textures_mut())?;
-        let environment = PackedEnvironment::new(scene, &mut textures.texels)?;
+        let environment = light::environment(scene, &mut textures.texels)?;
         let mut lights = light::collect(scene, &mut world, &environment);
         let places = materials.places(scene);
         world.primitives.iter_mut().for_each(|primitive| primitive.material = places[primitive.material] as usize);
@@ -93,7 +93,7 @@ impl PackedScene {
             textures,
             environment,
             motions: world.motion_words,
-            view: View::new(scene),
+            view: View::new(scene, &environment),
         };
         packed.validate()?;
         Ok(packed)

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::environment::{environments, sky_halves};
+use super::environment::PackedEnvironment;
 use crate::sampling::filter::{CURVE_PIECES, FilterSampler};
-use crate::scene::{Aperture, ApertureShape, EnvironmentRadiance, Projection, Scene};
+use crate::scene::{Aperture, ApertureShape, Projection, Scene};
 use crate::shader::shared::shared_struct;
 
 shared_struct! {
@@ -34,7 +34,7 @@ pub struct View {
 }
 
 impl View {
-    pub fn new(scene: &Scene) -> Self {
+    pub fn new(scene: &Scene, environment: &PackedEnvironment) -> Self {
         let camera = &scene.camera;
         let [right, up, backward] = camera.frame();
         let [width, height] = scene.film.size.map(f64::from);
@@ -44,7 +44,7 @@ impl View {
         };
         let half_width = half_height * width / height;
         let radius = camera.aperture.map_or(0.0, |aperture| aperture.radius);
-        let [environment, sky_zenith, sky_ground] = environment(scene);
+        let [environment, sky_zenith, sky_ground] = environment.words.map(|word| word.as_vec4().to_array());
         Self {
             position: extend(camera.position, 0.0),
             corner: extend(up * half_height - right * half_width - backward * distance, 0.0),
@@ -71,24 +71,4 @@ fn rotation_turns(aperture: Aperture) -> f64 {
         ApertureShape::Polygon { rotation_degrees, .. } => (rotation_degrees / 360.0).rem_euclid(1.0),
         ApertureShape::Disk | ApertureShape::Square => 0.0,
     }
-}
-
-/// The three words of the environment.
-fn environment(scene: &Scene) -> [[f32; 4]; 3] {
-    let mut constant = DVec3::ZERO;
-    for environment in environments(scene) {
-        match environment.radiance {
-            EnvironmentRadiance::Constant(radiance) => constant += radiance,
-            EnvironmentRadiance::Map(_) => {
-                let turns = (environment.rotation_degrees / 360.0).rem_euclid(1.0);
-                return [extend(DVec3::ZERO, turns), [0.0; 4], [0.0; 4]];
-            }
-            EnvironmentRadiance::Sky { zenith, horizon, ground } => {
-                let [upper, lower] = sky_halves(zenith, horizon, ground);
-                let integral = (upper + lower).max(f64::MIN_POSITIVE);
-                return [extend(horizon, 0.0), extend(zenith, upper / integral), extend(ground, 1.0 / integral)];
-            }
-        }
-    }
-    [extend(constant, 0.0), [0.0; 4], [0.0; 4]]
 }

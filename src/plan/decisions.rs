@@ -89,7 +89,7 @@ pub(super) fn explain(
         };
         let because = "the scene or the command line says so".into();
         add("light samples", format!("{} {surfaces}", plan.light_samples), because);
-    } else if plan.geometry == GeometryPlacement::Hierarchy && plan.samples_lights() && packed.environment.map().is_some() {
+    } else if plan.geometry == GeometryPlacement::Hierarchy && plan.samples_lights() && packed.environment.map.is_some() {
         let because = "nothing else is asked for; under maps, several lower the error in less time: docs/strategies.md".into();
         add("light samples", "1".into(), because);
     }

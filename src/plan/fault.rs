@@ -55,7 +55,7 @@ impl Fault {
 
 /// BSDF samples find the light too: more than one direction leads to it.
 fn found_both_ways(light: &PackedLight) -> bool {
-    ![LightKind::Point, LightKind::Spot, LightKind::Directional].into_iter().any(|kind| light.is(kind))
+    !LightKind::DELTA.iter().any(|&(kind, _)| light.is(kind))
 }
 
 /// The scattering material that most primitives have.

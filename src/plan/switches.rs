@@ -1,7 +1,6 @@
 //! Which of the [switches](crate::shader::switches) a scene turns on.
 
 use super::{FilmStorage, MAX_SAMPLES_PER_PASS, Plan, has_attributes};
-use crate::packed::environment::PackedEnvironment;
 use crate::packed::hierarchy::Traversal;
 use crate::packed::light::{LightKind, PackedLight};
 use crate::packed::material::{PackedMaterial, PackedMaterialKind};
@@ -69,7 +68,7 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
     switches.enable("SUBGROUP_QUEUES", plan.subgroup_queues);
 
     let tables = packed.tables();
-    let map = packed.environment.map().unwrap_or_default();
+    let map = packed.environment.map.unwrap_or_default();
     let first_light = |kind: LightKind| packed.lights.iter().position(|light| light.is(kind)).unwrap_or(0) as u32;
     switches.constants.extend([
         ("BLADES", blades),
@@ -127,12 +126,14 @@ fn choose_lights(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
     switches.enable("SPHERE_LIGHTS", has(LightKind::Sphere));
     switches.enable("SPHERE_LIGHTS_BY_POINT", has(LightKind::Sphere) && render.light_sampling != LightSampling::Cone);
     switches.enable("SPHERE_LIGHTS_VISIBLE_HALF", has(LightKind::Sphere) && render.light_sampling == LightSampling::Visible);
-    switches.enable("POINT_LIGHTS", has(LightKind::Point));
-    switches.enable("SPOT_LIGHTS", has(LightKind::Spot));
-    switches.enable("DIRECTIONAL_LIGHTS", has(LightKind::Directional));
-    switches.enable("ENVIRONMENT", packed.environment != PackedEnvironment::Black);
-    switches.enable("ENVIRONMENT_MAP", matches!(packed.environment, PackedEnvironment::Map { .. }));
-    switches.enable("SKY", matches!(packed.environment, PackedEnvironment::Sky { .. }));
+    for &(kind, switch) in LightKind::DELTA {
+        switches.enable(switch, has(kind));
+    }
+    let environment = !packed.environment.is_black();
+    switches.enable("ENVIRONMENT", environment);
+    if let Some(switch) = packed.environment.switch.filter(|_| environment) {
+        switches.enable(switch, true);
+    }
     switches.enable("ENVIRONMENT_LIGHT", sampled && has(LightKind::Environment));
     switches.enable("MOVING_LIGHTS", packed.lights.iter().any(PackedLight::moves));
     switches.enable("PORTALS", sampled && has(LightKind::Portal));

@@ -149,7 +149,7 @@ impl Integrator {
 
     /// A ray that left the scene finds the environment, shared with the light sample of the surface before.
     fn add_environment<V: PathVisitor>(&self, path: &mut Path, visitor: &mut V) {
-        let radiance = self.lights.environment().radiance(path.ray.direction);
+        let radiance = self.lights.outside().radiance(path.ray.direction);
         let light_pdf = || self.lights.environment_pdf(&self.world, path.ray.origin, path.ray.direction);
         let weight = self.weight_of_found(path, light_pdf);
         let contribution = path.throughput * radiance * weight;

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use glam::{Vec2, Vec3};
 use sha2::{Digest, Sha256};
 
-use super::light::{EnvironmentRadiance, Light};
 use super::model::Scene;
 use super::shape::{Geometry, Mesh};
 use super::texture::{ImageData, TextureKind};
@@ -30,9 +29,7 @@ pub fn digest(scene: &Scene) -> String {
         }
     }
     for light in &mut rest.lights {
-        if let Light::Environment(environment) = light
-            && let EnvironmentRadiance::Map(image) = &mut environment.radiance
-        {
+        if let Some(image) = light.image_mut() {
             *image = hash_image(&mut hash, image);
         }
     }

@@ -8,6 +8,7 @@
 
 mod blend_tree;
 pub mod camera;
+mod check;
 mod digest;
 pub mod light;
 pub mod material;
@@ -25,7 +26,7 @@ pub mod validate;
 pub use blend_tree::{MOST_LEAVES, check_blends};
 pub use camera::{Aperture, ApertureShape, Camera, Projection};
 pub use digest::digest;
-pub use light::{Environment, EnvironmentRadiance, Light};
+pub use light::{DirectionalLight, Environment, EnvironmentRadiance, Light, PointLight, Sky, SpotLight};
 pub use material::{BlendWeight, ConductorFresnel, Emission, Material, MaterialId, MaterialKind, MicrofacetDistribution};
 pub use model::Scene;
 pub use motion::{Motion, MotionStep};

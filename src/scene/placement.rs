@@ -8,7 +8,6 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::light::Light;
 use super::model::Scene;
 use super::shape::{Geometry, Shape};
 use super::transform::TransformStep;
@@ -37,10 +36,7 @@ impl Scene {
             shape.transform.steps.push(TransformStep::Translate(-center));
         }
         for light in &mut moved.lights {
-            match light {
-                Light::Point { position, .. } | Light::Spot { position, .. } => *position -= center,
-                Light::Environment(_) | Light::Directional { .. } => {}
-            }
+            light.translate(-center);
         }
         Cow::Owned(moved)
     }
@@ -84,6 +80,7 @@ impl Shape {
 mod tests {
     use super::*;
     use crate::load::load_toml_str;
+    use crate::scene::Light;
 
     fn room(offset: f64) -> Scene {
         let text = format!(
@@ -117,6 +114,6 @@ mod tests {
             assert!(corner.as_dvec3().distance(expected(before.as_dvec3())) < 1e-6, "{corner} {before}");
         }
         assert!(moved.shapes[0].origin().distance(expected(DVec3::new(-1e7, 0.0, 0.0))) < 1e-6);
-        assert!(matches!(moved.lights[0], Light::Point { position, .. } if position == expected(DVec3::Y * 2.0)));
+        assert!(matches!(moved.lights[0], Light::Point(light) if light.position == expected(DVec3::Y * 2.0)));
     }
 }

@@ -5,7 +5,7 @@ use std::fmt::{self, Write};
 
 use serde::Serialize;
 
-use super::light::{EnvironmentRadiance, Light};
+use super::light::Light;
 use super::material::{Material, MaterialKind};
 use super::model::Scene;
 use super::settings::RenderSettings;
@@ -48,7 +48,7 @@ impl SceneSummary {
             moving_shapes: scene.shapes.iter().filter(|shape| shape.motion.is_some()).count(),
             emitting_shapes: scene.shapes.iter().filter(|shape| shape_emits(scene, shape)).count(),
             materials: count(scene.materials.iter().map(|material| material_type(&material.kind))),
-            lights: count(scene.lights.iter().map(light_type)),
+            lights: count(scene.lights.iter().map(Light::kind_name)),
             textures: count(scene.textures.iter().map(|texture| texture_type(&texture.kind))),
             texels: scene.textures.iter().map(|texture| texels(&texture.kind)).sum(),
         }
@@ -150,18 +150,6 @@ fn material_type(kind: &MaterialKind) -> &'static str {
         MaterialKind::Emissive => "emissive",
         MaterialKind::Blend { .. } => "blend",
         MaterialKind::Pass => "pass",
-    }
-}
-
-fn light_type(light: &Light) -> &'static str {
-    match light {
-        Light::Environment(environment) => match environment.radiance {
-            EnvironmentRadiance::Constant(_) | EnvironmentRadiance::Map(_) => "environment",
-            EnvironmentRadiance::Sky { .. } => "sky",
-        },
-        Light::Point { .. } => "point",
-        Light::Spot { .. } => "spot",
-        Light::Directional { .. } => "directional",
     }
 }
 

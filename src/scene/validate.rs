@@ -7,20 +7,18 @@ use glam::{DVec3, Vec3};
 
 use super::blend_tree::check_blends;
 use super::camera::{ApertureShape, Camera, Projection};
-use super::light::{EnvironmentRadiance, Light};
+use super::check::{Check, image, is_amount, is_direction, is_positive};
+use super::light::{Environment, EnvironmentRadiance, Light};
 use super::material::{BlendWeight, ConductorFresnel, Material, MaterialId, MaterialKind};
 use super::model::Scene;
 use super::settings::BadSetting;
 use super::shape::{Geometry, Mesh, Shape};
-use super::texture::{ColorInput, ImageData, TextureId, TextureKind};
+use super::texture::{ColorInput, TextureId, TextureKind};
 
 /// Most octaves of Perlin noise: further ones are finer than the numbers that they are computed in.
 pub const MOST_OCTAVES: u32 = 16;
 /// Corners of a polygonal aperture.
 pub const BLADES: std::ops::RangeInclusive<u32> = 3..=64;
-/// Most texels along a side of an image: twice as many still are a positive number of 32 bits.
-const LONGEST_SIDE: u32 = 1 << 30;
-
 /// What is wrong with a scene, and with which part of it.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{part}: {message}")]
@@ -29,9 +27,6 @@ pub struct InvalidScene {
     pub part: String,
     pub message: String,
 }
-
-/// What is wrong, in words.
-type Check = Result<(), String>;
 
 /// Names the part that a check was of.
 fn of(part: impl FnOnce() -> String, check: Check) -> Result<(), InvalidScene> {
@@ -64,7 +59,7 @@ impl Scene {
             of(|| shape.label.clone(), self.check_shape(shape, &textured))?;
         }
         for (index, entry) in self.lights.iter().enumerate() {
-            of(|| format!("light[{index}]"), light(entry))?;
+            of(|| format!("light[{index}]"), entry.check())?;
         }
         of(|| "environment".into(), self.check_environments())
     }
@@ -177,27 +172,14 @@ impl Scene {
 
     /// Constant ones add up; a map or a sky stands alone.
     fn check_environments(&self) -> Check {
-        let environments =
-            || self.lights.iter().filter_map(|light| if let Light::Environment(found) = light { Some(found) } else { None });
-        let varies = environments().any(|environment| !matches!(environment.radiance, EnvironmentRadiance::Constant(_)));
-        if varies && environments().count() > 1 {
+        let environments = || self.lights.iter().filter(|light| light.is_environment());
+        let is_constant =
+            |light: &Light| matches!(light, Light::Environment(Environment { radiance: EnvironmentRadiance::Constant(_), .. }));
+        if environments().count() > 1 && !environments().all(is_constant) {
             return Err("a map or a sky is the scene's only environment".into());
         }
         Ok(())
     }
-}
-
-fn is_positive(number: f64) -> bool {
-    number.is_finite() && number > 0.0
-}
-
-/// A quantity of light, or a share of it.
-fn is_amount(color: DVec3) -> bool {
-    color.is_finite() && color.min_element() >= 0.0
-}
-
-fn is_direction(direction: DVec3) -> bool {
-    (direction.length_squared() - 1.0).abs() < 1e-6
 }
 
 fn camera(camera: &Camera) -> Check {
@@ -249,15 +231,6 @@ fn between(a: DVec3, b: DVec3, scale_is_finite: bool) -> Check {
     if possible { Ok(()) } else { Err("its colours and its scale must be finite".into()) }
 }
 
-fn image(image: &ImageData) -> Check {
-    let ImageData { width, height, texels, .. } = image;
-    let count = u64::from(*width) * u64::from(*height);
-    if count == 0 || count != texels.len() as u64 || *width.max(height) > LONGEST_SIDE {
-        return Err(format!("it has {} texels and not {width} × {height}", texels.len()));
-    }
-    Ok(())
-}
-
 /// Whether it has texture coordinates.
 fn geometry(geometry: &Geometry) -> Result<bool, String> {
     let has_uv = match geometry {
@@ -301,31 +274,6 @@ fn materials_of(shape: &Shape) -> impl Iterator<Item = MaterialId> {
         _ => &[],
     };
     of_faces.iter().copied().chain(of_faces.is_empty().then_some(shape.material))
-}
-
-fn light(light: &Light) -> Check {
-    let amounts = |lights: &[DVec3]| {
-        let possible = lights.iter().copied().all(is_amount);
-        if possible { Ok(()) } else { Err("its light must be finite and not negative".to_owned()) }
-    };
-    match light {
-        Light::Point { position, intensity } if position.is_finite() => amounts(&[*intensity]),
-        Light::Spot { position, direction, intensity, angle_degrees, falloff_degrees }
-            if position.is_finite() && is_direction(*direction) =>
-        {
-            if !(0.0 <= *falloff_degrees && falloff_degrees <= angle_degrees && *angle_degrees <= 180.0) {
-                return Err(format!("its light falls off from {falloff_degrees} to {angle_degrees} degrees"));
-            }
-            amounts(&[*intensity])
-        }
-        Light::Directional { direction, irradiance } if is_direction(*direction) => amounts(&[*irradiance]),
-        Light::Environment(environment) if environment.rotation_degrees.is_finite() => match &environment.radiance {
-            EnvironmentRadiance::Constant(radiance) => amounts(&[*radiance]),
-            EnvironmentRadiance::Sky { zenith, horizon, ground } => amounts(&[*zenith, *horizon, *ground]),
-            EnvironmentRadiance::Map(map) => image(map),
-        },
-        _ => Err("its position must be finite and its direction of length 1".into()),
-    }
 }
 
 #[cfg(test)]

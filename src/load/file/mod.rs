@@ -4,6 +4,7 @@
 //! files that are named. Each complains about the place where the mistake is written.
 
 mod document;
+mod light;
 mod resolve;
 mod resolver;
 mod schema;

@@ -14,7 +14,7 @@ type Interval = [u32; 2];
 
 impl PackedScene {
     pub(super) fn check_environment(&self) -> Check {
-        self.environment.map().map_or(Ok(()), |map| self.check_map(&map).map_err(|message| format!("the map {message}")))
+        self.environment.map.map_or(Ok(()), |map| self.check_map(&map).map_err(|message| format!("the map {message}")))
     }
 
     fn check_map(&self, map: &PackedMap) -> Check {

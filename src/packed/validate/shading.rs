@@ -2,8 +2,7 @@
 
 use super::Check;
 use crate::packed::blend_weight::{self, WeightKind};
-use crate::packed::environment::PackedEnvironment;
-use crate::packed::light::{self, LightKind, PackedLight};
+use crate::packed::light::record::{LIGHT_MOVES, LIGHT_TWO_SIDED, LIGHT_VARIES, LightKind, PORTAL_SHIFT, PackedLight};
 use crate::packed::material::{self, PackedMaterial, PackedMaterialKind};
 use crate::packed::texture::{self, PackedTexture, PackedTextureKind};
 use crate::packed::{NONE, PackedScene};
@@ -119,15 +118,15 @@ impl PackedScene {
         let kind = light.kind();
         let is_surface = kind <= LightKind::Disk as u32;
         let known = match kind {
-            _ if is_surface => 255 | light::LIGHT_TWO_SIDED | light::LIGHT_VARIES | light::LIGHT_MOVES,
-            portal if portal == LightKind::Portal as u32 => 255 | (LightKind::Disk as u32) << light::PORTAL_SHIFT,
+            _ if is_surface => 255 | LIGHT_TWO_SIDED | LIGHT_VARIES | LIGHT_MOVES,
+            portal if portal == LightKind::Portal as u32 => 255 | (LightKind::Disk as u32) << PORTAL_SHIFT,
             _ => 255,
         };
         if kind > LightKind::Portal as u32 || light.kind_and_flags & !known != 0 {
             return Err(format!("is of kind {:#x}", light.kind_and_flags));
         }
         let shines_from_outside = [LightKind::Portal, LightKind::Environment].into_iter().any(|kind| light.is(kind));
-        if shines_from_outside && self.environment == PackedEnvironment::Black {
+        if shines_from_outside && self.environment.is_black() {
             return Err("is the environment, and there is none".to_owned());
         }
         if is_surface && light.material == NONE {

@@ -7,7 +7,8 @@ use super::*;
 use crate::compare::sidak;
 use crate::reference::intersect::Sphere;
 use crate::scene::{
-    ColorInput, Emission, Environment, EnvironmentRadiance, Geometry, Material, MaterialKind, Mesh, Shape, Transform,
+    ColorInput, DirectionalLight, Emission, Environment, EnvironmentRadiance, Geometry, Material, MaterialKind, Mesh, PointLight,
+    Shape, Sky, SpotLight, Transform,
 };
 use crate::statistics::{SphereBins, density_by_differences, test_directional_sampler};
 
@@ -26,7 +27,7 @@ fn glowing(shapes: Vec<Geometry>) -> (Scene, World) {
     let scene = Scene {
         materials: vec![material],
         shapes: shapes.into_iter().map(shape).collect(),
-        lights: vec![Light::Point { position: DVec3::new(0.0, 5.0, 0.0), intensity: DVec3::splat(3.0) }],
+        lights: vec![Light::Point(PointLight { position: DVec3::new(0.0, 5.0, 0.0), intensity: DVec3::splat(3.0) })],
         ..Scene::default()
     };
     let world = World::new(&scene).expect("the scene is sound");
@@ -151,8 +152,7 @@ fn directions_to_the_environment_and_through_portals_follow_their_density() {
         scene.materials[0] = Material { name: "gone".into(), kind: MaterialKind::Pass, normal_map: None, emission: None };
         scene.shapes.iter_mut().for_each(|shape| shape.portal = true);
         let (zenith, horizon, ground) = (DVec3::ONE, DVec3::splat(0.5), DVec3::splat(0.2));
-        let radiance = EnvironmentRadiance::Sky { zenith, horizon, ground };
-        scene.lights = vec![Light::Environment(Environment { radiance, rotation_degrees: 0.0 })];
+        scene.lights = vec![Light::Sky(Sky { zenith, horizon, ground })];
         scene.render.estimator = estimator;
         let world = World::new(&scene).expect("the scene is sound");
         let lights = Lights::new(&scene, &world);
@@ -168,7 +168,7 @@ fn directions_to_the_environment_and_through_portals_follow_their_density() {
         let report = test_directional_sampler(&bins, 200_000, seed, sample, |wi| lights.environment_pdf(&world, reference, wi));
         assert!(report.passes(level), "{portal:?}: {report:?}");
         assert!((report.integral.value - 1.0).abs() < 5e-3, "{portal:?}: {:?}", report.integral);
-        let without = test_directional_sampler(&bins, 200_000, seed, sample, |wi| lights.environment.pdf(wi));
+        let without = test_directional_sampler(&bins, 200_000, seed, sample, |wi| lights.outside.pdf(wi));
         assert_eq!(without.passes(level), portal.is_none(), "{portal:?}: {without:?}");
     }
 }
@@ -231,26 +231,13 @@ fn lights_at_infinity_share_half_of_the_choices() {
     let (mut scene, world) = glowing(vec![]);
     let (position, direction) = (DVec3::Y, -DVec3::Y);
     let intensity = DVec3::splat(3.0);
-    scene.lights.push(Light::Spot { position, direction, intensity, angle_degrees: 60.0, falloff_degrees: 60.0 });
-    scene.lights.push(Light::Directional { direction, irradiance: DVec3::splat(PI) });
+    scene.lights.push(Light::Spot(SpotLight { position, direction, intensity, angle_degrees: 60.0, falloff_degrees: 60.0 }));
+    scene.lights.push(Light::Directional(DirectionalLight { direction, irradiance: DVec3::splat(PI) }));
     let [zenith, horizon, ground] = [DVec3::ONE; 3];
-    let radiance = EnvironmentRadiance::Sky { zenith, horizon, ground };
-    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees: 0.0 }));
+    scene.lights.push(Light::Sky(Sky { zenith, horizon, ground }));
     let pmf = Lights::new(&scene, &world).table.pmf;
     // The cone of 60 degrees is a quarter of all directions: by power 0.4 and 0.1, evenly 0.25 each.
     for (found, expected) in pmf.iter().zip([0.355, 0.145, 0.25, 0.25]) {
         assert!((found - expected).abs() < 1e-12, "{pmf:?}");
     }
-}
-
-#[test]
-fn spot_light_is_full_inside_and_ends_at_its_angle() {
-    let cosines = [60.0_f64, 30.0].map(|angle| angle.to_radians().cos());
-    let at = |degrees: f64| falloff(degrees.to_radians().cos(), cosines);
-    assert_eq!([at(0.0), at(29.9), at(60.1), at(170.0)], [1.0, 1.0, 0.0, 0.0]);
-    let middle = falloff(0.5 * (cosines[0] + cosines[1]), cosines);
-    assert!((middle - 0.5).abs() < 1e-12);
-    // Without a border between them, the light ends sharply.
-    let sharp = [cosines[1]; 2];
-    assert_eq!([falloff(sharp[0] + 1e-9, sharp), falloff(sharp[0] - 1e-9, sharp)], [1.0, 0.0]);
 }

@@ -3,8 +3,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use super::*;
 use crate::renderer::Silent;
 use crate::scene::{
-    BlendWeight, Camera, ColorInput, Emission, FilmSettings, Geometry, Light, Material, MaterialKind, Projection, Shape,
-    Transform,
+    BlendWeight, Camera, ColorInput, Emission, FilmSettings, Geometry, Light, Material, MaterialKind, PointLight, Projection,
+    Shape, Transform,
 };
 
 /// A diffuse, a mirror and a glass sphere on a floor, under a sphere light and a point light.
@@ -36,7 +36,7 @@ fn scene(size: [u32; 2]) -> Scene {
         let transform = Transform::default();
         scene.shapes.push(Shape { label: "shape".into(), geometry, material, transform, motion: None, portal: false });
     }
-    scene.lights.push(Light::Point { position: DVec3::new(-3.0, 4.0, 2.0), intensity: DVec3::splat(10.0) });
+    scene.lights.push(Light::Point(PointLight { position: DVec3::new(-3.0, 4.0, 2.0), intensity: DVec3::splat(10.0) }));
     scene
 }
 

@@ -6,8 +6,8 @@ use super::*;
 use crate::reference::ReferenceRenderer;
 use crate::renderer::RenderError;
 use crate::scene::{
-    Aperture, Emission, Environment, ImageTexture, Motion, MotionStep, Texture, TextureFilter, TextureWrap, Transform,
-    TransformStep,
+    Aperture, DirectionalLight, Emission, ImageData, ImageTexture, Motion, MotionStep, PointLight, SpotLight, Texture,
+    TextureFilter, TextureWrap, Transform, TransformStep,
 };
 
 fn material(name: &str, kind: MaterialKind) -> Material {
@@ -77,12 +77,13 @@ fn scene() -> Scene {
     ] {
         scene.shapes.push(shape(label, geometry, material));
     }
-    let spot = Light::Spot { position: b, direction: DVec3::Y, intensity: b, angle_degrees: 30.0, falloff_degrees: 20.0 };
+    let spot =
+        Light::Spot(SpotLight { position: b, direction: DVec3::Y, intensity: b, angle_degrees: 30.0, falloff_degrees: 20.0 });
     let map = Environment { radiance: EnvironmentRadiance::Map(pixels(4, 2)), rotation_degrees: 0.0 };
     scene.lights = vec![
-        Light::Point { position: b, intensity: b },
+        Light::Point(PointLight { position: b, intensity: b }),
         spot,
-        Light::Directional { direction: DVec3::X, irradiance: b },
+        Light::Directional(DirectionalLight { direction: DVec3::X, irradiance: b }),
         Light::Environment(map),
     ];
     scene
@@ -210,18 +211,29 @@ fn each_mistake_is_named_with_its_part() {
         (|s| s.shapes[4].geometry = Geometry::Box { min: DVec3::ONE, max: DVec3::ZERO }, "box: its numbers"),
         (|s| s.shapes[5].portal = true, "plane: a plane cannot be a portal"),
         (|s| s.shapes[5].geometry = Geometry::Plane { point: DVec3::ZERO, normal: DVec3::ZERO }, "plane: its numbers"),
-        (|s| s.lights[0] = Light::Point { position: DVec3::ONE, intensity: DVec3::NEG_ONE }, "light[0]: its light must be"),
-        (|s| s.lights[0] = Light::Point { position: DVec3::NAN, intensity: DVec3::ONE }, "light[0]: its position must be finite"),
+        (
+            |s| s.lights[0] = Light::Point(PointLight { position: DVec3::ONE, intensity: DVec3::NEG_ONE }),
+            "light[0]: its light must be",
+        ),
+        (
+            |s| s.lights[0] = Light::Point(PointLight { position: DVec3::NAN, intensity: DVec3::ONE }),
+            "light[0]: its position must be finite",
+        ),
         (
             |s| {
                 let [position, intensity] = [DVec3::ZERO, DVec3::ONE];
-                s.lights[1] =
-                    Light::Spot { position, direction: DVec3::Y, intensity, angle_degrees: 10.0, falloff_degrees: 20.0 };
+                s.lights[1] = Light::Spot(SpotLight {
+                    position,
+                    direction: DVec3::Y,
+                    intensity,
+                    angle_degrees: 10.0,
+                    falloff_degrees: 20.0,
+                });
             },
             "light[1]: its light falls off from 20 to 10 degrees",
         ),
         (
-            |s| s.lights[2] = Light::Directional { direction: DVec3::ONE, irradiance: DVec3::ONE },
+            |s| s.lights[2] = Light::Directional(DirectionalLight { direction: DVec3::ONE, irradiance: DVec3::ONE }),
             "light[2]: its position must be",
         ),
         (

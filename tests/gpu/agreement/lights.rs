@@ -301,8 +301,8 @@ fn other_lights_are_noticed() {
     let spot = load(&[SPOT]);
     let mut wider = spot.clone();
     for light in &mut wider.lights {
-        if let Light::Spot { angle_degrees, .. } = light {
-            *angle_degrees += 1.0;
+        if let Light::Spot(spot) = light {
+            spot.angle_degrees += 1.0;
         }
     }
     cases.push((wider, spot));

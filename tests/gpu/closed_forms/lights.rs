@@ -59,12 +59,13 @@ fn from_points_and_afar(cases: &mut Vec<Case>) {
     {
         let mut scene = over_a_floor(4);
         let position = to_light * 2.0;
-        scene.lights.push(Light::Spot { position, direction: axis, intensity, angle_degrees, falloff_degrees });
+        let spot = SpotLight { position, direction: axis, intensity, angle_degrees, falloff_degrees };
+        scene.lights.push(Light::Spot(spot));
         let expected = intensity * share * cosine(30.0) / 4.0 * ALBEDO / PI;
         push(cases, &format!("spot light, {name}"), &scene, expected, &WITH_LIGHT_SAMPLING);
     }
     let mut scene = over_a_floor(4);
-    scene.lights.push(Light::Directional { direction: -to_light, irradiance: intensity });
+    scene.lights.push(Light::Directional(DirectionalLight { direction: -to_light, irradiance: intensity }));
     push(cases, "directional light", &scene, intensity * cosine(30.0) * ALBEDO / PI, &WITH_LIGHT_SAMPLING);
 }
 
@@ -101,8 +102,7 @@ fn maps(cases: &mut Vec<Case>) {
 fn skies(cases: &mut Vec<Case>) {
     let (zenith, horizon, ground) = (DVec3::new(0.3, 0.6, 1.2), DVec3::new(1.0, 0.8, 0.6), DVec3::new(0.5, 0.1, 0.1));
     let mut scene = over_a_floor(512);
-    let radiance = EnvironmentRadiance::Sky { zenith, horizon, ground };
-    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees: 0.0 }));
+    scene.lights.push(Light::Sky(Sky { zenith, horizon, ground }));
     push(cases, "sky", &scene, (horizon + zenith * 2.0) / 3.0 * ALBEDO, &ALL);
 }
 

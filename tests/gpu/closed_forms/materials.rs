@@ -266,7 +266,7 @@ pub fn with_normal_maps() -> Vec<Case> {
             let matte = diffuse(&mut scene, 0.6);
             scene.materials[matte].normal_map = Some(0);
             shape(&mut scene, geometry.clone(), matte);
-            scene.lights.push(Light::Point { position: wi * distance, intensity: DVec3::splat(3.0) });
+            scene.lights.push(Light::Point(PointLight { position: wi * distance, intensity: DVec3::splat(3.0) }));
             let expected = 0.6 / PI * 3.0 * (normal * sign).dot(wi) / (distance * distance);
             // The picture's edge sees the light at another angle, by 10⁻⁵.
             push(&mut cases, &format!("normal map of a {name}, {side}"), &scene, DVec3::splat(expected), &[Estimator::Mis]);

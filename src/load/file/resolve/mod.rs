@@ -1,7 +1,6 @@
 //! From what is written to what is meant: names looked up, files read, angles and directions checked.
 
 mod camera;
-mod light;
 mod material;
 mod mesh;
 mod mtl;

@@ -77,7 +77,11 @@ impl Resolver<'_> {
     }
 
     /// Reads the image file that a key names.
-    pub(super) fn image(&mut self, file: &Located<String>, space: Option<ColorSpace>) -> Result<Arc<ImageData>, SceneError> {
+    pub(in crate::load::file) fn image(
+        &mut self,
+        file: &Located<String>,
+        space: Option<ColorSpace>,
+    ) -> Result<Arc<ImageData>, SceneError> {
         let path = self.path(&file.value);
         let key = (path, space);
         if let Some(image) = self.images.get(&key) {

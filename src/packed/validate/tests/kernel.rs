@@ -43,7 +43,7 @@ pub fn follow(scene: &PackedScene) -> Read<()> {
         Traversal::RayQuery => kernel.query()?,
     }
     kernel.lights()?;
-    scene.environment.map().map_or(Ok(()), |map| kernel.map(&map))
+    scene.environment.map.map_or(Ok(()), |map| kernel.map(&map))
 }
 
 impl Kernel<'_> {

@@ -7,7 +7,7 @@ mod scenes;
 use rayon::prelude::*;
 
 use super::words::{Array, Word};
-use crate::packed::environment::{PackedEnvironment, PackedMap};
+use crate::packed::environment::PackedMap;
 use crate::packed::hierarchy::Traversal;
 use crate::packed::{NONE, PackedScene};
 use crate::sampling::hash::mix;
@@ -58,7 +58,7 @@ fn change(scene: &mut PackedScene, place: Place, new: impl Fn(u32) -> u32) {
         Place::Motion(word) => as_bits(&mut bytemuck::cast_slice_mut::<_, f32>(&mut scene.motions)[word]),
         Place::Texel(word) => as_bits(&mut scene.textures.texels[word]),
         Place::Map(field) => {
-            if let PackedEnvironment::Map { map, .. } = &mut scene.environment {
+            if let Some(map) = &mut scene.environment.map {
                 let [field] =
                     map_fields(map).into_iter().skip(field).take(1).collect::<Vec<_>>().try_into().expect("eight fields");
                 *field = new(*field);
@@ -95,9 +95,9 @@ fn places(scene: &PackedScene) -> Vec<(Place, bool)> {
         }
         row += rows;
     }
-    let nodes = scene.environment.map().map_or(0..0, |map| map.first_node as usize..map.first_density as usize);
+    let nodes = scene.environment.map.map_or(0..0, |map| map.first_node as usize..map.first_density as usize);
     places.extend((0..scene.textures.texels.len()).map(|texel| (Place::Texel(texel), nodes.contains(&texel))));
-    if scene.environment.map().is_some() {
+    if scene.environment.map.is_some() {
         places.extend((0..8).map(|field| (Place::Map(field), true)));
     }
     let walks_nodes = scene.hierarchy.traversal == Traversal::Bvh;
@@ -142,7 +142,7 @@ fn what_was_packed_passes_and_uses_every_array() {
     }
     let any = |holds: fn(&PackedScene) -> bool| scenes.iter().any(|(_, scene)| holds(scene));
     assert!(any(|scene| !scene.motions.is_empty()) && any(|scene| !scene.hierarchy.boxes.is_empty()));
-    assert!(any(|scene| scene.environment.map().is_some_and(|map| map.levels > 1)));
+    assert!(any(|scene| scene.environment.map.is_some_and(|map| map.levels > 1)));
 }
 
 #[test]

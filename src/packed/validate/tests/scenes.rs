@@ -7,9 +7,9 @@ use glam::{DVec3, Vec2, Vec3};
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
 use crate::scene::{
-    BlendWeight, ColorInput, Emission, Environment, EnvironmentRadiance, Geometry, ImageData, ImageTexture, Light, Material,
-    MaterialKind, Mesh, MicrofacetDistribution, Motion, MotionStep, Scene, Shape, Texture, TextureFilter, TextureKind,
-    TextureWrap, Transform,
+    BlendWeight, ColorInput, DirectionalLight, Emission, Environment, EnvironmentRadiance, Geometry, ImageData, ImageTexture,
+    Light, Material, MaterialKind, Mesh, MicrofacetDistribution, Motion, MotionStep, PointLight, Scene, Shape, SpotLight,
+    Texture, TextureFilter, TextureKind, TextureWrap, Transform,
 };
 
 /// By name: walked by kernels, and left to the device.
@@ -125,9 +125,15 @@ fn everything() -> Scene {
     scene.shapes[7].material = last;
     scene.shapes[8].material = last;
     scene.lights = vec![
-        Light::Point { position: DVec3::ONE, intensity: b },
-        Light::Spot { position: DVec3::ONE, direction: DVec3::Y, intensity: b, angle_degrees: 30.0, falloff_degrees: 20.0 },
-        Light::Directional { direction: DVec3::X, irradiance: b },
+        Light::Point(PointLight { position: DVec3::ONE, intensity: b }),
+        Light::Spot(SpotLight {
+            position: DVec3::ONE,
+            direction: DVec3::Y,
+            intensity: b,
+            angle_degrees: 30.0,
+            falloff_degrees: 20.0,
+        }),
+        Light::Directional(DirectionalLight { direction: DVec3::X, irradiance: b }),
         Light::Environment(Environment { radiance: EnvironmentRadiance::Map(image(5, 3)), rotation_degrees: 30.0 }),
     ];
     scene

@@ -1,31 +1,41 @@
-use glam::Vec3;
+//! Environments of every kind: what they show, and how directions to them are drawn.
 
-use super::*;
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+use glam::{DVec3, Vec3};
+
+use super::{Outside, outside_light};
 use crate::compare::sidak;
+use crate::math::luminance;
+use crate::reference::warp;
+use crate::scene::{Environment, EnvironmentRadiance, ImageData, Light, Sky};
 use crate::statistics::chi_squared_test;
 use crate::statistics::random::SplitMix64;
 
-fn of_light(radiance: EnvironmentRadiance, rotation_degrees: f64) -> Environment {
-    let light = Light::Environment(scene::Environment { radiance, rotation_degrees });
-    Environment::new(&Scene { lights: vec![light], ..Scene::default() })
+fn of_light(light: Light) -> Outside {
+    Outside::of(outside_light(&light).into_iter())
 }
 
-fn map(width: u32, height: u32, rotation: f64, texel: impl Fn(u32, u32) -> Vec3) -> Environment {
+fn map(width: u32, height: u32, rotation: f64, texel: impl Fn(u32, u32) -> Vec3) -> Outside {
     let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect();
-    of_light(EnvironmentRadiance::Map(Arc::new(ImageData { width, height, texels, has_alpha: false })), rotation)
+    let radiance = EnvironmentRadiance::Map(Arc::new(ImageData { width, height, texels, has_alpha: false }));
+    of_light(Light::Environment(Environment { radiance, rotation_degrees: rotation }))
 }
 
-fn sky(zenith: f64, horizon: f64, ground: f64) -> Environment {
+fn sky(zenith: f64, horizon: f64, ground: f64) -> Outside {
     let [zenith, horizon, ground] = [zenith, horizon, ground].map(DVec3::splat);
-    of_light(EnvironmentRadiance::Sky { zenith, horizon, ground }, 0.0)
+    of_light(Light::Sky(Sky { zenith, horizon, ground }))
 }
 
-fn dotted(width: u32, height: u32, x: u32, y: u32) -> Environment {
+fn dotted(width: u32, height: u32, x: u32, y: u32) -> Outside {
     map(width, height, 0.0, |column, row| if (column, row) == (x, y) { Vec3::splat(50.0) } else { Vec3::ZERO })
 }
 
-fn environments() -> Vec<(&'static str, Environment)> {
+fn environments() -> Vec<(&'static str, Outside)> {
     let noise = |x: u32, y: u32| Vec3::new((x * 37 % 11) as f32, (y * 17 % 5) as f32 + 0.1, ((x + y) * 7 % 13) as f32);
+    let radiance = EnvironmentRadiance::Constant(DVec3::ONE);
+    let constant = of_light(Light::Environment(Environment { radiance, rotation_degrees: 0.0 }));
     vec![
         ("1 x 1", map(1, 1, 0.0, |_, _| Vec3::ONE)),
         ("2 x 1", map(2, 1, 0.0, |x, _| Vec3::splat(1.0 + 4.0 * x as f32))),
@@ -37,7 +47,7 @@ fn environments() -> Vec<(&'static str, Environment)> {
         ("sky", sky(0.3, 1.0, 0.2)),
         ("sky, dark at the horizon", sky(1.0, 0.0, 0.0)),
         ("sky, all ground", sky(0.0, 0.0, 1.0)),
-        ("constant", of_light(EnvironmentRadiance::Constant(DVec3::ONE), 0.0)),
+        ("constant", constant),
     ]
 }
 
@@ -50,7 +60,7 @@ const BINS: [usize; 2] = [16, 8];
 
 /// How many of `samples` directions fall into each bin, counted and as the density has it. In θ and φ a map's density times the sine is
 /// bounded, at the poles as well.
-fn count(environment: &Environment, samples: u32, density: impl Fn(DVec3) -> f64) -> (Vec<u64>, Vec<f64>) {
+fn count(environment: &Outside, samples: u32, density: impl Fn(DVec3) -> f64) -> (Vec<u64>, Vec<f64>) {
     let [across, down] = BINS;
     let mut observed = vec![0; across * down];
     let mut random = SplitMix64::new(u64::from(samples));
@@ -117,7 +127,7 @@ fn wherever_light_comes_from_a_direction_can_be_drawn() {
 #[test]
 fn maps_lie_where_the_contract_says() {
     let columns = map(8, 4, 0.0, |x, y| Vec3::new(x as f32, y as f32, 0.0));
-    let at = |environment: &Environment, turns: f64, v: f64| {
+    let at = |environment: &Outside, turns: f64, v: f64| {
         let (x, minus_z) = (TAU * turns).sin_cos();
         let (sine, cosine) = (PI * v).sin_cos();
         environment.radiance(DVec3::new(sine * x, cosine, -sine * minus_z))

@@ -1,0 +1,27 @@
+//! `type = "directional"`
+
+use std::ops::Range;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::load::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::value::{Located, NonNegative, Rgb, Vector};
+use crate::scene::DirectionalLight;
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+#[schemars(rename = "DirectionalLight")]
+pub struct Keys {
+    /// The way the light travels.
+    direction: Located<Vector>,
+    /// On a surface that faces the light, W·m⁻².
+    irradiance: Rgb<NonNegative>,
+}
+
+impl Keys {
+    pub fn resolve(&self, resolver: &mut Resolver<'_>, _: &Range<usize>) -> Result<DirectionalLight, SceneError> {
+        Ok(DirectionalLight { direction: resolver.direction(&self.direction)?, irradiance: self.irradiance.0 })
+    }
+}

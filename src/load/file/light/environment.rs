@@ -1,0 +1,54 @@
+//! `type = "environment"`
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::load::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::value::{Checked, LARGEST, Located, NonNegative, Number, Rgb};
+use crate::scene::{Environment, EnvironmentRadiance, ImageData};
+
+/// Radiance from outside the scene: either `radiance` or `file`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+#[schemars(rename = "EnvironmentLight")]
+pub struct Keys {
+    /// The same radiance from everywhere.
+    radiance: Option<Located<Rgb<NonNegative>>>,
+    /// A lat-long map, EXR or HDR: u = atan2(x, −z)/2π (mod 1), v = acos(y)/π from the top row, interpolated bilinearly.
+    file: Option<Located<String>>,
+    /// Factor of the radiance, 1 when left out.
+    scale: Option<Located<Checked<NonNegative>>>,
+    /// Degrees about +Y, counter-clockwise seen from above.
+    rotate: Option<Number>,
+}
+
+impl Keys {
+    pub fn resolve(&self, resolver: &mut Resolver<'_>, span: &Range<usize>) -> Result<Environment, SceneError> {
+        let scale = self.scale.as_ref().map_or(1.0, |scale| scale.value.0);
+        let radiance = match (&self.radiance, &self.file) {
+            (Some(radiance), None) => EnvironmentRadiance::Constant(radiance.value.0 * scale),
+            (None, Some(file)) => self.map(resolver, file, scale)?,
+            (Some(radiance), Some(_)) => {
+                return Err(resolver.error(&radiance.span, "an environment has either `radiance` or `file`"));
+            }
+            (None, None) => return Err(resolver.error(span, "an environment needs the key `radiance` or `file`")),
+        };
+        Ok(Environment { radiance, rotation_degrees: self.rotate.map_or(0.0, |rotate| rotate.0) })
+    }
+
+    fn map(&self, resolver: &mut Resolver<'_>, file: &Located<String>, scale: f64) -> Result<EnvironmentRadiance, SceneError> {
+        let image = resolver.image(file, None)?;
+        let texels: Vec<_> = image.texels.iter().map(|&texel| texel * scale as f32).collect();
+        if let Some(written) = &self.scale
+            && texels.iter().any(|texel| texel.max_element() > LARGEST as f32)
+        {
+            let message = format!("the map's radiance times {scale} is too large: more than 1e18");
+            return Err(resolver.error(&written.span, message));
+        }
+        Ok(EnvironmentRadiance::Map(Arc::new(ImageData { texels, ..(*image).clone() })))
+    }
+}

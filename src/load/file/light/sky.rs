@@ -1,0 +1,27 @@
+//! `type = "sky"`
+
+use std::ops::Range;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::load::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::value::{NonNegative, Rgb};
+use crate::scene::Sky;
+
+/// Three colours by the height y of a direction of length 1: horizon + (zenith − horizon)·y above the horizon, ground below.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+#[schemars(rename = "SkyLight")]
+pub struct Keys {
+    zenith: Rgb<NonNegative>,
+    horizon: Rgb<NonNegative>,
+    ground: Rgb<NonNegative>,
+}
+
+impl Keys {
+    pub fn resolve(&self, _: &mut Resolver<'_>, _: &Range<usize>) -> Result<Sky, SceneError> {
+        Ok(Sky { zenith: self.zenith.0, horizon: self.horizon.0, ground: self.ground.0 })
+    }
+}

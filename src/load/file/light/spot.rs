@@ -1,0 +1,46 @@
+//! `type = "spot"`
+
+use std::ops::Range;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::load::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::value::{Checked, HalfAngle, Located, NonNegative, Rgb, Vector, vector};
+use crate::scene::SpotLight;
+
+/// A point light cut to a cone. Between the angles `falloff` and `angle` the intensity falls as t²(3 − 2t), where t goes from 1 to 0 in
+/// proportion to the cosine of the angle.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+#[schemars(rename = "SpotLight")]
+pub struct Keys {
+    position: Vector,
+    direction: Located<Vector>,
+    /// W·sr⁻¹ on the axis.
+    intensity: Rgb<NonNegative>,
+    /// Degrees from the axis past which there is no light.
+    angle: Checked<HalfAngle>,
+    /// Degrees from the axis up to which the intensity is full; `angle` when left out.
+    falloff: Option<Located<Checked<NonNegative>>>,
+}
+
+impl Keys {
+    pub fn resolve(&self, resolver: &mut Resolver<'_>, _: &Range<usize>) -> Result<SpotLight, SceneError> {
+        let angle = self.angle.0;
+        let falloff = self.falloff.as_ref().map_or(angle, |falloff| falloff.value.0);
+        if let Some(written) = &self.falloff
+            && falloff > angle
+        {
+            return Err(resolver.error(&written.span, format!("`falloff` is at most `angle`, {angle} degrees")));
+        }
+        Ok(SpotLight {
+            position: vector(self.position),
+            direction: resolver.direction(&self.direction)?,
+            intensity: self.intensity.0,
+            angle_degrees: angle,
+            falloff_degrees: falloff,
+        })
+    }
+}

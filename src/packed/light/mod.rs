@@ -1,0 +1,125 @@
+//! Lights that next event estimation samples, in the scene's order, with the table that chooses among them.
+
+pub mod record;
+mod surface;
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::environment::PackedEnvironment;
+use super::primitive::WorldPrimitive;
+use super::validate::PackError;
+use super::world::WorldGeometry;
+use crate::sampling::{LightGroup, LightSampler, LightStrength};
+use crate::scene::light::light_table;
+use crate::scene::{Estimator, Light, Scene};
+use record::PORTAL_SHIFT;
+pub use record::{LightKind, PackedLight, constants};
+use surface::{SurfaceEmission, light_geometry, surface_light};
+
+/// A module for each row of the table of lights, and what chooses among them.
+macro_rules! modules {
+    (environment { $($environment:ident($_outside:ident) $environment_module:ident $_switch:literal,)* }
+     delta { $($delta:ident($_type:ident) $delta_module:ident $delta_switch:literal,)* }) => {
+        $(mod $environment_module;)*
+        $(mod $delta_module;)*
+
+        impl LightKind {
+            /// Those to which one direction leads from each point, with the switches of their shaders.
+            pub const DELTA: &'static [(Self, &'static str)] = &[$((Self::$delta, $delta_switch)),*];
+        }
+
+        fn environment_light(light: &Light, texels: &mut Vec<f32>) -> Option<Result<PackedEnvironment, PackError>> {
+            match light {
+                $(Light::$environment(light) => Some($environment_module::pack(light, texels)),)*
+                $(Light::$delta(_) => None,)*
+            }
+        }
+
+        fn delta_light(light: &Light) -> Option<(PackedLight, LightStrength)> {
+            let (packed, strength) = match light {
+                $(Light::$environment(_) => return None,)*
+                $(Light::$delta(light) => {
+                    let (packed, strength) = $delta_module::pack(light);
+                    (packed.of_kind(LightKind::$delta), strength)
+                })*
+            };
+            strength.is_positive().then_some((packed, strength))
+        }
+    };
+}
+light_table!(modules);
+
+/// The light from outside the scene; a map is appended to the texels.
+///
+/// # Errors
+/// [`PackError::TooManyTexels`] where 32 bits cannot number them.
+pub fn environment(scene: &Scene, texels: &mut Vec<f32>) -> Result<PackedEnvironment, PackError> {
+    let parts = scene.lights.iter().filter_map(|light| environment_light(light, texels));
+    Ok(PackedEnvironment::of(parts.collect::<Result<Vec<_>, _>>()?.into_iter()))
+}
+
+/// All sampled lights; marks the primitives that are lights with their index. The order is that of the reference.
+pub fn collect(scene: &Scene, world: &mut WorldGeometry, environment: &PackedEnvironment) -> Vec<PackedLight> {
+    if scene.render.estimator == Estimator::Bsdf {
+        return Vec::new();
+    }
+    let (mut lights, mut sampler) = (Vec::new(), LightSampler::default());
+    // Asked once a material, not once a triangle: a texture's mean looks at all of it.
+    let emissions: Vec<_> = (0..scene.materials.len()).map(|material| SurfaceEmission::of(scene, material)).collect();
+    for primitive in &mut world.primitives {
+        let emission = &emissions[primitive.material];
+        let power = emission.power(primitive);
+        if let Some(light) = surface_light(primitive, emission).filter(|_| power > 0.0) {
+            primitive.light = lights.len() as u32;
+            lights.push(light);
+            let group = LightGroup::Surface { shape: primitive.shape, material: primitive.material };
+            sampler.add(group, LightStrength::Power(power));
+        }
+    }
+    let is_local = |(_, strength): &(PackedLight, LightStrength)| matches!(strength, LightStrength::Power(_));
+    let (local, at_infinity): (Vec<_>, Vec<_>) = scene.lights.iter().filter_map(delta_light).partition(is_local);
+    for (light, strength) in local.into_iter().chain(at_infinity) {
+        lights.push(light);
+        sampler.add(LightGroup::Alone, strength);
+    }
+    for (light, irradiance) in environment_lights(scene, world, environment) {
+        lights.push(light);
+        sampler.add(LightGroup::Environment, LightStrength::Irradiance(irradiance));
+    }
+    let table = sampler.table();
+    for (index, light) in lights.iter_mut().enumerate() {
+        light.alias = table.alias[index];
+        light.alias_threshold = table.threshold[index];
+        light.pmf = table.pmf[index] as f32;
+    }
+    lights
+}
+
+/// The environment and the portals to it, each with a measure of the irradiance it makes.
+fn environment_lights(scene: &Scene, world: &WorldGeometry, environment: &PackedEnvironment) -> Vec<(PackedLight, f64)> {
+    let mut lights = Vec::new();
+    let irradiance = PI * environment.mean_luminance;
+    if irradiance == 0.0 {
+        return lights;
+    }
+    let infinitely_far = PackedLight::at(DVec3::ZERO, DVec3::ZERO);
+    // Under `mis` a constant environment is left to BSDF sampling, which covers it without a shadow ray.
+    if scene.render.estimator == Estimator::Nee || !environment.is_constant {
+        lights.push((infinitely_far.of_kind(LightKind::Environment), irradiance));
+    }
+    let total: f64 = world.portals.iter().map(WorldPrimitive::area).sum();
+    for portal in &world.portals {
+        let Some((kind, size, [p0, p1, p2])) = light_geometry(portal) else { continue };
+        let light = PackedLight {
+            kind_and_flags: (kind as u32) << PORTAL_SHIFT,
+            size: size as f32,
+            p1: p1.as_vec3().to_array(),
+            p2: p2.as_vec3().to_array(),
+            ..PackedLight::at(p0, DVec3::ZERO)
+        };
+        lights.push((light.of_kind(LightKind::Portal), irradiance * portal.area() / total));
+    }
+    lights
+}

@@ -1,0 +1,110 @@
+//! Emitting surfaces as lights.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::record::{LIGHT_MOVES, LIGHT_TWO_SIDED, LIGHT_VARIES, LightKind, PackedLight};
+use crate::math::luminance;
+use crate::packed::material::{color_and_texture, mean_emission};
+use crate::packed::primitive::{PrimitiveGeometry, WorldPrimitive};
+use crate::scene::{ColorInput, Scene, TextureKind};
+
+/// What a surface of some material sends out.
+pub struct SurfaceEmission {
+    material: usize,
+    mean_radiance: DVec3,
+    /// The material, or some part of it, emits from its back too.
+    two_sided: bool,
+    /// The radiance of a blend changes with its weights, that of a texture over the surface: the whole material is looked up.
+    varies: bool,
+    /// Of a plain material.
+    radiance: ColorInput,
+}
+
+impl SurfaceEmission {
+    pub fn of(scene: &Scene, material: usize) -> Self {
+        let own = scene.materials[material].emission;
+        let radiance = own.map_or(ColorInput::grey(0.0), |emission| emission.radiance);
+        Self {
+            material,
+            mean_radiance: mean_emission(scene, material, &|input| mean_color(scene, input)),
+            two_sided: scene.emits_from_both_sides(material),
+            varies: scene.materials[material].is_blend() || radiance.is_texture(),
+            radiance,
+        }
+    }
+
+    /// Luminous power: π·A·L, twice that for two sides.
+    pub fn power(&self, primitive: &WorldPrimitive) -> f64 {
+        let luminance = luminance(self.mean_radiance);
+        // An infinite plane that does not emit has no power: 0, not 0·∞.
+        if luminance == 0.0 {
+            return 0.0;
+        }
+        PI * primitive.area() * luminance * if self.two_sided { 2.0 } else { 1.0 }
+    }
+}
+
+fn mean_color(scene: &Scene, input: &ColorInput) -> DVec3 {
+    let mean = |texture: usize| match &scene.textures[texture].kind {
+        TextureKind::Image(image) => {
+            let texels = &image.image.texels;
+            texels.iter().map(|texel| texel.as_dvec3()).sum::<DVec3>() / texels.len() as f64
+        }
+        TextureKind::Checker { a, b, .. } | TextureKind::Perlin { a, b, .. } | TextureKind::Worley { a, b, .. } => {
+            0.5 * (*a + *b)
+        }
+    };
+    match input {
+        ColorInput::Constant(color) => *color,
+        ColorInput::Texture(texture) => mean(*texture),
+        ColorInput::ScaledTexture(texture, factor) => mean(*texture) * *factor,
+        ColorInput::SquaredTexture(texture) => mean(*texture) * mean(*texture),
+    }
+}
+
+/// The light that an emitting primitive is; None where it cannot be sampled.
+pub fn surface_light(primitive: &WorldPrimitive, emission: &SurfaceEmission) -> Option<PackedLight> {
+    let (radiance, _) = color_and_texture(&emission.radiance);
+    let (kind, size, [p0, p1, p2]) = light_geometry(primitive)?;
+    let flag = |set: bool, bit: u32| if set { bit } else { 0 };
+    let flags =
+        flag(emission.two_sided, LIGHT_TWO_SIDED) | flag(emission.varies, LIGHT_VARIES) | flag(primitive.moves(), LIGHT_MOVES);
+    Some(PackedLight {
+        kind_and_flags: kind as u32 | flags,
+        size: size as f32,
+        p1: p1.as_vec3().to_array(),
+        p2: p2.as_vec3().to_array(),
+        attributes: primitive.attributes,
+        material: emission.material as u32,
+        ..PackedLight::at(p0, DVec3::from(radiance.map(f64::from)))
+    })
+}
+
+/// Kind, size and the three points of a light that has this shape.
+pub fn light_geometry(primitive: &WorldPrimitive) -> Option<(LightKind, f64, [DVec3; 3])> {
+    let area = primitive.area();
+    match primitive.geometry {
+        PrimitiveGeometry::Triangle(corners) => {
+            let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+            Some((LightKind::Triangle, area, [a, b - a, c - a]))
+        }
+        PrimitiveGeometry::Quad { corner, edge_u, edge_v } => Some((LightKind::Quad, area, [corner, edge_u, edge_v])),
+        PrimitiveGeometry::Sphere { center, radius } => Some((LightKind::Sphere, radius, [center, DVec3::ZERO, DVec3::ZERO])),
+        PrimitiveGeometry::Disk { center, normal, radius } => {
+            let [tangent, bitangent] = frame(normal);
+            Some((LightKind::Disk, area, [center, tangent * radius, bitangent * radius]))
+        }
+        // No density covers an infinite area evenly.
+        PrimitiveGeometry::Plane { .. } => None,
+    }
+}
+
+/// Orthonormal basis of Duff et al. 2017; `frame_from_normal` in `shaders/core/math.wgsl`.
+fn frame(n: DVec3) -> [DVec3; 2] {
+    let s = if n.z < -0.2137 { -1.0 } else { 1.0 };
+    let a = -1.0 / (s + n.z);
+    let b = n.x * n.y * a;
+    [DVec3::new(1.0 + s * n.x * n.x * a, s * b, -s * n.x), DVec3::new(b, s + n.y * n.y * a, -n.y)]
+}

@@ -1,0 +1,87 @@
+//! An environment of one colour, or a lat-long map.
+
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::outside::{Environment, EnvironmentSample, Outside};
+use crate::sampling::MapDistribution;
+use crate::scene::{self, EnvironmentRadiance, ImageData};
+
+pub fn new(light: &scene::Environment) -> Outside {
+    match &light.radiance {
+        EnvironmentRadiance::Constant(radiance) => Outside::Constant(*radiance),
+        EnvironmentRadiance::Map(image) => match MapDistribution::new(image) {
+            Some(distribution) => {
+                let rotation = light.rotation_degrees / 360.0;
+                Outside::Varying(Arc::new(Map { image: image.clone(), distribution, rotation }))
+            }
+            // A black picture.
+            None => Outside::Constant(DVec3::ZERO),
+        },
+    }
+}
+
+/// A lat-long picture, interpolated bilinearly; it goes round at its sides and ends at the poles.
+#[derive(Debug)]
+struct Map {
+    image: Arc<ImageData>,
+    distribution: MapDistribution,
+    /// Whole turns.
+    rotation: f64,
+}
+
+impl Map {
+    /// u = atan2(x, −z)/2π after turning back the rotation, v = acos(y)/π.
+    fn coordinates(&self, wi: DVec3) -> (f64, f64) {
+        let u = (wi.x.atan2(-wi.z) / TAU + self.rotation).rem_euclid(1.0);
+        (u, wi.x.hypot(wi.z).atan2(wi.y) / PI)
+    }
+
+    fn lookup(&self, u: f64, v: f64) -> DVec3 {
+        let image = &*self.image;
+        let (x, y) = (u * f64::from(image.width) - 0.5, v * f64::from(image.height) - 0.5);
+        let (left, top) = (x.floor(), y.floor());
+        let texel = |column: f64, row: f64| {
+            let column = (column as i64).rem_euclid(i64::from(image.width)) as usize;
+            let row = (row as i64).clamp(0, i64::from(image.height) - 1) as usize;
+            image.texels[row * image.width as usize + column].as_dvec3()
+        };
+        let row = |row: f64| texel(left, row).lerp(texel(left + 1.0, row), x - left);
+        row(top).lerp(row(top + 1.0), y - top)
+    }
+}
+
+impl Environment for Map {
+    fn radiance(&self, wi: DVec3) -> DVec3 {
+        let (u, v) = self.coordinates(wi);
+        self.lookup(u, v)
+    }
+
+    fn sample(&self, bits_u: u32, bits_v: u32) -> Option<EnvironmentSample> {
+        let point = self.distribution.warp.sample(bits_u, bits_v);
+        let (sine, cosine) = (PI * point.v).sin_cos();
+        let (x, minus_z) = (TAU * (point.u - self.rotation)).sin_cos();
+        Some(EnvironmentSample {
+            wi: DVec3::new(sine * x, cosine, -sine * minus_z),
+            radiance: self.lookup(point.u, point.v),
+            pdf: point.density * per_steradian(sine),
+        })
+    }
+
+    fn pdf(&self, wi: DVec3) -> f64 {
+        let (u, v) = self.coordinates(wi);
+        self.distribution.warp.density(u, v) * per_steradian(wi.x.hypot(wi.z))
+    }
+
+    fn mean_luminance(&self) -> f64 {
+        self.distribution.mean_luminance
+    }
+}
+
+/// From a density over the unit square of (u, v) to one per steradian: dω = 2π du · π dv · sinθ. At the poles it grows without bound,
+/// in a solid angle that is nothing.
+fn per_steradian(sine: f64) -> f64 {
+    1.0 / (2.0 * PI * PI * sine.max(1e-6))
+}
