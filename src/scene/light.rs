@@ -9,7 +9,7 @@ use super::texture::ImageData;
 
 /// The table of lights: a row for each that is not a surface. From these rows every layer makes its list of modules and what chooses among
 /// them, so a light is a row here and a file of its module's name wherever it is represented: `load/file/light` reads it,
-/// `packed/light` packs it, `reference/lights` samples it in f64, `shaders/shading/light` on the device.
+/// `packed/light` packs it, `reference/lights` samples it in f64. On the device its kind is a case of `shaders/shading/light.wgsl`.
 ///
 /// A row: variant of [`Light`], type of its data, module, and the switch that compiles its shader. Scene files call it as its module.
 macro_rules! light_table {
