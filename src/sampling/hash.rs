@@ -24,7 +24,7 @@ pub fn path_key(pixel_key: u32, sample: u32) -> u32 {
 
 /// The bits of one dimension under a key.
 pub fn dimension_bits(key: u32, dimension: u32) -> u32 {
-    mix(key.wrapping_add(GOLDEN.wrapping_mul(dimension + 1)))
+    mix(key.wrapping_add(GOLDEN.wrapping_mul(dimension.wrapping_add(1))))
 }
 
 #[cfg(test)]

@@ -153,12 +153,21 @@ fn what_is_not_finite_is_counted_and_left_out() {
     let light = scene.materials[3].clone();
     scene.shapes.truncate(1);
     scene.shapes[0].geometry = Geometry::Sphere { center: scene.camera.position, radius: 1.0 };
-    for radiance in [f64::INFINITY, f64::NAN, 1e39, -1.0] {
+    let mut emit = |radiance: f64| {
         scene.materials[0] =
             Material { emission: Some(Emission { radiance: ColorInput::grey(radiance), two_sided: true }), ..light.clone() };
-        let (report, bands) = render(&scene, RenderRequest { rows: 0..8, samples: 0..3 }, &Silent);
-        assert_eq!(report.non_finite_samples, 8 * 8 * 3);
-        assert!(bands[0].mean.iter().all(|mean| *mean == [0.0; 3]));
+        scene.clone()
+    };
+    // A scene may hold what single precision does not.
+    let (report, bands) = render(&emit(1e39), RenderRequest { rows: 0..8, samples: 0..3 }, &Silent);
+    assert_eq!(report.non_finite_samples, 8 * 8 * 3);
+    assert!(bands[0].mean.iter().all(|mean| *mean == [0.0; 3]));
+    let (report, _) = render(&emit(1.0), RenderRequest { rows: 0..8, samples: 0..3 }, &Silent);
+    assert_eq!(report.non_finite_samples, 0);
+    // No scene may hold these, and no film takes them.
+    for radiance in [f64::INFINITY, f64::NAN, -1.0] {
+        assert!(ReferenceRenderer::new(&emit(radiance)).is_err(), "{radiance}");
+        assert!(!is_acceptable(DVec3::splat(radiance)) && is_acceptable(DVec3::ONE), "{radiance}");
     }
 }
 
