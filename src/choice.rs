@@ -1,6 +1,6 @@
 //! Values that people choose by name: in scene files, on the command line, in picture headers and in results.
 
-/// A value that people choose by name. [`choices!`] makes an enum one.
+/// A value that people choose by name. `choices!` makes an enum one.
 pub trait Choice: Copy + PartialEq + 'static {
     /// Every value, in the order in which they are listed.
     const VALUES: &'static [Self];

@@ -34,7 +34,7 @@ pub fn constants(packed: &PackedScene, first: usize) -> String {
     )
 }
 
-/// An expression of type vec3<f32>: (t or -1, u, v).
+/// An expression of type `vec3<f32>`: (t or -1, u, v).
 fn test_for(primitive: &Primitive, t_max: &str) -> String {
     let [p0, p1, p2] = [primitive.p0, primitive.p1, primitive.p2].map(Vec3::from);
     let kind = primitive.kind();

@@ -1,6 +1,6 @@
 //! From a scene to a picture: which renderer takes the scene, how long it goes on, and what a user of the crate calls.
 //!
-//! - [`scene`], [`options`], [`stream`], [`image`]: what users of the crate see.
+//! - `scene`, [`options`], [`stream`], [`image`]: what users of the crate see.
 //! - [`choice`]: which device renders.
 //! - [`progressive`]: renders that end by a time or an error, and samples that follow the noise.
 

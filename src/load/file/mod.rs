@@ -1,6 +1,6 @@
 //! Scene files: from TOML text to a [`Scene`].
 //!
-//! [`document`] reads the text into the types of [`syntax`], which know every key and range; [`resolve`] looks up names and reads the
+//! `document` reads the text into the types of `syntax`, which know every key and range; `resolve` looks up names and reads the
 //! files that are named. Each complains about the place where the mistake is written.
 
 mod document;

@@ -16,7 +16,7 @@ shared_kinds! {
         Environment = 5 as LIGHT_ENVIRONMENT,
         Spot = 6 as LIGHT_SPOT,
         Directional = 7 as LIGHT_DIRECTIONAL,
-        /// Of any of the first four kinds, from bit [`PORTAL_SHIFT`] on.
+        /// Of any of the first four kinds, from bit `PORTAL_SHIFT` on.
         Portal = 8 as LIGHT_PORTAL,
     }
 }

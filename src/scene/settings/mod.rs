@@ -1,4 +1,4 @@
-//! `[film]` and `[render]`: how large the picture is and how it is estimated. [`table`] has a row for each setting of `[render]`.
+//! `[film]` and `[render]`: how large the picture is and how it is estimated. `table` has a row for each setting of `[render]`.
 
 mod film;
 mod kinds;
