@@ -19,6 +19,7 @@
 //!     [camera]
 //!     position = [0, 1, 4]
 //!     look_at = [0, 0, 0]
+//!     vfov = 40
 //!
 //!     [[material]]
 //!     name = "clay"
@@ -27,6 +28,7 @@
 //!
 //!     [[shape]]
 //!     type = "sphere"
+//!     center = [0, 0, 0]
 //!     radius = 1
 //!     material = "clay"
 //!
