@@ -44,6 +44,16 @@ fn is_lit(shadow: ShadowRay, has_ray: bool) -> bool {
 #endif
 }
 
+// Adds what a path gains by a shadow ray, of the lanes that have one, to `radiance`, and counts it. All lanes take part.
+fn trace_shadow_ray(shadow: ShadowRay, radiance: ptr<function, vec3<f32>>, rays: ptr<function, u32>) {
+    let has_ray = is_needed(shadow);
+    *rays += select(0u, 1u, has_ray);
+    if is_lit(shadow, has_ray) {
+        trace_light_seen();
+        *radiance += shadow.radiance;
+    }
+}
+
 // Traces the ray of a path, of the lanes whose path is alive, to its vertex number `vertex`; adds what the path gains there to `radiance`,
 // and counts rays. Whether the path goes on. All lanes take part.
 fn trace_vertex(
@@ -56,21 +66,14 @@ fn trace_vertex(
         *radiance += shading.radiance;
         (*rays)++;
     }
-    if HAS_LIGHTS {
+    if HAS_LIGHTS && LIGHT_SAMPLES == 1u {
+        trace_shadow_ray(shading.shadow, radiance, rays);
+    } else if HAS_LIGHTS {
         var shadow = shading.shadow;
-        var number = 0u;
-        // One shadow ray a turn, the next one made at its end.
+        var number = 1u;
+        // One shadow ray a turn, the next one made at its end. With one light sample, drivers would keep this loop around those of the traversal.
         loop {
-            let has_ray = is_needed(shadow);
-            *rays += select(0u, 1u, has_ray);
-            if is_lit(shadow, has_ray) {
-                trace_light_seen();
-                *radiance += shadow.radiance;
-            }
-            if LIGHT_SAMPLES == 1u {
-                break;
-            }
-            number++;
+            trace_shadow_ray(shadow, radiance, rays);
             let goes_on = number < shading.light_samples;
             if !any_path(goes_on) {
                 break;
@@ -79,6 +82,7 @@ fn trace_vertex(
             if goes_on {
                 shadow = further_shadow_ray(shading.lit, number);
             }
+            number++;
         }
     }
     store_trace(vertex);
