@@ -8,7 +8,7 @@ use super::analysis::{self, Comparison, Curve, METRICS, interpolate};
 use super::interval::Spread;
 use super::ladder::{Ladder, Observations, climb};
 use super::reference::{OwnError, Reference, Store};
-use super::setting::{Axes, Setting};
+use super::setting::{Axes, Variant};
 use super::subject::{BenchError, Devices, SceneSubject, Subject};
 use crate::compare::compare;
 use crate::output::Image;
@@ -98,7 +98,7 @@ pub fn measure(
     observer: &dyn Observer,
     say: &mut dyn FnMut(&str),
 ) -> Result<SceneConvergence, BenchError> {
-    let settings = options.axes.settings(&scene.render);
+    let settings = options.axes.variants(&scene.render);
     let reference = reference(scene, &settings[0], options, devices, observer, say)?;
     let mut names = Vec::new();
     let mut subjects: Vec<Box<dyn Subject + '_>> = Vec::new();
@@ -151,7 +151,7 @@ pub fn measure(
 /// The given reference, one made before, or a new one: by the scene's own settings, on the first setting's device.
 fn reference(
     scene: &Scene,
-    first: &Setting,
+    first: &Variant,
     options: &ConvergenceOptions,
     devices: &mut Devices,
     observer: &dyn Observer,

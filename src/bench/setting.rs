@@ -15,7 +15,7 @@ pub struct Axes {
 
 /// One way to render a scene.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Setting {
+pub struct Variant {
     /// The values by which it differs from the others.
     pub name: String,
     pub device: DeviceChoice,
@@ -25,12 +25,12 @@ pub struct Setting {
 impl Axes {
     /// Every combination of the values, the last option changing fastest. A value given twice makes two settings that should come out equal:
     /// a check of the measurement.
-    pub fn settings(&self, own: &RenderSettings) -> Vec<Setting> {
-        let device = |setting: &mut Setting, value: &DeviceChoice| {
+    pub fn variants(&self, own: &RenderSettings) -> Vec<Variant> {
+        let device = |setting: &mut Variant, value: &DeviceChoice| {
             setting.device = value.clone();
             device_name(value)
         };
-        let mut settings = vec![Setting { name: String::new(), device: DeviceChoice::Auto, render: own.clone() }];
+        let mut settings = vec![Variant { name: String::new(), device: DeviceChoice::Auto, render: own.clone() }];
         settings = multiply(settings, &self.devices, device);
         for values in &self.settings {
             settings = multiply(settings, values, |setting, value| {
@@ -53,7 +53,7 @@ fn device_name(choice: &DeviceChoice) -> String {
 }
 
 /// Every setting with every value; the name grows where there is a choice.
-fn multiply<T>(settings: Vec<Setting>, values: &[T], set: impl Fn(&mut Setting, &T) -> String) -> Vec<Setting> {
+fn multiply<T>(settings: Vec<Variant>, values: &[T], set: impl Fn(&mut Variant, &T) -> String) -> Vec<Variant> {
     if values.is_empty() {
         return settings;
     }
@@ -73,7 +73,7 @@ fn multiply<T>(settings: Vec<Setting>, values: &[T], set: impl Fn(&mut Setting, 
 }
 
 /// Names that occur twice get a number, and a setting without alternatives is called by sampler and estimator.
-fn name_apart(settings: &mut [Setting], own: &RenderSettings) {
+fn name_apart(settings: &mut [Variant], own: &RenderSettings) {
     for setting in settings.iter_mut().filter(|setting| setting.name.is_empty()) {
         let render = &setting.render;
         let own = if render == own { " (the scene's own)" } else { "" };
@@ -91,11 +91,11 @@ fn name_apart(settings: &mut [Setting], own: &RenderSettings) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::settings::Setting as Row;
+    use crate::scene::settings::Setting;
     use crate::scene::{Estimator, PixelSampler, SamplerKind};
 
     fn names(setting: &str, names: &[&str]) -> Vec<Assignment> {
-        let row = Row::find(setting).expect("a setting");
+        let row = Setting::find(setting).expect("a setting");
         names.iter().map(|name| row.name(name).expect("one of its values")).collect()
     }
 
@@ -110,7 +110,7 @@ mod tests {
                 Vec::new(),
             ],
         };
-        let settings = axes.settings(&RenderSettings::default());
+        let settings = axes.variants(&RenderSettings::default());
         let names: Vec<&str> = settings.iter().map(|setting| setting.name.as_str()).collect();
         assert_eq!(names, ["halton, mis", "halton, nee", "sobol, mis", "sobol, nee"]);
         assert!(settings.iter().all(|setting| setting.device == DeviceChoice::Gpu));
@@ -121,9 +121,9 @@ mod tests {
 
     #[test]
     fn numbers_say_what_they_count() {
-        let row = Row::find("light_samples").expect("a setting");
+        let row = Setting::find("light_samples").expect("a setting");
         let counts = [1, 4].map(|count| row.number(count).expect("a possible number"));
-        let settings = Axes { settings: vec![counts.to_vec()], ..Axes::default() }.settings(&RenderSettings::default());
+        let settings = Axes { settings: vec![counts.to_vec()], ..Axes::default() }.variants(&RenderSettings::default());
         let told: Vec<_> = settings.iter().map(|setting| (setting.name.as_str(), setting.render.light_samples)).collect();
         assert_eq!(told, [("light_samples 1", 1), ("light_samples 4", 4)]);
     }
@@ -131,10 +131,10 @@ mod tests {
     #[test]
     fn no_choice_is_one_setting_and_the_same_twice_is_two() {
         let own = RenderSettings { sampler: SamplerKind::Halton, ..RenderSettings::default() };
-        let one = Axes::default().settings(&own);
+        let one = Axes::default().variants(&own);
         assert_eq!((one.len(), one[0].name.as_str()), (1, "halton, mis (the scene's own)"));
         let samplers = names("sampler", &["halton", "halton"]);
-        let twice = Axes { settings: vec![samplers], ..Axes::default() }.settings(&RenderSettings::default());
+        let twice = Axes { settings: vec![samplers], ..Axes::default() }.variants(&RenderSettings::default());
         assert_eq!([&twice[0].name, &twice[1].name], ["halton", "halton again (2)"]);
     }
 }

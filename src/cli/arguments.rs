@@ -12,7 +12,7 @@ use gpt::scene::settings::{FilmSettings, MOST_SAMPLES};
 use super::bench::BenchArguments;
 use super::choice::by_name;
 use super::exit::Exit;
-use super::settings::SettingFlags;
+use super::setting_flags::SettingFlags;
 use super::traversal::TraversalArguments;
 
 /// A headless GPU path tracer that proves its pictures against a CPU reference.

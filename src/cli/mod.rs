@@ -14,6 +14,7 @@ mod progress;
 mod reference_pages;
 mod render;
 mod scene_error;
+mod setting_flags;
 mod settings;
 mod stats;
 mod terminal;

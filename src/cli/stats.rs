@@ -20,6 +20,8 @@ pub struct Stats {
     pub compiled_in: Vec<&'static str>,
     pub width: u32,
     pub height: u32,
+    /// The reconstruction filter's name and radius.
+    pub filter: String,
     /// Every setting by its key in `[render]`; `spp` is what was asked for.
     #[serde(flatten)]
     pub settings: RenderSettings,
@@ -80,6 +82,7 @@ impl Stats {
             compiled_in: report.compiled_in.clone(),
             width,
             height,
+            filter: scene.film.filter.to_string(),
             settings: scene.render.clone(),
             spp_done: 0,
             stopped_by: "samples",

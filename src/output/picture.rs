@@ -94,6 +94,7 @@ mod tests {
 
     use super::*;
     use crate::output::{Provenance, read_image, srgb_byte};
+    use crate::scene::settings::SETTINGS;
     use crate::scene::{Filter, RenderSettings};
 
     fn spec(width: u32, height: u32, spp: u32) -> PictureSpec {
@@ -142,6 +143,11 @@ mod tests {
         assert_eq!(attribute("gpt:scene"), AttributeValue::Text(Text::from("küche ??")));
         assert_eq!(attribute("gpt:seed"), AttributeValue::Text(Text::from("4294967295")));
         assert_eq!(attribute("gpt:sampler"), AttributeValue::Text(Text::from("sobol")));
+        for setting in SETTINGS {
+            assert!(header.own_attributes.other.contains_key(&Text::from(setting.header)), "{}", setting.header);
+        }
+        assert_eq!(attribute("gpt:lightSampling"), AttributeValue::Text(Text::from("cone")));
+        assert_eq!(attribute("gpt:maxDepth"), AttributeValue::I32(16));
         assert_eq!(attribute("gpt:device"), AttributeValue::Text(Text::from("a device")));
         assert_eq!(attribute("gpt:firstSample"), AttributeValue::I32(128));
         assert_eq!(attribute("gpt:samples"), AttributeValue::I32(64));

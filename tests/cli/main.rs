@@ -15,6 +15,7 @@ use std::process::{Command, Output, Stdio};
 
 use common::sphere::grey_sphere;
 use gpt::output::{Image, read_image};
+use gpt::scene::settings::SETTINGS;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -130,6 +131,12 @@ fn stats_have_the_keys_that_other_programs_rely_on() {
     assert_eq!(stats["samples"], 240);
     assert_eq!(stats["seed"], 9);
     assert_eq!((&stats["light_samples"], &stats["light_samples_depth"]), (&3.into(), &2.into()));
+    let text = fs::read_to_string(place.path("stats.json")).expect("the stats file");
+    for setting in SETTINGS {
+        let key = format!("\"{}\":", setting.name);
+        assert_eq!(text.matches(&key).count(), 1, "{key} is there once");
+    }
+    assert_eq!((&stats["filter"], &stats["pixel_sampler"]), (&"box, radius 0.5".into(), &"sobol".into()));
     assert_eq!(stats["interrupted"], false);
     assert_eq!(stats["version"], env!("CARGO_PKG_VERSION"));
     assert!(stats["rays"].as_u64() >= Some(240), "a sample is at least one ray");

@@ -10,7 +10,7 @@ use gpt::scene::settings::MOST_SAMPLES;
 
 use crate::cli::arguments::{parse_device, parse_size};
 use crate::cli::choice::by_name;
-use crate::cli::settings::SettingAxes;
+use crate::cli::setting_flags::SettingAxes;
 use crate::cli::traversal::TraversalArguments;
 
 #[derive(Debug, Args)]

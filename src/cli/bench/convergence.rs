@@ -33,7 +33,7 @@ struct File<'a> {
 pub fn run(arguments: &ConvergenceArguments) -> Result<Exit, Failure> {
     let scenes = load(arguments)?;
     let axes = Axes::from(&arguments.axes);
-    let settings = axes.settings(&scenes[0].render).len();
+    let settings = axes.variants(&scenes[0].render).len();
     if settings > MOST_SETTINGS {
         return Err(Failure::usage(format!("these options make {settings} settings; {MOST_SETTINGS} can be compared at once")));
     }

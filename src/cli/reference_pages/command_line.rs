@@ -5,14 +5,13 @@ use std::fmt::Write;
 use clap::builder::StyledStr;
 use clap::{Arg, Command, CommandFactory};
 
-use super::REMAKE;
 use crate::cli::arguments::Arguments;
 
-/// The whole page.
-pub fn page() -> String {
+/// The whole page; `remake` is the command that makes it.
+pub fn page(remake: &str) -> String {
     let mut program = Arguments::command();
     program.build();
-    let mut page = format!("<!-- Made by `{REMAKE}`: change src/cli, not this page. -->\n\n# Command line\n\n");
+    let mut page = format!("<!-- Made by `{remake}`: change src/cli, not this page. -->\n\n# Command line\n\n");
     let _ = writeln!(page, "{}\n\n```\n{}\n```\n", plain(program.get_about()), usage(&program));
     for command in commands(&program) {
         let _ =

@@ -17,12 +17,12 @@ fn the_schema_is_current() {
 #[test]
 fn the_page_on_scene_files_is_current() {
     let schema = serde_json::from_str(&gpt::load::json_schema()).expect("the schema is JSON");
-    is_current("docs/scene-format.md", &scene_files::page(&schema));
+    is_current("docs/scene-format.md", &scene_files::page(&schema, REMAKE));
 }
 
 #[test]
 fn the_page_on_the_command_line_is_current() {
-    is_current("docs/cli.md", &command_line::page());
+    is_current("docs/cli.md", &command_line::page(REMAKE));
 }
 
 #[test]

@@ -4,8 +4,6 @@ use std::fmt::Write;
 
 use serde_json::{Map, Value};
 
-use super::REMAKE;
-
 /// A scene that shows every kind of table.
 pub const EXAMPLE: &str = r#"[film]
 size   = [512, 512]
@@ -80,11 +78,11 @@ where vertices run counter-clockwise for triangles.
 - Paths of files are relative to the scene file.
 ";
 
-/// The whole page.
-pub fn page(schema: &Value) -> String {
+/// The whole page; `remake` is the command that makes it.
+pub fn page(schema: &Value, remake: &str) -> String {
     let mut page = Page { schema, text: String::new(), sections: Vec::new() };
     let _ =
-        write!(page.text, "<!-- Made by `{REMAKE}`: change src/load/file/syntax and src/scene/settings, not this page. -->\n\n");
+        write!(page.text, "<!-- Made by `{remake}`: change src/load/file/syntax and src/scene/settings, not this page. -->\n\n");
     let _ = write!(page.text, "# Scene files\n\n{}\n\n{CONVENTIONS}\n```toml\n{EXAMPLE}```\n", description(schema));
     for (name, table) in entries(schema, "properties") {
         match table.get("items") {

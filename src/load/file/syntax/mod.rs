@@ -51,10 +51,11 @@ pub struct SceneFile {
 pub struct FilmTable {
     /// Width and height in pixels, 512 × 512 when left out.
     pub size: Option<[NonZeroU32; 2]>,
+    /// How samples become pixels; a box of radius 0.5 when left out.
     pub filter: Option<FilterEntry>,
 }
 
-/// How samples become pixels.
+/// The shape around a pixel's centre by which its samples are drawn.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(tag = "type")]
