@@ -4,6 +4,7 @@
 mod common;
 
 mod bench;
+mod documents;
 mod goals;
 #[cfg(unix)]
 mod on_unix;
