@@ -8,7 +8,8 @@ use glam::DVec3;
 use super::NONE;
 use super::blend_weight::{PackedBlendWeight, constant_weight};
 use super::validate::PackError;
-use crate::scene::{BlendMode, ColorInput, ConductorFresnel, Material, MaterialId, MaterialKind, MicrofacetDistribution, Scene};
+use crate::scene::material;
+use crate::scene::{BlendMode, ColorInput, LobeKind, Material, MaterialId, MaterialKind, Scene};
 use crate::shader::shared::{Constants, shared_constants, shared_kinds};
 
 shared_kinds! {
@@ -29,17 +30,20 @@ shared_kinds! {
     }
 }
 
+/// Above a packed material's kind stands its lobe's form.
+pub(super) const FORM_SHIFT: u32 = 8;
+
 shared_constants!(flags {
     /// Words of a material in the tables.
     pub const MATERIAL_WORDS: u32 = (size_of::<PackedMaterial>() / 16) as u32;
     /// Flag beside the kind of a conductor: its colours are eta and k.
-    pub(super) const COMPLEX_FRESNEL: u32 = 256;
+    pub(super) const COMPLEX_FRESNEL: u32 = material::COMPLEX_FRESNEL << FORM_SHIFT;
     pub(super) const EMITS: u32 = 1;
     pub(super) const EMITS_TWO_SIDED: u32 = 2;
-    /// Some leaf of the blend emits.
-    pub(super) const LEAVES_EMIT: u32 = 4;
+    /// Some part of the blend emits.
+    pub(super) const PARTS_EMIT: u32 = 4;
     /// GGX narrower than this is a delta lobe: f32 no longer resolves it.
-    const DELTA_ALPHA: f32 = 1.0e-4;
+    const DELTA_ALPHA: f32 = material::DELTA_ALPHA as f32;
 });
 
 /// Kinds, flags and sizes, for WGSL.
@@ -47,31 +51,29 @@ pub fn constants() -> Constants {
     [PackedMaterialKind::constants(), flags()].concat()
 }
 
-/// Rough glass whose index of refraction is this close to 1 is smooth: its refraction is a delta lobe.
-const SMALLEST_BEND: f64 = 1.0e-4;
-
 /// 80 bytes, five vec4 of the tables.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct PackedMaterial {
-    /// Reflectance, diffuse reflectance or eta.
-    pub first: [f32; 3],
-    pub kind_and_flags: u32,
-    /// Transmittance, specular reflectance or k. Of a blend, as bits: its first leaf, their number, and the number of inner blends
-    /// behind them that emit by themselves.
-    pub second: [f32; 3],
+    /// [`LobeParameters::color0`](crate::scene::LobeParameters).
+    pub color0: [f32; 3],
+    /// The kind in eight bits, above them the lobe's form.
+    pub kind_and_form: u32,
+    /// [`LobeParameters::color1`](crate::scene::LobeParameters). Of a blend, as bits: its first part, their number, and the number of inner
+    /// blends behind them that emit by themselves.
+    pub color1: [f32; 3],
     pub ior: f32,
     pub emission: [f32; 3],
     pub emission_flags: u32,
-    pub first_texture: u32,
+    pub color0_texture: u32,
     pub emission_texture: u32,
-    pub second_texture: u32,
-    pub scalar_texture: u32,
+    pub color1_texture: u32,
+    pub roughness_texture: u32,
     /// GGX width or cosine exponent.
-    pub scalar: f32,
+    pub roughness: f32,
     pub normal_map: u32,
-    /// 1 where the scalar's texture holds a roughness, whose square is the GGX width.
-    pub scalar_is_squared: u32,
+    /// 1 where the roughness comes from a texture and its square is the GGX width.
+    pub roughness_is_squared: u32,
     pub padding: u32,
 }
 
@@ -175,14 +177,14 @@ impl PackedMaterials {
             && emitting_blends.is_empty()
             && let Some(reflectance) = lambert_of_the_mean(scene, &leaves)
         {
-            packed.kind_and_flags = PackedMaterialKind::Diffuse as u32;
-            packed.first = reflectance.as_vec3().to_array();
+            packed.kind_and_form = PackedMaterialKind::Diffuse as u32;
+            packed.color0 = reflectance.as_vec3().to_array();
             return Ok(packed);
         }
         if !emitting_blends.is_empty() || leaves.iter().any(|leaf| scene.materials[leaf.material].emission.is_some()) {
-            packed.emission_flags |= LEAVES_EMIT;
+            packed.emission_flags |= PARTS_EMIT;
         }
-        packed.second = [self.leaves.len(), leaves.len(), emitting_blends.len()].map(|number| f32::from_bits(number as u32));
+        packed.color1 = [self.leaves.len(), leaves.len(), emitting_blends.len()].map(|number| f32::from_bits(number as u32));
         for leaf in leaves.into_iter().chain(emitting_blends) {
             self.leaves.push(PackedLeaf {
                 material: leaf.material as u32,
@@ -264,101 +266,68 @@ fn lambert_of_the_mean(scene: &Scene, leaves: &[Part]) -> Option<DVec3> {
 }
 
 impl PackedMaterial {
-    /// Packs a material; of a blend, what it is besides its leaves.
+    /// Packs a material; of a blend, what it is besides its parts.
     fn new(material: &Material) -> Self {
-        let parameters = Parameters::of(&material.kind);
-        let emission = material.emission.map_or(ColorInput::grey(0.0), |emission| emission.radiance);
+        let without_lobe = if material.is_blend() { PackedMaterialKind::Blend } else { PackedMaterialKind::Emissive };
+        let lobe = material.kind.lobe();
+        let kind = lobe.map_or(without_lobe, |parameters| kind_of(parameters.lobe));
+        let black = ColorInput::grey(0.0);
+        let (color0, color0_texture) = color_and_texture(&lobe.map_or(black, |lobe| lobe.color0));
+        let (color1, color1_texture) = color_and_texture(&lobe.and_then(|lobe| lobe.color1).unwrap_or(black));
+        let roughness = lobe.and_then(|lobe| lobe.roughness).unwrap_or(black);
+        let roughness_is_squared = u32::from(matches!(roughness, ColorInput::SquaredTexture(_)));
+        let (roughness, roughness_texture) = color_and_texture(&roughness);
+        let radiance = material.emission.map_or(black, |emission| emission.radiance);
         let two_sided = material.emission.is_some_and(|emission| emission.two_sided);
-        let (first, first_texture) = color_and_texture(&parameters.first);
-        let (second, second_texture) = color_and_texture(&parameters.second);
-        let (scalar, scalar_texture) = color_and_texture(&parameters.scalar);
-        let emits = emission != ColorInput::grey(0.0);
-        let (emission, emission_texture) = color_and_texture(&emission);
+        let (emission, emission_texture) = color_and_texture(&radiance);
         Self {
-            first,
-            kind_and_flags: parameters.kind as u32 | parameters.flags,
-            second,
-            ior: parameters.ior as f32,
+            color0,
+            kind_and_form: kind as u32 | lobe.map_or(0, |lobe| lobe.form) << FORM_SHIFT,
+            color1,
+            ior: lobe.and_then(|lobe| lobe.ior).unwrap_or(1.0) as f32,
             emission,
-            emission_flags: if emits { EMITS } else { 0 } | if two_sided { EMITS_TWO_SIDED } else { 0 },
-            first_texture,
+            emission_flags: if radiance == black { 0 } else { EMITS } | if two_sided { EMITS_TWO_SIDED } else { 0 },
+            color0_texture,
             emission_texture,
-            second_texture,
-            scalar_texture,
-            scalar: scalar[0],
+            color1_texture,
+            roughness_texture,
+            roughness: roughness[0],
             normal_map: material.normal_map.map_or(NONE, |texture| texture as u32),
-            scalar_is_squared: u32::from(matches!(parameters.scalar, ColorInput::SquaredTexture(_))),
+            roughness_is_squared,
             padding: 0,
         }
     }
 
     fn textures_mut(&mut self) -> [&mut u32; 5] {
-        let Self { first_texture, emission_texture, second_texture, scalar_texture, normal_map, .. } = self;
-        [first_texture, emission_texture, second_texture, scalar_texture, normal_map]
+        let Self { color0_texture, emission_texture, color1_texture, roughness_texture, normal_map, .. } = self;
+        [color0_texture, emission_texture, color1_texture, roughness_texture, normal_map]
     }
 
     pub fn kind(&self) -> u32 {
-        self.kind_and_flags & 255
+        self.kind_and_form & ((1 << FORM_SHIFT) - 1)
     }
 
     /// A colour or scalar comes from a texture, or a blend's leaves are looked up: not known without the scene.
     pub fn has_second_color(&self) -> bool {
         use PackedMaterialKind::{Glass, Phong, PhongGlass, RoughGlass};
         let of_kind = [Glass, Phong, RoughGlass, PhongGlass].map(|kind| kind as u32).contains(&self.kind());
-        of_kind || self.kind_and_flags & COMPLEX_FRESNEL != 0
+        of_kind || self.kind_and_form & COMPLEX_FRESNEL != 0
     }
 }
 
-/// A material's parameters in the slots of the tables.
-struct Parameters {
-    kind: PackedMaterialKind,
-    flags: u32,
-    first: ColorInput,
-    second: ColorInput,
-    scalar: ColorInput,
-    ior: f64,
-}
-
-impl Parameters {
-    fn of(kind: &MaterialKind) -> Self {
-        use PackedMaterialKind as Kind;
-        let none = ColorInput::grey(0.0);
-        let plain = |kind, first| Self { kind, flags: 0, first, second: none, scalar: none, ior: 1.0 };
-        match kind {
-            MaterialKind::Diffuse { reflectance } => plain(Kind::Diffuse, *reflectance),
-            MaterialKind::Mirror { reflectance } => plain(Kind::Mirror, *reflectance),
-            MaterialKind::Glossy { reflectance, exponent } => Self { scalar: *exponent, ..plain(Kind::Glossy, *reflectance) },
-            MaterialKind::Phong { diffuse, specular, exponent } => {
-                Self { second: *specular, scalar: *exponent, ..plain(Kind::Phong, *diffuse) }
-            }
-            MaterialKind::Glass { ior, reflectance, transmittance } => {
-                Self { second: *transmittance, ior: *ior, ..plain(Kind::Glass, *reflectance) }
-            }
-            MaterialKind::RoughGlass { ior, alpha, distribution, reflectance, transmittance } => {
-                let kind = match (distribution, alpha) {
-                    (MicrofacetDistribution::Phong, _) => Kind::PhongGlass,
-                    (MicrofacetDistribution::Ggx, ColorInput::Constant(alpha)) if alpha.x < f64::from(DELTA_ALPHA) => Kind::Glass,
-                    // What hardly bends light sends it straight on, however rough.
-                    (MicrofacetDistribution::Ggx, _) if (ior - 1.0).abs() < SMALLEST_BEND => Kind::Glass,
-                    (MicrofacetDistribution::Ggx, _) => Kind::RoughGlass,
-                };
-                Self { second: *transmittance, scalar: *alpha, ior: *ior, ..plain(kind, *reflectance) }
-            }
-            MaterialKind::Conductor { fresnel, alpha } => {
-                let conductor = match fresnel {
-                    ConductorFresnel::Complex { eta, k } => Self {
-                        flags: COMPLEX_FRESNEL,
-                        second: ColorInput::Constant(*k),
-                        ..plain(Kind::Conductor, ColorInput::Constant(*eta))
-                    },
-                    ConductorFresnel::Reflectance(reflectance) => plain(Kind::Conductor, *reflectance),
-                };
-                Self { scalar: *alpha, ..conductor }
-            }
-            MaterialKind::Emissive => plain(Kind::Emissive, none),
-            MaterialKind::Pass => plain(Kind::Pass, none),
-            MaterialKind::Blend { .. } => plain(Kind::Blend, none),
-        }
+/// The number that shaders know a lobe by.
+fn kind_of(lobe: LobeKind) -> PackedMaterialKind {
+    use PackedMaterialKind as Kind;
+    match lobe {
+        LobeKind::Diffuse => Kind::Diffuse,
+        LobeKind::Mirror => Kind::Mirror,
+        LobeKind::Glossy => Kind::Glossy,
+        LobeKind::Phong => Kind::Phong,
+        LobeKind::Glass => Kind::Glass,
+        LobeKind::RoughGlass => Kind::RoughGlass,
+        LobeKind::PhongGlass => Kind::PhongGlass,
+        LobeKind::Conductor => Kind::Conductor,
+        LobeKind::Null => Kind::Pass,
     }
 }
 

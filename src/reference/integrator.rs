@@ -129,17 +129,17 @@ impl Integrator {
         }
         let (u1, u2) = (random(BounceDimension::BsdfU), random(BounceDimension::BsdfV));
         let Some(scattered) = bsdf.sample(random(BounceDimension::Lobe), u1, u2) else { return false };
-        if is_last && !scattered.passes {
+        if is_last && !scattered.is_null {
             return false;
         }
         visitor.scattered(&scattered);
-        let BsdfSample { wi, weight, density, eta, passes } = scattered;
+        let BsdfSample { wi, weight, density, eta, is_null } = scattered;
         path.throughput *= weight;
         path.eta_scale *= eta * eta;
         path.previous = density;
         path.ray = Ray { origin: surface.point.leave_towards(wi), direction: wi };
         path.bounce += 1;
-        if passes {
+        if is_null {
             return true;
         }
         let survives = self.survives_roulette(path, random(BounceDimension::Roulette), visitor);
@@ -175,7 +175,7 @@ impl Integrator {
         let light_pdf = || light_pdf() * f64::from(settings.light_samples_at(path.edge - 1));
         match (path.previous, settings.estimator) {
             (Density::Delta, _) | (_, Estimator::Bsdf) => 1.0,
-            (Density::Smooth(pdf), estimator) => match (light_pdf(), estimator) {
+            (Density::SolidAngle(pdf), estimator) => match (light_pdf(), estimator) {
                 (0.0, _) => 1.0,
                 (_, Estimator::Nee) => 0.0,
                 (light_pdf, Estimator::Mis | Estimator::Bsdf) => mis::weight(settings.heuristic, pdf, light_pdf),
@@ -193,7 +193,7 @@ impl Integrator {
         visitor: &mut V,
     ) {
         let settings = &self.scene.render;
-        if settings.estimator == Estimator::Bsdf || self.lights.is_empty() || !bsdf.has_smooth_lobe() {
+        if settings.estimator == Estimator::Bsdf || self.lights.is_empty() || !bsdf.has_non_delta_lobe() {
             return;
         }
         let [choice, u, v] = bits();

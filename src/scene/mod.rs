@@ -27,7 +27,10 @@ pub use blend_tree::{MOST_LEAVES, check_blends};
 pub use camera::{Aperture, ApertureShape, Camera, Projection};
 pub use digest::digest;
 pub use light::{DirectionalLight, Environment, EnvironmentRadiance, Light, PointLight, Sky, SpotLight};
-pub use material::{BlendWeight, ConductorFresnel, Emission, Material, MaterialId, MaterialKind, MicrofacetDistribution};
+pub use material::{
+    BlendWeight, ConductorFresnel, Emission, LobeKind, LobeParameters, LobeSupport, Material, MaterialId, MaterialKind,
+    MicrofacetDistribution,
+};
 pub use model::Scene;
 pub use motion::{Motion, MotionStep};
 pub use settings::{

@@ -47,7 +47,7 @@ impl SceneSummary {
             triangles: scene.shapes.iter().map(triangles).sum(),
             moving_shapes: scene.shapes.iter().filter(|shape| shape.motion.is_some()).count(),
             emitting_shapes: scene.shapes.iter().filter(|shape| shape_emits(scene, shape)).count(),
-            materials: count(scene.materials.iter().map(|material| material_type(&material.kind))),
+            materials: count(scene.materials.iter().map(|material| material.kind.type_name())),
             lights: count(scene.lights.iter().map(Light::kind_name)),
             textures: count(scene.textures.iter().map(|texture| texture_type(&texture.kind))),
             texels: scene.textures.iter().map(|texture| texels(&texture.kind)).sum(),
@@ -135,21 +135,6 @@ fn shape_type(geometry: &Geometry) -> &'static str {
         Geometry::Disk { .. } => "disk",
         Geometry::Box { .. } => "box",
         Geometry::Plane { .. } => "plane",
-    }
-}
-
-fn material_type(kind: &MaterialKind) -> &'static str {
-    match kind {
-        MaterialKind::Diffuse { .. } => "diffuse",
-        MaterialKind::Mirror { .. } => "mirror",
-        MaterialKind::Glossy { .. } => "glossy",
-        MaterialKind::Phong { .. } => "phong",
-        MaterialKind::Glass { .. } => "glass",
-        MaterialKind::RoughGlass { .. } => "rough_glass",
-        MaterialKind::Conductor { .. } => "conductor",
-        MaterialKind::Emissive => "emissive",
-        MaterialKind::Blend { .. } => "blend",
-        MaterialKind::Pass => "pass",
     }
 }
 

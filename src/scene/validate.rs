@@ -9,7 +9,7 @@ use super::blend_tree::check_blends;
 use super::camera::{ApertureShape, Camera, Projection};
 use super::check::{Check, image, is_amount, is_direction, is_positive};
 use super::light::{Environment, EnvironmentRadiance, Light};
-use super::material::{BlendWeight, ConductorFresnel, Material, MaterialId, MaterialKind};
+use super::material::{BlendWeight, Material, MaterialId, MaterialKind};
 use super::model::Scene;
 use super::settings::BadSetting;
 use super::shape::{Geometry, Mesh, Shape};
@@ -71,25 +71,18 @@ impl Scene {
         if let Some(emission) = &material.emission {
             self.color(&emission.radiance)?;
         }
-        match &material.kind {
-            MaterialKind::Glass { ior, .. } | MaterialKind::RoughGlass { ior, .. } if !is_positive(*ior) => {
-                return Err("the index of refraction must be positive".into());
+        if let MaterialKind::Blend { materials, weight } = &material.kind {
+            materials.iter().try_for_each(|&id| self.material_exists(id))?;
+            if materials.iter().any(|&id| self.materials[id].normal_map.is_some()) {
+                return Err("the normal map of a blend is its own, not that of a part".into());
             }
-            MaterialKind::Conductor { fresnel: ConductorFresnel::Complex { eta, k }, .. }
-                if !(is_amount(*eta) && is_amount(*k)) =>
-            {
-                return Err("the complex index of refraction must be finite and not negative".into());
-            }
-            MaterialKind::Blend { materials, weight } => {
-                materials.iter().try_for_each(|&id| self.material_exists(id))?;
-                if materials.iter().any(|&id| self.materials[id].normal_map.is_some()) {
-                    return Err("the normal map of a blend is its own, not that of a part".into());
-                }
-                self.weight(weight)?;
-            }
-            _ => {}
+            self.weight(weight)?;
         }
-        material.kind.colors().try_for_each(|input| self.color(&input))
+        let Some(lobe) = material.kind.lobe() else { return Ok(()) };
+        if lobe.ior.is_some_and(|ior| !is_positive(ior)) {
+            return Err("the index of refraction must be positive".into());
+        }
+        lobe.inputs().try_for_each(|input| self.color(&input))
     }
 
     fn weight(&self, mut weight: &BlendWeight) -> Check {
@@ -109,7 +102,7 @@ impl Scene {
     fn color(&self, input: &ColorInput) -> Check {
         match input {
             ColorInput::Constant(color) if is_amount(*color) => Ok(()),
-            ColorInput::Constant(_) => Err("a colour must be finite and not negative".into()),
+            ColorInput::Constant(_) => Err("a colour, or a complex index of refraction, must be finite and not negative".into()),
             ColorInput::ScaledTexture(_, factor) if !is_amount(*factor) => {
                 Err("the factor of a texture must be finite and not negative".into())
             }

@@ -265,14 +265,14 @@ fn reference_vertex(scene: &Scene, vertex: &PathVertex) -> Quantities {
     }
     if let Some(sample) = vertex.scattered {
         let pdf = match sample.density {
-            Density::Smooth(pdf) => Some(pdf),
+            Density::SolidAngle(pdf) => Some(pdf),
             Density::Delta => None,
         };
         quantities.extend([
             ("sampled direction", vector(sample.wi)),
             ("sampled pdf", pdf_or_delta(pdf)),
             ("sampled weight", vector(sample.weight)),
-            ("lobe", lobe(sample.passes, sample.eta * sample.eta)),
+            ("lobe", lobe(sample.is_null, sample.eta * sample.eta)),
         ]);
     }
     if let Some((survival, _)) = vertex.roulette {

@@ -6,6 +6,7 @@ use crate::packed::light::record::{LIGHT_MOVES, LIGHT_TWO_SIDED, LIGHT_VARIES, L
 use crate::packed::material::{self, PackedMaterial, PackedMaterialKind};
 use crate::packed::texture::{self, PackedTexture, PackedTextureKind};
 use crate::packed::{NONE, PackedScene};
+use crate::scene::material::COMPLEX_FRESNEL;
 use crate::scene::validate::MOST_OCTAVES;
 
 /// Most texels along a side of an image: kernels compute with twice as many in signed numbers.
@@ -43,17 +44,17 @@ impl PackedScene {
 
     fn check_material(&self, material: &PackedMaterial) -> Check {
         let is_blend = material.kind() == PackedMaterialKind::Blend as u32;
-        if material.kind() > PackedMaterialKind::Blend as u32 || material.kind_and_flags & !(255 | material::COMPLEX_FRESNEL) != 0
+        if material.kind() > PackedMaterialKind::Blend as u32 || material.kind_and_form >> material::FORM_SHIFT > COMPLEX_FRESNEL
         {
-            return Err(format!("is of kind {:#x}", material.kind_and_flags));
+            return Err(format!("is of kind {:#x}", material.kind_and_form));
         }
-        let known_flags = material::EMITS | material::EMITS_TWO_SIDED | if is_blend { material::LEAVES_EMIT } else { 0 };
+        let known_flags = material::EMITS | material::EMITS_TWO_SIDED | if is_blend { material::PARTS_EMIT } else { 0 };
         if material.emission_flags & !known_flags != 0 {
             return Err(format!("emits by {:#x}", material.emission_flags));
         }
         if is_blend {
             let leaves = &self.materials.leaves;
-            let [first, count, emitting] = material.second.map(f32::to_bits);
+            let [first, count, emitting] = material.color1.map(f32::to_bits);
             // Behind the leaves stand the inner blends that emit by themselves, and only they may be blends.
             let run = leaves.get(first as usize..).filter(|_| is_within(first, count, leaves.len()));
             let Some((run, behind)) = run.map(|run| run.split_at(count as usize)) else {

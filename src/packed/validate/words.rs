@@ -123,16 +123,16 @@ const NODE: [(usize, Word); 3] = [
 ];
 
 const MATERIAL: [(usize, Word); 10] = [
-    (word!(PackedMaterial, kind_and_flags), Checked),
+    (word!(PackedMaterial, kind_and_form), Checked),
     // The run of a blend's leaves.
-    (word!(PackedMaterial, second), CheckedIn(is_blend)),
-    (word!(PackedMaterial, second) + 1, CheckedIn(is_blend)),
-    (word!(PackedMaterial, second) + 2, CheckedIn(is_blend)),
+    (word!(PackedMaterial, color1), CheckedIn(is_blend)),
+    (word!(PackedMaterial, color1) + 1, CheckedIn(is_blend)),
+    (word!(PackedMaterial, color1) + 2, CheckedIn(is_blend)),
     (word!(PackedMaterial, emission_flags), Checked),
-    (word!(PackedMaterial, first_texture), Optional(Array::Textures)),
+    (word!(PackedMaterial, color0_texture), Optional(Array::Textures)),
     (word!(PackedMaterial, emission_texture), Optional(Array::Textures)),
-    (word!(PackedMaterial, second_texture), Optional(Array::Textures)),
-    (word!(PackedMaterial, scalar_texture), Optional(Array::Textures)),
+    (word!(PackedMaterial, color1_texture), Optional(Array::Textures)),
+    (word!(PackedMaterial, roughness_texture), Optional(Array::Textures)),
     (word!(PackedMaterial, normal_map), Optional(Array::Textures)),
 ];
 
@@ -160,7 +160,7 @@ const TEXTURE: [(usize, Word); 4] = [
 ];
 
 fn is_blend(material: &[u32]) -> bool {
-    material[word!(PackedMaterial, kind_and_flags)] & 255 == PackedMaterialKind::Blend as u32
+    material[word!(PackedMaterial, kind_and_form)] & 255 == PackedMaterialKind::Blend as u32
 }
 
 fn is_image(texture: &[u32]) -> bool {

@@ -1,13 +1,13 @@
 //! A material as a weighted list of its parts.
 //!
-//! A blend of two materials has the weights w0 and 1 − w0; a blend of blends has the products. So any tree is the list of its
-//! leaves, from the first to the last, each with the product of the weights on the way to it from the root.
+//! A blend of two materials has the weights w0 and 1 − w0; a blend of blends has the products. So any tree is the list of the
+//! plain materials at its ends, from the first to the last, each with the product of the weights on the way to it from the root.
 
-use super::Lookup;
 use super::blend_weight;
+use super::lookup::Lookup;
 use crate::scene::{BlendWeight, Material, MaterialId, MaterialKind, Scene};
 
-/// Calls `visit` with the material itself, the blends in it and its leaves, each before its own parts, the first of two before the
+/// Calls `visit` with the material itself, the blends in it and the plain materials at their ends, each before its own parts, the first of two before the
 /// second, with their weights at one hit. Parts of weight 0 do nothing and are left out.
 pub fn for_each_part<'a>(lookup: &Lookup<'a>, material: MaterialId, visit: impl FnMut(&'a Material, f64)) {
     walk(lookup.scene, material, |blend| blend_weight::weight(blend, lookup), visit);

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::Lookup;
 use super::fresnel::{dielectric_reflectance, normal_incidence_reflectance, schlick_reflectance};
+use super::lookup::Lookup;
 use crate::math::luminance;
 use crate::reference::texture;
 use crate::scene::BlendWeight;

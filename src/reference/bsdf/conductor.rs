@@ -3,16 +3,19 @@
 use glam::DVec3;
 
 use super::fresnel::{conductor_reflectance, schlick_reflectance};
-use super::microfacet::{Ggx, SMALLEST_ALPHA};
-use super::mirror::reflect;
-use super::{BsdfSample, Density, Evaluation, View};
+use super::microfacet::Ggx;
+use super::lookup::Lookup;
+use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
+use super::view::View;
+use crate::scene::material::DELTA_ALPHA;
+use crate::scene::{ConductorFresnel, MaterialKind};
 
 /// Mirrors in all directions of the GGX distribution: f = F·D·G2/(4·cosθo·cosθi) (Walter et al. 2007). What is reflected from one
 /// microfacet to another is lost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Conductor {
     pub fresnel: Fresnel,
-    /// Width of the distribution; below [`SMALLEST_ALPHA`] a perfect mirror.
+    /// Width of the distribution; below [`DELTA_ALPHA`] a perfect mirror.
     pub alpha: f64,
 }
 
@@ -34,13 +37,26 @@ impl Fresnel {
     }
 }
 
-impl Conductor {
-    pub fn is_smooth_surface(&self) -> bool {
-        self.alpha < SMALLEST_ALPHA
+impl Scatter for Conductor {
+    fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
+        let MaterialKind::Conductor { fresnel, alpha } = kind else { return None };
+        let fresnel = match fresnel {
+            ConductorFresnel::Complex { eta, k } => Fresnel::Complex { eta: *eta, k: *k },
+            ConductorFresnel::Reflectance(reflectance) => Fresnel::Schlick(lookup.color(reflectance)),
+        };
+        Some(Self { fresnel, alpha: lookup.scalar(alpha) })
     }
 
-    pub fn evaluate(&self, view: &View, wi: DVec3) -> Evaluation {
-        if self.is_smooth_surface() || !view.reflects(wi) {
+    fn sampling_weight(&self) -> f64 {
+        self.fresnel.at(1.0).max_element()
+    }
+
+    fn is_delta(&self) -> bool {
+        self.alpha < DELTA_ALPHA
+    }
+
+    fn evaluate(&self, view: &View, wi: DVec3) -> Evaluation {
+        if self.is_delta() || !view.reflects(wi) {
             return Evaluation::default();
         }
         let ggx = Ggx { alpha: self.alpha };
@@ -52,9 +68,9 @@ impl Conductor {
     }
 
     /// With the density of visible normals, G1·D·(wo·m)/cosθo, over the Jacobian 4·(wo·m) of the reflection, F·G2/G1 is left.
-    pub fn sample(&self, view: &View, u1: f64, u2: f64) -> Option<BsdfSample> {
-        if self.is_smooth_surface() {
-            let (wi, weight) = (reflect(view), self.fresnel.at(view.wo.dot(view.normal())));
+    fn sample(&self, view: &View, _u_lobe: f64, u1: f64, u2: f64) -> Option<BsdfSample> {
+        if self.is_delta() {
+            let (wi, weight) = (view.mirrored(), self.fresnel.at(view.wo.dot(view.normal())));
             return view.reflects(wi).then_some(BsdfSample { weight, ..BsdfSample::reflected(wi, Density::Delta) });
         }
         let ggx = Ggx { alpha: self.alpha };
@@ -64,7 +80,7 @@ impl Conductor {
         let local = m * (2.0 * cosine) - wo;
         let wi = view.frame.to_world(local).normalize();
         let weight = self.fresnel.at(cosine) * (ggx.shadowing_masking(wo, local) / ggx.masking(wo));
-        let density = Density::Smooth(ggx.distribution(m) * ggx.masking(wo) / (4.0 * wo.z));
+        let density = Density::SolidAngle(ggx.distribution(m) * ggx.masking(wo) / (4.0 * wo.z));
         view.reflects(wi).then_some(BsdfSample { weight, ..BsdfSample::reflected(wi, density) })
     }
 }

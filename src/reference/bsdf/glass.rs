@@ -2,56 +2,36 @@
 
 use glam::DVec3;
 
-use super::mirror::reflect;
-use super::{BsdfSample, Density, View, dielectric_reflectance, refract};
+use super::dielectric::Dielectric;
+use super::lookup::Lookup;
+use super::scatter::{BsdfSample, Evaluation, Scatter};
+use super::view::View;
+use crate::scene::MaterialKind;
 
-/// A dielectric's boundary, smooth or not, and how it is tinted.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Dielectric {
-    /// Index of refraction inside over outside.
-    pub ior: f64,
-    pub reflectance: DVec3,
-    pub transmittance: DVec3,
+pub struct Glass {
+    pub dielectric: Dielectric,
 }
 
-/// How light divides at a dielectric boundary.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Split {
-    /// Reflected share, before tints.
-    pub fresnel: f64,
-    /// Probability of sampling the reflection.
-    pub choose_reflection: f64,
-}
-
-impl Dielectric {
-    /// Index of refraction on the far side over that on wo's side.
-    pub fn eta(&self, view: &View) -> f64 {
-        if view.front { self.ior } else { 1.0 / self.ior }
+impl Scatter for Glass {
+    fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
+        let MaterialKind::Glass { ior, reflectance, transmittance } = kind else { return None };
+        Some(Self { dielectric: Dielectric::new(*ior, reflectance, transmittance, lookup) })
     }
 
-    /// Chooses reflection with a probability P in proportion to the light each direction carries, Fresnel's F for equal tints:
-    /// P = F·max ρ / (F·max ρ + (1−F)·max τ). None where neither carries any. `cosine` is that of wo with the facet's normal.
-    pub fn split(&self, cosine: f64, eta: f64) -> Option<Split> {
-        let fresnel = dielectric_reflectance(cosine, eta);
-        let reflected = fresnel * self.reflectance.max_element();
-        let transmitted = (1.0 - fresnel) * self.transmittance.max_element();
-        let sum = reflected + transmitted;
-        (sum > 0.0).then(|| Split { fresnel, choose_reflection: reflected / sum })
+    fn sampling_weight(&self) -> f64 {
+        self.dielectric.sampling_weight()
     }
 
-    /// Reflection has weight Fρ/P; refraction (1−F)τ/(1−P), over eta² because light that enters the denser side is squeezed into a
-    /// smaller cone (Veach 1997, section 5.2).
-    pub fn sample_smooth(&self, view: &View, u_lobe: f64) -> Option<BsdfSample> {
-        let eta = self.eta(view);
-        let Split { fresnel, choose_reflection } = self.split(view.wo.dot(view.normal()), eta)?;
-        if u_lobe < choose_reflection {
-            let wi = reflect(view);
-            let weight = self.reflectance * (fresnel / choose_reflection);
-            return view.reflects(wi).then_some(BsdfSample { weight, ..BsdfSample::reflected(wi, Density::Delta) });
-        }
-        let wi = refract(view.wo, view.normal(), eta)?;
-        let weight = self.transmittance * ((1.0 - fresnel) / (1.0 - choose_reflection) / (eta * eta));
-        // An interpolated normal may refract to the side the light came from, where there is nothing to enter.
-        view.transmits(wi).then_some(BsdfSample { wi, weight, density: Density::Delta, eta, passes: false })
+    fn is_delta(&self) -> bool {
+        true
+    }
+
+    fn evaluate(&self, _view: &View, _wi: DVec3) -> Evaluation {
+        Evaluation::default()
+    }
+
+    fn sample(&self, view: &View, u_lobe: f64, _u1: f64, _u2: f64) -> Option<BsdfSample> {
+        self.dielectric.sample_delta(view, u_lobe)
     }
 }

@@ -18,10 +18,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-/// Below this width a lobe is narrower than rounding allows, and the surface counts as smooth.
-pub const SMALLEST_ALPHA: f64 = 1e-4;
-
-/// Microfacets of width `alpha`, at least [`SMALLEST_ALPHA`].
+/// Microfacets of width `alpha`, at least [`crate::scene::material::DELTA_ALPHA`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ggx {
     pub alpha: f64,

@@ -2,22 +2,36 @@
 
 use glam::DVec3;
 
-use super::{BsdfSample, Density, View};
+use super::lookup::Lookup;
+use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
+use super::view::View;
+use crate::scene::MaterialKind;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mirror {
     pub reflectance: DVec3,
 }
 
-impl Mirror {
-    pub fn sample(&self, view: &View) -> Option<BsdfSample> {
-        let wi = reflect(view);
+impl Scatter for Mirror {
+    fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
+        let MaterialKind::Mirror { reflectance } = kind else { return None };
+        Some(Self { reflectance: lookup.color(reflectance) })
+    }
+
+    fn sampling_weight(&self) -> f64 {
+        self.reflectance.max_element()
+    }
+
+    fn is_delta(&self) -> bool {
+        true
+    }
+
+    fn evaluate(&self, _view: &View, _wi: DVec3) -> Evaluation {
+        Evaluation::default()
+    }
+
+    fn sample(&self, view: &View, _u_lobe: f64, _u1: f64, _u2: f64) -> Option<BsdfSample> {
+        let wi = view.mirrored();
         view.reflects(wi).then_some(BsdfSample { weight: self.reflectance, ..BsdfSample::reflected(wi, Density::Delta) })
     }
-}
-
-/// wo mirrored about the shading normal.
-pub fn reflect(view: &View) -> DVec3 {
-    let normal = view.normal();
-    (normal * (2.0 * view.wo.dot(normal)) - view.wo).normalize()
 }

@@ -2,9 +2,12 @@
 
 use glam::DVec3;
 
+use super::blend;
 use super::diffuse::Diffuse;
 use super::lobe::Lobe;
-use super::{BsdfSample, Density, Evaluation, Lookup, View, blend};
+use super::lookup::Lookup;
+use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
+use super::view::View;
 use crate::reference::intersect::Surface;
 use crate::scene::{BlendMode, Material, MaterialId, Scene};
 
@@ -13,10 +16,10 @@ const LARGEST_LOBE_NUMBER: f64 = 1.0 - 1.0 / 16_777_216.0;
 
 /// The scattering at one hit: the lobes of all materials that the surface blends, parameters looked up, seen from one direction.
 ///
-/// f = Σ wᵢ fᵢ. Sampling chooses lobe i with probability Pᵢ ∝ wᵢ·sᵢ, sᵢ being `Lobe::sampling_weight`, and lets it draw wi. A
-/// delta lobe is the only one to find its wi, so its sample counts wᵢ fᵢ|cosθ| / (Pᵢ pdfᵢ). A smooth lobe's wi can be drawn by every
-/// other smooth lobe too: its density is Σ Pⱼ pdfⱼ over all of them, and the sample counts Σ wⱼ fⱼ|cosθ| over that density. So a
-/// choice among smooth lobes adds no noise of its own beyond how well the densities fit, and two that are alike are as one.
+/// f = Σ wᵢ fᵢ. Sampling chooses lobe i with probability Pᵢ ∝ wᵢ·sᵢ, sᵢ being [`Scatter::sampling_weight`], and lets it draw wi. A
+/// delta lobe is the only one to find its wi, so its sample counts wᵢ fᵢ|cosθ| / (Pᵢ pdfᵢ). Another lobe's wi can be drawn by every
+/// other non-delta lobe too: its density is Σ Pⱼ pdfⱼ over all of them, and the sample counts Σ wⱼ fⱼ|cosθ| over that density. So a
+/// choice among non-delta lobes adds no noise of its own beyond how well the densities fit, and two that are alike are as one.
 ///
 /// With [`BlendMode::Pick`] one material is chosen by its weight before anything else, and is then the surface's only one.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,12 +71,12 @@ impl Bsdf {
         let lookup = Lookup::new(scene, surface, &view);
         let material = surface.owner.material;
         if scene.render.blend == BlendMode::Pick {
-            let picked = pick(&lookup, material, u_blend).and_then(|leaf| Lobe::new(&leaf.kind, &lookup));
+            let picked = pick(&lookup, material, u_blend).and_then(|part| Lobe::of(&part.kind, &lookup));
             return Self::mixture(view, picked.map(|lobe| (lobe, 1.0)));
         }
-        let mut lobes = Leaves::default();
+        let mut lobes = Collected::default();
         blend::for_each_part(&lookup, material, |part, weight| {
-            if let Some(lobe) = Lobe::new(&part.kind, &lookup) {
+            if let Some(lobe) = Lobe::of(&part.kind, &lookup) {
                 lobes.push(lobe, weight);
             }
         });
@@ -81,18 +84,18 @@ impl Bsdf {
     }
 
     /// A surface of the given lobes, each with its weight.
-    pub(super) fn mixture(view: View, leaves: impl IntoIterator<Item = (Lobe, f64)>) -> Self {
-        let mut lobes = Leaves::default();
-        leaves.into_iter().for_each(|(lobe, weight)| lobes.push(lobe, weight));
-        Self { view, lobes: lobes.finish() }
+    pub(super) fn mixture(view: View, lobes: impl IntoIterator<Item = (Lobe, f64)>) -> Self {
+        let mut collected = Collected::default();
+        lobes.into_iter().for_each(|(lobe, weight)| collected.push(lobe, weight));
+        Self { view, lobes: collected.finish() }
     }
 
     /// Whether light sampling can contribute.
-    pub fn has_smooth_lobe(&self) -> bool {
+    pub fn has_non_delta_lobe(&self) -> bool {
         self.lobes.iter().any(|weighted| !weighted.lobe.is_delta())
     }
 
-    /// The smooth lobes' f·|cosθi| and density.
+    /// The non-delta lobes' f·|cosθi| and density.
     pub fn evaluate(&self, wi: DVec3) -> Evaluation {
         let mut sum = Evaluation::default();
         for weighted in self.lobes.iter() {
@@ -112,9 +115,9 @@ impl Bsdf {
         }
         match sample.density {
             Density::Delta => Some(BsdfSample { weight: sample.weight * (chosen.weight / chosen.probability), ..sample }),
-            Density::Smooth(_) => {
+            Density::SolidAngle(_) => {
                 let Evaluation { value, pdf } = self.evaluate(sample.wi);
-                (pdf > 0.0).then(|| BsdfSample { weight: value / pdf, density: Density::Smooth(pdf), ..sample })
+                (pdf > 0.0).then(|| BsdfSample { weight: value / pdf, density: Density::SolidAngle(pdf), ..sample })
             }
         }
     }
@@ -140,12 +143,12 @@ impl Bsdf {
 /// Lobes being collected. The diffuse ones become one, of the weighted mean reflectance, and the first: a blend of Lambert surfaces
 /// is a Lambert surface.
 #[derive(Default)]
-struct Leaves {
+struct Collected {
     diffuse: Option<DVec3>,
     others: Lobes,
 }
 
-impl Leaves {
+impl Collected {
     fn push(&mut self, lobe: Lobe, weight: f64) {
         match lobe {
             Lobe::Diffuse(Diffuse { reflectance }) => {
@@ -165,7 +168,7 @@ impl Leaves {
     }
 }
 
-/// The leaf whose part of [0, 1), as long as its weight, holds `u`.
+/// The part whose share of [0, 1), as long as its weight, holds `u`.
 fn pick<'a>(lookup: &Lookup<'a>, material: MaterialId, u: f64) -> Option<&'a Material> {
     let (mut before, mut picked) = (0.0, None);
     blend::for_each_part(lookup, material, |part, weight| {

@@ -4,11 +4,13 @@ use std::f64::consts::FRAC_1_PI;
 
 use glam::DVec3;
 
-use super::diffuse::{hemisphere_pdf, sample_hemisphere};
-use super::glossy::{lobe_over_cosine, sample_about};
-use super::mirror::reflect;
-use super::{BsdfSample, Density, Evaluation, View};
+use super::cosine_power::{lobe_over_cosine, sample_about};
+use super::hemisphere::{hemisphere_pdf, sample_hemisphere};
+use super::lookup::Lookup;
+use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
+use super::view::View;
 use crate::reference::warp;
+use crate::scene::MaterialKind;
 
 /// f = kd/π + ks (n+2)/(2π) cosⁿα, α the angle with the mirror direction (Lafortune and Willems 1994).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,25 +27,36 @@ impl Phong {
         let (diffuse, specular) = (self.diffuse.element_sum(), self.specular.element_sum());
         specular / (diffuse + specular)
     }
+}
 
-    pub fn evaluate(&self, view: &View, wi: DVec3) -> Evaluation {
+impl Scatter for Phong {
+    fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
+        let MaterialKind::Phong { diffuse, specular, exponent } = kind else { return None };
+        Some(Self { diffuse: lookup.color(diffuse), specular: lookup.color(specular), exponent: lookup.exponent(exponent) })
+    }
+
+    fn sampling_weight(&self) -> f64 {
+        (self.diffuse + self.specular).max_element()
+    }
+
+    fn evaluate(&self, view: &View, wi: DVec3) -> Evaluation {
         if !view.reflects(wi) {
             return Evaluation::default();
         }
-        let (cos_theta, cos_alpha) = (wi.dot(view.normal()), wi.dot(reflect(view)));
+        let (cos_theta, cos_alpha) = (wi.dot(view.normal()), wi.dot(view.mirrored()));
         let f = self.diffuse * FRAC_1_PI + self.specular * lobe_over_cosine(self.exponent, cos_alpha);
         let share = self.specular_share();
         let pdf = share * warp::phong_lobe_pdf(self.exponent, cos_alpha) + (1.0 - share) * hemisphere_pdf(view, cos_theta);
         Evaluation { value: f * cos_theta, pdf }
     }
 
-    pub fn sample(&self, view: &View, u_lobe: f64, u1: f64, u2: f64) -> Option<BsdfSample> {
+    fn sample(&self, view: &View, u_lobe: f64, u1: f64, u2: f64) -> Option<BsdfSample> {
         let wi = if u_lobe < self.specular_share() {
-            sample_about(reflect(view), self.exponent, u1, u2).0
+            sample_about(view.mirrored(), self.exponent, u1, u2).0
         } else {
             view.frame.to_world(sample_hemisphere(view, u1, u2))
         };
         let Evaluation { value, pdf } = self.evaluate(view, wi);
-        (pdf > 0.0).then_some(BsdfSample { weight: value / pdf, ..BsdfSample::reflected(wi, Density::Smooth(pdf)) })
+        (pdf > 0.0).then_some(BsdfSample { weight: value / pdf, ..BsdfSample::reflected(wi, Density::SolidAngle(pdf)) })
     }
 }

@@ -2,9 +2,14 @@
 
 use glam::DVec3;
 
-use super::glass::{Dielectric, Split};
+use super::dielectric::{Dielectric, Split};
 use super::microfacet::Ggx;
-use super::{BsdfSample, Density, Evaluation, View, refract};
+use super::fresnel::refract;
+use super::lookup::Lookup;
+use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
+use super::view::View;
+use crate::scene::material::{DELTA_ALPHA, SMALLEST_BEND};
+use crate::scene::{MaterialKind, MicrofacetDistribution};
 
 /// Every microfacet m reflects and refracts as smooth glass does. With η the index of refraction on wi's side over that on wo's,
 /// and all directions in the frame of the shading normal on wo's side:
@@ -23,19 +28,6 @@ pub struct RoughGlass {
 }
 
 impl RoughGlass {
-    pub fn evaluate(&self, view: &View, wi: DVec3) -> Evaluation {
-        let (wo, local) = (view.frame.to_local(view.wo), view.frame.to_local(wi));
-        let eta = self.dielectric.eta(view);
-        let evaluated = if view.reflects(wi) {
-            self.evaluate_reflection(wo, local, eta)
-        } else if view.transmits(wi) {
-            self.evaluate_transmission(wo, local, eta)
-        } else {
-            None
-        };
-        evaluated.unwrap_or_default()
-    }
-
     fn evaluate_reflection(&self, wo: DVec3, wi: DVec3, eta: f64) -> Option<Evaluation> {
         let m = (wo + wi).normalize();
         let Split { fresnel, choose_reflection } = self.dielectric.split(wo.dot(m), eta)?;
@@ -58,10 +50,49 @@ impl RoughGlass {
         let value = self.dielectric.transmittance * ((1.0 - fresnel) * common * self.ggx.shadowing_masking(wo, wi));
         Some(Evaluation { value, pdf: (1.0 - choose_reflection) * common * self.ggx.masking(wo) * eta * eta })
     }
+}
+
+impl Scatter for RoughGlass {
+    fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
+        let MaterialKind::RoughGlass { ior, alpha, distribution: MicrofacetDistribution::Ggx, reflectance, transmittance } = kind
+        else {
+            return None;
+        };
+        let dielectric = Dielectric::new(*ior, reflectance, transmittance, lookup);
+        Some(Self { dielectric, ggx: Ggx { alpha: lookup.scalar(alpha) } })
+    }
+
+    fn sampling_weight(&self) -> f64 {
+        self.dielectric.sampling_weight()
+    }
+
+    /// Where it is smooth, or hardly bends light.
+    fn is_delta(&self) -> bool {
+        self.ggx.alpha < DELTA_ALPHA || (self.dielectric.ior - 1.0).abs() < SMALLEST_BEND
+    }
+
+    fn evaluate(&self, view: &View, wi: DVec3) -> Evaluation {
+        if self.is_delta() {
+            return Evaluation::default();
+        }
+        let (wo, local) = (view.frame.to_local(view.wo), view.frame.to_local(wi));
+        let eta = self.dielectric.eta(view);
+        let evaluated = if view.reflects(wi) {
+            self.evaluate_reflection(wo, local, eta)
+        } else if view.transmits(wi) {
+            self.evaluate_transmission(wo, local, eta)
+        } else {
+            None
+        };
+        evaluated.unwrap_or_default()
+    }
 
     /// Value over density leaves F·ρ·G2/(G1·P) for the reflection and (1−F)·τ·G2/(G1·(1−P)·η²) for the transmission. What a facet
     /// sends to the wrong side of the surface is lost.
-    pub fn sample(&self, view: &View, u_lobe: f64, u1: f64, u2: f64) -> Option<BsdfSample> {
+    fn sample(&self, view: &View, u_lobe: f64, u1: f64, u2: f64) -> Option<BsdfSample> {
+        if self.is_delta() {
+            return self.dielectric.sample_delta(view, u_lobe);
+        }
         let wo = view.frame.to_local(view.wo);
         let eta = self.dielectric.eta(view);
         let m = self.ggx.sample_visible(wo, u1, u2);
@@ -73,7 +104,7 @@ impl RoughGlass {
             let local = m * (2.0 * cos_o) - wo;
             let wi = view.frame.to_world(local).normalize();
             let weight = self.dielectric.reflectance * (fresnel / choose_reflection * shadowing(local));
-            let density = Density::Smooth(choose_reflection * facet_pdf / (4.0 * cos_o));
+            let density = Density::SolidAngle(choose_reflection * facet_pdf / (4.0 * cos_o));
             return view.reflects(wi).then_some(BsdfSample { weight, ..BsdfSample::reflected(wi, density) });
         }
         let local = refract(wo, m, eta)?;
@@ -81,8 +112,8 @@ impl RoughGlass {
         let cos_i = local.dot(m);
         let weight = (1.0 - fresnel) / (1.0 - choose_reflection) * shadowing(local) / (eta * eta);
         let jacobian = eta * eta * -cos_i / (cos_o + eta * cos_i).powi(2);
-        let density = Density::Smooth((1.0 - choose_reflection) * facet_pdf * jacobian);
+        let density = Density::SolidAngle((1.0 - choose_reflection) * facet_pdf * jacobian);
         let weight = self.dielectric.transmittance * weight;
-        view.transmits(wi).then_some(BsdfSample { wi, weight, density, eta, passes: false })
+        view.transmits(wi).then_some(BsdfSample { wi, weight, density, eta, is_null: false })
     }
 }

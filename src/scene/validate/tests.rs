@@ -6,8 +6,8 @@ use super::*;
 use crate::reference::ReferenceRenderer;
 use crate::renderer::RenderError;
 use crate::scene::{
-    Aperture, DirectionalLight, Emission, ImageData, ImageTexture, Motion, MotionStep, PointLight, SpotLight, Texture,
-    TextureFilter, TextureWrap, Transform, TransformStep,
+    Aperture, ConductorFresnel, DirectionalLight, Emission, ImageData, ImageTexture, Motion, MotionStep, PointLight, SpotLight,
+    Texture, TextureFilter, TextureWrap, Transform, TransformStep,
 };
 
 fn material(name: &str, kind: MaterialKind) -> Material {
@@ -170,7 +170,7 @@ fn each_mistake_is_named_with_its_part() {
                 let fresnel = ConductorFresnel::Complex { eta: DVec3::NAN, k: DVec3::ONE };
                 s.materials[3].kind = MaterialKind::Conductor { fresnel, alpha: ColorInput::grey(0.1) };
             },
-            "material `metal`: the complex index of refraction",
+            "material `metal`: a colour, or a complex index of refraction",
         ),
         (
             |s| s.materials[4].kind = MaterialKind::Blend { materials: [0, 5], weight: BlendWeight::Constant { value: 0.5 } },

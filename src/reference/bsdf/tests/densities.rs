@@ -10,28 +10,28 @@ const TILTED: &str = "tilted";
 /// From in front, at grazing angles, from behind.
 const ANGLES: [f64; 4] = [8.0, 50.0, 84.0, 130.0];
 
-fn smooth_part(bsdf: &Bsdf, [u1, u2, u_lobe]: [f64; 3]) -> Option<DVec3> {
+fn non_delta_part(bsdf: &Bsdf, [u1, u2, u_lobe]: [f64; 3]) -> Option<DVec3> {
     let sample = bsdf.sample(u_lobe, u1, u2)?;
-    matches!(sample.density, Density::Smooth(_)).then_some(sample.wi)
+    matches!(sample.density, Density::SolidAngle(_)).then_some(sample.wi)
 }
 
 /// Bins about the mirror direction, fine close to it: that is where the narrow lobes are.
 fn follow(bsdf: &Bsdf, seed: u64, samples: u64) -> DirectionalReport {
     let edges: Vec<f64> = (1..16).map(|i| 1.0 - 2.0 * (1.0 - f64::from(i) / 16.0).powi(2)).collect();
-    let bins = SphereBins::with_cosine_edges(super::mirror::reflect(&bsdf.view), &edges, 10);
-    test_directional_sampler(&bins, samples, seed, |u| smooth_part(bsdf, u), |wi| bsdf.evaluate(wi).pdf)
+    let bins = SphereBins::with_cosine_edges(bsdf.view.mirrored(), &edges, 10);
+    test_directional_sampler(&bins, samples, seed, |u| non_delta_part(bsdf, u), |wi| bsdf.evaluate(wi).pdf)
 }
 
 fn surfaces() -> Vec<(String, Bsdf)> {
-    let lobes = smooth_lobes().into_iter().map(|(name, lobe)| (name, vec![(lobe, 1.0)]));
+    let single = non_delta_lobes().into_iter().map(|(name, lobe)| (name, vec![(lobe, 1.0)]));
     let mixtures = mixtures().into_iter().filter(|(name, _)| *name != "mirror and glass");
-    let cases: Vec<_> = lobes.chain(mixtures).collect();
+    let cases: Vec<_> = single.chain(mixtures).collect();
     let mut surfaces = Vec::new();
-    for (name, leaves) in &cases {
+    for (name, lobes) in &cases {
         for degrees in ANGLES {
-            surfaces.push((format!("{name} at {degrees}"), Bsdf::mixture(view(degrees, 0.0), leaves.clone())));
+            surfaces.push((format!("{name} at {degrees}"), Bsdf::mixture(view(degrees, 0.0), lobes.clone())));
         }
-        surfaces.push((format!("{name}, {TILTED}"), Bsdf::mixture(view(40.0, 25.0), leaves.clone())));
+        surfaces.push((format!("{name}, {TILTED}"), Bsdf::mixture(view(40.0, 25.0), lobes.clone())));
     }
     surfaces
 }
@@ -52,7 +52,7 @@ fn samples_follow_their_densities() {
 /// With a million samples, at one angle of each.
 #[test]
 fn a_million_samples_follow_their_densities() {
-    let cases = smooth_lobes();
+    let cases = non_delta_lobes();
     let level = sidak(0.01, cases.len());
     for (seed, (name, lobe)) in (100..).zip(cases) {
         let report = follow(&single(lobe, view(35.0, 0.0)), seed << 32, 1_000_000);
@@ -63,11 +63,11 @@ fn a_million_samples_follow_their_densities() {
 /// A density that leans by a hundredth to one side is found out, for a lobe and for a mixture.
 #[test]
 fn wrong_densities_are_rejected() {
-    for leaves in [vec![(diffuse(orange()), 1.0)], vec![(diffuse(orange()), 0.5), (mirror(1.0), 0.5)]] {
-        let bsdf = Bsdf::mixture(view(35.0, 0.0), leaves);
+    for lobes in [vec![(diffuse(orange()), 1.0)], vec![(diffuse(orange()), 0.5), (mirror(1.0), 0.5)]] {
+        let bsdf = Bsdf::mixture(view(35.0, 0.0), lobes);
         let bins = SphereBins::uniform(DVec3::Z, 16, 12);
         let leaning = |wi: DVec3| (1.0 + 0.02 * wi.x.signum()) * bsdf.evaluate(wi).pdf;
-        let report = test_directional_sampler(&bins, 1_000_000, 0, |u| smooth_part(&bsdf, u), leaning);
+        let report = test_directional_sampler(&bins, 1_000_000, 0, |u| non_delta_part(&bsdf, u), leaning);
         assert!(!report.passes(1e-6), "{report:?}");
     }
 }
@@ -125,7 +125,7 @@ fn sampled_weights_are_value_over_density() {
         let mut compared = 0;
         for [u1, u2, u_lobe] in cube_points(500, 3) {
             let Some(sample) = bsdf.sample(u_lobe, u1, u2) else { continue };
-            let Density::Smooth(pdf) = sample.density else { continue };
+            let Density::SolidAngle(pdf) = sample.density else { continue };
             let Evaluation { value, pdf: evaluated } = bsdf.evaluate(sample.wi);
             compared += 1;
             assert!((pdf / evaluated - 1.0).abs() < 1e-7, "{name}: {sample:?} {evaluated}");
@@ -136,15 +136,15 @@ fn sampled_weights_are_value_over_density() {
     }
 }
 
-/// The density of a mixture is the mean of its smooth lobes' by Pᵢ ∝ wᵢ·sᵢ, its value their sum by wᵢ.
+/// The density of a mixture is the mean of its non-delta lobes' by Pᵢ ∝ wᵢ·sᵢ, its value their sum by wᵢ.
 #[test]
 fn mixtures_are_the_sums_of_their_lobes() {
-    for (name, leaves) in mixtures() {
+    for (name, lobes) in mixtures() {
         for degrees in ANGLES {
             let view = view(degrees, 10.0);
-            let mixture = Bsdf::mixture(view, leaves.clone());
-            // The diffuse leaves are one lobe, whose weight is the largest component of their sum.
-            let together: DVec3 = leaves
+            let mixture = Bsdf::mixture(view, lobes.clone());
+            // The diffuse lobes are one lobe, whose weight is the largest component of their sum.
+            let together: DVec3 = lobes
                 .iter()
                 .map(|(lobe, weight)| if let Lobe::Diffuse(d) = lobe { d.reflectance * *weight } else { DVec3::ZERO })
                 .sum();
@@ -152,11 +152,11 @@ fn mixtures_are_the_sums_of_their_lobes() {
                 Lobe::Diffuse(_) => 0.0,
                 _ => weight * lobe.sampling_weight(),
             };
-            let total = together.max_element() + leaves.iter().map(|(lobe, weight)| share(lobe, *weight)).sum::<f64>();
+            let total = together.max_element() + lobes.iter().map(|(lobe, weight)| share(lobe, *weight)).sum::<f64>();
             for [u, v, _] in cube_points(200, 5) {
                 let wi = crate::reference::warp::uniform_sphere(u, v);
                 let mut expected = Evaluation::default();
-                for (lobe, weight) in &leaves {
+                for (lobe, weight) in &lobes {
                     let one = lobe.evaluate(&view, wi);
                     expected.value += one.value * *weight;
                     expected.pdf += one.pdf * share(lobe, *weight) / total;
@@ -181,7 +181,8 @@ fn uniform_hemispheres_have_their_own_density_and_the_same_reflectance() {
         assert!(report.passes(sidak(0.01, 3)), "{report:?}");
         // Samples of the one do not follow the density of the other.
         let bins = SphereBins::with_cosine_edges(cosine.view.normal(), &[0.2, 0.4, 0.6, 0.8], 4);
-        let mixed_up = test_directional_sampler(&bins, 200_000, seed, |u| smooth_part(&uniform, u), |wi| cosine.evaluate(wi).pdf);
+        let mixed_up =
+            test_directional_sampler(&bins, 200_000, seed, |u| non_delta_part(&uniform, u), |wi| cosine.evaluate(wi).pdf);
         assert!(!mixed_up.passes(1e-6), "{mixed_up:?}");
         let side = 128;
         let mean = |bsdf: &Bsdf| {

@@ -6,10 +6,10 @@ use crate::scene::{MaterialKind, MicrofacetDistribution};
 /// Reflected and transmitted power sum to 1 for clear glass and to the tints for tinted glass.
 #[test]
 fn glass_keeps_the_energy() {
-    for glass in [clear(1.5), clear(0.7), tinted(1.5)] {
+    for boundary in [clear(1.5), clear(0.7), tinted(1.5)] {
         for degrees in [0.0, 30.0, 41.7, 41.9, 60.0, 85.0, 100.0, 139.0, 150.0, 180.0] {
-            let bsdf = single(Lobe::Glass(glass), view(degrees, 0.0));
-            let eta = if degrees < 90.0 { glass.ior } else { 1.0 / glass.ior };
+            let bsdf = single(glass(boundary), view(degrees, 0.0));
+            let eta = if degrees < 90.0 { boundary.ior } else { 1.0 / boundary.ior };
             let fresnel = dielectric_reflectance(bsdf.view.wo.z.abs(), eta);
             // The lobe is chosen by one number, so a fine grid of it gives the mean.
             let n = 20_000;
@@ -18,8 +18,8 @@ fn glass_keeps_the_energy() {
                 .map(|sample| sample.weight * sample.eta * sample.eta)
                 .sum::<DVec3>()
                 / f64::from(n);
-            let expected = glass.reflectance * fresnel + glass.transmittance * (1.0 - fresnel);
-            assert!((mean - expected).length() < 1e-3, "{glass:?} at {degrees}: {mean} {expected}");
+            let expected = boundary.reflectance * fresnel + boundary.transmittance * (1.0 - fresnel);
+            assert!((mean - expected).length() < 1e-3, "{boundary:?} at {degrees}: {mean} {expected}");
         }
     }
 }
@@ -43,7 +43,7 @@ fn narrow_rough_glass_keeps_the_energy() {
 #[test]
 fn total_reflection_leaves_nothing_to_transmit() {
     let black_mirror = Dielectric { reflectance: DVec3::ZERO, ..clear(1.5) };
-    for lobe in [Lobe::Glass(black_mirror), phong_glass(black_mirror, 30.0)] {
+    for lobe in [glass(black_mirror), phong_glass(black_mirror, 30.0)] {
         let bsdf = single(lobe, view(120.0, 0.0));
         assert!(cube_points(100, 2).all(|[u1, u2, u]| bsdf.sample(u, u1, u2).is_none()));
     }
@@ -65,7 +65,7 @@ fn rough_glass_of_ior_one_is_not_there() {
     };
     let scene = Scene::default();
     let lookup = Lookup { scene: &scene, uv: DVec2::ZERO, cosine: 1.0 };
-    let lobe = Lobe::new(&kind, &lookup).expect("glass scatters");
+    let lobe = Lobe::of(&kind, &lookup).expect("glass scatters");
     let view = view(50.0, 0.0);
     let sample = single(lobe, view).sample(0.3, 0.2, 0.9).expect("light goes on");
     assert!((sample.wi + view.wo).length() < 1e-12 && (sample.weight - DVec3::ONE).length() < 1e-12);

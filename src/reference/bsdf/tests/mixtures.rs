@@ -79,7 +79,7 @@ fn a_blend_with_one_part_is_that_part() {
 }
 
 #[test]
-fn diffuse_leaves_are_one_lobe_of_the_mean() {
+fn diffuse_lobes_are_one_lobe_of_the_mean() {
     let mean = 0.25 * 0.8 + 0.75 * (0.5 * 0.4 + 0.5 * 0.1);
     let kinds = vec![grey(0.8), grey(0.4), grey(0.1), blend(1, 2, 0.5), blend(0, 3, 0.25)];
     let blended = samples(&bsdf(&scene(kinds, BlendMode::Mixture), 0.5));
@@ -108,7 +108,7 @@ fn lobes_are_chosen_in_order_by_weight_times_reflectance() {
         let sample = blended.sample(u, 0.3, 0.6).expect("all three scatter");
         if u < first {
             assert!(sample.density != Density::Delta);
-            // Diffuse alone is smooth: its value over its share of the density.
+            // Diffuse alone is no delta lobe: its value over its share of the density.
             assert!((sample.weight.x - 0.25 * 0.6 / first).abs() < 1e-12);
         } else if u < second {
             assert!((sample.wi - reflected).length() < 1e-12 && sample.density == Density::Delta);
@@ -152,7 +152,7 @@ fn parts_that_scatter_nothing_take_no_samples() {
         vec![mirror_kind(0.0), grey(0.0), blend(0, 1, 0.5)],
     ] {
         let black = bsdf(&scene(kinds, BlendMode::Mixture), 0.5);
-        assert!(black.sample(0.5, 0.5, 0.5).is_none() && !black.has_smooth_lobe());
+        assert!(black.sample(0.5, 0.5, 0.5).is_none() && !black.has_non_delta_lobe());
     }
     let half = bsdf(&scene(vec![grey(0.8), MaterialKind::Emissive, blend(0, 1, 0.5)], BlendMode::Mixture), 0.5);
     assert!(samples(&half).into_iter().all(|sample| sample.is_some_and(|sample| (sample.weight.x - 0.4).abs() < 1e-15)));
@@ -165,7 +165,7 @@ fn a_pass_part_lets_the_ray_go_on() {
     let mut passed = 0;
     for i in 0..1000 {
         let sample = blended.sample((f64::from(i) + 0.5) / 1000.0, 0.2, 0.7).expect("both scatter");
-        if sample.passes {
+        if sample.is_null {
             passed += 1;
             assert_eq!((sample.wi, sample.density, sample.eta), (-blended.view.wo, Density::Delta, 1.0));
             assert!((sample.weight.x - 0.25 / share).abs() < 1e-12);

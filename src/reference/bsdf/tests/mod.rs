@@ -8,19 +8,25 @@ mod fresnel;
 mod mixtures;
 mod views;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::conductor::{Conductor, Fresnel};
+use super::dielectric::Dielectric;
 use super::diffuse::Diffuse;
-use super::glass::Dielectric;
+use super::fresnel::{dielectric_reflectance, refract};
+use super::glass::Glass;
 use super::glossy::Glossy;
 use super::lobe::Lobe;
 use super::microfacet::Ggx;
 use super::mirror::Mirror;
+use super::null::Null;
 use super::phong::Phong;
 use super::phong_glass::PhongGlass;
 use super::rough_glass::RoughGlass;
+use super::scatter::{Evaluation, Scatter};
 use super::*;
+use crate::reference::intersect::Surface;
+use crate::scene::{ColorInput, HemisphereSampling, Scene};
 
 /// A unit vector at an angle from +z, in degrees.
 fn at_degrees(theta: f64, phi: f64) -> DVec3 {
@@ -76,6 +82,10 @@ fn tinted(ior: f64) -> Dielectric {
     Dielectric { ior, reflectance: DVec3::new(0.9, 0.2, 0.0), transmittance: DVec3::new(0.1, 0.8, 0.5) }
 }
 
+fn glass(dielectric: Dielectric) -> Lobe {
+    Lobe::Glass(Glass { dielectric })
+}
+
 fn rough_glass(dielectric: Dielectric, alpha: f64) -> Lobe {
     Lobe::RoughGlass(RoughGlass { dielectric, ggx: Ggx { alpha } })
 }
@@ -84,8 +94,8 @@ fn phong_glass(dielectric: Dielectric, exponent: f64) -> Lobe {
     Lobe::PhongGlass(PhongGlass { dielectric, exponent })
 }
 
-/// Every smooth lobe, narrow and wide.
-fn smooth_lobes() -> Vec<(&'static str, Lobe)> {
+/// Every lobe that is no delta, narrow and wide.
+fn non_delta_lobes() -> Vec<(&'static str, Lobe)> {
     vec![
         ("diffuse", diffuse(orange())),
         ("glossy 3", glossy(3.0)),
@@ -101,16 +111,16 @@ fn smooth_lobes() -> Vec<(&'static str, Lobe)> {
 
 /// Lobes that reflect and transmit in single directions.
 fn delta_lobes() -> Vec<(&'static str, Lobe)> {
-    vec![("mirror", mirror(0.8)), ("glass", Lobe::Glass(tinted(1.5))), ("smooth gold", gold(0.0)), ("pass", Lobe::Pass)]
+    vec![("mirror", mirror(0.8)), ("glass", glass(tinted(1.5))), ("smooth gold", gold(0.0)), ("pass", Lobe::Null(Null))]
 }
 
-/// Weighted lobes: smooth with smooth, smooth with delta, delta with delta, and what nested blends come to.
+/// Weighted lobes: non-delta with non-delta, non-delta with delta, delta with delta, and what nested blends come to.
 fn mixtures() -> Vec<(&'static str, Vec<(Lobe, f64)>)> {
     vec![
         ("two diffuse", vec![(diffuse(orange()), 0.3), (diffuse(DVec3::splat(0.2)), 0.7)]),
         ("diffuse and glossy", vec![(diffuse(orange()), 0.6), (glossy(40.0), 0.4)]),
         ("diffuse and mirror", vec![(diffuse(orange()), 0.5), (mirror(1.0), 0.5)]),
-        ("mirror and glass", vec![(mirror(0.9), 0.4), (Lobe::Glass(clear(1.5)), 0.6)]),
+        ("mirror and glass", vec![(mirror(0.9), 0.4), (glass(clear(1.5)), 0.6)]),
         ("gold and rough glass", vec![(gold(0.3), 0.35), (rough_glass(clear(1.5), 0.4), 0.65)]),
         (
             "seven of all kinds",
@@ -118,7 +128,7 @@ fn mixtures() -> Vec<(&'static str, Vec<(Lobe, f64)>)> {
                 (mirror(0.5), 0.1),
                 (diffuse(orange()), 0.2),
                 (phong(0.3, 0.3, 12.0), 0.15),
-                (Lobe::Pass, 0.05),
+                (Lobe::Null(Null), 0.05),
                 (rough_glass(tinted(1.3), 0.5), 0.2),
                 (diffuse(DVec3::splat(0.3)), 0.1),
                 (phong_glass(clear(1.5), 9.0), 0.2),

@@ -1,0 +1,37 @@
+//! Parameters of materials at one hit.
+
+use glam::{DVec2, DVec3};
+
+use super::view::View;
+use crate::reference::intersect::Surface;
+use crate::reference::texture;
+use crate::scene::{ColorInput, Scene};
+
+/// Where a material's parameters and weights are looked up.
+#[derive(Debug, Clone, Copy)]
+pub struct Lookup<'a> {
+    pub scene: &'a Scene,
+    pub uv: DVec2,
+    /// Cosine of the angle between wo and the shading normal, in [0, 1].
+    pub cosine: f64,
+}
+
+impl<'a> Lookup<'a> {
+    pub fn new(scene: &'a Scene, surface: &Surface, view: &View) -> Self {
+        Self { scene, uv: surface.uv, cosine: view.wo.dot(view.normal()).clamp(0.0, 1.0) }
+    }
+
+    pub(super) fn color(&self, input: &ColorInput) -> DVec3 {
+        texture::evaluate(self.scene, input, self.uv)
+    }
+
+    /// A scalar is the first channel of its colour.
+    pub(super) fn scalar(&self, input: &ColorInput) -> f64 {
+        self.color(input).x
+    }
+
+    /// The exponent of a power of a cosine.
+    pub(super) fn exponent(&self, input: &ColorInput) -> f64 {
+        self.scalar(input).max(0.0)
+    }
+}

@@ -1,0 +1,53 @@
+//! What surfaces are made of.
+
+mod blend_weight;
+mod kind;
+
+pub use blend_weight::BlendWeight;
+pub(crate) use kind::for_each_material;
+pub use kind::{
+    COMPLEX_FRESNEL, ConductorFresnel, DELTA_ALPHA, LobeKind, LobeParameters, LobeSupport, MaterialId, MaterialKind,
+    MicrofacetDistribution, SMALLEST_BEND,
+};
+
+use super::texture::{ColorInput, TextureId};
+
+#[derive(Debug, Clone)]
+pub struct Material {
+    pub name: String,
+    pub kind: MaterialKind,
+    /// Tangent-space normals; a texture whose colour space is linear.
+    pub normal_map: Option<TextureId>,
+    /// Radiance the surface sends out by itself, whatever it reflects.
+    pub emission: Option<Emission>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Emission {
+    pub radiance: ColorInput,
+    /// Emission leaves the front only, unless this is set.
+    pub two_sided: bool,
+}
+
+impl Material {
+    /// Made of other materials.
+    pub fn is_blend(&self) -> bool {
+        matches!(self.kind, MaterialKind::Blend { .. })
+    }
+
+    /// The two materials of a blend, else none.
+    pub fn parts(&self) -> &[MaterialId] {
+        match &self.kind {
+            MaterialKind::Blend { materials, .. } => materials,
+            _ => &[],
+        }
+    }
+
+    /// The material itself, not those it blends, looks up a texture.
+    pub fn uses_texture(&self) -> bool {
+        let weight = matches!(&self.kind, MaterialKind::Blend { weight, .. } if weight.uses_texture());
+        let of_lobe = self.kind.lobe().is_some_and(|lobe| lobe.inputs().any(|input| input.is_texture()));
+        let of_emission = self.emission.is_some_and(|emission| emission.radiance.is_texture());
+        weight || of_lobe || of_emission || self.normal_map.is_some()
+    }
+}
