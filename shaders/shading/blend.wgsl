@@ -43,7 +43,7 @@ fn weighted_leaf(run: LeafRun, index: u32, cosine: f32, uv: vec2<f32>) -> Weight
 // Σ wᵢ Leᵢ, and what the blend emits by itself.
 fn material_emission(material: u32, cosine: f32, front: bool, uv: vec2<f32>) -> vec3<f32> {
     var radiance = leaf_emission(material, front, uv);
-    if (bitcast<u32>(tables[material * MATERIAL_WORDS + 2u].w) & LEAVES_EMIT) != 0u {
+    if (bitcast<u32>(tables[material * MATERIAL_WORDS + 2u].w) & PARTS_EMIT) != 0u {
         let run = leaf_run(material);
         // Behind the leaves stand the inner blends that emit by themselves.
         let count = run.count + bitcast<u32>(tables[material * MATERIAL_WORDS + 1u].z);

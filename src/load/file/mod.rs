@@ -5,6 +5,7 @@
 
 mod document;
 mod light;
+mod material;
 mod resolve;
 mod resolver;
 mod schema;
@@ -15,6 +16,7 @@ mod wording;
 use std::path::Path;
 
 use document::Document;
+pub use material::examples as material_examples;
 pub use schema::json_schema;
 pub(super) use wording::did_you_mean;
 

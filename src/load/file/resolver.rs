@@ -8,10 +8,10 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::document::Document;
-use super::value::{Located, Vector, vector};
+use super::value::{Colour, Located, Rule, Scalar, Vector, vector};
 use super::wording::did_you_mean;
 use crate::load::SceneError;
-use crate::scene::{ColorSpace, ImageData, MaterialId, Mesh, Scene, TextureId};
+use crate::scene::{ColorInput, ColorSpace, ImageData, MaterialId, Mesh, Scene, TextureId};
 
 /// Images by file and by how their values are read, so that each is decoded once.
 pub type ImageCache = HashMap<(PathBuf, Option<ColorSpace>), Arc<ImageData>>;
@@ -110,5 +110,35 @@ impl<'a> Resolver<'a> {
     pub(super) fn direction(&self, written: &Located<Vector>) -> Result<DVec3, SceneError> {
         let direction = vector(written.value).try_normalize();
         direction.ok_or_else(|| self.error(&written.span, "a direction cannot have length 0"))
+    }
+
+    pub(super) fn colour<R: Rule>(&self, written: &Colour<R>) -> Result<ColorInput, SceneError> {
+        match written {
+            Colour::Constant(colour) => Ok(ColorInput::Constant(colour.0)),
+            Colour::Texture(name) => self.texture_in_range::<R>(name),
+        }
+    }
+
+    /// A texture whose every value is possible where it is used: a reflectance above 1 would make energy.
+    fn texture_in_range<R: Rule>(&self, name: &Located<String>) -> Result<ColorInput, SceneError> {
+        let id = self.texture_id(name)?;
+        let (low, high) = self.scene.textures[id].kind.range();
+        match [low, high].into_iter().find(|&value| !R::accepts(value)) {
+            None => Ok(ColorInput::Texture(id)),
+            Some(found) => {
+                Err(self.error(&name.span, format!("expected {}, found {found} in the texture `{}`", R::WORDS, name.value)))
+            }
+        }
+    }
+
+    pub(super) fn colour_or_white<R: Rule>(&self, written: &Option<Colour<R>>) -> Result<ColorInput, SceneError> {
+        written.as_ref().map_or(Ok(ColorInput::grey(1.0)), |colour| self.colour(colour))
+    }
+
+    pub(super) fn scalar<R: Rule>(&self, written: &Scalar<R>) -> Result<ColorInput, SceneError> {
+        match written {
+            Scalar::Constant(value) => Ok(ColorInput::grey(value.0)),
+            Scalar::Texture(name) => self.texture_in_range::<R>(name),
+        }
     }
 }

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::fresnel::{conductor_reflectance, schlick_reflectance};
-use super::microfacet::Ggx;
 use super::lookup::Lookup;
+use super::microfacet::Ggx;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
 use crate::scene::material::DELTA_ALPHA;

@@ -40,4 +40,4 @@ macro_rules! lobes {
         }
     };
 }
-crate::scene::material::for_each_material!(lobes);
+crate::scene::material::material_table!(lobes);

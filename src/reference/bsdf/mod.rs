@@ -19,7 +19,7 @@ mod view;
 macro_rules! lobe_modules {
     ($($material:ident $type_name:ident { $($lobe:ident $file:ident $number:ident $support:ident)* })*) => { $($(mod $file;)*)* };
 }
-crate::scene::material::for_each_material!(lobe_modules);
+crate::scene::material::material_table!(lobe_modules);
 
 pub use lookup::Lookup;
 pub use mixture::Bsdf;

@@ -40,7 +40,8 @@ impl PhongGlass {
 
 impl Scatter for PhongGlass {
     fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
-        let MaterialKind::RoughGlass { ior, alpha, distribution: MicrofacetDistribution::Phong, reflectance, transmittance } = kind
+        let MaterialKind::RoughGlass { ior, alpha, distribution: MicrofacetDistribution::Phong, reflectance, transmittance } =
+            kind
         else {
             return None;
         };

@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::dielectric::{Dielectric, Split};
-use super::microfacet::Ggx;
 use super::fresnel::refract;
 use super::lookup::Lookup;
+use super::microfacet::Ggx;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
 use crate::scene::material::{DELTA_ALPHA, SMALLEST_BEND};

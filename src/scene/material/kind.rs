@@ -15,8 +15,8 @@ pub type MaterialId = usize;
 /// - the lobes that it scatters by, each with its variant of [`LobeKind`] and type in `reference::bsdf`, the name of its files there
 ///   and in `shaders/shading/bsdf/`, the name of its number and of its switch in shaders, and its [`LobeSupport`].
 ///
-/// `for_each_material!(what)` calls `what!` with all rows. Modules, dispatch and constants elsewhere are made from them.
-macro_rules! for_each_material {
+/// `material_table!(what)` calls `what!` with all rows. Modules, dispatch and constants elsewhere are made from them.
+macro_rules! material_table {
     ($what:ident) => {
         $what! {
             Diffuse diffuse { Diffuse diffuse DIFFUSE Hemisphere }
@@ -32,7 +32,7 @@ macro_rules! for_each_material {
         }
     };
 }
-pub(crate) use for_each_material;
+pub(crate) use material_table;
 
 /// What a surface is made of, with its parameters.
 #[derive(Debug, Clone)]
@@ -216,4 +216,4 @@ macro_rules! kinds {
         }
     };
 }
-for_each_material!(kinds);
+material_table!(kinds);

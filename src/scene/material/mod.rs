@@ -4,7 +4,7 @@ mod blend_weight;
 mod kind;
 
 pub use blend_weight::BlendWeight;
-pub(crate) use kind::for_each_material;
+pub(crate) use kind::material_table;
 pub use kind::{
     COMPLEX_FRESNEL, ConductorFresnel, DELTA_ALPHA, LobeKind, LobeParameters, LobeSupport, MaterialId, MaterialKind,
     MicrofacetDistribution, SMALLEST_BEND,

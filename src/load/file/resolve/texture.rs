@@ -10,10 +10,10 @@ use crate::load::SceneError;
 use crate::load::error::show;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::syntax::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
-use crate::load::file::value::{Checked, Colour, Located, Number, Positive, Rule, Scalar};
+use crate::load::file::value::{Checked, Located, Number, Positive};
 use crate::load::image_file::read_image;
 use crate::scene::validate::MOST_OCTAVES;
-use crate::scene::{ColorInput, ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap};
+use crate::scene::{ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap};
 
 impl Resolver<'_> {
     pub(super) fn textures(&mut self, written: &[TextureEntry]) -> Result<(), SceneError> {
@@ -91,36 +91,6 @@ impl Resolver<'_> {
         let image = Arc::new(read.map_err(|reason| self.error(&file.span, format!("{}: {reason}", show(&key.0))))?);
         self.images.insert(key, image.clone());
         Ok(image)
-    }
-
-    pub(super) fn colour<R: Rule>(&self, written: &Colour<R>) -> Result<ColorInput, SceneError> {
-        match written {
-            Colour::Constant(colour) => Ok(ColorInput::Constant(colour.0)),
-            Colour::Texture(name) => self.texture_in_range::<R>(name),
-        }
-    }
-
-    /// A texture whose every value is possible where it is used: a reflectance above 1 would make energy.
-    fn texture_in_range<R: Rule>(&self, name: &Located<String>) -> Result<ColorInput, SceneError> {
-        let id = self.texture_id(name)?;
-        let (low, high) = self.scene.textures[id].kind.range();
-        match [low, high].into_iter().find(|&value| !R::accepts(value)) {
-            None => Ok(ColorInput::Texture(id)),
-            Some(found) => {
-                Err(self.error(&name.span, format!("expected {}, found {found} in the texture `{}`", R::WORDS, name.value)))
-            }
-        }
-    }
-
-    pub(super) fn colour_or_white<R: Rule>(&self, written: &Option<Colour<R>>) -> Result<ColorInput, SceneError> {
-        written.as_ref().map_or(Ok(ColorInput::grey(1.0)), |colour| self.colour(colour))
-    }
-
-    pub(super) fn scalar<R: Rule>(&self, written: &Scalar<R>) -> Result<ColorInput, SceneError> {
-        match written {
-            Scalar::Constant(value) => Ok(ColorInput::grey(value.0)),
-            Scalar::Texture(name) => self.texture_in_range::<R>(name),
-        }
     }
 }
 

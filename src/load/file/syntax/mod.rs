@@ -4,7 +4,6 @@
 //! enum through a buffer that forgets where things were written; instead [`super::document`] rewrites
 //! `{ type = "mirror", … }` to `{ mirror = { … } }` before reading, which serde reads directly.
 
-mod material;
 mod render;
 mod shape;
 mod texture;
@@ -14,15 +13,12 @@ use std::num::NonZeroU32;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-pub use material::{
-    AlphaKeys, Blend, BlendWeightEntry, CommonMaterial, ConductorMaterial, MaterialEntry, MetalEntry, MicrofacetEntry,
-    RoughGlassMaterial,
-};
 pub use render::RenderTable;
 pub use shape::{BoxShape, MeshShape, RectangleShape, ShapeEntry, StepEntry, TransformEntry};
 pub use texture::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 
 use super::light::LightEntry;
+use super::material::MaterialEntry;
 use super::value::{Checked, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
 
 /// A scene of the path tracer gpt. Lengths in scene units, angles in degrees, colours linear Rec.709, radiance in W·sr⁻¹·m⁻².

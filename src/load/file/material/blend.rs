@@ -1,0 +1,40 @@
+//! `type = "blend"`
+
+use super::blend_weight::BlendWeightEntry;
+use super::keys::{MaterialKeys, material_keys};
+use crate::load::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::value::Located;
+use crate::scene::MaterialKind;
+
+material_keys! {
+    /// w0·first + (1 − w0)·second; either may be another blend.
+    {
+        materials: [Located<String>; 2],
+        /// The weight w0 of the first material.
+        weight: Located<BlendWeightEntry>,
+    }
+}
+
+impl MaterialKeys for Keys {
+    const EXAMPLES: &'static [&'static str] =
+        &["materials = [\"red\", \"mirror\"]\nweight = { type = \"fresnel\", ior = 1.5, exact = true }"];
+
+    fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
+        Ok(MaterialKind::Blend {
+            materials: [resolver.material_id(&self.materials[0])?, resolver.material_id(&self.materials[1])?],
+            weight: self.weight.value.resolve(resolver)?,
+        })
+    }
+
+    /// They lie on one surface: its normals are the blend's own.
+    fn check_parts(&self, resolver: &Resolver<'_>) -> Result<(), SceneError> {
+        for part in &self.materials {
+            if resolver.scene.materials[resolver.material_id(part)?].normal_map.is_some() {
+                let message = format!("`{}` has a normal map and is part of a blend", part.value);
+                return Err(resolver.error(&part.span, message).with_help("give the normal map to the blend"));
+            }
+        }
+        Ok(())
+    }
+}

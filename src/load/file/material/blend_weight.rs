@@ -1,0 +1,95 @@
+//! The weights of blends.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::keys::ior_or_default;
+use crate::load::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, NonNegative, Number};
+use crate::scene::{BlendWeight, TextureId, TextureKind};
+
+/// The weight of a blend's first material.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(tag = "type")]
+pub enum BlendWeightEntry {
+    Constant(ConstantWeight),
+    Facing(FacingWeight),
+    Fresnel(FresnelWeight),
+    Texture(TextureWeight),
+    Reverse(ReverseWeight),
+    Threshold(ThresholdWeight),
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct ConstantWeight {
+    value: Checked<Fraction>,
+}
+
+/// w0 = clamp(|N·ωo|^power, 0, 1)
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct FacingWeight {
+    /// 1 when left out.
+    power: Option<Checked<NonNegative>>,
+}
+
+/// w0 = 1 − R
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct FresnelWeight {
+    /// 1.5 when left out.
+    ior: Option<Checked<IndexOfRefraction>>,
+    /// The dielectric equations instead of Schlick's approximation.
+    #[serde(default)]
+    exact: bool,
+}
+
+/// w0 = luminance of a texture
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct TextureWeight {
+    texture: Located<String>,
+}
+
+/// w0' = 1 − w0
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct ReverseWeight {
+    of: Box<BlendWeightEntry>,
+}
+
+/// w0' = 1 where w0 >= tau, else 0
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct ThresholdWeight {
+    tau: Number,
+    of: Box<BlendWeightEntry>,
+}
+
+impl BlendWeightEntry {
+    pub fn resolve(&self, resolver: &Resolver<'_>) -> Result<BlendWeight, SceneError> {
+        Ok(match self {
+            Self::Constant(keys) => BlendWeight::Constant { value: keys.value.0 },
+            Self::Facing(keys) => BlendWeight::Facing { power: keys.power.map_or(1.0, |power| power.0) },
+            Self::Fresnel(keys) => BlendWeight::Fresnel { ior: ior_or_default(keys.ior), exact: keys.exact },
+            Self::Texture(keys) => BlendWeight::Texture { texture: weight_texture(&keys.texture, resolver)? },
+            Self::Reverse(keys) => BlendWeight::Reverse { of: Box::new(keys.of.resolve(resolver)?) },
+            Self::Threshold(keys) => BlendWeight::Threshold { tau: keys.tau.0, of: Box::new(keys.of.resolve(resolver)?) },
+        })
+    }
+}
+
+/// A weight is the luminance of a texture's colours: an alpha channel beside them would have no effect.
+fn weight_texture(name: &Located<String>, resolver: &Resolver<'_>) -> Result<TextureId, SceneError> {
+    let id = resolver.texture_id(name)?;
+    if let TextureKind::Image(image) = &resolver.scene.textures[id].kind
+        && image.image.has_alpha
+    {
+        let message = format!("the weight is the luminance of `{}`, whose alpha channel would have no effect", name.value);
+        return Err(resolver.error(&name.span, message).with_help("save the image without alpha, as the mask itself"));
+    }
+    Ok(id)
+}

@@ -1,0 +1,31 @@
+//! `type = "glass"`
+
+use super::keys::{MaterialKeys, ior_or_default, material_keys};
+use crate::load::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::value::{Checked, Colour, Fraction, IndexOfRefraction};
+use crate::scene::MaterialKind;
+
+material_keys! {
+    /// A smooth dielectric with exact Fresnel equations.
+    {
+        /// Inside over outside, 1.5 when left out.
+        ior: Option<Checked<IndexOfRefraction>>,
+        /// 1 when left out.
+        reflectance: Option<Colour<Fraction>>,
+        /// 1 when left out.
+        transmittance: Option<Colour<Fraction>>,
+    }
+}
+
+impl MaterialKeys for Keys {
+    const EXAMPLES: &'static [&'static str] = &["ior = 1.7\nreflectance = 0.8\ntransmittance = [0.4, 0.8, 0.9]"];
+
+    fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
+        Ok(MaterialKind::Glass {
+            ior: ior_or_default(self.ior),
+            reflectance: resolver.colour_or_white(&self.reflectance)?,
+            transmittance: resolver.colour_or_white(&self.transmittance)?,
+        })
+    }
+}

@@ -1,0 +1,24 @@
+//! `type = "glossy"`
+
+use super::keys::{MaterialKeys, material_keys};
+use crate::load::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::value::{Colour, Fraction, NonNegative, Scalar};
+use crate::scene::MaterialKind;
+
+material_keys! {
+    /// A cosine-power lobe about the mirror direction: f = ρ (n+2)/(2π) cosⁿα.
+    {
+        reflectance: Colour<Fraction>,
+        exponent: Scalar<NonNegative>,
+    }
+}
+
+impl MaterialKeys for Keys {
+    const EXAMPLES: &'static [&'static str] = &["reflectance = [0.9, 0.7, 0.5]\nexponent = 40"];
+
+    fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
+        let (reflectance, exponent) = (resolver.colour(&self.reflectance)?, resolver.scalar(&self.exponent)?);
+        Ok(MaterialKind::Glossy { reflectance, exponent })
+    }
+}

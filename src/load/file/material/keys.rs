@@ -1,0 +1,91 @@
+//! What every type of material gives, and the keys that all have.
+
+use crate::load::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::value::{Checked, Colour, IndexOfRefraction, Located, NonNegative};
+use crate::scene::{ColorInput, Emission, MaterialKind};
+
+/// What a material's keys mean.
+pub trait MaterialKeys {
+    /// Tables without their `name` and `type`, which tests render.
+    const EXAMPLES: &'static [&'static str];
+
+    /// How it scatters light.
+    fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError>;
+
+    /// What it sends out by itself.
+    fn emission(&self, common: &CommonKeys<'_>, resolver: &Resolver<'_>) -> Result<Option<Emission>, SceneError> {
+        match (common.emission, common.emission_two_sided) {
+            (Some(emission), two_sided) => {
+                let two_sided = two_sided.is_some_and(|two_sided| two_sided.value);
+                Ok(emission_of(resolver.colour(&emission.value)?, two_sided))
+            }
+            (None, Some(two_sided)) => Err(resolver.error(&two_sided.span, "`emission_two_sided` needs the key `emission`")),
+            (None, None) => Ok(None),
+        }
+    }
+
+    /// Checks what it says of other materials, once all are known.
+    fn check_parts(&self, _resolver: &Resolver<'_>) -> Result<(), SceneError> {
+        Ok(())
+    }
+}
+
+/// None where no light is sent out.
+pub fn emission_of(radiance: ColorInput, two_sided: bool) -> Option<Emission> {
+    let dark = matches!(radiance, ColorInput::Constant(radiance) if radiance.max_element() == 0.0);
+    (!dark).then_some(Emission { radiance, two_sided })
+}
+
+/// Index of refraction, that of common glass where none is written.
+pub fn ior_or_default(written: Option<Checked<IndexOfRefraction>>) -> f64 {
+    written.map_or(1.5, |ior| ior.0)
+}
+
+/// The error of a material that does not reflect and yet has the key `emission`.
+pub fn only_for_reflecting(emission: &Located<Colour<NonNegative>>, resolver: &Resolver<'_>) -> SceneError {
+    let message = "`emission` is for materials that reflect; an emissive one has `radiance`, and pass emits nothing";
+    resolver.error(&emission.span, message)
+}
+
+/// The keys that every material has.
+pub struct CommonKeys<'a> {
+    pub name: &'a Located<String>,
+    pub normal_map: Option<&'a Located<String>>,
+    pub emission: Option<&'a Located<Colour<NonNegative>>>,
+    pub emission_two_sided: Option<&'a Located<bool>>,
+}
+
+/// Declares a material's `Keys`: its own and those that every material has. Serde cannot tell unknown keys from those of a struct within.
+macro_rules! material_keys {
+    ($(#[$doc:meta])* { $($(#[$field_doc:meta])* $field:ident: $type:ty,)* }) => {
+        $(#[$doc])*
+        #[derive(Debug, serde::Deserialize, schemars::JsonSchema)]
+        #[serde(deny_unknown_fields, expecting = "a table")]
+        pub struct Keys {
+            /// What shapes and blends call it.
+            name: $crate::load::file::value::Located<String>,
+            $($(#[$field_doc])* $field: $type,)*
+            /// A texture of tangent-space normals whose color_space is "linear".
+            normal_map: Option<$crate::load::file::value::Located<String>>,
+            /// Radiance the surface sends out by itself, besides what it reflects.
+            emission: Option<$crate::load::file::value::Located<
+                $crate::load::file::value::Colour<$crate::load::file::value::NonNegative>,
+            >>,
+            /// Emission leaves the front only, unless this is true.
+            emission_two_sided: Option<$crate::load::file::value::Located<bool>>,
+        }
+
+        impl Keys {
+            pub fn common(&self) -> $crate::load::file::material::keys::CommonKeys<'_> {
+                $crate::load::file::material::keys::CommonKeys {
+                    name: &self.name,
+                    normal_map: self.normal_map.as_ref(),
+                    emission: self.emission.as_ref(),
+                    emission_two_sided: self.emission_two_sided.as_ref(),
+                }
+            }
+        }
+    };
+}
+pub(super) use material_keys;

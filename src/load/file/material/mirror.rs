@@ -1,0 +1,23 @@
+//! `type = "mirror"`
+
+use super::keys::{MaterialKeys, material_keys};
+use crate::load::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::value::{Colour, Fraction};
+use crate::scene::MaterialKind;
+
+material_keys! {
+    /// A perfect mirror.
+    {
+        /// 1 when left out.
+        reflectance: Option<Colour<Fraction>>,
+    }
+}
+
+impl MaterialKeys for Keys {
+    const EXAMPLES: &'static [&'static str] = &["reflectance = 0.9"];
+
+    fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
+        Ok(MaterialKind::Mirror { reflectance: resolver.colour_or_white(&self.reflectance)? })
+    }
+}

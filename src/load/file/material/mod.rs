@@ -1,0 +1,58 @@
+//! `[[material]]`: a file for each type, with the keys it is written by and what they mean.
+
+mod blend_weight;
+mod keys;
+mod roughness;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use self::keys::{CommonKeys, MaterialKeys};
+use super::resolver::Resolver;
+use crate::load::SceneError;
+use crate::scene::material::material_table;
+use crate::scene::{Emission, MaterialKind};
+
+/// The entries of a scene file, by the rows of the table of materials.
+macro_rules! entries {
+    ($($material:ident $module:ident { $($lobe:tt)* })*) => {
+        $(mod $module;)*
+
+        /// What surfaces are made of.
+        #[derive(Debug, Deserialize, JsonSchema)]
+        #[serde(rename_all = "snake_case")]
+        #[schemars(tag = "type")]
+        pub enum MaterialEntry { $($material($module::Keys),)* }
+
+        impl MaterialEntry {
+            /// Each type, and tables of it without `name` and `type`.
+            const EXAMPLES: &'static [(&'static str, &'static [&'static str])] =
+                &[$((stringify!($module), $module::Keys::EXAMPLES),)*];
+
+            pub fn common(&self) -> CommonKeys<'_> {
+                match self { $(Self::$material(keys) => keys.common(),)* }
+            }
+
+            pub fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
+                match self { $(Self::$material(keys) => keys.kind(resolver),)* }
+            }
+
+            pub fn emission(&self, resolver: &Resolver<'_>) -> Result<Option<Emission>, SceneError> {
+                match self { $(Self::$material(keys) => keys.emission(&keys.common(), resolver),)* }
+            }
+
+            pub fn check_parts(&self, resolver: &Resolver<'_>) -> Result<(), SceneError> {
+                match self { $(Self::$material(keys) => keys.check_parts(resolver),)* }
+            }
+        }
+    };
+}
+material_table!(entries);
+
+/// `type` and keys, as TOML, of examples of every material. Those of blends name the materials `red` and `mirror`.
+pub fn examples() -> impl Iterator<Item = (&'static str, String)> {
+    let of_type = |&(name, examples): &(&'static str, &'static [&'static str])| {
+        examples.iter().map(move |keys| (name, format!("type = \"{name}\"\n{keys}\n")))
+    };
+    MaterialEntry::EXAMPLES.iter().flat_map(of_type)
+}

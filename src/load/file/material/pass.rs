@@ -1,0 +1,27 @@
+//! `type = "pass"`
+
+use super::keys::{CommonKeys, MaterialKeys, material_keys, only_for_reflecting};
+use crate::load::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::scene::{Emission, MaterialKind};
+
+material_keys! {
+    /// The ray goes on as if nothing were there.
+    {}
+}
+
+impl MaterialKeys for Keys {
+    const EXAMPLES: &'static [&'static str] = &[""];
+
+    fn kind(&self, _resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
+        Ok(MaterialKind::Pass)
+    }
+
+    fn emission(&self, common: &CommonKeys<'_>, resolver: &Resolver<'_>) -> Result<Option<Emission>, SceneError> {
+        match (common.emission, common.emission_two_sided) {
+            (Some(emission), _) => Err(only_for_reflecting(emission, resolver)),
+            (None, Some(two_sided)) => Err(resolver.error(&two_sided.span, "`emission_two_sided` needs the key `emission`")),
+            (None, None) => Ok(None),
+        }
+    }
+}
