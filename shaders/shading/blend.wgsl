@@ -1,56 +1,56 @@
-// Blends: a tree of any depth is a run of leaves, each with the weights along its branch as data. Plain materials are one leaf.
-// A leaf takes one vec4 of the tables: (material; first factor; number of factors; constant factor). A factor is a heuristic; where it
-// stands for the second child it is stored reversed.
+// Blends: a tree of any depth is a run of parts, each with the weights along its branch as data. A plain material is its own only part.
+// A part takes one vec4 of the tables: (material; first factor; number of factors; constant factor). A factor is a blend weight; where
+// it stands for the second child it is stored reversed.
 #import core/layout.wgsl
 #import geometry/scene.wgsl
-#import shading/heuristic.wgsl
-#import shading/leaf.wgsl
+#import shading/blend_weight.wgsl
+#import shading/lobe.wgsl
 
-struct LeafRun {
-    // NONE: the material itself is the only leaf.
+struct PartRun {
+    // NONE: the material itself is the only part.
     first: u32,
     count: u32,
     material: u32,
 }
 
-fn leaf_run(material: u32) -> LeafRun {
+fn part_run(material: u32) -> PartRun {
     let word = material * MATERIAL_WORDS;
     if (bitcast<u32>(tables[word].w) & 255u) != BLEND {
-        return LeafRun(NONE, 1u, material);
+        return PartRun(NONE, 1u, material);
     }
     let run = bitcast<vec4<u32>>(tables[word + 1u]);
-    return LeafRun(run.x, run.y, material);
+    return PartRun(run.x, run.y, material);
 }
 
-struct WeightedLeaf {
+struct WeightedPart {
     material: u32,
     weight: f32,
 }
 
-fn weighted_leaf(run: LeafRun, index: u32, cosine: f32, uv: vec2<f32>) -> WeightedLeaf {
+fn weighted_part(run: PartRun, index: u32, cosine: f32, uv: vec2<f32>) -> WeightedPart {
     if run.first == NONE {
-        return WeightedLeaf(run.material, 1.0);
+        return WeightedPart(run.material, 1.0);
     }
-    let word = tables[FIRST_LEAF_WORD + run.first + index];
-    let leaf = bitcast<vec4<u32>>(word);
+    let word = tables[FIRST_PART_WORD + run.first + index];
+    let part = bitcast<vec4<u32>>(word);
     var weight = word.w;
-    for (var factor = leaf.y; factor < leaf.y + leaf.z; factor++) {
-        weight *= heuristic_weight(factor, cosine, uv);
+    for (var factor = part.y; factor < part.y + part.z; factor++) {
+        weight *= blend_weight(factor, cosine, uv);
     }
-    return WeightedLeaf(leaf.x, weight);
+    return WeightedPart(part.x, weight);
 }
 
 // Σ wᵢ Leᵢ, and what the blend emits by itself.
 fn material_emission(material: u32, cosine: f32, front: bool, uv: vec2<f32>) -> vec3<f32> {
-    var radiance = leaf_emission(material, front, uv);
+    var radiance = own_emission(material, front, uv);
     if (bitcast<u32>(tables[material * MATERIAL_WORDS + 2u].w) & PARTS_EMIT) != 0u {
-        let run = leaf_run(material);
-        // Behind the leaves stand the inner blends that emit by themselves.
+        let run = part_run(material);
+        // Behind the parts stand the inner blends that emit by themselves.
         let count = run.count + bitcast<u32>(tables[material * MATERIAL_WORDS + 1u].z);
         for (var index = 0u; index < count; index++) {
-            let leaf = weighted_leaf(run, index, cosine, uv);
-            if leaf.weight > 0.0 {
-                radiance += leaf.weight * leaf_emission(leaf.material, front, uv);
+            let part = weighted_part(run, index, cosine, uv);
+            if part.weight > 0.0 {
+                radiance += part.weight * own_emission(part.material, front, uv);
             }
         }
     }

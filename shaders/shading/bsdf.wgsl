@@ -7,27 +7,27 @@
 #if MIXTURE
 #export shading/mixture.wgsl
 #else
-#import shading/leaf.wgsl
+#import shading/lobe.wgsl
 #import shading/lobes.wgsl
 
-// The material is a single leaf, by itself or because one was picked.
+// The material has a single lobe, by itself or because one was picked.
 struct Bsdf {
-    leaf: Leaf,
+    lobe: Lobe,
 }
 
 #if PICK
-// One leaf per hit, chosen with its weight as probability; from then on it is the whole material.
-fn pick_leaf(surface: Surface, wo: vec3<f32>, choice: f32) -> u32 {
+// One part of the blend per hit, chosen with its weight as probability; from then on it is the whole material.
+fn pick_part(surface: Surface, wo: vec3<f32>, choice: f32) -> u32 {
     let cosine = clamp(dot(wo, surface.shading_normal), 0.0, 1.0);
-    let run = leaf_run(surface.material);
+    let run = part_run(surface.material);
     var below = 0.0;
     var chosen = run.material;
     for (var index = 0u; index < run.count; index++) {
-        let leaf = weighted_leaf(run, index, cosine, surface.uv);
-        if leaf.weight > 0.0 {
-            // The last leaf of any weight takes what rounding leaves over.
-            chosen = leaf.material;
-            below += leaf.weight;
+        let part = weighted_part(run, index, cosine, surface.uv);
+        if part.weight > 0.0 {
+            // The last part of any weight takes what rounding leaves over.
+            chosen = part.material;
+            below += part.weight;
             if choice < below {
                 break;
             }
@@ -37,32 +37,32 @@ fn pick_leaf(surface: Surface, wo: vec3<f32>, choice: f32) -> u32 {
 }
 
 fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
-    return Bsdf(load_leaf(pick_leaf(surface, wo, choice), surface.uv));
+    return Bsdf(load_lobe(pick_part(surface, wo, choice), surface.uv));
 }
 #else
 fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
-    return Bsdf(load_leaf(surface.material, surface.uv));
+    return Bsdf(load_lobe(surface.material, surface.uv));
 }
 #endif
 
 #if !BLENDS
 // Radiance that a material sends out at an angle of the given cosine with its normal.
 fn material_emission(material: u32, cosine: f32, front: bool, uv: vec2<f32>) -> vec3<f32> {
-    return leaf_emission(material, front, uv);
+    return own_emission(material, front, uv);
 }
 #endif
 
 // Whether light sampling can contribute: some lobe is not a delta, and not black.
 fn has_non_delta_lobe(bsdf: Bsdf) -> bool {
-    return leaf_is_non_delta(bsdf.leaf);
+    return lobe_is_non_delta(bsdf.lobe);
 }
 
 fn evaluate_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
-    return evaluate_leaf(bsdf.leaf, surface, wo, wi);
+    return evaluate_lobe(bsdf.lobe, surface, wo, wi);
 }
 
-fn sample_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, lobe: f32, u: f32, v: f32) -> BsdfSample {
-    return sample_leaf(bsdf.leaf, surface, wo, lobe, u, v);
+fn sample_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
+    return sample_lobe(bsdf.lobe, surface, wo, choice, u, v);
 }
 #endif
 
@@ -76,9 +76,9 @@ struct Scattering {
 // The surface is evaluated towards the light and along the drawn direction by the same code, one after the other: drivers that copy what
 // is called to wherever it is called have half of it to compile.
 fn scatter(
-    bsdf: Bsdf, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, lobe: f32, u: f32, v: f32
+    bsdf: Bsdf, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, choice: f32, u: f32, v: f32
 ) -> Scattering {
-    let draw = draw_direction(bsdf, surface, wo, lobe, u, v);
+    let draw = draw_direction(bsdf, surface, wo, choice, u, v);
     var light_value = no_value();
     var draw_value = no_value();
     for (var direction = select(1u, 0u, HAS_LIGHTS); direction < 2u; direction++) {
@@ -96,12 +96,12 @@ fn scatter(
 }
 #else
 fn scatter(
-    bsdf: Bsdf, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, lobe: f32, u: f32, v: f32
+    bsdf: Bsdf, surface: Surface, wo: vec3<f32>, samples_light: bool, light_wi: vec3<f32>, choice: f32, u: f32, v: f32
 ) -> Scattering {
     var light_value = no_value();
     if samples_light {
         light_value = evaluate_bsdf(bsdf, surface, wo, light_wi);
     }
-    return Scattering(light_value, sample_bsdf(bsdf, surface, wo, lobe, u, v));
+    return Scattering(light_value, sample_bsdf(bsdf, surface, wo, choice, u, v));
 }
 #endif

@@ -2,17 +2,17 @@
 #import core/layout.wgsl
 #import core/math.wgsl
 #import shading/blend.wgsl
-#import shading/diffuse.wgsl
-#import shading/leaf.wgsl
+#import shading/bsdf/diffuse.wgsl
+#import shading/lobe.wgsl
 #import shading/lobes.wgsl
 #import shading/scattering.wgsl
 #import shading/surface.wgsl
 
-// Every lobe is evaluated, one is sampled. All diffuse leaves together are one lobe, the first: a blend of Lamberts is a Lambert.
+// Every lobe is evaluated, one is sampled. All diffuse ones together are one, the first: a blend of Lamberts is a Lambert.
 struct Bsdf {
-    run: LeafRun,
+    run: PartRun,
     cosine: f32,
-    // Σ wᵢ ρᵢ over the diffuse leaves.
+    // Σ wᵢ ρᵢ over the diffuse lobes.
     diffuse: vec3<f32>,
     // The sum of all lobes' sampling weights: the denominator of their probabilities.
     total: f32,
@@ -23,41 +23,41 @@ struct Bsdf {
 #endif
 }
 
-// A leaf that is a lobe of its own, with its share of `total`; 0 for those that are not.
-struct Lobe {
-    leaf: Leaf,
+// A part of the blend that is a lobe of its own, with its share of `total`; 0 for those that are not.
+struct WeightedLobe {
+    lobe: Lobe,
     weight: f32,
     share: f32,
 }
 
-fn load_lobe(bsdf: Bsdf, index: u32, uv: vec2<f32>) -> Lobe {
-    let weighted = weighted_leaf(bsdf.run, index, bsdf.cosine, uv);
-    var lobe: Lobe;
-    if weighted.weight > 0.0 {
-        lobe.leaf = load_leaf(weighted.material, uv);
-        lobe.weight = weighted.weight;
-        if leaf_kind(lobe.leaf) != DIFFUSE {
-            lobe.share = weighted.weight * leaf_sampling_weight(lobe.leaf);
+fn load_weighted_lobe(bsdf: Bsdf, index: u32, uv: vec2<f32>) -> WeightedLobe {
+    let part = weighted_part(bsdf.run, index, bsdf.cosine, uv);
+    var weighted: WeightedLobe;
+    if part.weight > 0.0 {
+        weighted.lobe = load_lobe(part.material, uv);
+        weighted.weight = part.weight;
+        if lobe_kind(weighted.lobe) != DIFFUSE {
+            weighted.share = part.weight * lobe_sampling_weight(weighted.lobe);
         }
     }
-    return lobe;
+    return weighted;
 }
 
 fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
     let cosine = clamp(dot(wo, surface.shading_normal), 0.0, 1.0);
     var bsdf: Bsdf;
-    bsdf.run = leaf_run(surface.material);
+    bsdf.run = part_run(surface.material);
     bsdf.cosine = cosine;
     for (var index = 0u; index < bsdf.run.count; index++) {
-        let lobe = load_lobe(bsdf, index, surface.uv);
-        if lobe.weight > 0.0 && leaf_kind(lobe.leaf) == DIFFUSE {
-            bsdf.diffuse += lobe.weight * lobe.leaf.first;
+        let weighted = load_weighted_lobe(bsdf, index, surface.uv);
+        if weighted.weight > 0.0 && lobe_kind(weighted.lobe) == DIFFUSE {
+            bsdf.diffuse += weighted.weight * weighted.lobe.color0;
         }
 #if MORE_LOBES
-        if lobe.share > 0.0 {
-            bsdf.total += lobe.share;
+        if weighted.share > 0.0 {
+            bsdf.total += weighted.share;
             bsdf.more_lobes = true;
-            bsdf.non_delta_lobe = bsdf.non_delta_lobe || leaf_is_non_delta(lobe.leaf);
+            bsdf.non_delta_lobe = bsdf.non_delta_lobe || lobe_is_non_delta(weighted.lobe);
         }
 #endif
     }
@@ -76,16 +76,16 @@ fn evaluate_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> 
     if bsdf.total <= 0.0 {
         return no_value();
     }
-    var sum = evaluate_diffuse(bsdf.diffuse, surface, wi);
+    var sum = evaluate_lambert(bsdf.diffuse, surface, wi);
     sum.pdf_solid_angle *= max_component(bsdf.diffuse) / bsdf.total;
 #if MORE_LOBES
     if bsdf.more_lobes {
         for (var index = 0u; index < bsdf.run.count; index++) {
-            let lobe = load_lobe(bsdf, index, surface.uv);
-            if lobe.share > 0.0 {
-                let value = evaluate_leaf(lobe.leaf, surface, wo, wi);
-                sum.value += lobe.weight * value.value;
-                sum.pdf_solid_angle += lobe.share / bsdf.total * value.pdf_solid_angle;
+            let weighted = load_weighted_lobe(bsdf, index, surface.uv);
+            if weighted.share > 0.0 {
+                let value = evaluate_lobe(weighted.lobe, surface, wo, wi);
+                sum.value += weighted.weight * value.value;
+                sum.pdf_solid_angle += weighted.share / bsdf.total * value.pdf_solid_angle;
             }
         }
     }
@@ -110,14 +110,14 @@ fn draw_direction(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f
     var chosen = no_sample();
     var probability = below;
     if choice < below || !bsdf.more_lobes {
-        chosen = sample_diffuse(bsdf.diffuse, surface, u, v);
+        chosen = sample_lambert(bsdf.diffuse, surface, u, v);
     } else {
-        var lobe: Lobe;
+        var weighted: WeightedLobe;
         for (var index = 0u; index < bsdf.run.count; index++) {
-            let candidate = load_lobe(bsdf, index, surface.uv);
+            let candidate = load_weighted_lobe(bsdf, index, surface.uv);
             if candidate.share > 0.0 {
                 // The last lobe takes what rounding leaves over.
-                lobe = candidate;
+                weighted = candidate;
                 probability = candidate.share / bsdf.total;
                 below += probability;
                 if choice < below {
@@ -127,8 +127,8 @@ fn draw_direction(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f
         }
         // What is left of the random number once it has chosen the lobe.
         let left = clamp((choice - (below - probability)) / probability, 0.0, 0.99999994);
-        chosen = sample_leaf(lobe.leaf, surface, wo, left, u, v);
-        chosen.weight *= lobe.weight;
+        chosen = sample_lobe(weighted.lobe, surface, wo, left, u, v);
+        chosen.weight *= weighted.weight;
         if chosen.pdf_solid_angle < 0.0 {
             chosen.weight /= probability;
             return Draw(chosen, false);
@@ -156,6 +156,6 @@ fn sample_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f32,
     if bsdf.total <= 0.0 {
         return no_sample();
     }
-    return sample_diffuse(bsdf.diffuse, surface, u, v);
+    return sample_lambert(bsdf.diffuse, surface, u, v);
 }
 #endif

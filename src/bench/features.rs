@@ -43,21 +43,13 @@ pub fn features() -> Vec<Feature> {
     vec![
         material("mirror", "type = \"mirror\"\nreflectance = 0.9", &["MIRROR"]),
         material("glass", "type = \"glass\"\nior = 1.5", &["GLASS"]),
-        material("glossy", "type = \"glossy\"\nreflectance = 0.7\nexponent = 50", &["COSINE_POWER", "GLOSSY", "SCALARS"]),
-        material(
-            "phong",
-            "type = \"phong\"\ndiffuse = 0.4\nspecular = 0.4\nexponent = 50",
-            &["COSINE_POWER", "PHONG", "SCALARS", "SECOND_COLORS"],
-        ),
-        material(
-            "conductor",
-            "type = \"conductor\"\nreflectance = 0.9\nroughness = 0.4",
-            &["CONDUCTOR", "MICROFACETS", "SCALARS"],
-        ),
+        material("glossy", "type = \"glossy\"\nreflectance = 0.7\nexponent = 50", &["GLOSSY", "ROUGHNESS"]),
+        material("phong", "type = \"phong\"\ndiffuse = 0.4\nspecular = 0.4\nexponent = 50", &["COLOR1", "PHONG", "ROUGHNESS"]),
+        material("conductor", "type = \"conductor\"\nreflectance = 0.9\nroughness = 0.4", &["CONDUCTOR", "ROUGHNESS"]),
         material(
             "rough glass",
             "type = \"rough_glass\"\nior = 1.5\nroughness = 0.4",
-            &["GLASS", "MICROFACETS", "ROUGH_GLASS", "SCALARS", "SECOND_COLORS", "NON_DELTA_TRANSMISSION"],
+            &["COLOR1", "NON_DELTA_TRANSMISSION", "ROUGHNESS", "ROUGH_GLASS"],
         ),
         with(
             "blend of two lobes",

@@ -1,4 +1,4 @@
-//! Materials as the device reads them. A blend becomes a run of leaves, each with the weights along its branch: data, whatever the
+//! Materials as the device reads them. A blend becomes a run of parts, each with the weights along its branch: data, whatever the
 //! depth of the tree.
 
 use std::collections::{BTreeSet, HashMap};
@@ -10,30 +10,15 @@ use super::blend_weight::{PackedBlendWeight, constant_weight};
 use super::validate::PackError;
 use crate::scene::material;
 use crate::scene::{BlendMode, ColorInput, LobeKind, Material, MaterialId, MaterialKind, Scene};
-use crate::shader::shared::{Constants, shared_constants, shared_kinds};
-
-shared_kinds! {
-    /// What a material does to light.
-    pub enum PackedMaterialKind {
-        Diffuse = 0 as DIFFUSE,
-        Mirror = 1 as MIRROR,
-        Glass = 2 as GLASS,
-        Emissive = 3 as EMISSIVE,
-        Glossy = 4 as GLOSSY,
-        Phong = 5 as PHONG,
-        Conductor = 6 as CONDUCTOR,
-        RoughGlass = 7 as ROUGH_GLASS,
-        /// Rough glass after Honsdorf: cosine-power lobes about the mirror and the refracted direction.
-        PhongGlass = 8 as PHONG_GLASS,
-        Pass = 9 as NULL_SURFACE,
-        Blend = 10 as BLEND,
-    }
-}
+use crate::shader::shared::{Constant, Constants, shared_constants};
 
 /// Above a packed material's kind stands its lobe's form.
 pub(super) const FORM_SHIFT: u32 = 8;
 
 shared_constants!(flags {
+    /// A packed material's kind is its lobe's number; this where it has no lobe, and the next where it is a blend.
+    pub const NO_LOBE: u32 = LobeKind::ALL.len() as u32;
+    pub const BLEND: u32 = NO_LOBE + 1;
     /// Words of a material in the tables.
     pub const MATERIAL_WORDS: u32 = (size_of::<PackedMaterial>() / 16) as u32;
     /// Flag beside the kind of a conductor: its colours are eta and k.
@@ -48,7 +33,8 @@ shared_constants!(flags {
 
 /// Kinds, flags and sizes, for WGSL.
 pub fn constants() -> Constants {
-    [PackedMaterialKind::constants(), flags()].concat()
+    let lobes = LobeKind::ALL.iter().map(|&lobe| (lobe.switch(), Constant::U32(lobe as u32)));
+    lobes.chain(flags()).collect()
 }
 
 /// 80 bytes, five vec4 of the tables.
@@ -77,13 +63,13 @@ pub struct PackedMaterial {
     pub padding: u32,
 }
 
-/// Most weights of all leaves together: 16 MiB of them.
+/// Most weights of all parts together: 16 MiB of them.
 const MOST_WEIGHTS: usize = 1 << 20;
 
-/// One leaf of a blend, 16 bytes.
+/// One part of a blend, 16 bytes.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct PackedLeaf {
+pub struct PackedBlendPart {
     pub material: u32,
     /// Its weight is the constant factor times the blend weights `first_factor..first_factor + factor_count`.
     pub first_factor: u32,
@@ -97,7 +83,7 @@ pub struct PackedMaterials {
     pub materials: Vec<PackedMaterial>,
     /// Which of the scene's materials each one is.
     pub scene_ids: Vec<MaterialId>,
-    pub leaves: Vec<PackedLeaf>,
+    pub parts: Vec<PackedBlendPart>,
     pub weights: Vec<PackedBlendWeight>,
 }
 
@@ -132,17 +118,17 @@ impl PackedMaterials {
         Ok(packed)
     }
 
-    /// Adds the parts of blends that no surface is made of alone; leaves then name their places instead of the scene's numbers.
+    /// Adds the parts of blends that no surface is made of alone; blends then name their places instead of the scene's numbers.
     fn add_parts(&mut self, scene: &Scene) {
         let mut places: HashMap<MaterialId, usize> = self.scene_ids.iter().enumerate().map(|(place, id)| (*id, place)).collect();
-        for leaf in &mut self.leaves {
-            let id = leaf.material as MaterialId;
+        for part in &mut self.parts {
+            let id = part.material as MaterialId;
             let place = *places.entry(id).or_insert_with(|| {
                 self.materials.push(PackedMaterial::new(&scene.materials[id]));
                 self.scene_ids.push(id);
                 self.materials.len() - 1
             });
-            leaf.material = place as u32;
+            part.material = place as u32;
         }
     }
 
@@ -162,10 +148,10 @@ impl PackedMaterials {
     }
 
     fn blend(&mut self, scene: &Scene, id: MaterialId) -> Result<PackedMaterial, PackError> {
-        let Parts { leaves, emitting_blends } = parts(scene, id)?;
+        let Parts { plain, emitting_blends } = parts(scene, id)?;
         let mut packed = PackedMaterial::new(&scene.materials[id]);
         // A blend that always is one of its materials is that material.
-        if let [Part { material, constant: 1.0, factors }] = leaves.as_slice()
+        if let [Part { material, constant: 1.0, factors }] = plain.as_slice()
             && factors.is_empty()
             && emitting_blends.is_empty()
             && packed.emission_flags == 0
@@ -175,24 +161,24 @@ impl PackedMaterials {
         }
         if scene.render.blend == BlendMode::Mixture
             && emitting_blends.is_empty()
-            && let Some(reflectance) = lambert_of_the_mean(scene, &leaves)
+            && let Some(reflectance) = lambert_of_the_mean(scene, &plain)
         {
-            packed.kind_and_form = PackedMaterialKind::Diffuse as u32;
+            packed.kind_and_form = LobeKind::Diffuse as u32;
             packed.color0 = reflectance.as_vec3().to_array();
             return Ok(packed);
         }
-        if !emitting_blends.is_empty() || leaves.iter().any(|leaf| scene.materials[leaf.material].emission.is_some()) {
+        if !emitting_blends.is_empty() || plain.iter().any(|part| scene.materials[part.material].emission.is_some()) {
             packed.emission_flags |= PARTS_EMIT;
         }
-        packed.color1 = [self.leaves.len(), leaves.len(), emitting_blends.len()].map(|number| f32::from_bits(number as u32));
-        for leaf in leaves.into_iter().chain(emitting_blends) {
-            self.leaves.push(PackedLeaf {
-                material: leaf.material as u32,
+        packed.color1 = [self.parts.len(), plain.len(), emitting_blends.len()].map(|number| f32::from_bits(number as u32));
+        for part in plain.into_iter().chain(emitting_blends) {
+            self.parts.push(PackedBlendPart {
+                material: part.material as u32,
                 first_factor: self.weights.len() as u32,
-                factor_count: leaf.factors.len() as u32,
-                constant_factor: leaf.constant as f32,
+                factor_count: part.factors.len() as u32,
+                constant_factor: part.constant as f32,
             });
-            self.weights.extend(leaf.factors);
+            self.weights.extend(part.factors);
         }
         if self.weights.len() > MOST_WEIGHTS {
             return Err(PackError::TooManyWeights { material: scene.materials[id].name.clone(), limit: MOST_WEIGHTS });
@@ -200,8 +186,9 @@ impl PackedMaterials {
         Ok(packed)
     }
 
-    pub fn has(&self, kind: PackedMaterialKind) -> bool {
-        self.materials.iter().any(|material| material.kind() == kind as u32)
+    /// Some material is of this kind.
+    pub fn has(&self, kind: u32) -> bool {
+        self.materials.iter().any(|material| material.kind() == kind)
     }
 }
 
@@ -214,8 +201,8 @@ struct Part {
 }
 
 struct Parts {
-    /// In the tree's order: the first child's before the second's.
-    leaves: Vec<Part>,
+    /// The plain materials at its ends, in the tree's order: the first child's before the second's.
+    plain: Vec<Part>,
     /// Blends below the root that emit besides what their parts do.
     emitting_blends: Vec<Part>,
 }
@@ -223,7 +210,7 @@ struct Parts {
 /// The parts of a blend; those that never have any weight are left out.
 fn parts(scene: &Scene, id: MaterialId) -> Result<Parts, PackError> {
     let mut weights = 0;
-    let mut found = Parts { leaves: Vec::new(), emitting_blends: Vec::new() };
+    let mut found = Parts { plain: Vec::new(), emitting_blends: Vec::new() };
     let mut to_visit = vec![Part { material: id, constant: 1.0, factors: Vec::new() }];
     while let Some(branch) = to_visit.pop() {
         // Checked on the way: a deep chain of blends would fill the memory before it ends.
@@ -232,7 +219,7 @@ fn parts(scene: &Scene, id: MaterialId) -> Result<Parts, PackError> {
             return Err(PackError::TooManyWeights { material: scene.materials[id].name.clone(), limit: MOST_WEIGHTS });
         }
         let MaterialKind::Blend { materials, weight } = &scene.materials[branch.material].kind else {
-            found.leaves.push(branch);
+            found.plain.push(branch);
             continue;
         };
         for (child, reversed) in [(1, true), (0, false)] {
@@ -252,14 +239,14 @@ fn parts(scene: &Scene, id: MaterialId) -> Result<Parts, PackError> {
     Ok(found)
 }
 
-/// Lambert surfaces blended by weights that never change are one of their mean reflectance. None where a leaf is anything else, varies
+/// Lambert surfaces blended by weights that never change are one of their mean reflectance. None where a part is anything else, varies
 /// over the surface, or emits.
-fn lambert_of_the_mean(scene: &Scene, leaves: &[Part]) -> Option<DVec3> {
+fn lambert_of_the_mean(scene: &Scene, plain: &[Part]) -> Option<DVec3> {
     let weighted =
-        leaves.iter().map(|leaf| match &scene.materials[leaf.material] {
+        plain.iter().map(|part| match &scene.materials[part.material] {
             Material {
                 kind: MaterialKind::Diffuse { reflectance: ColorInput::Constant(reflectance) }, emission: None, ..
-            } if leaf.factors.is_empty() => Some(leaf.constant * *reflectance),
+            } if part.factors.is_empty() => Some(part.constant * *reflectance),
             _ => None,
         });
     weighted.sum()
@@ -268,9 +255,9 @@ fn lambert_of_the_mean(scene: &Scene, leaves: &[Part]) -> Option<DVec3> {
 impl PackedMaterial {
     /// Packs a material; of a blend, what it is besides its parts.
     fn new(material: &Material) -> Self {
-        let without_lobe = if material.is_blend() { PackedMaterialKind::Blend } else { PackedMaterialKind::Emissive };
+        let without_lobe = if material.is_blend() { BLEND } else { NO_LOBE };
         let lobe = material.kind.lobe();
-        let kind = lobe.map_or(without_lobe, |parameters| kind_of(parameters.lobe));
+        let kind = lobe.map_or(without_lobe, |parameters| parameters.lobe as u32);
         let black = ColorInput::grey(0.0);
         let (color0, color0_texture) = color_and_texture(&lobe.map_or(black, |lobe| lobe.color0));
         let (color1, color1_texture) = color_and_texture(&lobe.and_then(|lobe| lobe.color1).unwrap_or(black));
@@ -282,7 +269,7 @@ impl PackedMaterial {
         let (emission, emission_texture) = color_and_texture(&radiance);
         Self {
             color0,
-            kind_and_form: kind as u32 | lobe.map_or(0, |lobe| lobe.form) << FORM_SHIFT,
+            kind_and_form: kind | lobe.map_or(0, |lobe| lobe.form) << FORM_SHIFT,
             color1,
             ior: lobe.and_then(|lobe| lobe.ior).unwrap_or(1.0) as f32,
             emission,
@@ -307,27 +294,14 @@ impl PackedMaterial {
         self.kind_and_form & ((1 << FORM_SHIFT) - 1)
     }
 
-    /// A colour or scalar comes from a texture, or a blend's leaves are looked up: not known without the scene.
-    pub fn has_second_color(&self) -> bool {
-        use PackedMaterialKind::{Glass, Phong, PhongGlass, RoughGlass};
-        let of_kind = [Glass, Phong, RoughGlass, PhongGlass].map(|kind| kind as u32).contains(&self.kind());
-        of_kind || self.kind_and_form & COMPLEX_FRESNEL != 0
+    /// Its lobe reads other numbers than those it has where none are loaded.
+    pub fn uses_color1(&self) -> bool {
+        self.kind() != BLEND && (self.color1 != [0.0; 3] || self.color1_texture != NONE || self.ior != 1.0)
     }
-}
 
-/// The number that shaders know a lobe by.
-fn kind_of(lobe: LobeKind) -> PackedMaterialKind {
-    use PackedMaterialKind as Kind;
-    match lobe {
-        LobeKind::Diffuse => Kind::Diffuse,
-        LobeKind::Mirror => Kind::Mirror,
-        LobeKind::Glossy => Kind::Glossy,
-        LobeKind::Phong => Kind::Phong,
-        LobeKind::Glass => Kind::Glass,
-        LobeKind::RoughGlass => Kind::RoughGlass,
-        LobeKind::PhongGlass => Kind::PhongGlass,
-        LobeKind::Conductor => Kind::Conductor,
-        LobeKind::Null => Kind::Pass,
+    /// The same of the roughness.
+    pub fn uses_roughness(&self) -> bool {
+        self.roughness != 0.0 || self.roughness_texture != NONE
     }
 }
 

@@ -1,4 +1,4 @@
-//! One array for all that shading looks up: materials, the leaves and weights of blends, lights, textures, motions.
+//! One array for all that shading looks up: materials, the parts and weights of blends, lights, textures, motions.
 
 use super::PackedScene;
 
@@ -6,7 +6,7 @@ use super::PackedScene;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Tables {
     pub words: Vec<[f32; 4]>,
-    pub first_leaf: u32,
+    pub first_part: u32,
     pub first_blend_weight: u32,
     pub first_light: u32,
     pub first_texture: u32,
@@ -17,7 +17,7 @@ impl Tables {
     pub fn new(packed: &PackedScene) -> Self {
         let mut tables = Self::default();
         tables.append(&packed.materials.materials);
-        tables.first_leaf = tables.append(&packed.materials.leaves);
+        tables.first_part = tables.append(&packed.materials.parts);
         tables.first_blend_weight = tables.append(&packed.materials.weights);
         tables.first_light = tables.append(&packed.lights);
         tables.first_texture = tables.append(&packed.textures.textures);

@@ -3,7 +3,7 @@
 use crate::choice::choices;
 use crate::packed::PackedScene;
 use crate::packed::light::{LightKind, PackedLight};
-use crate::packed::material::PackedMaterialKind;
+use crate::packed::material::NO_LOBE;
 use crate::shader::Switches;
 
 choices! {
@@ -63,7 +63,7 @@ fn most_used_material(packed: &PackedScene) -> Option<u32> {
     let mut uses = vec![0_u64; packed.materials.materials.len()];
     for primitive in &packed.primitives {
         let material = primitive.material() as usize;
-        if packed.materials.materials[material].kind() != PackedMaterialKind::Emissive as u32 {
+        if packed.materials.materials[material].kind() != NO_LOBE {
             uses[material] += 1;
         }
     }

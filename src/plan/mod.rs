@@ -9,6 +9,7 @@ pub mod decisions;
 pub mod fault;
 pub mod layout;
 pub mod limits;
+pub mod lobes;
 pub mod memory;
 mod options;
 pub mod parameters;
@@ -200,6 +201,7 @@ impl Plan {
             GeometryPlacement::Hierarchy => packed.hierarchy.primitive_count as usize,
         };
         plan.switches.generated.insert(layout::FILE, layout::wgsl());
+        plan.switches.generated.insert(lobes::FILE, lobes::wgsl());
         plan.switches.generated.insert("geometry/constants.wgsl", unroll::constants(packed, first_constant));
         for array in plan.chunks.iter().filter(|array| !array.is_whole()) {
             plan.switches.enable(array.array.switch, true);

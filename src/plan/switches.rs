@@ -3,14 +3,16 @@
 use super::{FilmStorage, MAX_SAMPLES_PER_PASS, Plan, has_attributes};
 use crate::packed::hierarchy::Traversal;
 use crate::packed::light::{LightKind, PackedLight};
-use crate::packed::material::{PackedMaterial, PackedMaterialKind};
+use crate::packed::material::{BLEND, NO_LOBE, PackedMaterial};
 use crate::packed::primitive::{Primitive, PrimitiveKind};
 use crate::packed::texture::PackedTextureKind;
 use crate::packed::{NONE, PackedScene};
 use crate::sampling::Decorrelation;
 use crate::sampling::dimension::SEQUENCE_DIMENSIONS;
 use crate::scene::{ApertureShape, Filter, FilterKind, HemisphereSampling, Projection};
-use crate::scene::{BlendMode, Estimator, LightSampling, MisHeuristic, PixelSampler, RenderSettings, Scene};
+use crate::scene::{
+    BlendMode, Estimator, LightSampling, LobeKind, LobeSupport, MisHeuristic, PixelSampler, RenderSettings, Scene,
+};
 use crate::shader::Switches;
 
 /// Blocks of four dimensions that the sequence's table holds per sample.
@@ -82,8 +84,8 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
         ("ENVIRONMENT_QUADTREE_LEVELS", map.levels),
         ("ENVIRONMENT_WIDTH", map.width),
         ("FILM_WIDTH", scene.film.size[0]),
-        ("FIRST_HEURISTIC_WORD", tables.first_blend_weight),
-        ("FIRST_LEAF_WORD", tables.first_leaf),
+        ("FIRST_BLEND_WEIGHT_WORD", tables.first_blend_weight),
+        ("FIRST_PART_WORD", tables.first_part),
         ("FIRST_LIGHT_WORD", tables.first_light),
         ("FIRST_MOTION_WORD", tables.first_motion),
         ("FIRST_PORTAL", first_light(LightKind::Portal)),
@@ -177,33 +179,23 @@ fn enable_camera(switches: &mut Switches, scene: &Scene) -> u32 {
 
 /// Materials, lobe by lobe, and blends of them.
 fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
-    use PackedMaterialKind as Kind;
-    let has = |kind: Kind| packed.materials.has(kind);
-    switches.enable("MIRROR", has(Kind::Mirror));
-    // Rough glass whose width comes from a texture may be smooth somewhere.
-    switches.enable("GLASS", has(Kind::Glass) || has(Kind::RoughGlass));
-    switches.enable("GLOSSY", has(Kind::Glossy));
-    switches.enable("PHONG", has(Kind::Phong));
-    switches.enable("PHONG_GLASS", has(Kind::PhongGlass));
-    switches.enable("COSINE_POWER", [Kind::Glossy, Kind::Phong, Kind::PhongGlass].into_iter().any(has));
-    switches.enable("CONDUCTOR", has(Kind::Conductor));
-    switches.enable("ROUGH_GLASS", has(Kind::RoughGlass));
-    switches.enable("MICROFACETS", has(Kind::Conductor) || has(Kind::RoughGlass));
-    switches.enable("NON_DELTA_TRANSMISSION", has(Kind::RoughGlass) || has(Kind::PhongGlass));
-    switches.enable("SECOND_COLORS", packed.materials.materials.iter().any(PackedMaterial::has_second_color));
-    let scalars = [Kind::Glossy, Kind::Phong, Kind::PhongGlass, Kind::Conductor, Kind::RoughGlass];
-    switches.enable("SCALARS", scalars.into_iter().any(has));
-    // Surfaces of nothing but `pass` are no primitives; inside a blend it is a lobe.
-    let blends = has(Kind::Blend);
+    let materials = &packed.materials.materials;
+    let has = |lobe: LobeKind| packed.materials.has(lobe as u32);
+    for &lobe in LobeKind::ALL {
+        switches.enable(lobe.switch(), has(lobe));
+    }
+    let on_both_sides = |lobe: &LobeKind| lobe.support() == LobeSupport::Sphere;
+    switches.enable("NON_DELTA_TRANSMISSION", LobeKind::ALL.iter().copied().filter(on_both_sides).any(has));
+    switches.enable("COLOR1", materials.iter().any(PackedMaterial::uses_color1));
+    switches.enable("ROUGHNESS", materials.iter().any(PackedMaterial::uses_roughness));
+    let blends = packed.materials.has(BLEND);
     switches.enable("BLENDS", blends);
-    let one_lobe = [Kind::Diffuse, Kind::Emissive, Kind::Blend].map(|kind| kind as u32);
-    let more_lobes = packed.materials.materials.iter().any(|material| !one_lobe.contains(&material.kind()));
+    let one_lobe = [LobeKind::Diffuse as u32, NO_LOBE, BLEND];
+    let more_lobes = materials.iter().any(|material| !one_lobe.contains(&material.kind()));
     let mixture = scene.render.blend == BlendMode::Mixture;
     switches.enable("MIXTURE", blends && mixture);
     switches.enable("MORE_LOBES", blends && mixture && more_lobes);
     switches.enable("PICK", blends && !mixture);
-    let is_pass = |material: u32| packed.materials.materials[material as usize].kind() == Kind::Pass as u32;
-    switches.enable("NULL_SURFACES", packed.materials.leaves.iter().any(|leaf| is_pass(leaf.material)));
     switches.enable("NORMAL_MAPS", packed.materials.materials.iter().any(|material| material.normal_map != NONE));
     switches.enable("EMISSION", packed.materials.materials.iter().any(|material| material.emission_flags != 0));
     switches.enable("VARYING_LIGHTS", samples_lights(scene, packed) && packed.lights.iter().any(PackedLight::varies));

@@ -137,7 +137,7 @@ impl Composer<'_> {
     fn find(&self, name: &str) -> Option<(&'static str, String)> {
         let generated = self.switches.generated.get_key_value(name).map(|(name, text)| (*name, text.clone()));
         generated.or_else(|| {
-            super::sources::FILES.iter().find(|(file, _)| *file == name).map(|(name, text)| (*name, current_text(name, text)))
+            super::sources::files().find(|(file, _)| *file == name).map(|(name, text)| (name, current_text(name, text)))
         })
     }
 

@@ -1,9 +1,11 @@
 //! The files of `shaders/`, embedded.
 
+use crate::scene::material::material_table;
+
 macro_rules! shader_files {
     ($($name:literal),* $(,)?) => {
-        /// Name within `shaders/` and text of every file.
-        pub const FILES: &[(&str, &str)] = &[$(($name, include_str!(concat!("../../shaders/", $name)))),*];
+        /// All but those of lobes.
+        const FILES: &[(&str, &str)] = &[$(($name, include_str!(concat!("../../shaders/", $name)))),*];
     };
 }
 
@@ -27,18 +29,17 @@ shader_files![
     "geometry/unrolled.wgsl",
     "geometry/words.wgsl",
     "shading/blend.wgsl",
+    "shading/blend_weight.wgsl",
     "shading/bsdf.wgsl",
     "shading/cosine_power.wgsl",
-    "shading/diffuse.wgsl",
+    "shading/dielectric.wgsl",
     "shading/environment.wgsl",
     "shading/fresnel.wgsl",
-    "shading/glass.wgsl",
-    "shading/heuristic.wgsl",
-    "shading/leaf.wgsl",
+    "shading/hemisphere.wgsl",
     "shading/light.wgsl",
     "shading/light_record.wgsl",
     "shading/light_sample.wgsl",
-    "shading/lobes.wgsl",
+    "shading/lobe.wgsl",
     "shading/microfacet.wgsl",
     "shading/mis.wgsl",
     "shading/mixture.wgsl",
@@ -68,3 +69,19 @@ shader_files![
     "stages/statistics.wgsl",
     "stages/wavefront.wgsl",
 ];
+
+/// The file of each lobe in the table of materials.
+macro_rules! lobe_files {
+    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $switch:ident $support:ident)* })*) => {
+        const LOBES: &[(&str, &str)] = &[$($((
+            concat!("shading/bsdf/", stringify!($file), ".wgsl"),
+            include_str!(concat!("../../shaders/shading/bsdf/", stringify!($file), ".wgsl")),
+        ),)*)*];
+    };
+}
+material_table!(lobe_files);
+
+/// Name within `shaders/` and text of every file.
+pub fn files() -> impl Iterator<Item = (&'static str, &'static str)> {
+    FILES.iter().chain(LOBES).copied()
+}

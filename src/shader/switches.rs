@@ -4,6 +4,9 @@
 //! forces single ones. A combination is one that a plan may make where it is [closed](close).
 
 use std::collections::BTreeSet;
+use std::sync::LazyLock;
+
+use crate::scene::material::material_table;
 
 /// A row of the table.
 #[derive(Debug, Clone, Copy)]
@@ -47,8 +50,25 @@ const LIGHT_KINDS: &[&str] =
 /// Kinds of primitive that a hierarchy holds.
 const HELD: &[&str] = &["TRIANGLES_IN_HIERARCHY", "QUADS_IN_HIERARCHY", "SPHERES_IN_HIERARCHY", "DISKS_IN_HIERARCHY"];
 
+/// A switch for each lobe in the table of materials.
+macro_rules! lobes {
+    ($($material:ident $type_name:ident { $($lobe:ident $file:ident $switch:ident $support:ident)* })*) => {
+        const LOBES: &[Switch] = &[$($(lobes!(@requires $support stringify!($switch)),)*)*];
+    };
+    (@requires Sphere $name:expr) => { switch($name).requires(&["NON_DELTA_TRANSMISSION"]) };
+    (@requires $other:ident $name:expr) => { switch($name) };
+}
+material_table!(lobes);
+
 /// The table, in alphabetical order.
-pub const SWITCHES: &[Switch] = &[
+pub static SWITCHES: LazyLock<Vec<Switch>> = LazyLock::new(|| {
+    let mut rows = [OF_FEATURES, LOBES].concat();
+    rows.sort_by_key(|row| row.name);
+    rows
+});
+
+/// All but the lobes.
+const OF_FEATURES: &[Switch] = &[
     switch("APERTURE_POLYGON").requires(&["LENS"]).excludes(&["APERTURE_SQUARE"]),
     switch("APERTURE_SQUARE").requires(&["LENS"]),
     switch("ATTRIBUTES"),
@@ -57,8 +77,7 @@ pub const SWITCHES: &[Switch] = &[
     // Kernels walk nodes.
     switch("BVH").one_of(HELD).excludes(&["RAY_QUERY"]),
     switch("CHECKERS").requires(&["PROCEDURAL_TEXTURES"]),
-    switch("CONDUCTOR").requires(&["MICROFACETS", "SCALARS"]),
-    switch("COSINE_POWER").one_of(&["GLOSSY", "PHONG", "PHONG_GLASS"]),
+    switch("COLOR1"),
     switch("DIGITAL_SHIFT").requires(&["SEQUENCE"]),
     switch("DIRECTIONAL_LIGHTS"),
     switch("DISKS_IN_HIERARCHY").requires(&["FLAT_ROUND"]),
@@ -75,14 +94,10 @@ pub const SWITCHES: &[Switch] = &[
     switch("FILTER_CURVE").requires(&["FILTER"]),
     switch("FLAT_LIGHTS"),
     switch("FLAT_ROUND"),
-    switch("GLASS"),
-    switch("GLOSSY").requires(&["COSINE_POWER", "SCALARS"]),
     switch("HEURISTIC_POWER"),
     switch("IMAGES").requires(&["TEXELS", "TEXTURES"]),
     switch("LENS"),
     switch("LIGHTS").one_of(LIGHT_KINDS),
-    switch("MICROFACETS").one_of(&["CONDUCTOR", "ROUGH_GLASS"]),
-    switch("MIRROR"),
     switch("MIXTURE").requires(&["BLENDS"]).excludes(&["PICK"]),
     // A mixture has lobes besides the diffuse one.
     switch("MORE_LOBES").requires(&["MIXTURE"]),
@@ -90,10 +105,8 @@ pub const SWITCHES: &[Switch] = &[
     switch("MOTION").requires(&["ATTRIBUTES", "BVH"]),
     switch("MOVING_LIGHTS").requires(&["MOTION"]),
     switch("NODE_CHUNKS").requires(&["BVH"]).excludes(&["UNIFORM_NODES"]),
-    switch("NON_DELTA_TRANSMISSION").one_of(&["ROUGH_GLASS", "PHONG_GLASS"]),
+    switch("NON_DELTA_TRANSMISSION"),
     switch("NORMAL_MAPS").requires(&["TEXTURES"]),
-    // Surfaces that a ray passes as if they were not there; alone they are no primitives, so they are parts of blends.
-    switch("NULL_SURFACES").requires(&["BLENDS"]),
     switch("ONE_LIGHT"),
     switch("ONLY_TRIANGLES_IN_HIERARCHY").requires(&["TRIANGLES_IN_HIERARCHY"]).excludes(&[
         "QUADS_IN_HIERARCHY",
@@ -103,8 +116,6 @@ pub const SWITCHES: &[Switch] = &[
     switch("ORTHOGRAPHIC"),
     switch("PACKETS").requires(&["BVH"]).excludes(&["TRACE"]),
     switch("PERLIN").requires(&["PROCEDURAL_TEXTURES"]),
-    switch("PHONG").requires(&["COSINE_POWER", "SCALARS", "SECOND_COLORS"]),
-    switch("PHONG_GLASS").requires(&["COSINE_POWER", "NON_DELTA_TRANSMISSION", "SCALARS", "SECOND_COLORS"]),
     switch("PICK").requires(&["BLENDS"]),
     switch("PIXEL_CENTRE").excludes(&["PIXEL_DIGITAL_SHIFT", "PIXEL_HASHED", "PIXEL_ROTATION"]),
     switch("PIXEL_DIGITAL_SHIFT").excludes(&["PIXEL_HASHED", "PIXEL_ROTATION"]),
@@ -121,10 +132,8 @@ pub const SWITCHES: &[Switch] = &[
     switch("QUADS_IN_HIERARCHY"),
     // Acceleration structures hold a scene at rest.
     switch("RAY_QUERY").one_of(HELD).excludes(&["MOTION"]),
-    switch("ROUGH_GLASS").requires(&["GLASS", "MICROFACETS", "NON_DELTA_TRANSMISSION", "SCALARS", "SECOND_COLORS"]),
+    switch("ROUGHNESS"),
     switch("ROULETTE"),
-    switch("SCALARS"),
-    switch("SECOND_COLORS"),
     switch("SEQUENCE"),
     switch("SKY").requires(&["ENVIRONMENT"]),
     switch("SPHERES"),
@@ -203,7 +212,7 @@ mod tests {
     #[test]
     fn the_table_is_sorted_and_names_only_its_own_rows() {
         assert!(SWITCHES.windows(2).all(|pair| pair[0].name < pair[1].name));
-        for row in SWITCHES {
+        for row in SWITCHES.iter() {
             for name in row.requires.iter().chain(row.one_of).chain(row.excludes) {
                 assert!(find(name).is_some(), "{}: there is no switch {name}", row.name);
             }
@@ -212,7 +221,7 @@ mod tests {
 
     #[test]
     fn every_switch_can_be_on_and_a_closed_set_has_no_contradiction() {
-        for row in SWITCHES {
+        for row in SWITCHES.iter() {
             let closed = close(&BTreeSet::from([row.name]));
             assert!(closed.contains(row.name) && contradiction(&closed).is_none(), "{}: {closed:?}", row.name);
         }

@@ -7,7 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use gpt::plan::chunks::{ATTRIBUTES, Chunks, NODES, PRIMITIVES};
-use gpt::shader::sources::FILES;
+use gpt::shader::sources;
 
 /// A file as far as names go.
 #[derive(Debug, Default)]
@@ -112,7 +112,7 @@ type Files = BTreeMap<String, Names>;
 
 /// The embedded files, and those that plans write.
 fn all_files() -> Files {
-    let mut texts: BTreeMap<String, String> = FILES.iter().map(|(name, text)| ((*name).to_owned(), (*text).to_owned())).collect();
+    let mut texts: BTreeMap<String, String> = sources::files().map(|(name, text)| (name.to_owned(), text.to_owned())).collect();
     for array in [PRIMITIVES, NODES, ATTRIBUTES] {
         let chunks = Chunks::new(array, 2500 * array.record_bytes(), 1000 * array.record_bytes());
         texts.insert(array.file.to_owned(), chunks.wgsl());
@@ -120,6 +120,7 @@ fn all_files() -> Files {
     let scene = gpt::load::load(Some("spheres")).expect("it is built in");
     let packed = gpt::packed::PackedScene::new(&scene).expect("it packs");
     texts.insert(gpt::plan::layout::FILE.to_owned(), gpt::plan::layout::wgsl());
+    texts.insert(gpt::plan::lobes::FILE.to_owned(), gpt::plan::lobes::wgsl());
     texts.insert("geometry/constants.wgsl".to_owned(), gpt::plan::unroll::constants(&packed, 0));
     texts.into_iter().map(|(name, text)| (name, Names::of(&text))).collect()
 }

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use gpt::gpu::kernels::used_bindings;
 use gpt::plan::bindings::Binding;
 use gpt::plan::chunks::{ATTRIBUTES, Chunks, NODES, PRIMITIVES, RecordArray};
-use gpt::plan::layout;
 use gpt::plan::stages::{STAGES, Stage, When};
+use gpt::plan::{layout, lobes};
 use gpt::shader::switches::{SWITCHES, close, contradiction};
 use gpt::shader::{ComposeError, Switches, compose};
 
@@ -24,8 +24,8 @@ fn shippable(wanted: &BTreeSet<&'static str>) -> Switches {
         "ENVIRONMENT_QUADTREE_LEVELS",
         "ENVIRONMENT_WIDTH",
         "FILM_WIDTH",
-        "FIRST_HEURISTIC_WORD",
-        "FIRST_LEAF_WORD",
+        "FIRST_BLEND_WEIGHT_WORD",
+        "FIRST_PART_WORD",
         "FIRST_LIGHT_WORD",
         "FIRST_MOTION_WORD",
         "FIRST_PORTAL",
@@ -61,7 +61,13 @@ fn shippable(wanted: &BTreeSet<&'static str>) -> Switches {
     Switches {
         enabled: close(wanted),
         constants: constants.into_iter().map(|name| (name, 7)).collect(),
-        generated: cut.chain([(layout::FILE, layout::wgsl()), ("geometry/constants.wgsl", geometry.to_owned())]).collect(),
+        generated: cut
+            .chain([
+                (layout::FILE, layout::wgsl()),
+                (lobes::FILE, lobes::wgsl()),
+                ("geometry/constants.wgsl", geometry.to_owned()),
+            ])
+            .collect(),
     }
 }
 
@@ -86,7 +92,7 @@ fn all_names() -> BTreeSet<&'static str> {
 fn every_pair_of_switches_composes_to_valid_shaders() {
     let everything = all_names();
     let mut sets: BTreeSet<BTreeSet<&'static str>> = [everything.clone(), BTreeSet::new()].into();
-    for row in SWITCHES {
+    for row in SWITCHES.iter() {
         let mut missing = everything.clone();
         missing.remove(row.name);
         sets.extend([missing, BTreeSet::from([row.name])]);
@@ -101,7 +107,7 @@ fn every_pair_of_switches_composes_to_valid_shaders() {
     sets.extend(halves);
     let shipped: BTreeSet<BTreeSet<&'static str>> = sets.iter().map(close).collect();
     assert!(shipped.len() > 100, "{} combinations", shipped.len());
-    for row in SWITCHES {
+    for row in SWITCHES.iter() {
         let on = shipped.iter().filter(|set| set.contains(row.name)).count();
         assert!(on > 0 && on < shipped.len(), "{} is on in {on} of {} combinations", row.name, shipped.len());
     }
@@ -201,7 +207,7 @@ fn layouts_match_between_wgsl_and_rust() {
 fn shared_constants_have_names_of_their_own() {
     use gpt::packed::blend_weight::PackedBlendWeight;
     use gpt::packed::light::PackedLight;
-    use gpt::packed::material::{PackedLeaf, PackedMaterial};
+    use gpt::packed::material::{PackedBlendPart, PackedMaterial};
     use gpt::packed::primitive::{Primitive, TriangleAttributes};
     use gpt::packed::{bvh4, texture::PackedTexture};
     let constants = layout::constants();
@@ -213,7 +219,7 @@ fn shared_constants_have_names_of_their_own() {
         size_of::<bvh4::Node>(),
         size_of::<PackedMaterial>(),
         size_of::<PackedLight>(),
-        size_of::<PackedLeaf>(),
+        size_of::<PackedBlendPart>(),
         size_of::<PackedBlendWeight>(),
         size_of::<PackedTexture>(),
     ];

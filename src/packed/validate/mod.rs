@@ -61,7 +61,7 @@ impl PackedScene {
 
     /// Kernels number the words of an array in 32 bits.
     fn check_lengths(&self) -> Check {
-        let tables: usize = [Array::Materials, Array::Leaves, Array::Weights, Array::Lights, Array::Textures]
+        let tables: usize = [Array::Materials, Array::BlendParts, Array::Weights, Array::Lights, Array::Textures]
             .into_iter()
             .map(|array| array.of(self).len() / 4)
             .sum();

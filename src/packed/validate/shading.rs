@@ -3,7 +3,7 @@
 use super::Check;
 use crate::packed::blend_weight::{self, WeightKind};
 use crate::packed::light::record::{LIGHT_MOVES, LIGHT_TWO_SIDED, LIGHT_VARIES, LightKind, PORTAL_SHIFT, PackedLight};
-use crate::packed::material::{self, PackedMaterial, PackedMaterialKind};
+use crate::packed::material::{self, PackedMaterial};
 use crate::packed::texture::{self, PackedTexture, PackedTextureKind};
 use crate::packed::{NONE, PackedScene};
 use crate::scene::material::COMPLEX_FRESNEL;
@@ -26,9 +26,9 @@ impl PackedScene {
         for (index, material) in materials.materials.iter().enumerate() {
             self.check_material(material).map_err(|message| format!("material {index} {message}"))?;
         }
-        for (index, leaf) in materials.leaves.iter().enumerate() {
-            if !is_within(leaf.first_factor, leaf.factor_count, materials.weights.len()) {
-                return Err(format!("leaf {index} has {} factors from {} on", leaf.factor_count, leaf.first_factor));
+        for (index, part) in materials.parts.iter().enumerate() {
+            if !is_within(part.first_factor, part.factor_count, materials.weights.len()) {
+                return Err(format!("part {index} has {} factors from {} on", part.factor_count, part.first_factor));
             }
         }
         for (index, weight) in materials.weights.iter().enumerate() {
@@ -43,9 +43,8 @@ impl PackedScene {
     }
 
     fn check_material(&self, material: &PackedMaterial) -> Check {
-        let is_blend = material.kind() == PackedMaterialKind::Blend as u32;
-        if material.kind() > PackedMaterialKind::Blend as u32 || material.kind_and_form >> material::FORM_SHIFT > COMPLEX_FRESNEL
-        {
+        let is_blend = material.kind() == material::BLEND;
+        if material.kind() > material::BLEND || material.kind_and_form >> material::FORM_SHIFT > COMPLEX_FRESNEL {
             return Err(format!("is of kind {:#x}", material.kind_and_form));
         }
         let known_flags = material::EMITS | material::EMITS_TWO_SIDED | if is_blend { material::PARTS_EMIT } else { 0 };
@@ -53,19 +52,19 @@ impl PackedScene {
             return Err(format!("emits by {:#x}", material.emission_flags));
         }
         if is_blend {
-            let leaves = &self.materials.leaves;
+            let parts = &self.materials.parts;
             let [first, count, emitting] = material.color1.map(f32::to_bits);
-            // Behind the leaves stand the inner blends that emit by themselves, and only they may be blends.
-            let run = leaves.get(first as usize..).filter(|_| is_within(first, count, leaves.len()));
+            // Behind the parts stand the inner blends that emit by themselves, and only they may be blends.
+            let run = parts.get(first as usize..).filter(|_| is_within(first, count, parts.len()));
             let Some((run, behind)) = run.map(|run| run.split_at(count as usize)) else {
-                return Err(format!("has {count} leaves from {first} on"));
+                return Err(format!("has {count} parts from {first} on"));
             };
             if emitting as usize > behind.len() {
-                return Err(format!("has {emitting} blends that emit behind its {count} leaves from {first} on"));
+                return Err(format!("has {emitting} blends that emit behind its {count} parts from {first} on"));
             }
-            let is_blend = |id: u32| self.materials.materials[id as usize].kind() == PackedMaterialKind::Blend as u32;
-            if let Some(leaf) = run.iter().find(|leaf| is_blend(leaf.material)) {
-                return Err(format!("has material {}, a blend, for a leaf", leaf.material));
+            let is_blend = |id: u32| self.materials.materials[id as usize].kind() == material::BLEND;
+            if let Some(part) = run.iter().find(|part| is_blend(part.material)) {
+                return Err(format!("has material {}, a blend, for a part", part.material));
             }
         }
         Ok(())

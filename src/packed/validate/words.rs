@@ -8,7 +8,7 @@ use crate::packed::PackedScene;
 use crate::packed::blend_weight::PackedBlendWeight;
 use crate::packed::bvh4::Node;
 use crate::packed::light::PackedLight;
-use crate::packed::material::{PackedLeaf, PackedMaterial, PackedMaterialKind};
+use crate::packed::material::{BLEND, PackedBlendPart, PackedMaterial};
 use crate::packed::primitive::{Primitive, TriangleAttributes};
 use crate::packed::texture::{PackedTexture, PackedTextureKind};
 
@@ -19,7 +19,7 @@ pub enum Array {
     Attributes,
     Nodes,
     Materials,
-    Leaves,
+    BlendParts,
     Weights,
     Lights,
     Textures,
@@ -31,7 +31,7 @@ impl Array {
         Self::Attributes,
         Self::Nodes,
         Self::Materials,
-        Self::Leaves,
+        Self::BlendParts,
         Self::Weights,
         Self::Lights,
         Self::Textures,
@@ -44,7 +44,7 @@ impl Array {
             Self::Attributes => &ATTRIBUTES,
             Self::Nodes => &NODE,
             Self::Materials => &MATERIAL,
-            Self::Leaves => &LEAF,
+            Self::BlendParts => &BLEND_PART,
             Self::Weights => &WEIGHT,
             Self::Lights => &LIGHT,
             Self::Textures => &TEXTURE,
@@ -58,7 +58,7 @@ impl Array {
             Self::Attributes => size_of::<TriangleAttributes>(),
             Self::Nodes => size_of::<Node>(),
             Self::Materials => size_of::<PackedMaterial>(),
-            Self::Leaves => size_of::<PackedLeaf>(),
+            Self::BlendParts => size_of::<PackedBlendPart>(),
             Self::Weights => size_of::<PackedBlendWeight>(),
             Self::Lights => size_of::<PackedLight>(),
             Self::Textures => size_of::<PackedTexture>(),
@@ -73,7 +73,7 @@ impl Array {
             Self::Attributes => bytemuck::cast_slice(&scene.attributes),
             Self::Nodes => bytemuck::cast_slice(&scene.hierarchy.nodes),
             Self::Materials => bytemuck::cast_slice(&scene.materials.materials),
-            Self::Leaves => bytemuck::cast_slice(&scene.materials.leaves),
+            Self::BlendParts => bytemuck::cast_slice(&scene.materials.parts),
             Self::Weights => bytemuck::cast_slice(&scene.materials.weights),
             Self::Lights => bytemuck::cast_slice(&scene.lights),
             Self::Textures => bytemuck::cast_slice(&scene.textures.textures),
@@ -124,7 +124,7 @@ const NODE: [(usize, Word); 3] = [
 
 const MATERIAL: [(usize, Word); 10] = [
     (word!(PackedMaterial, kind_and_form), Checked),
-    // The run of a blend's leaves.
+    // The run of a blend's parts.
     (word!(PackedMaterial, color1), CheckedIn(is_blend)),
     (word!(PackedMaterial, color1) + 1, CheckedIn(is_blend)),
     (word!(PackedMaterial, color1) + 2, CheckedIn(is_blend)),
@@ -136,10 +136,10 @@ const MATERIAL: [(usize, Word); 10] = [
     (word!(PackedMaterial, normal_map), Optional(Array::Textures)),
 ];
 
-const LEAF: [(usize, Word); 3] = [
-    (word!(PackedLeaf, material), Index(Array::Materials)),
-    (word!(PackedLeaf, first_factor), Checked),
-    (word!(PackedLeaf, factor_count), Checked),
+const BLEND_PART: [(usize, Word); 3] = [
+    (word!(PackedBlendPart, material), Index(Array::Materials)),
+    (word!(PackedBlendPart, first_factor), Checked),
+    (word!(PackedBlendPart, factor_count), Checked),
 ];
 
 const WEIGHT: [(usize, Word); 2] =
@@ -160,7 +160,7 @@ const TEXTURE: [(usize, Word); 4] = [
 ];
 
 fn is_blend(material: &[u32]) -> bool {
-    material[word!(PackedMaterial, kind_and_form)] & 255 == PackedMaterialKind::Blend as u32
+    material[word!(PackedMaterial, kind_and_form)] & 255 == BLEND
 }
 
 fn is_image(texture: &[u32]) -> bool {

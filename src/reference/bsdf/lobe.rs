@@ -14,6 +14,14 @@ macro_rules! lobes {
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub enum Lobe { $($($lobe(super::$file::$lobe),)*)* }
 
+        impl Lobe {
+            /// Its row in the table.
+            #[cfg(test)]
+            pub fn kind(&self) -> crate::scene::LobeKind {
+                match self { $($(Self::$lobe(_) => crate::scene::LobeKind::$lobe,)*)* }
+            }
+        }
+
         impl Scatter for Lobe {
             fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
                 $($(if let Some(lobe) = Scatter::of(kind, lookup) {

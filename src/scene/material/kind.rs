@@ -28,7 +28,7 @@ macro_rules! material_table {
             Conductor conductor { Conductor conductor CONDUCTOR Hemisphere }
             Emissive emissive {}
             Blend blend {}
-            Pass pass { Null null NULL Delta }
+            Pass pass { Null null NULL_SURFACES Delta }
         }
     };
 }

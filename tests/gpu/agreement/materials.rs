@@ -116,16 +116,9 @@ fn blend(first: &str, second: &str, weight: &str) -> String {
     format!("type = \"blend\"\nmaterials = [\"{first}\", \"{second}\"]\nweight = {weight}")
 }
 
+/// Besides the examples of every type of material.
 const LOBES: &[(&str, &str)] = &[
-    ("glossy", "type = \"glossy\"\nreflectance = [0.9, 0.7, 0.5]\nexponent = 40"),
-    ("phong", "type = \"phong\"\ndiffuse = [0.4, 0.2, 0.1]\nspecular = 0.5\nexponent = 25"),
-    ("conductor by name", "type = \"conductor\"\npreset = \"copper\"\nroughness = 0.3"),
-    ("conductor by F0", "type = \"conductor\"\nreflectance = [0.9, 0.6, 0.3]\nalpha = 0.3"),
-    ("smooth conductor", "type = \"conductor\"\npreset = \"silver\""),
-    ("rough glass", "type = \"rough_glass\"\nior = 1.5\nroughness = 0.4"),
-    ("rough glass, tinted", "type = \"rough_glass\"\nior = 1.7\nalpha = 0.3\nreflectance = 0.8\ntransmittance = [0.4, 0.8, 0.9]"),
     ("smooth rough glass", "type = \"rough_glass\"\nroughness = 0"),
-    ("phong glass", "type = \"rough_glass\"\nior = 1.5\nexponent = 60"),
     ("textured mirror", "type = \"mirror\"\nreflectance = { texture = \"checks\" }"),
     ("textured glass", "type = \"glass\"\ntransmittance = { texture = \"cells\" }"),
     ("textured width", "type = \"conductor\"\npreset = \"gold\"\nalpha = { texture = \"clouds\" }"),
@@ -158,6 +151,9 @@ const BLEND_WEIGHTS: &[(&str, &str)] = &[
 
 #[test]
 fn every_lobe_and_texture_agrees() {
+    for (name, material) in load::file::material_examples() {
+        assert_agrees(name, &stage(&material), &PlanOptions::default());
+    }
     for (name, material) in LOBES {
         assert_agrees(name, &stage(material), &PlanOptions::default());
     }

@@ -26,7 +26,7 @@ pub struct Kernel<'a> {
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 enum Part {
     Material,
-    Leaf,
+    Plain,
     Texture,
     Motion,
 }
@@ -178,9 +178,9 @@ impl Kernel<'_> {
             self.texture(words[4][1])?;
         }
         self.emission(material)?;
-        let leaves_emit = words[2][3] & 4 != 0;
+        let parts_emit = words[2][3] & 4 != 0;
         let (run, count) = if is_blend { (words[1][0], words[1][1]) } else { (NONE, 1) };
-        let behind = if leaves_emit { words[1][2] } else { 0 };
+        let behind = if parts_emit { words[1][2] } else { 0 };
         if run == NONE {
             // All emitting parts are the material itself, as often as the loop counts.
             (0..behind).try_for_each(|_| self.step())?;
@@ -188,15 +188,15 @@ impl Kernel<'_> {
         }
         let mut index = 0;
         while index < count.wrapping_add(behind) {
-            let leaf = self.table(self.tables.first_leaf.wrapping_add(run).wrapping_add(index))?;
-            let mut factor = leaf[1];
-            while factor < leaf[1].wrapping_add(leaf[2]) {
+            let part = self.table(self.tables.first_part.wrapping_add(run).wrapping_add(index))?;
+            let mut factor = part[1];
+            while factor < part[1].wrapping_add(part[2]) {
                 self.weight(factor)?;
                 factor += 1;
             }
-            self.emission(leaf[0])?;
+            self.emission(part[0])?;
             if index < count {
-                self.load(leaf[0])?;
+                self.load(part[0])?;
             }
             index += 1;
         }
@@ -204,7 +204,7 @@ impl Kernel<'_> {
     }
 
     fn load(&self, material: u32) -> Read<()> {
-        if !self.is_new(Part::Leaf, material) {
+        if !self.is_new(Part::Plain, material) {
             return Ok(());
         }
         let textures = self.table(material.wrapping_mul(5).wrapping_add(3))?;
@@ -216,7 +216,7 @@ impl Kernel<'_> {
         if texture == NONE { Ok(()) } else { self.texture(texture) }
     }
 
-    /// shading/heuristic.wgsl
+    /// shading/blend_weight.wgsl
     fn weight(&self, weight: u32) -> Read<()> {
         let words = self.table(self.tables.first_blend_weight.wrapping_add(weight))?;
         if words[0] & 255 == 4 { self.texture(words[3]) } else { Ok(()) }

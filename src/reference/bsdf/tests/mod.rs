@@ -8,6 +8,9 @@ mod fresnel;
 mod mixtures;
 mod views;
 
+use std::collections::BTreeSet;
+use std::path::Path;
+
 use glam::{DVec2, DVec3};
 
 use super::conductor::{Conductor, Fresnel};
@@ -25,8 +28,9 @@ use super::phong_glass::PhongGlass;
 use super::rough_glass::RoughGlass;
 use super::scatter::{Evaluation, Scatter};
 use super::*;
+use crate::load::file::{load_toml_str, material_examples};
 use crate::reference::intersect::Surface;
-use crate::scene::{ColorInput, HemisphereSampling, Scene};
+use crate::scene::{ColorInput, HemisphereSampling, LobeKind, MaterialKind, Scene};
 
 /// A unit vector at an angle from +z, in degrees.
 fn at_degrees(theta: f64, phi: f64) -> DVec3 {
@@ -94,24 +98,52 @@ fn phong_glass(dielectric: Dielectric, exponent: f64) -> Lobe {
     Lobe::PhongGlass(PhongGlass { dielectric, exponent })
 }
 
-/// Every lobe that is no delta, narrow and wide.
-fn non_delta_lobes() -> Vec<(&'static str, Lobe)> {
-    vec![
-        ("diffuse", diffuse(orange())),
-        ("glossy 3", glossy(3.0)),
-        ("glossy 60", glossy(60.0)),
-        ("phong", phong(0.5, 0.4, 25.0)),
-        ("gold 0.15", gold(0.15)),
-        ("white metal 0.6", white_metal(0.6)),
-        ("rough glass 0.3", rough_glass(clear(1.5), 0.3)),
-        ("rough glass 0.6, less dense inside", rough_glass(tinted(0.7), 0.6)),
-        ("Phong glass 15", phong_glass(tinted(1.5), 15.0)),
-    ]
+/// The lobes of all examples of the table of materials, with their indices of refraction.
+fn examples() -> Vec<(String, Lobe, f64)> {
+    let red = "[[material]]\nname = \"red\"\ntype = \"diffuse\"\nreflectance = [0.7, 0.1, 0.1]";
+    let mirror = "[[material]]\nname = \"mirror\"\ntype = \"mirror\"";
+    let rest = "[camera]\nposition = [0, 0, 1]\nlook_at = [0, 0, 0]\n[[light]]\ntype = \"environment\"\nradiance = 1";
+    let lobe = |(name, keys): (&str, String)| {
+        let text = format!("{rest}\n{red}\n{mirror}\n[[material]]\nname = \"example\"\n{keys}");
+        let scene = load_toml_str(&text, "example.toml", Path::new("")).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let kind = &scene.materials.last().expect("it has the example").kind;
+        assert_eq!(kind.type_name(), name);
+        let lobe = Lobe::of(kind, &Lookup { scene: &scene, uv: DVec2::ZERO, cosine: 1.0 });
+        let parameters = kind.lobe();
+        assert_eq!(lobe.map(|lobe| lobe.kind()), parameters.map(|parameters| parameters.lobe), "{name}");
+        Some((format!("{name}: {}", keys.replace('\n', ", ")), lobe?, parameters?.ior.unwrap_or(1.0)))
+    };
+    let (mut lobes, mut types) = (Vec::new(), BTreeSet::new());
+    for (name, keys) in material_examples() {
+        types.insert(name);
+        lobes.extend(lobe((name, keys)));
+    }
+    assert_eq!(types, MaterialKind::TYPE_NAMES.iter().copied().collect(), "every type of material has an example");
+    let kinds: BTreeSet<LobeKind> = lobes.iter().map(|(_, lobe, _)| lobe.kind()).collect();
+    assert_eq!(kinds, LobeKind::ALL.iter().copied().collect(), "every lobe has an example");
+    lobes
+}
+
+/// Every lobe that is no delta, narrow and wide, with its index of refraction.
+fn non_delta_lobes() -> Vec<(String, Lobe, f64)> {
+    let narrow_and_wide = [
+        ("glossy 3", glossy(3.0), 1.0),
+        ("glossy 60", glossy(60.0), 1.0),
+        ("phong", phong(0.5, 0.4, 25.0), 1.0),
+        ("gold 0.15", gold(0.15), 1.0),
+        ("white metal 0.6", white_metal(0.6), 1.0),
+        ("rough glass 0.3", rough_glass(clear(1.5), 0.3), 1.5),
+        ("rough glass 0.6, less dense inside", rough_glass(tinted(0.7), 0.6), 0.7),
+        ("Phong glass 15", phong_glass(tinted(1.5), 15.0), 1.5),
+    ];
+    let named = narrow_and_wide.map(|(name, lobe, ior)| (name.to_owned(), lobe, ior));
+    named.into_iter().chain(examples().into_iter().filter(|(_, lobe, _)| !lobe.is_delta())).collect()
 }
 
 /// Lobes that reflect and transmit in single directions.
-fn delta_lobes() -> Vec<(&'static str, Lobe)> {
-    vec![("mirror", mirror(0.8)), ("glass", glass(tinted(1.5))), ("smooth gold", gold(0.0)), ("pass", Lobe::Null(Null))]
+fn delta_lobes() -> Vec<(String, Lobe, f64)> {
+    let smooth_gold = ("smooth gold".to_owned(), gold(0.0), 1.0);
+    [smooth_gold].into_iter().chain(examples().into_iter().filter(|(_, lobe, _)| lobe.is_delta())).collect()
 }
 
 /// Weighted lobes: non-delta with non-delta, non-delta with delta, delta with delta, and what nested blends come to.

@@ -1,20 +1,18 @@
-// A leaf: one material that is no blend, with its parameters looked up for one hit.
+// A lobe: one material that is no blend, with its parameters looked up for one hit.
 #import core/layout.wgsl
 #import geometry/scene.wgsl
 #if TEXTURES
 #import shading/texture.wgsl
 #endif
 
-struct Leaf {
-    // The kind, COMPLEX_FRESNEL beside it.
+// What the parameters mean depends on the lobe: src/scene/material/kind.rs.
+struct Lobe {
+    // The kind, and above it the form.
     kind: u32,
-    // Reflectance, diffuse reflectance or eta.
-    first: vec3<f32>,
-    // Transmittance, specular reflectance or k.
-    second: vec3<f32>,
+    color0: vec3<f32>,
+    color1: vec3<f32>,
     ior: f32,
-    // GGX width or cosine exponent.
-    scalar: f32,
+    roughness: f32,
 }
 
 fn material_color(constant: vec3<f32>, texture: f32, uv: vec2<f32>) -> vec3<f32> {
@@ -27,17 +25,17 @@ fn material_color(constant: vec3<f32>, texture: f32, uv: vec2<f32>) -> vec3<f32>
     return constant;
 }
 
-fn load_leaf(material: u32, uv: vec2<f32>) -> Leaf {
+fn load_lobe(material: u32, uv: vec2<f32>) -> Lobe {
     let word = material * MATERIAL_WORDS;
     let m0 = tables[word];
-    var leaf = Leaf(bitcast<u32>(m0.w), m0.xyz, vec3<f32>(0.0), 1.0, 0.0);
-#if SECOND_COLORS
+    var lobe = Lobe(bitcast<u32>(m0.w), m0.xyz, vec3<f32>(0.0), 1.0, 0.0);
+#if COLOR1
     let m1 = tables[word + 1u];
-    leaf.second = m1.xyz;
-    leaf.ior = m1.w;
+    lobe.color1 = m1.xyz;
+    lobe.ior = m1.w;
 #endif
-#if SCALARS
-    leaf.scalar = tables[word + 4u].x;
+#if ROUGHNESS
+    lobe.roughness = tables[word + 4u].x;
 #endif
 #if TEXTURES
     // One call for all three: software drivers copy what is called to wherever it is called.
@@ -46,23 +44,23 @@ fn load_leaf(material: u32, uv: vec2<f32>) -> Leaf {
         let texture = select(select(textures.x, textures.z, slot == 1u), textures.w, slot == 2u);
         if texture != NONE {
             let color = texture_color(texture, uv);
-            leaf.first *= select(vec3<f32>(1.0), color, slot == 0u);
-            leaf.second *= select(vec3<f32>(1.0), color, slot == 1u);
-            leaf.scalar *= select(1.0, color.x, slot == 2u);
+            lobe.color0 *= select(vec3<f32>(1.0), color, slot == 0u);
+            lobe.color1 *= select(vec3<f32>(1.0), color, slot == 1u);
+            lobe.roughness *= select(1.0, color.x, slot == 2u);
         }
     }
-#if SCALARS
+#if ROUGHNESS
     // A texture of roughness: its square is the width.
     if bitcast<u32>(tables[word + 4u].z) != 0u {
-        leaf.scalar *= leaf.scalar;
+        lobe.roughness *= lobe.roughness;
     }
 #endif
 #endif
-    return leaf;
+    return lobe;
 }
 
-// Radiance that a leaf's front, or back, sends out.
-fn leaf_emission(material: u32, front: bool, uv: vec2<f32>) -> vec3<f32> {
+// Radiance that the front, or the back, of a material that is no blend sends out.
+fn own_emission(material: u32, front: bool, uv: vec2<f32>) -> vec3<f32> {
     let word = material * MATERIAL_WORDS;
     let m2 = tables[word + 2u];
     let flags = bitcast<u32>(m2.w);
@@ -76,6 +74,6 @@ fn leaf_emission(material: u32, front: bool, uv: vec2<f32>) -> vec3<f32> {
 #endif
 }
 
-fn leaf_kind(leaf: Leaf) -> u32 {
-    return leaf.kind & 255u;
+fn lobe_kind(lobe: Lobe) -> u32 {
+    return lobe.kind & 255u;
 }

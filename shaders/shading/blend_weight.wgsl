@@ -8,8 +8,8 @@
 #import shading/texture.wgsl
 #endif
 
-fn heuristic_weight(heuristic: u32, cosine: f32, uv: vec2<f32>) -> f32 {
-    let h = tables[FIRST_HEURISTIC_WORD + heuristic];
+fn blend_weight(index: u32, cosine: f32, uv: vec2<f32>) -> f32 {
+    let h = tables[FIRST_BLEND_WEIGHT_WORD + index];
     let flags = bitcast<u32>(h.x);
     var w = h.y;
     switch flags & 255u {

@@ -1,9 +1,14 @@
-// Glass as a delta lobe, and what the rough forms share with it.
+// The boundary of a dielectric: what smooth and rough glass share.
 #import core/math.wgsl
 #import shading/fresnel.wgsl
-#import shading/leaf.wgsl
+#import shading/lobe.wgsl
 #import shading/scattering.wgsl
 #import shading/surface.wgsl
+
+// The larger of what is reflected and what is transmitted.
+fn dielectric_sampling_weight(lobe: Lobe) -> f32 {
+    return max(max_component(lobe.color0), max_component(lobe.color1));
+}
 
 // The direction refracted about n, which is on wo's side; the caller rules out total reflection.
 fn refracted(n: vec3<f32>, wo: vec3<f32>, eta: f32) -> vec3<f32> {
@@ -14,33 +19,33 @@ fn refracted(n: vec3<f32>, wo: vec3<f32>, eta: f32) -> vec3<f32> {
 }
 
 // Transmitted over incident index of refraction for light that leaves towards wo.
-fn relative_ior(leaf: Leaf, surface: Surface) -> f32 {
-    return select(1.0 / leaf.ior, leaf.ior, surface.front);
+fn relative_ior(lobe: Lobe, surface: Surface) -> f32 {
+    return select(1.0 / lobe.ior, lobe.ior, surface.front);
 }
 
 // Share of reflection in sampling a dielectric.
-fn reflection_probability(leaf: Leaf, reflected: f32) -> f32 {
-    let reflection = reflected * max_component(leaf.first);
-    let total = reflection + (1.0 - reflected) * max_component(leaf.second);
+fn reflection_probability(lobe: Lobe, reflected: f32) -> f32 {
+    let reflection = reflected * max_component(lobe.color0);
+    let total = reflection + (1.0 - reflected) * max_component(lobe.color1);
     return select(0.0, reflection / total, total > 0.0);
 }
 
-#if GLASS
-fn sample_delta_glass(leaf: Leaf, surface: Surface, wo: vec3<f32>, lobe: f32) -> BsdfSample {
+// A direction that a smooth boundary reflects or refracts.
+fn sample_delta_dielectric(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32) -> BsdfSample {
     let n = surface.shading_normal;
     let cosine = min(dot(wo, n), 1.0);
-    let eta = relative_ior(leaf, surface);
+    let eta = relative_ior(lobe, surface);
     let reflected = fresnel_dielectric(cosine, eta);
-    if max(max_component(leaf.first) * reflected, max_component(leaf.second) * (1.0 - reflected)) <= 0.0 {
+    if max(max_component(lobe.color0) * reflected, max_component(lobe.color1) * (1.0 - reflected)) <= 0.0 {
         return no_sample();
     }
-    let probability = reflection_probability(leaf, reflected);
-    if lobe < probability {
+    let probability = reflection_probability(lobe, reflected);
+    if choice < probability {
         let wi = 2.0 * cosine * n - wo;
         if dot(wi, surface.facing_normal) <= 0.0 {
             return no_sample();
         }
-        return BsdfSample(wi, leaf.first * (reflected / probability), -1.0, 1.0, false);
+        return BsdfSample(wi, lobe.color0 * (reflected / probability), -1.0, 1.0, false);
     }
     let wi = refracted(n, wo, eta);
     if dot(wi, surface.facing_normal) >= 0.0 {
@@ -48,6 +53,5 @@ fn sample_delta_glass(leaf: Leaf, surface: Surface, wo: vec3<f32>, lobe: f32) ->
     }
     // Radiance is squeezed into a smaller cone where it enters the denser side.
     let weight = (1.0 - reflected) / ((1.0 - probability) * eta * eta);
-    return BsdfSample(wi, leaf.second * weight, -1.0, eta * eta, false);
+    return BsdfSample(wi, lobe.color1 * weight, -1.0, eta * eta, false);
 }
-#endif

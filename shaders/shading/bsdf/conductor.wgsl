@@ -1,0 +1,83 @@
+// Metals, rough or smooth.
+#import core/layout.wgsl
+#import core/math.wgsl
+#import shading/lobe.wgsl
+#import shading/microfacet.wgsl
+#import shading/scattering.wgsl
+#import shading/sides.wgsl
+#import shading/surface.wgsl
+
+fn conductor_is_non_delta(lobe: Lobe) -> bool {
+    return lobe.roughness >= DELTA_ALPHA;
+}
+
+fn conductor_sampling_weight(lobe: Lobe) -> f32 {
+    return max_component(conductor_fresnel(lobe, 1.0));
+}
+
+// Reflectance of a metal: the exact equations for a complex index of refraction, or Schlick's approximation.
+fn conductor_fresnel(lobe: Lobe, cosine: f32) -> vec3<f32> {
+    let c2 = cosine * cosine;
+    if (lobe.kind & COMPLEX_FRESNEL) == 0u {
+        let away = 1.0 - cosine;
+        let away2 = away * away;
+        return lobe.color0 + (1.0 - lobe.color0) * (away2 * away2 * away);
+    }
+    let s2 = (1.0 - cosine) * (1.0 + cosine);
+    let eta2 = lobe.color0 * lobe.color0;
+    let k2 = lobe.color1 * lobe.color1;
+    let t0 = eta2 - k2 - s2;
+    let a2_plus_b2 = sqrt(t0 * t0 + 4.0 * eta2 * k2);
+    let t1 = a2_plus_b2 + c2;
+    let a = sqrt(max(0.5 * (a2_plus_b2 + t0), vec3<f32>(0.0)));
+    let t2 = 2.0 * cosine * a;
+    let perpendicular = (t1 - t2) / (t1 + t2);
+    let t3 = c2 * a2_plus_b2 + s2 * s2;
+    let t4 = t2 * s2;
+    let parallel = perpendicular * (t3 - t4) / (t3 + t4);
+    return 0.5 * (parallel + perpendicular);
+}
+
+fn evaluate_conductor(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
+    if lobe.roughness < DELTA_ALPHA || !on_wo_side(surface, wi) {
+        return no_value();
+    }
+    let frame = frame_from_normal(surface.shading_normal);
+    let o = to_local(frame, wo);
+    let i = to_local(frame, wi);
+    let m = normalize(o + i);
+    return conductor_value(lobe, o, i, m);
+}
+
+fn conductor_value(lobe: Lobe, o: vec3<f32>, i: vec3<f32>, m: vec3<f32>) -> BsdfValue {
+    let fresnel = conductor_fresnel(lobe, clamp(dot(o, m), 0.0, 1.0));
+    let lambda_o = ggx_lambda(o, lobe.roughness);
+    let common_factor = ggx_distribution(m, lobe.roughness) / (4.0 * o.z);
+    let shadowing = 1.0 / (1.0 + lambda_o + ggx_lambda(i, lobe.roughness));
+    return BsdfValue(fresnel * (common_factor * shadowing), common_factor / (1.0 + lambda_o));
+}
+
+fn sample_conductor(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
+    if lobe.roughness < DELTA_ALPHA {
+        let wi = mirrored(surface, wo);
+        if dot(wi, surface.facing_normal) <= 0.0 {
+            return no_sample();
+        }
+        let cosine = clamp(dot(wo, surface.shading_normal), 0.0, 1.0);
+        return BsdfSample(wi, conductor_fresnel(lobe, cosine), -1.0, 1.0, false);
+    }
+    let frame = frame_from_normal(surface.shading_normal);
+    let o = to_local(frame, wo);
+    let m = sample_visible_normal(o, lobe.roughness, u, v);
+    let i = 2.0 * dot(o, m) * m - o;
+    let wi = frame_to_world(frame, i);
+    if i.z <= 0.0 || dot(wi, surface.facing_normal) <= 0.0 {
+        return no_sample();
+    }
+    // The weight is F G2 / G1; the distribution cancels and with it its rounding.
+    let value = conductor_value(lobe, o, i, m);
+    let fresnel = conductor_fresnel(lobe, clamp(dot(o, m), 0.0, 1.0));
+    let lambda_o = ggx_lambda(o, lobe.roughness);
+    let weight = fresnel * ((1.0 + lambda_o) / (1.0 + lambda_o + ggx_lambda(i, lobe.roughness)));
+    return BsdfSample(wi, weight, value.pdf_solid_angle, 1.0, false);
+}

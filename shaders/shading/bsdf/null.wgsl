@@ -1,0 +1,12 @@
+// The surface that is not there: rays go straight on.
+#import shading/lobe.wgsl
+#import shading/scattering.wgsl
+#import shading/surface.wgsl
+
+fn null_sampling_weight(lobe: Lobe) -> f32 {
+    return 1.0;
+}
+
+fn sample_null(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
+    return BsdfSample(-wo, vec3<f32>(1.0), -1.0, 1.0, true);
+}
