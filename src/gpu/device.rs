@@ -162,6 +162,25 @@ impl Device {
         polled.map(|_| ()).map_err(|error| RenderError::DeviceLost(error.to_string()))
     }
 
+    /// A buffer through which the host reads what is copied to it.
+    pub fn readback_buffer(&self, size: u64) -> wgpu::Buffer {
+        self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("read back"),
+            size,
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        })
+    }
+
+    /// Reads the first bytes of a buffer that can be copied from.
+    pub fn read_start(&self, source: &wgpu::Buffer, bytes: u64) -> Result<Vec<u8>, RenderError> {
+        let target = self.readback_buffer(bytes);
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        encoder.copy_buffer_to_buffer(source, 0, &target, 0, bytes);
+        self.submit_and_wait(encoder.finish())?;
+        self.read(&target)
+    }
+
     /// Reads a whole buffer that can be mapped, once everything submitted is done.
     pub fn read(&self, buffer: &wgpu::Buffer) -> Result<Vec<u8>, RenderError> {
         buffer.map_async(wgpu::MapMode::Read, .., |_| {});

@@ -1,4 +1,4 @@
-//! The wavefront renderer on wgpu.
+//! Rendering on graphics devices, through wgpu.
 
 pub mod acceleration;
 pub mod adapters;
@@ -7,6 +7,7 @@ pub mod device;
 mod film;
 pub mod kernels;
 pub mod passes;
+pub mod pipeline;
 pub mod profile;
 pub mod renderer;
 pub mod trace;

@@ -1,12 +1,13 @@
 //! Where a render's time goes, stage by stage, and how full the pool of paths is, vertex by vertex.
 
-use super::buffers::vertex_parameters;
+use super::device::Device;
 use super::passes::Pass;
-use super::renderer::{BandState, GpuRenderer, Step};
+use super::pipeline::{Pipeline, Step};
 use crate::plan::bindings::Binding;
 use crate::plan::stages::When;
 use crate::plan::{MAX_SAMPLES_PER_PASS, StageMode};
 use crate::renderer::RenderError;
+use crate::sampling::Sampling;
 
 /// What one stage took in one pass, over all vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,13 +34,22 @@ pub struct Profile {
 
 /// Dispatches of a pass, each between two time stamps.
 struct Recorder<'a> {
-    renderer: &'a GpuRenderer,
+    device: &'a Device,
     encoder: wgpu::CommandEncoder,
     stamps: wgpu::QuerySet,
     stages: Vec<&'static str>,
 }
 
-impl Recorder<'_> {
+impl<'a> Recorder<'a> {
+    fn new(device: &'a Device, dispatches: u32) -> Self {
+        let stamps = device.device.create_query_set(&wgpu::QuerySetDescriptor {
+            label: Some("time stamps"),
+            ty: wgpu::QueryType::Timestamp,
+            count: 2 * dispatches,
+        });
+        Self { device, encoder: device.device.create_command_encoder(&Default::default()), stamps, stages: Vec::new() }
+    }
+
     fn record(&mut self, step: &Step<'_>, vertex_index: u32) {
         let first = 2 * self.stages.len() as u32;
         let timestamp_writes = Some(wgpu::ComputePassTimestampWrites {
@@ -59,14 +69,14 @@ impl Recorder<'_> {
     fn finish(mut self) -> Result<Vec<StageTime>, RenderError> {
         let count = 2 * self.stages.len() as u32;
         let bytes = 8 * u64::from(count);
-        let device = &self.renderer.device;
+        let device = self.device;
         let resolved = device.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("time stamps"),
             size: bytes,
             usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
             mapped_at_creation: false,
         });
-        let target = self.renderer.readback_buffer(bytes);
+        let target = device.readback_buffer(bytes);
         self.encoder.resolve_query_set(&self.stamps, 0..count, &resolved, 0);
         self.encoder.copy_buffer_to_buffer(&resolved, 0, &target, 0, bytes);
         device.submit_and_wait(self.encoder.finish())?;
@@ -87,75 +97,62 @@ impl Recorder<'_> {
     }
 }
 
-impl GpuRenderer {
-    /// Runs one pass that fills the pool, or the first band, with time stamps around every stage. Vertices beyond those of one submission are
-    /// left out. The film afterwards holds nothing of use. None where the device has no time stamps.
-    ///
-    /// # Errors
-    /// What the device reports.
-    pub fn profile(&self) -> Result<Option<Profile>, RenderError> {
-        if !self.device.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
-            return Ok(None);
-        }
-        let [width, _] = self.size;
-        let wavefront = self.plan.stages == StageMode::Wavefront;
-        let rows = self.plan.band_rows.min(if wavefront { (self.plan.path_capacity / width).max(1) } else { u32::MAX });
-        let pixel_count = (width * rows).min(self.plan.path_capacity);
-        let samples = (self.plan.path_capacity / pixel_count).clamp(1, MAX_SAMPLES_PER_PASS);
-        let pass = Pass { first_pixel: 0, pixel_count, first_sample: 0, sample_count: samples, film_is_empty: true };
-        let band = BandState { first_row: 0, rows, samples_done: 0 };
-        self.write_pass(&band, &pass, &self.sampling);
-        if wavefront { self.profile_wavefront(&pass).map(Some) } else { self.profile_fused(&pass).map(Some) }
+/// Runs one pass that fills the pool, or the first band, with time stamps around every stage. Vertices beyond those of one submission are
+/// left out. The film afterwards holds nothing of use. None where the device has no time stamps.
+///
+/// # Errors
+/// What the device reports.
+pub(super) fn profile(pipeline: &Pipeline, sampling: &Sampling) -> Result<Option<Profile>, RenderError> {
+    let Pipeline { device, plan, width, .. } = pipeline;
+    if !device.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
+        return Ok(None);
     }
+    let wavefront = plan.stages == StageMode::Wavefront;
+    let rows = plan.band_rows.min(if wavefront { (plan.path_capacity / width).max(1) } else { u32::MAX });
+    let pixel_count = (width * rows).min(plan.path_capacity);
+    let samples = (plan.path_capacity / pixel_count).clamp(1, MAX_SAMPLES_PER_PASS);
+    let pass = Pass { first_pixel: 0, pixel_count, first_sample: 0, sample_count: samples, film_is_empty: true };
+    pipeline.write_pass(0, &pass, sampling);
+    if wavefront { profile_wavefront(pipeline, &pass).map(Some) } else { profile_fused(pipeline, &pass).map(Some) }
+}
 
-    fn recorder(&self, dispatches: u32) -> Recorder<'_> {
-        let stamps = self.device.device.create_query_set(&wgpu::QuerySetDescriptor {
-            label: Some("time stamps"),
-            ty: wgpu::QueryType::Timestamp,
-            count: 2 * dispatches,
-        });
-        let encoder = self.device.device.create_command_encoder(&Default::default());
-        Recorder { renderer: self, encoder, stamps, stages: Vec::new() }
+fn profile_fused(pipeline: &Pipeline, pass: &Pass) -> Result<Profile, RenderError> {
+    let mut recorder = Recorder::new(&pipeline.device, 1);
+    for step in pipeline.steps(When::PassStart, true, pass) {
+        recorder.record(&step, 0);
     }
+    let paths = pass.paths() as u32;
+    Ok(Profile { stages: recorder.finish()?, paths, capacity: paths, alive: Vec::new() })
+}
 
-    fn profile_fused(&self, pass: &Pass) -> Result<Profile, RenderError> {
-        let mut recorder = self.recorder(1);
-        for step in self.steps(When::PassStart, true, pass) {
-            recorder.record(&step, 0);
-        }
-        let paths = pass.paths() as u32;
-        Ok(Profile { stages: recorder.finish()?, paths, capacity: paths, alive: Vec::new() })
+fn profile_wavefront(pipeline: &Pipeline, pass: &Pass) -> Result<Profile, RenderError> {
+    let device = &pipeline.device;
+    let paths = pass.paths() as u32;
+    let vertices = pipeline.vertices_ahead(1);
+    pipeline.begin_paths(pass);
+    let mut recorder = Recorder::new(device, 2 + 4 * vertices);
+    let counts = device.readback_buffer(16 * u64::from(vertices));
+    for step in pipeline.steps(When::PassStart, true, pass) {
+        recorder.record(&step, 0);
     }
-
-    fn profile_wavefront(&self, pass: &Pass) -> Result<Profile, RenderError> {
-        let paths = pass.paths() as u32;
-        let vertices = self.max_vertices.unwrap_or(u32::MAX).min(self.vertices_per_submission);
-        self.write(Binding::Counts, bytemuck::cast_slice(&[paths, 0, 0, 0, 0]));
-        self.write(Binding::Vertex, &vertex_parameters(1));
-        let mut recorder = self.recorder(2 + 4 * vertices);
-        let counts = self.readback_buffer(16 * u64::from(vertices));
-        for step in self.steps(When::PassStart, true, pass) {
-            recorder.record(&step, 0);
+    for index in 0..vertices {
+        for step in pipeline.steps(When::EachVertex, index == 0, pass) {
+            recorder.record(&step, index);
         }
-        for index in 0..vertices {
-            for step in self.steps(When::EachVertex, index == 0, pass) {
-                recorder.record(&step, index);
-            }
-            if let Some(source) = self.buffers.buffer(Binding::Counts) {
-                recorder.encoder.copy_buffer_to_buffer(source, 0, &counts, 16 * u64::from(index), 16);
-            }
+        if let Some(source) = pipeline.buffers.buffer(Binding::Counts) {
+            recorder.encoder.copy_buffer_to_buffer(source, 0, &counts, 16 * u64::from(index), 16);
         }
-        for step in self.steps(When::PassEnd, false, pass) {
-            recorder.record(&step, 0);
-        }
-        let stages = recorder.finish()?;
-        let words: Vec<[u32; 4]> = self.device.read(&counts)?.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect();
-        // After vertex number i (from 1) its survivors wait in the queue that vertex i + 1 reads.
-        let survivors = words.iter().zip(1..).map(|(counts, vertex)| counts[(vertex % 2) as usize]);
-        let mut alive: Vec<u32> = std::iter::once(paths).chain(survivors).take(vertices as usize).collect();
-        while alive.last() == Some(&0) {
-            alive.pop();
-        }
-        Ok(Profile { stages, paths, capacity: self.plan.path_capacity, alive })
     }
+    for step in pipeline.steps(When::PassEnd, false, pass) {
+        recorder.record(&step, 0);
+    }
+    let stages = recorder.finish()?;
+    let words: Vec<[u32; 4]> = device.read(&counts)?.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect();
+    // After vertex number i (from 1) its survivors wait in the queue that vertex i + 1 reads.
+    let survivors = words.iter().zip(1..).map(|(counts, vertex)| counts[(vertex % 2) as usize]);
+    let mut alive: Vec<u32> = std::iter::once(paths).chain(survivors).take(vertices as usize).collect();
+    while alive.last() == Some(&0) {
+        alive.pop();
+    }
+    Ok(Profile { stages, paths, capacity: pipeline.plan.path_capacity, alive })
 }

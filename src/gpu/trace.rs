@@ -1,7 +1,8 @@
 //! What happens along one path on the device, vertex by vertex.
 
+use super::film::read_half;
 use super::passes::Pass;
-use super::renderer::{BandState, GpuRenderer};
+use super::pipeline::Pipeline;
 use crate::packed::NONE;
 use crate::plan::bindings::Binding;
 use crate::plan::trace_record::{
@@ -9,6 +10,7 @@ use crate::plan::trace_record::{
     TRACED_VERTEX,
 };
 use crate::renderer::RenderError;
+use crate::sampling::Sampling;
 use crate::scene::MaterialId;
 
 /// Emission or environment radiance that the path met.
@@ -69,30 +71,29 @@ pub struct GpuPathTrace {
     pub radiance: [f32; 3],
 }
 
-impl GpuRenderer {
-    /// Follows one path, sample `sample` of the pixel at column `x` and row `y`.
-    ///
-    /// # Errors
-    /// [`RenderError::Internal`] where the renderer was not made with [`crate::plan::PlanOptions::trace`]; else what the device reports.
-    pub fn trace(&self, x: u32, y: u32, sample: u32) -> Result<GpuPathTrace, RenderError> {
-        let missing = || RenderError::Internal("the kernels were not compiled to trace paths".into());
-        let source = self.buffers.buffer(Binding::Trace).ok_or_else(missing)?;
-        let band = BandState { first_row: y, rows: 1, samples_done: 0 };
-        let pass = Pass { first_pixel: x, pixel_count: 1, first_sample: sample, sample_count: 1, film_is_empty: true };
-        self.device.queue.write_buffer(source, 0, &vec![0; TRACE_BYTES as usize]);
-        self.write_pass(&band, &pass, &self.sampling);
-        self.run_pass(&pass)?;
-        let target = self.readback_buffer(TRACE_BYTES);
-        let mut encoder = self.device.device.create_command_encoder(&Default::default());
-        encoder.copy_buffer_to_buffer(source, 0, &target, 0, TRACE_BYTES);
-        self.device.submit_and_wait(encoder.finish())?;
-        let words: Vec<[f32; 4]> = self.device.read(&target)?.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect();
-        let vertices =
-            words.chunks_exact(TRACE_WORDS as usize).map_while(|words| read_vertex(words, &self.scene_materials)).collect();
-        let sums = self.read_film(&self.buffers.film[0], 1)?;
-        let [r, g, b, _] = sums[x as usize];
-        Ok(GpuPathTrace { vertices, radiance: [r, g, b] })
-    }
+/// Follows one path, sample `sample` of the pixel at column `x` and row `y`. `scene_materials`: which of the scene's materials the packed ones
+/// are.
+///
+/// # Errors
+/// [`RenderError::Internal`] where the pipeline was not made with [`crate::plan::PlanOptions::trace`]; else what the device reports.
+pub(super) fn trace(
+    pipeline: &Pipeline,
+    sampling: &Sampling,
+    [x, y, sample]: [u32; 3],
+    scene_materials: &[MaterialId],
+) -> Result<GpuPathTrace, RenderError> {
+    let missing = || RenderError::Internal("the kernels were not compiled to trace paths".into());
+    let source = pipeline.buffers.buffer(Binding::Trace).ok_or_else(missing)?;
+    let pass = Pass { first_pixel: x, pixel_count: 1, first_sample: sample, sample_count: 1, film_is_empty: true };
+    pipeline.write(Binding::Trace, &vec![0; TRACE_BYTES as usize]);
+    pipeline.write_pass(y, &pass, sampling);
+    pipeline.run_pass(&pass)?;
+    let bytes = pipeline.device.read_start(source, TRACE_BYTES)?;
+    let words: Vec<[f32; 4]> = bytes.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect();
+    let vertices = words.chunks_exact(TRACE_WORDS as usize).map_while(|words| read_vertex(words, scene_materials)).collect();
+    let sums = read_half(&pipeline.device, &pipeline.buffers.film[0], [pipeline.width, 1])?;
+    let [r, g, b, _] = sums[x as usize];
+    Ok(GpuPathTrace { vertices, radiance: [r, g, b] })
 }
 
 /// None past the last vertex. `scene_materials`: which of the scene's materials the packed ones are.
