@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::film::Band;
 use crate::packed::hierarchy::Traversal;
-use crate::plan::Decision;
+use crate::plan::{Decision, PlanError};
 use crate::scene::InvalidScene;
 
 /// Which device renders.
@@ -116,6 +116,15 @@ pub enum RenderError {
     /// The receiver of the bands failed (a full disk, say).
     #[error(transparent)]
     Output(#[from] std::io::Error),
+}
+
+impl From<PlanError> for RenderError {
+    fn from(error: PlanError) -> Self {
+        match error {
+            PlanError::DoesNotFit(message) => Self::DoesNotFit(message),
+            PlanError::Internal(message) => Self::Internal(message),
+        }
+    }
 }
 
 /// A scene made ready on one device.

@@ -35,7 +35,7 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
         Ok(adapter) => (adapter.get_info().name, DeviceLimits::of(&adapter)),
         Err(_) => ("a device with the limits that WebGPU promises".to_owned(), DeviceLimits::default()),
     };
-    let plan = Plan::new(&scene, &packed, &limits, &options)?;
+    let plan = Plan::new(&scene, &packed, &limits, &options).map_err(RenderError::from)?;
     terminal::answer(&format!("\nplan for {device}\n{plan}\n"))?;
     Ok(Exit::Done)
 }

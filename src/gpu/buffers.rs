@@ -11,7 +11,7 @@ use crate::packed::PackedScene;
 use crate::plan::bindings::Binding;
 use crate::plan::chunks::{ATTRIBUTES, NODES, PRIMITIVES};
 use crate::plan::parameters::{PassParameters, VertexParameters};
-use crate::plan::path_state::{COUNTS, DISPATCH_SIZE_WORDS};
+use crate::plan::path_state::{COUNTS, DISPATCH_SIZE_WORDS, PATH_STATE_BYTES};
 use crate::plan::trace_record::TRACE_BYTES;
 use crate::plan::{FilmStorage, MAX_SAMPLES_PER_PASS, Plan, StageMode, memory};
 
@@ -84,7 +84,7 @@ impl Buffers {
         }
         if plan.stages == StageMode::Wavefront {
             let paths = u64::from(plan.path_capacity);
-            make(Binding::PathState as u32, "path state", paths * memory::PATH_STATE_BYTES, storage);
+            make(Binding::PathState as u32, "path state", paths * PATH_STATE_BYTES, storage);
             make(Binding::Queues as u32, "queues", paths * memory::QUEUE_BYTES, storage);
             make(
                 Binding::Counts as u32,

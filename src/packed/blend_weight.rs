@@ -1,6 +1,6 @@
 //! What decides the weights of a blend, as the device reads it.
 
-use super::NONE;
+use super::constants::NONE;
 use crate::scene::BlendWeight;
 use crate::shader::shared::{Constants, shared_constants, shared_kinds};
 

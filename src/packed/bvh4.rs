@@ -6,8 +6,16 @@
 use obvhs::bvh2::Bvh2;
 
 use super::grid::{Box3, Grid};
-use super::hierarchy::Child;
 use crate::shader::shared::shared_constants;
+
+/// What stands in a node's place for a child.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Child {
+    /// Index of a node.
+    Inner(usize),
+    /// Consecutive primitives.
+    Leaf { first: u32, count: u32 },
+}
 
 shared_constants!(constants {
     /// Words of a node's record.

@@ -1,6 +1,6 @@
 //! The bounding volume hierarchy, or what a device needs to build one of its own.
 
-use super::bvh4;
+use super::bvh4::{self, Child};
 use super::ray_query::ShapeBox;
 
 /// How rays find what stands in the hierarchy.
@@ -21,15 +21,6 @@ impl Traversal {
             Self::RayQuery => "ray_query",
         }
     }
-}
-
-/// What stands in a node's place for a child.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Child {
-    /// Index of a node.
-    Inner(usize),
-    /// Consecutive primitives.
-    Leaf { first: u32, count: u32 },
 }
 
 /// The hierarchy, and how many primitives it holds.

@@ -5,9 +5,9 @@ use std::collections::{BTreeSet, HashMap};
 
 use glam::DVec3;
 
-use super::NONE;
 use super::blend_weight::{PackedBlendWeight, constant_weight};
-use super::validate::PackError;
+use super::constants::NONE;
+use super::error::PackError;
 use crate::scene::material;
 use crate::scene::{BlendMode, ColorInput, LobeKind, Material, MaterialId, MaterialKind, Scene};
 use crate::shader::shared::{Constant, Constants, shared_constants};

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
-use super::NONE;
+use super::constants::NONE;
 use crate::math::outward;
 use crate::shader::shared::{shared_constants, shared_kinds};
 

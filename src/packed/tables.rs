@@ -1,6 +1,6 @@
 //! One array for all that shading looks up: materials, the parts and weights of blends, lights, textures, motions.
 
-use super::PackedScene;
+use super::scene::PackedScene;
 
 /// The tables as vec4s, and where each begins.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -30,5 +30,12 @@ impl Tables {
         let first = self.words.len() as u32;
         self.words.extend_from_slice(bytemuck::cast_slice(rows));
         first
+    }
+}
+
+impl PackedScene {
+    /// All that shading looks up, as one array of vec4.
+    pub fn tables(&self) -> Tables {
+        Tables::new(self)
     }
 }

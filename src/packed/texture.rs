@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use super::validate::PackError;
+use super::error::PackError;
 use crate::scene::{ImageTexture, Scene, Texture, TextureFilter, TextureId, TextureKind, TextureWrap};
 use crate::shader::shared::{Constants, shared_constants, shared_kinds};
 

@@ -4,10 +4,10 @@ use obvhs::bvh2::{Bvh2, leaf_collapser::collapse, reinsertion::ReinsertionOptimi
 use obvhs::ploc::PlocBuilder;
 use obvhs::{Boundable, BvhBuildParams, aabb::Aabb};
 
+use super::error::PackError;
 use super::hierarchy::{Hierarchy, Traversal};
 use super::motion::PackedMotion;
 use super::primitive::{PrimitiveKind, WorldPrimitive};
-use super::validate::PackError;
 use super::{bvh4, ray_query};
 
 /// Leaves hold at most this many primitives: their size takes two bits.

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
-use super::NONE;
+use super::constants::NONE;
 use super::motion::PackedMotion;
 use super::primitive::{PrimitiveGeometry, TriangleAttributes, WorldPrimitive};
 use crate::scene::{Geometry, MaterialId, MaterialKind, Mesh, Scene, Shape};

@@ -6,13 +6,12 @@
 use std::fmt::{self, Write as _};
 
 use super::bindings::Binding;
+use super::error::PlanError;
 use super::limits::DeviceLimits;
 use super::memory::{self, megabytes};
-use super::{Plan, has_attributes};
 use crate::packed::PackedScene;
 use crate::packed::bvh4::NODE_RECORD_WORDS;
 use crate::packed::primitive::{ATTRIBUTE_RECORD_WORDS, PRIMITIVE_RECORD_WORDS};
-use crate::renderer::RenderError;
 
 /// Chunks of an array at most: binding numbers stay below 1,000, which WebGPU allows.
 const MAX_CHUNKS: u32 = 100;
@@ -157,16 +156,17 @@ impl RecordArray {
     }
 }
 
-/// The arrays of a plan that stand in storage buffers and may be cut, in chunks of at most `limit` bytes.
-pub fn cut(packed: &PackedScene, plan: &Plan, limit: u64) -> Vec<Chunks> {
+/// The arrays that stand in storage buffers and may be cut, in chunks of at most `limit` bytes: those of primitives and of the hierarchy's nodes
+/// where they do, and of attributes where there are any.
+pub fn cut(packed: &PackedScene, stored_primitives: bool, stored_nodes: bool, limit: u64) -> Vec<Chunks> {
     let mut arrays = Vec::new();
-    if !plan.uniform_primitives {
+    if stored_primitives {
         arrays.push(Chunks::new(PRIMITIVES, size_of_val(&packed.primitives[..]) as u64, limit));
     }
-    if plan.has_nodes() && !plan.uniform_nodes {
+    if stored_nodes {
         arrays.push(Chunks::new(NODES, size_of_val(&packed.hierarchy.nodes[..]) as u64, limit));
     }
-    if has_attributes(packed) {
+    if packed.has_attributes() {
         arrays.push(Chunks::new(ATTRIBUTES, size_of_val(&packed.attributes[..]) as u64, limit));
     }
     arrays
@@ -175,12 +175,12 @@ pub fn cut(packed: &PackedScene, plan: &Plan, limit: u64) -> Vec<Chunks> {
 /// Refuses what cannot be bound even in chunks of at most `limit` bytes. `others` counts the scene's further storage buffers.
 ///
 /// # Errors
-/// [`RenderError::DoesNotFit`] naming the largest array that is cut, where a stage would need more buffers than the device allows.
-pub fn check(arrays: &[Chunks], others: u32, limit: u64, limits: &DeviceLimits) -> Result<(), RenderError> {
+/// [`PlanError::DoesNotFit`] naming the largest array that is cut, where a stage would need more buffers than the device allows.
+pub fn check(arrays: &[Chunks], others: u32, limit: u64, limits: &DeviceLimits) -> Result<(), PlanError> {
     let needed = arrays.iter().fold(others + OTHER_BUFFERS, |sum, array| sum.saturating_add(array.count));
     let cut = arrays.iter().filter(|array| !array.is_whole());
     match cut.max_by_key(|array| array.bytes) {
-        Some(array) if needed > limits.max_storage_buffers || array.count > MAX_CHUNKS => Err(RenderError::DoesNotFit(format!(
+        Some(array) if needed > limits.max_storage_buffers || array.count > MAX_CHUNKS => Err(PlanError::DoesNotFit(format!(
             "its {} need {}, and the device can bind {} at once; in chunks of that size a stage would need up to {needed} buffers, and can have {}",
             array.array.label,
             megabytes(array.bytes),

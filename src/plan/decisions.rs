@@ -1,22 +1,15 @@
 //! What the plan decided, and why: what `gpt check` and `--stats` tell.
 
-use serde::Serialize;
-
+use super::choices::{FilmStorage, GeometryPlacement, StageMode, UNROLL_LIMIT};
+use super::chunks::Chunks;
+use super::decision::Decision;
+use super::limits::DeviceLimits;
 use super::memory::{PRIMITIVES, TABLES};
-use super::{Chunks, DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanOptions, StageMode, TraversalChoice, UNROLL_LIMIT};
+use super::model::Plan;
+use super::options::{PlanOptions, TraversalChoice};
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
 use crate::scene::Scene;
-
-/// One decision, in words.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Decision {
-    /// What is decided, for example `geometry`.
-    pub about: &'static str,
-    pub choice: String,
-    /// The facts of scene and device that led to it.
-    pub because: String,
-}
 
 const ASKED_FOR: &str = "asked for";
 

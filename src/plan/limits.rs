@@ -1,8 +1,8 @@
 //! What the plan has to know of a device.
 
-use super::FilmStorage;
-use super::memory::PATH_STATE_BYTES;
-use crate::renderer::RenderError;
+use super::choices::FilmStorage;
+use super::error::PlanError;
+use super::path_state::PATH_STATE_BYTES;
 
 /// Bytes that the queue of shadow rays takes at most: five million of them keep any device busy.
 const MOST_SHADOW_RAY_BYTES: u64 = 256 << 20;
@@ -97,10 +97,10 @@ impl DeviceLimits {
     }
 
     /// # Errors
-    /// [`RenderError::DoesNotFit`] where the device, so called, has no ray queries.
-    pub fn check_ray_queries(&self, device: &str) -> Result<RayQueryLimits, RenderError> {
+    /// [`PlanError::DoesNotFit`] where the device, so called, has no ray queries.
+    pub fn check_ray_queries(&self, device: &str) -> Result<RayQueryLimits, PlanError> {
         let missing = || {
-            RenderError::DoesNotFit(format!(
+            PlanError::DoesNotFit(format!(
                 "{device} has no ray queries, or its driver does not offer them; without `--traversal ray-query` it renders all the same"
             ))
         };

@@ -1,6 +1,7 @@
 //! Choices that a user or a tool makes instead of the plan.
 
-use super::{Fault, StageMode};
+use super::choices::StageMode;
+use super::fault::Fault;
 use crate::packed::hierarchy::Traversal;
 
 /// How rays find what they meet on a graphics device (`--traversal`).

@@ -22,3 +22,6 @@ shared_constants!(constants {
     /// Words of all dispatch sizes.
     pub const DISPATCH_SIZE_WORDS: u32 = 9;
 });
+
+/// Bytes of state per path: ray, throughput, radiance, hit (`shaders/stages/wavefront.wgsl`).
+pub const PATH_STATE_BYTES: u64 = 16 * PATH_STATE_WORDS as u64;

@@ -1,18 +1,18 @@
 //! What ray queries can see, and what they cannot.
 
+use super::error::PlanError;
 use super::limits::{DeviceLimits, RayQueryLimits};
 use super::memory::{ACCELERATION, PRIMITIVE_BYTES, megabytes};
 use crate::packed::PackedScene;
-use crate::renderer::RenderError;
 
 /// Refuses scenes that ray queries cannot see, or that no structure can hold.
 ///
 /// # Errors
-/// [`RenderError::DoesNotFit`], saying what to do.
-pub(super) fn check(packed: &PackedScene, limits: &DeviceLimits) -> Result<(), RenderError> {
+/// [`PlanError::DoesNotFit`], saying what to do.
+pub(super) fn check(packed: &PackedScene, limits: &DeviceLimits) -> Result<(), PlanError> {
     let RayQueryLimits { max_primitives } = limits.check_ray_queries("the device")?;
     let refuse =
-        |why: String| Err(RenderError::DoesNotFit(format!("{why}; without `--traversal ray-query` it renders all the same")));
+        |why: String| Err(PlanError::DoesNotFit(format!("{why}; without `--traversal ray-query` it renders all the same")));
     if packed.moves() {
         return refuse("its shapes move, and acceleration structures hold a scene at rest".to_owned());
     }

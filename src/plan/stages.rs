@@ -3,8 +3,9 @@
 //! Besides, every stage reads the scene's arrays and the parameters of its pass and vertex.
 
 use super::bindings::Binding::{self, *};
+use super::choices::StageMode;
+use super::model::Plan;
 use super::path_state::{CONNECT_SIZE, EXTEND_SIZE, SHADE_SIZE};
-use super::{Plan, StageMode};
 
 /// When a stage runs within a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,6 +1,7 @@
 //! Which of the [switches](crate::shader::switches) a scene turns on.
 
-use super::{FilmStorage, MAX_SAMPLES_PER_PASS, Plan, has_attributes};
+use super::choices::{FilmStorage, MAX_SAMPLES_PER_PASS};
+use super::model::{Plan, SEQUENCE_BLOCKS};
 use crate::packed::hierarchy::Traversal;
 use crate::packed::light::{LightKind, PackedLight};
 use crate::packed::material::{BLEND, NO_LOBE, PackedMaterial};
@@ -8,15 +9,11 @@ use crate::packed::primitive::{Primitive, PrimitiveKind};
 use crate::packed::texture::PackedTextureKind;
 use crate::packed::{NONE, PackedScene};
 use crate::sampling::Decorrelation;
-use crate::sampling::dimension::SEQUENCE_DIMENSIONS;
 use crate::scene::{ApertureShape, Filter, FilterKind, HemisphereSampling, Projection};
 use crate::scene::{
     BlendMode, Estimator, LightSampling, LobeKind, LobeSupport, MisHeuristic, PixelSampler, RenderSettings, Scene,
 };
 use crate::shader::Switches;
-
-/// Blocks of four dimensions that the sequence's table holds per sample.
-pub const SEQUENCE_BLOCKS: u32 = SEQUENCE_DIMENSIONS / 4;
 
 pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
     let mut switches = Switches::default();
@@ -41,7 +38,7 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
     switches.enable("UNIFORM_NODES", plan.has_nodes() && plan.uniform_nodes);
     switches.enable("UNIFORM_PRIMITIVES", plan.uniform_primitives);
     switches.enable("UNIFORM_TABLES", plan.uniform_tables);
-    switches.enable("ATTRIBUTES", has_attributes(packed));
+    switches.enable("ATTRIBUTES", packed.has_attributes());
     switches.enable("TEXTURES", !packed.textures.textures.is_empty());
     let has_texture = |kind: PackedTextureKind| packed.textures.textures.iter().any(|texture| texture.kind() == kind as u32);
     switches.enable("IMAGES", has_texture(PackedTextureKind::Image));

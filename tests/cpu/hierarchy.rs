@@ -7,9 +7,9 @@ use crate::statistics::random::SplitMix64;
 use glam::Vec3;
 use gpt::load;
 use gpt::packed::PackedScene;
+use gpt::packed::bvh4::Child;
 use gpt::packed::bvh4::Node;
 use gpt::packed::grid::Box3;
-use gpt::packed::hierarchy::Child;
 use gpt::packed::primitive::PrimitiveKind;
 use gpt::scene::{Geometry, Mesh, Scene};
 

@@ -2,13 +2,15 @@
 
 use gpt::load;
 use gpt::packed::PackedScene;
-use gpt::packed::hierarchy::{Child, Traversal};
-use gpt::plan::{DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanOptions, RayQueryLimits, StageMode, TraversalChoice};
-use gpt::renderer::RenderError;
+use gpt::packed::bvh4::Child;
+use gpt::packed::hierarchy::Traversal;
+use gpt::plan::{
+    DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanError, PlanOptions, RayQueryLimits, StageMode, TraversalChoice,
+};
 use gpt::scene::Scene;
 use std::path::Path;
 
-fn plan(scene: &Scene, limits: &DeviceLimits) -> Result<Plan, RenderError> {
+fn plan(scene: &Scene, limits: &DeviceLimits) -> Result<Plan, PlanError> {
     let packed = PackedScene::new(scene).expect("the scene packs");
     Plan::new(scene, &packed, limits, &PlanOptions::default())
 }
@@ -80,7 +82,7 @@ fn an_array_beyond_the_largest_binding_is_refused_with_both_sizes() {
     scene.film.size = [64, 64];
     let limits = DeviceLimits { max_array: 100 << 10, ..DeviceLimits::default() };
     match plan(&scene, &limits) {
-        Err(RenderError::DoesNotFit(message)) => {
+        Err(PlanError::DoesNotFit(message)) => {
             let expected = "its primitives need 0.3 MiB, and the device can bind 0.1 MiB at once; in chunks of that size a stage would \
                             need up to 9 buffers, and can have 8";
             assert_eq!(message, expected);
@@ -142,7 +144,7 @@ fn a_scene_packed_for_another_traversal_is_refused() {
                     assert_eq!(plan.switches.enabled.contains("BVH"), packed_for == Traversal::Bvh);
                     assert_eq!(plan.switches.enabled.contains("RAY_QUERY"), packed_for == Traversal::RayQuery);
                 }
-                Err(RenderError::Internal(_)) => assert_ne!(options.packed_traversal(), packed_for),
+                Err(PlanError::Internal(_)) => assert_ne!(options.packed_traversal(), packed_for),
                 Err(error) => panic!("{error}"),
             }
         }

@@ -10,8 +10,7 @@ use glam::Vec3;
 use gpt::gpu::Device;
 use gpt::load;
 use gpt::packed::PackedScene;
-use gpt::plan::{Chunks, DeviceLimits, Plan, PlanOptions, StageMode};
-use gpt::renderer::RenderError;
+use gpt::plan::{Chunks, DeviceLimits, Plan, PlanError, PlanOptions, StageMode};
 use gpt::scene::{Geometry, Scene};
 
 /// Quads along each side of the grid.
@@ -152,7 +151,7 @@ fn primitives_on_both_sides_of_a_cut_are_seen() {
     }
 }
 
-fn plan(limits: &DeviceLimits) -> Result<Plan, RenderError> {
+fn plan(limits: &DeviceLimits) -> Result<Plan, PlanError> {
     let scene = grid();
     let packed = PackedScene::new(&scene).expect("the scene packs");
     Plan::new(&scene, &packed, limits, &options(StageMode::Fused))
@@ -167,7 +166,7 @@ fn too_many_chunks_are_refused_with_both_sizes() {
     let needed: u32 = plan(&limits(100)).map(|plan| counts(&plan).iter().sum()).expect("they are enough");
     assert!(needed > 8);
     match plan(&limits(8)) {
-        Err(RenderError::DoesNotFit(message)) => {
+        Err(PlanError::DoesNotFit(message)) => {
             let expected = "its primitives need 0.1 MiB, and the device can bind 0.0 MiB at once; in chunks of that size a stage";
             assert!(message.starts_with(expected), "{message}");
         }

@@ -11,7 +11,7 @@ use gpt::load::load_toml_str;
 use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
 use gpt::plan::limits::RayQueryLimits;
-use gpt::plan::{DeviceLimits, Plan, PlanOptions, StageMode, TraversalChoice};
+use gpt::plan::{DeviceLimits, Plan, PlanError, PlanOptions, StageMode, TraversalChoice};
 use gpt::renderer::{DeviceChoice, RenderError};
 use gpt::scene::Scene;
 
@@ -124,14 +124,14 @@ fn packed(scene: &Scene) -> PackedScene {
     PackedScene::for_traversal(scene, Traversal::RayQuery).expect("the scene packs")
 }
 
-fn plan(scene: &Scene, limits: &DeviceLimits) -> Result<Plan, RenderError> {
+fn plan(scene: &Scene, limits: &DeviceLimits) -> Result<Plan, PlanError> {
     Plan::new(scene, &packed(scene), limits, &by_ray_queries())
 }
 
 /// What people read where ray queries are asked for and cannot be.
 fn refusal(scene: &Scene, limits: &DeviceLimits) -> String {
     match plan(scene, limits) {
-        Err(RenderError::DoesNotFit(why)) => why,
+        Err(PlanError::DoesNotFit(why)) => why,
         other => panic!("{other:?}"),
     }
 }

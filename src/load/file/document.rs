@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::syntax::SceneFile;
 use super::wording;
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 
 /// A scene file's text.
 #[derive(Clone, Copy)]

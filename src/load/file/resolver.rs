@@ -10,7 +10,7 @@ use glam::DVec3;
 use super::document::Document;
 use super::value::{Colour, Located, Rule, Scalar, Vector, vector};
 use super::wording::did_you_mean;
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 use crate::scene::{ColorInput, ColorSpace, ImageData, MaterialId, Mesh, Scene, TextureId};
 
 /// Images by file and by how their values are read, so that each is decoded once.

@@ -4,7 +4,7 @@ use glam::{DVec3, DVec4};
 
 use crate::math::luminance;
 use crate::packed::environment::{PackedEnvironment, PackedMap};
-use crate::packed::validate::PackError;
+use crate::packed::error::PackError;
 use crate::sampling::MapDistribution;
 use crate::scene::{Environment, EnvironmentRadiance, ImageData};
 

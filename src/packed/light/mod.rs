@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::environment::PackedEnvironment;
+use super::error::PackError;
 use super::primitive::WorldPrimitive;
-use super::validate::PackError;
 use super::world::WorldGeometry;
 use crate::sampling::{LightGroup, LightSampler, LightStrength};
 use crate::scene::light::light_table;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::packed::NONE;
+use crate::packed::constants::NONE;
 use crate::shader::shared::{Constants, shared_constants, shared_kinds};
 
 shared_kinds! {

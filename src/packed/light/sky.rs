@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::math::luminance;
 use crate::packed::environment::PackedEnvironment;
-use crate::packed::validate::PackError;
+use crate::packed::error::PackError;
 use crate::scene::Sky;
 
 /// Words: (radiance at the horizon; -), (at the zenith; the share of the upper half), (below; 1 over the integral of its luminance).

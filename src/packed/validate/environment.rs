@@ -1,8 +1,8 @@
 //! The environment's map among the texels.
 
 use super::Check;
-use crate::packed::PackedScene;
 use crate::packed::environment::PackedMap;
+use crate::packed::scene::PackedScene;
 
 /// Most texels or cells along a side: kernels compute with them in signed numbers.
 const LONGEST_SIDE: u32 = 1 << 30;

@@ -3,11 +3,13 @@
 use rayon::prelude::*;
 
 use super::{Check, MANY};
-use crate::packed::hierarchy::{Child, Traversal, deepest_stack};
+use crate::packed::bvh4::Child;
+use crate::packed::constants::NONE;
+use crate::packed::hierarchy::{Traversal, deepest_stack};
 use crate::packed::motion::KINDS_OF_STEPS;
 use crate::packed::primitive::{Primitive, PrimitiveKind};
+use crate::packed::scene::PackedScene;
 use crate::packed::tree::MAX_PRIMITIVES;
-use crate::packed::{NONE, PackedScene};
 
 impl PackedScene {
     /// Motions stand one behind the other and end where the array does; attributes name the first word of one.

@@ -2,10 +2,11 @@
 
 use super::Check;
 use crate::packed::blend_weight::{self, WeightKind};
+use crate::packed::constants::NONE;
 use crate::packed::light::record::{LIGHT_MOVES, LIGHT_TWO_SIDED, LIGHT_VARIES, LightKind, PORTAL_SHIFT, PackedLight};
 use crate::packed::material::{self, PackedMaterial};
 use crate::packed::texture::{self, PackedTexture, PackedTextureKind};
-use crate::packed::{NONE, PackedScene};
+use crate::packed::scene::PackedScene;
 use crate::scene::material::COMPLEX_FRESNEL;
 use crate::scene::validate::MOST_OCTAVES;
 

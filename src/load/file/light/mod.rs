@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::resolver::Resolver;
 use super::value::Located;
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 use crate::scene::Light;
 use crate::scene::light::light_table;
 

@@ -2,7 +2,7 @@
 
 use super::blend_weight::BlendWeightEntry;
 use super::keys::{MaterialKeys, material_keys};
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::Located;
 use crate::scene::MaterialKind;

@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use super::keys::{MaterialKeys, material_keys};
 use super::roughness::ggx_alpha;
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Colour, Fraction, Located, NonNegative, Positive, Rgb, Scalar};
 use crate::scene::{ColorInput, ConductorFresnel, MaterialKind};

@@ -1,7 +1,7 @@
 //! `type = "diffuse"`
 
 use super::keys::{MaterialKeys, material_keys};
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Colour, Fraction};
 use crate::scene::MaterialKind;

@@ -1,7 +1,7 @@
 //! `type = "emissive"`
 
 use super::keys::{CommonKeys, MaterialKeys, emission_of, material_keys, only_for_reflecting};
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Colour, NonNegative};
 use crate::scene::{Emission, MaterialKind};

@@ -1,7 +1,7 @@
 //! `type = "glass"`
 
 use super::keys::{MaterialKeys, ior_or_default, material_keys};
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Colour, Fraction, IndexOfRefraction};
 use crate::scene::MaterialKind;

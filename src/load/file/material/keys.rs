@@ -1,6 +1,6 @@
 //! What every type of material gives, and the keys that all have.
 
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Colour, IndexOfRefraction, Located, NonNegative};
 use crate::scene::{ColorInput, Emission, MaterialKind};

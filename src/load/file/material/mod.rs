@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use self::keys::{CommonKeys, MaterialKeys};
 use super::resolver::Resolver;
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 use crate::scene::material::material_table;
 use crate::scene::{Emission, MaterialKind};
 

@@ -1,7 +1,7 @@
 //! `type = "pass"`
 
 use super::keys::{CommonKeys, MaterialKeys, material_keys, only_for_reflecting};
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::scene::{Emission, MaterialKind};
 

@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::keys::{MaterialKeys, ior_or_default, material_keys};
 use super::roughness::ggx_alpha;
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Colour, Fraction, IndexOfRefraction, Located, Positive, Scalar};
 use crate::scene::{ColorInput, MaterialKind, MicrofacetDistribution};

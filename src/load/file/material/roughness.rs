@@ -1,6 +1,6 @@
 //! The width of a distribution of microfacets, by whichever of two keys is written.
 
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Fraction, Located, Scalar};
 use crate::scene::ColorInput;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::syntax::{ApertureEntry, CameraTable, ProjectionName};
 use crate::load::file::value::vector;

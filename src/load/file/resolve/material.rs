@@ -1,6 +1,6 @@
 //! `[[material]]`
 
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 use crate::load::file::material::MaterialEntry;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::Located;

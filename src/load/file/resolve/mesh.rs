@@ -5,15 +5,13 @@ use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
-use crate::load::SceneError;
 use crate::load::builtin;
-use crate::load::error::show;
+use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::{LoadedMesh, Resolver};
 use crate::load::file::syntax::{MeshShape, ShapeEntry};
 use crate::load::file::value::{Located, vector};
 use crate::load::obj::{self, ObjFile, Part};
-use crate::scene::ColorInput;
-use crate::scene::{Material, MaterialId, MaterialKind, Mesh};
+use crate::scene::{ColorInput, Material, MaterialId, MaterialKind, Mesh};
 
 /// Reflectance of faces without a material.
 const DEFAULT_REFLECTANCE: f64 = 0.8;

@@ -14,8 +14,7 @@ use std::path::Path;
 use super::document::Document;
 use super::resolver::Resolver;
 use super::syntax::SceneFile;
-use crate::load::SceneError;
-use crate::load::error::show;
+use crate::load::error::{SceneError, show};
 use crate::scene::Scene;
 
 /// Resolves a whole file.

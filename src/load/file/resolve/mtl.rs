@@ -15,8 +15,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::load::SceneError;
-use crate::load::error::show;
+use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::Resolver;
 use crate::load::image_file::read_image;
 use crate::load::obj::{MtlMaterial, TextureMap};

@@ -1,6 +1,6 @@
 //! `[film]` and `[render]`
 
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::syntax::{FilterEntry, SceneFile};
 use crate::scene::settings::BadSetting;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 use crate::load::file::resolver::{LoadedMesh, Resolver};
 use crate::load::file::syntax::{BoxShape, RectangleShape, ShapeEntry};
 use crate::load::file::value::{Located, vector};

@@ -6,8 +6,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::load::SceneError;
-use crate::load::error::show;
+use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::syntax::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 use crate::load::file::value::{Checked, Located, Number, Positive};

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use crate::load::SceneError;
+use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::syntax::{StepEntry, TransformEntry};
 use crate::load::file::value::{Located, Number, vector};

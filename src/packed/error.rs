@@ -1,0 +1,19 @@
+//! Why a scene could not be packed.
+
+/// Why a scene could not be packed.
+#[derive(Debug, thiserror::Error)]
+pub enum PackError {
+    #[error("the scene has {found} primitives; the hierarchy can number {limit}")]
+    TooManyPrimitives { found: usize, limit: usize },
+    #[error("the scene has {found} infinite planes; {limit} are possible")]
+    TooManyPlanes { found: usize, limit: usize },
+    #[error("the scene's textures have {found} texels, more than can be numbered")]
+    TooManyTexels { found: usize },
+    #[error("the blend `{material}` and those before it have more than {limit} weights along their branches")]
+    TooManyWeights { material: String, limit: usize },
+    #[error("{shape}: {message}")]
+    Motion { shape: String, message: String },
+    /// A mistake of this program, not of the scene.
+    #[error("the packed scene is inconsistent: {0}")]
+    Inconsistent(String),
+}

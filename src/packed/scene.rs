@@ -1,0 +1,88 @@
+//! The packed scene, and the order in which it is packed.
+
+use rayon::prelude::*;
+
+use super::constants::NONE;
+use super::environment::PackedEnvironment;
+use super::error::PackError;
+use super::hierarchy::{Hierarchy, Traversal};
+use super::light::PackedLight;
+use super::material::PackedMaterials;
+use super::primitive::{Primitive, TriangleAttributes};
+use super::texture::PackedTextures;
+use super::view::View;
+use super::{light, tree, world};
+use crate::scene::Scene;
+
+/// A scene ready for upload.
+#[derive(Debug, Clone, Default)]
+pub struct PackedScene {
+    /// In leaf order; behind them those that the hierarchy does not hold.
+    pub primitives: Vec<Primitive>,
+    pub attributes: Vec<TriangleAttributes>,
+    pub hierarchy: Hierarchy,
+    pub materials: PackedMaterials,
+    /// Lights that are sampled; empty where the estimator never asks.
+    pub lights: Vec<PackedLight>,
+    pub textures: PackedTextures,
+    pub environment: PackedEnvironment,
+    /// How shapes move ([`motion::PackedMotion::words`]).
+    pub motions: Vec<[f32; 4]>,
+    pub view: View,
+}
+
+impl PackedScene {
+    /// Packs a scene for kernels that walk a bounding volume hierarchy.
+    ///
+    /// # Errors
+    /// As [`PackedScene::for_traversal`].
+    pub fn new(scene: &Scene) -> Result<Self, PackError> {
+        Self::for_traversal(scene, Traversal::Bvh)
+    }
+
+    /// Packs a scene, relative to its [center](Scene::center), for rays that find primitives in this way.
+    ///
+    /// # Errors
+    /// [`PackError`] where something is too large for the packed form or came out inconsistent.
+    pub fn for_traversal(scene: &Scene, traversal: Traversal) -> Result<Self, PackError> {
+        let scene = &*scene.centered();
+        for shape in &scene.shapes {
+            let fail = |(_, message)| PackError::Motion { shape: shape.label.clone(), message };
+            shape.check_motion(scene.camera.shutter).map_err(fail)?;
+        }
+        let mut world = world::collect(scene);
+        let mut materials = PackedMaterials::new(scene, &world.materials())?;
+        let mut textures = PackedTextures::new(scene, materials.textures_mut())?;
+        let environment = light::environment(scene, &mut textures.texels)?;
+        let mut lights = light::collect(scene, &mut world, &environment);
+        let places = materials.places(scene);
+        world.primitives.iter_mut().for_each(|primitive| primitive.material = places[primitive.material] as usize);
+        for light in lights.iter_mut().filter(|light| light.material != NONE) {
+            light.material = places[light.material as usize];
+        }
+        let (hierarchy, order) = tree::build(&world.primitives, &world.motions, traversal)?;
+        let packed = Self {
+            primitives: order.par_iter().map(|&index| world.primitives[index].pack()).collect(),
+            attributes: world.attributes,
+            hierarchy,
+            materials,
+            lights,
+            textures,
+            environment,
+            motions: world.motion_words,
+            view: View::new(scene, &environment),
+        };
+        packed.validate()?;
+        Ok(packed)
+    }
+
+    /// Something moves while the shutter is open.
+    pub fn moves(&self) -> bool {
+        !self.motions.is_empty()
+    }
+
+    /// Some primitive carries normals or texture coordinates.
+    pub fn has_attributes(&self) -> bool {
+        self.primitives.iter().any(|primitive| primitive.attributes != NONE)
+    }
+}

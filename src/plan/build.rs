@@ -1,0 +1,159 @@
+//! How the decisions of a plan are made.
+
+use super::choices::{FilmStorage, GeometryPlacement, MOST_STACK_REGISTERS, StageMode};
+use super::error::PlanError;
+use super::limits::DeviceLimits;
+use super::memory::{self, Memory};
+use super::model::Plan;
+use super::options::PlanOptions;
+use super::path_state::PATH_STATE_BYTES;
+use super::{chunks, decisions, layout, lobes, ray_query, switches, unroll};
+use crate::packed::PackedScene;
+use crate::packed::hierarchy::Traversal;
+use crate::scene::Scene;
+use crate::shader::Switches;
+use crate::shader::switches::contradiction;
+
+impl Plan {
+    /// Decides.
+    ///
+    /// # Errors
+    /// [`PlanError::DoesNotFit`] where an array is larger than the device can bind, naming both sizes. [`PlanError::Internal`] where
+    /// the scene was packed with another hierarchy than the options say.
+    pub fn new(scene: &Scene, packed: &PackedScene, limits: &DeviceLimits, options: &PlanOptions) -> Result<Self, PlanError> {
+        let traversal = packed.hierarchy.traversal;
+        if options.packed_traversal() != traversal {
+            return Err(PlanError::Internal(format!("the scene was packed for another traversal: {}", traversal.key())));
+        }
+        let ray_queries = traversal == Traversal::RayQuery;
+        if ray_queries {
+            ray_query::check(packed, limits)?;
+        }
+        if options.trace && options.stages == Some(StageMode::Wavefront) {
+            return Err(PlanError::Internal(
+                "a path is written down by the kernel that traces whole paths, not by the wavefront".into(),
+            ));
+        }
+        let (geometry, why_geometry) = decisions::geometry(packed, options);
+        let light_samples = if switches::samples_lights(scene, packed) { scene.render.light_samples } else { 1 };
+        let (stages, why_stages) = decisions::stages(geometry, limits, options);
+        // On software devices the arithmetic of a step through a hierarchy costs the same for one lane as for all, so the lanes of a subgroup
+        // go through it as one packet, whose stack lies in registers, an entry a lane (shaders/geometry/software/packet.wgsl). Geometry that is code is
+        // met by all lanes anyway, and there a lane that starts its next path at once gains.
+        let packets = limits.software
+            && stages == StageMode::Fused
+            && geometry == GeometryPlacement::Hierarchy
+            && !options.trace
+            && !ray_queries;
+        let lanes = limits.subgroup_size.filter(|lanes| {
+            packets
+                && (4..=64).contains(lanes)
+                && lanes.is_power_of_two()
+                && packed.hierarchy.stack_size <= MOST_STACK_REGISTERS * lanes
+        });
+        // Known practice on hardware, and on lavapipe no slower (docs/notes/2026-11-22-wavefront-queues.md).
+        let subgroup_queues = stages == StageMode::Wavefront && limits.subgroups;
+        let width = scene.film.size[0];
+        let film = if limits.read_write_rgba32float && width <= limits.max_texture_side {
+            FilmStorage::Texture
+        } else {
+            FilmStorage::Buffer
+        };
+        let tables = packed.tables().words;
+        let uniform_limit = u64::from(limits.max_uniform_binding);
+        let fits_uniform = |bytes: usize| bytes as u64 <= uniform_limit.min(limits.max_array);
+        let uniform_primitives = fits_uniform(size_of_val(&packed.primitives[..]));
+        let uniform_tables = 16 * tables.len() as u64 <= uniform_limit;
+        // Real GPUs serialise divergent reads of uniform buffers; software ones read them faster than storage.
+        let uniform_nodes = limits.software && !ray_queries && fits_uniform(size_of_val(&packed.hierarchy.nodes[..]));
+        let band_rows = limits.band_rows(scene.film.size, film);
+        let mut plan = Self {
+            geometry,
+            traversal,
+            uniform_primitives,
+            uniform_tables,
+            uniform_nodes,
+            chunks: Vec::new(),
+            stages,
+            film,
+            path_capacity: limits.paths_with_shadow_rays(u64::from(light_samples) * memory::SHADOW_RAY_BYTES),
+            rays_per_invocation: if limits.software { 32 } else { 1 },
+            lanes,
+            subgroup_queues,
+            light_samples,
+            light_samples_depth: if light_samples > 1 { scene.render.light_samples_depth } else { 0 },
+            runs: limits.threads.max(1),
+            band_rows,
+            switches: Switches::default(),
+            memory: Memory::default(),
+            checked_shaders: options.checked_shaders,
+            decisions: Vec::new(),
+        };
+        plan.chunks = chunks::cut(packed, !uniform_primitives, plan.has_nodes() && !uniform_nodes, limits.max_array);
+        let other_arrays = u32::from(!uniform_tables) + u32::from(!packed.textures.texels.is_empty());
+        chunks::check(&plan.chunks, other_arrays, limits.max_array, limits)?;
+        plan.switches = switches::choose(scene, packed, &plan);
+        plan.switches.enable("TRACE", options.trace);
+        plan.switches.enable("PIXEL_LIST", options.pixel_list && !options.trace);
+        for switch in &options.compile_in {
+            plan.switches.enable(switch, true);
+        }
+        if let Some(fault) = options.fault {
+            fault.plant(packed, &mut plan.switches);
+        }
+        let first_constant = match geometry {
+            GeometryPlacement::Unrolled => 0,
+            GeometryPlacement::Hierarchy => packed.hierarchy.primitive_count as usize,
+        };
+        plan.switches.generated.insert(layout::FILE, layout::wgsl());
+        plan.switches.generated.insert(lobes::FILE, lobes::wgsl());
+        plan.switches.generated.insert("geometry/constants.wgsl", unroll::constants(packed, first_constant));
+        for array in plan.chunks.iter().filter(|array| !array.is_whole()) {
+            plan.switches.enable(array.array.switch, true);
+            plan.switches.generated.insert(array.array.file, array.wgsl());
+        }
+        if let Some(contradiction) = contradiction(&plan.switches.enabled) {
+            return Err(PlanError::Internal(format!("the plan turns on switches that do not go together: {contradiction}")));
+        }
+        plan.memory = count_memory(packed, &plan, width);
+        plan.memory.check(limits)?;
+        plan.decisions = decisions::explain(&plan, scene, packed, limits, why_geometry, why_stages);
+        Ok(plan)
+    }
+}
+
+/// The arrays of a plan, and their sizes, for films of this width.
+fn count_memory(packed: &PackedScene, plan: &Plan, width: u32) -> Memory {
+    let tables = packed.tables().words;
+    let pixels = u64::from(width) * u64::from(plan.band_rows);
+    let mut arrays = vec![
+        (memory::PRIMITIVES, memory::PRIMITIVE_BYTES * packed.primitives.len() as u64),
+        (memory::TABLES, 16 * tables.len() as u64),
+        ("film sum", pixels * memory::FILM_BYTES / 2),
+        ("film compensation", pixels * memory::FILM_BYTES / 2),
+    ];
+    if plan.switches.enabled.contains("RAY_QUERY") {
+        arrays.push((memory::ESTIMATED_ACCELERATION, memory::ACCELERATION_BYTES * u64::from(packed.hierarchy.primitive_count)));
+    }
+    if plan.has_nodes() {
+        arrays.push((memory::NODES, size_of_val(&packed.hierarchy.nodes[..]) as u64));
+    }
+    if packed.has_attributes() {
+        arrays.push((memory::ATTRIBUTES, memory::ATTRIBUTE_BYTES * packed.attributes.len() as u64));
+    }
+    if !packed.textures.texels.is_empty() {
+        arrays.push(("texels", 4 * packed.textures.texels.len() as u64));
+    }
+    if plan.switches.enabled.contains("PIXEL_LIST") {
+        arrays.push(("pixels", pixels * memory::LIST_BYTES));
+    }
+    if plan.stages == StageMode::Wavefront {
+        let paths = u64::from(plan.path_capacity);
+        arrays.push(("path state", paths * PATH_STATE_BYTES));
+        arrays.push(("queues", paths * memory::QUEUE_BYTES));
+        if plan.samples_lights() {
+            arrays.push(("shadow rays", paths * plan.shadow_ray_bytes()));
+        }
+    }
+    Memory { arrays }
+}

@@ -1,0 +1,35 @@
+//! What is chosen between, and the numbers that decide.
+
+/// Primitives up to which geometry is written into the kernels as constants.
+pub const UNROLL_LIMIT: usize = 64;
+/// Registers that a packet's stack may take: few enough that compilers keep them, enough for hundreds of millions of primitives.
+pub(super) const MOST_STACK_REGISTERS: u32 = 16;
+/// Samples of one pixel in one pass.
+pub const MAX_SAMPLES_PER_PASS: u32 = 64;
+
+/// Where the geometry lives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GeometryPlacement {
+    /// Every primitive is code with constant coordinates; there is no hierarchy.
+    Unrolled,
+    /// A bounding volume hierarchy, in buffers or the device's own.
+    Hierarchy,
+}
+
+/// How the stages run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StageMode {
+    /// Separate kernels over queues: generate, extend, shade, connect, accumulate.
+    Wavefront,
+    /// One kernel traces whole paths.
+    Fused,
+}
+
+/// Where the film's sums live.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FilmStorage {
+    /// rgba32float storage textures, where the device can read and write them.
+    Texture,
+    /// Storage buffers: works everywhere.
+    Buffer,
+}

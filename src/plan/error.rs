@@ -1,0 +1,12 @@
+//! Why there is no plan.
+
+/// A scene that cannot be planned for a device.
+#[derive(Debug, thiserror::Error)]
+pub enum PlanError {
+    /// Needs and limits are part of the message.
+    #[error("{0}")]
+    DoesNotFit(String),
+    /// What is asked for contradicts itself: a fault of this program.
+    #[error("{0}")]
+    Internal(String),
+}
