@@ -5,6 +5,7 @@ mod common;
 #[path = "../statistics/mod.rs"]
 mod statistics;
 
+mod architecture;
 mod bad_lights;
 mod bad_materials;
 mod bad_scenes;
