@@ -4,7 +4,7 @@
 import argparse
 
 import integral
-from measure import PICTURES, Way, error, keep_errors, montage, record, references, seconds, show, table, write_numbers
+from measure import Way, be_quick, error, keep_errors, montage, record, references, samplers, seconds, show, table, write_numbers
 
 BSDF = Way("material sampling alone (`bsdf`)", ["--estimator", "bsdf"])
 NEE = Way("light sampling (`nee`)", ["--estimator", "nee"])
@@ -170,7 +170,7 @@ def roulette():
 
 FIGURES = {
     figure.__name__: figure
-    for figure in (estimators, shadows, hemispheres, glossy, aliasing, lenses, motion, extensions, integrals, importance, roulette)
+    for figure in (estimators, shadows, hemispheres, glossy, aliasing, lenses, motion, extensions, integrals, importance, roulette, samplers)
 }
 
 
@@ -179,6 +179,7 @@ def main():
     parser.add_argument("figures", nargs="*", metavar="FIGURE", help="which to make again (default: all)")
     parser.add_argument("--times", action="store_true", help="keep the errors of benches/figures/numbers.csv and measure times again")
     parser.add_argument("--list", action="store_true", help="name the figures and stop")
+    parser.add_argument("--quick", action="store_true", help="make everything of a few pixels, and keep nothing: does it still run?")
     chosen = parser.parse_args()
     unknown = [name for name in chosen.figures if name not in FIGURES]
     if unknown:
@@ -189,7 +190,8 @@ def main():
         return
     if chosen.times:
         keep_errors()
-    PICTURES.mkdir(exist_ok=True)
+    if chosen.quick:
+        be_quick()
     for name in chosen.figures or FIGURES:
         FIGURES[name]()
         write_numbers()

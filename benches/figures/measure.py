@@ -11,7 +11,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-BINARIES = ROOT / "target" / "release"
+# Where `scripts/figures` has built the program and the examples.
+BINARIES = Path(os.environ.get("GPT_BINARIES", ROOT / "target" / "release"))
 SCENES = ROOT / "scenes" / "figures"
 PICTURES = ROOT / "docs" / "figures"
 PAGE = ROOT / "docs" / "figures.md"
@@ -23,6 +24,8 @@ SEEDS = (1, 2, 3, 4)
 SAMPLER = "halton"
 # No seed of a measured picture.
 REFERENCE_SEEDS = (1001, 1002)
+# What a quick run renders instead of sizes and numbers of samples.
+QUICK = ["--device", "cpu", "--size", "16x12", "--spp", 1]
 
 scratch = tempfile.TemporaryDirectory(prefix="gpt-figures-")
 FOLDER = Path(scratch.name)
@@ -59,12 +62,19 @@ def render(scene, way, output, *flags):
     statistics = FOLDER / "statistics.json"
     sampler = () if "--sampler" in (*way.flags, *flags) else ("--sampler", SAMPLER)
     command = [BINARIES / "gpt", "render", scene_path(scene, way.edits), "--quiet", "--stats", statistics, "-o", output]
-    command += [*sampler, *way.flags, *flags]
+    options = [*sampler, *way.flags, *flags]
+    command += quickly(options) if quick else options
     before = os.times()
     subprocess.run([str(part) for part in command], check=True)
     after = os.times()
     seconds = after.children_user + after.children_system - before.children_user - before.children_system
     return json.loads(statistics.read_text(encoding="utf-8")), seconds
+
+
+def quickly(options):
+    """The options, all of which are pairs of a flag and its value, for a few pixels of one sample."""
+    pairs = zip(options[::2], options[1::2], strict=True)
+    return [*QUICK, *(part for flag, value in pairs if flag not in QUICK for part in (flag, value))]
 
 
 def distance(picture, reference):
@@ -100,7 +110,7 @@ def error(figure, scene, way, spp, truths, size=ERROR_SIZE):
         return [sum(row[kind] for row in rows) / len(rows) for kind in (0, 1)]
     between = distance(*truths)
     rows = []
-    for seed in SEEDS:
+    for seed in SEEDS[: 1 if quick else None]:
         picture = FOLDER / "picture.exr"
         render(scene, way, picture, "--spp", spp, "--seed", seed, "--size", size)
         pairs = [distance(picture, truth) for truth in truths]
@@ -112,18 +122,20 @@ def error(figure, scene, way, spp, truths, size=ERROR_SIZE):
 def seconds(figure, scene, ways, spp, size="240x180", rounds=2):
     """Processor seconds of each way beyond those of one sample: the least of some rounds in which the ways take turns, of either."""
     taken = {way.name: ([], []) for way in ways}
-    for _ in range(rounds):
+    for _ in range(1 if quick else rounds):
         for way in ways:
             for times, count in zip(taken[way.name], (1, spp)):
                 times.append(render(scene, way, FOLDER / "timed.exr", "--spp", count, "--size", size)[1])
     for way in ways:
         for times, count in zip(taken[way.name], (1, spp)):
             record(figure, scene, way.name, count, "processor seconds", times)
-    return {name: min(long) - min(short) for name, (short, long) in taken.items()}
+    # The system counts hundredths of a second.
+    return {name: max(min(long) - min(short), 0.01) for name, (short, long) in taken.items()}
 
 
 def montage(name, columns, cells, enlarge=1):
     """Renders pictures and joins them: cells are (scene, way, spp, flags)."""
+    PICTURES.mkdir(exist_ok=True)
     paths = []
     for number, (scene, way, spp, *flags) in enumerate(cells):
         paths.append(FOLDER / f"cell-{number}.png")
@@ -150,6 +162,25 @@ def table(name, heading, rows):
         head, rest = text.split(begin)
         PAGE.write_text(head + begin + "\n" + "\n".join(lines) + "\n\n" + end + rest.split(end)[1], encoding="utf-8")
     print("\n".join([name, *lines, ""]), flush=True)
+
+
+def samplers():
+    """Draws the points of every sampler."""
+    subprocess.run([str(BINARIES / "examples" / "sampler_projections"), str(PICTURES.parent / "samplers.png")], check=True)
+
+
+# Whether this run only shows that everything still runs.
+quick = False
+
+
+def be_quick():
+    """From here on pictures have a few pixels, and whatever is written goes into a folder that is removed in the end."""
+    global quick, PICTURES, PAGE, NUMBERS
+    quick = True
+    page, numbers = PAGE, NUMBERS
+    PICTURES, PAGE, NUMBERS = FOLDER / "figures", FOLDER / page.name, FOLDER / numbers.name
+    PAGE.write_bytes(page.read_bytes())
+    NUMBERS.write_bytes(numbers.read_bytes())
 
 
 # What was measured in this run, and in earlier ones that are to be kept.
