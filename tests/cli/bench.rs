@@ -4,6 +4,7 @@
 use std::fs;
 use std::process::{Command, Output};
 
+use crate::common::effort::announce;
 use crate::common::sphere::grey_sphere;
 use serde_json::Value;
 use tempfile::TempDir;
@@ -141,7 +142,9 @@ fn stages_are_timed_and_the_pool_is_watched() {
     let stages: Vec<&str> =
         row["stage_times"].as_array().into_iter().flatten().filter_map(|stage| stage["stage"].as_str()).collect();
     // An adapter without time stamps has no times; Mesa's software adapter has them.
-    if !stages.is_empty() {
+    if stages.is_empty() {
+        announce("left out: times of stages, since the adapter has no time stamps");
+    } else {
         assert_eq!(stages, ["generate", "extend", "shade", "prepare", "connect", "accumulate"]);
         let occupancy: Vec<f64> = row["occupancy"].as_array().into_iter().flatten().filter_map(Value::as_f64).collect();
         assert!((2..=8).contains(&occupancy.len()), "{occupancy:?}");

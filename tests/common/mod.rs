@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each program uses some of it")]
 
 pub mod device;
+pub mod effort;
 pub mod files;
 pub mod pixel_bits;
 pub mod ray_queries;

@@ -1,5 +1,9 @@
 //! The models of the built-in scenes: closed where they are solids, faces and normals to the outside.
 
+#[path = "../../examples/tessellate/main.rs"]
+#[allow(dead_code, reason = "its main function writes the files")]
+mod tessellate;
+
 use std::collections::HashMap;
 
 use gpt::load;
@@ -66,4 +70,14 @@ fn the_knot_is_closed_and_the_teapot_open_where_newell_left_it() {
     // The inner rim, the lid's rim, both ends of handle and spout, and nowhere else.
     let (around, across) = (4 * 12, 2 * 12);
     assert_eq!(open_edges(&model("teapot-toon")), 2 * around + 4 * across);
+}
+
+/// The example makes them, so their formulas are what to change.
+#[test]
+fn the_models_are_what_the_tessellation_makes() {
+    let made = tessellate::models();
+    let shipped = [include_str!("../../scenes/models/teapot.obj"), include_str!("../../scenes/models/knot.obj")];
+    for ((name, text), shipped) in made.iter().zip(shipped) {
+        assert!(text == shipped, "scenes/models/{name}.obj is not what `cargo run --release --example tessellate` writes");
+    }
 }

@@ -7,7 +7,7 @@ use crate::common::pixel_bits::pixel_bits;
 use crate::common::veils::veils;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;
-use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
+use gpt::plan::{Chunks, FilmStorage, PlanOptions, StageMode, TraversalChoice};
 use gpt::renderer::{Batch, RenderRequest, Renderer, Silent};
 use gpt::scene::Scene;
 
@@ -30,6 +30,15 @@ fn together_and_alone() -> [Option<Device>; 2] {
     [DEVICE.clone(), with_limits(|limits| limits.subgroup_size = None)]
 }
 
+/// As if one binding held less than the knot's primitives.
+fn in_chunks() -> Option<Device> {
+    with_limits(|limits| limits.max_array = 1 << 18)
+}
+
+fn film_in_buffers() -> Option<Device> {
+    with_limits(|limits| limits.read_write_rgba32float = false)
+}
+
 fn in_hierarchy() -> PlanOptions {
     PlanOptions { traversal: TraversalChoice::Bvh, ..PlanOptions::default() }
 }
@@ -39,8 +48,7 @@ fn in_hierarchy() -> PlanOptions {
 #[test]
 fn rays_in_packets_meet_what_they_meet_alone() {
     let [together, alone] = together_and_alone();
-    let in_chunks = with_limits(|limits| limits.max_array = 1 << 18);
-    let film_in_buffers = with_limits(|limits| limits.read_write_rgba32float = false);
+    let (in_chunks, film_in_buffers) = (in_chunks(), film_in_buffers());
     let mut moving = load::load(Some("motion-blur")).expect("it is built in");
     moving.film.size = [32, 24];
     let mut spheres = load::load(Some("spheres")).expect("it is built in");
@@ -66,9 +74,13 @@ fn rays_in_packets_meet_what_they_meet_alone() {
 #[test]
 fn packets_are_used_where_they_can_be() {
     let [Some(together), Some(alone)] = together_and_alone() else { return };
-    let lanes = |device: &Device| GpuRenderer::on(device, &scene(1), &in_hierarchy()).expect("the scene fits").plan().lanes;
+    let plan = |device: &Device| GpuRenderer::on(device, &scene(1), &in_hierarchy()).expect("the scene fits").plan().clone();
     let possible = together.limits.subgroup_size.filter(|size| together.limits.software && *size >= 4);
-    assert_eq!([lanes(&together), lanes(&alone)], [possible, None]);
+    assert_eq!([plan(&together).lanes, plan(&alone).lanes], [possible, None]);
+    let [in_chunks, film_in_buffers] =
+        [in_chunks(), film_in_buffers()].map(|device| plan(&device.expect("it is the same device")));
+    assert!(!in_chunks.chunks.iter().all(Chunks::is_whole), "{in_chunks}");
+    assert_eq!(film_in_buffers.film, FilmStorage::Buffer);
 }
 
 /// Which place a path or a shadow ray has in a queue is nothing that its samples know of. Queues end within a subgroup at most edges, and

@@ -1,18 +1,16 @@
 //! Files that are not what they should be: random damage to scenes, models, materials and pictures ends in an answer or one clear error, soon,
-//! and within a bound of memory. `GPT_FUZZ_CASES` says how many cases of each kind, 15 when left out.
+//! and within a bound of memory. `GPT_FUZZ_CASES` says how many cases of each kind.
 
-use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use crate::common::effort::in_full;
 use crate::counting::{Peak, take_turn};
 use crate::random::SplitMix64;
 use gpt::load;
 use image::ImageFormat;
 
-/// A file of a few thousand bytes is answered within this time, on a busy machine and with 16,384² texels to fill.
-const LONGEST: Duration = Duration::from_secs(60);
 /// Most memory for reading one picture: as stated in docs/stress.md, 16 bytes for each texel of the largest image, twice while its colours are
 /// made linear.
 const MOST_FOR_PICTURES: usize = 2 * 16 * 16_384 * 16_384;
@@ -22,75 +20,143 @@ const MOST_FOR_TEXTS: usize = 64 << 20;
 #[test]
 fn damaged_files_end_in_an_answer_or_an_error() {
     let _turn = take_turn();
-    let cases = std::env::var("GPT_FUZZ_CASES").ok().and_then(|count| count.parse().ok()).unwrap_or(15);
+    let asked = std::env::var("GPT_FUZZ_CASES").ok().and_then(|count| count.parse().ok());
+    let cases = asked.unwrap_or_else(|| if in_full("300 damaged files of each kind instead of 15") { 300 } else { 15 });
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut random = SplitMix64::new(3);
-    let mut extremes = Extremes::default();
-    assert!(notices_memory());
-    let scenes: Vec<&str> = ["cornell", "spheres", "motion-blur"].into_iter().filter_map(load::builtin_text).collect();
-    for text in scenes {
+    damage_scenes(cases, &mut random);
+    damage_models(cases, folder.path(), &mut random);
+    damage_pictures(cases, folder.path(), &mut random);
+}
+
+fn damage_scenes(cases: usize, random: &mut SplitMix64) {
+    let mut tally = Tally::new("scene", MOST_FOR_TEXTS);
+    for name in ["cornell", "spheres", "motion-blur"] {
+        let whole = load::builtin_text(name).expect("it is built in").as_bytes();
+        let read = |bytes: &[u8]| {
+            let text = String::from_utf8_lossy(bytes);
+            load::load_toml_str(&text, "damaged.toml", Path::new("")).is_ok()
+        };
+        tally.undamaged(whole, read);
         for _ in 0..cases {
-            let bytes = damaged(text.as_bytes(), &mut random, true);
-            let text = String::from_utf8_lossy(&bytes).into_owned();
-            extremes.bounded("scene", &bytes, MOST_FOR_TEXTS, || drop(load::load_toml_str(&text, "damaged.toml", Path::new(""))));
+            tally.damaged(&damaged(whole, random, true), read);
         }
     }
-    let [obj, mtl] = ["model.obj", "model.mtl"].map(|name| folder.path().join(name));
-    for damage_materials in [false, true] {
+    tally.judge();
+}
+
+fn damage_models(cases: usize, folder: &Path, random: &mut SplitMix64) {
+    let [obj, mtl, png] = ["model.obj", "model.mtl", "picture.png"].map(|name| folder.join(name));
+    let write = |path: &Path, bytes: &[u8]| std::fs::write(path, bytes).expect("the folder can be written to");
+    image::RgbImage::new(2, 2).save(&png).expect("the folder can be written to");
+    for (kind, whole, target) in [("model", MODEL, &obj), ("material library", MATERIALS, &mtl)] {
+        write(&obj, MODEL.as_bytes());
+        write(&mtl, MATERIALS.as_bytes());
+        let read = |bytes: &[u8]| {
+            write(target, bytes);
+            load::load(obj.to_str()).is_ok()
+        };
+        let mut tally = Tally::new(kind, MOST_FOR_TEXTS);
+        tally.undamaged(whole.as_bytes(), read);
         for _ in 0..2 * cases {
-            let (model, materials) = if damage_materials {
-                (MODEL.as_bytes().to_vec(), damaged(MATERIALS.as_bytes(), &mut random, true))
-            } else {
-                (damaged(MODEL.as_bytes(), &mut random, true), MATERIALS.as_bytes().to_vec())
-            };
-            std::fs::write(&obj, &model).expect("the folder can be written to");
-            std::fs::write(&mtl, &materials).expect("the folder can be written to");
-            let written = if damage_materials { materials } else { model };
-            extremes.bounded("model", &written, MOST_FOR_TEXTS, || drop(load::load(obj.to_str())));
+            tally.damaged(&damaged(whole.as_bytes(), random, true), read);
         }
+        tally.judge();
     }
-    for (ending, whole) in pictures(folder.path()) {
-        let path = folder.path().join(format!("damaged.{ending}"));
+}
+
+fn damage_pictures(cases: usize, folder: &Path, random: &mut SplitMix64) {
+    let mut tally = Tally::new("picture", MOST_FOR_PICTURES);
+    for (ending, whole) in pictures(folder) {
+        let path = folder.join(format!("damaged.{ending}"));
+        let read = |bytes: &[u8]| {
+            std::fs::write(&path, bytes).expect("the folder can be written to");
+            load::read_image(&path, None).is_ok()
+        };
+        tally.undamaged(&whole, read);
         for _ in 0..cases {
-            let bytes = damaged(&whole, &mut random, false);
-            std::fs::write(&path, &bytes).expect("the folder can be written to");
-            extremes.bounded(ending, &bytes, MOST_FOR_PICTURES, || drop(load::read_image(&path, None)));
+            tally.damaged(&damaged(&whole, random, false), read);
         }
     }
-    for (kind, (longest, most)) in extremes.by_kind {
-        println!("{kind}: at most {longest:.1?} and {:.1} MiB", most as f64 / f64::from(1 << 20));
+    tally.judge();
+}
+
+/// What became of the files of one kind.
+struct Tally {
+    kind: &'static str,
+    most_memory: usize,
+    longest: Duration,
+    /// The longest time and the most memory that a file took.
+    extremes: (Duration, usize),
+    accepted: usize,
+    refused: usize,
+}
+
+impl Tally {
+    fn new(kind: &'static str, most_memory: usize) -> Self {
+        // A file of a few thousand bytes is answered within this time, on a busy machine and with 16,384² texels to fill.
+        let longest = Duration::from_secs(60);
+        Self { kind, most_memory, longest, extremes: (Duration::ZERO, 0), accepted: 0, refused: 0 }
     }
-}
 
-/// The longest time and the most memory that a file of each kind took.
-#[derive(Default)]
-struct Extremes {
-    by_kind: BTreeMap<String, (Duration, usize)>,
-}
+    /// The positive control: a file that is refused for another reason would hide what the damage does.
+    fn undamaged(&mut self, bytes: &[u8], read: impl Fn(&[u8]) -> bool) {
+        assert_eq!(self.bounded(bytes, read), Ok(true), "{}: the undamaged file is refused", self.kind);
+    }
 
-/// The negative control: what allocates more than its bound is noticed.
-fn notices_memory() -> bool {
-    let peak = Peak::from_now();
-    drop(std::hint::black_box(vec![1_u8; MOST_FOR_TEXTS + 1]));
-    peak.bytes() > MOST_FOR_TEXTS
-}
+    /// Reads a damaged file, and fails where that panics or takes too long or too much memory. Leaves the file that did it.
+    fn damaged(&mut self, bytes: &[u8], read: impl Fn(&[u8]) -> bool) {
+        match self.bounded(bytes, read) {
+            Ok(true) => self.accepted += 1,
+            Ok(false) => self.refused += 1,
+            Err(complaint) => {
+                let evidence = std::env::temp_dir().join(format!("gpt-hostile-{}", self.kind.replace(' ', "-")));
+                let kept = std::fs::write(&evidence, bytes).is_ok();
+                panic!("{}: {complaint}; the file is kept ({kept}): {}", self.kind, evidence.display());
+            }
+        }
+    }
 
-impl Extremes {
-    /// Runs `read` and fails where it panics or takes too long or too much memory. Leaves the file that did it.
-    fn bounded(&mut self, kind: &str, bytes: &[u8], most: usize, read: impl FnOnce() + std::panic::UnwindSafe) {
+    /// Whether the file was accepted; an error where reading it broke a bound.
+    fn bounded(&mut self, bytes: &[u8], read: impl Fn(&[u8]) -> bool) -> Result<bool, String> {
         let peak = Peak::from_now();
         let start = Instant::now();
-        let ended = std::panic::catch_unwind(read);
+        let ended = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| read(bytes)));
         let (took, used) = (start.elapsed(), peak.bytes());
-        let extreme = self.by_kind.entry(kind.to_owned()).or_default();
-        *extreme = (extreme.0.max(took), extreme.1.max(used));
-        if ended.is_err() || took > LONGEST || used > most {
-            let evidence = std::env::temp_dir().join(format!("gpt-hostile-{kind}"));
-            let kept = std::fs::write(&evidence, bytes).is_ok();
-            let panicked = ended.is_err();
-            panic!("{kind}: panicked {panicked}, {took:?}, {used} bytes; the file is kept ({kept}): {}", evidence.display());
+        self.extremes = (self.extremes.0.max(took), self.extremes.1.max(used));
+        let accepted = ended.map_err(|_| "it panics".to_owned())?;
+        if took > self.longest || used > self.most_memory {
+            return Err(format!("it takes {took:?} and {used} bytes"));
         }
+        Ok(accepted)
     }
+
+    /// Damage that is never noticed, or always fatal, would exercise half of a reader.
+    fn judge(&self) {
+        let (Self { kind, accepted, refused, .. }, (took, used)) = (self, self.extremes);
+        println!(
+            "{kind}: {accepted} accepted, {refused} refused, at most {took:.1?} and {:.1} MiB",
+            used as f64 / f64::from(1 << 20)
+        );
+        assert!(*accepted > 0 && *refused > 0, "{kind}: {accepted} accepted, {refused} refused");
+    }
+}
+
+/// The negative controls: what panics, takes too long or allocates more than its bound is noticed.
+#[test]
+fn readers_that_break_a_bound_are_noticed() {
+    let _turn = take_turn();
+    let mut tally = Tally::new("control", 1 << 20);
+    let greedy = |_: &[u8]| std::hint::black_box(vec![1_u8; (1 << 20) + 1]).len() > 1;
+    assert!(tally.bounded(&[], greedy).is_err());
+    let quiet = std::panic::take_hook();
+    std::panic::set_hook(Box::new(|_| {}));
+    let panics = tally.bounded(&[], |_| panic!("as a reader would"));
+    std::panic::set_hook(quiet);
+    assert!(panics.is_err());
+    assert_eq!(tally.bounded(&[], |_| false), Ok(false));
+    tally.longest = Duration::ZERO;
+    assert!(tally.bounded(&[], |_| true).is_err());
 }
 
 /// Some bytes or words replaced, cut out, or doubled.
@@ -153,9 +219,9 @@ fn pictures(folder: &Path) -> Vec<(&'static str, Vec<u8>)> {
     pictures
 }
 
-const MODEL: &str = "mtllib model.mtl\no quad\nv -1 0 0\nv 1 0 0 0.5 0.5 0.5\nv 1 2.5e-1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n\
-    vn 0 0 1\nvn 0 1 0\ng front\nusemtl red\ns 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\nusemtl glass\nf -4 -3 -2\nf 1//2 2//2 4//2\n\
-    f 1/1 2/2 \\\n 3/3\nl 1 2 3\np 1\n# a comment\nv 0 0 1\nf 1 2 5\n";
+const MODEL: &str = "mtllib model.mtl\no quad\nv -1 0 0 1 0 0\nv 1 0 0 0.5 0.5 0.5\nv 1 2.5e-1 0 0 1 0\nv -1 1 0 0 0 1\n\
+    vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nvn 0 1 0\ng front\nusemtl red\ns 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\nf 1/1 2/2 \\\n 3/3\n\
+    usemtl glass\nf -4 -3 -2\nf 1//2 2//2 4//2\nl 1 2 3\np 1\n# a comment\nv 0 0 1 1 1 1\nf 1 2 5\n";
 
-const MATERIALS: &str = "newmtl red\nKd 0.8 0.1 0.1\nKs 0.2 0.2 0.2\nNs 50\nKe 0 0 0\nillum 2\nd 1\n\
-    newmtl glass\nNi 1.5\nTr 0.9\nillum 7\nKd 0 0 0\nTf 1 1 1\nmap_Kd -s 2 2 1 missing.png\nmap_Bump -bm 0.5 missing.png\n";
+const MATERIALS: &str = "newmtl red\nKd 0.8 0.1 0.1\nKs 0.2 0.2 0.2\nNs 50\nKe 0 0 0\nillum 2\nd 1\nmap_Kd -s 2 2 1 picture.png\n\
+    newmtl glass\nNi 1.5\nTr 0.9\nillum 7\nKd 0 0 0\nTf 1 1 1\nmap_Bump -bm 0.5 picture.png\n";

@@ -1,5 +1,7 @@
 //! How much memory is taken, counted by an allocator of this program's own. It counts for the whole process, so its tests take turns.
 
+#[path = "../common/mod.rs"]
+mod common;
 #[path = "../statistics/random.rs"]
 mod random;
 

@@ -59,6 +59,7 @@ impl Finding {
 /// Prints all findings and fails on any complaint.
 #[allow(dead_code, reason = "the bench prints and does not fail")]
 pub fn assert_all(findings: &[Finding]) {
+    assert!(!findings.is_empty() || DEVICE.is_none(), "nothing was tried");
     for finding in findings {
         println!("{}", in_one_line(finding));
     }
