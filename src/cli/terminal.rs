@@ -19,6 +19,17 @@ fn error_style() -> Box<dyn miette::ReportHandler> {
     Box::new(if on_a_terminal { options } else { options.graphical_theme(GraphicalTheme::none()) }.build())
 }
 
+/// Escape sequences of colours.
+pub const GREEN: &str = "\x1b[32m";
+pub const RED: &str = "\x1b[31m";
+
+/// A text in a colour where stdout is a terminal, unless NO_COLOR asks for none (no-color.org) or the terminal has none.
+pub fn coloured(colour: &str, text: &str) -> String {
+    let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let dumb = std::env::var_os("TERM").is_some_and(|terminal| terminal == "dumb");
+    if io::stdout().is_terminal() && !set("NO_COLOR") && !dumb { format!("{colour}{text}\x1b[0m") } else { text.to_owned() }
+}
+
 /// Prints one error to stderr.
 pub fn print_error(report: Report) {
     let _ = writeln!(io::stderr(), "Error: {report:?}");

@@ -7,10 +7,10 @@ use gpt::choice::Choice;
 use gpt::gpu::Device;
 use gpt::load;
 use gpt::plan::{Fault, PlanOptions};
-use gpt::renderer::RenderError;
+use gpt::renderer::{DeviceChoice, RenderError};
 use gpt::scene::Scene;
 use gpt::verify::closed_forms::{self, ClosedForm, ClosedFormError};
-use gpt::verify::{self, DEFAULT_SIDE, DEFAULT_SPP, Verdict, evidence, path};
+use gpt::verify::{self, DEFAULT_SIDE, DEFAULT_SPP, Verdict, evidence, path, shares};
 use serde::Serialize;
 
 use super::arguments::VerifyArguments;
@@ -33,6 +33,13 @@ impl Finding {
         }
     }
 
+    fn name(&self) -> &str {
+        match self {
+            Self::ClosedForm(closed) => closed.closed_form,
+            Self::Scene(verdict) => &verdict.scene,
+        }
+    }
+
     fn planted(&self) -> Option<Fault> {
         match self {
             Self::ClosedForm(closed) => closed.planted,
@@ -51,25 +58,21 @@ impl Finding {
 /// Verifies one scene, or the closed forms and all scenes that are built in, and prints the verdicts; or follows one path.
 pub fn run(arguments: &VerifyArguments) -> Result<Exit, Failure> {
     let options = PlanOptions { fault: arguments.plant, ..arguments.traversal.options() };
+    if arguments.device == DeviceChoice::Cpu {
+        return verify_reference(arguments);
+    }
     if let Some(pixel) = arguments.pixel {
         return follow(arguments, pixel, &options);
     }
-    let mut findings = Vec::new();
-    let mut report = |finding: Finding| -> Result<(), Failure> {
-        if !arguments.json {
-            terminal::answer(&finding.line())?;
-        }
-        findings.push(finding);
-        Ok(())
-    };
+    let mut findings = Findings { as_json: arguments.json, found: Vec::new() };
     // A scene that cannot be read is reported before a device is asked for.
     let named = arguments.scene.as_deref().map(|name| load(name, arguments)).transpose()?;
     let device = Device::open_for(&arguments.device, &options)?;
     if let (Some(name), Some(scene)) = (&arguments.scene, named) {
-        report(verify_scene(&device, name, &scene, arguments, &options)?)?;
+        findings.add(verify_scene(&device, name, &scene, arguments, &options)?)?;
     } else {
         for index in 0..closed_forms::count() {
-            report(Finding::ClosedForm(closed_forms::check(index, &device, &options).map_err(failure)?))?;
+            findings.add(Finding::ClosedForm(closed_forms::check(index, &device, &options).map_err(failure)?))?;
         }
         for name in load::builtin_names() {
             match verify_scene(&device, name, &load(name, arguments)?, arguments, &options) {
@@ -77,15 +80,62 @@ pub fn run(arguments: &VerifyArguments) -> Result<Exit, Failure> {
                 Err(Failure::Render(RenderError::DoesNotFit(why))) if options.asks_for_ray_queries() => {
                     terminal::warn(&format!("{name} is left out: {why}"));
                 }
-                outcome => report(outcome?)?,
+                outcome => findings.add(outcome?)?,
             }
         }
     }
-    if arguments.json {
-        terminal::answer_json(&findings)?;
+    was_planted(arguments, findings.found.iter().any(|finding| finding.planted().is_some()))?;
+    findings.conclude()
+}
+
+/// The reference is what every device is held against. By itself it can be held against closed forms.
+fn verify_reference(arguments: &VerifyArguments) -> Result<Exit, Failure> {
+    if arguments.scene.is_some() || arguments.pixel.is_some() || arguments.plant.is_some() {
+        return Err(Failure::usage(
+            "with --device cpu there are no two devices to compare: scenes are verified on a graphics device, against the CPU; \
+             `gpt devices` lists those there are, and `gpt verify --device cpu` alone holds the CPU against closed forms",
+        ));
     }
-    was_planted(arguments, findings.iter().any(|finding| finding.planted().is_some()))?;
-    Ok(if findings.iter().all(Finding::agrees) { Exit::Done } else { Exit::Difference })
+    let mut findings = Findings { as_json: arguments.json, found: Vec::new() };
+    for index in 0..closed_forms::count() {
+        findings.add(Finding::ClosedForm(closed_forms::check_reference(index).map_err(failure)?))?;
+    }
+    findings.conclude()
+}
+
+/// What was found so far: printed as it comes, or all of it as JSON in the end.
+struct Findings {
+    as_json: bool,
+    found: Vec<Finding>,
+}
+
+impl Findings {
+    fn add(&mut self, finding: Finding) -> Result<(), Failure> {
+        if !self.as_json {
+            terminal::answer(&finding.line())?;
+        }
+        self.found.push(finding);
+        Ok(())
+    }
+
+    /// Ends the output: with the verdict in one line, or as JSON.
+    fn conclude(self) -> Result<Exit, Failure> {
+        let differing: Vec<&str> = self.found.iter().filter(|finding| !finding.agrees()).map(Finding::name).collect();
+        if self.as_json {
+            terminal::answer_json(&self.found)?;
+        } else {
+            let count = self.found.len();
+            let (colour, text) = match differing.len() {
+                0 => (
+                    terminal::GREEN,
+                    format!("GREEN: {}", if count == 1 { "it agrees".into() } else { format!("all {count} agree") }),
+                ),
+                wrong => (terminal::RED, format!("RED: {wrong} of {count} differ: {}", differing.join(", "))),
+            };
+            terminal::answer(&format!("{}\n", terminal::coloured(colour, &text)))?;
+        }
+        Ok(if differing.is_empty() { Exit::Done } else { Exit::Difference })
+    }
 }
 
 fn failure(error: ClosedFormError) -> Failure {
@@ -144,9 +194,10 @@ fn verify_scene(
     arguments: &VerifyArguments,
     options: &PlanOptions,
 ) -> Result<Finding, Failure> {
-    let verdict = verify::verify_on(device, scene, options)?;
+    let share = if arguments.size.is_none() { shares::of_builtin(name) } else { None };
+    let verdict = verify::verify_on(device, scene, options, share)?;
     if !verdict.agrees {
-        leave_evidence(&arguments.evidence, scene, &verdict, &path_command(name, scene, &verdict, arguments))?;
+        leave_evidence(&arguments.evidence, scene, &verdict, &path_command(name, scene, &verdict, arguments));
     }
     Ok(Finding::Scene(verdict))
 }
@@ -184,6 +235,9 @@ fn scene_line(verdict: &Verdict) -> String {
         verdict.largest_difference,
         verdict.non_finite_samples
     );
+    for missed in &verdict.missed {
+        let _ = write!(text, "\n    {missed}");
+    }
     for rejection in verdict.rejections.iter().take(5) {
         let _ = write!(text, "\n    {rejection}");
     }
@@ -196,7 +250,7 @@ fn scene_line(verdict: &Verdict) -> String {
 
 /// The command that prints the worst path.
 fn path_command(name: &str, scene: &Scene, verdict: &Verdict, arguments: &VerifyArguments) -> String {
-    let [x, y, sample] = verdict.worst_path;
+    let [x, y, sample] = verdict.path_to_follow();
     let mut command = format!(
         "gpt verify {name} --size {}x{} --seed {} --pixel {x},{y} --sample {sample}",
         verdict.width, verdict.height, scene.render.seed
@@ -211,13 +265,15 @@ fn path_command(name: &str, scene: &Scene, verdict: &Verdict, arguments: &Verify
     command
 }
 
-fn leave_evidence(folder: &Path, scene: &Scene, verdict: &Verdict, command: &str) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder)
-        .map_err(|error| Failure::Other(format!("cannot make the folder {}: {error}", folder.display())))?;
-    for path in evidence::write(folder, scene, verdict)? {
-        terminal::warn(&format!("wrote {}", path.display()));
+/// Writes pictures, and says how to look further. Where they cannot be written the verdict stands all the same.
+fn leave_evidence(folder: &Path, scene: &Scene, verdict: &Verdict, command: &str) {
+    let made = std::fs::create_dir_all(folder).map_err(|error| error.to_string());
+    match made.and_then(|()| evidence::write(folder, scene, verdict).map_err(|error| error.to_string())) {
+        Ok(paths) => paths.iter().for_each(|path| terminal::warn(&format!("wrote {}", path.display()))),
+        Err(why) => {
+            terminal::warn(&format!("the pictures that show the difference cannot be kept in {}: {why}", folder.display()))
+        }
     }
-    let [x, y, sample] = verdict.worst_path;
+    let [x, y, sample] = verdict.path_to_follow();
     terminal::warn(&format!("the worst path is sample {sample} of the pixel at column {x}, row {y}: {command} follows it"));
-    Ok(())
 }

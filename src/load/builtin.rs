@@ -1,20 +1,25 @@
 //! Scenes that are part of the program, and the files they name.
 
 use std::borrow::Cow;
-use std::io;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 
 /// The folder that built-in scenes lie in, as far as paths go: what they name is looked up among [`FILES`], not on disk.
 pub(super) const FOLDER: &str = "builtin:";
 
 /// Path within [`FOLDER`] and content of every file that built-in scenes name.
-const FILES: [(&str, &str); 2] = [
-    ("models/teapot.obj", include_str!("../../scenes/models/teapot.obj")),
-    ("models/knot.obj", include_str!("../../scenes/models/knot.obj")),
+const FILES: [(&str, &[u8]); 5] = [
+    ("models/teapot.obj", include_bytes!("../../scenes/models/teapot.obj")),
+    ("models/knot.obj", include_bytes!("../../scenes/models/knot.obj")),
+    // scripts/textures makes them.
+    ("textures/evening.hdr", include_bytes!("../../scenes/textures/evening.hdr")),
+    ("textures/hammered.png", include_bytes!("../../scenes/textures/hammered.png")),
+    ("textures/harbour.png", include_bytes!("../../scenes/textures/harbour.png")),
 ];
 
 /// Name and text of every built-in scene; the first is the default.
-const SCENES: [(&str, &str); 16] = [
+const SCENES: [(&str, &str); 23] = [
     ("cornell", include_str!("../../scenes/cornell.toml")),
     ("spheres", include_str!("../../scenes/spheres.toml")),
     ("veach-mis", include_str!("../../scenes/veach-mis.toml")),
@@ -27,6 +32,13 @@ const SCENES: [(&str, &str); 16] = [
     ("knot-iridescent", include_str!("../../scenes/knot-iridescent.toml")),
     ("knot-toon", include_str!("../../scenes/knot-toon.toml")),
     ("motion-blur", include_str!("../../scenes/motion-blur.toml")),
+    ("gallery", include_str!("../../scenes/gallery.toml")),
+    ("stage", include_str!("../../scenes/stage.toml")),
+    ("loft", include_str!("../../scenes/loft.toml")),
+    ("terrace", include_str!("../../scenes/terrace.toml")),
+    ("crystal", include_str!("../../scenes/crystal.toml")),
+    ("lanterns", include_str!("../../scenes/lanterns.toml")),
+    ("model-town", include_str!("../../scenes/model-town.toml")),
     ("furnace-lambert", include_str!("../../scenes/furnace-lambert.toml")),
     ("furnace-box", include_str!("../../scenes/furnace-box.toml")),
     ("furnace-glass", include_str!("../../scenes/furnace-glass.toml")),
@@ -51,12 +63,25 @@ pub(super) fn is_file(path: &Path) -> bool {
 /// Reads a file from disk, or one that is part of the program.
 pub(super) fn read(path: &Path) -> io::Result<Cow<'static, [u8]>> {
     match embedded(path) {
-        Some(text) => Ok(Cow::Borrowed(text.as_bytes())),
+        Some(content) => Ok(Cow::Borrowed(content)),
         None => std::fs::read(path).map(Cow::Owned),
     }
 }
 
-fn embedded(path: &Path) -> Option<&'static str> {
+/// A file that is read from any place in it.
+pub(super) trait SeekableFile: BufRead + Seek {}
+
+impl<T: BufRead + Seek> SeekableFile for T {}
+
+/// Opens a file on disk, or one that is part of the program.
+pub(super) fn open(path: &Path) -> io::Result<Box<dyn SeekableFile>> {
+    match embedded(path) {
+        Some(content) => Ok(Box::new(Cursor::new(content))),
+        None => Ok(Box::new(BufReader::new(File::open(path)?))),
+    }
+}
+
+fn embedded(path: &Path) -> Option<&'static [u8]> {
     let within = path.strip_prefix(FOLDER).ok()?;
-    FILES.iter().find(|(name, _)| Path::new(name) == within).map(|(_, text)| *text)
+    FILES.iter().find(|(name, _)| Path::new(name) == within).map(|(_, content)| *content)
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 use glam::Vec3;
 use image::{DynamicImage, ImageReader, Limits};
 
+use super::builtin;
 use crate::math::srgb_to_linear;
 use crate::scene::{ColorSpace, ImageData};
 
@@ -36,7 +37,7 @@ fn check_size(width: u32, height: u32) -> Result<(), String> {
 
 fn read_other(path: &Path, color_space: Option<ColorSpace>) -> Result<ImageData, String> {
     let open = || {
-        let reader = ImageReader::open(path).and_then(ImageReader::with_guessed_format);
+        let reader = builtin::open(path).and_then(|file| ImageReader::new(file).with_guessed_format());
         reader.map_err(|error| format!("cannot be read: {error}"))
     };
     let reader = open()?;

@@ -78,8 +78,10 @@ impl Integrator {
 
     /// The radiance one sample of one pixel sees. `visitor` is told everything that happens.
     pub fn radiance<V: PathVisitor>(&self, x: u32, y: u32, sampler: &PathSampler, visitor: &mut V) -> DVec3 {
+        let mut ray = self.camera.sample(x, y, sampler);
+        visitor.round_ray(&mut ray, None);
         let mut path = Path {
-            ray: self.camera.sample(x, y, sampler),
+            ray,
             moment: self.moment(sampler),
             throughput: DVec3::ONE,
             radiance: DVec3::ZERO,
@@ -108,7 +110,8 @@ impl Integrator {
             self.add_environment(path, visitor);
             return false;
         };
-        let surface = self.world.surface(&path.ray, &hit, &path.moment);
+        let mut surface = self.world.surface(&path.ray, &hit, &path.moment);
+        visitor.round_surface(&mut surface);
         let wo = -path.ray.direction;
         visitor.surface(path.edge, &surface, wo, path.throughput);
         self.add_emission(path, &surface, wo, visitor);
@@ -119,7 +122,7 @@ impl Integrator {
         }
         let bounce = path.bounce;
         let random = |dimension| sampler.uniform(Dimension::bounce(bounce, dimension));
-        let bsdf = Bsdf::new(&self.scene, &surface, wo, random(BounceDimension::Blend));
+        let bsdf = Bsdf::new(&self.scene, &surface, wo, visitor.round_choice(random(BounceDimension::Blend)));
         visitor.view(&bsdf.view);
         if !is_last {
             let edge = path.edge;
@@ -128,7 +131,11 @@ impl Integrator {
             }
         }
         let (u1, u2) = (random(BounceDimension::BsdfU), random(BounceDimension::BsdfV));
-        let Some(scattered) = bsdf.sample(random(BounceDimension::Lobe), u1, u2) else { return false };
+        let u_lobe = visitor.round_choice(random(BounceDimension::Lobe));
+        let Some(mut scattered) = bsdf.sample(u_lobe, u1, u2) else { return false };
+        if V::ROUNDS {
+            round_sample(&mut scattered, &bsdf, visitor);
+        }
         if is_last && !scattered.is_null {
             return false;
         }
@@ -138,11 +145,13 @@ impl Integrator {
         path.eta_scale *= eta * eta;
         path.previous = density;
         path.ray = Ray { origin: surface.point.leave_towards(wi), direction: wi };
+        visitor.round_ray(&mut path.ray, Some(&surface.point));
         path.bounce += 1;
         if is_null {
             return true;
         }
-        let survives = self.survives_roulette(path, random(BounceDimension::Roulette), visitor);
+        let u_roulette = visitor.round_choice(random(BounceDimension::Roulette));
+        let survives = self.survives_roulette(path, u_roulette, visitor);
         path.edge += 1;
         survives
     }
@@ -200,7 +209,10 @@ impl Integrator {
         let reference = surface.point.leave_towards(bsdf.view.wo);
         let Some(light) = self.lights.sample(&self.scene, (&self.world, &path.moment), reference, choice, [u, v]) else { return };
         // Several samples are as dense together as one of as many times its density.
-        let light = LightSample { pdf: light.pdf * f64::from(settings.light_samples_at(path.edge)), ..light };
+        let mut light = LightSample { pdf: light.pdf * f64::from(settings.light_samples_at(path.edge)), ..light };
+        if V::ROUNDS {
+            self.round_light(&mut light, visitor);
+        }
         let scattering = bsdf.evaluate(light.wi);
         if scattering.value == DVec3::ZERO {
             return;
@@ -212,13 +224,23 @@ impl Integrator {
             mis::weight(settings.heuristic, light.pdf, scattering.pdf)
         };
         // Light that comes through the surface arrives on its other side.
-        let ray = Ray { origin: surface.point.leave_towards(light.wi), direction: light.wi };
+        let mut ray = Ray { origin: surface.point.leave_towards(light.wi), direction: light.wi };
+        visitor.round_ray(&mut ray, Some(&surface.point));
         visitor.ray(&ray);
         let visible = !self.world.blocked(ray, light.distance, light.target, &path.moment);
         let unshadowed = path.throughput * scattering.value * light.radiance * (weight / light.pdf);
         let contribution = if visible { unshadowed } else { DVec3::ZERO };
         path.radiance += contribution;
         visitor.light(&LightConnection { light, bsdf_pdf: scattering.pdf, weight, visible, contribution });
+    }
+
+    /// A sample of a light, its direction and length rounded. What comes from outside the scene depends on the direction alone.
+    fn round_light<V: PathVisitor>(&self, light: &mut LightSample, visitor: &mut V) {
+        visitor.round_direction(&mut light.wi);
+        visitor.round_length(&mut light.distance);
+        if light.distance.is_infinite() && !light.delta {
+            light.radiance = self.lights.outside().radiance(light.wi);
+        }
     }
 
     /// Russian roulette: the path goes on with probability q and then counts 1/q times as much, which leaves the mean as it is.
@@ -235,5 +257,18 @@ impl Integrator {
         }
         path.throughput /= survival;
         true
+    }
+}
+
+/// A sampled direction, rounded, with the density that belongs to it. Of a narrow lobe that changes much faster than the direction.
+fn round_sample<V: PathVisitor>(sample: &mut BsdfSample, bsdf: &Bsdf, visitor: &mut V) {
+    let exact = bsdf.evaluate(sample.wi).pdf;
+    visitor.round_direction(&mut sample.wi);
+    let rounded = bsdf.evaluate(sample.wi).pdf;
+    if let Density::Smooth(pdf) = &mut sample.density
+        && exact > 0.0
+        && rounded > 0.0
+    {
+        *pdf *= rounded / exact;
     }
 }

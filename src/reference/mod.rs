@@ -13,6 +13,7 @@ pub mod intersect;
 pub mod lights;
 pub mod mis;
 mod renderer;
+pub mod rounding;
 pub mod texture;
 pub mod trace;
 pub mod warp;

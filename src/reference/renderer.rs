@@ -7,6 +7,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::integrator::Integrator;
+use super::rounding::Rounding;
 use super::trace::{PathTrace, PathVisitor, RayCounter};
 use crate::film::Band;
 use crate::math::luminance;
@@ -106,6 +107,11 @@ impl ReferenceRenderer {
         let mut trace = PathTrace::default();
         trace.radiance = self.follow(x, y, sample, &mut trace);
         trace
+    }
+
+    /// What one sample of one pixel sees with every intermediate result rounded as `rounding` does it.
+    pub fn rounded_radiance(&self, x: u32, y: u32, sample: u32, rounding: &mut Rounding) -> DVec3 {
+        self.follow(x, y, sample, rounding)
     }
 
     fn follow<V: PathVisitor>(&self, x: u32, y: u32, sample: u32, visitor: &mut V) -> DVec3 {

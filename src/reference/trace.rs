@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::bsdf::{BsdfSample, View};
-use super::intersect::{Ray, Surface};
+use super::intersect::{Ray, Surface, SurfacePoint};
 use super::lights::LightSample;
 use crate::scene::MaterialId;
 
@@ -36,6 +36,21 @@ pub trait PathVisitor {
     fn roulette(&mut self, _survival: f64, _survived: bool) {}
     /// The path left the scene.
     fn escaped(&mut self, _radiance: DVec3, _weight: f64, _contribution: DVec3) {}
+
+    /// Whether the methods below change what they are given.
+    const ROUNDS: bool = false;
+    /// A ray about to be traced, and the point of a surface that it leaves; none for the camera's.
+    fn round_ray(&mut self, _ray: &mut Ray, _left: Option<&SurfacePoint>) {}
+    /// A surface that was met.
+    fn round_surface(&mut self, _surface: &mut Surface) {}
+    /// A direction of unit length.
+    fn round_direction(&mut self, _direction: &mut DVec3) {}
+    /// A length.
+    fn round_length(&mut self, _length: &mut f64) {}
+    /// A random number that a choice is made by: where it is close to the border, rounding decides.
+    fn round_choice(&mut self, number: f64) -> f64 {
+        number
+    }
 }
 
 /// Counts rays.

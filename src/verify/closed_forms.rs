@@ -1,4 +1,4 @@
-//! Pictures whose every pixel is known in closed form, rendered on the device alone.
+//! Pictures whose every pixel is known in closed form, rendered on one device alone.
 //!
 //! The reference cannot err along with the device here: the truth is a formula. All pixels of a scene have the same expectation. Each
 //! shifts the sequence of random numbers by a hash of its own, so pixels are independent replications, and Student's t-test judges
@@ -16,6 +16,7 @@ use crate::gpu::{Device, GpuRenderer};
 use crate::load;
 use crate::load::SceneError;
 use crate::plan::{Fault, PlanOptions};
+use crate::reference::ReferenceRenderer;
 use crate::renderer::{RenderError, RenderRequest, Renderer, Silent};
 use crate::scene::Scene;
 
@@ -93,10 +94,23 @@ pub fn count() -> usize {
 /// # Errors
 /// What rendering reports.
 pub fn check(index: usize, device: &Device, options: &PlanOptions) -> Result<ClosedForm, ClosedFormError> {
-    let case = &CASES[index];
-    let scene = load(case)?;
+    let scene = load(&CASES[index])?;
     let mut gpu = GpuRenderer::on(device, &scene, options)?;
-    let (pixels, non_finite_samples) = render(&mut gpu, &scene)?;
+    let closed = judge(&CASES[index], &scene, &mut gpu)?;
+    Ok(ClosedForm { planted: planted(&gpu, options), ..closed })
+}
+
+/// As [`check`], on the reference.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_reference(index: usize) -> Result<ClosedForm, ClosedFormError> {
+    let scene = load(&CASES[index])?;
+    judge(&CASES[index], &scene, &mut ReferenceRenderer::new(&scene)?)
+}
+
+fn judge(case: &Case, scene: &Scene, renderer: &mut dyn Renderer) -> Result<ClosedForm, ClosedFormError> {
+    let (pixels, non_finite_samples) = render(renderer, scene)?;
     let mut moments = [Moments::default(); 3];
     for pixel in pixels {
         for (channel, value) in moments.iter_mut().zip(pixel) {
@@ -108,13 +122,13 @@ pub fn check(index: usize, device: &Device, options: &PlanOptions) -> Result<Clo
     Ok(ClosedForm {
         closed_form: case.name,
         formula: case.formula,
-        device: device.name.clone(),
+        device: renderer.device().to_owned(),
         expected: case.expected,
         found: moments.map(|observed| observed.mean()),
         standard_error: moments.map(|observed| observed.standard_error()),
         non_finite_samples,
         agrees: non_finite_samples == 0 && moments.iter().zip(case.expected).all(holds),
-        planted: planted(&gpu, options),
+        planted: None,
     })
 }
 
@@ -123,10 +137,10 @@ fn load(case: &Case) -> Result<Scene, SceneError> {
 }
 
 /// All pixels, and how many samples the film refused.
-fn render(gpu: &mut GpuRenderer, scene: &Scene) -> Result<(Vec<[f32; 3]>, u64), RenderError> {
+fn render(renderer: &mut dyn Renderer, scene: &Scene) -> Result<(Vec<[f32; 3]>, u64), RenderError> {
     let pixels = Mutex::new(Vec::new());
     let request = RenderRequest { rows: 0..scene.film.size[1], samples: 0..scene.render.spp };
-    let report = gpu.render(&request, &Silent, &mut |band: Band| {
+    let report = renderer.render(&request, &Silent, &mut |band: Band| {
         pixels.lock().unwrap_or_else(std::sync::PoisonError::into_inner).extend(band.mean);
         Ok(())
     })?;

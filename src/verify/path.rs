@@ -5,6 +5,7 @@ use std::fmt::{self, Write as _};
 use glam::DVec3;
 use serde::Serialize;
 
+use super::cause::{self, Cause, Differing};
 use super::{PATH_TOLERANCE, planted};
 use crate::gpu::trace::TracedVertex;
 use crate::gpu::{Device, GpuRenderer};
@@ -92,7 +93,9 @@ pub struct PathComparison {
     pub rows: Vec<Row>,
     pub cpu_radiance: [f64; 3],
     pub gpu_radiance: [f64; 3],
-    /// The path's radiance agrees to [`PATH_TOLERANCE`].
+    /// What explains the difference, where the path's radiance does not agree to [`PATH_TOLERANCE`].
+    pub cause: Option<Cause>,
+    /// There is no difference, or rounding explains it.
     pub agrees: bool,
     /// The fault that was planted on purpose.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -113,13 +116,17 @@ pub fn compare_path(
     let options = PlanOptions { trace: true, ..options.clone() };
     let gpu = GpuRenderer::on(device, scene, &options)?;
     let ours = gpu.trace(x, y, sample)?;
-    let theirs = ReferenceRenderer::new(scene)?.trace(x, y, sample);
+    let reference = ReferenceRenderer::new(scene)?;
+    let theirs = reference.trace(x, y, sample);
     let gpu_radiance = ours.radiance.map(f64::from);
     let cpu_radiance = theirs.radiance.to_array();
     let cpu = reference_vertices(scene, &theirs);
     let gpu_vertices: Vec<Quantities> = ours.vertices.iter().map(|vertex| device_vertex(scene, vertex)).collect();
     let largest = |a: &[f64; 3]| a.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     let apart = largest(&[0, 1, 2].map(|c| cpu_radiance[c] - gpu_radiance[c]));
+    let matches = apart <= PATH_TOLERANCE * largest(&cpu_radiance).max(largest(&gpu_radiance));
+    let differing = Differing { path: [x, y, sample], first: ours.radiance, second: theirs.radiance.as_vec3().to_array() };
+    let cause = (!matches).then(|| cause::of(&differing, &reference));
     Ok(PathComparison {
         scene: scene.name.clone(),
         device: device.name.clone(),
@@ -130,7 +137,8 @@ pub fn compare_path(
         rows: side_by_side(&cpu, &gpu_vertices),
         cpu_radiance,
         gpu_radiance,
-        agrees: apart <= PATH_TOLERANCE * largest(&cpu_radiance).max(largest(&gpu_radiance)),
+        cause,
+        agrees: cause != Some(Cause::Unexplained),
         planted: planted(&gpu, &options),
     })
 }
@@ -337,7 +345,12 @@ impl fmt::Display for PathComparison {
         }
         let radiance = |value: [f64; 3]| Value::Vector(value).to_string();
         writeln!(f, "radiance\n  {:<18}  {:<36} {}", "", radiance(self.cpu_radiance), radiance(self.gpu_radiance))?;
-        let mut end = String::from(if self.agrees { "the radiance agrees" } else { "the radiance DIFFERS" });
+        let mut end = String::from(match self.cause {
+            None => "the radiance agrees",
+            Some(Cause::Decision) => "the radiance differs, because rounding turns a decision over",
+            Some(Cause::Steepness) => "the radiance differs, no more than the path magnifies rounding",
+            Some(Cause::Unexplained) => "the radiance DIFFERS",
+        });
         match self.rows.iter().find(|row| row.parts) {
             Some(row) => write!(end, "; the paths part at vertex {}: {}", row.vertex, row.quantity)?,
             None => end.push_str("; the paths do not part"),

@@ -371,6 +371,36 @@ fn verify_compares_the_devices_and_says_how_much_matches() {
     place.expect(2, "verify --spp 0");
 }
 
+/// The last line is the verdict, in words; a folder that cannot be made changes nothing about it.
+#[test]
+fn verify_ends_with_its_verdict() {
+    if std::env::var("GPT_TEST_GPU").as_deref() == Ok("skip") {
+        return;
+    }
+    let place = Workplace::new();
+    let green = text(&place.run("verify cornell --size 24x24 --spp 2").stdout);
+    assert!(green.ends_with("\nGREEN: it agrees\n"), "{green}");
+    std::fs::write(place.path("taken"), "a file, and no folder").expect("it is written");
+    let red = place.run("verify cornell --size 24x24 --spp 2 --plant brdf --evidence taken/below");
+    let (said, warned) = (text(&red.stdout), text(&red.stderr));
+    assert_eq!(red.status.code(), Some(7), "{said} {warned}");
+    assert!(said.ends_with("\nRED: 1 of 1 differ: cornell\n"), "{said}");
+    assert!(said.contains("differ by more than rounding explains, and none may"), "{said}");
+    assert!(warned.contains("cannot be kept in taken/below"), "{warned}");
+}
+
+/// Without a graphics device, the CPU is held against closed forms, and nothing else.
+#[test]
+fn verify_on_the_cpu_holds_the_reference_against_closed_forms() {
+    let place = Workplace::new();
+    let output = place.run("verify --device cpu");
+    let said = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.ends_with(&format!("\nGREEN: all {} agree\n", gpt::verify::closed_forms::count())), "{said}");
+    let stderr = place.expect(2, "verify cornell --device cpu");
+    assert!(stderr.contains("with --device cpu there are no two devices to compare"), "{stderr}");
+}
+
 /// Red with each fault, green without; the pictures are left behind, and the command for the worst path shows where the two part.
 #[test]
 fn verify_notices_planted_faults_and_says_how_to_follow_the_worst_path() {

@@ -10,6 +10,7 @@ mod bad_lights;
 mod bad_materials;
 mod bad_scenes;
 mod blends;
+mod builtin_scenes;
 mod hierarchy;
 mod light_strategies;
 mod models;

@@ -4,7 +4,8 @@ use crate::common::device::DEVICE;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::plan::{Fault, PlanOptions};
 use gpt::renderer::RenderError;
-use gpt::scene::{Geometry, Shape, Transform};
+use gpt::scene::{Geometry, Scene, Shape, Transform};
+use gpt::verify;
 use gpt::verify::closed_forms::{self, ClosedForm};
 
 fn check_all(device: &Device, fault: Option<Fault>) -> Vec<ClosedForm> {
@@ -51,4 +52,78 @@ fn a_scene_that_is_not_valid_is_refused_by_the_device() {
         Err(RenderError::InvalidScene(invalid)) => assert_eq!(invalid.to_string(), "a disk: there is no material 99"),
         other => panic!("{other:?}"),
     }
+}
+
+/// A normal map on a smooth and on a rough metal under a sky with a sun: one path in thirty differs by more than 10⁻⁴, and none by mistake.
+const STEEP: &str = r#"
+[film]
+size = [64, 48]
+[render]
+spp = 8
+max_depth = 4
+[camera]
+position = [0, 0.4, 4]
+look_at  = [0, 0, 0]
+vfov     = 34
+[[texture]]
+name = "dents"
+type = "image"
+file = "textures/hammered.png"
+color_space = "linear"
+scale = [7, 5]
+[[material]]
+name = "smooth"
+type = "conductor"
+preset = "silver"
+alpha = 0
+normal_map = "dents"
+[[material]]
+name = "rough"
+type = "conductor"
+preset = "gold"
+alpha = 0.004
+normal_map = "dents"
+[[shape]]
+type = "sphere"
+center = [-0.8, 0, 0]
+radius = 0.75
+material = "smooth"
+[[shape]]
+type = "sphere"
+center = [0.8, 0, 0]
+radius = 0.75
+material = "rough"
+[[light]]
+type = "environment"
+file = "textures/evening.hdr"
+scale = 20
+"#;
+
+fn steep() -> Scene {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
+    gpt::load::load_toml_str(STEEP, "steep", std::path::Path::new(folder)).expect("it is valid")
+}
+
+#[test]
+fn steep_paths_are_no_false_alarm() {
+    let Some(device) = DEVICE.as_ref() else { return };
+    let verdict = verify::verify_on(device, &steep(), &PlanOptions::default(), None).expect("it renders");
+    assert!(verdict.agrees && verdict.followed_paths > 100, "{verdict:#?}");
+    // Some thousand paths of a glossy scene, of which more than one in a hundred differs.
+    let mut glossy =
+        gpt::load::load(Some(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/figures/veach-glossy.toml"))).expect("it is valid");
+    glossy.film.size = [24, 16];
+    glossy.render.spp = 8;
+    let verdict = verify::verify_on(device, &glossy, &PlanOptions::default(), None).expect("it renders");
+    assert!(verdict.agrees && verdict.followed_paths > 20, "{verdict:#?}");
+}
+
+/// The same scene with a metal that returns 1 % too much.
+#[test]
+fn a_mistake_in_a_steep_scene_is_found() {
+    let Some(device) = DEVICE.as_ref() else { return };
+    let options = PlanOptions { fault: Some(Fault::Brdf), ..PlanOptions::default() };
+    let verdict = verify::verify_on(device, &steep(), &options, None).expect("it renders");
+    assert!(!verdict.agrees && verdict.unexplained_paths.len() > 5, "{verdict:#?}");
+    assert!(verdict.missed[0].contains("differ by more than rounding explains, and none may"), "{:?}", verdict.missed);
 }

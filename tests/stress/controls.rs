@@ -2,9 +2,8 @@
 
 use gpt::plan::PlanOptions;
 use gpt::scene::{ColorInput, Scene};
-use gpt::verify::LEAST_MATCHING;
 
-use super::support::{DEVICE, Finding, compare_with, judged, render};
+use super::support::{DEVICE, Finding, LEAST_MATCHING, compare_with, judged, render};
 use super::{accumulation, intersections, scale, self_intersection};
 
 /// What was shown to a check, and what it made of it.

@@ -1,9 +1,8 @@
 //! Directions that graze a surface, critical angles, and the ends of every weight and roughness.
 
 use gpt::scene::Scene;
-use gpt::verify::LEAST_MATCHING;
 
-use super::support::{Effort, Finding, judge, judge_with, scene};
+use super::support::{Effort, Finding, LEAST_MATCHING, judge, judge_with, scene};
 
 /// Light that gets into glass at 0.001° is 1e-5 of what is reflected, one minus a Fresnel term next to 1, and has the digits that are left.
 const LEAST_AT_GRAZING: f64 = 0.98;

@@ -7,9 +7,8 @@ use crate::statistics::random::SplitMix64;
 use glam::{DVec3, Vec3};
 use gpt::plan::{PlanOptions, TraversalChoice};
 use gpt::scene::{Geometry, Mesh, Scene, Shape, Transform};
-use gpt::verify::LEAST_MATCHING;
 
-use super::support::{Effort, Finding, judge, judge_with, render, render_with, scene};
+use super::support::{Effort, Finding, LEAST_MATCHING, judge, judge_with, render, render_with, scene};
 
 /// Paths that match on a sphere seen from so many of its radii, at least. A direction is held to 6e-8: that far away this is a part of the
 /// sphere's radius that shows in its shading, from a thousand radii on here and there, from a hundred thousand on in many a path.

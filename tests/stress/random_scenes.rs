@@ -48,20 +48,20 @@ impl Tally {
         if std::env::var("GPT_STRESS_VERBOSE").is_ok() {
             println!(
                 "seed {seed}: {:.2} % match, {} not finite, {} rejected",
-                100.0 * verdict.matching_share(),
+                100.0 * verdict.loosely_matching_share(),
                 verdict.non_finite_samples,
                 verdict.rejections.len()
             );
         }
-        if self.rendered == 0 || verdict.matching_share() < self.least_matching {
-            (self.least_matching, self.worst_seed) = (verdict.matching_share(), seed);
+        if self.rendered == 0 || verdict.loosely_matching_share() < self.least_matching {
+            (self.least_matching, self.worst_seed) = (verdict.loosely_matching_share(), seed);
         }
         self.rendered += 1;
         self.paths += verdict.paths;
         self.matching += verdict.matching_paths;
         self.non_finite += verdict.non_finite_samples;
         self.largest_mean_difference = self.largest_mean_difference.max(mean_difference(&verdict));
-        if verdict.non_finite_samples > 0 || verdict.matching_share() < LEAST_MATCHING || !verdict.rejections.is_empty() {
+        if verdict.non_finite_samples > 0 || verdict.loosely_matching_share() < LEAST_MATCHING || !verdict.rejections.is_empty() {
             self.complaints.push(format!("seed {seed}: {verdict:?}"));
         }
     }

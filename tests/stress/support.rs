@@ -84,6 +84,9 @@ pub fn scene(text: &str) -> Scene {
     scene
 }
 
+/// Share of paths that has to match loosely, unless a case has its own.
+pub const LEAST_MATCHING: f64 = 0.99;
+
 /// The device's picture of `scene` against the reference's picture of `truth`, path by path. None without a device.
 pub fn compare_with(scene: &Scene, truth: &Scene, options: &PlanOptions) -> Option<Verdict> {
     let device = DEVICE.as_ref()?;
@@ -92,13 +95,13 @@ pub fn compare_with(scene: &Scene, truth: &Scene, options: &PlanOptions) -> Opti
     Some(compare_renderers(truth, &mut gpu, &mut cpu))
 }
 
-pub fn compare_renderers(scene: &Scene, gpu: &mut dyn Renderer, cpu: &mut dyn Renderer) -> Verdict {
-    verify::compare(scene, gpu.device().to_owned(), gpu, cpu).expect("both render")
+pub fn compare_renderers(scene: &Scene, gpu: &mut dyn Renderer, cpu: &mut ReferenceRenderer) -> Verdict {
+    verify::compare(scene, gpu, cpu, None).expect("both render")
 }
 
 /// The usual measures of a comparison; complains where `verify` does.
 pub fn judge(case: impl Into<String>, scene: &Scene, truth: &Scene) -> Option<Finding> {
-    judge_with(case, scene, truth, verify::LEAST_MATCHING)
+    judge_with(case, scene, truth, LEAST_MATCHING)
 }
 
 /// As [`judge`], for a case in which a smaller share of paths matches to the last digits. Means are held to each other all the same.
@@ -108,14 +111,15 @@ pub fn judge_with(case: impl Into<String>, scene: &Scene, truth: &Scene, least_m
 
 /// What [`judge_with`] makes of a verdict.
 pub fn judged(case: impl Into<String>, verdict: &Verdict, least_matching: f64) -> Finding {
-    let right = verdict.rejections.is_empty() && verdict.non_finite_samples == 0 && verdict.matching_share() >= least_matching;
+    let right =
+        verdict.rejections.is_empty() && verdict.non_finite_samples == 0 && verdict.loosely_matching_share() >= least_matching;
     measured(case, verdict).require(right, || format!("{verdict:#?}"))
 }
 
 /// As [`judged`], without a judgement.
 pub fn measured(case: impl Into<String>, verdict: &Verdict) -> Finding {
     Finding::new(case)
-        .with("paths that match", format!("{:.3} %", 100.0 * verdict.matching_share()))
+        .with("paths that match", format!("{:.3} %", 100.0 * verdict.loosely_matching_share()))
         .with("difference of the means", format!("{:.1e}", mean_difference(verdict)))
         .with("rms over the mean", format!("{:.1e}", verdict.rms_difference / mean_of(&verdict.cpu_mean).max(1e-300)))
         .with("not finite", verdict.non_finite_samples)

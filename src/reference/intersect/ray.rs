@@ -49,6 +49,11 @@ impl SurfacePoint {
         Self { position, normal, error: magnitude * ROUNDING }
     }
 
+    /// The magnitude that it was made with.
+    pub fn magnitude(&self) -> f64 {
+        self.error / ROUNDING
+    }
+
     /// The point moved off the surface by its error bound, to the side that `direction` points to. A ray from there in that
     /// direction does not meet the surface again by rounding.
     pub fn leave_towards(&self, direction: DVec3) -> DVec3 {

@@ -76,7 +76,7 @@ fn the_number_of_surfaces_matters() {
     let mut cpu = ReferenceRenderer::new(&scene).expect("the scene is supported");
     scene.render.light_samples_depth = 1;
     let mut gpu = GpuRenderer::on(device, &scene, &PlanOptions::default()).expect("the scene fits");
-    let verdict = verify::compare(&scene, device.name.clone(), &mut gpu, &mut cpu).expect("both render");
+    let verdict = verify::compare(&scene, &mut gpu, &mut cpu, None).expect("both render");
     assert!(verdict.matching_share() < 0.7, "{verdict:#?}");
 }
 
@@ -92,7 +92,7 @@ fn the_number_of_light_samples_matters() {
         let options = PlanOptions { stages: Some(stages), ..PlanOptions::default() };
         let mut gpu = GpuRenderer::on(device, &scene, &options).expect("the scene fits");
         assert_eq!((gpu.plan().stages, gpu.plan().light_samples), (stages, 4));
-        let verdict = verify::compare(&scene, device.name.clone(), &mut gpu, &mut cpu).expect("both render");
+        let verdict = verify::compare(&scene, &mut gpu, &mut cpu, None).expect("both render");
         assert!(verdict.matching_share() < 0.5, "{verdict:#?}");
     }
 }

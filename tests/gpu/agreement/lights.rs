@@ -290,7 +290,7 @@ fn compare_unequal(ours: &Scene, theirs: &Scene) -> Option<Verdict> {
     let device = DEVICE.as_ref()?;
     let mut gpu = GpuRenderer::on(device, ours, &PlanOptions::default()).expect("the scene fits");
     let mut cpu = ReferenceRenderer::new(theirs).expect("the scene is supported");
-    Some(verify::compare(theirs, device.name.clone(), &mut gpu, &mut cpu).expect("both render"))
+    Some(verify::compare(theirs, &mut gpu, &mut cpu, None).expect("both render"))
 }
 
 /// The same comparison notices a spot that opens a degree wider, a map turned by a degree, spheres drawn from otherwise, and portals that

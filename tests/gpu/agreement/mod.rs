@@ -30,7 +30,7 @@ fn compare(scene: &Scene, options: &PlanOptions) -> Option<Verdict> {
 fn compare_on(device: &Device, scene: &Scene, options: &PlanOptions) -> Verdict {
     let mut gpu = GpuRenderer::on(device, scene, options).expect("the scene fits");
     let mut cpu = ReferenceRenderer::new(scene).expect("the scene is supported");
-    verify::compare(scene, device.name.clone(), &mut gpu, &mut cpu).expect("both render")
+    verify::compare(scene, &mut gpu, &mut cpu, None).expect("both render")
 }
 
 fn assert_agrees(what: &str, scene: &Scene, options: &PlanOptions) {
@@ -126,7 +126,7 @@ fn a_planted_error_is_noticed() {
     }
     let mut gpu = GpuRenderer::on(device, &faulty, &PlanOptions::default()).expect("the scene fits");
     let mut cpu = ReferenceRenderer::new(&scene).expect("the scene is supported");
-    let verdict = verify::compare(&scene, device.name.clone(), &mut gpu, &mut cpu).expect("both render");
+    let verdict = verify::compare(&scene, &mut gpu, &mut cpu, None).expect("both render");
     assert!(!verdict.agrees && !verdict.rejections.is_empty(), "{verdict:#?}");
 
     // What is left behind shows it: the device's picture is 1 % brighter than the reference's.

@@ -91,7 +91,7 @@ pub fn compare_unequal(ours: &Scene, theirs: &Scene) -> Option<Verdict> {
     let device = DEVICE.as_ref()?;
     let mut gpu = GpuRenderer::on(device, ours, &PlanOptions::default()).expect("the scene fits");
     let mut cpu = ReferenceRenderer::new(theirs).expect("the scene is supported");
-    Some(verify::compare(theirs, device.name.clone(), &mut gpu, &mut cpu).expect("both render"))
+    Some(verify::compare(theirs, &mut gpu, &mut cpu, None).expect("both render"))
 }
 
 /// The same comparison notices when the devices draw from different samplers, be it for the pixel alone.

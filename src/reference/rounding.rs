@@ -1,0 +1,119 @@
+//! What rounding to single precision may do to a path.
+//!
+//! A device computes in f32, the reference in f64. Where the two differ on a path, the question is whether rounding explains it: it does
+//! where the path is so steep, or so close to a decision, that errors of rounding's size move the reference itself as far. So the
+//! reference follows the path again and again, and each time every ray, point, normal and direction on the way is off by a few units in the last
+//! place of f32, at random.
+
+use glam::DVec3;
+
+use super::bsdf::{BsdfSample, Density};
+use super::intersect::{Ray, Surface, SurfacePoint};
+use super::trace::{LightConnection, PathVisitor};
+use crate::sampling::hash::mix;
+
+/// Relative size of one rounding to f32.
+const UNIT: f64 = 0.5 * f32::EPSILON as f64;
+/// Rounding errors of a computed surface point, as kernels bound them: `POINT_ERROR` in `shaders/core/math.wgsl`. They start rays
+/// that much above the surface.
+const POINT_ERROR: f64 = 1.0e-6;
+
+/// Follows a path with intermediate results that are off by rounding errors, and notes which decisions were taken.
+#[derive(Debug, Clone)]
+pub struct Rounding {
+    /// Relative size of the errors.
+    size: f64,
+    state: u32,
+    decisions: u64,
+}
+
+impl Rounding {
+    /// No errors: the path as it is, with its decisions.
+    pub fn none() -> Self {
+        Self { size: 0.0, state: 0, decisions: 0 }
+    }
+
+    /// Errors of up to `units` roundings each, drawn by `seed`.
+    pub fn of_units(units: f64, seed: u32) -> Self {
+        Self { size: units * UNIT, state: mix(seed ^ 0x9e37_79b9), decisions: 0 }
+    }
+
+    /// Two paths with the same number have met the same primitives, chosen the same lights and lobes, and seen or not seen the same
+    /// lights.
+    pub fn decisions(&self) -> u64 {
+        self.decisions
+    }
+
+    fn decided(&mut self, what: u64) {
+        // FNV-1a, a word at a time.
+        self.decisions = (self.decisions ^ what).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(23);
+    }
+
+    /// Uniform in [−1, 1).
+    fn draw(&mut self) -> f64 {
+        self.state = self.state.wrapping_add(0x9e37_79b9);
+        f64::from(mix(self.state)) / 2_147_483_648.0 - 1.0
+    }
+
+    /// A vector inside the cube of side 2.
+    fn draw_vector(&mut self) -> DVec3 {
+        DVec3::new(self.draw(), self.draw(), self.draw())
+    }
+}
+
+impl PathVisitor for Rounding {
+    fn surface(&mut self, _edge: u32, surface: &Surface, _wo: DVec3, _throughput: DVec3) {
+        self.decided(1 + ((surface.owner.shape as u64) << 32 | surface.owner.part as u64));
+    }
+
+    fn light(&mut self, connection: &LightConnection) {
+        self.decided(2 + 4 * (2 * connection.light.light as u64 + u64::from(connection.visible)));
+    }
+
+    fn scattered(&mut self, sample: &BsdfSample) {
+        let refracted = u64::from(sample.eta != 1.0);
+        let delta = u64::from(sample.density == Density::Delta);
+        self.decided(3 + 4 * (4 * u64::from(sample.passes) + 2 * delta + refracted));
+    }
+
+    fn roulette(&mut self, _survival: f64, survived: bool) {
+        self.decided(5 + 4 * u64::from(survived));
+    }
+
+    fn escaped(&mut self, _radiance: DVec3, _weight: f64, _contribution: DVec3) {
+        self.decided(7);
+    }
+
+    const ROUNDS: bool = true;
+
+    fn round_ray(&mut self, ray: &mut Ray, left: Option<&SurfacePoint>) {
+        self.round_direction(&mut ray.direction);
+        let magnitude = left.map_or_else(|| ray.origin.abs().max_element(), SurfacePoint::magnitude);
+        let mut error = self.draw_vector() * (self.size * magnitude);
+        if let Some(point) = left {
+            // Along the surface by errors, and above it by as much as kernels lift their rays, up to twice that.
+            let lift = if self.size > 0.0 { (self.draw() + 1.0) * magnitude * POINT_ERROR } else { 0.0 };
+            let up = point.normal * ray.direction.dot(point.normal).signum();
+            error += up * (lift - error.dot(up));
+        }
+        ray.origin += error;
+    }
+
+    fn round_surface(&mut self, surface: &mut Surface) {
+        self.round_direction(&mut surface.shading_normal);
+        surface.uv *= 1.0 + self.size * self.draw();
+    }
+
+    fn round_direction(&mut self, direction: &mut DVec3) {
+        *direction = (*direction + self.draw_vector() * self.size).normalize();
+    }
+
+    fn round_length(&mut self, length: &mut f64) {
+        // Kernels end shadow rays early, by an error of their own.
+        *length *= 1.0 - (self.draw() + 1.0) * self.size;
+    }
+
+    fn round_choice(&mut self, number: f64) -> f64 {
+        number + self.size * self.draw()
+    }
+}

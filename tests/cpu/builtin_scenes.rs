@@ -1,0 +1,100 @@
+//! The built-in scenes use everything that kernels have code for, so that `gpt verify` without a scene sees all of it. No device is needed.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use gpt::load;
+use gpt::packed::PackedScene;
+use gpt::packed::hierarchy::Traversal;
+use gpt::plan::{DeviceLimits, Plan, PlanOptions, RayQueryLimits, TraversalChoice};
+use gpt::scene::Scene;
+use gpt::shader::switches::SWITCHES;
+
+/// Switches that depend on the device or on what a render is asked for, whatever the scene.
+const OF_DEVICES: [&str; 12] = [
+    "ATTRIBUTE_CHUNKS",
+    "FILM_TEXTURE",
+    "NODE_CHUNKS",
+    "PACKETS",
+    "PIXEL_LIST",
+    "PRIMITIVE_CHUNKS",
+    "RAY_QUERY",
+    "SPREAD",
+    "SUBGROUP_QUEUES",
+    "UNIFORM_NODES",
+    "UNIFORM_PRIMITIVES",
+    "UNIFORM_TABLES",
+];
+
+/// What scenes compile in on a device.
+fn compiled_in(scenes: &[Scene], limits: &DeviceLimits, options: &PlanOptions) -> BTreeSet<&'static str> {
+    let traversal = if options.asks_for_ray_queries() { Traversal::RayQuery } else { Traversal::Bvh };
+    let of_scene = |scene: &Scene| {
+        let packed = PackedScene::for_traversal(scene, traversal).expect("it packs");
+        // Ray queries do not see what moves.
+        Plan::new(scene, &packed, limits, options).map_or_else(|_| BTreeSet::new(), |plan| plan.switches.enabled)
+    };
+    scenes.iter().flat_map(of_scene).collect()
+}
+
+#[test]
+fn built_in_scenes_use_every_switch() {
+    let built_in: Vec<Scene> = load::builtin_names().map(|name| load::load(Some(name)).expect("it is built in")).collect();
+    let hardware = DeviceLimits::default();
+    let scenes = compiled_in(&built_in, &hardware, &PlanOptions::default());
+    let every = SWITCHES.iter().filter(|switch| !switch.debug).map(|switch| switch.name);
+    let missing: Vec<_> = every.clone().filter(|name| !scenes.contains(name) && !OF_DEVICES.contains(name)).collect();
+    assert!(missing.is_empty(), "no built-in scene uses {missing:?}");
+
+    let software =
+        DeviceLimits { software: true, threads: 4, subgroup_size: Some(8), read_write_rgba32float: true, ..hardware.clone() };
+    let with_subgroups = DeviceLimits { subgroups: true, ..hardware.clone() };
+    let with_ray_queries = DeviceLimits { ray_queries: Some(RayQueryLimits { max_primitives: 1 << 24 }), ..hardware.clone() };
+    let small_bindings = DeviceLimits { max_array: 64 << 10, max_storage_buffers: 100, ..hardware };
+    let by_query = PlanOptions { traversal: TraversalChoice::RayQuery, ..PlanOptions::default() };
+    let of_some_pixels = PlanOptions { pixel_list: true, ..PlanOptions::default() };
+    let mut anywhere = scenes;
+    for (limits, options) in [
+        (software, PlanOptions::default()),
+        (with_subgroups, of_some_pixels),
+        (with_ray_queries, by_query),
+        (small_bindings, PlanOptions::default()),
+    ] {
+        anywhere.extend(compiled_in(&built_in, &limits, &options));
+    }
+    let missing: Vec<_> = every.filter(|name| !anywhere.contains(name)).collect();
+    assert!(missing.is_empty(), "no built-in scene uses {missing:?} on any of these devices");
+}
+
+#[test]
+fn pictures_that_built_in_scenes_need_are_small() {
+    let bytes: u64 = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/textures"))
+        .expect("the folder")
+        .map(|file| file.and_then(|file| file.metadata()).expect("a file").len())
+        .sum();
+    assert!(bytes < 20_000, "{bytes} bytes of textures are part of the program");
+}
+
+/// What `scripts/mutants` plants: each old text stands once in the shaders, and each scene is built in. The script itself runs long.
+#[test]
+fn every_fault_that_the_mutants_script_plants_has_its_place() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let list = std::fs::read_to_string(root.join("scripts/mutants.toml")).expect("the list of faults");
+    let list: toml::Table = list.parse().expect("it is TOML");
+    let faults = list["mutant"].as_array().expect("a list");
+    let mut shaders = String::new();
+    for folder in ["core", "geometry", "shading", "stages"] {
+        for file in std::fs::read_dir(root.join("shaders").join(folder)).expect("the folder") {
+            shaders += &std::fs::read_to_string(file.expect("a file").path()).expect("a text");
+        }
+    }
+    assert!(faults.len() >= 40, "{} faults", faults.len());
+    for fault in faults {
+        let [name, old, new] = ["name", "old", "new"].map(|key| fault[key].as_str().expect("a text"));
+        assert_eq!(shaders.matches(old).count(), 1, "{name}: {old}");
+        assert_ne!(old, new, "{name}");
+        for scene in fault["scenes"].as_array().expect("a list") {
+            assert!(load::builtin_names().any(|built_in| Some(built_in) == scene.as_str()), "{name}: {scene}");
+        }
+    }
+}
