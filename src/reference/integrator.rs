@@ -122,7 +122,7 @@ impl Integrator {
         }
         let bounce = path.bounce;
         let random = |dimension| sampler.uniform(Dimension::bounce(bounce, dimension));
-        let bsdf = Bsdf::new(&self.scene, &surface, wo, visitor.round_choice(random(BounceDimension::Blend)));
+        let bsdf = Bsdf::new(&self.scene, &surface, wo, visitor.round_number(random(BounceDimension::Blend)));
         visitor.view(&bsdf.view);
         if !is_last {
             let edge = path.edge;
@@ -130,8 +130,8 @@ impl Integrator {
                 self.add_direct_light(path, &surface, &bsdf, || sampler.light_bits(bounce, edge, number), visitor);
             }
         }
-        let (u1, u2) = (random(BounceDimension::BsdfU), random(BounceDimension::BsdfV));
-        let u_lobe = visitor.round_choice(random(BounceDimension::Lobe));
+        let [u1, u2] = [BounceDimension::BsdfU, BounceDimension::BsdfV].map(|number| visitor.round_number(random(number)));
+        let u_lobe = visitor.round_number(random(BounceDimension::Lobe));
         let Some(mut scattered) = bsdf.sample(u_lobe, u1, u2) else { return false };
         if V::ROUNDS {
             round_sample(&mut scattered, &bsdf, visitor);
@@ -150,7 +150,7 @@ impl Integrator {
         if is_null {
             return true;
         }
-        let u_roulette = visitor.round_choice(random(BounceDimension::Roulette));
+        let u_roulette = visitor.round_number(random(BounceDimension::Roulette));
         let survives = self.survives_roulette(path, u_roulette, visitor);
         path.edge += 1;
         survives
@@ -206,6 +206,7 @@ impl Integrator {
             return;
         }
         let [choice, u, v] = bits();
+        let [u, v] = [u, v].map(|bits| visitor.round_bits(bits));
         let reference = surface.point.leave_towards(bsdf.view.wo);
         let Some(light) = self.lights.sample(&self.scene, (&self.world, &path.moment), reference, choice, [u, v]) else { return };
         // Several samples are as dense together as one of as many times its density.
@@ -265,7 +266,7 @@ fn round_sample<V: PathVisitor>(sample: &mut BsdfSample, bsdf: &Bsdf, visitor: &
     let exact = bsdf.evaluate(sample.wi).pdf;
     visitor.round_direction(&mut sample.wi);
     let rounded = bsdf.evaluate(sample.wi).pdf;
-    if let Density::Smooth(pdf) = &mut sample.density
+    if let Density::SolidAngle(pdf) = &mut sample.density
         && exact > 0.0
         && rounded > 0.0
     {

@@ -18,6 +18,9 @@ const UNIT: f64 = 0.5 * f32::EPSILON as f64;
 /// that much above the surface.
 const POINT_ERROR: f64 = 1.0e-6;
 
+/// Random numbers are below 1: the largest that samplers give.
+const LARGEST_NUMBER: f64 = 1.0 - 1.0 / 4_294_967_296.0;
+
 /// Follows a path with intermediate results that are off by rounding errors, and notes which decisions were taken.
 #[derive(Debug, Clone)]
 pub struct Rounding {
@@ -73,7 +76,7 @@ impl PathVisitor for Rounding {
     fn scattered(&mut self, sample: &BsdfSample) {
         let refracted = u64::from(sample.eta != 1.0);
         let delta = u64::from(sample.density == Density::Delta);
-        self.decided(3 + 4 * (4 * u64::from(sample.passes) + 2 * delta + refracted));
+        self.decided(3 + 4 * (4 * u64::from(sample.is_null) + 2 * delta + refracted));
     }
 
     fn roulette(&mut self, _survival: f64, survived: bool) {
@@ -113,7 +116,12 @@ impl PathVisitor for Rounding {
         *length *= 1.0 - (self.draw() + 1.0) * self.size;
     }
 
-    fn round_choice(&mut self, number: f64) -> f64 {
-        number + self.size * self.draw()
+    fn round_number(&mut self, number: f64) -> f64 {
+        (number + self.size * self.draw()).clamp(0.0, LARGEST_NUMBER)
+    }
+
+    fn round_bits(&mut self, bits: u32) -> u32 {
+        // A cast to an integer ends at the smallest and the largest.
+        (f64::from(bits) + self.size * self.draw() * 4_294_967_296.0) as u32
     }
 }

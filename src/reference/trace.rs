@@ -48,8 +48,12 @@ pub trait PathVisitor {
     /// A length.
     fn round_length(&mut self, _length: &mut f64) {}
     /// A random number that a choice is made by: where it is close to the border, rounding decides.
-    fn round_choice(&mut self, number: f64) -> f64 {
+    fn round_number(&mut self, number: f64) -> f64 {
         number
+    }
+    /// The bits of a random number of a light sample.
+    fn round_bits(&mut self, bits: u32) -> u32 {
+        bits
     }
 }
 

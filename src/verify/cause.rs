@@ -36,7 +36,17 @@ impl Differing {
     pub fn difference(&self) -> f64 {
         distance(DVec3::from(self.first.map(f64::from)), DVec3::from(self.second.map(f64::from)))
     }
+
+    /// Whether all channels agree to this share of the largest, or differ by less than underflow explains.
+    pub fn agrees_to(&self, tolerance: f64) -> bool {
+        let largest = self.first.iter().chain(&self.second).fold(0.0_f32, |largest, x| largest.max(x.abs()));
+        self.difference() <= (tolerance * f64::from(largest)).max(UNDERFLOW)
+    }
 }
+
+/// See [`Differing::agrees_to`]. Devices may flush what is below the smallest normal number of f32, 1.2e-38, and a factor that was flushed may
+/// have stood before large ones.
+const UNDERFLOW: f64 = 1e-30;
 
 fn distance(a: DVec3, b: DVec3) -> f64 {
     (a - b).abs().max_element()

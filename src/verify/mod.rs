@@ -307,16 +307,15 @@ impl Default for Tally {
 impl Tally {
     fn add(&mut self, pair: &Differing) {
         let Differing { first, second, path } = pair;
-        let scale = first.iter().chain(second).fold(0.0_f64, |largest, x| largest.max(f64::from(x.abs())));
         for (a, b) in first.iter().zip(second) {
             let d = f64::from(*a) - f64::from(*b);
             self.squares += d * d;
         }
         let difference = pair.difference();
-        if difference <= LOOSE_TOLERANCE * scale {
+        if pair.agrees_to(LOOSE_TOLERANCE) {
             self.loosely_matching += 1;
         }
-        if difference <= PATH_TOLERANCE * scale {
+        if pair.agrees_to(PATH_TOLERANCE) {
             self.matching += 1;
         } else {
             self.differing.add(*pair);

@@ -122,11 +122,8 @@ pub fn compare_path(
     let cpu_radiance = theirs.radiance.to_array();
     let cpu = reference_vertices(scene, &theirs);
     let gpu_vertices: Vec<Quantities> = ours.vertices.iter().map(|vertex| device_vertex(scene, vertex)).collect();
-    let largest = |a: &[f64; 3]| a.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    let apart = largest(&[0, 1, 2].map(|c| cpu_radiance[c] - gpu_radiance[c]));
-    let matches = apart <= PATH_TOLERANCE * largest(&cpu_radiance).max(largest(&gpu_radiance));
     let differing = Differing { path: [x, y, sample], first: ours.radiance, second: theirs.radiance.as_vec3().to_array() };
-    let cause = (!matches).then(|| cause::of(&differing, &reference));
+    let cause = (!differing.agrees_to(PATH_TOLERANCE)).then(|| cause::of(&differing, &reference));
     Ok(PathComparison {
         scene: scene.name.clone(),
         device: device.name.clone(),

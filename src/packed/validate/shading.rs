@@ -5,8 +5,8 @@ use crate::packed::blend_weight::{self, WeightKind};
 use crate::packed::constants::NONE;
 use crate::packed::light::record::{LIGHT_MOVES, LIGHT_TWO_SIDED, LIGHT_VARIES, LightKind, PORTAL_SHIFT, PackedLight};
 use crate::packed::material::{self, PackedMaterial};
-use crate::packed::texture::{self, PackedTexture, PackedTextureKind};
 use crate::packed::scene::PackedScene;
+use crate::packed::texture::{self, PackedTexture, PackedTextureKind};
 use crate::scene::material::COMPLEX_FRESNEL;
 use crate::scene::validate::MOST_OCTAVES;
 
