@@ -219,7 +219,7 @@ fn pictures(folder: &Path) -> Vec<(&'static str, Vec<u8>)> {
     pictures
 }
 
-const MODEL: &str = "mtllib model.mtl\no quad\nv -1 0 0 1 0 0\nv 1 0 0 0.5 0.5 0.5\nv 1 2.5e-1 0 0 1 0\nv -1 1 0 0 0 1\n\
+const MODEL: &str = "mtllib model.mtl\no quad\nv -1 0 0 1 0 0\nv 1 0 0 0.5 0.5 0.5\nv 1 2.5e-1 0\nv -1 1 0 0 0 1\n\
     vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nvn 0 1 0\ng front\nusemtl red\ns 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\nf 1/1 2/2 \\\n 3/3\n\
     usemtl glass\nf -4 -3 -2\nf 1//2 2//2 4//2\nl 1 2 3\np 1\n# a comment\nv 0 0 1 1 1 1\nf 1 2 5\n";
 

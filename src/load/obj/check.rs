@@ -3,11 +3,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::polygons::{self, Polygon};
 use crate::load::error::SceneError;
 
 /// What the check found, and the text `tobj` is to read.
 pub struct Checked {
-    /// Lines joined where they were continued, without polylines.
+    /// Lines joined where they were continued, without polylines and vertex colours, concave polygons cut into triangles.
     pub text: String,
     /// What stands after every `mtllib`.
     pub libraries: Vec<String>,
@@ -19,6 +20,9 @@ pub struct Checked {
 struct Counts {
     so_far: [usize; 3],
     in_all: [usize; 3],
+    positions: Vec<[f32; 3]>,
+    /// Positions that carry a colour.
+    coloured: usize,
 }
 
 const KINDS: [&str; 3] = ["position", "uv coordinate", "normal"];
@@ -35,7 +39,9 @@ pub fn check(name: &str, text: &str) -> Result<Checked, SceneError> {
         warnings: Vec::new(),
     };
     let count = |statement: &str| text.lines().filter(|line| line.split_whitespace().next() == Some(statement)).count();
-    let mut counts = Counts { so_far: [0; 3], in_all: [count("v"), count("vt"), count("vn")] };
+    let mut counts =
+        Counts { so_far: [0; 3], in_all: [count("v"), count("vt"), count("vn")], positions: Vec::new(), coloured: 0 };
+    let mut polygons: Vec<Polygon> = Vec::new();
     let mut unknown: BTreeMap<String, usize> = BTreeMap::new();
     let mut lines = text.lines().enumerate();
     let mut joined = String::new();
@@ -61,7 +67,13 @@ pub fn check(name: &str, text: &str) -> Result<Checked, SceneError> {
             "v" => counts.vertex(0, rest).map_err(wrong)?,
             "vt" => counts.vertex(1, rest).map_err(wrong)?,
             "vn" => counts.vertex(2, rest).map_err(wrong)?,
-            "f" => counts.face(rest).map_err(wrong)?,
+            "f" => {
+                if counts.face(rest).map_err(wrong)? > 3 {
+                    let start = found.text.len();
+                    let positions_before = counts.so_far[0];
+                    polygons.push(Polygon { line: index + 1, start, end: start + line.len(), positions_before });
+                }
+            }
             "mtllib" => found.libraries.push(rest.trim().to_owned()),
             "usemtl" if rest.trim().is_empty() => return Err(wrong("`usemtl` names no material".to_owned())),
             "usemtl" => {
@@ -69,6 +81,14 @@ pub fn check(name: &str, text: &str) -> Result<Checked, SceneError> {
             }
             other if HARMLESS.contains(&other) => {}
             other => *unknown.entry(other.chars().take(20).collect()).or_default() += 1,
+        }
+        if statement == "v" && (6..=7).contains(&rest.split_whitespace().count()) {
+            // Colours are not rendered, and tobj wants them of all vertices or of none.
+            counts.coloured += 1;
+            let coordinates: Vec<&str> = line.split_whitespace().take(4).collect();
+            found.text.push_str(&coordinates.join(" "));
+            found.text.push('\n');
+            continue;
         }
         if statement == "vt" && rest.split_whitespace().nth(1).is_none() {
             // A texture of one dimension: tobj wants two.
@@ -83,6 +103,17 @@ pub fn check(name: &str, text: &str) -> Result<Checked, SceneError> {
         let list: Vec<String> = unknown.iter().take(8).map(|(statement, count)| format!("{statement} ({count})")).collect();
         found.warnings.push(format!("{name}: lines that are not understood were left out: {}", list.join(", ")));
     }
+    if counts.coloured > 0 {
+        let coloured = counts.coloured;
+        found.warnings.push(format!("{name}: the colours of {coloured} vertices are left out: a material gives the colour"));
+    }
+    let (text, crossings) = polygons::cut(found.text, &polygons, &counts.positions);
+    found.text = text;
+    if let Some(line) = crossings.first_line {
+        let count = crossings.count;
+        let list = if count == 1 { format!("line {line}") } else { format!("line {line} and {} more lines", count - 1) };
+        found.warnings.push(format!("{name}: polygons that cross themselves may be filled in wrongly: {list}"));
+    }
     Ok(found)
 }
 
@@ -90,24 +121,34 @@ impl Counts {
     fn vertex(&mut self, kind: usize, rest: &str) -> Result<(), String> {
         self.so_far[kind] += 1;
         let mut count = 0;
+        let mut values = [0.0, 0.0, 0.0, 1.0];
         for word in rest.split_whitespace() {
             let value: f32 = word.parse().map_err(|_| format!("`{word}` is not a number"))?;
             if !value.is_finite() || value.abs() > 1e18 {
                 return Err(format!("the {} has the coordinate {word}: not a number within 1e18", KINDS[kind]));
+            }
+            if let Some(slot) = values.get_mut(count) {
+                *slot = value;
             }
             count += 1;
             if kind == 0 && count == 4 && value == 0.0 && rest.split_whitespace().count() == 4 {
                 return Err("the position's weight is 0".to_owned());
             }
         }
-        let possible: &[usize] = [&[3, 4, 6][..], &[1, 2, 3], &[3]][kind];
+        if kind == 0 {
+            let [x, y, z, weight] = values;
+            let weight = if count == 4 { weight } else { 1.0 };
+            self.positions.push([x / weight, y / weight, z / weight]);
+        }
+        let possible: &[usize] = [&[3, 4, 6, 7][..], &[1, 2, 3], &[3]][kind];
         if possible.contains(&count) {
             return Ok(());
         }
         Err(format!("a {} has {} numbers, found {count}", KINDS[kind], possible[..possible.len().min(2)].last().unwrap_or(&3)))
     }
 
-    fn face(&self, rest: &str) -> Result<(), String> {
+    /// How many corners it has.
+    fn face(&self, rest: &str) -> Result<usize, String> {
         let mut corners = 0;
         for corner in rest.split_whitespace() {
             corners += 1;
@@ -126,7 +167,7 @@ impl Counts {
         if corners < 3 {
             return Err(format!("a face has at least 3 corners, found {corners}"));
         }
-        Ok(())
+        Ok(corners)
     }
 
     fn index(&self, kind: usize, written: &str) -> Result<(), String> {
@@ -160,6 +201,35 @@ mod tests {
         assert_eq!(message("\nv 0 zero 0"), "a.obj:2:1: `zero` is not a number");
         assert_eq!(message(&format!("{start}f 1 2")), "a.obj:4:1: a face has at least 3 corners, found 2");
         assert_eq!(message(&format!("{start}f 1/1 2 3")), "a.obj:4:1: the face uses uv coordinate 1, but there are only 0");
+    }
+
+    #[test]
+    fn colours_of_some_vertices_are_left_out_and_said() {
+        let text = "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0.5 1 0 1\nf 1 2 3\n";
+        let checked = check("a.obj", text).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(checked.text, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+        assert_eq!(checked.warnings, ["a.obj: the colours of 2 vertices are left out: a material gives the colour"]);
+        assert_eq!(message("v 0 0 0 1 0"), "a.obj:1:1: a position has 4 numbers, found 5");
+    }
+
+    #[test]
+    fn concave_faces_become_triangles_where_they_stand() {
+        let corners = "v 0 0 0\nv 2 2 0\nv 0 1 0\nv -2 2 0\n";
+        let checked = check("a.obj", &format!("{corners}f 2//1 3//1 4//1 1//1\nf 1 2 3 4\nvn 0 0 1\n"))
+            .unwrap_or_else(|error| panic!("{error}"));
+        let faces: Vec<&str> = checked.text.lines().filter(|line| line.starts_with('f')).collect();
+        assert_eq!(faces.len(), 3, "{faces:?}");
+        assert!(faces[..2].iter().all(|face| face.contains("3//1") && face.contains("1//1")), "{faces:?}");
+        // From its reflex corner, or the one across, a fan is right and stays.
+        assert_eq!(faces[2], "f 1 2 3 4");
+        assert!(checked.warnings.is_empty());
+    }
+
+    #[test]
+    fn a_face_that_crosses_itself_is_said() {
+        let text = "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n";
+        let checked = check("a.obj", text).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(checked.warnings, ["a.obj: polygons that cross themselves may be filled in wrongly: line 5"]);
     }
 
     #[test]

@@ -1,10 +1,10 @@
 //! Wavefront OBJ files and their MTL materials, read by `tobj` after a check that names the line of every mistake.
 //!
-//! Polygons become fans of triangles about their first corner: right for convex ones and for those that are star-shaped from that
-//! corner, wrong for other concave ones. Lines and points have no surface and are left out.
+//! Polygons become triangles (`polygons`). Lines and points have no surface and are left out.
 
 mod check;
 mod mtl;
+mod polygons;
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
