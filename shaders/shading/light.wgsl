@@ -2,9 +2,10 @@
 #import core/layout.wgsl
 #import core/math.wgsl
 #import core/sampler.wgsl
-#import shading/environment.wgsl
+#import shading/delta_lights.wgsl
 #import shading/light_record.wgsl
 #import shading/light_sample.wgsl
+#import shading/outside.wgsl
 #import shading/planted.wgsl
 #import shading/surface.wgsl
 #if SPHERE_LIGHTS
@@ -21,16 +22,6 @@
 #endif
 
 #if VARYING_LIGHTS
-#if NORMAL_MAPS
-fn varying_light_kind(light: u32) -> u32 {
-    switch bitcast<u32>(light_word(light, 0u).x) & 255u {
-        case LIGHT_TRIANGLE: { return KIND_TRIANGLE; }
-        case LIGHT_QUAD: { return KIND_QUAD; }
-        default: { return KIND_DISK; }
-    }
-}
-#endif
-
 // Σ wᵢ Leᵢ towards `wo` at a point of a flat light: what a ray that met it would see. (a, b) are the point's coordinates along its edges.
 fn varying_radiance(light: u32, ab: vec2<f32>, normal: vec3<f32>, wo: vec3<f32>) -> vec3<f32> {
     let front = dot(wo, normal) > 0.0;
@@ -47,7 +38,8 @@ fn varying_radiance(light: u32, ab: vec2<f32>, normal: vec3<f32>, wo: vec3<f32>)
 #endif
 #if NORMAL_MAPS
     own_normal = mapped_normal(
-        material, varying_light_kind(light), first, own_normal, normal, uv, light_word(light, 2u).xyz, light_word(light, 3u).xyz
+        material, bitcast<u32>(light_word(light, 0u).x) & 255u, first, own_normal, normal, uv, light_word(light, 2u).xyz,
+        light_word(light, 3u).xyz
     );
 #endif
     let shading_normal = shading_normal_towards(own_normal, select(-normal, normal, front), wo);
@@ -114,28 +106,11 @@ fn flat_light_sample(
     return LightSample(wi, (distance - early) * SHADOW_SHORTENING, radiance, pmf * distance2 / (abs(cosine) * area));
 }
 
-#if SPOT_LIGHTS
-// 1 inside the inner angle, 0 past the outer, between them Hermite's smooth step in the cosine. `limits` are 1 - cosine of the outer and
-// the inner angle: written that way, narrow cones keep their precision.
-fn spot_falloff(wi: vec3<f32>, axis: vec3<f32>, limits: vec2<f32>) -> f32 {
-    let apart = wi + axis;
-    let from_axis = 0.5 * dot(apart, apart);
-    if from_axis <= limits.y {
-        return 1.0;
-    }
-    if from_axis >= limits.x {
-        return 0.0;
-    }
-    let t = (limits.x - from_axis) / (limits.x - limits.y);
-    return t * t * (3.0 - 2.0 * t);
-}
-#endif
-
 // Density with which light sampling from `ray.origin` draws the ray's direction for the environment, by whichever way; 0 where it does not.
 fn environment_pdf_solid_angle(ray: Ray) -> f32 {
     var pdf = 0.0;
 #if ENVIRONMENT_LIGHT
-    pdf += light_word(ENVIRONMENT_LIGHT_INDEX, 0u).w * environment_itself_pdf(ray.direction);
+    pdf += light_word(ENVIRONMENT_LIGHT_INDEX, 0u).w * outside_pdf(ray.direction);
 #endif
 #if PORTALS
     pdf += portals_pdf(ray);
@@ -159,19 +134,19 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
     let pmf = l0.w;
     switch kind {
 #if FLAT_LIGHTS
-        case LIGHT_TRIANGLE, LIGHT_QUAD, LIGHT_DISK: {
+        case KIND_TRIANGLE, KIND_QUAD, KIND_DISK: {
             let l2 = light_word(light, 2u);
             let l3 = light_word(light, 3u);
             let perpendicular = cross(l2.xyz, l3.xyz);
             let normal = normalize(perpendicular);
             var a = u;
             var b = v;
-            if kind == LIGHT_TRIANGLE {
+            if kind == KIND_TRIANGLE {
                 let root = sqrt(u);
                 a = 1.0 - root;
                 b = v * root;
             }
-            if kind == LIGHT_DISK {
+            if kind == KIND_DISK {
                 // The second and third words span the disk's bounding square: radii along two axes.
                 let circle = sin_cos_turns(v);
                 let r = sqrt(u);
@@ -184,7 +159,7 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
             size += moved_light_magnitude(light);
 #endif
             var error = POINT_ERROR * dot(abs(normal), size);
-            if kind == LIGHT_TRIANGLE {
+            if kind == KIND_TRIANGLE {
                 error += triangle_error(l2.xyz, l3.xyz);
             }
 #if VARYING_LIGHTS
@@ -199,7 +174,7 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
         }
 #endif
 #if SPHERE_LIGHTS
-        case LIGHT_SPHERE: {
+        case KIND_SPHERE: {
 #if VARYING_LIGHTS
             if (kind_flags & LIGHT_VARIES) != 0u {
                 return varying_sphere_sample(light, reference, two_sided, pmf, u, v);
@@ -208,38 +183,9 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
             return sphere_light_sample(reference, l1.xyz, l1.w, l4.xyz, two_sided, pmf, u, v);
         }
 #endif
-#if POINT_LIGHTS
-        case LIGHT_POINT: {
-            let to_light = l1.xyz - reference;
-            let distance2 = dot(to_light, to_light);
-            if distance2 == 0.0 {
-                return no_light();
-            }
-            let distance = sqrt(distance2);
-            return LightSample(to_light / distance, distance * SHADOW_SHORTENING, l4.xyz / (distance2 * pmf), -1.0);
-        }
-#endif
-#if SPOT_LIGHTS
-        case LIGHT_SPOT: {
-            let to_light = l1.xyz - reference;
-            let distance2 = dot(to_light, to_light);
-            if distance2 == 0.0 {
-                return no_light();
-            }
-            let distance = sqrt(distance2);
-            let wi = to_light / distance;
-            let intensity = l4.xyz * spot_falloff(wi, light_word(light, 2u).xyz, light_word(light, 3u).xy);
-            return LightSample(wi, distance * SHADOW_SHORTENING, intensity / (distance2 * pmf), -1.0);
-        }
-#endif
-#if DIRECTIONAL_LIGHTS
-        case LIGHT_DIRECTIONAL: {
-            return LightSample(light_word(light, 2u).xyz, INFINITY_DISTANCE, l4.xyz / pmf, -1.0);
-        }
-#endif
 #if ENVIRONMENT_LIGHT
         case LIGHT_ENVIRONMENT: {
-            let drawn = sample_environment(bits.y, bits.z);
+            let drawn = sample_outside(bits.y, bits.z);
             var pdf = pmf * drawn.pdf_solid_angle;
 #if PORTALS
             pdf += portals_pdf(Ray(reference, drawn.wi));
@@ -258,11 +204,11 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
             if pdf <= 0.0 {
                 return no_light();
             }
-            return LightSample(wi, INFINITY_DISTANCE, environment_radiance(wi), pdf);
+            return LightSample(wi, INFINITY_DISTANCE, outside_radiance(wi), pdf);
         }
 #endif
         default: {
-            return no_light();
+            return sample_delta_light(kind, light, reference, pmf);
         }
     }
 }

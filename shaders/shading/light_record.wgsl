@@ -14,7 +14,7 @@ fn light_word(light: u32, word: u32) -> vec4<f32> {
     if word != 0u && word != 4u && (flags & LIGHT_MOVES) != 0u {
         let word_3 = tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS + 3u];
         return placed_light_word(
-            bitcast<u32>(word_3.w), word, (flags & 255u) == LIGHT_SPHERE, tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS + 1u],
+            bitcast<u32>(word_3.w), word, (flags & 255u) == KIND_SPHERE, tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS + 1u],
             tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS + 2u], word_3
         );
     }

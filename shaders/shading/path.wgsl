@@ -6,10 +6,10 @@
 #import core/math.wgsl
 #import core/sampler.wgsl
 #import shading/bsdf.wgsl
-#import shading/environment.wgsl
 #import shading/light.wgsl
 #import shading/light_sample.wgsl
 #import shading/mis.wgsl
+#import shading/outside.wgsl
 #import shading/planted.wgsl
 #import shading/scattering.wgsl
 #import shading/surface.wgsl
@@ -103,7 +103,7 @@ fn escaped_radiance(path: Path, depth: u32) -> vec3<f32> {
     if !HAS_ENVIRONMENT {
         return vec3<f32>(0.0);
     }
-    var radiance = path.throughput * environment_radiance(path.ray.direction);
+    var radiance = path.throughput * outside_radiance(path.ray.direction);
     var weight = 1.0;
     // After the camera or a delta lobe no light sample could have found it.
     if HAS_ENVIRONMENT_SAMPLED && path.pdf_solid_angle >= 0.0 {

@@ -83,7 +83,7 @@ pub fn features() -> Vec<Feature> {
         with(
             "point light",
             Room { more: "[[light]]\ntype = \"point\"\nposition = [0, 1.8, 1]\nintensity = 1", ..plain() },
-            &["POINT_LIGHTS"],
+            &["POINT_LIGHT"],
         ),
         with(
             "spot light",
@@ -91,7 +91,7 @@ pub fn features() -> Vec<Feature> {
                 more: "[[light]]\ntype = \"spot\"\nposition = [0, 1.8, 1]\ndirection = [0, -1, -0.5]\nintensity = 1\nangle = 40",
                 ..plain()
             },
-            &["SPOT_LIGHTS"],
+            &["SPOT_LIGHT"],
         ),
         with(
             "sky",

@@ -2,6 +2,11 @@
 
 use glam::DVec4;
 
+use super::error::PackError;
+use crate::math::luminance;
+use crate::sampling::MapDistribution;
+use crate::scene::{ImageData, OutsideParameters};
+
 /// A map's place among the texels: radiance row by row, then the quadtree that directions are drawn by, three words for each inner node,
 /// then the densities of the cells that it lies over.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -21,16 +26,44 @@ pub struct PackedMap {
 pub struct PackedEnvironment {
     /// Averaged over all directions.
     pub mean_luminance: f64,
-    /// Three words of the view, which its shader reads: `View::environment` says what they hold.
+    /// Words of the view, which its shader reads; of a constant one, its radiance.
     pub words: [DVec4; 3],
     /// The same from everywhere: BSDF sampling finds it without a shadow ray.
     pub is_constant: bool,
-    /// What compiles its shader; None: the one that needs no switch.
+    /// What compiles its shader; None: a constant one needs none.
     pub switch: Option<&'static str>,
     pub map: Option<PackedMap>,
 }
 
 impl PackedEnvironment {
+    /// What is no constant is compiled by `switch`. A map is appended to the texels; a black one leaves nothing.
+    ///
+    /// # Errors
+    /// [`PackError::TooManyTexels`] where 32 bits cannot number them.
+    pub fn new(parameters: &OutsideParameters<'_>, switch: &'static str, texels: &mut Vec<f32>) -> Result<Self, PackError> {
+        Ok(match *parameters {
+            OutsideParameters::Constant(radiance) => Self {
+                mean_luminance: luminance(radiance),
+                words: [radiance.extend(0.0), DVec4::ZERO, DVec4::ZERO],
+                is_constant: true,
+                ..Self::default()
+            },
+            OutsideParameters::Varying { map: Some(image), words, .. } => {
+                let (mean_luminance, map) = pack_map(image, texels)?.unzip();
+                Self {
+                    mean_luminance: mean_luminance.unwrap_or(0.0),
+                    words,
+                    map,
+                    is_constant: false,
+                    switch: map.and(Some(switch)),
+                }
+            }
+            OutsideParameters::Varying { mean_luminance, words, map: None } => {
+                Self { mean_luminance, words, switch: Some(switch), ..Self::default() }
+            }
+        })
+    }
+
     pub fn is_black(&self) -> bool {
         self.mean_luminance == 0.0
     }
@@ -47,4 +80,30 @@ impl PackedEnvironment {
         }
         sum
     }
+}
+
+/// Mean luminance and place of a map that is appended to the texels; None of a black one.
+fn pack_map(image: &ImageData, texels: &mut Vec<f32>) -> Result<Option<(f64, PackedMap)>, PackError> {
+    let Some(MapDistribution { warp, mean_luminance }) = MapDistribution::new(image) else { return Ok(None) };
+    let end = texels.len() + 3 * image.texels.len() + 3 * warp.splits.len() + warp.densities.len();
+    if end > u32::MAX as usize {
+        return Err(PackError::TooManyTexels { found: end / 3 });
+    }
+    let first_texel = texels.len() as u32;
+    texels.extend(image.texels.iter().flat_map(|texel| texel.to_array()));
+    let first_node = texels.len() as u32;
+    texels.extend(warp.splits.iter().flatten().map(|&split| f32::from_bits(split)));
+    let first_density = texels.len() as u32;
+    texels.extend(warp.densities.iter().map(|&density| density as f32));
+    let map = PackedMap {
+        first_texel,
+        width: image.width,
+        height: image.height,
+        first_node,
+        first_density,
+        grid_width: warp.width,
+        grid_height: warp.height,
+        levels: warp.levels(),
+    };
+    Ok(Some((mean_luminance, map)))
 }

@@ -22,12 +22,8 @@ pub struct View {
     pub lens_u: [f32; 4],
     /// Likewise upward; rotation of a polygon in turns.
     pub lens_v: [f32; 4],
-    /// Radiance of a constant environment or at a sky's horizon; a map's rotation in turns.
-    pub environment: [f32; 4],
-    /// Radiance at a sky's zenith; the share of its upper half.
-    pub sky_zenith: [f32; 4],
-    /// Radiance below a sky's horizon; 1 over the integral of its luminance.
-    pub sky_ground: [f32; 4],
+    /// What the shader of the light from outside the scene reads; of a constant one, its radiance.
+    pub environment: [[f32; 4]; 3],
     /// Inverse cumulative distribution of the filter, piece by piece.
     pub filter_curve: [[f32; 4]; CURVE_PIECES],
 }
@@ -44,7 +40,6 @@ impl View {
         };
         let half_width = half_height * width / height;
         let radius = camera.aperture.map_or(0.0, |aperture| aperture.radius);
-        let [environment, sky_zenith, sky_ground] = environment.words.map(|word| word.as_vec4().to_array());
         Self {
             position: extend(camera.position, 0.0),
             corner: extend(up * half_height - right * half_width - backward * distance, 0.0),
@@ -53,9 +48,7 @@ impl View {
             forward: extend(-backward, scene.film.filter.radius),
             lens_u: extend(right * radius, camera.focus_distance),
             lens_v: extend(up * radius, camera.aperture.map_or(0.0, rotation_turns)),
-            environment,
-            sky_zenith,
-            sky_ground,
+            environment: environment.words.map(|word| word.as_vec4().to_array()),
             filter_curve: *FilterSampler::new(scene.film.filter).curve(),
         }
     }

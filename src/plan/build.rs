@@ -7,7 +7,7 @@ use super::memory::{self, Memory};
 use super::model::Plan;
 use super::options::PlanOptions;
 use super::path_state::PATH_STATE_BYTES;
-use super::{chunks, decisions, layout, lobes, ray_query, switches, unroll};
+use super::{chunks, decisions, generated, ray_query, switches, unroll};
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
 use crate::scene::Scene;
@@ -105,8 +105,7 @@ impl Plan {
             GeometryPlacement::Unrolled => 0,
             GeometryPlacement::Hierarchy => packed.hierarchy.primitive_count as usize,
         };
-        plan.switches.generated.insert(layout::FILE, layout::wgsl());
-        plan.switches.generated.insert(lobes::FILE, lobes::wgsl());
+        plan.switches.generated.extend(generated::files());
         plan.switches.generated.insert("geometry/constants.wgsl", unroll::constants(packed, first_constant));
         for array in plan.chunks.iter().filter(|array| !array.is_whole()) {
             plan.switches.enable(array.array.switch, true);

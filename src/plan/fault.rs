@@ -2,7 +2,7 @@
 
 use crate::choice::choices;
 use crate::packed::PackedScene;
-use crate::packed::light::{LightKind, PackedLight};
+use crate::packed::light::PackedLight;
 use crate::packed::material::NO_LOBE;
 use crate::shader::Switches;
 
@@ -55,7 +55,7 @@ impl Fault {
 
 /// BSDF samples find the light too: more than one direction leads to it.
 fn found_both_ways(light: &PackedLight) -> bool {
-    !LightKind::DELTA.iter().any(|&(kind, _)| light.is(kind))
+    !light.is_delta()
 }
 
 /// The scattering material that most primitives have.

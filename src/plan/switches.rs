@@ -118,15 +118,18 @@ pub fn samples_lights(scene: &Scene, packed: &PackedScene) -> bool {
 fn choose_lights(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
     let render = &scene.render;
     let has = |kind: LightKind| packed.lights.iter().any(|light| light.is(kind));
+    let has_surface = |kind: PrimitiveKind| packed.lights.iter().any(|light| light.is_primitive(kind));
     let sampled = samples_lights(scene, packed);
     switches.enable("LIGHTS", sampled);
     switches.enable("ONE_LIGHT", packed.lights.len() == 1);
-    switches.enable("FLAT_LIGHTS", [LightKind::Triangle, LightKind::Quad, LightKind::Disk].into_iter().any(has));
-    switches.enable("SPHERE_LIGHTS", has(LightKind::Sphere));
-    switches.enable("SPHERE_LIGHTS_BY_POINT", has(LightKind::Sphere) && render.light_sampling != LightSampling::Cone);
-    switches.enable("SPHERE_LIGHTS_VISIBLE_HALF", has(LightKind::Sphere) && render.light_sampling == LightSampling::Visible);
-    for &(kind, switch) in LightKind::DELTA {
-        switches.enable(switch, has(kind));
+    switches
+        .enable("FLAT_LIGHTS", [PrimitiveKind::Triangle, PrimitiveKind::Quad, PrimitiveKind::Disk].into_iter().any(has_surface));
+    let spheres = has_surface(PrimitiveKind::Sphere);
+    switches.enable("SPHERE_LIGHTS", spheres);
+    switches.enable("SPHERE_LIGHTS_BY_POINT", spheres && render.light_sampling != LightSampling::Cone);
+    switches.enable("SPHERE_LIGHTS_VISIBLE_HALF", spheres && render.light_sampling == LightSampling::Visible);
+    for &kind in LightKind::DELTA {
+        switches.enable(kind.number_name(), has(kind));
     }
     let environment = !packed.environment.is_black();
     switches.enable("ENVIRONMENT", environment);

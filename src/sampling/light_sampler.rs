@@ -6,6 +6,7 @@
 use std::collections::HashMap;
 
 use super::alias::AliasTable;
+use crate::scene::LightStrength;
 
 /// Share of the choices in which all groups are alike (measured in `docs/strategies.md`).
 const EVEN_SHARE: f64 = 0.3;
@@ -23,23 +24,6 @@ pub enum LightGroup {
     Environment,
 }
 
-/// By what a light is weighed; above 0.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum LightStrength {
-    /// Luminous power, of a light inside the scene.
-    Power(f64),
-    /// The irradiance that a light at infinity could make.
-    Irradiance(f64),
-}
-
-impl LightStrength {
-    /// The light gives any.
-    pub fn is_positive(self) -> bool {
-        let (Self::Power(strength) | Self::Irradiance(strength)) = self;
-        strength > 0.0
-    }
-}
-
 /// Weighs the lights of a scene, in their order.
 #[derive(Debug, Clone, Default)]
 pub struct LightSampler {
@@ -48,7 +32,7 @@ pub struct LightSampler {
 }
 
 impl LightSampler {
-    /// The next light. Those inside the scene come before those at infinity.
+    /// The next light, of a strength above 0. Those inside the scene come before those at infinity.
     pub fn add(&mut self, group: LightGroup, strength: LightStrength) {
         match strength {
             LightStrength::Power(power) => self.local.add(group, power),

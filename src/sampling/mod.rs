@@ -25,6 +25,6 @@ pub use alias::AliasTable;
 pub use dimension::{BounceDimension, CameraDimension, Dimension};
 pub use environment::MapDistribution;
 pub use hierarchical_warp::{HierarchicalWarp, WarpSample};
-pub use light_sampler::{LightGroup, LightSampler, LightStrength};
+pub use light_sampler::{LightGroup, LightSampler};
 pub use sampler::PathSampler;
 pub use sequence::{Decorrelation, Sampling, SequencePoint};

@@ -1,30 +1,33 @@
 //! Lights that are not surfaces, and the table of them.
 
+use std::f64::consts::PI;
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 use super::check::{Check, image, is_amount, is_direction};
 use super::texture::ImageData;
+use crate::math::luminance;
 
 /// The table of lights: a row for each that is not a surface. From these rows every layer makes its list of modules and what chooses among
-/// them, so a light is a row here and a file of its module's name wherever it is represented: `load/file/light` reads it,
-/// `packed/light` packs it, `reference/lights` samples it in f64. On the device its kind is a case of `shaders/shading/light.wgsl`.
+/// them, so a light is a row here, its parameters below, and a file of its module's name wherever it is represented: `load/file/light`
+/// reads it, `reference/lights` samples it in f64, `shaders/shading/light` on the device.
 ///
-/// A row: variant of [`Light`], type of its data, module, and the switch that compiles its shader. Scene files call it as its module.
+/// A row: variant of [`Light`], type of its data, module, and the name of the switch that compiles its shader, which in shaders is also the
+/// number of a delta light; then other switches that its shader needs. Scene files call it as its module.
 macro_rules! light_table {
-    ($use:ident) => {
-        $use! {
-            // Radiance from outside the scene. Of their shaders one is compiled: the last whose switch is on, else the first.
+    ($what:ident) => {
+        $what! {
+            // Radiance from outside the scene. Of their shaders one is compiled at most: what is the same from everywhere needs none.
             environment {
-                Environment(Environment) environment "ENVIRONMENT_MAP",
-                Sky(Sky) sky "SKY",
+                Environment(Environment) environment ENVIRONMENT_MAP TEXELS,
+                Sky(Sky) sky SKY,
             }
             // From one point, one direction leads to each: only light sampling finds them.
             delta {
-                Point(PointLight) point "POINT_LIGHTS",
-                Spot(SpotLight) spot "SPOT_LIGHTS",
-                Directional(DirectionalLight) directional "DIRECTIONAL_LIGHTS",
+                Point(PointLight) point POINT_LIGHT,
+                Spot(SpotLight) spot SPOT_LIGHT,
+                Directional(DirectionalLight) directional DIRECTIONAL_LIGHT,
             }
         }
     };
@@ -43,6 +46,61 @@ trait SceneLight {
     fn image_mut(&mut self) -> Option<&mut Arc<ImageData>> {
         None
     }
+}
+
+/// By what a light is weighed among all that are sampled.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LightStrength {
+    /// Luminous power, of a light inside the scene.
+    Power(f64),
+    /// The irradiance that a light at infinity could make.
+    Irradiance(f64),
+}
+
+impl LightStrength {
+    /// The light gives any.
+    pub fn is_positive(self) -> bool {
+        let (Self::Power(strength) | Self::Irradiance(strength)) = self;
+        strength > 0.0
+    }
+}
+
+/// A light to which one direction leads from each point.
+trait DeltaLight {
+    fn parameters(&self) -> LightParameters;
+}
+
+/// What samplers and shaders know of a delta light, in the slots that the device's tables have for it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LightParameters {
+    pub strength: LightStrength,
+    /// Radiant intensity, or the irradiance of a light at infinity.
+    pub color: DVec3,
+    /// Nothing of a light at infinity.
+    pub position: DVec3,
+    /// What else its shader reads.
+    pub vectors: [DVec3; 2],
+}
+
+/// Light from outside the scene.
+trait OutsideLight {
+    fn parameters(&self) -> OutsideParameters<'_>;
+}
+
+/// What shaders know of the light from outside the scene.
+#[derive(Debug, Clone, Copy)]
+pub enum OutsideParameters<'a> {
+    /// The same radiance from everywhere.
+    Constant(DVec3),
+    /// Another one from each direction.
+    Varying {
+        /// Averaged over all directions; that of a map follows from the map.
+        mean_luminance: f64,
+        /// Texels that directions are drawn by as well.
+        map: Option<&'a ImageData>,
+        /// What else its shader reads.
+        words: [DVec4; 3],
+    },
 }
 
 /// Radiance that arrives from outside the scene.
@@ -77,6 +135,20 @@ impl SceneLight for Environment {
     }
 }
 
+/// Words of a map: (-; its rotation in turns).
+impl OutsideLight for Environment {
+    fn parameters(&self) -> OutsideParameters<'_> {
+        match &self.radiance {
+            EnvironmentRadiance::Constant(radiance) => OutsideParameters::Constant(*radiance),
+            EnvironmentRadiance::Map(image) => {
+                let turns = (self.rotation_degrees / 360.0).rem_euclid(1.0);
+                let words = [DVec3::ZERO.extend(turns), DVec4::ZERO, DVec4::ZERO];
+                OutsideParameters::Varying { mean_luminance: 0.0, map: Some(image), words }
+            }
+        }
+    }
+}
+
 /// An environment: horizon + (zenith − horizon)·y over the upper half, y the direction's height, `ground` below.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sky {
@@ -88,6 +160,19 @@ pub struct Sky {
 impl SceneLight for Sky {
     fn check(&self) -> Check {
         amounts(&[self.zenith, self.horizon, self.ground])
+    }
+}
+
+/// Words: (radiance at the horizon; -), (at the zenith; the share of the upper half), (below; 1 over the integral of its luminance).
+impl OutsideLight for Sky {
+    fn parameters(&self) -> OutsideParameters<'_> {
+        let (upper, lower) = (PI * (luminance(self.zenith) + luminance(self.horizon)), 2.0 * PI * luminance(self.ground));
+        let integral = (upper + lower).max(f64::MIN_POSITIVE);
+        OutsideParameters::Varying {
+            mean_luminance: (upper + lower) / (4.0 * PI),
+            map: None,
+            words: [self.horizon.extend(0.0), self.zenith.extend(upper / integral), self.ground.extend(1.0 / integral)],
+        }
     }
 }
 
@@ -106,6 +191,17 @@ impl SceneLight for PointLight {
 
     fn translate(&mut self, offset: DVec3) {
         self.position += offset;
+    }
+}
+
+impl DeltaLight for PointLight {
+    fn parameters(&self) -> LightParameters {
+        LightParameters {
+            strength: LightStrength::Power(4.0 * PI * luminance(self.intensity)),
+            color: self.intensity,
+            position: self.position,
+            vectors: [DVec3::ZERO; 2],
+        }
     }
 }
 
@@ -135,6 +231,21 @@ impl SceneLight for SpotLight {
     }
 }
 
+/// Vectors: the axis; 1 − cosine of the angle at which the light ends, and of the one up to which it is full. Written that way, narrow cones
+/// keep their precision. The smooth step between the angles has the mean ½ over the solid angle.
+impl DeltaLight for SpotLight {
+    fn parameters(&self) -> LightParameters {
+        let [outer, inner] =
+            [self.angle_degrees, self.falloff_degrees].map(|angle| 2.0 * (0.5 * angle).to_radians().sin().powi(2));
+        LightParameters {
+            strength: LightStrength::Power(PI * (outer + inner) * luminance(self.intensity)),
+            color: self.intensity,
+            position: self.position,
+            vectors: [self.direction, DVec3::new(outer, inner, 0.0)],
+        }
+    }
+}
+
 /// Parallel light; `irradiance` is on a surface facing it, `direction` the way the light travels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DirectionalLight {
@@ -149,9 +260,21 @@ impl SceneLight for DirectionalLight {
     }
 }
 
+/// Vectors: the direction to the light.
+impl DeltaLight for DirectionalLight {
+    fn parameters(&self) -> LightParameters {
+        LightParameters {
+            strength: LightStrength::Irradiance(luminance(self.irradiance)),
+            color: self.irradiance,
+            position: DVec3::ZERO,
+            vectors: [-self.direction, DVec3::ZERO],
+        }
+    }
+}
+
 macro_rules! lights {
-    (environment { $($environment:ident($outside:ident) $environment_module:ident $_switch:literal,)* }
-     delta { $($delta:ident($type:ident) $module:ident $_delta_switch:literal,)* }) => {
+    (environment { $($environment:ident($outside:ident) $environment_module:ident $switch:ident $($needed:ident)*,)* }
+     delta { $($delta:ident($type:ident) $module:ident $delta_switch:ident $($delta_needed:ident)*,)* }) => {
         /// A light that is not a surface.
         #[derive(Debug, Clone)]
         pub enum Light {
@@ -173,6 +296,22 @@ macro_rules! lights {
                 match self {
                     $(Self::$environment(_) => true,)*
                     $(Self::$delta(_) => false,)*
+                }
+            }
+
+            /// What samplers and shaders know of it, if it is a delta light.
+            pub fn delta(&self) -> Option<LightParameters> {
+                match self {
+                    $(Self::$environment(_) => None,)*
+                    $(Self::$delta(light) => Some(light.parameters()),)*
+                }
+            }
+
+            /// What shaders know of it, if it is light from outside the scene, and the switch of its own shader.
+            pub fn outside(&self) -> Option<(OutsideParameters<'_>, &'static str)> {
+                match self {
+                    $(Self::$environment(light) => Some((light.parameters(), stringify!($switch))),)*
+                    $(Self::$delta(_) => None,)*
                 }
             }
 

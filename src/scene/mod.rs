@@ -26,7 +26,10 @@ pub mod validate;
 pub use blend_tree::{MOST_LEAVES, check_blends};
 pub use camera::{Aperture, ApertureShape, Camera, Projection};
 pub use digest::digest;
-pub use light::{DirectionalLight, Environment, EnvironmentRadiance, Light, PointLight, Sky, SpotLight};
+pub use light::{
+    DirectionalLight, Environment, EnvironmentRadiance, Light, LightParameters, LightStrength, OutsideParameters, PointLight,
+    Sky, SpotLight,
+};
 pub use material::{
     BlendWeight, ConductorFresnel, Emission, LobeKind, LobeParameters, LobeSupport, Material, MaterialId, MaterialKind,
     MicrofacetDistribution,

@@ -1,10 +1,11 @@
 //! The files of `shaders/`, embedded.
 
+use crate::scene::light::light_table;
 use crate::scene::material::material_table;
 
 macro_rules! shader_files {
     ($($name:literal),* $(,)?) => {
-        /// All but those of lobes.
+        /// All but those of lobes and lights.
         const FILES: &[(&str, &str)] = &[$(($name, include_str!(concat!("../../shaders/", $name)))),*];
     };
 }
@@ -31,9 +32,10 @@ shader_files![
     "shading/blend.wgsl",
     "shading/blend_weight.wgsl",
     "shading/bsdf.wgsl",
-    "shading/cosine_power.wgsl",
     "shading/dielectric.wgsl",
-    "shading/environment.wgsl",
+    "shading/constant_environment.wgsl",
+    "shading/cosine_power.wgsl",
+    "shading/environment_sample.wgsl",
     "shading/fresnel.wgsl",
     "shading/hemisphere.wgsl",
     "shading/light.wgsl",
@@ -81,7 +83,18 @@ macro_rules! lobe_files {
 }
 material_table!(lobe_files);
 
+/// The file of each light in the table of lights.
+macro_rules! light_files {
+    ($($group:ident { $($variant:ident($type:ident) $file:ident $switch:ident $($needed:ident)*,)* })*) => {
+        const LIGHTS: &[(&str, &str)] = &[$($((
+            concat!("shading/light/", stringify!($file), ".wgsl"),
+            include_str!(concat!("../../shaders/shading/light/", stringify!($file), ".wgsl")),
+        ),)*)*];
+    };
+}
+light_table!(light_files);
+
 /// Name within `shaders/` and text of every file.
 pub fn files() -> impl Iterator<Item = (&'static str, &'static str)> {
-    FILES.iter().chain(LOBES).copied()
+    FILES.iter().chain(LOBES).chain(LIGHTS).copied()
 }

@@ -6,6 +6,7 @@
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
+use crate::scene::light::light_table;
 use crate::scene::material::material_table;
 
 /// A row of the table.
@@ -16,7 +17,7 @@ pub struct Switch {
     pub requires: &'static [&'static str],
     /// At least one of these is on wherever it is; the first is the simplest. Empty: it needs none.
     pub one_of: &'static [&'static str],
-    /// None of these is on where it is.
+    /// None of these is on where it is, but for itself.
     pub excludes: &'static [&'static str],
     /// No ordinary render has it: it is for following a path and for tests of the tests.
     pub debug: bool,
@@ -44,9 +45,6 @@ impl Switch {
     }
 }
 
-/// Kinds of sampled light; where lights are sampled there is one at least.
-const LIGHT_KINDS: &[&str] =
-    &["POINT_LIGHTS", "FLAT_LIGHTS", "SPHERE_LIGHTS", "SPOT_LIGHTS", "DIRECTIONAL_LIGHTS", "ENVIRONMENT_LIGHT", "PORTALS"];
 /// Kinds of primitive that a hierarchy holds.
 const HELD: &[&str] = &["TRIANGLES_IN_HIERARCHY", "QUADS_IN_HIERARCHY", "SPHERES_IN_HIERARCHY", "DISKS_IN_HIERARCHY"];
 
@@ -60,14 +58,33 @@ macro_rules! lobes {
 }
 material_table!(lobes);
 
+/// A switch for each light in the table of lights.
+macro_rules! lights {
+    (environment { $($environment:ident($outside:ident) $environment_module:ident $switch:ident $($needed:ident)*,)* }
+     delta { $($delta:ident($type:ident) $module:ident $number:ident $($delta_needed:ident)*,)* }) => {
+        /// Kinds of sampled light; where lights are sampled there is one at least.
+        const LIGHT_KINDS: &[&str] =
+            &[$(stringify!($number),)* "FLAT_LIGHTS", "SPHERE_LIGHTS", "ENVIRONMENT_LIGHT", "PORTALS"];
+
+        /// Light from outside the scene that is not the same from everywhere: one at most.
+        const OUTSIDE: &[&str] = &[$(stringify!($switch)),*];
+
+        const LIGHTS: &[Switch] = &[
+            $(switch(stringify!($switch)).requires(&["ENVIRONMENT", $(stringify!($needed)),*]).excludes(OUTSIDE),)*
+            $(switch(stringify!($number)).requires(&[$(stringify!($delta_needed)),*]),)*
+        ];
+    };
+}
+light_table!(lights);
+
 /// The table, in alphabetical order.
 pub static SWITCHES: LazyLock<Vec<Switch>> = LazyLock::new(|| {
-    let mut rows = [OF_FEATURES, LOBES].concat();
+    let mut rows = [OF_FEATURES, LOBES, LIGHTS].concat();
     rows.sort_by_key(|row| row.name);
     rows
 });
 
-/// All but the lobes.
+/// All but lobes and lights that are no surfaces.
 const OF_FEATURES: &[Switch] = &[
     switch("APERTURE_POLYGON").requires(&["LENS"]).excludes(&["APERTURE_SQUARE"]),
     switch("APERTURE_SQUARE").requires(&["LENS"]),
@@ -79,12 +96,10 @@ const OF_FEATURES: &[Switch] = &[
     switch("CHECKERS").requires(&["PROCEDURAL_TEXTURES"]),
     switch("COLOR1"),
     switch("DIGITAL_SHIFT").requires(&["SEQUENCE"]),
-    switch("DIRECTIONAL_LIGHTS"),
     switch("DISKS_IN_HIERARCHY").requires(&["FLAT_ROUND"]),
     switch("EMISSION"),
     switch("ENVIRONMENT"),
     switch("ENVIRONMENT_LIGHT").requires(&["ENVIRONMENT_SAMPLED"]),
-    switch("ENVIRONMENT_MAP").requires(&["ENVIRONMENT", "TEXELS"]).excludes(&["SKY"]),
     switch("ENVIRONMENT_SAMPLED").requires(&["ENVIRONMENT", "LIGHTS"]).one_of(&["ENVIRONMENT_LIGHT", "PORTALS"]),
     switch("ESTIMATOR_MIS").excludes(&["ESTIMATOR_NEE"]),
     switch("ESTIMATOR_NEE"),
@@ -125,7 +140,6 @@ const OF_FEATURES: &[Switch] = &[
     switch("PLANT_BRDF").debug(),
     switch("PLANT_LIGHT").requires(&["LIGHTS"]).debug(),
     switch("PLANT_MIS").requires(&["ESTIMATOR_MIS", "LIGHTS"]).debug(),
-    switch("POINT_LIGHTS"),
     switch("PORTALS").requires(&["ENVIRONMENT_SAMPLED"]),
     switch("PRIMITIVE_CHUNKS").excludes(&["UNIFORM_PRIMITIVES"]),
     switch("PROCEDURAL_TEXTURES").requires(&["TEXTURES"]).one_of(&["CHECKERS", "PERLIN", "WORLEY"]),
@@ -135,13 +149,11 @@ const OF_FEATURES: &[Switch] = &[
     switch("ROUGHNESS"),
     switch("ROULETTE"),
     switch("SEQUENCE"),
-    switch("SKY").requires(&["ENVIRONMENT"]),
     switch("SPHERES"),
     switch("SPHERES_IN_HIERARCHY").requires(&["SPHERES"]),
     switch("SPHERE_LIGHTS").requires(&["SPHERES"]),
     switch("SPHERE_LIGHTS_BY_POINT").requires(&["SPHERE_LIGHTS"]),
     switch("SPHERE_LIGHTS_VISIBLE_HALF").requires(&["SPHERE_LIGHTS_BY_POINT"]),
-    switch("SPOT_LIGHTS"),
     switch("SPREAD"),
     switch("SUBGROUP_QUEUES"),
     switch("TEXELS"),
@@ -171,7 +183,10 @@ pub fn contradiction(enabled: &BTreeSet<&'static str>) -> Option<String> {
         if !row.one_of.is_empty() && !row.one_of.iter().any(|other| enabled.contains(other)) {
             return Some(format!("{name} requires one of {}", row.one_of.join(", ")));
         }
-        row.excludes.iter().find(|other| enabled.contains(*other)).map(|other| format!("{name} excludes {other}"))
+        row.excludes
+            .iter()
+            .find(|other| **other != row.name && enabled.contains(*other))
+            .map(|other| format!("{name} excludes {other}"))
     })
 }
 

@@ -119,8 +119,7 @@ fn all_files() -> Files {
     }
     let scene = gpt::load::load(Some("spheres")).expect("it is built in");
     let packed = gpt::packed::PackedScene::new(&scene).expect("it packs");
-    texts.insert(gpt::plan::layout::FILE.to_owned(), gpt::plan::layout::wgsl());
-    texts.insert(gpt::plan::lobes::FILE.to_owned(), gpt::plan::lobes::wgsl());
+    texts.extend(gpt::plan::generated::files().into_iter().map(|(name, text)| (name.to_owned(), text)));
     texts.insert("geometry/constants.wgsl".to_owned(), gpt::plan::unroll::constants(&packed, 0));
     texts.into_iter().map(|(name, text)| (name, Names::of(&text))).collect()
 }

@@ -6,7 +6,7 @@ use gpt::gpu::kernels::used_bindings;
 use gpt::plan::bindings::Binding;
 use gpt::plan::chunks::{ATTRIBUTES, Chunks, NODES, PRIMITIVES, RecordArray};
 use gpt::plan::stages::{STAGES, Stage, When};
-use gpt::plan::{layout, lobes};
+use gpt::plan::{generated, layout};
 use gpt::shader::switches::{SWITCHES, close, contradiction};
 use gpt::shader::{ComposeError, Switches, compose};
 
@@ -61,13 +61,7 @@ fn shippable(wanted: &BTreeSet<&'static str>) -> Switches {
     Switches {
         enabled: close(wanted),
         constants: constants.into_iter().map(|name| (name, 7)).collect(),
-        generated: cut
-            .chain([
-                (layout::FILE, layout::wgsl()),
-                (lobes::FILE, lobes::wgsl()),
-                ("geometry/constants.wgsl", geometry.to_owned()),
-            ])
-            .collect(),
+        generated: cut.chain(generated::files()).chain([("geometry/constants.wgsl", geometry.to_owned())]).collect(),
     }
 }
 
@@ -146,7 +140,7 @@ fn ordinary_kernels_hold_nothing_for_debugging() {
         let does_something = |statement: &&naga::Statement| !matches!(statement, naga::Statement::Return { value: None });
         let statements: usize =
             hooks.inspect(|_| count += 1).map(|(_, function)| function.body.iter().filter(does_something).count()).sum();
-        assert_eq!(count, 8, "the hooks are where they were");
+        assert_eq!(count, 9, "the hooks are where they were");
         let has_target = module.global_variables.iter().any(|(_, variable)| variable.name.as_deref() == Some("path_trace"));
         let faults = composed.text.lines().filter(|line| !line.starts_with("const ") && line.contains("PLANTED_")).count();
         (statements, has_target, faults)

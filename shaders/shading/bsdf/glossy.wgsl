@@ -1,4 +1,5 @@
 // A cosine-power lobe about the mirror direction.
+#import core/math.wgsl
 #import shading/cosine_power.wgsl
 #import shading/lobe.wgsl
 #import shading/scattering.wgsl

@@ -16,6 +16,9 @@ mod wording;
 use std::path::Path;
 
 use document::Document;
+#[cfg(test)]
+pub use light::delta_examples as delta_light_examples;
+pub use light::examples as light_examples;
 pub use material::examples as material_examples;
 pub use schema::json_schema;
 pub(super) use wording::did_you_mean;

@@ -11,52 +11,39 @@ use super::environment::PackedEnvironment;
 use super::error::PackError;
 use super::primitive::WorldPrimitive;
 use super::world::WorldGeometry;
-use crate::sampling::{LightGroup, LightSampler, LightStrength};
+use crate::sampling::{LightGroup, LightSampler};
 use crate::scene::light::light_table;
-use crate::scene::{Estimator, Light, Scene};
+use crate::scene::{Estimator, Light, LightStrength, Scene};
 use record::PORTAL_SHIFT;
 pub use record::{LightKind, PackedLight, constants};
 use surface::{SurfaceEmission, light_geometry, surface_light};
 
-/// A module for each row of the table of lights, and what chooses among them.
-macro_rules! modules {
-    (environment { $($environment:ident($_outside:ident) $environment_module:ident $_switch:literal,)* }
-     delta { $($delta:ident($_type:ident) $delta_module:ident $delta_switch:literal,)* }) => {
-        $(mod $environment_module;)*
-        $(mod $delta_module;)*
-
-        impl LightKind {
-            /// Those to which one direction leads from each point, with the switches of their shaders.
-            pub const DELTA: &'static [(Self, &'static str)] = &[$((Self::$delta, $delta_switch)),*];
-        }
-
-        fn environment_light(light: &Light, texels: &mut Vec<f32>) -> Option<Result<PackedEnvironment, PackError>> {
+/// The kind of a delta light, by the table of lights.
+macro_rules! delta_kinds {
+    (environment { $($environment:tt)* } delta { $($delta:ident($type:ident) $module:ident $number:ident $($needed:ident)*,)* }) => {
+        fn delta_kind(light: &Light) -> Option<LightKind> {
             match light {
-                $(Light::$environment(light) => Some($environment_module::pack(light, texels)),)*
-                $(Light::$delta(_) => None,)*
+                $(Light::$delta(_) => Some(LightKind::$delta),)*
+                _ => None,
             }
-        }
-
-        fn delta_light(light: &Light) -> Option<(PackedLight, LightStrength)> {
-            let (packed, strength) = match light {
-                $(Light::$environment(_) => return None,)*
-                $(Light::$delta(light) => {
-                    let (packed, strength) = $delta_module::pack(light);
-                    (packed.of_kind(LightKind::$delta), strength)
-                })*
-            };
-            strength.is_positive().then_some((packed, strength))
         }
     };
 }
-light_table!(modules);
+light_table!(delta_kinds);
+
+fn delta_light(light: &Light) -> Option<(PackedLight, LightStrength)> {
+    let parameters = light.delta()?;
+    let packed = PackedLight::delta(delta_kind(light)?, &parameters);
+    parameters.strength.is_positive().then_some((packed, parameters.strength))
+}
 
 /// The light from outside the scene; a map is appended to the texels.
 ///
 /// # Errors
 /// [`PackError::TooManyTexels`] where 32 bits cannot number them.
 pub fn environment(scene: &Scene, texels: &mut Vec<f32>) -> Result<PackedEnvironment, PackError> {
-    let parts = scene.lights.iter().filter_map(|light| environment_light(light, texels));
+    let outside = scene.lights.iter().filter_map(Light::outside);
+    let parts = outside.map(|(parameters, switch)| PackedEnvironment::new(&parameters, switch, texels));
     Ok(PackedEnvironment::of(parts.collect::<Result<Vec<_>, _>>()?.into_iter()))
 }
 

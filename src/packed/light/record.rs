@@ -3,21 +3,56 @@
 use glam::DVec3;
 
 use crate::packed::constants::NONE;
-use crate::shader::shared::{Constants, shared_constants, shared_kinds};
+use crate::packed::primitive::PrimitiveKind;
+use crate::scene::LightParameters;
+use crate::scene::light::light_table;
+use crate::shader::shared::{Constant, Constants, shared_constants};
 
-shared_kinds! {
-    /// What a light is. The first four kinds are those of primitives.
-    pub enum LightKind {
-        Triangle = 0 as LIGHT_TRIANGLE,
-        Quad = 1 as LIGHT_QUAD,
-        Sphere = 2 as LIGHT_SPHERE,
-        Disk = 3 as LIGHT_DISK,
-        Point = 4 as LIGHT_POINT,
-        Environment = 5 as LIGHT_ENVIRONMENT,
-        Spot = 6 as LIGHT_SPOT,
-        Directional = 7 as LIGHT_DIRECTIONAL,
-        /// Of any of the first four kinds, from bit `PORTAL_SHIFT` on.
-        Portal = 8 as LIGHT_PORTAL,
+/// Kinds below this are those of primitives, which are as many at most: an emitting surface is a light of its kind.
+const SURFACE_KINDS: u32 = 8;
+
+/// The rest of the kinds: portals, the environment, and the delta lights of the table of lights.
+macro_rules! kinds {
+    (environment { $($environment:tt)* } delta { $($delta:ident($type:ident) $module:ident $number:ident $($needed:ident)*,)* }) => {
+        /// What a light is that is no surface.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[repr(u32)]
+        pub enum LightKind {
+            /// Of the kind of any primitive that has an area, from bit `PORTAL_SHIFT` on.
+            Portal = SURFACE_KINDS,
+            Environment,
+            $($delta,)*
+        }
+
+        impl LightKind {
+            /// Those to which one direction leads from each point.
+            pub const DELTA: &'static [Self] = &[$(Self::$delta),*];
+
+            /// What shaders call its number; of a delta light also the switch that compiles it.
+            pub fn number_name(self) -> &'static str {
+                match self {
+                    Self::Portal => "LIGHT_PORTAL",
+                    Self::Environment => "LIGHT_ENVIRONMENT",
+                    $(Self::$delta => stringify!($number),)*
+                }
+            }
+
+            /// The name of a delta light's file in `shaders/shading/light/`, and in the name of its function there.
+            pub fn file(self) -> Option<&'static str> {
+                match self {
+                    Self::Portal | Self::Environment => None,
+                    $(Self::$delta => Some(stringify!($module)),)*
+                }
+            }
+        }
+    };
+}
+light_table!(kinds);
+
+impl LightKind {
+    /// All, in the order of their numbers.
+    pub fn all() -> impl Iterator<Item = Self> {
+        [Self::Portal, Self::Environment].into_iter().chain(Self::DELTA.iter().copied())
     }
 }
 
@@ -35,7 +70,8 @@ shared_constants!(flags {
 
 /// Kinds, flags and sizes, for WGSL.
 pub fn constants() -> Constants {
-    [LightKind::constants(), flags()].concat()
+    let kinds = LightKind::all().map(|kind| (kind.number_name(), Constant::U32(kind as u32)));
+    kinds.chain(flags()).collect()
 }
 
 /// 80 bytes, the layout of `light_word` in `shaders/shading/light_record.wgsl`.
@@ -51,12 +87,12 @@ pub struct PackedLight {
     pub p0: [f32; 3],
     /// Radius of a sphere, else the area.
     pub size: f32,
-    /// Edges from p0; for a disk, two perpendicular radii. Of a light that is no surface, what its module says.
+    /// Edges from p0; for a disk, two perpendicular radii. Of a delta light, the vectors of its parameters.
     pub p1: [f32; 3],
     pub padding: u32,
     pub p2: [f32; 3],
     pub attributes: u32,
-    /// Radiance of a surface; of a light that is no surface, intensity or irradiance.
+    /// Radiance of a surface; of a delta light, intensity or irradiance.
     pub radiance: [f32; 3],
     /// Of a surface.
     pub material: u32,
@@ -86,6 +122,12 @@ impl PackedLight {
         Self { kind_and_flags: self.kind_and_flags | kind as u32, ..self }
     }
 
+    /// A delta light.
+    pub(super) fn delta(kind: LightKind, parameters: &LightParameters) -> Self {
+        let [p1, p2] = parameters.vectors.map(|vector| vector.as_vec3().to_array());
+        Self { p1, p2, ..Self::at(parameters.position, parameters.color) }.of_kind(kind)
+    }
+
     /// Its radiance is looked up in the whole material.
     pub fn varies(&self) -> bool {
         self.kind_and_flags & LIGHT_VARIES != 0
@@ -101,5 +143,18 @@ impl PackedLight {
 
     pub fn is(&self, kind: LightKind) -> bool {
         self.kind() == kind as u32
+    }
+
+    /// It is a surface, whose kind is that of a primitive.
+    pub fn is_surface(&self) -> bool {
+        self.kind() < SURFACE_KINDS
+    }
+
+    pub fn is_primitive(&self, kind: PrimitiveKind) -> bool {
+        self.kind() == kind as u32
+    }
+
+    pub fn is_delta(&self) -> bool {
+        LightKind::DELTA.iter().any(|&kind| self.is(kind))
     }
 }

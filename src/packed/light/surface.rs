@@ -4,10 +4,10 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::record::{LIGHT_MOVES, LIGHT_TWO_SIDED, LIGHT_VARIES, LightKind, PackedLight};
+use super::record::{LIGHT_MOVES, LIGHT_TWO_SIDED, LIGHT_VARIES, PackedLight};
 use crate::math::luminance;
 use crate::packed::material::{color_and_texture, mean_emission};
-use crate::packed::primitive::{PrimitiveGeometry, WorldPrimitive};
+use crate::packed::primitive::{PrimitiveGeometry, PrimitiveKind, WorldPrimitive};
 use crate::scene::{ColorInput, Scene, TextureKind};
 
 /// What a surface of some material sends out.
@@ -83,18 +83,18 @@ pub fn surface_light(primitive: &WorldPrimitive, emission: &SurfaceEmission) -> 
 }
 
 /// Kind, size and the three points of a light that has this shape.
-pub fn light_geometry(primitive: &WorldPrimitive) -> Option<(LightKind, f64, [DVec3; 3])> {
+pub fn light_geometry(primitive: &WorldPrimitive) -> Option<(PrimitiveKind, f64, [DVec3; 3])> {
     let area = primitive.area();
     match primitive.geometry {
         PrimitiveGeometry::Triangle(corners) => {
             let [a, b, c] = corners.map(|corner| corner.as_dvec3());
-            Some((LightKind::Triangle, area, [a, b - a, c - a]))
+            Some((PrimitiveKind::Triangle, area, [a, b - a, c - a]))
         }
-        PrimitiveGeometry::Quad { corner, edge_u, edge_v } => Some((LightKind::Quad, area, [corner, edge_u, edge_v])),
-        PrimitiveGeometry::Sphere { center, radius } => Some((LightKind::Sphere, radius, [center, DVec3::ZERO, DVec3::ZERO])),
+        PrimitiveGeometry::Quad { corner, edge_u, edge_v } => Some((PrimitiveKind::Quad, area, [corner, edge_u, edge_v])),
+        PrimitiveGeometry::Sphere { center, radius } => Some((PrimitiveKind::Sphere, radius, [center, DVec3::ZERO, DVec3::ZERO])),
         PrimitiveGeometry::Disk { center, normal, radius } => {
             let [tangent, bitangent] = frame(normal);
-            Some((LightKind::Disk, area, [center, tangent * radius, bitangent * radius]))
+            Some((PrimitiveKind::Disk, area, [center, tangent * radius, bitangent * radius]))
         }
         // No density covers an infinite area evenly.
         PrimitiveGeometry::Plane { .. } => None,

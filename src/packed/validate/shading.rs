@@ -5,6 +5,7 @@ use crate::packed::blend_weight::{self, WeightKind};
 use crate::packed::constants::NONE;
 use crate::packed::light::record::{LIGHT_MOVES, LIGHT_TWO_SIDED, LIGHT_VARIES, LightKind, PORTAL_SHIFT, PackedLight};
 use crate::packed::material::{self, PackedMaterial};
+use crate::packed::primitive::PrimitiveKind;
 use crate::packed::scene::PackedScene;
 use crate::packed::texture::{self, PackedTexture, PackedTextureKind};
 use crate::scene::material::COMPLEX_FRESNEL;
@@ -116,14 +117,16 @@ impl PackedScene {
     }
 
     fn check_light(&self, light: &PackedLight) -> Check {
-        let kind = light.kind();
-        let is_surface = kind <= LightKind::Disk as u32;
-        let known = match kind {
-            _ if is_surface => 255 | LIGHT_TWO_SIDED | LIGHT_VARIES | LIGHT_MOVES,
-            portal if portal == LightKind::Portal as u32 => 255 | (LightKind::Disk as u32) << PORTAL_SHIFT,
-            _ => 255,
+        let is_surface = light.is_surface();
+        let has_area = |kind: u32| kind <= PrimitiveKind::Disk as u32;
+        let (is_known, flags) = if is_surface {
+            (has_area(light.kind()), LIGHT_TWO_SIDED | LIGHT_VARIES | LIGHT_MOVES)
+        } else if light.is(LightKind::Portal) {
+            (has_area(light.kind_and_flags >> PORTAL_SHIFT), u32::MAX << PORTAL_SHIFT)
+        } else {
+            (LightKind::all().any(|kind| light.is(kind)), 0)
         };
-        if kind > LightKind::Portal as u32 || light.kind_and_flags & !known != 0 {
+        if !is_known || light.kind_and_flags & !(255 | flags) != 0 {
             return Err(format!("is of kind {:#x}", light.kind_and_flags));
         }
         let shines_from_outside = [LightKind::Portal, LightKind::Environment].into_iter().any(|kind| light.is(kind));

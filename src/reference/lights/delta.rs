@@ -4,13 +4,8 @@ use std::fmt::Debug;
 
 use glam::DVec3;
 
-use crate::sampling::LightStrength;
-
 /// Such a light.
 pub trait DeltaLight: Debug + Send + Sync {
-    /// By what it is weighed among all lights.
-    fn strength(&self) -> LightStrength;
-
     /// What arrives at a point. None where nothing does.
     fn arriving(&self, point: DVec3) -> Option<Arriving>;
 }

@@ -15,9 +15,9 @@ use glam::DVec3;
 use super::emission::{emitted, mean_exitance};
 use super::intersect::{Moment, Owner, PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
 use crate::sampling::sampler::uniform;
-use crate::sampling::{AliasTable, LightGroup, LightSampler, LightStrength};
+use crate::sampling::{AliasTable, LightGroup, LightSampler};
 use crate::scene::light::light_table;
-use crate::scene::{Estimator, Light, LightSampling, Scene};
+use crate::scene::{Estimator, Light, LightSampling, LightStrength, Scene};
 use delta::DeltaLight;
 pub use outside::Outside;
 use primitive::{pdf_of_direction, pdf_solid_angle, sample_primitive};
@@ -27,8 +27,8 @@ const SHADOW_MARGIN: f64 = 1e-12;
 
 /// A module for each row of the table of lights, and what chooses among them.
 macro_rules! modules {
-    (environment { $($environment:ident($_outside:ident) $environment_module:ident $_switch:literal,)* }
-     delta { $($delta:ident($_type:ident) $delta_module:ident $_delta_switch:literal,)* }) => {
+    (environment { $($environment:ident($_outside:ident) $environment_module:ident $_switch:ident $($_needed:ident)*,)* }
+     delta { $($delta:ident($_type:ident) $delta_module:ident $_number:ident $($_delta_needed:ident)*,)* }) => {
         $(mod $environment_module;)*
         $(mod $delta_module;)*
 
@@ -108,11 +108,12 @@ impl Lights {
                 sampler.add(LightGroup::Surface { shape, material }, LightStrength::Power(power));
             }
         }
-        let is_local = |light: &Arc<dyn DeltaLight>| matches!(light.strength(), LightStrength::Power(_));
-        let delta_lights = scene.lights.iter().filter_map(delta_light).filter(|light| light.strength().is_positive());
-        let (local, at_infinity): (Vec<_>, Vec<_>) = delta_lights.partition(is_local);
-        for light in local.into_iter().chain(at_infinity) {
-            sampler.add(LightGroup::Alone, light.strength());
+        let with_strength = |light| Some((delta_light(light)?, light.delta()?.strength));
+        let delta_lights = scene.lights.iter().filter_map(with_strength).filter(|(_, strength)| strength.is_positive());
+        let (local, at_infinity): (Vec<_>, Vec<_>) =
+            delta_lights.partition(|(_, strength)| matches!(strength, LightStrength::Power(_)));
+        for (light, strength) in local.into_iter().chain(at_infinity) {
+            sampler.add(LightGroup::Alone, strength);
             lights.push(SampledLight::Delta(light));
         }
         let outside = Outside::of(scene.lights.iter().filter_map(outside_light));

@@ -1,12 +1,8 @@
 //! Spot lights.
 
-use std::f64::consts::PI;
-
 use glam::DVec3;
 
 use super::delta::{Arriving, DeltaLight};
-use crate::math::luminance;
-use crate::sampling::LightStrength;
 use crate::scene::SpotLight;
 
 #[derive(Debug)]
@@ -28,12 +24,6 @@ pub fn new(light: &SpotLight) -> Spot {
 }
 
 impl DeltaLight for Spot {
-    /// The smooth step between the angles has the mean ½ over the solid angle.
-    fn strength(&self) -> LightStrength {
-        let [outer, inner] = self.cosines;
-        LightStrength::Power(2.0 * PI * (1.0 - 0.5 * (outer + inner)) * luminance(self.intensity))
-    }
-
     fn arriving(&self, point: DVec3) -> Option<Arriving> {
         Arriving::from_position(self.position, point, |direction| {
             self.intensity * falloff(direction.dot(self.axis), self.cosines)

@@ -5,7 +5,10 @@ use glam::{DVec2, Vec3};
 use super::primitive::Direction;
 use super::*;
 use crate::compare::sidak;
+use crate::load::file::delta_light_examples;
+use crate::math::luminance;
 use crate::reference::intersect::Sphere;
+use crate::reference::warp;
 use crate::scene::{
     ColorInput, DirectionalLight, Emission, Environment, EnvironmentRadiance, Geometry, Material, MaterialKind, Mesh, PointLight,
     Shape, Sky, SpotLight, Transform,
@@ -170,6 +173,28 @@ fn directions_to_the_environment_and_through_portals_follow_their_density() {
         assert!((report.integral.value - 1.0).abs() < 5e-3, "{portal:?}: {:?}", report.integral);
         let without = test_directional_sampler(&bins, 200_000, seed, sample, |wi| lights.outside.pdf(wi));
         assert_eq!(without.passes(level), portal.is_none(), "{portal:?}: {without:?}");
+    }
+}
+
+/// By the examples of all delta lights: the strength is the luminous power that goes in all directions, or the irradiance from afar.
+#[test]
+fn delta_lights_are_as_strong_as_what_arrives_from_them() {
+    for (name, light) in delta_light_examples() {
+        let (light, parameters) = delta_light(&light).zip(light.delta()).expect("it is a delta light");
+        let arriving = |point: DVec3| light.arriving(point).map_or(0.0, |arriving| luminance(arriving.irradiance));
+        let (found, expected) = match parameters.strength {
+            LightStrength::Irradiance(irradiance) => (arriving(DVec3::ZERO), irradiance),
+            LightStrength::Power(power) => {
+                // All directions, by the midpoint rule in two coordinates that are even over the sphere.
+                let steps = 600;
+                let middle = |index: u32| (f64::from(index) + 0.5) / f64::from(steps);
+                let directions = (0..steps).flat_map(|i| (0..steps).map(move |j| warp::uniform_sphere(middle(i), middle(j))));
+                let sum: f64 = directions.map(|direction| arriving(parameters.position + direction)).sum();
+                (4.0 * PI * sum / f64::from(steps * steps), power)
+            }
+        };
+        assert!((found / expected - 1.0).abs() < 2e-3, "{name}: {found} and {expected}");
+        assert!((found / (1.01 * expected) - 1.0).abs() > 2e-3, "{name}: 1 % too much would pass");
     }
 }
 

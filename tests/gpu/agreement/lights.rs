@@ -92,13 +92,6 @@ angle = 35
 falloff = 10
 "#;
 
-const DIRECTIONAL: &str = r#"
-[[light]]
-type = "directional"
-direction = [1, -2, -0.7]
-irradiance = [0.5, 0.6, 0.7]
-"#;
-
 const SKY: &str = r#"
 [[light]]
 type = "sky"
@@ -107,8 +100,7 @@ horizon = [0.8, 0.8, 0.7]
 ground = [0.2, 0.15, 0.1]
 "#;
 
-const MAP: &str = r#"
-[[light]]
+const MAP: &str = r#"[[light]]
 type = "environment"
 file = "map.exr"
 scale = 1.5
@@ -194,17 +186,17 @@ fn every_way_of_sampling_spheres_agrees() {
 
 #[test]
 fn every_light_that_is_no_surface_agrees() {
-    for (name, parts) in [
-        ("spot", &[SPOT][..]),
-        ("directional", &[DIRECTIONAL]),
-        ("sky", &[SKY]),
-        ("map", &[MAP]),
-        ("extreme map", &[EXTREME_MAP]),
-        ("all with a map", &[SPOT, DIRECTIONAL, MAP, SPHERES]),
-    ] {
-        let mut scene = load(parts);
+    let examples: Vec<(&str, String)> = load::file::light_examples().collect();
+    let delta: String = examples
+        .iter()
+        .filter(|(_, light)| load(&[light]).lights.iter().all(|light| light.delta().is_some()))
+        .map(|(_, light)| light.as_str())
+        .collect();
+    let more = [("extreme map", EXTREME_MAP.to_owned()), ("all with a map", delta + MAP + SPHERES)];
+    for (name, lights) in examples.into_iter().chain(more) {
+        let mut scene = load(&[&lights]);
         assert_agrees(name, &scene, &PlanOptions::default());
-        let estimator = if name == "map" { Estimator::Bsdf } else { Estimator::Nee };
+        let estimator = if lights == MAP { Estimator::Bsdf } else { Estimator::Nee };
         scene.render.estimator = estimator;
         assert_agrees(&format!("{name}, {estimator:?}"), &scene, &by_wavefront());
     }

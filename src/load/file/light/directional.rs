@@ -5,6 +5,7 @@ use std::ops::Range;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::keys::LightKeys;
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Located, NonNegative, Rgb, Vector};
@@ -20,8 +21,12 @@ pub struct Keys {
     irradiance: Rgb<NonNegative>,
 }
 
-impl Keys {
-    pub fn resolve(&self, resolver: &mut Resolver<'_>, _: &Range<usize>) -> Result<DirectionalLight, SceneError> {
+impl LightKeys for Keys {
+    type Light = DirectionalLight;
+
+    const EXAMPLES: &'static [&'static str] = &["direction = [1, -2, -0.7]\nirradiance = [0.5, 0.6, 0.7]"];
+
+    fn resolve(&self, resolver: &mut Resolver<'_>, _: &Range<usize>) -> Result<DirectionalLight, SceneError> {
         Ok(DirectionalLight { direction: resolver.direction(&self.direction)?, irradiance: self.irradiance.0 })
     }
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::keys::LightKeys;
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, LARGEST, Located, NonNegative, Number, Rgb};
@@ -26,8 +27,12 @@ pub struct Keys {
     rotate: Option<Number>,
 }
 
-impl Keys {
-    pub fn resolve(&self, resolver: &mut Resolver<'_>, span: &Range<usize>) -> Result<Environment, SceneError> {
+impl LightKeys for Keys {
+    type Light = Environment;
+
+    const EXAMPLES: &'static [&'static str] = &["radiance = [0.2, 0.5, 1]", "file = \"map.exr\"\nscale = 1.5\nrotate = 40"];
+
+    fn resolve(&self, resolver: &mut Resolver<'_>, span: &Range<usize>) -> Result<Environment, SceneError> {
         let scale = self.scale.as_ref().map_or(1.0, |scale| scale.value.0);
         let radiance = match (&self.radiance, &self.file) {
             (Some(radiance), None) => EnvironmentRadiance::Constant(radiance.value.0 * scale),
@@ -39,7 +44,9 @@ impl Keys {
         };
         Ok(Environment { radiance, rotation_degrees: self.rotate.map_or(0.0, |rotate| rotate.0) })
     }
+}
 
+impl Keys {
     fn map(&self, resolver: &mut Resolver<'_>, file: &Located<String>, scale: f64) -> Result<EnvironmentRadiance, SceneError> {
         let image = resolver.image(file, None)?;
         let texels: Vec<_> = image.texels.iter().map(|&texel| texel * scale as f32).collect();

@@ -1,8 +1,11 @@
 //! `[[light]]`: a file for each light that is not a surface, with the keys it is written by.
 
+mod keys;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use self::keys::LightKeys;
 use super::resolver::Resolver;
 use super::value::Located;
 use crate::load::error::SceneError;
@@ -11,7 +14,7 @@ use crate::scene::light::light_table;
 
 /// The entries of a scene file, by the rows of the table of lights.
 macro_rules! entries {
-    ($($group:ident { $($variant:ident($type:ident) $module:ident $switch:literal,)* })*) => {
+    ($($group:ident { $($variant:ident($type:ident) $module:ident $switch:ident $($needed:ident)*,)* })*) => {
         $($(mod $module;)*)*
 
         /// A light that is not a surface. Surfaces emit through their material.
@@ -21,6 +24,9 @@ macro_rules! entries {
         pub enum LightEntry {
             $($($variant($module::Keys),)*)*
         }
+
+        /// Each type, and tables of it without `type`.
+        const EXAMPLES: &[(&str, &[&str])] = &[$($((stringify!($module), $module::Keys::EXAMPLES),)*)*];
 
         impl Located<LightEntry> {
             fn resolve(&self, resolver: &mut Resolver<'_>) -> Result<Light, SceneError> {
@@ -33,6 +39,14 @@ macro_rules! entries {
 }
 light_table!(entries);
 
+/// Name of the type, and keys as TOML, of examples of every light.
+pub fn examples() -> impl Iterator<Item = (&'static str, String)> {
+    let of_type = |&(name, examples): &(&'static str, &'static [&'static str])| {
+        examples.iter().map(move |keys| (name, format!("[[light]]\ntype = \"{name}\"\n{keys}\n")))
+    };
+    EXAMPLES.iter().flat_map(of_type)
+}
+
 impl Resolver<'_> {
     pub(super) fn lights(&mut self, written: &[Located<LightEntry>]) -> Result<(), SceneError> {
         for entry in written {
@@ -44,4 +58,18 @@ impl Resolver<'_> {
         }
         Ok(())
     }
+}
+
+/// By its type, every example of a light to which one direction leads from each point.
+#[cfg(test)]
+pub fn delta_examples() -> Vec<(&'static str, Light)> {
+    let load = |(name, light)| {
+        let text = format!("camera = {{ position = [0, 0, 1], look_at = [0, 0, 0], vfov = 40 }}\n{light}");
+        // The file that an environment names is not there.
+        let scene = super::load_toml_str(&text, "example", std::path::Path::new("no-folder")).ok()?;
+        Some((name, scene.lights.into_iter().find(|light| light.delta().is_some())?))
+    };
+    let lights: Vec<(&str, Light)> = examples().filter_map(load).collect();
+    assert!(lights.len() >= crate::packed::light::LightKind::DELTA.len(), "{lights:?}");
+    lights
 }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::keys::LightKeys;
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{NonNegative, Rgb, Vector, vector};
@@ -19,8 +20,12 @@ pub struct Keys {
     intensity: Rgb<NonNegative>,
 }
 
-impl Keys {
-    pub fn resolve(&self, _: &mut Resolver<'_>, _: &Range<usize>) -> Result<PointLight, SceneError> {
+impl LightKeys for Keys {
+    type Light = PointLight;
+
+    const EXAMPLES: &'static [&'static str] = &["position = [-2, 3, 2]\nintensity = [6, 5, 4]"];
+
+    fn resolve(&self, _: &mut Resolver<'_>, _: &Range<usize>) -> Result<PointLight, SceneError> {
         Ok(PointLight { position: vector(self.position), intensity: self.intensity.0 })
     }
 }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::keys::LightKeys;
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{NonNegative, Rgb};
@@ -20,8 +21,12 @@ pub struct Keys {
     ground: Rgb<NonNegative>,
 }
 
-impl Keys {
-    pub fn resolve(&self, _: &mut Resolver<'_>, _: &Range<usize>) -> Result<Sky, SceneError> {
+impl LightKeys for Keys {
+    type Light = Sky;
+
+    const EXAMPLES: &'static [&'static str] = &["zenith = [0.2, 0.4, 0.9]\nhorizon = [0.8, 0.8, 0.7]\nground = [0.2, 0.15, 0.1]"];
+
+    fn resolve(&self, _: &mut Resolver<'_>, _: &Range<usize>) -> Result<Sky, SceneError> {
         Ok(Sky { zenith: self.zenith.0, horizon: self.horizon.0, ground: self.ground.0 })
     }
 }

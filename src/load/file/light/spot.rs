@@ -5,6 +5,7 @@ use std::ops::Range;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::keys::LightKeys;
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, HalfAngle, Located, NonNegative, Rgb, Vector, vector};
@@ -26,8 +27,13 @@ pub struct Keys {
     falloff: Option<Located<Checked<NonNegative>>>,
 }
 
-impl Keys {
-    pub fn resolve(&self, resolver: &mut Resolver<'_>, _: &Range<usize>) -> Result<SpotLight, SceneError> {
+impl LightKeys for Keys {
+    type Light = SpotLight;
+
+    const EXAMPLES: &'static [&'static str] =
+        &["position = [1, 3, 2]\ndirection = [-0.5, -1, -0.6]\nintensity = [20, 18, 15]\nangle = 35\nfalloff = 10"];
+
+    fn resolve(&self, resolver: &mut Resolver<'_>, _: &Range<usize>) -> Result<SpotLight, SceneError> {
         let angle = self.angle.0;
         let falloff = self.falloff.as_ref().map_or(angle, |falloff| falloff.value.0);
         if let Some(written) = &self.falloff

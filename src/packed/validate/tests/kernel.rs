@@ -266,7 +266,7 @@ impl Kernel<'_> {
                     let motion = self.attribute(attributes)?;
                     self.motion(motion)?;
                 }
-                if flags & 512 != 0 && flags & 255 < 4 {
+                if flags & 512 != 0 && flags & 255 < 8 {
                     if attributes != NONE {
                         self.interpolate(attributes)?;
                     }
@@ -277,7 +277,7 @@ impl Kernel<'_> {
         Ok(())
     }
 
-    /// shading/environment.wgsl: every node that some point of the square leads to, and every cell and texel.
+    /// shading/light/environment.wgsl: every node that some point of the square leads to, and every cell and texel.
     fn map(&self, map: &PackedMap) -> Read<()> {
         for y in [0, map.height.wrapping_sub(1)] {
             for x in [0, map.width.wrapping_sub(1)] {

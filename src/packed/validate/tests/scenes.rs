@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec2, Vec3};
 
+use crate::load::file::delta_light_examples;
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
 use crate::scene::{
-    BlendWeight, ColorInput, DirectionalLight, Emission, Environment, EnvironmentRadiance, Geometry, ImageData, ImageTexture,
-    Light, Material, MaterialKind, Mesh, MicrofacetDistribution, Motion, MotionStep, PointLight, Scene, Shape, SpotLight,
-    Texture, TextureFilter, TextureKind, TextureWrap, Transform,
+    BlendWeight, ColorInput, Emission, Environment, EnvironmentRadiance, Geometry, ImageData, ImageTexture, Light, Material,
+    MaterialKind, Mesh, MicrofacetDistribution, Motion, MotionStep, Scene, Shape, Texture, TextureFilter, TextureKind,
+    TextureWrap, Transform,
 };
 
 /// By name: walked by kernels, and left to the device.
@@ -124,17 +125,8 @@ fn everything() -> Scene {
     let last = scene.materials.len() - 1;
     scene.shapes[7].material = last;
     scene.shapes[8].material = last;
-    scene.lights = vec![
-        Light::Point(PointLight { position: DVec3::ONE, intensity: b }),
-        Light::Spot(SpotLight {
-            position: DVec3::ONE,
-            direction: DVec3::Y,
-            intensity: b,
-            angle_degrees: 30.0,
-            falloff_degrees: 20.0,
-        }),
-        Light::Directional(DirectionalLight { direction: DVec3::X, irradiance: b }),
-        Light::Environment(Environment { radiance: EnvironmentRadiance::Map(image(5, 3)), rotation_degrees: 30.0 }),
-    ];
+    scene.lights = delta_light_examples().into_iter().map(|(_, light)| light).collect();
+    let radiance = EnvironmentRadiance::Map(image(5, 3));
+    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees: 30.0 }));
     scene
 }

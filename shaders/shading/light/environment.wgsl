@@ -1,20 +1,12 @@
-// Light from outside the scene: its radiance, and how directions to it are drawn. src/reference/environment.rs does the same.
+// A lat-long map: its radiance, and how directions to it are drawn. src/reference/lights/environment.rs does the same.
 #import core/math.wgsl
 #import core/parameters.wgsl
-#import core/sampler.wgsl
 #import geometry/scene.wgsl
+#import shading/environment_sample.wgsl
 
-struct EnvironmentSample {
-    wi: vec3<f32>,
-    radiance: vec3<f32>,
-    // Per steradian.
-    pdf_solid_angle: f32,
-}
-
-#if ENVIRONMENT_MAP
 // (u, v) of a direction on the map: u = atan2(x, -z) / 2π after turning back the rotation, v = acos(y) / π from the top.
 fn map_coordinates(wi: vec3<f32>) -> vec2<f32> {
-    return vec2<f32>(fract(atan2_turns(wi.x, -wi.z) + view.environment.w), 2.0 * atan2_turns(length(wi.xz), wi.y));
+    return vec2<f32>(fract(atan2_turns(wi.x, -wi.z) + view.environment[0].w), 2.0 * atan2_turns(length(wi.xz), wi.y));
 }
 
 fn map_texel(x: i32, y: i32) -> vec3<f32> {
@@ -37,12 +29,17 @@ fn map_radiance(uv: vec2<f32>) -> vec3<f32> {
     return mix(upper, lower, blend.y);
 }
 
+fn environment_radiance(wi: vec3<f32>) -> vec3<f32> {
+    return map_radiance(map_coordinates(wi));
+}
+
 // From a density over the unit square of (u, v) to one per steradian.
 fn map_pdf_per_steradian(sine: f32) -> f32 {
     return 1.0 / (2.0 * PI * PI * max(sine, 1.0e-6));
 }
 
-fn map_pdf(wi: vec3<f32>) -> f32 {
+// Density of sample_environment, per steradian.
+fn environment_pdf(wi: vec3<f32>) -> f32 {
     let uv = map_coordinates(wi);
     let column = min(u32(uv.x * f32(ENVIRONMENT_GRID_WIDTH)), ENVIRONMENT_GRID_WIDTH - 1u);
     let row = min(u32(uv.y * f32(ENVIRONMENT_GRID_HEIGHT)), ENVIRONMENT_GRID_HEIGHT - 1u);
@@ -91,90 +88,14 @@ fn map_cell(point: vec2<u32>) -> MapCell {
     return MapCell(place.x, place.y, (vec2<f32>(point - low) + 0.5) / vec2<f32>(high - low));
 }
 
-fn sample_map(bits_u: u32, bits_v: u32) -> EnvironmentSample {
+fn sample_environment(bits_u: u32, bits_v: u32) -> EnvironmentSample {
     let cell = map_cell(vec2<u32>(bits_u >> 1u, bits_v >> 1u));
     let uv = vec2<f32>(
         (f32(cell.column) + cell.position.x) / f32(ENVIRONMENT_GRID_WIDTH),
         (f32(cell.row) + cell.position.y) / f32(ENVIRONMENT_GRID_HEIGHT)
     );
     let polar = sin_cos_turns(0.5 * uv.y);
-    let azimuth = sin_cos_turns(fract(uv.x - view.environment.w));
+    let azimuth = sin_cos_turns(fract(uv.x - view.environment[0].w));
     let pdf = map_cell_density(cell.column, cell.row) * map_pdf_per_steradian(polar.x);
     return EnvironmentSample(vec3<f32>(polar.x * azimuth.x, polar.y, -polar.x * azimuth.y), map_radiance(uv), pdf);
-}
-#endif
-
-#if SKY
-fn sky_radiance(wi: vec3<f32>) -> vec3<f32> {
-    return select(view.sky_ground.xyz, mix(view.environment.xyz, view.sky_zenith.xyz, wi.y), wi.y >= 0.0);
-}
-
-fn sky_pdf(radiance: vec3<f32>) -> f32 {
-    return luminance(radiance) * view.sky_ground.w;
-}
-
-// In proportion to luminance: the half first, then, above, a height whose density is linear.
-fn sample_sky(u: f32, v: f32) -> EnvironmentSample {
-    let share = view.sky_zenith.w;
-    let upper = u < share;
-    let horizon = luminance(view.environment.xyz);
-    let zenith = luminance(view.sky_zenith.xyz);
-    var height = (u - 1.0) / (1.0 - share);
-    if upper {
-        let xi = u / share;
-        // The root of h y + (z - h) y^2 / 2 = xi (h + z) / 2 that does not cancel.
-        let root = horizon + sqrt(max(0.0, horizon * horizon + xi * (zenith * zenith - horizon * horizon)));
-        height = 0.0;
-        if root > 0.0 {
-            height = min(xi * (horizon + zenith) / root, 1.0);
-        }
-    }
-    let sine = sqrt(max(0.0, (1.0 - height) * (1.0 + height)));
-    let circle = sin_cos_turns(v);
-    let radiance = select(view.sky_ground.xyz, mix(view.environment.xyz, view.sky_zenith.xyz, height), upper);
-    return EnvironmentSample(vec3<f32>(sine * circle.y, height, sine * circle.x), radiance, sky_pdf(radiance));
-}
-#endif
-
-fn environment_radiance(wi: vec3<f32>) -> vec3<f32> {
-#if ENVIRONMENT_MAP
-    return map_radiance(map_coordinates(wi));
-#else
-#if SKY
-    return sky_radiance(wi);
-#else
-    return view.environment.xyz;
-#endif
-#endif
-}
-
-// Density of sample_environment, per steradian.
-fn environment_itself_pdf(wi: vec3<f32>) -> f32 {
-#if ENVIRONMENT_MAP
-    return map_pdf(wi);
-#else
-#if SKY
-    return sky_pdf(sky_radiance(wi));
-#else
-    return 0.25 * INVERSE_PI;
-#endif
-#endif
-}
-
-fn sample_environment(bits_u: u32, bits_v: u32) -> EnvironmentSample {
-#if ENVIRONMENT_MAP
-    return sample_map(bits_u, bits_v);
-#else
-    let u = uniform_float(bits_u);
-    let v = uniform_float(bits_v);
-#if SKY
-    return sample_sky(u, v);
-#else
-    let cosine = 1.0 - 2.0 * u;
-    let sine = sqrt(max(0.0, (1.0 - cosine) * (1.0 + cosine)));
-    let circle = sin_cos_turns(v);
-    let wi = vec3<f32>(sine * circle.y, sine * circle.x, cosine);
-    return EnvironmentSample(wi, view.environment.xyz, 0.25 * INVERSE_PI);
-#endif
-#endif
 }

@@ -1,0 +1,8 @@
+// What a direction to the light from outside the scene consists of.
+
+struct EnvironmentSample {
+    wi: vec3<f32>,
+    radiance: vec3<f32>,
+    // Per steradian.
+    pdf_solid_angle: f32,
+}

@@ -1,0 +1,18 @@
+//! What every type of light gives.
+
+use std::ops::Range;
+
+use crate::load::error::SceneError;
+use crate::load::file::resolver::Resolver;
+
+/// What a light's keys mean.
+pub trait LightKeys {
+    /// The light in the scene.
+    type Light;
+
+    /// Tables without their `type`, which tests render. Each lights the origin; a picture that one names is the lat-long map `map.exr`.
+    const EXAMPLES: &'static [&'static str];
+
+    /// The light; `span` is its whole table.
+    fn resolve(&self, resolver: &mut Resolver<'_>, span: &Range<usize>) -> Result<Self::Light, SceneError>;
+}

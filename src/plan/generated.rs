@@ -1,0 +1,13 @@
+//! The WGSL files that are made from Rust's tables: the same for every scene.
+
+use super::{layout, lights, lobes};
+
+/// The name under which kernels import each, and its text.
+pub fn files() -> Vec<(&'static str, String)> {
+    vec![
+        (layout::FILE, layout::wgsl()),
+        (lobes::FILE, lobes::wgsl()),
+        (lights::DELTA_FILE, lights::delta_wgsl()),
+        (lights::OUTSIDE_FILE, lights::outside_wgsl()),
+    ]
+}
