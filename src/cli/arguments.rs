@@ -7,13 +7,14 @@ use clap::{Args, Parser, Subcommand};
 use gpt::compare::Metric;
 use gpt::plan::Fault;
 use gpt::renderer::DeviceChoice;
-use gpt::scene::settings::{FilmSettings, MOST_SAMPLES};
+use gpt::scene::settings::MOST_SAMPLES;
 
 use super::bench::BenchArguments;
 use super::choice::by_name;
 use super::exit::Exit;
 use super::setting_flags::SettingFlags;
 use super::traversal::TraversalArguments;
+use super::values::{parse_device, parse_pixel, parse_size};
 
 /// A headless GPU path tracer that proves its pictures against a CPU reference.
 #[derive(Debug, Parser)]
@@ -172,30 +173,6 @@ pub struct DevicesArguments {
     pub json: bool,
 }
 
-pub fn parse_device(text: &str) -> Result<DeviceChoice, String> {
-    match text {
-        "" => Err("name a device; `gpt devices` lists them".to_owned()),
-        "auto" => Ok(DeviceChoice::Auto),
-        "gpu" => Ok(DeviceChoice::Gpu),
-        "cpu" => Ok(DeviceChoice::Cpu),
-        name => Ok(DeviceChoice::Named(name.to_owned())),
-    }
-}
-
-pub fn parse_size(text: &str) -> Result<[u32; 2], String> {
-    let parts = text.split_once(['x', 'X']).ok_or("expected WIDTHxHEIGHT, for example 640x480")?;
-    let side = |part: &str| part.parse::<u32>().map_err(|_| format!("`{part}` is no number of pixels"));
-    let film = FilmSettings { size: [side(parts.0)?, side(parts.1)?], ..FilmSettings::default() };
-    film.check().map_err(|bad| bad.help.unwrap_or(bad.message))?;
-    Ok(film.size)
-}
-
-fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
-    let parts = text.split_once(',').ok_or("expected COLUMN,ROW, for example 64,48")?;
-    let place = |part: &str| part.trim().parse::<u32>().map_err(|_| format!("`{part}` is no column or row"));
-    Ok([place(parts.0)?, place(parts.1)?])
-}
-
 fn parse_exposure(text: &str) -> Result<f32, String> {
     let exposure: f32 = text.parse().map_err(|_| "expected a number of stops".to_owned())?;
     if exposure.abs() <= 100.0 { Ok(exposure) } else { Err("expected a number from -100 to 100".to_owned()) }
@@ -229,27 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn sizes_are_two_numbers_within_limits() {
-        assert_eq!(parse_size("640x480"), Ok([640, 480]));
-        assert_eq!(parse_size("16384X16384"), Ok([16384, 16384]));
-        for bad in ["640", "0x0", "0x5", "5x0", "-1x5", "x", "4.5x3", "32769x1", "32768x32768", "99999999999x1", "3x3x3"] {
-            assert!(parse_size(bad).is_err(), "{bad}");
-        }
-    }
-
-    #[test]
-    fn pixels_are_two_numbers() {
-        assert_eq!(parse_pixel("3,0"), Ok([3, 0]));
-        for bad in ["3", "3,", "-1,2", "1,2,3", "1.5,2", "3x4"] {
-            assert!(parse_pixel(bad).is_err(), "{bad}");
-        }
-    }
-
-    #[test]
-    fn devices_and_exposures_are_read() {
-        assert_eq!(parse_device("cpu"), Ok(DeviceChoice::Cpu));
-        assert_eq!(parse_device("GeForce"), Ok(DeviceChoice::Named("GeForce".to_owned())));
-        assert!(parse_device("").is_err());
+    fn exposures_are_read() {
         assert_eq!(parse_exposure("-1.5"), Ok(-1.5));
         for bad in ["nan", "inf", "1e9", "bright"] {
             assert!(parse_exposure(bad).is_err(), "{bad}");

@@ -19,6 +19,7 @@ mod settings;
 mod stats;
 mod terminal;
 mod traversal;
+mod values;
 mod verify;
 
 use std::process::ExitCode;

@@ -82,12 +82,7 @@ fn every_fault_that_the_mutants_script_plants_has_its_place() {
     let list = std::fs::read_to_string(root.join("scripts/mutants.toml")).expect("the list of faults");
     let list: toml::Table = list.parse().expect("it is TOML");
     let faults = list["mutant"].as_array().expect("a list");
-    let mut shaders = String::new();
-    for folder in ["core", "geometry", "shading", "stages"] {
-        for file in std::fs::read_dir(root.join("shaders").join(folder)).expect("the folder") {
-            shaders += &std::fs::read_to_string(file.expect("a file").path()).expect("a text");
-        }
-    }
+    let shaders: String = gpt::shader::sources::files().map(|(_, text)| text).collect();
     assert!(faults.len() >= 40, "{} faults", faults.len());
     for fault in faults {
         let [name, old, new] = ["name", "old", "new"].map(|key| fault[key].as_str().expect("a text"));

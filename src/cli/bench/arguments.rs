@@ -8,10 +8,10 @@ use gpt::bench::setting::Axes;
 use gpt::renderer::DeviceChoice;
 use gpt::scene::settings::MOST_SAMPLES;
 
-use crate::cli::arguments::{parse_device, parse_size};
 use crate::cli::choice::by_name;
 use crate::cli::setting_flags::SettingAxes;
 use crate::cli::traversal::TraversalArguments;
+use crate::cli::values::{parse_device, parse_size};
 
 #[derive(Debug, Args)]
 pub struct BenchArguments {

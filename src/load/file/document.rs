@@ -2,11 +2,10 @@
 
 use std::ops::Range;
 
-use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::syntax::SceneFile;
 use super::wording;
 use crate::load::error::SceneError;
 
@@ -19,11 +18,11 @@ pub struct Document<'a> {
 }
 
 impl<'a> Document<'a> {
-    /// Reads the text into the file's types.
-    pub fn read(self) -> Result<SceneFile, SceneError> {
+    /// Reads the text into the types of what is written.
+    pub fn read<T: DeserializeOwned>(self) -> Result<T, SceneError> {
         let mut root = self.parse()?;
         self.name_variants(root.get_mut())?;
-        SceneFile::deserialize(toml::Deserializer::from(root)).map_err(|error| self.translate(&error))
+        T::deserialize(toml::Deserializer::from(root)).map_err(|error| self.translate(&error))
     }
 
     /// An error about the value written at `span`.

@@ -21,6 +21,7 @@ pub use light::delta_examples as delta_light_examples;
 pub use light::examples as light_examples;
 pub use material::examples as material_examples;
 pub use schema::json_schema;
+use syntax::SceneFile;
 pub(super) use wording::did_you_mean;
 
 use crate::load::error::SceneError;
@@ -30,7 +31,7 @@ use crate::scene::Scene;
 /// relative to `folder`.
 pub fn load_toml_str(text: &str, name: &str, folder: &Path) -> Result<Scene, SceneError> {
     let document = Document { name, text };
-    let file = document.read()?;
+    let file: SceneFile = document.read()?;
     let mut scene = resolve::resolve(document, folder, file)?;
     scene.name = stem(name);
     if !scene.has_light() {

@@ -15,7 +15,8 @@ pub fn imported_modules(module: &[String], text: &str, exists: impl Fn(&[String]
                 depth -= 1;
                 inner.retain(|(_, end)| *end <= depth);
             }
-            "use" => {
+            // `use<>` of a type names no module.
+            "use" if !tokens.rest.trim_start().starts_with('<') => {
                 let here = place(module, &inner);
                 for path in tree(&mut tokens) {
                     found.extend(resolve(&here, &path, &exists).map(|target| (target, path.join("::"))));

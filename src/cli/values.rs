@@ -1,0 +1,57 @@
+//! Values that several commands read.
+
+use gpt::renderer::DeviceChoice;
+use gpt::scene::settings::FilmSettings;
+
+pub fn parse_device(text: &str) -> Result<DeviceChoice, String> {
+    match text {
+        "" => Err("name a device; `gpt devices` lists them".to_owned()),
+        "auto" => Ok(DeviceChoice::Auto),
+        "gpu" => Ok(DeviceChoice::Gpu),
+        "cpu" => Ok(DeviceChoice::Cpu),
+        name => Ok(DeviceChoice::Named(name.to_owned())),
+    }
+}
+
+pub fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let parts = text.split_once(['x', 'X']).ok_or("expected WIDTHxHEIGHT, for example 640x480")?;
+    let side = |part: &str| part.parse::<u32>().map_err(|_| format!("`{part}` is no number of pixels"));
+    let film = FilmSettings { size: [side(parts.0)?, side(parts.1)?], ..FilmSettings::default() };
+    film.check().map_err(|bad| bad.help.unwrap_or(bad.message))?;
+    Ok(film.size)
+}
+
+pub fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
+    let parts = text.split_once(',').ok_or("expected COLUMN,ROW, for example 64,48")?;
+    let place = |part: &str| part.trim().parse::<u32>().map_err(|_| format!("`{part}` is no column or row"));
+    Ok([place(parts.0)?, place(parts.1)?])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_two_numbers_within_limits() {
+        assert_eq!(parse_size("640x480"), Ok([640, 480]));
+        assert_eq!(parse_size("16384X16384"), Ok([16384, 16384]));
+        for bad in ["640", "0x0", "0x5", "5x0", "-1x5", "x", "4.5x3", "32769x1", "32768x32768", "99999999999x1", "3x3x3"] {
+            assert!(parse_size(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn pixels_are_two_numbers() {
+        assert_eq!(parse_pixel("3,0"), Ok([3, 0]));
+        for bad in ["3", "3,", "-1,2", "1,2,3", "1.5,2", "3x4"] {
+            assert!(parse_pixel(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn devices_are_words_or_names() {
+        assert_eq!(parse_device("cpu"), Ok(DeviceChoice::Cpu));
+        assert_eq!(parse_device("GeForce"), Ok(DeviceChoice::Named("GeForce".to_owned())));
+        assert!(parse_device("").is_err());
+    }
+}
