@@ -67,6 +67,7 @@
 #[cfg(feature = "bench")]
 #[doc(hidden)]
 pub mod bench;
+mod binary_tree;
 #[doc(hidden)]
 pub mod choice;
 #[doc(hidden)]

@@ -3,21 +3,46 @@
 use std::fmt;
 
 use gpt::load::SceneError;
-use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
+use miette::{Diagnostic, LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 
 /// A [`SceneError`] that miette can draw.
 #[derive(Debug, thiserror::Error)]
 #[error("{error}")]
 pub struct SceneDiagnostic {
     error: SceneError,
-    /// The text with its name, where there is one to show.
-    source_code: Option<NamedSource<String>>,
 }
 
 impl From<SceneError> for SceneDiagnostic {
     fn from(error: SceneError) -> Self {
-        let named = |(text, _): (&str, _)| NamedSource::new(error.file(), text.to_owned()).with_language("toml");
-        Self { source_code: error.snippet().map(named), error }
+        Self { error }
+    }
+}
+
+/// Reads the excerpt that an error carries, with the name, lines and columns of the file.
+impl SourceCode for SceneDiagnostic {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        lines_before: usize,
+        lines_after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let excerpt = self.error.excerpt().ok_or(MietteError::OutOfBounds)?;
+        let found = excerpt.text.as_str().read_span(span, lines_before, lines_after)?;
+        let line = found.line() + excerpt.first_line - 1;
+        // A line that is cut says where its mistake stands all the same.
+        let column = match self.error.column() {
+            Some(column) if self.error.line() == Some(line + 1) && found.column() > 0 => column - 1,
+            _ => found.column(),
+        };
+        let contents = MietteSpanContents::new_named(
+            self.error.file().to_owned(),
+            found.data(),
+            *found.span(),
+            line,
+            column,
+            found.line_count(),
+        );
+        Ok(Box::new(contents.with_language("toml")))
     }
 }
 
@@ -27,11 +52,11 @@ impl Diagnostic for SceneDiagnostic {
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.source_code.as_ref().map(|source| source as &dyn SourceCode)
+        self.error.excerpt().map(|_| self as &dyn SourceCode)
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let (_, span) = self.error.snippet()?;
+        let span = self.error.excerpt()?.span.clone();
         Some(Box::new(std::iter::once(LabeledSpan::new_with_span(Some("here".to_owned()), span))))
     }
 }
@@ -50,5 +75,19 @@ mod tests {
         let handler = miette::GraphicalReportHandler::new_themed(miette::GraphicalTheme::unicode_nocolor());
         handler.render_report(&mut report, &error).unwrap();
         assert!(report.contains("vfov = -1") && report.contains("test.toml:4:8") && report.contains("here"), "{report}");
+    }
+
+    #[test]
+    fn a_mistake_far_along_a_line_is_shown_in_few_words() {
+        let long = "[0, 0, 0], ".repeat(20_000);
+        let text = format!(
+            "[camera]\nposition = [0, 0, 3]\nlook_at = [0, 0, 0]\nvfov = 40\n[[shape]]\ntype = \"mesh\"\npositions = [{long}[0, 0, \"\x1b[2J\"], {long}]\n"
+        );
+        let error = gpt::load::load_toml_str(&text, "test.toml", Path::new("")).err().map(SceneDiagnostic::from).unwrap();
+        let mut report = String::new();
+        let handler = miette::GraphicalReportHandler::new_themed(miette::GraphicalTheme::unicode_nocolor());
+        handler.render_report(&mut report, &error).unwrap();
+        assert!(report.contains("test.toml:7:220021") && report.contains("␛[2J") && report.contains('…'), "{report}");
+        assert!(report.len() < 3000 && !report.contains('\x1b'), "{report}");
     }
 }

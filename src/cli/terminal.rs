@@ -2,6 +2,7 @@
 
 use std::io::{self, ErrorKind, IsTerminal, Write};
 
+use gpt::load::printable;
 use miette::{GraphicalTheme, MietteHandlerOpts, Report};
 
 use super::exit::Failure;
@@ -32,17 +33,34 @@ pub fn coloured(colour: &str, text: &str) -> String {
 
 /// Prints one error to stderr.
 pub fn print_error(report: Report) {
-    let _ = writeln!(io::stderr(), "Error: {report:?}");
+    let drawn = format!("Error: {report:?}");
+    // On a terminal the drawing has colours of its own. What is in an error was made printable where it was made, but for names of files.
+    let drawn = if io::stderr().is_terminal() { without_orders(&drawn) } else { printable(&drawn) };
+    let _ = writeln!(io::stderr(), "{drawn}");
+}
+
+/// The text, with escape sequences that set colours and without any other.
+fn without_orders(drawn: &str) -> String {
+    let mut pieces = drawn.split('\x1b');
+    let mut text = printable(pieces.next().unwrap_or_default());
+    for piece in pieces {
+        let sets_colours = piece.strip_prefix('[').is_some_and(|rest| {
+            rest.trim_start_matches(|letter: char| letter.is_ascii_digit() || letter == ';').starts_with('m')
+        });
+        text.push(if sets_colours { '\x1b' } else { '␛' });
+        text.push_str(&printable(piece));
+    }
+    text
 }
 
 /// Prints a warning to stderr.
 pub fn warn(message: &str) {
-    let _ = writeln!(io::stderr(), "warning: {message}");
+    let _ = writeln!(io::stderr(), "warning: {}", printable(message));
 }
 
 /// Prints something worth knowing to stderr.
 pub fn note(message: &str) {
-    let _ = writeln!(io::stderr(), "{message}");
+    let _ = writeln!(io::stderr(), "{}", printable(message));
 }
 
 /// Writes a command's answer to stdout. A reader that went away (`| head`) is no failure.
@@ -80,6 +98,11 @@ pub fn with_unit(number: f64, unit: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn errors_set_colours_and_nothing_else() {
+        assert_eq!(without_orders("a\x1b[1;31mb\x1b[0m\x1b[2Jc\x1b]0;title\x07\n"), "a\x1b[1;31mb\x1b[0m␛[2Jc␛]0;title␇\n");
+    }
 
     #[test]
     fn large_numbers_get_a_prefix() {

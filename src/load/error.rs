@@ -4,6 +4,9 @@ use std::fmt;
 use std::ops::Range;
 use std::path::Path;
 
+use super::excerpt::Excerpt;
+use super::printable::{printable, short};
+
 /// One mistake in a scene file or in a file it names. Displays as `file:line:column: key: message`.
 #[derive(Debug, Clone)]
 pub struct SceneError(Box<Details>);
@@ -21,21 +24,21 @@ struct Details {
 struct Place {
     line: usize,
     column: usize,
-    /// None where the text is too large to be worth keeping.
-    snippet: Option<(String, Range<usize>)>,
+    /// None where the text is not shown.
+    excerpt: Option<Excerpt>,
 }
 
 impl SceneError {
     /// A mistake that concerns the file as a whole: it is missing, it is not an image.
     pub fn in_file(file: impl fmt::Display, message: impl Into<String>) -> Self {
-        let file = file.to_string();
-        Self(Box::new(Details { file, message: message.into(), help: None, key: None, place: None }))
+        let (file, message) = (printable(&file.to_string()), short(&printable(&message.into())));
+        Self(Box::new(Details { file, message, help: None, key: None, place: None }))
     }
 
     /// A mistake in a line of a file whose text is not shown. Lines count from 1.
     pub fn in_line(file: impl fmt::Display, line: usize, message: impl Into<String>) -> Self {
         let mut error = Self::in_file(file, message);
-        error.0.place = Some(Place { line, column: 1, snippet: None });
+        error.0.place = Some(Place { line, column: 1, excerpt: None });
         error
     }
 
@@ -48,19 +51,19 @@ impl SceneError {
         let line = before.matches('\n').count() + 1;
         let column = text[line_start..start].chars().count() + 1;
         let mut error = Self::in_file(file, message);
-        error.0.place = Some(Place { line, column, snippet: Some((text.to_owned(), start..end)) });
+        error.0.place = Some(Place { line, column, excerpt: Some(Excerpt::around(text, start..end)) });
         error
     }
 
     /// Names the key that is wrong, as `material[2].reflectance`.
     pub fn with_key(mut self, key: impl Into<String>) -> Self {
-        self.0.key = Some(key.into()).filter(|key| !key.is_empty());
+        self.0.key = Some(short(&printable(&key.into()))).filter(|key| !key.is_empty());
         self
     }
 
     /// Says what would be right.
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
-        self.0.help = Some(help.into());
+        self.0.help = Some(printable(&help.into()));
         self
     }
 
@@ -94,16 +97,15 @@ impl SceneError {
         self.0.help.as_deref()
     }
 
-    /// The file's text and which of its bytes are wrong, where the file is one that a person writes.
-    pub fn snippet(&self) -> Option<(&str, Range<usize>)> {
-        let (text, span) = self.0.place.as_ref()?.snippet.as_ref()?;
-        Some((text, span.clone()))
+    /// The lines around the mistake, where the file is one that a person writes.
+    pub fn excerpt(&self) -> Option<&Excerpt> {
+        self.0.place.as_ref()?.excerpt.as_ref()
     }
 }
 
 /// The file's name as errors show it.
 pub(crate) fn show(path: &Path) -> String {
-    path.display().to_string()
+    printable(&path.display().to_string())
 }
 
 fn floor_char_boundary(text: &str, at: usize) -> usize {

@@ -8,14 +8,18 @@
 
 mod builtin;
 pub mod error;
+mod excerpt;
 pub mod file;
 mod framing;
 mod image_file;
 mod obj;
+mod printable;
 pub mod source;
 
 pub use builtin::{builtin_names, builtin_text};
 pub use error::SceneError;
+pub use excerpt::Excerpt;
 pub use file::{json_schema, load_toml_str};
 pub use image_file::read_image;
+pub use printable::printable;
 pub use source::{SceneSource, load};

@@ -1,14 +1,14 @@
 //! Builds the hierarchy over a scene's primitives.
 
-use obvhs::bvh2::{Bvh2, leaf_collapser::collapse, reinsertion::ReinsertionOptimizer};
-use obvhs::ploc::PlocBuilder;
-use obvhs::{Boundable, BvhBuildParams, aabb::Aabb};
+use obvhs::bvh2::Bvh2;
+use obvhs::{BvhBuildParams, aabb::Aabb};
 
 use super::error::PackError;
 use super::hierarchy::{Hierarchy, Traversal};
 use super::motion::PackedMotion;
 use super::primitive::{PrimitiveKind, WorldPrimitive};
 use super::{bvh4, ray_query};
+use crate::binary_tree;
 
 /// Leaves hold at most this many primitives: their size takes two bits.
 const MAX_LEAF: u32 = 4;
@@ -21,14 +21,6 @@ const MAX_PLANES: usize = 256;
 /// Up to so many primitives, a third of the nodes is tried elsewhere in the tree: a tenth of a second for 100,000 triangles, and a few
 /// per cent fewer steps in every ray.
 const REINSERT_MANY: usize = 1 << 18;
-
-struct Bounds(Aabb);
-
-impl Boundable for Bounds {
-    fn aabb(&self) -> Aabb {
-        self.0
-    }
-}
 
 const PARAMETERS: BvhBuildParams = BvhBuildParams::medium_build();
 
@@ -74,28 +66,20 @@ pub fn build(
 
 /// A binary tree over the primitives `inside`, leaves of which hold up to [`MAX_LEAF`].
 fn binary_tree(primitives: &[WorldPrimitive], motions: &[PackedMotion], inside: &[usize]) -> Bvh2 {
-    let bounds: Vec<Bounds> = inside
+    let boxes: Vec<Aabb> = inside
         .iter()
         .filter_map(|&index| {
             let primitive = &primitives[index];
             motions.get(primitive.motion as usize).map_or_else(|| primitive.bounds(), |motion| motion.swept(primitive))
         })
-        .map(|(low, high)| Bounds(Aabb::new(low.into(), high.into())))
+        .map(|(low, high)| Aabb::new(low.into(), high.into()))
         .collect();
-    let reinsertion = if bounds.len() <= REINSERT_MANY { 0.3 } else { PARAMETERS.reinsertion_batch_ratio };
-    let mut binary = PlocBuilder::with_capacity(bounds.len()).build(
-        PARAMETERS.ploc_search_distance,
-        &bounds,
-        (0..bounds.len() as u32).collect(),
-        PARAMETERS.sort_precision,
-        PARAMETERS.search_depth_threshold,
-    );
-    if !bounds.is_empty() {
-        ReinsertionOptimizer::default().run(&mut binary, reinsertion, None);
-        // Leaves are joined where testing their primitives costs less than another node. Fewer nodes are worth another attempt to move them.
-        collapse(&mut binary, MAX_LEAF, 1.0);
-        let ratio = reinsertion * PARAMETERS.post_collapse_reinsertion_batch_ratio_multiplier;
-        ReinsertionOptimizer::default().run(&mut binary, ratio, None);
-    }
-    binary
+    let few = boxes.len() <= REINSERT_MANY;
+    let parameters = BvhBuildParams {
+        reinsertion_batch_ratio: if few { 0.3 } else { PARAMETERS.reinsertion_batch_ratio },
+        max_prims_per_leaf: MAX_LEAF,
+        collapse_traversal_cost: 1.0,
+        ..PARAMETERS
+    };
+    binary_tree::build(&boxes, &parameters)
 }

@@ -7,7 +7,7 @@ use glam::{DAffine3, DVec3, Vec2, Vec3};
 use super::constants::NONE;
 use super::motion::PackedMotion;
 use super::primitive::{PrimitiveGeometry, TriangleAttributes, WorldPrimitive};
-use crate::scene::{Geometry, MaterialId, MaterialKind, Mesh, Scene, Shape};
+use crate::scene::{Geometry, Material, MaterialId, MaterialKind, Mesh, Scene, Shape};
 
 /// All primitives of a scene, and the attributes of those that have some.
 #[derive(Debug, Default)]
@@ -24,13 +24,14 @@ pub struct WorldGeometry {
 /// Surfaces made of `pass` are left out: to every ray they are not there.
 pub fn collect(scene: &Scene) -> WorldGeometry {
     let mut world = WorldGeometry::default();
+    let textured = scene.materials_that(Material::uses_texture);
     for (index, shape) in scene.shapes.iter().enumerate() {
         let transform = shape.transform.to_affine();
         let first = world.primitives.len();
         if let Geometry::Mesh(mesh) = &shape.geometry {
-            add_mesh(scene, shape, mesh, &mut world);
+            add_mesh(scene, shape, mesh, &textured, &mut world);
         } else {
-            add_analytic(scene, shape, &transform, &mut world);
+            add_analytic(shape, &transform, textured[shape.material], &mut world);
             if is_pass(scene, shape.material) {
                 let unseen = world.primitives.drain(first..);
                 world.portals.extend(unseen.filter(|primitive| shape.portal && !primitive.is_plane()));
@@ -73,13 +74,13 @@ fn is_pass(scene: &Scene, material: usize) -> bool {
     matches!(scene.materials[material].kind, MaterialKind::Pass)
 }
 
-fn add_analytic(scene: &Scene, shape: &Shape, transform: &DAffine3, world: &mut WorldGeometry) {
+fn add_analytic(shape: &Shape, transform: &DAffine3, textured: bool, world: &mut WorldGeometry) {
     let point = |p: DVec3| transform.transform_point3(p);
     let vector = |v: DVec3| transform.transform_vector3(v);
     let normal = |n: DVec3| (transform.matrix3.inverse().transpose() * n).normalize();
     // Checked when the scene was read: spheres and disks are scaled evenly.
     let scale = transform.matrix3.determinant().abs().cbrt();
-    let attributes = if scene.uses_texture(shape.material) { analytic_attributes(shape, transform) } else { None };
+    let attributes = if textured { analytic_attributes(shape, transform) } else { None };
     let mut push = |geometry| {
         let mut primitive = WorldPrimitive::new(geometry, shape.material);
         if let Some(attributes) = attributes {
@@ -142,11 +143,9 @@ fn box_faces(min: DVec3, max: DVec3) -> [[DVec3; 3]; 6] {
     })
 }
 
-fn add_mesh(scene: &Scene, shape: &Shape, mesh: &Mesh, world: &mut WorldGeometry) {
+fn add_mesh(scene: &Scene, shape: &Shape, mesh: &Mesh, textured: &[bool], world: &mut WorldGeometry) {
     let positions = shape.world_positions();
     let normals = if mesh.smooth && !mesh.normals.is_empty() { shape.world_normals() } else { Vec::new() };
-    // Asked once per material, not once per face.
-    let textured: Vec<bool> = (0..scene.materials.len()).map(|id| scene.uses_texture(id) && !mesh.uvs.is_empty()).collect();
     for (index, face) in shape.world_faces().into_iter().enumerate() {
         let material = mesh.face_materials.get(index).copied().unwrap_or(shape.material);
         let corners = face.map(|corner| corner as usize);
@@ -157,7 +156,7 @@ fn add_mesh(scene: &Scene, shape: &Shape, mesh: &Mesh, world: &mut WorldGeometry
             }
             continue;
         }
-        if !normals.is_empty() || textured[material] {
+        if !normals.is_empty() || (textured[material] && !mesh.uvs.is_empty()) {
             primitive.attributes = world.attributes.len() as u32;
             let corner_normals = if normals.is_empty() { [Vec3::ZERO; 3] } else { corners.map(|c| normals[c]) };
             let corner_uvs = if mesh.uvs.is_empty() { [Vec2::ZERO; 3] } else { corners.map(|c| mesh.uvs[c]) };

@@ -4,7 +4,7 @@ use super::camera::Camera;
 use super::light::Light;
 use super::material::{Material, MaterialId, MaterialKind};
 use super::settings::{FilmSettings, RenderSettings};
-use super::shape::{Geometry, Shape};
+use super::shape::Shape;
 use super::texture::Texture;
 
 /// Everything a render needs: a camera, surfaces, materials, lights, and how light is estimated. It is read by [`Scene::load`] or
@@ -35,26 +35,36 @@ pub struct Scene {
 impl Scene {
     /// Something gives light: a light, or a surface whose material emits.
     pub fn has_light(&self) -> bool {
-        let emits = |shape: &Shape| match &shape.geometry {
-            Geometry::Mesh(mesh) if !mesh.face_materials.is_empty() => mesh.face_materials.iter().any(|&id| self.emits(id)),
-            _ => self.emits(shape.material),
-        };
-        !self.lights.is_empty() || self.shapes.iter().any(emits)
+        if !self.lights.is_empty() {
+            return true;
+        }
+        let emitting = self.materials_that(|part| part.emission.is_some());
+        self.shapes.iter().any(|shape| shape.materials().any(|id| emitting[id]))
+    }
+
+    /// Of each material: whether it, or one of those that it blends at any depth, is as `wanted`. From those that are, up to all that are made
+    /// of them, so the time does not depend on how deep blends are nested.
+    pub fn materials_that(&self, wanted: impl Fn(&Material) -> bool) -> Vec<bool> {
+        let mut wholes: Vec<Vec<MaterialId>> = vec![Vec::new(); self.materials.len()];
+        for (id, material) in self.materials.iter().enumerate() {
+            // Parts that do not exist are for the check of the scene to refuse.
+            material.parts().iter().for_each(|&part| wholes.get_mut(part).into_iter().for_each(|wholes| wholes.push(id)));
+        }
+        let mut found: Vec<bool> = self.materials.iter().map(wanted).collect();
+        let mut to_visit: Vec<MaterialId> = (0..found.len()).filter(|&id| found[id]).collect();
+        while let Some(id) = to_visit.pop() {
+            for &whole in &wholes[id] {
+                if !std::mem::replace(&mut found[whole], true) {
+                    to_visit.push(whole);
+                }
+            }
+        }
+        found
     }
 
     /// The material emits, by itself or through a part of it.
     pub fn emits(&self, material: MaterialId) -> bool {
         self.any_part(material, &|part| part.emission.is_some())
-    }
-
-    /// The material, or a part of it, emits from its back as well as from its front.
-    pub fn emits_from_both_sides(&self, material: MaterialId) -> bool {
-        self.any_part(material, &|part| part.emission.is_some_and(|emission| emission.two_sided))
-    }
-
-    /// The material or a part of it looks up a texture.
-    pub fn uses_texture(&self, material: MaterialId) -> bool {
-        self.any_part(material, &|part| part.uses_texture())
     }
 
     /// Whether the material or one of those it blends, at any depth, is as `wanted`.

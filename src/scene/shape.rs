@@ -103,6 +103,15 @@ impl Shape {
 }
 
 impl Shape {
+    /// Those of its faces, else its own.
+    pub fn materials(&self) -> impl Iterator<Item = MaterialId> {
+        let of_faces: &[MaterialId] = match &self.geometry {
+            Geometry::Mesh(mesh) => &mesh.face_materials,
+            _ => &[],
+        };
+        of_faces.iter().copied().chain(of_faces.is_empty().then_some(self.material))
+    }
+
     /// Where the shape's own (0, 0, 0) is in the world at time 0: what motions turn and scale about.
     pub fn origin(&self) -> DVec3 {
         self.transform.to_affine().translation

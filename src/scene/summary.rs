@@ -6,7 +6,7 @@ use std::fmt::{self, Write};
 use serde::Serialize;
 
 use super::light::Light;
-use super::material::{Material, MaterialKind};
+use super::material::MaterialId;
 use super::model::Scene;
 use super::settings::RenderSettings;
 use super::shape::{Geometry, Shape};
@@ -38,6 +38,8 @@ pub struct SceneSummary {
 impl SceneSummary {
     /// Counts what is in the scene.
     pub fn of(scene: &Scene) -> Self {
+        let emitting = scene.materials_that(|material| material.emission.is_some());
+        let emits = |id: MaterialId| emitting.get(id) == Some(&true);
         Self {
             name: scene.name.clone(),
             size: scene.film.size,
@@ -46,7 +48,7 @@ impl SceneSummary {
             shapes: count(scene.shapes.iter().map(|shape| shape_type(&shape.geometry))),
             triangles: scene.shapes.iter().map(triangles).sum(),
             moving_shapes: scene.shapes.iter().filter(|shape| shape.motion.is_some()).count(),
-            emitting_shapes: scene.shapes.iter().filter(|shape| shape_emits(scene, shape)).count(),
+            emitting_shapes: scene.shapes.iter().filter(|shape| shape.materials().any(emits)).count(),
             materials: count(scene.materials.iter().map(|material| material.kind.type_name())),
             lights: count(scene.lights.iter().map(Light::kind_name)),
             textures: count(scene.textures.iter().map(|texture| texture_type(&texture.kind))),
@@ -108,22 +110,6 @@ fn triangles(shape: &Shape) -> usize {
     match &shape.geometry {
         Geometry::Mesh(mesh) => mesh.faces.len(),
         _ => 0,
-    }
-}
-
-fn shape_emits(scene: &Scene, shape: &Shape) -> bool {
-    let emits = |id: usize| scene.materials.get(id).is_some_and(|material| material_emits(scene, material));
-    match &shape.geometry {
-        Geometry::Mesh(mesh) if !mesh.face_materials.is_empty() => mesh.face_materials.iter().any(|id| emits(*id)),
-        _ => emits(shape.material),
-    }
-}
-
-fn material_emits(scene: &Scene, material: &Material) -> bool {
-    let child_emits = |id: &usize| scene.materials.get(*id).is_some_and(|child| material_emits(scene, child));
-    match &material.kind {
-        MaterialKind::Blend { materials, .. } if material.emission.is_none() => materials.iter().any(child_emits),
-        _ => material.emission.is_some(),
     }
 }
 

@@ -54,7 +54,7 @@ impl Scene {
             let part = format!("material `{}`", self.materials[id].name);
             InvalidScene { part, message }
         })?;
-        let textured = self.textured_materials();
+        let textured = self.materials_that(Material::uses_texture);
         for shape in &self.shapes {
             of(|| shape.label.clone(), self.check_shape(shape, &textured))?;
         }
@@ -120,24 +120,6 @@ impl Scene {
         if id < self.materials.len() { Ok(()) } else { Err(format!("there is no material {id}")) }
     }
 
-    /// Which materials look up a texture, by themselves or through a part: from those that do, up to all that are made of them.
-    fn textured_materials(&self) -> Vec<bool> {
-        let mut wholes: Vec<Vec<MaterialId>> = vec![Vec::new(); self.materials.len()];
-        for (id, material) in self.materials.iter().enumerate() {
-            material.parts().iter().for_each(|&part| wholes[part].push(id));
-        }
-        let mut textured: Vec<bool> = self.materials.iter().map(Material::uses_texture).collect();
-        let mut to_visit: Vec<MaterialId> = (0..textured.len()).filter(|&id| textured[id]).collect();
-        while let Some(id) = to_visit.pop() {
-            for &whole in &wholes[id] {
-                if !std::mem::replace(&mut textured[whole], true) {
-                    to_visit.push(whole);
-                }
-            }
-        }
-        textured
-    }
-
     fn check_shape(&self, shape: &Shape, textured: &[bool]) -> Check {
         let map = shape.transform.to_affine();
         let determinant = map.matrix3.determinant();
@@ -157,7 +139,7 @@ impl Scene {
         if let Geometry::Mesh(mesh) = &shape.geometry {
             mesh.face_materials.iter().try_for_each(|&id| self.material_exists(id))?;
         }
-        if !has_uv && materials_of(shape).any(|id| textured[id]) {
+        if !has_uv && shape.materials().any(|id| textured[id]) {
             return Err("a textured material needs texture coordinates".into());
         }
         Ok(())
@@ -258,15 +240,6 @@ fn check_mesh(mesh: &Mesh) -> Check {
         return Err("positions must be finite".into());
     }
     Ok(())
-}
-
-/// Those of its faces, else its own.
-fn materials_of(shape: &Shape) -> impl Iterator<Item = MaterialId> {
-    let of_faces: &[MaterialId] = match &shape.geometry {
-        Geometry::Mesh(mesh) => &mesh.face_materials,
-        _ => &[],
-    };
-    of_faces.iter().copied().chain(of_faces.is_empty().then_some(shape.material))
 }
 
 #[cfg(test)]

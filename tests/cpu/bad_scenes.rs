@@ -353,8 +353,9 @@ fn the_error_holds_the_text_and_the_place_in_it() {
     let text = GOOD.replace("radius = 1", "radius = -1");
     let error = error_of(&text);
     assert_eq!((error.file(), error.line(), error.column()), ("test.toml", Some(17), Some(10)));
-    let (snippet, span) = error.snippet().expect("the mistake is in the text");
-    assert_eq!((snippet, &snippet[span]), (text.as_str(), "-1"));
+    let excerpt = error.excerpt().expect("the mistake is in the text");
+    let line = excerpt.text.lines().nth(17 - excerpt.first_line).expect("it is among the lines");
+    assert_eq!((line, &excerpt.text[excerpt.span.clone()]), ("radius = -1", "-1"));
 }
 
 #[test]
@@ -413,7 +414,10 @@ fn bad_textures_name_the_key() {
     let absent = complaint("absent.png", "uv.obj");
     assert!(absent.starts_with("test.toml:17:8: texture[0].file: ") && absent.contains("cannot be read"), "{absent}");
     let notes = complaint("notes.png", "uv.obj");
-    assert!(notes.starts_with("test.toml:17:8: texture[0].file: ") && notes.contains("is not a valid image"), "{notes}");
+    assert!(
+        notes.starts_with("test.toml:17:8: texture[0].file: ") && notes.contains("is not an image in a format known"),
+        "{notes}"
+    );
     assert!(complaint("cut.png", "uv.obj").contains("is not a valid image"));
     let without_uv = complaint("good.png", "plain.obj");
     assert!(

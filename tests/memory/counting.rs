@@ -8,11 +8,13 @@ struct Counting;
 
 static IN_USE: AtomicUsize = AtomicUsize::new(0);
 static MOST: AtomicUsize = AtomicUsize::new(0);
+static EVER: AtomicUsize = AtomicUsize::new(0);
 
 impl Counting {
     fn add(size: usize) {
         let now = IN_USE.fetch_add(size, Ordering::Relaxed) + size;
         MOST.fetch_max(now, Ordering::Relaxed);
+        EVER.fetch_add(size, Ordering::Relaxed);
     }
 }
 
@@ -45,6 +47,11 @@ static TURN: Mutex<()> = Mutex::new(());
 /// Held by a test while it measures. A test that failed leaves nothing behind that would disturb the next.
 pub fn take_turn() -> MutexGuard<'static, ()> {
     TURN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Bytes that were ever asked for, whether they are in use or not.
+pub fn bytes_ever() -> usize {
+    EVER.load(Ordering::Relaxed)
 }
 
 /// The most bytes in use since a moment, beyond those in use then.

@@ -6,5 +6,6 @@ mod common;
 mod random;
 
 mod counting;
+mod growth;
 mod hostile_files;
 mod large_pictures;

@@ -9,15 +9,15 @@ use glam::DVec3;
 
 use super::document::Document;
 use super::value::{Colour, Located, Rule, Scalar, Vector, vector};
-use super::wording::did_you_mean;
+use super::wording::did_you_mean_name;
 use crate::load::error::SceneError;
-use crate::scene::{ColorInput, ColorSpace, ImageData, MaterialId, Mesh, Scene, TextureId};
+use crate::scene::{ColorInput, ColorSpace, ImageData, Material, MaterialId, Mesh, Scene, TextureId};
 
 /// Images by file and by how their values are read, so that each is decoded once.
 pub type ImageCache = HashMap<(PathBuf, Option<ColorSpace>), Arc<ImageData>>;
 
-/// What decides how a mesh file is read: the file, `smooth`, and the material that wins over the file's own.
-pub type MeshFileKey = (PathBuf, Option<bool>, Option<MaterialId>);
+/// What decides how a mesh file is read: the file, `smooth`, and whether it keeps its own materials.
+pub type MeshFileKey = (PathBuf, Option<bool>, bool);
 
 /// A mesh and its material, or that of its first face where faces have their own.
 #[derive(Clone)]
@@ -38,6 +38,8 @@ pub struct Resolver<'a> {
     /// Per texture: an image whose colour space is written to be linear.
     pub(super) linear_textures: Vec<bool>,
     pub(super) mesh_files: HashMap<MeshFileKey, LoadedMesh>,
+    /// Of the materials so far, as far as it was asked: they or a part of them look up a texture.
+    textured: Vec<bool>,
     /// The material of faces that name none.
     pub(super) unnamed_material: Option<MaterialId>,
 }
@@ -53,6 +55,7 @@ impl<'a> Resolver<'a> {
             images: Default::default(),
             linear_textures: Vec::new(),
             mesh_files: HashMap::new(),
+            textured: Vec::new(),
             unnamed_material: None,
         }
     }
@@ -73,6 +76,19 @@ impl<'a> Resolver<'a> {
         self.look_up(&self.material_names, name, "material")
     }
 
+    /// The material or a part of it looks up a texture. Asked only once all materials of the scene file are there.
+    pub(super) fn uses_texture(&mut self, id: MaterialId) -> bool {
+        if self.textured.is_empty() {
+            self.textured = self.scene.materials_that(Material::uses_texture);
+        }
+        // Those that model files add are made of earlier ones.
+        while let Some(material) = self.scene.materials.get(self.textured.len()) {
+            let of_part = material.parts().iter().any(|&part| self.textured[part]);
+            self.textured.push(of_part || material.uses_texture());
+        }
+        self.textured[id]
+    }
+
     pub(super) fn look_up(
         &self,
         names: &HashMap<String, usize>,
@@ -84,7 +100,7 @@ impl<'a> Resolver<'a> {
         }
         let mut choices: Vec<&str> = names.keys().map(String::as_str).collect();
         choices.sort_unstable();
-        let help = did_you_mean(&name.value, &choices).unwrap_or_else(|| format!("the file has no [[{what}]]"));
+        let help = did_you_mean_name(&name.value, &choices).unwrap_or_else(|| format!("the file has no [[{what}]]"));
         Err(self.error(&name.span, format!("there is no {what} named `{}`", name.value)).with_help(help))
     }
 

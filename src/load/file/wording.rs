@@ -1,5 +1,10 @@
 //! Serde's messages, which speak of fields, variants and Rust types, in the words of a scene file.
 
+use crate::load::printable::short_list;
+
+/// Longer names are not compared, which would take time in proportion to the product of their lengths.
+const LONGEST_NAME: usize = 80;
+
 /// Begins the name that stands for a tag that is not there.
 pub const MISSING: char = '\0';
 
@@ -18,14 +23,24 @@ pub fn in_plain_words(message: &str) -> (String, Option<String>) {
     }
 }
 
-/// Suggests the closest of `choices` and lists them all.
+/// Suggests the closest of `choices`, which are words of the program, and lists them all.
 pub fn did_you_mean(name: &str, choices: &[&str]) -> Option<String> {
+    suggest(name, choices, choices_help(choices)?)
+}
+
+/// Suggests the closest of names that a person has given, and lists some of them.
+pub fn did_you_mean_name(name: &str, names: &[&str]) -> Option<String> {
+    let list = (!names.is_empty()).then(|| format!("valid choices: {}", short_list(names)))?;
+    suggest(name, names, list)
+}
+
+fn suggest(name: &str, choices: &[&str], all: String) -> Option<String> {
     let closest = choices
         .iter()
+        .filter(|choice| name.len() <= LONGEST_NAME && choice.len() <= LONGEST_NAME)
         .map(|choice| (strsim::damerau_levenshtein(name, choice), choice))
         .min()
         .filter(|(distance, choice)| *distance <= (choice.len() / 3).max(1));
-    let all = choices_help(choices)?;
     Some(match closest {
         Some((_, choice)) => format!("did you mean `{choice}`? {all}"),
         None => all,

@@ -7,7 +7,7 @@ mod mtl;
 mod polygons;
 
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 use std::path::Path;
 
 use glam::{Vec2, Vec3};
@@ -15,6 +15,7 @@ use tobj::LoadOptions;
 
 use crate::load::builtin;
 use crate::load::error::{SceneError, show};
+use crate::load::printable::short_list;
 use crate::scene::Mesh;
 pub use mtl::{MtlMaterial, TextureMap};
 
@@ -106,6 +107,7 @@ fn to_mesh(mesh: &tobj::Mesh, incomplete: &mut bool) -> Mesh {
 }
 
 fn unknown_materials(name: &str, used: &BTreeSet<String>, libraries: &mtl::Libraries) -> Option<String> {
-    let unknown: Vec<&str> = used.iter().map(String::as_str).filter(|name| !libraries.has(name)).collect();
-    (!unknown.is_empty()).then(|| format!("{name}: no MTL file has the materials {}; their faces are grey", unknown.join(", ")))
+    let known: HashSet<&str> = libraries.materials.iter().map(|entry| entry.material.name.as_str()).collect();
+    let unknown: Vec<&str> = used.iter().map(String::as_str).filter(|name| !known.contains(name)).collect();
+    (!unknown.is_empty()).then(|| format!("{name}: no MTL file has the materials {}; their faces are grey", short_list(&unknown)))
 }

@@ -65,10 +65,6 @@ impl Libraries {
         (self.materials.iter().map(|entry| entry.material.clone()).collect(), names)
     }
 
-    pub fn has(&self, name: &str) -> bool {
-        self.materials.iter().any(|entry| entry.material.name == name)
-    }
-
     fn read_file(&mut self, model: &Path, file: PathBuf) -> Result<(), SceneError> {
         let bytes = match std::fs::read(&file) {
             Ok(bytes) => bytes,

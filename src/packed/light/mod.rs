@@ -53,10 +53,12 @@ pub fn collect(scene: &Scene, world: &mut WorldGeometry, environment: &PackedEnv
         return Vec::new();
     }
     let (mut lights, mut sampler) = (Vec::new(), LightSampler::default());
-    // Asked once a material, not once a triangle: a texture's mean looks at all of it.
-    let emissions: Vec<_> = (0..scene.materials.len()).map(|material| SurfaceEmission::of(scene, material)).collect();
+    // Asked once a material, not once a triangle: a texture's mean looks at all of it, and a blend's at all of its parts.
+    let emits = scene.materials_that(|material| material.emission.is_some());
+    let two_sided = scene.materials_that(|material| material.emission.is_some_and(|emission| emission.two_sided));
+    let emissions: Vec<_> = (0..emits.len()).map(|id| emits[id].then(|| SurfaceEmission::of(scene, id, two_sided[id]))).collect();
     for primitive in &mut world.primitives {
-        let emission = &emissions[primitive.material];
+        let Some(emission) = &emissions[primitive.material] else { continue };
         let power = emission.power(primitive);
         if let Some(light) = surface_light(primitive, emission).filter(|_| power > 0.0) {
             primitive.light = lights.len() as u32;

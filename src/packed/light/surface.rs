@@ -23,13 +23,13 @@ pub struct SurfaceEmission {
 }
 
 impl SurfaceEmission {
-    pub fn of(scene: &Scene, material: usize) -> Self {
+    pub fn of(scene: &Scene, material: usize, two_sided: bool) -> Self {
         let own = scene.materials[material].emission;
         let radiance = own.map_or(ColorInput::grey(0.0), |emission| emission.radiance);
         Self {
             material,
             mean_radiance: mean_emission(scene, material, &|input| mean_color(scene, input)),
-            two_sided: scene.emits_from_both_sides(material),
+            two_sided,
             varies: scene.materials[material].is_blend() || radiance.is_texture(),
             radiance,
         }

@@ -1,13 +1,11 @@
-//! A bounding volume hierarchy, built by `obvhs` over boxes rounded outward to f32 and traversed in f64.
-
-use std::time::Duration;
+//! A bounding volume hierarchy, built over boxes rounded outward to f32 and traversed in f64.
 
 use glam::{DVec3, Vec3, Vec3A};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
-use obvhs::bvh2::builder::build_bvh2;
 
 use super::ray::Ray;
+use crate::binary_tree;
 
 /// A ray with what intersection tests need of it over and over.
 #[derive(Debug, Clone, Copy)]
@@ -82,7 +80,7 @@ impl Hierarchy {
                 Aabb::new(Vec3A::from(min.as_vec3().map(f32::next_down)), Vec3A::from(max.as_vec3().map(f32::next_up)))
             })
             .collect();
-        let tree = build_bvh2(&rounded, BvhBuildParams::medium_build(), &mut Duration::default());
+        let tree = binary_tree::build(&rounded, &BvhBuildParams::medium_build());
         let nodes = tree
             .nodes
             .iter()

@@ -98,7 +98,8 @@ impl Lights {
         let (mut lights, mut sampler) = (Vec::new(), LightSampler::default());
         let mut of_primitive = vec![None; world.places_in_scene_order().len()];
         // Once a material, not once a primitive: a texture's mean looks at all of it.
-        let exitances: Vec<f64> = (0..scene.materials.len()).map(|material| mean_exitance(scene, material)).collect();
+        let emits = scene.materials_that(|material| material.emission.is_some());
+        let exitances: Vec<f64> = (0..emits.len()).map(|id| if emits[id] { mean_exitance(scene, id) } else { 0.0 }).collect();
         for &place in world.places_in_scene_order() {
             let Owner { shape, material, .. } = world.owner(SurfaceId::Primitive(place));
             let power = world.primitive(place).area() * exitances[material];

@@ -19,6 +19,7 @@ const DEFAULT_REFLECTANCE: f64 = 0.8;
 impl Resolver<'_> {
     pub(super) fn mesh(
         &mut self,
+        index: usize,
         entry: &Located<ShapeEntry>,
         written: &MeshShape,
         material: Option<MaterialId>,
@@ -27,7 +28,7 @@ impl Resolver<'_> {
             let Some(material) = material else {
                 return Err(self.error(&entry.span, "the key `material` is missing: only a mesh file can have its own"));
             };
-            let mesh = Arc::new(self.inline_mesh(entry, written)?);
+            let mesh = Arc::new(self.inline_mesh(index, entry, written)?);
             return Ok(LoadedMesh { mesh, material });
         };
         let given = [
@@ -56,9 +57,9 @@ impl Resolver<'_> {
         smooth: Option<bool>,
         material: Option<MaterialId>,
     ) -> Result<LoadedMesh, SceneError> {
-        let key = (path.to_owned(), smooth, material);
+        let key = (path.to_owned(), smooth, material.is_none());
         if let Some(loaded) = self.mesh_files.get(&key) {
-            return Ok(loaded.clone());
+            return Ok(LoadedMesh { mesh: loaded.mesh.clone(), material: material.unwrap_or(loaded.material) });
         }
         let mut file = obj::load(path, material.is_none())?;
         self.scene.warnings.append(&mut file.warnings);
@@ -81,7 +82,7 @@ impl Resolver<'_> {
                 },
                 None => self.material_of_unnamed_faces(),
             };
-            if any_uvs && mesh.uvs.is_empty() && self.scene.uses_texture(id) {
+            if any_uvs && mesh.uvs.is_empty() && self.uses_texture(id) {
                 let name = &self.scene.materials[id].name;
                 let message = format!("faces of the material `{name}` have a texture and no uv coordinates");
                 return Err(SceneError::in_file(show(path), message));
@@ -112,7 +113,7 @@ impl Resolver<'_> {
         *self.unnamed_material.insert(id)
     }
 
-    fn inline_mesh(&mut self, entry: &Located<ShapeEntry>, written: &MeshShape) -> Result<Mesh, SceneError> {
+    fn inline_mesh(&mut self, index: usize, entry: &Located<ShapeEntry>, written: &MeshShape) -> Result<Mesh, SceneError> {
         let (Some(positions), Some(faces)) = (&written.positions, &written.faces) else {
             return Err(self.error(&entry.span, "a mesh needs the key `file`, or both `positions` and `faces`"));
         };
@@ -151,8 +152,7 @@ impl Resolver<'_> {
             return Err(self.error(&entry.span, "the mesh has no faces with an area"));
         }
         if dropped > 0 {
-            let key = self.document.error(entry.span.clone(), "").key().unwrap_or("mesh").to_owned();
-            let warning = format!("{}: {key}: {dropped} triangles without area were left out", self.document.name);
+            let warning = format!("{}: shape[{index}]: {dropped} triangles without area were left out", self.document.name);
             self.scene.warnings.push(warning);
         }
         choose_normals(&mut mesh, written.smooth);

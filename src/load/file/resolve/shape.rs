@@ -43,13 +43,9 @@ impl Resolver<'_> {
             let message = format!("the portals up to here have {faces} faces, at most {MOST_PORTAL_FACES} are possible");
             return Err(self.error(&entry.span, message).with_help("stand a rectangle in front of the opening"));
         }
-        let materials = match &shape.geometry {
-            Geometry::Mesh(mesh) if !mesh.face_materials.is_empty() => mesh.face_materials.clone(),
-            _ => vec![shape.material],
-        };
         let is_pass = |id: &MaterialId| matches!(self.scene.materials[*id].kind, MaterialKind::Pass);
         // A surface that emits is sampled as the light it is.
-        if !materials.iter().any(|id| is_pass(id) || self.scene.emits(*id)) {
+        if !shape.materials().any(|id| is_pass(&id) || self.scene.emits(id)) {
             let name = &self.scene.materials[shape.material].name;
             let warning = format!(
                 "{}: {} is a portal without effect: its material `{name}` lets no ray pass, one of type `pass` does",
@@ -67,7 +63,7 @@ impl Resolver<'_> {
         let material = common.material.map(|name| self.material_id(name)).transpose()?;
         let (kind, geometry, material) = match &entry.value {
             ShapeEntry::Mesh(mesh) => {
-                let LoadedMesh { mesh, material } = self.mesh(entry, mesh, material)?;
+                let LoadedMesh { mesh, material } = self.mesh(index, entry, mesh, material)?;
                 ("mesh", Geometry::Mesh(mesh), material)
             }
             ShapeEntry::Sphere(sphere) => {
@@ -124,18 +120,14 @@ impl Resolver<'_> {
     }
 
     /// A texture needs coordinates to be looked up at.
-    fn check_uvs(&self, entry: &Located<ShapeEntry>, shape: &Shape) -> Result<(), SceneError> {
+    fn check_uvs(&mut self, entry: &Located<ShapeEntry>, shape: &Shape) -> Result<(), SceneError> {
         let lacking = match &shape.geometry {
             Geometry::Mesh(mesh) if mesh.uvs.is_empty() => "the mesh has none",
             Geometry::Plane { .. } => "a plane has none; use a large rectangle",
             Geometry::Disk { .. } => "a disk has none; use a mesh with uvs, or a rectangle",
             _ => return Ok(()),
         };
-        let materials = match &shape.geometry {
-            Geometry::Mesh(mesh) if !mesh.face_materials.is_empty() => mesh.face_materials.clone(),
-            _ => vec![shape.material],
-        };
-        match materials.into_iter().find(|&material| self.scene.uses_texture(material)) {
+        match shape.materials().find(|&material| self.uses_texture(material)) {
             Some(material) => {
                 let name = &self.scene.materials[material].name;
                 let message = format!("the material `{name}` uses a texture, which needs uv coordinates: {lacking}");

@@ -1,0 +1,187 @@
+//! Scenes of twice the size take twice the work, whatever is odd about them: faces that coincide, models of very many parts, deep blends. Work
+//! is the bytes that were asked for, and the time.
+
+use std::fmt::Write;
+use std::hint::black_box;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use crate::common::files::folder_with;
+use crate::counting::{bytes_ever, take_turn};
+use gpt::load;
+use gpt::packed::PackedScene;
+use gpt::reference::ReferenceRenderer;
+use gpt::scene::Scene;
+
+const HEAD: &str = "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvfov = 40\n[[light]]\ntype = \"environment\"\nradiance = 1\n\
+    [[material]]\nname = \"m\"\ntype = \"diffuse\"\nreflectance = 0.5\n";
+
+fn read(text: &str) -> Scene {
+    load::load_toml_str(text, "grown.toml", Path::new("")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Reads the scene, and prepares it for both devices.
+fn prepare(scene: &Scene) {
+    black_box(PackedScene::new(scene).expect("it can be packed"));
+    black_box(ReferenceRenderer::new(scene).expect("it can be rendered"));
+}
+
+/// What of the work grows by more than that of twice the size. Quadratic work grows by four.
+fn excess(size: usize, work: impl Fn(usize) + Sync) -> Option<String> {
+    let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let measure = |size: usize| {
+        let mut shortest = Duration::MAX;
+        let mut bytes = 0;
+        for _ in 0..3 {
+            let (start, before) = (Instant::now(), bytes_ever());
+            // On one thread, since others only wait for each other where the machine is busy.
+            one_thread.install(|| work(size));
+            shortest = shortest.min(start.elapsed());
+            bytes = bytes_ever() - before;
+        }
+        (shortest, bytes)
+    };
+    let (once, twice) = (measure(size), measure(2 * size));
+    let report = format!("{size}: {once:.1?}, {}: {twice:.1?}", 2 * size);
+    // Machines are busy, and caches overflow; the shortest of three times is blurred by less than a half.
+    let in_time = twice.0 < 3 * once.0 + Duration::from_millis(20);
+    let in_memory = twice.1 < once.1 * 5 / 2 + 100_000;
+    (!in_time || !in_memory).then_some(report)
+}
+
+fn assert_linear(what: &str, size: usize, work: impl Fn(usize) + Sync) {
+    let _turn = take_turn();
+    if let Some(report) = excess(size, work) {
+        panic!("{what}: {report}");
+    }
+}
+
+/// The control: what is quadratic, in time or in memory, is noticed.
+#[test]
+fn quadratic_work_is_noticed() {
+    let _turn = take_turn();
+    let slow = |size: usize| {
+        let sum = (0..size * size).fold(0_usize, |sum, number| black_box(sum.wrapping_mul(31) ^ number));
+        black_box(sum);
+    };
+    assert!(excess(6000, slow).is_some());
+    let greedy = |size: usize| (0..size).for_each(|_| drop(black_box(vec![0_u8; size * 10])));
+    assert!(excess(1000, greedy).is_some());
+}
+
+#[test]
+fn faces_that_coincide() {
+    let scene = |count: usize| {
+        let faces = "[0, 1, 2], ".repeat(count);
+        read(&format!(
+            "{HEAD}[[shape]]\ntype = \"mesh\"\nmaterial = \"m\"\npositions = [[0,0,0],[1,0,0],[0,1,0]]\nfaces = [{faces}]\n"
+        ))
+    };
+    let packed = PackedScene::new(&scene(5000)).expect("it can be packed");
+    assert!(packed.hierarchy.stack_size <= 64, "{}", packed.hierarchy.stack_size);
+    assert_linear("copies of a triangle", 5000, |count| prepare(&scene(count)));
+}
+
+#[test]
+fn spheres_about_one_centre() {
+    assert_linear("concentric spheres", 4000, |count| {
+        let spheres = (1..=count).fold(String::new(), |mut text, radius| {
+            let _ = writeln!(text, "[[shape]]\ntype = \"sphere\"\ncenter = [0, 0, 0]\nradius = {radius}\nmaterial = \"m\"");
+            text
+        });
+        prepare(&read(&format!("{HEAD}{spheres}")));
+    });
+}
+
+#[test]
+fn inline_meshes_with_faces_that_are_left_out() {
+    assert_linear("inline meshes", 1000, |count| {
+        let meshes = (0..count).fold(String::new(), |mut text, index| {
+            let _ = writeln!(
+                text,
+                "[[shape]]\ntype = \"mesh\"\nmaterial = \"m\"\npositions = [[{index},0,0],[1,0,1],[0,1,0]]\nfaces = [[0,1,2],[0,0,1]]"
+            );
+            text
+        });
+        let scene = read(&format!("{HEAD}{meshes}"));
+        assert!(scene.warnings[count - 1].ends_with(&format!("shape[{}]: 1 triangles without area were left out", count - 1)));
+    });
+}
+
+#[test]
+fn models_of_many_groups_and_materials() {
+    assert_linear("groups", 4000, |count| {
+        let mut model = "mtllib model.mtl\nvt 0 0\n".to_owned();
+        let mut materials = String::new();
+        for index in 0..count {
+            let _ = writeln!(materials, "newmtl m{index}\nKd 0.5 0.5 0.5");
+            // Half of the materials are not in the library.
+            let _ = writeln!(
+                model,
+                "o o{index}\nusemtl m{}\nv {index} 0 0\nv {index} 1 0\nv {index} 0 1\nf -3/1 -2/1 -1/1",
+                2 * index
+            );
+        }
+        let folder = folder_with(&[("model.obj", model.as_bytes()), ("model.mtl", materials.as_bytes())]);
+        prepare(&load::load(folder.path().join("model.obj").to_str()).unwrap_or_else(|error| panic!("{error}")));
+    });
+}
+
+#[test]
+fn one_model_in_many_materials() {
+    let folder = folder_with(&[("model.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".repeat(500).as_bytes())]);
+    assert_linear("materials", 200, |count| {
+        let entries = (0..count).fold(HEAD.to_owned(), |mut text, index| {
+            let _ = writeln!(text, "[[material]]\nname = \"n{index}\"\ntype = \"diffuse\"\nreflectance = 0.5");
+            let _ = writeln!(text, "[[shape]]\ntype = \"mesh\"\nfile = \"model.obj\"\nmaterial = \"n{index}\"");
+            text
+        });
+        let scene = load::load_toml_str(&entries, "grown.toml", folder.path()).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!((scene.shapes[0].material, scene.shapes[count - 1].material), (1, count));
+    });
+}
+
+#[test]
+fn chains_of_blends() {
+    assert_linear("blends", 4000, |count| {
+        let mut text = HEAD.to_owned();
+        let mut inner = "m".to_owned();
+        for index in 0..count {
+            let _ = writeln!(text, "[[material]]\nname = \"b{index}\"\ntype = \"blend\"\nmaterials = [\"{inner}\", \"m\"]");
+            let _ = writeln!(text, "weight = {{ type = \"constant\", value = 0.5 }}");
+            inner = format!("b{index}");
+        }
+        for index in 0..count / 10 {
+            let _ = writeln!(text, "[[shape]]\ntype = \"sphere\"\ncenter = [{index}, 0, 0]\nradius = 1\nmaterial = \"{inner}\"");
+        }
+        prepare(&read(&text));
+    });
+}
+
+#[test]
+fn polygons_of_many_corners() {
+    assert_linear("corners", 50_000, |count| {
+        let mut model = String::new();
+        for corner in 0..count {
+            let (sine, cosine) = (corner as f64 / count as f64 * std::f64::consts::TAU).sin_cos();
+            let radius = if corner % 2 == 0 { 1.0 } else { 0.9 };
+            let _ = writeln!(model, "v {} {} 0", radius * cosine, radius * sine);
+        }
+        let corners: String = (1..=count).map(|corner| format!(" {corner}")).collect();
+        let folder = folder_with(&[("model.obj", format!("{model}f{corners}\n").as_bytes())]);
+        let scene = load::load(folder.path().join("model.obj").to_str()).unwrap_or_else(|error| panic!("{error}"));
+        assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
+    });
+}
+
+#[test]
+fn mistakes_at_the_end_of_long_lines() {
+    assert_linear("a long line", 100_000, |count| {
+        let positions = "[0, 0, 0], ".repeat(count);
+        let text =
+            format!("{HEAD}[[shape]]\ntype = \"mesh\"\nmaterial = \"m\"\npositions = [{positions}]\nfaces = [[0, 1, {count}]]\n");
+        let error = load::load_toml_str(&text, "grown.toml", Path::new("")).expect_err("there is no such position");
+        assert_eq!(error.line(), Some(16));
+        assert!(error.to_string().len() < 500 && error.excerpt().is_some_and(|excerpt| excerpt.text.len() < 1000));
+    });
+}
