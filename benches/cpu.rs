@@ -11,7 +11,7 @@ use gpt::choice::Choice;
 use gpt::load;
 use gpt::packed::{PackedScene, hierarchy::Traversal, tree, world};
 use gpt::reference::ReferenceRenderer;
-use gpt::sampling::{BounceDimension, Dimension, PathSampler, Sampling, SequencePoint};
+use gpt::sampling::{Dimension, PathSampler, Sampling, SequencePoint, VertexDimension};
 use gpt::scene::{RenderSettings, SamplerKind};
 
 /// Triangles of the scenes that are packed.
@@ -61,7 +61,7 @@ fn sample(criterion: &mut Criterion) {
         let point = SequencePoint::new(&sampling, 77);
         group.bench_function(BenchmarkId::new("number of a path", sampler.name()), |bencher| {
             let path = PathSampler::new(&sampling, 1234, &point);
-            bencher.iter(|| path.uniform(black_box(Dimension::bounce(1, BounceDimension::BsdfU))));
+            bencher.iter(|| path.uniform(black_box(Dimension::vertex(1, VertexDimension::BsdfU))));
         });
     }
     group.finish();

@@ -5,7 +5,7 @@
 //! against lens u, the first light's point, the first direction, the light's u against the direction's u, the fourth light's point,
 //! and the choices of light and lobe. 256 points of one pixel.
 
-use gpt::sampling::{BounceDimension, CameraDimension, Dimension, PathSampler, Sampling, SequencePoint};
+use gpt::sampling::{CameraDimension, Dimension, PathSampler, Sampling, SequencePoint, VertexDimension};
 use gpt::scene::{PixelSampler, SamplerKind};
 use image::{GrayImage, Luma};
 
@@ -14,18 +14,18 @@ const SIDE: u32 = 160;
 const GAP: u32 = 8;
 
 fn pairs() -> [[Dimension; 2]; 8] {
-    use BounceDimension::{BsdfU, BsdfV, LightChoice, LightU, LightV, Lobe};
     use CameraDimension::{LensU, LensV, PixelX, PixelY};
-    let (camera, bounce) = (Dimension::camera, Dimension::bounce);
+    use VertexDimension::{BsdfU, BsdfV, LightChoice, LightU, LightV, Lobe};
+    let (camera, vertex) = (Dimension::camera, Dimension::vertex);
     [
         [camera(PixelX), camera(PixelY)],
         [camera(LensU), camera(LensV)],
         [camera(PixelX), camera(LensU)],
-        [bounce(0, LightU), bounce(0, LightV)],
-        [bounce(0, BsdfU), bounce(0, BsdfV)],
-        [bounce(0, LightU), bounce(0, BsdfU)],
-        [bounce(3, LightU), bounce(3, LightV)],
-        [bounce(0, LightChoice), bounce(0, Lobe)],
+        [vertex(0, LightU), vertex(0, LightV)],
+        [vertex(0, BsdfU), vertex(0, BsdfV)],
+        [vertex(0, LightU), vertex(0, BsdfU)],
+        [vertex(3, LightU), vertex(3, LightV)],
+        [vertex(0, LightChoice), vertex(0, Lobe)],
     ]
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use glam::Vec3;
-use image::{DynamicImage, ImageReader, Limits};
+use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 
 use super::builtin;
 use crate::math::srgb_to_linear;
@@ -37,7 +37,14 @@ fn check_size(width: u32, height: u32) -> Result<(), String> {
 
 fn read_other(path: &Path, color_space: Option<ColorSpace>) -> Result<ImageData, String> {
     let open = || {
-        let reader = builtin::open(path).and_then(|file| ImageReader::new(file).with_guessed_format());
+        let reader = builtin::open(path).and_then(|file| {
+            let mut reader = ImageReader::new(file);
+            // The ending says what a file without a signature is, as TGA files are.
+            if let Ok(format) = ImageFormat::from_path(path) {
+                reader.set_format(format);
+            }
+            reader.with_guessed_format()
+        });
         reader.map_err(|error| format!("cannot be read: {error}"))
     };
     let reader = open()?;

@@ -16,11 +16,11 @@ use super::lights::{LightSample, Lights};
 use super::mis;
 use super::trace::{LightConnection, PathVisitor};
 use crate::renderer::RenderError;
-use crate::sampling::{BounceDimension, CameraDimension, Dimension, PathSampler};
+use crate::sampling::{CameraDimension, Dimension, PathSampler, VertexDimension};
 use crate::scene::{Estimator, Scene};
 
 /// Edges from which on Russian roulette always has a chance to end the path, whatever its throughput.
-const CERTAIN_ROULETTE_EDGE: u32 = 64;
+const CERTAIN_ROULETTE_DEPTH: u32 = 64;
 /// Largest probability of surviving from there on.
 const LARGEST_SURVIVAL: f64 = 0.999;
 
@@ -49,10 +49,10 @@ struct Path {
     eta_scale: f64,
     /// How the ray's direction was sampled.
     previous: Density,
-    /// Which edge of the path the ray is; the first has 1.
-    edge: u32,
-    /// Surfaces met so far: each has random numbers of its own. Those that let the ray pass end no edge, else it would be edge − 1.
-    bounce: u32,
+    /// Edges of the path up to the end of the ray: the camera's has 1.
+    depth: u32,
+    /// Number of the next vertex, from 0: each has random numbers of its own. Null surfaces end no edge, else it would be depth − 1.
+    vertex: u32,
 }
 
 impl Integrator {
@@ -87,8 +87,8 @@ impl Integrator {
             radiance: DVec3::ZERO,
             eta_scale: 1.0,
             previous: Density::Delta,
-            edge: 1,
-            bounce: 0,
+            depth: 1,
+            vertex: 0,
         };
         while self.extend(&mut path, sampler, visitor) {}
         path.radiance
@@ -113,25 +113,25 @@ impl Integrator {
         let mut surface = self.world.surface(&path.ray, &hit, &path.moment);
         visitor.round_surface(&mut surface);
         let wo = -path.ray.direction;
-        visitor.surface(path.edge, &surface, wo, path.throughput);
+        visitor.surface(path.depth, &surface, wo, path.throughput);
         self.add_emission(path, &surface, wo, visitor);
-        // The last edge goes on through what lets it pass, and only blends do: plain `pass` surfaces are not in the world.
-        let is_last = path.edge == self.scene.render.max_depth;
+        // At the greatest depth the ray goes on through null surfaces alone, and only blends have those: plain `pass` surfaces are not in the world.
+        let is_last = path.depth == self.scene.render.max_depth;
         if is_last && !self.scene.materials[surface.owner.material].is_blend() {
             return false;
         }
-        let bounce = path.bounce;
-        let random = |dimension| sampler.uniform(Dimension::bounce(bounce, dimension));
-        let bsdf = Bsdf::new(&self.scene, &surface, wo, visitor.round_number(random(BounceDimension::Blend)));
+        let vertex = path.vertex;
+        let random = |dimension| sampler.uniform(Dimension::vertex(vertex, dimension));
+        let bsdf = Bsdf::new(&self.scene, &surface, wo, visitor.round_number(random(VertexDimension::Blend)));
         visitor.view(&bsdf.view);
         if !is_last {
-            let edge = path.edge;
-            for number in 0..self.scene.render.light_samples_at(edge) {
-                self.add_direct_light(path, &surface, &bsdf, || sampler.light_bits(bounce, edge, number), visitor);
+            let depth = path.depth;
+            for number in 0..self.scene.render.light_samples_at(depth) {
+                self.add_direct_light(path, &surface, &bsdf, || sampler.light_bits(vertex, depth, number), visitor);
             }
         }
-        let [u1, u2] = [BounceDimension::BsdfU, BounceDimension::BsdfV].map(|number| visitor.round_number(random(number)));
-        let u_lobe = visitor.round_number(random(BounceDimension::Lobe));
+        let [u1, u2] = [VertexDimension::BsdfU, VertexDimension::BsdfV].map(|number| visitor.round_number(random(number)));
+        let u_lobe = visitor.round_number(random(VertexDimension::Lobe));
         let Some(mut scattered) = bsdf.sample(u_lobe, u1, u2) else { return false };
         if V::ROUNDS {
             round_sample(&mut scattered, &bsdf, visitor);
@@ -146,13 +146,13 @@ impl Integrator {
         path.previous = density;
         path.ray = Ray { origin: surface.point.leave_towards(wi), direction: wi };
         visitor.round_ray(&mut path.ray, Some(&surface.point));
-        path.bounce += 1;
+        path.vertex += 1;
         if is_null {
             return true;
         }
-        let u_roulette = visitor.round_number(random(BounceDimension::Roulette));
+        let u_roulette = visitor.round_number(random(VertexDimension::Roulette));
         let survives = self.survives_roulette(path, u_roulette, visitor);
-        path.edge += 1;
+        path.depth += 1;
         survives
     }
 
@@ -181,7 +181,7 @@ impl Integrator {
     /// The weight of light that a path's ray found, where one light sample of the surface before has the density `light_pdf`.
     fn weight_of_found(&self, path: &Path, light_pdf: impl Fn() -> f64) -> f64 {
         let settings = &self.scene.render;
-        let light_pdf = || light_pdf() * f64::from(settings.light_samples_at(path.edge - 1));
+        let light_pdf = || light_pdf() * f64::from(settings.light_samples_at(path.depth - 1));
         match (path.previous, settings.estimator) {
             (Density::Delta, _) | (_, Estimator::Bsdf) => 1.0,
             (Density::SolidAngle(pdf), estimator) => match (light_pdf(), estimator) {
@@ -210,7 +210,7 @@ impl Integrator {
         let reference = surface.point.leave_towards(bsdf.view.wo);
         let Some(light) = self.lights.sample(&self.scene, (&self.world, &path.moment), reference, choice, [u, v]) else { return };
         // Several samples are as dense together as one of as many times its density.
-        let mut light = LightSample { pdf: light.pdf * f64::from(settings.light_samples_at(path.edge)), ..light };
+        let mut light = LightSample { pdf: light.pdf * f64::from(settings.light_samples_at(path.depth)), ..light };
         if V::ROUNDS {
             self.round_light(&mut light, visitor);
         }
@@ -247,10 +247,10 @@ impl Integrator {
     /// Russian roulette: the path goes on with probability q and then counts 1/q times as much, which leaves the mean as it is.
     fn survives_roulette<V: PathVisitor>(&self, path: &mut Path, u: f64, visitor: &mut V) -> bool {
         let first = self.scene.render.roulette_depth;
-        if first == 0 || path.edge < first {
+        if first == 0 || path.depth < first {
             return true;
         }
-        let largest = if path.edge < CERTAIN_ROULETTE_EDGE { 1.0 } else { LARGEST_SURVIVAL };
+        let largest = if path.depth < CERTAIN_ROULETTE_DEPTH { 1.0 } else { LARGEST_SURVIVAL };
         let survival = (path.throughput * path.eta_scale).max_element().min(largest);
         visitor.roulette(survival, u < survival);
         if u >= survival {

@@ -19,7 +19,7 @@ const UNIT: f64 = 0.5 * f32::EPSILON as f64;
 const POINT_ERROR: f64 = 1.0e-6;
 
 /// Random numbers are below 1: the largest that samplers give.
-const LARGEST_NUMBER: f64 = 1.0 - 1.0 / 4_294_967_296.0;
+const LARGEST_NUMBER: f64 = 1.0 - 1.0 / 16_777_216.0;
 
 /// Follows a path with intermediate results that are off by rounding errors, and notes which decisions were taken.
 #[derive(Debug, Clone)]
@@ -65,7 +65,7 @@ impl Rounding {
 }
 
 impl PathVisitor for Rounding {
-    fn surface(&mut self, _edge: u32, surface: &Surface, _wo: DVec3, _throughput: DVec3) {
+    fn surface(&mut self, _depth: u32, surface: &Surface, _wo: DVec3, _throughput: DVec3) {
         self.decided(1 + ((surface.owner.shape as u64) << 32 | surface.owner.part as u64));
     }
 

@@ -24,8 +24,8 @@ pub struct LightConnection {
 pub trait PathVisitor {
     /// A path or shadow ray is traced.
     fn ray(&mut self, _ray: &Ray) {}
-    /// The path met a surface; `throughput` is that of the path up to it, `edge` counts from 1.
-    fn surface(&mut self, _edge: u32, _surface: &Surface, _wo: DVec3, _throughput: DVec3) {}
+    /// The path met a surface; `throughput` is that of the path up to it, `depth` is that of the ray that met it.
+    fn surface(&mut self, _depth: u32, _surface: &Surface, _wo: DVec3, _throughput: DVec3) {}
     /// The surface emits towards the path.
     fn emission(&mut self, _radiance: DVec3, _weight: f64, _contribution: DVec3) {}
     /// The surface scatters, seen like this.
@@ -80,7 +80,7 @@ pub struct FoundLight {
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathVertex {
     /// Path edges up to here; the first surface has 1.
-    pub edge: u32,
+    pub depth: u32,
     pub position: DVec3,
     /// Front side.
     pub geometric_normal: DVec3,
@@ -124,9 +124,9 @@ impl PathVisitor for PathTrace {
         self.rays.push(*ray);
     }
 
-    fn surface(&mut self, edge: u32, surface: &Surface, wo: DVec3, throughput: DVec3) {
+    fn surface(&mut self, depth: u32, surface: &Surface, wo: DVec3, throughput: DVec3) {
         self.vertices.push(PathVertex {
-            edge,
+            depth,
             position: surface.point.position,
             geometric_normal: surface.point.normal,
             shading_normal: None,

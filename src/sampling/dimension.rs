@@ -1,6 +1,6 @@
 //! The named dimensions of a path.
 //!
-//! Dimensions come in blocks of four so that the device loads a block at once: blocks 0 and 1 are the camera's, every bounce has two.
+//! Dimensions come in blocks of four so that the device loads a block at once: blocks 0 and 1 are the camera's, every vertex has two.
 
 /// What a random number of the camera is used for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,7 +17,7 @@ pub enum CameraDimension {
 /// What a random number at a surface is used for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
-pub enum BounceDimension {
+pub enum VertexDimension {
     LightChoice = 0,
     LightU = 1,
     LightV = 2,
@@ -34,15 +34,15 @@ pub enum BounceDimension {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Dimension(pub u32);
 
-/// Dimensions before the first bounce's.
+/// Dimensions before the first vertex's.
 pub const CAMERA_DIMENSIONS: u32 = 8;
-/// Dimensions of each bounce.
-pub const BOUNCE_DIMENSIONS: u32 = 8;
-/// Bounces whose dimensions are drawn from the sampler's sequence; beyond them every sampler is the hashed generator. That many
+/// Dimensions of each vertex.
+pub const VERTEX_DIMENSIONS: u32 = 8;
+/// Vertices whose dimensions are drawn from the sampler's sequence; beyond them every sampler is the hashed generator. That many
 /// dimensions together need more samples than people take before they are evener than random numbers.
-pub const SEQUENCE_BOUNCES: u32 = 4;
+pub const SEQUENCE_VERTICES: u32 = 4;
 /// Dimensions that a sequence covers, unused ones included.
-pub const SEQUENCE_DIMENSIONS: u32 = CAMERA_DIMENSIONS + SEQUENCE_BOUNCES * BOUNCE_DIMENSIONS;
+pub const SEQUENCE_DIMENSIONS: u32 = CAMERA_DIMENSIONS + SEQUENCE_VERTICES * VERTEX_DIMENSIONS;
 
 /// How a dimension is stratified: alone, or with another as the two coordinates of a point in the square.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,9 +58,9 @@ impl Dimension {
         Self(dimension as u32)
     }
 
-    /// `bounce` counts surfaces from 0, the first one the camera sees.
-    pub const fn bounce(bounce: u32, dimension: BounceDimension) -> Self {
-        Self(CAMERA_DIMENSIONS + bounce * BOUNCE_DIMENSIONS + dimension as u32)
+    /// `vertex` counts surfaces from 0, the first one that the camera sees.
+    pub const fn vertex(vertex: u32, dimension: VertexDimension) -> Self {
+        Self(CAMERA_DIMENSIONS + vertex * VERTEX_DIMENSIONS + dimension as u32)
     }
 
     /// Whether this is a coordinate of the position inside the pixel.
@@ -68,12 +68,12 @@ impl Dimension {
         self.0 <= CameraDimension::PixelY as u32
     }
 
-    /// The bounce to whose light sample this belongs, if it does to one.
-    pub const fn light_bounce(self) -> Option<u32> {
-        if self.0 < CAMERA_DIMENSIONS || (self.0 - CAMERA_DIMENSIONS) % BOUNCE_DIMENSIONS > BounceDimension::LightV as u32 {
+    /// The vertex to whose light sample this belongs, if it does to one.
+    pub const fn light_vertex(self) -> Option<u32> {
+        if self.0 < CAMERA_DIMENSIONS || (self.0 - CAMERA_DIMENSIONS) % VERTEX_DIMENSIONS > VertexDimension::LightV as u32 {
             return None;
         }
-        Some((self.0 - CAMERA_DIMENSIONS) / BOUNCE_DIMENSIONS)
+        Some((self.0 - CAMERA_DIMENSIONS) / VERTEX_DIMENSIONS)
     }
 
     /// The pairs are the positions in the pixel, on the lens and on a light, and the direction that a material samples.
@@ -82,7 +82,7 @@ impl Dimension {
         let first = if d < CAMERA_DIMENSIONS {
             if d < 4 { d & !1 } else { return Strata::Line(d) }
         } else {
-            match (d - CAMERA_DIMENSIONS) % BOUNCE_DIMENSIONS {
+            match (d - CAMERA_DIMENSIONS) % VERTEX_DIMENSIONS {
                 1 | 4 => d,
                 2 | 5 => d - 1,
                 _ => return Strata::Line(d),
@@ -102,15 +102,15 @@ mod tests {
             assert_eq!(first.strata(), Strata::Square { first: first.0, axis: 0 });
             assert_eq!(second.strata(), Strata::Square { first: first.0, axis: 1 });
         };
-        use BounceDimension::*;
         use CameraDimension::*;
+        use VertexDimension::*;
         pair(Dimension::camera(PixelX), Dimension::camera(PixelY));
         pair(Dimension::camera(LensU), Dimension::camera(LensV));
         assert_eq!(Dimension::camera(Time).strata(), Strata::Line(4));
-        for bounce in 0..5 {
-            pair(Dimension::bounce(bounce, LightU), Dimension::bounce(bounce, LightV));
-            pair(Dimension::bounce(bounce, BsdfU), Dimension::bounce(bounce, BsdfV));
-            for alone in [LightChoice, Lobe, Roulette, Blend].map(|name| Dimension::bounce(bounce, name)) {
+        for vertex in 0..5 {
+            pair(Dimension::vertex(vertex, LightU), Dimension::vertex(vertex, LightV));
+            pair(Dimension::vertex(vertex, BsdfU), Dimension::vertex(vertex, BsdfV));
+            for alone in [LightChoice, Lobe, Roulette, Blend].map(|name| Dimension::vertex(vertex, name)) {
                 assert_eq!(alone.strata(), Strata::Line(alone.0));
             }
         }

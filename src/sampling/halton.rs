@@ -8,7 +8,7 @@ use super::dimension::SEQUENCE_DIMENSIONS;
 use super::hash::{dimension_bits, mix};
 use super::permutation::permuted;
 
-/// Base of each dimension. The pixel gets 2 and 3; then, bounce by bounce, what matters most gets the smallest primes left.
+/// Base of each dimension. The pixel gets 2 and 3; then, vertex by vertex, what matters most gets the smallest primes left.
 pub const BASES: [u32; SEQUENCE_DIMENSIONS as usize] = [
     2, 3, 17, 19, 41, 163, 167, 173, // pixel x and y, lens u and v, time, three that nothing uses
     23, 5, 7, 29, 11, 13, 31, 37, // light choice, light u and v, lobe, bsdf u and v, roulette, blend

@@ -22,7 +22,7 @@ pub mod sobol;
 pub mod strata;
 
 pub use alias::AliasTable;
-pub use dimension::{BounceDimension, CameraDimension, Dimension};
+pub use dimension::{CameraDimension, Dimension, VertexDimension};
 pub use environment::MapDistribution;
 pub use hierarchical_warp::{HierarchicalWarp, WarpSample};
 pub use light_sampler::{LightGroup, LightSampler};

@@ -7,7 +7,7 @@ use super::sequence::{Decorrelation, Sampling, SequencePoint};
 /// The middle of [0, 1), where a position inside the pixel is its centre.
 const CENTRE_BITS: u32 = 1 << 31;
 
-/// Dimensions of hashed light samples after the first of a surface start here, past all bounces that a path can have numbers for.
+/// Dimensions of hashed light samples after the first of a surface start here, past all vertices that a path can have numbers for.
 const HASHED_LIGHTS: u32 = 1 << 30;
 
 /// Draws the coordinates of one path's point in primary sample space, in any order.
@@ -37,21 +37,21 @@ impl<'a> PathSampler<'a> {
         }
     }
 
-    /// The bits of light sample `number` at bounce `bounce`, the end of the path's edge number `edge`: those of the light's choice, then of
-    /// the point on it.
-    pub fn light_bits(&self, bounce: u32, edge: u32, number: u32) -> [u32; 3] {
-        use super::dimension::BounceDimension::{LightChoice, LightU, LightV};
-        let dimensions = [LightChoice, LightU, LightV].map(|name| Dimension::bounce(bounce, name));
+    /// The bits of light sample `number` at vertex `vertex`, which a ray of this depth met: those of the light's choice, then of the point
+    /// on it.
+    pub fn light_bits(&self, vertex: u32, depth: u32, number: u32) -> [u32; 3] {
+        use super::dimension::VertexDimension::{LightChoice, LightU, LightV};
+        let dimensions = [LightChoice, LightU, LightV].map(|name| Dimension::vertex(vertex, name));
         if number == 0 {
             return dimensions.map(|dimension| self.bits(dimension));
         }
-        let shared = self.point.more_lights.get(((edge - 1) * (self.sampling.light_samples - 1) + number - 1) as usize);
+        let shared = self.point.more_lights.get(((depth - 1) * (self.sampling.light_samples - 1) + number - 1) as usize);
         std::array::from_fn(|axis| {
             let Dimension(d) = dimensions[axis];
             match (self.sampling.path.decorrelation(), shared) {
                 (Decorrelation::Rotation, Some(shared)) => shared[axis].wrapping_add(dimension_bits(self.pixel_key, d)),
                 (Decorrelation::DigitalShift, Some(shared)) => shared[axis] ^ dimension_bits(self.pixel_key, d),
-                _ => dimension_bits(self.path_key, HASHED_LIGHTS.wrapping_add(64 * (bounce + 1) + 4 * number + axis as u32)),
+                _ => dimension_bits(self.path_key, HASHED_LIGHTS.wrapping_add(64 * (vertex + 1) + 4 * number + axis as u32)),
             }
         })
     }

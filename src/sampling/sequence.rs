@@ -1,6 +1,6 @@
 //! What all pixels share of a sampler's numbers: worked out once per sample on the host.
 
-use super::dimension::{BounceDimension, Dimension, SEQUENCE_DIMENSIONS};
+use super::dimension::{Dimension, SEQUENCE_DIMENSIONS, VertexDimension};
 use super::halton::radical_inverse_bits;
 use super::sobol::sobol_bits;
 use super::strata::{quadrant_bits, stratified_bits};
@@ -34,7 +34,7 @@ impl From<&RenderSettings> for Sampling {
 }
 
 /// The dimensions of a light sample.
-const LIGHT: [BounceDimension; 3] = [BounceDimension::LightChoice, BounceDimension::LightU, BounceDimension::LightV];
+const LIGHT: [VertexDimension; 3] = [VertexDimension::LightChoice, VertexDimension::LightU, VertexDimension::LightV];
 
 /// How pixels are made independent of each other where they share a sequence: each moves it by a hash of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,13 +75,13 @@ impl Sampling {
 
     /// Bits that all pixels share; 0 where there are none.
     fn shared_bits(&self, dimension: Dimension, sample: u32) -> u32 {
-        if dimension.light_bounce().is_some_and(|bounce| bounce < self.light_samples_depth) {
+        if dimension.light_vertex().is_some_and(|vertex| vertex < self.light_samples_depth) {
             return self.light_bits(dimension, sample, 0);
         }
         self.bits_at(dimension, sample, self.samples)
     }
 
-    /// Those of light sample `number` at a surface that takes several. All light samples of a pixel at that bounce are points of one sequence.
+    /// Those of light sample `number` at a surface that takes several. All light samples of a pixel at that vertex are points of one sequence.
     fn light_bits(&self, dimension: Dimension, sample: u32, number: u32) -> u32 {
         let count = self.light_samples;
         let index = sample.wrapping_mul(count).wrapping_add(number);
@@ -115,11 +115,11 @@ pub struct SequencePoint {
 
 impl SequencePoint {
     pub fn new(sampling: &Sampling, sample: u32) -> Self {
-        let light = |bounce, number| {
-            let [choice, u, v] = LIGHT.map(|name| sampling.light_bits(Dimension::bounce(bounce, name), sample, number));
+        let light = |vertex, number| {
+            let [choice, u, v] = LIGHT.map(|name| sampling.light_bits(Dimension::vertex(vertex, name), sample, number));
             [choice, u, v, 0]
         };
-        let lights = |bounce| (1..sampling.light_samples).map(move |number| light(bounce, number));
+        let lights = |vertex| (1..sampling.light_samples).map(move |number| light(vertex, number));
         Self {
             sample,
             bits: std::array::from_fn(|d| sampling.shared_bits(Dimension(d as u32), sample)),

@@ -8,7 +8,7 @@
 use super::hash::{dimension_bits, mix};
 use super::permutation::nested_scramble;
 
-/// Which dimension of the sequence each of a block's four dimensions gets: the camera's blocks, and a bounce's first and second.
+/// Which dimension of the sequence each of a block's four dimensions gets: the camera's blocks, and a vertex's first and second.
 const PIXEL_AND_LENS: [usize; 4] = [0, 1, 2, 3];
 const LIGHT_AND_LOBE: [usize; 4] = [2, 0, 1, 3];
 const BSDF_AND_ROULETTE: [usize; 4] = [0, 1, 2, 3];

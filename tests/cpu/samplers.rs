@@ -7,18 +7,18 @@ use crate::statistics::random::SplitMix64;
 use gpt::compare::{Moments, sidak};
 use gpt::sampling::halton::{BASES, radical_inverse_bits};
 use gpt::sampling::sobol::sobol_bits;
-use gpt::sampling::{BounceDimension, CameraDimension, Dimension, PathSampler, Sampling, SequencePoint};
+use gpt::sampling::{CameraDimension, Dimension, PathSampler, Sampling, SequencePoint, VertexDimension};
 use gpt::scene::{PixelSampler, SamplerKind};
 
 /// Named pairs that a path uses as one point of a square: in the pixel, on the lens, on a light, a direction; the last two at the
-/// first and at the fourth bounce.
+/// first and at the fourth vertex.
 const PAIRS: [[Dimension; 2]; 6] = [
     [Dimension::camera(CameraDimension::PixelX), Dimension::camera(CameraDimension::PixelY)],
     [Dimension::camera(CameraDimension::LensU), Dimension::camera(CameraDimension::LensV)],
-    [Dimension::bounce(0, BounceDimension::LightU), Dimension::bounce(0, BounceDimension::LightV)],
-    [Dimension::bounce(0, BounceDimension::BsdfU), Dimension::bounce(0, BounceDimension::BsdfV)],
-    [Dimension::bounce(3, BounceDimension::LightU), Dimension::bounce(3, BounceDimension::LightV)],
-    [Dimension::bounce(3, BounceDimension::BsdfU), Dimension::bounce(3, BounceDimension::BsdfV)],
+    [Dimension::vertex(0, VertexDimension::LightU), Dimension::vertex(0, VertexDimension::LightV)],
+    [Dimension::vertex(0, VertexDimension::BsdfU), Dimension::vertex(0, VertexDimension::BsdfV)],
+    [Dimension::vertex(3, VertexDimension::LightU), Dimension::vertex(3, VertexDimension::LightV)],
+    [Dimension::vertex(3, VertexDimension::BsdfU), Dimension::vertex(3, VertexDimension::BsdfV)],
 ];
 
 fn sampling(path: SamplerKind, samples: u32, seed: u32) -> Sampling {
@@ -287,15 +287,15 @@ fn light_samples_of_a_pixel_are_one_sequence() {
     for (kind, most) in [(Sobol, 1), (Stratified, 4), (Independent, 64)] {
         let mut several = sampling(kind, 16, 77);
         (several.light_samples, several.light_samples_depth) = (4, 2);
-        let light_points = |pixel, bounce| -> Vec<[f64; 2]> {
+        let light_points = |pixel, vertex| -> Vec<[f64; 2]> {
             let point_of = |sample, number| {
                 let point = SequencePoint::new(&several, sample);
-                let [_, u, v] = PathSampler::new(&several, pixel, &point).light_bits(bounce, bounce + 1, number);
+                let [_, u, v] = PathSampler::new(&several, pixel, &point).light_bits(vertex, vertex + 1, number);
                 [u, v].map(gpt::sampling::sampler::uniform)
             };
             (0..16).flat_map(|sample| (0..4).map(move |number| (sample, number))).map(|(s, n)| point_of(s, n)).collect()
         };
-        let [points, later] = [0, 1].map(|bounce| light_points(4711, bounce));
+        let [points, later] = [0, 1].map(|vertex| light_points(4711, vertex));
         assert_eq!([points.len(), later.len()], [64; 2]);
         let shapes: &[[u32; 2]] = if kind == Sobol { &[[64, 1], [16, 4], [8, 8], [2, 32]] } else { &[[8, 8]] };
         for &parts in shapes {

@@ -49,7 +49,7 @@ pub struct BsdfSample {
     /// Index of refraction on wi's side over that on wo's side: 1 for a reflection. Radiance is scaled by 1/eta² when light
     /// crosses, which is part of `weight`.
     pub eta: f64,
-    /// The ray goes straight on through a null surface: no edge of the path ends here.
+    /// The ray goes straight on through a null surface: the path's depth stays.
     pub is_null: bool,
 }
 

@@ -101,7 +101,7 @@ fn a_trace_tells_where_the_radiance_came_from() {
             connected += usize::from(vertex.light.is_some());
         }
         assert!((sum - trace.radiance).length() <= 1e-12 * sum.length(), "{trace:?}");
-        assert!(trace.vertices.iter().zip(1..).all(|(vertex, edge)| vertex.edge == edge));
+        assert!(trace.vertices.iter().zip(1..).all(|(vertex, depth)| vertex.depth == depth));
     }
     assert!(connected > 100, "{connected}");
 }

@@ -214,9 +214,9 @@ impl fmt::Display for Assignment {
 }
 
 impl RenderSettings {
-    /// How many light samples the surface at the end of a path's edge number `edge` takes: 1 is the camera's ray.
-    pub fn light_samples_at(&self, edge: u32) -> u32 {
-        if (1..=self.light_samples_depth).contains(&edge) { self.light_samples } else { 1 }
+    /// How many light samples the surface takes that a ray of this depth met: 1 is the camera's.
+    pub fn light_samples_at(&self, depth: u32) -> u32 {
+        if (1..=self.light_samples_depth).contains(&depth) { self.light_samples } else { 1 }
     }
 
     /// Every setting with the value that counts: where the pixel's sampler is the path's, it has that one's name.

@@ -151,7 +151,10 @@ fn each_mistake_is_named_with_its_part() {
             "texture `cells`: its colours and its scale must be finite",
         ),
         (|s| s.materials[0].normal_map = Some(4), "material `grey`: there is no texture 4"),
-        (|s| emission(s, ColorInput::grey(-1.0)), "material `grey`: a colour must be finite and not negative"),
+        (
+            |s| emission(s, ColorInput::grey(-1.0)),
+            "material `grey`: a colour, or a complex index of refraction, must be finite and not negative",
+        ),
         (|s| emission(s, ColorInput::SquaredTexture(9)), "material `grey`: there is no texture 9"),
         (|s| emission(s, ColorInput::ScaledTexture(0, DVec3::NAN)), "material `grey`: the factor of a texture"),
         (

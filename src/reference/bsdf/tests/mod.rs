@@ -102,7 +102,7 @@ fn phong_glass(dielectric: Dielectric, exponent: f64) -> Lobe {
 fn examples() -> Vec<(String, Lobe, f64)> {
     let red = "[[material]]\nname = \"red\"\ntype = \"diffuse\"\nreflectance = [0.7, 0.1, 0.1]";
     let mirror = "[[material]]\nname = \"mirror\"\ntype = \"mirror\"";
-    let rest = "[camera]\nposition = [0, 0, 1]\nlook_at = [0, 0, 0]\n[[light]]\ntype = \"environment\"\nradiance = 1";
+    let rest = "[camera]\nposition = [0, 0, 1]\nlook_at = [0, 0, 0]\nvfov = 40\n[[light]]\ntype = \"environment\"\nradiance = 1";
     let lobe = |(name, keys): (&str, String)| {
         let text = format!("{rest}\n{red}\n{mirror}\n[[material]]\nname = \"example\"\n{keys}");
         let scene = load_toml_str(&text, "example.toml", Path::new("")).unwrap_or_else(|error| panic!("{name}: {error}"));
