@@ -2,6 +2,8 @@
 //!
 //! Reading scene files and models, packing a scene, building the hierarchy, drawing random numbers, following reference paths.
 
+#![allow(missing_docs, reason = "the macro that gathers the benchmarks makes a public function")]
+
 use std::hint::black_box;
 use std::path::Path;
 

@@ -13,7 +13,7 @@ pub fn by_ray_queries() -> PlanOptions {
 }
 
 /// Opened once a test program, with ray queries. None where tests are told to do without a device, or it has none: a line says so. With
-/// `GPT_TEST_RAY_QUERIES=require`, which CI sets, a device without them fails the tests.
+/// `GPT_TEST_RAY_QUERIES=require`, for machines known to have them, a device without them fails the tests.
 pub static RAY_QUERY_DEVICE: LazyLock<Option<Device>> = LazyLock::new(|| {
     if std::env::var("GPT_TEST_GPU").as_deref() == Ok("skip") {
         return None;
