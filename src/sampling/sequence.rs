@@ -48,6 +48,7 @@ pub enum Decorrelation {
 }
 
 impl SamplerKind {
+    #[doc(hidden)]
     pub fn decorrelation(self) -> Decorrelation {
         match self {
             Self::Independent => Decorrelation::Hashed,

@@ -34,6 +34,7 @@ pub struct Scene {
 
 impl Scene {
     /// Something gives light: a light, or a surface whose material emits.
+    #[doc(hidden)]
     pub fn has_light(&self) -> bool {
         if !self.lights.is_empty() {
             return true;
@@ -44,6 +45,7 @@ impl Scene {
 
     /// Of each material: whether it, or one of those that it blends at any depth, is as `wanted`. From those that are, up to all that are made
     /// of them, so the time does not depend on how deep blends are nested.
+    #[doc(hidden)]
     pub fn materials_that(&self, wanted: impl Fn(&Material) -> bool) -> Vec<bool> {
         let mut wholes: Vec<Vec<MaterialId>> = vec![Vec::new(); self.materials.len()];
         for (id, material) in self.materials.iter().enumerate() {
@@ -63,6 +65,7 @@ impl Scene {
     }
 
     /// The material emits, by itself or through a part of it.
+    #[doc(hidden)]
     pub fn emits(&self, material: MaterialId) -> bool {
         self.any_part(material, &|part| part.emission.is_some())
     }

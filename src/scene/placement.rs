@@ -17,6 +17,7 @@ const FAR: f64 = 4.0;
 
 impl Scene {
     /// What renderers take for the origin: (0, 0, 0), or the camera's position where the scene stands far from the origin.
+    #[doc(hidden)]
     pub fn center(&self) -> DVec3 {
         let camera = self.camera.position;
         let nearest = self.shapes.iter().map(|shape| shape.farthest_from(camera)).fold(f64::INFINITY, f64::min);
@@ -24,6 +25,7 @@ impl Scene {
     }
 
     /// The scene relative to its [center](Self::center).
+    #[doc(hidden)]
     pub fn centered(&self) -> Cow<'_, Self> {
         let center = self.center();
         if center == DVec3::ZERO {

@@ -215,6 +215,7 @@ impl fmt::Display for Assignment {
 
 impl RenderSettings {
     /// How many light samples the surface takes that a ray of this depth met: 1 is the camera's.
+    #[doc(hidden)]
     pub fn light_samples_at(&self, depth: u32) -> u32 {
         if (1..=self.light_samples_depth).contains(&depth) { self.light_samples } else { 1 }
     }
