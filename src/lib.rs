@@ -77,6 +77,7 @@ mod error;
 pub mod film;
 #[doc(hidden)]
 pub mod gpu;
+mod input;
 #[doc(hidden)]
 pub mod load;
 #[doc(hidden)]

@@ -1,10 +1,12 @@
 //! What can be typed, as clap reads it.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
 use gpt::compare::Metric;
+use gpt::load::LoadOptions;
 use gpt::plan::Fault;
 use gpt::renderer::DeviceChoice;
 use gpt::scene::settings::MOST_SAMPLES;
@@ -42,8 +44,10 @@ pub enum Command {
 
 #[derive(Debug, Args)]
 pub struct RenderArguments {
-    /// A .toml scene, an .obj model, or the name of a built-in scene [default: cornell]
-    pub scene: Option<String>,
+    /// A .toml scene, an .obj model, the name of a built-in scene, or - for a .toml scene on the standard input [default: cornell]
+    pub scene: Option<OsString>,
+    #[command(flatten)]
+    pub access: AccessArguments,
     /// Picture to write: .exr (linear float) or .png (sRGB preview); may be given several times [default: SCENE-name.exr]
     #[arg(short, long = "output", value_name = "FILE")]
     pub outputs: Vec<PathBuf>,
@@ -65,9 +69,24 @@ pub struct RenderArguments {
     /// No progress on stderr
     #[arg(short, long)]
     pub quiet: bool,
-    /// Exit with code 6 if a sample was not finite
+    /// Exit with code 6 if a sample was not finite, and with code 3 where something else would stand for a missing texture or material
     #[arg(long)]
     pub strict: bool,
+}
+
+/// Which files a scene may name.
+#[derive(Debug, Default, Args)]
+pub struct AccessArguments {
+    /// Refuse files that the scene names outside of this folder, wherever links lead
+    #[arg(long, value_name = "DIR")]
+    pub assets_root: Option<PathBuf>,
+}
+
+impl AccessArguments {
+    /// What reading a scene may do.
+    pub fn options(&self, strict: bool) -> LoadOptions {
+        LoadOptions { assets_root: self.assets_root.clone(), strict }
+    }
 }
 
 /// What ends a render before its last sample, and where its samples go.
@@ -119,7 +138,9 @@ pub struct CompareArguments {
 #[derive(Debug, Args)]
 pub struct VerifyArguments {
     /// A .toml scene, an .obj model, or the name of a built-in scene [default: closed forms and every built-in scene]
-    pub scene: Option<String>,
+    pub scene: Option<OsString>,
+    #[command(flatten)]
+    pub access: AccessArguments,
     /// Follow one path of the pixel at column X, row Y on both devices and print it side by side [scene: cornell]
     #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
     pub pixel: Option<[u32; 2]>,
@@ -153,9 +174,14 @@ pub struct VerifyArguments {
 
 #[derive(Debug, Args)]
 pub struct CheckArguments {
-    /// A .toml scene, an .obj model, or the name of a built-in scene
+    /// A .toml scene, an .obj model, the name of a built-in scene, or - for a .toml scene on the standard input
     #[arg(required_unless_present = "schema")]
-    pub scene: Option<String>,
+    pub scene: Option<OsString>,
+    #[command(flatten)]
+    pub access: AccessArguments,
+    /// Exit with code 3 where something else would stand for a missing texture or material
+    #[arg(long)]
+    pub strict: bool,
     #[command(flatten)]
     pub traversal: TraversalArguments,
     /// Print JSON

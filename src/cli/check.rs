@@ -17,7 +17,7 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
         terminal::answer(&load::json_schema())?;
         return Ok(Exit::Done);
     };
-    let scene = load::load(Some(name))?;
+    let scene = load::load_with(Some(name), &arguments.access.options(arguments.strict))?;
     for warning in &scene.warnings {
         terminal::warn(warning);
     }

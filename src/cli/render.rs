@@ -74,7 +74,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
 
 /// The scene as the file and the command line together want it.
 fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
-    let mut scene = load::load(arguments.scene.as_deref())?;
+    let mut scene = load::load_with(arguments.scene.as_deref(), &arguments.access.options(arguments.strict))?;
     for warning in &scene.warnings {
         terminal::warn(warning);
     }

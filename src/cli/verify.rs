@@ -1,5 +1,6 @@
 //! `gpt verify`.
 
+use std::ffi::OsStr;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -69,13 +70,13 @@ pub fn run(arguments: &VerifyArguments) -> Result<Exit, Failure> {
     let named = arguments.scene.as_deref().map(|name| load(name, arguments)).transpose()?;
     let device = Device::open_for(&arguments.device, &options)?;
     if let (Some(name), Some(scene)) = (&arguments.scene, named) {
-        findings.add(verify_scene(&device, name, &scene, arguments, &options)?)?;
+        findings.add(verify_scene(&device, &name.to_string_lossy(), &scene, arguments, &options)?)?;
     } else {
         for index in 0..closed_forms::count() {
             findings.add(Finding::ClosedForm(closed_forms::check(index, &device, &options).map_err(failure)?))?;
         }
         for name in load::builtin_names() {
-            match verify_scene(&device, name, &load(name, arguments)?, arguments, &options) {
+            match verify_scene(&device, name, &load(OsStr::new(name), arguments)?, arguments, &options) {
                 // Not every scene can be traversed in every way; the others still are.
                 Err(Failure::Render(RenderError::DoesNotFit(why))) if options.asks_for_ray_queries() => {
                     terminal::warn(&format!("{name} is left out: {why}"));
@@ -157,7 +158,7 @@ fn was_planted(arguments: &VerifyArguments, planted: bool) -> Result<(), Failure
 
 /// Prints one path on both devices.
 fn follow(arguments: &VerifyArguments, [x, y]: [u32; 2], options: &PlanOptions) -> Result<Exit, Failure> {
-    let name = arguments.scene.as_deref().unwrap_or("cornell");
+    let name = arguments.scene.as_deref().unwrap_or(OsStr::new("cornell"));
     let scene = load(name, arguments)?;
     let [width, height] = scene.film.size;
     if x >= width || y >= height {
@@ -176,8 +177,8 @@ fn follow(arguments: &VerifyArguments, [x, y]: [u32; 2], options: &PlanOptions) 
     Ok(if comparison.agrees { Exit::Done } else { Exit::Difference })
 }
 
-fn load(name: &str, arguments: &VerifyArguments) -> Result<Scene, Failure> {
-    let mut scene = load::load(Some(name))?;
+fn load(name: &OsStr, arguments: &VerifyArguments) -> Result<Scene, Failure> {
+    let mut scene = load::load_with(Some(name), &arguments.access.options(false))?;
     match arguments.size {
         Some(size) => scene.film.size = size,
         None => verify::shrink(&mut scene, DEFAULT_SIDE),

@@ -1,8 +1,5 @@
 //! Scenes that are part of the program, and the files they name.
 
-use std::borrow::Cow;
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 
 /// The folder that built-in scenes lie in, as far as paths go: what they name is looked up among [`FILES`], not on disk.
@@ -55,33 +52,8 @@ pub fn builtin_text(name: &str) -> Option<&'static str> {
     SCENES.iter().find(|(other, _)| *other == name).map(|(_, text)| *text)
 }
 
-/// Whether there is such a file, on disk or in the program.
-pub(super) fn is_file(path: &Path) -> bool {
-    embedded(path).is_some() || path.is_file()
-}
-
-/// Reads a file from disk, or one that is part of the program.
-pub(super) fn read(path: &Path) -> io::Result<Cow<'static, [u8]>> {
-    match embedded(path) {
-        Some(content) => Ok(Cow::Borrowed(content)),
-        None => std::fs::read(path).map(Cow::Owned),
-    }
-}
-
-/// A file that is read from any place in it.
-pub(super) trait SeekableFile: BufRead + Seek {}
-
-impl<T: BufRead + Seek> SeekableFile for T {}
-
-/// Opens a file on disk, or one that is part of the program.
-pub(super) fn open(path: &Path) -> io::Result<Box<dyn SeekableFile>> {
-    match embedded(path) {
-        Some(content) => Ok(Box::new(Cursor::new(content))),
-        None => Ok(Box::new(BufReader::new(File::open(path)?))),
-    }
-}
-
-fn embedded(path: &Path) -> Option<&'static [u8]> {
+/// A file that built-in scenes name.
+pub(super) fn embedded(path: &Path) -> Option<&'static [u8]> {
     let within = path.strip_prefix(FOLDER).ok()?;
     FILES.iter().find(|(name, _)| Path::new(name) == within).map(|(_, content)| *content)
 }

@@ -1,64 +1,199 @@
 //! Image files as linear texels.
 
+use std::io::{BufRead, Seek};
 use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
 
+use exr::meta::MetaData;
+use exr::prelude::{ReadChannels, ReadLayers};
 use glam::Vec3;
 use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 
-use super::builtin;
+use super::files::{Files, SeekableFile};
+use super::memory;
 use crate::math::srgb_to_linear;
 use crate::scene::{ColorSpace, ImageData};
 
 /// Most texels on a side.
 const LARGEST_SIDE: u32 = 16_384;
-/// Most bytes the decoder may hold: 16 bytes for every texel of the largest image.
-const MOST_BYTES: u64 = 16 * (LARGEST_SIDE as u64) * (LARGEST_SIDE as u64);
+/// Bytes of a texel once it is read.
+const KEPT: u64 = size_of::<Vec3>() as u64;
+/// Most bytes of a texel besides those while it is decoded.
+const WHILE_DECODED: u64 = 28;
+/// Pictures of more texels are decoded one at a time.
+const LARGE: u64 = 1 << 24;
+/// Stands for texels that are infinite, which most of them became by overflow: the largest half-precision number.
+const OVERFLOWN: f32 = 65_504.0;
+
+/// The pictures of a scene. All together have one budget of memory, and what headers say is held against it before anything is decoded.
+#[derive(Debug)]
+pub struct Pictures {
+    files: Files,
+    budget: u64,
+    texels: AtomicU64,
+    large: Mutex<()>,
+}
+
+/// A picture that was read.
+#[derive(Debug)]
+pub struct Picture {
+    pub image: ImageData,
+    /// It holds floating-point numbers, else integers of so many bits.
+    pub integer_bits: Option<u16>,
+    /// What was changed in it, in words.
+    pub change: Option<String>,
+}
 
 /// Reads an image and turns it into linear colours. Without a colour space, formats of integers are taken to be sRGB and those of
 /// floating-point numbers linear. The error says what is wrong with the file, without its name.
 pub fn read_image(path: &Path, color_space: Option<ColorSpace>) -> Result<ImageData, String> {
-    let is_exr = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr"));
-    let image = if is_exr { read_exr(path, color_space)? } else { read_other(path, color_space)? };
-    match image.texels.iter().any(|texel| !texel.is_finite() || texel.min_element() < 0.0) {
-        true => Err("the image has texels that are negative or not finite".to_owned()),
-        false => Ok(image),
+    Pictures::new(Files::default()).read(path, color_space).map(|picture| picture.image)
+}
+
+impl Pictures {
+    /// With half of the memory that is free.
+    pub fn new(files: Files) -> Self {
+        Self::within(files, memory::available() / 2)
+    }
+
+    /// With a budget in bytes.
+    pub fn within(files: Files, budget: u64) -> Self {
+        Self { files, budget, texels: AtomicU64::new(0), large: Mutex::new(()) }
+    }
+
+    pub fn files(&self) -> &Files {
+        &self.files
+    }
+
+    /// As [`read_image`], out of this budget.
+    pub fn read(&self, path: &Path, color_space: Option<ColorSpace>) -> Result<Picture, String> {
+        let is_exr = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr"));
+        let mut picture = if is_exr { self.read_exr(path, color_space)? } else { self.read_other(path, color_space)? };
+        picture.change = clamp(&mut picture.image)?;
+        Ok(picture)
+    }
+
+    fn open(&self, path: &Path) -> Result<Box<dyn SeekableFile + Send>, String> {
+        self.files.open(path).map_err(|error| format!("cannot be read: {error}"))
+    }
+
+    /// Calls `decode` if there is room for the picture.
+    fn decode<T>(&self, [width, height]: [u32; 2], decode: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+        if width == 0 || height == 0 {
+            return Err(format!("the image is empty: {width} x {height} pixels"));
+        }
+        if width.max(height) > LARGEST_SIDE {
+            return Err(format!("the image is too large: {width} x {height} pixels, at most {LARGEST_SIDE} on a side"));
+        }
+        let texels = u64::from(width) * u64::from(height);
+        let before = self.texels.fetch_add(texels, Ordering::Relaxed);
+        let needed = KEPT * (before + texels) + WHILE_DECODED * texels;
+        if needed > self.budget {
+            self.texels.fetch_sub(texels, Ordering::Relaxed);
+            let (needed, budget) = (needed.div_ceil(1 << 20), self.budget >> 20);
+            return Err(format!(
+                "the image of {width} x {height} pixels does not fit: with those before, it needs {needed} MiB of memory, and pictures \
+                 may take {budget} MiB here; make it smaller"
+            ));
+        }
+        // A poisoned lock has lost nothing: it holds no data.
+        let _alone = (texels > LARGE).then(|| self.large.lock().unwrap_or_else(std::sync::PoisonError::into_inner));
+        decode().inspect_err(|_| {
+            self.texels.fetch_sub(texels, Ordering::Relaxed);
+        })
+    }
+
+    fn read_other(&self, path: &Path, color_space: Option<ColorSpace>) -> Result<Picture, String> {
+        let reader = guess(path, self.open(path)?)?;
+        if reader.format().is_none() {
+            return Err("is not an image in a format known here (PNG, JPEG, EXR, HDR, TIFF, BMP, TGA, WebP, GIF, PNM)".to_owned());
+        }
+        let (width, height) = reader.into_dimensions().map_err(|error| format!("is not a valid image: {error}"))?;
+        self.decode([width, height], || {
+            let mut reader = guess(path, self.open(path)?)?;
+            let mut limits = Limits::no_limits();
+            limits.max_image_width = Some(width);
+            limits.max_image_height = Some(height);
+            // A decoder's own tables besides the pixels, of which even small pictures have some.
+            limits.max_alloc = Some((16 * u64::from(width) * u64::from(height)).max(1 << 26));
+            reader.limits(limits);
+            let image = reader.decode().map_err(|error| format!("is not a valid image: {error}"))?;
+            let bits = image.color().bits_per_pixel() / u16::from(image.color().channel_count());
+            let is_float = matches!(image, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_));
+            let integer_bits = (!is_float).then_some(bits);
+            Ok(Picture { image: to_linear(image, color_space), integer_bits, change: None })
+        })
+    }
+
+    fn read_exr(&self, path: &Path, color_space: Option<ColorSpace>) -> Result<Picture, String> {
+        let space = color_space.unwrap_or(ColorSpace::Linear);
+        let metadata = MetaData::read_from_buffered(self.open(path)?, false);
+        let metadata = metadata.map_err(|error| format!("is not a valid EXR: {error}"))?;
+        let side = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
+        // Which layer is read is found out on the way: the largest stands for it.
+        let sizes = metadata.headers.iter().map(|header| [side(header.layer_size.x()), side(header.layer_size.y())]);
+        let size = sizes.max_by_key(|[width, height]| u64::from(*width) * u64::from(*height)).unwrap_or([0, 0]);
+        let image = self.decode(size, || {
+            let create = move |size: exr::math::Vec2<usize>, _: &_| Collected {
+                image: ImageData {
+                    width: size.x() as u32,
+                    height: size.y() as u32,
+                    texels: vec![Vec3::ZERO; size.area()],
+                    has_alpha: false,
+                },
+                space,
+            };
+            let set =
+                |collected: &mut Collected, position: exr::math::Vec2<usize>, (red, green, blue, alpha): (f32, f32, f32, f32)| {
+                    let image = &mut collected.image;
+                    let index = position.y() * image.width as usize + position.x();
+                    image.texels[index] = Vec3::from_array([red, green, blue].map(|value| decode(value, collected.space)));
+                    image.has_alpha |= alpha != 1.0;
+                };
+            let reader = exr::prelude::read().no_deep_data().largest_resolution_level().rgba_channels(create, set);
+            let read = reader.first_valid_layer().all_attributes().from_buffered(self.open(path)?);
+            let picture = read.map_err(|error| format!("is not an EXR with channels R, G and B: {error}"))?;
+            Ok(picture.layer_data.channel_data.pixels.image)
+        })?;
+        Ok(Picture { image, integer_bits: None, change: None })
     }
 }
 
-fn check_size(width: u32, height: u32) -> Result<(), String> {
-    if width == 0 || height == 0 {
-        return Err(format!("the image is empty: {width} x {height} pixels"));
+fn guess<R: BufRead + Seek>(path: &Path, file: R) -> Result<ImageReader<R>, String> {
+    let mut reader = ImageReader::new(file);
+    // The ending says what a file without a signature is, as TGA files are.
+    if let Ok(format) = ImageFormat::from_path(path) {
+        reader.set_format(format);
     }
-    if width.max(height) > LARGEST_SIDE {
-        return Err(format!("the image is too large: {width} x {height} pixels, at most {LARGEST_SIDE} on a side"));
-    }
-    Ok(())
+    reader.with_guessed_format().map_err(|error| format!("cannot be read: {error}"))
 }
 
-fn read_other(path: &Path, color_space: Option<ColorSpace>) -> Result<ImageData, String> {
-    let open = || {
-        let reader = builtin::open(path).and_then(|file| {
-            let mut reader = ImageReader::new(file);
-            // The ending says what a file without a signature is, as TGA files are.
-            if let Ok(format) = ImageFormat::from_path(path) {
-                reader.set_format(format);
-            }
-            reader.with_guessed_format()
-        });
-        reader.map_err(|error| format!("cannot be read: {error}"))
+/// Makes the few texels possible that are negative or not finite, as filters and overflow leave them in many maps.
+fn clamp(image: &mut ImageData) -> Result<Option<String>, String> {
+    let possible = |value: f32| value.is_finite() && value >= 0.0;
+    let bad = |texel: &Vec3| !texel.to_array().into_iter().all(possible);
+    let (count, all) = (image.texels.iter().filter(|texel| bad(texel)).count(), image.texels.len());
+    if count == 0 {
+        return Ok(None);
+    }
+    if count > 1 && count > all / 10 {
+        return Err(format!("{count} of the image's {all} texels are negative or not finite, so it holds no colours"));
+    }
+    let largest =
+        image.texels.iter().flat_map(|texel| texel.to_array()).filter(|value| possible(*value)).fold(OVERFLOWN, f32::max);
+    let mend = |value: f32| {
+        if value == f32::INFINITY {
+            largest
+        } else if possible(value) {
+            value
+        } else {
+            0.0
+        }
     };
-    let reader = open()?;
-    if reader.format().is_none() {
-        return Err("is not an image in a format known here (PNG, JPEG, EXR, HDR, TIFF, BMP, TGA, WebP, GIF, PNM)".to_owned());
-    }
-    let (width, height) = reader.into_dimensions().map_err(|error| format!("is not a valid image: {error}"))?;
-    check_size(width, height)?;
-    let mut reader = open()?;
-    let mut limits = Limits::no_limits();
-    limits.max_alloc = Some(MOST_BYTES);
-    reader.limits(limits);
-    let image = reader.decode().map_err(|error| format!("is not a valid image: {error}"))?;
-    Ok(to_linear(image, color_space))
+    image.texels.iter_mut().filter(|texel| bad(texel)).for_each(|texel| *texel = texel.map(mend));
+    let texels = if count == 1 { "one texel that is".to_owned() } else { format!("{count} texels that are") };
+    Ok(Some(format!("{texels} negative or not finite: 0 stands for negative values, {largest} for infinite ones")))
 }
 
 fn to_linear(image: DynamicImage, color_space: Option<ColorSpace>) -> ImageData {
@@ -94,35 +229,6 @@ struct Collected {
     space: ColorSpace,
 }
 
-fn read_exr(path: &Path, color_space: Option<ColorSpace>) -> Result<ImageData, String> {
-    let space = color_space.unwrap_or(ColorSpace::Linear);
-    let metadata = exr::meta::MetaData::read_from_file(path, false).map_err(|error| format!("is not a valid EXR: {error}"))?;
-    for header in &metadata.headers {
-        let size = header.layer_size;
-        check_size(u32::try_from(size.x()).unwrap_or(u32::MAX), u32::try_from(size.y()).unwrap_or(u32::MAX))?;
-    }
-    let read = exr::prelude::read_first_rgba_layer_from_file(
-        path,
-        move |size, _| Collected {
-            image: ImageData {
-                width: size.x() as u32,
-                height: size.y() as u32,
-                texels: vec![Vec3::ZERO; size.area()],
-                has_alpha: false,
-            },
-            space,
-        },
-        |collected: &mut Collected, position, (red, green, blue, alpha): (f32, f32, f32, f32)| {
-            let image = &mut collected.image;
-            let index = position.y() * image.width as usize + position.x();
-            image.texels[index] = Vec3::from_array([red, green, blue].map(|value| decode(value, collected.space)));
-            image.has_alpha |= alpha != 1.0;
-        },
-    );
-    let picture = read.map_err(|error| format!("is not an EXR with channels R, G and B: {error}"))?;
-    Ok(picture.layer_data.channel_data.pixels.image)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -134,5 +240,36 @@ mod tests {
         // 0.04045 / 12.92 where the pieces meet, and the middle grey 128/255.
         approx::assert_relative_eq!(srgb_to_linear(0.04045), 0.003_130_805, max_relative = 1e-6);
         approx::assert_relative_eq!(srgb_to_linear(128.0 / 255.0), 0.215_860_5, max_relative = 1e-6);
+    }
+
+    #[test]
+    fn pictures_share_a_budget_and_headers_are_held_against_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let paths = ["a.png", "b.exr", "c.png"].map(|name| folder.path().join(name));
+        image::RgbImage::new(100, 100).save(&paths[0]).unwrap();
+        exr::prelude::write_rgb_file(&paths[1], 100, 100, |_, _| (1.0_f32, 1.0_f32, 1.0_f32)).unwrap();
+        image::RgbImage::new(3000, 3000).save(&paths[2]).unwrap();
+        // Room for both small pictures, but not while a third is decoded.
+        let pictures = Pictures::within(Files::default(), 2 * 10_000 * KEPT + 10_000 * WHILE_DECODED);
+        let read = |path: &Path| pictures.read(path, None).map(|picture| picture.image.texels.len());
+        let refusal = read(&paths[2]).unwrap_err();
+        assert!(refusal.contains("3000 x 3000") && refusal.contains("344 MiB"), "{refusal}");
+        // What was refused takes no room.
+        assert_eq!((read(&paths[0]), read(&paths[1])), (Ok(10_000), Ok(10_000)));
+        assert!(read(&paths[0]).is_err());
+    }
+
+    #[test]
+    fn a_few_impossible_texels_are_mended_and_many_are_refused() {
+        let mut image = ImageData { width: 100, height: 1, texels: vec![Vec3::ONE; 100], has_alpha: false };
+        assert_eq!(clamp(&mut image), Ok(None));
+        image.texels[3] = Vec3::new(f32::INFINITY, -0.01, 2.0);
+        image.texels[4] = Vec3::new(f32::NAN, f32::NEG_INFINITY, 1.0);
+        let change = clamp(&mut image).unwrap().unwrap();
+        assert!(change.starts_with("2 texels") && change.contains("65504"), "{change}");
+        assert_eq!(image.texels[3..5], [Vec3::new(65_504.0, 0.0, 2.0), Vec3::new(0.0, 0.0, 1.0)]);
+        assert_eq!(clamp(&mut image), Ok(None));
+        image.texels[..50].fill(Vec3::NEG_ONE);
+        assert!(clamp(&mut image).is_err());
     }
 }

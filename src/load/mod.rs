@@ -6,20 +6,26 @@
 //! - `builtin`: scenes that are part of the program.
 //! - [`error`]: what is wrong with an input file, and where.
 
+mod access;
 mod builtin;
+mod encoding;
 pub mod error;
 mod excerpt;
 pub mod file;
+mod files;
+mod formats;
 mod framing;
 mod image_file;
+mod memory;
 mod obj;
 mod printable;
 pub mod source;
 
+pub use access::LoadOptions;
 pub use builtin::{builtin_names, builtin_text};
 pub use error::SceneError;
 pub use excerpt::Excerpt;
 pub use file::{json_schema, load_toml_str};
 pub use image_file::read_image;
 pub use printable::printable;
-pub use source::{SceneSource, load};
+pub use source::{SceneSource, load, load_with};

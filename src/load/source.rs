@@ -1,10 +1,14 @@
 //! Where scenes come from: a file, a model, a name.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
+use super::access::{Access, LoadOptions};
 use super::builtin::{FOLDER, builtin_names, builtin_text};
 use super::error::{SceneError, show};
-use super::{file, framing};
+use super::files::MOST_SCENE_BYTES;
+use super::{encoding, file, formats, framing};
+use crate::input;
 use crate::scene::Scene;
 
 /// What a person named as the scene.
@@ -12,6 +16,8 @@ use crate::scene::Scene;
 pub enum SceneSource {
     /// A scene that is part of the program, by its name.
     BuiltIn(&'static str),
+    /// A scene file on the standard input (`-`).
+    StandardInput,
     /// A scene file (`.toml`).
     File(PathBuf),
     /// A model (`.obj`), which is framed by itself.
@@ -19,43 +25,50 @@ pub enum SceneSource {
 }
 
 impl SceneSource {
-    /// Tells the source from what was written: a path by its ending `.toml` or `.obj`, else a built-in scene's name; nothing is the
-    /// default scene, `cornell`.
-    pub fn parse(written: Option<&str>) -> Result<Self, SceneError> {
+    /// Tells the source from what was written: a path by its ending `.toml` or `.obj`, else a built-in scene's name; `-` is the standard
+    /// input, and nothing is the default scene, `cornell`.
+    pub fn parse(written: Option<&OsStr>) -> Result<Self, SceneError> {
         let Some(written) = written else { return Ok(Self::BuiltIn("cornell")) };
         let path = Path::new(written);
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
         match ending.as_deref() {
             Some("toml") => return Ok(Self::File(path.to_owned())),
             Some("obj") => return Ok(Self::Model(path.to_owned())),
+            _ if written == "-" => return Ok(Self::StandardInput),
             _ => {}
         }
-        if let Some(name) = builtin_names().find(|name| *name == written) {
+        let name = written.to_string_lossy();
+        if let Some(name) = builtin_names().find(|builtin| *builtin == name) {
             return Ok(Self::BuiltIn(name));
+        }
+        if let Some((what, advice)) = formats::advice(path) {
+            let message = format!("is {what}; what is read are {}", formats::SCENES);
+            return Err(SceneError::in_file(show(path), message).with_help(advice));
         }
         let what = if path.exists() { "is neither a scene file nor a model" } else { "is no built-in scene" };
         let names: Vec<&str> = builtin_names().collect();
-        let help = file::did_you_mean(written, &names).unwrap_or_default();
-        Err(SceneError::in_file(written, what).with_help(format!("{help}; or a file that ends in .toml or .obj")))
+        let help = file::did_you_mean(&name, &names).unwrap_or_default();
+        Err(SceneError::in_file(show(path), what).with_help(format!("{help}; or a file that ends in .toml or .obj")))
     }
 
     /// Reads the scene.
-    pub fn load(&self) -> Result<Scene, SceneError> {
+    pub fn load(&self, options: &LoadOptions) -> Result<Scene, SceneError> {
+        let access = options.access()?;
         match self {
             Self::BuiltIn(name) => {
                 let text = builtin_text(name).ok_or_else(|| SceneError::in_file(name, "is no built-in scene"))?;
-                file::load_toml_str(text, name, Path::new(FOLDER))
+                file::load_toml(text, name, Path::new(FOLDER), access)
+            }
+            Self::StandardInput => {
+                let read = input::read_to_end(std::io::stdin().lock(), 0, MOST_SCENE_BYTES);
+                load_bytes(read, "stdin", Path::new(""), access)
             }
             Self::File(path) => {
-                let name = show(path);
-                let bytes =
-                    std::fs::read(path).map_err(|error| SceneError::in_file(&name, format!("cannot be read: {error}")))?;
-                let text = String::from_utf8(bytes)
-                    .map_err(|error| SceneError::in_file(&name, format!("is not a text in UTF-8: {error}")))?;
-                file::load_toml_str(&text, &name, path.parent().unwrap_or(Path::new("")))
+                let read = input::read(path, MOST_SCENE_BYTES);
+                load_bytes(read, &show(path), path.parent().unwrap_or(Path::new("")), access)
             }
             Self::Model(path) => {
-                let mut scene = file::load_model(path)?;
+                let mut scene = file::load_model(path, access)?;
                 scene.name = super::file::stem(&show(path));
                 framing::frame(scene, &show(path))
             }
@@ -63,7 +76,23 @@ impl SceneSource {
     }
 }
 
+fn load_bytes(read: std::io::Result<Vec<u8>>, name: &str, folder: &Path, access: Access) -> Result<Scene, SceneError> {
+    let bytes = read.map_err(|error| SceneError::in_file(name, format!("cannot be read: {error}")))?;
+    match encoding::decode(&bytes) {
+        (text, None) => file::load_toml(&text, name, folder, access),
+        (_, Some(encoding)) => {
+            let message = format!("is not a text in UTF-8 but, as it seems, in {encoding}");
+            Err(SceneError::in_file(name, message).with_help("save it as UTF-8"))
+        }
+    }
+}
+
 /// Reads the scene a person named: a `.toml` file, an `.obj` model, or a built-in scene; `cornell` where nothing is named.
 pub fn load(written: Option<&str>) -> Result<Scene, SceneError> {
-    SceneSource::parse(written)?.load()
+    load_with(written.map(OsStr::new), &LoadOptions::default())
+}
+
+/// As [`load`], with `-` for the standard input.
+pub fn load_with(written: Option<&OsStr>, options: &LoadOptions) -> Result<Scene, SceneError> {
+    SceneSource::parse(written)?.load(options)
 }

@@ -1,13 +1,15 @@
 //! Pictures read back, from this program and from others.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use exr::image::{AnyChannels, FlatSamples, Layer};
 use exr::meta::MetaData;
 use exr::prelude::{ReadChannels, ReadLayers, f16};
+use image::{ImageFormat, ImageReader};
 
+use crate::input;
 use crate::math::srgb_to_linear;
 use crate::scene::settings::{MAX_PIXELS, MAX_SIDE};
 
@@ -41,7 +43,7 @@ const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 pub fn read_image(path: &Path) -> Result<Image, ReadError> {
     let failure = |what: String| ReadError { path: path.to_owned(), what };
     let mut magic = [0; 4];
-    let is_exr = File::open(path)
+    let is_exr = input::open(path)
         .and_then(|mut file| file.read_exact(&mut magic).map(|()| magic == EXR_MAGIC).or_else(short_file))
         .map_err(|error| failure(error.to_string()))?;
     if is_exr { read_exr(path).map_err(failure) } else { read_other(path).map_err(failure) }
@@ -52,8 +54,12 @@ fn short_file(error: std::io::Error) -> std::io::Result<bool> {
     if error.kind() == std::io::ErrorKind::UnexpectedEof { Ok(false) } else { Err(error) }
 }
 
+fn open(path: &Path) -> Result<BufReader<File>, String> {
+    input::open(path).map(BufReader::new).map_err(|error| error.to_string())
+}
+
 fn read_exr(path: &Path) -> Result<Image, String> {
-    let meta = MetaData::read_from_file(path, false).map_err(|error| error.to_string())?;
+    let meta = MetaData::read_from_buffered(open(path)?, false).map_err(|error| error.to_string())?;
     for header in &meta.headers {
         check_size(header.layer_size.width() as u64, header.layer_size.height() as u64)?;
     }
@@ -63,7 +69,7 @@ fn read_exr(path: &Path) -> Result<Image, String> {
         .all_channels()
         .all_layers()
         .all_attributes()
-        .from_file(path)
+        .from_buffered(open(path)?)
         .map_err(|error| error.to_string())?;
     let (layer, channels) = find_colour(&image.layer_data).ok_or("it has no channels R, G and B")?;
     let [red, green, blue] = channels.map(|index| &layer.channel_data.list[index].sample_data);
@@ -106,12 +112,23 @@ fn sample(samples: &FlatSamples, index: usize) -> f32 {
     }
 }
 
+fn guess(path: &Path) -> Result<ImageReader<BufReader<File>>, String> {
+    let mut reader = ImageReader::new(open(path)?);
+    // The ending says what a file without a signature is, as TGA files are.
+    if let Ok(format) = ImageFormat::from_path(path) {
+        reader.set_format(format);
+    }
+    reader.with_guessed_format().map_err(|error| error.to_string())
+}
+
 fn read_other(path: &Path) -> Result<Image, String> {
-    let reader = image::ImageReader::open(path).and_then(|reader| reader.with_guessed_format());
-    let mut reader = reader.map_err(|error| error.to_string())?;
+    let reader = guess(path)?;
     if reader.format().is_none() {
         return Err("it is no picture in a format this program knows".to_owned());
     }
+    let (width, height) = reader.into_dimensions().map_err(|error| error.to_string())?;
+    check_size(width.into(), height.into())?;
+    let mut reader = guess(path)?;
     let mut limits = image::Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
     limits.max_image_height = Some(MAX_SIDE);
@@ -121,7 +138,6 @@ fn read_other(path: &Path) -> Result<Image, String> {
     let decoded = reader.decode().map_err(|error| error.to_string())?;
     let is_float = matches!(decoded.color(), image::ColorType::Rgb32F | image::ColorType::Rgba32F);
     let (width, height) = (decoded.width(), decoded.height());
-    check_size(width.into(), height.into())?;
     let encoded = decoded.into_rgb32f();
     let to_linear = |value: f32| if is_float { value } else { srgb_to_linear(value) };
     let pixels = encoded.pixels().map(|pixel| pixel.0.map(to_linear)).collect();

@@ -6,6 +6,7 @@ mod common;
 mod bench;
 mod documents;
 mod goals;
+mod inputs;
 #[cfg(unix)]
 mod on_unix;
 mod traversal;

@@ -24,15 +24,21 @@ pub use schema::json_schema;
 use syntax::SceneFile;
 pub(super) use wording::did_you_mean;
 
+use crate::load::access::Access;
 use crate::load::error::SceneError;
 use crate::scene::Scene;
 
 /// Reads a scene from TOML text. `name` is what errors call it and what the scene's name is taken from; paths in the text are
 /// relative to `folder`.
 pub fn load_toml_str(text: &str, name: &str, folder: &Path) -> Result<Scene, SceneError> {
+    load_toml(text, name, folder, Access::default())
+}
+
+/// As [`load_toml_str`], with this access to other files.
+pub(super) fn load_toml(text: &str, name: &str, folder: &Path, access: Access) -> Result<Scene, SceneError> {
     let document = Document { name, text };
     let file: SceneFile = document.read()?;
-    let mut scene = resolve::resolve(document, folder, file)?;
+    let mut scene = resolve::resolve(document, folder, file, access)?;
     scene.name = stem(name);
     if !scene.has_light() {
         let message = "nothing in the scene gives light, so the picture would be black";
@@ -44,8 +50,8 @@ pub fn load_toml_str(text: &str, name: &str, folder: &Path) -> Result<Scene, Sce
 }
 
 /// Reads a model file alone: its meshes with its own materials, in a scene without a camera of its own and without lights.
-pub(super) fn load_model(path: &Path) -> Result<Scene, SceneError> {
-    resolve::resolve_model(path)
+pub(super) fn load_model(path: &Path, access: Access) -> Result<Scene, SceneError> {
+    resolve::resolve_model(path, access)
 }
 
 /// A file's name without folder and ending.

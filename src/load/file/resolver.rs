@@ -1,6 +1,6 @@
 //! A scene in the making: what is known of a scene file while its tables are read one after the other.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,11 +10,28 @@ use glam::DVec3;
 use super::document::Document;
 use super::value::{Colour, Located, Rule, Scalar, Vector, vector};
 use super::wording::did_you_mean_name;
-use crate::load::error::SceneError;
+use crate::load::access::Access;
+use crate::load::error::{SceneError, show};
+use crate::load::files::Files;
+use crate::load::image_file::{Picture, Pictures};
 use crate::scene::{ColorInput, ColorSpace, ImageData, Material, MaterialId, Mesh, Scene, TextureId};
 
 /// Images by file and by how their values are read, so that each is decoded once.
-pub type ImageCache = HashMap<(PathBuf, Option<ColorSpace>), Arc<ImageData>>;
+pub type ImageCache = HashMap<(PathBuf, Option<ColorSpace>), CachedImage>;
+
+/// An image that was read.
+pub struct CachedImage {
+    pub image: Arc<ImageData>,
+    pub integer_bits: Option<u16>,
+    /// What was changed in it, until it was told.
+    pub change: Option<String>,
+}
+
+impl From<Picture> for CachedImage {
+    fn from(picture: Picture) -> Self {
+        Self { image: Arc::new(picture.image), integer_bits: picture.integer_bits, change: picture.change }
+    }
+}
 
 /// What decides how a mesh file is read: the file, `smooth`, and whether it keeps its own materials.
 pub type MeshFileKey = (PathBuf, Option<bool>, bool);
@@ -31,6 +48,8 @@ pub struct Resolver<'a> {
     pub(super) document: Document<'a>,
     /// What paths in the file are relative to.
     pub(super) folder: &'a Path,
+    pub(super) pictures: Pictures,
+    strict: bool,
     pub(super) scene: Scene,
     pub(super) texture_names: HashMap<String, TextureId>,
     pub(super) material_names: HashMap<String, MaterialId>,
@@ -45,10 +64,12 @@ pub struct Resolver<'a> {
 }
 
 impl<'a> Resolver<'a> {
-    pub(super) fn new(document: Document<'a>, folder: &'a Path) -> Self {
+    pub(super) fn new(document: Document<'a>, folder: &'a Path, access: Access) -> Self {
         Self {
             document,
             folder,
+            pictures: Pictures::new(access.files),
+            strict: access.strict,
             scene: Scene::default(),
             texture_names: HashMap::new(),
             material_names: HashMap::new(),
@@ -58,6 +79,29 @@ impl<'a> Resolver<'a> {
             textured: Vec::new(),
             unnamed_material: None,
         }
+    }
+
+    /// The scene, each of its warnings once.
+    pub(super) fn finish(mut self) -> Scene {
+        let mut seen = HashSet::new();
+        self.scene.warnings.retain(|warning| seen.insert(warning.clone()));
+        self.scene
+    }
+
+    pub(super) fn files(&self) -> &Files {
+        self.pictures.files()
+    }
+
+    /// Notes that something missing was replaced.
+    ///
+    /// # Errors
+    /// The same, where that is not allowed.
+    pub(super) fn substitute(&mut self, file: &Path, what: String) -> Result<(), SceneError> {
+        if self.strict {
+            return Err(SceneError::in_file(show(file), what).with_help("without --strict, magenta stands for what is missing"));
+        }
+        self.scene.warnings.push(format!("{}: {what}", show(file)));
+        Ok(())
     }
 
     pub(super) fn error(&self, span: &Range<usize>, message: impl Into<String>) -> SceneError {

@@ -13,8 +13,9 @@ use std::path::Path;
 use glam::{Vec2, Vec3};
 use tobj::LoadOptions;
 
-use crate::load::builtin;
+use crate::load::encoding;
 use crate::load::error::{SceneError, show};
+use crate::load::files::{Files, MOST_MODEL_BYTES};
 use crate::load::printable::short_list;
 use crate::scene::Mesh;
 pub use mtl::{MtlMaterial, TextureMap};
@@ -27,6 +28,8 @@ pub struct ObjFile {
     pub materials: Vec<MtlMaterial>,
     /// What could not be taken as written, in sentences.
     pub warnings: Vec<String>,
+    /// What is missing and has something else in its place, in words that follow the file's name.
+    pub substitutes: Vec<String>,
 }
 
 #[derive(Debug)]
@@ -36,23 +39,25 @@ pub struct Part {
     pub material: Option<usize>,
 }
 
-/// Reads an OBJ file. Its MTL files are read only where `with_materials` asks for them; one that is missing is a warning.
-pub fn load(path: &Path, with_materials: bool) -> Result<ObjFile, SceneError> {
+/// Reads an OBJ file. Its MTL files are read only where `with_materials` asks for them; what is missing of them is replaced.
+pub fn load(files: &Files, path: &Path, with_materials: bool) -> Result<ObjFile, SceneError> {
     let name = show(path);
-    let bytes = builtin::read(path).map_err(|error| SceneError::in_file(&name, format!("cannot be read: {error}")))?;
-    // Names may be in any encoding; everything that matters is ASCII.
-    let text = String::from_utf8_lossy(&bytes);
+    let bytes =
+        files.read(path, MOST_MODEL_BYTES).map_err(|error| SceneError::in_file(&name, format!("cannot be read: {error}")))?;
+    let (text, encoding) = encoding::decode(&bytes);
     let checked = check::check(&name, &text)?;
     let mut libraries = mtl::Libraries::default();
+    let mut unknown = None;
     if with_materials {
-        libraries.read(path, &checked.libraries)?;
+        libraries.read(files, path, &checked.libraries)?;
+        unknown = unknown_materials(path, &checked.used_materials, &mut libraries);
     }
     let mut file = parse(&name, &checked.text, &libraries)?;
+    file.warnings.extend(encoding.map(|encoding| format!("{name}: it is not in UTF-8, and read as {encoding}")));
     file.warnings.extend(checked.warnings);
-    if with_materials {
-        file.warnings.append(&mut libraries.warnings);
-        file.warnings.extend(unknown_materials(&name, &checked.used_materials, &libraries));
-    }
+    file.warnings.append(&mut libraries.warnings);
+    file.substitutes.append(&mut libraries.substitutes);
+    file.substitutes.extend(unknown);
     file.materials = libraries.materials;
     Ok(file)
 }
@@ -106,8 +111,18 @@ fn to_mesh(mesh: &tobj::Mesh, incomplete: &mut bool) -> Mesh {
     Mesh { positions, normals, uvs, faces, ..Mesh::default() }
 }
 
-fn unknown_materials(name: &str, used: &BTreeSet<String>, libraries: &mtl::Libraries) -> Option<String> {
+/// Adds materials that stand for those that no library has.
+fn unknown_materials(model: &Path, used: &BTreeSet<String>, libraries: &mut mtl::Libraries) -> Option<String> {
     let known: HashSet<&str> = libraries.materials.iter().map(|entry| entry.material.name.as_str()).collect();
-    let unknown: Vec<&str> = used.iter().map(String::as_str).filter(|name| !known.contains(name)).collect();
-    (!unknown.is_empty()).then(|| format!("{name}: no MTL file has the materials {}; their faces are grey", short_list(&unknown)))
+    let unknown: Vec<&String> = used.iter().filter(|name| !known.contains(name.as_str())).collect();
+    if unknown.is_empty() {
+        return None;
+    }
+    let list = short_list(&unknown);
+    let stand_in = |name: &String| {
+        let material = tobj::Material { name: name.clone(), ..Default::default() };
+        MtlMaterial { file: model.to_owned(), material, is_missing: true }
+    };
+    libraries.materials.extend(unknown.into_iter().map(stand_in));
+    Some(format!("no material library has {list}; their faces are magenta"))
 }

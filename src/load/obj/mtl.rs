@@ -3,26 +3,35 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use crate::load::encoding;
 use crate::load::error::{SceneError, show};
+use crate::load::files::{Files, MOST_LIBRARY_BYTES};
+use crate::load::printable::short_list;
 
 /// One `newmtl` and where it stands.
 #[derive(Debug, Clone)]
 pub struct MtlMaterial {
     pub file: PathBuf,
     pub material: tobj::Material,
+    /// No library has it.
+    pub is_missing: bool,
 }
 
 /// All MTL files of one model.
 #[derive(Default)]
 pub struct Libraries {
+    files: BTreeSet<PathBuf>,
     pub materials: Vec<MtlMaterial>,
     pub warnings: Vec<String>,
+    /// What is missing.
+    pub substitutes: Vec<String>,
 }
 
 /// An image and how it lies on the surface, from `map_Kd`'s options.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TextureMap {
-    pub file: PathBuf,
+    /// As it is written.
+    pub file: String,
     /// Factors of u and v (`-s`).
     pub scale: [f64; 2],
     /// Added to u and v after scaling (`-o`).
@@ -33,27 +42,27 @@ pub struct TextureMap {
     pub unsupported: Vec<String>,
 }
 
-/// Keys that change the look in ways that are not rendered.
-const WITHOUT_EFFECT: [&str; 15] = [
-    "map_Ks", "map_Ns", "map_d", "map_Ka", "map_Bump", "map_bump", "bump", "norm", "disp", "decal", "refl", "Pr", "Pm", "Ps",
-    "aniso",
-];
+/// Keys that have an effect here. All others are named.
+const HONOURED: [&str; 12] = ["newmtl", "Kd", "Ks", "Ke", "Ns", "Ni", "d", "Tr", "Tf", "illum", "map_Kd", "map_Ke"];
 
 impl Libraries {
     /// Reads what stands after each `mtllib`: one name, which may contain blanks, or several.
-    pub fn read(&mut self, model: &Path, libraries: &[String]) -> Result<(), SceneError> {
+    pub fn read(&mut self, files: &Files, model: &Path, libraries: &[String]) -> Result<(), SceneError> {
         let folder = model.parent().unwrap_or(Path::new(""));
         let mut seen = BTreeSet::new();
-        for written in libraries {
-            let whole = locate(folder, written);
-            let files = match whole.is_file() {
-                true => vec![whole],
-                false => written.split_whitespace().map(|name| locate(folder, name)).collect(),
-            };
-            for file in files {
-                if seen.insert(file.clone()) {
-                    self.read_file(model, file)?;
+        for written in libraries.iter().filter(|written| seen.insert(written.as_str())) {
+            let names = if folder.join(written).exists() { vec![written.as_str()] } else { split_names(files, folder, written) };
+            for name in names {
+                let found = files.find(folder, name);
+                let file = found.as_ref().map_or_else(|| folder.join(name), |found| found.path.clone());
+                if !self.files.insert(file.clone()) {
+                    continue;
                 }
+                if found.is_some_and(|found| found.is_substitute) {
+                    let warning = format!("{}: there is no material library {name}; {} is taken", show(model), show(&file));
+                    self.warnings.push(warning);
+                }
+                self.read_file(files, file)?;
             }
         }
         Ok(())
@@ -65,24 +74,29 @@ impl Libraries {
         (self.materials.iter().map(|entry| entry.material.clone()).collect(), names)
     }
 
-    fn read_file(&mut self, model: &Path, file: PathBuf) -> Result<(), SceneError> {
-        let bytes = match std::fs::read(&file) {
+    fn read_file(&mut self, files: &Files, file: PathBuf) -> Result<(), SceneError> {
+        let bytes = match files.read(&file, MOST_LIBRARY_BYTES) {
             Ok(bytes) => bytes,
             Err(error) => {
-                let warning = format!("{}: the material library {} cannot be read: {error}", show(model), show(&file));
-                self.warnings.push(warning);
+                self.substitutes.push(format!("the material library {} cannot be read: {error}", show(&file)));
                 return Ok(());
             }
         };
-        let text = String::from_utf8_lossy(&bytes);
+        let (text, encoding) = encoding::decode(&bytes);
+        let told = encoding.map(|encoding| format!("{}: it is not in UTF-8, and read as {encoding}", show(&file)));
+        self.warnings.extend(told);
         let (text, without_effect) = check(&show(&file), &text)?;
         if !without_effect.is_empty() {
-            let list = without_effect.into_iter().collect::<Vec<_>>().join(", ");
+            let list = short_list(&without_effect.into_iter().collect::<Vec<_>>());
             self.warnings.push(format!("{}: keys that have no effect: {list}", show(&file)));
         }
         let loaded = tobj::load_mtl_buf(&mut text.as_bytes());
         let (materials, _) = loaded.map_err(|error| SceneError::in_file(show(&file), error.to_string()))?;
-        self.materials.extend(materials.into_iter().map(|material| MtlMaterial { file: file.clone(), material }));
+        self.materials.extend(materials.into_iter().map(|material| MtlMaterial {
+            file: file.clone(),
+            material,
+            is_missing: false,
+        }));
         Ok(())
     }
 }
@@ -113,11 +127,12 @@ fn check(name: &str, text: &str) -> Result<(String, BTreeSet<String>), SceneErro
             "newmtl" | "map_Kd" | "map_Ke" if rest.is_empty() => return Err(wrong(format!("{key}: the name is missing"))),
             // The ambient colour has no meaning in a path tracer.
             "Ka" => continue,
-            key if WITHOUT_EFFECT.contains(&key) => {
-                without_effect.insert(key.to_owned());
+            "" => {}
+            key if key.starts_with('#') || HONOURED.contains(&key) => {}
+            key => {
+                without_effect.insert(key.chars().take(40).collect());
                 continue;
             }
-            _ => {}
         }
         checked.push_str(line);
         checked.push('\n');
@@ -139,16 +154,16 @@ fn colour(rest: &str) -> Result<[f64; 3], String> {
     }
 }
 
-fn locate(folder: &Path, name: &str) -> PathBuf {
-    let path = folder.join(name);
-    // Files written on Windows separate folders by backslashes.
-    if path.exists() { path } else { folder.join(name.replace('\\', "/")) }
+/// One name with blanks, or several.
+fn split_names<'w>(files: &Files, folder: &Path, written: &'w str) -> Vec<&'w str> {
+    let names: Vec<&str> = written.split_whitespace().collect();
+    if names.len() > 1 && names.iter().all(|name| files.find(folder, name).is_none()) { vec![written] } else { names }
 }
 
 impl TextureMap {
-    /// Parses `[options] file`; `folder` is that of the MTL file.
-    pub fn parse(written: &str, folder: &Path) -> Result<Self, String> {
-        let mut map = Self { file: PathBuf::new(), scale: [1.0; 2], offset: [0.0; 2], clamp: false, unsupported: Vec::new() };
+    /// Parses `[options] file`.
+    pub fn parse(written: &str) -> Result<Self, String> {
+        let mut map = Self { file: String::new(), scale: [1.0; 2], offset: [0.0; 2], clamp: false, unsupported: Vec::new() };
         let mut rest = written.trim();
         while rest.starts_with('-') {
             let (option, after) = next_word(rest);
@@ -173,7 +188,7 @@ impl TextureMap {
         if rest.is_empty() {
             return Err(format!("`{written}` names no image"));
         }
-        map.file = locate(folder, rest);
+        rest.clone_into(&mut map.file);
         Ok(map)
     }
 }
@@ -209,18 +224,18 @@ mod tests {
 
     #[test]
     fn texture_options_are_read() {
-        let map = TextureMap::parse("-s 2 3 1 -o 0.5 -clamp on my wood.png", Path::new("textures"));
+        let map = TextureMap::parse("-s 2 3 1 -o 0.5 -clamp on my wood.png");
         let expected = TextureMap {
-            file: "textures/my wood.png".into(),
+            file: "my wood.png".to_owned(),
             scale: [2.0, 3.0],
             offset: [0.5, 0.0],
             clamp: true,
             unsupported: Vec::new(),
         };
         assert_eq!(map, Ok(expected));
-        assert!(TextureMap::parse("-s wood.png", Path::new("")).is_err());
-        assert!(TextureMap::parse("-clamp on", Path::new("")).is_err());
-        assert!(TextureMap::parse("-nonsense 3 wood.png", Path::new("")).is_err());
+        assert!(TextureMap::parse("-s wood.png").is_err());
+        assert!(TextureMap::parse("-clamp on").is_err());
+        assert!(TextureMap::parse("-nonsense 3 wood.png").is_err());
     }
 
     #[test]

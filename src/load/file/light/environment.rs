@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::keys::LightKeys;
-use crate::load::error::SceneError;
+use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, LARGEST, Located, NonNegative, Number, Rgb};
 use crate::scene::{Environment, EnvironmentRadiance, ImageData};
@@ -48,7 +48,17 @@ impl LightKeys for Keys {
 
 impl Keys {
     fn map(&self, resolver: &mut Resolver<'_>, file: &Located<String>, scale: f64) -> Result<EnvironmentRadiance, SceneError> {
-        let image = resolver.image(file, None)?;
+        let (image, integer_bits) = resolver.image_and_bits(file, None)?;
+        if let Some(bits) = integer_bits {
+            let name = show(&resolver.path(&file.value));
+            resolver.scene.warnings.push(format!(
+                "{name}: the map has colours of {bits} bits, which are taken for sRGB and made linear: none is brighter than 1, and the sun \
+                 is no brighter than a cloud; maps for lighting are EXR or HDR"
+            ));
+        }
+        if scale == 1.0 {
+            return Ok(EnvironmentRadiance::Map(image));
+        }
         let texels: Vec<_> = image.texels.iter().map(|&texel| texel * scale as f32).collect();
         if let Some(written) = &self.scale
             && texels.iter().any(|texel| texel.max_element() > LARGEST as f32)

@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
-use crate::load::builtin;
 use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::{LoadedMesh, Resolver};
 use crate::load::file::syntax::{MeshShape, ShapeEntry};
 use crate::load::file::value::{Located, vector};
+use crate::load::formats;
 use crate::load::obj::{self, ObjFile, Part};
 use crate::scene::{ColorInput, Material, MaterialId, MaterialKind, Mesh};
 
@@ -42,9 +42,13 @@ impl Resolver<'_> {
         }
         let path = self.path(&file.value);
         if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj")) {
-            return Err(self.error(&file.span, "a mesh file is an OBJ file: its name ends in .obj"));
+            let error = self.error(&file.span, "a mesh file is an OBJ file: its name ends in .obj");
+            return Err(match formats::advice(&path) {
+                Some((_, advice)) => error.with_help(advice),
+                None => error,
+            });
         }
-        if !builtin::is_file(&path) {
+        if !self.files().exists(&path) {
             return Err(self.error(&file.span, format!("there is no file {}", show(&path))));
         }
         self.mesh_file(&path, written.smooth, material)
@@ -61,8 +65,11 @@ impl Resolver<'_> {
         if let Some(loaded) = self.mesh_files.get(&key) {
             return Ok(LoadedMesh { mesh: loaded.mesh.clone(), material: material.unwrap_or(loaded.material) });
         }
-        let mut file = obj::load(path, material.is_none())?;
+        let mut file = obj::load(self.files(), path, material.is_none())?;
         self.scene.warnings.append(&mut file.warnings);
+        for what in std::mem::take(&mut file.substitutes) {
+            self.substitute(path, what)?;
+        }
         let loaded = match material {
             Some(material) => LoadedMesh { mesh: Arc::new(merge(file, smooth)), material },
             None => self.with_own_materials(path, file, smooth)?,

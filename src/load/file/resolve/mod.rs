@@ -14,25 +14,26 @@ use std::path::Path;
 use super::document::Document;
 use super::resolver::Resolver;
 use super::syntax::SceneFile;
+use crate::load::access::Access;
 use crate::load::error::{SceneError, show};
 use crate::scene::Scene;
 
 /// Resolves a whole file.
-pub fn resolve(document: Document<'_>, folder: &Path, file: SceneFile) -> Result<Scene, SceneError> {
-    let mut resolver = Resolver::new(document, folder);
+pub fn resolve(document: Document<'_>, folder: &Path, file: SceneFile, access: Access) -> Result<Scene, SceneError> {
+    let mut resolver = Resolver::new(document, folder, access);
     resolver.settings(&file)?;
     resolver.camera(&file.camera)?;
     resolver.textures(&file.texture)?;
     resolver.materials(&file.material)?;
     resolver.shapes(&file.shape)?;
     resolver.lights(&file.light)?;
-    Ok(resolver.scene)
+    Ok(resolver.finish())
 }
 
 /// Reads a model by itself: a scene of one shape with the model's own materials and nothing else.
-pub fn resolve_model(path: &Path) -> Result<Scene, SceneError> {
+pub fn resolve_model(path: &Path, access: Access) -> Result<Scene, SceneError> {
     let name = show(path);
-    let mut resolver = Resolver::new(Document { name: &name, text: "" }, Path::new(""));
+    let mut resolver = Resolver::new(Document { name: &name, text: "" }, Path::new(""), access);
     resolver.lone_mesh(path)?;
-    Ok(resolver.scene)
+    Ok(resolver.finish())
 }

@@ -11,22 +11,47 @@
 //! | `Ke` | emission, from the front |
 
 use std::path::Path;
-use std::sync::Arc;
 
 use glam::DVec3;
 
 use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::Resolver;
-use crate::load::image_file::read_image;
+use crate::load::formats;
 use crate::load::obj::{MtlMaterial, TextureMap};
 use crate::scene::{
     BlendWeight, ColorInput, Emission, ImageTexture, Material, MaterialId, MaterialKind, Texture, TextureFilter, TextureId,
     TextureKind, TextureWrap,
 };
 
+/// Stands for what is missing. No material looks so by chance.
+const MAGENTA: DVec3 = DVec3::new(1.0, 0.0, 1.0);
+/// A highlight that stays whatever Kd is: the reflectance of plastic seen head-on.
+const LEAST_SPECULAR: f64 = 0.04;
+
+/// The factors of Kd and Ks with which they take no more than all light in any channel. Ks gives way first, as a whole: both keep their hue.
+fn shares(diffuse: DVec3, specular: DVec3) -> [f64; 2] {
+    // f32 texels of 1 come out as 1 + 6e-8 at most.
+    if (diffuse + specular).max_element() <= 1.0 + 1e-6 {
+        return [1.0; 2];
+    }
+    // The largest factor up to 1 that leaves a colour room beside another.
+    let room = |colour: DVec3, other: DVec3| {
+        let channels = (0..3).filter(|&channel| colour[channel] > 0.0);
+        channels.map(|channel| (1.0 - other[channel]) / colour[channel]).fold(1.0, f64::min).max(0.0)
+    };
+    let least = (LEAST_SPECULAR / specular.max_element()).min(1.0);
+    let of_specular = room(specular, diffuse).max(least);
+    [room(diffuse, specular * of_specular), of_specular]
+}
+
 impl Resolver<'_> {
     /// Adds the material to the scene.
     pub(super) fn mtl_material(&mut self, written: &MtlMaterial) -> Result<MaterialId, SceneError> {
+        if written.is_missing {
+            let kind = MaterialKind::Diffuse { reflectance: ColorInput::Constant(MAGENTA) };
+            let name = format!("{} (missing)", written.material.name);
+            return Ok(self.add(Material { name, kind, normal_map: None, emission: None }));
+        }
         let opacity = self.opacity(written)?;
         let kind = self.mtl_kind(written, opacity)?;
         let emission = self.mtl_emission(written)?;
@@ -81,7 +106,7 @@ impl Resolver<'_> {
         Ok(MaterialKind::Diffuse { reflectance: self.mtl_diffuse(written)? })
     }
 
-    /// Kd, Ks and Ns as they are; Kd gives way where both together would make energy.
+    /// Kd, Ks and Ns as they are; where both colours together would make energy, they are shrunk.
     fn mtl_phong(&mut self, written: &MtlMaterial, specular: DVec3) -> Result<MaterialKind, SceneError> {
         let specular = self.at_most_one(written, "Ks", specular);
         let diffuse = self.mtl_diffuse(written)?;
@@ -93,19 +118,22 @@ impl Resolver<'_> {
             // MTL has none.
             ColorInput::SquaredTexture(texture) => DVec3::splat(brightest_texel(texture)),
         };
-        // f32 texels of 1 come out as 1 + 6e-8 at most.
-        let fits = (brightest + specular).max_element() <= 1.0 + 1e-6;
-        let room = ((DVec3::ONE - specular) / brightest.max(DVec3::splat(1e-30))).min(DVec3::ONE);
-        if !fits {
+        let [of_diffuse, of_specular] = shares(brightest, specular);
+        if of_specular < 1.0 {
             let name = &written.material.name;
-            self.warn(written, &format!("Kd + Ks of the material `{name}` is above 1: Kd is reduced to 1 - Ks"));
+            let as_well = if of_diffuse < 1.0 { format!(" and Kd by {of_diffuse:.3}") } else { String::new() };
+            self.warn(
+                written,
+                &format!("Kd + Ks of the material `{name}` is above 1, which makes energy: Ks is multiplied by {of_specular:.3}{as_well}"),
+            );
         }
+        let specular = specular * of_specular;
         let diffuse = match diffuse {
-            _ if fits => diffuse,
+            _ if of_diffuse == 1.0 => diffuse,
             ColorInput::SquaredTexture(_) => diffuse,
-            ColorInput::Constant(colour) => ColorInput::Constant(colour * room),
-            ColorInput::Texture(texture) => ColorInput::ScaledTexture(texture, room),
-            ColorInput::ScaledTexture(texture, factor) => ColorInput::ScaledTexture(texture, factor * room),
+            ColorInput::Constant(colour) => ColorInput::Constant(colour * of_diffuse),
+            ColorInput::Texture(texture) => ColorInput::ScaledTexture(texture, DVec3::splat(of_diffuse)),
+            ColorInput::ScaledTexture(texture, factor) => ColorInput::ScaledTexture(texture, factor * of_diffuse),
         };
         let exponent = f64::from(written.material.shininess.unwrap_or(0.0)).max(0.0);
         Ok(MaterialKind::Phong { diffuse, specular: ColorInput::Constant(specular), exponent: ColorInput::grey(exponent) })
@@ -129,7 +157,7 @@ impl Resolver<'_> {
         let tint = colour(written.material.diffuse);
         let tint = tint.map(|tint| self.at_most_one(written, "Kd", tint));
         match written.material.diffuse_texture.clone() {
-            Some(map) => self.mtl_texture(written, &map, tint),
+            Some(map) => self.mtl_texture(written, "map_Kd", &map, tint),
             None => Ok(tint.map_or(ColorInput::grey(0.8), ColorInput::Constant)),
         }
     }
@@ -138,25 +166,36 @@ impl Resolver<'_> {
         let factor = colour(written.material.emissive);
         let radiance = match (written.material.unknown_param.get("map_Ke").cloned(), factor) {
             (_, Some(factor)) if factor.max_element() == 0.0 => return Ok(None),
-            (Some(map), factor) => self.mtl_texture(written, &map, factor)?,
+            (Some(map), factor) => self.mtl_texture(written, "map_Ke", &map, factor)?,
             (None, Some(factor)) => ColorInput::Constant(factor),
             (None, None) => return Ok(None),
         };
         Ok(Some(Emission { radiance, two_sided: false }))
     }
 
-    fn mtl_texture(&mut self, written: &MtlMaterial, map: &str, tint: Option<DVec3>) -> Result<ColorInput, SceneError> {
-        let of_material = |message: String| {
-            SceneError::in_file(show(&written.file), format!("the material `{}`: {message}", written.material.name))
-        };
+    /// Magenta stands for a picture that cannot be read.
+    fn mtl_texture(
+        &mut self,
+        written: &MtlMaterial,
+        key: &str,
+        map: &str,
+        tint: Option<DVec3>,
+    ) -> Result<ColorInput, SceneError> {
+        let of_material = |message: String| format!("the material `{}`: {key}: {message}", written.material.name);
         let folder = written.file.parent().unwrap_or(Path::new(""));
-        let map = TextureMap::parse(map, folder).map_err(of_material)?;
-        let key = (map.file.clone(), None);
-        let image = match self.images.get(&key) {
-            Some(image) => image.clone(),
-            None => {
-                let read = read_image(&map.file, None).map_err(|reason| of_material(format!("{}: {reason}", show(&map.file))))?;
-                self.images.entry(key).or_insert(Arc::new(read)).clone()
+        let map = TextureMap::parse(map).map_err(|message| SceneError::in_file(show(&written.file), of_material(message)))?;
+        let found = self.files().find(folder, &map.file);
+        let path = found.as_ref().map_or_else(|| folder.join(&map.file), |found| found.path.clone());
+        if found.is_some_and(|found| found.is_substitute) {
+            self.warn(written, &of_material(format!("there is no {}; {} is taken", map.file, show(&path))));
+        }
+        let image = match self.picture(&path, None) {
+            Ok((image, _)) => image,
+            Err(reason) => {
+                let advice = formats::unread_picture(&path).map_or_else(String::new, |advice| format!(" ({advice})"));
+                let what = of_material(format!("{}: {reason}{advice}; magenta stands for it", show(&path)));
+                self.substitute(&written.file, what)?;
+                return Ok(ColorInput::Constant(MAGENTA * tint.map_or(1.0, DVec3::max_element).max(0.5)));
             }
         };
         if !map.unsupported.is_empty() {
@@ -165,7 +204,7 @@ impl Resolver<'_> {
         }
         let texture = self.scene.textures.len();
         self.scene.textures.push(Texture {
-            name: show(&map.file),
+            name: show(&path),
             kind: TextureKind::Image(ImageTexture {
                 image,
                 wrap: if map.clamp { TextureWrap::Clamp } else { TextureWrap::Repeat },
@@ -214,4 +253,31 @@ fn colour(written: Option<[f32; 3]>) -> Option<DVec3> {
 /// The double nearest to the shortest decimal number that reads as this float.
 fn shortest(value: f32) -> f64 {
     value.to_string().parse().unwrap_or(f64::from(value))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kd_and_ks_keep_their_hues_and_make_no_energy() {
+        let rows = [
+            // Blender's red plastic: chrome before.
+            ([0.8, 0.1, 0.1], [1.0; 3], [1.0, 0.2]),
+            ([0.8, 0.8, 0.8], [0.5; 3], [1.0, 0.4]),
+            ([0.3, 0.3, 0.3], [0.5; 3], [1.0, 1.0]),
+            // White paint keeps a highlight.
+            ([1.0; 3], [1.0; 3], [0.96, 0.04]),
+            ([0.0, 0.0, 1.0], [0.02; 3], [0.98, 1.0]),
+        ];
+        for (diffuse, specular, expected) in rows {
+            let (diffuse, specular) = (DVec3::from(diffuse), DVec3::from(specular));
+            let [of_diffuse, of_specular] = shares(diffuse, specular);
+            assert!(
+                (of_diffuse - expected[0]).abs() < 1e-9 && (of_specular - expected[1]).abs() < 1e-9,
+                "{of_diffuse}, {of_specular}"
+            );
+            assert!((diffuse * of_diffuse + specular * of_specular).max_element() <= 1.0 + 1e-9);
+        }
+    }
 }

@@ -1,16 +1,17 @@
 //! `[[texture]]`
 
 use std::collections::HashSet;
-use std::path::PathBuf;
+use std::collections::hash_map::Entry;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use crate::load::error::{SceneError, show};
-use crate::load::file::resolver::Resolver;
+use crate::load::file::resolver::{CachedImage, Resolver};
 use crate::load::file::syntax::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 use crate::load::file::value::{Checked, Located, Number, Positive};
-use crate::load::image_file::read_image;
+use crate::load::formats;
 use crate::scene::validate::MOST_OCTAVES;
 use crate::scene::{ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap};
 
@@ -53,7 +54,9 @@ impl Resolver<'_> {
             _ => None,
         };
         let keys: HashSet<(PathBuf, Option<ColorSpace>)> = written.iter().filter_map(key).collect();
-        let decode = |key: (PathBuf, Option<ColorSpace>)| read_image(&key.0, key.1).ok().map(|image| (key, Arc::new(image)));
+        let decode = |key: (PathBuf, Option<ColorSpace>)| {
+            self.pictures.read(&key.0, key.1).ok().map(|picture| (key, CachedImage::from(picture)))
+        };
         let decoded: Vec<_> = keys.into_par_iter().filter_map(decode).collect();
         self.images.extend(decoded);
     }
@@ -81,15 +84,35 @@ impl Resolver<'_> {
         file: &Located<String>,
         space: Option<ColorSpace>,
     ) -> Result<Arc<ImageData>, SceneError> {
+        self.image_and_bits(file, space).map(|(image, _)| image)
+    }
+
+    /// The same with the bits of a format of integers.
+    pub(in crate::load::file) fn image_and_bits(
+        &mut self,
+        file: &Located<String>,
+        space: Option<ColorSpace>,
+    ) -> Result<(Arc<ImageData>, Option<u16>), SceneError> {
         let path = self.path(&file.value);
-        let key = (path, space);
-        if let Some(image) = self.images.get(&key) {
-            return Ok(image.clone());
+        self.picture(&path, space).map_err(|reason| {
+            let error = self.error(&file.span, format!("{}: {reason}", show(&path)));
+            match formats::unread_picture(&path) {
+                Some(advice) => error.with_help(advice),
+                None => error,
+            }
+        })
+    }
+
+    /// Reads an image once, however often it is named. The error says what is wrong with it, without its name.
+    pub(super) fn picture(&mut self, path: &Path, space: Option<ColorSpace>) -> Result<(Arc<ImageData>, Option<u16>), String> {
+        let cached = match self.images.entry((path.to_owned(), space)) {
+            Entry::Occupied(entry) => entry.into_mut(),
+            Entry::Vacant(entry) => entry.insert(self.pictures.read(path, space)?.into()),
+        };
+        if let Some(change) = cached.change.take() {
+            self.scene.warnings.push(format!("{}: {change}", show(path)));
         }
-        let read = read_image(&key.0, space);
-        let image = Arc::new(read.map_err(|reason| self.error(&file.span, format!("{}: {reason}", show(&key.0))))?);
-        self.images.insert(key, image.clone());
-        Ok(image)
+        Ok((cached.image.clone(), cached.integer_bits))
     }
 }
 

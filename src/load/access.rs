@@ -1,0 +1,29 @@
+//! What reading a scene may do.
+
+use std::path::PathBuf;
+
+use super::error::SceneError;
+use super::files::Files;
+
+/// What whoever reads a scene allows.
+#[derive(Debug, Clone, Default)]
+pub struct LoadOptions {
+    /// Files that the scene names lie in this folder, wherever links lead; others are refused. None: they may lie anywhere.
+    pub assets_root: Option<PathBuf>,
+    /// Where something is missing for which another would stand in, the scene is refused.
+    pub strict: bool,
+}
+
+/// [`LoadOptions`] whose folder is there.
+#[derive(Debug, Clone, Default)]
+pub struct Access {
+    pub files: Files,
+    pub strict: bool,
+}
+
+impl LoadOptions {
+    pub(super) fn access(&self) -> Result<Access, SceneError> {
+        let files = self.assets_root.as_deref().map_or(Ok(Files::default()), Files::within)?;
+        Ok(Access { files, strict: self.strict })
+    }
+}

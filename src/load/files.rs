@@ -1,0 +1,188 @@
+//! How the files that a scene names are found and opened: on disk or in the program, perhaps within one folder only.
+
+use std::borrow::Cow;
+use std::fs;
+use std::io::{self, BufRead, BufReader, Cursor, ErrorKind, Seek};
+use std::path::{Component, Path, PathBuf};
+
+use super::builtin::embedded;
+use super::error::{SceneError, show};
+use crate::input;
+
+/// Most bytes of a scene file. Reading takes some forty times as much memory for a while.
+pub const MOST_SCENE_BYTES: u64 = 1 << 29;
+/// Most bytes of a model: some forty million triangles.
+pub const MOST_MODEL_BYTES: u64 = 1 << 32;
+/// Most bytes of a material library.
+pub const MOST_LIBRARY_BYTES: u64 = 1 << 28;
+
+/// Where files may lie.
+#[derive(Debug, Clone, Default)]
+pub struct Files {
+    /// With links followed; None: anywhere.
+    root: Option<PathBuf>,
+}
+
+/// A file that is read from any place in it.
+pub trait SeekableFile: BufRead + Seek {}
+
+impl<T: BufRead + Seek> SeekableFile for T {}
+
+/// A file that was looked for.
+pub struct Found {
+    pub path: PathBuf,
+    /// It lies elsewhere than was written, or in another case.
+    pub is_substitute: bool,
+}
+
+impl Files {
+    /// Files within a folder only, wherever links lead.
+    ///
+    /// # Errors
+    /// A folder that is not there.
+    pub fn within(root: &Path) -> Result<Self, SceneError> {
+        let real = fs::canonicalize(root).and_then(|real| {
+            if real.is_dir() { Ok(real) } else { Err(io::Error::new(ErrorKind::NotADirectory, "it is no folder")) }
+        });
+        match real {
+            Ok(real) => Ok(Self { root: Some(real) }),
+            Err(error) => Err(SceneError::in_file(show(root), format!("cannot be the folder of all files: {error}"))),
+        }
+    }
+
+    /// Whether there is anything of this name, on disk or in the program.
+    pub fn exists(&self, path: &Path) -> bool {
+        embedded(path).is_some() || path.exists()
+    }
+
+    /// Whether there is such a regular file, on disk or in the program.
+    pub fn is_file(&self, path: &Path) -> bool {
+        embedded(path).is_some() || path.is_file()
+    }
+
+    /// Reads a file of at most `most` bytes.
+    pub fn read(&self, path: &Path, most: u64) -> io::Result<Cow<'static, [u8]>> {
+        match embedded(path) {
+            Some(content) => Ok(Cow::Borrowed(content)),
+            None => input::read(self.allowed(path)?, most).map(Cow::Owned),
+        }
+    }
+
+    pub fn open(&self, path: &Path) -> io::Result<Box<dyn SeekableFile + Send>> {
+        match embedded(path) {
+            Some(content) => Ok(Box::new(Cursor::new(content))),
+            None => Ok(Box::new(BufReader::new(input::open(self.allowed(path)?)?))),
+        }
+    }
+
+    fn allowed<'p>(&self, path: &'p Path) -> io::Result<&'p Path> {
+        let Some(root) = &self.root else { return Ok(path) };
+        if fs::canonicalize(path)?.starts_with(root) {
+            return Ok(path);
+        }
+        let message = format!("it lies outside of {}, which --assets-root allows", show(root));
+        Err(io::Error::new(ErrorKind::PermissionDenied, message))
+    }
+
+    /// Looks for a file that was written on another machine: as written, with folders separated by backslashes, in other case, and by its name
+    /// alone beside the file that names it.
+    pub fn find(&self, folder: &Path, written: &str) -> Option<Found> {
+        let exact = folder.join(written);
+        if self.is_file(&exact) {
+            return Some(Found { path: exact, is_substitute: false });
+        }
+        let slashed = written.replace('\\', "/");
+        let relative = Path::new(&slashed);
+        let direct = folder.join(relative);
+        if self.is_file(&direct) {
+            return Some(Found { path: direct, is_substitute: false });
+        }
+        let beside = relative.file_name().map(Path::new);
+        let elsewhere = in_any_case(folder, relative).or_else(|| in_any_case(folder, beside?));
+        elsewhere.filter(|path| path.is_file()).map(|path| Found { path, is_substitute: true })
+    }
+}
+
+/// The path whose parts are named so but for upper and lower case.
+fn in_any_case(folder: &Path, relative: &Path) -> Option<PathBuf> {
+    let mut path = folder.to_owned();
+    for part in relative.components() {
+        let Component::Normal(name) = part else {
+            path.push(part);
+            continue;
+        };
+        let exact = path.join(name);
+        if exact.exists() {
+            path = exact;
+            continue;
+        }
+        let wanted = name.to_string_lossy().to_lowercase();
+        let entries = fs::read_dir(if path.as_os_str().is_empty() { Path::new(".") } else { &path }).ok()?;
+        let mut fitting: Vec<_> = entries
+            .flatten()
+            .map(|entry| entry.file_name())
+            .filter(|name| name.to_string_lossy().to_lowercase() == wanted)
+            .collect();
+        // The order of a folder's entries is none.
+        fitting.sort();
+        path.push(fitting.first()?);
+    }
+    Some(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder() -> tempfile::TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join("Textures")).unwrap();
+        for name in ["Textures/Wood.PNG", "stone.png", "Textures/stone.png"] {
+            fs::write(folder.path().join(name), name).unwrap();
+        }
+        folder
+    }
+
+    #[test]
+    fn files_are_found_in_other_case_and_by_their_name() {
+        let folder = folder();
+        let found = |written: &str| {
+            let found = Files::default().find(folder.path(), written)?;
+            let path = found.path.strip_prefix(folder.path()).unwrap().to_str()?.to_owned();
+            Some((path, found.is_substitute))
+        };
+        let expect = |path: &str, is_substitute| Some((path.to_owned(), is_substitute));
+        assert_eq!(found("stone.png"), expect("stone.png", false));
+        assert_eq!(found("Textures\\stone.png"), expect("Textures/stone.png", false));
+        assert_eq!(found("textures/wood.png"), expect("Textures/Wood.PNG", true));
+        assert_eq!(found("C:\\Users\\me\\Stone.png"), expect("stone.png", true));
+        assert_eq!(found("/absent/stone.png"), expect("stone.png", true));
+        assert_eq!(found("absent.png"), None);
+        assert_eq!(found(".."), None);
+    }
+
+    #[test]
+    fn nothing_outside_of_the_root_is_read() {
+        let folder = folder();
+        let files = Files::within(&folder.path().join("Textures")).unwrap();
+        assert!(files.read(&folder.path().join("Textures/stone.png"), 100).is_ok());
+        assert!(files.read(&folder.path().join("Textures/../Textures/stone.png"), 100).is_ok());
+        let outside = [folder.path().join("stone.png"), folder.path().join("Textures/../stone.png"), "/etc/hostname".into()];
+        for path in outside {
+            let error = files.read(&path, 100).unwrap_err();
+            assert!(error.to_string().contains("--assets-root"), "{}: {error}", path.display());
+            assert!(files.open(&path).is_err());
+        }
+        assert!(Files::within(&folder.path().join("stone.png")).is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_do_not_lead_out_of_the_root() {
+        let folder = folder();
+        let link = folder.path().join("Textures/link.png");
+        std::os::unix::fs::symlink(folder.path().join("stone.png"), &link).unwrap();
+        assert!(Files::default().read(&link, 100).is_ok());
+        assert!(Files::within(&folder.path().join("Textures")).unwrap().read(&link, 100).is_err());
+    }
+}
