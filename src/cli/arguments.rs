@@ -36,7 +36,7 @@ pub enum Command {
     Verify(VerifyArguments),
     /// Measure run time against error, speed, and what features cost; writes JSON, CSV and a page to look at
     Bench(Box<BenchArguments>),
-    /// Parse and validate a scene, and say what it needs and what is skipped
+    /// Say whether a scene is valid, all that is wrong with it, what is in it, and what memory and time it takes
     Check(CheckArguments),
     /// List the graphics adapters, their limits, and which one `--device auto` takes
     Devices(DevicesArguments),
@@ -182,6 +182,9 @@ pub struct CheckArguments {
     /// Exit with code 3 where something else would stand for a missing texture or material
     #[arg(long)]
     pub strict: bool,
+    /// Print also how the device would render it: the plan with its reasons, and which parts of the kernels are compiled
+    #[arg(long)]
+    pub plan: bool,
     #[command(flatten)]
     pub traversal: TraversalArguments,
     /// Print JSON

@@ -1,32 +1,96 @@
 //! `gpt check`.
 
+use std::time::Instant;
+
 use gpt::gpu::select_adapter;
-use gpt::load;
+use gpt::load::{self, SceneError};
 use gpt::packed::{PackError, PackedScene};
-use gpt::plan::{DeviceLimits, Plan};
-use gpt::renderer::{DeviceChoice, RenderError};
-use gpt::scene::SceneSummary;
+use gpt::plan::{Decision, DeviceLimits, Plan};
+use gpt::reference::ReferenceRenderer;
+use gpt::renderer::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
+use gpt::scene::{Scene, SceneSummary};
+use gpt::verify;
+use serde::Serialize;
 
 use super::arguments::CheckArguments;
 use super::exit::{Exit, Failure};
 use super::terminal;
 
-/// Loads the scene, which validates all of it, and prints what is in it.
+/// Longer side in pixels of the picture by which the time is guessed.
+const PROBE_SIDE: u32 = 16;
+
+/// What `--json` prints of a scene that can be read.
+#[derive(Serialize)]
+struct Report<'a> {
+    valid: bool,
+    errors: [Mistake<'a>; 0],
+    warnings: &'a [String],
+    #[serde(flatten)]
+    summary: &'a SceneSummary,
+    /// The device that the plan is for.
+    device: &'a str,
+    device_bytes: u64,
+    /// That the CPU would take for the picture, by a few samples.
+    cpu_seconds: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    plan: Option<PlanReport<'a>>,
+}
+
+#[derive(Serialize)]
+struct PlanReport<'a> {
+    decisions: &'a [Decision],
+    compiled_in: Vec<&'static str>,
+}
+
+/// What it prints of one that cannot.
+#[derive(Serialize)]
+struct Refusal<'a> {
+    valid: bool,
+    errors: Vec<Mistake<'a>>,
+}
+
+#[derive(Serialize)]
+struct Mistake<'a> {
+    file: &'a str,
+    line: Option<usize>,
+    column: Option<usize>,
+    key: Option<&'a str>,
+    message: &'a str,
+    help: Option<&'a str>,
+}
+
+impl<'a> From<&'a SceneError> for Mistake<'a> {
+    fn from(error: &'a SceneError) -> Self {
+        Self {
+            file: error.file(),
+            line: error.line(),
+            column: error.column(),
+            key: error.key(),
+            message: error.message(),
+            help: error.help_text(),
+        }
+    }
+}
+
+/// Loads the scene, which validates all of it, and prints what is in it and what it takes.
 pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
     let Some(name) = arguments.scene.as_deref().filter(|_| !arguments.schema) else {
         terminal::answer(&load::json_schema())?;
         return Ok(Exit::Done);
     };
-    let scene = load::load_with(Some(name), &arguments.access.options(arguments.strict))?;
+    let scene = match load::load_with(Some(name), &arguments.access.options(arguments.strict)) {
+        Ok(scene) => scene,
+        Err(error) => {
+            if arguments.json {
+                let errors = std::iter::once(&error).chain(error.others()).map(Mistake::from).collect();
+                terminal::answer_json(&Refusal { valid: false, errors })?;
+            }
+            return Err(error.into());
+        }
+    };
     for warning in &scene.warnings {
         terminal::warn(warning);
     }
-    let summary = SceneSummary::of(&scene);
-    if arguments.json {
-        terminal::answer_json(&summary)?;
-        return Ok(Exit::Done);
-    }
-    terminal::answer(&summary.to_string())?;
     let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
     let options = arguments.traversal.options();
     let packed = PackedScene::for_traversal(&scene, options.packed_traversal()).map_err(does_not_fit)?;
@@ -36,6 +100,67 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
         Err(_) => ("a device with the limits that WebGPU promises".to_owned(), DeviceLimits::default()),
     };
     let plan = Plan::new(&scene, &packed, &limits, &options).map_err(RenderError::from)?;
-    terminal::answer(&format!("\nplan for {device}\n{plan}\n"))?;
+    let summary = SceneSummary::of(&scene);
+    let cpu_seconds = guess_time(&scene)?;
+    if arguments.json {
+        let compiled_in = plan.switches.enabled.iter().copied().collect();
+        terminal::answer_json(&Report {
+            valid: true,
+            errors: [],
+            warnings: &scene.warnings,
+            summary: &summary,
+            device: &device,
+            device_bytes: plan.memory.total(),
+            cpu_seconds,
+            plan: arguments.plan.then(|| PlanReport { decisions: &plan.decisions, compiled_in }),
+        })?;
+        return Ok(Exit::Done);
+    }
+    let warnings = match scene.warnings.len() {
+        0 => String::new(),
+        1 => ", with a warning".to_owned(),
+        count => format!(", with {count} warnings"),
+    };
+    let time = in_words(cpu_seconds);
+    let answer = format!(
+        "valid{warnings}\n{summary}memory     {} on {device}\ntime       {time} on the CPU, by a few samples; a graphics card takes a fraction\n",
+        plan.memory
+    );
+    terminal::answer(&answer)?;
+    if arguments.plan {
+        terminal::answer(&format!("\nplan for {device}\n{plan}\n"))?;
+    }
     Ok(Exit::Done)
+}
+
+/// Seconds that the CPU would take, by one sample of each pixel of a small picture.
+fn guess_time(scene: &Scene) -> Result<f64, Failure> {
+    let mut small = scene.clone();
+    verify::shrink(&mut small, PROBE_SIDE);
+    small.render.spp = 1;
+    let mut renderer = ReferenceRenderer::new(&small)?;
+    let pixels = |scene: &Scene| scene.film.size.map(f64::from).iter().product::<f64>();
+    let start = Instant::now();
+    renderer.render(&RenderRequest { rows: 0..small.film.size[1], samples: 0..1 }, &Silent, &mut |_| Ok(()))?;
+    Ok(start.elapsed().as_secs_f64() * pixels(scene) / pixels(&small) * f64::from(scene.render.spp))
+}
+
+fn in_words(seconds: f64) -> String {
+    match seconds {
+        few if few < 2.0 => "a second or two".to_owned(),
+        few if few < 120.0 => format!("about {few:.0} s"),
+        more if more < 7200.0 => format!("about {:.0} min", more / 60.0),
+        many => format!("about {:.0} h", many / 3600.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_given_roughly() {
+        let words = [0.3, 40.0, 600.0, 86_400.0].map(in_words);
+        assert_eq!(words, ["a second or two", "about 40 s", "about 10 min", "about 24 h"]);
+    }
 }

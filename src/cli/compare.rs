@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use gpt::choice::Choice;
 use gpt::compare::{Comparison, Metric, compare};
-use gpt::output::read_image;
+use gpt::output::{PictureKind, read_image};
 use serde::Serialize;
 
 use super::arguments::CompareArguments;
@@ -19,6 +19,7 @@ struct Verdict<'a> {
     equal: bool,
     tolerance: f64,
     metric: Option<Metric>,
+    warnings: &'a [String],
     #[serde(flatten)]
     comparison: &'a Comparison,
 }
@@ -29,13 +30,37 @@ pub fn run(arguments: &CompareArguments) -> Result<Exit, Failure> {
     let picture = read_image(&arguments.picture)?;
     let reference = read_image(&arguments.reference)?;
     let comparison = compare(&picture, &reference)?;
+    let warnings: Vec<String> = different_kinds(arguments).into_iter().collect();
+    warnings.iter().for_each(|warning| terminal::warn(warning));
     let equal = comparison.within(arguments.metric, tolerance);
     if arguments.json {
-        terminal::answer_json(&Verdict { equal, tolerance, metric: arguments.metric, comparison: &comparison })?;
+        terminal::answer_json(&Verdict {
+            equal,
+            tolerance,
+            metric: arguments.metric,
+            warnings: &warnings,
+            comparison: &comparison,
+        })?;
     } else {
         terminal::answer(&text(&comparison, arguments.metric, equal))?;
     }
     Ok(if equal { Exit::Done } else { Exit::Difference })
+}
+
+/// What to know of a comparison of a render with a preview.
+fn different_kinds(arguments: &CompareArguments) -> Option<String> {
+    let (a, b) = (&arguments.picture, &arguments.reference);
+    let (linear, preview) = match (PictureKind::of(a)?, PictureKind::of(b)?) {
+        (PictureKind::Linear, PictureKind::Encoded) => (a, b),
+        (PictureKind::Encoded, PictureKind::Linear) => (b, a),
+        _ => return None,
+    };
+    Some(format!(
+        "{} holds linear light, and {} holds 8-bit or 16-bit sRGB colours, which end at 1 and may be brightened by --exposure: they differ even \
+         where they show the same; compare two EXR files",
+        linear.display(),
+        preview.display()
+    ))
 }
 
 /// Without `--tolerance` only pictures without any difference are equal, whatever the metric.

@@ -10,11 +10,14 @@ use miette::{Diagnostic, LabeledSpan, MietteError, MietteSpanContents, SourceCod
 #[error("{error}")]
 pub struct SceneDiagnostic {
     error: SceneError,
+    /// What else is wrong with the file.
+    others: Vec<SceneDiagnostic>,
 }
 
 impl From<SceneError> for SceneDiagnostic {
     fn from(error: SceneError) -> Self {
-        Self { error }
+        let others = error.others().iter().cloned().map(Self::from).collect();
+        Self { error, others }
     }
 }
 
@@ -49,6 +52,13 @@ impl SourceCode for SceneDiagnostic {
 impl Diagnostic for SceneDiagnostic {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         self.error.help_text().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+
+    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
+        if self.others.is_empty() {
+            return None;
+        }
+        Some(Box::new(self.others.iter().map(|other| other as &dyn Diagnostic)))
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
@@ -87,7 +97,7 @@ mod tests {
         let mut report = String::new();
         let handler = miette::GraphicalReportHandler::new_themed(miette::GraphicalTheme::unicode_nocolor());
         handler.render_report(&mut report, &error).unwrap();
-        assert!(report.contains("test.toml:7:220021") && report.contains("␛[2J") && report.contains('…'), "{report}");
+        assert!(report.contains("test.toml:7:220022") && report.contains("␛[2J") && report.contains('…'), "{report}");
         assert!(report.len() < 3000 && !report.contains('\x1b'), "{report}");
     }
 }

@@ -7,6 +7,9 @@ use std::path::Path;
 use super::excerpt::Excerpt;
 use super::printable::{printable, short};
 
+/// Most mistakes of a file that are told at once.
+const MOST_ERRORS: usize = 20;
+
 /// One mistake in a scene file or in a file it names. Displays as `file:line:column: key: message`.
 #[derive(Debug, Clone)]
 pub struct SceneError(Box<Details>);
@@ -18,6 +21,7 @@ struct Details {
     help: Option<String>,
     key: Option<String>,
     place: Option<Place>,
+    others: Vec<SceneError>,
 }
 
 #[derive(Debug, Clone)]
@@ -32,7 +36,7 @@ impl SceneError {
     /// A mistake that concerns the file as a whole: it is missing, it is not an image.
     pub fn in_file(file: impl fmt::Display, message: impl Into<String>) -> Self {
         let (file, message) = (printable(&file.to_string()), short(&printable(&message.into())));
-        Self(Box::new(Details { file, message, help: None, key: None, place: None }))
+        Self(Box::new(Details { file, message, help: None, key: None, place: None, others: Vec::new() }))
     }
 
     /// A mistake in a line of a file whose text is not shown. Lines count from 1.
@@ -65,6 +69,22 @@ impl SceneError {
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.0.help = Some(printable(&help.into()));
         self
+    }
+
+    /// Adds what else is wrong, in the order of the file. The first is this error.
+    pub(crate) fn of_all(mut errors: Vec<Self>) -> Option<Self> {
+        errors.sort_by_key(|error| (error.line(), error.column()));
+        errors.dedup_by_key(|error| error.to_string());
+        errors.truncate(MOST_ERRORS);
+        let others = errors.split_off(errors.len().min(1));
+        let mut first = errors.pop()?;
+        first.0.others = others;
+        Some(first)
+    }
+
+    /// What else is wrong with the same file, as far as it was found out.
+    pub fn others(&self) -> &[Self] {
+        &self.0.others
     }
 
     /// The file as the user named it, or a built-in scene's name.

@@ -9,7 +9,7 @@ use super::builtin::embedded;
 use super::error::{SceneError, show};
 use crate::input;
 
-/// Most bytes of a scene file. Reading takes some forty times as much memory for a while.
+/// Most bytes of a scene file, where memory suffices.
 pub const MOST_SCENE_BYTES: u64 = 1 << 29;
 /// Most bytes of a model: some forty million triangles.
 pub const MOST_MODEL_BYTES: u64 = 1 << 32;

@@ -7,7 +7,7 @@ use super::access::{Access, LoadOptions};
 use super::builtin::{FOLDER, builtin_names, builtin_text};
 use super::error::{SceneError, show};
 use super::files::MOST_SCENE_BYTES;
-use super::{encoding, file, formats, framing};
+use super::{encoding, file, formats, framing, memory};
 use crate::input;
 use crate::scene::Scene;
 
@@ -60,11 +60,11 @@ impl SceneSource {
                 file::load_toml(text, name, Path::new(FOLDER), access)
             }
             Self::StandardInput => {
-                let read = input::read_to_end(std::io::stdin().lock(), 0, MOST_SCENE_BYTES);
+                let read = input::read_to_end(std::io::stdin().lock(), 0, most_scene_bytes());
                 load_bytes(read, "stdin", Path::new(""), access)
             }
             Self::File(path) => {
-                let read = input::read(path, MOST_SCENE_BYTES);
+                let read = input::read(path, most_scene_bytes());
                 load_bytes(read, &show(path), path.parent().unwrap_or(Path::new("")), access)
             }
             Self::Model(path) => {
@@ -74,6 +74,11 @@ impl SceneSource {
             }
         }
     }
+}
+
+/// As many bytes as can be parsed in the memory that is free: the tree of a text takes a hundred times as much at worst.
+fn most_scene_bytes() -> u64 {
+    MOST_SCENE_BYTES.min(memory::available() / 100)
 }
 
 fn load_bytes(read: std::io::Result<Vec<u8>>, name: &str, folder: &Path, access: Access) -> Result<Scene, SceneError> {

@@ -19,5 +19,5 @@ pub use format::PictureFormat;
 pub use picture::PictureFile;
 pub use png_file::srgb_byte;
 pub use provenance::Provenance;
-pub use read::{Image, ReadError, read_image};
+pub use read::{Image, PictureKind, ReadError, read_image};
 pub use spec::PictureSpec;

@@ -22,6 +22,26 @@ pub struct Image {
     pub pixels: Vec<[f32; 3]>,
 }
 
+/// What the numbers of a picture file are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PictureKind {
+    /// Floating-point numbers, linear: EXR, Radiance HDR.
+    Linear,
+    /// Integers along the sRGB curve, none above 1: PNG, JPEG and others.
+    Encoded,
+}
+
+impl PictureKind {
+    /// By the first bytes of the file. None where it cannot be read, or has a format that may be either.
+    pub fn of(path: &Path) -> Option<Self> {
+        match guess(path).ok()?.format()? {
+            ImageFormat::OpenExr | ImageFormat::Hdr => Some(Self::Linear),
+            ImageFormat::Tiff | ImageFormat::Pnm => None,
+            _ => Some(Self::Encoded),
+        }
+    }
+}
+
 /// Why a picture could not be read.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot read {}: {what}", path.display())]

@@ -145,6 +145,51 @@ fn keys_without_effect_are_named_once() {
 }
 
 #[test]
+fn all_mistakes_of_a_file_are_told_at_once() {
+    let place = Workplace::new();
+    let wrong = "[[material]]\nname = \"m\"\ntype = \"mirorr\"\n[[light]]\ntype = \"point\"\nposition = [0, 0]\nintensity = 1\n";
+    place.write("unread.toml", scene().replace("spp = 8", "spp = -8") + wrong);
+    let output = place.run("check unread.toml --json");
+    assert_eq!(output.status.code(), Some(3));
+    let answer: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(answer["valid"], false);
+    let keys: Vec<&str> = answer["errors"].as_array().expect("a list").iter().filter_map(|error| error["key"].as_str()).collect();
+    assert_eq!(keys, ["render.spp", "material[1].type", "light[1].position"]);
+    let stderr = text(&output.stderr);
+    assert!(["unread.toml:", "mirorr", "light[1].position"].iter().all(|said| stderr.contains(said)), "{stderr}");
+    // Names and relations are judged together as well, once all can be read.
+    let wrong = "[[shape]]\ntype = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"absent\"\n[[light]]\ntype = \"spot\"\n\
+        position = [0, 0, 0]\ndirection = [0, 0, 0]\nintensity = 1\nangle = 20\n";
+    place.write("unresolved.toml", scene() + wrong);
+    let answer: Value = serde_json::from_slice(&place.run("check unresolved.toml --json").stdout).expect("JSON");
+    let keys: Vec<&str> = answer["errors"].as_array().expect("a list").iter().filter_map(|error| error["key"].as_str()).collect();
+    assert_eq!(keys, ["shape[1].material", "light[1].direction"]);
+}
+
+#[test]
+fn pictures_of_different_kinds_are_said_to_be() {
+    let place = Workplace::new();
+    place.expect(0, "render scene.toml --device cpu --spp 1 -o a.exr -o a.png");
+    let output = place.run("compare a.exr a.png");
+    assert_eq!(output.status.code(), Some(7));
+    let stderr = text(&output.stderr);
+    assert!(stderr.contains("a.exr holds linear") && stderr.contains("a.png holds 8-bit"), "{stderr}");
+    let json: Value = serde_json::from_slice(&place.run("compare a.png a.exr --json").stdout).expect("JSON");
+    assert!(json["warnings"][0].as_str().is_some_and(|warning| warning.contains("8-bit")), "{json}");
+    assert_eq!(place.expect(0, "compare a.exr a.exr"), "");
+}
+
+#[test]
+fn a_map_of_few_bits_is_taken_and_said() {
+    let place = Workplace::new();
+    image::RgbImage::new(4, 2).save(place.path("sky.png")).expect("a picture");
+    let map = "type = \"environment\"\nfile = \"sky.png\"";
+    place.write("map.toml", scene() + "[[light]]\n" + map);
+    let stderr = place.expect(0, "render map.toml --device cpu --spp 1 --quiet -o a.exr");
+    assert!(stderr.contains("sky.png: the map has colours of 8 bits"), "{stderr}");
+}
+
+#[test]
 fn other_formats_are_named_with_what_converts_them() {
     let place = Workplace::new();
     for (name, said) in

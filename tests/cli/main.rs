@@ -328,6 +328,14 @@ fn check_says_what_is_in_the_scene() {
     }
     let summary: Value = serde_json::from_slice(&place.run("check scene.toml --json").stdout).expect("JSON");
     assert_eq!(summary["shapes"]["sphere"], 1);
+    assert!(
+        summary["valid"] == true && summary["device_bytes"].as_u64() > Some(0) && summary["cpu_seconds"].as_f64() > Some(0.0)
+    );
+    // What kernels are made of is for those who ask.
+    assert!(report.starts_with("valid\n") && !report.contains("compiled in") && summary["plan"].is_null(), "{report}");
+    assert!(text(&place.run("check scene.toml --plan").stdout).contains("compiled in"));
+    let plan: Value = serde_json::from_slice(&place.run("check scene.toml --plan --json").stdout).expect("JSON");
+    assert!(plan["plan"]["compiled_in"].as_array().is_some_and(|switches| !switches.is_empty()));
     let schema: Value = serde_json::from_slice(&place.run("check --schema").stdout).expect("JSON");
     assert!(schema["properties"]["camera"].is_object(), "{schema}");
 }

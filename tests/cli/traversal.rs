@@ -6,9 +6,9 @@ use super::{Workplace, text};
 fn the_way_is_said_and_what_cannot_be_is_refused() {
     let place = Workplace::new();
     for (arguments, words) in [
-        ("check scene.toml", "primitives, at most 64)"),
-        ("check scene.toml --traversal bvh", "few other shapes as constants (asked for)"),
-        ("check motion-blur", "(something moves, and is no constant)"),
+        ("check scene.toml --plan", "primitives, at most 64)"),
+        ("check scene.toml --plan --traversal bvh", "few other shapes as constants (asked for)"),
+        ("check motion-blur --plan", "(something moves, and is no constant)"),
     ] {
         let output = place.run(arguments);
         assert_eq!(output.status.code(), Some(0), "gpt {arguments}");

@@ -2,12 +2,17 @@
 
 use std::ops::Range;
 
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::syntax::PartOfFile;
 use super::wording;
 use crate::load::error::SceneError;
+
+/// Keys at the top whose values are lists of tables.
+const LISTS: [&str; 4] = ["texture", "material", "shape", "light"];
 
 /// A scene file's text.
 #[derive(Clone, Copy)]
@@ -23,6 +28,36 @@ impl<'a> Document<'a> {
         let mut root = self.parse()?;
         self.name_variants(root.get_mut())?;
         T::deserialize(toml::Deserializer::from(root)).map_err(|error| self.translate(&error))
+    }
+
+    /// All that keeps the text from being read, of each table and each entry of a list the first mistake. `first` is what the whole text was
+    /// refused for.
+    pub fn all_mistakes(self, first: SceneError) -> SceneError {
+        let Ok(root) = self.parse() else { return first };
+        let mut found = vec![first.clone()];
+        for (key, value) in root.into_inner() {
+            let parts = match (LISTS.contains(&key.get_ref().as_ref()), value.get_ref()) {
+                (true, DeValue::Array(_)) => {
+                    let span = value.span();
+                    let DeValue::Array(entries) = value.into_inner() else { continue };
+                    entries
+                        .into_iter()
+                        .map(|entry| Spanned::new(span.clone(), DeValue::Array([entry].into_iter().collect())))
+                        .collect()
+                }
+                _ => vec![value],
+            };
+            for part in parts {
+                let mut alone = Spanned::new(0..self.text.len(), DeTable::new());
+                alone.get_mut().insert(key.clone(), part);
+                let read = self.name_variants(alone.get_mut()).and_then(|()| {
+                    let read = PartOfFile::deserialize(toml::Deserializer::from(alone));
+                    read.map(|_| ()).map_err(|error| self.translate(&error))
+                });
+                found.extend(read.err());
+            }
+        }
+        SceneError::of_all(found).unwrap_or(first)
     }
 
     /// An error about the value written at `span`.
@@ -51,7 +86,7 @@ impl<'a> Document<'a> {
 
     /// Rewrites every table whose shape depends on a key, `{ type = "mirror", … }`, to `{ mirror = { … } }`.
     fn name_variants(self, root: &mut DeTable<'a>) -> Result<(), SceneError> {
-        for list in ["texture", "material", "shape", "light"] {
+        for list in LISTS {
             let Some(entries) = root.get_mut(list) else { continue };
             let DeValue::Array(entries) = entries.get_mut() else { continue };
             for entry in entries.iter_mut() {

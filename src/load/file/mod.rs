@@ -37,7 +37,7 @@ pub fn load_toml_str(text: &str, name: &str, folder: &Path) -> Result<Scene, Sce
 /// As [`load_toml_str`], with this access to other files.
 pub(super) fn load_toml(text: &str, name: &str, folder: &Path, access: Access) -> Result<Scene, SceneError> {
     let document = Document { name, text };
-    let file: SceneFile = document.read()?;
+    let file: SceneFile = document.read().map_err(|first| document.all_mistakes(first))?;
     let mut scene = resolve::resolve(document, folder, file, access)?;
     scene.name = stem(name);
     if !scene.has_light() {

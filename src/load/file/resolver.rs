@@ -50,6 +50,8 @@ pub struct Resolver<'a> {
     pub(super) folder: &'a Path,
     pub(super) pictures: Pictures,
     strict: bool,
+    /// What is wrong so far, where reading goes on to find more.
+    pub(super) errors: Vec<SceneError>,
     pub(super) scene: Scene,
     pub(super) texture_names: HashMap<String, TextureId>,
     pub(super) material_names: HashMap<String, MaterialId>,
@@ -70,6 +72,7 @@ impl<'a> Resolver<'a> {
             folder,
             pictures: Pictures::new(access.files),
             strict: access.strict,
+            errors: Vec::new(),
             scene: Scene::default(),
             texture_names: HashMap::new(),
             material_names: HashMap::new(),
@@ -82,10 +85,21 @@ impl<'a> Resolver<'a> {
     }
 
     /// The scene, each of its warnings once.
-    pub(super) fn finish(mut self) -> Scene {
+    ///
+    /// # Errors
+    /// All that was noted on the way.
+    pub(super) fn finish(mut self) -> Result<Scene, SceneError> {
+        if let Some(error) = SceneError::of_all(self.errors) {
+            return Err(error);
+        }
         let mut seen = HashSet::new();
         self.scene.warnings.retain(|warning| seen.insert(warning.clone()));
-        self.scene
+        Ok(self.scene)
+    }
+
+    /// The value, or a note of what is wrong with it.
+    pub(super) fn note<T>(&mut self, result: Result<T, SceneError>) -> Option<T> {
+        result.map_err(|error| self.errors.push(error)).ok()
     }
 
     pub(super) fn files(&self) -> &Files {

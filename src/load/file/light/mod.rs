@@ -48,15 +48,17 @@ pub fn examples() -> impl Iterator<Item = (&'static str, String)> {
 }
 
 impl Resolver<'_> {
-    pub(super) fn lights(&mut self, written: &[Located<LightEntry>]) -> Result<(), SceneError> {
+    pub(super) fn lights(&mut self, written: &[Located<LightEntry>]) {
         for entry in written {
-            let light = entry.resolve(self)?;
-            if light.is_environment() && self.scene.lights.iter().any(Light::is_environment) {
-                return Err(self.error(&entry.span, "a scene has one environment or sky, this is the second"));
-            }
-            self.scene.lights.push(light);
+            let light = entry.resolve(self).and_then(|light| {
+                if light.is_environment() && self.scene.lights.iter().any(Light::is_environment) {
+                    return Err(self.error(&entry.span, "a scene has one environment or sky, this is the second"));
+                }
+                Ok(light)
+            });
+            let light = self.note(light);
+            self.scene.lights.extend(light);
         }
-        Ok(())
     }
 }
 

@@ -21,13 +21,23 @@ use crate::scene::Scene;
 /// Resolves a whole file.
 pub fn resolve(document: Document<'_>, folder: &Path, file: SceneFile, access: Access) -> Result<Scene, SceneError> {
     let mut resolver = Resolver::new(document, folder, access);
-    resolver.settings(&file)?;
-    resolver.camera(&file.camera)?;
-    resolver.textures(&file.texture)?;
-    resolver.materials(&file.material)?;
-    resolver.shapes(&file.shape)?;
-    resolver.lights(&file.light)?;
-    Ok(resolver.finish())
+    // Each part goes on past its own mistakes, so that all are told at once.
+    let settings = resolver.settings(&file);
+    resolver.note(settings);
+    let camera = resolver.camera(&file.camera);
+    resolver.note(camera);
+    // Where names are not clear, whatever names something would seem wrong.
+    let textures = resolver.textures(&file.texture);
+    if resolver.note(textures).is_none() {
+        return resolver.finish();
+    }
+    let materials = resolver.materials(&file.material);
+    if resolver.note(materials).is_none() {
+        return resolver.finish();
+    }
+    resolver.shapes(&file.shape);
+    resolver.lights(&file.light);
+    resolver.finish()
 }
 
 /// Reads a model by itself: a scene of one shape with the model's own materials and nothing else.
@@ -35,5 +45,5 @@ pub fn resolve_model(path: &Path, access: Access) -> Result<Scene, SceneError> {
     let name = show(path);
     let mut resolver = Resolver::new(Document { name: &name, text: "" }, Path::new(""), access);
     resolver.lone_mesh(path)?;
-    Ok(resolver.finish())
+    resolver.finish()
 }

@@ -20,16 +20,21 @@ fn portal_faces(shape: &Shape) -> usize {
 }
 
 impl Resolver<'_> {
-    pub(super) fn shapes(&mut self, written: &[Located<ShapeEntry>]) -> Result<(), SceneError> {
+    pub(super) fn shapes(&mut self, written: &[Located<ShapeEntry>]) {
         for (index, entry) in written.iter().enumerate() {
-            let shape = self.shape(index, entry)?;
-            self.check_uvs(entry, &shape)?;
-            if shape.portal {
-                self.check_portal(entry, &shape)?;
-            }
-            self.scene.shapes.push(shape);
+            let shape = self.checked_shape(index, entry);
+            let shape = self.note(shape);
+            self.scene.shapes.extend(shape);
         }
-        Ok(())
+    }
+
+    fn checked_shape(&mut self, index: usize, entry: &Located<ShapeEntry>) -> Result<Shape, SceneError> {
+        let shape = self.shape(index, entry)?;
+        self.check_uvs(entry, &shape)?;
+        if shape.portal {
+            self.check_portal(entry, &shape)?;
+        }
+        Ok(shape)
     }
 
     /// Rays must be able to go through a portal, and every direction is tested against every portal.

@@ -5,6 +5,7 @@ use std::collections::hash_map::Entry;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::load::error::{SceneError, show};
@@ -20,31 +21,37 @@ impl Resolver<'_> {
         self.texture_names = self.register("texture", written.iter().map(TextureEntry::name))?;
         self.decode_side_by_side(written);
         for entry in written {
-            let kind = match entry {
-                TextureEntry::Image(image) => TextureKind::Image(self.image_texture(image)?),
-                TextureEntry::Checker(checker) => {
-                    TextureKind::Checker { a: checker.a.0, b: checker.b.0, scale: factors(checker.scale) }
-                }
-                TextureEntry::Perlin(perlin) => {
-                    let octaves = perlin.octaves.as_ref().map_or(1, |octaves| octaves.value.get());
-                    if let Some(written) = &perlin.octaves
-                        && octaves > MOST_OCTAVES
-                    {
-                        return Err(self.error(&written.span, format!("at most {MOST_OCTAVES} octaves")));
-                    }
-                    let (scale, seed) = (factor(perlin.scale), perlin.seed.unwrap_or(0));
-                    TextureKind::Perlin { scale, octaves, a: perlin.a.0, b: perlin.b.0, seed }
-                }
-                TextureEntry::Worley(worley) => {
-                    let (scale, seed) = (factor(worley.scale), worley.seed.unwrap_or(0));
-                    TextureKind::Worley { scale, a: worley.a.0, b: worley.b.0, seed }
-                }
-            };
+            let kind = self.texture_kind(entry);
+            // Something has to stand in its place, or others would have none.
+            let kind = self.note(kind).unwrap_or(TextureKind::Checker { a: DVec3::ZERO, b: DVec3::ZERO, scale: [1.0; 2] });
             self.linear_textures
                 .push(matches!(entry, TextureEntry::Image(ImageEntry { color_space: Some(ColorSpaceEntry::Linear), .. })));
             self.scene.textures.push(Texture { name: entry.name().value.clone(), kind });
         }
         Ok(())
+    }
+
+    fn texture_kind(&mut self, entry: &TextureEntry) -> Result<TextureKind, SceneError> {
+        Ok(match entry {
+            TextureEntry::Image(image) => TextureKind::Image(self.image_texture(image)?),
+            TextureEntry::Checker(checker) => {
+                TextureKind::Checker { a: checker.a.0, b: checker.b.0, scale: factors(checker.scale) }
+            }
+            TextureEntry::Perlin(perlin) => {
+                let octaves = perlin.octaves.as_ref().map_or(1, |octaves| octaves.value.get());
+                if let Some(written) = &perlin.octaves
+                    && octaves > MOST_OCTAVES
+                {
+                    return Err(self.error(&written.span, format!("at most {MOST_OCTAVES} octaves")));
+                }
+                let (scale, seed) = (factor(perlin.scale), perlin.seed.unwrap_or(0));
+                TextureKind::Perlin { scale, octaves, a: perlin.a.0, b: perlin.b.0, seed }
+            }
+            TextureEntry::Worley(worley) => {
+                let (scale, seed) = (factor(worley.scale), worley.seed.unwrap_or(0));
+                TextureKind::Worley { scale, a: worley.a.0, b: worley.b.0, seed }
+            }
+        })
     }
 
     /// Reads the files of all image textures on all cores. What cannot be read is left to be found again, and told, in its turn.

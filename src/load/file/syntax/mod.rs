@@ -41,6 +41,24 @@ pub struct SceneFile {
     pub light: Vec<Located<LightEntry>>,
 }
 
+/// A scene file of which anything may be missing, to find what is wrong with the rest.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a scene")]
+#[allow(dead_code, reason = "it is read for its mistakes alone")]
+pub struct PartOfFile {
+    film: Option<FilmTable>,
+    render: Option<RenderTable>,
+    camera: Option<CameraTable>,
+    #[serde(default)]
+    texture: Vec<TextureEntry>,
+    #[serde(default)]
+    material: Vec<MaterialEntry>,
+    #[serde(default)]
+    shape: Vec<Located<ShapeEntry>>,
+    #[serde(default)]
+    light: Vec<Located<LightEntry>>,
+}
+
 /// The picture.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
