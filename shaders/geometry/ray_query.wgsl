@@ -6,8 +6,9 @@
 enable wgpu_ray_query;
 #import core/math.wgsl
 #import geometry/constants.wgsl
-#import geometry/primitives.wgsl
+#import geometry/prepared_ray.wgsl
 #import geometry/records.wgsl
+#import geometry/shapes.wgsl
 #import geometry/stored.wgsl
 
 // Instances: triangles, opaque, and boxes. An instance's custom data is its first primitive.

@@ -2,7 +2,7 @@
 #import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/bvh4.wgsl
-#import geometry/primitives.wgsl
+#import geometry/prepared_ray.wgsl
 #import geometry/records.wgsl
 #import geometry/stored.wgsl
 #import geometry/constants.wgsl

@@ -2,7 +2,7 @@
 #import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/constants.wgsl
-#import geometry/primitives.wgsl
+#import geometry/prepared_ray.wgsl
 
 fn closest_hit(traced: Ray, t_max: f32) -> Hit {
     var hit = Hit(t_max, NONE, 0.0, 0.0);

@@ -7,6 +7,8 @@
 #import shading/light_sample.wgsl
 #import shading/outside.wgsl
 #import shading/planted.wgsl
+#import shading/shape_point.wgsl
+#import shading/shapes.wgsl
 #import shading/surface.wgsl
 #if SPHERE_LIGHTS
 #import shading/sphere_light.wgsl
@@ -16,33 +18,34 @@
 #endif
 #if VARYING_LIGHTS
 #import shading/bsdf.wgsl
+#if SPHERE_LIGHTS
+#import shading/shape/sphere.wgsl
+#endif
 #if NORMAL_MAPS
 #import shading/normal_map.wgsl
 #endif
 #endif
 
 #if VARYING_LIGHTS
-// Σ wᵢ Leᵢ towards `wo` at a point of a flat light: what a ray that met it would see. (a, b) are the point's coordinates along its edges.
-fn varying_radiance(light: u32, ab: vec2<f32>, normal: vec3<f32>, wo: vec3<f32>) -> vec3<f32> {
-    let front = dot(wo, normal) > 0.0;
+// Σ wᵢ Leᵢ towards `wo` at a point of a light: what a ray that met it would see.
+fn varying_radiance(light: u32, point: ShapePoint, wo: vec3<f32>) -> vec3<f32> {
+    let front = dot(wo, point.normal) > 0.0;
+    let kind = bitcast<u32>(light_word(light, 0u).x) & 255u;
     let material = bitcast<u32>(light_word(light, 4u).w);
     var own_normal = vec3<f32>(0.0);
-    var uv = ab;
+    var uv = point.uv;
     let first = bitcast<u32>(light_word(light, 3u).w);
 #if ATTRIBUTES
     if first != NONE {
-        let interpolated = interpolate_attributes(first, ab);
-        uv = interpolated.uv;
-        own_normal = interpolated.normal;
+        let looked_up = shape_attribute(kind, first, uv, point.normal);
+        uv = looked_up.uv;
+        own_normal = looked_up.normal;
     }
 #endif
 #if NORMAL_MAPS
-    own_normal = mapped_normal(
-        material, bitcast<u32>(light_word(light, 0u).x) & 255u, first, own_normal, normal, uv, light_word(light, 2u).xyz,
-        light_word(light, 3u).xyz
-    );
+    own_normal = mapped_normal(material, kind, first, own_normal, point, uv);
 #endif
-    let shading_normal = shading_normal_towards(own_normal, select(-normal, normal, front), wo);
+    let shading_normal = shading_normal_towards(own_normal, select(-point.normal, point.normal, front), wo);
     return material_emission(material, clamp(dot(wo, shading_normal), 0.0, 1.0), front, uv);
 }
 
@@ -67,7 +70,9 @@ fn varying_sphere_sample(light: u32, reference: vec3<f32>, two_sided: bool, pmf:
     let material = bitcast<u32>(light_word(light, 4u).w);
 #if NORMAL_MAPS
     let normal = outward / l1.w;
-    let mapped = mapped_normal(material, KIND_SPHERE, first, vec3<f32>(0.0), normal, uv, vec3<f32>(0.0), vec3<f32>(0.0));
+    var point = no_shape_point();
+    point.normal = normal;
+    let mapped = mapped_normal(material, KIND_SPHERE, first, vec3<f32>(0.0), point, uv);
     let wo = -light_sample.wi;
     cosine = clamp(dot(shading_normal_towards(mapped, select(normal, -normal, inside), wo), wo), 0.0, 1.0);
 #endif
@@ -89,15 +94,14 @@ fn choose_light(bits: u32) -> u32 {
 #endif
 }
 
-// A point on a flat light, seen from `reference`: density by area turned into density by solid angle.
-fn flat_light_sample(
-    reference: vec3<f32>, point: vec3<f32>, normal: vec3<f32>, area: f32, error: f32, radiance: vec3<f32>, two_sided: bool, pmf: f32
-) -> LightSample {
-    let to_light = point - reference;
+#if AREA_LIGHTS
+// A point on a light, seen from `reference`: density by area turned into density by solid angle.
+fn area_light_sample(reference: vec3<f32>, point: ShapePoint, area: f32, error: f32, radiance: vec3<f32>, two_sided: bool, pmf: f32) -> LightSample {
+    let to_light = point.position - reference;
     let distance2 = dot(to_light, to_light);
     let distance = sqrt(distance2);
     let wi = to_light / distance;
-    let cosine = -dot(wi, normal);
+    let cosine = -dot(wi, point.normal);
     if distance2 == 0.0 || cosine == 0.0 || (cosine < 0.0 && !two_sided) {
         return no_light();
     }
@@ -105,6 +109,27 @@ fn flat_light_sample(
     let early = min(error / abs(cosine), 0.5 * distance);
     return LightSample(wi, (distance - early) * SHADOW_SHORTENING, radiance, pmf * distance2 / (abs(cosine) * area));
 }
+
+// Draws a point of a light that is a surface, evenly over its area.
+fn sample_area_light(light: u32, kind_flags: u32, reference: vec3<f32>, pmf: f32, u: f32, v: f32) -> LightSample {
+    let l1 = light_word(light, 1u);
+    let point = sample_shape(kind_flags & 255u, l1.xyz, light_word(light, 2u).xyz, light_word(light, 3u).xyz, u, v);
+    var size = point.size;
+#if MOVING_LIGHTS
+    size += moved_light_magnitude(light);
+#endif
+    let error = POINT_ERROR * dot(abs(point.normal), size) + point.error;
+    let two_sided = (kind_flags & LIGHT_TWO_SIDED) != 0u;
+#if VARYING_LIGHTS
+    if (kind_flags & LIGHT_VARIES) != 0u {
+        var light_sample = area_light_sample(reference, point, l1.w, error, vec3<f32>(1.0), two_sided, pmf);
+        light_sample.radiance *= varying_radiance(light, point, -light_sample.wi);
+        return light_sample;
+    }
+#endif
+    return area_light_sample(reference, point, l1.w, error, light_word(light, 4u).xyz, two_sided, pmf);
+}
+#endif
 
 // Density with which light sampling from `ray.origin` draws the ray's direction for the environment, by whichever way; 0 where it does not.
 fn environment_pdf_solid_angle(ray: Ray) -> f32 {
@@ -126,61 +151,20 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
     let u = uniform_float(bits.y);
     let v = uniform_float(bits.z);
     let l0 = light_word(light, 0u);
-    let l1 = light_word(light, 1u);
-    let l4 = light_word(light, 4u);
     let kind_flags = bitcast<u32>(l0.x);
     let kind = kind_flags & 255u;
-    let two_sided = (kind_flags & LIGHT_TWO_SIDED) != 0u;
     let pmf = l0.w;
     switch kind {
-#if FLAT_LIGHTS
-        case KIND_TRIANGLE, KIND_QUAD, KIND_DISK: {
-            let l2 = light_word(light, 2u);
-            let l3 = light_word(light, 3u);
-            let perpendicular = cross(l2.xyz, l3.xyz);
-            let normal = normalize(perpendicular);
-            var a = u;
-            var b = v;
-            if kind == KIND_TRIANGLE {
-                let root = sqrt(u);
-                a = 1.0 - root;
-                b = v * root;
-            }
-            if kind == KIND_DISK {
-                // The second and third words span the disk's bounding square: radii along two axes.
-                let circle = sin_cos_turns(v);
-                let r = sqrt(u);
-                a = r * circle.y;
-                b = r * circle.x;
-            }
-            let point = l1.xyz + a * l2.xyz + b * l3.xyz;
-            var size = abs(l1.xyz) + abs(l2.xyz) + abs(l3.xyz);
-#if MOVING_LIGHTS
-            size += moved_light_magnitude(light);
-#endif
-            var error = POINT_ERROR * dot(abs(normal), size);
-            if kind == KIND_TRIANGLE {
-                error += triangle_error(l2.xyz, l3.xyz);
-            }
-#if VARYING_LIGHTS
-            if (kind_flags & LIGHT_VARIES) != 0u {
-                var light_sample =
-                    flat_light_sample(reference, point, normal, l1.w, error, vec3<f32>(1.0), two_sided, pmf);
-                light_sample.radiance *= varying_radiance(light, vec2<f32>(a, b), normal, -light_sample.wi);
-                return light_sample;
-            }
-#endif
-            return flat_light_sample(reference, point, normal, l1.w, error, l4.xyz, two_sided, pmf);
-        }
-#endif
 #if SPHERE_LIGHTS
         case KIND_SPHERE: {
+            let two_sided = (kind_flags & LIGHT_TWO_SIDED) != 0u;
 #if VARYING_LIGHTS
             if (kind_flags & LIGHT_VARIES) != 0u {
                 return varying_sphere_sample(light, reference, two_sided, pmf, u, v);
             }
 #endif
-            return sphere_light_sample(reference, l1.xyz, l1.w, l4.xyz, two_sided, pmf, u, v);
+            let center = light_word(light, 1u);
+            return sphere_light_sample(reference, center.xyz, center.w, light_word(light, 4u).xyz, two_sided, pmf, u, v);
         }
 #endif
 #if ENVIRONMENT_LIGHT
@@ -208,6 +192,12 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
         }
 #endif
         default: {
+#if AREA_LIGHTS
+            // Below that number are the kinds of surfaces.
+            if kind < LIGHT_PORTAL {
+                return sample_area_light(light, kind_flags, reference, pmf, u, v);
+            }
+#endif
             return sample_delta_light(kind, light, reference, pmf);
         }
     }

@@ -3,6 +3,7 @@
 #import geometry/scene.wgsl
 #if MOVING_LIGHTS
 #import geometry/motion.wgsl
+#import geometry/placed.wgsl
 #endif
 
 // A light takes five vec4 of the tables:

@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::error::SceneError;
 use crate::scene::{
-    Camera, ColorInput, Emission, Environment, EnvironmentRadiance, Geometry, Light, Material, MaterialKind, Projection, Scene,
-    Shape, Transform,
+    Camera, ColorInput, Emission, Environment, EnvironmentRadiance, Geometry, Light, Material, MaterialKind, Plane, Projection,
+    Rectangle, Scene, Shape, Transform,
 };
 
 /// Vertical field of view of the camera, degrees: a short telephoto lens, which does not distort.
@@ -28,7 +28,7 @@ pub fn frame(mut scene: Scene, name: &str) -> Result<Scene, SceneError> {
         emission: Some(Emission { radiance: ColorInput::grey(8.0), two_sided: false }),
     };
     // Infinite, so that the horizon is level wherever the camera stands.
-    let plane = Geometry::Plane { point: DVec3::new(center.x, min.y, center.z), normal: DVec3::Y };
+    let plane = Geometry::Plane(Plane { point: DVec3::new(center.x, min.y, center.z), normal: DVec3::Y });
     add(&mut scene, "(ground)", ground, plane);
     // Above the camera's left shoulder, facing the model.
     let toward_light = DVec3::new(-0.6, 1.0, 0.5).normalize();
@@ -36,7 +36,7 @@ pub fn frame(mut scene: Scene, name: &str) -> Result<Scene, SceneError> {
     let along = toward_light.cross(across);
     let corner = center + 4.0 * radius * toward_light - 0.5 * (across + along);
     // The front is where edge_u × edge_v points: toward the model.
-    add(&mut scene, "(light)", light, Geometry::Rectangle { corner, edge_u: along, edge_v: across });
+    add(&mut scene, "(light)", light, Geometry::Rectangle(Rectangle { corner, edge_u: along, edge_v: across }));
     scene.lights.push(Light::Environment(Environment {
         radiance: EnvironmentRadiance::Constant(DVec3::splat(0.4)),
         rotation_degrees: 0.0,

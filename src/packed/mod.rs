@@ -3,6 +3,7 @@
 //! Orders matter. Lights stand in the order in which the scene names them, so that a random choice picks the same light on the CPU;
 //! primitives stand in the order of the hierarchy's leaves, those outside of it behind them.
 
+pub mod attributes;
 pub mod blend_weight;
 pub mod bvh4;
 mod constants;
@@ -16,7 +17,8 @@ pub mod motion;
 pub mod primitive;
 pub mod ray_query;
 mod scene;
-pub mod tables;
+pub mod shape;
+mod tables;
 pub mod texture;
 pub mod tree;
 pub mod validate;

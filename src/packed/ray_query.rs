@@ -4,7 +4,8 @@
 
 use glam::Vec3;
 
-use super::primitive::{PrimitiveKind, WorldPrimitive};
+use super::primitive::WorldPrimitive;
+use super::shape::PrimitiveKind;
 
 /// By how much of its size and place a box grows on every side, beyond what rounding of the shape asks for: devices intersect boxes with
 /// arithmetic of their own.

@@ -2,13 +2,14 @@
 
 use rayon::prelude::*;
 
+use super::attributes::TriangleAttributes;
 use super::constants::NONE;
 use super::environment::PackedEnvironment;
 use super::error::PackError;
 use super::hierarchy::{Hierarchy, Traversal};
 use super::light::PackedLight;
 use super::material::PackedMaterials;
-use super::primitive::{Primitive, TriangleAttributes};
+use super::primitive::Primitive;
 use super::texture::PackedTextures;
 use super::view::View;
 use super::{light, tree, world};

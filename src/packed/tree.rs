@@ -6,7 +6,8 @@ use obvhs::{BvhBuildParams, aabb::Aabb};
 use super::error::PackError;
 use super::hierarchy::{Hierarchy, Traversal};
 use super::motion::PackedMotion;
-use super::primitive::{PrimitiveKind, WorldPrimitive};
+use super::primitive::WorldPrimitive;
+use super::shape::PrimitiveKind;
 use super::{bvh4, ray_query};
 use crate::binary_tree;
 
@@ -42,7 +43,7 @@ pub fn build(
     let few_others = others <= MAX_OUTSIDE && others < primitives.len();
     let (inside, outside): (Vec<usize>, Vec<usize>) = (0..primitives.len()).partition(|&index| {
         let primitive = &primitives[index];
-        belongs(primitive) || !(few_others || primitive.is_plane())
+        belongs(primitive) || !(few_others || primitive.is_infinite())
     });
     if outside.len() > MAX_PLANES {
         return Err(PackError::TooManyPlanes { found: outside.len(), limit: MAX_PLANES });

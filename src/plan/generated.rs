@@ -1,6 +1,6 @@
 //! The WGSL files that are made from Rust's tables: the same for every scene.
 
-use super::{layout, lights, lobes};
+use super::{layout, lights, lobes, shapes};
 
 /// The name under which kernels import each, and its text.
 pub fn files() -> Vec<(&'static str, String)> {
@@ -9,5 +9,7 @@ pub fn files() -> Vec<(&'static str, String)> {
         (lobes::FILE, lobes::wgsl()),
         (lights::DELTA_FILE, lights::delta_wgsl()),
         (lights::OUTSIDE_FILE, lights::outside_wgsl()),
+        (shapes::GEOMETRY_FILE, shapes::geometry_wgsl()),
+        (shapes::SHADING_FILE, shapes::shading_wgsl()),
     ]
 }

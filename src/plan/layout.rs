@@ -4,7 +4,7 @@
 use super::bindings::Binding;
 use super::parameters::{PassParameters, VertexParameters};
 use super::{path_state, trace_record};
-use crate::packed::{NONE, View, blend_weight, bvh4, light, material, motion, primitive, texture};
+use crate::packed::{NONE, View, blend_weight, bvh4, light, material, motion, primitive, shape, texture};
 use crate::shader::shared::{Constant, Constants, SharedStruct, declare_constant};
 
 /// Name under which kernels import it.
@@ -17,7 +17,7 @@ pub fn constants() -> Constants {
         Binding::constants(),
         path_state::constants(),
         trace_record::constants(),
-        primitive::PrimitiveKind::constants(),
+        shape::constants(),
         primitive::constants(),
         bvh4::constants(),
         motion::constants(),

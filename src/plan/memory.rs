@@ -5,7 +5,8 @@ use std::fmt;
 use super::error::PlanError;
 use super::limits::DeviceLimits;
 use super::path_state::{QUEUES, SHADOW_RAY_WORDS};
-use crate::packed::primitive::{Primitive, TriangleAttributes};
+use crate::packed::attributes::TriangleAttributes;
+use crate::packed::primitive::Primitive;
 
 /// Bytes per shadow ray; a path has as many at a time as a surface takes light samples.
 pub const SHADOW_RAY_BYTES: u64 = 16 * SHADOW_RAY_WORDS as u64;

@@ -22,6 +22,7 @@ mod options;
 pub mod parameters;
 pub mod path_state;
 mod ray_query;
+pub mod shapes;
 pub mod stages;
 pub mod switches;
 pub mod trace_record;

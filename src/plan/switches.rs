@@ -5,7 +5,8 @@ use super::model::{Plan, SEQUENCE_BLOCKS};
 use crate::packed::hierarchy::Traversal;
 use crate::packed::light::{LightKind, PackedLight};
 use crate::packed::material::{BLEND, NO_LOBE, PackedMaterial};
-use crate::packed::primitive::{Primitive, PrimitiveKind};
+use crate::packed::primitive::Primitive;
+use crate::packed::shape::{PrimitiveKind, SurfaceSampling};
 use crate::packed::texture::PackedTextureKind;
 use crate::packed::{NONE, PackedScene};
 use crate::sampling::Decorrelation;
@@ -19,19 +20,7 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
     let mut switches = Switches::default();
     let render = &scene.render;
 
-    let has = |primitives: &[Primitive], kind: PrimitiveKind| primitives.iter().any(|primitive| primitive.kind() == kind as u32);
-    let (in_hierarchy, _) = packed.primitives.split_at(packed.hierarchy.primitive_count as usize);
-    let [triangles, quads, spheres, disks] =
-        [PrimitiveKind::Triangle, PrimitiveKind::Quad, PrimitiveKind::Sphere, PrimitiveKind::Disk]
-            .map(|kind| has(in_hierarchy, kind));
-    switches.enable("TRIANGLES_IN_HIERARCHY", triangles);
-    switches.enable("QUADS_IN_HIERARCHY", quads);
-    switches.enable("SPHERES_IN_HIERARCHY", spheres);
-    switches.enable("DISKS_IN_HIERARCHY", disks);
-    switches.enable("ONLY_TRIANGLES_IN_HIERARCHY", triangles && !(quads || spheres || disks));
-    let has_kind = |kind: PrimitiveKind| has(&packed.primitives, kind);
-    switches.enable("SPHERES", has_kind(PrimitiveKind::Sphere));
-    switches.enable("FLAT_ROUND", has_kind(PrimitiveKind::Disk) || has_kind(PrimitiveKind::Plane));
+    choose_shapes(packed, &mut switches);
     switches.enable("BVH", plan.has_nodes());
     switches.enable("RAY_QUERY", plan.traversal_in_use() == Some(Traversal::RayQuery));
     switches.enable("PACKETS", plan.lanes.is_some());
@@ -110,6 +99,21 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
     switches
 }
 
+fn choose_shapes(packed: &PackedScene, switches: &mut Switches) {
+    let has = |primitives: &[Primitive], kind: PrimitiveKind| primitives.iter().any(|primitive| primitive.is(kind));
+    let (held, _) = packed.primitives.split_at(packed.hierarchy.primitive_count as usize);
+    let is_sampled = |kind: PrimitiveKind| packed.lights.iter().any(|light| light.shape() == Some(kind));
+    for &kind in PrimitiveKind::ALL {
+        switches.enable(kind.switch(), has(&packed.primitives, kind) || is_sampled(kind));
+        if !kind.is_infinite() {
+            switches.enable(kind.switch_in_hierarchy(), has(held, kind));
+            switches.enable(kind.switch_of_lights(), is_sampled(kind));
+        }
+    }
+    let only_triangles = held.iter().all(|primitive| primitive.is(PrimitiveKind::Triangle));
+    switches.enable("ONLY_TRIANGLES_IN_HIERARCHY", !held.is_empty() && only_triangles);
+}
+
 /// Whether any surface samples light. Paths of one edge have no vertex to sample it from.
 pub fn samples_lights(scene: &Scene, packed: &PackedScene) -> bool {
     !packed.lights.is_empty() && scene.render.max_depth != 1
@@ -118,16 +122,18 @@ pub fn samples_lights(scene: &Scene, packed: &PackedScene) -> bool {
 fn choose_lights(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
     let render = &scene.render;
     let has = |kind: LightKind| packed.lights.iter().any(|light| light.is(kind));
-    let has_surface = |kind: PrimitiveKind| packed.lights.iter().any(|light| light.is_primitive(kind));
     let sampled = samples_lights(scene, packed);
     switches.enable("LIGHTS", sampled);
     switches.enable("ONE_LIGHT", packed.lights.len() == 1);
-    switches
-        .enable("FLAT_LIGHTS", [PrimitiveKind::Triangle, PrimitiveKind::Quad, PrimitiveKind::Disk].into_iter().any(has_surface));
-    let spheres = has_surface(PrimitiveKind::Sphere);
-    switches.enable("SPHERE_LIGHTS", spheres);
+    let has_surface = |sampling: SurfaceSampling| {
+        let is_it = |light: &PackedLight| light.is_surface() && light.shape().is_some_and(|kind| kind.sampling() == sampling);
+        packed.lights.iter().any(is_it)
+    };
+    switches.enable("AREA_LIGHTS", has_surface(SurfaceSampling::Area));
+    let spheres = packed.lights.iter().any(|light| light.is_surface() && light.shape() == Some(PrimitiveKind::Sphere));
     switches.enable("SPHERE_LIGHTS_BY_POINT", spheres && render.light_sampling != LightSampling::Cone);
     switches.enable("SPHERE_LIGHTS_VISIBLE_HALF", spheres && render.light_sampling == LightSampling::Visible);
+    switches.enable("DELTA_LIGHTS", packed.lights.iter().any(PackedLight::is_delta));
     for &kind in LightKind::DELTA {
         switches.enable(kind.number_name(), has(kind));
     }

@@ -5,10 +5,11 @@
 
 use std::fmt::Write as _;
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
 use crate::packed::PackedScene;
-use crate::packed::primitive::{Primitive, PrimitiveKind};
+use crate::packed::primitive::Primitive;
+use crate::packed::shape::PrimitiveKind;
 
 /// WGSL with `closest_of_constants` and `any_of_constants` for the primitives from `first` on.
 pub fn constants(packed: &PackedScene, first: usize) -> String {
@@ -26,7 +27,7 @@ pub fn constants(packed: &PackedScene, first: usize) -> String {
         let _ = writeln!(any, "    blocked = blocked || ({}).x > 0.0;", test_for(primitive, "t_max"));
     }
     format!(
-        "#import core/math.wgsl\n#import geometry/primitives.wgsl\n\n\
+        "#import core/math.wgsl\n#import geometry/prepared_ray.wgsl\n#import geometry/shapes.wgsl\n\n\
          fn closest_of_constants(ray: PreparedRay, hit: ptr<function, Hit>) {{\n    \
          var best = *hit;\n{closest}    *hit = best;\n}}\n\n\
          fn any_of_constants(ray: PreparedRay, t_max: f32) -> bool {{\n    \
@@ -36,24 +37,23 @@ pub fn constants(packed: &PackedScene, first: usize) -> String {
 
 /// An expression of type `vec3<f32>`: (t or -1, u, v).
 fn test_for(primitive: &Primitive, t_max: &str) -> String {
-    let [p0, p1, p2] = [primitive.p0, primitive.p1, primitive.p2].map(Vec3::from);
-    let kind = primitive.kind();
-    if kind == PrimitiveKind::Triangle as u32 {
-        format!("intersect_triangle(ray, {t_max}, {}, {}, {})", vector(p0), vector(p1), vector(p2))
-    } else if kind == PrimitiveKind::Quad as u32 {
-        let (edge_u, edge_v) = (p1.as_dvec3(), p2.as_dvec3());
-        let normal = edge_u.cross(edge_v);
-        let squared = normal.length_squared();
-        let [unit, dual_u, dual_v] =
-            [normal / squared.sqrt(), edge_v.cross(normal) / squared, normal.cross(edge_u) / squared].map(DVec3::as_vec3);
-        format!("intersect_quad_constant(ray, {t_max}, {}, {}, {}, {})", vector(p0), vector(unit), vector(dual_u), vector(dual_v))
-    } else if kind == PrimitiveKind::Sphere as u32 {
-        format!("vec3<f32>(intersect_sphere(ray, {t_max}, {}, {}), 0.0, 0.0)", vector(p0), literal(p1.x))
-    } else if kind == PrimitiveKind::Disk as u32 {
-        format!("vec3<f32>(intersect_disk(ray, {t_max}, {}, {}, {}), 0.0, 0.0)", vector(p0), vector(p1), literal(p2.x))
-    } else {
-        format!("vec3<f32>(intersect_plane(ray, {t_max}, {}, {}), 0.0, 0.0)", vector(p0), vector(p1))
+    let points = [primitive.p0, primitive.p1, primitive.p2].map(Vec3::from);
+    if primitive.is(PrimitiveKind::Quad) {
+        return test_for_quad(points, t_max);
     }
+    let [p0, p1, p2] = points.map(vector);
+    let shape = PrimitiveKind::of(primitive.kind()).map_or("", PrimitiveKind::file);
+    format!("intersect_{shape}(ray, {t_max}, {p0}, {p1}, {p2})")
+}
+
+/// With the plane's numbers folded in.
+fn test_for_quad([corner, edge_u, edge_v]: [Vec3; 3], t_max: &str) -> String {
+    let (edge_u, edge_v) = (edge_u.as_dvec3(), edge_v.as_dvec3());
+    let normal = edge_u.cross(edge_v);
+    let squared = normal.length_squared();
+    let numbers = [normal / squared.sqrt(), edge_v.cross(normal) / squared, normal.cross(edge_u) / squared];
+    let [unit, dual_u, dual_v] = numbers.map(|numbers| vector(numbers.as_vec3()));
+    format!("intersect_quad_constant(ray, {t_max}, {}, {unit}, {dual_u}, {dual_v})", vector(corner))
 }
 
 fn vector(v: Vec3) -> String {

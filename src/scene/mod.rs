@@ -12,7 +12,6 @@ mod check;
 mod digest;
 pub mod light;
 pub mod material;
-mod mesh;
 mod model;
 pub mod motion;
 mod placement;
@@ -40,7 +39,7 @@ pub use settings::{
     BlendMode, Estimator, FilmSettings, Filter, FilterKind, HemisphereSampling, LightSampling, MisHeuristic, PixelSampler,
     RenderSettings, SamplerKind,
 };
-pub use shape::{Geometry, Mesh, Shape};
+pub use shape::*;
 pub use summary::SceneSummary;
 pub use texture::{ColorInput, ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureId, TextureKind, TextureWrap};
 pub use transform::{Transform, TransformStep};

@@ -9,7 +9,6 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::model::Scene;
-use super::shape::{Geometry, Shape};
 use super::transform::TransformStep;
 
 /// A scene is moved where its camera is this many times as far from the origin as from the nearest shape.
@@ -41,40 +40,6 @@ impl Scene {
             light.translate(-center);
         }
         Cow::Owned(moved)
-    }
-}
-
-impl Shape {
-    /// A distance from `point` within which all of the shape lies; of an infinite plane the distance of the plane.
-    fn farthest_from(&self, point: DVec3) -> f64 {
-        let map = self.transform.to_affine();
-        let farthest = |low: DVec3, high: DVec3| {
-            let corner = |index: usize| {
-                let pick = |axis: usize| if index >> axis & 1 == 0 { low[axis] } else { high[axis] };
-                map.transform_point3(DVec3::new(pick(0), pick(1), pick(2))).distance(point)
-            };
-            (0..8).map(corner).fold(0.0, f64::max)
-        };
-        match &self.geometry {
-            Geometry::Mesh(mesh) => {
-                let low = mesh.positions.iter().copied().reduce(glam::Vec3::min).unwrap_or_default();
-                let high = mesh.positions.iter().copied().reduce(glam::Vec3::max).unwrap_or_default();
-                farthest(low.as_dvec3(), high.as_dvec3())
-            }
-            Geometry::Sphere { center, radius } | Geometry::Disk { center, radius, .. } => {
-                farthest(*center - *radius, *center + *radius)
-            }
-            Geometry::Rectangle { corner, edge_u, edge_v } => {
-                let opposite = *corner + *edge_u + *edge_v;
-                let sides = [*corner, *corner + *edge_u, *corner + *edge_v, opposite];
-                sides.into_iter().map(|side| map.transform_point3(side).distance(point)).fold(0.0, f64::max)
-            }
-            Geometry::Box { min, max } => farthest(*min, *max),
-            Geometry::Plane { point: on_plane, normal } => {
-                let normal = (map.matrix3.inverse().transpose() * *normal).normalize();
-                (point - map.transform_point3(*on_plane)).dot(normal).abs()
-            }
-        }
     }
 }
 

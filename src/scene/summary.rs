@@ -45,7 +45,7 @@ impl SceneSummary {
             size: scene.film.size,
             filter: scene.film.filter.to_string(),
             render: scene.render.clone(),
-            shapes: count(scene.shapes.iter().map(|shape| shape_type(&shape.geometry))),
+            shapes: count(scene.shapes.iter().map(|shape| shape.geometry.kind_name())),
             triangles: scene.shapes.iter().map(triangles).sum(),
             moving_shapes: scene.shapes.iter().filter(|shape| shape.motion.is_some()).count(),
             emitting_shapes: scene.shapes.iter().filter(|shape| shape.materials().any(emits)).count(),
@@ -110,17 +110,6 @@ fn triangles(shape: &Shape) -> usize {
     match &shape.geometry {
         Geometry::Mesh(mesh) => mesh.faces.len(),
         _ => 0,
-    }
-}
-
-fn shape_type(geometry: &Geometry) -> &'static str {
-    match geometry {
-        Geometry::Mesh(_) => "mesh",
-        Geometry::Sphere { .. } => "sphere",
-        Geometry::Rectangle { .. } => "rectangle",
-        Geometry::Disk { .. } => "disk",
-        Geometry::Box { .. } => "box",
-        Geometry::Plane { .. } => "plane",
     }
 }
 

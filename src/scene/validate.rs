@@ -3,16 +3,16 @@
 //! Files are checked as they are read, with the line of each mistake. A scene that a program builds by hand is checked here, whichever
 //! device renders it: both the packed scene and the reference look indices up without asking again.
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 use super::blend_tree::check_blends;
 use super::camera::{ApertureShape, Camera, Projection};
-use super::check::{Check, image, is_amount, is_direction, is_positive};
+use super::check::{Check, image, is_amount, is_positive};
 use super::light::{Environment, EnvironmentRadiance, Light};
 use super::material::{BlendWeight, Material, MaterialId, MaterialKind};
 use super::model::Scene;
 use super::settings::BadSetting;
-use super::shape::{Geometry, Mesh, Shape};
+use super::shape::Shape;
 use super::texture::{ColorInput, TextureId, TextureKind};
 
 /// Most octaves of Perlin noise: further ones are finer than the numbers that they are computed in.
@@ -126,20 +126,17 @@ impl Scene {
         if determinant == 0.0 || !determinant.is_finite() || !map.translation.is_finite() {
             return Err("the transform is singular".into());
         }
-        let round = matches!(shape.geometry, Geometry::Sphere { .. } | Geometry::Disk { .. });
-        if round && shape.transform.uniform_scale().is_none() {
-            return Err("spheres and disks cannot be scaled unevenly".into());
+        if shape.geometry.is_round() && shape.transform.uniform_scale().is_none() {
+            return Err(shape.geometry.stays_round());
         }
         shape.check_motion(self.camera.shutter).map_err(|(_, message)| message)?;
-        let has_uv = geometry(&shape.geometry)?;
-        if shape.portal && matches!(shape.geometry, Geometry::Plane { .. }) {
+        shape.geometry.check()?;
+        if shape.portal && shape.geometry.is_infinite() {
             return Err("a plane cannot be a portal".into());
         }
         self.material_exists(shape.material)?;
-        if let Geometry::Mesh(mesh) = &shape.geometry {
-            mesh.face_materials.iter().try_for_each(|&id| self.material_exists(id))?;
-        }
-        if !has_uv && shape.materials().any(|id| textured[id]) {
+        shape.materials().try_for_each(|id| self.material_exists(id))?;
+        if shape.geometry.lacks_uv().is_some() && shape.materials().any(|id| textured[id]) {
             return Err("a textured material needs texture coordinates".into());
         }
         Ok(())
@@ -204,42 +201,6 @@ fn texture_kind(kind: &TextureKind) -> Check {
 fn between(a: DVec3, b: DVec3, scale_is_finite: bool) -> Check {
     let possible = a.is_finite() && b.is_finite() && scale_is_finite;
     if possible { Ok(()) } else { Err("its colours and its scale must be finite".into()) }
-}
-
-/// Whether it has texture coordinates.
-fn geometry(geometry: &Geometry) -> Result<bool, String> {
-    let has_uv = match geometry {
-        Geometry::Mesh(mesh) => {
-            check_mesh(mesh)?;
-            return Ok(!mesh.uvs.is_empty());
-        }
-        Geometry::Sphere { center, radius } if center.is_finite() && is_positive(*radius) => true,
-        Geometry::Disk { center, normal, radius } if center.is_finite() && is_direction(*normal) && is_positive(*radius) => false,
-        Geometry::Plane { point, normal } if point.is_finite() && is_direction(*normal) => false,
-        Geometry::Rectangle { corner, edge_u, edge_v } if [corner, edge_u, edge_v].into_iter().all(|v| v.is_finite()) => true,
-        Geometry::Box { min, max } if min.is_finite() && max.is_finite() && min.cmple(*max).all() => true,
-        _ => return Err("its numbers must be finite, radii positive, and normals of length 1".into()),
-    };
-    Ok(has_uv)
-}
-
-/// Every list of a mesh is as long as the others need it.
-fn check_mesh(mesh: &Mesh) -> Check {
-    let vertices = mesh.positions.len();
-    if mesh.faces.iter().flatten().any(|&vertex| vertex as usize >= vertices) {
-        return Err(format!("a face names a vertex beyond the last, {}", vertices.saturating_sub(1)));
-    }
-    let fits = |length: usize, needed: usize| length == 0 || length == needed;
-    if !fits(mesh.normals.len(), vertices) || !fits(mesh.uvs.len(), vertices) {
-        return Err("normals and uvs must be as many as positions".into());
-    }
-    if !fits(mesh.face_materials.len(), mesh.faces.len()) {
-        return Err("face materials must be as many as faces".into());
-    }
-    if !mesh.positions.iter().copied().all(Vec3::is_finite) {
-        return Err("positions must be finite".into());
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -2,10 +2,11 @@
 
 use crate::scene::light::light_table;
 use crate::scene::material::material_table;
+use crate::scene::shape::shape_table;
 
 macro_rules! shader_files {
     ($($name:literal),* $(,)?) => {
-        /// All but those of lobes and lights.
+        /// All but those of lobes, lights and shapes.
         const FILES: &[(&str, &str)] = &[$(($name, include_str!(concat!("../../shaders/", $name)))),*];
     };
 }
@@ -18,7 +19,8 @@ shader_files![
     "geometry/bvh4.wgsl",
     "geometry/closest.wgsl",
     "geometry/motion.wgsl",
-    "geometry/primitives.wgsl",
+    "geometry/placed.wgsl",
+    "geometry/prepared_ray.wgsl",
     "geometry/ray_query.wgsl",
     "geometry/records.wgsl",
     "geometry/scene.wgsl",
@@ -29,6 +31,7 @@ shader_files![
     "geometry/traversal.wgsl",
     "geometry/unrolled.wgsl",
     "geometry/words.wgsl",
+    "shading/attributes.wgsl",
     "shading/blend.wgsl",
     "shading/blend_weight.wgsl",
     "shading/bsdf.wgsl",
@@ -51,6 +54,7 @@ shader_files![
     "shading/planted.wgsl",
     "shading/portal.wgsl",
     "shading/scattering.wgsl",
+    "shading/shape_point.wgsl",
     "shading/sides.wgsl",
     "shading/sphere_light.wgsl",
     "shading/surface.wgsl",
@@ -94,7 +98,24 @@ macro_rules! light_files {
 }
 light_table!(light_files);
 
+/// The files of each primitive in the table of shapes.
+macro_rules! shape_files {
+    ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident)?,)*) => {
+        const SHAPES: &[(&str, &str)] = &[$($(
+            (
+                concat!("geometry/shape/", stringify!($file), ".wgsl"),
+                include_str!(concat!("../../shaders/geometry/shape/", stringify!($file), ".wgsl")),
+            ),
+            (
+                concat!("shading/shape/", stringify!($file), ".wgsl"),
+                include_str!(concat!("../../shaders/shading/shape/", stringify!($file), ".wgsl")),
+            ),
+        )?)*];
+    };
+}
+shape_table!(shape_files);
+
 /// Name within `shaders/` and text of every file.
 pub fn files() -> impl Iterator<Item = (&'static str, &'static str)> {
-    FILES.iter().chain(LOBES).chain(LIGHTS).copied()
+    FILES.iter().chain(LOBES).chain(LIGHTS).chain(SHAPES).copied()
 }

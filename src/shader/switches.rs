@@ -8,6 +8,7 @@ use std::sync::LazyLock;
 
 use crate::scene::light::light_table;
 use crate::scene::material::material_table;
+use crate::scene::shape::shape_table;
 
 /// A row of the table.
 #[derive(Debug, Clone, Copy)]
@@ -45,8 +46,47 @@ impl Switch {
     }
 }
 
-/// Kinds of primitive that a hierarchy holds.
-const HELD: &[&str] = &["TRIANGLES_IN_HIERARCHY", "QUADS_IN_HIERARCHY", "SPHERES_IN_HIERARCHY", "DISKS_IN_HIERARCHY"];
+/// Names of switches of the finite primitives in the table of shapes, those of some `SurfaceSampling` left out.
+macro_rules! names_but {
+    ($left_out:ident $suffix:literal [$($name:expr,)*]) => { &[$($name,)*] };
+    (Infinite $suffix:literal [$($name:expr,)*] (Infinite $capitals:ident) $($rest:tt)*) => {
+        names_but!(Infinite $suffix [$($name,)*] $($rest)*)
+    };
+    (Own $suffix:literal [$($name:expr,)*] (Own $capitals:ident) $($rest:tt)*) => {
+        names_but!(Own $suffix [$($name,)*] $($rest)*)
+    };
+    (Own $suffix:literal [$($name:expr,)*] (Infinite $capitals:ident) $($rest:tt)*) => {
+        names_but!(Own $suffix [$($name,)*] $($rest)*)
+    };
+    ($left_out:ident $suffix:literal [$($name:expr,)*] ($sampling:ident $capitals:ident) $($rest:tt)*) => {
+        names_but!($left_out $suffix [$($name,)* concat!(stringify!($capitals), $suffix),] $($rest)*)
+    };
+}
+
+/// Switches for each primitive in the table of shapes.
+macro_rules! shapes {
+    ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident)?,)*) => {
+        /// Kinds of primitive that a hierarchy holds.
+        const HELD: &[&str] = names_but!(Infinite "S_IN_HIERARCHY" [] $($(($sampling $capitals))?)*);
+
+        /// Kinds of surfaces of which points are drawn by area, as lights or portals.
+        const DRAWN_BY_AREA: &[&str] = names_but!(Own "_LIGHTS" [] $($(($sampling $capitals))?)*);
+
+        const SHAPES: &[&[Switch]] = &[$($(shapes!(@of $sampling $capitals),)?)*];
+    };
+    (@of Infinite $capitals:ident) => { &[switch(concat!(stringify!($capitals), "S"))] };
+    (@of $sampling:ident $capitals:ident) => {
+        &[
+            switch(concat!(stringify!($capitals), "S")),
+            switch(concat!(stringify!($capitals), "S_IN_HIERARCHY")).requires(&[concat!(stringify!($capitals), "S")]),
+            switch(concat!(stringify!($capitals), "_LIGHTS")).requires(&[concat!(stringify!($capitals), "S")]),
+        ]
+    };
+}
+shape_table!(shapes);
+
+/// What the hierarchy does not hold beside triangles alone; these are the first.
+const HELD_BESIDE_TRIANGLES: &[&str] = HELD.split_at(1).1;
 
 /// A switch for each lobe in the table of materials.
 macro_rules! lobes {
@@ -62,32 +102,35 @@ material_table!(lobes);
 macro_rules! lights {
     (environment { $($environment:ident($outside:ident) $environment_module:ident $switch:ident $($needed:ident)*,)* }
      delta { $($delta:ident($type:ident) $module:ident $number:ident $($delta_needed:ident)*,)* }) => {
-        /// Kinds of sampled light; where lights are sampled there is one at least.
-        const LIGHT_KINDS: &[&str] =
-            &[$(stringify!($number),)* "FLAT_LIGHTS", "SPHERE_LIGHTS", "ENVIRONMENT_LIGHT", "PORTALS"];
+        /// Lights to which one direction leads from each point.
+        const DELTA: &[&str] = &[$(stringify!($number)),*];
 
         /// Light from outside the scene that is not the same from everywhere: one at most.
         const OUTSIDE: &[&str] = &[$(stringify!($switch)),*];
 
         const LIGHTS: &[Switch] = &[
             $(switch(stringify!($switch)).requires(&["ENVIRONMENT", $(stringify!($needed)),*]).excludes(OUTSIDE),)*
-            $(switch(stringify!($number)).requires(&[$(stringify!($delta_needed)),*]),)*
+            $(switch(stringify!($number)).requires(&["DELTA_LIGHTS", $(stringify!($delta_needed)),*]),)*
         ];
     };
 }
 light_table!(lights);
 
+/// Kinds of sampled light; where lights are sampled there is one at least.
+const LIGHT_KINDS: &[&str] = &["DELTA_LIGHTS", "AREA_LIGHTS", "SPHERE_LIGHTS", "ENVIRONMENT_LIGHT", "PORTALS"];
+
 /// The table, in alphabetical order.
 pub static SWITCHES: LazyLock<Vec<Switch>> = LazyLock::new(|| {
-    let mut rows = [OF_FEATURES, LOBES, LIGHTS].concat();
+    let mut rows = [&[OF_FEATURES, LOBES, LIGHTS], SHAPES].concat().concat();
     rows.sort_by_key(|row| row.name);
     rows
 });
 
-/// All but lobes and lights that are no surfaces.
+/// All but lobes, shapes, and lights that are no surfaces.
 const OF_FEATURES: &[Switch] = &[
     switch("APERTURE_POLYGON").requires(&["LENS"]).excludes(&["APERTURE_SQUARE"]),
     switch("APERTURE_SQUARE").requires(&["LENS"]),
+    switch("AREA_LIGHTS").one_of(DRAWN_BY_AREA),
     switch("ATTRIBUTES"),
     switch("ATTRIBUTE_CHUNKS").requires(&["ATTRIBUTES"]),
     switch("BLENDS").one_of(&["MIXTURE", "PICK"]),
@@ -95,8 +138,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("BVH").one_of(HELD).excludes(&["RAY_QUERY"]),
     switch("CHECKERS").requires(&["PROCEDURAL_TEXTURES"]),
     switch("COLOR1"),
+    switch("DELTA_LIGHTS").one_of(DELTA),
     switch("DIGITAL_SHIFT").requires(&["SEQUENCE"]),
-    switch("DISKS_IN_HIERARCHY").requires(&["FLAT_ROUND"]),
     switch("EMISSION"),
     switch("ENVIRONMENT"),
     switch("ENVIRONMENT_LIGHT").requires(&["ENVIRONMENT_SAMPLED"]),
@@ -107,8 +150,6 @@ const OF_FEATURES: &[Switch] = &[
     switch("FILTER"),
     switch("FILTER_BOX").requires(&["FILTER"]).excludes(&["FILTER_CURVE"]),
     switch("FILTER_CURVE").requires(&["FILTER"]),
-    switch("FLAT_LIGHTS"),
-    switch("FLAT_ROUND"),
     switch("HEURISTIC_POWER"),
     switch("IMAGES").requires(&["TEXELS", "TEXTURES"]),
     switch("LENS"),
@@ -123,11 +164,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("NON_DELTA_TRANSMISSION"),
     switch("NORMAL_MAPS").requires(&["TEXTURES"]),
     switch("ONE_LIGHT"),
-    switch("ONLY_TRIANGLES_IN_HIERARCHY").requires(&["TRIANGLES_IN_HIERARCHY"]).excludes(&[
-        "QUADS_IN_HIERARCHY",
-        "SPHERES_IN_HIERARCHY",
-        "DISKS_IN_HIERARCHY",
-    ]),
+    switch("ONLY_TRIANGLES_IN_HIERARCHY").requires(&["TRIANGLES_IN_HIERARCHY"]).excludes(HELD_BESIDE_TRIANGLES),
     switch("ORTHOGRAPHIC"),
     switch("PACKETS").requires(&["BVH"]).excludes(&["TRACE"]),
     switch("PERLIN").requires(&["PROCEDURAL_TEXTURES"]),
@@ -143,15 +180,11 @@ const OF_FEATURES: &[Switch] = &[
     switch("PORTALS").requires(&["ENVIRONMENT_SAMPLED"]),
     switch("PRIMITIVE_CHUNKS").excludes(&["UNIFORM_PRIMITIVES"]),
     switch("PROCEDURAL_TEXTURES").requires(&["TEXTURES"]).one_of(&["CHECKERS", "PERLIN", "WORLEY"]),
-    switch("QUADS_IN_HIERARCHY"),
     // Acceleration structures hold a scene at rest.
     switch("RAY_QUERY").one_of(HELD).excludes(&["MOTION"]),
     switch("ROUGHNESS"),
     switch("ROULETTE"),
     switch("SEQUENCE"),
-    switch("SPHERES"),
-    switch("SPHERES_IN_HIERARCHY").requires(&["SPHERES"]),
-    switch("SPHERE_LIGHTS").requires(&["SPHERES"]),
     switch("SPHERE_LIGHTS_BY_POINT").requires(&["SPHERE_LIGHTS"]),
     switch("SPHERE_LIGHTS_VISIBLE_HALF").requires(&["SPHERE_LIGHTS_BY_POINT"]),
     switch("SPREAD"),
@@ -159,7 +192,6 @@ const OF_FEATURES: &[Switch] = &[
     switch("TEXELS"),
     switch("TEXTURES"),
     switch("TRACE").debug(),
-    switch("TRIANGLES_IN_HIERARCHY"),
     switch("UNIFORM_HEMISPHERE"),
     switch("UNIFORM_NODES").requires(&["BVH"]),
     switch("UNIFORM_PRIMITIVES"),

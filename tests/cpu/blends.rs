@@ -72,11 +72,11 @@ fn stage() -> Scene {
         ..Scene::default()
     };
     let floor = material(&mut scene, MaterialKind::Diffuse { reflectance: grey(0.5) }, None);
-    shape(&mut scene, Geometry::Plane { point: DVec3::ZERO, normal: DVec3::Y }, floor);
+    shape(&mut scene, Geometry::Plane(Plane { point: DVec3::ZERO, normal: DVec3::Y }), floor);
     let emission = Emission { radiance: ColorInput::Constant(DVec3::new(4.0, 3.0, 2.0)), two_sided: false };
     let lamp = material(&mut scene, MaterialKind::Emissive, Some(emission));
     let (corner, edge_u, edge_v) = (DVec3::new(-1.5, 4.0, -1.5), DVec3::X * 3.0, DVec3::Z * 3.0);
-    shape(&mut scene, Geometry::Rectangle { corner, edge_u, edge_v }, lamp);
+    shape(&mut scene, Geometry::Rectangle(Rectangle { corner, edge_u, edge_v }), lamp);
     scene
 }
 
@@ -91,7 +91,7 @@ fn shape(scene: &mut Scene, geometry: Geometry, material: MaterialId) {
 }
 
 fn ball(scene: &mut Scene, x: f64, material: MaterialId) {
-    shape(scene, Geometry::Sphere { center: DVec3::new(x, 0.8, 0.0), radius: 0.8 }, material);
+    shape(scene, Geometry::Sphere(Sphere { center: DVec3::new(x, 0.8, 0.0), radius: 0.8 }), material);
 }
 
 fn blend(scene: &mut Scene, first: MaterialId, second: MaterialId, weight: BlendWeight) -> MaterialId {
@@ -161,7 +161,7 @@ fn the_estimators_agree_on_rough_materials() {
         let material = material(&mut scene, kind, None);
         ball(&mut scene, -1.1, material);
         let (corner, edge_u, edge_v) = (DVec3::new(0.2, 1.2, -1.0), DVec3::X * 2.0, DVec3::new(0.0, 0.3, 2.0));
-        shape(&mut scene, Geometry::Rectangle { corner, edge_u, edge_v }, material);
+        shape(&mut scene, Geometry::Rectangle(Rectangle { corner, edge_u, edge_v }), material);
         // Glass makes the most noise.
         let spp = if name.ends_with("glass") { 128 } else { 32 };
         let [mis, nee, bsdf] = [(Estimator::Mis, 1), (Estimator::Nee, 4), (Estimator::Bsdf, 4)].map(|(estimator, times)| {

@@ -10,7 +10,7 @@ use gpt::packed::PackedScene;
 use gpt::packed::bvh4::Child;
 use gpt::packed::bvh4::Node;
 use gpt::packed::grid::Box3;
-use gpt::packed::primitive::PrimitiveKind;
+use gpt::packed::shape::PrimitiveKind;
 use gpt::scene::{Geometry, Mesh, Scene};
 
 /// A mesh in front of a camera.

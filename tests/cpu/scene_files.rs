@@ -6,8 +6,8 @@ use crate::common::files::{TRIANGLE, folder_with, png_bytes};
 use glam::{DVec3, Vec3};
 use gpt::load;
 use gpt::scene::{
-    self, BlendWeight, ColorInput, Geometry, Material, MaterialKind, Mesh, MisHeuristic, Projection, SamplerKind, Scene,
-    TextureKind, TextureWrap,
+    self, BlendWeight, ColorInput, Disk, Geometry, Material, MaterialKind, Mesh, MisHeuristic, Plane, Projection, Rectangle,
+    SamplerKind, Scene, TextureKind, TextureWrap,
 };
 use proptest::prelude::*;
 
@@ -98,8 +98,8 @@ fn every_shape_and_supported_material_is_read() {
     assert!(matches!(material(&scene, "c").kind, MaterialKind::Glass { ior, .. } if ior == 1.33));
     let emission = material(&scene, "d").emission.unwrap_or_else(|| panic!("d emits"));
     assert!(!emission.two_sided && emission.radiance == ColorInput::Constant(DVec3::new(1.0, 2.0, 3.0)));
-    assert!(matches!(scene.shapes[2].geometry, Geometry::Disk { normal, .. } if normal == DVec3::Z));
-    assert!(matches!(scene.shapes[4].geometry, Geometry::Plane { normal, .. } if normal == DVec3::Y));
+    assert!(matches!(scene.shapes[2].geometry, Geometry::Disk(Disk { normal, .. }) if normal == DVec3::Z));
+    assert!(matches!(scene.shapes[4].geometry, Geometry::Plane(Plane { normal, .. }) if normal == DVec3::Y));
 }
 
 const SQUARE: &str = r#"
@@ -294,9 +294,11 @@ fn a_model_alone_is_framed() {
         assert!(ray.dot(right).abs() < limit && ray.dot(up).abs() < limit);
     }
     // The light faces the model, the ground faces up and touches it.
-    let Geometry::Plane { point, normal } = scene.shapes[1].geometry else { panic!("the ground is a plane") };
+    let Geometry::Plane(Plane { point, normal }) = scene.shapes[1].geometry else { panic!("the ground is a plane") };
     assert!(normal == DVec3::Y && point.y == 0.0);
-    let Geometry::Rectangle { corner, edge_u, edge_v } = scene.shapes[2].geometry else { panic!("the light is a rectangle") };
+    let Geometry::Rectangle(Rectangle { corner, edge_u, edge_v }) = scene.shapes[2].geometry else {
+        panic!("the light is a rectangle")
+    };
     let light = (corner + 0.5 * (edge_u + edge_v), edge_u.cross(edge_v).normalize());
     assert!(light.1.dot((DVec3::new(0.5, 50.0, 0.0) - light.0).normalize()) > 0.999);
 }

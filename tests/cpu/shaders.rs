@@ -51,7 +51,7 @@ fn shippable(wanted: &BTreeSet<&'static str>) -> Switches {
         "TABLE_WORDS",
         "NODE_WORDS",
     ];
-    let geometry = "#import core/math.wgsl\n#import geometry/primitives.wgsl\n\
+    let geometry = "#import core/math.wgsl\n#import geometry/prepared_ray.wgsl\n\
                     fn closest_of_constants(ray: PreparedRay, hit: ptr<function, Hit>) {}\n\
                     fn any_of_constants(ray: PreparedRay, t_max: f32) -> bool { return false; }\n";
     // Three chunks, the last of half the size.
@@ -200,10 +200,11 @@ fn layouts_match_between_wgsl_and_rust() {
 /// Every constant has one value and a name of its own, and records are whole numbers of vec4: kernels index them in words of 16 bytes.
 #[test]
 fn shared_constants_have_names_of_their_own() {
+    use gpt::packed::attributes::TriangleAttributes;
     use gpt::packed::blend_weight::PackedBlendWeight;
     use gpt::packed::light::PackedLight;
     use gpt::packed::material::{PackedBlendPart, PackedMaterial};
-    use gpt::packed::primitive::{Primitive, TriangleAttributes};
+    use gpt::packed::primitive::Primitive;
     use gpt::packed::{bvh4, texture::PackedTexture};
     let constants = layout::constants();
     let names: BTreeSet<&str> = constants.iter().map(|(name, _)| *name).collect();

@@ -12,7 +12,8 @@ use gpt::gpu::GpuRenderer;
 use gpt::load;
 use gpt::load::SceneError;
 use gpt::packed::motion::PackedMotion;
-use gpt::packed::primitive::{PrimitiveGeometry, WorldPrimitive};
+use gpt::packed::primitive::WorldPrimitive;
+use gpt::packed::shape::{Disk, PrimitiveGeometry, Quad, Sphere, Triangle};
 use gpt::plan::{PlanOptions, StageMode};
 use gpt::reference::ReferenceRenderer;
 use gpt::renderer::{RenderRequest, Renderer, Silent};
@@ -240,22 +241,22 @@ fn random_primitive(random: &mut SplitMix64) -> (PrimitiveGeometry, Box<dyn Fn(f
             let corners: [Vec3; 3] = [corner, corner + edge_u, corner + edge_v].map(|p| p.as_vec3());
             let [a, b, c] = corners.map(|p| p.as_dvec3());
             let point = move |u: f64, v: f64| a + (b - a) * (1.0 - u.sqrt()) + (c - a) * v * u.sqrt();
-            (PrimitiveGeometry::Triangle(corners), Box::new(point))
+            (Triangle(corners).into(), Box::new(point))
         }
         1 => {
             let point = move |u, v| corner + edge_u * u + edge_v * v;
-            (PrimitiveGeometry::Quad { corner, edge_u, edge_v }, Box::new(point))
+            (Quad { corner, edge_u, edge_v }.into(), Box::new(point))
         }
         2 => {
             let point = move |u: f64, v| {
                 let z = 2.0 * u - 1.0;
                 corner + radius * (normal * z + circle(v) * (1.0 - z * z).sqrt())
             };
-            (PrimitiveGeometry::Sphere { center: corner, radius }, Box::new(point))
+            (Sphere { center: corner, radius }.into(), Box::new(point))
         }
         _ => {
             let point = move |u: f64, v| corner + radius * u.sqrt() * circle(v);
-            (PrimitiveGeometry::Disk { center: corner, normal, radius }, Box::new(point))
+            (Disk { center: corner, normal, radius }.into(), Box::new(point))
         }
     }
 }

@@ -177,7 +177,7 @@ fn a_device_opened_without_them_has_none() {
 /// Triangles stand before what boxes stand for, each primitive once, and every box holds its shape.
 #[test]
 fn what_a_structure_is_built_from_is_in_order() {
-    use gpt::packed::primitive::PrimitiveKind;
+    use gpt::packed::shape::PrimitiveKind;
     let packed = packed(&everything());
     let boxes = &packed.hierarchy.boxes;
     let held = &packed.primitives[..packed.hierarchy.primitive_count as usize];

@@ -4,7 +4,7 @@ use crate::common::device::DEVICE;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::plan::{Fault, PlanOptions};
 use gpt::renderer::RenderError;
-use gpt::scene::{Geometry, Scene, Shape, Transform};
+use gpt::scene::{Disk, Geometry, Scene, Shape, Transform};
 use gpt::verify;
 use gpt::verify::closed_forms::{self, ClosedForm};
 
@@ -42,7 +42,7 @@ fn a_scene_that_is_not_valid_is_refused_by_the_device() {
     assert!(GpuRenderer::on(device, &scene, &PlanOptions::default()).is_ok());
     scene.shapes.push(Shape {
         label: "a disk".into(),
-        geometry: Geometry::Disk { center: glam::DVec3::ZERO, normal: glam::DVec3::Y, radius: 1.0 },
+        geometry: Geometry::Disk(Disk { center: glam::DVec3::ZERO, normal: glam::DVec3::Y, radius: 1.0 }),
         material: 99,
         transform: Transform::default(),
         motion: None,

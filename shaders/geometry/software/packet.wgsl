@@ -10,7 +10,7 @@
 #import core/math.wgsl
 #import geometry/bvh4.wgsl
 #import geometry/constants.wgsl
-#import geometry/primitives.wgsl
+#import geometry/prepared_ray.wgsl
 #import geometry/records.wgsl
 #import geometry/software/lanes.wgsl
 #import geometry/software/packet_stack.wgsl

@@ -9,6 +9,7 @@ mod material;
 mod resolve;
 mod resolver;
 mod schema;
+mod shape;
 mod syntax;
 mod value;
 mod wording;
@@ -21,6 +22,7 @@ pub use light::delta_examples as delta_light_examples;
 pub use light::examples as light_examples;
 pub use material::examples as material_examples;
 pub use schema::json_schema;
+pub use shape::examples as shape_examples;
 use syntax::SceneFile;
 pub(super) use wording::did_you_mean;
 

@@ -16,7 +16,7 @@ use crate::scene::light::light_table;
 use crate::scene::{Estimator, Light, LightStrength, Scene};
 use record::PORTAL_SHIFT;
 pub use record::{LightKind, PackedLight, constants};
-use surface::{SurfaceEmission, light_geometry, surface_light};
+use surface::{SurfaceEmission, surface_light};
 
 /// The kind of a delta light, by the table of lights.
 macro_rules! delta_kinds {
@@ -100,9 +100,9 @@ fn environment_lights(scene: &Scene, world: &WorldGeometry, environment: &Packed
     }
     let total: f64 = world.portals.iter().map(WorldPrimitive::area).sum();
     for portal in &world.portals {
-        let Some((kind, size, [p0, p1, p2])) = light_geometry(portal) else { continue };
+        let Some((size, [p0, p1, p2])) = portal.geometry.light() else { continue };
         let light = PackedLight {
-            kind_and_flags: (kind as u32) << PORTAL_SHIFT,
+            kind_and_flags: (portal.kind() as u32) << PORTAL_SHIFT,
             size: size as f32,
             p1: p1.as_vec3().to_array(),
             p2: p2.as_vec3().to_array(),

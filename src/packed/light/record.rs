@@ -3,13 +3,13 @@
 use glam::DVec3;
 
 use crate::packed::constants::NONE;
-use crate::packed::primitive::PrimitiveKind;
+use crate::packed::shape::PrimitiveKind;
 use crate::scene::LightParameters;
 use crate::scene::light::light_table;
 use crate::shader::shared::{Constant, Constants, shared_constants};
 
-/// Kinds below this are those of primitives, which are as many at most: an emitting surface is a light of its kind.
-const SURFACE_KINDS: u32 = 8;
+/// Kinds below this are those of primitives: an emitting surface is a light of its kind.
+const SURFACE_KINDS: u32 = PrimitiveKind::ALL.len() as u32;
 
 /// The rest of the kinds: portals, the environment, and the delta lights of the table of lights.
 macro_rules! kinds {
@@ -150,8 +150,10 @@ impl PackedLight {
         self.kind() < SURFACE_KINDS
     }
 
-    pub fn is_primitive(&self, kind: PrimitiveKind) -> bool {
-        self.kind() == kind as u32
+    /// The shape of a surface or a portal.
+    pub fn shape(&self) -> Option<PrimitiveKind> {
+        let is_portal = self.is(LightKind::Portal);
+        PrimitiveKind::of(if is_portal { self.kind_and_flags >> PORTAL_SHIFT } else { self.kind() })
     }
 
     pub fn is_delta(&self) -> bool {

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::record::{LIGHT_MOVES, LIGHT_TWO_SIDED, LIGHT_VARIES, PackedLight};
 use crate::math::luminance;
 use crate::packed::material::{color_and_texture, mean_emission};
-use crate::packed::primitive::{PrimitiveGeometry, PrimitiveKind, WorldPrimitive};
+use crate::packed::primitive::WorldPrimitive;
 use crate::scene::{ColorInput, Scene, TextureKind};
 
 /// What a surface of some material sends out.
@@ -67,12 +67,12 @@ fn mean_color(scene: &Scene, input: &ColorInput) -> DVec3 {
 /// The light that an emitting primitive is; None where it cannot be sampled.
 pub fn surface_light(primitive: &WorldPrimitive, emission: &SurfaceEmission) -> Option<PackedLight> {
     let (radiance, _) = color_and_texture(&emission.radiance);
-    let (kind, size, [p0, p1, p2]) = light_geometry(primitive)?;
+    let (size, [p0, p1, p2]) = primitive.geometry.light()?;
     let flag = |set: bool, bit: u32| if set { bit } else { 0 };
     let flags =
         flag(emission.two_sided, LIGHT_TWO_SIDED) | flag(emission.varies, LIGHT_VARIES) | flag(primitive.moves(), LIGHT_MOVES);
     Some(PackedLight {
-        kind_and_flags: kind as u32 | flags,
+        kind_and_flags: primitive.kind() as u32 | flags,
         size: size as f32,
         p1: p1.as_vec3().to_array(),
         p2: p2.as_vec3().to_array(),
@@ -80,31 +80,4 @@ pub fn surface_light(primitive: &WorldPrimitive, emission: &SurfaceEmission) -> 
         material: emission.material as u32,
         ..PackedLight::at(p0, DVec3::from(radiance.map(f64::from)))
     })
-}
-
-/// Kind, size and the three points of a light that has this shape.
-pub fn light_geometry(primitive: &WorldPrimitive) -> Option<(PrimitiveKind, f64, [DVec3; 3])> {
-    let area = primitive.area();
-    match primitive.geometry {
-        PrimitiveGeometry::Triangle(corners) => {
-            let [a, b, c] = corners.map(|corner| corner.as_dvec3());
-            Some((PrimitiveKind::Triangle, area, [a, b - a, c - a]))
-        }
-        PrimitiveGeometry::Quad { corner, edge_u, edge_v } => Some((PrimitiveKind::Quad, area, [corner, edge_u, edge_v])),
-        PrimitiveGeometry::Sphere { center, radius } => Some((PrimitiveKind::Sphere, radius, [center, DVec3::ZERO, DVec3::ZERO])),
-        PrimitiveGeometry::Disk { center, normal, radius } => {
-            let [tangent, bitangent] = frame(normal);
-            Some((PrimitiveKind::Disk, area, [center, tangent * radius, bitangent * radius]))
-        }
-        // No density covers an infinite area evenly.
-        PrimitiveGeometry::Plane { .. } => None,
-    }
-}
-
-/// Orthonormal basis of Duff et al. 2017; `frame_from_normal` in `shaders/core/math.wgsl`.
-fn frame(n: DVec3) -> [DVec3; 2] {
-    let s = if n.z < -0.2137 { -1.0 } else { 1.0 };
-    let a = -1.0 / (s + n.z);
-    let b = n.x * n.y * a;
-    [DVec3::new(1.0 + s * n.x * n.x * a, s * b, -s * n.x), DVec3::new(b, s + n.y * n.y * a, -n.y)]
 }

@@ -7,8 +7,9 @@ use crate::packed::bvh4::Child;
 use crate::packed::constants::NONE;
 use crate::packed::hierarchy::{Traversal, deepest_stack};
 use crate::packed::motion::KINDS_OF_STEPS;
-use crate::packed::primitive::{Primitive, PrimitiveKind};
+use crate::packed::primitive::Primitive;
 use crate::packed::scene::PackedScene;
+use crate::packed::shape::PrimitiveKind;
 use crate::packed::tree::MAX_PRIMITIVES;
 
 impl PackedScene {
@@ -46,7 +47,7 @@ impl PackedScene {
         if primitive.material() as usize >= self.materials.materials.len() {
             return Err(format!("has material {}", primitive.material()));
         }
-        if primitive.kind() > PrimitiveKind::Plane as u32 {
+        if PrimitiveKind::of(primitive.kind()).is_none() {
             return Err(format!("is of kind {}", primitive.kind()));
         }
         // What moves has attributes, which say how.
@@ -72,8 +73,10 @@ impl PackedScene {
         let Some(held) = self.primitives.get(..held).filter(|_| held <= MAX_PRIMITIVES) else {
             return Err(format!("the hierarchy holds {held} primitives of {}", self.primitives.len()));
         };
-        if let Some(index) = held.iter().position(|primitive| primitive.kind() == PrimitiveKind::Plane as u32) {
-            return Err(format!("primitive {index} is a plane, and in the hierarchy"));
+        if let Some(index) =
+            held.iter().position(|primitive| PrimitiveKind::of(primitive.kind()).is_some_and(PrimitiveKind::is_infinite))
+        {
+            return Err(format!("primitive {index} has no bounds, and is in the hierarchy"));
         }
         match self.hierarchy.traversal {
             Traversal::Bvh => self.check_nodes(held.len()),
@@ -86,7 +89,7 @@ impl PackedScene {
         if !self.hierarchy.nodes.is_empty() {
             return Err("there are nodes, and the device has its own".to_owned());
         }
-        let is_triangle = |primitive: &Primitive| primitive.kind() == PrimitiveKind::Triangle as u32;
+        let is_triangle = |primitive: &Primitive| primitive.is(PrimitiveKind::Triangle);
         let boxes = self.hierarchy.boxes.len();
         let first_shape = held.iter().position(|primitive| !is_triangle(primitive)).unwrap_or(held.len());
         if held.len() - first_shape != boxes || held[first_shape..].iter().any(is_triangle) {

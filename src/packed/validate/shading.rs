@@ -5,8 +5,8 @@ use crate::packed::blend_weight::{self, WeightKind};
 use crate::packed::constants::NONE;
 use crate::packed::light::record::{LIGHT_MOVES, LIGHT_TWO_SIDED, LIGHT_VARIES, LightKind, PORTAL_SHIFT, PackedLight};
 use crate::packed::material::{self, PackedMaterial};
-use crate::packed::primitive::PrimitiveKind;
 use crate::packed::scene::PackedScene;
+use crate::packed::shape::PrimitiveKind;
 use crate::packed::texture::{self, PackedTexture, PackedTextureKind};
 use crate::scene::material::COMPLEX_FRESNEL;
 use crate::scene::validate::MOST_OCTAVES;
@@ -118,7 +118,7 @@ impl PackedScene {
 
     fn check_light(&self, light: &PackedLight) -> Check {
         let is_surface = light.is_surface();
-        let has_area = |kind: u32| kind <= PrimitiveKind::Disk as u32;
+        let has_area = |kind: u32| PrimitiveKind::of(kind).is_some_and(|kind| !kind.is_infinite());
         let (is_known, flags) = if is_surface {
             (has_area(light.kind()), LIGHT_TWO_SIDED | LIGHT_VARIES | LIGHT_MOVES)
         } else if light.is(LightKind::Portal) {

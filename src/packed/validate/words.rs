@@ -4,11 +4,12 @@
 
 use std::mem::offset_of;
 
+use crate::packed::attributes::TriangleAttributes;
 use crate::packed::blend_weight::PackedBlendWeight;
 use crate::packed::bvh4::Node;
 use crate::packed::light::PackedLight;
 use crate::packed::material::{BLEND, PackedBlendPart, PackedMaterial};
-use crate::packed::primitive::{Primitive, TriangleAttributes};
+use crate::packed::primitive::Primitive;
 use crate::packed::scene::PackedScene;
 use crate::packed::texture::{PackedTexture, PackedTextureKind};
 

@@ -1,17 +1,17 @@
 //! Where rays meet surfaces, in f64.
 
+mod element;
 mod hierarchy;
 mod normal_map;
 mod pose;
-mod primitive;
 mod ray;
-mod triangle;
+mod shape;
 mod world;
 
 pub use hierarchy::PreparedRay;
 pub use pose::{Moment, Pose};
-pub use primitive::{Primitive, Sphere};
-pub use ray::{Local, Ray, SurfacePoint};
+pub use ray::{Ray, SurfacePoint};
+pub use shape::Primitive;
 pub use world::{Owner, Surface, SurfaceId, World};
 
 #[cfg(test)]

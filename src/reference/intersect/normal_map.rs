@@ -28,14 +28,6 @@ impl Tangents {
         })
     }
 
-    /// Of a sphere's coordinates, in its own space, at the point in the given direction. None at the poles.
-    pub fn of_sphere(direction: DVec3) -> Option<Self> {
-        let DVec3 { x, y, z } = direction;
-        let radius = x.hypot(z);
-        (radius > 0.0)
-            .then(|| Self { along_u: DVec3::new(-z, 0.0, x), along_v: DVec3::new(-y * x / radius, radius, -y * z / radius) })
-    }
-
     /// The direction that a texel stands for about `normal`, the shading normal on the front side. The tangent is made perpendicular
     /// to the normal, the bitangent to both.
     fn direction(&self, normal: DVec3, texel: DVec3) -> Option<DVec3> {
@@ -112,17 +104,5 @@ mod tests {
             assert!(change(along_v).y > 0.0 && change(along_v).x.abs() < 1e-12);
         }
         assert_eq!(Tangents::of_triangle(corners, [DVec2::ZERO, DVec2::ONE, DVec2::ONE * 2.0]), None);
-
-        for direction in [DVec3::new(0.3, 0.5, -0.8), DVec3::new(-0.6, -0.7, 0.1)].map(DVec3::normalize) {
-            let Tangents { along_u, along_v } = Tangents::of_sphere(direction).expect("this is no pole");
-            let change = |along: DVec3| {
-                let uv = |w: DVec3| super::super::Sphere::uv(w.normalize());
-                (uv(direction + along * 1e-6) - uv(direction - along * 1e-6)) / 2e-6
-            };
-            assert!(change(along_u).x > 0.0 && change(along_u).y.abs() < 1e-9);
-            assert!(change(along_v).y > 0.0 && change(along_v).x.abs() < 1e-9);
-            assert!(along_u.dot(direction).abs() < 1e-15 && along_v.dot(direction).abs() < 1e-15);
-        }
-        assert_eq!(Tangents::of_sphere(DVec3::Y), None);
     }
 }

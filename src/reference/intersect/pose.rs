@@ -7,7 +7,6 @@
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::normal_map::Tangents;
-use super::primitive::Sphere;
 use super::ray::{Ray, SurfacePoint};
 use crate::scene::{Scene, Shape};
 
@@ -82,10 +81,19 @@ impl Pose {
         SurfacePoint { error: moved.error + carried, ..moved }
     }
 
-    /// Spheres are scaled by the same factor along every axis.
-    pub fn sphere(&self, at_rest: &Sphere) -> Sphere {
-        let scale = self.to_world.matrix3.x_axis.length();
-        Sphere { center: self.to_world.transform_point3(at_rest.center), radius: at_rest.radius * scale }
+    /// Where a point at rest is.
+    pub fn place(&self, at_rest: DVec3) -> DVec3 {
+        self.to_world.transform_point3(at_rest)
+    }
+
+    /// Where a point in the world is at rest.
+    pub fn place_at_rest(&self, point: DVec3) -> DVec3 {
+        self.to_rest.transform_point3(point)
+    }
+
+    /// The factor along every axis: round shapes are scaled evenly.
+    pub fn scale(&self) -> f64 {
+        self.to_world.matrix3.x_axis.length()
     }
 
     /// What the area of a flat piece of surface with this normal in the world has been multiplied by (Nanson's formula).

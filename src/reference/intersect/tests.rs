@@ -4,7 +4,9 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3, Vec2, Vec3, Vec3Swizzles};
 
 use super::*;
-use crate::scene::{Geometry, Material, MaterialKind, Mesh, Scene, Shape, Transform, TransformStep};
+use crate::scene::{
+    Cuboid, Disk, Geometry, Material, MaterialKind, Mesh, Plane, Rectangle, Scene, Shape, Sphere, Transform, TransformStep,
+};
 use crate::statistics::random::SplitMix64;
 
 fn world(shapes: Vec<(Geometry, Vec<TransformStep>)>) -> World {
@@ -62,9 +64,9 @@ fn the_hierarchy_finds_what_a_search_over_everything_finds() {
     let mut shapes = vec![(Geometry::Mesh(Arc::new(sphere_mesh(16, 20))), vec![TransformStep::Scale(DVec3::new(2.0, 1.0, 3.0))])];
     for _ in 0..40 {
         let center = random_point(&mut random, 8.0);
-        shapes.push((Geometry::Sphere { center, radius: 0.3 }, vec![]));
-        shapes.push((Geometry::Disk { center: -center, normal: center, radius: 0.5 }, vec![]));
-        shapes.push((Geometry::Box { min: center.yzx(), max: center.yzx() + 0.4 }, vec![]));
+        shapes.push((Geometry::Sphere(Sphere { center, radius: 0.3 }), vec![]));
+        shapes.push((Geometry::Disk(Disk { center: -center, normal: center, radius: 0.5 }), vec![]));
+        shapes.push((Geometry::Box(Cuboid { min: center.yzx(), max: center.yzx() + 0.4 }), vec![]));
     }
     let world = world(shapes);
     let count = world.places_in_scene_order().len();
@@ -112,7 +114,7 @@ fn meshes_are_watertight() {
 #[test]
 fn boxes_have_no_gaps() {
     let world = world(vec![(
-        Geometry::Box { min: DVec3::new(100.0, -7.0, 3.0), max: DVec3::new(101.0, -5.5, 3.3) },
+        Geometry::Box(Cuboid { min: DVec3::new(100.0, -7.0, 3.0), max: DVec3::new(101.0, -5.5, 3.3) }),
         vec![TransformStep::Rotate { axis: DVec3::new(1.0, 2.0, 3.0), degrees: 33.0 }],
     )]);
     let to_world = TransformStep::Rotate { axis: DVec3::new(1.0, 2.0, 3.0), degrees: 33.0 }.to_affine();
@@ -132,9 +134,9 @@ fn rays_leave_surfaces_cleanly() {
     let mut random = SplitMix64::new(4);
     for offset in [DVec3::ZERO, DVec3::new(1e4, -3e5, 20.0)] {
         for (geometry, size) in [
-            (Geometry::Sphere { center: DVec3::ZERO, radius: 1.0 }, 1.0),
-            (Geometry::Sphere { center: DVec3::ZERO, radius: 1e4 }, 1e4),
-            (Geometry::Box { min: DVec3::splat(-1.0), max: DVec3::new(2.0, 0.5, 1.0) }, 2.0),
+            (Geometry::Sphere(Sphere { center: DVec3::ZERO, radius: 1.0 }), 1.0),
+            (Geometry::Sphere(Sphere { center: DVec3::ZERO, radius: 1e4 }), 1e4),
+            (Geometry::Box(Cuboid { min: DVec3::splat(-1.0), max: DVec3::new(2.0, 0.5, 1.0) }), 2.0),
             (Geometry::Mesh(Arc::new(sphere_mesh(2, 5))), 1.0),
         ] {
             let world = world(vec![(geometry, vec![TransformStep::Translate(offset)])]);
@@ -167,8 +169,8 @@ fn rays_leave_surfaces_cleanly() {
 fn front_stays_in_front_under_reflections() {
     let mirror = vec![TransformStep::Scale(DVec3::new(-1.0, 1.0, 1.0)), TransformStep::Translate(DVec3::new(0.0, 0.0, 0.1))];
     let outward = [
-        Geometry::Sphere { center: DVec3::ZERO, radius: 1.0 },
-        Geometry::Box { min: DVec3::splat(-0.5), max: DVec3::splat(0.5) },
+        Geometry::Sphere(Sphere { center: DVec3::ZERO, radius: 1.0 }),
+        Geometry::Box(Cuboid { min: DVec3::splat(-0.5), max: DVec3::splat(0.5) }),
         Geometry::Mesh(Arc::new(sphere_mesh(8, 8))),
     ];
     let mut random = SplitMix64::new(5);
@@ -183,9 +185,9 @@ fn front_stays_in_front_under_reflections() {
         }
     }
     for geometry in [
-        Geometry::Rectangle { corner: DVec3::new(-1.0, -1.0, 0.0), edge_u: DVec3::X * 2.0, edge_v: DVec3::Y * 2.0 },
-        Geometry::Disk { center: DVec3::ZERO, normal: DVec3::Z, radius: 1.0 },
-        Geometry::Plane { point: DVec3::ZERO, normal: DVec3::Z },
+        Geometry::Rectangle(Rectangle { corner: DVec3::new(-1.0, -1.0, 0.0), edge_u: DVec3::X * 2.0, edge_v: DVec3::Y * 2.0 }),
+        Geometry::Disk(Disk { center: DVec3::ZERO, normal: DVec3::Z, radius: 1.0 }),
+        Geometry::Plane(Plane { point: DVec3::ZERO, normal: DVec3::Z }),
     ] {
         let world = world(vec![(geometry, mirror.clone())]);
         let ray = Ray { origin: DVec3::new(0.3, 0.2, 4.0), direction: -DVec3::Z };
@@ -220,7 +222,7 @@ fn attributes_are_interpolated_where_the_ray_hits() {
 #[test]
 fn parallelograms_know_their_coordinates() {
     let (corner, edge_u, edge_v) = (DVec3::new(1.0, 2.0, 3.0), DVec3::new(2.0, 0.0, 1.0), DVec3::new(0.5, 3.0, 0.0));
-    let geometry = Geometry::Rectangle { corner, edge_u, edge_v };
+    let geometry = Geometry::Rectangle(Rectangle { corner, edge_u, edge_v });
     for mirrored in [1.0, -1.0] {
         let world = world(vec![(geometry.clone(), vec![TransformStep::Scale(DVec3::new(mirrored, 1.0, 1.0))])]);
         let target = (corner + edge_u * 0.25 + edge_v * 0.75) * DVec3::new(mirrored, 1.0, 1.0);

@@ -2,15 +2,13 @@
 
 use std::sync::Arc;
 
-use glam::{DMat3, DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 
 use super::hierarchy::{Hierarchy, PreparedRay};
 use super::normal_map::{NormalMaps, Tangents};
 use super::pose::{self, Moment, Pose};
-use super::primitive::{Disk, Parallelogram, Plane, Primitive, Sphere};
 use super::ray::{Local, Ray, SurfacePoint};
-use super::triangle::Triangle;
-use crate::math::Frame;
+use super::shape::{self, Placement, Primitive, Triangle};
 use crate::renderer::RenderError;
 use crate::scene::{Geometry, MaterialId, MaterialKind, Mesh, Scene, Shape};
 
@@ -19,7 +17,7 @@ use crate::scene::{Geometry, MaterialId, MaterialKind, Mesh, Scene, Shape};
 pub enum SurfaceId {
     /// Place in the hierarchy's leaf order.
     Primitive(usize),
-    Plane(usize),
+    Infinite(usize),
 }
 
 /// Where a primitive comes from.
@@ -59,7 +57,8 @@ pub struct World {
     owners: Vec<Owner>,
     /// Leaf-order places of the primitives, in the order of the scene file.
     scene_order: Vec<usize>,
-    planes: Vec<(Plane, Owner)>,
+    /// What has no bounds.
+    infinite: Vec<(Primitive, Owner)>,
     shapes: Vec<ShapeData>,
     normal_maps: NormalMaps,
     /// Windows that directions to the environment are sampled through; rays do not meet them.
@@ -74,8 +73,6 @@ struct ShapeData {
     mesh: Option<Arc<Mesh>>,
     /// Faces of a mesh, counter-clockwise seen from the front in the world.
     faces: Vec<[u32; 3]>,
-    /// Takes world directions to the shape's own space, up to a factor.
-    to_local: DMat3,
 }
 
 impl World {
@@ -83,10 +80,11 @@ impl World {
     pub fn new(scene: &Scene) -> Result<Self, RenderError> {
         let mut collected = Collected::default();
         for (index, shape) in scene.shapes.iter().enumerate() {
-            collected.add(scene, index, shape)?;
+            collected.add(scene, index, shape);
         }
         let swept = |(primitive, owner): &(Primitive, Owner)| {
-            pose::swept(&scene.shapes[owner.shape], primitive.bounds(), scene.camera.shutter)
+            let bounds = primitive.element().bounds().unwrap_or_default();
+            pose::swept(&scene.shapes[owner.shape], bounds, scene.camera.shutter)
         };
         let boxes: Vec<[DVec3; 2]> = collected.primitives.iter().map(swept).collect();
         let reach = boxes.iter().flatten().fold(0.0, |reach: f64, corner| reach.max(corner.abs().max_element()));
@@ -101,9 +99,9 @@ impl World {
         }
         let in_leaf_order = |original: &u32| collected.primitives[*original as usize].clone();
         let (primitives, owners) = leaf_order.iter().map(in_leaf_order).unzip();
-        let Collected { planes, shapes, portals, .. } = collected;
+        let Collected { infinite, shapes, portals, .. } = collected;
         let normal_maps = NormalMaps::new(scene);
-        Ok(Self { hierarchy, primitives, owners, scene_order, planes, shapes, normal_maps, portals })
+        Ok(Self { hierarchy, primitives, owners, scene_order, infinite, shapes, normal_maps, portals })
     }
 
     /// Leaf-order places of all primitives, in the order of the scene file; planes are not among them.
@@ -123,7 +121,7 @@ impl World {
     pub fn owner(&self, id: SurfaceId) -> Owner {
         match id {
             SurfaceId::Primitive(place) => self.owners[place],
-            SurfaceId::Plane(plane) => self.planes[plane].1,
+            SurfaceId::Infinite(index) => self.infinite[index].1,
         }
     }
 
@@ -144,10 +142,10 @@ impl World {
         let prepared = PreparedRay::new(ray);
         let mut closest = None;
         let mut limit = f64::INFINITY;
-        for (index, (plane, _)) in self.planes.iter().enumerate() {
-            if let Some(distance) = plane.intersect(&ray, limit) {
+        for (index, (primitive, _)) in self.infinite.iter().enumerate() {
+            if let Some((distance, local)) = primitive.intersect(&prepared, limit) {
                 limit = distance;
-                closest = Some(Hit { surface: SurfaceId::Plane(index), distance, local: Local::ZERO });
+                closest = Some(Hit { surface: SurfaceId::Infinite(index), distance, local });
             }
         }
         self.hierarchy.traverse(&prepared, limit, |place, limit| match self.intersect(place, &prepared, limit, moment) {
@@ -162,10 +160,10 @@ impl World {
 
     /// Whether the ray meets anything but `target` before `limit`. `target` is the place of the primitive the ray ends on.
     pub fn blocked(&self, ray: Ray, limit: f64, target: Option<usize>, moment: &Moment) -> bool {
-        if self.planes.iter().any(|(plane, _)| plane.intersect(&ray, limit).is_some()) {
+        let prepared = PreparedRay::new(ray);
+        if self.infinite.iter().any(|(primitive, _)| primitive.intersect(&prepared, limit).is_some()) {
             return true;
         }
-        let prepared = PreparedRay::new(ray);
         let mut blocked = false;
         self.hierarchy.traverse(&prepared, limit, |place, limit| {
             if Some(place) != target && self.intersect(place, &prepared, limit, moment).is_some() {
@@ -182,15 +180,15 @@ impl World {
         let owner = self.owner(hit.surface);
         match hit.surface {
             SurfaceId::Primitive(place) => {
-                let primitive = &self.primitives[place];
+                let primitive = self.primitives[place].element();
                 let point = match self.pose(place, moment) {
                     None => primitive.point(ray, hit.distance, hit.local),
                     Some(pose) => pose.point(&primitive.point(&pose.ray_to_rest(ray), hit.distance, hit.local)),
                 };
                 self.surface_at(place, point, hit.local, moment)
             }
-            SurfaceId::Plane(index) => {
-                let point = self.planes[index].0.point(ray.at(hit.distance));
+            SurfaceId::Infinite(index) => {
+                let point = self.infinite[index].0.element().point(ray, hit.distance, hit.local);
                 Surface { id: hit.surface, owner, point, shading_normal: point.normal, uv: DVec2::ZERO }
             }
         }
@@ -201,24 +199,14 @@ impl World {
         let owner = self.owners[place];
         let shape = &self.shapes[owner.shape];
         let pose = self.pose(place, moment);
-        let on_sphere = || {
-            let at_rest = pose.map_or(point.normal, |pose| pose.normal_to_rest(point.normal));
-            (shape.to_local * at_rest).normalize_or_zero()
-        };
+        let at_rest = pose.map_or(point.normal, |pose| pose.normal_to_rest(point.normal));
         let (normal, uv) = match &self.primitives[place] {
             Primitive::Triangle(_) => shape.interpolate(owner.part, local, point.normal, pose),
-            Primitive::Sphere(_) => (point.normal, Sphere::uv(on_sphere())),
-            Primitive::Parallelogram(parallelogram) => (point.normal, parallelogram.uv(local)),
-            Primitive::Disk(_) => (point.normal, DVec2::ZERO),
+            Primitive::Other(element) => (point.normal, element.uv(local, at_rest)),
         };
         let tangents = || match &self.primitives[place] {
             Primitive::Triangle(triangle) => shape.tangents(owner.part, triangle),
-            Primitive::Sphere(_) => Tangents::of_sphere(on_sphere()).map(|own| {
-                let to_world = shape.to_local.inverse();
-                Tangents { along_u: to_world * own.along_u, along_v: to_world * own.along_v }
-            }),
-            Primitive::Parallelogram(parallelogram) => Some(parallelogram.tangents()),
-            Primitive::Disk(_) => None,
+            Primitive::Other(element) => element.tangents(local, at_rest),
         };
         let shading_normal = self.normal_maps.bend(owner.material, normal, uv, || {
             tangents().map(|tangents| pose.map_or(tangents, |pose| pose.tangents(tangents)))
@@ -262,93 +250,32 @@ impl ShapeData {
 #[derive(Default)]
 struct Collected {
     primitives: Vec<(Primitive, Owner)>,
-    planes: Vec<(Plane, Owner)>,
+    infinite: Vec<(Primitive, Owner)>,
     shapes: Vec<ShapeData>,
     portals: Vec<Primitive>,
 }
 
 impl Collected {
-    fn add(&mut self, scene: &Scene, index: usize, shape: &Shape) -> Result<(), RenderError> {
-        let to_world = shape.transform.to_affine();
-        let linear = to_world.matrix3;
-        self.shapes.push(ShapeData { to_local: linear.inverse(), ..ShapeData::default() });
-        if let Geometry::Mesh(mesh) = &shape.geometry {
-            self.add_mesh(scene, index, shape, mesh);
-            return Ok(());
-        }
-        let exists = !matches!(scene.materials[shape.material].kind, MaterialKind::Pass);
-        let owner = |part| Owner { shape: index, part, material: shape.material };
-        // Normals are transformed by the inverse transpose, so that they stay perpendicular and on their side.
-        let normal_to_world = |normal: DVec3| (linear.inverse().transpose() * normal).normalize();
-        let scale = || {
-            let message = || format!("{}: spheres and disks cannot be scaled unevenly", shape.label);
-            shape.transform.uniform_scale().ok_or_else(|| RenderError::Internal(message()))
-        };
-        let mut push = |part, primitive| {
-            if exists {
-                self.primitives.push((primitive, owner(part)));
-            } else if shape.portal {
+    fn add(&mut self, scene: &Scene, index: usize, shape: &Shape) {
+        let placement = Placement::new(shape);
+        for (part, primitive) in shape::primitives(&placement) {
+            let material = shape.face_material(part);
+            let owner = Owner { shape: index, part, material };
+            let is_infinite = primitive.element().bounds().is_none();
+            if !matches!(scene.materials[material].kind, MaterialKind::Pass) {
+                let list = if is_infinite { &mut self.infinite } else { &mut self.primitives };
+                list.push((primitive, owner));
+            } else if shape.portal && !is_infinite && primitive.area() > 0.0 {
                 self.portals.push(primitive);
             }
-        };
-        let parallelogram = |[corner, edge_u, edge_v]: [DVec3; 3]| {
-            let corner = to_world.transform_point3(corner);
-            Parallelogram::new(corner, linear * edge_u, linear * edge_v, shape.is_mirrored())
-                .map(|parallelogram| Primitive::Parallelogram(Box::new(parallelogram)))
-        };
-        match shape.geometry {
-            // Added by a function of its own.
-            Geometry::Mesh(_) => {}
-            Geometry::Sphere { center, radius } => {
-                push(0, Primitive::Sphere(Sphere { center: to_world.transform_point3(center), radius: radius * scale()? }));
-            }
-            Geometry::Disk { center, normal, radius } => {
-                let frame = Frame::around(normal_to_world(normal));
-                let center = to_world.transform_point3(center);
-                push(0, Primitive::Disk(Box::new(Disk { center, radius: radius * scale()?, frame })));
-            }
-            Geometry::Rectangle { corner, edge_u, edge_v } => {
-                parallelogram([corner, edge_u, edge_v]).into_iter().for_each(|face| push(0, face));
-            }
-            Geometry::Box { min, max } => {
-                for (part, face) in box_faces(min, max).into_iter().enumerate() {
-                    parallelogram(face).into_iter().for_each(|face| push(part, face));
-                }
-            }
-            Geometry::Plane { point, normal } => {
-                let plane = Plane { point: to_world.transform_point3(point), normal: normal_to_world(normal) };
-                if exists {
-                    self.planes.push((plane, owner(0)));
-                }
-            }
         }
-        Ok(())
+        self.shapes.push(match &shape.geometry {
+            Geometry::Mesh(mesh) => ShapeData {
+                normals: if mesh.smooth { shape.world_normals() } else { Vec::new() },
+                mesh: Some(mesh.clone()),
+                faces: shape.world_faces(),
+            },
+            _ => ShapeData::default(),
+        });
     }
-
-    fn add_mesh(&mut self, scene: &Scene, index: usize, shape: &Shape, mesh: &Arc<Mesh>) {
-        let positions = shape.world_positions();
-        let faces = shape.world_faces();
-        for (part, face) in faces.iter().enumerate() {
-            let material = mesh.face_materials.get(part).copied().unwrap_or(shape.material);
-            let triangle = Primitive::Triangle(Triangle { corners: face.map(|corner| positions[corner as usize]) });
-            if !matches!(scene.materials[material].kind, MaterialKind::Pass) {
-                self.primitives.push((triangle, Owner { shape: index, part, material }));
-            } else if shape.portal && triangle.area() > 0.0 {
-                self.portals.push(triangle);
-            }
-        }
-        let normals = if mesh.smooth { shape.world_normals() } else { Vec::new() };
-        let data = &mut self.shapes[index];
-        (data.mesh, data.faces, data.normals) = (Some(mesh.clone()), faces, normals);
-    }
-}
-
-/// Corner and edges of the faces −x +x −y +y −z +z, normals (first edge × second edge) outward.
-fn box_faces(min: DVec3, max: DVec3) -> [[DVec3; 3]; 6] {
-    let extent = max - min;
-    std::array::from_fn(|face| {
-        let axis = face / 2;
-        let edge = |axis: usize| DVec3::AXES[axis % 3] * extent[axis % 3];
-        if face % 2 == 0 { [min, edge(axis + 2), edge(axis + 1)] } else { [min + edge(axis), edge(axis + 1), edge(axis + 2)] }
-    })
 }

@@ -5,7 +5,6 @@
 
 mod delta;
 mod outside;
-mod primitive;
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -20,7 +19,6 @@ use crate::scene::light::light_table;
 use crate::scene::{Estimator, Light, LightSampling, LightStrength, Scene};
 use delta::DeltaLight;
 pub use outside::Outside;
-use primitive::{pdf_of_direction, pdf_solid_angle, sample_primitive};
 
 /// Relative amount by which a shadow segment stops short of the light's point, so that what the light lies upon does not block it.
 const SHADOW_MARGIN: f64 = 1e-12;
@@ -175,8 +173,13 @@ impl Lights {
         };
         match *sampled {
             SampledLight::Area(place) => {
-                let direction =
-                    sample_primitive(world.primitive(place), world.pose(place, moment), self.sphere_sampling, reference, u1, u2)?;
+                let direction = world.primitive(place).element().sample(
+                    world.pose(place, moment),
+                    self.sphere_sampling,
+                    reference,
+                    u1,
+                    u2,
+                )?;
                 let surface = world.surface_at(place, direction.point, direction.local, moment);
                 let radiance = emitted(scene, &surface, -direction.wi);
                 let distance = direction.distance * (1.0 - SHADOW_MARGIN);
@@ -194,7 +197,7 @@ impl Lights {
                 sample(drawn.wi, f64::INFINITY, drawn.radiance, pdf, None)
             }
             SampledLight::Portal(portal) => {
-                let wi = sample_primitive(&world.portals()[portal], None, LightSampling::Cone, reference, u1, u2)?.wi;
+                let wi = world.portals()[portal].element().sample_through(LightSampling::Cone, reference, u1, u2)?.wi;
                 let pdf = self.environment_pdf(world, reference, wi);
                 // By rounding, a direction to a portal's very edge may miss it.
                 if pdf > 0.0 { sample(wi, f64::INFINITY, self.outside.radiance(wi), pdf, None) } else { None }
@@ -215,7 +218,12 @@ impl Lights {
             return 0.0;
         }
         let ray = PreparedRay::new(Ray { origin: reference, direction: wi });
-        world.portals().iter().zip(chosen).map(|(portal, pmf)| pmf * pdf_of_direction(portal, &ray)).sum()
+        world
+            .portals()
+            .iter()
+            .zip(chosen)
+            .map(|(portal, pmf)| pmf * portal.element().pdf_through(LightSampling::Cone, &ray))
+            .sum()
     }
 
     /// Density, per steradian, with which [`Lights::sample`] finds the point `surface` from `reference`; 0 where it cannot.
@@ -223,7 +231,7 @@ impl Lights {
         let SurfaceId::Primitive(place) = surface.id else { return 0.0 };
         let Some(light) = self.of_primitive[place] else { return 0.0 };
         let pose = world.pose(place, moment);
-        let pdf = pdf_solid_angle(world.primitive(place), pose, self.sphere_sampling, reference, &surface.point);
+        let pdf = world.primitive(place).element().pdf(pose, self.sphere_sampling, reference, &surface.point);
         self.table.pmf[light as usize] * pdf
     }
 }

@@ -3,8 +3,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use super::*;
 use crate::renderer::Silent;
 use crate::scene::{
-    BlendWeight, Camera, ColorInput, Emission, FilmSettings, Geometry, Light, Material, MaterialKind, PointLight, Projection,
-    Shape, Transform,
+    BlendWeight, Camera, ColorInput, Emission, FilmSettings, Geometry, Light, Material, MaterialKind, Plane, PointLight,
+    Projection, Shape, Sphere, Transform,
 };
 
 /// A diffuse, a mirror and a glass sphere on a floor, under a sphere light and a point light.
@@ -28,8 +28,8 @@ fn scene(size: [u32; 2]) -> Scene {
         let emission = (index == 3).then(|| Emission { radiance: grey(20.0), two_sided: false });
         scene.materials.push(Material { name: index.to_string(), kind, normal_map: None, emission });
     }
-    let floor = Geometry::Plane { point: DVec3::ZERO, normal: DVec3::Y };
-    let ball = |x: f64, y: f64, radius: f64| Geometry::Sphere { center: DVec3::new(x, y, 0.0), radius };
+    let floor = Geometry::Plane(Plane { point: DVec3::ZERO, normal: DVec3::Y });
+    let ball = |x: f64, y: f64, radius: f64| Geometry::Sphere(Sphere { center: DVec3::new(x, y, 0.0), radius });
     let shapes =
         [(floor, 0), (ball(-2.2, 1.0, 1.0), 0), (ball(0.0, 1.0, 1.0), 1), (ball(2.2, 1.0, 1.0), 2), (ball(1.0, 4.0, 0.5), 3)];
     for (geometry, material) in shapes {
@@ -152,7 +152,7 @@ fn what_is_not_finite_is_counted_and_left_out() {
     scene.render.max_depth = 1;
     let light = scene.materials[3].clone();
     scene.shapes.truncate(1);
-    scene.shapes[0].geometry = Geometry::Sphere { center: scene.camera.position, radius: 1.0 };
+    scene.shapes[0].geometry = Geometry::Sphere(Sphere { center: scene.camera.position, radius: 1.0 });
     let mut emit = |radiance: f64| {
         scene.materials[0] =
             Material { emission: Some(Emission { radiance: ColorInput::grey(radiance), two_sided: true }), ..light.clone() };

@@ -1,13 +1,13 @@
 use std::sync::Arc;
 
-use glam::Vec2;
+use glam::{DVec3, Vec2, Vec3};
 
 use super::*;
 use crate::reference::ReferenceRenderer;
 use crate::renderer::RenderError;
 use crate::scene::{
-    Aperture, ConductorFresnel, DirectionalLight, Emission, ImageData, ImageTexture, Motion, MotionStep, PointLight, SpotLight,
-    Texture, TextureFilter, TextureWrap, Transform, TransformStep,
+    Aperture, ConductorFresnel, Cuboid, DirectionalLight, Disk, Emission, Geometry, ImageData, ImageTexture, Mesh, Motion,
+    MotionStep, Plane, PointLight, Rectangle, Sphere, SpotLight, Texture, TextureFilter, TextureWrap, Transform, TransformStep,
 };
 
 fn material(name: &str, kind: MaterialKind) -> Material {
@@ -69,11 +69,11 @@ fn scene() -> Scene {
     let center = DVec3::new(0.0, 0.0, -2.0);
     for (label, geometry, material) in [
         ("mesh", Geometry::Mesh(Arc::new(mesh)), 0),
-        ("sphere", Geometry::Sphere { center, radius: 1.0 }, 1),
-        ("disk", Geometry::Disk { center, normal: DVec3::Z, radius: 1.0 }, 2),
-        ("rectangle", Geometry::Rectangle { corner: center, edge_u: DVec3::X, edge_v: DVec3::Y }, 3),
-        ("box", Geometry::Box { min: center, max: DVec3::ONE }, 4),
-        ("plane", Geometry::Plane { point: center, normal: DVec3::Y }, 0),
+        ("sphere", Geometry::Sphere(Sphere { center, radius: 1.0 }), 1),
+        ("disk", Geometry::Disk(Disk { center, normal: DVec3::Z, radius: 1.0 }), 2),
+        ("rectangle", Geometry::Rectangle(Rectangle { corner: center, edge_u: DVec3::X, edge_v: DVec3::Y }), 3),
+        ("box", Geometry::Box(Cuboid { min: center, max: DVec3::ONE }), 4),
+        ("plane", Geometry::Plane(Plane { point: center, normal: DVec3::Y }), 0),
     ] {
         scene.shapes.push(shape(label, geometry, material));
     }
@@ -200,7 +200,10 @@ fn each_mistake_is_named_with_its_part() {
         (|s| mesh(s).positions[1].x = f32::INFINITY, "mesh: positions must be finite"),
         (|s| mesh(s).uvs.clear(), "mesh: a textured material needs texture coordinates"),
         (|s| s.shapes[1].material = 5, "sphere: there is no material 5"),
-        (|s| s.shapes[1].geometry = Geometry::Sphere { center: DVec3::ZERO, radius: 0.0 }, "sphere: its numbers must be finite"),
+        (
+            |s| s.shapes[1].geometry = Geometry::Sphere(Sphere { center: DVec3::ZERO, radius: 0.0 }),
+            "sphere: its numbers must be finite",
+        ),
         (|s| s.shapes[1].transform.steps.push(TransformStep::Scale(DVec3::new(1.0, 1.0, 2.0))), "sphere: spheres and disks"),
         (|s| s.shapes[2].material = 4, "disk: a textured material needs texture coordinates"),
         (
@@ -211,9 +214,9 @@ fn each_mistake_is_named_with_its_part() {
             |s| s.shapes[3].motion = Some(Motion { steps: vec![MotionStep::Scale(DVec3::ZERO)] }),
             "rectangle: the scale shrinks the shape to nothing",
         ),
-        (|s| s.shapes[4].geometry = Geometry::Box { min: DVec3::ONE, max: DVec3::ZERO }, "box: its numbers"),
+        (|s| s.shapes[4].geometry = Geometry::Box(Cuboid { min: DVec3::ONE, max: DVec3::ZERO }), "box: its numbers"),
         (|s| s.shapes[5].portal = true, "plane: a plane cannot be a portal"),
-        (|s| s.shapes[5].geometry = Geometry::Plane { point: DVec3::ZERO, normal: DVec3::ZERO }, "plane: its numbers"),
+        (|s| s.shapes[5].geometry = Geometry::Plane(Plane { point: DVec3::ZERO, normal: DVec3::ZERO }), "plane: its numbers"),
         (
             |s| s.lights[0] = Light::Point(PointLight { position: DVec3::ONE, intensity: DVec3::NEG_ONE }),
             "light[0]: its light must be",

@@ -105,7 +105,7 @@ fn stage(material: &str) -> Scene {
 }
 
 /// A folder with a picture of 8 × 8 normals, up to 35 degrees askew.
-static BUMPS: LazyLock<tempfile::TempDir> = LazyLock::new(|| {
+pub static BUMPS: LazyLock<tempfile::TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let texel = |x: u32, y: u32| image::Rgb([128 + (x * 37 + y * 11) as u8 % 70, 90 + (x * 23 + y * 51) as u8 % 80, 240]);
     image::RgbImage::from_fn(8, 8, texel).save(folder.path().join("bumps.png")).expect("the folder can be written");

@@ -5,6 +5,7 @@ mod light_samples;
 mod lights;
 mod materials;
 mod motion;
+mod shapes;
 mod strategies;
 
 use crate::common::device::{DEVICE, with_limits};

@@ -47,7 +47,7 @@ fn inside() -> Camera {
 
 /// Closed Lambert surface of albedo ρ that emits Le = 1 everywhere: 1/(1−ρ); direct light alone: 1 + ρ.
 fn furnaces(cases: &mut Vec<Case>) {
-    let unit_box = Geometry::Box { min: -DVec3::ONE, max: DVec3::ONE };
+    let unit_box = Geometry::Box(Cuboid { min: -DVec3::ONE, max: DVec3::ONE });
     let rooms = [("sphere", sphere(DVec3::ZERO, 1.0)), ("box", unit_box), ("mesh", cube_mesh())];
     for (name, room) in rooms {
         for albedo in [0.5, 0.8] {
@@ -124,8 +124,8 @@ fn sphere_lights(cases: &mut Vec<Case>) {
     let up = DVec3::Y;
     let grounds = [
         ("rectangle", floor(20.0)),
-        ("plane", Geometry::Plane { point: DVec3::ZERO, normal: up }),
-        ("disk", Geometry::Disk { center: DVec3::ZERO, normal: up, radius: 20.0 }),
+        ("plane", Geometry::Plane(Plane { point: DVec3::ZERO, normal: up })),
+        ("disk", Geometry::Disk(Disk { center: DVec3::ZERO, normal: up, radius: 20.0 })),
     ];
     for (name, ground) in grounds {
         let mut scene = scene(256, at_the_origin());

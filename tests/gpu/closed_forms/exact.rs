@@ -27,14 +27,17 @@ fn assert_every_pixel(name: &str, scene: &Scene, expected: DVec3) {
 /// Every finite shape and a plane around or before the camera, each wide enough to fill the picture, front towards the camera.
 fn shapes_before_the_camera() -> Vec<(&'static str, Geometry)> {
     let corners = [[-30.0, -30.0, 0.0], [30.0, -30.0, 0.0], [0.0, 60.0, 0.0]];
-    let rectangle =
-        Geometry::Rectangle { corner: DVec3::new(-9.0, -9.0, 0.0), edge_u: DVec3::X * 18.0, edge_v: DVec3::new(1.0, 18.0, 0.0) };
+    let rectangle = Geometry::Rectangle(Rectangle {
+        corner: DVec3::new(-9.0, -9.0, 0.0),
+        edge_u: DVec3::X * 18.0,
+        edge_v: DVec3::new(1.0, 18.0, 0.0),
+    });
     vec![
         ("sphere", sphere(-DVec3::Z, 1.5)),
         ("rectangle", rectangle),
-        ("disk", Geometry::Disk { center: DVec3::ZERO, normal: DVec3::Z, radius: 9.0 }),
-        ("box", Geometry::Box { min: DVec3::splat(-9.0), max: DVec3::new(9.0, 9.0, 0.0) }),
-        ("plane", Geometry::Plane { point: DVec3::ZERO, normal: DVec3::Z }),
+        ("disk", Geometry::Disk(Disk { center: DVec3::ZERO, normal: DVec3::Z, radius: 9.0 })),
+        ("box", Geometry::Box(Cuboid { min: DVec3::splat(-9.0), max: DVec3::new(9.0, 9.0, 0.0) })),
+        ("plane", Geometry::Plane(Plane { point: DVec3::ZERO, normal: DVec3::Z })),
         ("mesh", triangle(corners)),
     ]
 }
@@ -66,7 +69,7 @@ fn a_light_behind_a_pass_surface_looks_the_same() {
     let nothing = material(&mut scene, MaterialKind::Pass, None);
     let [geometry, veil] = [1.0, 0.5].map(|radius| sphere(-DVec3::Z * 0.5, 2.0 * radius));
     shape(&mut scene, geometry, light);
-    shape(&mut scene, Geometry::Plane { point: DVec3::Z * 2.0, normal: (DVec3::Y + DVec3::Z).normalize() }, nothing);
+    shape(&mut scene, Geometry::Plane(Plane { point: DVec3::Z * 2.0, normal: (DVec3::Y + DVec3::Z).normalize() }), nothing);
     shape(&mut scene, veil, nothing);
     assert_every_pixel("pass", &scene, DVec3::ONE);
 }
@@ -81,7 +84,7 @@ fn total_internal_reflection_is_total() {
         let pane = glass(&mut scene, 1.5);
         shape(&mut scene, floor(100.0), pane);
         let light = emissive(&mut scene, floor_radiance);
-        shape(&mut scene, Geometry::Plane { point: -DVec3::Y * 20.0, normal: DVec3::Y }, light);
+        shape(&mut scene, Geometry::Plane(Plane { point: -DVec3::Y * 20.0, normal: DVec3::Y }), light);
         environment(&mut scene, 1.0);
         scene
     };

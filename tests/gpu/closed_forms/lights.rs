@@ -112,10 +112,12 @@ fn portals(cases: &mut Vec<Case>) {
     let (half_x, half_z, height, reach) = (0.4, 0.6, 1.0, 4.0);
     let mut scene = over_a_floor(512);
     let black = diffuse(&mut scene, 0.0);
-    let ceiling = |from: [f64; 2], to: [f64; 2]| Geometry::Rectangle {
-        corner: DVec3::new(from[0], height, from[1]),
-        edge_u: DVec3::X * (to[0] - from[0]),
-        edge_v: DVec3::Z * (to[1] - from[1]),
+    let ceiling = |from: [f64; 2], to: [f64; 2]| {
+        Geometry::Rectangle(Rectangle {
+            corner: DVec3::new(from[0], height, from[1]),
+            edge_u: DVec3::X * (to[0] - from[0]),
+            edge_v: DVec3::Z * (to[1] - from[1]),
+        })
     };
     for (from, to) in [
         ([-reach, -reach], [-half_x, reach]),
@@ -129,7 +131,11 @@ fn portals(cases: &mut Vec<Case>) {
         [([-reach, -reach], DVec3::X), ([-reach, reach], DVec3::X), ([-reach, -reach], DVec3::Z), ([reach, -reach], DVec3::Z)]
     {
         let corner = DVec3::new(corner[0], 0.0, corner[1]);
-        shape(&mut scene, Geometry::Rectangle { corner, edge_u: along * (2.0 * reach), edge_v: DVec3::Y * height }, black);
+        shape(
+            &mut scene,
+            Geometry::Rectangle(Rectangle { corner, edge_u: along * (2.0 * reach), edge_v: DVec3::Y * height }),
+            black,
+        );
     }
     let gone = material(&mut scene, MaterialKind::Pass, None);
     for (from, to) in [([-half_x, -half_z], [0.1, half_z]), ([0.1, -half_z], [half_x, half_z])] {

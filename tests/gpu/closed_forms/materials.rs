@@ -53,7 +53,7 @@ fn spot(spp: u32, degrees: f64) -> Scene {
 
 fn floor_at_spot(scene: &mut Scene, material: MaterialId) {
     let (edge_u, edge_v) = (DVec3::X * 40.0, -DVec3::Z * 40.0);
-    shape(scene, Geometry::Rectangle { corner: -0.3 * (edge_u + edge_v), edge_u, edge_v }, material);
+    shape(scene, Geometry::Rectangle(Rectangle { corner: -0.3 * (edge_u + edge_v), edge_u, edge_v }), material);
 }
 
 /// Seen along the normal, no lobe about the mirror direction is cut by the horizon, and its integral has a closed form.
@@ -244,7 +244,7 @@ pub fn with_normal_maps() -> Vec<Case> {
     // Along u, along v, along the normal.
     let local = DVec3::new(0.3, -0.2, 0.8).normalize();
     let normal = local.x * DVec3::X + local.y * -DVec3::Z + local.z * DVec3::Y;
-    let rectangle = Geometry::Rectangle { corner, edge_u: u, edge_v: v };
+    let rectangle = Geometry::Rectangle(Rectangle { corner, edge_u: u, edge_v: v });
     let mesh = |mirrored: bool| {
         let positions = [corner, corner + u, corner + u + v, corner + v].map(DVec3::as_vec3).to_vec();
         let mut uvs = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Vec2::from).to_vec();

@@ -57,16 +57,16 @@ pub fn shape(scene: &mut Scene, geometry: Geometry, material: MaterialId) {
 }
 
 pub fn sphere(center: DVec3, radius: f64) -> Geometry {
-    Geometry::Sphere { center, radius }
+    Geometry::Sphere(Sphere { center, radius })
 }
 
 /// A square around the origin in the plane y = 0, front upward.
 pub fn floor(half: f64) -> Geometry {
-    Geometry::Rectangle {
+    Geometry::Rectangle(Rectangle {
         corner: DVec3::new(-half, 0.0, half),
         edge_u: DVec3::X * (2.0 * half),
         edge_v: -DVec3::Z * (2.0 * half),
-    }
+    })
 }
 
 pub fn triangle(corners: [[f32; 3]; 3]) -> Geometry {

@@ -2,12 +2,9 @@
 
 mod camera;
 mod material;
-mod mesh;
 mod mtl;
 mod settings;
-mod shape;
 mod texture;
-mod transform;
 
 use std::path::Path;
 

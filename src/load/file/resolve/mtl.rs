@@ -46,7 +46,7 @@ fn shares(diffuse: DVec3, specular: DVec3) -> [f64; 2] {
 
 impl Resolver<'_> {
     /// Adds the material to the scene.
-    pub(super) fn mtl_material(&mut self, written: &MtlMaterial) -> Result<MaterialId, SceneError> {
+    pub(in crate::load::file) fn mtl_material(&mut self, written: &MtlMaterial) -> Result<MaterialId, SceneError> {
         if written.is_missing {
             let kind = MaterialKind::Diffuse { reflectance: ColorInput::Constant(MAGENTA) };
             let name = format!("{} (missing)", written.material.name);

@@ -5,7 +5,6 @@
 //! `{ type = "mirror", … }` to `{ mirror = { … } }` before reading, which serde reads directly.
 
 mod render;
-mod shape;
 mod texture;
 
 use std::num::NonZeroU32;
@@ -14,11 +13,11 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub use render::RenderTable;
-pub use shape::{BoxShape, MeshShape, RectangleShape, ShapeEntry, StepEntry, TransformEntry};
 pub use texture::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 
 use super::light::LightEntry;
 use super::material::MaterialEntry;
+use super::shape::ShapeEntry;
 use super::value::{Checked, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
 
 /// A scene of the path tracer gpt. Lengths in scene units, angles in degrees, colours linear Rec.709, radiance in W·sr⁻¹·m⁻².

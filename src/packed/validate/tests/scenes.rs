@@ -8,9 +8,9 @@ use crate::load::file::delta_light_examples;
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
 use crate::scene::{
-    BlendWeight, ColorInput, Emission, Environment, EnvironmentRadiance, Geometry, ImageData, ImageTexture, Light, Material,
-    MaterialKind, Mesh, MicrofacetDistribution, Motion, MotionStep, Scene, Shape, Texture, TextureFilter, TextureKind,
-    TextureWrap, Transform,
+    BlendWeight, ColorInput, Cuboid, Disk, Emission, Environment, EnvironmentRadiance, Geometry, ImageData, ImageTexture, Light,
+    Material, MaterialKind, Mesh, MicrofacetDistribution, Motion, MotionStep, Plane, Rectangle, Scene, Shape, Sphere, Texture,
+    TextureFilter, TextureKind, TextureWrap, Transform,
 };
 
 /// By name: walked by kernels, and left to the device.
@@ -101,9 +101,9 @@ fn everything() -> Scene {
     let turning = Motion {
         steps: vec![MotionStep::Rotate { axis: DVec3::Y, degrees: 40.0 }, MotionStep::Translate(DVec3::X), MotionStep::Scale(b)],
     };
-    let ball = |x: f64| Geometry::Sphere { center: DVec3::new(x, 4.0, 0.0), radius: 1.0 };
-    let sheet = |z: f64| Geometry::Rectangle { corner: DVec3::new(0.0, 0.0, z), edge_u: DVec3::X, edge_v: DVec3::Y };
-    let disk = Geometry::Disk { center: DVec3::new(0.0, 8.0, 0.0), normal: DVec3::Y, radius: 1.0 };
+    let ball = |x: f64| Geometry::Sphere(Sphere { center: DVec3::new(x, 4.0, 0.0), radius: 1.0 });
+    let sheet = |z: f64| Geometry::Rectangle(Rectangle { corner: DVec3::new(0.0, 0.0, z), edge_u: DVec3::X, edge_v: DVec3::Y });
+    let disk = Geometry::Disk(Disk { center: DVec3::new(0.0, 8.0, 0.0), normal: DVec3::Y, radius: 1.0 });
     for (geometry, material, moves) in [
         (Geometry::Mesh(Arc::new(mesh(3, &[0, 1, 2, 4, 9]))), 0, false),
         (Geometry::Mesh(Arc::new(mesh(2, &[]))), 5, true),
@@ -113,8 +113,8 @@ fn everything() -> Scene {
         (sheet(2.0), 6, true),
         (sheet(3.0), 3, false),
         (disk, 5, false),
-        (Geometry::Plane { point: DVec3::NEG_Y, normal: DVec3::Y }, 5, false),
-        (Geometry::Box { min: DVec3::ZERO, max: DVec3::ONE }, 0, false),
+        (Geometry::Plane(Plane { point: DVec3::NEG_Y, normal: DVec3::Y }), 5, false),
+        (Geometry::Box(Cuboid { min: DVec3::ZERO, max: DVec3::ONE }), 0, false),
     ] {
         scene.shapes.push(Shape { motion: moves.then(|| turning.clone()), ..shape(geometry, material) });
     }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::reference::intersect::{Moment, Ray, World};
-use crate::scene::{BlendMode, BlendWeight, Emission, Geometry, Material, MaterialKind, Shape, Transform};
+use crate::scene::{BlendMode, BlendWeight, Emission, Geometry, Material, MaterialKind, Rectangle, Shape, Transform};
 
 /// A scene of one rectangle in the plane z = 0, front up, made of the last material.
 fn scene(kinds: Vec<MaterialKind>, mode: BlendMode) -> Scene {
@@ -11,7 +11,8 @@ fn scene(kinds: Vec<MaterialKind>, mode: BlendMode) -> Scene {
     for (index, kind) in kinds.into_iter().enumerate() {
         scene.materials.push(Material { name: index.to_string(), kind, normal_map: None, emission: None });
     }
-    let geometry = Geometry::Rectangle { corner: DVec3::new(-5.0, -5.0, 0.0), edge_u: DVec3::X * 10.0, edge_v: DVec3::Y * 10.0 };
+    let geometry =
+        Geometry::Rectangle(Rectangle { corner: DVec3::new(-5.0, -5.0, 0.0), edge_u: DVec3::X * 10.0, edge_v: DVec3::Y * 10.0 });
     let material = scene.materials.len() - 1;
     let transform = Transform::default();
     scene.shapes.push(Shape { label: "square".into(), geometry, material, transform, motion: None, portal: false });

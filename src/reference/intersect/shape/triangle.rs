@@ -2,8 +2,10 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
-use super::hierarchy::PreparedRay;
-use super::ray::{Local, SurfacePoint};
+use crate::reference::intersect::element::Element;
+use crate::reference::intersect::hierarchy::PreparedRay;
+use crate::reference::intersect::ray::{Local, Ray, SurfacePoint};
+use crate::reference::warp;
 
 /// Three corners, counter-clockwise seen from the front. They are stored as they are, in f32; all arithmetic is f64, where
 /// differences and products of such numbers are all but exact.
@@ -12,11 +14,11 @@ pub struct Triangle {
     pub corners: [Vec3; 3],
 }
 
-impl Triangle {
+impl Element for Triangle {
     /// The watertight test of Woop, Benthin and Wald (2013): the triangle is sheared so that the ray becomes the z axis, and the
     /// origin's place is decided by the signs of three edge functions. Neighbours evaluate the function of a shared edge on the same
     /// numbers and get opposite signs, so no ray slips between them; a zero counts as inside for both.
-    pub fn intersect(&self, ray: &PreparedRay, limit: f64) -> Option<(f64, Local)> {
+    fn intersect(&self, ray: &PreparedRay, limit: f64) -> Option<(f64, Local)> {
         let [a, b, c] = self.corners.map(|corner| ray.shear(corner.as_dvec3()));
         let weight_a = c.x * b.y - c.y * b.x;
         let weight_b = a.x * c.y - a.y * c.x;
@@ -33,7 +35,27 @@ impl Triangle {
         Some((distance, DVec2::new(weight_b, weight_c) / sum))
     }
 
-    pub fn point(&self, local: Local) -> SurfacePoint {
+    fn point(&self, _: &Ray, _: f64, local: Local) -> SurfacePoint {
+        self.at(local)
+    }
+
+    fn area(&self) -> f64 {
+        0.5 * self.scaled_normal().length()
+    }
+
+    fn bounds(&self) -> Option<[DVec3; 2]> {
+        let [a, b, c] = self.corners;
+        Some([a.min(b).min(c).as_dvec3(), a.max(b).max(c).as_dvec3()])
+    }
+
+    fn sample_area(&self, u1: f64, u2: f64) -> Option<(SurfacePoint, Local)> {
+        let local = warp::triangle(u1, u2);
+        Some((self.at(local), local))
+    }
+}
+
+impl Triangle {
+    fn at(&self, local: Local) -> SurfacePoint {
         let [a, b, c] = self.corners.map(|corner| corner.as_dvec3());
         let position = a + (b - a) * local.x + (c - a) * local.y;
         let magnitude = a.abs().max(b.abs()).max(c.abs()).max_element();
@@ -42,17 +64,8 @@ impl Triangle {
     }
 
     /// The front normal, as long as twice the area.
-    pub fn scaled_normal(&self) -> DVec3 {
+    fn scaled_normal(&self) -> DVec3 {
         let [a, b, c] = self.corners.map(|corner| corner.as_dvec3());
         (b - a).cross(c - a)
-    }
-
-    pub fn area(&self) -> f64 {
-        0.5 * self.scaled_normal().length()
-    }
-
-    pub fn bounds(&self) -> [DVec3; 2] {
-        let [a, b, c] = self.corners;
-        [a.min(b).min(c).as_dvec3(), a.max(b).max(c).as_dvec3()]
     }
 }

@@ -1,4 +1,4 @@
-//! `type = "mesh"`: triangles from an OBJ file or written in the scene file.
+//! Meshes from OBJ files.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -7,9 +7,6 @@ use glam::{Vec2, Vec3};
 
 use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::{LoadedMesh, Resolver};
-use crate::load::file::syntax::{MeshShape, ShapeEntry};
-use crate::load::file::value::{Located, vector};
-use crate::load::formats;
 use crate::load::obj::{self, ObjFile, Part};
 use crate::scene::{ColorInput, Material, MaterialId, MaterialKind, Mesh};
 
@@ -17,45 +14,8 @@ use crate::scene::{ColorInput, Material, MaterialId, MaterialKind, Mesh};
 const DEFAULT_REFLECTANCE: f64 = 0.8;
 
 impl Resolver<'_> {
-    pub(super) fn mesh(
-        &mut self,
-        index: usize,
-        entry: &Located<ShapeEntry>,
-        written: &MeshShape,
-        material: Option<MaterialId>,
-    ) -> Result<LoadedMesh, SceneError> {
-        let Some(file) = &written.file else {
-            let Some(material) = material else {
-                return Err(self.error(&entry.span, "the key `material` is missing: only a mesh file can have its own"));
-            };
-            let mesh = Arc::new(self.inline_mesh(index, entry, written)?);
-            return Ok(LoadedMesh { mesh, material });
-        };
-        let given = [
-            ("positions", written.positions.is_some()),
-            ("faces", written.faces.is_some()),
-            ("uvs", written.uvs.is_some()),
-            ("normals", written.normals.is_some()),
-        ];
-        if let Some((key, _)) = given.iter().find(|(_, given)| *given) {
-            return Err(self.error(&file.span, format!("a mesh has either `file` or `{key}`")));
-        }
-        let path = self.path(&file.value);
-        if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj")) {
-            let error = self.error(&file.span, "a mesh file is an OBJ file: its name ends in .obj");
-            return Err(match formats::advice(&path) {
-                Some((_, advice)) => error.with_help(advice),
-                None => error,
-            });
-        }
-        if !self.files().exists(&path) {
-            return Err(self.error(&file.span, format!("there is no file {}", show(&path))));
-        }
-        self.mesh_file(&path, written.smooth, material)
-    }
-
     /// Reads an OBJ file, once for all shapes that use it alike.
-    pub(super) fn mesh_file(
+    pub fn mesh_file(
         &mut self,
         path: &Path,
         smooth: Option<bool>,
@@ -119,52 +79,6 @@ impl Resolver<'_> {
         });
         *self.unnamed_material.insert(id)
     }
-
-    fn inline_mesh(&mut self, index: usize, entry: &Located<ShapeEntry>, written: &MeshShape) -> Result<Mesh, SceneError> {
-        let (Some(positions), Some(faces)) = (&written.positions, &written.faces) else {
-            return Err(self.error(&entry.span, "a mesh needs the key `file`, or both `positions` and `faces`"));
-        };
-        let count = positions.len();
-        for face in faces {
-            if let Some(index) = face.value.iter().find(|&&index| index as usize >= count) {
-                let message = format!("the face uses position {index}, but there are only {count} (counted from 0)");
-                return Err(self.error(&face.span, message));
-            }
-        }
-        let lengths = [
-            ("uvs", written.uvs.as_ref().map(|uvs| (uvs.value.len(), &uvs.span))),
-            ("normals", written.normals.as_ref().map(|normals| (normals.value.len(), &normals.span))),
-        ];
-        for (key, given) in lengths {
-            if let Some((length, span)) = given
-                && length != count
-            {
-                return Err(self.error(span, format!("there are {length} `{key}` for {count} positions")));
-            }
-        }
-        let mut mesh = Mesh {
-            positions: positions.iter().map(|position| vector(position.value).as_vec3()).collect(),
-            faces: faces.iter().map(|face| face.value).collect(),
-            ..Mesh::default()
-        };
-        if let Some(uvs) = &written.uvs {
-            mesh.uvs = uvs.value.iter().map(|uv| Vec2::new(uv[0].0 as f32, uv[1].0 as f32)).collect();
-        }
-        if let Some(normals) = &written.normals {
-            let unit = |normal| self.direction(normal).map(|normal| normal.as_vec3());
-            mesh.normals = normals.value.iter().map(unit).collect::<Result<_, _>>()?;
-        }
-        let dropped = mesh.drop_degenerate_faces();
-        if mesh.faces.is_empty() {
-            return Err(self.error(&entry.span, "the mesh has no faces with an area"));
-        }
-        if dropped > 0 {
-            let warning = format!("{}: shape[{index}]: {dropped} triangles without area were left out", self.document.name);
-            self.scene.warnings.push(warning);
-        }
-        choose_normals(&mut mesh, written.smooth);
-        Ok(mesh)
-    }
 }
 
 /// All parts as one mesh. Normals are kept, made or left out as `smooth` asks; without a wish, a file with normals is smooth.
@@ -188,7 +102,8 @@ fn merge(mut file: ObjFile, smooth: Option<bool>) -> Mesh {
     mesh
 }
 
-fn choose_normals(mesh: &mut Mesh, smooth: Option<bool>) {
+/// Keeps, makes or leaves out normals as `smooth` asks; without a wish, a mesh with normals is smooth.
+pub fn choose_normals(mesh: &mut Mesh, smooth: Option<bool>) {
     mesh.smooth = smooth.unwrap_or(!mesh.normals.is_empty());
     if !mesh.smooth {
         mesh.normals.clear();

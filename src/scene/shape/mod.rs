@@ -1,12 +1,104 @@
-//! Where surfaces are.
+//! Where surfaces are, and the table of shapes.
+
+mod model;
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec3, Vec2, Vec3};
+use glam::{DAffine3, DVec3, Vec3};
 
+use super::check::Check;
 use super::material::MaterialId;
 use super::motion::{FARTHEST, Motion, MotionStep};
 use super::transform::Transform;
+use model::ShapeModel;
+
+/// The table of shapes: a row for each. From these rows every layer makes its list of modules and what chooses among them, so a shape is
+/// a row here and a file of its module's name wherever it is represented: `scene/shape` is what it is, `load/file/shape` reads it,
+/// `packed/shape` packs it, `reference/shape` intersects and samples it in f64.
+///
+/// A row: variant of [`Geometry`], type of its data, module, name in scene files. Then, unless it is made of another shape's primitives, its
+/// own primitive: its name; that of its files in `shaders/geometry/shape` and `shaders/shading/shape`, and of their functions; what the
+/// names of its number and switches hold; its `SurfaceSampling` and its `SurfaceCoordinates` (`packed/shape`).
+macro_rules! shape_table {
+    ($what:ident) => {
+        $what! {
+            Mesh(Arc<Mesh>) mesh "mesh" => Triangle triangle TRIANGLE Area Edges,
+            Sphere(Sphere) sphere "sphere" => Sphere sphere SPHERE Own Normal,
+            Rectangle(Rectangle) rectangle "rectangle" => Quad quad QUAD Area Edges,
+            Disk(Disk) disk "disk" => Disk disk DISK Area None,
+            Box(Cuboid) cuboid "box",
+            Plane(Plane) plane "plane" => Plane plane PLANE Infinite None,
+        }
+    };
+}
+pub(crate) use shape_table;
+
+macro_rules! geometries {
+    ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident)?,)*) => {
+        $(mod $module;)*
+
+        /// A surface in its own space.
+        #[derive(Debug, Clone)]
+        pub enum Geometry {
+            $($variant($type),)*
+        }
+
+        impl Geometry {
+            /// What scene files call its kind.
+            pub fn kind_name(&self) -> &'static str {
+                match self {
+                    $(Self::$variant(_) => $name,)*
+                }
+            }
+
+            fn model(&self) -> &dyn ShapeModel {
+                match self {
+                    $(Self::$variant(shape) => shape,)*
+                }
+            }
+        }
+    };
+}
+shape_table!(geometries);
+
+pub use cuboid::Cuboid;
+pub use disk::Disk;
+pub use mesh::Mesh;
+pub use plane::Plane;
+pub use rectangle::Rectangle;
+pub use sphere::Sphere;
+
+impl Geometry {
+    /// What is wrong with it, in words.
+    pub(super) fn check(&self) -> Check {
+        self.model().check()
+    }
+
+    /// Why it has no texture coordinates, and what to use instead; None: it has them.
+    pub fn lacks_uv(&self) -> Option<&'static str> {
+        self.model().lacks_uv()
+    }
+
+    /// It stays what it is only if it is scaled by the same factor along every axis.
+    pub fn is_round(&self) -> bool {
+        self.model().is_round()
+    }
+
+    /// What is wrong where it is round and scaled otherwise, in words.
+    pub fn stays_round(&self) -> String {
+        format!("a {} can only be scaled by the same factor along every axis", self.kind_name())
+    }
+
+    /// It has neither bounds nor an area: it cannot move, and no light or portal has this shape.
+    pub fn is_infinite(&self) -> bool {
+        self.model().is_infinite()
+    }
+
+    /// Faces that a ray is tested against one by one where the shape is a portal.
+    pub fn faces(&self) -> usize {
+        self.model().faces()
+    }
+}
 
 /// One surface: geometry in its own space, where it stands, and what it is made of.
 #[derive(Debug, Clone)]
@@ -25,53 +117,23 @@ pub struct Shape {
     pub portal: bool,
 }
 
-#[derive(Debug, Clone)]
-pub enum Geometry {
-    Mesh(Arc<Mesh>),
-    /// Normal outward.
-    Sphere {
-        center: DVec3,
-        radius: f64,
-    },
-    /// Parallelogram; normal along edge_u × edge_v. UV (0,0) at `corner`, u along edge_u.
-    Rectangle {
-        corner: DVec3,
-        edge_u: DVec3,
-        edge_v: DVec3,
-    },
-    Disk {
-        center: DVec3,
-        normal: DVec3,
-        radius: f64,
-    },
-    /// Axis-aligned in its own space; normals outward.
-    Box {
-        min: DVec3,
-        max: DVec3,
-    },
-    /// Infinite; never a light.
-    Plane {
-        point: DVec3,
-        normal: DVec3,
-    },
-}
-
-/// Triangles with shared vertices. Front faces are counter-clockwise.
-#[derive(Debug, Clone, Default)]
-pub struct Mesh {
-    pub positions: Vec<Vec3>,
-    /// One per position, or empty.
-    pub normals: Vec<Vec3>,
-    /// One per position, or empty.
-    pub uvs: Vec<Vec2>,
-    pub faces: Vec<[u32; 3]>,
-    /// One material per face, or empty: then the shape's material is that of every face.
-    pub face_materials: Vec<MaterialId>,
-    /// Interpolate normals over the faces (needs `normals`); false: flat facets.
-    pub smooth: bool,
-}
-
 impl Shape {
+    /// The materials of its faces, else its own. One may be named more than once.
+    pub fn materials(&self) -> impl Iterator<Item = MaterialId> {
+        let of_faces = self.geometry.model().face_materials();
+        of_faces.iter().copied().chain(of_faces.is_empty().then_some(self.material))
+    }
+
+    /// The material of one of its faces.
+    pub fn face_material(&self, face: usize) -> MaterialId {
+        self.geometry.model().face_materials().get(face).copied().unwrap_or(self.material)
+    }
+
+    /// A distance from `point` within which all of the shape lies; of an infinite plane the distance of the plane.
+    pub(super) fn farthest_from(&self, point: DVec3) -> f64 {
+        self.geometry.model().farthest_from(&self.transform.to_affine(), point)
+    }
+
     /// The transform turns left hands into right hands. Fronts stay on the side of the material they are on in the shape's own
     /// space: see [`Shape::world_faces`]; a rectangle's normal is then along `−(edge_u × edge_v)` of the transformed edges.
     pub fn is_mirrored(&self) -> bool {
@@ -100,17 +162,6 @@ impl Shape {
         let mirrored = self.is_mirrored();
         mesh.faces.iter().map(|&[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] }).collect()
     }
-}
-
-impl Shape {
-    /// Those of its faces, else its own.
-    pub fn materials(&self) -> impl Iterator<Item = MaterialId> {
-        let of_faces: &[MaterialId] = match &self.geometry {
-            Geometry::Mesh(mesh) => &mesh.face_materials,
-            _ => &[],
-        };
-        of_faces.iter().copied().chain(of_faces.is_empty().then_some(self.material))
-    }
 
     /// Where the shape's own (0, 0, 0) is in the world at time 0: what motions turn and scale about.
     pub fn origin(&self) -> DVec3 {
@@ -128,21 +179,19 @@ impl Shape {
     /// What is wrong, in words, and in which step of the motion if it is a single one.
     pub fn check_motion(&self, shutter: [f64; 2]) -> Result<(), (Option<usize>, String)> {
         let Some(motion) = &self.motion else { return Ok(()) };
-        if matches!(self.geometry, Geometry::Plane { .. }) {
+        if self.geometry.is_infinite() {
             return Err((None, "an infinite plane cannot move; use a large rectangle".to_owned()));
         }
         if self.portal {
             return Err((None, "a portal cannot move".to_owned()));
         }
-        let round = matches!(self.geometry, Geometry::Sphere { .. } | Geometry::Disk { .. });
         for (index, step) in motion.steps.iter().enumerate() {
             step.check(shutter).map_err(|message| (Some(index), message))?;
             if let MotionStep::Scale(scale) = step
-                && round
+                && self.geometry.is_round()
                 && scale.max_element() != scale.min_element()
             {
-                let message = "spheres and disks can only be scaled by the same factor along every axis";
-                return Err((Some(index), message.to_owned()));
+                return Err((Some(index), self.geometry.stays_round()));
             }
         }
         let ends = shutter.map(|time| motion.at(time, self.origin()));

@@ -1,14 +1,91 @@
 //! `transform` and `motion`
 
+use std::borrow::Cow;
+use std::fmt;
 use std::ops::Range;
 
 use glam::{DAffine3, DMat3, DVec3};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::syntax::{StepEntry, TransformEntry};
-use crate::load::file::value::{Located, Number, vector};
+use crate::load::file::value::{Any, Located, Number, Rgb, Vector, any_of, vector};
 use crate::scene::{Motion, MotionStep, Shape, Transform, TransformStep};
+
+/// Steps applied in their order, or one matrix.
+#[derive(Debug)]
+pub enum TransformEntry {
+    Steps(Vec<Located<StepEntry>>),
+    Single(Box<StepEntry>),
+}
+
+/// One step: exactly one of `scale`, `rotate`, `translate`, `matrix`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table with one of the keys `scale`, `rotate`, `translate` and `matrix`")]
+#[schemars(extend("oneOf" = [
+    { "required": ["scale"] }, { "required": ["rotate", "degrees"] }, { "required": ["translate"] }, { "required": ["matrix"] }
+]))]
+pub struct StepEntry {
+    /// One factor or one per axis; not 0.
+    pub scale: Option<Located<ScaleEntry>>,
+    /// The axis of a rotation by `degrees`.
+    pub rotate: Option<Located<Vector>>,
+    /// Counter-clockwise seen from the axis' tip.
+    pub degrees: Option<Located<Number>>,
+    pub translate: Option<Vector>,
+    /// 16 numbers, row by row; the last row is 0 0 0 1.
+    pub matrix: Option<Located<[Number; 16]>>,
+}
+
+/// One factor or one per axis.
+#[derive(Debug)]
+pub struct ScaleEntry(pub DVec3);
+
+impl<'de> Deserialize<'de> for TransformEntry {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct StepsVisitor;
+        impl<'de> Visitor<'de> for StepsVisitor {
+            type Value = TransformEntry;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("an array of steps such as { translate = [0, 1, 0] }, or { matrix = [16 numbers] }")
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Self::Value, A::Error> {
+                Deserialize::deserialize(SeqAccessDeserializer::new(seq)).map(TransformEntry::Steps)
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+                Deserialize::deserialize(MapAccessDeserializer::new(map)).map(TransformEntry::Single)
+            }
+        }
+        deserializer.deserialize_any(StepsVisitor)
+    }
+}
+
+impl<'de> Deserialize<'de> for ScaleEntry {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Rgb::<Any>::deserialize_as(deserializer, "one factor or one per axis").map(ScaleEntry)
+    }
+}
+
+impl JsonSchema for TransformEntry {
+    fn schema_name() -> Cow<'static, str> {
+        "Transform".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        any_of(vec![generator.subschema_for::<Vec<StepEntry>>(), generator.subschema_for::<StepEntry>()])
+    }
+}
+
+impl JsonSchema for ScaleEntry {
+    fn schema_name() -> Cow<'static, str> {
+        "Scale".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        any_of(vec![generator.subschema_for::<Number>(), generator.subschema_for::<Vector>()])
+    }
+}
 
 impl Resolver<'_> {
     pub(super) fn transform(&self, written: &Located<TransformEntry>) -> Result<Transform, SceneError> {

@@ -1,0 +1,38 @@
+// A ray against a parallelogram: (t or -1, u, v). The points of its record are a corner and the edges from it.
+#import core/layout.wgsl
+#import geometry/prepared_ray.wgsl
+#if MOTION
+#import geometry/motion.wgsl
+#endif
+
+fn intersect_quad(ray: PreparedRay, t_max: f32, corner: vec3<f32>, edge_u: vec3<f32>, edge_v: vec3<f32>) -> vec3<f32> {
+    let p = cross(ray.direction, edge_v);
+    let inverse = 1.0 / dot(edge_u, p);
+    let from_corner = ray.origin - corner;
+    let u = dot(from_corner, p) * inverse;
+    let q = cross(from_corner, edge_u);
+    let v = dot(ray.direction, q) * inverse;
+    let t = dot(edge_v, q) * inverse;
+    let inside = min(u, v) >= -QUAD_OVERLAP && max(u, v) <= 1.0 + QUAD_OVERLAP;
+    return vec3<f32>(select(-1.0, t, inside && t > 0.0 && t < t_max), u, v);
+}
+
+// The same with the plane's constants folded in: `normal` = edge_u x edge_v, `dual_u` and `dual_v` measure along the edges.
+fn intersect_quad_constant(
+    ray: PreparedRay, t_max: f32, corner: vec3<f32>, normal: vec3<f32>, dual_u: vec3<f32>, dual_v: vec3<f32>
+) -> vec3<f32> {
+    let to_corner = corner - ray.origin;
+    let t = dot(normal, to_corner) / dot(normal, ray.direction);
+    let r = t * ray.direction - to_corner;
+    let u = dot(dual_u, r);
+    let v = dot(dual_v, r);
+    let inside = min(u, v) >= -QUAD_OVERLAP && max(u, v) <= 1.0 + QUAD_OVERLAP;
+    return vec3<f32>(select(-1.0, t, inside && t > 0.0 && t < t_max), u, v);
+}
+
+#if MOTION
+fn move_quad(motion: Motion, corner: vec3<f32>, edge_u: vec3<f32>, edge_v: vec3<f32>) -> MovedPoints {
+    let size = abs(corner) + abs(edge_u) + abs(edge_v);
+    return MovedPoints(moved_point(motion, corner), motion.linear * edge_u, motion.linear * edge_v, size);
+}
+#endif

@@ -1,0 +1,52 @@
+// What the attributes of a primitive say of a point of it.
+#import core/layout.wgsl
+#import geometry/records.wgsl
+#import shading/shape_point.wgsl
+#if MOTION
+#import geometry/motion.wgsl
+#endif
+
+struct Attribute {
+    // As long as interpolation leaves it; 0 where there is none.
+    normal: vec3<f32>,
+    uv: vec2<f32>,
+}
+
+fn interpolate_attributes(first: u32, weights: vec2<f32>) -> Attribute {
+    let words = attribute_words(first);
+    let a0 = words.w0;
+    let a1 = words.w1;
+    let a2 = words.w2;
+    let a3 = words.w3;
+    let w = 1.0 - weights.x - weights.y;
+#if MOTION
+    var normals = array<vec3<f32>, 3>(a0.xyz, a1.xyz, a2.xyz);
+    let moving = bitcast<u32>(a3.w);
+    if moving != NONE {
+        let motion = motion_at_path_time(moving);
+        for (var corner = 0u; corner < 3u; corner++) {
+            normals[corner] = moved_unit_normal(motion, normals[corner]);
+        }
+    }
+    return Attribute(
+        w * normals[0] + weights.x * normals[1] + weights.y * normals[2],
+        w * vec2<f32>(a0.w, a1.w) + weights.x * vec2<f32>(a2.w, a3.x) + weights.y * a3.yz
+    );
+#else
+    return Attribute(
+        w * a0.xyz + weights.x * a1.xyz + weights.y * a2.xyz,
+        w * vec2<f32>(a0.w, a1.w) + weights.x * vec2<f32>(a2.w, a3.x) + weights.y * a3.yz
+    );
+#endif
+}
+
+// Of the linear map from texture coordinates at the corners to the edges.
+fn edge_tangents(first: u32, edge_u: vec3<f32>, edge_v: vec3<f32>) -> Tangents {
+    let words = attribute_words(first);
+    let uv0 = vec2<f32>(words.w0.w, words.w1.w);
+    let du = vec2<f32>(words.w2.w, words.w3.x) - uv0;
+    let dv = words.w3.yz - uv0;
+    // Only directions matter, so the determinant's sign is enough.
+    let orientation = sign(du.x * dv.y - du.y * dv.x);
+    return Tangents((edge_u * dv.y - edge_v * du.y) * orientation, (edge_v * du.x - edge_u * dv.x) * orientation);
+}

@@ -1,0 +1,30 @@
+//! `type = "box"`
+
+use super::keys::{ShapeKeys, Written, shape_keys};
+use crate::load::error::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::value::{Located, Vector, vector};
+use crate::scene::Cuboid;
+
+shape_keys! {
+    /// Axis-aligned before its transform; at most one edge has no length.
+    "BoxShape" { min: Vector, max: Located<Vector> }
+}
+
+impl ShapeKeys for Keys {
+    type Shape = Cuboid;
+
+    const EXAMPLES: &'static [&'static str] = &["min = [-0.6, -0.7, -0.5]\nmax = [0.5, 0.6, 0.4]"];
+
+    fn resolve(&self, resolver: &mut Resolver<'_>, _: &mut Written<'_>) -> Result<Cuboid, SceneError> {
+        let (min, max) = (vector(self.min), vector(self.max.value));
+        let edges = max - min;
+        if edges.min_element() < 0.0 {
+            return Err(resolver.error(&self.max.span, "the box's `max` is below its `min`"));
+        }
+        if edges.to_array().into_iter().filter(|&edge| edge == 0.0).count() > 1 {
+            return Err(resolver.error(&self.max.span, "the box has no area: at most one of its edges can have length 0"));
+        }
+        Ok(Cuboid { min, max })
+    }
+}

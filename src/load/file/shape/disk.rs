@@ -1,0 +1,22 @@
+//! `type = "disk"`
+
+use super::keys::{ShapeKeys, Written, shape_keys};
+use crate::load::error::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::value::{Checked, Located, Positive, Vector, vector};
+use crate::scene::Disk;
+
+shape_keys! {
+    /// A flat disk.
+    "DiskShape" { center: Vector, normal: Located<Vector>, radius: Checked<Positive> }
+}
+
+impl ShapeKeys for Keys {
+    type Shape = Disk;
+
+    const EXAMPLES: &'static [&'static str] = &["center = [0.1, 0, 0]\nnormal = [0.3, 0.5, 1]\nradius = 0.8"];
+
+    fn resolve(&self, resolver: &mut Resolver<'_>, _: &mut Written<'_>) -> Result<Disk, SceneError> {
+        Ok(Disk { center: vector(self.center), normal: resolver.direction(&self.normal)?, radius: self.radius.0 })
+    }
+}

@@ -1,0 +1,75 @@
+//! The keys that every shape has.
+
+use std::ops::Range;
+
+use super::transform::TransformEntry;
+use crate::load::error::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::value::Located;
+use crate::scene::MaterialId;
+
+/// What a shape's keys mean.
+pub trait ShapeKeys {
+    /// The geometry in the scene.
+    type Shape;
+
+    /// The keys of its geometry, which tests render with materials of all kinds. Each shows itself within 1 of the origin.
+    const EXAMPLES: &'static [&'static str];
+
+    /// The geometry. Only a mesh file may bring a material, which it writes into `entry`.
+    fn resolve(&self, resolver: &mut Resolver<'_>, entry: &mut Written<'_>) -> Result<Self::Shape, SceneError>;
+}
+
+/// Declares the keys of a shape: its own and those that every shape has. `name` is what the schema calls them.
+macro_rules! shape_keys {
+    ($(#[$doc:meta])* $name:literal { $($(#[$field_doc:meta])* $field:ident : $type:ty),* $(,)? }) => {
+        $(#[$doc])*
+        #[derive(Debug, serde::Deserialize, schemars::JsonSchema)]
+        #[serde(deny_unknown_fields, expecting = "a table")]
+        #[schemars(rename = $name)]
+        pub struct Keys {
+            $($(#[$field_doc])* $field: $type,)*
+            /// A `[[material]]`'s name. A mesh file may leave it out to use its own materials.
+            material: Option<$crate::load::file::value::Located<String>>,
+            /// Steps applied in this order, or a matrix.
+            transform: Option<$crate::load::file::value::Located<$crate::load::file::shape::transform::TransformEntry>>,
+            /// Steps of `scale`, `rotate` and `translate` reached at shutter time 1; at time 0 the shape rests. They apply in
+            /// this order after `transform`, along the world's axes and about the shape's own origin, where `transform` puts its
+            /// (0, 0, 0). Each is interpolated by itself: rotations turn evenly about their axis.
+            motion: Option<$crate::load::file::value::Located<$crate::load::file::shape::transform::TransformEntry>>,
+            /// Sample the directions through this shape for the environment's light as if the shape were a light: a window. Its
+            /// material is of type `pass`; a surface that emits is sampled as a light in any case.
+            #[serde(default)]
+            portal: bool,
+        }
+
+        impl Keys {
+            pub fn common(&self) -> $crate::load::file::shape::keys::CommonKeys<'_> {
+                $crate::load::file::shape::keys::CommonKeys {
+                    material: self.material.as_ref(),
+                    transform: self.transform.as_ref(),
+                    motion: self.motion.as_ref(),
+                    portal: self.portal,
+                }
+            }
+        }
+    };
+}
+pub(super) use shape_keys;
+
+/// The keys that every shape has.
+pub struct CommonKeys<'a> {
+    pub material: Option<&'a Located<String>>,
+    pub transform: Option<&'a Located<TransformEntry>>,
+    pub motion: Option<&'a Located<TransformEntry>>,
+    pub portal: bool,
+}
+
+/// A shape whose geometry is about to be resolved.
+pub struct Written<'a> {
+    pub span: &'a Range<usize>,
+    /// Place among the scene's shapes.
+    pub index: usize,
+    /// The one that is written, or that the geometry brings with it.
+    pub material: Option<MaterialId>,
+}

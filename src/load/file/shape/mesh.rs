@@ -1,0 +1,120 @@
+//! `type = "mesh"`: triangles from an OBJ file or written in the scene file.
+
+use std::sync::Arc;
+
+use glam::Vec2;
+
+use super::keys::{ShapeKeys, Written, shape_keys};
+use super::mesh_file::choose_normals;
+use crate::load::error::SceneError;
+use crate::load::error::show;
+use crate::load::file::resolver::{LoadedMesh, Resolver};
+use crate::load::file::value::{Located, Number, Vector, vector};
+use crate::load::formats;
+use crate::scene::Mesh;
+
+shape_keys! {
+    /// Triangles, from a file or written here.
+    "MeshShape" {
+        /// Path of an OBJ file, relative to the scene file.
+        file: Option<Located<String>>,
+        positions: Option<Vec<Located<Vector>>>,
+        /// Three indices into `positions` each, counted from 0, counter-clockwise seen from the front.
+        faces: Option<Vec<Located<[u32; 3]>>>,
+        /// One per position.
+        uvs: Option<Located<Vec<[Number; 2]>>>,
+        /// One per position.
+        normals: Option<Located<Vec<Located<Vector>>>>,
+        /// Interpolate normals over the faces; when left out, true if there are normals.
+        smooth: Option<bool>,
+    }
+}
+
+impl ShapeKeys for Keys {
+    type Shape = Arc<Mesh>;
+
+    const EXAMPLES: &'static [&'static str] = &[
+        "positions = [[-0.8, -0.9, 0.7], [0.9, -0.8, 0.6], [0, -0.9, -0.9], [0.1, 1, 0]]\nnormals = [[-0.6, -0.5, 0.6], [0.6, -0.5, 0.6], [0, -0.5, -0.8], [0, 1, 0]]\nuvs = [[0, 0], [1, 0], [0.5, 1], [0.4, 0.6]]\nfaces = [[0, 1, 3], [1, 2, 3], [2, 0, 3], [0, 2, 1]]",
+    ];
+
+    /// A mesh file may bring materials of its own.
+    fn resolve(&self, resolver: &mut Resolver<'_>, entry: &mut Written<'_>) -> Result<Arc<Mesh>, SceneError> {
+        let Some(file) = &self.file else {
+            if entry.material.is_none() {
+                return Err(resolver.error(entry.span, "the key `material` is missing: only a mesh file can have its own"));
+            }
+            return Ok(Arc::new(self.inline_mesh(resolver, entry)?));
+        };
+        let given = [
+            ("positions", self.positions.is_some()),
+            ("faces", self.faces.is_some()),
+            ("uvs", self.uvs.is_some()),
+            ("normals", self.normals.is_some()),
+        ];
+        if let Some((key, _)) = given.iter().find(|(_, given)| *given) {
+            return Err(resolver.error(&file.span, format!("a mesh has either `file` or `{key}`")));
+        }
+        let path = resolver.path(&file.value);
+        if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj")) {
+            let error = resolver.error(&file.span, "a mesh file is an OBJ file: its name ends in .obj");
+            return Err(match formats::advice(&path) {
+                Some((_, advice)) => error.with_help(advice),
+                None => error,
+            });
+        }
+        if !resolver.files().exists(&path) {
+            return Err(resolver.error(&file.span, format!("there is no file {}", show(&path))));
+        }
+        let LoadedMesh { mesh, material } = resolver.mesh_file(&path, self.smooth, entry.material)?;
+        entry.material = Some(material);
+        Ok(mesh)
+    }
+}
+
+impl Keys {
+    fn inline_mesh(&self, resolver: &mut Resolver<'_>, &Written { span, index, .. }: &Written<'_>) -> Result<Mesh, SceneError> {
+        let (Some(positions), Some(faces)) = (&self.positions, &self.faces) else {
+            return Err(resolver.error(span, "a mesh needs the key `file`, or both `positions` and `faces`"));
+        };
+        let count = positions.len();
+        for face in faces {
+            if let Some(index) = face.value.iter().find(|&&index| index as usize >= count) {
+                let message = format!("the face uses position {index}, but there are only {count} (counted from 0)");
+                return Err(resolver.error(&face.span, message));
+            }
+        }
+        let lengths = [
+            ("uvs", self.uvs.as_ref().map(|uvs| (uvs.value.len(), &uvs.span))),
+            ("normals", self.normals.as_ref().map(|normals| (normals.value.len(), &normals.span))),
+        ];
+        for (key, given) in lengths {
+            if let Some((length, span)) = given
+                && length != count
+            {
+                return Err(resolver.error(span, format!("there are {length} `{key}` for {count} positions")));
+            }
+        }
+        let mut mesh = Mesh {
+            positions: positions.iter().map(|position| vector(position.value).as_vec3()).collect(),
+            faces: faces.iter().map(|face| face.value).collect(),
+            ..Mesh::default()
+        };
+        if let Some(uvs) = &self.uvs {
+            mesh.uvs = uvs.value.iter().map(|uv| Vec2::new(uv[0].0 as f32, uv[1].0 as f32)).collect();
+        }
+        if let Some(normals) = &self.normals {
+            let unit = |normal| resolver.direction(normal).map(|normal| normal.as_vec3());
+            mesh.normals = normals.value.iter().map(unit).collect::<Result<_, _>>()?;
+        }
+        let dropped = mesh.drop_degenerate_faces();
+        if mesh.faces.is_empty() {
+            return Err(resolver.error(span, "the mesh has no faces with an area"));
+        }
+        if dropped > 0 {
+            let warning = format!("{}: shape[{index}]: {dropped} triangles without area were left out", resolver.document.name);
+            resolver.scene.warnings.push(warning);
+        }
+        choose_normals(&mut mesh, self.smooth);
+        Ok(mesh)
+    }
+}

@@ -1,0 +1,27 @@
+//! `type = "rectangle"`
+
+use super::keys::{ShapeKeys, Written, shape_keys};
+use crate::load::error::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::value::{Located, Vector, vector};
+use crate::scene::Rectangle;
+
+shape_keys! {
+    /// A parallelogram; its front is where edge_u × edge_v points.
+    "RectangleShape" { corner: Vector, edge_u: Located<Vector>, edge_v: Located<Vector> }
+}
+
+impl ShapeKeys for Keys {
+    type Shape = Rectangle;
+
+    const EXAMPLES: &'static [&'static str] =
+        &["corner = [-0.8, -0.7, 0.3]\nedge_u = [1.5, 0.2, 0.1]\nedge_v = [0.1, 1.4, -0.3]"];
+
+    fn resolve(&self, resolver: &mut Resolver<'_>, _: &mut Written<'_>) -> Result<Rectangle, SceneError> {
+        let (edge_u, edge_v) = (vector(self.edge_u.value), vector(self.edge_v.value));
+        if edge_u.cross(edge_v).length() <= 1e-9 * edge_u.length() * edge_v.length() {
+            return Err(resolver.error(&self.edge_v.span, "the rectangle has no area: its edges are parallel or of length 0"));
+        }
+        Ok(Rectangle { corner: vector(self.corner), edge_u, edge_v })
+    }
+}

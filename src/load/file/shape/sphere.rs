@@ -1,0 +1,22 @@
+//! `type = "sphere"`
+
+use super::keys::{ShapeKeys, Written, shape_keys};
+use crate::load::error::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::value::{Checked, Positive, Vector, vector};
+use crate::scene::Sphere;
+
+shape_keys! {
+    /// The normal points outward.
+    "SphereShape" { center: Vector, radius: Checked<Positive> }
+}
+
+impl ShapeKeys for Keys {
+    type Shape = Sphere;
+
+    const EXAMPLES: &'static [&'static str] = &["center = [0.1, 0, -0.1]\nradius = 0.8"];
+
+    fn resolve(&self, _: &mut Resolver<'_>, _: &mut Written<'_>) -> Result<Sphere, SceneError> {
+        Ok(Sphere { center: vector(self.center), radius: self.radius.0 })
+    }
+}

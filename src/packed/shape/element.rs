@@ -1,0 +1,21 @@
+//! What kernels know: the primitives that shapes are made of.
+
+use glam::{DAffine3, DVec3, Vec3};
+
+/// A primitive in world space.
+pub trait Element: Copy {
+    /// Where a motion takes it. What is round is scaled by the same factor along every axis.
+    fn moved(&self, map: &DAffine3) -> Self;
+
+    /// Bounds in f32, grown past rounding. None: it is infinite.
+    fn bounds(&self) -> Option<(Vec3, Vec3)>;
+
+    /// Surface area; infinite for a plane.
+    fn area(&self) -> f64;
+
+    /// The three points of its record.
+    fn points(&self) -> [Vec3; 3];
+
+    /// As a light: its area, or 0 of what is not sampled by area; and three points. None: no density covers it evenly.
+    fn light(&self) -> Option<(f64, [DVec3; 3])>;
+}

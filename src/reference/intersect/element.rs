@@ -1,0 +1,107 @@
+//! What rays meet: the pieces that shapes are made of.
+
+use std::fmt::Debug;
+
+use glam::{DVec2, DVec3};
+
+use super::hierarchy::PreparedRay;
+use super::normal_map::Tangents;
+use super::pose::Pose;
+use super::ray::{Local, Ray, SurfacePoint};
+use crate::scene::LightSampling;
+
+/// A direction to an element, before its emission is looked up.
+pub struct Direction {
+    pub wi: DVec3,
+    pub distance: f64,
+    pub pdf_solid_angle: f64,
+    pub point: SurfacePoint,
+    pub local: Local,
+}
+
+/// A piece of surface, at rest. What moves is met in its rest space, and brought back by its pose.
+pub trait Element: Debug + Send + Sync {
+    /// Distance along the ray and local coordinates of the first crossing beyond the ray's origin and before `limit`.
+    fn intersect(&self, ray: &PreparedRay, limit: f64) -> Option<(f64, Local)>;
+
+    /// The point a ray meets after `distance`, taken back onto the element.
+    fn point(&self, ray: &Ray, distance: f64, local: Local) -> SurfacePoint;
+
+    fn area(&self) -> f64;
+
+    /// Lower and upper corner of the axis-aligned bounding box. None: it is infinite.
+    fn bounds(&self) -> Option<[DVec3; 2]>;
+
+    /// Texture coordinates at a point with this normal; 0 where it has none.
+    fn uv(&self, _local: Local, _normal: DVec3) -> DVec2 {
+        DVec2::ZERO
+    }
+
+    /// The directions in which they grow.
+    fn tangents(&self, _local: Local, _normal: DVec3) -> Option<Tangents> {
+        None
+    }
+
+    /// A point uniform over the area. None: it has none to be uniform over.
+    fn sample_area(&self, _u1: f64, _u2: f64) -> Option<(SurfacePoint, Local)> {
+        None
+    }
+
+    /// Whether the element itself stands between `from` and a point of it.
+    fn hides(&self, _from: DVec3, _point: &SurfacePoint) -> bool {
+        false
+    }
+
+    /// A direction from `from` to a point of it. None where the point cannot be seen from there because the element itself is in the way.
+    /// `pose`: where it has moved to; `strategy`: how spheres are sampled.
+    fn sample(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3, u1: f64, u2: f64) -> Option<Direction> {
+        let (at_rest, local) = self.sample_area(u1, u2)?;
+        let is_hidden = self.hides(pose.map_or(from, |pose| pose.place_at_rest(from)), &at_rest);
+        if is_hidden { None } else { self.towards(pose, strategy, from, &at_rest, local) }
+    }
+
+    /// The same at rest, of points that the element hides as well.
+    fn sample_through(&self, strategy: LightSampling, from: DVec3, u1: f64, u2: f64) -> Option<Direction> {
+        let (at_rest, local) = self.sample_area(u1, u2)?;
+        self.towards(None, strategy, from, &at_rest, local)
+    }
+
+    /// The direction from `from` to a point.
+    fn towards(
+        &self,
+        pose: Option<&Pose>,
+        strategy: LightSampling,
+        from: DVec3,
+        at_rest: &SurfacePoint,
+        local: Local,
+    ) -> Option<Direction> {
+        // Motions keep what is uniform over an area uniform.
+        let point = pose.map_or(*at_rest, |pose| pose.point(at_rest));
+        let to_point = point.position - from;
+        let distance = to_point.length();
+        let wi = to_point / distance;
+        let pdf_solid_angle = self.pdf(pose, strategy, from, &point);
+        (distance > 0.0).then_some(Direction { wi, distance, pdf_solid_angle, point, local })
+    }
+
+    /// Density per steradian with which [`Element::sample`] draws the direction from `from` to a point of it.
+    fn pdf(&self, pose: Option<&Pose>, _strategy: LightSampling, from: DVec3, point: &SurfacePoint) -> f64 {
+        let area = self.area() * pose.map_or(1.0, |pose| pose.area_factor(point.normal));
+        area_to_solid_angle(area, from, point)
+    }
+
+    /// Density per steradian with which [`Element::sample_through`] draws the direction in which `ray` goes from its origin; 0 where the ray
+    /// does not meet it.
+    fn pdf_through(&self, strategy: LightSampling, ray: &PreparedRay) -> f64 {
+        let Some((distance, local)) = self.intersect(ray, f64::INFINITY) else { return 0.0 };
+        let point = self.point(&ray.ray, distance, local);
+        self.pdf(None, strategy, ray.ray.origin, &point)
+    }
+}
+
+/// Uniform over an area: dA·cosθ / d² is the solid angle of dA.
+pub fn area_to_solid_angle(area: f64, from: DVec3, point: &SurfacePoint) -> f64 {
+    let to_point = point.position - from;
+    let squared = to_point.length_squared();
+    squared * squared.sqrt() / (to_point.dot(point.normal).abs() * area)
+}

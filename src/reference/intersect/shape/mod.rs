@@ -1,0 +1,26 @@
+//! Shapes as rays meet them: a file for each.
+
+mod placement;
+mod primitive;
+mod triangle;
+
+use crate::scene::Geometry;
+use crate::scene::shape::shape_table;
+pub use placement::Placement;
+pub use primitive::Primitive;
+pub use triangle::Triangle;
+
+/// A module for each row of the table of shapes, and what chooses among them.
+macro_rules! modules {
+    ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident)?,)*) => {
+        $(mod $module;)*
+
+        /// The primitives of a shape in the world, each with the number of the face it is: of a mesh, or of a box (−x +x −y +y −z +z).
+        pub fn primitives(placement: &Placement<'_>) -> Vec<(usize, Primitive)> {
+            match &placement.shape.geometry {
+                $(Geometry::$variant(shape) => $module::elements(shape, placement),)*
+            }
+        }
+    };
+}
+shape_table!(modules);

@@ -1,0 +1,53 @@
+//! What a scene needs to know of a shape's geometry, whatever its kind.
+
+use glam::{DAffine3, DVec3};
+
+use crate::scene::check::Check;
+use crate::scene::material::MaterialId;
+
+pub trait ShapeModel {
+    /// What is wrong with it, in words.
+    fn check(&self) -> Check;
+
+    /// Why it has no texture coordinates, and what to use instead; None: it has them.
+    fn lacks_uv(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// A distance from `point` within which all of it lies once `map` has placed it; of what is infinite the distance of its surface.
+    fn farthest_from(&self, map: &DAffine3, point: DVec3) -> f64;
+
+    /// It stays what it is only if it is scaled by the same factor along every axis.
+    fn is_round(&self) -> bool {
+        false
+    }
+
+    /// It has neither bounds nor an area: it cannot move, and no light or portal has this shape.
+    fn is_infinite(&self) -> bool {
+        false
+    }
+
+    /// Faces that a ray is tested against one by one where the shape is a portal.
+    fn faces(&self) -> usize {
+        1
+    }
+
+    /// One material for each face; empty: that of the shape is the material of all.
+    fn face_materials(&self) -> &[MaterialId] {
+        &[]
+    }
+}
+
+/// What is wrong where numbers of a shape are not what they may be.
+pub fn possible(possible: bool) -> Check {
+    if possible { Ok(()) } else { Err("its numbers must be finite, radii positive, and normals of length 1".into()) }
+}
+
+/// How far from `point` the farthest corner of a box is once `map` has placed it.
+pub fn farthest_corner(low: DVec3, high: DVec3, map: &DAffine3, point: DVec3) -> f64 {
+    let corner = |index: usize| {
+        let pick = |axis: usize| if index >> axis & 1 == 0 { low[axis] } else { high[axis] };
+        map.transform_point3(DVec3::new(pick(0), pick(1), pick(2))).distance(point)
+    };
+    (0..8).map(corner).fold(0.0, f64::max)
+}
