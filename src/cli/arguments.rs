@@ -44,7 +44,7 @@ pub enum Command {
 
 #[derive(Debug, Args)]
 pub struct RenderArguments {
-    /// A .toml scene, an .obj model, the name of a built-in scene, or - for a .toml scene on the standard input [default: cornell]
+    /// A .toml scene, an .obj or .ply model, the name of a built-in scene, or - for a .toml scene on the standard input [default: cornell]
     pub scene: Option<OsString>,
     #[command(flatten)]
     pub access: AccessArguments,
@@ -137,7 +137,7 @@ pub struct CompareArguments {
 
 #[derive(Debug, Args)]
 pub struct VerifyArguments {
-    /// A .toml scene, an .obj model, or the name of a built-in scene [default: closed forms and every built-in scene]
+    /// A .toml scene, an .obj or .ply model, or the name of a built-in scene [default: closed forms and every built-in scene]
     pub scene: Option<OsString>,
     #[command(flatten)]
     pub access: AccessArguments,
@@ -174,7 +174,7 @@ pub struct VerifyArguments {
 
 #[derive(Debug, Args)]
 pub struct CheckArguments {
-    /// A .toml scene, an .obj model, the name of a built-in scene, or - for a .toml scene on the standard input
+    /// A .toml scene, an .obj or .ply model, the name of a built-in scene, or - for a .toml scene on the standard input
     #[arg(required_unless_present = "schema")]
     pub scene: Option<OsString>,
     #[command(flatten)]

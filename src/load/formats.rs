@@ -3,7 +3,9 @@
 use std::path::Path;
 
 /// What is read as a scene.
-pub const SCENES: &str = "scene files (.toml) and models (.obj)";
+pub const SCENES: &str = "scene files (.toml) and models (.obj, .ply)";
+/// The endings of models' names, as a sentence has them.
+pub const MODEL_ENDINGS: &str = ".obj, .ply or .ply.gz";
 
 const BLENDER: &str = "Blender reads it and exports Wavefront OBJ, with its materials as MTL (File > Export > Wavefront)";
 const BLENDER_USD: &str = "Blender imports USD and exports Wavefront OBJ (File > Export > Wavefront)";
@@ -15,9 +17,8 @@ const MAGICK: &str = "ImageMagick makes a PNG of it: `magick PICTURE picture.png
 const PICTURE: &str = "a scene file names it, as an environment or a texture: see `gpt check --schema`";
 
 /// Ending, what such a file is, and what to do.
-const MODELS: [(&[&str], &str, &str); 9] = [
+const MODELS: [(&[&str], &str, &str); 8] = [
     (&["gltf", "glb"], "a glTF model", BLENDER),
-    (&["ply"], "a PLY model", MESHLAB),
     (&["stl", "off"], "a model of bare triangles", MESHLAB),
     (&["usd", "usda", "usdc", "usdz"], "a USD scene", BLENDER_USD),
     (&["fbx", "dae", "3ds", "x3d", "lwo"], "a model", ASSIMP),

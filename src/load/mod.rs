@@ -1,7 +1,7 @@
 //! From a file, a model or a name to a [`Scene`](crate::scene::Scene).
 //!
 //! - [`source`]: what a person may name as the scene.
-//! - [`file`]: scene files in TOML; `obj`: models and their materials; `image_file`: textures and environment maps.
+//! - [`file`]: scene files in TOML; `obj`, `ply`: models, of which `model` is what they have in common; `image_file`: textures and environment maps.
 //! - `framing`: camera, ground and light for a model that comes without them.
 //! - `builtin`: scenes that are part of the program.
 //! - [`error`]: what is wrong with an input file, and where.
@@ -17,7 +17,10 @@ mod formats;
 mod framing;
 mod image_file;
 mod memory;
+mod model;
 mod obj;
+mod ply;
+mod polygon;
 mod printable;
 pub mod source;
 

@@ -7,6 +7,7 @@ use super::access::{Access, LoadOptions};
 use super::builtin::{FOLDER, builtin_names, builtin_text};
 use super::error::{SceneError, show};
 use super::files::MOST_SCENE_BYTES;
+use super::model::ModelFormat;
 use super::{encoding, file, formats, framing, memory};
 use crate::input;
 use crate::scene::Scene;
@@ -20,12 +21,12 @@ pub enum SceneSource {
     StandardInput,
     /// A scene file (`.toml`).
     File(PathBuf),
-    /// A model (`.obj`), which is framed by itself.
+    /// A model (`.obj`, `.ply`), which is framed by itself.
     Model(PathBuf),
 }
 
 impl SceneSource {
-    /// Tells the source from what was written: a path by its ending `.toml` or `.obj`, else a built-in scene's name; `-` is the standard
+    /// Tells the source from what was written: a path by its ending, else a built-in scene's name; `-` is the standard
     /// input, and nothing is the default scene, `cornell`.
     pub fn parse(written: Option<&OsStr>) -> Result<Self, SceneError> {
         let Some(written) = written else { return Ok(Self::BuiltIn("cornell")) };
@@ -33,7 +34,7 @@ impl SceneSource {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
         match ending.as_deref() {
             Some("toml") => return Ok(Self::File(path.to_owned())),
-            Some("obj") => return Ok(Self::Model(path.to_owned())),
+            _ if ModelFormat::of(path).is_some() => return Ok(Self::Model(path.to_owned())),
             _ if written == "-" => return Ok(Self::StandardInput),
             _ => {}
         }
@@ -48,7 +49,8 @@ impl SceneSource {
         let what = if path.exists() { "is neither a scene file nor a model" } else { "is no built-in scene" };
         let names: Vec<&str> = builtin_names().collect();
         let help = file::did_you_mean(&name, &names).unwrap_or_default();
-        Err(SceneError::in_file(show(path), what).with_help(format!("{help}; or a file that ends in .toml or .obj")))
+        Err(SceneError::in_file(show(path), what)
+            .with_help(format!("{help}; or a file that ends in .toml, {}", formats::MODEL_ENDINGS)))
     }
 
     /// Reads the scene.
@@ -92,7 +94,7 @@ fn load_bytes(read: std::io::Result<Vec<u8>>, name: &str, folder: &Path, access:
     }
 }
 
-/// Reads the scene a person named: a `.toml` file, an `.obj` model, or a built-in scene; `cornell` where nothing is named.
+/// Reads the scene a person named: a `.toml` file, an `.obj` or `.ply` model, or a built-in scene; `cornell` where nothing is named.
 pub fn load(written: Option<&str>) -> Result<Scene, SceneError> {
     load_with(written.map(OsStr::new), &LoadOptions::default())
 }

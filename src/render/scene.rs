@@ -14,7 +14,7 @@ use crate::scene::Scene;
 const UNNAMED: &str = "scene";
 
 impl Scene {
-    /// Reads a scene file (`.toml`), a model (`.obj`, which is put in front of a camera), or a built-in scene by its name, such as `cornell`.
+    /// Reads a scene file (`.toml`), a model (`.obj` or `.ply`, which is put in front of a camera), or a built-in scene by its name, such as `cornell`.
     ///
     /// # Errors
     /// [`Error::Scene`].

@@ -197,7 +197,7 @@ fn other_formats_are_named_with_what_converts_them() {
     {
         place.write(name, "x");
         let stderr = place.expect(3, &format!("render {name}"));
-        assert!(stderr.contains(said) && stderr.contains("scene files (.toml) and models (.obj)"), "{name}: {stderr}");
+        assert!(stderr.contains(said) && stderr.contains("scene files (.toml) and models (.obj, .ply)"), "{name}: {stderr}");
     }
 }
 

@@ -272,8 +272,8 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
         ),
         (
             "type = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1",
-            "type = \"mesh\"\nfile = \"model.ply\"",
-            "test.toml:16:8: shape[0].file: a mesh file is an OBJ file: its name ends in .obj \
+            "type = \"mesh\"\nfile = \"model.stl\"",
+            "test.toml:16:8: shape[0].file: a mesh file is an OBJ or a PLY file: its name ends in .obj, .ply or .ply.gz \
              [MeshLab or `assimp export MODEL model.obj` (assimp-utils) makes an OBJ file of it]",
         ),
     ];

@@ -26,6 +26,7 @@ fn damaged_files_end_in_an_answer_or_an_error() {
     let mut random = SplitMix64::new(3);
     damage_scenes(cases, &mut random);
     damage_models(cases, folder.path(), &mut random);
+    damage_ply(cases, folder.path(), &mut random);
     damage_pictures(cases, folder.path(), &mut random);
 }
 
@@ -63,6 +64,22 @@ fn damage_models(cases: usize, folder: &Path, random: &mut SplitMix64) {
         }
         tally.judge();
     }
+}
+
+fn damage_ply(cases: usize, folder: &Path, random: &mut SplitMix64) {
+    let path = folder.join("model.ply");
+    let read = |bytes: &[u8]| {
+        std::fs::write(&path, bytes).expect("the folder can be written to");
+        load::load(path.to_str()).is_ok()
+    };
+    let mut tally = Tally::new("ply", MOST_FOR_TEXTS);
+    for (whole, is_text) in [(PLY.as_bytes().to_vec(), true), (binary_ply(), false)] {
+        tally.undamaged(&whole, read);
+        for _ in 0..2 * cases {
+            tally.damaged(&damaged(&whole, random, is_text), read);
+        }
+    }
+    tally.judge();
 }
 
 fn damage_pictures(cases: usize, folder: &Path, random: &mut SplitMix64) {
@@ -222,6 +239,33 @@ fn pictures(folder: &Path) -> Vec<(&'static str, Vec<u8>)> {
 const MODEL: &str = "mtllib model.mtl\no quad\nv -1 0 0 1 0 0\nv 1 0 0 0.5 0.5 0.5\nv 1 2.5e-1 0\nv -1 1 0 0 0 1\n\
     vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nvn 0 1 0\ng front\nusemtl red\ns 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\nf 1/1 2/2 \\\n 3/3\n\
     usemtl glass\nf -4 -3 -2\nf 1//2 2//2 4//2\nl 1 2 3\np 1\n# a comment\nv 0 0 1 1 1 1\nf 1 2 5\n";
+
+const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty double z\nproperty float nx\n\
+    property float ny\nproperty float nz\nproperty float s\nproperty float t\nelement face 2\nproperty list uchar int vertex_indices\n\
+    element tristrips 1\nproperty list uint int vertex_indices\nend_header\n0 0 0 0 0 1 0 0\n1 0 0 0 0 1 1 0\n1 1 0 0 0 1 1 1\n\
+    0.5 0.2 0 0 0 1 0.5 0.5\n0 1 -1e-1 0 0 1 0 1\n5 0 1 2 3 4\n3 0 1 2\n6 0 1 2 -1 3 4\n";
+
+/// As [`PLY`], in binary.
+fn binary_ply() -> Vec<u8> {
+    let (header, data) = PLY.split_once("end_header\n").expect("a header has an end");
+    let mut bytes = format!("{}end_header\n", header.replace("ascii", "binary_little_endian")).into_bytes();
+    let rows: Vec<Vec<&str>> = data.lines().map(|line| line.split(' ').collect()).collect();
+    let number = |word: &str| -> f32 { word.parse().expect("a number") };
+    let index = |word: &&str| -> i32 { word.parse().expect("an index") };
+    for row in &rows[..5] {
+        for (column, word) in row.iter().enumerate() {
+            match column {
+                2 => bytes.extend(f64::from(number(word)).to_le_bytes()),
+                _ => bytes.extend(number(word).to_le_bytes()),
+            }
+        }
+    }
+    for (row, length_bytes) in rows[5..].iter().zip([1, 1, 4]) {
+        bytes.extend(&index(&row[0]).to_le_bytes()[..length_bytes]);
+        row[1..].iter().for_each(|word| bytes.extend(index(word).to_le_bytes()));
+    }
+    bytes
+}
 
 const MATERIALS: &str = "newmtl red\nKd 0.8 0.1 0.1\nKs 0.2 0.2 0.2\nNs 50\nKe 0 0 0\nillum 2\nd 1\nmap_Kd -s 2 2 1 picture.png\n\
     newmtl glass\nNi 1.5\nTr 0.9\nillum 7\nKd 0 0 0\nTf 1 1 1\nmap_Bump -bm 0.5 picture.png\n";

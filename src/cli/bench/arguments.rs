@@ -65,7 +65,7 @@ pub enum Bench {
 
 #[derive(Debug, Args)]
 pub struct SpeedArguments {
-    /// .toml scenes, .obj models, or names of built-in scenes [default: cornell, spheres and veach-mis]
+    /// .toml scenes, .obj or .ply models, or names of built-in scenes [default: cornell, spheres and veach-mis]
     pub scenes: Vec<String>,
     /// auto, gpu, cpu, or part of an adapter's name
     #[arg(long, default_value = "auto", value_parser = parse_device)]
@@ -128,7 +128,7 @@ pub struct FeatureArguments {
 
 #[derive(Debug, Args)]
 pub struct ConvergenceArguments {
-    /// .toml scenes, .obj models, or names of built-in scenes [default: cornell]
+    /// .toml scenes, .obj or .ply models, or names of built-in scenes [default: cornell]
     pub scenes: Vec<String>,
     #[command(flatten)]
     pub axes: AxisArguments,

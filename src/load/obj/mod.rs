@@ -16,31 +16,13 @@ use tobj::LoadOptions;
 use crate::load::encoding;
 use crate::load::error::{SceneError, show};
 use crate::load::files::{Files, MOST_MODEL_BYTES};
+use crate::load::model::{ModelFile, MtlMaterial, Part};
 use crate::load::printable::short_list;
 use crate::scene::Mesh;
-pub use mtl::{MtlMaterial, TextureMap};
-
-/// A model as its file describes it.
-#[derive(Debug, Default)]
-pub struct ObjFile {
-    /// Runs of faces of one object and one material, each with at least one face that has area.
-    pub parts: Vec<Part>,
-    pub materials: Vec<MtlMaterial>,
-    /// What could not be taken as written, in sentences.
-    pub warnings: Vec<String>,
-    /// What is missing and has something else in its place, in words that follow the file's name.
-    pub substitutes: Vec<String>,
-}
-
-#[derive(Debug)]
-pub struct Part {
-    pub mesh: Mesh,
-    /// Index into [`ObjFile::materials`].
-    pub material: Option<usize>,
-}
+pub use mtl::TextureMap;
 
 /// Reads an OBJ file. Its MTL files are read only where `with_materials` asks for them; what is missing of them is replaced.
-pub fn load(files: &Files, path: &Path, with_materials: bool) -> Result<ObjFile, SceneError> {
+pub fn load(files: &Files, path: &Path, with_materials: bool) -> Result<ModelFile, SceneError> {
     let name = show(path);
     let bytes =
         files.read(path, MOST_MODEL_BYTES).map_err(|error| SceneError::in_file(&name, format!("cannot be read: {error}")))?;
@@ -62,7 +44,7 @@ pub fn load(files: &Files, path: &Path, with_materials: bool) -> Result<ObjFile,
     Ok(file)
 }
 
-fn parse(name: &str, text: &str, libraries: &mtl::Libraries) -> Result<ObjFile, SceneError> {
+fn parse(name: &str, text: &str, libraries: &mtl::Libraries) -> Result<ModelFile, SceneError> {
     let options = LoadOptions { triangulate: true, single_index: true, ignore_points: true, ignore_lines: true };
     // Every library of the file was read already: the first `mtllib` stands for them all.
     let given = RefCell::new(false);
@@ -72,7 +54,7 @@ fn parse(name: &str, text: &str, libraries: &mtl::Libraries) -> Result<ObjFile, 
     };
     let loaded = tobj::load_obj_buf(&mut text.as_bytes(), &options, materials);
     let (models, _) = loaded.map_err(|error| SceneError::in_file(name, format!("is not a valid OBJ file: {error}")))?;
-    let mut file = ObjFile::default();
+    let mut file = ModelFile::default();
     let mut degenerate = 0;
     let mut incomplete = false;
     for model in models {

@@ -6,16 +6,8 @@ use std::path::{Path, PathBuf};
 use crate::load::encoding;
 use crate::load::error::{SceneError, show};
 use crate::load::files::{Files, MOST_LIBRARY_BYTES};
+use crate::load::model::MtlMaterial;
 use crate::load::printable::short_list;
-
-/// One `newmtl` and where it stands.
-#[derive(Debug, Clone)]
-pub struct MtlMaterial {
-    pub file: PathBuf,
-    pub material: tobj::Material,
-    /// No library has it.
-    pub is_missing: bool,
-}
 
 /// All MTL files of one model.
 #[derive(Default)]

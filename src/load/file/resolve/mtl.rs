@@ -17,7 +17,8 @@ use glam::DVec3;
 use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::Resolver;
 use crate::load::formats;
-use crate::load::obj::{MtlMaterial, TextureMap};
+use crate::load::model::MtlMaterial;
+use crate::load::obj::TextureMap;
 use crate::scene::{
     BlendWeight, ColorInput, Emission, ImageTexture, Material, MaterialId, MaterialKind, Texture, TextureFilter, TextureId,
     TextureKind, TextureWrap,

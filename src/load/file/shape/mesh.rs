@@ -1,4 +1,4 @@
-//! `type = "mesh"`: triangles from an OBJ file or written in the scene file.
+//! `type = "mesh"`: triangles from a model file or written in the scene file.
 
 use std::sync::Arc;
 
@@ -11,12 +11,13 @@ use crate::load::error::show;
 use crate::load::file::resolver::{LoadedMesh, Resolver};
 use crate::load::file::value::{Located, Number, Vector, vector};
 use crate::load::formats;
+use crate::load::model::ModelFormat;
 use crate::scene::Mesh;
 
 shape_keys! {
     /// Triangles, from a file or written here.
     "MeshShape" {
-        /// Path of an OBJ file, relative to the scene file.
+        /// Path of an OBJ or a PLY file (`.obj`, `.ply`, `.ply.gz`), relative to the scene file.
         file: Option<Located<String>>,
         positions: Option<Vec<Located<Vector>>>,
         /// Three indices into `positions` each, counted from 0, counter-clockwise seen from the front.
@@ -55,8 +56,9 @@ impl ShapeKeys for Keys {
             return Err(resolver.error(&file.span, format!("a mesh has either `file` or `{key}`")));
         }
         let path = resolver.path(&file.value);
-        if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj")) {
-            let error = resolver.error(&file.span, "a mesh file is an OBJ file: its name ends in .obj");
+        if ModelFormat::of(&path).is_none() {
+            let message = format!("a mesh file is an OBJ or a PLY file: its name ends in {}", formats::MODEL_ENDINGS);
+            let error = resolver.error(&file.span, message);
             return Err(match formats::advice(&path) {
                 Some((_, advice)) => error.with_help(advice),
                 None => error,

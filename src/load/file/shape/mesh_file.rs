@@ -1,4 +1,4 @@
-//! Meshes from OBJ files.
+//! Meshes from files of models.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -7,14 +7,15 @@ use glam::{Vec2, Vec3};
 
 use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::{LoadedMesh, Resolver};
-use crate::load::obj::{self, ObjFile, Part};
+use crate::load::model::{ModelFile, ModelFormat, Part};
+use crate::load::{obj, ply};
 use crate::scene::{ColorInput, Material, MaterialId, MaterialKind, Mesh};
 
 /// Reflectance of faces without a material.
 const DEFAULT_REFLECTANCE: f64 = 0.8;
 
 impl Resolver<'_> {
-    /// Reads an OBJ file, once for all shapes that use it alike.
+    /// Reads a model file, once for all shapes that use it alike.
     pub fn mesh_file(
         &mut self,
         path: &Path,
@@ -25,7 +26,10 @@ impl Resolver<'_> {
         if let Some(loaded) = self.mesh_files.get(&key) {
             return Ok(LoadedMesh { mesh: loaded.mesh.clone(), material: material.unwrap_or(loaded.material) });
         }
-        let mut file = obj::load(self.files(), path, material.is_none())?;
+        let mut file = match ModelFormat::of(path) {
+            Some(ModelFormat::Ply) => ply::load(self.files(), path)?,
+            Some(ModelFormat::Obj) | None => obj::load(self.files(), path, material.is_none())?,
+        };
         self.scene.warnings.append(&mut file.warnings);
         for what in std::mem::take(&mut file.substitutes) {
             self.substitute(path, what)?;
@@ -38,7 +42,7 @@ impl Resolver<'_> {
         Ok(loaded)
     }
 
-    fn with_own_materials(&mut self, path: &Path, mut file: ObjFile, smooth: Option<bool>) -> Result<LoadedMesh, SceneError> {
+    fn with_own_materials(&mut self, path: &Path, mut file: ModelFile, smooth: Option<bool>) -> Result<LoadedMesh, SceneError> {
         let mut used: Vec<Option<MaterialId>> = vec![None; file.materials.len()];
         let any_uvs = file.parts.iter().any(|part| !part.mesh.uvs.is_empty());
         for Part { mesh, material } in &mut file.parts {
@@ -82,7 +86,7 @@ impl Resolver<'_> {
 }
 
 /// All parts as one mesh. Normals are kept, made or left out as `smooth` asks; without a wish, a file with normals is smooth.
-fn merge(mut file: ObjFile, smooth: Option<bool>) -> Mesh {
+fn merge(mut file: ModelFile, smooth: Option<bool>) -> Mesh {
     let has_normals = |part: &Part| !part.mesh.normals.is_empty();
     let some = file.parts.iter().any(has_normals);
     let all = file.parts.iter().all(has_normals);

@@ -1,0 +1,52 @@
+//! What files of models have in common.
+
+use std::path::{Path, PathBuf};
+
+use crate::scene::Mesh;
+
+/// How a model is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ModelFormat {
+    Obj,
+    Ply,
+}
+
+impl ModelFormat {
+    /// By the ending of the file's name; None where it is no model's.
+    pub fn of(path: &Path) -> Option<Self> {
+        let name = path.file_name()?.to_string_lossy().to_ascii_lowercase();
+        match name {
+            name if name.ends_with(".obj") => Some(Self::Obj),
+            name if name.ends_with(".ply") || name.ends_with(".ply.gz") => Some(Self::Ply),
+            _ => None,
+        }
+    }
+}
+
+/// A model as its file describes it.
+#[derive(Debug, Default)]
+pub struct ModelFile {
+    /// Runs of faces of one object and one material, each with at least one face that has area.
+    pub parts: Vec<Part>,
+    pub materials: Vec<MtlMaterial>,
+    /// What could not be taken as written, in sentences.
+    pub warnings: Vec<String>,
+    /// What is missing and has something else in its place, in words that follow the file's name.
+    pub substitutes: Vec<String>,
+}
+
+#[derive(Debug)]
+pub struct Part {
+    pub mesh: Mesh,
+    /// Index into [`ModelFile::materials`].
+    pub material: Option<usize>,
+}
+
+/// One `newmtl` and where it stands.
+#[derive(Debug, Clone)]
+pub struct MtlMaterial {
+    pub file: PathBuf,
+    pub material: tobj::Material,
+    /// No library has it.
+    pub is_missing: bool,
+}
