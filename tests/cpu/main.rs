@@ -17,5 +17,6 @@ mod models;
 mod plan;
 mod samplers;
 mod scene_files;
+mod schema_agreement;
 mod shader_imports;
 mod shaders;

@@ -232,7 +232,8 @@ fn meaning(value: &Value) -> String {
 /// The range of a number; the ends that nobody comes near are left out.
 fn range(value: &Value) -> String {
     let most = value["maximum"].as_f64().filter(|most| *most < f64::from(i32::MAX));
-    match (value["minimum"].as_f64(), value["exclusiveMinimum"].as_f64(), most) {
+    let least = value["minimum"].as_f64().filter(|least| *least > f64::from(i32::MIN));
+    match (least, value["exclusiveMinimum"].as_f64(), most) {
         (Some(least), _, Some(most)) => format!(" from {least} to {most}"),
         (Some(least), _, None) => format!(" of at least {least}"),
         (None, Some(least), Some(most)) => format!(" above {least}, at most {most}"),

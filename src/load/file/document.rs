@@ -2,12 +2,10 @@
 
 use std::ops::Range;
 
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::syntax::PartOfFile;
 use super::wording;
 use crate::load::error::SceneError;
 
@@ -31,8 +29,8 @@ impl<'a> Document<'a> {
     }
 
     /// All that keeps the text from being read, of each table and each entry of a list the first mistake. `first` is what the whole text was
-    /// refused for.
-    pub fn all_mistakes(self, first: SceneError) -> SceneError {
+    /// refused for; `Part` is a file of which anything may be missing.
+    pub fn all_mistakes<Part: DeserializeOwned>(self, first: SceneError) -> SceneError {
         let Ok(root) = self.parse() else { return first };
         let mut found = vec![first.clone()];
         for (key, value) in root.into_inner() {
@@ -51,7 +49,7 @@ impl<'a> Document<'a> {
                 let mut alone = Spanned::new(0..self.text.len(), DeTable::new());
                 alone.get_mut().insert(key.clone(), part);
                 let read = self.name_variants(alone.get_mut()).and_then(|()| {
-                    let read = PartOfFile::deserialize(toml::Deserializer::from(alone));
+                    let read = Part::deserialize(toml::Deserializer::from(alone));
                     read.map(|_| ()).map_err(|error| self.translate(&error))
                 });
                 found.extend(read.err());

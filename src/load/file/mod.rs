@@ -23,7 +23,7 @@ pub use light::examples as light_examples;
 pub use material::examples as material_examples;
 pub use schema::json_schema;
 pub use shape::examples as shape_examples;
-use syntax::SceneFile;
+use syntax::{PartOfFile, SceneFile};
 pub(super) use wording::did_you_mean;
 
 use crate::load::access::Access;
@@ -39,7 +39,7 @@ pub fn load_toml_str(text: &str, name: &str, folder: &Path) -> Result<Scene, Sce
 /// As [`load_toml_str`], with this access to other files.
 pub(super) fn load_toml(text: &str, name: &str, folder: &Path, access: Access) -> Result<Scene, SceneError> {
     let document = Document { name, text };
-    let file: SceneFile = document.read().map_err(|first| document.all_mistakes(first))?;
+    let file: SceneFile = document.read().map_err(|first| document.all_mistakes::<PartOfFile>(first))?;
     let mut scene = resolve::resolve(document, folder, file, access)?;
     scene.name = stem(name);
     if !scene.has_light() {

@@ -4,12 +4,12 @@
 use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
-use std::ops::Range;
+use std::ops::{Deref, Range};
 
 use glam::DVec3;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
-use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
+use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
 use crate::scene::settings::{LARGEST_FILTER_RADIUS, SMALLEST_FILTER_RADIUS};
 
@@ -85,11 +85,67 @@ impl<R: Rule> Checked<R> {
 pub type Number = Checked<Any>;
 
 /// Three numbers.
-pub type Vector = [Number; 3];
+pub type Vector = Exactly<Number, 3>;
 
 /// The numbers as a vector.
-pub fn vector<R>(values: [Checked<R>; 3]) -> DVec3 {
+pub fn vector(values: Vector) -> DVec3 {
+    triple(values.0)
+}
+
+fn triple<R>(values: [Checked<R>; 3]) -> DVec3 {
     DVec3::from_array(values.map(|value| value.0))
+}
+
+/// A list of so many values. Serde's arrays leave out what is too much.
+#[derive(Debug, Clone, Copy)]
+pub struct Exactly<T, const N: usize>(pub [T; N]);
+
+impl<T, const N: usize> Deref for Exactly<T, N> {
+    type Target = [T; N];
+
+    fn deref(&self) -> &[T; N] {
+        &self.0
+    }
+}
+
+impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct ListVisitor<T, const N: usize>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for ListVisitor<T, N> {
+            type Value = Exactly<T, N>;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                write!(f, "an array of length {N}")
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Self::Value, A::Error> {
+                let mut values = Vec::with_capacity(N);
+                while values.len() < N {
+                    let value = seq.next_element()?;
+                    values.push(value.ok_or_else(|| Error::invalid_length(values.len(), &self))?);
+                }
+                let mut length = N;
+                while seq.next_element::<IgnoredAny>()?.is_some() {
+                    length += 1;
+                }
+                match values.try_into() {
+                    Ok(values) if length == N => Ok(Exactly(values)),
+                    _ => Err(Error::invalid_length(length, &self)),
+                }
+            }
+        }
+        deserializer.deserialize_seq(ListVisitor(PhantomData))
+    }
+}
+
+impl<T: JsonSchema, const N: usize> JsonSchema for Exactly<T, N> {
+    fn schema_name() -> Cow<'static, str> {
+        format!("{N}Of{}", T::schema_name()).into()
+    }
+    fn inline_schema() -> bool {
+        true
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "array", "items": generator.subschema_for::<T>(), "minItems": N, "maxItems": N })
+    }
 }
 
 impl<'de, R: Rule> Deserialize<'de> for Checked<R> {
@@ -124,12 +180,8 @@ impl<R: Rule> JsonSchema for Checked<R> {
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         let mut schema = json_schema!({ "type": "number" });
         let minimum = if R::ABOVE_MINIMUM { "exclusiveMinimum" } else { "minimum" };
-        if R::MINIMUM > -LARGEST {
-            schema.insert(minimum.to_owned(), R::MINIMUM.into());
-        }
-        if R::MAXIMUM < LARGEST {
-            schema.insert("maximum".to_owned(), R::MAXIMUM.into());
-        }
+        schema.insert(minimum.to_owned(), R::MINIMUM.into());
+        schema.insert("maximum".to_owned(), R::MAXIMUM.into());
         schema
     }
 }
@@ -244,7 +296,7 @@ impl<R: Rule> Rgb<R> {
     pub fn deserialize_as<'de, D: Deserializer<'de>>(deserializer: D, words: &'static str) -> Result<DVec3, D::Error> {
         let visitor = FormVisitor::<R> { words, triple: true, texture: false, rule: PhantomData };
         match deserializer.deserialize_any(visitor)? {
-            Form::Triple(triple) => Ok(vector(triple)),
+            Form::Triple(values) => Ok(triple(values)),
             Form::Number(number) => Ok(DVec3::splat(number.0)),
             Form::Texture(_) => Err(Error::custom("a texture is not possible here")),
         }
@@ -263,7 +315,7 @@ impl<'de, R: Rule> Deserialize<'de> for Colour<R> {
         let visitor = FormVisitor::<R> { words, triple: true, texture: true, rule: PhantomData };
         Ok(match deserializer.deserialize_any(visitor)? {
             Form::Number(value) => Self::Constant(Rgb(DVec3::splat(value.0), PhantomData)),
-            Form::Triple(values) => Self::Constant(Rgb(vector(values), PhantomData)),
+            Form::Triple(values) => Self::Constant(Rgb(triple(values), PhantomData)),
             Form::Texture(name) => Self::Texture(name),
         })
     }
@@ -291,7 +343,7 @@ impl<R: Rule> JsonSchema for Rgb<R> {
         format!("ConstantColour{}", R::NAME).into()
     }
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        any_of(vec![generator.subschema_for::<[Checked<R>; 3]>(), generator.subschema_for::<Checked<R>>()])
+        any_of(vec![generator.subschema_for::<Exactly<Checked<R>, 3>>(), generator.subschema_for::<Checked<R>>()])
     }
 }
 

@@ -16,6 +16,7 @@ use crate::scene::{Environment, EnvironmentRadiance, ImageData};
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "EnvironmentLight")]
+#[schemars(extend("allOf" = [{ "oneOf": [{ "required": ["radiance"] }, { "required": ["file"] }] }]))]
 pub struct Keys {
     /// The same radiance from everywhere.
     radiance: Option<Located<Rgb<NonNegative>>>,

@@ -4,13 +4,13 @@ use super::blend_weight::BlendWeightEntry;
 use super::keys::{MaterialKeys, material_keys};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::Located;
+use crate::load::file::value::{Exactly, Located};
 use crate::scene::MaterialKind;
 
 material_keys! {
     /// w0·first + (1 − w0)·second; either may be another blend.
     {
-        materials: [Located<String>; 2],
+        materials: Exactly<Located<String>, 2>,
         /// The weight w0 of the first material.
         weight: Located<BlendWeightEntry>,
     }
@@ -29,7 +29,7 @@ impl MaterialKeys for Keys {
 
     /// They lie on one surface: its normals are the blend's own.
     fn check_parts(&self, resolver: &Resolver<'_>) -> Result<(), SceneError> {
-        for part in &self.materials {
+        for part in self.materials.iter() {
             if resolver.scene.materials[resolver.material_id(part)?].normal_map.is_some() {
                 let message = format!("`{}` has a normal map and is part of a blend", part.value);
                 return Err(resolver.error(&part.span, message).with_help("give the normal map to the blend"));

@@ -13,6 +13,14 @@ use crate::scene::{ColorInput, ConductorFresnel, MaterialKind};
 
 material_keys! {
     /// GGX with height-correlated Smith shadowing: `eta` and `k`, a `preset`, or `reflectance`.
+    #[schemars(extend("allOf" = [
+        { "oneOf": [
+            { "required": ["eta", "k"], "not": { "anyOf": [{ "required": ["preset"] }, { "required": ["reflectance"] }] } },
+            { "required": ["preset"], "not": { "anyOf": [{ "required": ["eta"] }, { "required": ["k"] }, { "required": ["reflectance"] }] } },
+            { "required": ["reflectance"], "not": { "anyOf": [{ "required": ["eta"] }, { "required": ["k"] }, { "required": ["preset"] }] } },
+        ] },
+        { "not": { "required": ["alpha", "roughness"] } },
+    ]))]
     {
         /// A metal whose eta and k are known.
         preset: Option<Located<MetalEntry>>,

@@ -59,11 +59,13 @@ pub struct CommonKeys<'a> {
 /// Declares a material's `Keys`: its own and those that every material has. Serde cannot tell unknown keys from those of a struct within.
 macro_rules! material_keys {
     ($(#[$doc:meta])* { $($(#[$field_doc:meta])* $field:ident: $type:ty,)* }) => {
-        $(#[$doc])*
         #[derive(Debug, serde::Deserialize, schemars::JsonSchema)]
         #[serde(deny_unknown_fields, expecting = "a table")]
+        #[schemars(extend("dependentRequired" = { "emission_two_sided": ["emission"] }))]
+        $(#[$doc])*
         pub struct Keys {
             /// What shapes and blends call it.
+            #[schemars(extend("minLength" = 1))]
             name: $crate::load::file::value::Located<String>,
             $($(#[$field_doc])* $field: $type,)*
             /// A texture of tangent-space normals whose color_space is "linear".

@@ -12,6 +12,11 @@ use crate::scene::{ColorInput, MaterialKind, MicrofacetDistribution};
 
 material_keys! {
     /// A rough dielectric: one of `alpha`, `roughness` and `exponent`.
+    #[schemars(extend("allOf" = [{ "oneOf": [
+        { "required": ["alpha"], "not": { "anyOf": [{ "required": ["roughness"] }, { "required": ["exponent"] }] }, "properties": { "distribution": { "const": "ggx" } } },
+        { "required": ["roughness"], "not": { "anyOf": [{ "required": ["alpha"] }, { "required": ["exponent"] }] }, "properties": { "distribution": { "const": "ggx" } } },
+        { "required": ["exponent"], "not": { "anyOf": [{ "required": ["alpha"] }, { "required": ["roughness"] }] }, "properties": { "distribution": { "const": "phong" } } },
+    ] }]))]
     {
         /// Inside over outside, 1.5 when left out.
         ior: Option<Checked<IndexOfRefraction>>,

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::{CachedImage, Resolver};
 use crate::load::file::syntax::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
-use crate::load::file::value::{Checked, Located, Number, Positive};
+use crate::load::file::value::{Checked, Exactly, Located, Number, Positive};
 use crate::load::formats;
 use crate::scene::validate::MOST_OCTAVES;
 use crate::scene::{ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap};
@@ -136,6 +136,6 @@ fn factor(written: Option<Checked<Positive>>) -> f64 {
     written.map_or(1.0, |scale| scale.0)
 }
 
-fn factors(written: Option<[Number; 2]>) -> [f64; 2] {
+fn factors(written: Option<Exactly<Number, 2>>) -> [f64; 2] {
     written.map_or([1.0, 1.0], |scale| scale.map(|factor| factor.0))
 }

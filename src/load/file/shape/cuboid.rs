@@ -8,6 +8,7 @@ use crate::scene::Cuboid;
 
 shape_keys! {
     /// Axis-aligned before its transform; at most one edge has no length.
+    #[schemars(extend("allOf" = [{ "required": ["material"] }]))]
     "BoxShape" { min: Vector, max: Located<Vector> }
 }
 

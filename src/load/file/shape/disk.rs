@@ -8,6 +8,7 @@ use crate::scene::Disk;
 
 shape_keys! {
     /// A flat disk.
+    #[schemars(extend("allOf" = [{ "required": ["material"] }]))]
     "DiskShape" { center: Vector, normal: Located<Vector>, radius: Checked<Positive> }
 }
 

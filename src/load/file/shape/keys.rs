@@ -23,10 +23,10 @@ pub trait ShapeKeys {
 /// Declares the keys of a shape: its own and those that every shape has. `name` is what the schema calls them.
 macro_rules! shape_keys {
     ($(#[$doc:meta])* $name:literal { $($(#[$field_doc:meta])* $field:ident : $type:ty),* $(,)? }) => {
-        $(#[$doc])*
         #[derive(Debug, serde::Deserialize, schemars::JsonSchema)]
         #[serde(deny_unknown_fields, expecting = "a table")]
         #[schemars(rename = $name)]
+        $(#[$doc])*
         pub struct Keys {
             $($(#[$field_doc])* $field: $type,)*
             /// A `[[material]]`'s name. A mesh file may leave it out to use its own materials.
@@ -36,6 +36,10 @@ macro_rules! shape_keys {
             /// Steps of `scale`, `rotate` and `translate` reached at shutter time 1; at time 0 the shape rests. They apply in
             /// this order after `transform`, along the world's axes and about the shape's own origin, where `transform` puts its
             /// (0, 0, 0). Each is interpolated by itself: rotations turn evenly about their axis.
+            #[schemars(extend("allOf" = [{ "not": { "anyOf": [
+                { "type": "object", "required": ["matrix"] },
+                { "type": "array", "contains": { "type": "object", "required": ["matrix"] } },
+            ] } }]))]
             motion: Option<$crate::load::file::value::Located<$crate::load::file::shape::transform::TransformEntry>>,
             /// Sample the directions through this shape for the environment's light as if the shape were a light: a window. Its
             /// material is of type `pass`; a surface that emits is sampled as a light in any case.

@@ -9,21 +9,28 @@ use super::mesh_file::choose_normals;
 use crate::load::error::SceneError;
 use crate::load::error::show;
 use crate::load::file::resolver::{LoadedMesh, Resolver};
-use crate::load::file::value::{Located, Number, Vector, vector};
+use crate::load::file::value::{Exactly, Located, Number, Vector, vector};
 use crate::load::formats;
 use crate::load::model::ModelFormat;
 use crate::scene::Mesh;
 
 shape_keys! {
     /// Triangles, from a file or written here.
+    #[schemars(extend("allOf" = [{ "oneOf": [
+        { "required": ["file"], "not": { "anyOf": [
+            { "required": ["positions"] }, { "required": ["faces"] }, { "required": ["uvs"] }, { "required": ["normals"] },
+        ] } },
+        { "required": ["positions", "faces", "material"], "not": { "required": ["file"] } },
+    ] }]))]
     "MeshShape" {
         /// Path of an OBJ or a PLY file (`.obj`, `.ply`, `.ply.gz`), relative to the scene file.
+        #[schemars(extend("pattern" = "\\.([oO][bB][jJ]|[pP][lL][yY](\\.[gG][zZ])?)$"))]
         file: Option<Located<String>>,
         positions: Option<Vec<Located<Vector>>>,
         /// Three indices into `positions` each, counted from 0, counter-clockwise seen from the front.
-        faces: Option<Vec<Located<[u32; 3]>>>,
+        faces: Option<Vec<Located<Exactly<u32, 3>>>>,
         /// One per position.
-        uvs: Option<Located<Vec<[Number; 2]>>>,
+        uvs: Option<Located<Vec<Exactly<Number, 2>>>>,
         /// One per position.
         normals: Option<Located<Vec<Located<Vector>>>>,
         /// Interpolate normals over the faces; when left out, true if there are normals.
@@ -98,7 +105,7 @@ impl Keys {
         }
         let mut mesh = Mesh {
             positions: positions.iter().map(|position| vector(position.value).as_vec3()).collect(),
-            faces: faces.iter().map(|face| face.value).collect(),
+            faces: faces.iter().map(|face| face.value.0).collect(),
             ..Mesh::default()
         };
         if let Some(uvs) = &self.uvs {

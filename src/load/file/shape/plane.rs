@@ -8,6 +8,7 @@ use crate::scene::Plane;
 
 shape_keys! {
     /// Infinite.
+    #[schemars(extend("allOf" = [{ "required": ["material"] }]))]
     "PlaneShape" { point: Vector, normal: Located<Vector> }
 }
 

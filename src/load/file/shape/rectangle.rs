@@ -8,6 +8,7 @@ use crate::scene::Rectangle;
 
 shape_keys! {
     /// A parallelogram; its front is where edge_u × edge_v points.
+    #[schemars(extend("allOf" = [{ "required": ["material"] }]))]
     "RectangleShape" { corner: Vector, edge_u: Located<Vector>, edge_v: Located<Vector> }
 }
 

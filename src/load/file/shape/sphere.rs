@@ -8,6 +8,7 @@ use crate::scene::Sphere;
 
 shape_keys! {
     /// The normal points outward.
+    #[schemars(extend("allOf" = [{ "required": ["material"] }]))]
     "SphereShape" { center: Vector, radius: Checked<Positive> }
 }
 

@@ -12,7 +12,7 @@ use serde::{Deserialize, Deserializer};
 
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Any, Located, Number, Rgb, Vector, any_of, vector};
+use crate::load::file::value::{Any, Exactly, Located, Number, Rgb, Vector, any_of, vector};
 use crate::scene::{Motion, MotionStep, Shape, Transform, TransformStep};
 
 /// Steps applied in their order, or one matrix.
@@ -27,7 +27,7 @@ pub enum TransformEntry {
 #[serde(deny_unknown_fields, expecting = "a table with one of the keys `scale`, `rotate`, `translate` and `matrix`")]
 #[schemars(extend("oneOf" = [
     { "required": ["scale"] }, { "required": ["rotate", "degrees"] }, { "required": ["translate"] }, { "required": ["matrix"] }
-]))]
+], "dependentRequired" = { "degrees": ["rotate"] }))]
 pub struct StepEntry {
     /// One factor or one per axis; not 0.
     pub scale: Option<Located<ScaleEntry>>,
@@ -37,7 +37,7 @@ pub struct StepEntry {
     pub degrees: Option<Located<Number>>,
     pub translate: Option<Vector>,
     /// 16 numbers, row by row; the last row is 0 0 0 1.
-    pub matrix: Option<Located<[Number; 16]>>,
+    pub matrix: Option<Located<Exactly<Number, 16>>>,
 }
 
 /// One factor or one per axis.
@@ -169,7 +169,7 @@ impl Resolver<'_> {
         }
     }
 
-    fn matrix(&self, written: &Located<[Number; 16]>) -> Result<DAffine3, SceneError> {
+    fn matrix(&self, written: &Located<Exactly<Number, 16>>) -> Result<DAffine3, SceneError> {
         let rows = written.value.map(|number| number.0);
         if rows[12..] != [0.0, 0.0, 0.0, 1.0] {
             return Err(self.error(&written.span, "the last row of a matrix is 0, 0, 0, 1 (numbers are row by row)"));

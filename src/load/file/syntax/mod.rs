@@ -18,7 +18,7 @@ pub use texture::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry,
 use super::light::LightEntry;
 use super::material::MaterialEntry;
 use super::shape::ShapeEntry;
-use super::value::{Checked, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
+use super::value::{Checked, Exactly, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
 
 /// A scene of the path tracer gpt. Lengths in scene units, angles in degrees, colours linear Rec.709, radiance in W·sr⁻¹·m⁻².
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -63,7 +63,8 @@ pub struct PartOfFile {
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct FilmTable {
     /// Width and height in pixels, 512 × 512 when left out.
-    pub size: Option<[NonZeroU32; 2]>,
+    #[schemars(extend("items" = { "type": "integer", "minimum": 1, "maximum": 32_768 }))]
+    pub size: Option<Exactly<NonZeroU32, 2>>,
     /// How samples become pixels; a box of radius 0.5 when left out.
     pub filter: Option<FilterEntry>,
 }
@@ -89,6 +90,10 @@ pub struct FilterKeys {
 /// Where the picture is taken from.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
+#[schemars(extend("dependentRequired" = { "aperture": ["focus_distance"] }, "allOf" = [{ "oneOf": [
+    { "required": ["vfov"], "not": { "required": ["height"] }, "properties": { "projection": { "const": "perspective" } } },
+    { "required": ["height", "projection"], "not": { "required": ["vfov"] }, "properties": { "projection": { "const": "orthographic" } } },
+] }]))]
 pub struct CameraTable {
     pub position: Vector,
     /// The camera looks along `look_at - position`.
@@ -106,7 +111,7 @@ pub struct CameraTable {
     /// Distance along the viewing direction of the plane in focus; needed with an aperture.
     pub focus_distance: Option<Checked<Positive>>,
     /// Times at which the shutter opens and closes, [0, 1] when left out.
-    pub shutter: Option<Located<[Number; 2]>>,
+    pub shutter: Option<Located<Exactly<Number, 2>>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -139,6 +144,7 @@ pub struct PolygonAperture {
     /// Radius of the circle through the corners.
     pub radius: Checked<NonNegative>,
     /// Number of corners, at least 3; 6 when left out.
+    #[schemars(extend("minimum" = 3, "maximum" = 64))]
     pub blades: Option<Located<u32>>,
     /// Degrees, 0 when left out.
     pub rotation: Option<Number>,

@@ -5,7 +5,7 @@ use std::num::NonZeroU32;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::load::file::value::{Any, Checked, Located, Number, Positive, Rgb};
+use crate::load::file::value::{Any, Checked, Exactly, Located, Number, Positive, Rgb};
 
 /// A colour that varies over a surface.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -22,6 +22,7 @@ pub enum TextureEntry {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct ImageEntry {
+    #[schemars(extend("minLength" = 1))]
     pub name: Located<String>,
     /// Path relative to the scene file.
     pub file: Located<String>,
@@ -32,7 +33,7 @@ pub struct ImageEntry {
     /// "bilinear" when left out.
     pub filter: Option<TextureFilterEntry>,
     /// Factors of u and v, [1, 1] when left out.
-    pub scale: Option<[Number; 2]>,
+    pub scale: Option<Exactly<Number, 2>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -61,21 +62,24 @@ pub enum TextureFilterEntry {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct CheckerEntry {
+    #[schemars(extend("minLength" = 1))]
     pub name: Located<String>,
     pub a: Rgb<Any>,
     pub b: Rgb<Any>,
     /// Squares per unit of u and v, [1, 1] when left out.
-    pub scale: Option<[Number; 2]>,
+    pub scale: Option<Exactly<Number, 2>>,
 }
 
 /// Improved Perlin noise between two colours.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct PerlinEntry {
+    #[schemars(extend("minLength" = 1))]
     pub name: Located<String>,
     /// Factor of u and v, 1 when left out.
     pub scale: Option<Checked<Positive>>,
     /// 1 when left out, at most 16.
+    #[schemars(extend("maximum" = 16))]
     pub octaves: Option<Located<NonZeroU32>>,
     pub a: Rgb<Any>,
     pub b: Rgb<Any>,
@@ -86,6 +90,7 @@ pub struct PerlinEntry {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct WorleyEntry {
+    #[schemars(extend("minLength" = 1))]
     pub name: Located<String>,
     /// Factor of u and v, 1 when left out.
     pub scale: Option<Checked<Positive>>,
