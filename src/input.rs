@@ -2,9 +2,11 @@
 //!
 //! A pipe, a device or a socket may never end, or never begin. Each is refused before it is opened.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 /// Opens a regular file.
 ///
@@ -15,7 +17,24 @@ pub fn open(path: &Path) -> io::Result<File> {
     if !kind.is_file() {
         return Err(io::Error::new(ErrorKind::InvalidInput, format!("it is {}, not a regular file", name(kind))));
     }
-    File::open(path)
+    let file = File::open(path)?;
+    remember(path);
+    Ok(file)
+}
+
+/// Files that were opened so far, links followed. What a program reads it must not write.
+static OPENED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+fn remember(path: &Path) {
+    if let Ok(real) = fs::canonicalize(path) {
+        OPENED.lock().unwrap_or_else(PoisonError::into_inner).insert(real);
+    }
+}
+
+/// Whether this file was opened by [`open`], by whatever name.
+pub fn was_opened(path: &Path) -> bool {
+    let opened = OPENED.lock().unwrap_or_else(PoisonError::into_inner);
+    fs::canonicalize(path).is_ok_and(|real| opened.contains(&real))
 }
 
 /// Reads a regular file of at most `most` bytes.

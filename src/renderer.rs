@@ -1,11 +1,16 @@
 //! What every renderer, GPU or CPU, takes and gives back.
 
+mod stopping;
+
 use std::ops::Range;
+use std::time::Instant;
 
 use crate::film::Band;
 use crate::packed::hierarchy::Traversal;
 use crate::plan::{Decision, PlanError};
 use crate::scene::InvalidScene;
+
+pub use stopping::{Ending, Stopping};
 
 /// Which device renders.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -37,9 +42,16 @@ pub struct Batch<'a> {
     /// Which pixels take part, of the whole film, row by row; None: all of them. The others' means are 0. A renderer on a GPU must have
     /// been made for it ([`crate::plan::PlanOptions::pixel_list`]).
     pub selection: Option<&'a [bool]>,
+    /// No sweep over the film begins that is expected to end later, but for the first. Paths that run on long after it are given up.
+    pub deadline: Option<Instant>,
 }
 
-impl Batch<'_> {
+impl<'a> Batch<'a> {
+    /// All that is requested, as the scene says.
+    pub fn of(request: &'a RenderRequest) -> Self {
+        Self { request, seed: None, selection: None, deadline: None }
+    }
+
     /// Samples of all pixels together, in a film of this width.
     pub fn total_samples(&self, width: u32) -> u64 {
         let RenderRequest { rows, samples } = self.request;
@@ -96,6 +108,8 @@ pub struct RenderReport {
     pub render_seconds: f64,
     /// The observer asked to stop before all samples were done.
     pub interrupted: bool,
+    /// The deadline came before all samples were done.
+    pub out_of_time: bool,
 }
 
 /// Why a render could not be done or finished.
@@ -133,19 +147,22 @@ pub trait Renderer {
     /// carry it in their header.
     fn device(&self) -> &str;
 
+    /// Whether samples go over all of a film of this size together. If not, its bands are finished one after the other, for want of memory.
+    fn holds_whole_film(&self) -> bool;
+
     /// Changes the samples per pixel for which samplers with strata lay them out from what the scene says. Nothing is built or compiled
     /// anew.
     fn set_samples_per_pixel(&mut self, spp: u32);
 
     /// Renders the request and hands over finished bands in order from the top, each once. When the observer stops it, bands hold
-    /// what was done so far: `samples` of a band says how many, rows never begun are not delivered.
+    /// what was done so far: `samples` and `counts` of a band say how many, rows without any sample are not delivered. Where the device is lost, bands hold what was read from it before, and the error follows.
     fn render(
         &mut self,
         request: &RenderRequest,
         observer: &dyn Observer,
         on_band: &mut dyn FnMut(Band) -> std::io::Result<()>,
     ) -> Result<RenderReport, RenderError> {
-        self.render_batch(&Batch { request, seed: None, selection: None }, observer, on_band)
+        self.render_batch(&Batch::of(request), observer, on_band)
     }
 
     /// As [`Renderer::render`], with random numbers and numbers of samples that the scene does not decide.

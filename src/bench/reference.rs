@@ -188,7 +188,15 @@ fn write_exr(path: &Path, scene: &Scene, device: &str, reference: &Reference) ->
     let spec = PictureSpec { width: image.width, height: image.height, exposure: 0.0, provenance: Some(provenance) };
     let mut file = PictureFile::create(path, PictureFormat::Exr, &spec)?;
     let mean = image.pixels.clone();
-    let band = Band { first_row: 0, width: image.width, rows: image.height, samples, second_moment: vec![0.0; mean.len()], mean };
+    let band = Band {
+        first_row: 0,
+        width: image.width,
+        rows: image.height,
+        samples,
+        counts: None,
+        second_moment: vec![0.0; mean.len()],
+        mean,
+    };
     file.write_band(&Arc::new(band)).map_err(|source| OutputError::Write { path: path.into(), source })?;
     Ok(file.finish()?)
 }

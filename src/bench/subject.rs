@@ -130,7 +130,7 @@ impl Subject for SceneSubject<'_> {
         let mut pixels = Vec::with_capacity(width as usize * height as usize);
         self.renderer.set_samples_per_pixel(spp);
         let request = RenderRequest { rows: 0..height, samples: 0..spp };
-        let batch = Batch { request: &request, seed: Some(seed), selection: None };
+        let batch = Batch { seed: Some(seed), ..Batch::of(&request) };
         let report = self.renderer.render_batch(&batch, self.observer, &mut |band| {
             pixels.extend(band.mean);
             Ok(())

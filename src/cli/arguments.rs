@@ -48,7 +48,7 @@ pub struct RenderArguments {
     pub scene: Option<OsString>,
     #[command(flatten)]
     pub access: AccessArguments,
-    /// Picture to write: .exr (linear float) or .png (sRGB preview); may be given several times [default: SCENE-name.exr]
+    /// Picture to write: .exr (linear float), .png (sRGB preview), or - (standard output, EXR); may be given several times [default: SCENE-name.exr]
     #[arg(short, long = "output", value_name = "FILE")]
     pub outputs: Vec<PathBuf>,
     #[command(flatten)]
@@ -58,12 +58,18 @@ pub struct RenderArguments {
     /// auto (discrete, integrated, then software GPU; the CPU integrator if there is none), gpu, cpu, or part of an adapter's name
     #[arg(long, default_value = "auto", value_parser = parse_device)]
     pub device: DeviceChoice,
+    /// Fail (exit code 4) where `auto` finds no graphics device, rather than render on the CPU
+    #[arg(long)]
+    pub require_device: bool,
+    /// Take a device for lost (exit code 5) that does not finish a submission, of a second at most, in this time
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = parse_seconds)]
+    pub device_timeout: Duration,
     #[command(flatten)]
     pub traversal: TraversalArguments,
     /// Stops by which PNG previews are brightened
     #[arg(long, value_name = "EV", default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_exposure)]
     pub exposure: f32,
-    /// Write what the render did and how long it took as JSON
+    /// Write what the render did and how long it took as JSON; - is standard output
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
     /// No progress on stderr

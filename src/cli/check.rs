@@ -78,7 +78,7 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
         terminal::answer(&load::json_schema())?;
         return Ok(Exit::Done);
     };
-    let scene = match load::load_with(Some(name), &arguments.access.options(arguments.strict)) {
+    let mut scene = match load::load_with(Some(name), &arguments.access.options(arguments.strict)) {
         Ok(scene) => scene,
         Err(error) => {
             if arguments.json {
@@ -88,6 +88,8 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
             return Err(error.into());
         }
     };
+    let of_precision = scene.precision_warnings();
+    scene.warnings.extend(of_precision);
     for warning in &scene.warnings {
         terminal::warn(warning);
     }

@@ -92,6 +92,9 @@ pub enum Failure {
     Render(#[from] RenderError),
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// Several files, each with its reason.
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+    Outputs(Vec<OutputError>),
     #[error("interrupted before anything could be said; nothing is saved")]
     Interrupted,
     #[error("{0}")]
@@ -135,7 +138,7 @@ impl From<&Failure> for Exit {
             Failure::Render(RenderError::NoDevice(_) | RenderError::DoesNotFit(_)) => Self::Device,
             Failure::Render(RenderError::DeviceLost(_)) => Self::DeviceLost,
             Failure::Render(RenderError::Internal(_) | RenderError::Output(_)) => Self::OtherFailure,
-            Failure::Output(_) | Failure::Other(_) => Self::OtherFailure,
+            Failure::Output(_) | Failure::Outputs(_) | Failure::Other(_) => Self::OtherFailure,
             Failure::Interrupted => Self::Interrupted,
         }
     }

@@ -1,4 +1,4 @@
-//! Ctrl-C: the first asks the render to stop and save, the second ends the program at once.
+//! Signals: the first that asks for an end has the render stop and save, the second ends the program at once.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -7,22 +7,76 @@ use super::terminal;
 
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// Takes over SIGINT, SIGTERM and SIGHUP (or the platform's like).
+/// Takes over the signals by which a person or a system asks the program to end (on Unix SIGINT, SIGTERM, SIGHUP and SIGXCPU; not SIGHUP where
+/// it is ignored, as `nohup` has it). Those that end it at once remove temporary files before.
 ///
 /// # Errors
-/// The system refused the handler.
+/// The system refused.
 pub fn install() -> Result<(), Failure> {
-    ctrlc::set_handler(|| {
-        if STOP.swap(true, Ordering::SeqCst) {
-            gpt::output::remove_unfinished();
-            std::process::exit(Exit::Interrupted as i32);
-        }
-        terminal::note("stopping; what is rendered will be saved (once more to quit at once)");
-    })
-    .map_err(|error| Failure::Other(format!("cannot watch for Ctrl-C: {error}")))
+    platform::install().map_err(|error| Failure::Other(format!("cannot watch for Ctrl-C: {error}")))
 }
 
 /// Whether the user asked to stop.
 pub fn requested() -> bool {
     STOP.load(Ordering::SeqCst)
+}
+
+/// The first time asks to stop, the second time stops.
+fn ask_to_stop(why: &str) {
+    if STOP.swap(true, Ordering::SeqCst) {
+        gpt::output::remove_unfinished();
+        std::process::exit(Exit::Interrupted as i32);
+    }
+    terminal::note(&format!("{why}; what is rendered will be saved (once more to quit at once)"));
+}
+
+#[cfg(unix)]
+mod platform {
+    use std::io;
+    use std::thread;
+
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXCPU, SIGXFSZ};
+    use signal_hook::iterator::Signals;
+    use signal_hook::low_level::emulate_default_handler;
+
+    pub fn install() -> io::Result<()> {
+        // A file that may not grow any further then is an error like a full disk, and no sudden end.
+        // SAFETY: ignoring a signal runs no code.
+        unsafe { libc::signal(SIGXFSZ, libc::SIG_IGN) };
+        let mut wanted = vec![SIGINT, SIGTERM, SIGXCPU, SIGQUIT];
+        if !is_ignored(SIGHUP) {
+            wanted.push(SIGHUP);
+        }
+        let mut signals = Signals::new(wanted)?;
+        let watch = move || signals.forever().for_each(handle);
+        thread::Builder::new().name("signals".to_owned()).spawn(watch)?;
+        Ok(())
+    }
+
+    fn handle(signal: i32) {
+        match signal {
+            SIGQUIT => {
+                gpt::output::remove_unfinished();
+                // As if nothing had been taken over.
+                let _ = emulate_default_handler(signal);
+            }
+            SIGXCPU => super::ask_to_stop("the limit of processor time is reached: stopping"),
+            _ => super::ask_to_stop("stopping"),
+        }
+    }
+
+    fn is_ignored(signal: i32) -> bool {
+        // SAFETY: with no new action, the one that there is is written to `action`, which is large enough and may be all zeros.
+        unsafe {
+            let mut action: libc::sigaction = std::mem::zeroed();
+            libc::sigaction(signal, std::ptr::null(), &mut action) == 0 && action.sa_sigaction == libc::SIG_IGN
+        }
+    }
+}
+
+#[cfg(not(unix))]
+mod platform {
+    pub fn install() -> Result<(), ctrlc::Error> {
+        ctrlc::set_handler(|| super::ask_to_stop("stopping"))
+    }
 }

@@ -29,9 +29,19 @@ use clap::Parser;
 use arguments::{Arguments, Command};
 use exit::Exit;
 
+/// Sees to it that work is done where the system starts no more threads: then by one.
+fn start_threads() {
+    let trial = rayon::ThreadPoolBuilder::new().build();
+    if trial.is_err() {
+        // If that fails too, what needs it says so.
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global();
+    }
+}
+
 /// Parses the program's arguments, does what they say and turns the outcome into the process's exit code.
 pub fn run() -> ExitCode {
     terminal::install_error_style();
+    start_threads();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {

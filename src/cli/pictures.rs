@@ -1,32 +1,38 @@
 //! The files of one render together, and what is learned of the picture while it passes.
 
-use std::io;
-use std::path::{Path, PathBuf, absolute};
+use std::io::{self, IsTerminal};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use gpt::film::Band;
-use gpt::output::{OutputError, PictureFile, PictureFormat, PictureSpec, check_target};
+use gpt::output::{OutputError, PictureFile, PictureFormat, PictureSpec, STDOUT, check_target, follow_links};
 
 use super::exit::Failure;
 
 /// All picture files of a render.
 pub struct Pictures {
     files: Vec<PictureFile>,
+    /// What became of those that could not be written; the others go on.
+    failures: Vec<OutputError>,
     bands: u64,
     pixels: u64,
     sum: [f64; 3],
-    fewest_samples: u32,
+    samples: Option<[u32; 2]>,
     black: bool,
     waiting: Duration,
 }
 
 /// What the whole picture was like.
 pub struct PictureSummary {
+    /// Files that are in their places.
+    pub places: Vec<PathBuf>,
+    /// Files that are not.
+    pub failures: Vec<OutputError>,
     /// Mean radiance of the pixels that were rendered.
     pub mean: [f64; 3],
-    /// Samples per pixel of the band that has fewest, of those that came.
-    pub fewest_samples: u32,
+    /// Samples of the pixels that have fewest (on average, where samples follow the noise) and most, of those that were rendered.
+    pub samples: [u32; 2],
     /// No pixel has any light.
     pub black: bool,
     /// Time the render waited for the files.
@@ -42,24 +48,27 @@ impl Pictures {
         let files: Result<_, _> = outputs.iter().map(|(path, format)| PictureFile::create(path, *format, spec)).collect();
         Ok(Self {
             files: files?,
+            failures: Vec::new(),
             bands: 0,
             pixels: 0,
             sum: [0.0; 3],
-            fewest_samples: u32::MAX,
+            samples: None,
             black: true,
             waiting: Duration::ZERO,
         })
     }
 
-    /// Passes a band on to every file.
+    /// Passes a band on to every file that can still be written.
     ///
     /// # Errors
-    /// The first file that cannot take it.
+    /// None of them can.
     pub fn write_band(&mut self, band: Band) -> io::Result<()> {
         let start = Instant::now();
         self.bands += 1;
         self.pixels += band.mean.len() as u64;
-        self.fewest_samples = self.fewest_samples.min(band.samples);
+        let of_band = samples_of(&band);
+        let [fewest, most] = self.samples.unwrap_or(of_band);
+        self.samples = Some([fewest.min(of_band[0]), most.max(of_band[1])]);
         for pixel in &band.mean {
             for (sum, value) in self.sum.iter_mut().zip(pixel) {
                 *sum += f64::from(*value);
@@ -67,10 +76,19 @@ impl Pictures {
         }
         self.black &= band.mean.iter().all(|pixel| *pixel == [0.0; 3]);
         let band = Arc::new(band);
-        for file in &mut self.files {
-            file.write_band(&band)?;
-        }
+        let failures = &mut self.failures;
+        self.files.retain_mut(|file| match file.write_band(&band) {
+            Ok(()) => true,
+            Err(source) => {
+                failures.push(OutputError::Write { path: file.path().to_owned(), source });
+                false
+            }
+        });
         self.waiting += start.elapsed();
+        if self.files.is_empty() {
+            // There is nobody left to render for.
+            return Err(io::Error::other("no picture file can be written"));
+        }
         Ok(())
     }
 
@@ -79,49 +97,80 @@ impl Pictures {
         self.bands > 0
     }
 
-    /// Puts the files in their places, unless nothing was rendered.
-    ///
-    /// # Errors
-    /// The first file that cannot be finished.
-    pub fn finish(self) -> Result<PictureSummary, OutputError> {
+    /// Files that could not be written so far.
+    pub fn take_failures(&mut self) -> Vec<OutputError> {
+        std::mem::take(&mut self.failures)
+    }
+
+    /// Puts the files in their places, unless nothing was rendered. `broke_off`: the render did, and finished pictures that are there stay.
+    pub fn finish(self, broke_off: bool) -> PictureSummary {
         let start = Instant::now();
-        if self.bands > 0 {
-            for file in self.files {
-                file.finish()?;
+        let (mut places, mut failures) = (Vec::new(), self.failures);
+        for file in self.files.into_iter().filter(|_| self.bands > 0) {
+            let path = file.path().to_owned();
+            match if broke_off { file.finish_broken_off() } else { file.finish().map(|()| path) } {
+                Ok(place) => places.push(place),
+                Err(failure) => failures.push(failure),
             }
         }
-        Ok(PictureSummary {
+        PictureSummary {
+            places,
+            failures,
             mean: self.sum.map(|sum| sum / self.pixels.max(1) as f64),
-            fewest_samples: if self.bands > 0 { self.fewest_samples } else { 0 },
+            samples: self.samples.unwrap_or_default(),
             black: self.black,
             seconds_writing: (self.waiting + start.elapsed()).as_secs_f64(),
-        })
+        }
     }
 }
 
-/// The formats that the paths' endings ask for, once it is sure that files can be put there.
+/// Fewest and most samples of a band's pixels; for the fewest, what is spent on average where samples follow the noise.
+fn samples_of(band: &Band) -> [u32; 2] {
+    let most = band.counts.iter().flatten().copied().max();
+    [band.samples, most.unwrap_or(band.samples)]
+}
+
+/// The formats that the paths' endings ask for, once it is sure that files can be put there. `-` is standard output, as EXR.
 ///
 /// # Errors
-/// Usage errors for unknown endings and for a file named twice; missing folders.
+/// Usage errors for unknown endings, and for a file named twice, in whatever way; missing folders.
 pub fn output_formats(paths: &[PathBuf], stats: Option<&Path>) -> Result<Vec<(PathBuf, PictureFormat)>, Failure> {
     let mut outputs = Vec::with_capacity(paths.len());
     for path in paths {
-        let format = PictureFormat::from_path(path).ok_or_else(|| Failure::Usage {
+        let format = if is_stdout(path) { Some(PictureFormat::Exr) } else { PictureFormat::from_path(path) };
+        let format = format.ok_or_else(|| Failure::Usage {
             message: format!("{}: the ending names no picture format", path.display()),
-            help: Some("endings that work: .exr (linear float), .png (sRGB preview)".to_owned()),
+            help: Some("endings that work: .exr (linear float), .png (sRGB preview); - is standard output, as EXR".to_owned()),
         })?;
+        if is_stdout(path) && io::stdout().is_terminal() {
+            return Err(Failure::usage(
+                "-o - writes a picture to standard output, which is a terminal here: send it to a file or a program",
+            ));
+        }
         outputs.push((path.clone(), format));
     }
-    let mut targets: Vec<_> =
-        paths.iter().map(PathBuf::as_path).chain(stats).map(|path| absolute(path).unwrap_or_else(|_| path.to_owned())).collect();
+    let mut targets: Vec<_> = paths.iter().map(PathBuf::as_path).chain(stats).map(|path| (meant(path), path)).collect();
     targets.sort();
-    if let Some(twice) = targets.windows(2).find(|pair| pair[0] == pair[1]) {
-        return Err(Failure::usage(format!("{} is named twice", twice[0].display())));
+    if let Some(pair) = targets.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+        return Err(match [pair[0].1, pair[1].1].map(|path| path.display().to_string()) {
+            [a, b] if a == b => Failure::usage(format!("{a} is named twice")),
+            [a, b] => Failure::usage(format!("one file is named twice, as {a} and as {b}")),
+        });
     }
-    for path in paths.iter().map(PathBuf::as_path).chain(stats) {
+    for path in paths.iter().map(PathBuf::as_path).chain(stats).filter(|path| !is_stdout(path)) {
         check_target(path)?;
     }
     Ok(outputs)
+}
+
+/// Whether the path means standard output.
+pub fn is_stdout(path: &Path) -> bool {
+    path == Path::new(STDOUT)
+}
+
+/// What a path means, links followed; what cannot be followed is told when it is to be written.
+fn meant(path: &Path) -> PathBuf {
+    if is_stdout(path) { path.to_owned() } else { follow_links(path).unwrap_or_else(|_| path.to_owned()) }
 }
 
 #[cfg(test)]
@@ -136,6 +185,7 @@ mod tests {
         assert!(matches!(output_formats(&paths(&["a.jpg"]), None), Err(Failure::Usage { .. })));
         assert!(matches!(output_formats(&paths(&["a.exr", "b.exr", "./a.exr"]), None), Err(Failure::Usage { .. })));
         assert!(matches!(output_formats(&paths(&["a.exr"]), Some(Path::new("a.exr"))), Err(Failure::Usage { .. })));
+        assert!(matches!(output_formats(&paths(&["-"]), Some(Path::new("-"))), Err(Failure::Usage { .. })));
         assert!(matches!(output_formats(&paths(&["no/such/folder/a.exr"]), None), Err(Failure::Output(_))));
     }
 }

@@ -1,48 +1,77 @@
 //! How far a render is: a bar on a terminal, plain lines elsewhere.
 
-use std::fmt::Write as _;
 use std::io::{self, IsTerminal};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use gpt::renderer::Observer;
-use indicatif::{ProgressBar, ProgressState, ProgressStyle};
+use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{interrupt, terminal};
 
 /// Time between two plain lines.
 const LINE_INTERVAL: Duration = Duration::from_secs(5);
+/// Preparations are told of in a plain line if they take longer.
+const LONG_PREPARATION: Duration = Duration::from_secs(3);
+/// What is done before the first samples: the driver's compiler takes most of it.
+const PREPARING: &str = "preparing the scene and compiling kernels";
+/// Time between two pictures of the hand that turns meanwhile.
+const TICK: Duration = Duration::from_millis(120);
+/// Widest and narrowest bar, without its ends.
+const WIDEST_BAR: usize = 30;
+const NARROWEST_BAR: usize = 8;
 
 /// Shows progress and passes on the wish to stop.
 pub enum Progress {
     Hidden,
-    Bar(ProgressBar),
+    Bar(ProgressBar, Mutex<Pace>),
     Lines(Mutex<Lines>),
 }
 
 /// What plain lines need to remember.
 pub struct Lines {
-    started: Instant,
     last: Instant,
+    pace: Pace,
+    /// Tells of long preparations, unless this is dropped before.
+    preparing: Option<Sender<()>>,
+}
+
+/// How fast samples come. What comes before the first of them, the compiler above all, takes no part in it.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Pace {
+    first: Option<(Instant, u64)>,
+}
+
+impl Pace {
+    /// Samples per second since they were first told of; None at that time.
+    fn rate(&mut self, done: u64) -> Option<f64> {
+        let (since, before) = *self.first.get_or_insert_with(|| (Instant::now(), done));
+        let seconds = since.elapsed().as_secs_f64();
+        (done > before && seconds > 0.0).then(|| (done - before) as f64 / seconds)
+    }
 }
 
 impl Progress {
-    /// A bar where stderr is a terminal, else lines; nothing if `quiet`.
+    /// A bar where stderr is a terminal, else lines; nothing if `quiet`. The scene is being prepared until samples come.
     pub fn new(quiet: bool) -> Self {
         if quiet {
             return Self::Hidden;
         }
         if io::stderr().is_terminal() {
-            return Self::Bar(ProgressBar::new(0).with_style(bar_style()));
+            let bar = ProgressBar::no_length().with_style(style("{spinner} {wide_msg}")).with_message(PREPARING);
+            bar.enable_steady_tick(TICK);
+            return Self::Bar(bar, Mutex::default());
         }
-        let now = Instant::now();
-        Self::Lines(Mutex::new(Lines { started: now, last: now }))
+        Self::Lines(Mutex::new(Lines { last: Instant::now(), pace: Pace::default(), preparing: tell_if_long() }))
     }
 
     /// Takes the bar off the screen.
     pub fn clear(&self) {
-        if let Self::Bar(bar) = self {
-            bar.finish_and_clear();
+        match self {
+            Self::Hidden => {}
+            Self::Bar(bar, _) => bar.finish_and_clear(),
+            Self::Lines(lines) => lock(lines).preparing = None,
         }
     }
 }
@@ -51,15 +80,19 @@ impl Observer for Progress {
     fn progress(&self, done: u64, total: u64) {
         match self {
             Self::Hidden => {}
-            Self::Bar(bar) => {
-                bar.set_length(total);
-                bar.set_position(done);
+            Self::Bar(bar, pace) => {
+                let rate = lock(pace).rate(done);
+                bar.disable_steady_tick();
+                bar.set_style(style("{wide_msg}"));
+                bar.set_message(bar_line(done, total, rate, terminal::columns()));
             }
             Self::Lines(lines) => {
-                let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
+                let mut lines = lock(lines);
+                lines.preparing = None;
+                let rate = lines.pace.rate(done);
                 if lines.last.elapsed() >= LINE_INTERVAL {
                     lines.last = Instant::now();
-                    terminal::note(&line(done, total, lines.started.elapsed().as_secs_f64()));
+                    terminal::note(&line(done, total, rate));
                 }
             }
         }
@@ -70,34 +103,75 @@ impl Observer for Progress {
     }
 }
 
-fn bar_style() -> ProgressStyle {
-    let samples = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
-        let [done, total] = [state.pos(), state.len().unwrap_or(0)].map(|count| terminal::with_unit(count as f64, ""));
-        let _ = write!(out, "{done} of {total} samples");
-    };
-    let rate = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
-        let _ = write!(out, "{}", terminal::with_unit(state.per_sec(), "sample/s"));
-    };
-    // The template is a constant; the fallback is only there because the compiler cannot read it.
-    ProgressStyle::with_template("{percent:>3} % [{bar:30}] {samples}, {rate}, {eta} left")
-        .unwrap_or_else(|_| ProgressStyle::default_bar())
-        .with_key("samples", samples)
-        .with_key("rate", rate)
-        .progress_chars("=> ")
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    // What is shown is whole whatever panicked while holding it.
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn line(done: u64, total: u64, seconds: f64) -> String {
-    let [done, total] = [done as f64, total as f64];
-    let rate = done / seconds.max(1e-9);
-    let mut line = format!(
-        "{:>3.0} %, {} of {} samples, {}",
-        100.0 * done / total.max(1.0),
-        terminal::with_unit(done, ""),
-        terminal::with_unit(total, ""),
-        terminal::with_unit(rate, "sample/s")
-    );
-    if rate > 0.0 {
-        let _ = write!(line, ", {:.0} s left", (total - done) / rate);
+/// Says after a while what takes so long, unless what it returns is dropped. Without a thread to wait in, nothing is said.
+fn tell_if_long() -> Option<Sender<()>> {
+    let (sender, receiver) = channel();
+    let wait = move || {
+        if receiver.recv_timeout(LONG_PREPARATION) == Err(RecvTimeoutError::Timeout) {
+            terminal::note(PREPARING);
+        }
+    };
+    std::thread::Builder::new().name("preparing".to_owned()).spawn(wait).ok().map(|_| sender)
+}
+
+fn style(template: &str) -> ProgressStyle {
+    // Templates are constants; the fallback is only there because the compiler cannot read them.
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+}
+
+/// What is left, where the pace is known.
+fn time_left(done: u64, total: u64, rate: Option<f64>) -> Option<String> {
+    let seconds = total.saturating_sub(done) as f64 / rate?;
+    Some(match seconds {
+        seconds if seconds < 100.0 => format!("{seconds:.0} s left"),
+        seconds if seconds < 100.0 * 60.0 => format!("{:.0} min left", seconds / 60.0),
+        seconds => format!("{:.0} h left", seconds / 3600.0),
+    })
+}
+
+fn percent(done: u64, total: u64) -> f64 {
+    100.0 * done as f64 / (total as f64).max(1.0)
+}
+
+/// One line that fits so many columns: as much as there is room for, the most important first.
+fn bar_line(done: u64, total: u64, rate: Option<f64>, columns: usize) -> String {
+    let percent = percent(done, total);
+    let mut right = time_left(done, total, rate).unwrap_or_default();
+    let room = |right: &str| columns.saturating_sub("100 % [] ".len() + right.len() + 1);
+    let samples = |count: u64| terminal::with_unit(count as f64, "");
+    let more = [
+        rate.map(|rate| terminal::with_unit(rate, "sample/s")),
+        Some(format!("{} of {} samples", samples(done), samples(total))),
+    ];
+    for part in more.into_iter().flatten() {
+        let wider = if right.is_empty() { part } else { format!("{part}, {right}") };
+        if room(&wider) < NARROWEST_BAR {
+            break;
+        }
+        right = wider;
+    }
+    let width = room(&right).min(WIDEST_BAR);
+    let full = (width as f64 * percent / 100.0) as usize;
+    let bar = match width {
+        0 => String::new(),
+        width => format!("[{:<width$}] ", format!("{}{}", "=".repeat(full), if full < width { ">" } else { "" })),
+    };
+    format!("{percent:>3.0} % {bar}{right}").trim_end().to_owned()
+}
+
+fn line(done: u64, total: u64, rate: Option<f64>) -> String {
+    let [done_text, total_text] = [done, total].map(|count| terminal::with_unit(count as f64, ""));
+    let mut line = format!("{:>3.0} %, {done_text} of {total_text} samples", percent(done, total));
+    if let Some(rate) = rate {
+        line += &format!(", {}", terminal::with_unit(rate, "sample/s"));
+    }
+    if let Some(left) = time_left(done, total, rate) {
+        line += &format!(", {left}");
     }
     line
 }
@@ -108,7 +182,34 @@ mod tests {
 
     #[test]
     fn a_line_tells_share_speed_and_time_left() {
-        assert_eq!(line(2_500_000, 10_000_000, 5.0), " 25 %, 2.50 M of 10.00 M samples, 500.00 ksample/s, 15 s left");
-        assert_eq!(line(0, 100, 5.0), "  0 %, 0 of 100 samples, 0 sample/s");
+        let line = |done, total, rate| line(done, total, rate);
+        assert_eq!(line(2_500_000, 10_000_000, Some(5e5)), " 25 %, 2.50 M of 10.00 M samples, 500.00 ksample/s, 15 s left");
+        assert_eq!(line(0, 100, None), "  0 %, 0 of 100 samples");
+        assert_eq!(line(1, 1_000_000, Some(1.0)), "  0 %, 1 of 1.00 M samples, 1 sample/s, 278 h left");
+    }
+
+    #[test]
+    fn a_bar_fits_its_terminal() {
+        assert_eq!(
+            bar_line(2_500_000, 10_000_000, Some(5e5), 100),
+            " 25 % [=======>                      ] 2.50 M of 10.00 M samples, 500.00 ksample/s, 15 s left"
+        );
+        assert_eq!(bar_line(2_500_000, 10_000_000, Some(5e5), 40), " 25 % [=====>               ] 15 s left");
+        for columns in 0..200 {
+            for (done, rate) in [(0, None), (1, Some(1e-3)), (123_456_789, Some(4.5e8)), (10_000_000_000, Some(1e9))] {
+                let line = bar_line(done, 10_000_000_000, rate, columns);
+                assert!(line.len() < columns.max(24), "{columns} columns: {line}");
+            }
+        }
+    }
+
+    /// A minute of compiling is no part of the pace.
+    #[test]
+    fn the_pace_begins_with_the_first_samples() {
+        let mut pace = Pace::default();
+        assert_eq!(pace.rate(32_768), None);
+        pace.first = Instant::now().checked_sub(Duration::from_secs(2)).map(|then| (then, 32_768));
+        let rate = pace.rate(32_768 + 200_000).expect("samples came");
+        assert!((90_000.0..=100_000.0).contains(&rate), "{rate}");
     }
 }

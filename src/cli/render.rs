@@ -1,18 +1,19 @@
 //! `gpt render`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use gpt::load;
 use gpt::output::{AtomicFile, PictureFormat, PictureSpec, Provenance, check_target};
+use gpt::plan::PlanOptions;
 use gpt::render::choice::Choice;
 use gpt::render::progressive::STREAMS;
-use gpt::renderer::{RenderError, RenderReport};
+use gpt::renderer::{DeviceChoice, RenderError, RenderReport};
 use gpt::{ErrorEstimate, Outcome, RenderOptions, Renderer, Scene, Stop};
 
 use super::arguments::RenderArguments;
 use super::exit::{Exit, Failure};
-use super::pictures::{Pictures, output_formats};
+use super::pictures::{PictureSummary, Pictures, is_stdout, output_formats};
 use super::progress::Progress;
 use super::stats::Stats;
 use super::{interrupt, settings, terminal};
@@ -23,13 +24,14 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let mut outputs = output_formats(&arguments.outputs, arguments.stats.as_deref())?;
     interrupt::install()?;
 
+    let device = device(arguments)?;
     let options = RenderOptions {
-        device: arguments.device.clone(),
+        device: device.clone(),
         first_sample: arguments.estimate.first_sample,
         time_limit: arguments.goal.time_limit,
         target_error: arguments.goal.target_error,
         adaptive: arguments.goal.adaptive,
-        plan: arguments.traversal.options_on(&arguments.device)?,
+        plan: PlanOptions { device_timeout: Some(arguments.device_timeout), ..arguments.traversal.options_on(&device)? },
         ..RenderOptions::default()
     };
     // The device opens while the scene is read.
@@ -40,15 +42,15 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
         check_target(&default)?;
         outputs.push((default, PictureFormat::Exr));
     }
+    check_inputs(&outputs, arguments.stats.as_deref())?;
     let load_seconds = started.elapsed().as_secs_f64();
 
-    let (outcome, pictures, provenance) = render(arguments, (choice, &options), &scene, &outputs, started)?;
-    let anything = pictures.any();
-    let summary = pictures.finish()?;
+    let Rendered { outcome, pictures, provenance } = render(arguments, (choice, &options), &scene, &outputs, started)?;
+    let summary = pictures.finish(outcome.stop == Stop::Interrupted);
 
     let report = outcome.report;
     let mut stats = Stats::new(&scene, &report);
-    stats.spp_done = summary.fewest_samples;
+    stats.spp_done = summary.samples[0];
     stats.stopped_by = stop_name(outcome.stop);
     stats.adaptive = arguments.goal.adaptive;
     stats.target_error = arguments.goal.target_error;
@@ -57,25 +59,54 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     stats.scene_hash = provenance.scene_hash;
     stats.first_sample = arguments.estimate.first_sample;
     stats.mean = summary.mean;
-    if anything {
-        stats.outputs = outputs.iter().map(|(path, _)| path.display().to_string()).collect();
-    }
+    stats.outputs = summary.places.iter().map(|path| path.display().to_string()).collect();
     stats.seconds.load = load_seconds;
     stats.seconds.write = summary.seconds_writing;
     stats.seconds.total = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.stats {
-        let json = serde_json::to_string_pretty(&stats).map_err(|error| Failure::Other(error.to_string()))?;
-        AtomicFile::write(path, (json + "\n").as_bytes())?;
+        write_stats(path, &stats)?;
     }
-    tell(&stats, summary.black, arguments.quiet);
+    tell(&stats, &summary, arguments.quiet);
     tell_of_error(arguments, outcome.error, outcome.stop);
+    if !summary.failures.is_empty() {
+        return Err(Failure::Outputs(summary.failures));
+    }
     Ok(exit(&report, arguments.strict))
+}
+
+/// Writes the statistics to a file, or to standard output.
+fn write_stats(path: &Path, stats: &Stats) -> Result<(), Failure> {
+    if is_stdout(path) {
+        return terminal::answer_json(stats);
+    }
+    let json = serde_json::to_string_pretty(stats).map_err(|error| Failure::Other(error.to_string()))?;
+    Ok(AtomicFile::write(path, (json + "\n").as_bytes())?)
+}
+
+/// No output is one of the files that the scene was read from.
+fn check_inputs(outputs: &[(PathBuf, PictureFormat)], stats: Option<&Path>) -> Result<(), Failure> {
+    let mut targets = outputs.iter().map(|(path, _)| path.as_path()).chain(stats);
+    match targets.find(|path| !is_stdout(path) && load::was_read(path)) {
+        Some(path) => Err(Failure::usage(format!("{} is a file of the scene, and would be overwritten", path.display()))),
+        None => Ok(()),
+    }
+}
+
+/// The device that is asked for.
+fn device(arguments: &RenderArguments) -> Result<DeviceChoice, Failure> {
+    match (&arguments.device, arguments.require_device) {
+        (DeviceChoice::Cpu, true) => {
+            Err(Failure::usage("--require-device asks for a graphics device, and --device cpu for none"))
+        }
+        (DeviceChoice::Auto, true) => Ok(DeviceChoice::Gpu),
+        (device, _) => Ok(device.clone()),
+    }
 }
 
 /// The scene as the file and the command line together want it.
 fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
     let mut scene = load::load_with(arguments.scene.as_deref(), &arguments.access.options(arguments.strict))?;
-    for warning in &scene.warnings {
+    for warning in scene.warnings.iter().chain(&scene.precision_warnings()) {
         terminal::warn(warning);
     }
     settings::apply(&arguments.estimate, &mut scene)?;
@@ -87,30 +118,64 @@ fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
     Ok(scene)
 }
 
-/// Makes the scene ready on its device, and renders it into files that are not in their places yet.
+/// A render that is over; its files are not in their places yet.
+struct Rendered {
+    outcome: Outcome,
+    pictures: Pictures,
+    provenance: Provenance,
+}
+
+/// Makes the scene ready on its device, and renders it.
 fn render(
     arguments: &RenderArguments,
     (choice, options): (Choice, &RenderOptions),
     scene: &Scene,
     outputs: &[(PathBuf, PictureFormat)],
     started: Instant,
-) -> Result<(Outcome, Pictures, Provenance), Failure> {
-    let mut renderer = Renderer::on(choice, scene, options)?;
+) -> Result<Rendered, Failure> {
+    let progress = Progress::new(arguments.quiet);
+    let mut renderer = Renderer::on(choice, scene, options).inspect_err(|_| progress.clear())?;
     if let Some(notice) = renderer.notice() {
+        progress.clear();
         terminal::note(notice);
     }
     let [width, height] = renderer.size();
     let provenance = renderer.provenance().clone();
     let spec = PictureSpec { width, height, exposure: arguments.exposure, provenance: Some(provenance.clone()) };
     let mut pictures = Pictures::create(outputs, &spec)?;
-    let progress = Progress::new(arguments.quiet);
     let outcome = renderer.render_from(started, &progress, &mut |band| pictures.write_band(band));
     progress.clear();
-    let outcome = outcome?;
-    if pictures.any() || outcome.report.interrupted {
-        Ok((outcome, pictures, provenance))
-    } else {
-        Err(RenderError::Internal("the renderer finished without delivering a picture".to_owned()).into())
+    match outcome {
+        // The files themselves say more than that none could take any more.
+        Err(RenderError::Output(error)) => {
+            let failures = pictures.take_failures();
+            Err(if failures.is_empty() { RenderError::Output(error).into() } else { Failure::Outputs(failures) })
+        }
+        Err(error) => {
+            if pictures.any() && matches!(error, RenderError::DeviceLost(_)) {
+                save_rest(pictures);
+            }
+            Err(error.into())
+        }
+        Ok(Outcome { stop: Stop::TimeLimit, .. }) if !pictures.any() => Err(Failure::Other(
+            "the time was up before a sample of every pixel was finished; nothing is saved: paths in this scene may hardly ever end, \
+             see --max-depth and --roulette-depth"
+                .to_owned(),
+        )),
+        Ok(outcome) if pictures.any() || outcome.report.interrupted => Ok(Rendered { outcome, pictures, provenance }),
+        Ok(_) => Err(RenderError::Internal("the renderer finished without delivering a picture".to_owned()).into()),
+    }
+}
+
+/// Saves what there is of a picture whose render failed, and says where.
+fn save_rest(pictures: Pictures) {
+    let PictureSummary { places, failures, samples: [fewest, most], .. } = pictures.finish(true);
+    let done = if fewest == most { fewest.to_string() } else { format!("{fewest} to {most}") };
+    for place in places {
+        terminal::note(&format!("{}: what was rendered before, {done} spp, is saved", place.display()));
+    }
+    for failure in failures {
+        terminal::warn(&failure.to_string());
     }
 }
 
@@ -137,33 +202,48 @@ fn tell_of_error(arguments: &RenderArguments, error: Option<ErrorEstimate>, stop
 }
 
 /// What a person should know when it is over.
-fn tell(stats: &Stats, black: bool, quiet: bool) {
+fn tell(stats: &Stats, summary: &PictureSummary, quiet: bool) {
     if stats.non_finite_samples > 0 {
         terminal::warn(&format!("{} samples were not finite and are left out of the picture", stats.non_finite_samples));
     }
-    if black && !stats.interrupted {
+    if summary.black && !stats.interrupted {
         terminal::warn("every pixel is black: does the camera look at the scene, and does light reach what it sees?");
     }
-    if stats.outputs.is_empty() {
-        terminal::note("interrupted before anything was rendered; nothing is saved");
-    } else if !quiet {
-        let sample_rate = terminal::with_unit(stats.samples_per_second, "sample/s");
-        terminal::note(&format!(
-            "{}: {}x{}, {} spp{} in {:.2} s on {} ({sample_rate})",
-            stats.outputs.join(", "),
-            stats.width,
-            stats.height,
-            if stats.interrupted { stats.settings.spp } else { stats.spp_done },
-            match stats.stopped_by {
-                "interrupted" => " wanted, interrupted".to_owned(),
-                "time_limit" => format!(" of {} when time was up", stats.settings.spp),
-                "target_error" => format!(" of {} when the error was reached", stats.settings.spp),
-                _ => String::new(),
-            },
-            stats.seconds.total,
-            stats.device,
-        ));
+    let broken_off = summary.places.iter().filter(|_| stats.interrupted);
+    for place in broken_off.filter(|place| place.file_stem().is_some_and(|stem| stem.to_string_lossy().contains(".incomplete"))) {
+        terminal::note(&format!("{} is written beside a finished picture, which stays as it is", place.display()));
     }
+    if stats.interrupted && summary.places.is_empty() && summary.failures.is_empty() {
+        terminal::note("interrupted before anything was rendered; nothing is saved");
+    } else if !quiet && !summary.places.is_empty() {
+        terminal::note(&summary_line(stats, summary.samples));
+    }
+}
+
+/// What was rendered, and how fast: the rate is that of the time beside it.
+fn summary_line(stats: &Stats, [fewest, most]: [u32; 2]) -> String {
+    let done = match stats.adaptive {
+        true => stats.spp_done.to_string(),
+        false if fewest == most => fewest.to_string(),
+        false => format!("{fewest} to {most}"),
+    };
+    let of_wanted = |why: &str| format!(" of {} {why}", stats.settings.spp);
+    format!(
+        "{}: {}x{}, {done} spp{} in {:.2} s ({}), {:.2} s in all, on {}",
+        stats.outputs.join(", "),
+        stats.width,
+        stats.height,
+        match stats.stopped_by {
+            "interrupted" => of_wanted("when it was interrupted"),
+            "time_limit" => of_wanted("when time was up"),
+            "target_error" => of_wanted("when the error was reached"),
+            _ => String::new(),
+        },
+        stats.seconds.render,
+        terminal::with_unit(stats.samples_per_second, "sample/s"),
+        stats.seconds.total,
+        stats.device,
+    )
 }
 
 fn exit(report: &RenderReport, strict: bool) -> Exit {

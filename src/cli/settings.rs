@@ -1,5 +1,6 @@
 //! What the command line puts over the scene's own settings.
 
+use gpt::render::options::PARTS_OF_STRATA;
 use gpt::scene::Scene;
 use gpt::scene::settings::MOST_SAMPLES;
 
@@ -20,6 +21,9 @@ pub fn apply(arguments: &EstimateArguments, scene: &mut Scene) -> Result<(), Fai
     check(scene)?;
     if arguments.first_sample.checked_add(scene.render.spp).is_none_or(|end| end > MOST_SAMPLES) {
         return Err(Failure::usage(format!("--first-sample and the samples per pixel together must stay within {MOST_SAMPLES}")));
+    }
+    if arguments.first_sample > 0 && scene.render.uses_strata() {
+        return Err(Failure::usage(format!("--first-sample {}: {PARTS_OF_STRATA}", arguments.first_sample)));
     }
     Ok(())
 }
@@ -62,6 +66,12 @@ mod tests {
         assert!(matches!(apply(&flags("--max-depth 0"), &mut scene), Err(Failure::Usage { .. })));
         let past_the_end = flags(&format!("--first-sample {}", MOST_SAMPLES - 5));
         assert!(matches!(apply(&past_the_end, &mut Scene::default()), Err(Failure::Usage { .. })));
+        for stratified in ["--sampler stratified", "--pixel-sampler stratified"] {
+            assert!(apply(&flags(stratified), &mut Scene::default()).is_ok());
+            let part = flags(&format!("--first-sample 4 {stratified}"));
+            assert!(matches!(apply(&part, &mut Scene::default()), Err(Failure::Usage { .. })));
+        }
+        assert!(apply(&flags("--first-sample 4 --sampler quadrant"), &mut Scene::default()).is_ok());
         let mut huge = Scene::default();
         huge.film.size = [100_000, 1];
         assert!(matches!(apply(&EstimateArguments::default(), &mut huge), Err(Failure::BadScene(_))));

@@ -84,6 +84,11 @@ pub fn answer_json(value: &impl serde::Serialize) -> Result<(), Failure> {
     answer(&(json + "\n"))
 }
 
+/// Width of the terminal that stderr is, in columns; of others what terminals have by default.
+pub fn columns() -> usize {
+    terminal_size::terminal_size_of(io::stderr()).map_or(80, |(terminal_size::Width(columns), _)| usize::from(columns))
+}
+
 /// A number with three or more digits, a unit prefix where it is large, and its unit: `1.50 Msample/s`.
 pub fn with_unit(number: f64, unit: &str) -> String {
     let (scaled, prefix) = match number.abs() {

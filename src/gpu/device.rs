@@ -2,7 +2,9 @@
 
 use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
+use std::time::Duration;
 
+use super::driver_thread::{DriverThread, Fate, OPENING_THREAD, keep_panics_quiet, message};
 use crate::plan::{DeviceLimits, PlanOptions};
 use crate::renderer::{DeviceChoice, RenderError};
 
@@ -14,7 +16,13 @@ pub struct Device {
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
     failure: Arc<Mutex<Option<Failure>>>,
+    driver: Arc<DriverThread>,
 }
+
+/// What a submission may take, where nothing else is said.
+pub const DEFAULT_TIMEOUT: Duration = Duration::from_secs(60);
+/// What wgpu says where a device is given up because its memory is used up.
+const OUT_OF_MEMORY: &str = "Out of memory";
 
 /// A device that a thread of its own opens, which takes a tenth of a second or more.
 pub struct OpeningDevice(Opening);
@@ -22,14 +30,23 @@ pub struct OpeningDevice(Opening);
 enum Opening {
     Open(Box<Device>),
     /// None once it was waited for.
+    Done(Option<Result<Device, RenderError>>),
     Thread(Option<JoinHandle<Result<Device, RenderError>>>),
 }
 
 impl OpeningDevice {
     /// Begins to open the adapter that `choice` means; see [`Device::open_for`].
     pub fn begin(choice: &DeviceChoice, options: &PlanOptions) -> Self {
-        let (choice, options) = (choice.clone(), options.clone());
-        Self(Opening::Thread(Some(thread::spawn(move || Device::open_for(&choice, &options)))))
+        let open = {
+            let (choice, options) = (choice.clone(), options.clone());
+            move || Device::open_for(&choice, &options)
+        };
+        keep_panics_quiet();
+        match thread::Builder::new().name(OPENING_THREAD.to_owned()).spawn(open) {
+            Ok(thread) => Self(Opening::Thread(Some(thread))),
+            // The system starts no more threads: then the device opens before anything else is done.
+            Err(_) => Self(Opening::Done(Some(Device::open_for(choice, options)))),
+        }
     }
 
     /// One that needs no waiting.
@@ -44,10 +61,15 @@ impl OpeningDevice {
     pub fn wait(mut self) -> Result<Device, RenderError> {
         match &mut self.0 {
             Opening::Open(device) => Ok(Device::clone(device)),
+            Opening::Done(device) => {
+                device.take().unwrap_or_else(|| Err(RenderError::Internal("the device is taken".to_owned())))
+            }
             Opening::Thread(thread) => {
+                let taken = || Err(RenderError::Internal("the device is taken".to_owned()));
+                let refused =
+                    |why: String| Err(RenderError::NoDevice(format!("the driver failed while it was being opened ({why})")));
                 let opened = thread.take().map(JoinHandle::join);
-                let panicked = || Err(RenderError::Internal("opening the device panicked".to_owned()));
-                opened.unwrap_or_else(|| Ok(panicked())).unwrap_or_else(|_| panicked())
+                opened.map_or_else(taken, |opened| opened.unwrap_or_else(|payload| refused(message(&*payload))))
             }
         }
     }
@@ -67,7 +89,7 @@ impl Drop for OpeningDevice {
 
 enum Failure {
     Lost(String),
-    OutOfMemory(String),
+    OutOfMemory { message: String, is_lost: bool },
     Other(String),
 }
 
@@ -122,18 +144,21 @@ impl Device {
         let seen = Arc::clone(&failure);
         device.on_uncaptured_error(Arc::new(move |error| {
             let failure = match error {
-                wgpu::Error::OutOfMemory { source } => Failure::OutOfMemory(source.to_string()),
+                wgpu::Error::OutOfMemory { source } => Failure::OutOfMemory { message: source.to_string(), is_lost: false },
                 other => Failure::Other(other.to_string()),
             };
             remember(&seen, failure);
         }));
         let seen = Arc::clone(&failure);
-        device.set_device_lost_callback(move |reason, message| {
-            if reason != wgpu::DeviceLostReason::Destroyed {
-                remember(&seen, Failure::Lost(message));
+        device.set_device_lost_callback(move |reason, message| match reason {
+            wgpu::DeviceLostReason::Destroyed => {}
+            _ if message.contains(OUT_OF_MEMORY) => {
+                remember(&seen, Failure::OutOfMemory { message, is_lost: true });
             }
+            _ => remember(&seen, Failure::Lost(message)),
         });
-        Ok(Self { name: adapter.get_info().name, limits, device, queue, failure })
+        let driver = Arc::new(DriverThread::start(options.device_timeout.unwrap_or(DEFAULT_TIMEOUT)));
+        Ok(Self { name: adapter.get_info().name, limits, device, queue, failure, driver })
     }
 
     /// The first error since the device was opened.
@@ -141,25 +166,75 @@ impl Device {
         let failure = self.failure.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         match &*failure {
             None => Ok(()),
-            Some(Failure::Lost(message)) => Err(RenderError::DeviceLost(message.clone())),
-            Some(Failure::OutOfMemory(message)) => {
+            Some(Failure::Lost(message)) => Err(RenderError::DeviceLost(format!("{}: {message}", self.name))),
+            Some(Failure::OutOfMemory { message, .. }) => {
                 Err(RenderError::DoesNotFit(format!("{} ran out of memory: {message}", self.name)))
             }
             Some(Failure::Other(message)) => Err(RenderError::Internal(message.clone())),
         }
     }
 
+    /// Whether nothing more can be asked of the device.
+    pub fn is_lost(&self) -> bool {
+        let failure = self.failure.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        failure.is_some()
+    }
+
+    /// Goes on after the device refused memory; false where that is not what happened, or cost the device.
+    pub fn forget_refusal(&self) -> bool {
+        let mut failure = self.failure.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let refused = matches!(*failure, Some(Failure::OutOfMemory { is_lost: false, .. }));
+        if refused {
+            *failure = None;
+        }
+        refused
+    }
+
+    /// Keeps a lost device from being closed, which a driver that hangs never finishes.
+    pub fn leave_if_lost(&self) {
+        if self.is_lost() {
+            std::mem::forget((self.device.clone(), self.queue.clone()));
+        }
+    }
+
     /// Submits commands and waits until they are done.
+    ///
+    /// # Errors
+    /// What the device reports; [`RenderError::DeviceLost`] where it does not answer in time.
     pub fn submit_and_wait(&self, commands: wgpu::CommandBuffer) -> Result<(), RenderError> {
-        self.queue.submit([commands]);
-        self.wait()
+        self.wait_after(Some(commands))
     }
 
     /// Waits for everything submitted.
+    ///
+    /// # Errors
+    /// As [`Device::submit_and_wait`].
     pub fn wait(&self) -> Result<(), RenderError> {
-        let polled = self.device.poll(wgpu::PollType::wait_indefinitely());
+        self.wait_after(None)
+    }
+
+    fn wait_after(&self, commands: Option<wgpu::CommandBuffer>) -> Result<(), RenderError> {
         self.check()?;
-        polled.map(|_| ()).map_err(|error| RenderError::DeviceLost(error.to_string()))
+        let (device, queue) = (self.device.clone(), self.queue.clone());
+        let timeout = Some(self.driver.limit());
+        let polled = self.driver.run(move || {
+            if let Some(commands) = commands {
+                queue.submit([commands]);
+            }
+            device.poll(wgpu::PollType::Wait { submission_index: None, timeout }).map(|_| ())
+        });
+        // Of what went wrong, the first error says most.
+        self.check()?;
+        let failure = match polled {
+            Ok(Ok(())) => return Ok(()),
+            Ok(Err(wgpu::PollError::Timeout)) | Err(Fate::Hangs) => {
+                Failure::Lost(format!("it did not answer for {} s (--device-timeout)", self.driver.limit().as_secs_f64()))
+            }
+            Ok(Err(error)) => Failure::Lost(error.to_string()),
+            Err(Fate::Panicked(message)) => Failure::Lost(message),
+        };
+        remember(&self.failure, failure);
+        self.check()
     }
 
     /// A buffer through which the host reads what is copied to it.

@@ -1,30 +1,36 @@
 //! Reads the film back: sums on the device, means on the host.
 
+use std::ops::Range;
+
 use super::buffers::FilmHalf;
 use super::device::Device;
 use crate::film::Band;
 use crate::renderer::{Batch, RenderError};
 
-/// One half of the film, its first rows.
-pub fn read_half(device: &Device, half: &FilmHalf, [width, rows]: [u32; 2]) -> Result<Vec<[f32; 4]>, RenderError> {
+/// Pixels that are read at once, in whole rows: what is copied on the way stays small.
+const PIXELS_AT_ONCE: u32 = 1 << 20;
+
+/// Rows of one half of the film, counted within the band.
+pub fn read_half(device: &Device, half: &FilmHalf, width: u32, rows: Range<u32>) -> Result<Vec<[f32; 4]>, RenderError> {
     let row_bytes = width * 16;
     let mut encoder = device.device.create_command_encoder(&Default::default());
     let (target, stride) = match half {
         FilmHalf::Texture(texture) => {
             let stride = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-            let target = device.readback_buffer(u64::from(stride) * u64::from(rows));
+            let target = device.readback_buffer(u64::from(stride) * rows.len() as u64);
             let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(stride), rows_per_image: None };
+            let origin = wgpu::Origin3d { x: 0, y: rows.start, z: 0 };
             encoder.copy_texture_to_buffer(
-                texture.as_image_copy(),
+                wgpu::TexelCopyTextureInfo { origin, ..texture.as_image_copy() },
                 wgpu::TexelCopyBufferInfo { buffer: &target, layout },
-                wgpu::Extent3d { width, height: rows, depth_or_array_layers: 1 },
+                wgpu::Extent3d { width, height: rows.len() as u32, depth_or_array_layers: 1 },
             );
             (target, stride)
         }
         FilmHalf::Buffer(buffer) => {
-            let size = u64::from(row_bytes) * u64::from(rows);
+            let size = u64::from(row_bytes) * rows.len() as u64;
             let target = device.readback_buffer(size);
-            encoder.copy_buffer_to_buffer(buffer, 0, &target, 0, size);
+            encoder.copy_buffer_to_buffer(buffer, u64::from(row_bytes) * u64::from(rows.start), &target, 0, size);
             (target, row_bytes)
         }
     };
@@ -34,30 +40,73 @@ pub fn read_half(device: &Device, half: &FilmHalf, [width, rows]: [u32; 2]) -> R
     Ok(rows.flat_map(|row| row.chunks_exact(16).map(bytemuck::pod_read_unaligned)).collect())
 }
 
-/// Means of a band from its sums on the device. Pixels that took no part have nothing: what the film holds of them is an earlier batch's.
-pub fn read_band(
+/// What of a band was rendered.
+#[derive(Debug, Clone, Copy)]
+pub struct Reached {
+    pub first_row: u32,
+    pub rows: u32,
+    /// Pixels of the band, of those that take part, that have samples: the first so many. Of the others the film may hold an earlier batch's.
+    pub pixels: u32,
+    /// Whether bands say how many samples each pixel has.
+    pub with_counts: bool,
+}
+
+/// Hands over the means of a band, from its sums on the device, in bands small enough to be copied at once. Pixels that took no part have
+/// nothing: what the film holds of them is an earlier batch's.
+pub fn deliver_band(
     device: &Device,
     film: &[FilmHalf; 2],
-    first_row: u32,
-    [width, rows]: [u32; 2],
+    width: u32,
+    reached: &Reached,
     batch: &Batch<'_>,
-) -> Result<Band, RenderError> {
-    let sums = read_half(device, &film[0], [width, rows])?;
-    let compensations = read_half(device, &film[1], [width, rows])?;
+    on_band: &mut dyn FnMut(Band) -> std::io::Result<()>,
+) -> Result<(), RenderError> {
+    let rows_at_once = (PIXELS_AT_ONCE / width).max(1);
+    let mut pixels_before = 0;
+    let mut row = 0;
+    while row < reached.rows {
+        let rows = row..(row + rows_at_once).min(reached.rows);
+        row = rows.end;
+        let sums = read_half(device, &film[0], width, rows.clone())?;
+        let compensations = read_half(device, &film[1], width, rows.clone())?;
+        let band = means(&sums, &compensations, [width, reached.first_row + rows.start], reached, &mut pixels_before, batch);
+        if band.counts.is_none() || band.counts.iter().flatten().any(|count| *count > 0) {
+            on_band(band)?;
+        }
+    }
+    Ok(())
+}
+
+/// `pixels_before` of those that take part stand above these rows.
+fn means(
+    sums: &[[f32; 4]],
+    compensations: &[[f32; 4]],
+    [width, first_row]: [u32; 2],
+    reached: &Reached,
+    pixels_before: &mut u32,
+    batch: &Batch<'_>,
+) -> Band {
+    let first = (first_row * width) as usize;
     let mut samples = batch.request.samples.len() as u32;
     let mut mean = Vec::with_capacity(sums.len());
     let mut second_moment = Vec::with_capacity(sums.len());
-    let first_of_band = (first_row * width) as usize;
-    for (pixel, (sum, compensation)) in sums.iter().zip(&compensations).enumerate() {
-        let count = f64::from(sum[3]);
-        let takes_part = batch.selection.is_none_or(|selection| selection[first_of_band + pixel]);
+    let mut counts = Vec::with_capacity(if reached.with_counts { sums.len() } else { 0 });
+    for (pixel, (sum, compensation)) in sums.iter().zip(compensations).enumerate() {
+        let takes_part = batch.selection.is_none_or(|selection| selection[first + pixel]);
+        let has_samples = takes_part && *pixels_before < reached.pixels;
+        let count = if has_samples { sum[3] as u32 } else { 0 };
         if takes_part {
-            samples = samples.min(sum[3] as u32);
+            samples = samples.min(count);
+            *pixels_before += 1;
         }
-        let per_sample = |x: f64| if takes_part && count > 0.0 { (x / count) as f32 } else { 0.0 };
+        if reached.with_counts {
+            counts.push(count);
+        }
+        let per_sample = |x: f64| if count > 0 { (x / f64::from(count)) as f32 } else { 0.0 };
         // The true sum is the stored one less what its compensation still owes.
         mean.push([0, 1, 2].map(|c| per_sample(f64::from(sum[c]) - f64::from(compensation[c]))));
         second_moment.push(per_sample(f64::from(compensation[3])));
     }
-    Ok(Band { first_row, width, rows, samples, mean, second_moment })
+    let rows = (sums.len() / width as usize) as u32;
+    Band { first_row, width, rows, samples, counts: reached.with_counts.then_some(counts), mean, second_moment }
 }

@@ -4,12 +4,14 @@ pub mod acceleration;
 pub mod adapters;
 pub mod buffers;
 pub mod device;
+mod driver_thread;
 mod film;
 pub mod kernels;
 pub mod passes;
 pub mod pipeline;
 pub mod profile;
 pub mod renderer;
+mod snapshot;
 pub mod trace;
 
 pub use adapters::{AdapterSummary, list_devices, select_adapter};

@@ -12,7 +12,7 @@ use crate::plan::parameters::PassParameters;
 use crate::plan::path_state::{CONNECT_SIZE, COUNTS, WORKGROUP};
 use crate::plan::stages::{Over, When};
 use crate::plan::{Plan, StageMode};
-use crate::renderer::RenderError;
+use crate::renderer::{Ending, RenderError, Stopping};
 use crate::sampling::{Sampling, SequencePoint};
 use crate::scene::Scene;
 
@@ -78,9 +78,9 @@ impl Pipeline {
             },
             || (Buffers::new(&device, packed, &plan, width), start.elapsed().as_secs_f64()),
         );
-        device.check()?;
         let (stages, compile_seconds) = compiled;
-        let kernels = kernels::bind(&device, stages?, &buffers)?;
+        let bound = device.check().and_then(|()| kernels::bind(&device, stages?, &buffers));
+        let kernels = bound.inspect_err(|_| device.leave_if_lost())?;
         Ok(Self { device, plan, buffers, kernels, width, max_vertices, vertices_per_submission, build_seconds, compile_seconds })
     }
 
@@ -133,16 +133,17 @@ impl Pipeline {
         }
     }
 
-    /// Traces the paths of one pass and adds them to the film.
-    pub fn run_pass(&self, pass: &Pass) -> Result<(), RenderError> {
+    /// Traces the paths of one pass and adds them to the film. Where paths are given up because they do not end, the film stays as it was, and
+    /// the reason is returned.
+    pub fn run_pass(&self, pass: &Pass, stopping: &Stopping<'_>) -> Result<Option<Ending>, RenderError> {
         match self.plan.stages {
-            StageMode::Fused => self.submit(|compute| self.encode(compute, When::PassStart, 0, true, pass)),
-            StageMode::Wavefront => self.run_wavefront(pass),
+            StageMode::Fused => self.submit(|compute| self.encode(compute, When::PassStart, 0, true, pass)).map(|()| None),
+            StageMode::Wavefront => self.run_wavefront(pass, stopping),
         }
     }
 
     /// Vertices are encoded ahead, so that none waits for the host; only paths longer than a submission holds do.
-    fn run_wavefront(&self, pass: &Pass) -> Result<(), RenderError> {
+    fn run_wavefront(&self, pass: &Pass, stopping: &Stopping<'_>) -> Result<Option<Ending>, RenderError> {
         self.begin_paths(pass);
         let mut first_vertex = 1;
         loop {
@@ -164,10 +165,13 @@ impl Pipeline {
             })?;
             first_vertex += vertices;
             if last {
-                return Ok(());
+                return Ok(None);
             }
             if self.living_paths(first_vertex)? == 0 {
-                return self.submit(|compute| self.encode(compute, When::PassEnd, 0, false, pass));
+                return self.submit(|compute| self.encode(compute, When::PassEnd, 0, false, pass)).map(|()| None);
+            }
+            if let Some(ending) = stopping.gives_up_paths() {
+                return Ok(Some(ending));
             }
         }
     }

@@ -9,7 +9,7 @@ use crate::plan::trace_record::{
     TRACE_BYTES, TRACE_WORDS, TRACED_FOUND, TRACED_LIGHT, TRACED_LIGHT_SEEN, TRACED_NULL, TRACED_ROULETTE, TRACED_SAMPLE,
     TRACED_VERTEX,
 };
-use crate::renderer::RenderError;
+use crate::renderer::{RenderError, Silent, Stopping};
 use crate::sampling::Sampling;
 use crate::scene::MaterialId;
 
@@ -87,11 +87,11 @@ pub(super) fn trace(
     let pass = Pass { first_pixel: x, pixel_count: 1, first_sample: sample, sample_count: 1, film_is_empty: true };
     pipeline.write(Binding::Trace, &vec![0; TRACE_BYTES as usize]);
     pipeline.write_pass(y, &pass, sampling);
-    pipeline.run_pass(&pass)?;
+    pipeline.run_pass(&pass, &Stopping::new(&Silent, None))?;
     let bytes = pipeline.device.read_start(source, TRACE_BYTES)?;
     let words: Vec<[f32; 4]> = bytes.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect();
     let vertices = words.chunks_exact(TRACE_WORDS as usize).map_while(|words| read_vertex(words, scene_materials)).collect();
-    let sums = read_half(&pipeline.device, &pipeline.buffers.film[0], [pipeline.width, 1])?;
+    let sums = read_half(&pipeline.device, &pipeline.buffers.film[0], pipeline.width, 0..1)?;
     let [r, g, b, _] = sums[x as usize];
     Ok(GpuPathTrace { vertices, radiance: [r, g, b] })
 }

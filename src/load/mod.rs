@@ -32,3 +32,8 @@ pub use file::{json_schema, load_toml_str};
 pub use image_file::read_image;
 pub use printable::printable;
 pub use source::{SceneSource, load, load_with};
+
+/// Whether a scene that this process read is made of this file, by whatever name.
+pub fn was_read(path: &std::path::Path) -> bool {
+    crate::input::was_opened(path)
+}

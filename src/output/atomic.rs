@@ -1,5 +1,9 @@
 //! Files that appear whole or not at all: written under a temporary name in the target's folder, then renamed.
+//!
+//! A temporary file is locked as long as its process lives. One that is not is left from a process that was killed, and the next that writes
+//! into the folder removes it.
 
+use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -8,6 +12,11 @@ use std::sync::{Mutex, PoisonError};
 use tempfile::{Builder, NamedTempFile};
 
 use super::error::OutputError;
+
+const PREFIX: &str = ".gpt-";
+const SUFFIX: &str = ".part";
+/// Links that lead from one to the next, at most: as many as Linux follows.
+const MOST_LINKS: usize = 40;
 
 /// Temporary files that exist now; a process that ends without unwinding removes them by [`remove_unfinished`].
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -30,8 +39,10 @@ impl AtomicFile {
     /// A folder that is missing or that must not be written to, and a target that is no ordinary file.
     pub fn create(path: &Path) -> Result<Self, OutputError> {
         check_target(path)?;
-        let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-        let temporary = temporary_beside(&target).map_err(|source| OutputError::Write { path: path.to_owned(), source })?;
+        let failure = |source| OutputError::Write { path: path.to_owned(), source };
+        let target = follow_links(path).map_err(failure)?;
+        remove_left_over(folder_of(&target));
+        let temporary = temporary_beside(&target).map_err(failure)?;
         let temporary_path = temporary.path().to_owned();
         unfinished().push(temporary_path.clone());
         Ok(Self { temporary: Some(temporary), temporary_path, named: path.to_owned(), target })
@@ -48,15 +59,29 @@ impl AtomicFile {
         temporary.and_then(|temporary| temporary.as_file().try_clone()).map_err(|source| self.failure(source))
     }
 
+    /// Where the file goes, links followed.
+    pub fn target(&self) -> &Path {
+        &self.target
+    }
+
     /// Puts the file in its place, over an older one of that name.
     ///
     /// # Errors
     /// Whatever the system says to flushing and renaming; then the older file is still there.
-    pub fn commit(mut self) -> Result<(), OutputError> {
+    pub fn commit(self) -> Result<(), OutputError> {
+        let target = self.target.clone();
+        self.commit_as(&target)
+    }
+
+    /// As [`AtomicFile::commit`], under another name in the same folder.
+    ///
+    /// # Errors
+    /// As [`AtomicFile::commit`].
+    pub fn commit_as(mut self, target: &Path) -> Result<(), OutputError> {
         let temporary = self.temporary.take().ok_or_else(|| self.failure(io::Error::other("the file is closed")))?;
         temporary.as_file().sync_all().map_err(|source| self.failure(source))?;
-        temporary.persist(&self.target).map_err(|error| self.failure(error.error))?;
-        Ok(())
+        temporary.persist(target).map_err(|error| self.failure(error.error))?;
+        flush_folder(folder_of(target)).map_err(|source| self.failure(source))
     }
 
     /// Writes `bytes` as the whole file at `path`.
@@ -86,11 +111,12 @@ impl Drop for AtomicFile {
 /// # Errors
 /// [`OutputError::NoFolder`] and [`OutputError::BadTarget`].
 pub fn check_target(path: &Path) -> Result<(), OutputError> {
-    let folder = folder_of(path);
+    let target = follow_links(path).map_err(|source| OutputError::Write { path: path.to_owned(), source })?;
+    let folder = folder_of(&target);
     if !folder.is_dir() {
         return Err(OutputError::NoFolder { path: path.to_owned(), folder: folder.to_owned() });
     }
-    match fs::metadata(path) {
+    match fs::metadata(&target) {
         Ok(existing) if existing.is_dir() => Err(OutputError::BadTarget { path: path.to_owned(), what: "this is a folder" }),
         Ok(existing) if !existing.is_file() => Err(OutputError::BadTarget {
             path: path.to_owned(),
@@ -98,6 +124,27 @@ pub fn check_target(path: &Path) -> Result<(), OutputError> {
         }),
         _ => Ok(()),
     }
+}
+
+/// The file that is meant by a path, whether it exists or not: links are followed, the folder is the one that the system calls so. Two paths
+/// that mean one file become equal.
+///
+/// # Errors
+/// Links that lead in a circle.
+pub fn follow_links(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        let Ok(to) = fs::read_link(&path) else {
+            let (folder, name) = (folder_of(&path), path.file_name());
+            // A folder that is missing is told by who looks for it.
+            return Ok(match (fs::canonicalize(folder), name) {
+                (Ok(folder), Some(name)) => folder.join(name),
+                _ => fs::canonicalize(&path).unwrap_or(path),
+            });
+        };
+        path = folder_of(&path).join(to);
+    }
+    Err(io::Error::other(format!("{} leads through too many links", path.display())))
 }
 
 /// Removes the temporary files of every [`AtomicFile`] that is open. For use right before the process ends at once.
@@ -122,11 +169,56 @@ fn folder_of(path: &Path) -> &Path {
 
 fn temporary_beside(target: &Path) -> io::Result<NamedTempFile> {
     let mut builder = Builder::new();
-    builder.prefix(".gpt-").suffix(".part");
+    builder.prefix(PREFIX).suffix(SUFFIX);
     // Temporary files are private to their owner by default; a picture has the permissions that any new file has.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder_of(target))
+    loop {
+        let temporary = builder.tempfile_in(folder_of(target))?;
+        // Where a file system has no locks, nobody can take one, and nothing is removed.
+        let locked = temporary.as_file().lock();
+        // Another process may have found it before it was locked, and taken it for left over.
+        if locked.is_err() || temporary.path().exists() {
+            return Ok(temporary);
+        }
+    }
+}
+
+/// Removes temporary files that nobody has open any more. What cannot be removed stays.
+fn remove_left_over(folder: &Path) {
+    let is_ours = |name: &OsStr| name.to_str().is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX));
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.flatten().filter(|entry| is_ours(&entry.file_name())) {
+        let is_file = entry.file_type().is_ok_and(|kind| kind.is_file());
+        if let Some(file) = File::open(entry.path()).ok().filter(|_| is_file)
+            && file.try_lock().is_ok()
+        {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Makes a rename last through a loss of power: it is part of the folder.
+#[cfg(unix)]
+fn flush_folder(folder: &Path) -> io::Result<()> {
+    match File::open(folder).and_then(|folder| folder.sync_all()) {
+        // Some file systems flush no folders.
+        Err(error)
+            if matches!(
+                error.kind(),
+                io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported | io::ErrorKind::PermissionDenied
+            ) =>
+        {
+            Ok(())
+        }
+        flushed => flushed,
+    }
+}
+
+/// Folders are no files elsewhere.
+#[cfg(not(unix))]
+fn flush_folder(_folder: &Path) -> io::Result<()> {
+    Ok(())
 }
 
 #[cfg(test)]
@@ -163,6 +255,48 @@ mod tests {
         assert!(matches!(AtomicFile::create(folder.path()), Err(OutputError::BadTarget { .. })));
         assert!(check_target(&folder.path().join("a.exr")).is_ok());
         assert!(check_target(Path::new("just-a-name.exr")).is_ok());
+    }
+
+    /// Of a process that was killed; what a living one writes stays.
+    #[test]
+    fn what_a_killed_process_left_is_removed() {
+        let folder = tempfile::tempdir().unwrap();
+        let left = folder.path().join(".gpt-a1b2c3.part");
+        fs::write(&left, "half of a picture").unwrap();
+        fs::write(folder.path().join(".gpt-notes"), "not a temporary file").unwrap();
+        let living = AtomicFile::create(&folder.path().join("a.exr")).unwrap();
+        assert!(!left.exists());
+        AtomicFile::write(&folder.path().join("b.exr"), b"another").unwrap();
+        living.handle().unwrap().write_all(b"a picture").unwrap();
+        living.commit().unwrap();
+        let mut left = entries(folder.path());
+        left.sort();
+        assert_eq!(left, [".gpt-notes", "a.exr", "b.exr"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_lead_to_the_file_that_is_meant() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::create_dir(at("below")).unwrap();
+        symlink("below/new.exr", at("dangling.exr")).unwrap();
+        AtomicFile::write(&at("dangling.exr"), b"picture").unwrap();
+        assert!(fs::symlink_metadata(at("dangling.exr")).unwrap().is_symlink());
+        assert_eq!(fs::read(at("below/new.exr")).unwrap(), b"picture");
+
+        symlink("nowhere/new.exr", at("lost.exr")).unwrap();
+        assert!(matches!(AtomicFile::create(&at("lost.exr")), Err(OutputError::NoFolder { .. })));
+        symlink("b.exr", at("a.exr")).unwrap();
+        symlink("a.exr", at("b.exr")).unwrap();
+        assert!(AtomicFile::create(&at("a.exr")).is_err());
+
+        symlink("below", at("also-below")).unwrap();
+        let one_file =
+            ["below/x.exr", "also-below/x.exr", "also-below/../below/x.exr"].map(|name| follow_links(&at(name)).unwrap());
+        assert!(one_file.iter().all(|path| *path == one_file[0]), "{one_file:?}");
+        assert_ne!(one_file[0], follow_links(&at("x.exr")).unwrap());
     }
 
     #[cfg(unix)]

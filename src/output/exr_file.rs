@@ -12,28 +12,45 @@ use exr::meta::{BlockDescription, Headers, MetaData};
 use exr::prelude::{Compression, Vec2};
 
 use super::provenance::Entry;
-use super::rows::Rows;
+use super::rows::{Completeness, Rows};
 use super::spec::PictureSpec;
 
 /// Blocks compressed at once. Each takes 32 rows of memory, so more would be felt at 8K.
 const COMPRESSING_THREADS: usize = 4;
+/// Channels of every file, in alphabetical order, and the one of pixels that differ in their numbers of samples.
+const COLOURS: [&str; 3] = ["B", "G", "R"];
+const COUNT: &str = "SampleCount";
 /// Bytes before the header in every file: the magic number and the version.
 const PREAMBLE_BYTES: u64 = 8;
 
 /// Encodes all rows of the picture. The error is a sentence.
 pub(super) fn write<W: Write + Seek>(mut writer: W, mut rows: Rows, spec: &PictureSpec) -> Result<(), String> {
-    let wanted = spec.samples_wanted();
-    let headers: Headers = [header(spec, wanted)].into_iter().collect();
+    let have_counts = rows.have_counts().map_err(|_| "the render broke off".to_owned())?;
+    let first = header(spec, spec.samples_wanted(), Completeness::Finished, have_counts);
+    let headers: Headers = [first].into_iter().collect();
     exr::block::write(&mut writer, headers, true, |meta, chunks| write_blocks(&meta, chunks, &mut rows))
         .map_err(|error| error.to_string())?;
 
-    // The header went out before the samples were counted. Its numbers have a fixed length, so it is written again in place.
-    let samples = rows.fewest_samples();
-    if samples != wanted {
-        writer.seek(SeekFrom::Start(PREAMBLE_BYTES)).map_err(|error| error.to_string())?;
-        Header::write_all(&[header(spec, samples)], &mut writer, false).map_err(|error| error.to_string())?;
-    }
+    // The header went out before the samples were counted, and with its attributes in no order, for they were in a hash map. Numbers have a
+    // fixed length, so it is written again in place, sorted: equal pictures are equal files.
+    let completeness = rows.wait_for_finish().map_err(|_| "the render broke off".to_owned())?;
+    let last = header(spec, rows.fewest_samples(), completeness, have_counts);
+    writer.seek(SeekFrom::Start(PREAMBLE_BYTES)).map_err(|error| error.to_string())?;
+    writer.write_all(&sorted_bytes(&last).map_err(|error| error.to_string())?).map_err(|error| error.to_string())?;
     writer.flush().map_err(|error| error.to_string())
+}
+
+/// The header as it stands in a file, its attributes in the order of their names.
+fn sorted_bytes(header: &Header) -> Result<Vec<u8>, Error> {
+    let mut attributes: Vec<_> = header.all_named_attributes().collect();
+    attributes.sort_by(|(a, _), (b, _)| a.cmp(b));
+    let mut bytes = Vec::new();
+    for (name, value) in &attributes {
+        exr::meta::attribute::write(name, value, &mut bytes)?;
+    }
+    // An empty name ends the list.
+    bytes.push(0);
+    Ok(bytes)
 }
 
 fn write_blocks<W: Write + Seek>(meta: &MetaData, chunks: &mut ChunkWriter<W>, rows: &mut Rows) -> UnitResult {
@@ -53,19 +70,25 @@ fn for_each_block(meta: &MetaData, rows: &mut Rows, mut write: impl FnMut(usize,
     for (index_in_file, index) in meta.enumerate_ordered_header_block_indices() {
         let mut data = Vec::with_capacity(index.pixel_size.area() * bytes_per_pixel);
         for _ in 0..index.pixel_size.height() {
-            let row = rows.next_row().map_err(|_| Error::Aborted)?;
+            let (row, counts) = rows.next_row().map_err(|_| Error::Aborted)?;
             // Channels lie one after another in a scan line, in the alphabetical order of their names.
             for channel in [2, 1, 0] {
                 data.extend(row.iter().flat_map(|pixel| pixel[channel].to_ne_bytes()));
             }
+            if meta.headers[0].channels.list.len() > COLOURS.len() {
+                let count = |pixel: usize| counts.of(pixel) as f32;
+                data.extend((0..row.len()).flat_map(|pixel| count(pixel).to_ne_bytes()));
+            }
         }
         write(index_in_file, UncompressedBlock { index, data })?;
     }
-    rows.wait_for_finish().map_err(|_| Error::Aborted)
+    rows.wait_for_finish().map_err(|_| Error::Aborted).map(|_| ())
 }
 
-fn header(spec: &PictureSpec, samples: u32) -> Header {
-    let channels = ["B", "G", "R"].map(|name| ChannelDescription::new(name, SampleType::F32, false));
+/// `have_counts`: the file says how many samples each pixel has, in a channel of its own.
+fn header(spec: &PictureSpec, samples: u32, completeness: Completeness, have_counts: bool) -> Header {
+    let names = COLOURS.iter().copied().chain(have_counts.then_some(COUNT));
+    let channels = names.map(|name| ChannelDescription::new(name, SampleType::F32, false)).collect::<Vec<_>>();
     let size = Vec2(spec.width as usize, spec.height as usize);
     let mut header = Header::new(Text::from("gpt"), size, channels.into_iter().collect()).with_encoding(
         Compression::PIZ,
@@ -75,7 +98,7 @@ fn header(spec: &PictureSpec, samples: u32) -> Header {
     // A part's name is for files of several parts; some readers would put it before the channels' names.
     header.own_attributes.layer_name = None;
     header.own_attributes.software_name = Some(Text::from(concat!("gpt ", env!("CARGO_PKG_VERSION"))));
-    for (key, entry) in spec.header_entries(samples) {
+    for (key, entry) in spec.header_entries(samples, completeness) {
         header.own_attributes.other.insert(Text::from(key), attribute(entry));
     }
     header.shared_attributes.chromaticities = Some(REC_709);

@@ -13,10 +13,10 @@ mod read;
 mod rows;
 mod spec;
 
-pub use atomic::{AtomicFile, check_target, remove_unfinished};
+pub use atomic::{AtomicFile, check_target, follow_links, remove_unfinished};
 pub use error::OutputError;
 pub use format::PictureFormat;
-pub use picture::PictureFile;
+pub use picture::{PictureFile, STDOUT};
 pub use png_file::srgb_byte;
 pub use provenance::Provenance;
 pub use read::{Image, PictureKind, ReadError, read_image};

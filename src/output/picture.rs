@@ -1,25 +1,37 @@
 //! One picture file in the making: a thread encodes and writes while the render goes on.
 
-use std::io::{BufWriter, Error};
-use std::path::Path;
+use std::ffi::OsStr;
+use std::fs::File;
+use std::io::{BufWriter, Error, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread::{self, JoinHandle};
 
-use super::atomic::AtomicFile;
+use exr::meta::MetaData;
+use exr::meta::attribute::{AttributeValue, Text};
+
+use super::atomic::{AtomicFile, follow_links};
 use super::error::OutputError;
 use super::format::PictureFormat;
-use super::rows::{Message, Rows};
+use super::provenance::BROKEN_OFF_KEY;
+use super::rows::{Completeness, Message, Rows};
 use super::spec::PictureSpec;
 use super::{exr_file, png_file};
 use crate::film::Band;
 
 /// Bands that wait for the encoder; with the one it works on and the one being rendered, this bounds the memory.
 const WAITING_BANDS: usize = 1;
+/// The path that is standard output.
+pub const STDOUT: &str = "-";
+/// The last bytes of a preview, in which the note stands that its render broke off.
+const BYTES_OF_NOTE: u64 = 64;
+/// Unfinished pictures that are kept beside a finished one.
+const MOST_BESIDE: usize = 1000;
 
 /// A file that takes bands and appears, whole, at [`PictureFile::finish`]. Dropped before that, it leaves nothing.
 pub struct PictureFile {
-    file: AtomicFile,
+    place: Place,
     messages: SyncSender<Message>,
     /// None once it was joined.
     encoder: Option<JoinHandle<Result<(), String>>>,
@@ -27,22 +39,47 @@ pub struct PictureFile {
     spec: PictureSpec,
 }
 
+/// Where a picture goes.
+enum Place {
+    File(AtomicFile),
+    /// Kept in a file without a name until it is whole: encoders go back to the header.
+    Stdout(File),
+}
+
 impl PictureFile {
-    /// Begins the file; `format` is what the path's ending asked for.
+    /// Begins the file; `format` is what the path's ending asked for. The path [`STDOUT`] is standard output.
     ///
     /// # Errors
-    /// As [`AtomicFile::create`].
+    /// As [`AtomicFile::create`]; a system that starts no more threads.
     pub fn create(path: &Path, format: PictureFormat, spec: &PictureSpec) -> Result<Self, OutputError> {
-        let file = AtomicFile::create(path)?;
-        let writer = BufWriter::with_capacity(1 << 18, file.handle()?);
+        let failure = |source| OutputError::Write { path: path.to_owned(), source };
+        let place = if path == Path::new(STDOUT) {
+            Place::Stdout(tempfile::tempfile().map_err(failure)?)
+        } else {
+            Place::File(AtomicFile::create(path)?)
+        };
+        let handle = match &place {
+            Place::File(file) => file.handle()?,
+            Place::Stdout(file) => file.try_clone().map_err(failure)?,
+        };
+        let writer = BufWriter::with_capacity(1 << 18, handle);
         let (messages, receiver) = sync_channel(WAITING_BANDS);
         let rows = Rows::new(receiver, spec.width);
         let encoder_spec = spec.clone();
-        let encoder = thread::spawn(move || match format {
+        let encode = move || match format {
             PictureFormat::Exr => exr_file::write(writer, rows, &encoder_spec),
             PictureFormat::Png => png_file::write(writer, rows, &encoder_spec),
-        });
-        Ok(Self { file, messages, encoder: Some(encoder), rows_taken: 0, spec: spec.clone() })
+        };
+        let encoder = thread::Builder::new().name("picture".to_owned()).spawn(encode).map_err(failure)?;
+        Ok(Self { place, messages, encoder: Some(encoder), rows_taken: 0, spec: spec.clone() })
+    }
+
+    /// The path as it was asked for.
+    pub fn path(&self) -> &Path {
+        match &self.place {
+            Place::File(file) => file.path(),
+            Place::Stdout(_) => Path::new(STDOUT),
+        }
     }
 
     /// Takes the next band; waits while the encoder is behind.
@@ -68,10 +105,36 @@ impl PictureFile {
     /// # Errors
     /// What the encoder or the file system said.
     pub fn finish(mut self) -> Result<(), OutputError> {
+        self.encode_rest(Completeness::Finished)?;
+        match self.place {
+            Place::File(file) => file.commit(),
+            Place::Stdout(file) => write_to_stdout(file),
+        }
+    }
+
+    /// As [`PictureFile::finish`], of a render that broke off. A finished picture that is in the place stays there, and this one goes beside
+    /// it. Where it went.
+    ///
+    /// # Errors
+    /// As [`PictureFile::finish`].
+    pub fn finish_broken_off(mut self) -> Result<PathBuf, OutputError> {
+        self.encode_rest(Completeness::BrokenOff)?;
+        match self.place {
+            Place::Stdout(file) => write_to_stdout(file).map(|()| PathBuf::from(STDOUT)),
+            Place::File(file) => {
+                let place = beside_finished(file.target());
+                // As the person would name it, unless a link leads elsewhere.
+                let named = file.path().with_file_name(place.file_name().unwrap_or_default());
+                let named = if follow_links(&named).is_ok_and(|meant| meant == place) { named } else { place.clone() };
+                file.commit_as(&place).map(|()| named)
+            }
+        }
+    }
+
+    fn encode_rest(&mut self, completeness: Completeness) -> Result<(), OutputError> {
         // An encoder that is gone has an error to tell, which joining it brings.
-        let _ = self.messages.send(Message::Finish);
-        self.join_encoder()?;
-        self.file.commit()
+        let _ = self.messages.send(Message::Finish(completeness));
+        self.join_encoder()
     }
 
     /// Waits for the encoder, which must be about to end, and tells how it went.
@@ -82,7 +145,56 @@ impl PictureFile {
     }
 
     fn encode_error(&self, what: &str) -> OutputError {
-        OutputError::Encode { path: self.file.path().to_owned(), what: what.to_owned() }
+        OutputError::Encode { path: self.path().to_owned(), what: what.to_owned() }
+    }
+}
+
+/// Hands a whole picture to whoever reads standard output.
+fn write_to_stdout(mut file: File) -> Result<(), OutputError> {
+    let mut stdout = std::io::stdout().lock();
+    let copied = file.rewind().and_then(|()| std::io::copy(&mut file, &mut stdout)).and_then(|_| stdout.flush());
+    copied.map_err(|source| OutputError::Write { path: STDOUT.into(), source })
+}
+
+/// Where a picture may go that is not finished: its own place, or beside what is there and finished, as `name.incomplete.exr`.
+fn beside_finished(target: &Path) -> PathBuf {
+    let part = |part: Option<&OsStr>| part.unwrap_or_default().to_os_string();
+    let [stem, ending] = [part(target.file_stem()), part(target.extension())];
+    let candidates = (0..).map(|number| {
+        let mut name = stem.clone();
+        match number {
+            0 => {}
+            1 => name.push(".incomplete"),
+            _ => name.push(format!(".incomplete-{number}")),
+        }
+        name.push(".");
+        name.push(&ending);
+        target.with_file_name(name)
+    });
+    let mut free = candidates.take(MOST_BESIDE).filter(|path| !is_finished(path));
+    free.next().unwrap_or_else(|| target.to_owned())
+}
+
+/// Whether what stands there is to be kept: anything but a picture that says that its render broke off.
+fn is_finished(path: &Path) -> bool {
+    let note = BROKEN_OFF_KEY;
+    if let Ok(meta) = MetaData::read_from_file(path, false) {
+        return meta
+            .headers
+            .iter()
+            .all(|header| header.own_attributes.other.get(&Text::from(note)) != Some(&AttributeValue::I32(1)));
+    }
+    // A preview has its note right before its end.
+    let mut end = Vec::new();
+    let read = File::open(path).and_then(|mut file| {
+        let length = file.seek(SeekFrom::End(0))?;
+        file.seek(SeekFrom::Start(length.saturating_sub(BYTES_OF_NOTE)))?;
+        file.read_to_end(&mut end)
+    });
+    let says_so = end.windows(note.len()).any(|window| window == note.as_bytes());
+    match read {
+        Ok(_) => !says_so,
+        Err(error) => error.kind() != std::io::ErrorKind::NotFound,
     }
 }
 
@@ -118,7 +230,7 @@ mod tests {
 
     fn band(first_row: u32, rows: u32, width: u32, samples: u32) -> Arc<Band> {
         let mean = (first_row..first_row + rows).flat_map(|y| (0..width).map(move |x| value(x, y))).collect();
-        Arc::new(Band { first_row, width, rows, samples, mean, second_moment: vec![] })
+        Arc::new(Band { first_row, width, rows, samples, counts: None, mean, second_moment: vec![] })
     }
 
     #[test]
@@ -172,6 +284,66 @@ mod tests {
             assert_eq!(attribute("gpt:samplesWanted"), AttributeValue::I32(64));
             assert_eq!(attribute("gpt:complete"), AttributeValue::I32(0));
         }
+    }
+
+    #[test]
+    fn equal_pictures_are_equal_files() {
+        let folder = tempfile::tempdir().unwrap();
+        // Ten attributes in the order of a hash map agree by chance once in millions.
+        for format in ["exr", "png"] {
+            let [a, b] = ["a", "b"].map(|name| {
+                let path = folder.path().join(name).with_extension(format);
+                let mut file = PictureFile::create(&path, PictureFormat::from_path(&path).unwrap(), &spec(64, 40, 8)).unwrap();
+                file.write_band(&band(0, 40, 64, 8)).unwrap();
+                file.finish().unwrap();
+                std::fs::read(&path).unwrap()
+            });
+            assert!(a == b, "{format}");
+        }
+    }
+
+    #[test]
+    fn pixels_that_differ_in_their_samples_carry_them() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.exr");
+        let counts: Vec<u32> = (0..8 * 40).map(|pixel| if pixel < 100 { 7 } else { 3 }).collect();
+        let mut file = PictureFile::create(&path, PictureFormat::Exr, &spec(8, 40, 64)).unwrap();
+        for (first_row, pixels) in [(0, 0..160), (20, 160..320)] {
+            let band = Band::clone(&band(first_row, 20, 8, 3));
+            file.write_band(&Arc::new(Band { counts: Some(counts[pixels].to_vec()), ..band })).unwrap();
+        }
+        file.finish().unwrap();
+        let image = exr::prelude::read_first_flat_layer_from_file(&path).unwrap();
+        let channels = &image.layer_data.channel_data.list;
+        assert_eq!(channels.iter().map(|channel| channel.name.to_string()).collect::<Vec<_>>(), ["B", "G", "R", "SampleCount"]);
+        let found: Vec<u32> = channels[3].sample_data.values_as_f32().map(|count| count as u32).collect();
+        assert_eq!(found, counts);
+        assert_eq!(read_image(&path).unwrap().pixels[5], value(5, 0));
+    }
+
+    /// In its own place only where no finished picture is.
+    #[test]
+    fn a_picture_that_broke_off_replaces_no_finished_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, samples: u32, is_finished: bool| {
+            let path = folder.path().join(name);
+            let mut file = PictureFile::create(&path, PictureFormat::from_path(&path).unwrap(), &spec(8, 40, 64)).unwrap();
+            file.write_band(&band(0, 40, 8, samples)).unwrap();
+            let place = if is_finished { file.finish().map(|()| path) } else { file.finish_broken_off() };
+            place.unwrap().file_name().unwrap().to_str().unwrap().to_owned()
+        };
+        for ending in ["exr", "png"] {
+            let [a, beside] = [format!("a.{ending}"), format!("a.incomplete.{ending}")];
+            // Fewer samples than wanted, as a time limit leaves them, are no break.
+            for (samples, is_finished, place) in
+                [(3, false, &a), (4, false, &a), (5, true, &a), (6, false, &beside), (7, false, &beside), (8, true, &a)]
+            {
+                assert_eq!(write(&a, samples, is_finished), *place, "{samples} samples");
+            }
+            assert_eq!(write(&beside, 9, true), beside);
+            assert_eq!(write(&a, 10, false), format!("a.incomplete-2.{ending}"));
+        }
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 6);
     }
 
     #[test]

@@ -2,10 +2,11 @@
 
 use std::io::Write;
 
+use png::text_metadata::TEXtChunk;
 use png::{BitDepth, ColorType, Compression, Encoder, SrgbRenderingIntent};
 
-use super::provenance::Entry;
-use super::rows::{Abandoned, Rows};
+use super::provenance::{BROKEN_OFF_KEY, COMPLETE_KEY, Entry, SAMPLES_KEY};
+use super::rows::{Abandoned, Completeness, Rows};
 use super::spec::PictureSpec;
 
 /// Encodes all rows of the picture. The error is a sentence.
@@ -22,22 +23,25 @@ pub(super) fn write(writer: impl Write, mut rows: Rows, spec: &PictureSpec) -> R
     let factor = spec.exposure.exp2();
     let mut bytes = Vec::with_capacity(spec.width as usize * 3);
     for _ in 0..spec.height {
-        let row = rows.next_row().map_err(abandoned)?;
+        let row = rows.next_row().map_err(abandoned)?.0;
         bytes.clear();
         bytes.extend(row.iter().flatten().map(|&radiance| srgb_byte(radiance * factor)));
         stream.write_all(&bytes).map_err(|error| error.to_string())?;
     }
-    rows.wait_for_finish().map_err(abandoned)?;
+    let completeness = rows.wait_for_finish().map_err(abandoned)?;
     stream.finish().map_err(sentence)?;
+    if completeness == Completeness::BrokenOff {
+        let note = TEXtChunk::new(BROKEN_OFF_KEY, "1");
+        image.write_text_chunk(&note).map_err(sentence)?;
+    }
     image.finish().map_err(sentence)
 }
 
 /// The picture's provenance as one line, since a preview has no typed header. Sample counts are left out: they are only known
 /// once the header is written.
 fn software(spec: &PictureSpec) -> String {
-    let entries = spec.header_entries(spec.samples_wanted());
-    let wanted =
-        entries.iter().filter(|(key, _)| !matches!(*key, super::provenance::SAMPLES_KEY | super::provenance::COMPLETE_KEY));
+    let entries = spec.header_entries(spec.samples_wanted(), Completeness::Finished);
+    let wanted = entries.iter().filter(|(key, _)| !matches!(*key, SAMPLES_KEY | COMPLETE_KEY | BROKEN_OFF_KEY));
     let words: Vec<_> = wanted
         .map(|(key, entry)| match entry {
             Entry::Text(text) => format!("{}={text}", key.trim_start_matches("gpt:")),

@@ -1,5 +1,6 @@
 //! Where a picture comes from: what a file's header says so that the picture can be made again.
 
+use super::rows::Completeness;
 use crate::scene::settings::{Setting, Value, Values};
 use crate::scene::{Filter, RenderSettings};
 
@@ -32,9 +33,12 @@ pub(super) const SAMPLES_KEY: &str = "gpt:samples";
 /// Key of 1 where every pixel received all wanted samples, else 0.
 pub(super) const COMPLETE_KEY: &str = "gpt:complete";
 
+/// Key of 1 where the render was interrupted or its device lost, else 0: a time limit, say, leaves a finished picture.
+pub(super) const BROKEN_OFF_KEY: &str = "gpt:brokenOff";
+
 impl Provenance {
     /// The header's entries, for a file in which every pixel received at least `samples`.
-    pub(super) fn entries(&self, samples: u32) -> Vec<(&'static str, Entry)> {
+    pub(super) fn entries(&self, samples: u32, completeness: Completeness) -> Vec<(&'static str, Entry)> {
         let settings = &self.settings;
         let text = |text: &str| Entry::Text(text.to_owned());
         let mut entries = vec![
@@ -46,6 +50,7 @@ impl Provenance {
             ("gpt:firstSample", Entry::Number(self.first_sample)),
             (SAMPLES_KEY, Entry::Number(samples)),
             (COMPLETE_KEY, Entry::Number(u32::from(samples >= settings.spp))),
+            (BROKEN_OFF_KEY, Entry::Number(u32::from(completeness == Completeness::BrokenOff))),
             ("gpt:adaptive", Entry::Number(u32::from(self.adaptive))),
         ];
         entries.extend(settings.values().map(|(setting, value)| (setting.header, entry(setting, value))));

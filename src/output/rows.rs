@@ -9,17 +9,42 @@ use crate::film::Band;
 pub(super) enum Message {
     Band(Arc<Band>),
     /// No more bands; the file is to be finished with what came.
-    Finish,
+    Finish(Completeness),
+}
+
+/// Whether a picture is what was asked for.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Completeness {
+    /// As many samples as the render's settings make it have.
+    #[default]
+    Finished,
+    /// The render broke off: it was interrupted, or the device was lost.
+    BrokenOff,
 }
 
 /// Rows from the top, each once. Rows that never came are black and count 0 samples.
 pub(super) struct Rows {
     messages: Receiver<Message>,
     band: Arc<Band>,
-    finished: bool,
+    finished: Option<Completeness>,
     next_row: u32,
     fewest_samples: u32,
     blank: Vec<[f32; 3]>,
+}
+
+/// Samples of a row's pixels.
+pub(super) enum Counts<'a> {
+    Even(u32),
+    Each(&'a [u32]),
+}
+
+impl Counts<'_> {
+    pub(super) fn of(&self, pixel: usize) -> u32 {
+        match self {
+            Self::Even(samples) => *samples,
+            Self::Each(counts) => counts[pixel],
+        }
+    }
 }
 
 /// The render ended without a word, so the file must not be finished.
@@ -31,44 +56,62 @@ impl Rows {
         Self {
             messages,
             band: Arc::default(),
-            finished: false,
+            finished: None,
             next_row: 0,
             fewest_samples: u32::MAX,
             blank: vec![[0.0; 3]; width as usize],
         }
     }
 
-    /// The next row's pixels.
-    pub(super) fn next_row(&mut self) -> Result<&[[f32; 3]], Abandoned> {
+    /// Waits for the first band. Whether it says how many samples each pixel has; then all do.
+    pub(super) fn have_counts(&mut self) -> Result<bool, Abandoned> {
+        self.reach(0)?;
+        Ok(self.band.counts.is_some())
+    }
+
+    /// The next row's pixels, and how many samples each has.
+    pub(super) fn next_row(&mut self) -> Result<(&[[f32; 3]], Counts<'_>), Abandoned> {
         let row = self.next_row;
         self.next_row += 1;
-        while !self.finished && row >= self.band.first_row + self.band.rows {
-            match self.messages.recv() {
-                Ok(Message::Band(band)) => self.band = band,
-                Ok(Message::Finish) => self.finished = true,
-                Err(_) => return Err(Abandoned),
-            }
-        }
+        self.reach(row)?;
         if row < self.band.first_row || row >= self.band.first_row + self.band.rows {
             self.fewest_samples = 0;
-            return Ok(&self.blank);
+            return Ok((&self.blank, Counts::Even(0)));
         }
         self.fewest_samples = self.fewest_samples.min(self.band.samples);
         let width = self.blank.len();
         let start = (row - self.band.first_row) as usize * width;
-        Ok(&self.band.mean[start..start + width])
+        let counts = match &self.band.counts {
+            Some(counts) => Counts::Each(&counts[start..start + width]),
+            None => Counts::Even(self.band.samples),
+        };
+        Ok((&self.band.mean[start..start + width], counts))
     }
 
-    /// Waits until the render said that it is over.
-    pub(super) fn wait_for_finish(&mut self) -> Result<(), Abandoned> {
-        while !self.finished {
+    /// Takes bands until one reaches to the row or beyond.
+    fn reach(&mut self, row: u32) -> Result<(), Abandoned> {
+        while self.finished.is_none() && row >= self.band.first_row + self.band.rows {
             match self.messages.recv() {
-                Ok(Message::Band(_)) => {}
-                Ok(Message::Finish) => self.finished = true,
+                Ok(Message::Band(band)) => self.band = band,
+                Ok(Message::Finish(completeness)) => self.finished = Some(completeness),
                 Err(_) => return Err(Abandoned),
             }
         }
         Ok(())
+    }
+
+    /// Waits until the render said that it is over.
+    pub(super) fn wait_for_finish(&mut self) -> Result<Completeness, Abandoned> {
+        loop {
+            if let Some(completeness) = self.finished {
+                return Ok(completeness);
+            }
+            match self.messages.recv() {
+                Ok(Message::Band(_)) => {}
+                Ok(Message::Finish(completeness)) => self.finished = Some(completeness),
+                Err(_) => return Err(Abandoned),
+            }
+        }
     }
 
     /// Samples that the least finished pixel of the rows so far received.
@@ -85,21 +128,29 @@ mod tests {
 
     fn band(first_row: u32, rows: u32, samples: u32) -> Message {
         let mean = (0..rows * 2).map(|index| [(first_row * 2 + index) as f32; 3]).collect();
-        Message::Band(Arc::new(Band { first_row, width: 2, rows, samples, mean, second_moment: vec![0.0; rows as usize * 2] }))
+        Message::Band(Arc::new(Band {
+            first_row,
+            width: 2,
+            rows,
+            samples,
+            counts: None,
+            mean,
+            second_moment: vec![0.0; rows as usize * 2],
+        }))
     }
 
     #[test]
     fn rows_come_in_order_and_missing_ones_are_black() {
         let (sender, receiver) = channel();
-        for message in [band(0, 2, 8), band(2, 1, 8), band(4, 1, 3), Message::Finish] {
+        for message in [band(0, 2, 8), band(2, 1, 8), band(4, 1, 3), Message::Finish(Completeness::Finished)] {
             sender.send(message).unwrap();
         }
         let mut rows = Rows::new(receiver, 2);
-        let firsts: Vec<f32> = (0..4).map(|_| rows.next_row().unwrap()[0][0]).collect();
+        let firsts: Vec<f32> = (0..4).map(|_| rows.next_row().unwrap().0[0][0]).collect();
         assert_eq!(firsts, [0.0, 2.0, 4.0, 0.0], "the fourth row was never rendered");
         assert_eq!(rows.fewest_samples(), 0);
-        assert_eq!(rows.next_row().unwrap(), [[8.0; 3], [9.0; 3]]);
-        assert_eq!(rows.next_row().unwrap(), [[0.0; 3]; 2]);
+        assert_eq!(rows.next_row().unwrap().0, [[8.0; 3], [9.0; 3]]);
+        assert_eq!(rows.next_row().unwrap().0, [[0.0; 3]; 2]);
     }
 
     #[test]

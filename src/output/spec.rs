@@ -1,6 +1,7 @@
 //! What is known of a picture before its first row.
 
 use super::provenance::{Entry, Provenance};
+use super::rows::Completeness;
 
 /// What a file's encoder needs to know before the first row.
 #[derive(Debug, Clone)]
@@ -20,7 +21,7 @@ impl PictureSpec {
     }
 
     /// The entries of the header of a file in which every pixel received at least `samples`.
-    pub(super) fn header_entries(&self, samples: u32) -> Vec<(&'static str, Entry)> {
-        self.provenance.as_ref().map_or_else(Vec::new, |provenance| provenance.entries(samples))
+    pub(super) fn header_entries(&self, samples: u32, completeness: Completeness) -> Vec<(&'static str, Entry)> {
+        self.provenance.as_ref().map_or_else(Vec::new, |provenance| provenance.entries(samples, completeness))
     }
 }

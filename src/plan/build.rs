@@ -1,12 +1,12 @@
 //! How the decisions of a plan are made.
 
-use super::choices::{FilmStorage, GeometryPlacement, MOST_STACK_REGISTERS, StageMode};
+use super::choices::{GeometryPlacement, MOST_STACK_REGISTERS, StageMode};
 use super::error::PlanError;
 use super::limits::DeviceLimits;
 use super::memory::{self, Memory};
 use super::model::Plan;
 use super::options::PlanOptions;
-use super::path_state::PATH_STATE_BYTES;
+use super::path_state::{PATH_STATE_BYTES, WORKGROUP};
 use super::{chunks, decisions, generated, ray_query, switches, unroll};
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
@@ -36,7 +36,7 @@ impl Plan {
         }
         let (geometry, why_geometry) = decisions::geometry(packed, options);
         let light_samples = if switches::samples_lights(scene, packed) { scene.render.light_samples } else { 1 };
-        let (stages, why_stages) = decisions::stages(geometry, limits, options);
+        let (stages, why_stages) = decisions::stages(geometry, &scene.render, limits, options);
         // On software devices the arithmetic of a step through a hierarchy costs the same for one lane as for all, so the lanes of a subgroup
         // go through it as one packet, whose stack lies in registers, an entry a lane (shaders/geometry/software/packet.wgsl). Geometry that is code is
         // met by all lanes anyway, and there a lane that starts its next path at once gains.
@@ -54,11 +54,7 @@ impl Plan {
         // Known practice on hardware, and on lavapipe no slower (docs/notes/2026-11-22-wavefront-queues.md).
         let subgroup_queues = stages == StageMode::Wavefront && limits.subgroups;
         let width = scene.film.size[0];
-        let film = if limits.read_write_rgba32float && width <= limits.max_texture_side {
-            FilmStorage::Texture
-        } else {
-            FilmStorage::Buffer
-        };
+        let film = limits.film_storage(scene.film.size, options.pixel_list);
         let tables = packed.tables().words;
         let uniform_limit = u64::from(limits.max_uniform_binding);
         let fits_uniform = |bytes: usize| bytes as u64 <= uniform_limit.min(limits.max_array);
@@ -66,7 +62,7 @@ impl Plan {
         let uniform_tables = 16 * tables.len() as u64 <= uniform_limit;
         // Real GPUs serialise divergent reads of uniform buffers; software ones read them faster than storage.
         let uniform_nodes = limits.software && !ray_queries && fits_uniform(size_of_val(&packed.hierarchy.nodes[..]));
-        let band_rows = limits.band_rows(scene.film.size, film);
+        let band_rows = limits.band_rows(scene.film.size, film, options.pixel_list);
         let mut plan = Self {
             geometry,
             traversal,
@@ -83,6 +79,11 @@ impl Plan {
             light_samples,
             light_samples_depth: if light_samples > 1 { scene.render.light_samples_depth } else { 0 },
             runs: limits.threads.max(1),
+            // As many workgroups in every run, up to the limit.
+            pixels_per_dispatch: (limits.max_workgroups / limits.threads.max(1))
+                .max(1)
+                .saturating_mul(limits.threads.max(1))
+                .saturating_mul(WORKGROUP),
             band_rows,
             switches: Switches::default(),
             memory: Memory::default(),
@@ -128,8 +129,8 @@ fn count_memory(packed: &PackedScene, plan: &Plan, width: u32) -> Memory {
     let mut arrays = vec![
         (memory::PRIMITIVES, memory::PRIMITIVE_BYTES * packed.primitives.len() as u64),
         (memory::TABLES, 16 * tables.len() as u64),
-        ("film sum", pixels * memory::FILM_BYTES / 2),
-        ("film compensation", pixels * memory::FILM_BYTES / 2),
+        (memory::FILM_SUM, pixels * memory::FILM_BYTES / 2),
+        (memory::FILM_COMPENSATION, pixels * memory::FILM_BYTES / 2),
     ];
     if plan.switches.enabled.contains("RAY_QUERY") {
         arrays.push((memory::ESTIMATED_ACCELERATION, memory::ACCELERATION_BYTES * u64::from(packed.hierarchy.primitive_count)));

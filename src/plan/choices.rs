@@ -25,6 +25,9 @@ pub enum StageMode {
     Fused,
 }
 
+/// Bytes of film per pixel of a band: sum and compensation.
+pub const FILM_BYTES: u64 = 2 * 16;
+
 /// Where the film's sums live.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FilmStorage {

@@ -9,9 +9,11 @@ use super::model::Plan;
 use super::options::{PlanOptions, TraversalChoice};
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
-use crate::scene::Scene;
+use crate::scene::{RenderSettings, Scene};
 
 const ASKED_FOR: &str = "asked for";
+/// Edges by which paths end, or Russian roulette may end them, where one kernel traces whole paths.
+const LONGEST_FUSED_PATH: u32 = 1024;
 
 /// Where geometry lives, and why.
 pub(super) fn geometry(packed: &PackedScene, options: &PlanOptions) -> (GeometryPlacement, String) {
@@ -29,10 +31,16 @@ pub(super) fn geometry(packed: &PackedScene, options: &PlanOptions) -> (Geometry
 }
 
 /// How stages run, and why.
-pub(super) fn stages(geometry: GeometryPlacement, limits: &DeviceLimits, options: &PlanOptions) -> (StageMode, String) {
+pub(super) fn stages(
+    geometry: GeometryPlacement,
+    render: &RenderSettings,
+    limits: &DeviceLimits,
+    options: &PlanOptions,
+) -> (StageMode, String) {
     let (stages, because) = match options.stages {
         _ if options.trace => (StageMode::Fused, "one path is followed from its start to its end"),
         Some(stages) => (stages, ASKED_FOR),
+        None if paths_may_not_end(render) => (StageMode::Wavefront, "paths may be so long that the host has to look in between"),
         // Software devices move every word on its own: there, paths kept in registers beat queues whatever the geometry
         // (docs/performance.md).
         None if limits.software => (StageMode::Fused, "a software device moves each word of a queue on its own"),
@@ -40,6 +48,12 @@ pub(super) fn stages(geometry: GeometryPlacement, limits: &DeviceLimits, options
         None => (StageMode::Wavefront, "rays take differently long, and queues keep the lanes of hardware together"),
     };
     (stages, because.into())
+}
+
+/// Whether neither the depth nor roulette ends paths within some thousand edges. A kernel that traces whole paths could then run for minutes.
+fn paths_may_not_end(render: &RenderSettings) -> bool {
+    let ends = |edge: u32| (1..=LONGEST_FUSED_PATH).contains(&edge);
+    !ends(render.max_depth) && !ends(render.roulette_depth)
 }
 
 /// All decisions of a plan whose memory is counted, in words, in the order of the data's way. `geometry` and `stages` are the reasons for those.
@@ -97,9 +111,18 @@ pub(super) fn explain(
     }
     let (film, because) = match plan.film {
         FilmStorage::Texture => ("rgba32float storage textures", "the device reads and writes them"),
-        FilmStorage::Buffer => ("storage buffers", "the device cannot read and write textures of four floats, or none so wide"),
+        FilmStorage::Buffer => ("storage buffers", "the device cannot read and write textures of four floats, or none so large"),
     };
-    add("film", format!("{film}, bands of {} rows", plan.band_rows), because.into());
+    let height = scene.film.size[1];
+    if plan.band_rows < height {
+        add(
+            "film",
+            format!("{film}, bands of {} rows, one after the other", plan.band_rows),
+            format!("{because}; all {height} rows are too many"),
+        );
+    } else {
+        add("film", format!("{film}, all {height} rows together"), because.into());
+    }
     decisions
 }
 

@@ -1,11 +1,18 @@
 //! What the plan has to know of a device.
 
-use super::choices::FilmStorage;
+use super::choices::{FILM_BYTES, FilmStorage};
 use super::error::PlanError;
 use super::path_state::PATH_STATE_BYTES;
 
 /// Bytes that the queue of shadow rays takes at most: five million of them keep any device busy.
 const MOST_SHADOW_RAY_BYTES: u64 = 256 << 20;
+
+/// Pixels of a film that samples go over as a whole: those of an 8K picture, which take 1 GiB. Larger pictures are rendered in bands.
+const MOST_FILM_PIXELS: u64 = 1 << 25;
+/// Pixels of a band where the device has no memory for more, which take 32 MiB.
+const FEWEST_FILM_PIXELS: u64 = 1 << 20;
+/// Where pixels are listed, a path's state has 24 bits for its pixel.
+const MOST_LISTED_PIXELS: u64 = 1 << 24;
 
 /// Limits in bytes unless the name says otherwise.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -17,6 +24,8 @@ pub struct DeviceLimits {
     pub max_array: u64,
     /// Paths in flight: enough to fill the device, few enough for its caches and for the largest binding.
     pub path_capacity: u32,
+    /// Pixels of a film that is rendered at once.
+    pub film_pixels: u64,
     /// Storage buffers that one stage can bind.
     pub max_storage_buffers: u32,
     /// In pixels.
@@ -51,6 +60,7 @@ impl Default for DeviceLimits {
             max_buffer: 256 << 20,
             max_array: 128 << 20,
             path_capacity: 1 << 20,
+            film_pixels: MOST_FILM_PIXELS,
             max_storage_buffers: 8,
             max_texture_side: 8192,
             max_workgroups: 65_535,
@@ -83,6 +93,7 @@ impl DeviceLimits {
             max_buffer: limits.max_buffer_size,
             max_array,
             path_capacity: wanted_paths.min(most_paths) as u32,
+            film_pixels: MOST_FILM_PIXELS,
             max_storage_buffers: limits.max_storage_buffers_per_shader_stage,
             max_texture_side: limits.max_texture_dimension_2d,
             max_workgroups,
@@ -114,10 +125,27 @@ impl DeviceLimits {
         u64::from(self.path_capacity).min(binding / PATH_STATE_BYTES).min(by_shadow_rays) as u32
     }
 
-    /// Rows per band so that a band's film stays below 16 MiB a texture and within the device's limits.
-    pub fn band_rows(&self, size: [u32; 2], film: FilmStorage) -> u32 {
+    /// The same, for a device that turned out to have no memory for a film of this size; None where a smaller one would not help.
+    pub fn with_small_film(&self, [width, height]: [u32; 2]) -> Option<Self> {
+        let is_large = u64::from(width) * u64::from(height) > FEWEST_FILM_PIXELS && self.film_pixels > FEWEST_FILM_PIXELS;
+        is_large.then(|| Self { film_pixels: FEWEST_FILM_PIXELS, ..self.clone() })
+    }
+
+    /// Rows of a band: all of the picture's, where memory and the device's limits allow it.
+    pub fn band_rows(&self, size: [u32; 2], film: FilmStorage, pixels_are_listed: bool) -> u32 {
         let [width, height] = size;
-        let texture_rows = if film == FilmStorage::Texture { self.max_texture_side } else { u32::MAX };
-        ((1 << 20) / width).clamp(1, texture_rows).min(height)
+        let most_pixels = if pixels_are_listed { self.film_pixels.min(MOST_LISTED_PIXELS) } else { self.film_pixels };
+        let rows_of_storage = match film {
+            FilmStorage::Texture => self.max_texture_side,
+            FilmStorage::Buffer => (self.max_array / (FILM_BYTES / 2) / u64::from(width)).clamp(1, u64::from(u32::MAX)) as u32,
+        };
+        ((most_pixels / u64::from(width)) as u32).clamp(1, rows_of_storage).min(height)
+    }
+
+    /// Where the film is kept: in textures, unless they cannot hold it or buffers hold more of it.
+    pub fn film_storage(&self, size: [u32; 2], pixels_are_listed: bool) -> FilmStorage {
+        let rows = |film| self.band_rows(size, film, pixels_are_listed);
+        let fits = self.read_write_rgba32float && size[0] <= self.max_texture_side;
+        if fits && rows(FilmStorage::Texture) >= rows(FilmStorage::Buffer) { FilmStorage::Texture } else { FilmStorage::Buffer }
     }
 }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+pub use super::choices::FILM_BYTES;
 use super::error::PlanError;
 use super::limits::DeviceLimits;
 use super::path_state::{QUEUES, SHADOW_RAY_WORDS};
@@ -12,8 +13,6 @@ use crate::packed::primitive::Primitive;
 pub const SHADOW_RAY_BYTES: u64 = 16 * SHADOW_RAY_WORDS as u64;
 /// Bytes of a path's places in the queues.
 pub const QUEUE_BYTES: u64 = 4 * QUEUES as u64;
-/// Bytes of film per pixel of a band: sum and compensation.
-pub const FILM_BYTES: u64 = 2 * 16;
 
 /// Bytes per pixel of a band in the list of pixels, where pixels are listed.
 pub const LIST_BYTES: u64 = 4;
@@ -30,6 +29,10 @@ pub const ACCELERATION_BYTES: u64 = 128;
 pub const PRIMITIVES: &str = "primitives";
 pub const NODES: &str = "hierarchy";
 pub const ATTRIBUTES: &str = "normals and texture coordinates";
+
+/// The two halves of the film.
+pub(super) const FILM_SUM: &str = "film sum";
+pub(super) const FILM_COMPENSATION: &str = "film compensation";
 
 /// What materials, lights and textures are called together.
 pub const TABLES: &str = "tables";
@@ -58,8 +61,8 @@ impl Memory {
     /// [`PlanError::DoesNotFit`] for the first array larger than the device can bind, of those that are never cut into chunks.
     pub fn check(&self, limits: &DeviceLimits) -> Result<(), PlanError> {
         let limit = limits.max_storage_binding.min(limits.max_buffer);
-        // These are cut, or bound as a whole by the device itself.
-        let cut = [PRIMITIVES, NODES, ATTRIBUTES, ESTIMATED_ACCELERATION];
+        // These are cut, or no storage bindings.
+        let cut = [PRIMITIVES, NODES, ATTRIBUTES, ESTIMATED_ACCELERATION, FILM_SUM, FILM_COMPENSATION];
         match self.arrays.iter().find(|(name, bytes)| *bytes > limit && !cut.contains(name)) {
             Some((name, bytes)) => Err(PlanError::DoesNotFit(format!(
                 "its {name} need {}, and the device can bind {} at once",

@@ -44,6 +44,8 @@ pub struct Plan {
     /// Runs of workgroups into which the device cuts a dispatch, one for each of its threads. Neighbouring workgroups are dealt to
     /// different runs, because no thread helps another with its own.
     pub runs: u32,
+    /// Pixels that a kernel can have an invocation each for.
+    pub pixels_per_dispatch: u32,
     /// Rows of a band at most.
     pub band_rows: u32,
     pub switches: Switches,

@@ -1,5 +1,7 @@
 //! Choices that a user or a tool makes instead of the plan.
 
+use std::time::Duration;
+
 use super::choices::StageMode;
 use super::fault::Fault;
 use crate::packed::hierarchy::Traversal;
@@ -30,6 +32,8 @@ pub struct PlanOptions {
     pub checked_shaders: bool,
     /// Switches of parts that are compiled though the scene does not need them, to measure what leaving them out is worth.
     pub compile_in: Vec<&'static str>,
+    /// What one submission may take before the device counts as lost; None: a minute.
+    pub device_timeout: Option<Duration>,
     /// Compute wrongly, so that tests can see whether it is noticed.
     pub fault: Option<Fault>,
 }

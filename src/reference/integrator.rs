@@ -90,7 +90,7 @@ impl Integrator {
             depth: 1,
             vertex: 0,
         };
-        while self.extend(&mut path, sampler, visitor) {}
+        while self.extend(&mut path, sampler, visitor) && !visitor.gives_up(path.vertex) {}
         path.radiance
     }
 

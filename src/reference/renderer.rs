@@ -7,19 +7,24 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::integrator::Integrator;
+use super::intersect::Ray;
 use super::rounding::Rounding;
 use super::trace::{PathTrace, PathVisitor, RayCounter};
 use crate::film::Band;
 use crate::math::luminance;
-use crate::renderer::{Batch, Observer, RenderError, RenderReport, RenderRequest, Renderer};
+use crate::renderer::{Batch, Ending, Observer, RenderError, RenderReport, RenderRequest, Renderer, Stopping};
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
 use crate::scene::{RenderSettings, Scene};
 
 /// Rows of a band.
 const BAND_ROWS: u32 = 64;
-/// Pictures up to this many pixels are rendered in several passes over all bands, so that an interrupted render has every pixel;
+/// Pictures up to this many pixels (8K) are rendered in several passes over all bands, so that an interrupted render has every pixel;
 /// larger ones band by band, so that memory stays bounded.
-const PIXELS_IN_MEMORY: u64 = 1 << 22;
+const PIXELS_IN_MEMORY: u64 = 1 << 25;
+/// Vertices after which it is looked again whether a path should be given up.
+const VERTICES_BETWEEN_LOOKS: u32 = 4096;
+/// Sweeps are planned to take so much of the time that is left.
+const CAUTION: f64 = 0.95;
 /// A pass over one band should take this long: the observer is asked after each.
 const PASS_DURATION: Duration = Duration::from_millis(150);
 /// Most samples per pixel of one pass, which bounds the table of the sequence's points.
@@ -40,14 +45,34 @@ pub struct ReferenceRenderer {
 struct PixelSum {
     radiance: DVec3,
     squared_luminance: f64,
+    samples: u32,
 }
 
 /// Rows in the making.
 struct BandSums {
     first_row: u32,
     rows: u32,
-    samples: u32,
     pixels: Vec<PixelSum>,
+}
+
+/// Counts rays, and gives up paths that do not end when the render is to.
+struct Watched<'a> {
+    rays: u64,
+    stopping: &'a Stopping<'a>,
+    gave_up: Option<Ending>,
+}
+
+impl PathVisitor for Watched<'_> {
+    fn ray(&mut self, _ray: &Ray) {
+        self.rays += 1;
+    }
+
+    fn gives_up(&mut self, vertices: u32) -> bool {
+        if vertices.is_multiple_of(VERTICES_BETWEEN_LOOKS) {
+            self.gave_up = self.stopping.gives_up_paths();
+        }
+        self.gave_up.is_some()
+    }
 }
 
 /// What the samples of a batch have in common.
@@ -55,13 +80,19 @@ struct BatchSamples<'a> {
     range: Range<u32>,
     sampling: Sampling,
     selection: Option<&'a [bool]>,
+    stopping: Stopping<'a>,
 }
 
 impl<'a> BatchSamples<'a> {
-    fn new(batch: &Batch<'a>, settings: &RenderSettings) -> Self {
+    fn new(batch: &Batch<'a>, settings: &RenderSettings, observer: &'a dyn Observer) -> Self {
         let scenes = Sampling::from(settings);
         let sampling = Sampling { seed: batch.seed.unwrap_or(scenes.seed), ..scenes };
-        Self { range: batch.request.samples.clone(), sampling, selection: batch.selection }
+        Self {
+            range: batch.request.samples.clone(),
+            sampling,
+            selection: batch.selection,
+            stopping: Stopping::new(observer, batch.deadline),
+        }
     }
 
     fn takes_part(&self, pixel: usize) -> bool {
@@ -75,6 +106,8 @@ struct Tally {
     samples: u64,
     rays: u64,
     non_finite: u64,
+    /// Paths were given up.
+    gave_up: Option<Ending>,
 }
 
 impl Add for Tally {
@@ -85,6 +118,7 @@ impl Add for Tally {
             samples: self.samples + other.samples,
             rays: self.rays + other.rays,
             non_finite: self.non_finite + other.non_finite,
+            gave_up: self.gave_up.or(other.gave_up),
         }
     }
 }
@@ -123,13 +157,18 @@ impl ReferenceRenderer {
     }
 
     /// Adds one sample of a pixel per point to its sum.
-    fn sample_pixel(&self, x: u32, y: u32, sampling: &Sampling, points: &[SequencePoint], sum: &mut PixelSum) -> Tally {
+    fn sample_pixel(&self, x: u32, y: u32, batch: &BatchSamples<'_>, points: &[SequencePoint], sum: &mut PixelSum) -> Tally {
+        let sampling = &batch.sampling;
         let pixel = y.wrapping_mul(self.integrator.scene().film.size[0]).wrapping_add(x);
-        let mut counter = RayCounter::default();
-        let mut non_finite = 0;
+        let mut watched = Watched { rays: 0, stopping: &batch.stopping, gave_up: None };
+        let (mut samples, mut non_finite) = (0, 0);
         for point in points {
             let sampler = PathSampler::new(sampling, pixel, point);
-            let radiance = self.integrator.radiance(x, y, &sampler, &mut counter);
+            let radiance = self.integrator.radiance(x, y, &sampler, &mut watched);
+            if watched.gave_up.is_some() {
+                break;
+            }
+            samples += 1;
             if is_acceptable(radiance) {
                 sum.radiance += radiance;
                 sum.squared_luminance += luminance(radiance).powi(2);
@@ -137,7 +176,8 @@ impl ReferenceRenderer {
                 non_finite += 1;
             }
         }
-        Tally { samples: points.len() as u64, rays: counter.0, non_finite }
+        sum.samples += samples;
+        Tally { samples: u64::from(samples), rays: watched.rays, non_finite, gave_up: watched.gave_up }
     }
 
     /// One pass over a band: the samples `range` of the request.
@@ -151,13 +191,12 @@ impl ReferenceRenderer {
                 if !batch.takes_part(y as usize * width + x) {
                     return Tally::default();
                 }
-                this.sample_pixel(x as u32, y, &batch.sampling, &points, sum)
+                this.sample_pixel(x as u32, y, batch, &points, sum)
             };
             row.iter_mut().enumerate().map(sample).fold(Tally::default(), Tally::add)
         };
         let rows = band.pixels.par_chunks_mut(width).zip(band.first_row..band.first_row + band.rows);
         let tally = rows.map(sample_row).reduce(Tally::default, Tally::add);
-        band.samples += range.len() as u32;
         self.timed_samples += tally.samples as f64;
         self.timed_seconds += start.elapsed().as_secs_f64();
         tally
@@ -170,21 +209,41 @@ impl ReferenceRenderer {
         first..first + (fitting as u32).clamp(1, SAMPLES_PER_PASS).min(batch.range.end - first)
     }
 
-    /// Renders all samples of a group of bands, pass by pass. False when the observer asked to stop.
-    fn render_group(&mut self, bands: &mut [BandSums], batch: &BatchSamples<'_>, progress: &mut Progress) -> bool {
+    /// Samples that a sweep over so many pixels can have to end within the time.
+    fn samples_within(&self, pixels: usize, time: Duration) -> u32 {
+        (time.as_secs_f64() * self.timed_samples / self.timed_seconds.max(1e-9) / pixels.max(1) as f64) as u32
+    }
+
+    /// Renders all samples of a group of bands, pass by pass; why it ended early, if it did.
+    fn render_group(&mut self, bands: &mut [BandSums], batch: &BatchSamples<'_>, progress: &mut Progress) -> Option<Ending> {
+        let largest = bands.iter().map(|band| band.pixels.len()).max().unwrap_or(0);
+        let all = bands.iter().map(|band| band.pixels.len()).sum();
         let mut next = batch.range.start;
         while next < batch.range.end {
-            let largest = bands.iter().map(|band| band.pixels.len()).max().unwrap_or(0);
-            let range = self.next_samples(largest, batch, next);
-            for band in bands.iter_mut() {
+            let mut range = self.next_samples(largest, batch, next);
+            let is_first = next == batch.range.start;
+            if let Some(time) = batch.stopping.time_left() {
+                let fitting = if is_first { 1 } else { self.samples_within(all, time.mul_f64(CAUTION)) };
+                if fitting == 0 {
+                    return Some(Ending::OutOfTime);
+                }
+                range.end = range.end.min(range.start.saturating_add(fitting));
+            }
+            let last = bands.len() - 1;
+            for (index, band) in bands.iter_mut().enumerate() {
                 let tally = self.sample_band(band, batch, &range);
-                if !progress.add(tally) {
-                    return false;
+                progress.add(tally);
+                if tally.gave_up.is_some() {
+                    return tally.gave_up;
+                }
+                let is_last = range.end == batch.range.end && index == last;
+                if !is_last && let Some(ending) = batch.stopping.after_pass(!is_first || index == last) {
+                    return Some(ending);
                 }
             }
             next = range.end;
         }
-        true
+        None
     }
 }
 
@@ -196,15 +255,19 @@ struct Progress<'a> {
 }
 
 impl Progress<'_> {
-    /// False: stop.
-    fn add(&mut self, tally: Tally) -> bool {
+    fn add(&mut self, tally: Tally) {
         self.report.rays += tally.rays;
         self.report.non_finite_samples += tally.non_finite;
         self.report.samples += tally.samples;
         self.observer.progress(self.report.samples, self.total);
-        self.report.interrupted = self.report.samples < self.total && self.observer.stop_requested();
-        !self.report.interrupted
     }
+}
+
+/// Whether all pixels that take part have the same number of samples.
+fn are_even(bands: &[BandSums], batch: &BatchSamples<'_>, width: u32) -> bool {
+    let mut counts = bands.iter().flat_map(|band| band.counts(batch, width));
+    let first = counts.next();
+    counts.all(|count| Some(count) == first)
 }
 
 /// A film takes radiance that is finite, in f32 too, and not negative.
@@ -215,22 +278,39 @@ fn is_acceptable(radiance: DVec3) -> bool {
 }
 
 impl BandSums {
-    fn finish(&self, width: u32) -> Band {
-        let scale = 1.0 / f64::from(self.samples.max(1));
+    fn finish(&self, width: u32, batch: &BatchSamples<'_>, with_counts: bool) -> Band {
+        let scale = |sum: &PixelSum| 1.0 / f64::from(sum.samples.max(1));
         Band {
             first_row: self.first_row,
             width,
             rows: self.rows,
-            samples: self.samples,
-            mean: self.pixels.iter().map(|sum| (sum.radiance * scale).as_vec3().to_array()).collect(),
-            second_moment: self.pixels.iter().map(|sum| (sum.squared_luminance * scale) as f32).collect(),
+            samples: self.counts(batch, width).fold(batch.range.len() as u32, u32::min),
+            counts: with_counts.then(|| self.pixels.iter().map(|sum| sum.samples).collect()),
+            mean: self.pixels.iter().map(|sum| (sum.radiance * scale(sum)).as_vec3().to_array()).collect(),
+            second_moment: self.pixels.iter().map(|sum| (sum.squared_luminance * scale(sum)) as f32).collect(),
         }
+    }
+
+    fn has_samples(&self) -> bool {
+        self.pixels.iter().any(|sum| sum.samples > 0)
+    }
+
+    /// Samples of the pixels that take part.
+    fn counts(&self, batch: &BatchSamples<'_>, width: u32) -> impl Iterator<Item = u32> {
+        let first = (self.first_row * width) as usize;
+        let pixels = self.pixels.iter().enumerate();
+        pixels.filter(move |(pixel, _)| batch.takes_part(first + pixel)).map(|(_, sum)| sum.samples)
     }
 }
 
 impl Renderer for ReferenceRenderer {
     fn device(&self) -> &str {
         "CPU reference"
+    }
+
+    fn holds_whole_film(&self) -> bool {
+        let [width, height] = self.integrator.scene().film.size;
+        u64::from(width) * u64::from(height) <= PIXELS_IN_MEMORY
     }
 
     fn set_samples_per_pixel(&mut self, spp: u32) {
@@ -246,7 +326,7 @@ impl Renderer for ReferenceRenderer {
         let start = Instant::now();
         let [width, height] = self.integrator.scene().film.size;
         let RenderRequest { rows, .. } = batch.request;
-        let samples = BatchSamples::new(batch, &self.integrator.scene().render);
+        let samples = BatchSamples::new(batch, &self.integrator.scene().render, observer);
         if rows.end > height {
             return Err(RenderError::Internal(format!("rows up to {} of a picture of {height} rows", rows.end)));
         }
@@ -259,12 +339,17 @@ impl Renderer for ReferenceRenderer {
             let new_band = |&first_row: &u32| {
                 let band_rows = BAND_ROWS.min(rows.end - first_row);
                 let pixels = vec![PixelSum::default(); width as usize * band_rows as usize];
-                BandSums { first_row, rows: band_rows, samples: 0, pixels }
+                BandSums { first_row, rows: band_rows, pixels }
             };
             let mut bands: Vec<BandSums> = group.iter().map(new_band).collect();
-            let completed = self.render_group(&mut bands, &samples, &mut progress);
-            bands.iter().filter(|band| band.samples > 0).try_for_each(|band| on_band(band.finish(width)))?;
-            if !completed {
+            let ended = self.render_group(&mut bands, &samples, &mut progress);
+            // Where memory holds a part of the picture only, earlier parts cannot know that a later one ends in the middle of a sweep.
+            let with_counts = bands.len() < first_rows.len() || !are_even(&bands, &samples, width);
+            let is_worth_delivering = |band: &&BandSums| ended.is_none() || band.has_samples();
+            bands.iter().filter(is_worth_delivering).try_for_each(|band| on_band(band.finish(width, &samples, with_counts)))?;
+            if ended.is_some() {
+                progress.report.interrupted = ended == Some(Ending::Interrupted);
+                progress.report.out_of_time = ended == Some(Ending::OutOfTime);
                 break;
             }
         }

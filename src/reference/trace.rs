@@ -34,6 +34,10 @@ pub trait PathVisitor {
     fn light(&mut self, _connection: &LightConnection) {}
     fn scattered(&mut self, _sample: &BsdfSample) {}
     fn roulette(&mut self, _survival: f64, _survived: bool) {}
+    /// Whether to leave off following a path that has so many vertices.
+    fn gives_up(&mut self, _vertices: u32) -> bool {
+        false
+    }
     /// The path left the scene.
     fn escaped(&mut self, _radiance: DVec3, _weight: f64, _contribution: DVec3) {}
 

@@ -41,17 +41,21 @@ impl Choice {
             return Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: None });
         };
         match GpuRenderer::once_open(opening, scene, options) {
-            Err(RenderError::NoDevice(_)) if self.choice == DeviceChoice::Auto && !options.asks_for_ray_queries() => {
-                Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: Some(no_adapter_notice()) })
+            Err(RenderError::NoDevice(why)) if self.choice == DeviceChoice::Auto && !options.asks_for_ray_queries() => {
+                Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: Some(no_adapter_notice(&why)) })
             }
             outcome => Ok(ChosenRenderer { renderer: Box::new(outcome?), notice: None }),
         }
     }
 }
 
-/// Why `auto` means the CPU: no adapter, or what keeps each from being used.
-fn no_adapter_notice() -> String {
-    let obstacles: Vec<String> = list_devices()
+/// Why `auto` means the CPU: no adapter, what keeps each from being used, or why the one to use does not open.
+fn no_adapter_notice(why: &str) -> String {
+    let adapters = list_devices();
+    if adapters.iter().any(|adapter| adapter.unusable.is_none()) {
+        return format!("rendering on the CPU, which is slower, because {why}");
+    }
+    let obstacles: Vec<String> = adapters
         .into_iter()
         .filter_map(|adapter| adapter.unusable.map(|obstacle| format!("{} {obstacle}", adapter.name)))
         .collect();

@@ -24,6 +24,8 @@ struct Rendered {
     outcome: Outcome,
     /// Samples of the pixel that has fewest.
     fewest_samples: u32,
+    /// Samples of each pixel, where they may differ.
+    counts: Option<Vec<u32>>,
 }
 
 impl Image {
@@ -31,15 +33,19 @@ impl Image {
     pub(super) fn rendered([width, height]: [u32; 2], bands: &[Band], provenance: Provenance, outcome: Outcome) -> Self {
         let mut pixels = vec![[0.0; 3]; width as usize * height as usize];
         let (mut rows, mut fewest_samples) = (0, u32::MAX);
+        let mut counts = bands.iter().any(|band| band.counts.is_some()).then(|| vec![0; pixels.len()]);
         for band in bands {
             let start = band.first_row as usize * width as usize;
             pixels[start..start + band.mean.len()].copy_from_slice(&band.mean);
+            if let (Some(counts), Some(of_band)) = (&mut counts, &band.counts) {
+                counts[start..start + of_band.len()].copy_from_slice(of_band);
+            }
             rows += band.rows;
             fewest_samples = fewest_samples.min(band.samples);
         }
         let fewest_samples = if rows == height { fewest_samples } else { 0 };
         let pixels = output::Image { width, height, pixels };
-        Self { pixels, rendered: Some(Rendered { provenance, outcome, fewest_samples }) }
+        Self { pixels, rendered: Some(Rendered { provenance, outcome, fewest_samples, counts }) }
     }
 
     /// Reads an OpenEXR file, or a PNG, JPEG, Radiance HDR or another of the common formats, by its content. Integers are taken for sRGB.
@@ -88,7 +94,8 @@ impl Image {
         let provenance = self.rendered.as_ref().map(|rendered| rendered.provenance.clone());
         let mut file = PictureFile::create(path, format, &PictureSpec { width, height, exposure: 0.0, provenance })?;
         let samples = self.rendered.as_ref().map_or(0, |rendered| rendered.fewest_samples);
-        let band = Band { first_row: 0, width, rows: height, samples, mean: pixels.clone(), second_moment: Vec::new() };
+        let counts = self.rendered.as_ref().and_then(|rendered| rendered.counts.clone());
+        let band = Band { first_row: 0, width, rows: height, samples, counts, mean: pixels.clone(), second_moment: Vec::new() };
         file.write_band(&Arc::new(band)).map_err(|source| OutputError::Write { path: path.to_owned(), source })?;
         file.finish()
     }

@@ -10,6 +10,10 @@ use crate::renderer::DeviceChoice;
 use crate::scene::Scene;
 use crate::scene::settings::MOST_SAMPLES;
 
+/// Why some pictures cannot be rendered in parts.
+pub const PARTS_OF_STRATA: &str = "the sampler `stratified` lays out its strata for all samples of a picture, so parts of them would not add \
+     up to the whole; the other samplers' do";
+
 /// How a scene is rendered. The default renders what the scene says on the best device there is.
 ///
 /// How light is estimated is part of the scene: see [`Scene::render`](crate::Scene#structfield.render).
@@ -79,6 +83,9 @@ impl RenderOptions {
         if self.first_sample > 0 && (self.adaptive || self.target_error.is_some()) {
             return Some("first_sample belongs to renders with a fixed number of samples".to_owned());
         }
+        if self.first_sample > 0 && scene.render.uses_strata() {
+            return Some(PARTS_OF_STRATA.to_owned());
+        }
         let target = self.target_error?;
         if !(target.is_finite() && target > 0.0) {
             return Some(format!("target_error is a number above 0, not {target}"));
@@ -91,6 +98,7 @@ impl RenderOptions {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::SamplerKind;
 
     #[test]
     fn options_replace_what_the_scene_says() {
@@ -122,5 +130,12 @@ mod tests {
         }
         let good = RenderOptions { target_error: Some(0.1), samples: Some(2 * STREAMS), ..default() };
         assert!(good.applied(&Scene::default()).is_ok());
+        let mut strata = Scene::default();
+        strata.render.sampler = SamplerKind::Stratified;
+        assert!(RenderOptions { first_sample: 1, ..default() }.applied(&strata).is_err());
+        assert!(
+            default().applied(&strata).is_ok()
+                && RenderOptions { first_sample: 1, ..default() }.applied(&Scene::default()).is_ok()
+        );
     }
 }

@@ -6,11 +6,11 @@ use std::time::Instant;
 use super::choice::{Choice, ChosenRenderer};
 use super::image::Image;
 use super::options::RenderOptions;
-use super::progressive::{self, Goal, Outcome, Stop};
+use super::progressive::{self, Goal, Outcome};
 use crate::error::Error;
 use crate::film::Band;
 use crate::output::Provenance;
-use crate::renderer::{self, Observer, RenderError, RenderRequest};
+use crate::renderer::{self, Observer, RenderError};
 use crate::scene::{self, Scene};
 
 /// A scene made ready on a device: packed, uploaded, its kernels compiled. It may be rendered any number of times.
@@ -89,7 +89,7 @@ impl Renderer {
     /// Renders, and hands over finished rows from the top, each once. Where the observer stops it, the rows hold what was done until then.
     ///
     /// # Errors
-    /// What the device or `on_band` reports.
+    /// What the device or `on_band` reports. Where the device is lost, rows hold what was read from it before, and the error follows.
     pub fn render(&mut self, observer: &dyn Observer, on_band: &mut dyn FnMut(Band) -> io::Result<()>) -> Result<Outcome, Error> {
         Ok(self.render_from(Instant::now(), observer, on_band)?)
     }
@@ -120,11 +120,6 @@ impl Renderer {
     ) -> Result<Outcome, RenderError> {
         let RenderOptions { first_sample, time_limit, target_error, adaptive, .. } = self.options;
         let samples = first_sample..first_sample + self.provenance.settings.spp;
-        if time_limit.is_none() && target_error.is_none() && !adaptive {
-            let report = self.renderer.render(&RenderRequest { rows: 0..self.size[1], samples }, observer, on_band)?;
-            let stop = if report.interrupted { Stop::Interrupted } else { Stop::Samples };
-            return Ok(Outcome { report, stop, error: None });
-        }
         // A limit beyond what the clock can tell is none.
         let deadline = time_limit.and_then(|limit| start.checked_add(limit));
         let goal = Goal { samples, deadline, target_error, adaptive };

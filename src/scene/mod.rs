@@ -15,6 +15,7 @@ pub mod material;
 mod model;
 pub mod motion;
 mod placement;
+mod precision;
 pub mod settings;
 pub mod shape;
 mod summary;

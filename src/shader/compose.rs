@@ -6,6 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
+use std::path::PathBuf;
 
 use super::switches;
 
@@ -65,6 +66,8 @@ pub enum ComposeError {
     Directive { file: &'static str, line: u32, message: String },
     #[error("{place}: {message}")]
     Invalid { place: String, message: String },
+    #[error("GPT_SHADERS names {}, which is no folder; without it, the shaders of the program are used", .0.display())]
+    NoFolder(PathBuf),
 }
 
 /// Where constants come from that stand in no file.
@@ -72,6 +75,9 @@ const PLAN_CONSTANTS: &str = "(constants of the plan)";
 
 /// Composes the file `root` with all that it imports.
 pub fn compose(root: &'static str, switches: &Switches) -> Result<ComposedShader, ComposeError> {
+    if let Some(folder) = own_folder().filter(|folder| !folder.is_dir()) {
+        return Err(ComposeError::NoFolder(folder));
+    }
     let mut composer = Composer {
         switches,
         included: BTreeSet::new(),
@@ -101,8 +107,13 @@ fn switches_read(line: &str) -> impl Iterator<Item = &str> {
 
 /// The embedded text, or that of the same file in the folder that `GPT_SHADERS` names: for work on kernels without compiling Rust.
 fn current_text(name: &str, embedded: &str) -> String {
-    let folder = std::env::var_os("GPT_SHADERS").map(std::path::PathBuf::from);
-    folder.and_then(|folder| std::fs::read_to_string(folder.join(name)).ok()).unwrap_or_else(|| embedded.to_owned())
+    let own = own_folder().and_then(|folder| std::fs::read_to_string(folder.join(name)).ok());
+    own.unwrap_or_else(|| embedded.to_owned())
+}
+
+/// The folder that `GPT_SHADERS` names.
+fn own_folder() -> Option<PathBuf> {
+    std::env::var_os("GPT_SHADERS").map(PathBuf::from)
 }
 
 struct Composer<'a> {

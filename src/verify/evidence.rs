@@ -64,6 +64,7 @@ fn write_picture(
         width: verdict.width,
         rows: verdict.height,
         samples: verdict.spp,
+        counts: None,
         second_moment: vec![0.0; pixels.len()],
         mean: pixels,
     };

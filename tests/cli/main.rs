@@ -5,10 +5,13 @@ mod common;
 
 mod bench;
 mod documents;
+mod endings;
+mod faults;
 mod goals;
 mod inputs;
 #[cfg(unix)]
 mod on_unix;
+mod outputs;
 mod traversal;
 
 use std::fs;

@@ -136,7 +136,7 @@ fn selected_pixels(device: &Device, scene: &Scene, stages: StageMode, traversal:
         pixels.extend(band.mean.iter().map(|pixel| pixel.map(f32::to_bits)));
         Ok(())
     };
-    let batch = Batch { request: &request, seed: None, selection: Some(&selection) };
+    let batch = Batch { selection: Some(&selection), ..Batch::of(&request) };
     let rays = renderer.render_batch(&batch, &Silent, &mut on_band).expect("it renders").rays;
     (pixels, rays)
 }

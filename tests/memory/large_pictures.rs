@@ -14,7 +14,15 @@ const BAND_ROWS: u32 = 32;
 fn band(first_row: u32) -> Arc<Band> {
     let pixels = SIZE[0] * BAND_ROWS;
     let mean = (0..pixels).map(|pixel| [(first_row + pixel / SIZE[0]) as f32 / SIZE[1] as f32, 0.5, 0.25]).collect();
-    Arc::new(Band { first_row, width: SIZE[0], rows: BAND_ROWS, samples: 1, mean, second_moment: vec![0.0; pixels as usize] })
+    Arc::new(Band {
+        first_row,
+        width: SIZE[0],
+        rows: BAND_ROWS,
+        samples: 1,
+        counts: None,
+        mean,
+        second_moment: vec![0.0; pixels as usize],
+    })
 }
 
 #[test]

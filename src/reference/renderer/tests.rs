@@ -111,7 +111,7 @@ struct StopAfter(AtomicU32);
 
 impl Observer for StopAfter {
     fn progress(&self, _done: u64, _total: u64) {
-        self.0.fetch_sub(1, Ordering::Relaxed);
+        let _ = self.0.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| Some(left.saturating_sub(1)));
     }
     fn stop_requested(&self) -> bool {
         self.0.load(Ordering::Relaxed) == 0
@@ -124,7 +124,11 @@ fn a_stopped_render_delivers_what_is_done() {
     let request = || RenderRequest { rows: 0..200, samples: 0..10_000 };
     let (report, bands) = render(&scene, request(), &StopAfter(AtomicU32::new(2)));
     assert!(report.interrupted);
-    assert_eq!(bands.iter().map(|band| (band.first_row, band.samples)).collect::<Vec<_>>(), [(0, 1), (64, 1)]);
+    assert_eq!(
+        bands.iter().map(|band| (band.first_row, band.samples)).collect::<Vec<_>>(),
+        [(0, 1), (64, 1), (128, 1), (192, 1)]
+    );
+    assert!(bands.iter().all(|band| band.counts.is_none()), "the first sweep is finished");
     let (report, bands) = render(&scene, request(), &StopAfter(AtomicU32::new(6)));
     let samples: Vec<u32> = bands.iter().map(|band| band.samples).collect();
     assert!(report.interrupted && samples.len() == 4 && samples[0] > samples[2] && samples[2] == 1, "{samples:?}");

@@ -147,7 +147,7 @@ mod tests {
             for first_row in (0..1000).step_by(100) {
                 let value = |index: u32| [(first_row * 1024 + index) as f32; 3];
                 let mean = (0..102_400).map(value).collect();
-                let band = Band { first_row, width: 1024, rows: 100, samples: 2, mean, second_moment: Vec::new() };
+                let band = Band { first_row, width: 1024, rows: 100, samples: 2, counts: None, mean, second_moment: Vec::new() };
                 estimator.add(stream, &band, None);
             }
         }

@@ -1,6 +1,6 @@
 //! Rendering until something other than a number of samples is reached: a time, an error, and with more samples where the noise is.
 //!
-//! A picture is rendered in **steps**, the first of which covers the whole film, so that it is whole whenever it ends. What steps bring is
+//! Where only time may end a render early, the renderer itself goes over the film until then ([`Batch::deadline`]). Else a picture is rendered in **steps**, the first of which covers the whole film, so that it is whole whenever it ends. What steps bring is
 //! averaged on the host.
 //!
 //! - With an error to reach, every step renders several **streams** of samples, each with random numbers of its own. Streams are
@@ -76,14 +76,46 @@ pub fn render(
     observer: &dyn Observer,
     on_band: &mut dyn FnMut(Band) -> io::Result<()>,
 ) -> Result<Outcome, RenderError> {
+    let in_sweeps = goal.deadline.is_none() || renderer.holds_whole_film();
+    if goal.target_error.is_none() && !goal.adaptive && in_sweeps {
+        let request = RenderRequest { rows: 0..size[1], samples: goal.samples.clone() };
+        let batch = Batch { seed: Some(seed), deadline: goal.deadline, ..Batch::of(&request) };
+        return render_sweeps(renderer, &batch, observer, on_band);
+    }
     let start = Instant::now();
     let mut work = Work::new(renderer, size, seed, goal, observer);
-    let stop = work.run()?;
-    work.picture.deliver(on_band)?;
+    let stop = work.run();
+    // What was rendered before a device was lost is not.
+    if matches!(stop, Ok(_) | Err(RenderError::DeviceLost(_))) {
+        work.picture.deliver(on_band)?;
+    }
+    let stop = stop?;
     let mut report = work.report;
     report.render_seconds = start.elapsed().as_secs_f64();
     report.interrupted = stop == Stop::Interrupted;
     Ok(Outcome { report, stop, error: work.error })
+}
+
+/// Where nothing but time may end a render before its last sample, the device's film has it all: the picture is, bit for bit, the one that no
+/// limit would have given, as far as it goes.
+fn render_sweeps(
+    renderer: &mut dyn Renderer,
+    batch: &Batch<'_>,
+    observer: &dyn Observer,
+    on_band: &mut dyn FnMut(Band) -> io::Result<()>,
+) -> Result<Outcome, RenderError> {
+    let report = renderer.render_batch(batch, observer, on_band)?;
+    let stop = stop_of(&report).unwrap_or(Stop::Samples);
+    Ok(Outcome { report, stop, error: None })
+}
+
+/// Why a batch ended early, if it did.
+fn stop_of(report: &RenderReport) -> Option<Stop> {
+    match (report.interrupted, report.out_of_time) {
+        (true, _) => Some(Stop::Interrupted),
+        (_, true) => Some(Stop::TimeLimit),
+        _ => None,
+    }
 }
 
 /// Samples of each stream that are rendered of the same pixels.
@@ -211,8 +243,9 @@ impl<'a> Work<'a> {
             };
             let started = Instant::now();
             for stream in 0..self.streams {
-                if !self.render_stream(stream, next..next + requests, part, &mut doublings)? {
-                    return Ok(Some(Stop::Interrupted));
+                let ended = self.render_stream(stream, next..next + requests, part, &mut doublings)?;
+                if ended.is_some() {
+                    return Ok(ended);
                 }
             }
             self.clock.learn(f64::from(requests) * samples_per_request, started.elapsed());
@@ -224,21 +257,21 @@ impl<'a> Work<'a> {
         Ok(None)
     }
 
-    /// One stream's part of a step; false where it was interrupted.
+    /// One stream's part of a step; why it ended early, if it did.
     fn render_stream(
         &mut self,
         stream: u32,
         samples: Range<u32>,
         part: &Part<'_>,
         doublings: &mut Option<(&mut Doublings, usize)>,
-    ) -> Result<bool, RenderError> {
+    ) -> Result<Option<Stop>, RenderError> {
         let first = self.goal.samples.start;
         // Of what this part brings to a pixel's means.
         let part_of_mean = samples.len() as f32 / (part.samples.len() as u32 * self.streams) as f32;
         let request = RenderRequest { rows: 0..self.size[1], samples: first + samples.start..first + samples.end };
         // The first is the scene's own, so that a render that only time ends is the beginning of the one that nothing ends.
         let seed = if stream == 0 { self.seed } else { mix(self.seed ^ mix(stream)) };
-        let batch = Batch { request: &request, seed: Some(seed), selection: part.selection };
+        let batch = Batch { request: &request, seed: Some(seed), selection: part.selection, deadline: self.goal.deadline };
         let total = u64::from(self.size[0]) * u64::from(self.size[1]) * self.goal.samples.len() as u64;
         let observer = Offset { observer: self.observer, before: self.report.samples, total: total.max(self.report.samples) };
         let (picture, estimator) = (&mut self.picture, &mut self.estimator);
@@ -252,9 +285,9 @@ impl<'a> Work<'a> {
             picture.add(&band, part.selection, part.share);
             Ok(())
         })?;
-        let interrupted = report.interrupted;
+        let ended = stop_of(&report);
         add_report(&mut self.report, report);
-        Ok(!interrupted)
+        Ok(ended)
     }
 
     /// Requests of the next step if there is time enough: many enough that looking costs little, few enough not to overshoot.

@@ -27,9 +27,9 @@ impl Picture {
     pub fn add(&mut self, band: &Band, selection: Option<&[bool]>, share: f64) {
         let first_row = band.first_row as usize;
         let first = first_row * self.width;
-        let weight = band.samples as f32;
         for (pixel, (sum, mean)) in self.radiance[first..].iter_mut().zip(&band.mean).enumerate() {
             if selection.is_none_or(|selection| selection[first + pixel]) {
+                let weight = band.counts.as_ref().map_or(band.samples, |counts| counts[pixel]) as f32;
                 for (sum, mean) in sum.iter_mut().zip(mean) {
                     *sum += weight * mean;
                 }
@@ -55,28 +55,32 @@ impl Picture {
     /// # Errors
     /// What the receiver says.
     pub fn deliver(&self, on_band: &mut dyn FnMut(Band) -> io::Result<()>) -> io::Result<()> {
+        let first = self.radiance.first().map_or(0.0, |sum| sum[3]);
+        let with_counts = self.radiance.iter().any(|sum| sum[3] != first);
         let mut row = 0;
         while row < self.height {
             // A band has one number of samples.
             let samples = self.samples[row];
             let alike = self.samples[row..].iter().take(BAND_ROWS).take_while(|other| **other == samples).count();
-            if samples > 0.0 {
-                on_band(self.band(row, alike, samples))?;
+            let pixels = row * self.width..(row + alike) * self.width;
+            if self.radiance[pixels].iter().any(|sum| sum[3] > 0.0) {
+                on_band(self.band(row, alike, samples, with_counts))?;
             }
             row += alike;
         }
         Ok(())
     }
 
-    fn band(&self, first_row: usize, rows: usize, samples: f32) -> Band {
-        let pixels = first_row * self.width..(first_row + rows) * self.width;
+    fn band(&self, first_row: usize, rows: usize, samples: f32, with_counts: bool) -> Band {
+        let pixels = &self.radiance[first_row * self.width..(first_row + rows) * self.width];
         let mean = |[r, g, b, weight]: &[f32; 4]| [r, g, b].map(|sum| if *weight > 0.0 { sum / weight } else { 0.0 });
         Band {
             first_row: first_row as u32,
             width: self.width as u32,
             rows: rows as u32,
             samples: samples as u32,
-            mean: self.radiance[pixels].iter().map(mean).collect(),
+            counts: with_counts.then(|| pixels.iter().map(|sum| sum[3] as u32).collect()),
+            mean: pixels.iter().map(mean).collect(),
             second_moment: Vec::new(),
         }
     }
@@ -88,7 +92,15 @@ mod tests {
 
     fn band(first_row: u32, rows: u32, samples: u32, value: f32) -> Band {
         let pixels = 2 * rows as usize;
-        Band { first_row, width: 2, rows, samples, mean: vec![[value; 3]; pixels], second_moment: vec![value; pixels] }
+        Band {
+            first_row,
+            width: 2,
+            rows,
+            samples,
+            counts: None,
+            mean: vec![[value; 3]; pixels],
+            second_moment: vec![value; pixels],
+        }
     }
 
     #[test]
@@ -105,6 +117,7 @@ mod tests {
         picture.deliver(&mut collect).unwrap();
         let rows: Vec<_> = bands.iter().map(|band| (band.first_row, band.rows, band.samples, band.mean[0][0])).collect();
         assert_eq!(rows, [(0, 2, 4, 4.0), (2, 2, 1, 1.0)]);
+        assert_eq!(bands.iter().flat_map(|band| band.counts.clone().unwrap()).collect::<Vec<_>>(), [4, 4, 4, 4, 1, 1, 1, 1]);
     }
 
     #[test]
@@ -120,6 +133,21 @@ mod tests {
         };
         picture.deliver(&mut collect).unwrap();
         assert_eq!(means, [1.0, 4.0]);
+    }
+
+    /// A batch that ended in the middle of a sweep counts, pixel by pixel, as far as it got.
+    #[test]
+    fn pixels_are_weighed_by_their_own_samples() {
+        let mut picture = Picture::new([2, 1]);
+        picture.add(&band(0, 1, 2, 1.0), None, 1.0);
+        picture.add(&Band { counts: Some(vec![6, 0]), ..band(0, 1, 0, 5.0) }, None, 1.0);
+        let mut found = None;
+        let mut take = |band: Band| {
+            found = Some((band.mean, band.counts, band.samples));
+            Ok(())
+        };
+        picture.deliver(&mut take).unwrap();
+        assert_eq!(found, Some((vec![[4.0; 3], [1.0; 3]], Some(vec![8, 2]), 2)));
     }
 
     #[test]

@@ -220,6 +220,12 @@ impl RenderSettings {
         if (1..=self.light_samples_depth).contains(&depth) { self.light_samples } else { 1 }
     }
 
+    /// Random numbers depend on how many samples there are in all: the first samples of many are not those of few.
+    #[doc(hidden)]
+    pub fn uses_strata(&self) -> bool {
+        [self.pixel_sampler, PixelSampler::Other(self.sampler)].contains(&PixelSampler::Other(SamplerKind::Stratified))
+    }
+
     /// Every setting with the value that counts: where the pixel's sampler is the path's, it has that one's name.
     #[doc(hidden)]
     pub fn values(&self) -> impl Iterator<Item = (&'static Setting, Value)> {

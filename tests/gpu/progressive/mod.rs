@@ -66,7 +66,7 @@ fn render_batch(
         bands.push(band);
         Ok(())
     };
-    let batch = Batch { request: &request, seed: Some(seed), selection };
+    let batch = Batch { seed: Some(seed), selection, ..Batch::of(&request) };
     renderer.render_batch(&batch, &Silent, &mut on_band).expect("it renders");
     bands
 }
@@ -167,6 +167,22 @@ fn a_picture_that_time_ended_is_the_one_of_its_samples() {
         assert!(distance(&plain) < 1e-5, "{}", distance(&plain));
         // The control: one sample makes a difference.
         assert!(distance(&one_more) > 1e-5);
+    }
+}
+
+/// Bit for bit, for no step of the way there rounds.
+#[test]
+fn a_time_that_is_not_up_changes_nothing() {
+    let scene = cornell([40, 30]);
+    for mut renderer in renderers(&scene) {
+        let seed = scene.render.seed;
+        let far = Instant::now().checked_add(Duration::from_secs(100_000));
+        let (outcome, limited) = render_goal(renderer.as_mut(), &scene, seed, &Goal { deadline: far, ..goal(37) });
+        assert_eq!((outcome.stop, outcome.report.samples), (Stop::Samples, 37 * 40 * 30));
+        let plain = pixels(&render_batch(renderer.as_mut(), &scene, 0..37, seed, None));
+        assert!(pixels(&limited) == plain, "on {}", renderer.device());
+        let fewer = pixels(&render_batch(renderer.as_mut(), &scene, 0..36, seed, None));
+        assert!(fewer != plain, "the control: one sample less is another picture");
     }
 }
 

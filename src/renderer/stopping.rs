@@ -1,0 +1,104 @@
+//! When a render ends before its last sample.
+
+use std::sync::OnceLock;
+use std::time::{Duration, Instant};
+
+use super::Observer;
+
+/// A render that was asked to stop goes on for so long, if some pixels have no sample yet.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// A sweep that was expected to end in time goes on for so long after it.
+const LATENESS: Duration = Duration::from_millis(500);
+/// Paths that still run on so long after the end was due are given up.
+const LONGEST_PATH: Duration = Duration::from_secs(1);
+
+/// Why a render ended early.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ending {
+    /// The observer asked for it.
+    Interrupted,
+    /// The time was up.
+    OutOfTime,
+}
+
+/// What a renderer looks at between two pieces of its work.
+pub struct Stopping<'a> {
+    observer: &'a dyn Observer,
+    deadline: Option<Instant>,
+    /// When the observer was first seen to ask for the end.
+    asked: OnceLock<Instant>,
+}
+
+impl<'a> Stopping<'a> {
+    pub fn new(observer: &'a dyn Observer, deadline: Option<Instant>) -> Self {
+        Self { observer, deadline, asked: OnceLock::new() }
+    }
+
+    /// Whether to end after a pass. `is_whole`: every pixel has its first sample. For that the observer waits a little, and a time limit waits
+    /// as long as it takes.
+    pub fn after_pass(&self, is_whole: bool) -> Option<Ending> {
+        match self.asked_since() {
+            Some(since) if is_whole || since > PATIENCE => return Some(Ending::Interrupted),
+            _ => {}
+        }
+        self.late_by(LATENESS).filter(|late| *late && is_whole).map(|_| Ending::OutOfTime)
+    }
+
+    /// Whether to give up paths that do not end.
+    pub fn gives_up_paths(&self) -> Option<Ending> {
+        if self.asked_since().is_some_and(|since| since > LONGEST_PATH) {
+            return Some(Ending::Interrupted);
+        }
+        self.late_by(LONGEST_PATH).filter(|late| *late).map(|_| Ending::OutOfTime)
+    }
+
+    /// Time until the deadline; None where there is none.
+    pub fn time_left(&self) -> Option<Duration> {
+        self.deadline.map(|deadline| deadline.saturating_duration_since(Instant::now()))
+    }
+
+    fn asked_since(&self) -> Option<Duration> {
+        self.observer.stop_requested().then(|| self.asked.get_or_init(Instant::now).elapsed())
+    }
+
+    fn late_by(&self, tolerance: Duration) -> Option<bool> {
+        self.deadline.map(|deadline| deadline.elapsed() > tolerance)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::renderer::Silent;
+
+    struct Stop;
+
+    impl Observer for Stop {
+        fn progress(&self, _done: u64, _total: u64) {}
+        fn stop_requested(&self) -> bool {
+            true
+        }
+    }
+
+    #[test]
+    fn an_observer_that_asks_waits_for_the_first_samples_only() {
+        let stopping = Stopping::new(&Stop, None);
+        assert_eq!(stopping.after_pass(true), Some(Ending::Interrupted));
+        assert_eq!((stopping.after_pass(false), stopping.gives_up_paths()), (None, None));
+        std::thread::sleep(LONGEST_PATH + Duration::from_millis(50));
+        assert_eq!((stopping.after_pass(false), stopping.gives_up_paths()), (None, Some(Ending::Interrupted)));
+        let silent = Stopping::new(&Silent, None);
+        assert_eq!((silent.after_pass(true), silent.gives_up_paths(), silent.time_left()), (None, None, None));
+    }
+
+    #[test]
+    fn a_deadline_is_kept_to_a_little() {
+        let past = Instant::now().checked_sub(Duration::from_secs(60)).expect("the clock runs longer than a minute");
+        let stopping = Stopping::new(&Silent, Some(past));
+        assert_eq!(stopping.after_pass(true), Some(Ending::OutOfTime));
+        assert_eq!((stopping.after_pass(false), stopping.gives_up_paths()), (None, Some(Ending::OutOfTime)));
+        assert_eq!(stopping.time_left(), Some(Duration::ZERO));
+        let just_now = Stopping::new(&Silent, Some(Instant::now()));
+        assert_eq!((just_now.after_pass(true), just_now.gives_up_paths()), (None, None));
+    }
+}

@@ -1,0 +1,111 @@
+//! What single precision holds of a scene, and what not: docs/stress.md measures it.
+
+use glam::DVec3;
+
+use super::model::Scene;
+use super::shape::{Geometry, Shape};
+
+/// Longest edge of a parallelogram that renders right, in units: its overlap with its neighbours, a millionth of an edge, is then one unit.
+const LONGEST_EDGE_OF_QUAD: f64 = 1e6;
+/// Triangles, spheres and disks: extents from and up to which their normals are held.
+const SMALLEST: f64 = 1e-9;
+const LARGEST: f64 = 1e9;
+/// Shapes that are named one by one.
+const MOST_NAMED: usize = 3;
+
+impl Scene {
+    /// Shapes that are larger or smaller than what graphics devices hold in single precision, in sentences.
+    pub fn precision_warnings(&self) -> Vec<String> {
+        let found: Vec<(&Shape, &str, f64)> =
+            self.shapes.iter().filter_map(|shape| beyond(shape).map(|(what, length)| (shape, what, length))).collect();
+        let mut warnings: Vec<String> =
+            found.iter().take(MOST_NAMED).map(|(shape, what, length)| sentence(shape, what, *length)).collect();
+        if found.len() > MOST_NAMED {
+            warnings.push(format!("{} more shapes are too large or too small for single precision", found.len() - MOST_NAMED));
+        }
+        warnings
+    }
+}
+
+fn sentence(shape: &Shape, what: &str, length: f64) -> String {
+    format!(
+        "{}: {what} {length:.1e} units, beyond what single precision holds (docs/stress.md): the picture may be wrong; choose a larger \
+         or smaller unit for the whole scene",
+        shape.label
+    )
+}
+
+/// What is too long or too short, and how long it is.
+fn beyond(shape: &Shape) -> Option<(&'static str, f64)> {
+    let map = shape.transform.to_affine();
+    let length = |edge: DVec3| map.transform_vector3(edge).length();
+    let of_edges = |edges: &[DVec3]| {
+        let longest = edges.iter().map(|edge| length(*edge)).fold(0.0, f64::max);
+        (longest > LONGEST_EDGE_OF_QUAD).then_some(("its longest edge is", longest))
+    };
+    let of_extent = |extent: f64| (extent < SMALLEST || extent > LARGEST).then_some(("its extent is", extent));
+    match &shape.geometry {
+        Geometry::Rectangle(rectangle) => of_edges(&[rectangle.edge_u, rectangle.edge_v]),
+        Geometry::Box(cuboid) => of_edges(&DVec3::AXES.map(|axis| axis * (cuboid.max - cuboid.min))),
+        Geometry::Sphere(sphere) => of_extent(2.0 * length(DVec3::X * sphere.radius)),
+        Geometry::Disk(disk) => {
+            of_extent(2.0 * length(disk.normal.normalize_or(DVec3::Y).any_orthonormal_vector() * disk.radius))
+        }
+        Geometry::Mesh(mesh) => {
+            let positions = mesh.positions.iter().map(|position| map.transform_point3(position.as_dvec3()));
+            let (min, max) = positions.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), at| (min.min(at), max.max(at)));
+            if mesh.positions.is_empty() { None } else { of_extent((max - min).max_element()) }
+        }
+        Geometry::Plane(_) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use glam::Vec3;
+
+    use super::super::shape::{Cuboid, Disk, Mesh, Rectangle, Sphere};
+    use super::super::transform::{Transform, TransformStep};
+    use super::*;
+
+    /// How many warnings shapes of this size bring: a rectangle, a box, a sphere, a disk and a triangle of unit size, scaled.
+    fn warnings(scale: f64) -> usize {
+        let triangle = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], faces: vec![[0, 1, 2]], ..Mesh::default() };
+        let geometries = [
+            Geometry::Rectangle(Rectangle { corner: DVec3::ZERO, edge_u: DVec3::X, edge_v: DVec3::Y }),
+            Geometry::Box(Cuboid { min: DVec3::ZERO, max: DVec3::ONE }),
+            Geometry::Sphere(Sphere { center: DVec3::ZERO, radius: 0.5 }),
+            Geometry::Disk(Disk { center: DVec3::ZERO, normal: DVec3::Z, radius: 0.5 }),
+            Geometry::Mesh(Arc::new(triangle)),
+        ];
+        let alone = |geometry: Geometry| {
+            let transform = Transform { steps: vec![TransformStep::Scale(DVec3::splat(scale))] };
+            let shape = Shape { label: "shape".into(), geometry, material: 0, transform, motion: None, portal: false };
+            Scene { shapes: vec![shape], ..Scene::default() }.precision_warnings().len()
+        };
+        geometries.into_iter().map(alone).sum()
+    }
+
+    #[test]
+    fn shapes_beyond_what_is_measured_are_named() {
+        assert_eq!([1e-6, 1.0, 1e6].map(warnings), [0, 0, 0]);
+        assert_eq!(warnings(1.1e6), 2, "the rectangle and the box");
+        assert_eq!(warnings(1.1e9), 5);
+        assert_eq!(warnings(0.9e-9), 3, "all but those two");
+    }
+
+    #[test]
+    fn many_are_counted() {
+        let geometry = Geometry::Sphere(Sphere { center: DVec3::ZERO, radius: 1e12 });
+        let shape =
+            Shape { label: "sphere".into(), geometry, material: 0, transform: Transform::default(), motion: None, portal: false };
+        let warnings = Scene { shapes: vec![shape; 10], ..Scene::default() }.precision_warnings();
+        assert_eq!(warnings.len(), MOST_NAMED + 1);
+        assert!(
+            warnings[0].contains("sphere: its extent is 2.0e12 units") && warnings[MOST_NAMED].starts_with("7 more"),
+            "{warnings:?}"
+        );
+    }
+}
