@@ -44,6 +44,9 @@ const RELATIONS: &[&str] = &[
     "a portal cannot",
     "a plane cannot",
     "an infinite plane",
+    "the shutter closes before it opens",
+    "while the shutter is open",
+    "on the way to shutter times",
 ];
 
 /// Every table with every key somewhere, and nothing that needs a file.

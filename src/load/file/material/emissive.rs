@@ -8,6 +8,7 @@ use crate::scene::{Emission, MaterialKind};
 
 material_keys! {
     /// Emits and reflects nothing.
+    #[schemars(extend("not" = { "required": ["emission"] }))]
     {
         radiance: Colour<NonNegative>,
         /// Emission leaves the front only, unless this is true.
@@ -23,9 +24,13 @@ impl MaterialKeys for Keys {
     }
 
     fn emission(&self, common: &CommonKeys<'_>, resolver: &Resolver<'_>) -> Result<Option<Emission>, SceneError> {
-        match common.emission {
-            Some(emission) => Err(only_for_reflecting(emission, resolver)),
-            None => Ok(emission_of(resolver.colour(&self.radiance)?, self.two_sided.unwrap_or(false))),
+        match (common.emission, common.emission_two_sided) {
+            (Some(emission), _) => Err(only_for_reflecting(emission, resolver)),
+            (None, Some(two_sided)) => {
+                let message = "`emission_two_sided` is for materials that reflect; an emissive one has `two_sided`";
+                Err(resolver.error(&two_sided.span, message))
+            }
+            (None, None) => Ok(emission_of(resolver.colour(&self.radiance)?, self.two_sided.unwrap_or(false))),
         }
     }
 }

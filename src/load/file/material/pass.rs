@@ -7,6 +7,7 @@ use crate::scene::{Emission, MaterialKind};
 
 material_keys! {
     /// The ray goes on as if nothing were there.
+    #[schemars(extend("not" = { "required": ["emission"] }))]
     {}
 }
 
