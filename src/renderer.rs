@@ -1,5 +1,6 @@
 //! What every renderer, GPU or CPU, takes and gives back.
 
+mod observer;
 mod stopping;
 
 use std::ops::Range;
@@ -10,6 +11,7 @@ use crate::packed::hierarchy::Traversal;
 use crate::plan::{Decision, PlanError};
 use crate::scene::InvalidScene;
 
+pub use observer::{Observer, Silent};
 pub use stopping::{Ending, Stopping};
 
 /// Which device renders.
@@ -61,24 +63,6 @@ impl<'a> Batch<'a> {
             Some(selection) => selection[pixels].iter().filter(|selected| **selected).count(),
         };
         taking_part as u64 * samples.len() as u64
-    }
-}
-
-/// Is told how far a render is, and says whether it should go on. Called from the rendering thread, several times a second.
-pub trait Observer: Sync {
-    /// `done` of `total` samples (pixels × spp) are finished.
-    fn progress(&self, done: u64, total: u64);
-    /// True: stop soon, deliver what is done.
-    fn stop_requested(&self) -> bool;
-}
-
-/// An observer that shows nothing and never stops.
-pub struct Silent;
-
-impl Observer for Silent {
-    fn progress(&self, _done: u64, _total: u64) {}
-    fn stop_requested(&self) -> bool {
-        false
     }
 }
 

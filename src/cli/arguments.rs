@@ -14,7 +14,7 @@ use gpt::scene::settings::MOST_SAMPLES;
 use super::bench::BenchArguments;
 use super::choice::by_name;
 use super::exit::Exit;
-use super::setting_flags::SettingFlags;
+use super::settings::EstimateArguments;
 use super::traversal::TraversalArguments;
 use super::values::{parse_device, parse_pixel, parse_size};
 
@@ -107,19 +107,6 @@ pub struct GoalArguments {
     /// Give noisy pixels more samples and calm ones fewer, --spp on average; unbiased
     #[arg(long, conflicts_with = "first_sample")]
     pub adaptive: bool,
-}
-
-/// What overrides the scene's own `[film]` and `[render]`.
-#[derive(Debug, Default, Args)]
-pub struct EstimateArguments {
-    /// Absolute index of the first sample: 0 and 128, with --spp 128 each, together are the samples of --spp 256
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..i64::from(MOST_SAMPLES)))]
-    pub first_sample: u32,
-    /// Width and height in pixels
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    pub size: Option<[u32; 2]>,
-    #[command(flatten)]
-    pub settings: SettingFlags,
 }
 
 #[derive(Debug, Args)]

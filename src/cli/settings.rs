@@ -1,11 +1,26 @@
 //! What the command line puts over the scene's own settings.
 
+use clap::Args;
 use gpt::render::options::PARTS_OF_STRATA;
 use gpt::scene::Scene;
 use gpt::scene::settings::MOST_SAMPLES;
 
-use super::arguments::EstimateArguments;
 use super::exit::Failure;
+use super::setting_flags::SettingFlags;
+use super::values::parse_size;
+
+/// What overrides the scene's own `[film]` and `[render]`.
+#[derive(Debug, Default, Args)]
+pub struct EstimateArguments {
+    /// Absolute index of the first sample: 0 and 128, with --spp 128 each, together are the samples of --spp 256
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..i64::from(MOST_SAMPLES)))]
+    pub first_sample: u32,
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+    #[command(flatten)]
+    pub settings: SettingFlags,
+}
 
 /// Overrides what was given.
 ///
@@ -39,7 +54,7 @@ pub fn check(scene: &Scene) -> Result<(), Failure> {
 
 #[cfg(test)]
 mod tests {
-    use clap::{Args, Command, FromArgMatches};
+    use clap::{Command, FromArgMatches};
     use gpt::scene::{Estimator, RenderSettings};
 
     use super::*;

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-use super::Observer;
+use super::observer::Observer;
 
 /// A render that was asked to stop goes on for so long, if some pixels have no sample yet.
 const PATIENCE: Duration = Duration::from_secs(5);

@@ -164,7 +164,7 @@ impl Tally {
 fn readers_that_break_a_bound_are_noticed() {
     let _turn = take_turn();
     let mut tally = Tally::new("control", 1 << 20);
-    let greedy = |_: &[u8]| std::hint::black_box(vec![1_u8; (1 << 20) + 1]).len() > 1;
+    let greedy = |_: &[u8]| std::hint::black_box(vec![1_u8; 4 << 20]).len() > 1;
     assert!(tally.bounded(&[], greedy).is_err());
     let quiet = std::panic::take_hook();
     std::panic::set_hook(Box::new(|_| {}));

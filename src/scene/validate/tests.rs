@@ -204,7 +204,10 @@ fn each_mistake_is_named_with_its_part() {
             |s| s.shapes[1].geometry = Geometry::Sphere(Sphere { center: DVec3::ZERO, radius: 0.0 }),
             "sphere: its numbers must be finite",
         ),
-        (|s| s.shapes[1].transform.steps.push(TransformStep::Scale(DVec3::new(1.0, 1.0, 2.0))), "sphere: spheres and disks"),
+        (
+            |s| s.shapes[1].transform.steps.push(TransformStep::Scale(DVec3::new(1.0, 1.0, 2.0))),
+            "sphere: a sphere can only be scaled by the same factor along every axis",
+        ),
         (|s| s.shapes[2].material = 4, "disk: a textured material needs texture coordinates"),
         (
             |s| s.shapes[3].transform.steps.push(TransformStep::Scale(DVec3::new(1.0, 0.0, 1.0))),
