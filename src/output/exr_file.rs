@@ -43,7 +43,7 @@ pub(super) fn write<W: Write + Seek>(mut writer: W, mut rows: Rows, spec: &Pictu
 /// The header as it stands in a file, its attributes in the order of their names.
 fn sorted_bytes(header: &Header) -> Result<Vec<u8>, Error> {
     let mut attributes: Vec<_> = header.all_named_attributes().collect();
-    attributes.sort_by(|(a, _), (b, _)| a.cmp(b));
+    attributes.sort_unstable_by_key(|(name, _)| *name);
     let mut bytes = Vec::new();
     for (name, value) in &attributes {
         exr::meta::attribute::write(name, value, &mut bytes)?;

@@ -43,7 +43,7 @@ fn beyond(shape: &Shape) -> Option<(&'static str, f64)> {
         let longest = edges.iter().map(|edge| length(*edge)).fold(0.0, f64::max);
         (longest > LONGEST_EDGE_OF_QUAD).then_some(("its longest edge is", longest))
     };
-    let of_extent = |extent: f64| (extent < SMALLEST || extent > LARGEST).then_some(("its extent is", extent));
+    let of_extent = |extent: f64| (!(SMALLEST..=LARGEST).contains(&extent)).then_some(("its extent is", extent));
     match &shape.geometry {
         Geometry::Rectangle(rectangle) => of_edges(&[rectangle.edge_u, rectangle.edge_v]),
         Geometry::Box(cuboid) => of_edges(&DVec3::AXES.map(|axis| axis * (cuboid.max - cuboid.min))),

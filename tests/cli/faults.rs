@@ -122,8 +122,7 @@ fn memory_forces_bands() {
     let film = |place: &Workplace| {
         let stats = place.stats("s.json");
         let decisions = stats["decisions"].as_array().expect("a list").clone();
-        let film = decisions.iter().find(|decision| decision["about"] == "film").expect("it is decided")["choice"].to_string();
-        film
+        decisions.iter().find(|decision| decision["about"] == "film").expect("it is decided")["choice"].to_string()
     };
     for (fault, picture, words) in [
         ("nothing:0:lost", "whole.exr", "all 1024 rows together"),

@@ -111,8 +111,7 @@ impl Model {
         in_chunks(declared.0, header, reader, |vertex: Vertex| {
             let index = mesh.positions.len();
             let position = Vec3::from(vertex.position);
-            // What is not a number is not within anything.
-            if !(position.abs().max_element() <= LARGEST_COORDINATE) || position.is_nan() {
+            if !position.is_finite() || position.abs().max_element() > LARGEST_COORDINATE {
                 return Err(format!("vertex {index} stands at {position}: not within 1e18"));
             }
             mesh.positions.push(position);
