@@ -27,7 +27,7 @@ pub struct PackedScene {
     pub lights: Vec<PackedLight>,
     pub textures: PackedTextures,
     pub environment: PackedEnvironment,
-    /// How shapes move ([`motion::PackedMotion::words`]).
+    /// How shapes move (`PackedMotion::words` of `packed::motion`).
     pub motions: Vec<[f32; 4]>,
     pub view: View,
 }

@@ -14,7 +14,7 @@ shared_kinds! {
         /// [`crate::packed::View`].
         View = 3 as BINDING_VIEW,
         Primitives = 4 as BINDING_PRIMITIVES,
-        /// [`crate::packed::tables`].
+        /// `packed::tables`.
         Tables = 5 as BINDING_TABLES,
         Nodes = 6 as BINDING_NODES,
         Attributes = 7 as BINDING_ATTRIBUTES,

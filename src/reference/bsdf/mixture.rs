@@ -16,7 +16,7 @@ const LARGEST_LOBE_NUMBER: f64 = 1.0 - 1.0 / 16_777_216.0;
 
 /// The scattering at one hit: the lobes of all materials that the surface blends, parameters looked up, seen from one direction.
 ///
-/// f = Σ wᵢ fᵢ. Sampling chooses lobe i with probability Pᵢ ∝ wᵢ·sᵢ, sᵢ being [`Scatter::sampling_weight`], and lets it draw wi. A
+/// f = Σ wᵢ fᵢ. Sampling chooses lobe i with probability Pᵢ ∝ wᵢ·sᵢ, sᵢ being `Scatter::sampling_weight`, and lets it draw wi. A
 /// delta lobe is the only one to find its wi, so its sample counts wᵢ fᵢ|cosθ| / (Pᵢ pdfᵢ). Another lobe's wi can be drawn by every
 /// other non-delta lobe too: its density is Σ Pⱼ pdfⱼ over all of them, and the sample counts Σ wⱼ fⱼ|cosθ| over that density. So a
 /// choice among non-delta lobes adds no noise of its own beyond how well the densities fit, and two that are alike are as one.

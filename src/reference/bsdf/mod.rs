@@ -1,4 +1,4 @@
-//! How surfaces scatter light: a file a lobe, all with the contract of [`Scatter`].
+//! How surfaces scatter light: a file a lobe, all with the contract of `Scatter`.
 //!
 //! A surface is a weighted list of lobes, one per material of its blend, and follows the same contract as a single one: see [`Bsdf`].
 
