@@ -22,6 +22,12 @@ const UNITS: [f64; 2] = [2.0, 32.0];
 /// A difference may be so many times as large as the largest that was seen among the tries.
 const SAFETY: f64 = 2.0;
 
+/// The largest difference that rounding explains on any path of a picture with this mean radiance. What is left where numbers of order one
+/// cancel, such as one minus a Fresnel term next to 1, is off by an error of rounding's size in them, however small it is itself.
+pub fn of_cancellation(mean_radiance: f64) -> f64 {
+    SAFETY * UNITS[1] * f64::from(f32::EPSILON) * 0.5 * mean_radiance
+}
+
 /// A path whose radiance differs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Differing {

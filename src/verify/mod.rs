@@ -186,7 +186,8 @@ pub fn compare(
         sums.map(|sum| sum.into_iter().map(|s| s.map(|x| (x / f64::from(spp)) as f32)).collect::<Vec<[f32; 3]>>());
     let comparison = test(&gpu_picture, &cpu_picture, width)?;
     let paths = pixels as u64 * u64::from(spp);
-    let followed = follow(tally.differing.into_chosen(), cpu);
+    let mean = cpu_picture.iter().flatten().map(|value| f64::from(value.abs())).sum::<f64>() / (3 * pixels) as f64;
+    let followed = follow(tally.differing.into_chosen(), cpu, cause::of_cancellation(mean));
     let mut verdict = Verdict {
         scene: scene.name.clone(),
         device: gpu.device().to_owned(),
@@ -254,12 +255,13 @@ struct Followed {
 }
 
 /// Finds out why these paths differ, the largest difference first.
-fn follow(mut differing: Vec<Differing>, reference: &ReferenceRenderer) -> Followed {
+fn follow(mut differing: Vec<Differing>, reference: &ReferenceRenderer, of_cancellation: f64) -> Followed {
     differing.sort_by(|a, b| b.difference().total_cmp(&a.difference()));
     let mut followed = Followed::default();
     for path in differing {
         followed.paths += 1;
-        match cause::of(&path, reference) {
+        let cause = if path.difference() <= of_cancellation { Cause::Steepness } else { cause::of(&path, reference) };
+        match cause {
             Cause::Decision => followed.by_a_decision += 1,
             Cause::Steepness => followed.by_steepness += 1,
             Cause::Unexplained => {
