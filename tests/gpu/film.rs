@@ -126,8 +126,8 @@ fn bands_cover_the_picture_and_do_not_show() {
         differing_later += differing(band, later);
     }
     assert_eq!(next_row, 1000);
-    // The control: another sample of each pixel differs in most of them. Above the horizon is one colour.
-    assert!(differing_later * 2 > 1500 * 1000, "{differing_later}");
+    // The control: another sample differs in every second pixel or so, for above the horizon is one colour. A quarter is 250 times what may.
+    assert!(differing_later * 4 > 1500 * 1000, "{differing_later}");
 }
 
 /// Passes are sized by time, so their borders differ from run to run; the picture must not. Bit for bit.
