@@ -109,13 +109,13 @@ fn steep_paths_are_no_false_alarm() {
     let Some(device) = DEVICE.as_ref() else { return };
     let verdict = verify::verify_on(device, &steep(), &PlanOptions::default(), None).expect("it renders");
     assert!(verdict.agrees && verdict.followed_paths > 100, "{verdict:#?}");
-    // Some thousand paths of a glossy scene, of which more than one in a hundred differs.
+    // Some thousand paths of a glossy scene, of which a few differ by up to a thousandth.
     let mut glossy =
         gpt::load::load(Some(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/figures/veach-glossy.toml"))).expect("it is valid");
     glossy.film.size = [24, 16];
     glossy.render.spp = 8;
     let verdict = verify::verify_on(device, &glossy, &PlanOptions::default(), None).expect("it renders");
-    assert!(verdict.agrees && verdict.followed_paths > 20, "{verdict:#?}");
+    assert!(verdict.agrees && verdict.followed_paths > 2, "{verdict:#?}");
 }
 
 /// The same scene with a metal that returns 1 % too much.

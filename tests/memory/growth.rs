@@ -50,7 +50,6 @@ fn excess(size: usize, work: impl Fn(usize) + Sync) -> Option<String> {
 }
 
 fn assert_linear(what: &str, size: usize, work: impl Fn(usize) + Sync) {
-    let _turn = take_turn();
     if let Some(report) = excess(size, work) {
         panic!("{what}: {report}");
     }
@@ -71,6 +70,7 @@ fn quadratic_work_is_noticed() {
 
 #[test]
 fn faces_that_coincide() {
+    let _turn = take_turn();
     let scene = |count: usize| {
         let faces = "[0, 1, 2], ".repeat(count);
         read(&format!(
@@ -84,6 +84,7 @@ fn faces_that_coincide() {
 
 #[test]
 fn spheres_about_one_centre() {
+    let _turn = take_turn();
     assert_linear("concentric spheres", 4000, |count| {
         let spheres = (1..=count).fold(String::new(), |mut text, radius| {
             let _ = writeln!(text, "[[shape]]\ntype = \"sphere\"\ncenter = [0, 0, 0]\nradius = {radius}\nmaterial = \"m\"");
@@ -95,6 +96,7 @@ fn spheres_about_one_centre() {
 
 #[test]
 fn inline_meshes_with_faces_that_are_left_out() {
+    let _turn = take_turn();
     assert_linear("inline meshes", 1000, |count| {
         let meshes = (0..count).fold(String::new(), |mut text, index| {
             let _ = writeln!(
@@ -110,6 +112,7 @@ fn inline_meshes_with_faces_that_are_left_out() {
 
 #[test]
 fn models_of_many_groups_and_materials() {
+    let _turn = take_turn();
     assert_linear("groups", 4000, |count| {
         let mut model = "mtllib model.mtl\nvt 0 0\n".to_owned();
         let mut materials = String::new();
@@ -129,6 +132,7 @@ fn models_of_many_groups_and_materials() {
 
 #[test]
 fn one_model_in_many_materials() {
+    let _turn = take_turn();
     let folder = folder_with(&[("model.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".repeat(500).as_bytes())]);
     assert_linear("materials", 200, |count| {
         let entries = (0..count).fold(HEAD.to_owned(), |mut text, index| {
@@ -143,6 +147,7 @@ fn one_model_in_many_materials() {
 
 #[test]
 fn chains_of_blends() {
+    let _turn = take_turn();
     assert_linear("blends", 4000, |count| {
         let mut text = HEAD.to_owned();
         let mut inner = "m".to_owned();
@@ -160,6 +165,7 @@ fn chains_of_blends() {
 
 #[test]
 fn polygons_of_many_corners() {
+    let _turn = take_turn();
     assert_linear("corners", 50_000, |count| {
         let mut model = String::new();
         for corner in 0..count {
@@ -176,6 +182,7 @@ fn polygons_of_many_corners() {
 
 #[test]
 fn mistakes_at_the_end_of_long_lines() {
+    let _turn = take_turn();
     assert_linear("a long line", 100_000, |count| {
         let positions = "[0, 0, 0], ".repeat(count);
         let text =
