@@ -50,9 +50,9 @@ fn excess(size: usize, work: impl Fn(usize) + Sync) -> Option<String> {
 }
 
 fn assert_linear(what: &str, size: usize, work: impl Fn(usize) + Sync) {
-    if let Some(report) = excess(size, work) {
-        panic!("{what}: {report}");
-    }
+    // A busy machine lengthens one measurement now and then, and quadratic work all of them.
+    let reports: Vec<String> = (0..4).map_while(|_| excess(size, &work)).collect();
+    assert!(reports.len() < 4, "{what}: {reports:?}");
 }
 
 /// The control: what is quadratic, in time or in memory, is noticed.
