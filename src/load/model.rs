@@ -4,6 +4,9 @@ use std::path::{Path, PathBuf};
 
 use crate::scene::Mesh;
 
+/// Coordinates of models are within this.
+pub const FARTHEST: f32 = 1e18;
+
 /// How a model is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ModelFormat {

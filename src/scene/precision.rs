@@ -1,9 +1,7 @@
 //! What single precision holds of a scene, and what not: docs/stress.md measures it.
 
-use glam::DVec3;
-
 use super::model::Scene;
-use super::shape::{Geometry, Shape};
+use super::shape::{Extent, Shape};
 
 /// Longest edge of a parallelogram that renders right, in units: its overlap with its neighbours, a millionth of an edge, is then one unit.
 const LONGEST_EDGE_OF_QUAD: f64 = 1e6;
@@ -37,26 +35,9 @@ fn sentence(shape: &Shape, what: &str, length: f64) -> String {
 
 /// What is too long or too short, and how long it is.
 fn beyond(shape: &Shape) -> Option<(&'static str, f64)> {
-    let map = shape.transform.to_affine();
-    let length = |edge: DVec3| map.transform_vector3(edge).length();
-    let of_edges = |edges: &[DVec3]| {
-        let longest = edges.iter().map(|edge| length(*edge)).fold(0.0, f64::max);
-        (longest > LONGEST_EDGE_OF_QUAD).then_some(("its longest edge is", longest))
-    };
-    let of_extent = |extent: f64| (!(SMALLEST..=LARGEST).contains(&extent)).then_some(("its extent is", extent));
-    match &shape.geometry {
-        Geometry::Rectangle(rectangle) => of_edges(&[rectangle.edge_u, rectangle.edge_v]),
-        Geometry::Box(cuboid) => of_edges(&DVec3::AXES.map(|axis| axis * (cuboid.max - cuboid.min))),
-        Geometry::Sphere(sphere) => of_extent(2.0 * length(DVec3::X * sphere.radius)),
-        Geometry::Disk(disk) => {
-            of_extent(2.0 * length(disk.normal.normalize_or(DVec3::Y).any_orthonormal_vector() * disk.radius))
-        }
-        Geometry::Mesh(mesh) => {
-            let positions = mesh.positions.iter().map(|position| map.transform_point3(position.as_dvec3()));
-            let (min, max) = positions.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), at| (min.min(at), max.max(at)));
-            if mesh.positions.is_empty() { None } else { of_extent((max - min).max_element()) }
-        }
-        Geometry::Plane(_) => None,
+    match shape.geometry.extent(&shape.transform.to_affine())? {
+        Extent::LongestEdge(length) => (length > LONGEST_EDGE_OF_QUAD).then_some(("its longest edge is", length)),
+        Extent::Across(length) => (!(SMALLEST..=LARGEST).contains(&length)).then_some(("its extent is", length)),
     }
 }
 
@@ -64,9 +45,9 @@ fn beyond(shape: &Shape) -> Option<(&'static str, f64)> {
 mod tests {
     use std::sync::Arc;
 
-    use glam::Vec3;
+    use glam::{DVec3, Vec3};
 
-    use super::super::shape::{Cuboid, Disk, Mesh, Rectangle, Sphere};
+    use super::super::shape::{Cuboid, Disk, Geometry, Mesh, Rectangle, Sphere};
     use super::super::transform::{Transform, TransformStep};
     use super::*;
 

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::polygons::{self, Polygon};
 use crate::load::error::SceneError;
+use crate::load::model::FARTHEST;
 
 /// What the check found, and the text `tobj` is to read.
 pub struct Checked {
@@ -124,7 +125,7 @@ impl Counts {
         let mut values = [0.0, 0.0, 0.0, 1.0];
         for word in rest.split_whitespace() {
             let value: f32 = word.parse().map_err(|_| format!("`{word}` is not a number"))?;
-            if !value.is_finite() || value.abs() > 1e18 {
+            if !value.is_finite() || value.abs() > FARTHEST {
                 return Err(format!("the {} has the coordinate {word}: not a number within 1e18", KINDS[kind]));
             }
             if let Some(slot) = values.get_mut(count) {

@@ -15,7 +15,7 @@ use ply_rs_bw::ply::{ElementDef, Header, PropertyAccess};
 
 use crate::load::error::{SceneError, show};
 use crate::load::files::{Files, MOST_MODEL_BYTES};
-use crate::load::model::{ModelFile, Part};
+use crate::load::model::{FARTHEST, ModelFile, Part};
 use crate::load::polygon::triangulate;
 use crate::load::printable::short_list;
 use crate::scene::Mesh;
@@ -23,8 +23,6 @@ use elements::{Corners, Declared, Ignored, NO_VERTEX, Vertex};
 
 /// Elements that are read at a time, so that memory is that of the mesh and not that of the file beside it.
 const CHUNK: usize = 1 << 14;
-/// Coordinates are within this, as those of every mesh.
-const LARGEST_COORDINATE: f32 = 1e18;
 
 /// Reads a PLY file. Its faces have no materials of their own.
 pub fn load(files: &Files, path: &Path) -> Result<ModelFile, SceneError> {
@@ -111,7 +109,7 @@ impl Model {
         in_chunks(declared.0, header, reader, |vertex: Vertex| {
             let index = mesh.positions.len();
             let position = Vec3::from(vertex.position);
-            if !position.is_finite() || position.abs().max_element() > LARGEST_COORDINATE {
+            if !position.is_finite() || position.abs().max_element() > FARTHEST {
                 return Err(format!("vertex {index} stands at {position}: not within 1e18"));
             }
             mesh.positions.push(position);

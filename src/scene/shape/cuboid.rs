@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::model::{ShapeModel, farthest_corner, possible};
+use super::model::{Extent, ShapeModel, farthest_corner, longest_edge, possible};
 use crate::scene::check::Check;
 
 /// Axis-aligned in its own space; normals outward. At most one edge has no length.
@@ -19,6 +19,10 @@ impl ShapeModel for Cuboid {
 
     fn farthest_from(&self, map: &DAffine3, point: DVec3) -> f64 {
         farthest_corner(self.min, self.max, map, point)
+    }
+
+    fn extent(&self, map: &DAffine3) -> Option<Extent> {
+        Some(longest_edge(&DVec3::AXES.map(|axis| axis * (self.max - self.min)), map))
     }
 
     fn faces(&self) -> usize {

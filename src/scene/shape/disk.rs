@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::model::{ShapeModel, farthest_corner, possible};
+use super::model::{Extent, ShapeModel, farthest_corner, possible};
 use crate::scene::check::{Check, is_direction, is_positive};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,6 +23,11 @@ impl ShapeModel for Disk {
 
     fn farthest_from(&self, map: &DAffine3, point: DVec3) -> f64 {
         farthest_corner(self.center - self.radius, self.center + self.radius, map, point)
+    }
+
+    fn extent(&self, map: &DAffine3) -> Option<Extent> {
+        let across = self.normal.normalize_or(DVec3::Y).any_orthonormal_vector() * self.radius;
+        Some(Extent::Across(2.0 * map.transform_vector3(across).length()))
     }
 
     fn is_round(&self) -> bool {

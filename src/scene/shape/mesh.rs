@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
-use super::model::{ShapeModel, farthest_corner};
+use super::model::{Extent, ShapeModel, farthest_corner};
 use crate::scene::check::Check;
 use crate::scene::material::MaterialId;
 
@@ -52,6 +52,12 @@ impl ShapeModel for Arc<Mesh> {
         let low = self.positions.iter().copied().reduce(Vec3::min).unwrap_or_default();
         let high = self.positions.iter().copied().reduce(Vec3::max).unwrap_or_default();
         farthest_corner(low.as_dvec3(), high.as_dvec3(), map, point)
+    }
+
+    fn extent(&self, map: &DAffine3) -> Option<Extent> {
+        let placed = self.positions.iter().map(|position| map.transform_point3(position.as_dvec3()));
+        let (low, high) = placed.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
+        (!self.positions.is_empty()).then(|| Extent::Across((high - low).max_element()))
     }
 
     fn faces(&self) -> usize {

@@ -10,6 +10,7 @@ use super::check::Check;
 use super::material::MaterialId;
 use super::motion::{FARTHEST, Motion, MotionStep};
 use super::transform::Transform;
+pub(super) use model::Extent;
 use model::ShapeModel;
 
 /// The table of shapes: a row for each. From these rows every layer makes its list of modules and what chooses among them, so a shape is
@@ -77,6 +78,10 @@ impl Geometry {
     /// Why it has no texture coordinates, and what to use instead; None: it has them.
     pub fn lacks_uv(&self) -> Option<&'static str> {
         self.model().lacks_uv()
+    }
+
+    pub(super) fn extent(&self, map: &DAffine3) -> Option<Extent> {
+        self.model().extent(map)
     }
 
     /// It stays what it is only if it is scaled by the same factor along every axis.

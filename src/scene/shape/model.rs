@@ -5,6 +5,15 @@ use glam::{DAffine3, DVec3};
 use crate::scene::check::Check;
 use crate::scene::material::MaterialId;
 
+/// The length by which single precision limits a shape, in units of the world.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Extent {
+    /// Of a shape of parallelograms: their longest edge.
+    LongestEdge(f64),
+    /// Of all others: how far they reach from side to side.
+    Across(f64),
+}
+
 pub trait ShapeModel {
     /// What is wrong with it, in words.
     fn check(&self) -> Check;
@@ -16,6 +25,9 @@ pub trait ShapeModel {
 
     /// A distance from `point` within which all of it lies once `map` has placed it; of what is infinite the distance of its surface.
     fn farthest_from(&self, map: &DAffine3, point: DVec3) -> f64;
+
+    /// Its extent once `map` has placed it; None: it is infinite, or there is nothing of it.
+    fn extent(&self, map: &DAffine3) -> Option<Extent>;
 
     /// It stays what it is only if it is scaled by the same factor along every axis.
     fn is_round(&self) -> bool {
@@ -41,6 +53,11 @@ pub trait ShapeModel {
 /// What is wrong where numbers of a shape are not what they may be.
 pub fn possible(possible: bool) -> Check {
     if possible { Ok(()) } else { Err("its numbers must be finite, radii positive, and normals of length 1".into()) }
+}
+
+/// The longest of these edges once `map` has placed them.
+pub fn longest_edge(edges: &[DVec3], map: &DAffine3) -> Extent {
+    Extent::LongestEdge(edges.iter().map(|edge| map.transform_vector3(*edge).length()).fold(0.0, f64::max))
 }
 
 /// How far from `point` the farthest corner of a box is once `map` has placed it.

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::model::{ShapeModel, possible};
+use super::model::{Extent, ShapeModel, possible};
 use crate::scene::check::{Check, is_direction};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,6 +23,10 @@ impl ShapeModel for Plane {
     fn farthest_from(&self, map: &DAffine3, point: DVec3) -> f64 {
         let normal = (map.matrix3.inverse().transpose() * self.normal).normalize();
         (point - map.transform_point3(self.point)).dot(normal).abs()
+    }
+
+    fn extent(&self, _map: &DAffine3) -> Option<Extent> {
+        None
     }
 
     fn is_infinite(&self) -> bool {

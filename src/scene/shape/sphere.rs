@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::model::{ShapeModel, farthest_corner, possible};
+use super::model::{Extent, ShapeModel, farthest_corner, possible};
 use crate::scene::check::{Check, is_positive};
 
 /// Normal outward.
@@ -19,6 +19,10 @@ impl ShapeModel for Sphere {
 
     fn farthest_from(&self, map: &DAffine3, point: DVec3) -> f64 {
         farthest_corner(self.center - self.radius, self.center + self.radius, map, point)
+    }
+
+    fn extent(&self, map: &DAffine3) -> Option<Extent> {
+        Some(Extent::Across(2.0 * map.transform_vector3(DVec3::X * self.radius).length()))
     }
 
     fn is_round(&self) -> bool {
