@@ -38,13 +38,15 @@ pub enum Command {
     Bench(Box<BenchArguments>),
     /// Say whether a scene is valid, all that is wrong with it, what is in it, and what memory and time it takes
     Check(CheckArguments),
+    /// Write a scene of another program as a scene file that can be edited and renders the same picture
+    Import(ImportArguments),
     /// List the graphics adapters, their limits, and which one `--device auto` takes
     Devices(DevicesArguments),
 }
 
 #[derive(Debug, Args)]
 pub struct RenderArguments {
-    /// A .toml scene, an .obj or .ply model, the name of a built-in scene, or - for a .toml scene on the standard input [default: cornell]
+    /// A .toml scene, an .obj or .ply model, a glTF .gltf or .glb, a Mitsuba .xml, the name of a built-in scene, or - for a .toml scene on the standard input [default: cornell]
     pub scene: Option<OsString>,
     #[command(flatten)]
     pub access: AccessArguments,
@@ -75,7 +77,7 @@ pub struct RenderArguments {
     /// No progress on stderr
     #[arg(short, long)]
     pub quiet: bool,
-    /// Exit with code 6 if a sample was not finite, and with code 3 where something else would stand for a missing texture or material
+    /// Exit with code 6 if a sample was not finite, and with code 3 where something else would stand for a missing texture or material, or an import is not exact
     #[arg(long)]
     pub strict: bool,
 }
@@ -86,12 +88,23 @@ pub struct AccessArguments {
     /// Refuse files that the scene names outside of this folder, wherever links lead
     #[arg(long, value_name = "DIR")]
     pub assets_root: Option<PathBuf>,
+    /// Give a value to a parameter that a Mitsuba file names as $KEY; may be given several times
+    #[arg(short = 'D', value_name = "KEY=VALUE", value_parser = parse_definition)]
+    pub definitions: Vec<(String, String)>,
+    /// Look through this camera of an imported file that has several
+    #[arg(long, value_name = "NAME")]
+    pub camera: Option<String>,
 }
 
 impl AccessArguments {
     /// What reading a scene may do.
     pub fn options(&self, strict: bool) -> LoadOptions {
-        LoadOptions { assets_root: self.assets_root.clone(), strict }
+        LoadOptions {
+            assets_root: self.assets_root.clone(),
+            strict,
+            definitions: self.definitions.clone(),
+            camera: self.camera.clone(),
+        }
     }
 }
 
@@ -130,7 +143,7 @@ pub struct CompareArguments {
 
 #[derive(Debug, Args)]
 pub struct VerifyArguments {
-    /// A .toml scene, an .obj or .ply model, or the name of a built-in scene [default: closed forms and every built-in scene]
+    /// A .toml scene, an .obj or .ply model, a glTF .gltf or .glb, a Mitsuba .xml, or the name of a built-in scene [default: closed forms and every built-in scene]
     pub scene: Option<OsString>,
     #[command(flatten)]
     pub access: AccessArguments,
@@ -167,12 +180,12 @@ pub struct VerifyArguments {
 
 #[derive(Debug, Args)]
 pub struct CheckArguments {
-    /// A .toml scene, an .obj or .ply model, the name of a built-in scene, or - for a .toml scene on the standard input
+    /// A .toml scene, an .obj or .ply model, a glTF .gltf or .glb, a Mitsuba .xml, the name of a built-in scene, or - for a .toml scene on the standard input
     #[arg(required_unless_present = "schema")]
     pub scene: Option<OsString>,
     #[command(flatten)]
     pub access: AccessArguments,
-    /// Exit with code 3 where something else would stand for a missing texture or material
+    /// Exit with code 3 where something else would stand for a missing texture or material, or an import is not exact
     #[arg(long)]
     pub strict: bool,
     /// Print also how the device would render it: the plan with its reasons, and which parts of the kernels are compiled
@@ -189,10 +202,29 @@ pub struct CheckArguments {
 }
 
 #[derive(Debug, Args)]
+pub struct ImportArguments {
+    /// A glTF .gltf or .glb, or a Mitsuba .xml
+    pub scene: PathBuf,
+    /// Scene file to write; what the scene embeds goes into a folder beside it
+    #[arg(short, long, value_name = "SCENE.toml")]
+    pub output: PathBuf,
+    #[command(flatten)]
+    pub access: AccessArguments,
+    /// Exit with code 3, and write nothing, where the import is not exact
+    #[arg(long)]
+    pub strict: bool,
+}
+
+#[derive(Debug, Args)]
 pub struct DevicesArguments {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+}
+
+fn parse_definition(text: &str) -> Result<(String, String), String> {
+    let (key, value) = text.split_once('=').ok_or("expected KEY=VALUE")?;
+    if key.is_empty() { Err("expected KEY=VALUE".to_owned()) } else { Ok((key.to_owned(), value.to_owned())) }
 }
 
 fn parse_exposure(text: &str) -> Result<f32, String> {

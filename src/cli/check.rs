@@ -3,12 +3,12 @@
 use std::time::Instant;
 
 use gpt::gpu::select_adapter;
-use gpt::load::{self, SceneError};
+use gpt::load::{self, SceneError, printable};
 use gpt::packed::{PackError, PackedScene};
 use gpt::plan::{Decision, DeviceLimits, Plan};
 use gpt::reference::ReferenceRenderer;
 use gpt::renderer::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
-use gpt::scene::{Scene, SceneSummary};
+use gpt::scene::{ImportReport, ReportItem, Scene, SceneSummary};
 use gpt::verify;
 use serde::Serialize;
 
@@ -25,6 +25,9 @@ struct Report<'a> {
     valid: bool,
     errors: [Mistake<'a>; 0],
     warnings: &'a [String],
+    /// What of an imported file has no effect, and what has something else in its place.
+    #[serde(flatten)]
+    import: &'a ImportReport,
     #[serde(flatten)]
     summary: &'a SceneSummary,
     /// The device that the plan is for.
@@ -103,6 +106,7 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
     };
     let plan = Plan::new(&scene, &packed, &limits, &options).map_err(RenderError::from)?;
     let summary = SceneSummary::of(&scene);
+    let exit = if arguments.strict && !scene.import_report.is_empty() { Exit::Input } else { Exit::Done };
     let cpu_seconds = guess_time(&scene)?;
     if arguments.json {
         let compiled_in = plan.switches.enabled.iter().copied().collect();
@@ -110,13 +114,14 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
             valid: true,
             errors: [],
             warnings: &scene.warnings,
+            import: &scene.import_report,
             summary: &summary,
             device: &device,
             device_bytes: plan.memory.total(),
             cpu_seconds,
             plan: arguments.plan.then(|| PlanReport { decisions: &plan.decisions, compiled_in }),
         })?;
-        return Ok(Exit::Done);
+        return Ok(exit);
     }
     let warnings = match scene.warnings.len() {
         0 => String::new(),
@@ -129,10 +134,27 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
         plan.memory
     );
     terminal::answer(&answer)?;
+    terminal::answer(&listed(&scene.import_report))?;
     if arguments.plan {
         terminal::answer(&format!("\nplan for {device}\n{plan}\n"))?;
     }
-    Ok(Exit::Done)
+    Ok(exit)
+}
+
+/// What an import left, a line for each kind of thing; nothing where it is exact.
+fn listed(report: &ImportReport) -> String {
+    let mut text = String::new();
+    for (heading, items) in [("dropped", &report.dropped), ("approximated", &report.approximated)] {
+        if items.is_empty() {
+            continue;
+        }
+        text.push_str(&format!("\n{heading}\n"));
+        for ReportItem { what, place, count, instead } in items {
+            let times = if *count > 1 { format!(" ({count} times)") } else { String::new() };
+            text.push_str(&format!("  {what}{times}: {instead} [{place}]\n"));
+        }
+    }
+    printable(&text)
 }
 
 /// Seconds that the CPU would take, by one sample of each pixel of a small picture.

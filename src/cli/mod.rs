@@ -7,6 +7,7 @@ mod choice;
 mod compare;
 mod devices;
 mod exit;
+mod import;
 mod interrupt;
 mod pictures;
 mod progress;
@@ -56,6 +57,7 @@ pub fn run() -> ExitCode {
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Import(arguments) => import::run(&arguments),
         Command::Devices(arguments) => devices::run(&arguments),
     };
     match outcome {

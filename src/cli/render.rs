@@ -109,6 +109,12 @@ fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
     for warning in scene.warnings.iter().chain(&scene.precision_warnings()) {
         terminal::warn(warning);
     }
+    if let Some(summary) = scene.import_report.summary() {
+        if arguments.strict {
+            return Err(load::SceneError::in_file(&scene.name, summary).into());
+        }
+        terminal::warn(&summary);
+    }
     settings::apply(&arguments.estimate, &mut scene)?;
     let spp = scene.render.spp;
     // Two samples from each stream, so that there is something to look at and something to go on to.

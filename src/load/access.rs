@@ -12,6 +12,10 @@ pub struct LoadOptions {
     pub assets_root: Option<PathBuf>,
     /// Where something is missing for which another would stand in, the scene is refused.
     pub strict: bool,
+    /// What `$key` stands for in a file of Mitsuba.
+    pub definitions: Vec<(String, String)>,
+    /// The camera of an imported file that has several, by its name.
+    pub camera: Option<String>,
 }
 
 /// [`LoadOptions`] whose folder is there.

@@ -1,13 +1,16 @@
 //! How the files that a scene names are found and opened: on disk or in the program, perhaps within one folder only.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::fs;
 use std::io::{self, BufRead, BufReader, Cursor, ErrorKind, Seek};
 use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 
 use super::builtin::embedded;
 use super::error::{SceneError, show};
 use crate::input;
+use crate::scene::Mesh;
 
 /// Most bytes of a scene file, where memory suffices.
 pub const MOST_SCENE_BYTES: u64 = 1 << 29;
@@ -21,6 +24,15 @@ pub const MOST_LIBRARY_BYTES: u64 = 1 << 28;
 pub struct Files {
     /// With links followed; None: anywhere.
     root: Option<PathBuf>,
+    /// What imported files brought along, by the paths at which it is looked for.
+    held: Arc<Held>,
+}
+
+/// Contents that stand in no file of their own.
+#[derive(Debug, Clone, Default)]
+struct Held {
+    bytes: HashMap<PathBuf, Arc<[u8]>>,
+    meshes: HashMap<PathBuf, Arc<Mesh>>,
 }
 
 /// A file that is read from any place in it.
@@ -45,23 +57,41 @@ impl Files {
             if real.is_dir() { Ok(real) } else { Err(io::Error::new(ErrorKind::NotADirectory, "it is no folder")) }
         });
         match real {
-            Ok(real) => Ok(Self { root: Some(real) }),
+            Ok(real) => Ok(Self { root: Some(real), held: Arc::default() }),
             Err(error) => Err(SceneError::in_file(show(root), format!("cannot be the folder of all files: {error}"))),
         }
     }
 
+    /// From now on, a mesh is found at this path.
+    pub fn hold_mesh(&mut self, path: PathBuf, mesh: Arc<Mesh>) {
+        Arc::make_mut(&mut self.held).meshes.insert(path, mesh);
+    }
+
+    /// From now on, these bytes are found at this path.
+    pub fn hold_bytes(&mut self, path: PathBuf, bytes: Arc<[u8]>) {
+        Arc::make_mut(&mut self.held).bytes.insert(path, bytes);
+    }
+
+    /// The mesh that an imported file brought along.
+    pub fn held_mesh(&self, path: &Path) -> Option<&Arc<Mesh>> {
+        self.held.meshes.get(path)
+    }
+
     /// Whether there is anything of this name, on disk or in the program.
     pub fn exists(&self, path: &Path) -> bool {
-        embedded(path).is_some() || path.exists()
+        self.held.meshes.contains_key(path) || self.is_file(path) || path.exists()
     }
 
     /// Whether there is such a regular file, on disk or in the program.
     pub fn is_file(&self, path: &Path) -> bool {
-        embedded(path).is_some() || path.is_file()
+        self.held.bytes.contains_key(path) || embedded(path).is_some() || path.is_file()
     }
 
     /// Reads a file of at most `most` bytes.
     pub fn read(&self, path: &Path, most: u64) -> io::Result<Cow<'static, [u8]>> {
+        if let Some(bytes) = self.held.bytes.get(path) {
+            return Ok(Cow::Owned(bytes.to_vec()));
+        }
         match embedded(path) {
             Some(content) => Ok(Cow::Borrowed(content)),
             None => input::read(self.allowed(path)?, most).map(Cow::Owned),
@@ -69,6 +99,9 @@ impl Files {
     }
 
     pub fn open(&self, path: &Path) -> io::Result<Box<dyn SeekableFile + Send>> {
+        if let Some(bytes) = self.held.bytes.get(path) {
+            return Ok(Box::new(Cursor::new(bytes.clone())));
+        }
         match embedded(path) {
             Some(content) => Ok(Box::new(Cursor::new(content))),
             None => Ok(Box::new(BufReader::new(input::open(self.allowed(path)?)?))),

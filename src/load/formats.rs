@@ -3,7 +3,7 @@
 use std::path::Path;
 
 /// What is read as a scene.
-pub const SCENES: &str = "scene files (.toml) and models (.obj, .ply)";
+pub const SCENES: &str = "scene files (.toml), models (.obj, .ply), glTF (.gltf, .glb) and Mitsuba scenes (.xml)";
 /// The endings of models' names, as a sentence has them.
 pub const MODEL_ENDINGS: &str = ".obj, .ply or .ply.gz";
 
@@ -17,13 +17,11 @@ const MAGICK: &str = "ImageMagick makes a PNG of it: `magick PICTURE picture.png
 const PICTURE: &str = "a scene file names it, as an environment or a texture: see `gpt check --schema`";
 
 /// Ending, what such a file is, and what to do.
-const MODELS: [(&[&str], &str, &str); 8] = [
-    (&["gltf", "glb"], "a glTF model", BLENDER),
+const MODELS: [(&[&str], &str, &str); 6] = [
     (&["stl", "off"], "a model of bare triangles", MESHLAB),
     (&["usd", "usda", "usdc", "usdz"], "a USD scene", BLENDER_USD),
     (&["fbx", "dae", "3ds", "x3d", "lwo"], "a model", ASSIMP),
     (&["blend", "abc"], "a Blender or Alembic scene", BLENDER),
-    (&["xml"], "a Mitsuba scene", BY_HAND),
     (&["pbrt"], "a pbrt scene", BY_HAND),
     (&["mtl"], "a material library, which an OBJ file names", "name the OBJ file"),
 ];
@@ -61,7 +59,7 @@ mod tests {
 
     #[test]
     fn endings_are_known_in_any_case() {
-        assert_eq!(advice(Path::new("a.GLB")).map(|(what, _)| what), Some("a glTF model"));
+        assert_eq!(advice(Path::new("a.FBX")).map(|(what, _)| what), Some("a model"));
         assert!(advice(Path::new("a.dds")).is_some_and(|(_, advice)| advice.contains("magick")));
         assert_eq!(advice(Path::new("glb")), None);
     }

@@ -2,6 +2,7 @@
 //!
 //! - [`source`]: what a person may name as the scene.
 //! - [`file`]: scene files in TOML; `obj`, `ply`: models, of which `model` is what they have in common; `image_file`: textures and environment maps.
+//! - `mitsuba`, `gltf`: scenes of other programs, which become scene files in the terms of `import`.
 //! - `framing`: camera, ground and light for a model that comes without them.
 //! - `builtin`: scenes that are part of the program.
 //! - [`error`]: what is wrong with an input file, and where.
@@ -15,8 +16,12 @@ pub mod file;
 mod files;
 mod formats;
 mod framing;
+mod gltf;
 mod image_file;
+mod import;
+mod import_file;
 mod memory;
+mod mitsuba;
 mod model;
 mod obj;
 mod ply;
@@ -30,6 +35,7 @@ pub use error::SceneError;
 pub use excerpt::Excerpt;
 pub use file::{json_schema, load_toml_str};
 pub use image_file::read_image;
+pub use import_file::{WrittenScene, as_scene_file};
 pub use printable::printable;
 pub use source::{SceneSource, load, load_with};
 

@@ -8,7 +8,7 @@ use super::builtin::{FOLDER, builtin_names, builtin_text};
 use super::error::{SceneError, show};
 use super::files::MOST_SCENE_BYTES;
 use super::model::ModelFormat;
-use super::{encoding, file, formats, framing, memory};
+use super::{encoding, file, formats, framing, import_file, memory};
 use crate::input;
 use crate::scene::Scene;
 
@@ -23,6 +23,8 @@ pub enum SceneSource {
     File(PathBuf),
     /// A model (`.obj`, `.ply`), which is framed by itself.
     Model(PathBuf),
+    /// A scene of another program (`.gltf`, `.glb`, `.xml`).
+    Import(PathBuf),
 }
 
 impl SceneSource {
@@ -35,6 +37,7 @@ impl SceneSource {
         match ending.as_deref() {
             Some("toml") => return Ok(Self::File(path.to_owned())),
             _ if ModelFormat::of(path).is_some() => return Ok(Self::Model(path.to_owned())),
+            _ if import_file::ImportFormat::of(path).is_some() => return Ok(Self::Import(path.to_owned())),
             _ if written == "-" => return Ok(Self::StandardInput),
             _ => {}
         }
@@ -50,7 +53,7 @@ impl SceneSource {
         let names: Vec<&str> = builtin_names().collect();
         let help = file::did_you_mean(&name, &names).unwrap_or_default();
         Err(SceneError::in_file(show(path), what)
-            .with_help(format!("{help}; or a file that ends in .toml, {}", formats::MODEL_ENDINGS)))
+            .with_help(format!("{help}; or a file that ends in .toml, .gltf, .glb, .xml, {}", formats::MODEL_ENDINGS)))
     }
 
     /// Reads the scene.
@@ -74,6 +77,10 @@ impl SceneSource {
                 scene.name = super::file::stem(&show(path));
                 framing::frame(scene, &show(path))
             }
+            Self::Import(path) => {
+                let description = import_file::load(&access.files, path, options)?;
+                file::load_description(description, &show(path), access)
+            }
         }
     }
 }
@@ -94,7 +101,7 @@ fn load_bytes(read: std::io::Result<Vec<u8>>, name: &str, folder: &Path, access:
     }
 }
 
-/// Reads the scene a person named: a `.toml` file, an `.obj` or `.ply` model, or a built-in scene; `cornell` where nothing is named.
+/// Reads the scene a person named: a `.toml` file, an `.obj` or `.ply` model, a glTF `.gltf` or `.glb`, a Mitsuba `.xml`, or a built-in scene; `cornell` where nothing is named.
 pub fn load(written: Option<&str>) -> Result<Scene, SceneError> {
     load_with(written.map(OsStr::new), &LoadOptions::default())
 }

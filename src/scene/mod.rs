@@ -10,6 +10,7 @@ mod blend_tree;
 pub mod camera;
 mod check;
 mod digest;
+mod import_report;
 pub mod light;
 pub mod material;
 mod model;
@@ -26,6 +27,7 @@ pub mod validate;
 pub use blend_tree::{MOST_LEAVES, check_blends};
 pub use camera::{Aperture, ApertureShape, Camera, Projection};
 pub use digest::digest;
+pub use import_report::{ImportReport, ReportItem};
 pub use light::{
     DirectionalLight, Environment, EnvironmentRadiance, Light, LightParameters, LightStrength, OutsideParameters, PointLight,
     Sky, SpotLight,

@@ -1,6 +1,7 @@
 //! The scene itself.
 
 use super::camera::Camera;
+use super::import_report::ImportReport;
 use super::light::Light;
 use super::material::{Material, MaterialId, MaterialKind};
 use super::settings::{FilmSettings, RenderSettings};
@@ -30,6 +31,9 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// What could not be taken as written and was replaced or left out, in sentences that name the file.
     pub warnings: Vec<String>,
+    /// What is not rendered exactly as an imported file says it.
+    #[doc(hidden)]
+    pub import_report: ImportReport,
 }
 
 impl Scene {

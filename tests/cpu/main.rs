@@ -12,6 +12,7 @@ mod bad_scenes;
 mod blends;
 mod builtin_scenes;
 mod hierarchy;
+mod imports;
 mod light_strategies;
 mod models;
 mod plan;

@@ -8,6 +8,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::wording;
 use crate::load::error::SceneError;
+use crate::load::import::Origin;
 
 /// Keys at the top whose values are lists of tables.
 const LISTS: [&str; 4] = ["texture", "material", "shape", "light"];
@@ -18,6 +19,8 @@ pub struct Document<'a> {
     /// How errors call the file.
     pub name: &'a str,
     pub text: &'a str,
+    /// What parts of the text were made from, where no person wrote it.
+    pub origins: &'a [Origin],
 }
 
 impl<'a> Document<'a> {
@@ -25,6 +28,13 @@ impl<'a> Document<'a> {
     pub fn read<T: DeserializeOwned>(self) -> Result<T, SceneError> {
         let mut root = self.parse()?;
         self.name_variants(root.get_mut())?;
+        T::deserialize(toml::Deserializer::from(root)).map_err(|error| self.translate(&error))
+    }
+
+    /// Reads one key of the text, and nothing else.
+    pub fn read_key<T: DeserializeOwned>(self, key: &str) -> Result<T, SceneError> {
+        let mut root = self.parse()?;
+        root.get_mut().retain(|other, _| other.get_ref() == key);
         T::deserialize(toml::Deserializer::from(root)).map_err(|error| self.translate(&error))
     }
 
@@ -60,8 +70,22 @@ impl<'a> Document<'a> {
 
     /// An error about the value written at `span`.
     pub fn error(self, span: Range<usize>, message: impl Into<String>) -> SceneError {
+        if let Some(origin) = self.origin_at(span.start) {
+            let error = match (origin.place.line, origin.place.file.as_str()) {
+                (Some(line), file) => SceneError::in_line(file, line, message),
+                (None, "") => SceneError::in_file(self.name, message),
+                (None, file) => SceneError::in_file(file, message),
+            };
+            let key = if origin.place.key.is_empty() { self.key_at(&span) } else { origin.place.key.clone() };
+            return error.with_key(key);
+        }
         let key = self.key_at(&span);
         SceneError::in_text(self.name, self.text, span, message).with_key(key)
+    }
+
+    /// What the text at a byte was made from.
+    fn origin_at(self, at: usize) -> Option<&'a Origin> {
+        self.origins[..self.origins.partition_point(|origin| origin.start <= at)].last()
     }
 
     fn parse(self) -> Result<Spanned<DeTable<'a>>, SceneError> {

@@ -4,6 +4,7 @@
 //! files that are named. Each complains about the place where the mistake is written.
 
 mod document;
+mod import;
 mod light;
 mod material;
 mod resolve;
@@ -28,6 +29,7 @@ pub(super) use wording::did_you_mean;
 
 use crate::load::access::Access;
 use crate::load::error::SceneError;
+use crate::load::import::{Description, Text};
 use crate::scene::Scene;
 
 /// Reads a scene from TOML text. `name` is what errors call it and what the scene's name is taken from; paths in the text are
@@ -38,7 +40,34 @@ pub fn load_toml_str(text: &str, name: &str, folder: &Path) -> Result<Scene, Sce
 
 /// As [`load_toml_str`], with this access to other files.
 pub(super) fn load_toml(text: &str, name: &str, folder: &Path, access: Access) -> Result<Scene, SceneError> {
-    let document = Document { name, text };
+    load_document(Document { name, text, origins: &[] }, folder, access)
+}
+
+/// Reads a document with what it imports.
+fn load_document(document: Document<'_>, folder: &Path, mut access: Access) -> Result<Scene, SceneError> {
+    match import::expand(document, &mut access, folder)? {
+        None => load_whole(document, folder, access),
+        Some(expanded) => {
+            let Text { text, origins } = &expanded.text;
+            let mut scene = load_whole(Document { name: document.name, text, origins }, folder, access)?;
+            scene.import_report = expanded.report;
+            Ok(scene)
+        }
+    }
+}
+
+/// Reads a scene that was imported.
+pub(super) fn load_description(description: Description, name: &str, mut access: Access) -> Result<Scene, SceneError> {
+    let mut text = Text::default();
+    text.push(&description, &|file| description.held_path(file).to_string_lossy().into_owned());
+    description.hold_in(&mut access.files, Path::new(""));
+    let mut scene = load_whole(Document { name, text: &text.text, origins: &text.origins }, Path::new(""), access)?;
+    scene.import_report = description.report;
+    Ok(scene)
+}
+
+fn load_whole(document: Document<'_>, folder: &Path, access: Access) -> Result<Scene, SceneError> {
+    let name = document.name;
     let file: SceneFile = document.read().map_err(|first| document.all_mistakes::<PartOfFile>(first))?;
     let mut scene = resolve::resolve(document, folder, file, access)?;
     scene.name = stem(name);

@@ -114,8 +114,10 @@ impl Model {
             }
             mesh.positions.push(position);
             if has_normals {
-                // A normal of no length is computed later.
-                mesh.normals.push(Vec3::from(vertex.normal).try_normalize().unwrap_or_default());
+                // A normal of length 1 stays as it is to the last bit. One of no length is computed later.
+                let normal = Vec3::from(vertex.normal);
+                let is_unit = (normal.length_squared() - 1.0).abs() < 1e-6;
+                mesh.normals.push(if is_unit { normal } else { normal.try_normalize().unwrap_or_default() });
             }
             if has_uvs {
                 let uv = Vec2::from(vertex.uv);

@@ -40,7 +40,7 @@ pub fn resolve(document: Document<'_>, folder: &Path, file: SceneFile, access: A
 /// Reads a model by itself: a scene of one shape with the model's own materials and nothing else.
 pub fn resolve_model(path: &Path, access: Access) -> Result<Scene, SceneError> {
     let name = show(path);
-    let mut resolver = Resolver::new(Document { name: &name, text: "" }, Path::new(""), access);
+    let mut resolver = Resolver::new(Document { name: &name, text: "", origins: &[] }, Path::new(""), access);
     resolver.lone_mesh(path)?;
     resolver.finish()
 }

@@ -9,6 +9,8 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+pub use self::transform::TransformEntry;
+
 use self::keys::{CommonKeys, ShapeKeys, Written};
 use super::resolver::{LoadedMesh, Resolver};
 use super::value::Located;

@@ -88,7 +88,7 @@ impl JsonSchema for ScaleEntry {
 }
 
 impl Resolver<'_> {
-    pub(super) fn transform(&self, written: &Located<TransformEntry>) -> Result<Transform, SceneError> {
+    pub(in crate::load::file) fn transform(&self, written: &Located<TransformEntry>) -> Result<Transform, SceneError> {
         let steps = match &written.value {
             TransformEntry::Steps(steps) => {
                 steps.iter().map(|step| self.step(&step.span, &step.value)).collect::<Result<_, _>>()?

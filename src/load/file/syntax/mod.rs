@@ -15,6 +15,7 @@ use serde::Deserialize;
 pub use render::RenderTable;
 pub use texture::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 
+use super::import::ImportEntry;
 use super::light::LightEntry;
 use super::material::MaterialEntry;
 use super::shape::ShapeEntry;
@@ -24,6 +25,7 @@ use super::value::{Checked, Exactly, FieldOfView, FilterRadius, Located, NonNega
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a scene")]
 #[schemars(title = "gpt scene")]
+#[schemars(extend("required" = [], "anyOf" = [{ "required": ["camera"] }, { "required": ["import"] }]))]
 pub struct SceneFile {
     #[serde(default)]
     pub film: FilmTable,
@@ -38,6 +40,10 @@ pub struct SceneFile {
     pub shape: Vec<Located<ShapeEntry>>,
     #[serde(default)]
     pub light: Vec<Located<LightEntry>>,
+    /// Read before the rest, which then has what is imported.
+    #[serde(default)]
+    #[allow(dead_code, reason = "`file::import` reads it by itself")]
+    import: Vec<ImportEntry>,
 }
 
 /// A scene file of which anything may be missing, to find what is wrong with the rest.
@@ -56,6 +62,8 @@ pub struct PartOfFile {
     shape: Vec<Located<ShapeEntry>>,
     #[serde(default)]
     light: Vec<Located<LightEntry>>,
+    #[serde(default)]
+    import: Vec<ImportEntry>,
 }
 
 /// The picture.

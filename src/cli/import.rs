@@ -1,0 +1,35 @@
+//! `gpt import`.
+
+use std::path::Path;
+
+use gpt::load::{self, SceneError};
+use gpt::output::{AtomicFile, check_target};
+
+use super::arguments::ImportArguments;
+use super::exit::{Exit, Failure};
+use super::terminal;
+
+/// Writes a scene of another program as a scene file, with the meshes and pictures that it embeds beside it.
+pub fn run(arguments: &ImportArguments) -> Result<Exit, Failure> {
+    let target = arguments.output.clone();
+    check_target(&target)?;
+    if target.extension().is_none_or(|ending| !ending.eq_ignore_ascii_case("toml")) {
+        return Err(Failure::usage(format!("{} does not end in .toml, as a scene file does", target.display())));
+    }
+    let options = arguments.access.options(arguments.strict);
+    let written = load::as_scene_file(Path::new(&arguments.scene), &target, &options)?;
+    if let Some(summary) = written.report.summary() {
+        if arguments.strict {
+            return Err(SceneError::in_file(arguments.scene.display(), summary).into());
+        }
+        terminal::warn(&summary);
+    }
+    for (path, bytes) in &written.files {
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|error| Failure::Other(format!("{}: {error}", folder.display())))?;
+        }
+        AtomicFile::write(path, bytes)?;
+    }
+    AtomicFile::write(&target, written.text.as_bytes())?;
+    Ok(Exit::Done)
+}

@@ -1,0 +1,54 @@
+//! KHR_lights_punctual. Candela and lux are taken for watts, as nits of emission are.
+
+use glam::{DAffine3, DVec3};
+
+use super::Importer;
+use super::json::{Light, Node};
+use crate::load::import::{Entry, Keys, world_direction};
+
+const NAME: &str = "KHR_lights_punctual";
+
+impl Importer<'_> {
+    pub fn light(&mut self, node: &Node, map: DAffine3, index: usize) -> Result<(), String> {
+        let Some(reference) = node.extensions.get(NAME) else { return Ok(()) };
+        let number =
+            reference.get("light").and_then(serde_json::Value::as_u64).ok_or_else(|| format!("{NAME}: it names no light"))?;
+        let lights = self.root.extensions.get(NAME).and_then(|lights| lights.get("lights"));
+        let light = lights
+            .and_then(|lights| lights.get(number as usize))
+            .ok_or_else(|| format!("there is no {NAME}.lights[{number}]"))?;
+        let light =
+            <Light as serde::Deserialize>::deserialize(light).map_err(|error| format!("{NAME}.lights[{number}]: {error}"))?;
+        let colour = DVec3::from(light.color.unwrap_or([1.0; 3])) * light.intensity.unwrap_or(1.0);
+        if !(colour.is_finite() && colour.min_element() >= 0.0) {
+            return Err(format!("{NAME}.lights[{number}]: its light is below 0"));
+        }
+        let key = format!("nodes[{index}]");
+        if light.range.is_some() {
+            self.drop("range of a light", &key, "its light reaches everywhere");
+        }
+        let direction = world_direction(&map, DVec3::NEG_Z).ok_or("its transform leaves no direction")?;
+        let keys = match light.r#type.as_str() {
+            "point" => Keys::of_type("point").with("position", map.translation).with("intensity", colour),
+            "directional" => Keys::of_type("directional").with("direction", direction).with("irradiance", colour),
+            "spot" => {
+                let cone = light.spot.clone().unwrap_or_default();
+                let outer = cone.outer_cone_angle.unwrap_or(std::f64::consts::FRAC_PI_4).to_degrees();
+                let inner = cone.inner_cone_angle.unwrap_or(0.0).to_degrees();
+                if !(outer > 0.0 && outer <= 90.0 && (0.0..=outer).contains(&inner)) {
+                    return Err(format!("{NAME}.lights[{number}]: its cone goes from {inner} to {outer} degrees"));
+                }
+                if inner < outer {
+                    let place = self.place(&key).to_string();
+                    let instead = "it is a smooth step of the cosine, not its square";
+                    self.scene.report.approximate("falloff of a spot light", place, instead);
+                }
+                let keys = Keys::of_type("spot").with("position", map.translation).with("direction", direction);
+                keys.with("intensity", colour).with("angle", outer).with("falloff", inner)
+            }
+            other => return Err(format!("{NAME}.lights[{number}]: there is no light of type `{other}`")),
+        };
+        self.scene.lights.push(Entry { place: self.place(&key), keys });
+        Ok(())
+    }
+}

@@ -1,0 +1,278 @@
+//! Materials and their textures.
+
+use glam::{DAffine2, DMat2, DVec2, DVec3};
+
+use super::Importer;
+use super::json::{Material, TextureInfo, TextureTransform, extension};
+use crate::load::import::{Description, Entry, Keys, Value};
+
+/// Of a material of a primitive.
+#[derive(Debug, Clone)]
+pub struct Made {
+    pub name: String,
+    /// The set of texture coordinates that its textures use, and what is done to them.
+    pub coordinates: Option<Coordinates>,
+}
+
+/// Which texture coordinates, and their map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coordinates {
+    pub set: u64,
+    pub map: DAffine2,
+}
+
+/// Index of refraction where nothing is said.
+const IOR: f64 = 1.5;
+
+impl Importer<'_> {
+    /// The material of a primitive; None for the one that the specification gives where none is named.
+    pub fn material(&mut self, index: Option<usize>) -> Result<Made, String> {
+        if let Some(made) = self.materials.get(&index) {
+            return Ok(made.clone());
+        }
+        let made = match index {
+            None => self.make_material(&Material::default(), "(default)", String::new()),
+            Some(index) => {
+                let material =
+                    self.root.materials.get(index).cloned().ok_or_else(|| format!("there is no materials[{index}]"))?;
+                let name = material.name.clone().unwrap_or_else(|| format!("material {index}"));
+                self.make_material(&material, &name, format!("materials[{index}]"))
+            }
+        };
+        let made = made.map_err(|message| match index {
+            Some(index) => format!("materials[{index}]: {message}"),
+            None => message,
+        })?;
+        self.materials.insert(index, made.clone());
+        Ok(made)
+    }
+
+    fn make_material(&mut self, material: &Material, name: &str, place: String) -> Result<Made, String> {
+        let mut surface = Surface { importer: self, material, place, coordinates: None };
+        let keys = surface.keys()?;
+        let coordinates = surface.coordinates;
+        let place = surface.place;
+        let name = Description::free_name(&self.scene.materials, name);
+        let mut named = Keys::new().with("name", name.as_str());
+        named.0.extend(keys.0);
+        self.scene.materials.push(Entry { place: self.place(&place), keys: named });
+        Ok(Made { name, coordinates })
+    }
+}
+
+/// A material in the making.
+struct Surface<'s, 'i> {
+    importer: &'s mut Importer<'i>,
+    material: &'s Material,
+    place: String,
+    coordinates: Option<Coordinates>,
+}
+
+impl Surface<'_, '_> {
+    fn number(&mut self, of: &str, key: &str, default: f64) -> f64 {
+        let value = self.material.extensions.get(of).and_then(|object| object.get(key)).and_then(serde_json::Value::as_f64);
+        value.unwrap_or(default)
+    }
+
+    fn approximate(&mut self, what: &str, instead: &str) {
+        self.importer.scene.report.approximate(what, self.importer.place(&self.place).to_string(), instead);
+    }
+
+    fn drop(&mut self, what: &str, instead: &str) {
+        self.importer.scene.report.drop(what, self.importer.place(&self.place).to_string(), instead);
+    }
+
+    fn keys(&mut self) -> Result<Keys, String> {
+        let pbr = self.material.pbr_metallic_roughness.clone();
+        let factor = pbr.base_color_factor.unwrap_or([1.0; 4]);
+        let colour = DVec3::new(factor[0], factor[1], factor[2]).clamp(DVec3::ZERO, DVec3::ONE);
+        let base = match &pbr.base_color_texture {
+            Some(info) => self.texture(info, false, colour, "base colour")?,
+            None => constant(colour),
+        };
+        self.report_extensions();
+        let mut keys = if self.material.extensions.contains_key("KHR_materials_unlit") {
+            self.approximate("KHR_materials_unlit", "the surface gives light of its colour, which falls on others too");
+            Keys::of_type("emissive").with("radiance", base.clone()).with("two_sided", true)
+        } else {
+            self.lit(base.clone())?
+        };
+        self.normal_map(&mut keys)?;
+        self.emission(&mut keys)?;
+        let opaque = self.opacity(factor[3], pbr.base_color_texture.is_some());
+        Ok(match opaque {
+            Some(opacity) if opacity < 1.0 => self.see_through(keys, opacity),
+            _ => keys,
+        })
+    }
+
+    /// What scatters light: a metal and a dielectric, mixed by `metallic`.
+    fn lit(&mut self, base: Value) -> Result<Keys, String> {
+        let pbr = &self.material.pbr_metallic_roughness;
+        let metallic = pbr.metallic_factor.unwrap_or(1.0).clamp(0.0, 1.0);
+        let roughness = pbr.roughness_factor.unwrap_or(1.0).clamp(0.0, 1.0);
+        if pbr.metallic_roughness_texture.is_some() {
+            self.approximate("metallicRoughnessTexture", "the factors alone count");
+        }
+        let ior = self.number("KHR_materials_ior", "ior", IOR);
+        let ior = if ior == 0.0 { 10.0 } else { ior.clamp(1.0, 10.0) };
+        let transmission = self.number("KHR_materials_transmission", "transmissionFactor", 0.0).clamp(0.0, 1.0);
+        let rough = |keys: Keys| keys.with("roughness", roughness);
+        let metal = rough(Keys::of_type("conductor").with("reflectance", base.clone()));
+        if metallic == 1.0 {
+            return Ok(metal);
+        }
+        let specular = self.number("KHR_materials_specular", "specularFactor", 1.0);
+        if metallic == 0.0 && transmission == 0.0 && specular == 0.0 {
+            return Ok(Keys::of_type("diffuse").with("reflectance", base));
+        }
+        self.approximate("dielectric surface", "a diffuse base under a rough mirror, blended by Fresnel's equations");
+        let diffuse = self.extra("base", Keys::of_type("diffuse").with("reflectance", base.clone()));
+        let coat = self.extra("coat", rough(Keys::of_type("conductor").with("reflectance", 1.0)));
+        let weight = Keys::of_type("fresnel").with("ior", ior);
+        let mut keys = Keys::of_type("blend").with("materials", vec![diffuse, coat]).with("weight", weight);
+        if transmission > 0.0 {
+            let glass = rough(Keys::of_type("rough_glass").with("ior", ior.max(1.001))).with("transmittance", base);
+            keys = if transmission == 1.0 { glass } else { self.mixed(glass, keys, transmission, "glass") };
+        }
+        if metallic > 0.0 {
+            keys = self.mixed(metal, keys, metallic, "metal");
+        }
+        Ok(keys)
+    }
+
+    /// The first by its share, the second by the rest.
+    fn mixed(&mut self, first: Keys, second: Keys, share: f64, what: &str) -> Keys {
+        let (first, second) = (self.extra(what, first), self.extra("rest", second));
+        let weight = Keys::of_type("constant").with("value", share);
+        Keys::of_type("blend").with("materials", vec![first, second]).with("weight", weight)
+    }
+
+    fn see_through(&mut self, keys: Keys, opacity: f64) -> Keys {
+        if opacity <= 0.0 {
+            return Keys::of_type("pass");
+        }
+        self.approximate("alphaMode", "shadow rays end at the surface wherever it is");
+        self.mixed(keys, Keys::of_type("pass"), opacity, "surface")
+    }
+
+    /// The factor of what is seen; None where all is.
+    fn opacity(&mut self, factor: f64, textured: bool) -> Option<f64> {
+        match self.material.alpha_mode.as_deref() {
+            None | Some("OPAQUE") => None,
+            Some("MASK") => {
+                if textured {
+                    self.drop("alphaMode MASK of a texture", "the surface is opaque");
+                }
+                Some(if factor < self.material.alpha_cutoff.unwrap_or(0.5) { 0.0 } else { 1.0 })
+            }
+            Some(_) => {
+                if textured {
+                    self.drop("alphaMode BLEND of a texture", "the factor of alpha alone counts");
+                }
+                Some(factor.clamp(0.0, 1.0))
+            }
+        }
+    }
+
+    fn normal_map(&mut self, keys: &mut Keys) -> Result<(), String> {
+        let Some(info) = self.material.normal_texture.clone() else { return Ok(()) };
+        if info.scale.is_some_and(|scale| scale != 1.0) {
+            self.approximate("scale of a normalTexture", "1 is taken");
+        }
+        if let Value::Table(texture) = self.texture(&info, true, DVec3::ONE, "normal")?
+            && let Some(name) = texture.text("texture")
+        {
+            keys.set("normal_map", name);
+        }
+        Ok(())
+    }
+
+    fn emission(&mut self, keys: &mut Keys) -> Result<(), String> {
+        let strength = self.number("KHR_materials_emissive_strength", "emissiveStrength", 1.0).max(0.0);
+        let factor = DVec3::from(self.material.emissive_factor).max(DVec3::ZERO) * strength;
+        if factor == DVec3::ZERO {
+            return Ok(());
+        }
+        let emission = match self.material.emissive_texture.clone() {
+            Some(info) => self.texture(&info, false, factor, "emission")?,
+            None => constant(factor),
+        };
+        if keys.text("type") == Some("emissive") {
+            self.approximate("emission of an unlit material", "its colour alone counts");
+            return Ok(());
+        }
+        keys.set("emission", emission);
+        if self.material.double_sided {
+            keys.set("emission_two_sided", true);
+        }
+        Ok(())
+    }
+
+    /// Names what of known extensions has no effect.
+    fn report_extensions(&mut self) {
+        const PARTS: [(&str, &str); 9] = [
+            ("KHR_materials_specular", "specular reflection is as the index of refraction says"),
+            ("KHR_materials_volume", "what is inside takes no light"),
+            ("KHR_materials_clearcoat", "there is no coat"),
+            ("KHR_materials_sheen", "there is no sheen"),
+            ("KHR_materials_anisotropy", "roughness is the same in all directions"),
+            ("KHR_materials_iridescence", "there is no thin film"),
+            ("KHR_materials_dispersion", "all colours are bent alike"),
+            ("KHR_materials_diffuse_transmission", "light does not come through"),
+            ("KHR_materials_pbrSpecularGlossiness", "the metallic-roughness parameters count"),
+        ];
+        for (name, instead) in PARTS {
+            if self.material.extensions.contains_key(name) {
+                self.drop(name, instead);
+            }
+        }
+        let textured =
+            self.material.extensions.get("KHR_materials_transmission").is_some_and(|e| e.get("transmissionTexture").is_some());
+        if textured {
+            self.drop("transmissionTexture", "the factor alone counts");
+        }
+        if self.material.occlusion_texture.is_some() {
+            self.drop("occlusionTexture", "light is traced, so what is hidden is dark by itself");
+        }
+    }
+
+    fn extra(&mut self, what: &str, keys: Keys) -> Value {
+        let name = format!("{}, {what}", self.material.name.as_deref().unwrap_or("(unnamed)"));
+        let name = Description::free_name(&self.importer.scene.materials, &name);
+        let mut named = Keys::new().with("name", name.as_str());
+        named.0.extend(keys.0);
+        let place = self.importer.place(&self.place);
+        self.importer.scene.materials.push(Entry { place, keys: named });
+        Value::Text(name)
+    }
+
+    /// `{ texture = … }`, or a constant where there is no picture.
+    fn texture(&mut self, info: &TextureInfo, linear: bool, factor: DVec3, what: &str) -> Result<Value, String> {
+        let transform = extension::<TextureTransform>(&info.extensions, "KHR_texture_transform")?;
+        let map = transform.as_ref().map_or(DAffine2::IDENTITY, |transform| {
+            let scale = DVec2::from(transform.scale.unwrap_or([1.0; 2]));
+            // The specification turns counter-clockwise in a space whose v runs downward.
+            let turn = DMat2::from_angle(-transform.rotation);
+            DAffine2 { matrix2: turn * DMat2::from_diagonal(scale), translation: DVec2::from(transform.offset) }
+        });
+        let set = transform.and_then(|transform| transform.tex_coord).unwrap_or(info.tex_coord);
+        let wanted = Coordinates { set, map };
+        if self.coordinates.is_some_and(|other| other != wanted) {
+            let message = format!("texture coordinates of the {what}");
+            self.approximate(&message, "they are those of the material's first texture");
+        }
+        self.coordinates.get_or_insert(wanted);
+        let name = self.importer.texture(info.index, linear)?;
+        if factor != DVec3::ONE {
+            let message = format!("factor of the {what} beside a texture");
+            self.approximate(&message, "it is left out");
+        }
+        Ok(Value::Table(Keys::new().with("texture", name)))
+    }
+}
+
+/// A number for grey.
+fn constant(colour: DVec3) -> Value {
+    if colour.min_element() == colour.max_element() { Value::Number(colour.x) } else { colour.into() }
+}

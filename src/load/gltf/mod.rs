@@ -1,0 +1,198 @@
+//! glTF 2.0 in its two forms: JSON (`.gltf`) and binary (`.glb`).
+//!
+//! `json` is the file as it is written, `buffers` the numbers that it names. Meshes at rest become meshes of their own for each primitive, with
+//! the texture coordinates that the primitive's material wants. Texture coordinates run downward there and upward here.
+
+mod buffers;
+mod json;
+mod light;
+mod material;
+mod meshopt;
+mod node;
+mod picture;
+mod primitive;
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use self::buffers::Buffers;
+use self::json::Root;
+use super::error::{SceneError, show};
+use super::files::{Files, MOST_MODEL_BYTES};
+use super::import::{Description, FileReference, Place};
+
+/// What turns pictures of KTX2 into PNG.
+const BASIS_COMMAND: &str = "npx @gltf-transform/cli ktxdecompress IN.glb OUT.glb";
+/// What undoes Draco's compression.
+const DRACO_COMMAND: &str = "npx @gltf-transform/cli copy IN.glb OUT.glb";
+
+/// Extensions that are read; what of them is not exact is in the report.
+const KNOWN: [&str; 24] = [
+    "KHR_lights_punctual",
+    "KHR_texture_transform",
+    "KHR_mesh_quantization",
+    "EXT_meshopt_compression",
+    "KHR_meshopt_compression",
+    "EXT_mesh_gpu_instancing",
+    "EXT_texture_webp",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_volume",
+    "KHR_materials_clearcoat",
+    "KHR_materials_sheen",
+    "KHR_materials_anisotropy",
+    "KHR_materials_iridescence",
+    "KHR_materials_dispersion",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    // Metadata.
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+    "KHR_animation_pointer",
+];
+
+/// Reads a file. `camera` is the name of a camera or of its node; the first one where none is named.
+pub fn load(files: &Files, path: &Path, camera: Option<&str>) -> Result<Description, SceneError> {
+    let name = show(path);
+    let refuse = |message: String| SceneError::in_file(&name, message);
+    let bytes = files.read(path, MOST_MODEL_BYTES).map_err(|error| refuse(format!("cannot be read: {error}")))?;
+    let (json, binary) = split(&bytes).map_err(refuse)?;
+    let root: Root = serde_json::from_slice(json.strip_prefix(&[0xef, 0xbb, 0xbf]).unwrap_or(json)).map_err(|error| {
+        let message = error.to_string();
+        let what = message.rsplit_once(" at line").map_or(message.as_str(), |(what, _)| what).to_owned();
+        SceneError::in_line(&name, error.line(), format!("is not valid glTF: {what}"))
+    })?;
+    check_version(&root).map_err(refuse)?;
+    check_extensions(&root, &name)?;
+    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    let buffers = Buffers::load(files, &folder, &root, binary).map_err(refuse)?;
+    let mut importer = Importer {
+        files,
+        folder,
+        name: name.clone(),
+        root: &root,
+        buffers,
+        scene: Description::default(),
+        materials: HashMap::new(),
+        textures: HashMap::new(),
+        pictures: HashMap::new(),
+        meshes: HashMap::new(),
+        triangles: 0,
+    };
+    importer.report_extensions();
+    importer.scene(camera).map_err(refuse)?;
+    Ok(importer.scene)
+}
+
+/// The JSON, and the data that a binary file brings.
+fn split(bytes: &[u8]) -> Result<(&[u8], Option<Vec<u8>>), String> {
+    if !bytes.starts_with(b"glTF") {
+        return Ok((bytes, None));
+    }
+    let number = |at: usize| -> Result<usize, String> {
+        let word = bytes.get(at..at + 4).ok_or("the file ends early")?;
+        Ok(u32::from_le_bytes([word[0], word[1], word[2], word[3]]) as usize)
+    };
+    let version = number(4)?;
+    if version != 2 {
+        return Err(format!("is binary glTF of version {version}; version 2 is read"));
+    }
+    let chunk = |at: usize| -> Result<(&[u8], usize), String> {
+        let length = number(at)?;
+        let end = at.checked_add(8).and_then(|start| start.checked_add(length)).filter(|end| *end <= bytes.len());
+        let end = end.ok_or_else(|| format!("the file ends early: a chunk of {length} bytes begins at byte {at}"))?;
+        Ok((&bytes[at + 8..end], end))
+    };
+    let (json, mut at) = chunk(12)?;
+    if bytes.get(16..20) != Some(b"JSON") {
+        return Err("its first chunk is not JSON".to_owned());
+    }
+    while at + 8 <= bytes.len() {
+        let is_binary = bytes.get(at + 4..at + 8) == Some(b"BIN\0");
+        let (content, end) = chunk(at)?;
+        if is_binary {
+            return Ok((json, Some(content.to_vec())));
+        }
+        at = end;
+    }
+    Ok((json, None))
+}
+
+fn check_version(root: &Root) -> Result<(), String> {
+    let version = root.asset.min_version.as_deref().unwrap_or(&root.asset.version);
+    if root.asset.version.is_empty() {
+        return Err("is not glTF: it states no asset.version".to_owned());
+    }
+    if version.split('.').next() != Some("2") || root.asset.min_version.as_deref().is_some_and(|least| least != "2.0") {
+        return Err(format!("is glTF of version {version}; version 2.0 is read"));
+    }
+    Ok(())
+}
+
+fn check_extensions(root: &Root, name: &str) -> Result<(), SceneError> {
+    for extension in &root.extensions_required {
+        let refused = |message: String| SceneError::in_file(name, message);
+        match extension.as_str() {
+            "KHR_draco_mesh_compression" => {
+                return Err(refused("needs the extension KHR_draco_mesh_compression, which is not read".to_owned())
+                    .with_help(format!("`{DRACO_COMMAND}` undoes the compression")));
+            }
+            "KHR_texture_basisu" => {
+                return Err(refused("needs the extension KHR_texture_basisu, which is not read".to_owned())
+                    .with_help(format!("`{BASIS_COMMAND}` makes PNG of its pictures")));
+            }
+            known if KNOWN.contains(&known) => {}
+            other => return Err(refused(format!("needs the extension {other}, which is not read"))),
+        }
+    }
+    Ok(())
+}
+
+/// A description in the making. Errors are sentences without the file's name.
+struct Importer<'a> {
+    files: &'a Files,
+    folder: PathBuf,
+    name: String,
+    root: &'a Root,
+    buffers: Buffers<'a>,
+    scene: Description,
+    materials: HashMap<Option<usize>, material::Made>,
+    textures: HashMap<(usize, bool), String>,
+    pictures: HashMap<usize, FileReference>,
+    /// Of primitives without skin, by mesh and place in it.
+    meshes: HashMap<(usize, usize), primitive::Made>,
+    /// Of all shapes, copies counted.
+    triangles: u64,
+}
+
+impl Importer<'_> {
+    fn place(&self, key: &str) -> Place {
+        Place { file: self.name.clone(), line: None, key: key.to_owned() }
+    }
+
+    fn drop(&mut self, what: impl Into<String>, key: &str, instead: &str) {
+        let place = self.place(key).to_string();
+        self.scene.report.drop(what, place, instead);
+    }
+
+    fn report_extensions(&mut self) {
+        for extension in &self.root.extensions_used {
+            let is_draco = extension == "KHR_draco_mesh_compression" || extension == "KHR_texture_basisu";
+            if !KNOWN.contains(&extension.as_str()) && !is_draco {
+                self.drop(extension.as_str(), "extensionsUsed", "it has no effect");
+            }
+        }
+        if self.root.extensions_used.iter().any(|extension| extension == "KHR_materials_variants") {
+            self.drop("KHR_materials_variants", "extensions", "the materials that primitives name themselves are taken");
+        }
+        if !self.root.animations.is_empty() {
+            for index in 0..self.root.animations.len() {
+                self.drop("animation", &format!("animations[{index}]"), "everything is at rest");
+            }
+        }
+    }
+}

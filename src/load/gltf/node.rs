@@ -1,0 +1,255 @@
+//! Nodes: what stands where.
+
+use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3, DVec4};
+
+use super::Importer;
+use super::json::{Instances, Node, extension};
+use super::primitive::Skinning;
+use crate::load::import::{Entry, Keys, camera_keys, matrix_value};
+use crate::load::memory;
+use crate::load::printable::short_list;
+
+/// Bytes that a triangle takes once it is packed, with its share of the hierarchy.
+const TRIANGLE_BYTES: u64 = 200;
+/// Most shapes of a scene.
+const MOST_SHAPES: usize = 1 << 20;
+/// The longer side in pixels of a picture whose camera states how wide it is.
+const LONGER_SIDE: f64 = 512.0;
+
+/// A node and where it stands.
+#[derive(Clone, Copy)]
+struct Placed {
+    node: usize,
+    map: DAffine3,
+}
+
+impl Importer<'_> {
+    pub fn scene(&mut self, camera: Option<&str>) -> Result<(), String> {
+        let placed = self.placed_nodes()?;
+        self.choose_camera(&placed, camera)?;
+        let mut world = vec![None; self.root.nodes.len()];
+        placed.iter().for_each(|placed| world[placed.node] = Some(placed.map));
+        for Placed { node: index, map } in placed {
+            let of_node = |message: String| format!("nodes[{index}]: {message}");
+            let node = &self.root.nodes[index];
+            if let Some(mesh) = node.mesh {
+                for instance in self.instances(node).map_err(of_node)? {
+                    self.mesh_node(node, mesh, map * instance, &world, index).map_err(of_node)?;
+                }
+            }
+            self.light(node, map, index).map_err(of_node)?;
+        }
+        Ok(())
+    }
+
+    /// The nodes of the scene from the roots on.
+    fn placed_nodes(&self) -> Result<Vec<Placed>, String> {
+        let roots: Vec<usize> = match self.root.scenes.get(self.root.scene.unwrap_or(0)) {
+            Some(scene) => scene.nodes.clone(),
+            None if self.root.scenes.is_empty() => {
+                let mut is_child = vec![false; self.root.nodes.len()];
+                let children = self.root.nodes.iter().flat_map(|node| &node.children);
+                children.for_each(|&child| is_child.get_mut(child).into_iter().for_each(|is| *is = true));
+                (0..is_child.len()).filter(|&node| !is_child[node]).collect()
+            }
+            None => return Err(format!("there is no scenes[{}]", self.root.scene.unwrap_or(0))),
+        };
+        let mut seen = vec![false; self.root.nodes.len()];
+        let mut placed = Vec::new();
+        let mut to_visit: Vec<Placed> = roots.into_iter().rev().map(|node| Placed { node, map: DAffine3::IDENTITY }).collect();
+        while let Some(Placed { node: index, map: around }) = to_visit.pop() {
+            let node = self.root.nodes.get(index).ok_or_else(|| format!("there is no nodes[{index}]"))?;
+            if std::mem::replace(&mut seen[index], true) {
+                return Err(format!("nodes[{index}] has several parents, or is its own ancestor"));
+            }
+            let map = around * local(node).map_err(|message| format!("nodes[{index}]: {message}"))?;
+            if !map.is_finite() {
+                return Err(format!("nodes[{index}]: its transform leaves the range of numbers"));
+            }
+            placed.push(Placed { node: index, map });
+            to_visit.extend(node.children.iter().rev().map(|&child| Placed { node: child, map }));
+        }
+        Ok(placed)
+    }
+
+    fn choose_camera(&mut self, placed: &[Placed], wanted: Option<&str>) -> Result<(), String> {
+        let name = |index: usize| -> Vec<String> {
+            let node = &self.root.nodes[index];
+            let camera = node.camera.and_then(|camera| self.root.cameras.get(camera));
+            [node.name.clone(), camera.and_then(|camera| camera.name.clone())].into_iter().flatten().collect()
+        };
+        let with_camera = || placed.iter().filter(|placed| self.root.nodes[placed.node].camera.is_some());
+        let chosen = match wanted {
+            None => with_camera().next(),
+            Some(wanted) => {
+                let found = with_camera().find(|placed| name(placed.node).iter().any(|name| name == wanted));
+                let names: Vec<String> = with_camera().flat_map(|placed| name(placed.node)).collect();
+                Some(found.ok_or_else(|| match names.is_empty() {
+                    true => format!("there is no camera named `{wanted}`: the scene has none with a name"),
+                    false => format!("there is no camera named `{wanted}`, but {}", short_list(&names)),
+                })?)
+            }
+        };
+        match chosen.copied() {
+            Some(placed) => self.camera(placed).map_err(|message| format!("nodes[{}]: {message}", placed.node)),
+            None => Ok(()),
+        }
+    }
+
+    fn camera(&mut self, Placed { node, map }: Placed) -> Result<(), String> {
+        let index = self.root.nodes[node].camera.unwrap_or_default();
+        let camera = self.root.cameras.get(index).cloned().ok_or_else(|| format!("there is no cameras[{index}]"))?;
+        let axis = |axis: DVec3| axis.try_normalize().ok_or("the transform of the camera leaves no direction to look along");
+        let (forward, up) = (axis(-map.matrix3.z_axis)?, axis(map.matrix3.y_axis)?);
+        if map.matrix3.determinant() < 0.0 {
+            self.drop("mirroring transform of a camera", &format!("nodes[{node}]"), "the picture is not mirrored");
+        }
+        let mut keys = camera_keys(map.translation, forward, up, 1.0);
+        let aspect = match (&camera.perspective, &camera.orthographic) {
+            (Some(perspective), _) => {
+                let degrees = perspective.yfov.to_degrees();
+                if !(0.001..=179.0).contains(&degrees) {
+                    return Err(format!("cameras[{index}]: `yfov` is {} radians", perspective.yfov));
+                }
+                keys.set("vfov", degrees);
+                perspective.aspect_ratio
+            }
+            (None, Some(window)) => {
+                if !(window.ymag.is_finite() && window.ymag != 0.0 && window.xmag.is_finite() && window.xmag != 0.0) {
+                    return Err(format!("cameras[{index}]: its window has no size"));
+                }
+                keys.set("projection", "orthographic");
+                keys.set("height", 2.0 * window.ymag.abs());
+                Some((window.xmag / window.ymag).abs())
+            }
+            (None, None) => return Err(format!("cameras[{index}] is neither perspective nor orthographic")),
+        };
+        if let Some(aspect) = aspect.filter(|aspect| (0.01..=100.0).contains(aspect)) {
+            let size = [LONGER_SIDE * aspect.min(1.0), LONGER_SIDE / aspect.max(1.0)].map(|side| side.round().max(1.0) as i64);
+            self.scene.film.set("size", crate::load::import::list(size));
+        }
+        self.scene.camera = Some(Entry { place: self.place(&format!("cameras[{index}]")), keys });
+        Ok(())
+    }
+
+    /// Where copies of the node's mesh stand about the node.
+    fn instances(&self, node: &Node) -> Result<Vec<DAffine3>, String> {
+        const NAME: &str = "EXT_mesh_gpu_instancing";
+        let Some(instances) = extension::<Instances>(&node.extensions, NAME)? else { return Ok(vec![DAffine3::IDENTITY]) };
+        let column = |name: &str, kind: &str| -> Result<Option<Vec<f32>>, String> {
+            let Some(accessor) = instances.attributes.get(name) else { return Ok(None) };
+            let accessor = accessor.as_u64().ok_or_else(|| format!("{NAME}: {name} names no accessor"))?;
+            self.buffers.numbers(accessor as usize, &[kind]).map(|(numbers, _)| Some(numbers))
+        };
+        let (translations, rotations, scales) =
+            (column("TRANSLATION", "VEC3")?, column("ROTATION", "VEC4")?, column("SCALE", "VEC3")?);
+        let lengths = [(&translations, 3), (&rotations, 4), (&scales, 3)];
+        let mut counts = lengths.iter().filter_map(|(numbers, width)| numbers.as_ref().map(|numbers| numbers.len() / width));
+        let count = counts.next().unwrap_or(1);
+        if counts.any(|other| other != count) || count > MOST_SHAPES {
+            return Err(format!("{NAME}: its attributes are not equally many, or more than {MOST_SHAPES}"));
+        }
+        let triple = |numbers: &Option<Vec<f32>>, index: usize, default: DVec3| {
+            let three = numbers.as_ref().and_then(|numbers| numbers.get(3 * index..3 * index + 3));
+            three.map_or(default, |three| DVec3::new(three[0].into(), three[1].into(), three[2].into()))
+        };
+        let rotation = |index: usize| {
+            let four = rotations.as_ref().and_then(|numbers| numbers.get(4 * index..4 * index + 4));
+            four.map_or(DQuat::IDENTITY, |q| unit(DVec4::new(q[0].into(), q[1].into(), q[2].into(), q[3].into())))
+        };
+        Ok((0..count)
+            .map(|index| {
+                let scale = triple(&scales, index, DVec3::ONE);
+                DAffine3::from_scale_rotation_translation(scale, rotation(index), triple(&translations, index, DVec3::ZERO))
+            })
+            .collect())
+    }
+
+    fn mesh_node(
+        &mut self,
+        node: &Node,
+        mesh: usize,
+        map: DAffine3,
+        world: &[Option<DAffine3>],
+        index: usize,
+    ) -> Result<(), String> {
+        let count = self.root.meshes.get(mesh).ok_or_else(|| format!("there is no meshes[{mesh}]"))?.primitives.len();
+        let skinning = node.skin.map(|skin| self.skinning(skin, world)).transpose()?;
+        // Joints say where the vertices of a skinned mesh are in the world.
+        let map = if skinning.is_some() { DAffine3::IDENTITY } else { map };
+        let volume = map.matrix3.determinant();
+        if volume == 0.0 || !volume.is_finite() || is_flat(map.matrix3) {
+            self.drop("mesh without extent", &format!("nodes[{index}]"), "it is left out: its node scales it by 0");
+            return Ok(());
+        }
+        for primitive in 0..count {
+            let of_primitive = |message: String| format!("meshes[{mesh}].primitives[{primitive}]: {message}");
+            let made = self.primitive(mesh, primitive, skinning.as_ref(), node.weights.as_deref()).map_err(of_primitive)?;
+            let Some(made) = made else { continue };
+            self.triangles += made.triangles;
+            let needed = self.triangles * TRIANGLE_BYTES;
+            let available = memory::available();
+            if self.triangles > 1 << 20 && needed > available || self.scene.shapes.len() >= MOST_SHAPES {
+                return Err(format!(
+                    "the scene does not fit: up to here it has {} triangles in {} shapes, copies counted, which take about {} MiB; {} MiB are free",
+                    self.triangles,
+                    self.scene.shapes.len(),
+                    needed >> 20,
+                    available >> 20
+                ));
+            }
+            let keys = Keys::of_type("mesh")
+                .with("file", made.file)
+                .with("smooth", made.smooth)
+                .with("material", made.material)
+                .with_some("transform", matrix_value(&map));
+            let place = self.place(&format!("nodes[{index}]"));
+            self.scene.shapes.push(Entry { place, keys });
+        }
+        Ok(())
+    }
+
+    /// What moves the vertices of a skinned mesh into the world.
+    fn skinning(&self, skin: usize, world: &[Option<DAffine3>]) -> Result<Skinning, String> {
+        let found = self.root.skins.get(skin).ok_or_else(|| format!("there is no skins[{skin}]"))?;
+        let inverse = match found.inverse_bind_matrices {
+            Some(accessor) => self.buffers.numbers(accessor, &["MAT4"])?.0,
+            None => Vec::new(),
+        };
+        let joint = |(place, &joint): (usize, &usize)| {
+            let world = world.get(joint).copied().flatten();
+            let world = world.ok_or_else(|| format!("skins[{skin}]: its joint {joint} is not part of the scene"))?;
+            let bind = inverse.get(16 * place..16 * place + 16).map_or(DMat4::IDENTITY, |numbers| {
+                let numbers: [f64; 16] = std::array::from_fn(|at| numbers[at].into());
+                DMat4::from_cols_array(&numbers)
+            });
+            Ok(world * DAffine3::from_mat4(bind))
+        };
+        found.joints.iter().enumerate().map(joint).collect::<Result<_, String>>().map(Skinning)
+    }
+}
+
+/// The map of a node about its parent.
+fn local(node: &Node) -> Result<DAffine3, String> {
+    if let Some(matrix) = node.matrix {
+        let matrix = DMat4::from_cols_array(&matrix);
+        if (matrix.row(3) - DVec4::W).abs().max_element() > 1e-6 {
+            return Err("the last row of its matrix is not 0, 0, 0, 1".to_owned());
+        }
+        return Ok(DAffine3::from_mat4(matrix));
+    }
+    let rotation = node.rotation.map_or(DQuat::IDENTITY, |rotation| unit(DVec4::from_array(rotation)));
+    let scale = node.scale.map_or(DVec3::ONE, DVec3::from_array);
+    Ok(DAffine3::from_scale_rotation_translation(scale, rotation, node.translation.map_or(DVec3::ZERO, DVec3::from_array)))
+}
+
+/// A rotation of length 1; none where nothing is left of it. One without rotation stays exact.
+fn unit(rotation: DVec4) -> DQuat {
+    if rotation == DVec4::W { DQuat::IDENTITY } else { rotation.try_normalize().map_or(DQuat::IDENTITY, DQuat::from_vec4) }
+}
+
+/// Nothing of the volume is left.
+fn is_flat(matrix: DMat3) -> bool {
+    let lengths = matrix.x_axis.length() * matrix.y_axis.length() * matrix.z_axis.length();
+    matrix.determinant().abs() <= 1e-12 * lengths
+}

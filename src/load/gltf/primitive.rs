@@ -1,0 +1,261 @@
+//! Primitives of meshes: triangles, strips and fans, at rest.
+
+use glam::{DAffine3, DVec2, DVec3, Vec2, Vec3};
+use serde_json::{Map, Value};
+
+use super::Importer;
+use super::json::Primitive;
+use super::material::Coordinates;
+use crate::load::import::FileReference;
+use crate::load::model::FARTHEST;
+use crate::scene::Mesh;
+
+/// What a primitive became.
+#[derive(Debug, Clone)]
+pub struct Made {
+    pub file: FileReference,
+    pub material: String,
+    pub smooth: bool,
+    pub triangles: u64,
+}
+
+/// Of each joint, the map from the mesh's space to the world.
+pub struct Skinning(pub Vec<DAffine3>);
+
+impl Importer<'_> {
+    /// None where there is nothing to render.
+    pub fn primitive(
+        &mut self,
+        mesh: usize,
+        index: usize,
+        skinning: Option<&Skinning>,
+        weights: Option<&[f64]>,
+    ) -> Result<Option<Made>, String> {
+        let is_shared = skinning.is_none() && weights.is_none();
+        if is_shared && let Some(made) = self.meshes.get(&(mesh, index)) {
+            return Ok(Some(made.clone()));
+        }
+        let of = &self.root.meshes[mesh];
+        let primitive = of.primitives[index].clone();
+        let key = format!("meshes[{mesh}].primitives[{index}]");
+        let mode = primitive.mode.unwrap_or(4);
+        if !(4..=6).contains(&mode) {
+            let what = if mode == 0 { "points" } else { "lines" };
+            self.drop(what, &key, "they have no surface and are left out");
+            return Ok(None);
+        }
+        if primitive.extensions.contains_key("KHR_draco_mesh_compression") && !primitive.attributes.contains_key("POSITION") {
+            return Err(format!("its data are packed by Draco, which is not read: `{}` unpacks them", super::DRACO_COMMAND));
+        }
+        let material = self.material(primitive.material)?;
+        let weights = weights.unwrap_or(&of.weights);
+        let Some(mut built) = self.geometry(&primitive, mode, skinning, weights, &key)? else { return Ok(None) };
+        self.coordinates(&primitive, material.coordinates, &mut built, &key)?;
+        built.drop_degenerate_faces();
+        if built.faces.is_empty() {
+            self.drop("primitive without a face that has area", &key, "it is left out");
+            return Ok(None);
+        }
+        built.smooth = !built.normals.is_empty();
+        let triangles = built.faces.len() as u64;
+        let name = of.name.clone().unwrap_or_else(|| format!("mesh-{mesh}"));
+        let smooth = built.smooth;
+        let file = self.scene.hold_mesh(&name, built);
+        let made = Made { file, material: material.name, smooth, triangles };
+        if is_shared {
+            self.meshes.insert((mesh, index), made.clone());
+        }
+        Ok(Some(made))
+    }
+
+    fn geometry(
+        &mut self,
+        primitive: &Primitive,
+        mode: u64,
+        skinning: Option<&Skinning>,
+        weights: &[f64],
+        key: &str,
+    ) -> Result<Option<Mesh>, String> {
+        if !primitive.attributes.contains_key("POSITION") {
+            self.drop("primitive without positions", key, "it is left out");
+            return Ok(None);
+        }
+        let mut positions = self.triples(&primitive.attributes, "POSITION")?.unwrap_or_default();
+        let mut normals = self.triples(&primitive.attributes, "NORMAL")?.unwrap_or_default();
+        let count = positions.len();
+        if !normals.is_empty() && normals.len() != count {
+            return Err(format!("there are {} normals for {count} positions", normals.len()));
+        }
+        for (target, weight) in primitive.targets.iter().zip(weights) {
+            for (name, values) in [("POSITION", &mut positions), ("NORMAL", &mut normals)] {
+                let Some(moves) = self.triples(target, name)? else { continue };
+                if *weight != 0.0 {
+                    values.iter_mut().zip(moves).for_each(|(value, step)| *value += step * *weight as f32);
+                }
+            }
+        }
+        if let Some(skinning) = skinning {
+            self.bend(primitive, skinning, &mut positions, &mut normals)?;
+        }
+        if let Some(at) = positions.iter().position(|position| !position.is_finite() || position.abs().max_element() > FARTHEST) {
+            return Err(format!("vertex {at} stands at {}: not within 1e18", positions[at]));
+        }
+        let indices = match primitive.indices {
+            Some(accessor) => self.buffers.indices(accessor)?,
+            None => (0..count as u32).collect(),
+        };
+        if let Some(index) = indices.iter().find(|index| **index as usize >= count) {
+            return Err(format!("a face uses vertex {index}, but there are only {count} (counted from 0)"));
+        }
+        if primitive.attributes.contains_key("COLOR_0") {
+            self.drop("COLOR_0", key, "the material's colour alone counts");
+        }
+        let faces = triangles(&indices, mode);
+        // A normal of no length says nothing; then all faces are flat.
+        let mut units = Vec::with_capacity(normals.len());
+        for normal in normals {
+            let is_unit = (normal.length_squared() - 1.0).abs() < 1e-6;
+            match if is_unit { Some(normal) } else { normal.try_normalize() } {
+                Some(normal) => units.push(normal),
+                None => units.push(Vec3::ZERO),
+            }
+        }
+        let mut mesh = Mesh { positions, normals: units, faces, ..Mesh::default() };
+        complete_normals(&mut mesh);
+        Ok(Some(mesh))
+    }
+
+    /// Texture coordinates as the material wants them. v runs upward here.
+    fn coordinates(
+        &mut self,
+        primitive: &Primitive,
+        wanted: Option<Coordinates>,
+        mesh: &mut Mesh,
+        key: &str,
+    ) -> Result<(), String> {
+        let Some(Coordinates { set, map }) = wanted else { return Ok(()) };
+        let name = format!("TEXCOORD_{set}");
+        let count = mesh.positions.len();
+        let Some(accessor) = accessor(&primitive.attributes, &name)? else {
+            let place = self.place(key).to_string();
+            let instead = "the texture at (0, 0) is everywhere";
+            self.scene.report.approximate("texture on a primitive without texture coordinates", place, instead);
+            mesh.uvs = vec![Vec2::ZERO; count];
+            return Ok(());
+        };
+        let (numbers, _) = self.buffers.numbers(accessor, &["VEC2"])?;
+        let uvs = numbers.as_chunks::<2>().0.iter().map(|&[u, v]| {
+            let at = map.transform_point2(DVec2::new(u.into(), v.into()));
+            Vec2::new(at.x as f32, (1.0 - at.y) as f32)
+        });
+        mesh.uvs = uvs.collect();
+        if mesh.uvs.len() != count {
+            return Err(format!("there are {} {name} for {count} positions", mesh.uvs.len()));
+        }
+        if mesh.uvs.iter().any(|uv| !uv.is_finite()) {
+            return Err(format!("{name} has numbers that are not finite"));
+        }
+        Ok(())
+    }
+
+    fn triples(&self, attributes: &Map<String, Value>, name: &str) -> Result<Option<Vec<Vec3>>, String> {
+        let Some(accessor) = accessor(attributes, name)? else { return Ok(None) };
+        let (numbers, _) = self.buffers.numbers(accessor, &["VEC3"])?;
+        Ok(Some(numbers.as_chunks::<3>().0.iter().map(|xyz| Vec3::from_array(*xyz)).collect()))
+    }
+
+    /// Moves vertices with their joints.
+    fn bend(
+        &self,
+        primitive: &Primitive,
+        Skinning(joints): &Skinning,
+        positions: &mut [Vec3],
+        normals: &mut [Vec3],
+    ) -> Result<(), String> {
+        let mut sums: Vec<Vec<(usize, f64)>> = vec![Vec::new(); positions.len()];
+        for set in 0.. {
+            let (joint, weight) = (format!("JOINTS_{set}"), format!("WEIGHTS_{set}"));
+            let (Some(joint), Some(weight)) =
+                (accessor(&primitive.attributes, &joint)?, accessor(&primitive.attributes, &weight)?)
+            else {
+                break;
+            };
+            let (joint, weight) = (self.buffers.numbers(joint, &["VEC4"])?.0, self.buffers.numbers(weight, &["VEC4"])?.0);
+            let pairs = joint.as_chunks::<4>().0.iter().zip(weight.as_chunks::<4>().0);
+            for (sum, (joints, weights)) in sums.iter_mut().zip(pairs) {
+                let used = joints.iter().zip(weights).filter(|(_, weight)| **weight != 0.0);
+                sum.extend(used.map(|(joint, weight)| (*joint as usize, f64::from(*weight))));
+            }
+        }
+        for (vertex, sum) in sums.iter().enumerate() {
+            let total: f64 = sum.iter().map(|(_, weight)| weight).sum();
+            if total <= 0.0 {
+                continue;
+            }
+            let (mut position, mut normal) = (DVec3::ZERO, DVec3::ZERO);
+            for (joint, weight) in sum {
+                let map = joints
+                    .get(*joint)
+                    .ok_or_else(|| format!("vertex {vertex} hangs on joint {joint}, and there are {}", joints.len()))?;
+                position += map.transform_point3(positions[vertex].as_dvec3()) * (weight / total);
+                if let Some(own) = normals.get(vertex) {
+                    normal += (map.matrix3.inverse().transpose() * own.as_dvec3()) * (weight / total);
+                }
+            }
+            positions[vertex] = position.as_vec3();
+            if let Some(own) = normals.get_mut(vertex) {
+                *own = normal.as_vec3();
+            }
+        }
+        Ok(())
+    }
+}
+
+fn accessor(attributes: &Map<String, Value>, name: &str) -> Result<Option<usize>, String> {
+    let Some(value) = attributes.get(name) else { return Ok(None) };
+    let index = value.as_u64().and_then(|index| usize::try_from(index).ok());
+    index.map(Some).ok_or_else(|| format!("{name} names no accessor"))
+}
+
+/// Corners of triangles, of a list, a strip or a fan.
+fn triangles(indices: &[u32], mode: u64) -> Vec<[u32; 3]> {
+    match mode {
+        5 => {
+            let turned = |(at, corners): (usize, &[u32])| {
+                if at.is_multiple_of(2) { [corners[0], corners[1], corners[2]] } else { [corners[0], corners[2], corners[1]] }
+            };
+            indices.windows(3).enumerate().map(turned).collect()
+        }
+        6 => indices.get(1..).unwrap_or_default().windows(2).map(|pair| [pair[0], pair[1], indices[0]]).collect(),
+        _ => indices.as_chunks::<3>().0.to_vec(),
+    }
+}
+
+/// Normals of no length are those of the faces around.
+fn complete_normals(mesh: &mut Mesh) {
+    if mesh.normals.is_empty() || mesh.normals.iter().all(|normal| *normal != Vec3::ZERO && normal.is_finite()) {
+        return;
+    }
+    let written = std::mem::take(&mut mesh.normals);
+    crate::load::import::smooth_by_index(mesh);
+    for (normal, written) in mesh.normals.iter_mut().zip(written) {
+        if written != Vec3::ZERO && written.is_finite() {
+            *normal = written;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strips_and_fans_keep_their_front() {
+        assert_eq!(triangles(&[0, 1, 2, 3, 4], 5), [[0, 1, 2], [1, 3, 2], [2, 3, 4]]);
+        assert_eq!(triangles(&[0, 1, 2, 3], 6), [[1, 2, 0], [2, 3, 0]]);
+        assert_eq!(triangles(&[0, 1, 2, 3], 4), [[0, 1, 2]]);
+        for mode in 4..=6 {
+            assert!(triangles(&[], mode).is_empty() && triangles(&[7, 8], mode).is_empty());
+        }
+    }
+}

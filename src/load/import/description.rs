@@ -1,0 +1,264 @@
+//! A scene file in the making.
+
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+
+use super::placed::matrix_of;
+use crate::load::files::Files;
+use crate::scene::{ImportReport, Mesh};
+
+/// A scene in the terms of scene files, and what it names that has no file of its own.
+#[derive(Debug, Default)]
+pub struct Description {
+    /// `[film]`
+    pub film: Keys,
+    /// `[render]`
+    pub render: Keys,
+    /// `[camera]`; None: the scene has none, and is framed.
+    pub camera: Option<Entry>,
+    pub textures: Vec<Entry>,
+    pub materials: Vec<Entry>,
+    pub shapes: Vec<Entry>,
+    pub lights: Vec<Entry>,
+    /// Meshes and pictures, by [`FileReference::Held`].
+    pub held: Vec<(String, HeldContent)>,
+    pub report: ImportReport,
+}
+
+/// Something that a file would hold.
+#[derive(Debug, Clone)]
+pub enum HeldContent {
+    Mesh(Arc<Mesh>),
+    /// A picture file as it was embedded.
+    Bytes(Arc<[u8]>),
+}
+
+/// Where something stands in the imported file.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Place {
+    /// As the user named the file.
+    pub file: String,
+    /// From 1; None in files that have no lines.
+    pub line: Option<usize>,
+    /// What it is called there, as `materials[3]`.
+    pub key: String,
+}
+
+impl std::fmt::Display for Place {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.file)?;
+        if let Some(line) = self.line {
+            write!(f, ":{line}")?;
+        }
+        if !self.key.is_empty() {
+            write!(f, ": {}", self.key)?;
+        }
+        Ok(())
+    }
+}
+
+/// A table of a scene file and what it was made from.
+#[derive(Debug, Clone, Default)]
+pub struct Entry {
+    pub place: Place,
+    pub keys: Keys,
+}
+
+/// Keys with their values, in the order in which they are written.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Keys(pub Vec<(&'static str, Value)>);
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    Number(f64),
+    Integer(i64),
+    Flag(bool),
+    Text(String),
+    File(FileReference),
+    List(Vec<Value>),
+    Table(Keys),
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum FileReference {
+    /// A file on disk, as this process finds it.
+    Disk(PathBuf),
+    /// Index into [`Description::held`].
+    Held(usize),
+}
+
+impl Keys {
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Of a table that has a type.
+    pub fn of_type(name: &str) -> Self {
+        Self::new().with("type", name)
+    }
+
+    pub fn with(mut self, key: &'static str, value: impl Into<Value>) -> Self {
+        self.set(key, value);
+        self
+    }
+
+    pub fn with_some(self, key: &'static str, value: Option<impl Into<Value>>) -> Self {
+        match value {
+            Some(value) => self.with(key, value),
+            None => self,
+        }
+    }
+
+    /// Sets a key, in place of what it had.
+    pub fn set(&mut self, key: &'static str, value: impl Into<Value>) {
+        let value = value.into();
+        match self.0.iter_mut().find(|(other, _)| *other == key) {
+            Some(entry) => entry.1 = value,
+            None => self.0.push((key, value)),
+        }
+    }
+
+    pub fn get(&self, key: &str) -> Option<&Value> {
+        self.0.iter().find(|(other, _)| *other == key).map(|(_, value)| value)
+    }
+
+    /// The text that a key has.
+    pub fn text(&self, key: &str) -> Option<&str> {
+        match self.get(key) {
+            Some(Value::Text(text)) => Some(text),
+            _ => None,
+        }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl Description {
+    /// Keeps a mesh that shapes then name.
+    pub fn hold_mesh(&mut self, name: &str, mesh: Mesh) -> FileReference {
+        let name = format!("{:04}-{}.ply", self.held.len(), file_name(name));
+        self.hold(name, HeldContent::Mesh(Arc::new(mesh)))
+    }
+
+    /// Keeps a picture; `ending` says its format.
+    pub fn hold_picture(&mut self, name: &str, ending: &str, bytes: Vec<u8>) -> FileReference {
+        let name = format!("{:04}-{}.{ending}", self.held.len(), file_name(name));
+        self.hold(name, HeldContent::Bytes(bytes.into()))
+    }
+
+    fn hold(&mut self, name: String, content: HeldContent) -> FileReference {
+        self.held.push((name, content));
+        FileReference::Held(self.held.len() - 1)
+    }
+
+    /// Where a file is found while the scene is read.
+    pub fn held_path(&self, file: &FileReference) -> PathBuf {
+        match file {
+            FileReference::Disk(path) => path.clone(),
+            FileReference::Held(index) => Path::new("held:").join(self.held.get(*index).map_or("", |(name, _)| name)),
+        }
+    }
+
+    /// Lets what is held be found, as a scene file in the folder names it.
+    pub fn hold_in(&self, files: &mut Files, folder: &Path) {
+        for (index, (_, content)) in self.held.iter().enumerate() {
+            let path = folder.join(self.held_path(&FileReference::Held(index)));
+            match content {
+                HeldContent::Mesh(mesh) => files.hold_mesh(path, mesh.clone()),
+                HeldContent::Bytes(bytes) => files.hold_bytes(path, bytes.clone()),
+            }
+        }
+    }
+
+    pub fn mesh(&self, file: &FileReference) -> Option<&Arc<Mesh>> {
+        match file {
+            FileReference::Held(index) => match &self.held.get(*index)?.1 {
+                HeldContent::Mesh(mesh) => Some(mesh),
+                HeldContent::Bytes(_) => None,
+            },
+            FileReference::Disk(_) => None,
+        }
+    }
+
+    /// A light, or a material of a shape that gives light.
+    pub fn has_light(&self) -> bool {
+        let gives_light = |entry: &Entry| ["emission", "radiance"].iter().any(|key| entry.keys.get(key).is_some());
+        let lamps: HashSet<&str> =
+            self.materials.iter().filter(|entry| gives_light(entry)).filter_map(|entry| entry.keys.text("name")).collect();
+        let is_lamp = |shape: &Entry| shape.keys.text("material").is_some_and(|name| lamps.contains(name));
+        !self.lights.is_empty() || self.shapes.iter().any(is_lamp)
+    }
+
+    /// Corners of the box around all meshes.
+    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        let mut bounds: Option<(DVec3, DVec3)> = None;
+        for shape in &self.shapes {
+            let Some(Value::File(file)) = shape.keys.get("file") else { continue };
+            let Some(mesh) = self.mesh(file) else { continue };
+            let map = shape.keys.get("transform").and_then(matrix_of).unwrap_or(DAffine3::IDENTITY);
+            for &index in mesh.faces.iter().flatten() {
+                let at = map.transform_point3(mesh.positions[index as usize].as_dvec3());
+                bounds = Some(bounds.map_or((at, at), |(low, high)| (low.min(at), high.max(at))));
+            }
+        }
+        bounds
+    }
+
+    /// Adds a shape with a material of its own.
+    pub fn add_surface(&mut self, name: &str, material: Keys, shape: Keys) {
+        let name = Self::free_name(&self.materials, name);
+        let mut named = Keys::new().with("name", name.as_str());
+        named.0.extend(material.0);
+        self.materials.push(Entry { keys: named, ..Entry::default() });
+        self.shapes.push(Entry { keys: shape.with("material", name), ..Entry::default() });
+    }
+
+    /// A name for an entry that none of the list has, as near to the wanted one as can be.
+    pub fn free_name(list: &[Entry], wanted: &str) -> String {
+        let taken = |name: &str| list.iter().any(|entry| entry.keys.text("name") == Some(name));
+        let wanted = if wanted.is_empty() { "unnamed" } else { wanted };
+        if !taken(wanted) {
+            return wanted.to_owned();
+        }
+        (2..).map(|number| format!("{wanted} ({number})")).find(|name| !taken(name)).unwrap_or_default()
+    }
+}
+
+/// A name as part of a file's name.
+fn file_name(name: &str) -> String {
+    let plain = |character: char| if character.is_ascii_alphanumeric() || "-_".contains(character) { character } else { '_' };
+    name.chars().take(40).map(plain).collect()
+}
+
+/// Several values as a list.
+pub fn list<T: Into<Value>>(values: impl IntoIterator<Item = T>) -> Value {
+    Value::List(values.into_iter().map(Into::into).collect())
+}
+
+macro_rules! from {
+    ($($type:ty: $value:ident => $made:expr,)*) => {$(
+        impl From<$type> for Value {
+            fn from($value: $type) -> Self {
+                $made
+            }
+        }
+    )*};
+}
+from! {
+    f64: value => Self::Number(value),
+    i64: value => Self::Integer(value),
+    u32: value => Self::Integer(value.into()),
+    bool: value => Self::Flag(value),
+    &str: value => Self::Text(value.to_owned()),
+    String: value => Self::Text(value),
+    FileReference: value => Self::File(value),
+    Keys: value => Self::Table(value),
+    glam::DVec3: value => list(value.to_array()),
+    [f64; 2]: value => list(value),
+    Vec<Value>: value => Self::List(value),
+}

@@ -1,0 +1,18 @@
+//! What importers of other programs' scenes share.
+//!
+//! An importer turns a file into a [`Description`]: a scene file of ours in the making, with the meshes and pictures that have no file of
+//! their own. It is read like any scene file, so what an import shows is what the written scene file shows, bit for bit.
+
+mod description;
+mod mesh;
+mod placed;
+mod ply_file;
+mod text;
+mod within;
+
+pub use crate::scene::ImportReport;
+pub use description::{Description, Entry, FileReference, HeldContent, Keys, Place, Value, list};
+pub use mesh::{cylinder, disk, grid_sphere, smooth_by_index, unit_cube};
+pub use placed::{camera_keys, is_uniform, matrix_value, world_direction};
+pub use ply_file::write_ply;
+pub use text::{Origin, Text};

@@ -1,0 +1,114 @@
+//! Metals.
+
+use std::rc::Rc;
+
+use glam::DVec3;
+
+use super::Keyed;
+use crate::load::error::SceneError;
+use crate::load::import::Keys;
+use crate::load::mitsuba::plugin::{Plugin, PropertyValue};
+use crate::load::mitsuba::texture::Input;
+use crate::load::mitsuba::{Converter, metals};
+
+pub fn conductor(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {
+    let tint = converter.reflectance(plugin, "specular_reflectance", 1.0)?;
+    let material = plugin.text("material")?.map(str::to_owned);
+    let given = plugin.has("eta") || plugin.has("k");
+    let fresnel = match material.as_deref() {
+        _ if plugin.name == "mirror" => None,
+        Some("none" | "None") => None,
+        Some(name) if !given => Some(metals::conductor(name).unwrap_or_else(|| {
+            let what = format!("conductor of the material `{name}`");
+            converter.approximate(plugin, &what, "chromium is taken");
+            metals::conductor("cr").unwrap_or_default()
+        })),
+        None if !given && plugin.name == "conductor" && !plugin.has("specular_reflectance") => None,
+        None if !given => Some(metals::conductor("cu").unwrap_or_default()),
+        _ => Some(complex(converter, plugin)?),
+    };
+    let rough = plugin.name == "roughconductor";
+    let Some(fresnel) = fresnel else {
+        // Reflects all light: what is left is the tint.
+        if !rough {
+            return Ok((Keys::of_type("mirror").with("reflectance", tint.value()), false));
+        }
+        let keys = Keys::of_type("conductor").with("reflectance", tint.value());
+        let keys = with_roughness(converter, plugin, keys)?;
+        if tint.constant() != Some(DVec3::ONE) {
+            converter.approximate(plugin, "roughconductor without Fresnel term", "its reflectance rises to 1 at grazing angles");
+        }
+        return Ok((keys, false));
+    };
+    let mut keys = Keys::of_type("conductor");
+    keys.0.extend(fresnel.0);
+    if tint.constant() != Some(DVec3::ONE) {
+        converter.drop(plugin, "specular_reflectance of a conductor", "1 is taken");
+    }
+    if rough {
+        keys = with_roughness(converter, plugin, keys)?;
+    }
+    Ok((keys, false))
+}
+
+/// `eta` and `k`, relative to what is outside.
+fn complex(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keys, SceneError> {
+    let mut constant = |name: &str, default: f64| -> Result<DVec3, SceneError> {
+        let input = converter.scalar(plugin, name, default)?;
+        Ok(input.constant().unwrap_or_else(|| {
+            let what = format!("texture of `{name}` of a conductor");
+            converter.drop(plugin, &what, format!("{default} is taken"));
+            DVec3::splat(default)
+        }))
+    };
+    let (eta, k) = (constant("eta", 0.0)?, constant("k", 1.0)?);
+    let outside = outside(plugin, "ext_eta")?;
+    // An index of 0 is a perfect mirror, which a small one is as well.
+    let eta = (eta / outside).max(DVec3::splat(1e-4));
+    Ok(Keys::new().with("eta", Input::Constant(eta).value()).with("k", Input::Constant((k / outside).max(DVec3::ZERO)).value()))
+}
+
+/// The index of refraction of what is outside, a number or a name; of vacuum where nothing is said.
+fn outside(plugin: &Plugin, name: &str) -> Result<f64, SceneError> {
+    match plugin.value(name) {
+        Some(PropertyValue::Text(text)) => {
+            metals::dielectric(text).ok_or_else(|| plugin.error(format!("nothing is known of the material `{text}`")))
+        }
+        Some(PropertyValue::Number(number)) if *number > 0.0 => Ok(*number),
+        _ => Ok(1.0),
+    }
+}
+
+/// The width of the microfacets' distribution.
+pub fn with_roughness(converter: &mut Converter, plugin: &Rc<Plugin>, keys: Keys) -> Result<Keys, SceneError> {
+    plugin.without_effect(&["sample_visible", "sample_all"]);
+    let distribution = plugin.text("distribution")?.unwrap_or("beckmann").to_ascii_lowercase();
+    if distribution != "ggx" {
+        let what = format!("distribution `{distribution}` of microfacets");
+        converter.approximate(plugin, &what, "GGX of the same width is taken");
+    }
+    converter.approximate(
+        plugin,
+        "masking and shadowing that are separate",
+        "they are height-correlated: 1 to 2 % brighter at grazing angles",
+    );
+    let (u, v) = if plugin.has("alpha_u") || plugin.has("alpha_v") {
+        (converter.scalar(plugin, "alpha_u", 0.1)?, converter.scalar(plugin, "alpha_v", 0.1)?)
+    } else {
+        let alpha = converter.scalar(plugin, "alpha", 0.1)?;
+        (alpha.clone(), alpha)
+    };
+    let alpha = match (u.constant(), v.constant()) {
+        (Some(u), Some(v)) if u == v => Input::Constant(u),
+        (Some(u), Some(v)) => {
+            converter.approximate(plugin, "roughness that differs by direction", "the geometric mean of both is taken");
+            Input::grey((u.x * v.x).max(0.0).sqrt())
+        }
+        _ => u,
+    };
+    let alpha = match alpha {
+        Input::Constant(alpha) => Input::grey(alpha.x.clamp(0.0, 1.0)),
+        texture => texture,
+    };
+    Ok(keys.with("alpha", alpha.value()))
+}

@@ -1,0 +1,42 @@
+//! BSDFs of versions before 2.
+
+use std::rc::Rc;
+
+use super::Keyed;
+use super::dielectric::relative_ior;
+use crate::load::error::SceneError;
+use crate::load::import::{Keys, Value};
+use crate::load::mitsuba::Converter;
+use crate::load::mitsuba::plugin::Plugin;
+use crate::load::mitsuba::texture::Input;
+
+/// Modified Phong, which both programs have; Ward's model is said by it.
+pub fn phong(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {
+    let diffuse = converter.reflectance(plugin, "diffuse_reflectance", 0.5)?;
+    let specular = converter.reflectance(plugin, "specular_reflectance", 0.2)?;
+    let exponent = if plugin.name == "ward" {
+        plugin.without_effect(&["variant"]);
+        converter.approximate(plugin, "bsdf `ward`", "a Phong lobe about as wide");
+        let alpha = plugin.number_or("alpha_u", plugin.number_or("alpha", 0.1)?)?;
+        let _ = plugin.number("alpha_v")?;
+        Input::grey((2.0 / alpha.clamp(1e-3, 1.0).powi(2) - 2.0).max(0.0))
+    } else {
+        converter.scalar(plugin, "exponent", 30.0)?
+    };
+    let keys = Keys::of_type("phong").with("diffuse", diffuse.value()).with("specular", specular.value());
+    Ok((keys.with("exponent", exponent.value()), false))
+}
+
+/// A dielectric layer over another BSDF.
+pub fn coating(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
+    plugin.without_effect(&["thickness", "sigma_a", "alpha", "distribution", "sample_visible", "sample_all"]);
+    let ior = relative_ior(plugin, "bk7")?;
+    let specular = converter.reflectance(plugin, "specular_reflectance", 1.0)?;
+    let names = converter.names_within(plugin, depth)?;
+    let Some((base, _)) = names.first() else { return Err(plugin.error("a coating needs a bsdf within")) };
+    let what = plugin.title();
+    converter.approximate(plugin, &what, "a mirror over what is below, blended by Fresnel's equations");
+    let coat = converter.extra(plugin, "coat", Keys::of_type("mirror").with("reflectance", specular.value()));
+    let weight = Keys::of_type("fresnel").with("ior", ior).with("exact", true);
+    Ok((Keys::of_type("blend").with("materials", vec![Value::from(base.as_str()), coat]).with("weight", weight), false))
+}

@@ -1,0 +1,100 @@
+//! BSDFs around others: two-sided ones, masks, maps of normals, blends.
+
+use std::rc::Rc;
+
+use glam::DVec3;
+
+use super::Keyed;
+use super::principled::{blended, weight};
+use crate::load::error::SceneError;
+use crate::load::import::{Keys, Value};
+use crate::load::mitsuba::Converter;
+use crate::load::mitsuba::colour::Role;
+use crate::load::mitsuba::plugin::Plugin;
+use crate::load::mitsuba::texture::{Input, Texels};
+
+pub fn two_sided(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
+    let within = plugin.children_of("bsdf");
+    if within.len() > 1 && !Rc::ptr_eq(within[0], within[1]) {
+        converter.drop(plugin, "second side of bsdf `twosided`", "the first one's is on both sides");
+    }
+    converter.within(plugin, depth).map(|(keys, _)| (keys, true))
+}
+
+pub fn mask(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
+    let opacity = converter.scalar(plugin, "opacity", 0.5)?;
+    if opacity.constant() == Some(DVec3::ONE) {
+        return converter.within(plugin, depth);
+    }
+    if opacity.constant() == Some(DVec3::ZERO) {
+        converter.within(plugin, depth)?;
+        return Ok((Keys::of_type("pass"), true));
+    }
+    let names = converter.names_within(plugin, depth)?;
+    let Some((name, two_sided)) = names.into_iter().next() else { return Err(plugin.error("a mask needs a bsdf within")) };
+    converter.approximate(
+        plugin,
+        "opacity",
+        "shadow rays end at the surface wherever it is; light reaches what is behind by paths alone",
+    );
+    let behind = converter.extra(plugin, "what is behind", Keys::of_type("pass"));
+    Ok((blended(Value::Text(name), behind, &opacity), two_sided))
+}
+
+pub fn bump_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
+    plugin.without_effect(&["scale"]);
+    plugin.first_of("texture");
+    converter.drop(plugin, "bsdf `bumpmap`", "the surface is smooth");
+    converter.within(plugin, depth)
+}
+
+pub fn normal_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
+    let map = plugin.child("normalmap").or_else(|| plugin.first_of("texture")).cloned();
+    let map = map.ok_or_else(|| plugin.error("a normal map needs a texture within"))?;
+    let (keys, two_sided) = converter.within(plugin, depth)?;
+    Ok(match converter.texture(&map, Role::Surface, Texels::Numbers)? {
+        Input::Texture(name) => (keys.with("normal_map", name), two_sided),
+        Input::Constant(_) => (keys, two_sided),
+    })
+}
+
+/// Mitsuba's weight is the second one's share.
+pub fn blend(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
+    let share = converter.scalar(plugin, "weight", 0.5)?;
+    match &converter.names_within(plugin, depth)?[..] {
+        [(first, a), (second, b)] => Ok((blended(Value::from(second.as_str()), Value::from(first.as_str()), &share), *a && *b)),
+        others => Err(plugin.error(format!("a blend has two bsdfs within, and this one {}", others.len()))),
+    }
+}
+
+/// `weights` of any number of BSDFs, at most 1 in all; what is missing reflects nothing.
+pub fn mixture(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
+    let text = plugin.text("weights")?.ok_or_else(|| plugin.error("a mixture needs the string `weights`"))?;
+    let weights = crate::load::mitsuba::transform::numbers(&plugin.place, text)?;
+    let mut names = converter.names_within(plugin, depth)?;
+    let sum: f64 = weights.iter().sum();
+    if weights.len() != names.len() || names.is_empty() || weights.iter().any(|weight| *weight < 0.0) || sum > 1.0 + 1e-6 {
+        return Err(plugin.error("a mixture has a weight from 0 to 1 for each bsdf within, at most 1 in all"));
+    }
+    let mut parts: Vec<(Value, f64)> = names.drain(..).map(|(name, _)| Value::Text(name)).zip(weights).collect();
+    if sum < 1.0 - 1e-6 {
+        parts.push((converter.extra(plugin, "black", Keys::of_type("diffuse").with("reflectance", 0.0)), 1.0 - sum));
+    }
+    // From the last one on: each takes its share of what is left.
+    let Some((mut rest, mut left)) = parts.pop() else { return Err(plugin.error("a mixture needs bsdfs within")) };
+    let mut keys = None;
+    while let Some((name, share)) = parts.pop() {
+        left += share;
+        let of_left = if left > 0.0 { share / left } else { 1.0 };
+        let made =
+            Keys::of_type("blend").with("materials", vec![name, rest.clone()]).with("weight", weight(&Input::grey(of_left)));
+        if !parts.is_empty() {
+            rest = converter.extra(plugin, "mixture", made.clone());
+        }
+        keys = Some(made);
+    }
+    match keys {
+        Some(keys) => Ok((keys, false)),
+        None => converter.within(plugin, depth),
+    }
+}

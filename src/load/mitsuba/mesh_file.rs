@@ -1,0 +1,179 @@
+//! Shapes from files: OBJ, PLY and Mitsuba's own.
+
+use std::collections::HashSet;
+use std::path::PathBuf;
+use std::rc::Rc;
+
+use glam::{DAffine3, Vec2, Vec3};
+use rayon::prelude::*;
+
+use super::plugin::{Plugin, PropertyValue};
+use super::shape::turn_inside_out;
+use super::{Converter, serialized};
+use crate::load::error::{SceneError, show};
+use crate::load::files::Files;
+use crate::load::import::{Keys, smooth_by_index};
+use crate::load::{obj, ply};
+use crate::scene::Mesh;
+
+impl Converter<'_> {
+    pub fn mesh_shape(
+        &mut self,
+        plugin: &Rc<Plugin>,
+        map: DAffine3,
+        textured: bool,
+        flip: bool,
+    ) -> Result<Option<(Keys, DAffine3)>, SceneError> {
+        plugin.without_effect(&[
+            "max_smooth_angle",
+            "collapse",
+            "optimize",
+            "kd_tree",
+            "load_materials",
+            "srgb",
+            "has_vertex_normals",
+        ]);
+        let written =
+            plugin.text("filename")?.ok_or_else(|| plugin.error(format!("{} needs the string `filename`", plugin.title())))?;
+        let path = self.reader.find(written).ok_or_else(|| plugin.error(format!("there is no file {written}")))?;
+        let index = plugin.number_or("shape_index", 0.0)?;
+        let flat = plugin.flag("face_normals", false)?;
+        // Our v runs upward over a picture, and pictures are turned over: OBJ's v has to follow.
+        let turn_uv = plugin.flag("flip_tex_coords", plugin.name == "obj")?;
+        if plugin.has("max_smooth_angle") {
+            self.approximate(plugin, "`max_smooth_angle`", "normals are as the file has them, or smooth everywhere");
+        }
+        let key = format!("{} {index} {flat} {flip} {turn_uv} {textured} {}", path.display(), plugin.name);
+        if let Some(file) = self.meshes.get(&key).cloned() {
+            return self.mesh_keys(plugin, file, map).map(Some);
+        }
+        let file: MeshKey = (path.clone(), plugin.name.clone(), index.to_bits());
+        let mut mesh = match self.read_meshes.remove(&file) {
+            Some(known) => known,
+            None => read(self.files, &file),
+        }
+        .map_err(|error| error.with_help(format!("{} names it", plugin.place)))?;
+        if mesh.drop_degenerate_faces() > 0 && mesh.faces.is_empty() {
+            self.drop(plugin, "mesh without a face that has area", "it is left out");
+            return Ok(None);
+        }
+        if flat {
+            mesh.normals.clear();
+        } else if mesh.normals.is_empty() {
+            smooth_by_index(&mut mesh);
+        } else {
+            complete_normals(&mut mesh);
+        }
+        mesh.smooth = !mesh.normals.is_empty();
+        if flip {
+            turn_inside_out(&mut mesh);
+        }
+        if turn_uv {
+            mesh.uvs.iter_mut().for_each(|uv| uv.y = 1.0 - uv.y);
+        }
+        if textured && mesh.uvs.is_empty() {
+            self.approximate(plugin, "texture on a mesh without texture coordinates", "the texture at (0, 0) is everywhere");
+            mesh.uvs = vec![Vec2::ZERO; mesh.positions.len()];
+        }
+        if !textured {
+            mesh.uvs.clear();
+        }
+        let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let file = self.scene.hold_mesh(&name, mesh);
+        self.meshes.insert(key, file.clone());
+        self.mesh_keys(plugin, file, map).map(Some)
+    }
+
+    /// Reads all files that shapes name, on all cores. What cannot be read is told when its shape is made.
+    pub fn read_side_by_side(&mut self, root: &Rc<Plugin>) {
+        let mut wanted: HashSet<MeshKey> = HashSet::new();
+        let mut seen: HashSet<*const Plugin> = HashSet::new();
+        let mut to_visit = vec![root.clone()];
+        while let Some(plugin) = to_visit.pop() {
+            if !seen.insert(Rc::as_ptr(&plugin)) {
+                continue;
+            }
+            to_visit.extend(plugin.children.iter().map(|child| child.plugin.clone()));
+            let value = |name: &str| plugin.properties.iter().find(|one| one.name == name).map(|one| &one.value);
+            if let (true, Some(PropertyValue::Text(written))) = (FORMATS.contains(&plugin.name.as_str()), value("filename"))
+                && let Some(path) = self.reader.find(written)
+            {
+                let index = if let Some(PropertyValue::Number(number)) = value("shape_index") { *number } else { 0.0 };
+                wanted.insert((path, plugin.name.clone(), index.to_bits()));
+            }
+        }
+        let files = self.files;
+        let read = |key: MeshKey| (read(files, &key), key);
+        self.read_meshes = wanted.into_par_iter().map(read).map(|(mesh, key)| (key, mesh)).collect();
+    }
+}
+
+/// Elements whose plugins read files.
+const FORMATS: [&str; 3] = ["obj", "ply", "serialized"];
+
+/// A mesh of a file: the file, its format, and the bits of the mesh's number.
+pub type MeshKey = (PathBuf, String, u64);
+
+/// Reads a mesh. The error is that of the file, or why it is none.
+fn read(files: &Files, (path, format, index): &MeshKey) -> Result<Mesh, SceneError> {
+    let file = match format.as_str() {
+        "serialized" => {
+            let mesh = serialized::load(files, path, f64::from_bits(*index));
+            return mesh.map_err(|reason| SceneError::in_file(show(path), reason));
+        }
+        "ply" => ply::load(files, path)?,
+        _ => obj::load(files, path, false)?,
+    };
+    let all_normals = file.parts.iter().all(|part| !part.mesh.normals.is_empty());
+    let all_uvs = file.parts.iter().all(|part| !part.mesh.uvs.is_empty());
+    let mut mesh = Mesh::default();
+    for mut part in file.parts {
+        if !all_normals {
+            part.mesh.normals.clear();
+        }
+        if !all_uvs {
+            part.mesh.uvs.clear();
+        }
+        mesh.append(part.mesh);
+    }
+    // Groups of an OBJ file share vertices there.
+    if format == "obj" && !all_normals {
+        join_vertices(&mut mesh);
+    }
+    Ok(mesh)
+}
+
+/// One vertex for all of the same place and texture coordinates.
+fn join_vertices(mesh: &mut Mesh) {
+    let mut places: std::collections::HashMap<[u32; 5], u32> = Default::default();
+    let old = std::mem::take(mesh);
+    let mut new = Vec::with_capacity(old.positions.len());
+    for (index, position) in old.positions.iter().enumerate() {
+        let uv = old.uvs.get(index).copied().unwrap_or_default();
+        let key = [position.x, position.y, position.z, uv.x, uv.y].map(f32::to_bits);
+        let next = mesh.positions.len() as u32;
+        let place = *places.entry(key).or_insert(next);
+        if place == next {
+            mesh.positions.push(*position);
+            mesh.uvs.extend(old.uvs.get(index));
+        }
+        new.push(place);
+    }
+    mesh.faces = old.faces.iter().map(|face| face.map(|corner| new[corner as usize])).collect();
+    mesh.drop_degenerate_faces();
+}
+
+/// Normals of no length are computed.
+fn complete_normals(mesh: &mut Mesh) {
+    let lacking = |normal: &Vec3| !(normal.is_finite() && normal.length_squared() > 1e-20);
+    if !mesh.normals.iter().any(lacking) {
+        return;
+    }
+    let written = std::mem::take(&mut mesh.normals);
+    smooth_by_index(mesh);
+    for (normal, written) in mesh.normals.iter_mut().zip(written) {
+        if !lacking(&written) {
+            *normal = written;
+        }
+    }
+}

@@ -1,0 +1,192 @@
+//! What a scene file of Mitsuba says: plugins with properties.
+
+use std::cell::Cell;
+use std::rc::Rc;
+
+use glam::{DAffine3, DVec3};
+
+use crate::load::error::SceneError;
+use crate::load::import::Place;
+
+/// An instance of a plugin: an element with its properties and the plugins within.
+#[derive(Debug)]
+pub struct Plugin {
+    /// The element, as `bsdf`.
+    pub kind: String,
+    /// The plugin, as `diffuse`.
+    pub name: String,
+    pub id: String,
+    pub place: Place,
+    pub properties: Vec<Property>,
+    pub children: Vec<Child>,
+    /// Something asked what it says.
+    pub visited: Cell<bool>,
+}
+
+#[derive(Debug)]
+pub struct Property {
+    pub name: String,
+    pub value: PropertyValue,
+    pub place: Place,
+    /// Something asked for it, so that it has an effect.
+    pub used: Cell<bool>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum PropertyValue {
+    Number(f64),
+    Flag(bool),
+    Text(String),
+    Vector(DVec3),
+    /// Linear Rec.709.
+    Rgb(DVec3),
+    Spectrum(Spectrum),
+    Transform(DAffine3),
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum Spectrum {
+    Uniform(f64),
+    /// Wavelengths in nanometres with their values.
+    Samples(Vec<(f64, f64)>),
+    /// Of a black body at so many kelvins, times a factor.
+    BlackBody(f64, f64),
+}
+
+#[derive(Debug)]
+pub struct Child {
+    /// What the plugin around calls it; empty where it says nothing.
+    pub name: String,
+    pub plugin: Rc<Plugin>,
+    pub used: Cell<bool>,
+}
+
+impl Plugin {
+    /// How reports call it: `bsdf \`plastic\``.
+    pub fn title(&self) -> String {
+        format!("{} `{}`", self.kind, self.name)
+    }
+
+    fn find(&self, name: &str) -> Option<&Property> {
+        let property = self.properties.iter().find(|property| property.name == name)?;
+        property.used.set(true);
+        Some(property)
+    }
+
+    /// An error about the whole plugin.
+    pub fn error(&self, message: impl Into<String>) -> SceneError {
+        error_at(&self.place, message)
+    }
+
+    pub fn has(&self, name: &str) -> bool {
+        self.properties.iter().any(|property| property.name == name) || self.children.iter().any(|child| child.name == name)
+    }
+
+    /// A number that the plugin cannot be without.
+    ///
+    /// # Errors
+    /// A value of another kind.
+    pub fn number(&self, name: &str) -> Result<Option<f64>, SceneError> {
+        match self.find(name) {
+            None => Ok(None),
+            Some(property) => match &property.value {
+                PropertyValue::Number(number) => Ok(Some(*number)),
+                PropertyValue::Spectrum(Spectrum::Uniform(number)) => Ok(Some(*number)),
+                PropertyValue::Rgb(colour) if colour.min_element() == colour.max_element() => Ok(Some(colour.x)),
+                _ => Err(wrong_kind(property, "a number")),
+            },
+        }
+    }
+
+    pub fn number_or(&self, name: &str, default: f64) -> Result<f64, SceneError> {
+        Ok(self.number(name)?.unwrap_or(default))
+    }
+
+    pub fn flag(&self, name: &str, default: bool) -> Result<bool, SceneError> {
+        match self.find(name) {
+            None => Ok(default),
+            Some(property) => match &property.value {
+                PropertyValue::Flag(flag) => Ok(*flag),
+                _ => Err(wrong_kind(property, "true or false")),
+            },
+        }
+    }
+
+    pub fn text(&self, name: &str) -> Result<Option<&str>, SceneError> {
+        match self.find(name) {
+            None => Ok(None),
+            Some(property) => match &property.value {
+                PropertyValue::Text(text) => Ok(Some(text)),
+                _ => Err(wrong_kind(property, "a string")),
+            },
+        }
+    }
+
+    pub fn vector(&self, name: &str) -> Result<Option<DVec3>, SceneError> {
+        match self.find(name) {
+            None => Ok(None),
+            Some(property) => match &property.value {
+                PropertyValue::Vector(vector) => Ok(Some(*vector)),
+                _ => Err(wrong_kind(property, "a point or a vector")),
+            },
+        }
+    }
+
+    pub fn transform(&self, name: &str) -> Result<DAffine3, SceneError> {
+        match self.find(name) {
+            None => Ok(DAffine3::IDENTITY),
+            Some(property) => match &property.value {
+                PropertyValue::Transform(map) => Ok(*map),
+                _ => Err(wrong_kind(property, "a transform")),
+            },
+        }
+    }
+
+    /// The value as it is written.
+    pub fn value(&self, name: &str) -> Option<&PropertyValue> {
+        self.find(name).map(|property| &property.value)
+    }
+
+    /// The plugin within that is called so.
+    pub fn child(&self, name: &str) -> Option<&Rc<Plugin>> {
+        let child = self.children.iter().find(|child| child.name == name)?;
+        child.used.set(true);
+        Some(&child.plugin)
+    }
+
+    /// Plugins within of an element, in their order.
+    pub fn children_of(&self, kind: &str) -> Vec<&Rc<Plugin>> {
+        let fitting = self.children.iter().filter(|child| child.plugin.kind == kind);
+        fitting
+            .map(|child| {
+                child.used.set(true);
+                &child.plugin
+            })
+            .collect()
+    }
+
+    /// The first plugin within of an element.
+    pub fn first_of(&self, kind: &str) -> Option<&Rc<Plugin>> {
+        let child = self.children.iter().find(|child| child.plugin.kind == kind)?;
+        child.used.set(true);
+        Some(&child.plugin)
+    }
+
+    /// Marks properties that change nothing that is rendered here.
+    pub fn without_effect(&self, names: &[&str]) {
+        self.properties.iter().filter(|property| names.contains(&property.name.as_str())).for_each(|one| one.used.set(true));
+    }
+}
+
+/// An error at a place of an imported file.
+pub fn error_at(place: &Place, message: impl Into<String>) -> SceneError {
+    let error = match place.line {
+        Some(line) => SceneError::in_line(&place.file, line, message),
+        None => SceneError::in_file(&place.file, message),
+    };
+    error.with_key(&place.key)
+}
+
+fn wrong_kind(property: &Property, expected: &str) -> SceneError {
+    error_at(&property.place, format!("`{}` is not {expected}", property.name))
+}

@@ -1,0 +1,280 @@
+//! Sensors with their film and sampler, integrators, and which way the world stands.
+
+use std::rc::Rc;
+
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+
+use super::Converter;
+use super::plugin::Plugin;
+use crate::load::error::SceneError;
+use crate::load::import::{Entry, Keys, camera_keys};
+use crate::scene::settings::{MAX_PIXELS, MAX_SIDE};
+
+/// Pixels of a film that states no size.
+const DEFAULT_SIZE: [f64; 2] = [768.0, 576.0];
+
+/// Width and height of the whole film, and of what is cropped from it, with its first column and row.
+struct Film {
+    size: [f64; 2],
+    crop: [f64; 2],
+    offset: [f64; 2],
+}
+
+impl Converter<'_> {
+    /// Depth and roulette of the integrator.
+    pub fn integrator(&mut self, plugin: &Rc<Plugin>) -> Result<(), SceneError> {
+        plugin.visited.set(true);
+        plugin.without_effect(&[
+            "strict_normals",
+            "block_size",
+            "timeout",
+            "samples_per_pass",
+            "monochrome",
+            "aovs",
+            "samples",
+            "hide_environment",
+        ]);
+        plugin.without_effect(&["shading_samples", "emitter_samples", "bsdf_samples", "sample_center"]);
+        if plugin.flag("hide_emitters", false)? {
+            self.drop(plugin, "integrator: `hide_emitters`", "emitters are seen");
+        }
+        match plugin.name.as_str() {
+            "direct" => {
+                self.scene.render.set("max_depth", 2_i64);
+                return Ok(());
+            }
+            "path" | "volpath" | "volpathmis" | "bdpt" | "mlt" | "pssmlt" | "erpt" | "ptracer" | "prb" | "prb_basic"
+            | "prbvolpath" | "volpath_simple" | "photonmapper" | "irrcache" | "ppm" | "sppm" | "mis" | "path_mis" => {}
+            "aov" | "moment" | "stokes" | "multichannel" | "adaptive" => {
+                for within in plugin.children_of("integrator") {
+                    self.integrator(within)?;
+                }
+                return Ok(());
+            }
+            other => {
+                let what = format!("integrator `{other}`");
+                self.approximate(plugin, &what, "paths are traced");
+            }
+        }
+        let depth = plugin.number_or("max_depth", -1.0)?;
+        let roulette = plugin.number_or("rr_depth", 5.0)?;
+        if depth.fract() != 0.0 || !(-1.0..1e9).contains(&depth) {
+            return Err(plugin.error(format!("`max_depth` is -1 or a whole number, not {depth}")));
+        }
+        if depth == 0.0 {
+            return Err(plugin.error("with `max_depth` 0 the picture is black"));
+        }
+        self.scene.render.set("max_depth", if depth < 0.0 { 0 } else { depth as i64 });
+        if (1.0..1e9).contains(&roulette) {
+            self.scene.render.set("roulette_depth", roulette as i64);
+        }
+        Ok(())
+    }
+
+    /// Environment maps stand upright here: what turns one otherwise turns the whole scene the other way. Cameras that mirror do the same.
+    pub fn find_world(&mut self, root: &Rc<Plugin>, sensor: Option<&Rc<Plugin>>) -> Result<(), SceneError> {
+        let map = root.children.iter().find(|child| child.plugin.kind == "emitter" && child.plugin.name == "envmap");
+        if let Some(map) = map {
+            let turn = map.plugin.transform("to_world")?.matrix3;
+            let columns = [turn.x_axis, turn.y_axis, turn.z_axis].map(|axis| axis.normalize_or_zero());
+            let turn = DMat3::from_cols(columns[0], columns[1], columns[2]);
+            if (turn.y_axis - DVec3::Y).length() > 1e-9 && turn.determinant() > 0.0 {
+                self.world = DAffine3::from_quat(DQuat::from_mat3(&turn).inverse());
+            }
+        }
+        if let Some(sensor) = sensor {
+            let to_world = self.world * sensor.transform("to_world")?;
+            let [left, up, forward] = [to_world.matrix3.x_axis, to_world.matrix3.y_axis, to_world.matrix3.z_axis];
+            if up.cross(forward).dot(left) < 0.0 {
+                self.drop(sensor, "mirroring `to_world` of the sensor", "the picture is not mirrored");
+            }
+        }
+        Ok(())
+    }
+
+    pub fn sensor(&mut self, plugin: &Rc<Plugin>) -> Result<(), SceneError> {
+        plugin.visited.set(true);
+        plugin.without_effect(&["near_clip", "far_clip", "srf"]);
+        let film = self.film(plugin)?;
+        if let Some(sampler) = plugin.first_of("sampler") {
+            sampler.visited.set(true);
+            sampler.without_effect(&["seed", "jitter", "scramble", "dimension"]);
+            let count = sampler.number_or("sample_count", 4.0)?;
+            if !(1.0..1e9).contains(&count) {
+                return Err(sampler.error(format!("`sample_count` is a whole number of at least 1, not {count}")));
+            }
+            self.scene.render.set("spp", count as i64);
+        }
+        let to_world = self.world * plugin.transform("to_world")?;
+        let degenerate = || plugin.error("`to_world` of the sensor leaves no direction to look along");
+        let axis = |axis: DVec3| axis.try_normalize().filter(|axis| axis.is_finite()).ok_or_else(degenerate);
+        let (forward, up) = (axis(to_world.matrix3.z_axis)?, axis(to_world.matrix3.y_axis)?);
+        if up.cross(forward).length() < 1e-6 {
+            return Err(degenerate());
+        }
+        let focus = plugin.number("focus_distance")?.filter(|distance| *distance > 0.0);
+        let mut keys = camera_keys(to_world.translation, forward, up, focus.unwrap_or(1.0));
+        let [close, open] = [plugin.number("shutter_close")?, plugin.number("shutter_open")?];
+        if close.is_some() || open.is_some() {
+            keys.set("shutter", [open.unwrap_or(0.0), close.or(open).unwrap_or(0.0)]);
+        }
+        match plugin.name.as_str() {
+            "orthographic" | "telecentric" => {
+                let height = 2.0 * to_world.matrix3.x_axis.length() * film.size[1] / film.size[0] * film.crop[1] / film.size[1];
+                keys.set("projection", "orthographic");
+                keys.set("height", height);
+                self.report_crop(plugin, &film);
+            }
+            "perspective" | "thinlens" | "perspective_rdist" | "thinlens_rdist" => {
+                let vertical = self.field_of_view(plugin, &film)?;
+                keys.set("vfov", vertical);
+                self.report_crop(plugin, &film);
+                if plugin.name.starts_with("thinlens") {
+                    let radius = plugin.number("aperture_radius")?;
+                    let radius = radius.ok_or_else(|| plugin.error("a thin lens needs `aperture_radius`"))?;
+                    let distance = focus.ok_or_else(|| plugin.error("a thin lens needs `focus_distance`, above 0"))?;
+                    keys.set("aperture", Keys::new().with("shape", "disk").with("radius", radius));
+                    keys.set("focus_distance", distance);
+                }
+            }
+            other => return Err(plugin.error(format!("the sensor `{other}` cannot be said here; a perspective one can"))),
+        }
+        self.scene.camera = Some(Entry { place: plugin.place.clone(), keys });
+        Ok(())
+    }
+
+    /// Vertical angle of what the cropped film shows.
+    fn field_of_view(&mut self, plugin: &Rc<Plugin>, film: &Film) -> Result<f64, SceneError> {
+        let aspect = film.size[0] / film.size[1];
+        // Half the film's width and height at distance 1.
+        let half_width = match (plugin.number("fov")?, plugin.value("focal_length")) {
+            (Some(fov), _) => {
+                let half = (0.5 * fov).to_radians().tan();
+                if !(half > 0.0 && half.is_finite() && fov < 180.0) {
+                    return Err(plugin.error(format!("`fov` is an angle above 0 and below 180, not {fov}")));
+                }
+                match plugin.text("fov_axis")?.unwrap_or("x") {
+                    "x" => half,
+                    "y" => half * aspect,
+                    "smaller" => half * aspect.max(1.0),
+                    "larger" => half * aspect.min(1.0),
+                    "diagonal" => half * aspect / (1.0 + aspect * aspect).sqrt(),
+                    other => return Err(plugin.error(format!("`fov_axis` is x, y, smaller, larger or diagonal, not {other}"))),
+                }
+            }
+            (None, focal) => {
+                let millimetres = match focal {
+                    None => 50.0,
+                    Some(super::plugin::PropertyValue::Text(text)) => {
+                        super::document::parse_number(&plugin.place, text.trim().trim_end_matches("mm"))?
+                    }
+                    Some(super::plugin::PropertyValue::Number(number)) => *number,
+                    Some(_) => return Err(plugin.error("`focal_length` is a length as 50mm")),
+                };
+                // The diagonal of 35 mm film is 43.27 mm.
+                let half_diagonal = 0.5 * 36.0_f64.hypot(24.0) / millimetres;
+                half_diagonal * aspect / (1.0 + aspect * aspect).sqrt()
+            }
+        };
+        let axis = plugin.text("fov_axis")?.unwrap_or("x");
+        let is_vertical = axis == "y" || aspect == 1.0 && axis != "diagonal";
+        if let Some(fov) = plugin.number("fov")?.filter(|_| is_vertical && film.crop == film.size) {
+            return Ok(fov);
+        }
+        let half_height = half_width / aspect * film.crop[1] / film.size[1];
+        Ok(2.0 * half_height.atan().to_degrees())
+    }
+
+    /// Pictures whose middle is not on the camera's axis.
+    fn report_crop(&mut self, plugin: &Rc<Plugin>, film: &Film) {
+        let middle = [0, 1].map(|side| (film.offset[side] + 0.5 * film.crop[side]) / film.size[side]);
+        if middle.iter().any(|middle| (middle - 0.5).abs() > 1e-9) {
+            self.drop(plugin, "crop away from the film's middle", "the middle of the film is rendered, in the size of the crop");
+        }
+        let shifted = ["principal_point_offset_x", "principal_point_offset_y"];
+        if shifted
+            .iter()
+            .any(|name| matches!(plugin.value(name), Some(super::plugin::PropertyValue::Number(number)) if *number != 0.0))
+        {
+            self.drop(plugin, "principal point off the middle", "the middle of the film is looked at");
+        }
+    }
+
+    fn film(&mut self, sensor: &Rc<Plugin>) -> Result<Film, SceneError> {
+        let mut whole = Film { size: DEFAULT_SIZE, crop: DEFAULT_SIZE, offset: [0.0; 2] };
+        let Some(film) = sensor.first_of("film").cloned() else {
+            self.size(sensor, &whole)?;
+            self.filter(None)?;
+            return Ok(whole);
+        };
+        film.visited.set(true);
+        film.without_effect(&[
+            "pixel_format",
+            "component_format",
+            "file_format",
+            "banner",
+            "high_quality_edges",
+            "sample_border",
+            "compensate",
+        ]);
+        film.without_effect(&[
+            "attach_log",
+            "gamma",
+            "exposure",
+            "key",
+            "burn",
+            "tonemap_method",
+            "file_name",
+            "filename",
+            "channel_names",
+            "label",
+        ]);
+        whole.size = [film.number_or("width", DEFAULT_SIZE[0])?, film.number_or("height", DEFAULT_SIZE[1])?];
+        whole.crop = [film.number_or("crop_width", whole.size[0])?, film.number_or("crop_height", whole.size[1])?];
+        whole.offset = [film.number_or("crop_offset_x", 0.0)?, film.number_or("crop_offset_y", 0.0)?];
+        self.size(&film, &whole)?;
+        self.filter(film.first_of("rfilter"))?;
+        Ok(whole)
+    }
+
+    fn size(&mut self, plugin: &Plugin, film: &Film) -> Result<(), SceneError> {
+        let whole = |side: f64| side.fract() == 0.0 && (1.0..=f64::from(MAX_SIDE)).contains(&side);
+        let [width, height] = film.crop;
+        if !(film.size.into_iter().all(|side| side >= 1.0)
+            && whole(width)
+            && whole(height)
+            && width * height <= MAX_PIXELS as f64)
+        {
+            return Err(plugin.error(format!("a picture of {width} x {height} pixels cannot be rendered")));
+        }
+        self.scene.film.set("size", super::super::import::list([width as i64, height as i64]));
+        Ok(())
+    }
+
+    fn filter(&mut self, filter: Option<&Rc<Plugin>>) -> Result<(), SceneError> {
+        let Some(filter) = filter else {
+            // Mitsuba's default: a deviation of half a pixel.
+            self.scene.film.set("filter", Keys::of_type("gaussian").with("radius", 1.5));
+            return Ok(());
+        };
+        filter.visited.set(true);
+        let (name, radius) = match filter.name.as_str() {
+            "box" => ("box", filter.number_or("radius", 0.5)?),
+            "tent" => ("tent", filter.number_or("radius", 1.0)?),
+            // Cut off at three deviations here, at four there.
+            "gaussian" => ("gaussian", 3.0 * filter.number_or("stddev", 0.5)?),
+            other => {
+                let what = format!("rfilter `{other}`");
+                filter.without_effect(&["b", "c", "lobes", "radius", "stddev"]);
+                self.approximate(
+                    filter,
+                    &what,
+                    "a gaussian of half a pixel's deviation is taken: filters have no negative parts here",
+                );
+                ("gaussian", 1.5)
+            }
+        };
+        self.scene.film.set("filter", Keys::of_type(name).with("radius", radius.clamp(0.5, 16.0)));
+        Ok(())
+    }
+}

@@ -1,0 +1,229 @@
+//! Shapes.
+
+use std::rc::Rc;
+
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::plugin::Plugin;
+use super::{Converter, emitter};
+use crate::load::error::SceneError;
+use crate::load::import::{Entry, FileReference, Keys, cylinder, disk, grid_sphere, is_uniform, unit_cube};
+use crate::load::memory;
+use crate::scene::Mesh;
+
+/// Bytes that a triangle takes once it is packed, with its share of the hierarchy.
+const TRIANGLE_BYTES: u64 = 200;
+/// Most groups within each other.
+const DEEPEST_GROUP: usize = 8;
+/// Most shapes of a scene.
+const MOST_SHAPES: usize = 1 << 20;
+
+impl Converter<'_> {
+    pub fn shape(&mut self, plugin: &Rc<Plugin>) -> Result<(), SceneError> {
+        self.placed_shape(plugin, DAffine3::IDENTITY, 0)
+    }
+
+    /// A shape within what stands around it.
+    fn placed_shape(&mut self, plugin: &Rc<Plugin>, around: DAffine3, depth: usize) -> Result<(), SceneError> {
+        plugin.visited.set(true);
+        plugin.without_effect(&["id", "silhouette_sampling_weight", "kd_tree", "silhouette_discontinuity"]);
+        if depth > DEEPEST_GROUP {
+            return Err(plugin.error(format!("groups of shapes lie more than {DEEPEST_GROUP} deep within each other")));
+        }
+        let map = around * plugin.transform("to_world")?;
+        let well = map.is_finite() && map.matrix3.determinant().abs() > 0.0;
+        if !well {
+            return Err(plugin.error("`to_world` flattens the shape or leaves the range of numbers"));
+        }
+        match plugin.name.as_str() {
+            // Seen where instances name it.
+            "shapegroup" if depth == 0 => Ok(()),
+            "shapegroup" | "merge" => {
+                plugin.children_of("shape").into_iter().try_for_each(|shape| self.placed_shape(shape, around, depth + 1))
+            }
+            "instance" => {
+                let groups = plugin.children_of("shape");
+                if groups.is_empty() {
+                    return Err(plugin.error("an instance names a shapegroup by <ref>"));
+                }
+                groups.into_iter().try_for_each(|group| self.placed_shape(group, map, depth + 1))
+            }
+            _ => self.surface(plugin, map),
+        }
+    }
+
+    fn surface(&mut self, plugin: &Rc<Plugin>, map: DAffine3) -> Result<(), SceneError> {
+        let bsdf = plugin.first_of("bsdf").cloned();
+        let light = plugin.first_of("emitter").cloned();
+        let light = light.map(|light| emitter::area_radiance(self, &light)).transpose()?.flatten();
+        let textured = bsdf.as_ref().is_some_and(uses_texture) || matches!(light, Some(super::texture::Input::Texture(_)));
+        let flip = plugin.flag("flip_normals", false)?;
+        let Some((keys, map)) = self.geometry(plugin, map, textured, flip)? else { return Ok(()) };
+        let material = self.surface_material(plugin, bsdf.as_ref(), light)?;
+        let keys = self.placed(&map, keys.with("material", material));
+        if self.scene.shapes.len() >= MOST_SHAPES {
+            return Err(plugin.error(format!("the scene has more than {MOST_SHAPES} shapes, instances counted")));
+        }
+        self.scene.shapes.push(Entry { place: plugin.place.clone(), keys });
+        Ok(())
+    }
+
+    /// Keys of the geometry and the transform that is left; None where there is nothing to render.
+    fn geometry(
+        &mut self,
+        plugin: &Rc<Plugin>,
+        map: DAffine3,
+        textured: bool,
+        flip: bool,
+    ) -> Result<Option<(Keys, DAffine3)>, SceneError> {
+        let key = |name: &str| format!("({name}) {flip}");
+        Ok(Some(match plugin.name.as_str() {
+            "sphere" => self.sphere(plugin, map, textured, flip)?,
+            "rectangle" => {
+                let (u, v) = (DVec3::new(2.0, 0.0, 0.0), DVec3::new(0.0, 2.0, 0.0));
+                if flip {
+                    // The front follows edge_u × edge_v.
+                    if textured {
+                        self.approximate(plugin, "texture on a rectangle with `flip_normals`", "u and v are exchanged");
+                    }
+                    (rectangle(DVec3::new(-1.0, -1.0, 0.0), v, u), map)
+                } else {
+                    (rectangle(DVec3::new(-1.0, -1.0, 0.0), u, v), map)
+                }
+            }
+            "cube" => {
+                if textured || flip {
+                    self.made_mesh(plugin, key("cube"), flip, map, unit_cube)?
+                } else {
+                    let keys = Keys::of_type("box").with("min", DVec3::NEG_ONE).with("max", DVec3::ONE);
+                    self.counted(plugin, 12)?;
+                    (keys, map)
+                }
+            }
+            "disk" => {
+                if !textured && is_uniform(&map) {
+                    let normal = if flip { DVec3::NEG_Z } else { DVec3::Z };
+                    (Keys::of_type("disk").with("center", DVec3::ZERO).with("normal", normal).with("radius", 1.0), map)
+                } else {
+                    self.approximate(plugin, "shape `disk` with a texture or scaled unevenly", "128 triangles");
+                    self.made_mesh(plugin, key("disk"), flip, map, disk)?
+                }
+            }
+            "cylinder" => {
+                let (p0, p1) = (plugin.vector("p0")?.unwrap_or(DVec3::ZERO), plugin.vector("p1")?.unwrap_or(DVec3::Z));
+                let radius = plugin.number_or("radius", 1.0)?;
+                let axis = p1 - p0;
+                let Some(along) = axis.try_normalize().filter(|_| radius > 0.0) else {
+                    return Err(plugin.error("the cylinder has no length or no radius"));
+                };
+                let (x, y) = along.any_orthonormal_pair();
+                let own = DAffine3 { matrix3: DMat3::from_cols(x * radius, y * radius, axis), translation: p0 };
+                self.approximate(plugin, "shape `cylinder`", "256 triangles with interpolated normals");
+                self.made_mesh(plugin, key("cylinder"), flip, map * own, cylinder)?
+            }
+            "obj" | "ply" | "serialized" => return self.mesh_shape(plugin, map, textured, flip),
+            "hair" | "linecurve" | "bsplinecurve" | "heightfield" | "sdfgrid" | "ellipsoids" | "ellipsoidsmesh"
+            | "deformable" => {
+                for property in &plugin.properties {
+                    property.used.set(true);
+                }
+                let what = format!("shape `{}`", plugin.name);
+                self.drop(plugin, &what, "it is left out");
+                return Ok(None);
+            }
+            other => {
+                let what = format!("shape `{other}`");
+                self.drop(plugin, &what, "it is left out");
+                return Ok(None);
+            }
+        }))
+    }
+
+    fn sphere(&mut self, plugin: &Rc<Plugin>, map: DAffine3, textured: bool, flip: bool) -> Result<(Keys, DAffine3), SceneError> {
+        let center = plugin.vector("center")?.unwrap_or(DVec3::ZERO);
+        let radius = plugin.number_or("radius", 1.0)?;
+        if radius.is_nan() || radius <= 0.0 {
+            return Err(plugin.error(format!("the radius of a sphere is above 0, not {radius}")));
+        }
+        if is_uniform(&map) && !flip {
+            if !textured {
+                return Ok((Keys::of_type("sphere").with("center", center).with("radius", radius), map));
+            }
+            // Texture coordinates turn about +Z there and about +Y here.
+            let turn = DMat3::from_cols(DVec3::Y, DVec3::NEG_Z, DVec3::NEG_X);
+            let own = DAffine3::from_translation(center) * DAffine3::from_mat3(turn);
+            return Ok((Keys::of_type("sphere").with("center", DVec3::ZERO).with("radius", radius), map * own));
+        }
+        self.approximate(
+            plugin,
+            "shape `sphere` scaled unevenly or turned inside out",
+            "16,000 triangles with interpolated normals",
+        );
+        let own = DAffine3::from_translation(center) * DAffine3::from_scale(DVec3::splat(radius));
+        self.made_mesh(plugin, format!("(sphere) {flip}"), flip, map * own, grid_sphere)
+    }
+
+    /// A shape of triangles that is made once.
+    fn made_mesh(
+        &mut self,
+        plugin: &Plugin,
+        key: String,
+        flip: bool,
+        map: DAffine3,
+        make: impl FnOnce() -> Mesh,
+    ) -> Result<(Keys, DAffine3), SceneError> {
+        let file = match self.meshes.get(&key) {
+            Some(file) => file.clone(),
+            None => {
+                let mut mesh = make();
+                if flip {
+                    turn_inside_out(&mut mesh);
+                }
+                let file = self.scene.hold_mesh(&plugin.name, mesh);
+                self.meshes.insert(key, file.clone());
+                file
+            }
+        };
+        self.mesh_keys(plugin, file, map)
+    }
+
+    /// The keys of a shape of this mesh, whose triangles are counted.
+    pub fn mesh_keys(&mut self, plugin: &Plugin, file: FileReference, map: DAffine3) -> Result<(Keys, DAffine3), SceneError> {
+        let mesh = self.scene.mesh(&file).map(|mesh| (mesh.faces.len(), mesh.smooth));
+        let (faces, smooth) = mesh.unwrap_or((0, false));
+        self.counted(plugin, faces as u64)?;
+        Ok((Keys::of_type("mesh").with("file", file).with("smooth", smooth), map))
+    }
+
+    /// Instances are copies: what they take must be there.
+    fn counted(&mut self, plugin: &Plugin, faces: u64) -> Result<(), SceneError> {
+        self.triangles += faces;
+        let needed = self.triangles * TRIANGLE_BYTES;
+        let available = memory::available();
+        if self.triangles > 1 << 20 && needed > available {
+            let (triangles, needed, available) = (self.triangles, needed >> 20, available >> 20);
+            return Err(plugin.error(format!(
+                "the scene does not fit: up to here it has {triangles} triangles, with each instance's copies, which take about {needed} MiB; \
+                 {available} MiB are free"
+            )));
+        }
+        Ok(())
+    }
+}
+
+fn rectangle(corner: DVec3, edge_u: DVec3, edge_v: DVec3) -> Keys {
+    Keys::of_type("rectangle").with("corner", corner).with("edge_u", edge_u).with("edge_v", edge_v)
+}
+
+/// Fronts become backs.
+pub fn turn_inside_out(mesh: &mut Mesh) {
+    mesh.faces.iter_mut().for_each(|face| face.swap(1, 2));
+    mesh.normals.iter_mut().for_each(|normal| *normal = -*normal);
+}
+
+/// The plugin or one within it looks up a texture.
+fn uses_texture(plugin: &Rc<Plugin>) -> bool {
+    const CONSTANT: [&str; 9] = ["rgb", "srgb", "uniform", "d65", "regular", "irregular", "blackbody", "srgb_d65", "rawconstant"];
+    let is_texture = ["texture", "spectrum"].contains(&plugin.kind.as_str()) && !CONSTANT.contains(&plugin.name.as_str());
+    is_texture || plugin.children.iter().any(|child| uses_texture(&child.plugin))
+}

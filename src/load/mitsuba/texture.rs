@@ -1,0 +1,256 @@
+//! Textures, and parameters that may come from one.
+//!
+//! Texture coordinates stay Mitsuba's, whose v runs downward over a picture; ours runs upward, so pictures are turned over.
+
+use std::rc::Rc;
+
+use glam::{DAffine3, DVec3};
+
+use super::Converter;
+use super::colour::Role;
+use super::plugin::{Plugin, PropertyValue, Spectrum};
+use crate::load::error::SceneError;
+use crate::load::import::{Description, Entry, FileReference, Keys, Value, list};
+
+/// A parameter: a constant or the name of a texture.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Input {
+    Constant(DVec3),
+    Texture(String),
+}
+
+impl Input {
+    pub fn grey(value: f64) -> Self {
+        Self::Constant(DVec3::splat(value))
+    }
+
+    pub fn constant(&self) -> Option<DVec3> {
+        match self {
+            Self::Constant(colour) => Some(*colour),
+            Self::Texture(_) => None,
+        }
+    }
+
+    /// As scene files write it: a number for grey.
+    pub fn value(&self) -> Value {
+        match self {
+            Self::Constant(colour) if colour.min_element() == colour.max_element() => Value::Number(colour.x),
+            Self::Constant(colour) => list(colour.to_array()),
+            Self::Texture(name) => Value::Table(Keys::new().with("texture", name.as_str())),
+        }
+    }
+}
+
+/// How the texels of a picture are read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Texels {
+    /// Colours, which files of integers hold in sRGB.
+    Colours,
+    /// Numbers as they are.
+    Numbers,
+}
+
+impl Converter<'_> {
+    /// A colour of light that leaves something: any amount.
+    pub fn light_colour(&mut self, plugin: &Plugin, name: &str, default: f64) -> Result<Input, SceneError> {
+        self.input(plugin, name, Role::Light, Texels::Colours, default)
+    }
+
+    /// A share of light, at most 1.
+    pub fn reflectance(&mut self, plugin: &Plugin, name: &str, default: f64) -> Result<Input, SceneError> {
+        match self.input(plugin, name, Role::Surface, Texels::Colours, default)? {
+            Input::Constant(colour) => {
+                if colour.max_element() > 1.0 + 1e-6 {
+                    let what = format!("{}: `{name}` above 1", plugin.title());
+                    self.approximate(plugin, &what, "1 is taken, since more would make energy");
+                }
+                Ok(Input::Constant(colour.clamp(DVec3::ZERO, DVec3::ONE)))
+            }
+            texture => Ok(texture),
+        }
+    }
+
+    /// A number, perhaps from a texture.
+    pub fn scalar(&mut self, plugin: &Plugin, name: &str, default: f64) -> Result<Input, SceneError> {
+        self.input(plugin, name, Role::Surface, Texels::Numbers, default)
+    }
+
+    fn input(&mut self, plugin: &Plugin, name: &str, role: Role, texels: Texels, default: f64) -> Result<Input, SceneError> {
+        if let Some(texture) = plugin.child(name).cloned() {
+            return self.texture(&texture, role, texels);
+        }
+        Ok(match plugin.value(name) {
+            None => Input::grey(default),
+            Some(PropertyValue::Number(number)) => Input::grey(*number),
+            Some(PropertyValue::Rgb(colour)) => Input::Constant(*colour),
+            Some(PropertyValue::Spectrum(spectrum)) => Input::Constant(spectrum.color(role)),
+            Some(PropertyValue::Vector(vector)) if plugin.name == "rawconstant" => Input::Constant(*vector),
+            Some(PropertyValue::Text(_) | PropertyValue::Flag(_) | PropertyValue::Vector(_) | PropertyValue::Transform(_)) => {
+                return Err(plugin.error(format!("`{name}` of {} is no colour", plugin.title())));
+            }
+        })
+    }
+
+    /// What a texture, or a plugin of a spectrum, gives.
+    pub fn texture(&mut self, plugin: &Rc<Plugin>, role: Role, texels: Texels) -> Result<Input, SceneError> {
+        plugin.visited.set(true);
+        let key = (Rc::as_ptr(plugin), role == Role::Light, texels);
+        if let Some(known) = self.textures.get(&key) {
+            return Ok(known.clone());
+        }
+        let input = self.new_texture(plugin, role, texels)?;
+        self.textures.insert(key, input.clone());
+        Ok(input)
+    }
+
+    fn new_texture(&mut self, plugin: &Rc<Plugin>, role: Role, texels: Texels) -> Result<Input, SceneError> {
+        match plugin.name.as_str() {
+            "bitmap" => self.bitmap(plugin, texels),
+            "checkerboard" => self.checkerboard(plugin, role),
+            "rgb" | "srgb" | "uniform" | "srgb_d65" | "rawconstant" => {
+                let name = if plugin.has("value") { "value" } else { "color" };
+                let colour = self.input(plugin, name, role, texels, 1.0)?;
+                self.scaled(plugin, colour)
+            }
+            "d65" => {
+                let colour = self.input(plugin, "color", role, texels, 1.0)?;
+                self.scaled(plugin, colour)
+            }
+            "blackbody" => {
+                let kelvin = plugin.number_or("temperature", 5000.0)?;
+                self.scaled(plugin, Input::Constant(Spectrum::BlackBody(kelvin, 1.0).color(role)))
+            }
+            "regular" | "irregular" => super::spectrum::sampled(plugin).map(|spectrum| Input::Constant(spectrum.color(role))),
+            "scale" => {
+                let Some(within) = plugin.first_of("texture").cloned() else {
+                    return self.input(plugin, "value", role, texels, 1.0);
+                };
+                let colour = self.texture(&within, role, texels)?;
+                self.scaled(plugin, colour)
+            }
+            other => {
+                let what = format!("texture `{other}`");
+                self.drop(plugin, &what, "a grey of 0.5 is taken");
+                Ok(Input::grey(0.5))
+            }
+        }
+    }
+
+    /// Times the plugin's factor.
+    fn scaled(&mut self, plugin: &Plugin, colour: Input) -> Result<Input, SceneError> {
+        let factor = self.input(plugin, "scale", Role::Light, Texels::Numbers, 1.0)?.constant().unwrap_or(DVec3::ONE);
+        Ok(match colour {
+            Input::Constant(colour) => Input::Constant(colour * factor),
+            Input::Texture(name) if factor == DVec3::ONE => Input::Texture(name),
+            Input::Texture(name) => self.texture_times(plugin, &name, factor),
+        })
+    }
+
+    /// A texture times a colour.
+    pub fn texture_times(&mut self, plugin: &Plugin, name: &str, factor: DVec3) -> Input {
+        self.approximate(plugin, "factor of a texture", format!("it is left out: {factor}"));
+        Input::Texture(name.to_owned())
+    }
+
+    fn bitmap(&mut self, plugin: &Rc<Plugin>, texels: Texels) -> Result<Input, SceneError> {
+        if plugin.first_of("texture").is_some() || plugin.has("data") || plugin.has("bitmap") {
+            return Err(plugin.error("a bitmap is read from a file here, and this one names none"));
+        }
+        let written = plugin.text("filename")?.ok_or_else(|| plugin.error("a bitmap needs the string `filename`"))?;
+        let path = self.reader.find(written).ok_or_else(|| plugin.error(format!("there is no file {written}")))?;
+        let raw = plugin.flag("raw", false)? || texels == Texels::Numbers;
+        let gamma = plugin.number("gamma")?;
+        if gamma.is_some_and(|gamma| gamma != 1.0 && gamma != -1.0 && (gamma - 2.2).abs() > 0.3) {
+            self.approximate(plugin, "gamma of a bitmap", "sRGB's curve is taken");
+        }
+        let linear = raw || gamma == Some(1.0);
+        let filter = plugin.text("filter_type")?.unwrap_or("bilinear");
+        let wrap = match plugin.text("wrap_mode")?.unwrap_or("repeat") {
+            "repeat" => "repeat",
+            "mirror" => "mirror",
+            "clamp" => "clamp",
+            other => {
+                let what = format!("wrap_mode `{other}`");
+                self.approximate(plugin, &what, "`clamp` is taken");
+                "clamp"
+            }
+        };
+        plugin.without_effect(&["format", "accel", "to_uv", "max_anisotropy", "cache", "to_srgb"]);
+        let channel = plugin.text("channel")?;
+        if channel.is_some() {
+            self.drop(plugin, "channel of a bitmap", "all of its channels are taken");
+        }
+        let is_float =
+            path.extension().is_some_and(|ending| ["exr", "hdr", "rgbe", "pfm"].iter().any(|e| ending.eq_ignore_ascii_case(e)));
+        let mut keys = Keys::new()
+            .with("type", "image")
+            .with("file", FileReference::Disk(path.clone()))
+            .with_some("color_space", (linear && !is_float || texels == Texels::Numbers).then_some("linear"));
+        if wrap != "repeat" {
+            keys.set("wrap", wrap);
+        }
+        if filter == "nearest" {
+            keys.set("filter", "nearest");
+        }
+        let (scale, offset) = self.uv_map(plugin)?;
+        // v runs downward: 1 − v is looked up.
+        self.place_picture(plugin, &mut keys, [scale[0], -scale[1]], [offset[0], 1.0 - offset[1]]);
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        Ok(self.add_texture(plugin, &stem, keys))
+    }
+
+    /// Scale and offset of texture coordinates.
+    fn place_picture(&mut self, plugin: &Plugin, keys: &mut Keys, scale: [f64; 2], offset: [f64; 2]) {
+        let repeats = keys.get("wrap").is_none();
+        let whole = offset.iter().all(|offset| offset.fract() == 0.0);
+        if scale != [1.0; 2] {
+            keys.set("scale", scale);
+        }
+        if !(whole && repeats) {
+            self.approximate(plugin, "offset of texture coordinates", "it is left out");
+        }
+    }
+
+    fn checkerboard(&mut self, plugin: &Rc<Plugin>, role: Role) -> Result<Input, SceneError> {
+        let mut colours = [DVec3::ZERO; 2];
+        for (colour, (name, default)) in colours.iter_mut().zip([("color0", 0.4), ("color1", 0.2)]) {
+            let input = self.input(plugin, name, role, Texels::Colours, default)?;
+            *colour = input.constant().unwrap_or_else(|| {
+                self.drop(plugin, "texture within a checkerboard", "a grey is taken");
+                DVec3::splat(default)
+            });
+        }
+        let (scale, offset) = self.uv_map(plugin)?;
+        // Two squares along each unit. An offset by half a unit is one by a square.
+        let steps = offset.map(|offset| 2.0 * offset);
+        if steps.iter().any(|step| step.fract() != 0.0) {
+            self.approximate(plugin, "offset of texture coordinates", "it is left out");
+        } else if (steps[0] + steps[1]).rem_euclid(2.0) == 1.0 {
+            colours.swap(0, 1);
+        }
+        let keys = Keys::of_type("checker")
+            .with("a", Input::Constant(colours[0]).value())
+            .with("b", Input::Constant(colours[1]).value())
+            .with("scale", scale.map(|scale| 2.0 * scale));
+        Ok(self.add_texture(plugin, "checkerboard", keys))
+    }
+
+    /// `to_uv` as scale and offset.
+    fn uv_map(&mut self, plugin: &Plugin) -> Result<([f64; 2], [f64; 2]), SceneError> {
+        let map: DAffine3 = plugin.transform("to_uv")?;
+        let (x, y) = (map.matrix3.x_axis, map.matrix3.y_axis);
+        if x.y.abs() > 1e-9 * x.x.abs() || y.x.abs() > 1e-9 * y.y.abs() {
+            self.approximate(plugin, "rotation of texture coordinates", "it is left out");
+        }
+        Ok(([x.x, y.y], [map.translation.x, map.translation.y]))
+    }
+
+    fn add_texture(&mut self, plugin: &Plugin, otherwise: &str, keys: Keys) -> Input {
+        let wanted = if plugin.id.is_empty() { otherwise } else { &plugin.id };
+        let name = Description::free_name(&self.scene.textures, wanted);
+        let mut named = Keys::new().with("name", name.as_str());
+        named.0.extend(keys.0);
+        self.scene.textures.push(Entry { place: plugin.place.clone(), keys: named });
+        Input::Texture(name)
+    }
+}

@@ -1,0 +1,366 @@
+//! glTF in both forms.
+
+use base64::Engine as _;
+use gpt::load::LoadOptions;
+use gpt::scene::{Geometry, Light, MaterialKind, Mesh, Projection, Scene};
+use serde_json::{Value, json};
+
+use super::{Folder, picture, refusal, report};
+
+/// A file in the making: data are put one after the other into its only buffer.
+pub struct File {
+    pub root: Value,
+    data: Vec<u8>,
+}
+
+impl File {
+    /// A triangle of a diffuse material, a camera and a light.
+    pub fn new() -> Self {
+        let mut file = Self { root: json!({}), data: Vec::new() };
+        let positions = file.accessor("VEC3", &[[-1.0, -1.0, 0.0], [1.0, -1.0, 0.5], [0.0, 1.0, 0.0]].concat());
+        file.root = json!({
+            "asset": { "version": "2.0" },
+            "scene": 0,
+            "scenes": [{ "nodes": [0, 1, 2] }],
+            "nodes": [
+                { "mesh": 0 },
+                { "name": "eye", "camera": 0, "translation": [0.0, 0.0, 4.0] },
+                { "extensions": { "KHR_lights_punctual": { "light": 0 } }, "translation": [1.0, 2.0, 3.0] },
+            ],
+            "cameras": [{ "type": "perspective", "perspective": { "yfov": 0.7, "znear": 0.1, "aspectRatio": 2.0 } }],
+            "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "material": 0 }] }],
+            "materials": [{
+                "pbrMetallicRoughness": { "baseColorFactor": [0.7, 0.2, 0.1, 1.0], "metallicFactor": 0.0 },
+                "extensions": { "KHR_materials_specular": { "specularFactor": 0.0 } },
+            }],
+            "extensionsUsed": ["KHR_lights_punctual", "KHR_materials_specular"],
+            "extensions": { "KHR_lights_punctual": { "lights": [{ "type": "point", "color": [1.0, 0.5, 0.25], "intensity": 40.0 }] } },
+            "accessors": [positions],
+            "bufferViews": [{ "buffer": 0, "byteOffset": 0, "byteLength": 36 }],
+        });
+        file
+    }
+
+    /// Appends numbers and gives an accessor of them, without entering it.
+    fn accessor(&mut self, kind: &str, numbers: &[f32]) -> Value {
+        let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+        let width = match kind {
+            "SCALAR" => 1,
+            "VEC2" => 2,
+            "VEC3" => 3,
+            "VEC4" => 4,
+            _ => 16,
+        };
+        let view = self.root.get("bufferViews").and_then(Value::as_array).map_or(0, Vec::len);
+        self.bytes(&bytes);
+        json!({ "bufferView": view, "componentType": 5126, "type": kind, "count": numbers.len() / width })
+    }
+
+    /// Appends bytes with a view of them; its index.
+    fn bytes(&mut self, bytes: &[u8]) -> usize {
+        let start = self.data.len();
+        self.data.extend(bytes);
+        let Some(views) = self.root.get_mut("bufferViews").and_then(Value::as_array_mut) else { return 0 };
+        views.push(json!({ "buffer": 0, "byteOffset": start, "byteLength": bytes.len() }));
+        views.len() - 1
+    }
+
+    /// Appends numbers with an accessor of them; its index.
+    fn add(&mut self, kind: &str, numbers: &[f32]) -> usize {
+        let accessor = self.accessor(kind, numbers);
+        self.enter(accessor)
+    }
+
+    fn enter(&mut self, accessor: Value) -> usize {
+        let accessors = self.root["accessors"].as_array_mut().expect("a list");
+        accessors.push(accessor);
+        accessors.len() - 1
+    }
+
+    /// As JSON with the data in it.
+    pub fn text(&self) -> Vec<u8> {
+        let mut root = self.root.clone();
+        let data = base64::engine::general_purpose::STANDARD.encode(&self.data);
+        root["buffers"] =
+            json!([{ "byteLength": self.data.len(), "uri": format!("data:application/octet-stream;base64,{data}") }]);
+        root.to_string().into_bytes()
+    }
+
+    /// As a binary file.
+    pub fn binary(&self) -> Vec<u8> {
+        let mut root = self.root.clone();
+        root["buffers"] = json!([{ "byteLength": self.data.len() }]);
+        let mut text = root.to_string().into_bytes();
+        text.resize(text.len().next_multiple_of(4), b' ');
+        let mut data = self.data.clone();
+        data.resize(data.len().next_multiple_of(4), 0);
+        let mut bytes = b"glTF".to_vec();
+        for number in [2, 28 + text.len() + data.len(), text.len()] {
+            bytes.extend((number as u32).to_le_bytes());
+        }
+        bytes.extend(b"JSON");
+        bytes.extend(text);
+        bytes.extend((data.len() as u32).to_le_bytes());
+        bytes.extend(b"BIN\0");
+        bytes.extend(data);
+        bytes
+    }
+
+    fn read(&self) -> Scene {
+        Folder::new(&[("a.gltf", &self.text())]).valid("a.gltf")
+    }
+
+    fn refused(&self) -> String {
+        refusal(Folder::new(&[("a.gltf", &self.text())]).load("a.gltf"))
+    }
+}
+
+fn mesh(scene: &Scene, index: usize) -> &Mesh {
+    match &scene.shapes[index].geometry {
+        Geometry::Mesh(mesh) => mesh,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn both_forms_and_their_likeness_make_the_same_picture() {
+    let file = File::new();
+    let same = format!(
+        "[film]\nsize = [512, 256]\n[camera]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\nvfov = {}\n\
+         [[material]]\nname = \"red\"\ntype = \"diffuse\"\nreflectance = [0.7, 0.2, 0.1]\n\
+         [[shape]]\ntype = \"mesh\"\nmaterial = \"red\"\npositions = [[-1, -1, 0], [1, -1, 0.5], [0, 1, 0]]\nfaces = [[0, 1, 2]]\n\
+         [[light]]\ntype = \"point\"\nposition = [1, 2, 3]\nintensity = [40, 20, 10]\n",
+        0.7_f64.to_degrees()
+    );
+    let other = same.replace("0.5], [0, 1", "0.51], [0, 1");
+    let folder = Folder::new(&[
+        ("a.gltf", &file.text()),
+        ("a.glb", &file.binary()),
+        ("b.toml", same.as_bytes()),
+        ("c.toml", other.as_bytes()),
+    ]);
+    let expected = picture(&folder.valid("b.toml"));
+    let scene = folder.valid("a.gltf");
+    assert_eq!(scene.film.size, [512, 256]);
+    assert_eq!(picture(&scene), expected);
+    assert_eq!(picture(&folder.valid("a.glb")), expected);
+    assert_eq!(picture(&folder.written("a.glb")), expected);
+    // The control: a vertex a little further away.
+    assert_ne!(picture(&folder.valid("c.toml")), expected);
+}
+
+#[test]
+fn what_has_no_camera_and_no_light_is_framed_as_a_model() {
+    let mut file = File::new();
+    file.root["scenes"] = json!([{ "nodes": [0] }]);
+    let object = "v -1 -1 0\nv 1 -1 0.5\nv 0 1 0\nf 1 2 3\n";
+    let folder = Folder::new(&[("a.glb", &file.binary()), ("b.obj", object.as_bytes())]);
+    let (scene, model) = (folder.valid("a.glb"), folder.valid("b.obj"));
+    assert_eq!((&scene.camera.position, &scene.camera.projection), (&model.camera.position, &model.camera.projection));
+    assert_eq!((scene.shapes.len(), scene.lights.len()), (model.shapes.len(), model.lights.len()));
+    assert_eq!(picture(&scene), picture(&folder.written("a.glb")));
+}
+
+#[test]
+fn cameras_are_chosen_by_their_name() {
+    let mut file = File::new();
+    file.root["nodes"].as_array_mut().expect("a list").push(json!({ "camera": 1 }));
+    file.root["scenes"][0]["nodes"] = json!([0, 1, 2, 3]);
+    file.root["cameras"].as_array_mut().expect("a list").push(json!({
+        "name": "plan", "type": "orthographic", "orthographic": { "xmag": 3.0, "ymag": 1.5, "zfar": 9.0, "znear": 0.0 },
+    }));
+    let folder = Folder::new(&[("a.gltf", &file.text())]);
+    let of = |name: &str| folder.load_as("a.gltf", &LoadOptions { camera: Some(name.to_owned()), ..LoadOptions::default() });
+    let plan = of("plan").unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!((plan.camera.projection, plan.film.size), (Projection::Orthographic { height: 3.0 }, [512, 256]));
+    assert!(matches!(of("eye").map(|scene| scene.camera.projection), Ok(Projection::Perspective { .. })));
+    let message = refusal(of("absent"));
+    assert!(message.contains("absent") && message.contains("eye") && message.contains("plan"), "{message}");
+}
+
+#[test]
+fn nodes_stand_within_each_other() {
+    let mut file = File::new();
+    file.root["nodes"][0] = json!({ "translation": [5.0, 0.0, 0.0], "children": [3] });
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let nodes = file.root["nodes"].as_array_mut().expect("a list");
+    nodes.push(json!({ "rotation": [0.0, half, 0.0, half], "scale": [2.0, 2.0, 2.0], "mesh": 0 }));
+    let map = file.read().shapes[0].transform.to_affine();
+    assert!(map.transform_point3(glam::DVec3::Z).abs_diff_eq(glam::DVec3::new(7.0, 0.0, 0.0), 1e-12), "{map:?}");
+    file.root["nodes"][3]["children"] = json!([0]);
+    assert!(file.refused().contains("its own ancestor"));
+    file.root["nodes"][3]["children"] = json!([]);
+    file.root["nodes"][3]["scale"] = json!([0.0, 1.0, 1.0]);
+    file.root["nodes"][2]["mesh"] = json!(0);
+    assert!(report(&file.read()).contains("mesh without extent"));
+}
+
+#[test]
+fn copies_of_instances_stand_where_they_say() {
+    let mut file = File::new();
+    let translations = file.add("VEC3", &[1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 3.0]);
+    file.root["nodes"][0]["extensions"] = json!({ "EXT_mesh_gpu_instancing": { "attributes": { "TRANSLATION": translations } } });
+    let scene = file.read();
+    let places: Vec<glam::DVec3> = scene.shapes.iter().map(|shape| shape.origin()).collect();
+    assert_eq!(places, [glam::DVec3::X, glam::DVec3::Y * 2.0, glam::DVec3::Z * 3.0]);
+}
+
+#[test]
+fn strips_indices_and_sparse_values_are_read() {
+    let mut file = File::new();
+    let indices = file.bytes(&[0, 0, 1, 0, 2, 0, 0, 0]);
+    let indices = file.enter(json!({ "bufferView": indices, "componentType": 5123, "type": "SCALAR", "count": 3 }));
+    file.root["meshes"][0]["primitives"][0]["indices"] = json!(indices);
+    file.root["meshes"][0]["primitives"][0]["mode"] = json!(5);
+    let places = file.bytes(&[2, 0, 0, 0]);
+    let values: Vec<u8> = [0.0_f32, 5.0, 0.0].iter().flat_map(|number| number.to_le_bytes()).collect();
+    let values = file.bytes(&values);
+    file.root["accessors"][0]["sparse"] = json!({
+        "count": 1, "indices": { "bufferView": places, "componentType": 5121 }, "values": { "bufferView": values },
+    });
+    let scene = file.read();
+    assert_eq!(mesh(&scene, 0).positions[2], glam::Vec3::new(0.0, 5.0, 0.0));
+    assert_eq!(mesh(&scene, 0).faces, [[0, 1, 2]]);
+    file.root["accessors"][0]["sparse"]["count"] = json!(2);
+    assert!(file.refused().contains("do not fit"));
+}
+
+#[test]
+fn quantized_numbers_are_fractions() {
+    let mut file = File::new();
+    let bytes = file.bytes(&[0, 0, 0, 0, 0xff, 0x7f, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0x7f, 0, 0, 0, 0]);
+    file.root["bufferViews"][bytes]["byteStride"] = json!(8);
+    let quantized = json!({ "bufferView": bytes, "componentType": 5122, "type": "VEC3", "count": 2, "normalized": true });
+    file.root["accessors"][0] = quantized;
+    // Two vertices are too few for a triangle.
+    assert!(report_or_refusal(&file).contains("nothing to render"));
+    let bytes = file.bytes(&[0, 0, 0, 0, 127, 0, 0, 0, 0, 127, 0, 0]);
+    file.root["bufferViews"][bytes]["byteStride"] = json!(4);
+    file.root["accessors"][0] =
+        json!({ "bufferView": bytes, "componentType": 5120, "type": "VEC3", "count": 3, "normalized": true });
+    assert_eq!(mesh(&file.read(), 0).positions, [glam::Vec3::ZERO, glam::Vec3::X, glam::Vec3::Y]);
+}
+
+fn report_or_refusal(file: &File) -> String {
+    match Folder::new(&[("a.gltf", &file.text())]).load("a.gltf") {
+        Ok(scene) => report(&scene),
+        Err(error) => error.to_string(),
+    }
+}
+
+#[test]
+fn morph_targets_and_skins_are_at_rest() {
+    let mut file = File::new();
+    let target = file.add("VEC3", &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0]);
+    file.root["meshes"][0]["primitives"][0]["targets"] = json!([{ "POSITION": target }]);
+    file.root["meshes"][0]["weights"] = json!([0.5]);
+    assert_eq!(mesh(&file.read(), 0).positions[2], glam::Vec3::new(0.0, 2.0, 0.0));
+    let joints = file.bytes(&[0; 12]);
+    let joints = file.enter(json!({ "bufferView": joints, "componentType": 5121, "type": "VEC4", "count": 3 }));
+    let weights = file.add("VEC4", &[1.0, 0.0, 0.0, 0.0].repeat(3));
+    let attributes = &mut file.root["meshes"][0]["primitives"][0]["attributes"];
+    attributes["JOINTS_0"] = json!(joints);
+    attributes["WEIGHTS_0"] = json!(weights);
+    file.root["skins"] = json!([{ "joints": [3] }]);
+    file.root["nodes"][0]["skin"] = json!(0);
+    file.root["nodes"][0]["translation"] = json!([100.0, 0.0, 0.0]);
+    file.root["nodes"].as_array_mut().expect("a list").push(json!({ "translation": [0.0, 0.0, 7.0] }));
+    file.root["scenes"][0]["nodes"] = json!([0, 1, 2, 3]);
+    let scene = file.read();
+    assert_eq!(mesh(&scene, 0).positions[2], glam::Vec3::new(0.0, 2.0, 7.0));
+    assert_eq!(scene.shapes[0].origin(), glam::DVec3::ZERO);
+    file.root["animations"] = json!([{}, {}]);
+    assert!(report(&file.read()).contains("animation x2: everything is at rest"));
+}
+
+#[test]
+fn textures_are_turned_with_their_coordinates() {
+    let mut file = File::new();
+    let uvs = file.add("VEC2", &[0.0, 0.0, 1.0, 0.0, 0.5, 0.25]);
+    let folder = tempfile::tempdir().expect("a folder");
+    image::RgbImage::new(2, 2).save(folder.path().join("a.png")).expect("a picture");
+    let picture = file.bytes(&std::fs::read(folder.path().join("a.png")).expect("it is there"));
+    file.root["images"] = json!([{ "bufferView": picture, "mimeType": "image/png" }]);
+    file.root["textures"] = json!([{ "source": 0, "sampler": 0 }]);
+    file.root["samplers"] = json!([{ "wrapS": 33071, "wrapT": 33071, "magFilter": 9728 }]);
+    file.root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(uvs);
+    let base = &mut file.root["materials"][0]["pbrMetallicRoughness"];
+    base["baseColorFactor"] = json!([1.0, 1.0, 1.0, 1.0]);
+    base["baseColorTexture"] = json!({ "index": 0 });
+    assert_eq!(mesh(&file.read(), 0).uvs, [[0.0, 1.0], [1.0, 1.0], [0.5, 0.75]].map(glam::Vec2::from));
+    file.root["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"] =
+        json!({ "KHR_texture_transform": { "offset": [0.25, 0.5], "scale": [2.0, 1.0] } });
+    let scene = file.read();
+    assert_eq!(mesh(&scene, 0).uvs[2], glam::Vec2::new(1.25, 0.25));
+    assert!(matches!(scene.materials[0].kind, MaterialKind::Diffuse { .. }));
+    let folder = Folder::new(&[("a.gltf", &file.text())]);
+    assert_eq!(super::picture(&folder.valid("a.gltf")), super::picture(&folder.written("a.gltf")));
+}
+
+#[test]
+fn lights_shine_along_their_nodes() {
+    let mut file = File::new();
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = json!([
+        { "type": "spot", "spot": { "outerConeAngle": 0.5 } }, { "type": "directional", "intensity": 3.0 }, { "type": "area" },
+    ]);
+    let scene = file.read();
+    let Light::Spot(spot) = &scene.lights[0] else { panic!("no spot") };
+    assert_eq!((spot.direction, spot.position), (glam::DVec3::NEG_Z, glam::DVec3::new(1.0, 2.0, 3.0)));
+    file.root["nodes"][2]["extensions"]["KHR_lights_punctual"]["light"] = json!(1);
+    assert!(matches!(&file.read().lights[0], Light::Directional(light) if light.irradiance.x == 3.0));
+    file.root["nodes"][2]["extensions"]["KHR_lights_punctual"]["light"] = json!(2);
+    assert!(file.refused().contains("no light of type `area`"));
+}
+
+#[test]
+fn what_cannot_be_read_is_refused_by_name() {
+    let mut file = File::new();
+    for (extension, said) in [
+        ("KHR_draco_mesh_compression", "gltf-transform"),
+        ("KHR_texture_basisu", "gltf-transform"),
+        ("EXT_unknown", "EXT_unknown"),
+    ] {
+        file.root["extensionsRequired"] = json!([extension]);
+        let folder = Folder::new(&[("a.gltf", &file.text())]);
+        let error = folder.load("a.gltf").expect_err("it is refused");
+        assert!(format!("{error} {}", error.help_text().unwrap_or_default()).contains(said), "{error}");
+    }
+    file.root["extensionsRequired"] = json!([]);
+    file.root["extensionsUsed"] = json!(["EXT_unknown"]);
+    assert!(report(&file.read()).contains("EXT_unknown"));
+}
+
+/// Faults as they stand in collections of malformed files.
+#[test]
+fn malformed_files_are_refused_in_a_sentence() {
+    let rows: [(&str, Value, &str); 15] = [
+        ("/asset/version", json!("1.0"), "version 1.0"),
+        ("/asset/version", json!(7), "is not valid glTF"),
+        ("/scene", json!(9), "no scenes[9]"),
+        ("/scenes/0/nodes", json!([9]), "no nodes[9]"),
+        ("/scenes/0/nodes", json!([-1]), "is not valid glTF"),
+        ("/nodes/0/mesh", json!(9), "no meshes[9]"),
+        ("/meshes/0/primitives/0/attributes/POSITION", json!(9), "no accessors[9]"),
+        ("/meshes/0/primitives/0/attributes/POSITION", json!("x"), "POSITION names no accessor"),
+        ("/meshes/0/primitives/0/material", json!(9), "no materials[9]"),
+        ("/accessors/0/count", json!(1_000_000_000_000_u64), "do not fit"),
+        ("/accessors/0/componentType", json!(1), "no componentType 1"),
+        ("/accessors/0/type", json!("VEC2"), "type VEC2"),
+        ("/accessors/0/bufferView", json!(9), "no bufferViews[9]"),
+        ("/bufferViews/0/byteLength", json!(1_000_000), "beyond the end"),
+        ("/bufferViews/0/buffer", json!(9), "no buffers[9]"),
+    ];
+    for (place, value, said) in rows {
+        let mut file = File::new();
+        *file.root.pointer_mut(place).unwrap_or_else(|| panic!("{place}")) = value;
+        let message = file.refused();
+        assert!(message.contains(said) && message.lines().count() == 1, "{place}: {message}");
+    }
+    let binary = File::new().binary();
+    for length in [0, 4, 11, 12, 20, 30, binary.len() - 40] {
+        refusal(Folder::new(&[("a.glb", &binary[..length])]).load("a.glb"));
+    }
+    for text in ["", "{}", "[]", "null", "{\"asset\":{}}", &"[".repeat(100_000)] {
+        refusal(Folder::new(&[("a.gltf", text.as_bytes())]).load("a.gltf"));
+    }
+}

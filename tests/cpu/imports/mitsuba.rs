@@ -1,0 +1,267 @@
+//! Mitsuba's XML.
+
+use gpt::load::LoadOptions;
+use gpt::scene::{EnvironmentRadiance, Geometry, Light, MaterialKind, Projection};
+
+use super::{Folder, picture, refusal, report};
+
+const SCENE: &str = r#"<scene version="3.0.0">
+  <integrator type="path"><integer name="max_depth" value="4"/><integer name="rr_depth" value="3"/></integrator>
+  <sensor type="perspective">
+    <string name="fov_axis" value="y"/><float name="fov" value="40"/>
+    <transform name="to_world"><lookat origin="0,0,4" target="0,0,0" up="0,1,0"/></transform>
+    <sampler type="independent"><integer name="sample_count" value="2"/></sampler>
+    <film type="hdrfilm"><integer name="width" value="40"/><integer name="height" value="30"/><rfilter type="tent"/></film>
+  </sensor>
+  <bsdf type="twosided" id="red"><bsdf type="diffuse"><rgb name="reflectance" value="0.7, 0.2, 0.1"/></bsdf></bsdf>
+  <shape type="sphere"><point name="center" x="0.1" y="0.25" z="-0.5"/><float name="radius" value="0.75"/><ref id="red"/></shape>
+  <shape type="rectangle"><transform name="to_world"><translate z="-2"/></transform><ref id="red"/></shape>
+  <emitter type="point"><point name="position" x="1" y="2" z="3"/><rgb name="intensity" value="10 20 30"/></emitter>
+  MORE
+</scene>"#;
+
+const SAME: &str = r#"
+[film]
+size = [40, 30]
+filter = { type = "tent", radius = 1 }
+[render]
+max_depth = 4
+roulette_depth = 3
+spp = 2
+[camera]
+position = [0, 0, 4]
+look_at = [0, 0, 0]
+vfov = 40
+[[material]]
+name = "red"
+type = "diffuse"
+reflectance = [0.7, 0.2, 0.1]
+[[shape]]
+type = "sphere"
+center = [0.1, 0.25, -0.5]
+radius = 0.75
+material = "red"
+[[shape]]
+type = "rectangle"
+corner = [-1, -1, -2]
+edge_u = [2, 0, 0]
+edge_v = [0, 2, 0]
+material = "red"
+[[light]]
+type = "point"
+position = [1, 2, 3]
+intensity = [10, 20, 30]
+"#;
+
+fn with(more: &str) -> String {
+    SCENE.replace("MORE", more)
+}
+
+fn read(more: &str) -> gpt::scene::Scene {
+    Folder::new(&[("a.xml", with(more).as_bytes())]).valid("a.xml")
+}
+
+#[test]
+fn a_scene_and_its_likeness_make_the_same_picture() {
+    let other = SAME.replace("0.75", "0.7500001");
+    let folder = Folder::new(&[("a.xml", with("").as_bytes()), ("b.toml", SAME.as_bytes()), ("c.toml", other.as_bytes())]);
+    let (scene, same) = (folder.valid("a.xml"), folder.valid("b.toml"));
+    assert_eq!((&scene.film, &scene.render), (&same.film, &same.render));
+    assert_eq!(report(&scene), "");
+    assert_eq!(picture(&scene), picture(&same));
+    // The control: a sphere a little larger.
+    assert_ne!(picture(&folder.valid("c.toml")), picture(&same));
+}
+
+#[test]
+fn what_is_written_makes_the_same_picture() {
+    let more = r#"<shape type="cylinder"><float name="radius" value="0.3"/><ref id="red"/></shape>
+      <shape type="obj"><string name="filename" value="a.obj"/><bsdf type="diffuse"><texture type="bitmap" name="reflectance">
+        <string name="filename" value="a.png"/></texture></bsdf></shape>"#;
+    let object = "v -1 -1 0\nv 1 -1 0.3\nv 0 1 0\nv 1 1 1\nvt 0 0\nvt 1 0.1\nvt 0.3 1\nf 1/1 2/2 3/3\nf 2/2 4/1 3/3\n";
+    let folder = Folder::new(&[("a.xml", with(more).as_bytes()), ("a.obj", object.as_bytes())]);
+    image::RgbImage::from_fn(3, 2, |x, y| image::Rgb([x as u8 * 80, y as u8 * 200, 90]))
+        .save(folder.path("a.png"))
+        .expect("a picture");
+    let scene = folder.valid("a.xml");
+    assert_eq!(picture(&scene), picture(&folder.written("a.xml")));
+}
+
+#[test]
+fn every_kind_of_bsdf_becomes_a_material() {
+    let rows = [
+        (r#"<bsdf type="conductor"><string name="material" value="Au"/></bsdf>"#, "conductor"),
+        (r#"<bsdf type="conductor"/>"#, "mirror"),
+        (r#"<bsdf type="roughconductor"><rgb name="eta" value="0.2 0.9 1.1"/><rgb name="k" value="3.9"/></bsdf>"#, "conductor"),
+        (r#"<bsdf type="dielectric"><string name="int_ior" value="diamond"/></bsdf>"#, "glass"),
+        (r#"<bsdf type="roughdielectric"><float name="alpha" value="0.2"/></bsdf>"#, "rough_glass"),
+        (r#"<bsdf type="null"/>"#, "pass"),
+        (r#"<bsdf type="phong"/>"#, "phong"),
+        (r#"<bsdf type="mask"><float name="opacity" value="0"/><bsdf type="diffuse"/></bsdf>"#, "pass"),
+        (
+            r#"<bsdf type="blendbsdf"><float name="weight" value="0.3"/><bsdf type="diffuse"/><bsdf type="conductor"/></bsdf>"#,
+            "blend",
+        ),
+        (
+            r#"<bsdf type="mixturebsdf"><string name="weights" value="0.3, 0.3, 0.1"/><bsdf type="diffuse"/><bsdf type="conductor"/><bsdf type="phong"/></bsdf>"#,
+            "blend",
+        ),
+        (r#"<bsdf type="bumpmap"><texture type="checkerboard"/><bsdf type="dielectric"/></bsdf>"#, "glass"),
+        (r#"<bsdf type="measured"/>"#, "diffuse"),
+    ];
+    for (bsdf, expected) in rows {
+        let scene = read(&format!(r#"<shape type="sphere">{bsdf}</shape>"#));
+        let material = &scene.materials[scene.shapes[2].material];
+        assert_eq!(material.kind.type_name(), expected, "{bsdf}");
+    }
+    for bsdf in ["plastic", "roughplastic", "thindielectric", "principled", "roughdiffuse", "coating", "difftrans", "ward"] {
+        let within = if bsdf == "coating" { r#"<bsdf type="diffuse"/>"# } else { "" };
+        let scene = read(&format!(r#"<shape type="sphere"><bsdf type="{bsdf}">{within}</bsdf></shape>"#));
+        assert_ne!(picture(&scene).len(), 0, "{bsdf}");
+    }
+}
+
+#[test]
+fn blends_take_mitsubas_share_of_the_second() {
+    let blend = r#"<shape type="sphere"><bsdf type="blendbsdf"><float name="weight" value="0.3"/><bsdf type="diffuse"/><bsdf type="null"/></bsdf></shape>"#;
+    let scene = read(blend);
+    let MaterialKind::Blend { materials, weight } = &scene.materials[scene.shapes[2].material].kind else { panic!("no blend") };
+    assert!(matches!(weight, gpt::scene::BlendWeight::Constant { value } if *value == 0.3));
+    assert_eq!(scene.materials[materials[0]].kind.type_name(), "pass");
+}
+
+#[test]
+fn shapes_and_lights_stand_where_they_are_put() {
+    let scene = read(
+        r#"<shapegroup/>"#
+            .replace(
+                "<shapegroup/>",
+                r#"<shape type="shapegroup" id="group"><shape type="disk"/><shape type="cube"/></shape>
+        <shape type="instance"><ref id="group"/><transform name="toWorld"><scale value="2"/><translate x="5"/></transform></shape>
+        <shape type="instance"><ref id="group"/></shape>
+        <shape type="rectangle"><emitter type="area"><rgb name="radiance" value="1 2 3"/></emitter></shape>
+        <emitter type="spot"><transform name="to_world"><lookat origin="0 3 0" target="0 0 0" up="0 0 1"/></transform></emitter>
+        <emitter type="directional"><vector name="direction" x="0" y="-1" z="0"/></emitter>
+        <emitter type="constant"><rgb name="radiance" value="0.5"/></emitter>"#,
+            )
+            .as_str(),
+    );
+    assert_eq!(scene.shapes.len(), 2 + 4 + 1);
+    assert_eq!(scene.shapes[2].transform.to_affine().transform_point3(glam::DVec3::X), glam::DVec3::new(7.0, 0.0, 0.0));
+    assert!(matches!(scene.shapes[3].geometry, Geometry::Box(_)));
+    let lamp = &scene.materials[scene.shapes[6].material];
+    assert!(lamp.emission.is_some_and(|emission| !emission.two_sided));
+    let Light::Spot(spot) = &scene.lights[1] else { panic!("no spot") };
+    assert!((spot.direction - glam::DVec3::NEG_Y).length() < 1e-12 && spot.angle_degrees == 20.0 && spot.falloff_degrees == 15.0);
+    assert!(matches!(&scene.lights[3], Light::Environment(e) if matches!(e.radiance, EnvironmentRadiance::Constant(_))));
+}
+
+/// The direction from which a map's texel comes, before and after the scene is turned so that the map stands upright.
+#[test]
+fn environment_maps_that_lie_turn_the_scene() {
+    let folder = |turn: &str| {
+        let map = format!(
+            r#"<emitter type="envmap"><string name="filename" value="a.png"/><transform name="to_world">{turn}</transform></emitter>"#
+        );
+        let folder = Folder::new(&[("a.xml", with(&map).as_bytes())]);
+        image::RgbImage::new(8, 4).save(folder.path("a.png")).expect("a picture");
+        folder.valid("a.xml")
+    };
+    let upright = folder(r#"<rotate y="1" angle="30"/>"#);
+    let Light::Environment(map) = &upright.lights[1] else { panic!("no map") };
+    assert!((map.rotation_degrees - (30.0 + 180.0 / 8.0)).abs() < 1e-9, "{}", map.rotation_degrees);
+    assert_eq!(upright.camera.up, glam::DVec3::Y);
+    // Z up: what was up along Y there is up along Z in the file, and the camera's Y becomes -Z of the turned world.
+    let lying = folder(r#"<rotate x="1" angle="90"/>"#);
+    assert!((lying.camera.up - glam::DVec3::NEG_Z).length() < 1e-12, "{}", lying.camera.up);
+}
+
+#[test]
+fn old_names_parameters_and_includes_are_understood() {
+    let scene = r##"<scene version="0.5.0">
+      <default name="width" value="64"/>
+      <include filename="camera.xml"/>
+      <path value="parts"/>
+      <bsdf type="diffuse" id="a"><srgb name="reflectance" value="#808080"/></bsdf>
+      <alias id="a" as="b"/>
+      <shape type="sphere"><ref id="b"/><transform name="toWorld"><scale value="$size"/></transform></shape>
+      <emitter type="constant"/>
+    </scene>"##;
+    let camera = r#"<scene version="0.5.0"><sensor type="thinlens"><float name="fov" value="90"/><float name="apertureRadius" value="0.1"/>
+      <float name="focusDistance" value="3"/><transform name="toWorld"><lookAt origin="0,0,5" target="0,0,0" up="0,1,0"/></transform>
+      <film type="hdrfilm"><integer name="width" value="$width"/><integer name="height" value="32"/></film></sensor></scene>"#;
+    let folder = Folder::new(&[("a.xml", scene.as_bytes()), ("camera.xml", camera.as_bytes())]);
+    let message = refusal(folder.load("a.xml"));
+    assert!(message.contains("a.xml:7") && message.contains("$size"), "{message}");
+    let given = |pairs: &[(&str, &str)]| LoadOptions {
+        definitions: pairs.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect(),
+        ..LoadOptions::default()
+    };
+    let scene = folder.load_as("a.xml", &given(&[("size", "2"), ("width", "48")])).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(scene.film.size, [48, 32]);
+    let Projection::Perspective { vertical_fov_degrees } = scene.camera.projection else { panic!("no perspective") };
+    assert!((vertical_fov_degrees.to_radians() / 2.0).tan() - 32.0 / 48.0 < 1e-12);
+    assert!(scene.camera.aperture.is_some_and(|aperture| aperture.radius == 0.1) && scene.camera.focus_distance == 3.0);
+    let message = refusal(folder.load_as("a.xml", &given(&[("size", "2"), ("witdh", "48")])));
+    assert!(message.contains("witdh"), "{message}");
+}
+
+#[test]
+fn nothing_is_left_out_silently() {
+    let scene = read(
+        r#"<shape type="sphere"><float name="foo" value="1"/><bsdf type="diffuse"/><medium type="homogeneous" name="interior"/></shape>
+        <shape type="hair"/><emitter type="projector"/><medium type="homogeneous"/>"#,
+    );
+    let report = report(&scene);
+    for said in [
+        "shape `sphere`: `foo` x1",
+        "medium `homogeneous` in shape",
+        "shape `hair`",
+        "emitter `projector`",
+        "one-sided bsdf `diffuse`",
+        "medium `homogeneous` in scene",
+    ] {
+        assert!(report.contains(said), "{said}:\n{report}");
+    }
+    let place = &scene.import_report.dropped[0].place;
+    assert!(place.contains("a.xml:"), "{place}");
+}
+
+#[test]
+fn what_is_wrong_is_told_with_its_line() {
+    let rows = [
+        ("<shape type=\"sphere\"><ref id=\"green\"/></shape>", "no plugin with the id `green`"),
+        ("<shape type=\"obj\"><string name=\"filename\" value=\"absent.obj\"/></shape>", "no file absent.obj"),
+        ("<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/></shape>", "the radius of a sphere is above 0"),
+        ("<shape type=\"sphere\"><float name=\"radius\" value=\"one\"/></shape>", "expected a number, found `one`"),
+        ("<shape type=\"sphere\"><transform name=\"to_world\"><scale x=\"0\"/></transform></shape>", "scale by 0"),
+        ("<shape type=\"sphere\"><string name=\"radius\" value=\"1\"/></shape>", "`radius` is not a number"),
+        ("<nonsense/>", "<nonsense> is no element"),
+        ("<bsdf type=\"diffuse\" id=\"red\"/>", "a second plugin has the id `red`"),
+        ("<shape type=\"sphere\"><bsdf type=\"twosided\"/></shape>", "needs a bsdf within"),
+        (
+            "<shape type=\"sphere\"><bsdf type=\"dielectric\"><string name=\"int_ior\" value=\"cheese\"/></bsdf></shape>",
+            "nothing is known of the material `cheese`",
+        ),
+        ("<include filename=\"a.xml\"/>", "include each other"),
+        ("<shape type=\"sphere\"><point name=\"center\" value=\"1 2 3 4\"/></shape>", "expected three numbers"),
+        (
+            "<shape type=\"sphere\"><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"1 2\"/></bsdf></shape>",
+            "expected one number or three",
+        ),
+        ("&unknown;", "is not valid XML"),
+        ("<shape", "is not valid XML"),
+        ("text", "text outside"),
+    ];
+    for (more, said) in rows {
+        let folder = Folder::new(&[("a.xml", with(more).as_bytes())]);
+        let message = refusal(folder.load("a.xml"));
+        assert!(message.contains(said) && message.contains("a.xml:"), "{more}: {message}");
+    }
+    for (text, said) in [("", "XML"), ("<a/>", "begins with <a>"), ("<scene version=\"3.0.0\"/>", "nothing to render")] {
+        let folder = Folder::new(&[("a.xml", text.as_bytes())]);
+        assert!(refusal(folder.load("a.xml")).contains(said), "{text}");
+    }
+    let billion = "<!DOCTYPE lolz [<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;\">]><scene>&b;</scene>";
+    assert!(refusal(Folder::new(&[("a.xml", billion.as_bytes())]).load("a.xml")).contains("XML"));
+}
