@@ -33,9 +33,13 @@ impl<'a> Document<'a> {
 
     /// Reads one key of the text, and nothing else.
     pub fn read_key<T: DeserializeOwned>(self, key: &str) -> Result<T, SceneError> {
-        let mut root = self.parse()?;
-        root.get_mut().retain(|other, _| other.get_ref() == key);
-        T::deserialize(toml::Deserializer::from(root)).map_err(|error| self.translate(&error))
+        let mut alone = Spanned::new(0..self.text.len(), DeTable::new());
+        for (name, value) in self.parse()?.into_inner() {
+            if name.get_ref() == key {
+                alone.get_mut().insert(name, value);
+            }
+        }
+        T::deserialize(toml::Deserializer::from(alone)).map_err(|error| self.translate(&error))
     }
 
     /// All that keeps the text from being read, of each table and each entry of a list the first mistake. `first` is what the whole text was
