@@ -17,6 +17,15 @@ pub fn srgb_to_linear(encoded: f32) -> f32 {
     if encoded <= 0.04045 { encoded / 12.92 } else { ((f64::from(encoded) + 0.055) / 1.055).powf(2.4) as f32 }
 }
 
+/// The number that a half-precision one is, by its bits; infinities and what is no number come out as numbers above the largest.
+pub fn half_to_f32(bits: u16) -> f32 {
+    let (sign, magnitude) = (if bits >> 15 == 0 { 1.0 } else { -1.0 }, u32::from(bits & 0x7fff));
+    // Below the least normal number, steps are of 2⁻²⁴; above, the exponent's bias differs.
+    let absolute =
+        if magnitude < 0x400 { magnitude as f32 / 16_777_216.0 } else { f32::from_bits((magnitude << 13) + (112 << 23)) };
+    sign * absolute
+}
+
 /// A box rounded to f32, and grown by two rounding errors on every side: it holds whatever the given one holds.
 pub fn outward(min: DVec3, max: DVec3) -> (Vec3, Vec3) {
     let margin = min.abs().max(max.abs()) * 2.4e-7;

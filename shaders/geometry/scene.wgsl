@@ -7,9 +7,6 @@
 #else
 @group(0) @binding(BINDING_TABLES) var<storage, read> tables: array<vec4<f32>>;
 #endif
-#if TEXELS
-@group(0) @binding(BINDING_TEXELS) var<storage, read> texels: array<f32>;
-#endif
 
 fn primitive_kind(word: f32) -> u32 {
 #if MOTION

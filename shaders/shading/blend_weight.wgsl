@@ -29,6 +29,9 @@ fn blend_weight(index: u32, cosine: f32, uv: vec2<f32>) -> f32 {
         case WEIGHT_TEXTURE: {
             w = luminance(texture_color(bitcast<u32>(h.w), uv));
         }
+        case WEIGHT_CHANNEL: {
+            w = h.y * texture_color(bitcast<u32>(h.w), uv).x;
+        }
 #endif
         default: {}
     }

@@ -3,7 +3,6 @@
 mod arguments;
 mod bench;
 mod check;
-mod checkpoint;
 mod choice;
 mod compare;
 mod devices;

@@ -1,6 +1,7 @@
 //! Every buffer and texture of a render, by binding number.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use wgpu::util::DeviceExt;
 use wgpu::{BufferUsages, TextureFormat};
@@ -8,8 +9,9 @@ use wgpu::{BufferUsages, TextureFormat};
 use super::acceleration::Acceleration;
 use super::device::Device;
 use crate::packed::PackedScene;
+use crate::packed::texture::PackedTextures;
 use crate::plan::bindings::Binding;
-use crate::plan::chunks::{ATTRIBUTES, NODES, PRIMITIVES};
+use crate::plan::chunks::{ATTRIBUTES, NODES, PRIMITIVES, TEXELS};
 use crate::plan::parameters::{PassParameters, VertexParameters};
 use crate::plan::path_state::{COUNTS, DISPATCH_SIZE_WORDS, PATH_STATE_BYTES};
 use crate::plan::trace_record::TRACE_BYTES;
@@ -64,8 +66,10 @@ impl Buffers {
                 None => upload(array.binding, array.name, bytes, usage),
             }
         }
-        if compiled("TEXELS") {
-            upload(Binding::Texels as u32, "texels", bytemuck::cast_slice(&packed.textures.texels), BufferUsages::STORAGE);
+        if let Some(chunks) = plan.chunks.iter().find(|chunks| chunks.array == TEXELS) {
+            for (number, range) in chunks.bindings() {
+                buffers.insert(number, upload_texels(device, &packed.textures, range));
+            }
         }
 
         let mut make = |number, label, size: u64, usage| {
@@ -156,6 +160,26 @@ pub fn vertex_parameters(first_vertex: u32) -> Vec<u8> {
     bytes
 }
 
+/// A run of the texels' bytes, copied from where each image has them.
+fn upload_texels(device: &Device, textures: &PackedTextures, range: Range<usize>) -> wgpu::Buffer {
+    let buffer = device.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("texels"),
+        size: range.len() as u64,
+        usage: BufferUsages::STORAGE,
+        mapped_at_creation: true,
+    });
+    // A device that is lost by now has nothing to copy to, and the next call reports it.
+    if let Ok(mut mapped) = buffer.get_mapped_range_mut(..) {
+        let mut first = 0;
+        for piece in textures.pieces(range) {
+            mapped.slice(first..first + piece.len()).copy_from_slice(piece);
+            first += piece.len();
+        }
+    }
+    buffer.unmap();
+    buffer
+}
+
 fn film_half(device: &Device, plan: &Plan, width: u32, label: &'static str) -> FilmHalf {
     match plan.film {
         FilmStorage::Texture => FilmHalf::Texture(device.device.create_texture(&wgpu::TextureDescriptor {
@@ -165,13 +189,13 @@ fn film_half(device: &Device, plan: &Plan, width: u32, label: &'static str) -> F
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format: TextureFormat::Rgba32Float,
-            usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::COPY_DST,
+            usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_SRC,
             view_formats: &[],
         })),
         FilmStorage::Buffer => FilmHalf::Buffer(device.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
             size: u64::from(width) * u64::from(plan.band_rows) * memory::FILM_BYTES / 2,
-            usage: BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST,
+            usage: BufferUsages::STORAGE | BufferUsages::COPY_SRC,
             mapped_at_creation: false,
         })),
     }

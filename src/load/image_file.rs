@@ -6,19 +6,18 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use exr::meta::MetaData;
-use exr::prelude::{ReadChannels, ReadLayers};
-use glam::Vec3;
-use image::{DynamicImage, ImageFormat, ImageReader, Limits};
+use exr::prelude::{ReadChannels, ReadLayers, f16};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, Rgba};
 
 use super::files::{Files, SeekableFile};
 use super::memory;
 use crate::math::srgb_to_linear;
-use crate::scene::{ColorSpace, ImageData};
+use crate::scene::{Channel, ColorSpace, ImageData, Texels};
 
 /// Most texels on a side.
 const LARGEST_SIDE: u32 = 16_384;
-/// Bytes of a texel once it is read.
-const KEPT: u64 = size_of::<Vec3>() as u64;
+/// Bytes of a texel once it is read, at most.
+const MOST_KEPT: u64 = size_of::<[f32; 4]>() as u64;
 /// Most bytes of a texel besides those while it is decoded.
 const WHILE_DECODED: u64 = 28;
 /// Pictures of more texels are decoded one at a time.
@@ -31,7 +30,8 @@ const OVERFLOWN: f32 = 65_504.0;
 pub struct Pictures {
     files: Files,
     budget: u64,
-    texels: AtomicU64,
+    /// Bytes that the pictures so far take, or may take.
+    kept: AtomicU64,
     large: Mutex<()>,
 }
 
@@ -71,7 +71,7 @@ impl Pictures {
 
     /// With a budget in bytes.
     pub fn within(files: Files, budget: u64) -> Self {
-        Self { files, budget, texels: AtomicU64::new(0), large: Mutex::new(()) }
+        Self { files, budget, kept: AtomicU64::new(0), large: Mutex::new(()) }
     }
 
     pub fn files(&self) -> &Files {
@@ -90,8 +90,13 @@ impl Pictures {
         self.files.open(path).map_err(|error| format!("cannot be read: {error}"))
     }
 
-    /// Calls `decode` if there is room for the picture.
-    fn decode<T>(&self, [width, height]: [u32; 2], decode: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+    /// Calls `decode` if there is room for the picture, which will take so many bytes a texel at most.
+    fn decode(
+        &self,
+        [width, height]: [u32; 2],
+        most_kept: u64,
+        decode: impl FnOnce() -> Result<ImageData, String>,
+    ) -> Result<ImageData, String> {
         if width == 0 || height == 0 {
             return Err(format!("the image is empty: {width} x {height} pixels"));
         }
@@ -99,10 +104,10 @@ impl Pictures {
             return Err(format!("the image is too large: {width} x {height} pixels, at most {LARGEST_SIDE} on a side"));
         }
         let texels = u64::from(width) * u64::from(height);
-        let before = self.texels.fetch_add(texels, Ordering::Relaxed);
-        let needed = KEPT * (before + texels) + WHILE_DECODED * texels;
+        let most = most_kept * texels;
+        let needed = self.kept.fetch_add(most, Ordering::Relaxed) + most + WHILE_DECODED * texels;
         if needed > self.budget {
-            self.texels.fetch_sub(texels, Ordering::Relaxed);
+            self.kept.fetch_sub(most, Ordering::Relaxed);
             let (needed, budget) = (needed.div_ceil(1 << 20), self.budget >> 20);
             return Err(format!(
                 "the image of {width} x {height} pixels does not fit: with those before, it needs {needed} MiB of memory, and pictures \
@@ -111,9 +116,10 @@ impl Pictures {
         }
         // A poisoned lock has lost nothing: it holds no data.
         let _alone = (texels > LARGE).then(|| self.large.lock().unwrap_or_else(std::sync::PoisonError::into_inner));
-        decode().inspect_err(|_| {
-            self.texels.fetch_sub(texels, Ordering::Relaxed);
-        })
+        let decoded = decode();
+        let kept = decoded.as_ref().map_or(0, |image| image.texels.as_bytes().len() as u64);
+        self.kept.fetch_sub(most.saturating_sub(kept), Ordering::Relaxed);
+        decoded
     }
 
     fn read_other(&self, path: &Path, color_space: Option<ColorSpace>) -> Result<Picture, String> {
@@ -121,8 +127,12 @@ impl Pictures {
         if reader.format().is_none() {
             return Err("is not an image in a format known here (PNG, JPEG, EXR, HDR, TIFF, BMP, TGA, WebP, GIF, PNM)".to_owned());
         }
-        let (width, height) = reader.into_dimensions().map_err(|error| format!("is not a valid image: {error}"))?;
-        self.decode([width, height], || {
+        let decoder = reader.into_decoder().map_err(|error| format!("is not a valid image: {error}"))?;
+        let ((width, height), color) = (decoder.dimensions(), decoder.color_type());
+        let bits = color.bits_per_pixel() / u16::from(color.channel_count());
+        drop(decoder);
+        let mut integer_bits = None;
+        let image = self.decode([width, height], if bits == 8 { 4 } else { MOST_KEPT }, || {
             let mut reader = guess(path, self.open(path)?)?;
             let mut limits = Limits::no_limits();
             limits.max_image_width = Some(width);
@@ -133,9 +143,10 @@ impl Pictures {
             let image = reader.decode().map_err(|error| format!("is not a valid image: {error}"))?;
             let bits = image.color().bits_per_pixel() / u16::from(image.color().channel_count());
             let is_float = matches!(image, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_));
-            let integer_bits = (!is_float).then_some(bits);
-            Ok(Picture { image: to_linear(image, color_space), integer_bits, change: None })
-        })
+            integer_bits = (!is_float).then_some(bits);
+            Ok(image_data(image, color_space))
+        })?;
+        Ok(Picture { image, integer_bits, change: None })
     }
 
     fn read_exr(&self, path: &Path, color_space: Option<ColorSpace>) -> Result<Picture, String> {
@@ -146,27 +157,23 @@ impl Pictures {
         // Which layer is read is found out on the way: the largest stands for it.
         let sizes = metadata.headers.iter().map(|header| [side(header.layer_size.x()), side(header.layer_size.y())]);
         let size = sizes.max_by_key(|[width, height]| u64::from(*width) * u64::from(*height)).unwrap_or([0, 0]);
-        let image = self.decode(size, || {
+        let image = self.decode(size, MOST_KEPT, || {
             let create = move |size: exr::math::Vec2<usize>, _: &_| Collected {
-                image: ImageData {
-                    width: size.x() as u32,
-                    height: size.y() as u32,
-                    texels: vec![Vec3::ZERO; size.area()],
-                    has_alpha: false,
-                },
+                width: size.x(),
+                height: size.y(),
+                texels: vec![[0.0; 4]; size.area()],
                 space,
             };
             let set =
                 |collected: &mut Collected, position: exr::math::Vec2<usize>, (red, green, blue, alpha): (f32, f32, f32, f32)| {
-                    let image = &mut collected.image;
-                    let index = position.y() * image.width as usize + position.x();
-                    image.texels[index] = Vec3::from_array([red, green, blue].map(|value| decode(value, collected.space)));
-                    image.has_alpha |= alpha != 1.0;
+                    let [red, green, blue] = [red, green, blue].map(|value| decode(value, collected.space));
+                    collected.texels[position.y() * collected.width + position.x()] = [red, green, blue, alpha];
                 };
             let reader = exr::prelude::read().no_deep_data().largest_resolution_level().rgba_channels(create, set);
             let read = reader.first_valid_layer().all_attributes().from_buffered(self.open(path)?);
             let picture = read.map_err(|error| format!("is not an EXR with channels R, G and B: {error}"))?;
-            Ok(picture.layer_data.channel_data.pixels.image)
+            let Collected { width, height, texels, .. } = picture.layer_data.channel_data.pixels;
+            Ok(from_floats([width as u32, height as u32], texels))
         })?;
         Ok(Picture { image, integer_bits: None, change: None })
     }
@@ -184,16 +191,21 @@ fn guess<R: BufRead + Seek>(path: &Path, file: R) -> Result<ImageReader<R>, Stri
 /// Makes the few texels possible that are negative or not finite, as filters and overflow leave them in many maps.
 fn clamp(image: &mut ImageData) -> Result<Option<String>, String> {
     let possible = |value: f32| value.is_finite() && value >= 0.0;
-    let bad = |texel: &Vec3| !texel.to_array().into_iter().all(possible);
-    let (count, all) = (image.texels.iter().filter(|texel| bad(texel)).count(), image.texels.len());
+    if matches!(image.texels, Texels::Bytes { .. } | Texels::Shorts { .. }) {
+        return Ok(None);
+    }
+    let all = image.texels.len();
+    let is_bad = |index: usize| !image.texels.get(index).into_iter().all(possible);
+    let bad: Vec<usize> = (0..all).filter(|&index| is_bad(index)).collect();
+    let count = bad.len();
     if count == 0 {
         return Ok(None);
     }
     if count > 1 && count > all / 10 {
         return Err(format!("{count} of the image's {all} texels are negative or not finite, so it holds no colours"));
     }
-    let largest =
-        image.texels.iter().flat_map(|texel| texel.to_array()).filter(|value| possible(*value)).fold(OVERFLOWN, f32::max);
+    let values = image.texels.colors().flat_map(|texel| texel.to_array());
+    let largest = values.filter(|value| possible(*value)).fold(OVERFLOWN, f32::max);
     let mend = |value: f32| {
         if value == f32::INFINITY {
             largest
@@ -203,28 +215,49 @@ fn clamp(image: &mut ImageData) -> Result<Option<String>, String> {
             0.0
         }
     };
-    image.texels.iter_mut().filter(|texel| bad(texel)).for_each(|texel| *texel = texel.map(mend));
+    let mut texels: Vec<[f32; 4]> = (0..all).map(|index| image.texels.get(index)).collect();
+    bad.into_iter().for_each(|index| texels[index] = texels[index].map(mend));
+    *image = from_floats([image.width, image.height], texels);
     let texels = if count == 1 { "one texel that is".to_owned() } else { format!("{count} texels that are") };
     Ok(Some(format!("{texels} negative or not finite: 0 stands for negative values, {largest} for infinite ones")))
 }
 
-fn to_linear(image: DynamicImage, color_space: Option<ColorSpace>) -> ImageData {
+/// Linear texels, in the least memory that holds their values.
+fn from_floats([width, height]: [u32; 2], texels: Vec<[f32; 4]>) -> ImageData {
+    let has_alpha = texels.iter().any(|texel| texel[3] != 1.0);
+    let half =
+        |value: f32| Some(f16::from_f32(value)).filter(|half| half.is_finite() && half.to_f32() == value).map(f16::to_bits);
+    let in_half = |texel: &[f32; 4]| {
+        let [red, green, blue, alpha] = texel.map(half);
+        Some([red?, green?, blue?, alpha?])
+    };
+    let texels = match texels.iter().map(in_half).collect() {
+        Some(numbers) => Texels::Half(numbers),
+        None if has_alpha => Texels::FloatAlpha(texels),
+        None => Texels::Float(texels.into_iter().map(|[red, green, blue, _]| [red, green, blue]).collect()),
+    };
+    ImageData { width, height, texels, has_alpha }
+}
+
+fn image_data(image: DynamicImage, color_space: Option<ColorSpace>) -> ImageData {
     let is_float = matches!(image, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_));
     let default = if is_float { ColorSpace::Linear } else { ColorSpace::Srgb };
     let space = color_space.unwrap_or(default);
     let (width, height) = (image.width(), image.height());
     let eight_bits = matches!(image.color().bytes_per_pixel() / image.color().channel_count(), 1);
-    let mut has_alpha = false;
+    if is_float {
+        let decoded = |texel: &Rgba<f32>| {
+            let [red, green, blue, alpha] = texel.0;
+            [decode(red, space), decode(green, space), decode(blue, space), alpha]
+        };
+        return from_floats([width, height], image.into_rgba32f().pixels().map(decoded).collect());
+    }
     let texels = if eight_bits {
-        let table: [f32; 256] = std::array::from_fn(|byte| decode(byte as f32 / 255.0, space));
-        let pixels = image.into_rgba8();
-        has_alpha |= pixels.pixels().any(|pixel| pixel.0[3] != u8::MAX);
-        pixels.pixels().map(|pixel| Vec3::from_array([0, 1, 2].map(|channel| table[usize::from(pixel.0[channel])]))).collect()
+        Texels::Bytes { codes: image.into_rgba8().pixels().map(|pixel| pixel.0).collect(), space }
     } else {
-        let pixels = image.into_rgba32f();
-        has_alpha |= pixels.pixels().any(|pixel| pixel.0[3] != 1.0);
-        pixels.pixels().map(|pixel| Vec3::from_array([0, 1, 2].map(|channel| decode(pixel.0[channel], space)))).collect()
+        Texels::Shorts { codes: image.into_rgba16().pixels().map(|pixel| pixel.0).collect(), space }
     };
+    let has_alpha = texels.channel(Channel::A).any(|alpha| alpha != 1.0);
     ImageData { width, height, texels, has_alpha }
 }
 
@@ -237,7 +270,9 @@ fn decode(value: f32, space: ColorSpace) -> f32 {
 
 /// A picture whose rows are collected as they are decoded.
 struct Collected {
-    image: ImageData,
+    width: usize,
+    height: usize,
+    texels: Vec<[f32; 4]>,
     space: ColorSpace,
 }
 
@@ -261,27 +296,30 @@ mod tests {
         image::RgbImage::new(100, 100).save(&paths[0]).unwrap();
         exr::prelude::write_rgb_file(&paths[1], 100, 100, |_, _| (1.0_f32, 1.0_f32, 1.0_f32)).unwrap();
         image::RgbImage::new(3000, 3000).save(&paths[2]).unwrap();
-        // Room for both small pictures, but not while a third is decoded.
-        let pictures = Pictures::within(Files::default(), 2 * 10_000 * KEPT + 10_000 * WHILE_DECODED);
+        // Room for both small pictures, of four bytes and of half-precision numbers, but not while a third is decoded.
+        let pictures = Pictures::within(Files::default(), 10_000 * (4 + MOST_KEPT + WHILE_DECODED));
         let read = |path: &Path| pictures.read(path, None).map(|picture| picture.image.texels.len());
         let refusal = read(&paths[2]).unwrap_err();
-        assert!(refusal.contains("3000 x 3000") && refusal.contains("344 MiB"), "{refusal}");
+        assert!(refusal.contains("3000 x 3000") && refusal.contains("275 MiB"), "{refusal}");
         // What was refused takes no room.
         assert_eq!((read(&paths[0]), read(&paths[1])), (Ok(10_000), Ok(10_000)));
-        assert!(read(&paths[0]).is_err());
+        assert_eq!(pictures.kept.load(Ordering::Relaxed), 10_000 * (4 + 8));
+        assert!(read(&paths[1]).is_err());
     }
 
     #[test]
     fn a_few_impossible_texels_are_mended_and_many_are_refused() {
-        let mut image = ImageData { width: 100, height: 1, texels: vec![Vec3::ONE; 100], has_alpha: false };
-        assert_eq!(clamp(&mut image), Ok(None));
-        image.texels[3] = Vec3::new(f32::INFINITY, -0.01, 2.0);
-        image.texels[4] = Vec3::new(f32::NAN, f32::NEG_INFINITY, 1.0);
-        let change = clamp(&mut image).unwrap().unwrap();
+        let mut texels = vec![[1.0; 4]; 100];
+        let image = |texels: &[[f32; 4]]| from_floats([100, 1], texels.to_vec());
+        assert_eq!(clamp(&mut image(&texels)), Ok(None));
+        texels[3] = [f32::INFINITY, -0.01, 2.0, 1.0];
+        texels[4] = [f32::NAN, f32::NEG_INFINITY, 1.0, 1.0];
+        let mut image_of_texels = image(&texels);
+        let change = clamp(&mut image_of_texels).unwrap().unwrap();
         assert!(change.starts_with("2 texels") && change.contains("65504"), "{change}");
-        assert_eq!(image.texels[3..5], [Vec3::new(65_504.0, 0.0, 2.0), Vec3::new(0.0, 0.0, 1.0)]);
-        assert_eq!(clamp(&mut image), Ok(None));
-        image.texels[..50].fill(Vec3::NEG_ONE);
-        assert!(clamp(&mut image).is_err());
+        assert_eq!([3, 4].map(|index| image_of_texels.texels.get(index)), [[65_504.0, 0.0, 2.0, 1.0], [0.0, 0.0, 1.0, 1.0]]);
+        assert_eq!(clamp(&mut image_of_texels), Ok(None));
+        texels[..50].fill([-1.0; 4]);
+        assert!(clamp(&mut image(&texels)).is_err());
     }
 }

@@ -1,7 +1,8 @@
 //! What decides the weights of a blend, as the device reads it.
 
 use super::constants::NONE;
-use crate::scene::BlendWeight;
+use super::texture::mention;
+use crate::scene::{BlendWeight, Channel};
 use crate::shader::shared::{Constants, shared_constants, shared_kinds};
 
 shared_kinds! {
@@ -11,7 +12,10 @@ shared_kinds! {
         Facing = 1 as WEIGHT_FACING,
         FresnelSchlick = 2 as WEIGHT_FRESNEL_SCHLICK,
         FresnelExact = 3 as WEIGHT_FRESNEL_EXACT,
+        /// The luminance of a texture.
         Texture = 4 as WEIGHT_TEXTURE,
+        /// The first channel of a texture times the value.
+        Channel = 5 as WEIGHT_CHANNEL,
     }
 }
 
@@ -49,7 +53,9 @@ pub(super) fn constant_weight(weight: &BlendWeight) -> Option<f64> {
         BlendWeight::Threshold { tau, of } => constant_weight(of).map(|value| f64::from(u8::from(value >= *tau))),
         // x⁰
         BlendWeight::Facing { power } if *power == 0.0 => Some(1.0),
-        BlendWeight::Facing { .. } | BlendWeight::Fresnel { .. } | BlendWeight::Texture { .. } => None,
+        BlendWeight::Facing { .. } | BlendWeight::Fresnel { .. } | BlendWeight::Texture { .. } | BlendWeight::Channel { .. } => {
+            None
+        }
     }
 }
 
@@ -68,6 +74,10 @@ impl PackedBlendWeight {
             BlendWeight::Fresnel { ior, exact: false } => plain(WeightKind::FresnelSchlick, *ior, NONE),
             BlendWeight::Fresnel { ior, exact: true } => plain(WeightKind::FresnelExact, *ior, NONE),
             BlendWeight::Texture { texture } => plain(WeightKind::Texture, 0.0, *texture as u32),
+            BlendWeight::Channel { texture, channel, factor } => {
+                // The first one stands there anyway.
+                plain(WeightKind::Channel, *factor, mention(*texture, Some(*channel).filter(|channel| *channel != Channel::R)))
+            }
             BlendWeight::Reverse { of } => Self::new(of, true),
             BlendWeight::Threshold { tau, of } => Self::new(of, false).thresholded(*tau),
         };

@@ -3,6 +3,7 @@
 use glam::DVec4;
 
 use super::error::PackError;
+use super::texture::PackedTextures;
 use crate::math::luminance;
 use crate::sampling::MapDistribution;
 use crate::scene::{ImageData, OutsideParameters};
@@ -40,7 +41,11 @@ impl PackedEnvironment {
     ///
     /// # Errors
     /// [`PackError::TooManyTexels`] where 32 bits cannot number them.
-    pub fn new(parameters: &OutsideParameters<'_>, switch: &'static str, texels: &mut Vec<f32>) -> Result<Self, PackError> {
+    pub fn new(
+        parameters: &OutsideParameters<'_>,
+        switch: &'static str,
+        textures: &mut PackedTextures,
+    ) -> Result<Self, PackError> {
         Ok(match *parameters {
             OutsideParameters::Constant(radiance) => Self {
                 mean_luminance: luminance(radiance),
@@ -49,7 +54,7 @@ impl PackedEnvironment {
                 ..Self::default()
             },
             OutsideParameters::Varying { map: Some(image), words, .. } => {
-                let (mean_luminance, map) = pack_map(image, texels)?.unzip();
+                let (mean_luminance, map) = pack_map(image, textures)?.unzip();
                 Self {
                     mean_luminance: mean_luminance.unwrap_or(0.0),
                     words,
@@ -83,18 +88,18 @@ impl PackedEnvironment {
 }
 
 /// Mean luminance and place of a map that is appended to the texels; None of a black one.
-fn pack_map(image: &ImageData, texels: &mut Vec<f32>) -> Result<Option<(f64, PackedMap)>, PackError> {
+fn pack_map(image: &ImageData, textures: &mut PackedTextures) -> Result<Option<(f64, PackedMap)>, PackError> {
     let Some(MapDistribution { warp, mean_luminance }) = MapDistribution::new(image) else { return Ok(None) };
-    let end = texels.len() + 3 * image.texels.len() + 3 * warp.splits.len() + warp.densities.len();
+    let end = textures.texel_words() + 3 * image.texels.len() + 3 * warp.splits.len() + warp.densities.len();
     if end > u32::MAX as usize {
-        return Err(PackError::TooManyTexels { found: end / 3 });
+        return Err(PackError::TooManyTexels { words: end });
     }
-    let first_texel = texels.len() as u32;
-    texels.extend(image.texels.iter().flat_map(|texel| texel.to_array()));
-    let first_node = texels.len() as u32;
-    texels.extend(warp.splits.iter().flatten().map(|&split| f32::from_bits(split)));
-    let first_density = texels.len() as u32;
-    texels.extend(warp.densities.iter().map(|&density| density as f32));
+    let first_texel = textures.texel_words() as u32;
+    textures.words.extend(image.texels.colors().flat_map(|texel| texel.to_array().map(f32::to_bits)));
+    let first_node = textures.texel_words() as u32;
+    textures.words.extend(warp.splits.iter().flatten());
+    let first_density = textures.texel_words() as u32;
+    textures.words.extend(warp.densities.iter().map(|&density| (density as f32).to_bits()));
     let map = PackedMap {
         first_texel,
         width: image.width,

@@ -7,8 +7,8 @@ pub enum PackError {
     TooManyPrimitives { found: usize, limit: usize },
     #[error("the scene has {found} infinite planes; {limit} are possible")]
     TooManyPlanes { found: usize, limit: usize },
-    #[error("the scene's textures have {found} texels, more than can be numbered")]
-    TooManyTexels { found: usize },
+    #[error("the scene's textures take {} MiB, and kernels can number {} MiB", words >> 18, u32::MAX >> 18)]
+    TooManyTexels { words: usize },
     #[error("the blend `{material}` and those before it have more than {limit} weights along their branches")]
     TooManyWeights { material: String, limit: usize },
     #[error("{shape}: {message}")]

@@ -8,8 +8,9 @@ use glam::DVec3;
 use super::blend_weight::{PackedBlendWeight, constant_weight};
 use super::constants::NONE;
 use super::error::PackError;
+use super::texture::mention;
 use crate::scene::material;
-use crate::scene::{BlendMode, ColorInput, LobeKind, Material, MaterialId, MaterialKind, Scene};
+use crate::scene::{BlendMode, Channel, ChannelInput, ColorInput, LobeKind, Material, MaterialId, MaterialKind, Scene};
 use crate::shader::shared::{Constant, Constants, shared_constants};
 
 /// Above a packed material's kind stands its lobe's form.
@@ -58,7 +59,7 @@ pub struct PackedMaterial {
     /// GGX width or cosine exponent.
     pub roughness: f32,
     pub normal_map: u32,
-    /// 1 where the roughness comes from a texture and its square is the GGX width.
+    /// 1 where the roughness comes from a texture and the square of both together is the GGX width.
     pub roughness_is_squared: u32,
     pub padding: u32,
 }
@@ -95,6 +96,21 @@ pub fn color_and_texture(input: &ColorInput) -> ([f32; 3], u32) {
         ColorInput::ScaledTexture(texture, factor) => (factor.as_vec3().to_array(), *texture as u32),
         // That it is squared stands beside the scalar it is for: colours never are.
         ColorInput::SquaredTexture(texture) => ([1.0; 3], *texture as u32),
+        ColorInput::Channel(input) => (input.factor.as_vec3().to_array(), mention(input.texture, Some(input.channel))),
+    }
+}
+
+/// A scalar as a constant factor, a texture index or NONE, and 1 where what they give together is squared.
+fn scalar_and_texture(input: &ColorInput) -> (f32, u32, u32) {
+    let ([factor, ..], texture) = color_and_texture(input);
+    match input {
+        ColorInput::SquaredTexture(_) => (factor, texture, 1),
+        // A scalar is the first channel of a colour anyway.
+        ColorInput::Channel(input @ ChannelInput { channel: Channel::R, .. }) => {
+            (factor, mention(input.texture, None), u32::from(input.is_squared))
+        }
+        ColorInput::Channel(input) => (factor, texture, u32::from(input.is_squared)),
+        _ => (factor, texture, 0),
     }
 }
 
@@ -262,8 +278,7 @@ impl PackedMaterial {
         let (color0, color0_texture) = color_and_texture(&lobe.map_or(black, |lobe| lobe.color0));
         let (color1, color1_texture) = color_and_texture(&lobe.and_then(|lobe| lobe.color1).unwrap_or(black));
         let roughness = lobe.and_then(|lobe| lobe.roughness).unwrap_or(black);
-        let roughness_is_squared = u32::from(matches!(roughness, ColorInput::SquaredTexture(_)));
-        let (roughness, roughness_texture) = color_and_texture(&roughness);
+        let (roughness, roughness_texture, roughness_is_squared) = scalar_and_texture(&roughness);
         let radiance = material.emission.map_or(black, |emission| emission.radiance);
         let two_sided = material.emission.is_some_and(|emission| emission.two_sided);
         let (emission, emission_texture) = color_and_texture(&radiance);
@@ -278,7 +293,7 @@ impl PackedMaterial {
             emission_texture,
             color1_texture,
             roughness_texture,
-            roughness: roughness[0],
+            roughness,
             normal_map: material.normal_map.map_or(NONE, |texture| texture as u32),
             roughness_is_squared,
             padding: 0,

@@ -54,7 +54,7 @@ impl PackedScene {
         let mut world = world::collect(scene);
         let mut materials = PackedMaterials::new(scene, &world.materials())?;
         let mut textures = PackedTextures::new(scene, materials.textures_mut())?;
-        let environment = light::environment(scene, &mut textures.texels)?;
+        let environment = light::environment(scene, &mut textures)?;
         let mut lights = light::collect(scene, &mut world, &environment);
         let places = materials.places(scene);
         world.primitives.iter_mut().for_each(|primitive| primitive.material = places[primitive.material] as usize);

@@ -1,11 +1,16 @@
 //! Textures as the device reads them.
 
 use std::collections::HashMap;
+use std::ops::Range;
+use std::sync::Arc;
 
 use glam::DVec3;
 
 use super::error::PackError;
-use crate::scene::{ImageTexture, Scene, Texture, TextureFilter, TextureId, TextureKind, TextureWrap};
+use crate::scene::image::Code;
+use crate::scene::{
+    Channel, ImageData, ImageTexture, Scene, Texels, Texture, TextureFilter, TextureId, TextureKind, TextureWrap,
+};
 use crate::shader::shared::{Constants, shared_constants, shared_kinds};
 
 shared_kinds! {
@@ -18,6 +23,16 @@ shared_kinds! {
     }
 }
 
+shared_kinds! {
+    /// How an image's texels are kept.
+    pub enum TexelFormat {
+        Bytes = 0 as TEXELS_OF_BYTES,
+        Shorts = 1 as TEXELS_OF_SHORTS,
+        Half = 2 as TEXELS_OF_HALF_FLOATS,
+        Float = 3 as TEXELS_OF_FLOATS,
+    }
+}
+
 shared_constants!(flags {
     /// Words of a texture in the tables.
     pub const TEXTURE_WORDS: u32 = (size_of::<PackedTexture>() / 16) as u32;
@@ -25,23 +40,29 @@ shared_constants!(flags {
     const TEXTURE_NEAREST: u32 = 1 << 10;
     /// Where the way of wrapping stands.
     pub(super) const WRAP_SHIFT: u32 = 8;
+    /// Where an image's format stands, and the flag of floating-point texels that have alpha.
+    pub(super) const FORMAT_SHIFT: u32 = 11;
+    pub(super) const FLOAT_ALPHA: u32 = 1 << 13;
+    /// Where the number of the channel stands that counts, from 1; 0: the colour counts.
+    pub(super) const CHANNEL_SHIFT: u32 = 14;
 });
 
 /// Of an image, beside its kind.
-pub(super) const IMAGE_FLAGS: u32 = TEXTURE_NEAREST | 3 << WRAP_SHIFT;
+pub(super) const IMAGE_FLAGS: u32 = TEXTURE_NEAREST | 3 << WRAP_SHIFT | 3 << FORMAT_SHIFT | FLOAT_ALPHA | 7 << CHANNEL_SHIFT;
 
 /// Kinds, flags and sizes, for WGSL.
 pub fn constants() -> Constants {
-    [PackedTextureKind::constants(), flags()].concat()
+    [PackedTextureKind::constants(), TexelFormat::constants(), flags()].concat()
 }
 
-/// 64 bytes, four vec4 of the tables.
+/// 80 bytes, five vec4 of the tables.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct PackedTexture {
-    /// Kind in bits 0 to 7; of an image, bits 8 and 9: 0 repeat, 1 clamp, 2 mirror, and bit 10: nearest.
+    /// Kind in bits 0 to 7; of an image, bits 8 and 9: 0 repeat, 1 clamp, 2 mirror, bit 10: nearest, bits 11 and 12: its [`TexelFormat`],
+    /// bit 13: floating-point texels have alpha, and from bit 14 on the channel.
     pub kind_and_flags: u32,
-    /// Of an image: index of its first float in the texels. Of noise: its seed.
+    /// Of an image: index of its first word in the texels. Of noise: its seed.
     pub first_texel_or_seed: u32,
     /// Of an image: its width. Of Perlin noise: the number of octaves.
     pub width_or_octaves: u32,
@@ -50,83 +71,214 @@ pub struct PackedTexture {
     pub offset: [f32; 2],
     pub a: [f32; 4],
     pub b: [f32; 4],
+    /// Of the rotation, before the offset and after the scale.
+    pub cosine_sine: [f32; 2],
+    /// Of an image of integers: index of the word among the texels from which on the values of its codes stand.
+    pub first_value: u32,
+    pub padding: u32,
 }
 
 /// The textures that something looks up.
 #[derive(Debug, Clone, Default)]
 pub struct PackedTextures {
     pub textures: Vec<PackedTexture>,
-    /// Linear Rec.709 texels of all images, three floats each.
-    pub texels: Vec<f32>,
+    /// Images, whose texels stand one after the other at the beginning of the texels.
+    images: Vec<Arc<ImageData>>,
+    /// Words of all images together.
+    image_words: usize,
+    /// What stands behind them: what integers in images stand for, then a map and how directions to it are drawn.
+    pub words: Vec<u32>,
+}
+
+/// A texture, or one channel of it, as records mention it until textures are packed.
+pub fn mention(texture: TextureId, channel: Option<Channel>) -> u32 {
+    texture as u32 | channel.map_or(0, number_of) << MENTIONED_CHANNEL_SHIFT
+}
+
+/// The scene's number of a texture has the bits below. Scenes with more textures do not fit into any memory.
+const MENTIONED_CHANNEL_SHIFT: u32 = 28;
+
+fn number_of(channel: Channel) -> u32 {
+    channel as u32 + 1
 }
 
 impl PackedTextures {
-    /// Packs the textures that are mentioned by their numbers in the scene, each once; the mentions become places here.
+    /// Packs the textures that are [mentioned](mention), each once; the mentions become places here.
     ///
     /// # Errors
     /// [`PackError::TooManyTexels`] where 32 bits cannot number them.
     pub fn new<'a>(scene: &Scene, mentions: impl Iterator<Item = &'a mut u32>) -> Result<Self, PackError> {
-        let mut packed = Self::default();
-        let mut places: HashMap<TextureId, u32> = HashMap::new();
+        let mut packed = Packing::default();
+        let mut places: HashMap<u32, u32> = HashMap::new();
         for mention in mentions {
-            let id = *mention as TextureId;
-            *mention = match places.get(&id) {
+            *mention = match places.get(mention) {
                 Some(&place) => place,
                 None => {
-                    let place = packed.add(&scene.textures[id])?;
-                    places.insert(id, place);
+                    let id = (*mention & ((1 << MENTIONED_CHANNEL_SHIFT) - 1)) as TextureId;
+                    let channel =
+                        Channel::ALL.into_iter().find(|&channel| number_of(channel) == *mention >> MENTIONED_CHANNEL_SHIFT);
+                    let place = packed.add(&scene.textures[id], channel)?;
+                    places.insert(*mention, place);
                     place
                 }
             };
         }
-        Ok(packed)
+        packed.finish()
     }
 
+    /// Words of all texels, which kernels number from 0 on.
+    pub fn texel_words(&self) -> usize {
+        self.image_words + self.words.len()
+    }
+
+    /// The number of the first of [`Self::words`] among all texels.
+    pub fn first_word(&self) -> usize {
+        self.image_words
+    }
+
+    /// Bytes of all texels.
+    pub fn texel_bytes(&self) -> u64 {
+        4 * self.texel_words() as u64
+    }
+
+    /// A run of the texels' bytes, piece by piece.
+    pub fn pieces(&self, bytes: Range<usize>) -> impl Iterator<Item = &[u8]> {
+        let images = self.images.iter().map(|image| image.texels.as_bytes());
+        let mut end = 0;
+        images.chain([bytemuck::cast_slice(&self.words)]).filter_map(move |piece| {
+            let first = end;
+            end += piece.len();
+            let from = bytes.start.clamp(first, end) - first;
+            let to = bytes.end.clamp(first, end) - first;
+            (from < to).then(|| &piece[from..to])
+        })
+    }
+
+    /// Some image's texels are kept in this way.
+    pub fn has_format(&self, format: TexelFormat) -> bool {
+        self.of_images().any(|texture| texture.format() == format as u32)
+    }
+
+    /// Some texture stands for one channel of an image.
+    pub fn has_channels(&self) -> bool {
+        self.of_images().any(|texture| texture.channel() != 0)
+    }
+
+    /// Some texture is turned.
+    pub fn is_rotated(&self) -> bool {
+        self.textures.iter().any(|texture| texture.cosine_sine != [1.0, 0.0])
+    }
+
+    fn of_images(&self) -> impl Iterator<Item = &PackedTexture> {
+        self.textures.iter().filter(|texture| texture.kind() == PackedTextureKind::Image as u32)
+    }
+}
+
+/// Textures that are being packed.
+#[derive(Default)]
+struct Packing {
+    packed: PackedTextures,
+    /// Where images stand that several textures have, by their address.
+    first_words: HashMap<*const ImageData, u32>,
+    /// What integers stand for, of each texture that is an image of integers.
+    codes: Vec<(usize, Code)>,
+}
+
+impl Packing {
     /// Its place.
-    fn add(&mut self, texture: &Texture) -> Result<u32, PackError> {
+    fn add(&mut self, texture: &Texture, channel: Option<Channel>) -> Result<u32, PackError> {
+        // A grey of the channel.
+        let color = |color: DVec3| channel.map_or(color, |channel| DVec3::splat(channel.of_color(color)));
         let packed = match &texture.kind {
-            TextureKind::Image(image) => self.add_image(image)?,
+            TextureKind::Image(image) => self.add_image(image, channel)?,
             TextureKind::Checker { a, b, scale } => {
-                PackedTexture { scale: scale.map(|x| x as f32), ..procedural(PackedTextureKind::Checker, *a, *b) }
+                PackedTexture { scale: scale.map(|x| x as f32), ..procedural(PackedTextureKind::Checker, color(*a), color(*b)) }
             }
             TextureKind::Perlin { scale, octaves, a, b, seed } => PackedTexture {
                 scale: [*scale as f32; 2],
                 width_or_octaves: *octaves,
                 first_texel_or_seed: *seed,
-                ..procedural(PackedTextureKind::Perlin, *a, *b)
+                ..procedural(PackedTextureKind::Perlin, color(*a), color(*b))
             },
             TextureKind::Worley { scale, a, b, seed } => PackedTexture {
                 scale: [*scale as f32; 2],
                 first_texel_or_seed: *seed,
-                ..procedural(PackedTextureKind::Worley, *a, *b)
+                ..procedural(PackedTextureKind::Worley, color(*a), color(*b))
             },
         };
-        self.textures.push(packed);
-        Ok(self.textures.len() as u32 - 1)
+        let axis = texture.transform.rotation().x_axis;
+        self.packed.textures.push(PackedTexture {
+            offset: texture.transform.offset.map(|x| x as f32),
+            cosine_sine: axis.as_vec2().to_array(),
+            ..packed
+        });
+        Ok(self.packed.textures.len() as u32 - 1)
     }
 
-    fn add_image(&mut self, image: &ImageTexture) -> Result<PackedTexture, PackError> {
+    fn add_image(&mut self, image: &ImageTexture, channel: Option<Channel>) -> Result<PackedTexture, PackError> {
         let wrap = match image.wrap {
             TextureWrap::Repeat => 0,
             TextureWrap::Clamp => 1,
             TextureWrap::Mirror => 2,
         };
         let nearest = if image.filter == TextureFilter::Nearest { TEXTURE_NEAREST } else { 0 };
-        let first_texel = self.texels.len();
-        if first_texel + 3 * image.image.texels.len() > u32::MAX as usize {
-            return Err(PackError::TooManyTexels { found: first_texel / 3 + image.image.texels.len() });
+        let data = &image.image;
+        let (format, alpha) = match data.texels {
+            Texels::Bytes { .. } => (TexelFormat::Bytes, 0),
+            Texels::Shorts { .. } => (TexelFormat::Shorts, 0),
+            Texels::Half(_) => (TexelFormat::Half, 0),
+            Texels::Float(_) if channel == Some(Channel::A) => {
+                return Ok(procedural(PackedTextureKind::Checker, DVec3::ONE, DVec3::ONE));
+            }
+            Texels::Float(_) => (TexelFormat::Float, 0),
+            Texels::FloatAlpha(_) => (TexelFormat::Float, FLOAT_ALPHA),
+        };
+        if let Some(code) = data.texels.code(channel == Some(Channel::A)) {
+            self.codes.push((self.packed.textures.len(), code));
         }
-        self.texels.extend(image.image.texels.iter().flat_map(|texel| texel.to_array()));
         Ok(PackedTexture {
-            kind_and_flags: PackedTextureKind::Image as u32 | wrap << WRAP_SHIFT | nearest,
-            first_texel_or_seed: first_texel as u32,
-            width_or_octaves: image.image.width,
-            height: image.image.height,
+            kind_and_flags: PackedTextureKind::Image as u32
+                | wrap << WRAP_SHIFT
+                | nearest
+                | (format as u32) << FORMAT_SHIFT
+                | alpha
+                | channel.map_or(0, number_of) << CHANNEL_SHIFT,
+            first_texel_or_seed: self.first_word(data)?,
+            width_or_octaves: data.width,
+            height: data.height,
             scale: image.scale.map(|x| x as f32),
-            offset: image.offset.map(|x| x as f32),
-            a: [0.0; 4],
-            b: [0.0; 4],
+            ..procedural(PackedTextureKind::Image, DVec3::ZERO, DVec3::ZERO)
         })
+    }
+
+    /// Of an image, which is added where no texture had it before.
+    fn first_word(&mut self, image: &Arc<ImageData>) -> Result<u32, PackError> {
+        if let Some(&known) = self.first_words.get(&Arc::as_ptr(image)) {
+            return Ok(known);
+        }
+        let first = self.packed.image_words;
+        self.packed.image_words += image.texels.words() * image.texels.len();
+        let numbered = u32::try_from(first).ok().filter(|_| u32::try_from(self.packed.image_words).is_ok());
+        let Some(number) = numbered else { return Err(PackError::TooManyTexels { words: self.packed.image_words }) };
+        self.packed.images.push(image.clone());
+        self.first_words.insert(Arc::as_ptr(image), number);
+        Ok(number)
+    }
+
+    /// Puts what integers stand for behind the images, each way once.
+    fn finish(self) -> Result<PackedTextures, PackError> {
+        let mut packed = self.packed;
+        let mut first_values: HashMap<Code, usize> = HashMap::new();
+        for (texture, code) in self.codes {
+            let first = *first_values.entry(code).or_insert_with(|| {
+                let first = packed.texel_words();
+                packed.words.extend(code.values().iter().map(|value| value.to_bits()));
+                first
+            });
+            let Ok(number) = u32::try_from(first) else { return Err(PackError::TooManyTexels { words: packed.texel_words() }) };
+            packed.textures[texture].first_value = number;
+        }
+        Ok(packed)
     }
 }
 
@@ -141,11 +293,42 @@ fn procedural(kind: PackedTextureKind, a: DVec3, b: DVec3) -> PackedTexture {
         offset: [0.0; 2],
         a: color(a),
         b: color(b),
+        cosine_sine: [1.0, 0.0],
+        first_value: 0,
+        padding: 0,
     }
 }
 
 impl PackedTexture {
     pub fn kind(&self) -> u32 {
         self.kind_and_flags & 255
+    }
+
+    /// Of an image, as a number of [`TexelFormat`].
+    pub fn format(&self) -> u32 {
+        self.kind_and_flags >> FORMAT_SHIFT & 3
+    }
+
+    /// The number of the channel that counts, from 1; 0: the colour counts.
+    pub fn channel(&self) -> u32 {
+        self.kind_and_flags >> CHANNEL_SHIFT & 7
+    }
+
+    /// Of an image: words of a texel.
+    pub fn words_of_texel(&self) -> u32 {
+        match self.format() {
+            format if format == TexelFormat::Bytes as u32 => 1,
+            format if format == TexelFormat::Float as u32 => 3 + u32::from(self.kind_and_flags & FLOAT_ALPHA != 0),
+            _ => 2,
+        }
+    }
+
+    /// Of an image: how many values its integers have; 0 where it has none.
+    pub fn values(&self) -> u32 {
+        match self.format() {
+            format if format == TexelFormat::Bytes as u32 => 1 << 8,
+            format if format == TexelFormat::Shorts as u32 => 1 << 16,
+            _ => 0,
+        }
     }
 }

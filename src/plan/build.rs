@@ -91,7 +91,7 @@ impl Plan {
             decisions: Vec::new(),
         };
         plan.chunks = chunks::cut(packed, !uniform_primitives, plan.has_nodes() && !uniform_nodes, limits.max_array);
-        let other_arrays = u32::from(!uniform_tables) + u32::from(!packed.textures.texels.is_empty());
+        let other_arrays = u32::from(!uniform_tables);
         chunks::check(&plan.chunks, other_arrays, limits.max_array, limits)?;
         plan.switches = switches::choose(scene, packed, &plan);
         plan.switches.enable("TRACE", options.trace);
@@ -141,8 +141,8 @@ fn count_memory(packed: &PackedScene, plan: &Plan, width: u32) -> Memory {
     if packed.has_attributes() {
         arrays.push((memory::ATTRIBUTES, memory::ATTRIBUTE_BYTES * packed.attributes.len() as u64));
     }
-    if !packed.textures.texels.is_empty() {
-        arrays.push(("texels", 4 * packed.textures.texels.len() as u64));
+    if packed.textures.texel_words() > 0 {
+        arrays.push((memory::TEXELS, packed.textures.texel_bytes()));
     }
     if plan.switches.enabled.contains("PIXEL_LIST") {
         arrays.push(("pixels", pixels * memory::LIST_BYTES));

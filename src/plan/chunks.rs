@@ -79,6 +79,20 @@ pub const ATTRIBUTES: RecordArray = RecordArray {
     file: "geometry/attribute_chunks.wgsl",
 };
 
+/// Texels of images and maps, whose records are single numbers of 32 bits.
+pub const TEXELS: RecordArray = RecordArray {
+    label: memory::TEXELS,
+    name: "texels",
+    words_type: "",
+    word: "u32",
+    words: 1,
+    load: "",
+    load_word: "texel_word",
+    binding: Binding::Texels as u32,
+    switch: "TEXEL_CHUNKS",
+    file: "geometry/texel_chunks.wgsl",
+};
+
 /// How an array is cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Chunks {
@@ -116,6 +130,9 @@ impl Chunks {
     /// WGSL with the chunks' bindings and the functions that load a record, or one of its words, from whichever has it.
     pub fn wgsl(&self) -> String {
         let RecordArray { name, words_type, word, words, load, load_word, .. } = self.array;
+        if self.array.is_of_numbers() {
+            return self.wgsl_of_numbers();
+        }
         let records = (self.chunk_bytes / self.array.record_bytes()) as u32;
         let mut text = String::new();
         let (mut body, mut word_body) = (String::new(), String::new());
@@ -139,6 +156,30 @@ impl Chunks {
     }
 }
 
+impl Chunks {
+    /// The same where a record is a single number.
+    fn wgsl_of_numbers(&self) -> String {
+        let RecordArray { name, word, load_word, .. } = self.array;
+        let records = self.chunk_bytes / self.array.record_bytes();
+        let (mut text, mut body) = (String::new(), String::new());
+        for chunk in 0..self.count {
+            let number = self.array.chunk_binding(chunk);
+            let _ = writeln!(text, "@group(0) @binding({number}) var<storage, read> {name}_{chunk}: array<{word}>;");
+            let first = u64::from(chunk) * records;
+            if chunk + 1 < self.count {
+                let _ = writeln!(
+                    body,
+                    "    if index < {}u {{\n        return {name}_{chunk}[index - {first}u];\n    }}",
+                    first + records
+                );
+            } else {
+                let _ = writeln!(body, "    return {name}_{chunk}[index - {first}u];");
+            }
+        }
+        format!("{text}\nfn {load_word}(index: u32) -> {word} {{\n{body}}}\n")
+    }
+}
+
 impl fmt::Display for Chunks {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} in {} of at most {}", self.array.label, self.count, megabytes(self.chunk_bytes))
@@ -147,7 +188,13 @@ impl fmt::Display for Chunks {
 
 impl RecordArray {
     pub fn record_bytes(&self) -> u64 {
-        16 * u64::from(self.words)
+        let word = if self.is_of_numbers() { 4 } else { 16 };
+        word * u64::from(self.words)
+    }
+
+    /// Its words are single numbers and not four of them.
+    fn is_of_numbers(&self) -> bool {
+        self.word == "u32"
     }
 
     /// The first chunk stands where the whole array would; the others in a range that no other array has.
@@ -157,7 +204,7 @@ impl RecordArray {
 }
 
 /// The arrays that stand in storage buffers and may be cut, in chunks of at most `limit` bytes: those of primitives and of the hierarchy's nodes
-/// where they do, and of attributes where there are any.
+/// where they do, of attributes where there are any, and of texels.
 pub fn cut(packed: &PackedScene, stored_primitives: bool, stored_nodes: bool, limit: u64) -> Vec<Chunks> {
     let mut arrays = Vec::new();
     if stored_primitives {
@@ -168,6 +215,9 @@ pub fn cut(packed: &PackedScene, stored_primitives: bool, stored_nodes: bool, li
     }
     if packed.has_attributes() {
         arrays.push(Chunks::new(ATTRIBUTES, size_of_val(&packed.attributes[..]) as u64, limit));
+    }
+    if packed.textures.texel_words() > 0 {
+        arrays.push(Chunks::new(TEXELS, packed.textures.texel_bytes(), limit));
     }
     arrays
 }

@@ -30,6 +30,9 @@ pub const PRIMITIVES: &str = "primitives";
 pub const NODES: &str = "hierarchy";
 pub const ATTRIBUTES: &str = "normals and texture coordinates";
 
+/// Images and maps.
+pub const TEXELS: &str = "texels";
+
 /// The two halves of the film.
 pub(super) const FILM_SUM: &str = "film sum";
 pub(super) const FILM_COMPENSATION: &str = "film compensation";
@@ -62,7 +65,7 @@ impl Memory {
     pub fn check(&self, limits: &DeviceLimits) -> Result<(), PlanError> {
         let limit = limits.max_storage_binding.min(limits.max_buffer);
         // These are cut, or no storage bindings.
-        let cut = [PRIMITIVES, NODES, ATTRIBUTES, ESTIMATED_ACCELERATION, FILM_SUM, FILM_COMPENSATION];
+        let cut = [PRIMITIVES, NODES, ATTRIBUTES, TEXELS, ESTIMATED_ACCELERATION, FILM_SUM, FILM_COMPENSATION];
         match self.arrays.iter().find(|(name, bytes)| *bytes > limit && !cut.contains(name)) {
             Some((name, bytes)) => Err(PlanError::DoesNotFit(format!(
                 "its {name} need {}, and the device can bind {} at once",

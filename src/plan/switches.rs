@@ -7,7 +7,7 @@ use crate::packed::light::{LightKind, PackedLight};
 use crate::packed::material::{BLEND, NO_LOBE, PackedMaterial};
 use crate::packed::primitive::Primitive;
 use crate::packed::shape::{PrimitiveKind, SurfaceSampling};
-use crate::packed::texture::PackedTextureKind;
+use crate::packed::texture::{PackedTextureKind, TexelFormat};
 use crate::packed::{NONE, PackedScene};
 use crate::sampling::Decorrelation;
 use crate::scene::{ApertureShape, Filter, FilterKind, HemisphereSampling, Projection};
@@ -31,7 +31,17 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
     switches.enable("TEXTURES", !packed.textures.textures.is_empty());
     let has_texture = |kind: PackedTextureKind| packed.textures.textures.iter().any(|texture| texture.kind() == kind as u32);
     switches.enable("IMAGES", has_texture(PackedTextureKind::Image));
-    switches.enable("TEXELS", !packed.textures.texels.is_empty());
+    switches.enable("TEXELS", packed.textures.texel_words() > 0);
+    for (switch, format) in [
+        ("TEXELS_IN_BYTES", TexelFormat::Bytes),
+        ("TEXELS_IN_SHORTS", TexelFormat::Shorts),
+        ("TEXELS_IN_HALF_FLOATS", TexelFormat::Half),
+        ("TEXELS_IN_FLOATS", TexelFormat::Float),
+    ] {
+        switches.enable(switch, packed.textures.has_format(format));
+    }
+    switches.enable("TEXTURE_CHANNELS", packed.textures.has_channels());
+    switches.enable("TEXTURE_ROTATION", packed.textures.is_rotated());
     switches.enable("CHECKERS", has_texture(PackedTextureKind::Checker));
     switches.enable("PERLIN", has_texture(PackedTextureKind::Perlin));
     switches.enable("WORLEY", has_texture(PackedTextureKind::Worley));

@@ -8,7 +8,6 @@
 pub mod bsdf;
 pub mod camera;
 pub mod emission;
-mod film;
 pub mod integrator;
 pub mod intersect;
 pub mod lights;

@@ -35,7 +35,7 @@ impl MapDistribution {
 /// the texel and its neighbours with weights 1, 6, 1 in each direction: it is positive wherever the looked-up radiance is.
 fn texel_weights(image: &ImageData) -> Vec<f64> {
     let (width, height) = (image.width as usize, image.height as usize);
-    let luminance: Vec<f64> = image.texels.iter().map(|texel| crate::math::luminance(texel.as_dvec3())).collect();
+    let luminance: Vec<f64> = image.texels.colors().map(|texel| crate::math::luminance(texel.as_dvec3())).collect();
     let smoothed = |before: f64, here: f64, after: f64| (before + 6.0 * here + after) / 8.0;
     let across: Vec<f64> = luminance
         .chunks_exact(width)
@@ -87,8 +87,9 @@ mod tests {
     use glam::Vec3;
 
     fn map(width: u32, height: u32, texel: impl Fn(u32, u32) -> f32) -> ImageData {
-        let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| Vec3::splat(texel(x, y))).collect();
-        ImageData { width, height, texels, has_alpha: false }
+        let texels: Vec<_> =
+            (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| Vec3::splat(texel(x, y))).collect();
+        ImageData { width, height, texels: texels.into(), has_alpha: false }
     }
 
     #[test]

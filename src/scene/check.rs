@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::texture::ImageData;
+use super::image::ImageData;
 
 /// Most texels along a side of an image: twice as many still are a positive number of 32 bits.
 const LONGEST_SIDE: u32 = 1 << 30;

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use glam::{Vec2, Vec3};
 use sha2::{Digest, Sha256};
 
+use super::image::ImageData;
 use super::model::Scene;
 use super::shape::{Geometry, Mesh};
-use super::texture::{ImageData, TextureKind};
+use super::texture::TextureKind;
 
 /// SHA-256, in hexadecimal, of everything that decides what the scene looks like: shapes, materials, textures, lights and camera.
 /// Its name, the picture's size and the way of estimating are left out, since a picture's header states them by themselves.
@@ -62,8 +63,10 @@ fn hash_mesh(hash: &mut Sha256, mesh: &Mesh) {
 
 /// Hashes the texels and returns the image without them.
 fn hash_image(hash: &mut Sha256, image: &ImageData) -> Arc<ImageData> {
-    hash_items(hash, &image.texels, Vec3::to_array);
-    Arc::new(ImageData { texels: Vec::new(), ..image.clone() })
+    hash.update((image.texels.len() as u64).to_le_bytes());
+    hash.update(image.texels.as_bytes());
+    let ImageData { width, height, has_alpha, ref texels } = *image;
+    Arc::new(ImageData { width, height, has_alpha, texels: texels.emptied() })
 }
 
 /// Hashes an array's length and the bits of its items' words.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DVec3, DVec4};
 
 use super::check::{Check, image, is_amount, is_direction};
-use super::texture::ImageData;
+use super::image::ImageData;
 use crate::math::luminance;
 
 /// The table of lights: a row for each that is not a surface. From these rows every layer makes its list of modules and what chooses among

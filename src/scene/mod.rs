@@ -10,6 +10,7 @@ mod blend_tree;
 pub mod camera;
 mod check;
 mod digest;
+pub mod image;
 mod import_report;
 pub mod light;
 pub mod material;
@@ -27,6 +28,7 @@ pub mod validate;
 pub use blend_tree::{MOST_LEAVES, check_blends};
 pub use camera::{Aperture, ApertureShape, Camera, Projection};
 pub use digest::digest;
+pub use image::{Channel, ColorSpace, ImageData, Texels};
 pub use import_report::{ImportReport, ReportItem};
 pub use light::{
     DirectionalLight, Environment, EnvironmentRadiance, Light, LightParameters, LightStrength, OutsideParameters, PointLight,
@@ -44,6 +46,8 @@ pub use settings::{
 };
 pub use shape::*;
 pub use summary::SceneSummary;
-pub use texture::{ColorInput, ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureId, TextureKind, TextureWrap};
+pub use texture::{
+    ChannelInput, ColorInput, ImageTexture, Texture, TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,
+};
 pub use transform::{Transform, TransformStep};
 pub use validate::InvalidScene;

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use glam::{DVec3, Vec3};
+use glam::{DMat2, DVec2, DVec3};
+
+use super::image::{Channel, ImageData};
 
 /// Index into [`crate::scene::Scene::textures`].
 pub type TextureId = usize;
@@ -16,6 +18,18 @@ pub enum ColorInput {
     ScaledTexture(TextureId, DVec3),
     /// The square of a texture: GGX's width from a roughness.
     SquaredTexture(TextureId),
+    /// One channel of a texture as a grey.
+    Channel(ChannelInput),
+}
+
+/// One channel of a texture times a factor, and then perhaps squared.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ChannelInput {
+    pub texture: TextureId,
+    pub channel: Channel,
+    pub factor: DVec3,
+    /// GGX's width from a roughness.
+    pub is_squared: bool,
 }
 
 impl ColorInput {
@@ -25,7 +39,41 @@ impl ColorInput {
 
     /// The value varies over the surface.
     pub fn is_texture(&self) -> bool {
-        !matches!(self, Self::Constant(_))
+        self.texture().is_some()
+    }
+
+    /// The texture that it is looked up in.
+    pub fn texture(&self) -> Option<TextureId> {
+        match *self {
+            Self::Constant(_) => None,
+            Self::Texture(id) | Self::ScaledTexture(id, _) | Self::SquaredTexture(id) => Some(id),
+            Self::Channel(ChannelInput { texture, .. }) => Some(texture),
+        }
+    }
+
+    /// The same times a factor; of a squared one, the square of the product.
+    #[must_use]
+    pub fn scaled(self, by: DVec3) -> Self {
+        let channel = |texture| ChannelInput { texture, channel: Channel::R, factor: by, is_squared: true };
+        match self {
+            Self::Constant(color) => Self::Constant(color * by),
+            Self::Texture(texture) => Self::ScaledTexture(texture, by),
+            Self::ScaledTexture(texture, factor) => Self::ScaledTexture(texture, factor * by),
+            Self::SquaredTexture(texture) => Self::Channel(channel(texture)),
+            Self::Channel(input) => Self::Channel(ChannelInput { factor: input.factor * by, ..input }),
+        }
+    }
+
+    /// The square, of which the first channel counts.
+    #[must_use]
+    pub fn squared(self) -> Self {
+        let channel = |texture, factor| ChannelInput { texture, channel: Channel::R, factor, is_squared: true };
+        match self {
+            Self::Constant(value) => Self::Constant(value * value),
+            Self::Texture(texture) | Self::SquaredTexture(texture) => Self::SquaredTexture(texture),
+            Self::ScaledTexture(texture, factor) => Self::Channel(channel(texture, factor)),
+            Self::Channel(input) => Self::Channel(ChannelInput { is_squared: true, ..input }),
+        }
     }
 }
 
@@ -33,6 +81,35 @@ impl ColorInput {
 pub struct Texture {
     pub name: String,
     pub kind: TextureKind,
+    pub transform: UvTransform,
+}
+
+impl Texture {
+    /// One that lies as the surface's texture coordinates do.
+    pub fn new(name: impl Into<String>, kind: TextureKind) -> Self {
+        Self { name: name.into(), kind, transform: UvTransform::default() }
+    }
+
+    /// Where in itself the texture is looked up for texture coordinates that its kind has scaled.
+    pub fn placed(&self, scaled: DVec2) -> DVec2 {
+        self.transform.rotation() * scaled + DVec2::from(self.transform.offset)
+    }
+}
+
+/// How texture coordinates are changed before a texture is looked up, after the factors of its kind.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct UvTransform {
+    /// From u towards v, about (0, 0).
+    pub rotation_degrees: f64,
+    /// Added last.
+    pub offset: [f64; 2],
+}
+
+impl UvTransform {
+    /// The rotation alone.
+    pub fn rotation(&self) -> DMat2 {
+        if self.rotation_degrees == 0.0 { DMat2::IDENTITY } else { DMat2::from_angle(self.rotation_degrees.to_radians()) }
+    }
 }
 
 #[derive(Debug, Clone)]
@@ -70,8 +147,40 @@ impl TextureKind {
             })
         };
         match self {
-            Self::Image(image) => ends(&mut image.image.texels.iter().map(|texel| texel.as_dvec3())),
+            Self::Image(image) => ends(&mut image.image.texels.colors().map(|texel| texel.as_dvec3())),
             Self::Checker { a, b, .. } | Self::Perlin { a, b, .. } | Self::Worley { a, b, .. } => ends(&mut [*a, *b].into_iter()),
+        }
+    }
+
+    /// The smallest and the largest value of one channel.
+    pub fn range_of(&self, channel: Channel) -> (f64, f64) {
+        let ends = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+        };
+        match self {
+            Self::Image(image) => ends(&mut image.image.texels.channel(channel).map(f64::from)),
+            Self::Checker { a, b, .. } | Self::Perlin { a, b, .. } | Self::Worley { a, b, .. } => {
+                ends(&mut [*a, *b].into_iter().map(|color| channel.of_color(color)))
+            }
+        }
+    }
+
+    /// The mean colour over the whole texture; of noise, the middle between its two colours.
+    pub fn mean(&self) -> DVec3 {
+        match self {
+            Self::Image(image) => image.mean(),
+            Self::Checker { a, b, .. } | Self::Perlin { a, b, .. } | Self::Worley { a, b, .. } => 0.5 * (*a + *b),
+        }
+    }
+
+    /// The mean of one channel, likewise.
+    pub fn mean_of(&self, channel: Channel) -> f64 {
+        match self {
+            Self::Image(image) => {
+                let texels = &image.image.texels;
+                texels.channel(channel).map(f64::from).sum::<f64>() / texels.len().max(1) as f64
+            }
+            Self::Checker { .. } | Self::Perlin { .. } | Self::Worley { .. } => channel.of_color(self.mean()),
         }
     }
 }
@@ -82,26 +191,16 @@ pub struct ImageTexture {
     pub image: Arc<ImageData>,
     pub wrap: TextureWrap,
     pub filter: TextureFilter,
-    /// uv is multiplied by `scale`, then `offset` is added, before wrapping.
+    /// Factors of u and v.
     pub scale: [f64; 2],
-    pub offset: [f64; 2],
 }
 
-/// Decoded texels, linear Rec.709.
-#[derive(Debug, Clone)]
-pub struct ImageData {
-    pub width: u32,
-    pub height: u32,
-    /// Row by row from the top, `width * height` texels.
-    pub texels: Vec<Vec3>,
-    /// The file had an alpha channel that is not 1 everywhere.
-    pub has_alpha: bool,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum ColorSpace {
-    Srgb,
-    Linear,
+impl ImageTexture {
+    /// The mean over all texels.
+    pub fn mean(&self) -> DVec3 {
+        let texels = &self.image.texels;
+        texels.colors().map(|texel| texel.as_dvec3()).sum::<DVec3>() / texels.len().max(1) as f64
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

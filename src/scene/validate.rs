@@ -13,7 +13,7 @@ use super::material::{BlendWeight, Material, MaterialId, MaterialKind};
 use super::model::Scene;
 use super::settings::BadSetting;
 use super::shape::Shape;
-use super::texture::{ColorInput, TextureId, TextureKind};
+use super::texture::{ChannelInput, ColorInput, Texture, TextureId, TextureKind, UvTransform};
 
 /// Most octaves of Perlin noise: further ones are finer than the numbers that they are computed in.
 pub const MOST_OCTAVES: u32 = 16;
@@ -45,7 +45,7 @@ impl Scene {
         of(|| "render settings".into(), self.render.check().map_err(words))?;
         of(|| "camera".into(), camera(&self.camera))?;
         for texture in &self.textures {
-            of(|| format!("texture `{}`", texture.name), texture_kind(&texture.kind))?;
+            of(|| format!("texture `{}`", texture.name), check_texture(texture))?;
         }
         for material in &self.materials {
             of(|| format!("material `{}`", material.name), self.check_material(material))?;
@@ -89,6 +89,9 @@ impl Scene {
         loop {
             weight = match weight {
                 BlendWeight::Texture { texture } => return self.texture_exists(*texture),
+                BlendWeight::Channel { texture, factor, .. } if (0.0..=1.0).contains(factor) => {
+                    return self.texture_exists(*texture);
+                }
                 BlendWeight::Reverse { of } => of,
                 BlendWeight::Threshold { tau, of } if tau.is_finite() => of,
                 BlendWeight::Constant { value } if (0.0..=1.0).contains(value) => return Ok(()),
@@ -106,9 +109,13 @@ impl Scene {
             ColorInput::ScaledTexture(_, factor) if !is_amount(*factor) => {
                 Err("the factor of a texture must be finite and not negative".into())
             }
+            ColorInput::Channel(ChannelInput { factor, .. }) if !is_amount(*factor) => {
+                Err("the factor of a texture must be finite and not negative".into())
+            }
             ColorInput::Texture(id) | ColorInput::ScaledTexture(id, _) | ColorInput::SquaredTexture(id) => {
                 self.texture_exists(*id)
             }
+            ColorInput::Channel(ChannelInput { texture, .. }) => self.texture_exists(*texture),
         }
     }
 
@@ -184,11 +191,15 @@ fn camera(camera: &Camera) -> Check {
     Ok(())
 }
 
-fn texture_kind(kind: &TextureKind) -> Check {
-    match kind {
+fn check_texture(texture: &Texture) -> Check {
+    let UvTransform { rotation_degrees, offset } = texture.transform;
+    if !rotation_degrees.is_finite() || !offset.into_iter().all(f64::is_finite) {
+        return Err("its rotation and its offset must be finite".into());
+    }
+    match &texture.kind {
         TextureKind::Image(texture) => {
-            let finite = texture.scale.into_iter().chain(texture.offset).all(f64::is_finite);
-            if finite { image(&texture.image) } else { Err("its scale and offset must be finite".into()) }
+            let finite = texture.scale.into_iter().all(f64::is_finite);
+            if finite { image(&texture.image) } else { Err("its scale must be finite".into()) }
         }
         TextureKind::Checker { a, b, scale } => between(*a, *b, scale.iter().all(|factor| factor.is_finite())),
         TextureKind::Perlin { octaves, .. } if !(1..=MOST_OCTAVES).contains(octaves) => {

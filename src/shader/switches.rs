@@ -116,6 +116,9 @@ macro_rules! lights {
 }
 light_table!(lights);
 
+/// Ways in which the texels of images are kept.
+const TEXEL_FORMATS: &[&str] = &["TEXELS_IN_BYTES", "TEXELS_IN_FLOATS", "TEXELS_IN_HALF_FLOATS", "TEXELS_IN_SHORTS"];
+
 /// Kinds of sampled light; where lights are sampled there is one at least.
 const LIGHT_KINDS: &[&str] = &["DELTA_LIGHTS", "AREA_LIGHTS", "SPHERE_LIGHTS", "ENVIRONMENT_LIGHT", "PORTALS"];
 
@@ -151,7 +154,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("FILTER_BOX").requires(&["FILTER"]).excludes(&["FILTER_CURVE"]),
     switch("FILTER_CURVE").requires(&["FILTER"]),
     switch("HEURISTIC_POWER"),
-    switch("IMAGES").requires(&["TEXELS", "TEXTURES"]),
+    switch("IMAGES").requires(&["TEXELS", "TEXTURES"]).one_of(TEXEL_FORMATS),
     switch("LENS"),
     switch("LIGHTS").one_of(LIGHT_KINDS),
     switch("MIXTURE").requires(&["BLENDS"]).excludes(&["PICK"]),
@@ -190,7 +193,15 @@ const OF_FEATURES: &[Switch] = &[
     switch("SPREAD"),
     switch("SUBGROUP_QUEUES"),
     switch("TEXELS"),
+    switch("TEXELS_IN_BYTES").requires(&["IMAGES"]),
+    switch("TEXELS_IN_FLOATS").requires(&["IMAGES"]),
+    switch("TEXELS_IN_HALF_FLOATS").requires(&["IMAGES"]),
+    switch("TEXELS_IN_SHORTS").requires(&["IMAGES"]),
+    switch("TEXEL_CHUNKS").requires(&["TEXELS"]),
     switch("TEXTURES"),
+    // One channel counts of some image.
+    switch("TEXTURE_CHANNELS").requires(&["IMAGES"]),
+    switch("TEXTURE_ROTATION").requires(&["TEXTURES"]),
     switch("TRACE").debug(),
     switch("UNIFORM_HEMISPHERE"),
     switch("UNIFORM_NODES").requires(&["BVH"]),

@@ -4,7 +4,6 @@
 mod common;
 
 mod bench;
-mod checkpoints;
 mod documents;
 mod endings;
 mod faults;

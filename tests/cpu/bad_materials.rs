@@ -97,6 +97,34 @@ fn numbers_out_of_range_name_the_key_and_the_range() {
             material("type = \"diffuse\"\nreflectance = { texture = \"checks\" }"),
             "expected a number from 0 to 1, found 3 in the texture `checks`",
         ),
+        (
+            material("type = \"diffuse\"\nreflectance = { texture = \"checks\", factor = [0.3, 0.5, 0.1] }"),
+            "material[2].reflectance.texture: expected a number from 0 to 1, found 1.5 in the texture `checks` times its factor",
+        ),
+        (
+            material("type = \"diffuse\"\nreflectance = { texture = \"checks\", factor = -1 }"),
+            "material[2].reflectance.factor: expected a number from 0 to 1e18, found -1",
+        ),
+        (
+            material("type = \"glossy\"\nreflectance = 1\nexponent = { texture = \"checks\", channel = \"x\" }"),
+            "exponent.channel: `x` is not a valid choice [valid choices: r, g, b, a]",
+        ),
+        (
+            material("type = \"glossy\"\nreflectance = 1\nexponent = { texture = \"checks\", factor = [1, 1, 1] }"),
+            "exponent.factor: expected a number from 0 to 1e18, found a list",
+        ),
+        (
+            material("type = \"conductor\"\npreset = \"gold\"\nroughness = { texture = \"checks\", channel = \"g\" }"),
+            "material[2].roughness.texture: expected a number from 0 to 1, found 3 in the texture `checks`",
+        ),
+        (
+            blend("{ type = \"texture\", texture = \"checks\", factor = 0.5 }"),
+            "material[2].weight.factor: `factor` needs the key `channel`",
+        ),
+        (
+            blend("{ type = \"texture\", texture = \"checks\", channel = \"b\", factor = 1.5 }"),
+            "material[2].weight.factor: expected a number from 0 to 1, found 1.5",
+        ),
         (material("type = \"blend\"\nmaterials = [\"white\"]\nweight = { type = \"facing\" }"), "materials"),
         (
             material("type = \"blend\"\nmaterials = [\"white\", \"miror\"]\nweight = { type = \"facing\" }"),

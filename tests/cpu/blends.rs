@@ -112,7 +112,7 @@ fn blended_balls() -> Scene {
     let (a, b) = (DVec3::ZERO, DVec3::ONE);
     for kind in [TextureKind::Perlin { scale: 8.0, octaves: 3, a, b, seed: 1 }, TextureKind::Worley { scale: 9.0, a, b, seed: 2 }]
     {
-        scene.textures.push(Texture { name: scene.textures.len().to_string(), kind });
+        scene.textures.push(Texture::new(scene.textures.len().to_string(), kind));
     }
     let red = material(&mut scene, MaterialKind::Diffuse { reflectance: ColorInput::Constant(DVec3::new(0.8, 0.2, 0.1)) }, None);
     let blue = MaterialKind::Phong {

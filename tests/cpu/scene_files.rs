@@ -241,7 +241,7 @@ fn material_libraries_become_materials() {
     let TextureKind::Image(image) = &scene.textures[texture].kind else { panic!("not an image") };
     assert_eq!((image.scale, image.wrap), ([2.0, 3.0], TextureWrap::Clamp));
     // 128/255 decoded from sRGB.
-    assert!(image.image.texels[0].abs_diff_eq(Vec3::new(0.215_860_5, 0.0, 1.0), 1e-6));
+    assert!(image.image.texels.color(0).abs_diff_eq(Vec3::new(0.215_860_5, 0.0, 1.0), 1e-6));
     let face_materials: Vec<&str> = mesh(&scene).face_materials.iter().map(|&id| scene.materials[id].name.as_str()).collect();
     assert_eq!(face_materials[..8], names[..8]);
     assert_eq!(face_materials[8..], ["veil (d = 0.25)", "wood", "absent (missing)"]);
@@ -272,7 +272,7 @@ fn colour_spaces_follow_the_format_and_the_wish() {
     };
     let folder = folder_with(&[("a.png", &png_bytes([128, 0, 255]))]);
     exr(&folder.path().join("a.exr"));
-    let first = |file: &str, space| load::read_image(&folder.path().join(file), space).map(|image| image.texels[0]);
+    let first = |file: &str, space| load::read_image(&folder.path().join(file), space).map(|image| image.texels.color(0));
     assert_eq!(first("a.exr", None), Ok(Vec3::new(0.5, 4.0, 0.0)));
     let linear = first("a.png", Some(scene::ColorSpace::Linear));
     assert!(linear.is_ok_and(|texel| texel.abs_diff_eq(Vec3::new(128.0 / 255.0, 0.0, 1.0), 1e-6)));

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use gpt::gpu::kernels::used_bindings;
 use gpt::plan::bindings::Binding;
-use gpt::plan::chunks::{ATTRIBUTES, Chunks, NODES, PRIMITIVES, RecordArray};
+use gpt::plan::chunks::{ATTRIBUTES, Chunks, NODES, PRIMITIVES, RecordArray, TEXELS};
 use gpt::plan::stages::{STAGES, Stage, When};
 use gpt::plan::{generated, layout};
 use gpt::shader::switches::{SWITCHES, close, contradiction};
@@ -57,7 +57,7 @@ fn shippable(wanted: &BTreeSet<&'static str>) -> Switches {
     // Three chunks, the last of half the size.
     let chunks =
         |array: RecordArray| (array.file, Chunks::new(array, 2500 * array.record_bytes(), 1000 * array.record_bytes()).wgsl());
-    let cut = [PRIMITIVES, NODES, ATTRIBUTES].into_iter().map(chunks);
+    let cut = [PRIMITIVES, NODES, ATTRIBUTES, TEXELS].into_iter().map(chunks);
     Switches {
         enabled: close(wanted),
         constants: constants.into_iter().map(|name| (name, 7)).collect(),
@@ -261,7 +261,7 @@ fn no_stage_needs_more_storage_buffers_than_webgpu_promises() {
         wanted.remove(absent);
     }
     // Scenes too large for that are refused where a device has no more.
-    for absent in ["PRIMITIVE_CHUNKS", "NODE_CHUNKS", "ATTRIBUTE_CHUNKS"] {
+    for absent in ["PRIMITIVE_CHUNKS", "NODE_CHUNKS", "ATTRIBUTE_CHUNKS", "TEXEL_CHUNKS"] {
         wanted.remove(absent);
     }
     for Stage { file, entry, .. } in STAGES {

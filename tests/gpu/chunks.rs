@@ -177,9 +177,9 @@ fn too_many_chunks_are_refused_with_both_sizes() {
 /// Chunks hold whole records, all of them, and no two arrays share a binding.
 #[test]
 fn chunks_cover_the_array_in_whole_records() {
-    use gpt::plan::chunks::{ATTRIBUTES, NODES, PRIMITIVES};
+    use gpt::plan::chunks::{ATTRIBUTES, NODES, PRIMITIVES, TEXELS};
     let mut numbers = std::collections::BTreeSet::new();
-    for array in [PRIMITIVES, NODES, ATTRIBUTES] {
+    for array in [PRIMITIVES, NODES, ATTRIBUTES, TEXELS] {
         let record = array.record_bytes() as usize;
         for (records, limit) in [(1, record), (7, 3 * record), (9, 3 * record), (100, 3 * record + record / 2), (5, 1 << 20)] {
             let chunks = Chunks::new(array, (records * record) as u64, limit as u64);
@@ -191,6 +191,6 @@ fn chunks_cover_the_array_in_whole_records() {
         }
         numbers.extend(Chunks::new(array, 99 * record as u64, record as u64).bindings().map(|(number, _)| number));
     }
-    assert_eq!(numbers.len(), 3 * 99);
-    assert!(numbers.iter().all(|number| *number < 1000 && !(8..400).contains(number)));
+    assert_eq!(numbers.len(), 4 * 99);
+    assert!(numbers.iter().all(|number| *number < 1000 && !(9..400).contains(number)));
 }

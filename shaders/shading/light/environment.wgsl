@@ -1,7 +1,7 @@
 // A lat-long map: its radiance, and how directions to it are drawn. src/reference/lights/environment.rs does the same.
 #import core/math.wgsl
 #import core/parameters.wgsl
-#import geometry/scene.wgsl
+#import geometry/texels.wgsl
 #import shading/environment_sample.wgsl
 
 // (u, v) of a direction on the map: u = atan2(x, -z) / 2π after turning back the rotation, v = acos(y) / π from the top.
@@ -14,7 +14,7 @@ fn map_texel(x: i32, y: i32) -> vec3<f32> {
     let column = select(select(x, x - width, x >= width), x + width, x < 0);
     let row = clamp(y, 0, i32(ENVIRONMENT_HEIGHT) - 1);
     let index = ENVIRONMENT_FIRST_TEXEL + 3u * u32(row * width + column);
-    return vec3<f32>(texels[index], texels[index + 1u], texels[index + 2u]);
+    return vec3<f32>(texel_float(index), texel_float(index + 1u), texel_float(index + 2u));
 }
 
 // Bilinear; the map goes round at its sides and ends at the poles.
@@ -48,11 +48,11 @@ fn environment_pdf(wi: vec3<f32>) -> f32 {
 
 // Density over the unit square in a cell of the grid.
 fn map_cell_density(column: u32, row: u32) -> f32 {
-    return texels[ENVIRONMENT_FIRST_DENSITY + row * ENVIRONMENT_GRID_WIDTH + column];
+    return texel_float(ENVIRONMENT_FIRST_DENSITY + row * ENVIRONMENT_GRID_WIDTH + column);
 }
 
 fn map_split(index: u32) -> u32 {
-    return bitcast<u32>(texels[index]);
+    return texel_word(index);
 }
 
 struct MapCell {

@@ -8,13 +8,13 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::document::Document;
-use super::value::{Colour, Located, Rule, Scalar, Vector, vector};
+use super::value::{Colour, Located, Rule, Scalar, TextureReference, Vector, vector};
 use super::wording::did_you_mean_name;
 use crate::load::access::Access;
 use crate::load::error::{SceneError, show};
 use crate::load::files::Files;
 use crate::load::image_file::{Picture, Pictures};
-use crate::scene::{ColorInput, ColorSpace, ImageData, Material, MaterialId, Mesh, Scene, TextureId};
+use crate::scene::{Channel, ChannelInput, ColorInput, ColorSpace, ImageData, Material, MaterialId, Mesh, Scene, TextureId};
 
 /// Images by file and by how their values are read, so that each is decoded once.
 pub type ImageCache = HashMap<(PathBuf, Option<ColorSpace>), CachedImage>;
@@ -189,18 +189,36 @@ impl<'a> Resolver<'a> {
     pub(super) fn colour<R: Rule>(&self, written: &Colour<R>) -> Result<ColorInput, SceneError> {
         match written {
             Colour::Constant(colour) => Ok(ColorInput::Constant(colour.0)),
-            Colour::Texture(name) => self.texture_in_range::<R>(name),
+            Colour::Texture(TextureReference { texture, channel, factor }) => {
+                let factor = factor.as_ref().map_or(DVec3::ONE, |factor| factor.0);
+                self.texture_in_range::<R>(texture, *channel, factor)
+            }
         }
     }
 
-    /// A texture whose every value is possible where it is used: a reflectance above 1 would make energy.
-    fn texture_in_range<R: Rule>(&self, name: &Located<String>) -> Result<ColorInput, SceneError> {
-        let id = self.texture_id(name)?;
-        let (low, high) = self.scene.textures[id].kind.range();
-        match [low, high].into_iter().find(|&value| !R::accepts(value)) {
-            None => Ok(ColorInput::Texture(id)),
+    /// A texture whose every value is possible where it is used: a reflectance above 1 would make energy. Without a channel its colours count.
+    pub(super) fn texture_in_range<R: Rule>(
+        &self,
+        name: &Located<String>,
+        channel: Option<Channel>,
+        factor: DVec3,
+    ) -> Result<ColorInput, SceneError> {
+        let texture = self.texture_id(name)?;
+        let kind = &self.scene.textures[texture].kind;
+        let (low, high) = channel.map_or_else(|| kind.range(), |channel| kind.range_of(channel));
+        let input = match channel {
+            Some(channel) => ColorInput::Channel(ChannelInput { texture, channel, factor, is_squared: false }),
+            None if factor == DVec3::ONE => ColorInput::Texture(texture),
+            None => ColorInput::ScaledTexture(texture, factor),
+        };
+        let ends =
+            [low * factor.min_element(), low * factor.max_element(), high * factor.min_element(), high * factor.max_element()];
+        match ends.into_iter().find(|&value| !R::accepts(value)) {
+            None => Ok(input),
             Some(found) => {
-                Err(self.error(&name.span, format!("expected {}, found {found} in the texture `{}`", R::WORDS, name.value)))
+                let times = if factor == DVec3::ONE { "" } else { " times its factor" };
+                let message = format!("expected {}, found {found} in the texture `{}`{times}", R::WORDS, name.value);
+                Err(self.error(&name.span, message))
             }
         }
     }
@@ -212,7 +230,10 @@ impl<'a> Resolver<'a> {
     pub(super) fn scalar<R: Rule>(&self, written: &Scalar<R>) -> Result<ColorInput, SceneError> {
         match written {
             Scalar::Constant(value) => Ok(ColorInput::grey(value.0)),
-            Scalar::Texture(name) => self.texture_in_range::<R>(name),
+            Scalar::Texture(TextureReference { texture, channel, factor }) => {
+                let factor = DVec3::splat(factor.map_or(1.0, |factor| factor.0));
+                self.texture_in_range::<R>(texture, Some(channel.unwrap_or(Channel::R)), factor)
+            }
         }
     }
 }

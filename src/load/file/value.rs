@@ -11,6 +11,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
+use crate::scene::Channel;
 use crate::scene::settings::{LARGEST_FILTER_RADIUS, SMALLEST_FILTER_RADIUS};
 
 /// Largest magnitude of any number: its square is still finite in single precision, which is what the device computes in.
@@ -223,40 +224,103 @@ pub struct Rgb<R>(pub DVec3, PhantomData<R>);
 #[derive(Debug, Clone)]
 pub enum Colour<R> {
     Constant(Rgb<R>),
-    Texture(Located<String>),
+    Texture(TextureReference<Rgb<NonNegative>>),
 }
 
-/// One number or `{ texture = "name" }`, whose red channel counts.
+/// One number or `{ texture = "name" }`.
 #[derive(Debug, Clone)]
 pub enum Scalar<R> {
     Constant(Checked<R>),
-    Texture(Located<String>),
+    Texture(TextureReference<Checked<NonNegative>>),
 }
 
-/// `{ texture = "name" }`
+/// `{ texture = "name", … }`, its factor a colour or a number.
+#[derive(Debug, Clone)]
+pub struct TextureReference<F> {
+    pub texture: Located<String>,
+    pub channel: Option<Channel>,
+    pub factor: Option<F>,
+}
+
+/// A texture in place of a colour.
 #[derive(Debug, Clone, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table with the key `texture`")]
-struct TextureReference {
+#[schemars(rename = "TextureOfColours")]
+struct ColourTexture {
     /// A `[[texture]]`'s name.
     texture: Located<String>,
+    /// The channel that is taken for a grey; the colour when left out.
+    channel: Option<ChannelName>,
+    /// Multiplies the texture, 1 when left out.
+    factor: Option<Rgb<NonNegative>>,
+}
+
+/// A texture in place of a number.
+#[derive(Debug, Clone, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table with the key `texture`")]
+#[schemars(rename = "TextureOfNumbers")]
+struct ScalarTexture {
+    /// A `[[texture]]`'s name.
+    texture: Located<String>,
+    /// The channel that counts; the red one when left out.
+    channel: Option<ChannelName>,
+    /// Multiplies the texture, 1 when left out.
+    factor: Option<Checked<NonNegative>>,
+}
+
+/// A channel of a texture. Textures without alpha have 1 everywhere.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ChannelName {
+    /// Red.
+    R,
+    /// Green.
+    G,
+    /// Blue.
+    B,
+    /// Alpha, which is never coded in sRGB.
+    A,
+}
+
+impl From<ChannelName> for Channel {
+    fn from(written: ChannelName) -> Self {
+        match written {
+            ChannelName::R => Self::R,
+            ChannelName::G => Self::G,
+            ChannelName::B => Self::B,
+            ChannelName::A => Self::A,
+        }
+    }
+}
+
+impl From<ColourTexture> for TextureReference<Rgb<NonNegative>> {
+    fn from(ColourTexture { texture, channel, factor }: ColourTexture) -> Self {
+        Self { texture, channel: channel.map(Into::into), factor }
+    }
+}
+
+impl From<ScalarTexture> for TextureReference<Checked<NonNegative>> {
+    fn from(ScalarTexture { texture, channel, factor }: ScalarTexture) -> Self {
+        Self { texture, channel: channel.map(Into::into), factor }
+    }
 }
 
 /// What may stand where a colour can: the forms a visitor meets.
-enum Form<R> {
+enum Form<R, T> {
     Number(Checked<R>),
     Triple([Checked<R>; 3]),
-    Texture(Located<String>),
+    Texture(T),
 }
 
-struct FormVisitor<R> {
+struct FormVisitor<R, T> {
     words: &'static str,
     triple: bool,
     texture: bool,
-    rule: PhantomData<R>,
+    of: PhantomData<(R, T)>,
 }
 
-impl<'de, R: Rule> Visitor<'de> for FormVisitor<R> {
-    type Value = Form<R>;
+impl<'de, R: Rule, T: Deserialize<'de>> Visitor<'de> for FormVisitor<R, T> {
+    type Value = Form<R, T>;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "{} ({})", self.words, R::WORDS)
@@ -286,15 +350,14 @@ impl<'de, R: Rule> Visitor<'de> for FormVisitor<R> {
         if !self.texture {
             return Err(Error::invalid_type(serde::de::Unexpected::Map, &self));
         }
-        let reference = <TextureReference as Deserialize>::deserialize(MapAccessDeserializer::new(map))?;
-        Ok(Form::Texture(reference.texture))
+        T::deserialize(MapAccessDeserializer::new(map)).map(Form::Texture)
     }
 }
 
 impl<R: Rule> Rgb<R> {
     /// Reads three numbers or one that stands for all three; `words` say what is expected.
     pub fn deserialize_as<'de, D: Deserializer<'de>>(deserializer: D, words: &'static str) -> Result<DVec3, D::Error> {
-        let visitor = FormVisitor::<R> { words, triple: true, texture: false, rule: PhantomData };
+        let visitor = FormVisitor::<R, IgnoredAny> { words, triple: true, texture: false, of: PhantomData };
         match deserializer.deserialize_any(visitor)? {
             Form::Triple(values) => Ok(triple(values)),
             Form::Number(number) => Ok(DVec3::splat(number.0)),
@@ -312,22 +375,22 @@ impl<'de, R: Rule> Deserialize<'de> for Rgb<R> {
 impl<'de, R: Rule> Deserialize<'de> for Colour<R> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let words = "a colour: [r, g, b], one number or { texture = \"name\" }";
-        let visitor = FormVisitor::<R> { words, triple: true, texture: true, rule: PhantomData };
+        let visitor = FormVisitor::<R, ColourTexture> { words, triple: true, texture: true, of: PhantomData };
         Ok(match deserializer.deserialize_any(visitor)? {
             Form::Number(value) => Self::Constant(Rgb(DVec3::splat(value.0), PhantomData)),
             Form::Triple(values) => Self::Constant(Rgb(triple(values), PhantomData)),
-            Form::Texture(name) => Self::Texture(name),
+            Form::Texture(texture) => Self::Texture(texture.into()),
         })
     }
 }
 
 impl<'de, R: Rule> Deserialize<'de> for Scalar<R> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let visitor =
-            FormVisitor::<R> { words: "one number or { texture = \"name\" }", triple: false, texture: true, rule: PhantomData };
+        let words = "one number or { texture = \"name\" }";
+        let visitor = FormVisitor::<R, ScalarTexture> { words, triple: false, texture: true, of: PhantomData };
         match deserializer.deserialize_any(visitor)? {
             Form::Number(value) => Ok(Self::Constant(value)),
-            Form::Texture(name) => Ok(Self::Texture(name)),
+            Form::Texture(texture) => Ok(Self::Texture(texture.into())),
             Form::Triple(_) => Err(Error::custom("a colour is not possible here, expected one number")),
         }
     }
@@ -352,7 +415,7 @@ impl<R: Rule> JsonSchema for Colour<R> {
         format!("Colour{}", R::NAME).into()
     }
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        any_of(vec![generator.subschema_for::<Rgb<R>>(), generator.subschema_for::<TextureReference>()])
+        any_of(vec![generator.subschema_for::<Rgb<R>>(), generator.subschema_for::<ColourTexture>()])
     }
 }
 
@@ -361,6 +424,6 @@ impl<R: Rule> JsonSchema for Scalar<R> {
         format!("Scalar{}", R::NAME).into()
     }
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        any_of(vec![generator.subschema_for::<Checked<R>>(), generator.subschema_for::<TextureReference>()])
+        any_of(vec![generator.subschema_for::<Checked<R>>(), generator.subschema_for::<ScalarTexture>()])
     }
 }

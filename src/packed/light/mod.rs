@@ -10,6 +10,7 @@ use glam::DVec3;
 use super::environment::PackedEnvironment;
 use super::error::PackError;
 use super::primitive::WorldPrimitive;
+use super::texture::PackedTextures;
 use super::world::WorldGeometry;
 use crate::sampling::{LightGroup, LightSampler};
 use crate::scene::light::light_table;
@@ -41,9 +42,9 @@ fn delta_light(light: &Light) -> Option<(PackedLight, LightStrength)> {
 ///
 /// # Errors
 /// [`PackError::TooManyTexels`] where 32 bits cannot number them.
-pub fn environment(scene: &Scene, texels: &mut Vec<f32>) -> Result<PackedEnvironment, PackError> {
+pub fn environment(scene: &Scene, textures: &mut PackedTextures) -> Result<PackedEnvironment, PackError> {
     let outside = scene.lights.iter().filter_map(Light::outside);
-    let parts = outside.map(|(parameters, switch)| PackedEnvironment::new(&parameters, switch, texels));
+    let parts = outside.map(|(parameters, switch)| PackedEnvironment::new(&parameters, switch, textures));
     Ok(PackedEnvironment::of(parts.collect::<Result<Vec<_>, _>>()?.into_iter()))
 }
 

@@ -8,7 +8,7 @@ use super::record::{LIGHT_MOVES, LIGHT_TWO_SIDED, LIGHT_VARIES, PackedLight};
 use crate::math::luminance;
 use crate::packed::material::{color_and_texture, mean_emission};
 use crate::packed::primitive::WorldPrimitive;
-use crate::scene::{ColorInput, Scene, TextureKind};
+use crate::scene::{ChannelInput, ColorInput, Scene};
 
 /// What a surface of some material sends out.
 pub struct SurfaceEmission {
@@ -47,20 +47,15 @@ impl SurfaceEmission {
 }
 
 fn mean_color(scene: &Scene, input: &ColorInput) -> DVec3 {
-    let mean = |texture: usize| match &scene.textures[texture].kind {
-        TextureKind::Image(image) => {
-            let texels = &image.image.texels;
-            texels.iter().map(|texel| texel.as_dvec3()).sum::<DVec3>() / texels.len() as f64
-        }
-        TextureKind::Checker { a, b, .. } | TextureKind::Perlin { a, b, .. } | TextureKind::Worley { a, b, .. } => {
-            0.5 * (*a + *b)
-        }
-    };
+    let mean = |texture: usize| scene.textures[texture].kind.mean();
     match input {
         ColorInput::Constant(color) => *color,
         ColorInput::Texture(texture) => mean(*texture),
         ColorInput::ScaledTexture(texture, factor) => mean(*texture) * *factor,
         ColorInput::SquaredTexture(texture) => mean(*texture) * mean(*texture),
+        ColorInput::Channel(ChannelInput { texture, channel, factor, .. }) => {
+            scene.textures[*texture].kind.mean_of(*channel) * *factor
+        }
     }
 }
 

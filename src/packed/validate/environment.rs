@@ -25,7 +25,8 @@ impl PackedScene {
         if levels != grid_width.max(grid_height).next_power_of_two().trailing_zeros() {
             return Err(format!("has {levels} levels above {grid_width} × {grid_height} cells"));
         }
-        let length = self.textures.texels.len() as u64;
+        let beginning = self.textures.first_word() as u64;
+        let length = self.textures.texel_words() as u64;
         let area = |[columns, rows]: [u32; 2]| u64::from(columns) * u64::from(rows);
         let nodes: u64 = (1..=levels).map(|level| area(level_size(map, level))).sum();
         for (name, first, count) in [
@@ -33,7 +34,7 @@ impl PackedScene {
             ("nodes", first_node, 3 * nodes),
             ("cells", first_density, area([grid_width, grid_height])),
         ] {
-            if u64::from(first) + count > length {
+            if u64::from(first) < beginning || u64::from(first) + count > length {
                 return Err(format!("has {name} from {first} to {}", u64::from(first) + count));
             }
         }
@@ -43,7 +44,7 @@ impl PackedScene {
     /// No point of the square leads to a child beyond the grid's border: where a node has no second column or row, its split is at the
     /// end of its rectangle.
     fn check_quadtree(&self, map: &PackedMap) -> Check {
-        let mut first = map.first_node as usize;
+        let mut first = map.first_node as usize - self.textures.first_word();
         let mut rectangles: Vec<[Interval; 2]> = vec![[[0, SIDE]; 2]];
         for level in (1..=map.levels).rev() {
             let [columns, rows] = level_size(map, level).map(|side| side as usize);
@@ -53,8 +54,8 @@ impl PackedScene {
                 for column in 0..columns {
                     let number = row * columns + column;
                     let [u, v] = rectangles[number];
-                    let words = &self.textures.texels[first + 3 * number..][..3];
-                    let [split, left, right] = [0, 1, 2].map(|word| words[word].to_bits());
+                    let words = &self.textures.words[first + 3 * number..][..3];
+                    let [split, left, right] = [0, 1, 2].map(|word| words[word]);
                     let has_right = 2 * column + 1 < finer[0];
                     let has_lower = 2 * row + 1 < finer[1];
                     let possible =

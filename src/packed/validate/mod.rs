@@ -54,7 +54,7 @@ impl PackedScene {
             ("attributes", 4 * self.attributes.len()),
             ("nodes", 3 * self.hierarchy.nodes.len()),
             ("tables", tables + self.motions.len()),
-            ("texels", self.textures.texels.len()),
+            ("texels", self.textures.texel_words()),
         ];
         match lengths.into_iter().find(|&(_, length)| length >= NONE as usize) {
             Some((name, length)) => Err(format!("the {name} have {length} words, more than 32 bits can number")),

@@ -7,7 +7,7 @@ use crate::packed::light::record::{LIGHT_MOVES, LIGHT_TWO_SIDED, LIGHT_VARIES, L
 use crate::packed::material::{self, PackedMaterial};
 use crate::packed::scene::PackedScene;
 use crate::packed::shape::PrimitiveKind;
-use crate::packed::texture::{self, PackedTexture, PackedTextureKind};
+use crate::packed::texture::{self, PackedTexture, PackedTextureKind, TexelFormat};
 use crate::scene::material::COMPLEX_FRESNEL;
 use crate::scene::validate::MOST_OCTAVES;
 
@@ -35,8 +35,8 @@ impl PackedScene {
         }
         for (index, weight) in materials.weights.iter().enumerate() {
             let kind = weight.kind_and_flags & 255;
-            let known = kind <= WeightKind::Texture as u32 && weight.kind_and_flags & !(255 | blend_weight::FLAGS) == 0;
-            let looks_up = kind == WeightKind::Texture as u32;
+            let known = kind <= WeightKind::Channel as u32 && weight.kind_and_flags & !(255 | blend_weight::FLAGS) == 0;
+            let looks_up = kind >= WeightKind::Texture as u32;
             if !known || looks_up != (weight.texture != NONE) {
                 return Err(format!("weight {index} is of kind {:#x} and has texture {}", weight.kind_and_flags, weight.texture));
             }
@@ -84,7 +84,8 @@ impl PackedScene {
         let is = |kind: PackedTextureKind| texture.kind() == kind as u32;
         let flags = if is(PackedTextureKind::Image) { texture::IMAGE_FLAGS } else { 0 };
         let wrap = kind_and_flags >> texture::WRAP_SHIFT & 3;
-        if texture.kind() > PackedTextureKind::Worley as u32 || kind_and_flags & !(255 | flags) != 0 || wrap > 2 {
+        let is_known = texture.kind() <= PackedTextureKind::Worley as u32 && kind_and_flags & !(255 | flags) == 0;
+        if !is_known || wrap > 2 || texture.channel() > 4 {
             return Err(format!("is of kind {kind_and_flags:#x}"));
         }
         if is(PackedTextureKind::Perlin) && width_or_octaves > MOST_OCTAVES {
@@ -92,9 +93,18 @@ impl PackedScene {
         }
         if is(PackedTextureKind::Image) {
             let possible = 1..=LONGEST_SIDE;
-            let end = u64::from(first_texel_or_seed) + 3 * u64::from(width_or_octaves) * u64::from(height).min(1 << 30);
-            if !possible.contains(&width_or_octaves) || !possible.contains(&height) || end > self.textures.texels.len() as u64 {
+            let words = u64::from(texture.words_of_texel());
+            let end = u64::from(first_texel_or_seed) + words * u64::from(width_or_octaves) * u64::from(height).min(1 << 30);
+            let length = self.textures.texel_words() as u64;
+            if !possible.contains(&width_or_octaves) || !possible.contains(&height) || end > length {
                 return Err(format!("has {width_or_octaves} × {height} texels from {first_texel_or_seed} on"));
+            }
+            let has_alpha = texture.format() != TexelFormat::Float as u32 || kind_and_flags & texture::FLOAT_ALPHA != 0;
+            if texture.channel() == 4 && !has_alpha {
+                return Err("has no alpha".to_owned());
+            }
+            if texture.values() > 0 && u64::from(texture.first_value) + u64::from(texture.values()) > length {
+                return Err(format!("has {} values from {} on", texture.values(), texture.first_value));
             }
         }
         Ok(())

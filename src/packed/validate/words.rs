@@ -153,11 +153,12 @@ const LIGHT: [(usize, Word); 4] = [
     (word!(PackedLight, material), Optional(Array::Materials)),
 ];
 
-const TEXTURE: [(usize, Word); 4] = [
+const TEXTURE: [(usize, Word); 5] = [
     (word!(PackedTexture, kind_and_flags), Checked),
     (word!(PackedTexture, first_texel_or_seed), CheckedIn(is_image)),
     (word!(PackedTexture, width_or_octaves), CheckedIn(|texture| is_image(texture) || is_perlin(texture))),
     (word!(PackedTexture, height), CheckedIn(is_image)),
+    (word!(PackedTexture, first_value), CheckedIn(|texture| is_image(texture) && has_values(texture))),
 ];
 
 fn is_blend(material: &[u32]) -> bool {
@@ -166,6 +167,10 @@ fn is_blend(material: &[u32]) -> bool {
 
 fn is_image(texture: &[u32]) -> bool {
     texture[word!(PackedTexture, kind_and_flags)] & 255 == PackedTextureKind::Image as u32
+}
+
+fn has_values(texture: &[u32]) -> bool {
+    bytemuck::from_bytes::<PackedTexture>(bytemuck::cast_slice(texture)).values() > 0
 }
 
 fn is_perlin(texture: &[u32]) -> bool {

@@ -22,6 +22,9 @@ pub fn weight(blend_weight: &BlendWeight, lookup: &Lookup) -> f64 {
         BlendWeight::Texture { texture } => {
             luminance(texture::look_up(&lookup.scene.textures, texture, lookup.uv)).clamp(0.0, 1.0)
         }
+        BlendWeight::Channel { texture, channel, factor } => {
+            (factor * texture::look_up_channel(&lookup.scene.textures, texture, channel, lookup.uv)).clamp(0.0, 1.0)
+        }
         BlendWeight::Reverse { ref of } => 1.0 - weight(of, lookup),
         BlendWeight::Threshold { tau, ref of } => {
             if weight(of, lookup) >= tau {
@@ -42,7 +45,9 @@ pub fn mean_weight(blend_weight: &BlendWeight) -> f64 {
 fn constant_weight(blend_weight: &BlendWeight) -> Option<f64> {
     match blend_weight {
         BlendWeight::Constant { value } => Some(*value),
-        BlendWeight::Facing { .. } | BlendWeight::Fresnel { .. } | BlendWeight::Texture { .. } => None,
+        BlendWeight::Facing { .. } | BlendWeight::Fresnel { .. } | BlendWeight::Texture { .. } | BlendWeight::Channel { .. } => {
+            None
+        }
         BlendWeight::Reverse { of } => constant_weight(of).map(|weight| 1.0 - weight),
         BlendWeight::Threshold { tau, of } => constant_weight(of).map(|weight| if weight >= *tau { 1.0 } else { 0.0 }),
     }

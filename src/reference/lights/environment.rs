@@ -46,7 +46,7 @@ impl Map {
         let texel = |column: f64, row: f64| {
             let column = (column as i64).rem_euclid(i64::from(image.width)) as usize;
             let row = (row as i64).clamp(0, i64::from(image.height) - 1) as usize;
-            image.texels[row * image.width as usize + column].as_dvec3()
+            image.texels.color(row * image.width as usize + column).as_dvec3()
         };
         let row = |row: f64| texel(left, row).lerp(texel(left + 1.0, row), x - left);
         row(top).lerp(row(top + 1.0), y - top)

@@ -18,8 +18,8 @@ fn of_light(light: Light) -> Outside {
 }
 
 fn map(width: u32, height: u32, rotation: f64, texel: impl Fn(u32, u32) -> Vec3) -> Outside {
-    let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect();
-    let radiance = EnvironmentRadiance::Map(Arc::new(ImageData { width, height, texels, has_alpha: false }));
+    let texels: Vec<_> = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect();
+    let radiance = EnvironmentRadiance::Map(Arc::new(ImageData { width, height, texels: texels.into(), has_alpha: false }));
     of_light(Light::Environment(Environment { radiance, rotation_degrees: rotation }))
 }
 

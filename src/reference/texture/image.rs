@@ -1,22 +1,15 @@
 //! Images, looked up by uv.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec4};
 
 use crate::scene::{ImageData, ImageTexture, TextureFilter, TextureWrap};
 
-/// The mean over all texels.
-pub fn mean(texture: &ImageTexture) -> DVec3 {
-    let texels = &texture.image.texels;
-    texels.iter().map(|texel| texel.as_dvec3()).sum::<DVec3>() / texels.len().max(1) as f64
-}
-
-/// The colour at `uv`. Texel centres are at half-integers; v points up, rows run down.
-pub fn sample(texture: &ImageTexture, uv: DVec2) -> DVec3 {
+/// Red, green, blue and alpha at `uv`. Texel centres are at half-integers; v points up, rows run down.
+pub fn sample(texture: &ImageTexture, uv: DVec2) -> [f64; 4] {
     let image = &*texture.image;
-    let uv = uv * DVec2::from(texture.scale) + DVec2::from(texture.offset);
     let position = DVec2::new(uv.x, 1.0 - uv.y) * DVec2::new(f64::from(image.width), f64::from(image.height));
     match texture.filter {
-        TextureFilter::Nearest => texel(image, texture.wrap, position.floor()),
+        TextureFilter::Nearest => texel(image, texture.wrap, position.floor()).to_array(),
         TextureFilter::Bilinear => {
             let low = (position - 0.5).floor();
             let fraction = position - 0.5 - low;
@@ -24,15 +17,15 @@ pub fn sample(texture: &ImageTexture, uv: DVec2) -> DVec3 {
                 let left = texel(image, texture.wrap, low + DVec2::new(0.0, y));
                 left.lerp(texel(image, texture.wrap, low + DVec2::new(1.0, y)), fraction.x)
             };
-            row(0.0).lerp(row(1.0), fraction.y)
+            row(0.0).lerp(row(1.0), fraction.y).to_array()
         }
     }
 }
 
-fn texel(image: &ImageData, wrap: TextureWrap, position: DVec2) -> DVec3 {
+fn texel(image: &ImageData, wrap: TextureWrap, position: DVec2) -> DVec4 {
     let x = wrapped(position.x, image.width, wrap);
     let y = wrapped(position.y, image.height, wrap);
-    image.texels[y * image.width as usize + x].as_dvec3()
+    DVec4::from(image.texels.get(y * image.width as usize + x).map(f64::from))
 }
 
 /// An index in 0..size.
@@ -54,21 +47,23 @@ fn wrapped(index: f64, size: u32, wrap: TextureWrap) -> usize {
 mod tests {
     use std::sync::Arc;
 
-    use glam::Vec3;
+    use glam::{DVec3, Vec3};
 
     use super::*;
+    use crate::reference::texture::look_up;
+    use crate::scene::{Texture, TextureKind};
 
     /// Red grows to the right: 0 1 2; green grows downward: 0 10.
     fn ramp(wrap: TextureWrap, filter: TextureFilter) -> ImageTexture {
-        let texels = (0..6).map(|i| Vec3::new((i % 3) as f32, (i / 3 * 10) as f32, 0.0)).collect();
-        let image = Arc::new(ImageData { width: 3, height: 2, texels, has_alpha: false });
-        ImageTexture { image, wrap, filter, scale: [1.0, 1.0], offset: [0.0, 0.0] }
+        let texels: Vec<_> = (0..6).map(|i| Vec3::new((i % 3) as f32, (i / 3 * 10) as f32, 0.0)).collect();
+        let image = Arc::new(ImageData { width: 3, height: 2, texels: texels.into(), has_alpha: false });
+        ImageTexture { image, wrap, filter, scale: [1.0, 1.0] }
     }
 
     #[test]
     fn texel_centres_give_the_texels_and_midpoints_the_means() {
         let texture = ramp(TextureWrap::Clamp, TextureFilter::Bilinear);
-        let at = |u: f64, v: f64| sample(&texture, DVec2::new(u, v));
+        let at = |u: f64, v: f64| DVec4::from(sample(&texture, DVec2::new(u, v))).truncate();
         // v = 0 is the bottom row.
         assert!((at(0.5 / 3.0, 0.25) - DVec3::new(0.0, 10.0, 0.0)).length() < 1e-12);
         assert!((at(2.5 / 3.0, 0.75) - DVec3::new(2.0, 0.0, 0.0)).length() < 1e-12);
@@ -88,10 +83,14 @@ mod tests {
 
     #[test]
     fn nearest_does_not_blend_and_scale_repeats() {
-        let mut texture = ramp(TextureWrap::Repeat, TextureFilter::Nearest);
-        assert_eq!(sample(&texture, DVec2::new(0.34, 0.9)), DVec3::new(1.0, 0.0, 0.0));
-        texture.scale = [2.0, 1.0];
-        texture.offset = [0.5, 0.0];
-        assert_eq!(sample(&texture, DVec2::new(0.6, 0.4)), DVec3::new(2.0, 10.0, 0.0));
+        let image = ramp(TextureWrap::Repeat, TextureFilter::Nearest);
+        assert_eq!(sample(&image, DVec2::new(0.34, 0.9)), [1.0, 0.0, 0.0, 1.0]);
+        let mut texture = Texture::new("ramp", TextureKind::Image(ImageTexture { scale: [2.0, 1.0], ..image }));
+        texture.transform.offset = [0.5, 0.0];
+        let at = |texture: &Texture, u: f64, v: f64| look_up(std::slice::from_ref(texture), 0, DVec2::new(u, v));
+        assert_eq!(at(&texture, 0.6, 0.4), DVec3::new(2.0, 10.0, 0.0));
+        // A quarter turn from u to v: (0.3, 0.1) scaled is (0.6, 0.1), turned (-0.1, 0.6), and moved (0.4, 0.6).
+        texture.transform.rotation_degrees = 90.0;
+        assert_eq!(at(&texture, 0.3, 0.1), DVec3::new(1.0, 0.0, 0.0));
     }
 }

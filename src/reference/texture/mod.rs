@@ -16,7 +16,7 @@ mod worley;
 
 use glam::{DVec2, DVec3};
 
-use crate::scene::{ColorInput, Scene, Texture, TextureId, TextureKind};
+use crate::scene::{Channel, ChannelInput, ColorInput, Scene, Texture, TextureId, TextureKind};
 
 /// The colour at `uv`.
 pub fn evaluate(scene: &Scene, input: &ColorInput, uv: DVec2) -> DVec3 {
@@ -25,6 +25,10 @@ pub fn evaluate(scene: &Scene, input: &ColorInput, uv: DVec2) -> DVec3 {
         ColorInput::Texture(texture) => look_up(&scene.textures, texture, uv),
         ColorInput::ScaledTexture(texture, factor) => factor * look_up(&scene.textures, texture, uv),
         ColorInput::SquaredTexture(texture) => look_up(&scene.textures, texture, uv).powf(2.0),
+        ColorInput::Channel(ChannelInput { texture, channel, factor, is_squared }) => {
+            let value = factor * look_up_channel(&scene.textures, texture, channel, uv);
+            if is_squared { value * value } else { value }
+        }
     }
 }
 
@@ -35,28 +39,36 @@ pub fn mean(scene: &Scene, input: &ColorInput) -> DVec3 {
         ColorInput::Texture(texture) => mean_of_texture(scene, texture),
         ColorInput::ScaledTexture(texture, factor) => factor * mean_of_texture(scene, texture),
         ColorInput::SquaredTexture(texture) => mean_of_texture(scene, texture).powf(2.0),
+        ColorInput::Channel(ChannelInput { texture, channel, factor, .. }) => {
+            factor * scene.textures[texture].kind.mean_of(channel)
+        }
     }
 }
 
 /// The colour of one of the scene's textures at `uv`.
 pub fn look_up(textures: &[Texture], texture: TextureId, uv: DVec2) -> DVec3 {
-    match textures[texture].kind {
-        TextureKind::Image(ref image) => image::sample(image, uv),
-        TextureKind::Checker { a, b, scale } => {
-            if checker::is_first(uv, scale) {
-                a
-            } else {
-                b
-            }
-        }
-        TextureKind::Perlin { scale, octaves, a, b, seed } => a + perlin::share(uv * scale, octaves, seed) * (b - a),
-        TextureKind::Worley { scale, a, b, seed } => a + worley::share(uv * scale, seed) * (b - a),
+    let [red, green, blue, _] = texels(textures, texture, uv);
+    DVec3::new(red, green, blue)
+}
+
+/// One of its channels.
+pub fn look_up_channel(textures: &[Texture], texture: TextureId, channel: Channel, uv: DVec2) -> f64 {
+    channel.of(texels(textures, texture, uv))
+}
+
+/// All of its channels.
+fn texels(textures: &[Texture], texture: TextureId, uv: DVec2) -> [f64; 4] {
+    let texture = &textures[texture];
+    let at = |scale: [f64; 2]| texture.placed(uv * DVec2::from(scale));
+    let between = |a: DVec3, b: DVec3, share: f64| (a + share * (b - a)).extend(1.0).to_array();
+    match texture.kind {
+        TextureKind::Image(ref image) => image::sample(image, at(image.scale)),
+        TextureKind::Checker { a, b, scale } => (if checker::is_first(at(scale)) { a } else { b }).extend(1.0).to_array(),
+        TextureKind::Perlin { scale, octaves, a, b, seed } => between(a, b, perlin::share(at([scale; 2]), octaves, seed)),
+        TextureKind::Worley { scale, a, b, seed } => between(a, b, worley::share(at([scale; 2]), seed)),
     }
 }
 
 fn mean_of_texture(scene: &Scene, texture: TextureId) -> DVec3 {
-    match scene.textures[texture].kind {
-        TextureKind::Image(ref image) => image::mean(image),
-        TextureKind::Checker { a, b, .. } | TextureKind::Perlin { a, b, .. } | TextureKind::Worley { a, b, .. } => 0.5 * (a + b),
-    }
+    scene.textures[texture].kind.mean()
 }

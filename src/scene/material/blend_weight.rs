@@ -1,5 +1,6 @@
 //! What decides how much of each material a blend shows.
 
+use crate::scene::image::Channel;
 use crate::scene::texture::TextureId;
 
 /// The weight w0 of a blend's first material.
@@ -21,6 +22,12 @@ pub enum BlendWeight {
     Texture {
         texture: TextureId,
     },
+    /// w0 = a channel of the texture times a factor.
+    Channel {
+        texture: TextureId,
+        channel: Channel,
+        factor: f64,
+    },
     /// w0' = 1 − w0
     Reverse {
         of: Box<BlendWeight>,
@@ -36,7 +43,7 @@ impl BlendWeight {
     /// The weight comes from a texture at some depth.
     pub fn uses_texture(&self) -> bool {
         match self {
-            Self::Texture { .. } => true,
+            Self::Texture { .. } | Self::Channel { .. } => true,
             Self::Reverse { of } | Self::Threshold { of, .. } => of.uses_texture(),
             Self::Constant { .. } | Self::Facing { .. } | Self::Fresnel { .. } => false,
         }

@@ -20,20 +20,14 @@ fn shape(label: &str, geometry: Geometry, material: MaterialId) -> Shape {
 
 fn pixels(width: u32, height: u32) -> Arc<ImageData> {
     let texels = vec![Vec3::splat(0.5); (width * height) as usize];
-    Arc::new(ImageData { width, height, texels, has_alpha: false })
+    Arc::new(ImageData { width, height, texels: texels.into(), has_alpha: false })
 }
 
 /// Something of every kind that has a number or an index of its own.
 fn scene() -> Scene {
     let mut scene = Scene::default();
     scene.film.size = [8, 4];
-    let image = ImageTexture {
-        image: pixels(2, 3),
-        wrap: TextureWrap::Repeat,
-        filter: TextureFilter::Bilinear,
-        scale: [1.0; 2],
-        offset: [0.0; 2],
-    };
+    let image = ImageTexture { image: pixels(2, 3), wrap: TextureWrap::Repeat, filter: TextureFilter::Bilinear, scale: [1.0; 2] };
     let [a, b] = [DVec3::ZERO, DVec3::ONE];
     for (name, kind) in [
         ("picture", TextureKind::Image(image)),
@@ -41,7 +35,7 @@ fn scene() -> Scene {
         ("clouds", TextureKind::Perlin { scale: 3.0, octaves: 4, a, b, seed: 1 }),
         ("cells", TextureKind::Worley { scale: 3.0, a, b, seed: 1 }),
     ] {
-        scene.textures.push(Texture { name: name.into(), kind });
+        scene.textures.push(Texture::new(name, kind));
     }
     let grey = ColorInput::grey(0.5);
     let textured = MaterialKind::Diffuse { reflectance: ColorInput::Texture(0) };
@@ -138,7 +132,7 @@ fn each_mistake_is_named_with_its_part() {
         (
             |s| {
                 let TextureKind::Image(texture) = &mut s.textures[0].kind else { panic!("the first is an image") };
-                Arc::make_mut(&mut texture.image).texels.pop();
+                Arc::make_mut(&mut texture.image).texels = vec![Vec3::splat(0.5); 5].into();
             },
             "texture `picture`: it has 5 texels and not 2 × 3",
         ),

@@ -7,6 +7,7 @@ mod materials;
 mod motion;
 mod shapes;
 mod strategies;
+mod textures;
 
 use crate::common::device::{DEVICE, with_limits};
 use gpt::gpu::{Device, GpuRenderer};

@@ -100,10 +100,9 @@ fn total_internal_reflection_is_total() {
 fn emission_follows_its_texture() {
     let mut scene = looking_down_z();
     let texels = vec![Vec3::ZERO, Vec3::ONE];
-    let image = Arc::new(ImageData { width: 2, height: 1, texels, has_alpha: false });
-    let image =
-        ImageTexture { image, wrap: TextureWrap::Clamp, filter: TextureFilter::Nearest, scale: [1.0; 2], offset: [0.0; 2] };
-    scene.textures.push(Texture { name: "halves".into(), kind: TextureKind::Image(image) });
+    let image = Arc::new(ImageData { width: 2, height: 1, texels: texels.into(), has_alpha: false });
+    let image = ImageTexture { image, wrap: TextureWrap::Clamp, filter: TextureFilter::Nearest, scale: [1.0; 2] };
+    scene.textures.push(Texture::new("halves", TextureKind::Image(image)));
     let emission = Emission { radiance: ColorInput::ScaledTexture(0, DVec3::splat(3.0)), two_sided: false };
     let light = material(&mut scene, MaterialKind::Emissive, Some(emission));
     let positions = [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [9.0, 9.0, 0.0], [-9.0, 9.0, 0.0]].map(Vec3::from).to_vec();

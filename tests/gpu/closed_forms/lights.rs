@@ -70,8 +70,9 @@ fn from_points_and_afar(cases: &mut Vec<Case>) {
 }
 
 fn map(scene: &mut Scene, width: u32, height: u32, texel: impl Fn(u32, u32) -> f32) {
-    let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| Vec3::splat(texel(x, y))).collect();
-    let radiance = EnvironmentRadiance::Map(Arc::new(ImageData { width, height, texels, has_alpha: false }));
+    let texels: Vec<_> =
+        (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| Vec3::splat(texel(x, y))).collect();
+    let radiance = EnvironmentRadiance::Map(Arc::new(ImageData { width, height, texels: texels.into(), has_alpha: false }));
     scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees: 30.0 }));
 }
 

@@ -125,7 +125,7 @@ fn blends_by_angle(cases: &mut Vec<Case>) {
         let mut scene = spot(256, 60.0);
         let colors = (DVec3::new(0.8, 0.25, 0.5), DVec3::ONE);
         let kind = TextureKind::Checker { a: colors.0, b: colors.1, scale: [1.0, 1.0] };
-        scene.textures.push(Texture { name: "checker".into(), kind });
+        scene.textures.push(Texture::new("checker", kind));
         let bright = material(&mut scene, MaterialKind::Diffuse { reflectance: ColorInput::Constant(tint) }, None);
         let dark = diffuse(&mut scene, 0.1);
         let both = blend(&mut scene, bright, dark, weight);
@@ -262,7 +262,7 @@ pub fn with_normal_maps() -> Vec<Case> {
             scene.render.max_depth = 2;
             let texel = local * 0.5 + 0.5;
             let kind = TextureKind::Checker { a: texel, b: texel, scale: [1.0, 1.0] };
-            scene.textures.push(Texture { name: "normals".into(), kind });
+            scene.textures.push(Texture::new("normals", kind));
             let matte = diffuse(&mut scene, 0.6);
             scene.materials[matte].normal_map = Some(0);
             shape(&mut scene, geometry.clone(), matte);

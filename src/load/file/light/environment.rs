@@ -60,13 +60,18 @@ impl Keys {
         if scale == 1.0 {
             return Ok(EnvironmentRadiance::Map(image));
         }
-        let texels: Vec<_> = image.texels.iter().map(|&texel| texel * scale as f32).collect();
+        let texels: Vec<_> = image.texels.colors().map(|texel| texel * scale as f32).collect();
         if let Some(written) = &self.scale
             && texels.iter().any(|texel| texel.max_element() > LARGEST as f32)
         {
             let message = format!("the map's radiance times {scale} is too large: more than 1e18");
             return Err(resolver.error(&written.span, message));
         }
-        Ok(EnvironmentRadiance::Map(Arc::new(ImageData { texels, ..(*image).clone() })))
+        Ok(EnvironmentRadiance::Map(Arc::new(ImageData {
+            texels: texels.into(),
+            width: image.width,
+            height: image.height,
+            has_alpha: image.has_alpha,
+        })))
     }
 }

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::keys::ior_or_default;
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, NonNegative, Number};
+use crate::load::file::value::{ChannelName, Checked, Fraction, IndexOfRefraction, Located, NonNegative, Number};
 use crate::scene::{BlendWeight, TextureId, TextureKind};
 
 /// The weight of a blend's first material.
@@ -47,11 +47,16 @@ pub struct FresnelWeight {
     exact: bool,
 }
 
-/// w0 = luminance of a texture
+/// w0 = luminance of a texture, or one of its channels
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
+#[schemars(extend("dependentRequired" = { "factor": ["channel"] }))]
 pub struct TextureWeight {
     texture: Located<String>,
+    /// The channel that is the weight; the luminance when left out.
+    channel: Option<ChannelName>,
+    /// Multiplies the channel, 1 when left out.
+    factor: Option<Located<Checked<Fraction>>>,
 }
 
 /// w0' = 1 − w0
@@ -75,9 +80,26 @@ impl BlendWeightEntry {
             Self::Constant(keys) => BlendWeight::Constant { value: keys.value.0 },
             Self::Facing(keys) => BlendWeight::Facing { power: keys.power.map_or(1.0, |power| power.0) },
             Self::Fresnel(keys) => BlendWeight::Fresnel { ior: ior_or_default(keys.ior), exact: keys.exact },
-            Self::Texture(keys) => BlendWeight::Texture { texture: weight_texture(&keys.texture, resolver)? },
+            Self::Texture(keys) => keys.resolve(resolver)?,
             Self::Reverse(keys) => BlendWeight::Reverse { of: Box::new(keys.of.resolve(resolver)?) },
             Self::Threshold(keys) => BlendWeight::Threshold { tau: keys.tau.0, of: Box::new(keys.of.resolve(resolver)?) },
+        })
+    }
+}
+
+impl TextureWeight {
+    fn resolve(&self, resolver: &Resolver<'_>) -> Result<BlendWeight, SceneError> {
+        let Some(channel) = self.channel else {
+            if let Some(factor) = &self.factor {
+                return Err(resolver.error(&factor.span, "`factor` needs the key `channel`"));
+            }
+            return Ok(BlendWeight::Texture { texture: weight_texture(&self.texture, resolver)? });
+        };
+        let texture = resolver.texture_id(&self.texture)?;
+        Ok(BlendWeight::Channel {
+            texture,
+            channel: channel.into(),
+            factor: self.factor.as_ref().map_or(1.0, |factor| factor.value.0),
         })
     }
 }
@@ -89,7 +111,9 @@ fn weight_texture(name: &Located<String>, resolver: &Resolver<'_>) -> Result<Tex
         && image.image.has_alpha
     {
         let message = format!("the weight is the luminance of `{}`, whose alpha channel would have no effect", name.value);
-        return Err(resolver.error(&name.span, message).with_help("save the image without alpha, as the mask itself"));
+        return Err(resolver
+            .error(&name.span, message)
+            .with_help("take a channel, `channel = \"a\"` for the alpha, or save the image without alpha, as the mask itself"));
     }
     Ok(id)
 }

@@ -12,11 +12,7 @@ pub fn ggx_alpha(alpha: Key<'_>, roughness: Key<'_>, resolver: &Resolver<'_>) ->
     match (alpha, roughness) {
         (Some(_), Some(roughness)) => Err(resolver.error(&roughness.span, "either `alpha` or `roughness`")),
         (Some(alpha), None) => resolver.scalar(&alpha.value).map(Some),
-        (None, Some(roughness)) => Ok(Some(match resolver.scalar(&roughness.value)? {
-            ColorInput::Constant(value) => ColorInput::Constant(value * value),
-            ColorInput::Texture(texture) => ColorInput::SquaredTexture(texture),
-            other => other,
-        })),
+        (None, Some(roughness)) => Ok(Some(resolver.scalar(&roughness.value)?.squared())),
         (None, None) => Ok(None),
     }
 }

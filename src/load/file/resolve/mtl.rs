@@ -21,7 +21,7 @@ use crate::load::model::MtlMaterial;
 use crate::load::obj::TextureMap;
 use crate::scene::{
     BlendWeight, ColorInput, Emission, ImageTexture, Material, MaterialId, MaterialKind, Texture, TextureFilter, TextureId,
-    TextureKind, TextureWrap,
+    TextureKind, TextureWrap, UvTransform,
 };
 
 /// Stands for what is missing. No material looks so by chance.
@@ -114,10 +114,9 @@ impl Resolver<'_> {
         let brightest_texel = |texture: TextureId| self.scene.textures[texture].kind.range().1;
         let brightest = match diffuse {
             ColorInput::Constant(colour) => colour,
-            ColorInput::Texture(texture) => DVec3::splat(brightest_texel(texture)),
             ColorInput::ScaledTexture(texture, factor) => factor * brightest_texel(texture),
-            // MTL has none.
-            ColorInput::SquaredTexture(texture) => DVec3::splat(brightest_texel(texture)),
+            // MTL has nothing but whole textures besides.
+            other => DVec3::splat(other.texture().map_or(0.0, brightest_texel)),
         };
         let [of_diffuse, of_specular] = shares(brightest, specular);
         if of_specular < 1.0 {
@@ -129,13 +128,7 @@ impl Resolver<'_> {
             );
         }
         let specular = specular * of_specular;
-        let diffuse = match diffuse {
-            _ if of_diffuse == 1.0 => diffuse,
-            ColorInput::SquaredTexture(_) => diffuse,
-            ColorInput::Constant(colour) => ColorInput::Constant(colour * of_diffuse),
-            ColorInput::Texture(texture) => ColorInput::ScaledTexture(texture, DVec3::splat(of_diffuse)),
-            ColorInput::ScaledTexture(texture, factor) => ColorInput::ScaledTexture(texture, factor * of_diffuse),
-        };
+        let diffuse = if of_diffuse == 1.0 { diffuse } else { diffuse.scaled(DVec3::splat(of_diffuse)) };
         let exponent = f64::from(written.material.shininess.unwrap_or(0.0)).max(0.0);
         Ok(MaterialKind::Phong { diffuse, specular: ColorInput::Constant(specular), exponent: ColorInput::grey(exponent) })
     }
@@ -211,8 +204,8 @@ impl Resolver<'_> {
                 wrap: if map.clamp { TextureWrap::Clamp } else { TextureWrap::Repeat },
                 filter: TextureFilter::Bilinear,
                 scale: map.scale,
-                offset: map.offset,
             }),
+            transform: UvTransform { offset: map.offset, ..UvTransform::default() },
         });
         self.linear_textures.push(false);
         Ok(match tint {

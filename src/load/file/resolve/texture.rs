@@ -14,7 +14,7 @@ use crate::load::file::syntax::{ColorSpaceEntry, ImageEntry, TextureEntry, Textu
 use crate::load::file::value::{Checked, Exactly, Located, Number, Positive};
 use crate::load::formats;
 use crate::scene::validate::MOST_OCTAVES;
-use crate::scene::{ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap};
+use crate::scene::{ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap, UvTransform};
 
 impl Resolver<'_> {
     pub(super) fn textures(&mut self, written: &[TextureEntry]) -> Result<(), SceneError> {
@@ -26,7 +26,12 @@ impl Resolver<'_> {
             let kind = self.note(kind).unwrap_or(TextureKind::Checker { a: DVec3::ZERO, b: DVec3::ZERO, scale: [1.0; 2] });
             self.linear_textures
                 .push(matches!(entry, TextureEntry::Image(ImageEntry { color_space: Some(ColorSpaceEntry::Linear), .. })));
-            self.scene.textures.push(Texture { name: entry.name().value.clone(), kind });
+            let (rotation, offset) = entry.placement();
+            let transform = UvTransform {
+                rotation_degrees: rotation.map_or(0.0, |rotation| rotation.0),
+                offset: offset.map_or([0.0; 2], |offset| offset.map(|shift| shift.0)),
+            };
+            self.scene.textures.push(Texture { name: entry.name().value.clone(), kind, transform });
         }
         Ok(())
     }
@@ -81,7 +86,6 @@ impl Resolver<'_> {
                 Some(TextureFilterEntry::Nearest) => TextureFilter::Nearest,
             },
             scale: factors(written.scale),
-            offset: [0.0, 0.0],
         })
     }
 

@@ -34,6 +34,10 @@ pub struct ImageEntry {
     pub filter: Option<TextureFilterEntry>,
     /// Factors of u and v, [1, 1] when left out.
     pub scale: Option<Exactly<Number, 2>>,
+    /// Degrees by which (u, v) is turned about (0, 0) after scaling, from u towards v; 0 when left out.
+    pub rotation: Option<Number>,
+    /// Added to (u, v) last, [0, 0] when left out.
+    pub offset: Option<Exactly<Number, 2>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -68,6 +72,10 @@ pub struct CheckerEntry {
     pub b: Rgb<Any>,
     /// Squares per unit of u and v, [1, 1] when left out.
     pub scale: Option<Exactly<Number, 2>>,
+    /// Degrees by which (u, v) is turned about (0, 0) after scaling, from u towards v; 0 when left out.
+    pub rotation: Option<Number>,
+    /// Added to (u, v) last, in squares; [0, 0] when left out.
+    pub offset: Option<Exactly<Number, 2>>,
 }
 
 /// Improved Perlin noise between two colours.
@@ -84,6 +92,10 @@ pub struct PerlinEntry {
     pub a: Rgb<Any>,
     pub b: Rgb<Any>,
     pub seed: Option<u32>,
+    /// Degrees by which (u, v) is turned about (0, 0) after scaling, from u towards v; 0 when left out.
+    pub rotation: Option<Number>,
+    /// Added to (u, v) last, [0, 0] when left out.
+    pub offset: Option<Exactly<Number, 2>>,
 }
 
 /// Distance to the nearest feature point, between two colours.
@@ -97,9 +109,23 @@ pub struct WorleyEntry {
     pub a: Rgb<Any>,
     pub b: Rgb<Any>,
     pub seed: Option<u32>,
+    /// Degrees by which (u, v) is turned about (0, 0) after scaling, from u towards v; 0 when left out.
+    pub rotation: Option<Number>,
+    /// Added to (u, v) last, [0, 0] when left out.
+    pub offset: Option<Exactly<Number, 2>>,
 }
 
 impl TextureEntry {
+    /// Rotation and offset.
+    pub fn placement(&self) -> (Option<Number>, Option<Exactly<Number, 2>>) {
+        match self {
+            Self::Image(entry) => (entry.rotation, entry.offset),
+            Self::Checker(entry) => (entry.rotation, entry.offset),
+            Self::Perlin(entry) => (entry.rotation, entry.offset),
+            Self::Worley(entry) => (entry.rotation, entry.offset),
+        }
+    }
+
     pub fn name(&self) -> &Located<String> {
         match self {
             Self::Image(entry) => &entry.name,

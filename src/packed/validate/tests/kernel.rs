@@ -65,8 +65,12 @@ impl Kernel<'_> {
 
     fn texel(&self, index: u32) -> Read<u32> {
         self.step()?;
-        let texel = self.scene.textures.texels.get(index as usize).ok_or_else(|| format!("texel word {index}"))?;
-        Ok(texel.to_bits())
+        let textures = &self.scene.textures;
+        if index as usize >= textures.texel_words() {
+            return Err(format!("texel word {index}"));
+        }
+        // What colours there are leads nowhere.
+        Ok((index as usize).checked_sub(textures.first_word()).map_or(0, |word| textures.words[word]))
     }
 
     /// geometry/unrolled.wgsl: primitives that stand outside of the hierarchy, or all of them.
@@ -227,24 +231,38 @@ impl Kernel<'_> {
         if self.scene.textures.textures.is_empty() || !self.is_new(Part::Texture, texture) {
             return Ok(());
         }
-        let first = self.tables.first_texture.wrapping_add(texture.wrapping_mul(4));
-        let words = (0..4).map(|word| self.table(first.wrapping_add(word))).collect::<Read<Vec<_>>>()?;
+        let first = self.tables.first_texture.wrapping_add(texture.wrapping_mul(5));
+        let words = (0..5).map(|word| self.table(first.wrapping_add(word))).collect::<Read<Vec<_>>>()?;
         let [flags, first, width, height] = words[0];
         match flags & 255 {
-            0 => self.image(first, [width, height].map(|side| side as i32), flags >> 8 & 3),
+            0 => self.image(first, [width, height].map(|side| side as i32), flags, words[4][2]),
             2 => (0..width).try_for_each(|_| self.step()),
             _ => Ok(()),
         }
     }
 
-    fn image(&self, first: u32, [width, height]: [i32; 2], wrap: u32) -> Read<()> {
+    fn image(&self, first: u32, [width, height]: [i32; 2], flags: u32, first_value: u32) -> Read<()> {
+        let wrap = flags >> 8 & 3;
+        let channel = flags >> 14 & 7;
+        let (words, values) = match flags >> 11 & 3 {
+            0 => (1, 256),
+            1 => (2, 65_536),
+            2 => (2, 0),
+            _ => (3 + (flags >> 13 & 1), 0),
+        };
+        // The first and the last value that a texel may have.
+        if values > 0 {
+            self.texel(first_value)?;
+            self.texel(first_value.wrapping_add(values - 1))?;
+        }
         let ends = |size: i32| [i32::MIN, -1, 0, size.wrapping_sub(1), size, i32::MAX];
         for x in ends(width) {
             for y in ends(height) {
                 let (column, row) = (wrapped(x, width, wrap)?, wrapped(y, height, wrap)?);
                 let place = row.wrapping_mul(width).wrapping_add(column) as u32;
-                (0..3).try_for_each(|channel| {
-                    self.texel(first.wrapping_add(place.wrapping_mul(3)).wrapping_add(channel)).map(drop)
+                let last = if words >= 3 && channel > 0 { channel } else { words.min(3) };
+                (0..last).try_for_each(|word| {
+                    self.texel(first.wrapping_add(place.wrapping_mul(words)).wrapping_add(word)).map(drop)
                 })?;
             }
         }

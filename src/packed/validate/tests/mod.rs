@@ -56,7 +56,10 @@ fn change(scene: &mut PackedScene, place: Place, new: impl Fn(u32) -> u32) {
             *word = new(*word);
         }
         Place::Motion(word) => as_bits(&mut bytemuck::cast_slice_mut::<_, f32>(&mut scene.motions)[word]),
-        Place::Texel(word) => as_bits(&mut scene.textures.texels[word]),
+        Place::Texel(word) => {
+            let word = word - scene.textures.first_word();
+            scene.textures.words[word] = new(scene.textures.words[word]);
+        }
         Place::Map(field) => {
             if let Some(map) = &mut scene.environment.map {
                 let [field] =
@@ -96,7 +99,9 @@ fn places(scene: &PackedScene) -> Vec<(Place, bool)> {
         row += rows;
     }
     let nodes = scene.environment.map.map_or(0..0, |map| map.first_node as usize..map.first_density as usize);
-    places.extend((0..scene.textures.texels.len()).map(|texel| (Place::Texel(texel), nodes.contains(&texel))));
+    // Before the map stand colours and what integers stand for: any will do.
+    let first = scene.environment.map.map_or(scene.textures.texel_words(), |map| map.first_texel as usize);
+    places.extend((first..scene.textures.texel_words()).map(|texel| (Place::Texel(texel), nodes.contains(&texel))));
     if scene.environment.map.is_some() {
         places.extend((0..8).map(|field| (Place::Map(field), true)));
     }
@@ -108,7 +113,7 @@ fn places(scene: &PackedScene) -> Vec<(Place, bool)> {
 /// What to write over a word: ends of arrays and of fields, and the word with a bit turned over.
 fn corruptions(scene: &PackedScene) -> Vec<Corruption> {
     let mut values = vec![0, 1, 2, 3, 7, 11, 255, 256, 1 << 10, 1 << 24, 1 << 28, 1 << 30, (1 << 31) - 1, 1 << 31, BEYOND, NONE];
-    for length in Array::ALL.map(|array| array.len(scene) as u32).into_iter().chain([scene.textures.texels.len() as u32]) {
+    for length in Array::ALL.map(|array| array.len(scene) as u32).into_iter().chain([scene.textures.texel_words() as u32]) {
         values.extend([length.wrapping_sub(1), length, length + 1]);
     }
     values.sort_unstable();
@@ -228,7 +233,7 @@ fn arrays_cut_short_are_refused_where_something_names_their_end() {
         |scene| cut_last(&mut scene.materials.weights),
         |scene| cut_last(&mut scene.lights),
         |scene| cut_last(&mut scene.textures.textures),
-        |scene| cut_last(&mut scene.textures.texels),
+        |scene| cut_last(&mut scene.textures.words),
         |scene| cut_last(&mut scene.motions),
     ];
     for (number, cut) in cuts.into_iter().enumerate() {

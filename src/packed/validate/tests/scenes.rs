@@ -8,9 +8,9 @@ use crate::load::file::delta_light_examples;
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
 use crate::scene::{
-    BlendWeight, ColorInput, Cuboid, Disk, Emission, Environment, EnvironmentRadiance, Geometry, ImageData, ImageTexture, Light,
-    Material, MaterialKind, Mesh, MicrofacetDistribution, Motion, MotionStep, Plane, Rectangle, Scene, Shape, Sphere, Texture,
-    TextureFilter, TextureKind, TextureWrap, Transform,
+    BlendWeight, Channel, ChannelInput, ColorInput, ColorSpace, Cuboid, Disk, Emission, Environment, EnvironmentRadiance,
+    Geometry, ImageData, ImageTexture, Light, Material, MaterialKind, Mesh, MicrofacetDistribution, Motion, MotionStep, Plane,
+    Rectangle, Scene, Shape, Sphere, Texels, Texture, TextureFilter, TextureKind, TextureWrap, Transform,
 };
 
 /// By name: walked by kernels, and left to the device.
@@ -55,17 +55,24 @@ fn mesh(side: u32, face_materials: &[usize]) -> Mesh {
 }
 
 fn image(width: u32, height: u32) -> Arc<ImageData> {
-    let texel = |index: u32| Vec3::new(0.1 * index as f32, 0.5, 0.2);
-    Arc::new(ImageData { width, height, texels: (0..width * height).map(texel).collect(), has_alpha: false })
+    let count = (width * height) as usize;
+    // One of each way in which texels are kept.
+    let texels = match width {
+        1 => Texels::Bytes { codes: vec![[1, 2, 3, 4]; count], space: ColorSpace::Srgb },
+        2 => Texels::Shorts { codes: vec![[1, 2, 3, 4]; count], space: ColorSpace::Linear },
+        3 => Texels::Half(vec![[0x3800; 4]; count]),
+        4 => Texels::FloatAlpha(vec![[0.1, 0.5, 0.2, 0.7]; count]),
+        _ => Texels::Float((0..count).map(|index| [0.1 * index as f32, 0.5, 0.2]).collect()),
+    };
+    Arc::new(ImageData { width, height, texels, has_alpha: false })
 }
 
 /// Every kind of primitive, material, texture and light; shapes that move, a blend of blends of which one emits, a map and portals.
 fn everything() -> Scene {
     let mut scene = Scene::default();
     let [a, b] = [DVec3::splat(0.1), DVec3::splat(0.9)];
-    let picture = |width, wrap, filter| {
-        TextureKind::Image(ImageTexture { image: image(width, 2), wrap, filter, scale: [2.0, 1.0], offset: [0.1, 0.0] })
-    };
+    let picture =
+        |width, wrap, filter| TextureKind::Image(ImageTexture { image: image(width, 2), wrap, filter, scale: [2.0, 1.0] });
     for kind in [
         picture(2, TextureWrap::Repeat, TextureFilter::Bilinear),
         picture(3, TextureWrap::Mirror, TextureFilter::Nearest),
@@ -73,9 +80,13 @@ fn everything() -> Scene {
         TextureKind::Checker { a, b, scale: [4.0; 2] },
         TextureKind::Perlin { scale: 3.0, octaves: 4, a, b, seed: 1 },
         TextureKind::Worley { scale: 3.0, a, b, seed: 2 },
+        picture(4, TextureWrap::Repeat, TextureFilter::Bilinear),
+        picture(5, TextureWrap::Repeat, TextureFilter::Nearest),
     ] {
-        scene.textures.push(Texture { name: "texture".into(), kind });
+        scene.textures.push(Texture::new("texture", kind));
     }
+    let channel =
+        |texture, channel| ColorInput::Channel(ChannelInput { texture, channel, factor: DVec3::splat(0.5), is_squared: false });
     let (grey, of) = (ColorInput::grey(0.5), ColorInput::Texture);
     let rough =
         |alpha, distribution| MaterialKind::RoughGlass { ior: 1.5, alpha, distribution, reflectance: grey, transmittance: grey };
@@ -85,7 +96,7 @@ fn everything() -> Scene {
         (MaterialKind::Diffuse { reflectance: of(0) }, None),
         (MaterialKind::Mirror { reflectance: of(3) }, None),
         (MaterialKind::Glossy { reflectance: grey, exponent: of(1) }, None),
-        (MaterialKind::Phong { diffuse: grey, specular: of(5), exponent: grey }, None),
+        (MaterialKind::Phong { diffuse: channel(6, Channel::A), specular: of(5), exponent: channel(7, Channel::G) }, None),
         (rough(ColorInput::SquaredTexture(2), MicrofacetDistribution::Ggx), None),
         (rough(ColorInput::grey(50.0), MicrofacetDistribution::Phong), None),
         (MaterialKind::Emissive, Some(of(4))),
