@@ -1,6 +1,8 @@
 //! What every renderer, GPU or CPU, takes and gives back.
 
 mod observer;
+pub mod sink;
+pub mod state;
 mod stopping;
 
 use std::ops::Range;
@@ -10,6 +12,8 @@ use crate::film::Band;
 use crate::packed::hierarchy::Traversal;
 use crate::plan::{Decision, PlanError};
 use crate::scene::InvalidScene;
+use sink::Sink;
+use state::BatchState;
 
 pub use observer::{Observer, Silent};
 pub use stopping::{Ending, Stopping};
@@ -44,25 +48,42 @@ pub struct Batch<'a> {
     /// Which pixels take part, of the whole film, row by row; None: all of them. The others' means are 0. A renderer on a GPU must have
     /// been made for it ([`crate::plan::PlanOptions::pixel_list`]).
     pub selection: Option<&'a [bool]>,
+    /// Which columns take part; None: all of them. A renderer on a GPU must have been made for it as for a selection.
+    pub columns: Option<(u32, u32)>,
     /// No sweep over the film begins that is expected to end later, but for the first. Paths that run on long after it are given up.
     pub deadline: Option<Instant>,
+    /// How far an earlier render of the same batch was, from where this one goes on.
+    pub resume: Option<&'a BatchState>,
 }
 
 impl<'a> Batch<'a> {
     /// All that is requested, as the scene says.
     pub fn of(request: &'a RenderRequest) -> Self {
-        Self { request, seed: None, selection: None, deadline: None }
+        Self { request, seed: None, selection: None, columns: None, deadline: None, resume: None }
     }
 
     /// Samples of all pixels together, in a film of this width.
     pub fn total_samples(&self, width: u32) -> u64 {
         let RenderRequest { rows, samples } = self.request;
-        let pixels = rows.start as usize * width as usize..rows.end as usize * width as usize;
-        let taking_part = match self.selection {
-            None => pixels.len(),
-            Some(selection) => selection[pixels].iter().filter(|selected| **selected).count(),
+        let taking_part = if self.selects() {
+            let pixels = rows.start as usize * width as usize..rows.end as usize * width as usize;
+            pixels.filter(|pixel| self.takes_part(*pixel, width)).count() as u64
+        } else {
+            u64::from(width) * rows.len() as u64
         };
-        taking_part as u64 * samples.len() as u64
+        taking_part * samples.len() as u64
+    }
+
+    /// Whether there may be pixels that take no part.
+    pub fn selects(&self) -> bool {
+        self.selection.is_some() || self.columns.is_some()
+    }
+
+    /// Whether a pixel of the film, counted from its first row's first, takes part, in a film of this width.
+    pub fn takes_part(&self, pixel: usize, width: u32) -> bool {
+        let column = (pixel % width as usize) as u32;
+        self.columns.is_none_or(|(first, end)| (first..end).contains(&column))
+            && self.selection.is_none_or(|selection| selection[pixel])
     }
 }
 
@@ -154,6 +175,17 @@ pub trait Renderer {
         &mut self,
         batch: &Batch<'_>,
         observer: &dyn Observer,
-        on_band: &mut dyn FnMut(Band) -> std::io::Result<()>,
+        mut on_band: &mut dyn FnMut(Band) -> std::io::Result<()>,
+    ) -> Result<RenderReport, RenderError> {
+        self.render_into(batch, observer, &mut on_band)
+    }
+
+    /// As [`Renderer::render_batch`], into a sink that may take states of the batch: while it is rendered, when the observer stops it, and
+    /// when the device is lost, but not where the deadline ends it.
+    fn render_into(
+        &mut self,
+        batch: &Batch<'_>,
+        observer: &dyn Observer,
+        sink: &mut dyn Sink,
     ) -> Result<RenderReport, RenderError>;
 }

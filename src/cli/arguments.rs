@@ -67,6 +67,8 @@ pub struct RenderArguments {
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = parse_seconds)]
     pub device_timeout: Duration,
     #[command(flatten)]
+    pub checkpoint: CheckpointArguments,
+    #[command(flatten)]
     pub traversal: TraversalArguments,
     /// Stops by which PNG previews are brightened
     #[arg(long, value_name = "EV", default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_exposure)]
@@ -120,6 +122,17 @@ pub struct GoalArguments {
     /// Give noisy pixels more samples and calm ones fewer, --spp on average; unbiased
     #[arg(long, conflicts_with = "first_sample")]
     pub adaptive: bool,
+}
+
+/// What is kept of a render that breaks off.
+#[derive(Debug, Default, Args)]
+pub struct CheckpointArguments {
+    /// Save the state of the render in FILE.checkpoint beside the first picture, every so many seconds and where the render breaks off; the end removes it
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+    pub checkpoint: Option<Duration>,
+    /// Go on from that state, if there is one, and save further ones [every 60 s]; render nothing where all pictures are finished
+    #[arg(long)]
+    pub resume: bool,
 }
 
 #[derive(Debug, Args)]

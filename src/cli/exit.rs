@@ -6,6 +6,7 @@ use gpt::bench::subject::BenchError;
 use gpt::compare::SizeMismatch;
 use gpt::load::SceneError;
 use gpt::output::{OutputError, ReadError};
+use gpt::render::checkpoint::CheckpointError;
 use gpt::renderer::RenderError;
 use miette::Diagnostic;
 
@@ -95,6 +96,8 @@ pub enum Failure {
     /// Several files, each with its reason.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Outputs(Vec<OutputError>),
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
     #[error("interrupted before anything could be said; nothing is saved")]
     Interrupted,
     #[error("{0}")]
@@ -133,7 +136,9 @@ impl From<&Failure> for Exit {
     fn from(failure: &Failure) -> Self {
         match failure {
             Failure::Usage { .. } => Self::Usage,
-            Failure::Scene(_) | Failure::Picture(_) | Failure::Sizes(_) | Failure::BadScene(_) => Self::Input,
+            Failure::Scene(_) | Failure::Picture(_) | Failure::Sizes(_) | Failure::BadScene(_) | Failure::Checkpoint(_) => {
+                Self::Input
+            }
             Failure::Render(RenderError::InvalidScene(_)) => Self::Input,
             Failure::Render(RenderError::NoDevice(_) | RenderError::DoesNotFit(_)) => Self::Device,
             Failure::Render(RenderError::DeviceLost(_)) => Self::DeviceLost,

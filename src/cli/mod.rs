@@ -3,6 +3,7 @@
 mod arguments;
 mod bench;
 mod check;
+mod checkpoint;
 mod choice;
 mod compare;
 mod devices;

@@ -102,6 +102,11 @@ impl Pictures {
         std::mem::take(&mut self.failures)
     }
 
+    /// Gives up the files in whose places finished pictures are: what they would hold is kept elsewhere.
+    pub fn give_up_beside_finished(&mut self) {
+        self.files.retain(|file| !file.has_finished_one());
+    }
+
     /// Puts the files in their places, unless nothing was rendered. `broke_off`: the render did, and finished pictures that are there stay.
     pub fn finish(self, broke_off: bool) -> PictureSummary {
         let start = Instant::now();

@@ -12,6 +12,7 @@ use gpt::renderer::{DeviceChoice, RenderError, RenderReport};
 use gpt::{ErrorEstimate, Outcome, RenderOptions, Renderer, Scene, Stop};
 
 use super::arguments::RenderArguments;
+use super::checkpoint;
 use super::exit::{Exit, Failure};
 use super::pictures::{PictureSummary, Pictures, is_stdout, output_formats};
 use super::progress::Progress;
@@ -43,13 +44,29 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
         outputs.push((default, PictureFormat::Exr));
     }
     check_inputs(&outputs, arguments.stats.as_deref())?;
+    checkpoint::check(&arguments.checkpoint, &outputs)?;
+    if arguments.checkpoint.resume && checkpoint::all_are_finished(&outputs, &scene, &options) {
+        if !arguments.quiet {
+            terminal::note(&format!("{}: finished before, nothing is left to render", names(&outputs)));
+        }
+        return Ok(Exit::Done);
+    }
     let load_seconds = started.elapsed().as_secs_f64();
 
-    let Rendered { outcome, pictures, provenance } = render(arguments, (choice, &options), &scene, &outputs, started)?;
-    let summary = pictures.finish(outcome.stop == Stop::Interrupted);
+    let Rendered { outcome, mut pictures, provenance, mut kept } =
+        render(arguments, (choice, &options), &scene, &outputs, started)?;
+    let broke_off = outcome.stop == Stop::Interrupted;
+    if broke_off && kept.save() {
+        pictures.give_up_beside_finished();
+    }
+    let summary = pictures.finish(broke_off);
+    if !broke_off && summary.failures.is_empty() {
+        kept.remove();
+    }
 
     let report = outcome.report;
     let mut stats = Stats::new(&scene, &report);
+    stats.resumed(kept.resumed_samples);
     stats.spp_done = summary.samples[0];
     stats.stopped_by = stop_name(outcome.stop);
     stats.adaptive = arguments.goal.adaptive;
@@ -67,6 +84,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
         write_stats(path, &stats)?;
     }
     tell(&stats, &summary, arguments.quiet);
+    kept.tell();
     tell_of_error(arguments, outcome.error, outcome.stop);
     if !summary.failures.is_empty() {
         return Err(Failure::Outputs(summary.failures));
@@ -90,6 +108,11 @@ fn check_inputs(outputs: &[(PathBuf, PictureFormat)], stats: Option<&Path>) -> R
         Some(path) => Err(Failure::usage(format!("{} is a file of the scene, and would be overwritten", path.display()))),
         None => Ok(()),
     }
+}
+
+/// The pictures by name, for messages.
+fn names(outputs: &[(PathBuf, PictureFormat)]) -> String {
+    outputs.iter().map(|(path, _)| path.display().to_string()).collect::<Vec<_>>().join(", ")
 }
 
 /// The device that is asked for.
@@ -129,6 +152,7 @@ struct Rendered {
     outcome: Outcome,
     pictures: Pictures,
     provenance: Provenance,
+    kept: checkpoint::Kept,
 }
 
 /// Makes the scene ready on its device, and renders it.
@@ -148,8 +172,9 @@ fn render(
     let [width, height] = renderer.size();
     let provenance = renderer.provenance().clone();
     let spec = PictureSpec { width, height, exposure: arguments.exposure, provenance: Some(provenance.clone()) };
+    let mut kept = checkpoint::Kept::begin(&arguments.checkpoint, &renderer, outputs, started, arguments.quiet)?;
     let mut pictures = Pictures::create(outputs, &spec)?;
-    let outcome = renderer.render_from(started, &progress, &mut |band| pictures.write_band(band));
+    let outcome = renderer.render_from(started, &progress, kept.checkpoint.as_mut(), &mut |band| pictures.write_band(band));
     progress.clear();
     match outcome {
         // The files themselves say more than that none could take any more.
@@ -158,7 +183,12 @@ fn render(
             Err(if failures.is_empty() { RenderError::Output(error).into() } else { Failure::Outputs(failures) })
         }
         Err(error) => {
+            let is_kept = kept.save();
+            kept.tell();
             if pictures.any() && matches!(error, RenderError::DeviceLost(_)) {
+                if is_kept {
+                    pictures.give_up_beside_finished();
+                }
                 save_rest(pictures);
             }
             Err(error.into())
@@ -168,7 +198,7 @@ fn render(
              see --max-depth and --roulette-depth"
                 .to_owned(),
         )),
-        Ok(outcome) if pictures.any() || outcome.report.interrupted => Ok(Rendered { outcome, pictures, provenance }),
+        Ok(outcome) if pictures.any() || outcome.report.interrupted => Ok(Rendered { outcome, pictures, provenance, kept }),
         Ok(_) => Err(RenderError::Internal("the renderer finished without delivering a picture".to_owned()).into()),
     }
 }

@@ -37,8 +37,9 @@ pub struct Stats {
     pub error_bound: Option<f64>,
     pub first_sample: u32,
     pub seconds: Seconds,
-    /// Samples finished, over all pixels.
+    /// Samples finished, over all pixels; those of the render that this one went on from are among them.
     pub samples: u64,
+    pub resumed_samples: u64,
     pub samples_per_second: f64,
     pub rays: u64,
     pub rays_per_second: f64,
@@ -98,6 +99,7 @@ impl Stats {
                 ..Seconds::default()
             },
             samples: report.samples,
+            resumed_samples: 0,
             samples_per_second: per_second(report.samples),
             rays: report.rays,
             rays_per_second: per_second(report.rays),
@@ -108,6 +110,18 @@ impl Stats {
             interrupted: report.interrupted,
             outputs: Vec::new(),
             version: env!("CARGO_PKG_VERSION"),
+        }
+    }
+}
+
+impl Stats {
+    /// So many of the samples were finished by an earlier render; the rates are this one's.
+    pub fn resumed(&mut self, samples: u64) {
+        self.resumed_samples = samples;
+        if self.samples > 0 {
+            let share = self.samples.saturating_sub(samples) as f64 / self.samples as f64;
+            self.samples_per_second *= share;
+            self.rays_per_second *= share;
         }
     }
 }

@@ -189,13 +189,13 @@ fn film_half(device: &Device, plan: &Plan, width: u32, label: &'static str) -> F
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format: TextureFormat::Rgba32Float,
-            usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_SRC,
+            usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::COPY_DST,
             view_formats: &[],
         })),
         FilmStorage::Buffer => FilmHalf::Buffer(device.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
             size: u64::from(width) * u64::from(plan.band_rows) * memory::FILM_BYTES / 2,
-            usage: BufferUsages::STORAGE | BufferUsages::COPY_SRC,
+            usage: BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST,
             mapped_at_creation: false,
         })),
     }

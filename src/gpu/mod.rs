@@ -2,6 +2,7 @@
 
 pub mod acceleration;
 pub mod adapters;
+mod band;
 pub mod buffers;
 pub mod device;
 mod driver_thread;
@@ -12,6 +13,7 @@ pub mod pipeline;
 pub mod profile;
 pub mod renderer;
 mod snapshot;
+mod sweeps;
 pub mod trace;
 
 pub use adapters::{AdapterSummary, list_devices, select_adapter};

@@ -130,7 +130,8 @@ impl PassSizer {
     pub fn pass_pixels(&self, sweep_samples: u32, band_pixels: u32, first_pixel: u32) -> u32 {
         let pixels_left = band_pixels - first_pixel;
         let limit = match self.limits.stages {
-            StageMode::Wavefront => self.limits.pixels.min(self.limits.paths / sweep_samples),
+            // A sweep that another device began may be longer than this one's paths.
+            StageMode::Wavefront => self.limits.pixels.min((self.limits.paths / sweep_samples).max(1)),
             StageMode::Fused => self.limits.pixels,
         };
         let wanted = self.pixels_in_time(sweep_samples, band_pixels, first_pixel);

@@ -2,21 +2,22 @@
 
 use std::cell::Cell;
 use std::mem::ManuallyDrop;
-use std::ops::Range;
 use std::time::Instant;
 
+use super::band::{BandProgress, Sweeps};
 use super::buffers::STATISTICS_BYTES;
 use super::device::{Device, OpeningDevice};
-use super::film::{Reached, deliver_band};
-use super::passes::{Pass, PassLimits, PassSizer};
+use super::film::{self, Reached, deliver_band};
+use super::passes::{PassLimits, PassSizer};
 use super::pipeline::Pipeline;
 use super::profile::{self, Profile};
-use super::snapshot::Snapshot;
 use super::trace::{self, GpuPathTrace};
 use crate::film::Band;
 use crate::packed::{PackError, PackedScene};
 use crate::plan::bindings::Binding;
 use crate::plan::{Plan, PlanOptions, StageMode};
+use crate::renderer::sink::Sink;
+use crate::renderer::state::Tally;
 use crate::renderer::{Batch, DeviceChoice, Ending, Observer, RenderError, RenderReport, Renderer, Stopping};
 use crate::sampling::Sampling;
 use crate::scene::{MaterialId, Scene};
@@ -24,38 +25,13 @@ use crate::scene::{MaterialId, Scene};
 /// A scene uploaded, its kernels compiled.
 pub struct GpuRenderer {
     /// Left behind where the device is lost: a driver that hangs, hangs when its memory is to be freed as well.
-    pipeline: ManuallyDrop<Pipeline>,
-    size: [u32; 2],
+    pub(super) pipeline: ManuallyDrop<Pipeline>,
+    pub(super) size: [u32; 2],
     sampling: Sampling,
     /// Which of the scene's materials the packed ones are.
     scene_materials: Vec<MaterialId>,
-    sizer: PassSizer,
+    pub(super) sizer: PassSizer,
 }
-
-/// A band being rendered.
-struct BandState {
-    first_row: u32,
-    rows: u32,
-    /// Pixels that take part, and how many of them have samples, from the first.
-    pixels: u32,
-    reached: u32,
-    /// Pixels may differ in their numbers of samples: the band ended in the middle of a sweep.
-    is_uneven: bool,
-    /// Finished samples, over all pixels of the band.
-    samples_done: u64,
-}
-
-/// What all bands of a batch have in common.
-struct Sweeps<'a> {
-    samples: Range<u32>,
-    sampling: Sampling,
-    stopping: Stopping<'a>,
-    /// Is told how many samples of the band are done.
-    progress: &'a dyn Fn(u64),
-}
-
-/// Sweeps are planned to take so much of the time that is left.
-const CAUTION: f64 = 0.95;
 
 impl GpuRenderer {
     /// Packs the scene, plans, uploads and compiles.
@@ -159,112 +135,39 @@ impl GpuRenderer {
         let count = self.size[0] * rows;
         if !self.pipeline.takes_pixel_list() {
             let missing = || RenderError::Internal("the kernels were not compiled for lists of pixels".into());
-            return if batch.selection.is_none() { Ok(count) } else { Err(missing()) };
+            return if batch.selects() { Err(missing()) } else { Ok(count) };
         }
         let first_of_band = first_row * self.size[0];
-        let takes_part = |pixel: &u32| batch.selection.is_none_or(|selection| selection[(first_of_band + pixel) as usize]);
+        let takes_part = |pixel: &u32| batch.takes_part((first_of_band + pixel) as usize, self.size[0]);
         let list: Vec<u32> = (0..count).filter(takes_part).collect();
         self.write_list(&list);
         Ok(list.len() as u32)
     }
 
-    fn run_pass(&self, band: &BandState, pass: &Pass, sweeps: &Sweeps<'_>) -> Result<Option<Ending>, RenderError> {
-        self.pipeline.write_pass(band.first_row, pass, &sweeps.sampling);
-        self.pipeline.run_pass(pass, &sweeps.stopping)
-    }
-
-    /// Times short passes, so that the first sweep has none that take long.
-    fn probe(&mut self, band: &BandState, sweeps: &Sweeps<'_>) -> Result<Option<Ending>, RenderError> {
-        let probes = self.sizer.probes(band.pixels, sweeps.samples.start, sweeps.samples.len() as u32);
-        for (index, pass) in probes.iter().enumerate() {
-            let start = Instant::now();
-            let ended = self.run_pass(band, pass, sweeps)?;
-            if ended.is_some() {
-                return Ok(ended);
-            }
-            // The driver compiles when it first runs a kernel.
-            if index > 0 {
-                self.sizer.learn(band.pixels, pass, start.elapsed());
-            }
-        }
-        if !probes.is_empty() {
-            // What they counted, the sweeps count again.
-            self.pipeline.write(Binding::Statistics, &[0; 16]);
-        }
-        Ok(None)
-    }
-
-    /// Samples per pixel of the next sweep; None: there is no time for one.
-    fn next_sweep(&self, band: &BandState, done: u32, sweeps: &Sweeps<'_>) -> Option<u32> {
-        let left = sweeps.samples.len() as u32 - done;
-        let wanted = self.sizer.sweep_samples(band.pixels, done, left);
-        match sweeps.stopping.time_left() {
-            None => Some(wanted),
-            // A picture has a sample in every pixel, however little time there is.
-            Some(_) if done == 0 => Some(1),
-            Some(time) => {
-                Some(self.sizer.samples_within(band.pixels, time.mul_f64(CAUTION)).min(wanted)).filter(|samples| *samples > 0)
-            }
-        }
-    }
-
-    fn deliver_band(
+    /// Hands over what of a band has samples.
+    pub(super) fn deliver_band(
         &self,
         reached: &Reached,
         batch: &Batch<'_>,
         on_band: &mut dyn FnMut(Band) -> std::io::Result<()>,
     ) -> Result<(), RenderError> {
         let Pipeline { device, buffers, .. } = &*self.pipeline;
-        deliver_band(device, &buffers.film, self.size[0], reached, batch, on_band)
+        let width = self.size[0];
+        let read = |rows| film::read_rows(device, &buffers.film, width, rows);
+        deliver_band(width, reached, batch, &read, on_band)
     }
 
-    /// Renders the samples of the band's pixels that take part; why it ended early, if it did.
-    fn render_band(
-        &mut self,
-        band: &mut BandState,
-        sweeps: &Sweeps<'_>,
-        snapshot: &mut Snapshot<'_>,
-    ) -> Result<Option<Ending>, RenderError> {
-        let samples = if band.pixels > 0 { sweeps.samples.len() as u32 } else { 0 };
-        let ended = if samples > 0 { self.probe(band, sweeps)? } else { None };
-        if ended.is_some() {
-            return Ok(ended);
-        }
-        let mut done = 0;
-        while done < samples {
-            let Some(sweep) = self.next_sweep(band, done, sweeps) else { return Ok(Some(Ending::OutOfTime)) };
-            let mut first_pixel = 0;
-            while first_pixel < band.pixels {
-                let pass = Pass {
-                    first_pixel,
-                    pixel_count: self.sizer.pass_pixels(sweep, band.pixels, first_pixel),
-                    first_sample: sweeps.samples.start + done,
-                    sample_count: sweep,
-                    film_is_empty: done == 0,
-                };
-                let start = Instant::now();
-                let ended = self.run_pass(band, &pass, sweeps)?;
-                if ended.is_some() {
-                    return Ok(ended);
-                }
-                self.sizer.learn(band.pixels, &pass, start.elapsed());
-                first_pixel += pass.pixel_count;
-                band.reached = band.reached.max(first_pixel);
-                band.samples_done += pass.paths();
-                band.is_uneven = first_pixel < band.pixels;
-                (sweeps.progress)(band.samples_done);
-                let is_last = first_pixel == band.pixels && done + sweep == samples;
-                if !is_last && let Some(ending) = sweeps.stopping.after_pass(band.reached == band.pixels) {
-                    return Ok(Some(ending));
-                }
-                if !is_last && band.reached == band.pixels && snapshot.is_due() {
-                    let reached = Reached { first_row: band.first_row, rows: band.rows, pixels: band.reached, with_counts: true };
-                    snapshot.take(|batch, on_band| self.deliver_band(&reached, batch, on_band))?;
-                }
-            }
-            done += sweep;
-        }
-        Ok(None)
+    /// What was counted since the batch began, `samples` of them in this band.
+    pub(super) fn tally(&self, samples: u64, sweeps: &Sweeps<'_>) -> Result<Tally, RenderError> {
+        let [low, high, non_finite_samples, _] = self.pipeline.read_words(Binding::Statistics)?;
+        let samples = sweeps.finished.get() + samples;
+        // `prepare` counts the wavefront's rays to later vertices; those to the first are the paths themselves.
+        let camera_rays = if self.pipeline.plan.stages == StageMode::Wavefront { samples - sweeps.before.samples } else { 0 };
+        Ok(Tally {
+            rays: sweeps.before.rays + (u64::from(high) << 32 | u64::from(low)) + camera_rays,
+            samples,
+            non_finite_samples: sweeps.before.non_finite_samples + u64::from(non_finite_samples),
+        })
     }
 }
 
@@ -290,70 +193,52 @@ impl Renderer for GpuRenderer {
         self.sampling.samples = spp.max(1);
     }
 
-    fn render_batch(
+    fn render_into(
         &mut self,
         batch: &Batch<'_>,
         observer: &dyn Observer,
-        on_band: &mut dyn FnMut(Band) -> std::io::Result<()>,
+        sink: &mut dyn Sink,
     ) -> Result<RenderReport, RenderError> {
         let start = Instant::now();
         self.pipeline.write(Binding::Statistics, &[0; 16]);
         let request = batch.request;
-        let total = batch.total_samples(self.size[0]);
-        let finished = Cell::new(0);
+        let width = self.size[0];
+        let total = batch.total_samples(width);
+        let before = batch.resume.map(|state| state.tally).unwrap_or_default();
+        let finished = Cell::new(before.samples);
         let sweeps = Sweeps {
+            batch,
             samples: request.samples.clone(),
             sampling: Sampling { seed: batch.seed.unwrap_or(self.sampling.seed), ..self.sampling },
             stopping: Stopping::new(observer, batch.deadline),
             progress: &|done| observer.progress(finished.get() + done, total),
+            before,
+            finished: &finished,
         };
         let mut ended = None;
-        let mut first_row = request.rows.start;
-        let mut camera_rays = 0;
+        let mut first_row = batch.resume.map_or(request.rows.start, |state| state.rows.start);
         let is_cut = request.rows.len() as u32 > self.pipeline.plan.band_rows;
         while first_row < request.rows.end && ended.is_none() {
-            let rows = self.pipeline.plan.band_rows.min(request.rows.end - first_row);
+            let mut rows = self.pipeline.plan.band_rows.min(request.rows.end - first_row);
+            let resume = batch.resume.filter(|state| state.rows.start == first_row && !state.film.is_empty());
+            if let Some(state) = resume {
+                rows = rows.min(state.rows.len() as u32);
+            }
             let pixels = self.listed_pixels([first_row, rows], batch)?;
-            let mut band = BandState { first_row, rows, pixels, reached: 0, is_uneven: false, samples_done: 0 };
-            let mut snapshot = Snapshot::new(batch);
-            ended = match self.render_band(&mut band, &sweeps, &mut snapshot) {
-                Err(error @ RenderError::DeviceLost(_)) => {
-                    snapshot.deliver(0, on_band)?;
-                    return Err(error);
-                }
-                ended => ended?,
-            };
+            let mut band = BandProgress::new([first_row, rows], pixels);
+            ended = self.render_and_deliver(&mut band, &sweeps, resume, is_cut, sink)?;
             finished.set(finished.get() + band.samples_done);
-            if self.pipeline.plan.stages == StageMode::Wavefront {
-                // `prepare` counts the rays to later vertices; those to the first are the paths themselves.
-                camera_rays += band.samples_done;
-            }
-            let reached = Reached { first_row, rows, pixels: band.reached, with_counts: is_cut || band.is_uneven };
-            if band.reached > 0 || pixels == 0 {
-                let mut next_row = first_row;
-                let delivered = self.deliver_band(&reached, batch, &mut |band| {
-                    next_row = band.first_row + band.rows;
-                    on_band(band)
-                });
-                if let Err(error) = delivered {
-                    if matches!(error, RenderError::DeviceLost(_)) {
-                        snapshot.deliver(next_row, on_band)?;
-                    }
-                    return Err(error);
-                }
-            }
             first_row += rows;
         }
-        let finished = finished.get();
-        let [low, high, non_finite_samples, _] = self.pipeline.read_words(Binding::Statistics)?;
+        let tally = self.tally(0, &sweeps)?;
         Ok(RenderReport {
             device: self.pipeline.device.name.clone(),
             traversal: self.pipeline.plan.traversal_in_use(),
             decisions: self.pipeline.plan.decisions.clone(),
             compiled_in: self.pipeline.plan.switches.enabled.iter().copied().collect(),
-            rays: (u64::from(high) << 32 | u64::from(low)) + camera_rays,
-            samples: finished,
-            non_finite_samples: u64::from(non_finite_samples),
+            rays: tally.rays,
+            samples: tally.samples,
+            non_finite_samples: tally.non_finite_samples,
             peak_device_bytes: self.pipeline.buffers.bytes,
             build_seconds: self.pipeline.build_seconds,
             compile_seconds: self.pipeline.compile_seconds,

@@ -3,7 +3,9 @@
 use std::io;
 use std::time::{Duration, Instant};
 
+use super::film::{Reached, deliver_band};
 use crate::film::Band;
+use crate::renderer::state::BatchState;
 use crate::renderer::{Batch, RenderError};
 
 /// Time between two snapshots, at least.
@@ -12,17 +14,17 @@ const INTERVAL: Duration = Duration::from_secs(2);
 const SHARE: u32 = 100;
 
 /// The last snapshot of a band, if there is one.
-pub struct Snapshot<'a> {
-    batch: &'a Batch<'a>,
-    bands: Vec<Band>,
+pub struct Snapshot {
+    /// What of the band was rendered, and its sums.
+    kept: Option<(Reached, BatchState)>,
     taken: Instant,
     took: Duration,
 }
 
-impl<'a> Snapshot<'a> {
+impl Snapshot {
     /// None yet.
-    pub fn new(batch: &'a Batch<'a>) -> Self {
-        Self { batch, bands: Vec::new(), taken: Instant::now(), took: Duration::ZERO }
+    pub fn new() -> Self {
+        Self { kept: None, taken: Instant::now(), took: Duration::ZERO }
     }
 
     /// Whether it is time for the next one.
@@ -30,25 +32,43 @@ impl<'a> Snapshot<'a> {
         self.taken.elapsed() >= INTERVAL.max(self.took * SHARE)
     }
 
-    /// Takes one: `deliver` hands over what the film holds. If it fails, the last one stays.
+    /// Takes one. If that fails, the last one stays.
+    ///
+    /// # Errors
+    /// What `read` reports.
     pub fn take(
         &mut self,
-        deliver: impl FnOnce(&Batch<'_>, &mut dyn FnMut(Band) -> io::Result<()>) -> Result<(), RenderError>,
-    ) -> Result<(), RenderError> {
+        reached: Reached,
+        read: impl FnOnce() -> Result<BatchState, RenderError>,
+    ) -> Result<&BatchState, RenderError> {
         let start = Instant::now();
-        let mut bands = Vec::new();
-        deliver(self.batch, &mut |band| {
-            bands.push(band);
-            Ok(())
-        })?;
-        self.bands = bands;
+        let state = read()?;
         self.taken = Instant::now();
         self.took = self.taken - start;
-        Ok(())
+        Ok(&self.kept.insert((reached, state)).1)
     }
 
-    /// Hands it over, from this row of the picture on.
-    pub fn deliver(self, first_row: u32, on_band: &mut dyn FnMut(Band) -> io::Result<()>) -> io::Result<()> {
-        self.bands.into_iter().filter(|band| band.first_row >= first_row).try_for_each(on_band)
+    /// The sums, from which a render can go on.
+    pub fn state(&self) -> Option<&BatchState> {
+        self.kept.as_ref().map(|(_, state)| state)
+    }
+
+    /// Hands over what the band was like, from this row of the picture on.
+    ///
+    /// # Errors
+    /// What the receiver says.
+    pub fn deliver(
+        &self,
+        width: u32,
+        batch: &Batch<'_>,
+        first_row: u32,
+        on_band: &mut dyn FnMut(Band) -> io::Result<()>,
+    ) -> Result<(), RenderError> {
+        let Some((reached, state)) = &self.kept else { return Ok(()) };
+        let read = |rows: std::ops::Range<u32>| {
+            let pixels = rows.start as usize * width as usize..rows.end as usize * width as usize;
+            Ok(pixels.map(|pixel| state.film.single(pixel)).unzip())
+        };
+        deliver_band(width, reached, batch, &read, &mut |band| if band.first_row >= first_row { on_band(band) } else { Ok(()) })
     }
 }

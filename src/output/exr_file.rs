@@ -105,7 +105,8 @@ fn header(spec: &PictureSpec, samples: u32, completeness: Completeness, have_cou
     header
 }
 
-fn attribute(entry: Entry) -> AttributeValue {
+/// An entry as the header has it.
+pub(super) fn attribute(entry: Entry) -> AttributeValue {
     match entry {
         Entry::Text(text) => AttributeValue::Text(header_text(&text)),
         Entry::Number(number) => AttributeValue::I32(i32::try_from(number).unwrap_or(i32::MAX)),

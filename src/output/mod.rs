@@ -5,6 +5,7 @@
 mod atomic;
 mod error;
 mod exr_file;
+mod finished;
 mod format;
 mod picture;
 mod png_file;
@@ -15,6 +16,7 @@ mod spec;
 
 pub use atomic::{AtomicFile, check_target, follow_links, remove_unfinished};
 pub use error::OutputError;
+pub use finished::is_finished_picture;
 pub use format::PictureFormat;
 pub use picture::{PictureFile, STDOUT};
 pub use png_file::srgb_byte;

@@ -131,6 +131,14 @@ impl PictureFile {
         }
     }
 
+    /// Whether a finished picture stands in its place, which one that broke off does not replace.
+    pub fn has_finished_one(&self) -> bool {
+        match &self.place {
+            Place::File(file) => beside_finished(file.target()) != file.target(),
+            Place::Stdout(_) => false,
+        }
+    }
+
     fn encode_rest(&mut self, completeness: Completeness) -> Result<(), OutputError> {
         // An encoder that is gone has an error to tell, which joining it brings.
         let _ = self.messages.send(Message::Finish(completeness));
@@ -176,7 +184,7 @@ fn beside_finished(target: &Path) -> PathBuf {
 }
 
 /// Whether what stands there is to be kept: anything but a picture that says that its render broke off.
-fn is_finished(path: &Path) -> bool {
+pub(super) fn is_finished(path: &Path) -> bool {
     let note = BROKEN_OFF_KEY;
     if let Ok(meta) = MetaData::read_from_file(path, false) {
         return meta

@@ -9,6 +9,9 @@ use super::provenance::{BROKEN_OFF_KEY, COMPLETE_KEY, Entry, SAMPLES_KEY};
 use super::rows::{Abandoned, Completeness, Rows};
 use super::spec::PictureSpec;
 
+/// The text chunk with the picture's provenance.
+pub(super) const KEYWORD: &str = "Software";
+
 /// Encodes all rows of the picture. The error is a sentence.
 pub(super) fn write(writer: impl Write, mut rows: Rows, spec: &PictureSpec) -> Result<(), String> {
     let mut encoder = Encoder::new(writer, spec.width, spec.height);
@@ -16,7 +19,7 @@ pub(super) fn write(writer: impl Write, mut rows: Rows, spec: &PictureSpec) -> R
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::Fast);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-    encoder.add_itxt_chunk("Software".to_owned(), software(spec)).map_err(sentence)?;
+    encoder.add_itxt_chunk(KEYWORD.to_owned(), software(spec)).map_err(sentence)?;
     let mut image = encoder.write_header().map_err(sentence)?;
     let mut stream = image.stream_writer().map_err(sentence)?;
 
@@ -39,7 +42,7 @@ pub(super) fn write(writer: impl Write, mut rows: Rows, spec: &PictureSpec) -> R
 
 /// The picture's provenance as one line, since a preview has no typed header. Sample counts are left out: they are only known
 /// once the header is written.
-fn software(spec: &PictureSpec) -> String {
+pub(super) fn software(spec: &PictureSpec) -> String {
     let entries = spec.header_entries(spec.samples_wanted(), Completeness::Finished);
     let wanted = entries.iter().filter(|(key, _)| !matches!(*key, SAMPLES_KEY | COMPLETE_KEY | BROKEN_OFF_KEY));
     let words: Vec<_> = wanted

@@ -8,6 +8,7 @@
 pub mod bsdf;
 pub mod camera;
 pub mod emission;
+mod film;
 pub mod integrator;
 pub mod intersect;
 pub mod lights;

@@ -1,9 +1,11 @@
 //! From a scene to a picture: which renderer takes the scene, how long it goes on, and what a user of the crate calls.
 //!
 //! - `scene`, [`options`], [`stream`], [`image`]: what users of the crate see.
+//! - [`checkpoint`]: states of a render in a file, from which another goes on.
 //! - [`choice`]: which device renders.
 //! - [`progressive`]: renders that end by a time or an error, and samples that follow the noise.
 
+pub mod checkpoint;
 pub mod choice;
 pub mod image;
 pub mod options;

@@ -1,8 +1,9 @@
 //! A scene made ready on a device, which hands over rows of the picture as they are finished.
 
 use std::io;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
+use super::checkpoint::{Checkpoint, Identity};
 use super::choice::{Choice, ChosenRenderer};
 use super::image::Image;
 use super::options::RenderOptions;
@@ -58,7 +59,14 @@ impl Renderer {
     #[doc(hidden)]
     pub fn on(choice: Choice, scene: &Scene, options: &RenderOptions) -> Result<Self, RenderError> {
         let ChosenRenderer { renderer, notice } = choice.renderer(scene, &options.plan_options())?;
-        let provenance = Provenance {
+        let provenance = Self::provenance_of(scene, options, renderer.device());
+        Ok(Self { renderer, notice, options: options.clone(), size: scene.film.size, provenance })
+    }
+
+    /// What the headers of pictures of the scene say that are rendered with these options on a device of this name.
+    #[doc(hidden)]
+    pub fn provenance_of(scene: &Scene, options: &RenderOptions, device: &str) -> Provenance {
+        Provenance {
             scene: scene.name.clone(),
             scene_hash: scene::digest(scene),
             settings: scene.render.clone(),
@@ -66,9 +74,8 @@ impl Renderer {
             first_sample: options.first_sample,
             target_error: options.target_error,
             adaptive: options.adaptive,
-            device: renderer.device().to_owned(),
-        };
-        Ok(Self { renderer, notice, options: options.clone(), size: scene.film.size, provenance })
+            device: device.to_owned(),
+        }
     }
 
     /// The device's name, or `CPU reference`.
@@ -91,7 +98,7 @@ impl Renderer {
     /// # Errors
     /// What the device or `on_band` reports. Where the device is lost, rows hold what was read from it before, and the error follows.
     pub fn render(&mut self, observer: &dyn Observer, on_band: &mut dyn FnMut(Band) -> io::Result<()>) -> Result<Outcome, Error> {
-        Ok(self.render_from(Instant::now(), observer, on_band)?)
+        Ok(self.render_from(Instant::now(), observer, None, on_band)?)
     }
 
     /// Renders the whole picture into memory.
@@ -107,7 +114,7 @@ impl Renderer {
         Ok(Image::rendered(self.size, &bands, self.provenance.clone(), outcome))
     }
 
-    /// As [`Renderer::render`], with a time limit that counts from `start`.
+    /// As [`Renderer::render`], with a time limit that counts from `start`, and kept in a checkpoint: what earlier renders took counts too.
     ///
     /// # Errors
     /// As [`Renderer::render`].
@@ -116,14 +123,30 @@ impl Renderer {
         &mut self,
         start: Instant,
         observer: &dyn Observer,
+        checkpoint: Option<&mut Checkpoint>,
         on_band: &mut dyn FnMut(Band) -> io::Result<()>,
     ) -> Result<Outcome, RenderError> {
+        let before = checkpoint.as_ref().map_or(0.0, |checkpoint| checkpoint.seconds_before());
+        let left = |limit: Duration| limit.saturating_sub(Duration::try_from_secs_f64(before).unwrap_or_default());
+        // A limit beyond what the clock can tell is none.
+        let deadline = self.options.time_limit.and_then(|limit| start.checked_add(left(limit)));
+        let goal = Goal { deadline, ..self.goal() };
+        let (renderer, seed) = (self.renderer.as_mut(), self.provenance.settings.seed);
+        progressive::render_kept(renderer, self.size, seed, &goal, observer, checkpoint, on_band)
+    }
+
+    /// What the options ask for; a deadline is some time.
+    fn goal(&self) -> Goal {
         let RenderOptions { first_sample, time_limit, target_error, adaptive, .. } = self.options;
         let samples = first_sample..first_sample + self.provenance.settings.spp;
-        // A limit beyond what the clock can tell is none.
-        let deadline = time_limit.and_then(|limit| start.checked_add(limit));
-        let goal = Goal { samples, deadline, target_error, adaptive };
-        progressive::render(self.renderer.as_mut(), self.size, self.provenance.settings.seed, &goal, observer, on_band)
+        Goal { samples, deadline: time_limit.map(|_| Instant::now()), target_error, adaptive }
+    }
+
+    /// What decides the picture, and from what state a render of it can go on.
+    #[doc(hidden)]
+    pub fn identity(&self) -> Identity {
+        let is_one_batch = progressive::is_one_batch(&self.goal(), self.renderer.holds_whole_film());
+        Identity::new(&self.provenance, self.size, is_one_batch)
     }
 
     /// What the headers of the picture's files say.

@@ -7,6 +7,7 @@ mod common;
 mod statistics;
 
 mod agreement;
+mod checkpoints;
 mod chunks;
 mod closed_forms;
 mod film;

@@ -1,6 +1,7 @@
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::*;
+use crate::film::Band;
 use crate::renderer::Silent;
 use crate::scene::{
     BlendWeight, Camera, ColorInput, Emission, FilmSettings, Geometry, Light, Material, MaterialKind, Plane, PointLight,

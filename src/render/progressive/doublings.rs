@@ -17,6 +17,18 @@ impl Doublings {
         Self { width: width as usize, means: vec![vec![0.0; pixels]; usize::from(MOST_DOUBLINGS) + 2] }
     }
 
+    /// As [`Doublings::new`], with the means of an earlier render; None where they are of another size.
+    pub fn with_means([width, height]: [u32; 2], means: Vec<Vec<f32>>) -> Option<Self> {
+        let pixels = width as usize * height as usize;
+        let fits = means.len() == usize::from(MOST_DOUBLINGS) + 2 && means.iter().all(|means| means.len() == pixels);
+        fits.then_some(Self { width: width as usize, means })
+    }
+
+    /// Of each interval, the mean luminances.
+    pub fn means(&self) -> &[Vec<f32>] {
+        &self.means
+    }
+
     /// Means of the two halves of the first n samples.
     pub fn halves(&self) -> [&[f32]; 2] {
         [&self.means[0], &self.means[1]]

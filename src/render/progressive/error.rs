@@ -49,6 +49,23 @@ impl ErrorEstimator {
         Self { width, total_pixels, pixels, sums, looks: 0 }
     }
 
+    /// Goes on from the sums and looks of an earlier render; None where they are of another size.
+    pub fn with_sums(mut self, sums: Vec<Vec<[f32; 4]>>, looks: u32) -> Option<Self> {
+        let fits = sums.len() == self.sums.len() && sums.iter().all(|sums| sums.len() == self.pixels.len());
+        (self.sums, self.looks) = (sums, looks);
+        fits.then_some(self)
+    }
+
+    /// Of each stream: the sums of the pixels that are looked at.
+    pub fn sums(&self) -> &[Vec<[f32; 4]>] {
+        &self.sums
+    }
+
+    /// How often the error was looked at.
+    pub fn looks(&self) -> u32 {
+        self.looks
+    }
+
     /// Adds a stream's band, of the pixels that took part.
     pub fn add(&mut self, stream: u32, band: &Band, selection: Option<&[bool]>) {
         let weight = band.samples as f32;

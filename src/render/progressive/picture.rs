@@ -40,6 +40,23 @@ impl Picture {
         self.samples[first_row..first_row + band.rows as usize].iter_mut().for_each(|sum| *sum += spent);
     }
 
+    /// As [`Picture::new`], with sums of earlier batches; None where they are of another size.
+    pub fn with_sums([width, height]: [u32; 2], radiance: Vec<[f32; 4]>, samples: Vec<f32>) -> Option<Self> {
+        let (width, height) = (width as usize, height as usize);
+        let fits = radiance.len() == width * height && samples.len() == height;
+        fits.then_some(Self { width, height, radiance, samples })
+    }
+
+    /// Sums of weighted means, and of weights.
+    pub fn radiance(&self) -> &[[f32; 4]] {
+        &self.radiance
+    }
+
+    /// Per row: the samples per pixel that are spent.
+    pub fn row_samples(&self) -> &[f32] {
+        &self.samples
+    }
+
     /// Samples per pixel of the row that has fewest.
     pub fn samples(&self) -> f64 {
         f64::from(self.samples.iter().copied().fold(f32::INFINITY, f32::min))

@@ -1,0 +1,122 @@
+//! `--checkpoint` and `--resume`.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use gpt::output::{OutputError, PictureFormat, PictureSpec, is_finished_picture};
+use gpt::render::checkpoint::{Checkpoint, DEFAULT_INTERVAL, path_beside};
+use gpt::{RenderOptions, Renderer, Scene};
+
+use super::arguments::CheckpointArguments;
+use super::exit::Failure;
+use super::pictures::is_stdout;
+use super::terminal;
+
+/// The checkpoint of a render, if it has one.
+pub struct Kept {
+    pub checkpoint: Option<Checkpoint>,
+    /// Samples that an earlier render finished, over all pixels.
+    pub resumed_samples: u64,
+    /// What became of the last state.
+    saved: Option<Result<PathBuf, OutputError>>,
+}
+
+/// Where a state is asked for there is a file to put it beside.
+///
+/// # Errors
+/// A usage error.
+pub fn check(arguments: &CheckpointArguments, outputs: &[(PathBuf, PictureFormat)]) -> Result<(), Failure> {
+    let is_asked_for = arguments.checkpoint.is_some() || arguments.resume;
+    if is_asked_for && first_file(outputs).is_none() {
+        return Err(Failure::usage(
+            "--checkpoint and --resume keep their state beside a picture file, and standard output is none: add -o FILE",
+        ));
+    }
+    Ok(())
+}
+
+fn first_file(outputs: &[(PathBuf, PictureFormat)]) -> Option<&Path> {
+    outputs.iter().map(|(path, _)| path.as_path()).find(|path| !is_stdout(path))
+}
+
+/// Whether every picture stands in its place, finished and of this render.
+pub fn all_are_finished(outputs: &[(PathBuf, PictureFormat)], scene: &Scene, options: &RenderOptions) -> bool {
+    if outputs.iter().any(|(path, _)| is_stdout(path) || !path.is_file()) {
+        return false;
+    }
+    let provenance = Some(Renderer::provenance_of(scene, options, ""));
+    let [width, height] = scene.film.size;
+    let spec = PictureSpec { width, height, exposure: 0.0, provenance };
+    outputs.iter().all(|(path, format)| is_finished_picture(path, *format, &spec))
+}
+
+impl Kept {
+    /// Looks for the state that the render goes on from.
+    ///
+    /// # Errors
+    /// A state of another render, or a place where none can be.
+    pub fn begin(
+        arguments: &CheckpointArguments,
+        renderer: &Renderer,
+        outputs: &[(PathBuf, PictureFormat)],
+        started: Instant,
+        quiet: bool,
+    ) -> Result<Self, Failure> {
+        let mut kept = Self { checkpoint: None, resumed_samples: 0, saved: None };
+        let Some(picture) = first_file(outputs).filter(|_| arguments.checkpoint.is_some() || arguments.resume) else {
+            return Ok(kept);
+        };
+        let path = path_beside(picture);
+        let interval = arguments.checkpoint.unwrap_or(DEFAULT_INTERVAL);
+        let mut checkpoint = Checkpoint::new(path, renderer.identity(), renderer.device(), interval, started)?;
+        let place = checkpoint.path().display().to_string();
+        if !arguments.resume {
+            if checkpoint.path().exists() {
+                terminal::note(&format!(
+                    "{place} is the state of an earlier render and will be replaced; --resume would go on from it"
+                ));
+            }
+        } else if let Some((device, samples)) = checkpoint.find(renderer.size())? {
+            kept.resumed_samples = samples;
+            if device != renderer.device() {
+                let ours = renderer.device();
+                terminal::note(&format!(
+                    "{place} was rendered on {device}, and {ours} goes on: the picture has the rounding of both"
+                ));
+            }
+            if !quiet {
+                terminal::note(&format!("going on from {place}, {}", terminal::with_unit(samples as f64, "samples")));
+            }
+        }
+        kept.checkpoint = Some(checkpoint);
+        Ok(kept)
+    }
+
+    /// Waits for the last state of a render that broke off. Whether there is one.
+    pub fn save(&mut self) -> bool {
+        let Some(checkpoint) = &mut self.checkpoint else { return false };
+        let path = checkpoint.path().to_owned();
+        self.saved = match checkpoint.finish() {
+            Ok(true) => Some(Ok(path)),
+            Ok(false) => None,
+            Err(failure) => Some(Err(failure)),
+        };
+        matches!(self.saved, Some(Ok(_)))
+    }
+
+    /// Says where the state is of a render that broke off, and why there is none.
+    pub fn tell(&self) {
+        match &self.saved {
+            None => {}
+            Some(Ok(path)) => terminal::note(&format!("{}: the state is saved; --resume goes on from it", path.display())),
+            Some(Err(failure)) => terminal::warn(&format!("the state of the render is not saved: {failure}")),
+        }
+    }
+
+    /// Removes the state: the picture is finished.
+    pub fn remove(&mut self) {
+        if let Some(checkpoint) = self.checkpoint.take() {
+            checkpoint.remove();
+        }
+    }
+}

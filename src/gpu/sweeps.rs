@@ -1,0 +1,197 @@
+//! The sweeps over a band, pass by pass.
+
+use std::time::Instant;
+
+use super::band::{BandProgress, Sweeps};
+use super::film;
+use super::passes::Pass;
+use super::pipeline::Pipeline;
+use super::renderer::GpuRenderer;
+use super::snapshot::Snapshot;
+use crate::plan::bindings::Binding;
+use crate::renderer::sink::Sink;
+use crate::renderer::state::{BatchState, FilmState};
+use crate::renderer::{Ending, RenderError};
+
+/// Sweeps are planned to take so much of the time that is left.
+const CAUTION: f64 = 0.95;
+
+impl GpuRenderer {
+    fn run_pass(&self, band: &BandProgress, pass: &Pass, sweeps: &Sweeps<'_>) -> Result<Option<Ending>, RenderError> {
+        self.pipeline.write_pass(band.first_row, pass, &sweeps.sampling);
+        self.pipeline.run_pass(pass, &sweeps.stopping)
+    }
+
+    /// Times short passes, so that the first sweep has none that take long.
+    fn probe(&mut self, band: &BandProgress, sweeps: &Sweeps<'_>) -> Result<Option<Ending>, RenderError> {
+        let probes = self.sizer.probes(band.pixels, sweeps.samples.start, sweeps.samples.len() as u32);
+        for (index, pass) in probes.iter().enumerate() {
+            let start = Instant::now();
+            let ended = self.run_pass(band, pass, sweeps)?;
+            if ended.is_some() {
+                return Ok(ended);
+            }
+            // The driver compiles when it first runs a kernel.
+            if index > 0 {
+                self.sizer.learn(band.pixels, pass, start.elapsed());
+            }
+        }
+        if !probes.is_empty() {
+            // What they counted, the sweeps count again.
+            self.pipeline.write(Binding::Statistics, &[0; 16]);
+        }
+        Ok(None)
+    }
+
+    /// Samples per pixel of the next sweep; None: there is no time for one.
+    fn next_sweep(&self, band: &BandProgress, sweeps: &Sweeps<'_>) -> Option<u32> {
+        let done = band.done;
+        let left = sweeps.samples.len() as u32 - done;
+        let wanted = self.sizer.sweep_samples(band.pixels, done, left);
+        match sweeps.stopping.time_left() {
+            None => Some(wanted),
+            // A picture has a sample in every pixel, however little time there is.
+            Some(_) if done == 0 => Some(1),
+            Some(time) => {
+                Some(self.sizer.samples_within(band.pixels, time.mul_f64(CAUTION)).min(wanted)).filter(|samples| *samples > 0)
+            }
+        }
+    }
+
+    /// How far the batch is, with the band's sums.
+    fn state(&self, band: &BandProgress, sweeps: &Sweeps<'_>) -> Result<BatchState, RenderError> {
+        let Pipeline { device, buffers, .. } = &*self.pipeline;
+        let film = match band.reached {
+            0 => FilmState::empty(),
+            _ => film::read_band(device, &buffers.film, [self.size[0], band.rows])?,
+        };
+        Ok(band.state(sweeps.batch, self.size[0], film, self.tally(band.samples_done, sweeps)?))
+    }
+
+    /// Renders the samples of the band's pixels that take part; why it ended early, if it did. `resume`: what the band has already.
+    fn render_band(
+        &mut self,
+        band: &mut BandProgress,
+        sweeps: &Sweeps<'_>,
+        resume: Option<&BatchState>,
+        snapshot: &mut Snapshot,
+        sink: &mut dyn Sink,
+    ) -> Result<Option<Ending>, RenderError> {
+        let samples = if band.pixels > 0 { sweeps.samples.len() as u32 } else { 0 };
+        let ended = if samples > 0 { self.probe(band, sweeps)? } else { None };
+        // Probes leave their samples in the film.
+        if let Some(state) = resume {
+            let Pipeline { device, buffers, .. } = &*self.pipeline;
+            film::write_band(device, &buffers.film, [self.size[0], band.rows], &state.film)?;
+            band.resume(state, sweeps.batch, self.size[0]);
+        }
+        if ended.is_some() {
+            return Ok(ended);
+        }
+        while band.done < samples {
+            if band.next_pixel == 0 {
+                let Some(sweep) = self.next_sweep(band, sweeps) else { return Ok(Some(Ending::OutOfTime)) };
+                band.sweep = sweep;
+            }
+            let ended = self.sweep(band, sweeps, snapshot, sink)?;
+            if ended.is_some() {
+                return Ok(ended);
+            }
+        }
+        Ok(None)
+    }
+
+    /// Renders a band and hands it over, as far as it got; why it ended early, if it did. Where the device is lost, that is what was read of
+    /// it before.
+    pub(super) fn render_and_deliver(
+        &mut self,
+        band: &mut BandProgress,
+        sweeps: &Sweeps<'_>,
+        resume: Option<&BatchState>,
+        is_cut: bool,
+        sink: &mut dyn Sink,
+    ) -> Result<Option<Ending>, RenderError> {
+        let (batch, width) = (sweeps.batch, self.size[0]);
+        let mut snapshot = Snapshot::new();
+        let ended = match self.render_band(band, sweeps, resume, &mut snapshot, sink) {
+            Err(error @ RenderError::DeviceLost(_)) => {
+                if let Some(state) = snapshot.state().filter(|_| sink.takes_states()) {
+                    sink.state(state.clone())?;
+                }
+                snapshot.deliver(width, batch, 0, &mut |band| sink.band(band))?;
+                return Err(error);
+            }
+            ended => ended?,
+        };
+        if ended == Some(Ending::Interrupted) && sink.takes_states() {
+            sink.state(self.state(band, sweeps)?)?;
+        }
+        if band.reached > 0 || band.pixels == 0 {
+            let reached = band.reached(is_cut || band.is_uneven());
+            let mut next_row = band.first_row;
+            let delivered = self.deliver_band(&reached, batch, &mut |band| {
+                next_row = band.first_row + band.rows;
+                sink.band(band)
+            });
+            if let Err(error) = delivered {
+                if matches!(error, RenderError::DeviceLost(_)) {
+                    snapshot.deliver(width, batch, next_row, &mut |band| sink.band(band))?;
+                }
+                return Err(error);
+            }
+        }
+        Ok(ended)
+    }
+
+    /// The passes that are left of the sweep under way.
+    fn sweep(
+        &mut self,
+        band: &mut BandProgress,
+        sweeps: &Sweeps<'_>,
+        snapshot: &mut Snapshot,
+        sink: &mut dyn Sink,
+    ) -> Result<Option<Ending>, RenderError> {
+        while band.next_pixel < band.pixels {
+            let pass = Pass {
+                first_pixel: band.next_pixel,
+                pixel_count: self.sizer.pass_pixels(band.sweep, band.pixels, band.next_pixel),
+                first_sample: sweeps.samples.start + band.done,
+                sample_count: band.sweep,
+                film_is_empty: band.done == 0,
+            };
+            let start = Instant::now();
+            let ended = self.run_pass(band, &pass, sweeps)?;
+            if ended.is_some() {
+                return Ok(ended);
+            }
+            self.sizer.learn(band.pixels, &pass, start.elapsed());
+            band.next_pixel += pass.pixel_count;
+            band.reached = band.reached.max(band.next_pixel);
+            band.samples_done += pass.paths();
+            (sweeps.progress)(band.samples_done);
+            let is_whole = band.reached == band.pixels;
+            if band.next_pixel == band.pixels {
+                band.done += band.sweep;
+                (band.sweep, band.next_pixel) = (0, 0);
+            }
+            let is_over = band.done == sweeps.samples.len() as u32;
+            if is_over {
+                return Ok(None);
+            }
+            if let Some(ending) = sweeps.stopping.after_pass(is_whole) {
+                return Ok(Some(ending));
+            }
+            let is_wanted = sink.wants_state();
+            if is_wanted || (is_whole && snapshot.is_due()) {
+                let state = snapshot.take(band.reached(true), || self.state(band, sweeps))?;
+                if is_wanted {
+                    sink.state(state.clone())?;
+                }
+            }
+            if band.next_pixel == 0 {
+                return Ok(None);
+            }
+        }
+        Ok(None)
+    }
+}

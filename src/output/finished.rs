@@ -1,0 +1,122 @@
+//! Whether a file is a finished picture of a certain render.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use exr::meta::MetaData;
+use exr::meta::attribute::{AttributeValue, Text};
+
+use super::format::PictureFormat;
+use super::picture::is_finished;
+use super::provenance::{COMPLETE_KEY, Entry, SAMPLES_KEY};
+use super::read::read_image;
+use super::rows::Completeness;
+use super::spec::PictureSpec;
+use super::{exr_file, png_file};
+
+/// Entries of headers that do not decide what a picture shows.
+const INCIDENTAL: [&str; 5] = ["gpt:version", "gpt:scene", "gpt:device", SAMPLES_KEY, COMPLETE_KEY];
+
+/// Whether a readable picture stands there that was made of the same scene with the same settings, and whose render did not break off. The
+/// device does not matter.
+pub fn is_finished_picture(path: &Path, format: PictureFormat, spec: &PictureSpec) -> bool {
+    let has_size = |image: super::Image| (image.width, image.height) == (spec.width, spec.height);
+    path.is_file()
+        && is_finished(path)
+        && match format {
+            PictureFormat::Exr => exr_agrees(path, spec),
+            PictureFormat::Png => png_agrees(path, spec),
+        }
+        && read_image(path).is_ok_and(has_size)
+}
+
+/// The entries that decide what is shown.
+fn decisive(spec: &PictureSpec) -> impl Iterator<Item = (&'static str, Entry)> {
+    let entries = spec.header_entries(spec.samples_wanted(), Completeness::Finished);
+    entries.into_iter().filter(|(key, _)| !INCIDENTAL.contains(key))
+}
+
+fn exr_agrees(path: &Path, spec: &PictureSpec) -> bool {
+    let Ok(meta) = MetaData::read_from_file(path, false) else { return false };
+    let Some(header) = meta.headers.first() else { return false };
+    let found: Vec<(&Text, &AttributeValue)> = header.own_attributes.other.iter().collect();
+    let entries: Vec<_> = decisive(spec).collect();
+    let has = |(key, entry): &(&str, Entry)| {
+        let wanted = exr_file::attribute(entry.clone());
+        found.iter().any(|(name, value)| name.eq(key) && **value == wanted)
+    };
+    let is_known = |name: &Text| INCIDENTAL.iter().any(|key| name.eq(key)) || entries.iter().any(|(key, _)| name.eq(key));
+    // An entry that this render has not, such as an error to reach, decides something too.
+    entries.iter().all(has) && found.iter().all(|(name, _)| !name.to_string().starts_with("gpt:") || is_known(name))
+}
+
+fn png_agrees(path: &Path, spec: &PictureSpec) -> bool {
+    let Ok(file) = File::open(path) else { return false };
+    let Ok(reader) = png::Decoder::new(BufReader::new(file)).read_info() else { return false };
+    let mut texts = reader.info().utf8_text.iter().filter(|text| text.keyword == png_file::KEYWORD);
+    let Some(Ok(found)) = texts.next().map(|text| text.get_text()) else { return false };
+    let without_device = |text: &str| {
+        let words = text.split("; ").filter(|word| !["device=", "scene="].iter().any(|key| word.contains(key)));
+        words.filter(|word| !word.contains("version=")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    without_device(&found) == without_device(&png_file::software(spec))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::film::Band;
+    use crate::output::{PictureFile, Provenance};
+    use crate::scene::{Filter, RenderSettings};
+
+    fn spec(seed: u32, device: &str) -> PictureSpec {
+        let provenance = Provenance {
+            scene: "a scene".to_owned(),
+            scene_hash: "0123".to_owned(),
+            settings: RenderSettings { seed, ..RenderSettings::default() },
+            filter: Filter::default(),
+            first_sample: 0,
+            target_error: None,
+            adaptive: false,
+            device: device.to_owned(),
+        };
+        PictureSpec { width: 8, height: 4, exposure: 0.0, provenance: Some(provenance) }
+    }
+
+    #[test]
+    fn only_a_finished_picture_of_the_same_render_is_one() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        for (name, format) in [("a.exr", PictureFormat::Exr), ("a.png", PictureFormat::Png)] {
+            let path = folder.path().join(name);
+            let ours = spec(1, "a device");
+            assert!(!is_finished_picture(&path, format, &ours), "there is none");
+            for breaks_off in [true, false] {
+                let mut file = PictureFile::create(&path, format, &ours).expect("a file");
+                let mean = vec![[0.5; 3]; 32];
+                let band = Band { width: 8, rows: 4, samples: 9, mean, ..Band::default() };
+                file.write_band(&Arc::new(band)).expect("it is written");
+                if breaks_off {
+                    file.finish_broken_off().expect("it is finished");
+                } else {
+                    file.finish().expect("it is finished");
+                }
+                assert_eq!(is_finished_picture(&path, format, &ours), !breaks_off, "{name}");
+            }
+            assert!(is_finished_picture(&path, format, &spec(1, "another device")), "{name}");
+            assert!(!is_finished_picture(&path, format, &spec(2, "a device")), "{name}: another seed");
+            let larger = PictureSpec { width: 9, ..ours.clone() };
+            assert!(!is_finished_picture(&path, format, &larger), "{name}: another size");
+            let mut of_error = ours.clone();
+            if let Some(provenance) = &mut of_error.provenance {
+                provenance.target_error = Some(0.1);
+            }
+            assert!(!is_finished_picture(&path, format, &of_error), "{name}: an error to reach");
+            let bytes = std::fs::read(&path).expect("the picture");
+            std::fs::write(&path, &bytes[..bytes.len() - 40]).expect("it is cut");
+            assert!(!is_finished_picture(&path, format, &ours), "{name}: cut off");
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! What a render is for, and what became of it.
+
+use std::ops::Range;
+use std::time::Instant;
+
+use super::error::ErrorEstimate;
+use crate::renderer::RenderReport;
+
+/// Independent renderings whose mean is the picture, where its error must be known.
+pub const STREAMS: u32 = 8;
+
+/// What a render may spend, and what it shall reach.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Goal {
+    /// Absolute indices of the samples that a pixel gets at most (on average, where they follow the noise).
+    pub samples: Range<u32>,
+    /// No step begins that would end later.
+    pub deadline: Option<Instant>,
+    /// Relative mean squared error (as `gpt compare` measures it) that the picture shall have at most, with 95 % confidence.
+    pub target_error: Option<f64>,
+    /// More samples where the picture is noisier; the renderer must have been made for it.
+    pub adaptive: bool,
+}
+
+/// Why a render ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stop {
+    Samples,
+    TimeLimit,
+    TargetError,
+    Interrupted,
+}
+
+/// What became of a render.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    pub report: RenderReport,
+    pub stop: Stop,
+    /// The error as last estimated, where there was one to reach.
+    pub error: Option<ErrorEstimate>,
+}
+
+/// Why a batch ended early, if it did.
+pub fn stop_of(report: &RenderReport) -> Option<Stop> {
+    match (report.interrupted, report.out_of_time) {
+        (true, _) => Some(Stop::Interrupted),
+        (_, true) => Some(Stop::TimeLimit),
+        _ => None,
+    }
+}

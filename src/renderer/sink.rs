@@ -1,0 +1,41 @@
+//! Where what a renderer finishes goes.
+
+use std::io;
+
+use super::state::BatchState;
+use crate::film::Band;
+
+/// Takes finished bands, and what is needed to go on with those that are not.
+pub trait Sink {
+    /// Takes the next band, in order from the top, each once.
+    ///
+    /// # Errors
+    /// The render cannot go on, because nobody takes what it finishes.
+    fn band(&mut self, band: Band) -> io::Result<()>;
+
+    /// Whether it takes states. If not, renderers need not be able to give one.
+    fn takes_states(&self) -> bool {
+        false
+    }
+
+    /// Whether it is time for the next state.
+    fn wants_state(&self) -> bool {
+        false
+    }
+
+    /// Takes how far the batch is: now and then, and where the render breaks off.
+    ///
+    /// # Errors
+    /// As [`Sink::band`].
+    fn state(&mut self, state: BatchState) -> io::Result<()> {
+        drop(state);
+        Ok(())
+    }
+}
+
+/// A function takes bands and no states.
+impl<F: FnMut(Band) -> io::Result<()>> Sink for F {
+    fn band(&mut self, band: Band) -> io::Result<()> {
+        self(band)
+    }
+}
