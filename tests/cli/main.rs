@@ -9,6 +9,7 @@ mod documents;
 mod endings;
 mod faults;
 mod goals;
+mod imports;
 mod inputs;
 #[cfg(unix)]
 mod on_unix;

@@ -16,6 +16,7 @@ mod shape;
 mod spectrum;
 mod texture;
 mod transform;
+mod write;
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -30,6 +31,7 @@ use super::error::SceneError;
 use super::files::Files;
 use super::import::{Description, Keys};
 use super::printable::short_list;
+pub use write::{WrittenMitsuba, write};
 
 /// What to read of a file.
 #[derive(Debug, Clone, Default)]

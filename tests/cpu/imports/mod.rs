@@ -3,6 +3,7 @@
 mod gltf;
 mod mitsuba;
 mod random_faults;
+mod within;
 
 use std::ffi::OsStr;
 use std::fs;

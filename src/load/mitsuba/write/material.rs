@@ -1,0 +1,251 @@
+//! Materials and their textures.
+
+use glam::DVec3;
+use toml::{Table, Value};
+
+use super::xml::Element;
+use super::{Writer, colour, entries, flag, number, numbers, table, text, vector};
+use crate::load::error::SceneError;
+
+/// Mitsuba's name of one of our presets.
+const PRESETS: [(&str, &str); 4] = [("gold", "Au"), ("copper", "Cu"), ("silver", "Ag"), ("aluminium", "Al")];
+
+impl Writer<'_> {
+    pub fn material(&mut self, material: &Table) -> Result<(), SceneError> {
+        let name = text(material, "name").unwrap_or_default().to_owned();
+        let place = format!("material `{name}`");
+        let bsdf = self.bsdf(material, &place)?;
+        let kind = text(material, "type").unwrap_or_default();
+        let is_transparent = ["glass", "rough_glass", "pass"].contains(&kind);
+        let bsdf = match text(material, "normal_map") {
+            Some(texture) => {
+                let map = self.texture(texture, "normalmap", true)?;
+                Element::new("bsdf", "normalmap").with(map).with(bsdf)
+            }
+            None => bsdf,
+        };
+        let one_sided = flag(material, "two_sided") == Some(false) && kind != "emissive";
+        // A blend of see-through parts cannot be two-sided there.
+        let bsdf = if is_transparent || one_sided || self.lets_light_through(material, 0) {
+            bsdf
+        } else {
+            Element::new("bsdf", "twosided").with(bsdf)
+        };
+        self.xml.push(bsdf.id(&name));
+        Ok(())
+    }
+
+    fn named(&self, name: &str) -> Option<&Table> {
+        entries(self.scene, "material").into_iter().find(|material| text(material, "name") == Some(name))
+    }
+
+    /// A part of it does, at any depth.
+    fn lets_light_through(&self, material: &Table, depth: usize) -> bool {
+        match text(material, "type") {
+            Some("glass" | "rough_glass" | "pass") => true,
+            Some("blend") if depth < 100 => {
+                let parts = material.get("materials").and_then(Value::as_array);
+                let parts = parts.into_iter().flatten().filter_map(Value::as_str);
+                parts.filter_map(|part| self.named(part)).any(|part| self.lets_light_through(part, depth + 1))
+            }
+            _ => false,
+        }
+    }
+
+    fn bsdf(&mut self, material: &Table, place: &str) -> Result<Element, SceneError> {
+        Ok(match text(material, "type").unwrap_or_default() {
+            "diffuse" => self.with_colour(Element::new("bsdf", "diffuse"), "reflectance", material, "reflectance")?,
+            "mirror" => self.with_colour(Element::new("bsdf", "conductor"), "specular_reflectance", material, "reflectance")?,
+            "conductor" => self.conductor(material, place)?,
+            "glass" | "rough_glass" => self.glass(material, place)?,
+            "plastic" => {
+                let rough = self.alpha(material).is_some();
+                let element = Element::new("bsdf", if rough { "roughplastic" } else { "plastic" });
+                let element = element.float("int_ior", number(material, "ior").unwrap_or(1.5)).float("ext_ior", 1.0);
+                let element = self.with_colour(element, "diffuse_reflectance", material, "reflectance")?;
+                let element = self.with_colour(element, "specular_reflectance", material, "specular_reflectance")?;
+                let element = element.boolean("nonlinear", flag(material, "nonlinear") == Some(true));
+                if rough { self.facets(element, material, place)? } else { element }
+            }
+            "emissive" => Element::new("bsdf", "diffuse").rgb("reflectance", DVec3::ZERO),
+            "pass" => Element::new("bsdf", "null"),
+            "blend" => self.blend(material, place)?,
+            other => {
+                self.drop(&format!("material of type `{other}`"), place, "a diffuse surface stands for it");
+                let key = if material.contains_key("diffuse") { "diffuse" } else { "reflectance" };
+                self.with_colour(Element::new("bsdf", "diffuse"), "reflectance", material, key)?
+            }
+        })
+    }
+
+    fn conductor(&mut self, material: &Table, place: &str) -> Result<Element, SceneError> {
+        let rough = self.alpha(material).is_some() || material.contains_key("alpha_u") || material.contains_key("roughness_u");
+        let element = Element::new("bsdf", if rough { "roughconductor" } else { "conductor" });
+        let preset = text(material, "preset");
+        let element = match PRESETS.iter().find(|(ours, _)| Some(*ours) == preset) {
+            Some((_, theirs)) => element.string("material", theirs),
+            None if material.contains_key("eta") => {
+                element.rgb("eta", colour(material, "eta")).rgb("k", colour(material, "k"))
+            }
+            None => {
+                self.approximate("conductor by its reflectance", place, "its reflectance does not rise at grazing angles");
+                self.with_colour(element.string("material", "none"), "specular_reflectance", material, "reflectance")?
+            }
+        };
+        let element = match material.contains_key("reflectance") {
+            true => element,
+            false => self.with_colour(element, "specular_reflectance", material, "specular_reflectance")?,
+        };
+        if rough { self.facets(element, material, place) } else { Ok(element) }
+    }
+
+    fn glass(&mut self, material: &Table, place: &str) -> Result<Element, SceneError> {
+        let thin = flag(material, "thin") == Some(true);
+        let rough = text(material, "type") == Some("rough_glass");
+        if rough && (thin || material.contains_key("exponent")) {
+            self.drop("rough glass that is thin, or Phong's", place, "smooth glass is taken");
+        }
+        let rough = rough && !thin && !material.contains_key("exponent");
+        let kind = match (thin, rough) {
+            (true, _) => "thindielectric",
+            (false, true) => "roughdielectric",
+            (false, false) => "dielectric",
+        };
+        let ior = number(material, "ior").unwrap_or(1.5);
+        let element = Element::new("bsdf", kind).float("int_ior", ior).float("ext_ior", 1.0);
+        let element = self.with_colour(element, "specular_reflectance", material, "reflectance")?;
+        let element = self.with_colour(element, "specular_transmittance", material, "transmittance")?;
+        if rough { self.facets(element, material, place) } else { Ok(element) }
+    }
+
+    /// `alpha`, or the square of `roughness`, where they are numbers.
+    fn alpha(&self, material: &Table) -> Option<Value> {
+        let squared = number(material, "roughness").map(|roughness| Value::Float(roughness * roughness));
+        material.get("alpha").cloned().or(squared).or_else(|| material.get("roughness").cloned())
+    }
+
+    fn facets(&mut self, mut element: Element, material: &Table, place: &str) -> Result<Element, SceneError> {
+        if text(material, "masking") != Some("separable") {
+            self.approximate("height-correlated masking", place, "it is separate there: 1 to 2 % darker at grazing angles");
+        }
+        element = element.string("distribution", text(material, "distribution").unwrap_or("ggx"));
+        let pairs = [("alpha_u", "alpha_v", false), ("roughness_u", "roughness_v", true)];
+        for (u, v, squared) in pairs {
+            if let (Some(x), Some(y)) = (number(material, u), number(material, v)) {
+                let alpha = |value: f64| if squared { value * value } else { value };
+                return Ok(element.float("alpha_u", alpha(x)).float("alpha_v", alpha(y)));
+            }
+        }
+        match self.alpha(material) {
+            Some(Value::Table(of)) => {
+                if material.contains_key("roughness") {
+                    self.approximate("texture of roughness", place, "it is taken for its square");
+                }
+                let name = text(&of, "texture").unwrap_or_default().to_owned();
+                Ok(element.with(self.texture(&name, "alpha", true)?))
+            }
+            Some(value) => Ok(element.float("alpha", super::as_number(&value).unwrap_or(0.0).max(1e-4))),
+            None => Ok(element.float("alpha", 1e-4)),
+        }
+    }
+
+    fn blend(&mut self, material: &Table, place: &str) -> Result<Element, SceneError> {
+        let parts: Vec<String> = material
+            .get("materials")
+            .and_then(Value::as_array)
+            .map(|parts| parts.iter().filter_map(Value::as_str).map(str::to_owned).collect())
+            .unwrap_or_default();
+        let weight = table(material, "weight");
+        let kind = weight.and_then(|weight| text(weight, "type")).unwrap_or_default();
+        let [first, second] = &parts[..] else { return Ok(Element::new("bsdf", "null")) };
+        // Mitsuba's weight is the second one's share.
+        let element = Element::new("bsdf", "blendbsdf");
+        let element = match (kind, weight) {
+            ("constant", Some(weight)) => element.float("weight", number(weight, "value").unwrap_or(1.0)),
+            ("texture", Some(weight)) => {
+                let name = text(weight, "texture").unwrap_or_default().to_owned();
+                element.with(self.texture(&name, "weight", true)?)
+            }
+            (other, _) => {
+                self.approximate(&format!("weight `{other}` of a blend"), place, "one half of each is taken");
+                element.float("weight", 0.5)
+            }
+        };
+        Ok(element.reference(second).reference(first))
+    }
+
+    /// The light of a material; None where it gives none.
+    pub fn emission(&mut self, name: &str, place: &str) -> Option<Element> {
+        let material = self.named(name)?.clone();
+        let is_lamp = text(&material, "type") == Some("emissive");
+        let (key, both) = if is_lamp { ("radiance", "two_sided") } else { ("emission", "emission_two_sided") };
+        let value = material.get(key)?;
+        if flag(&material, both) == Some(true) {
+            self.drop("light from both sides", place, "it leaves the front");
+        }
+        let emitter = Element::new("emitter", "area");
+        Some(match value.as_table().and_then(|of| text(of, "texture")) {
+            Some(texture) => match self.texture(texture, "radiance", false) {
+                Ok(texture) => emitter.with(texture),
+                Err(_) => emitter.rgb("radiance", DVec3::ONE),
+            },
+            None => emitter.rgb("radiance", colour(&material, key)),
+        })
+    }
+
+    /// The plugin with a colour, a constant or a texture, where one is written.
+    fn with_colour(&mut self, element: Element, theirs: &str, material: &Table, ours: &str) -> Result<Element, SceneError> {
+        match material.get(ours) {
+            None => Ok(element),
+            Some(Value::Table(of)) => {
+                let place = format!("material `{}`", text(material, "name").unwrap_or_default());
+                if of.contains_key("factor") || of.contains_key("channel") {
+                    self.drop("factor or channel of a texture", &place, "the colours of the texture are taken");
+                }
+                let name = text(of, "texture").unwrap_or_default();
+                Ok(element.with(self.texture(name, theirs, false)?))
+            }
+            Some(_) => Ok(element.rgb(theirs, colour(material, ours))),
+        }
+    }
+
+    fn texture(&mut self, name: &str, role: &str, raw: bool) -> Result<Element, SceneError> {
+        let place = format!("texture `{name}`");
+        let found = entries(self.scene, "texture").into_iter().find(|texture| text(texture, "name") == Some(name)).cloned();
+        let Some(texture) = found else { return Err(SceneError::in_file(self.name, format!("there is no texture named `{name}`"))) };
+        let scale = numbers(&texture, "scale").filter(|scale| scale.len() == 2).unwrap_or(vec![1.0, 1.0]);
+        let offset = numbers(&texture, "offset").filter(|offset| offset.len() == 2).unwrap_or(vec![0.0, 0.0]);
+        let turn = number(&texture, "rotation").map_or(String::new(), |degrees| format!("<rotate z=\"1\" angle=\"{degrees}\"/>"));
+        let (u, v, x, y) = (scale[0], scale[1], offset[0], offset[1]);
+        Ok(match text(&texture, "type").unwrap_or_default() {
+            "image" => {
+                let file = self.file(text(&texture, "file").unwrap_or_default())?;
+                let raw = raw || text(&texture, "color_space") == Some("linear");
+                // v runs downward over a picture there.
+                let steps = format!("<scale x=\"{u}\" y=\"{v}\"/>{turn}<translate x=\"{x}\" y=\"{y}\"/><scale y=\"-1\"/><translate y=\"1\"/>");
+                Element::new("texture", "bitmap")
+                    .named(role)
+                    .string("filename", &file)
+                    .boolean("raw", raw)
+                    .string("filter_type", text(&texture, "filter").unwrap_or("bilinear"))
+                    .string("wrap_mode", text(&texture, "wrap").unwrap_or("repeat"))
+                    .transform("to_uv", &steps)
+            }
+            "checker" => {
+                let colour_of = |key: &str| vector(&texture, key).unwrap_or_else(|| colour(&texture, key));
+                // Two squares along each unit there.
+                let steps = format!("<scale x=\"{u}\" y=\"{v}\"/>{turn}<translate x=\"{x}\" y=\"{y}\"/><scale x=\"0.5\" y=\"0.5\"/>");
+                Element::new("texture", "checkerboard")
+                    .named(role)
+                    .rgb("color0", colour_of("a"))
+                    .rgb("color1", colour_of("b"))
+                    .transform("to_uv", &steps)
+            }
+            other => {
+                self.drop(&format!("texture of type `{other}`"), &place, "the mean of its colours is taken");
+                let mean = 0.5 * (colour(&texture, "a") + colour(&texture, "b"));
+                Element::new("texture", "checkerboard").named(role).rgb("color0", mean).rgb("color1", mean)
+            }
+        })
+    }
+}

@@ -1,0 +1,149 @@
+//! Shapes.
+
+use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
+use toml::{Table, Value};
+
+use super::xml::{Element, matrix};
+use super::{Writer, as_number, flag, number, numbers, text, vector};
+use crate::load::error::SceneError;
+use crate::load::import::write_ply;
+use crate::scene::Mesh;
+
+/// Half the side of the rectangle that stands for an infinite plane.
+const PLANE: f64 = 1e4;
+
+impl Writer<'_> {
+    pub fn shape(&mut self, index: usize, shape: &Table) -> Result<(), SceneError> {
+        let place = format!("shape[{index}]");
+        if shape.contains_key("motion") {
+            self.drop("motion", &place, "the shape rests");
+        }
+        if flag(shape, "portal") == Some(true) {
+            self.drop("portal", &place, "its directions are not sampled by themselves");
+        }
+        let around = shape.get("transform").map_or(DAffine3::IDENTITY, transform);
+        let (element, own) = match text(shape, "type").unwrap_or_default() {
+            "mesh" => (self.mesh(index, shape, &place)?, DAffine3::IDENTITY),
+            "sphere" => {
+                let element = Element::new("shape", "sphere").point("center", vector(shape, "center").unwrap_or_default());
+                (element.float("radius", number(shape, "radius").unwrap_or(1.0)), DAffine3::IDENTITY)
+            }
+            "rectangle" => {
+                let axis = |key: &str| vector(shape, key).unwrap_or(DVec3::X);
+                let (corner, u, v) = (axis("corner"), axis("edge_u") * 0.5, axis("edge_v") * 0.5);
+                (Element::new("shape", "rectangle"), frame(u, v, corner + u + v))
+            }
+            "disk" => {
+                let normal = vector(shape, "normal").unwrap_or(DVec3::Z).normalize_or(DVec3::Z);
+                let (u, v) = normal.any_orthonormal_pair();
+                let radius = number(shape, "radius").unwrap_or(1.0);
+                (Element::new("shape", "disk"), frame(u * radius, v * radius, vector(shape, "center").unwrap_or_default()))
+            }
+            "box" => {
+                let (min, max) = (vector(shape, "min").unwrap_or_default(), vector(shape, "max").unwrap_or_default());
+                let map = DAffine3::from_translation(0.5 * (min + max)) * DAffine3::from_scale(0.5 * (max - min));
+                (Element::new("shape", "cube"), map)
+            }
+            "plane" => {
+                self.approximate("shape `plane`", &place, "a rectangle of 20,000 units is taken");
+                let normal = vector(shape, "normal").unwrap_or(DVec3::Y).normalize_or(DVec3::Y);
+                let (u, v) = normal.any_orthonormal_pair();
+                (Element::new("shape", "rectangle"), frame(u * PLANE, v * PLANE, vector(shape, "point").unwrap_or_default()))
+            }
+            other => {
+                self.drop(&format!("shape `{other}`"), &place, "it is left out");
+                return Ok(());
+            }
+        };
+        let map = around * own;
+        let element = if map == DAffine3::IDENTITY { element } else { element.transform("to_world", &matrix(&map)) };
+        let element = match text(shape, "material") {
+            Some(name) => {
+                let element = element.reference(name);
+                match self.emission(name, &place) {
+                    Some(emitter) => element.with(emitter),
+                    None => element,
+                }
+            }
+            None => {
+                self.drop("materials of a mesh file", &place, "the shape is a diffuse grey");
+                element
+            }
+        };
+        self.xml.push(element);
+        Ok(())
+    }
+
+    fn mesh(&mut self, index: usize, shape: &Table, place: &str) -> Result<Element, SceneError> {
+        let smooth = flag(shape, "smooth");
+        let Some(file) = text(shape, "file") else {
+            let mut mesh = inline(shape);
+            mesh.smooth = smooth.unwrap_or(!mesh.normals.is_empty());
+            if mesh.smooth && mesh.normals.is_empty() {
+                mesh.compute_smooth_normals();
+            }
+            let name = self.beside_file(&format!("shape-{index}.ply"), write_ply(&mesh));
+            return Ok(Element::new("shape", "ply").string("filename", &name).boolean("face_normals", !mesh.smooth));
+        };
+        let lower = file.to_ascii_lowercase();
+        if lower.ends_with(".gz") {
+            self.drop("packed mesh file", place, "Mitsuba does not unpack it");
+        }
+        let kind = if lower.ends_with(".obj") { "obj" } else { "ply" };
+        if smooth.is_none() {
+            self.approximate("`smooth` that is not written", place, "Mitsuba makes normals where the file has none");
+        }
+        let name = self.file(file)?;
+        let element = Element::new("shape", kind).string("filename", &name);
+        // Our v runs upward in every file.
+        let element = if kind == "obj" { element.boolean("flip_tex_coords", false) } else { element };
+        Ok(if smooth == Some(false) { element.boolean("face_normals", true) } else { element })
+    }
+}
+
+fn inline(shape: &Table) -> Mesh {
+    let rows = |key: &str| -> Vec<Vec<f64>> {
+        let list = shape.get(key).and_then(Value::as_array);
+        let row = |row: &Value| row.as_array().map(|row| row.iter().filter_map(as_number).collect()).unwrap_or_default();
+        list.map(|list| list.iter().map(row).collect()).unwrap_or_default()
+    };
+    let at = |row: &[f64], place: usize| row.get(place).copied().unwrap_or(0.0);
+    let triples = |key: &str| -> Vec<Vec3> {
+        rows(key).iter().map(|row| DVec3::new(at(row, 0), at(row, 1), at(row, 2)).as_vec3()).collect()
+    };
+    Mesh {
+        positions: triples("positions"),
+        normals: triples("normals"),
+        uvs: rows("uvs").iter().map(|row| Vec2::new(at(row, 0) as f32, at(row, 1) as f32)).collect(),
+        faces: rows("faces").iter().map(|row| [0, 1, 2].map(|corner| at(row, corner) as u32)).collect(),
+        ..Mesh::default()
+    }
+}
+
+/// The map of the plane z = 0 to the one along these axes, its front along their product.
+fn frame(u: DVec3, v: DVec3, middle: DVec3) -> DAffine3 {
+    DAffine3 { matrix3: DMat3::from_cols(u, v, u.cross(v).normalize_or(DVec3::Z)), translation: middle }
+}
+
+/// Steps, or one of them.
+fn transform(written: &Value) -> DAffine3 {
+    match written {
+        Value::Array(steps) => steps.iter().fold(DAffine3::IDENTITY, |so_far, written| step(written) * so_far),
+        single => step(single),
+    }
+}
+
+fn step(written: &Value) -> DAffine3 {
+    let Some(step) = written.as_table() else { return DAffine3::IDENTITY };
+    if let Some(scale) = vector(step, "scale").or(number(step, "scale").map(DVec3::splat)) {
+        return DAffine3::from_scale(scale);
+    }
+    if let (Some(axis), Some(degrees)) = (vector(step, "rotate"), number(step, "degrees")) {
+        return DAffine3::from_axis_angle(axis.normalize_or(DVec3::Y), degrees.to_radians());
+    }
+    if let Some(offset) = vector(step, "translate") {
+        return DAffine3::from_translation(offset);
+    }
+    let rows: Option<[f64; 16]> = numbers(step, "matrix").and_then(|rows| rows.try_into().ok());
+    rows.map_or(DAffine3::IDENTITY, |rows| DAffine3::from_mat4(glam::DMat4::from_cols_array(&rows).transpose()))
+}

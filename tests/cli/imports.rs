@@ -1,0 +1,76 @@
+//! Scenes of other programs on the command line.
+
+use serde_json::Value;
+
+use super::{Workplace, text};
+
+const SCENE: &str = r#"<scene version="3.0.0"><default name="size" value="1"/>
+<sensor type="perspective"><float name="fov" value="40"/><transform name="to_world"><lookat origin="0 0 4" target="0 0 0" up="0 1 0"/></transform>
+<film type="hdrfilm"><integer name="width" value="16"/><integer name="height" value="12"/></film>
+<sampler type="independent"><integer name="sample_count" value="4"/></sampler></sensor>
+<shape type="sphere"><float name="radius" value="$size"/><float name="foo" value="1"/><bsdf type="twosided"><bsdf type="diffuse"/></bsdf></shape>
+<shape type="hair"/><shape type="hair"/>
+<emitter type="constant"/></scene>"#;
+
+fn place() -> Workplace {
+    let place = Workplace::new();
+    place.write("a.xml", SCENE);
+    place
+}
+
+#[test]
+fn what_is_written_renders_the_same_picture() {
+    let place = place();
+    let said = place.expect(0, "render a.xml -D size=0.5 --device cpu --quiet -o a.exr");
+    assert!(said.contains("3 things are dropped") && said.lines().count() == 1, "{said}");
+    place.expect(0, "import a.xml -D size=0.5 -o written.toml");
+    place.expect(0, "render written.toml --device cpu --quiet -o b.exr");
+    place.expect(0, "compare a.exr b.exr");
+    // The control: another size.
+    place.expect(0, "render a.xml --device cpu --quiet -o c.exr");
+    place.expect(7, "compare a.exr c.exr");
+}
+
+#[test]
+fn check_lists_what_is_not_exact_and_strict_refuses_it() {
+    let place = place();
+    let output = place.run("check a.xml");
+    let said = text(&output.stdout);
+    assert!(said.contains("dropped\n") && said.contains("shape `hair` (2 times): it is left out [a.xml:6]"), "{said}");
+    let output = place.run("check a.xml --json --strict");
+    assert_eq!(output.status.code(), Some(3));
+    let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let hair = report["dropped"]
+        .as_array()
+        .and_then(|items| items.iter().find(|item| item["what"] == "shape `hair`"))
+        .expect("it is listed");
+    assert_eq!((&hair["count"], &hair["where"], &hair["instead"]), (&2.into(), &"a.xml:6".into(), &"it is left out".into()));
+    assert!(report["approximated"].is_array());
+    for command in ["render a.xml --strict --device cpu --quiet -o a.exr", "import a.xml --strict -o b.toml"] {
+        let said = place.expect(3, command);
+        assert!(said.contains("3 things are dropped"), "{said}");
+    }
+    assert!(!place.path("b.toml").exists() && !place.path("a.exr").exists());
+    // A scene of ours has nothing to list.
+    let report: Value = serde_json::from_slice(&place.run("check scene.toml --json --strict").stdout).expect("JSON");
+    assert_eq!((report["dropped"].as_array().map(Vec::len), report["valid"].as_bool()), (Some(0), Some(true)));
+}
+
+#[test]
+fn wrong_files_and_arguments_are_refused() {
+    let place = place();
+    for (command, said) in [
+        ("check absent.xml", "absent.xml"),
+        ("check a.xml -D foo=1", "$foo"),
+        ("check a.xml --camera none", "`none`"),
+        ("import scene.toml -o b.toml", "cannot be imported"),
+    ] {
+        let stderr = place.expect(3, command);
+        assert!(stderr.contains(said), "{command}: {stderr}");
+    }
+    for command in ["check a.xml -D size", "import a.xml", "import a.xml -o b.txt"] {
+        place.expect(2, command);
+    }
+    #[cfg(unix)]
+    place.expect(3, "check /dev/zero.xml");
+}
