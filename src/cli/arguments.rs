@@ -40,6 +40,8 @@ pub enum Command {
     Check(CheckArguments),
     /// Write a scene of another program as a scene file that can be edited and renders the same picture
     Import(ImportArguments),
+    /// Write a scene file or a built-in scene as a scene of Mitsuba 3, as far as it can be said there
+    Export(ExportArguments),
     /// List the graphics adapters, their limits, and which one `--device auto` takes
     Devices(DevicesArguments),
 }
@@ -224,6 +226,20 @@ pub struct ImportArguments {
     #[command(flatten)]
     pub access: AccessArguments,
     /// Exit with code 3, and write nothing, where the import is not exact
+    #[arg(long)]
+    pub strict: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct ExportArguments {
+    /// A .toml scene or the name of a built-in scene
+    pub scene: OsString,
+    /// Scene of Mitsuba to write; what the scene embeds goes into a folder beside it
+    #[arg(short, long, value_name = "SCENE.xml")]
+    pub output: PathBuf,
+    #[command(flatten)]
+    pub access: AccessArguments,
+    /// Exit with code 3, and write nothing, where something cannot be said exactly
     #[arg(long)]
     pub strict: bool,
 }

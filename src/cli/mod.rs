@@ -8,6 +8,7 @@ mod choice;
 mod compare;
 mod devices;
 mod exit;
+mod export;
 mod import;
 mod interrupt;
 mod pictures;
@@ -58,6 +59,7 @@ pub fn run() -> ExitCode {
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
         Command::Devices(arguments) => devices::run(&arguments),
     };

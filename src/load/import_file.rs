@@ -46,7 +46,12 @@ pub fn read(files: &Files, path: &Path, options: &LoadOptions) -> Result<Descrip
             mitsuba::load(files, path, &options)?
         }
         Some(ImportFormat::Gltf) => gltf::load(files, path, options.camera.as_deref())?,
-        None => return Err(SceneError::in_file(name, "cannot be imported: it is neither glTF (.gltf, .glb) nor a Mitsuba scene (.xml)")),
+        None => {
+            return Err(SceneError::in_file(
+                name,
+                "cannot be imported: it is neither glTF (.gltf, .glb) nor a Mitsuba scene (.xml)",
+            ));
+        }
     };
     if description.shapes.is_empty() {
         return Err(SceneError::in_file(name, "there is nothing to render in the scene: it has no surfaces"));

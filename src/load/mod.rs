@@ -36,8 +36,9 @@ pub use excerpt::Excerpt;
 pub use file::{json_schema, load_toml_str};
 pub use image_file::read_image;
 pub use import_file::{WrittenScene, as_scene_file};
+pub use mitsuba::WrittenMitsuba;
 pub use printable::printable;
-pub use source::{SceneSource, load, load_with};
+pub use source::{SceneSource, as_mitsuba, load, load_with};
 
 /// Whether a scene that this process read is made of this file, by whatever name.
 pub fn was_read(path: &std::path::Path) -> bool {

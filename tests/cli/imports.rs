@@ -74,3 +74,30 @@ fn wrong_files_and_arguments_are_refused() {
     #[cfg(unix)]
     place.expect(3, "check /dev/zero.xml");
 }
+
+/// What is exported and imported again is the same scene, but for rounding of the places of its surfaces.
+#[test]
+fn what_is_exported_comes_back() {
+    let place = place();
+    place.expect(0, "export cornell -o c.xml");
+    place.expect(0, "render cornell --size 24x24 --spp 16 --device cpu --quiet -o a.exr");
+    place.expect(0, "render c.xml --size 24x24 --spp 16 --device cpu --quiet -o b.exr");
+    place.expect(0, "compare a.exr b.exr --metric relmse --tolerance 0.02");
+    // The control: with the light out.
+    let dark = std::fs::read_to_string(place.path("c.xml")).expect("it was written").replacen(
+        "name=\"radiance\" value=\"",
+        "name=\"radiance\" value=\"0.",
+        1,
+    );
+    place.write("dark.xml", dark);
+    place.expect(0, "render dark.xml --size 24x24 --spp 16 --device cpu --quiet -o c.exr");
+    place.expect(7, "compare a.exr c.exr --metric relmse --tolerance 0.02");
+    for name in ["veach-mis", "gallery", "knot-plastic", "spheres"] {
+        place.expect(0, &format!("export {name} -o {name}.xml"));
+        place.expect(0, &format!("check {name}.xml"));
+    }
+    place.expect(3, "export gallery --strict -o d.xml");
+    place.expect(3, "export a.xml -o d.xml");
+    place.expect(2, "export cornell -o d.toml");
+    assert!(!place.path("d.xml").exists());
+}

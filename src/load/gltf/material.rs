@@ -99,11 +99,7 @@ impl Surface<'_, '_> {
         };
         self.normal_map(&mut keys)?;
         self.emission(&mut keys)?;
-        let opaque = self.opacity(factor[3], pbr.base_color_texture.is_some());
-        Ok(match opaque {
-            Some(opacity) if opacity < 1.0 => self.see_through(keys, opacity),
-            _ => keys,
-        })
+        self.see_through(keys, factor[3])
     }
 
     /// What scatters light: a metal and a dielectric, mixed by `metallic`.
@@ -111,15 +107,28 @@ impl Surface<'_, '_> {
         let pbr = &self.material.pbr_metallic_roughness;
         let metallic = pbr.metallic_factor.unwrap_or(1.0).clamp(0.0, 1.0);
         let roughness = pbr.roughness_factor.unwrap_or(1.0).clamp(0.0, 1.0);
-        if pbr.metallic_roughness_texture.is_some() {
-            self.approximate("metallicRoughnessTexture", "the factors alone count");
-        }
+        let pbr = pbr.clone();
+        let map = match &pbr.metallic_roughness_texture {
+            Some(info) => self.texture_name(info, "metallic and roughness")?,
+            None => None,
+        };
+        // Of the texture, green is roughness and blue metallic.
+        let of_map = |channel: &str, factor: f64| match &map {
+            Some(name) => Value::Table(channel_of(name, channel, factor)),
+            None => Value::Number(factor),
+        };
+        let roughness = of_map("g", roughness);
+        let metallic_share = match &map {
+            Some(name) if metallic > 0.0 => channel_weight(name, "b", metallic),
+            _ => Keys::of_type("constant").with("value", metallic),
+        };
+        let metallic_everywhere = metallic == 1.0 && map.is_none();
         let ior = self.number("KHR_materials_ior", "ior", IOR);
         let ior = if ior == 0.0 { 10.0 } else { ior.clamp(1.0, 10.0) };
         let transmission = self.number("KHR_materials_transmission", "transmissionFactor", 0.0).clamp(0.0, 1.0);
-        let rough = |keys: Keys| keys.with("roughness", roughness);
+        let rough = |keys: Keys| keys.with("roughness", roughness.clone());
         let metal = rough(Keys::of_type("conductor").with("reflectance", base.clone()));
-        if metallic == 1.0 {
+        if metallic_everywhere {
             return Ok(metal);
         }
         let specular = self.number("KHR_materials_specular", "specularFactor", 1.0);
@@ -133,46 +142,48 @@ impl Surface<'_, '_> {
         let mut keys = Keys::of_type("blend").with("materials", vec![diffuse, coat]).with("weight", weight);
         if transmission > 0.0 {
             let glass = rough(Keys::of_type("rough_glass").with("ior", ior.max(1.001))).with("transmittance", base);
-            keys = if transmission == 1.0 { glass } else { self.mixed(glass, keys, transmission, "glass") };
+            let share = Keys::of_type("constant").with("value", transmission);
+            keys = if transmission == 1.0 { glass } else { self.mixed(glass, keys, share, "glass") };
         }
         if metallic > 0.0 {
-            keys = self.mixed(metal, keys, metallic, "metal");
+            keys = self.mixed(metal, keys, metallic_share, "metal");
         }
         Ok(keys)
     }
 
     /// The first by its share, the second by the rest.
-    fn mixed(&mut self, first: Keys, second: Keys, share: f64, what: &str) -> Keys {
+    fn mixed(&mut self, first: Keys, second: Keys, share: Keys, what: &str) -> Keys {
         let (first, second) = (self.extra(what, first), self.extra("rest", second));
-        let weight = Keys::of_type("constant").with("value", share);
-        Keys::of_type("blend").with("materials", vec![first, second]).with("weight", weight)
+        Keys::of_type("blend").with("materials", vec![first, second]).with("weight", share)
     }
 
-    fn see_through(&mut self, keys: Keys, opacity: f64) -> Keys {
-        if opacity <= 0.0 {
-            return Keys::of_type("pass");
-        }
-        self.approximate("alphaMode", "shadow rays end at the surface wherever it is");
-        self.mixed(keys, Keys::of_type("pass"), opacity, "surface")
-    }
-
-    /// The factor of what is seen; None where all is.
-    fn opacity(&mut self, factor: f64, textured: bool) -> Option<f64> {
-        match self.material.alpha_mode.as_deref() {
-            None | Some("OPAQUE") => None,
-            Some("MASK") => {
-                if textured {
-                    self.drop("alphaMode MASK of a texture", "the surface is opaque");
-                }
-                Some(if factor < self.material.alpha_cutoff.unwrap_or(0.5) { 0.0 } else { 1.0 })
+    /// The surface as far as its alpha says, else what is behind.
+    fn see_through(&mut self, keys: Keys, factor: f64) -> Result<Keys, String> {
+        let cutoff = match self.material.alpha_mode.as_deref() {
+            None | Some("OPAQUE") => return Ok(keys),
+            Some("MASK") => Some(self.material.alpha_cutoff.unwrap_or(0.5)),
+            Some(_) => None,
+        };
+        let factor = factor.clamp(0.0, 1.0);
+        let map = match self.material.pbr_metallic_roughness.base_color_texture.clone() {
+            Some(info) => Some(self.importer.texture(info.index, false)?),
+            None => None,
+        };
+        let share = match (map, cutoff) {
+            (None, Some(cutoff)) => return Ok(if factor < cutoff { Keys::of_type("pass") } else { keys }),
+            (None, None) if factor == 1.0 => return Ok(keys),
+            (None, None) if factor == 0.0 => return Ok(Keys::of_type("pass")),
+            (None, None) => Keys::of_type("constant").with("value", factor),
+            (Some(map), None) => channel_weight(&map, "a", factor),
+            (Some(map), Some(cutoff)) => {
+                Keys::of_type("threshold").with("tau", cutoff).with("of", channel_weight(&map, "a", factor))
             }
-            Some(_) => {
-                if textured {
-                    self.drop("alphaMode BLEND of a texture", "the factor of alpha alone counts");
-                }
-                Some(factor.clamp(0.0, 1.0))
-            }
-        }
+        };
+        // The whole surface has the light and the normals of its opaque part.
+        let (on_whole, of_part): (Vec<_>, Vec<_>) = keys.0.into_iter().partition(|(key, _)| ["normal_map"].contains(key));
+        let mut mixed = self.mixed(Keys(of_part), Keys::of_type("pass"), share, "surface");
+        mixed.0.extend(on_whole);
+        Ok(mixed)
     }
 
     fn normal_map(&mut self, keys: &mut Keys) -> Result<(), String> {
@@ -247,6 +258,12 @@ impl Surface<'_, '_> {
         Value::Text(name)
     }
 
+    /// The name of a texture of numbers.
+    fn texture_name(&mut self, info: &TextureInfo, what: &str) -> Result<Option<String>, String> {
+        let Value::Table(keys) = self.texture(info, true, DVec3::ONE, what)? else { return Ok(None) };
+        Ok(keys.text("texture").map(str::to_owned))
+    }
+
     /// `{ texture = … }`, or a constant where there is no picture.
     fn texture(&mut self, info: &TextureInfo, linear: bool, factor: DVec3, what: &str) -> Result<Value, String> {
         let transform = extension::<TextureTransform>(&info.extensions, "KHR_texture_transform")?;
@@ -264,15 +281,25 @@ impl Surface<'_, '_> {
         }
         self.coordinates.get_or_insert(wanted);
         let name = self.importer.texture(info.index, linear)?;
-        if factor != DVec3::ONE {
-            let message = format!("factor of the {what} beside a texture");
-            self.approximate(&message, "it is left out");
-        }
-        Ok(Value::Table(Keys::new().with("texture", name)))
+        let factor = (factor != DVec3::ONE).then(|| constant(factor));
+        Ok(Value::Table(Keys::new().with("texture", name).with_some("factor", factor)))
     }
 }
 
 /// A number for grey.
 fn constant(colour: DVec3) -> Value {
     if colour.min_element() == colour.max_element() { Value::Number(colour.x) } else { colour.into() }
+}
+
+/// A channel of a texture, times a factor.
+fn channel_of(name: &str, channel: &str, factor: f64) -> Keys {
+    let keys = Keys::new().with("texture", name).with("channel", channel);
+    keys.with_some("factor", (factor != 1.0).then_some(factor))
+}
+
+/// A blend's weight by a channel.
+fn channel_weight(name: &str, channel: &str, factor: f64) -> Keys {
+    let mut keys = Keys::of_type("texture");
+    keys.0.extend(channel_of(name, channel, factor).0);
+    keys
 }

@@ -56,7 +56,7 @@ impl Converter<'_> {
         let bsdf = plugin.first_of("bsdf").cloned();
         let light = plugin.first_of("emitter").cloned();
         let light = light.map(|light| emitter::area_radiance(self, &light)).transpose()?.flatten();
-        let textured = bsdf.as_ref().is_some_and(uses_texture) || matches!(light, Some(super::texture::Input::Texture(_)));
+        let textured = bsdf.as_ref().is_some_and(uses_texture) || matches!(light, Some(super::texture::Input::Texture(..)));
         let flip = plugin.flag("flip_normals", false)?;
         let Some((keys, map)) = self.geometry(plugin, map, textured, flip)? else { return Ok(()) };
         let material = self.surface_material(plugin, bsdf.as_ref(), light)?;

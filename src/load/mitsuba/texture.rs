@@ -4,7 +4,7 @@
 
 use std::rc::Rc;
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine2, DMat2, DVec2, DVec3};
 
 use super::Converter;
 use super::colour::Role;
@@ -16,7 +16,8 @@ use crate::load::import::{Description, Entry, FileReference, Keys, Value, list};
 #[derive(Debug, Clone, PartialEq)]
 pub enum Input {
     Constant(DVec3),
-    Texture(String),
+    /// Its name, and what multiplies it.
+    Texture(String, DVec3),
 }
 
 impl Input {
@@ -27,7 +28,7 @@ impl Input {
     pub fn constant(&self) -> Option<DVec3> {
         match self {
             Self::Constant(colour) => Some(*colour),
-            Self::Texture(_) => None,
+            Self::Texture(..) => None,
         }
     }
 
@@ -36,7 +37,11 @@ impl Input {
         match self {
             Self::Constant(colour) if colour.min_element() == colour.max_element() => Value::Number(colour.x),
             Self::Constant(colour) => list(colour.to_array()),
-            Self::Texture(name) => Value::Table(Keys::new().with("texture", name.as_str())),
+            Self::Texture(name, factor) => {
+                let keys = Keys::new().with("texture", name.as_str());
+                let factor = (*factor != DVec3::ONE).then(|| Self::Constant(*factor).value());
+                Value::Table(keys.with_some("factor", factor))
+            }
         }
     }
 }
@@ -141,15 +146,8 @@ impl Converter<'_> {
         let factor = self.input(plugin, "scale", Role::Light, Texels::Numbers, 1.0)?.constant().unwrap_or(DVec3::ONE);
         Ok(match colour {
             Input::Constant(colour) => Input::Constant(colour * factor),
-            Input::Texture(name) if factor == DVec3::ONE => Input::Texture(name),
-            Input::Texture(name) => self.texture_times(plugin, &name, factor),
+            Input::Texture(name, own) => Input::Texture(name, own * factor),
         })
-    }
-
-    /// A texture times a colour.
-    pub fn texture_times(&mut self, plugin: &Plugin, name: &str, factor: DVec3) -> Input {
-        self.approximate(plugin, "factor of a texture", format!("it is left out: {factor}"));
-        Input::Texture(name.to_owned())
     }
 
     fn bitmap(&mut self, plugin: &Rc<Plugin>, texels: Texels) -> Result<Input, SceneError> {
@@ -192,23 +190,33 @@ impl Converter<'_> {
         if filter == "nearest" {
             keys.set("filter", "nearest");
         }
-        let (scale, offset) = self.uv_map(plugin)?;
         // v runs downward: 1 − v is looked up.
-        self.place_picture(plugin, &mut keys, [scale[0], -scale[1]], [offset[0], 1.0 - offset[1]]);
+        let down = DAffine2 { matrix2: DMat2::from_diagonal(DVec2::new(1.0, -1.0)), translation: DVec2::Y };
+        let keys = self.placed_texture(plugin, keys, down * uv_map(plugin)?);
         let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         Ok(self.add_texture(plugin, &stem, keys))
     }
 
-    /// Scale and offset of texture coordinates.
-    fn place_picture(&mut self, plugin: &Plugin, keys: &mut Keys, scale: [f64; 2], offset: [f64; 2]) {
-        let repeats = keys.get("wrap").is_none();
-        let whole = offset.iter().all(|offset| offset.fract() == 0.0);
+    /// The map of texture coordinates as scale, rotation and offset.
+    fn placed_texture(&mut self, plugin: &Plugin, mut keys: Keys, map: DAffine2) -> Keys {
+        let (x, y) = (map.matrix2.x_axis, map.matrix2.y_axis);
+        if x.dot(y).abs() > 1e-9 * x.length() * y.length() {
+            self.approximate(plugin, "shear of texture coordinates", "they are turned and scaled alone");
+        }
+        // A turn by half is a scale by -1, which reads better and is exact.
+        let is_straight = x.y == 0.0;
+        let scale =
+            if is_straight { [x.x, y.y] } else { [x.length(), map.matrix2.determinant() / x.length().max(f64::MIN_POSITIVE)] };
         if scale != [1.0; 2] {
             keys.set("scale", scale);
         }
-        if !(whole && repeats) {
-            self.approximate(plugin, "offset of texture coordinates", "it is left out");
+        if !is_straight {
+            keys.set("rotation", x.y.atan2(x.x).to_degrees());
         }
+        if map.translation != DVec2::ZERO {
+            keys.set("offset", map.translation.to_array());
+        }
+        keys
     }
 
     fn checkerboard(&mut self, plugin: &Rc<Plugin>, role: Role) -> Result<Input, SceneError> {
@@ -220,29 +228,13 @@ impl Converter<'_> {
                 DVec3::splat(default)
             });
         }
-        let (scale, offset) = self.uv_map(plugin)?;
-        // Two squares along each unit. An offset by half a unit is one by a square.
-        let steps = offset.map(|offset| 2.0 * offset);
-        if steps.iter().any(|step| step.fract() != 0.0) {
-            self.approximate(plugin, "offset of texture coordinates", "it is left out");
-        } else if (steps[0] + steps[1]).rem_euclid(2.0) == 1.0 {
-            colours.swap(0, 1);
-        }
+        // Two squares along each unit.
+        let map = DAffine2::from_scale(DVec2::splat(2.0)) * uv_map(plugin)?;
         let keys = Keys::of_type("checker")
             .with("a", Input::Constant(colours[0]).value())
-            .with("b", Input::Constant(colours[1]).value())
-            .with("scale", scale.map(|scale| 2.0 * scale));
+            .with("b", Input::Constant(colours[1]).value());
+        let keys = self.placed_texture(plugin, keys, map);
         Ok(self.add_texture(plugin, "checkerboard", keys))
-    }
-
-    /// `to_uv` as scale and offset.
-    fn uv_map(&mut self, plugin: &Plugin) -> Result<([f64; 2], [f64; 2]), SceneError> {
-        let map: DAffine3 = plugin.transform("to_uv")?;
-        let (x, y) = (map.matrix3.x_axis, map.matrix3.y_axis);
-        if x.y.abs() > 1e-9 * x.x.abs() || y.x.abs() > 1e-9 * y.y.abs() {
-            self.approximate(plugin, "rotation of texture coordinates", "it is left out");
-        }
-        Ok(([x.x, y.y], [map.translation.x, map.translation.y]))
     }
 
     fn add_texture(&mut self, plugin: &Plugin, otherwise: &str, keys: Keys) -> Input {
@@ -251,6 +243,13 @@ impl Converter<'_> {
         let mut named = Keys::new().with("name", name.as_str());
         named.0.extend(keys.0);
         self.scene.textures.push(Entry { place: plugin.place.clone(), keys: named });
-        Input::Texture(name)
+        Input::Texture(name, DVec3::ONE)
     }
+}
+
+/// `to_uv` in the plane.
+fn uv_map(plugin: &Plugin) -> Result<DAffine2, SceneError> {
+    let map = plugin.transform("to_uv")?;
+    let (x, y) = (map.matrix3.x_axis.truncate(), map.matrix3.y_axis.truncate());
+    Ok(DAffine2 { matrix2: DMat2::from_cols(x, y), translation: map.translation.truncate() })
 }

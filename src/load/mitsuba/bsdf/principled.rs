@@ -91,6 +91,10 @@ pub fn blended(first: crate::load::import::Value, second: crate::load::import::V
 pub fn weight(share: &Input) -> Keys {
     match share {
         Input::Constant(share) => Keys::of_type("constant").with("value", share.x.clamp(0.0, 1.0)),
-        Input::Texture(name) => Keys::of_type("texture").with("texture", name.as_str()),
+        // The first channel: masks are grey.
+        Input::Texture(name, factor) => {
+            let keys = Keys::of_type("texture").with("texture", name.as_str()).with("channel", "r");
+            keys.with_some("factor", (factor.x != 1.0).then_some(factor.x.clamp(0.0, 1.0)))
+        }
     }
 }

@@ -53,7 +53,7 @@ pub fn normal_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) 
     let map = map.ok_or_else(|| plugin.error("a normal map needs a texture within"))?;
     let (keys, two_sided) = converter.within(plugin, depth)?;
     Ok(match converter.texture(&map, Role::Surface, Texels::Numbers)? {
-        Input::Texture(name) => (keys.with("normal_map", name), two_sided),
+        Input::Texture(name, _) => (keys.with("normal_map", name), two_sided),
         Input::Constant(_) => (keys, two_sided),
     })
 }

@@ -84,9 +84,7 @@ impl Writer<'_> {
         let preset = text(material, "preset");
         let element = match PRESETS.iter().find(|(ours, _)| Some(*ours) == preset) {
             Some((_, theirs)) => element.string("material", theirs),
-            None if material.contains_key("eta") => {
-                element.rgb("eta", colour(material, "eta")).rgb("k", colour(material, "k"))
-            }
+            None if material.contains_key("eta") => element.rgb("eta", colour(material, "eta")).rgb("k", colour(material, "k")),
             None => {
                 self.approximate("conductor by its reflectance", place, "its reflectance does not rise at grazing angles");
                 self.with_colour(element.string("material", "none"), "specular_reflectance", material, "reflectance")?
@@ -212,7 +210,9 @@ impl Writer<'_> {
     fn texture(&mut self, name: &str, role: &str, raw: bool) -> Result<Element, SceneError> {
         let place = format!("texture `{name}`");
         let found = entries(self.scene, "texture").into_iter().find(|texture| text(texture, "name") == Some(name)).cloned();
-        let Some(texture) = found else { return Err(SceneError::in_file(self.name, format!("there is no texture named `{name}`"))) };
+        let Some(texture) = found else {
+            return Err(SceneError::in_file(self.name, format!("there is no texture named `{name}`")));
+        };
         let scale = numbers(&texture, "scale").filter(|scale| scale.len() == 2).unwrap_or(vec![1.0, 1.0]);
         let offset = numbers(&texture, "offset").filter(|offset| offset.len() == 2).unwrap_or(vec![0.0, 0.0]);
         let turn = number(&texture, "rotation").map_or(String::new(), |degrees| format!("<rotate z=\"1\" angle=\"{degrees}\"/>"));
@@ -222,7 +222,9 @@ impl Writer<'_> {
                 let file = self.file(text(&texture, "file").unwrap_or_default())?;
                 let raw = raw || text(&texture, "color_space") == Some("linear");
                 // v runs downward over a picture there.
-                let steps = format!("<scale x=\"{u}\" y=\"{v}\"/>{turn}<translate x=\"{x}\" y=\"{y}\"/><scale y=\"-1\"/><translate y=\"1\"/>");
+                let steps = format!(
+                    "<scale x=\"{u}\" y=\"{v}\"/>{turn}<translate x=\"{x}\" y=\"{y}\"/><scale y=\"-1\"/><translate y=\"1\"/>"
+                );
                 Element::new("texture", "bitmap")
                     .named(role)
                     .string("filename", &file)
@@ -234,7 +236,8 @@ impl Writer<'_> {
             "checker" => {
                 let colour_of = |key: &str| vector(&texture, key).unwrap_or_else(|| colour(&texture, key));
                 // Two squares along each unit there.
-                let steps = format!("<scale x=\"{u}\" y=\"{v}\"/>{turn}<translate x=\"{x}\" y=\"{y}\"/><scale x=\"0.5\" y=\"0.5\"/>");
+                let steps =
+                    format!("<scale x=\"{u}\" y=\"{v}\"/>{turn}<translate x=\"{x}\" y=\"{y}\"/><scale x=\"0.5\" y=\"0.5\"/>");
                 Element::new("texture", "checkerboard")
                     .named(role)
                     .rgb("color0", colour_of("a"))

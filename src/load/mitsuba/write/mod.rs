@@ -99,7 +99,8 @@ impl Writer<'_> {
         let film = table(self.scene, "film");
         let size = film.and_then(|film| numbers(film, "size")).unwrap_or(vec![512.0, 512.0]);
         let filter = film.and_then(|film| table(film, "filter"));
-        let (kind, radius) = filter.map_or(("box", None), |filter| (text(filter, "type").unwrap_or("box"), number(filter, "radius")));
+        let (kind, radius) =
+            filter.map_or(("box", None), |filter| (text(filter, "type").unwrap_or("box"), number(filter, "radius")));
         let filter = match kind {
             "box" => Element::new("rfilter", "box").float("radius", radius.unwrap_or(0.5)),
             "tent" => Element::new("rfilter", "tent").float("radius", radius.unwrap_or(1.0)),
@@ -121,14 +122,21 @@ impl Writer<'_> {
         let position = vector(camera, "position").unwrap_or(DVec3::Z);
         let look_at = vector(camera, "look_at").unwrap_or(DVec3::ZERO);
         let up = vector(camera, "up").unwrap_or(DVec3::Y);
-        let place = format!("<lookat origin=\"{}\" target=\"{}\" up=\"{}\"/>", xml::triple(position), xml::triple(look_at), xml::triple(up));
+        let place = format!(
+            "<lookat origin=\"{}\" target=\"{}\" up=\"{}\"/>",
+            xml::triple(position),
+            xml::triple(look_at),
+            xml::triple(up)
+        );
         let mut sensor = match (text(camera, "projection"), number(camera, "height")) {
             (Some("orthographic"), Some(height)) => {
                 let scale = height / 2.0 * size[0] / size[1];
-                Element::new("sensor", "orthographic").transform("to_world", &format!("<scale x=\"{scale}\" y=\"{scale}\"/>{place}"))
+                Element::new("sensor", "orthographic")
+                    .transform("to_world", &format!("<scale x=\"{scale}\" y=\"{scale}\"/>{place}"))
             }
             _ => {
-                let aperture = table(camera, "aperture").filter(|aperture| number(aperture, "radius").is_some_and(|radius| radius > 0.0));
+                let aperture =
+                    table(camera, "aperture").filter(|aperture| number(aperture, "radius").is_some_and(|radius| radius > 0.0));
                 let kind = if aperture.is_some() { "thinlens" } else { "perspective" };
                 let mut sensor = Element::new("sensor", kind)
                     .string("fov_axis", "y")
@@ -155,7 +163,8 @@ impl Writer<'_> {
                 .point("position", vector(light, "position").unwrap_or_default())
                 .rgb("intensity", colour(light, "intensity")),
             "spot" => {
-                let (position, direction) = (vector(light, "position").unwrap_or_default(), vector(light, "direction").unwrap_or(DVec3::Z));
+                let (position, direction) =
+                    (vector(light, "position").unwrap_or_default(), vector(light, "direction").unwrap_or(DVec3::Z));
                 let angle = number(light, "angle").unwrap_or(90.0);
                 let falloff = number(light, "falloff").unwrap_or(angle);
                 if falloff < angle {
@@ -183,7 +192,9 @@ impl Writer<'_> {
     fn environment(&mut self, light: &Table, place: &str) -> Result<Element, SceneError> {
         let scale = number(light, "scale").unwrap_or(1.0);
         let Some(file) = text(light, "file") else {
-            return Ok(Element::new("emitter", "constant").rgb("radiance", colour(light, "radiance").map(|channel| channel * scale)));
+            return Ok(
+                Element::new("emitter", "constant").rgb("radiance", colour(light, "radiance").map(|channel| channel * scale))
+            );
         };
         let path = self.folder.join(file);
         let width = crate::load::image_file::size(self.files, &path).map_err(|reason| SceneError::in_file(self.name, reason))?[0];
@@ -207,7 +218,8 @@ impl Writer<'_> {
         }
         let bytes = self.files.read(&path, MOST_MODEL_BYTES);
         let bytes = bytes.map_err(|error| SceneError::in_file(self.name, format!("{written}: cannot be read: {error}")))?;
-        let name = PathBuf::from(written).file_name().map_or_else(|| "file".to_owned(), |name| name.to_string_lossy().into_owned());
+        let name =
+            PathBuf::from(written).file_name().map_or_else(|| "file".to_owned(), |name| name.to_string_lossy().into_owned());
         Ok(self.beside_file(&name, bytes.into_owned()))
     }
 
