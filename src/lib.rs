@@ -68,6 +68,7 @@
 #[doc(hidden)]
 pub mod bench;
 mod binary_tree;
+mod black_body;
 #[doc(hidden)]
 pub mod choice;
 #[doc(hidden)]
@@ -98,6 +99,8 @@ pub mod renderer;
 pub mod sampling;
 #[doc(hidden)]
 pub mod scene;
+#[doc(hidden)]
+pub mod scene_writer;
 #[doc(hidden)]
 pub mod shader;
 #[doc(hidden)]

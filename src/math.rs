@@ -17,6 +17,11 @@ pub fn srgb_to_linear(encoded: f32) -> f32 {
     if encoded <= 0.04045 { encoded / 12.92 } else { ((f64::from(encoded) + 0.055) / 1.055).powf(2.4) as f32 }
 }
 
+/// As [`srgb_to_linear`], in double precision.
+pub fn srgb_to_linear_f64(encoded: f64) -> f64 {
+    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+}
+
 /// The number that a half-precision one is, by its bits; infinities and what is no number come out as numbers above the largest.
 pub fn half_to_f32(bits: u16) -> f32 {
     let (sign, magnitude) = (if bits >> 15 == 0 { 1.0 } else { -1.0 }, u32::from(bits & 0x7fff));

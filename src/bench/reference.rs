@@ -10,7 +10,9 @@ use super::subject::{BenchError, Subject};
 use crate::compare::Moments;
 use crate::compare::relative_weight;
 use crate::film::Band;
-use crate::output::{AtomicFile, Image, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, read_image};
+use crate::output::{
+    AtomicFile, Display, ExrOptions, Image, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, read_image,
+};
 use crate::scene::{self, Scene};
 
 /// Independent pictures that a reference is the mean of: their scatter says how far it is from the truth.
@@ -185,7 +187,8 @@ fn write_exr(path: &Path, scene: &Scene, device: &str, reference: &Reference) ->
         target_error: None,
         device: device.to_owned(),
     };
-    let spec = PictureSpec { width: image.width, height: image.height, exposure: 0.0, provenance: Some(provenance) };
+    let (width, height, display, exr) = (image.width, image.height, Display::CLIP, ExrOptions::default());
+    let spec = PictureSpec { width, height, display, exr, provenance: Some(provenance) };
     let mut file = PictureFile::create(path, PictureFormat::Exr, &spec)?;
     let mean = image.pixels.clone();
     let band = Band {

@@ -14,6 +14,8 @@ use gpt::scene::settings::MOST_SAMPLES;
 use super::bench::BenchArguments;
 use super::choice::by_name;
 use super::exit::Exit;
+use super::model_arguments::ModelArguments;
+use super::picture_arguments::{DisplayArguments, ExrArguments};
 use super::settings::EstimateArguments;
 use super::traversal::TraversalArguments;
 use super::values::{parse_device, parse_pixel, parse_size};
@@ -29,6 +31,7 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Render a scene to picture files
+    #[command(after_help = RENDER_EXAMPLES)]
     Render(Box<RenderArguments>),
     /// Measure how far two pictures are apart; exit code 7 if they differ
     Compare(CompareArguments),
@@ -42,9 +45,20 @@ pub enum Command {
     Import(ImportArguments),
     /// Write a scene file or a built-in scene as a scene of Mitsuba 3, as far as it can be said there
     Export(ExportArguments),
+    /// List the built-in scenes, or print one
+    Scenes(ScenesArguments),
     /// List the graphics adapters, their limits, and which one `--device auto` takes
     Devices(DevicesArguments),
 }
+
+const RENDER_EXAMPLES: &str = "Examples:
+  gpt render                                              the Cornell box, to cornell.exr and cornell.png
+  gpt render scene.toml --spp 1024 -o picture.exr -o picture.png
+  gpt render scene.toml --time-limit 60 --adaptive        the best picture of a minute
+  gpt render scene.toml --target-error 1e-3               as many samples as the error needs
+  gpt render bunny.ply --up z --turn 30 --material gold --environment sky.exr
+  gpt render model.obj --save-scene model.toml            a scene of a model, to go on with
+  gpt render scene.toml --exposure auto --tonemap filmic -o preview.jpg";
 
 #[derive(Debug, Args)]
 pub struct RenderArguments {
@@ -52,45 +66,67 @@ pub struct RenderArguments {
     pub scene: Option<OsString>,
     #[command(flatten)]
     pub access: AccessArguments,
-    /// Picture to write: .exr (linear float), .png (sRGB preview), or - (standard output, EXR); may be given several times [default: SCENE-name.exr]
-    #[arg(short, long = "output", value_name = "FILE")]
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// A lat-long map (.exr, .hdr) that lights the scene in place of its own environment; of a model, in place of all lights
+    #[arg(long, value_name = "FILE", help_heading = SCENE)]
+    pub environment: Option<PathBuf>,
+    /// Write what is rendered as a scene file too, which renders the same picture
+    #[arg(long, value_name = "FILE.toml", help_heading = SCENE)]
+    pub save_scene: Option<PathBuf>,
+    /// Picture to write: .exr (linear float), .hdr (linear, shared exponent), .png or .jpg (sRGB preview), or - (standard output, EXR); may be
+    /// given several times [default: SCENE-name.exr and SCENE-name.png]
+    #[arg(short, long = "output", value_name = "FILE", help_heading = PICTURE_FILES)]
     pub outputs: Vec<PathBuf>,
-    #[command(flatten)]
+    #[command(flatten, next_help_heading = PICTURE_FILES)]
+    pub display: DisplayArguments,
+    #[command(flatten, next_help_heading = PICTURE_FILES)]
+    pub exr: ExrArguments,
+    #[command(flatten, next_help_heading = "The picture")]
     pub estimate: EstimateArguments,
-    #[command(flatten)]
+    #[command(flatten, next_help_heading = "When it ends, and where samples go")]
     pub goal: GoalArguments,
     /// auto (discrete, integrated, then software GPU; the CPU integrator if there is none), gpu, cpu, or part of an adapter's name
-    #[arg(long, default_value = "auto", value_parser = parse_device)]
+    #[arg(long, default_value = "auto", value_parser = parse_device, help_heading = DEVICE)]
     pub device: DeviceChoice,
     /// Fail (exit code 4) where `auto` finds no graphics device, rather than render on the CPU
-    #[arg(long)]
+    #[arg(long, help_heading = DEVICE)]
     pub require_device: bool,
     /// Take a device for lost (exit code 5) that does not finish a submission, of a second at most, in this time
-    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = parse_seconds)]
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = parse_seconds, help_heading = DEVICE)]
     pub device_timeout: Duration,
-    #[command(flatten)]
+    #[command(flatten, next_help_heading = "When it ends, and where samples go")]
     pub checkpoint: CheckpointArguments,
-    #[command(flatten)]
+    #[command(flatten, next_help_heading = DEVICE)]
     pub traversal: TraversalArguments,
-    /// Stops by which PNG previews are brightened
-    #[arg(long, value_name = "EV", default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_exposure)]
-    pub exposure: f32,
     /// Write what the render did and how long it took as JSON; - is standard output
-    #[arg(long, value_name = "FILE.json")]
+    #[arg(long, value_name = "FILE.json", help_heading = REPORT)]
     pub stats: Option<PathBuf>,
     /// No progress on stderr
-    #[arg(short, long)]
+    #[arg(short, long, help_heading = REPORT)]
     pub quiet: bool,
     /// Exit with code 6 if a sample was not finite, and with code 3 where something else would stand for a missing texture or material, or an import is not exact
-    #[arg(long)]
+    #[arg(long, help_heading = REPORT)]
     pub strict: bool,
+}
+
+/// Groups of `gpt render --help`.
+const SCENE: &str = "The scene";
+const PICTURE_FILES: &str = "Picture files";
+const DEVICE: &str = "Device";
+const REPORT: &str = "What is said";
+
+#[derive(Debug, Args)]
+pub struct ScenesArguments {
+    /// The scene to print, as a scene file; none: all are listed
+    pub name: Option<String>,
 }
 
 /// Which files a scene may name.
 #[derive(Debug, Default, Args)]
 pub struct AccessArguments {
     /// Refuse files that the scene names outside of this folder, wherever links lead
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = SCENE)]
     pub assets_root: Option<PathBuf>,
     /// Give a value to a parameter that a Mitsuba file names as $KEY; may be given several times
     #[arg(short = 'D', value_name = "KEY=VALUE", value_parser = parse_definition)]
@@ -108,6 +144,7 @@ impl AccessArguments {
             strict,
             definitions: self.definitions.clone(),
             camera: self.camera.clone(),
+            ..LoadOptions::default()
         }
     }
 }
@@ -256,11 +293,6 @@ fn parse_definition(text: &str) -> Result<(String, String), String> {
     if key.is_empty() { Err("expected KEY=VALUE".to_owned()) } else { Ok((key.to_owned(), value.to_owned())) }
 }
 
-fn parse_exposure(text: &str) -> Result<f32, String> {
-    let exposure: f32 = text.parse().map_err(|_| "expected a number of stops".to_owned())?;
-    if exposure.abs() <= 100.0 { Ok(exposure) } else { Err("expected a number from -100 to 100".to_owned()) }
-}
-
 fn parse_seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok().filter(|seconds: &f64| *seconds > 0.0);
     let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
@@ -286,14 +318,6 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Arguments::command().debug_assert();
-    }
-
-    #[test]
-    fn exposures_are_read() {
-        assert_eq!(parse_exposure("-1.5"), Ok(-1.5));
-        for bad in ["nan", "inf", "1e9", "bright"] {
-            assert!(parse_exposure(bad).is_err(), "{bad}");
-        }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use gpt::output::{OutputError, PictureFormat, PictureSpec, is_finished_picture};
+use gpt::output::{Display, ExrOptions, OutputError, PictureFormat, PictureSpec, is_finished_picture};
 use gpt::render::checkpoint::{Checkpoint, DEFAULT_INTERVAL, path_beside};
 use gpt::{RenderOptions, Renderer, Scene};
 
@@ -40,13 +40,18 @@ fn first_file(outputs: &[(PathBuf, PictureFormat)]) -> Option<&Path> {
 }
 
 /// Whether every picture stands in its place, finished and of this render.
-pub fn all_are_finished(outputs: &[(PathBuf, PictureFormat)], scene: &Scene, options: &RenderOptions) -> bool {
+pub fn all_are_finished(
+    outputs: &[(PathBuf, PictureFormat)],
+    scene: &Scene,
+    options: &RenderOptions,
+    (display, exr): (Display, ExrOptions),
+) -> bool {
     if outputs.iter().any(|(path, _)| is_stdout(path) || !path.is_file()) {
         return false;
     }
     let provenance = Some(Renderer::provenance_of(scene, options, ""));
     let [width, height] = scene.film.size;
-    let spec = PictureSpec { width, height, exposure: 0.0, provenance };
+    let spec = PictureSpec { width, height, display, exr, provenance };
     outputs.iter().all(|(path, format)| is_finished_picture(path, *format, &spec))
 }
 

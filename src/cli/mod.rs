@@ -11,12 +11,15 @@ mod exit;
 mod export;
 mod import;
 mod interrupt;
+mod model_arguments;
+mod picture_arguments;
 mod pictures;
 mod progress;
 #[cfg(test)]
 mod reference_pages;
 mod render;
 mod scene_error;
+mod scenes;
 mod setting_flags;
 mod settings;
 mod stats;
@@ -61,6 +64,7 @@ pub fn run() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
+        Command::Scenes(arguments) => scenes::run(&arguments),
         Command::Devices(arguments) => devices::run(&arguments),
     };
     match outcome {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use gpt::film::Band;
-use gpt::output::{OutputError, PictureFile, PictureFormat, PictureSpec, STDOUT, check_target, follow_links};
+use gpt::output::{OutputError, PICTURE_ENDINGS, PictureFile, PictureFormat, PictureSpec, STDOUT, check_target, follow_links};
 
 use super::exit::Failure;
 
@@ -145,7 +145,7 @@ pub fn output_formats(paths: &[PathBuf], stats: Option<&Path>) -> Result<Vec<(Pa
         let format = if is_stdout(path) { Some(PictureFormat::Exr) } else { PictureFormat::from_path(path) };
         let format = format.ok_or_else(|| Failure::Usage {
             message: format!("{}: the ending names no picture format", path.display()),
-            help: Some("endings that work: .exr (linear float), .png (sRGB preview); - is standard output, as EXR".to_owned()),
+            help: Some(format!("endings that work: {PICTURE_ENDINGS}; - is standard output, as EXR")),
         })?;
         if is_stdout(path) && io::stdout().is_terminal() {
             return Err(Failure::usage(
@@ -187,7 +187,7 @@ mod tests {
         let paths = |names: &[&str]| names.iter().map(PathBuf::from).collect::<Vec<_>>();
         let formats = output_formats(&paths(&["a.exr", "b.PNG"]), None).unwrap();
         assert_eq!(formats.iter().map(|(_, format)| *format).collect::<Vec<_>>(), [PictureFormat::Exr, PictureFormat::Png]);
-        assert!(matches!(output_formats(&paths(&["a.jpg"]), None), Err(Failure::Usage { .. })));
+        assert!(matches!(output_formats(&paths(&["a.tif"]), None), Err(Failure::Usage { .. })));
         assert!(matches!(output_formats(&paths(&["a.exr", "b.exr", "./a.exr"]), None), Err(Failure::Usage { .. })));
         assert!(matches!(output_formats(&paths(&["a.exr"]), Some(Path::new("a.exr"))), Err(Failure::Usage { .. })));
         assert!(matches!(output_formats(&paths(&["-"]), Some(Path::new("-"))), Err(Failure::Usage { .. })));

@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use gpt::load;
+use gpt::load::{self, LoadOptions, SceneSource};
 use gpt::output::{AtomicFile, PictureFormat, PictureSpec, Provenance, check_target};
 use gpt::plan::PlanOptions;
 use gpt::render::choice::Choice;
 use gpt::render::progressive::STREAMS;
 use gpt::renderer::{DeviceChoice, RenderError, RenderReport};
+use gpt::scene_writer;
 use gpt::{ErrorEstimate, Outcome, RenderOptions, Renderer, Scene, Stop};
 
 use super::arguments::RenderArguments;
@@ -39,13 +40,19 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let choice = Renderer::begin(&options);
     let scene = load(arguments)?;
     if outputs.is_empty() {
-        let default = PathBuf::from(format!("{}.exr", scene.name));
-        check_target(&default)?;
-        outputs.push((default, PictureFormat::Exr));
+        for (ending, format) in [("exr", PictureFormat::Exr), ("png", PictureFormat::Png)] {
+            let default = PathBuf::from(format!("{}.{ending}", scene.name));
+            check_target(&default)?;
+            outputs.push((default, format));
+        }
     }
-    check_inputs(&outputs, arguments.stats.as_deref())?;
+    check_inputs(&outputs, arguments)?;
+    if let Some(path) = &arguments.save_scene {
+        save_scene(&scene, path)?;
+    }
     checkpoint::check(&arguments.checkpoint, &outputs)?;
-    if arguments.checkpoint.resume && checkpoint::all_are_finished(&outputs, &scene, &options) {
+    let shown = (arguments.display.display(), arguments.exr.options());
+    if arguments.checkpoint.resume && checkpoint::all_are_finished(&outputs, &scene, &options, shown) {
         if !arguments.quiet {
             terminal::note(&format!("{}: finished before, nothing is left to render", names(&outputs)));
         }
@@ -102,8 +109,9 @@ fn write_stats(path: &Path, stats: &Stats) -> Result<(), Failure> {
 }
 
 /// No output is one of the files that the scene was read from.
-fn check_inputs(outputs: &[(PathBuf, PictureFormat)], stats: Option<&Path>) -> Result<(), Failure> {
-    let mut targets = outputs.iter().map(|(path, _)| path.as_path()).chain(stats);
+fn check_inputs(outputs: &[(PathBuf, PictureFormat)], arguments: &RenderArguments) -> Result<(), Failure> {
+    let others = arguments.stats.as_deref().into_iter().chain(arguments.save_scene.as_deref());
+    let mut targets = outputs.iter().map(|(path, _)| path.as_path()).chain(others);
     match targets.find(|path| !is_stdout(path) && load::was_read(path)) {
         Some(path) => Err(Failure::usage(format!("{} is a file of the scene, and would be overwritten", path.display()))),
         None => Ok(()),
@@ -113,6 +121,16 @@ fn check_inputs(outputs: &[(PathBuf, PictureFormat)], stats: Option<&Path>) -> R
 /// The pictures by name, for messages.
 fn names(outputs: &[(PathBuf, PictureFormat)]) -> String {
     outputs.iter().map(|(path, _)| path.display().to_string()).collect::<Vec<_>>().join(", ")
+}
+
+/// Writes the scene as a file, with the settings that the command line gave it.
+fn save_scene(scene: &Scene, path: &Path) -> Result<(), Failure> {
+    if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
+        return Err(Failure::usage(format!("--save-scene {}: a scene file's name ends in .toml", path.display())));
+    }
+    check_target(path)?;
+    scene_writer::save_scene(scene, path)?;
+    Ok(())
 }
 
 /// The device that is asked for.
@@ -128,7 +146,9 @@ fn device(arguments: &RenderArguments) -> Result<DeviceChoice, Failure> {
 
 /// The scene as the file and the command line together want it.
 fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
-    let mut scene = load::load_with(arguments.scene.as_deref(), &arguments.access.options(arguments.strict))?;
+    let source = SceneSource::parse(arguments.scene.as_deref())?;
+    let view = arguments.model.view(&source, arguments.environment.clone(), arguments.estimate.size)?;
+    let mut scene = source.load(&LoadOptions { view, ..arguments.access.options(arguments.strict) })?;
     for warning in scene.warnings.iter().chain(&scene.precision_warnings()) {
         terminal::warn(warning);
     }
@@ -171,7 +191,8 @@ fn render(
     }
     let [width, height] = renderer.size();
     let provenance = renderer.provenance().clone();
-    let spec = PictureSpec { width, height, exposure: arguments.exposure, provenance: Some(provenance.clone()) };
+    let (display, exr) = (arguments.display.display(), arguments.exr.options());
+    let spec = PictureSpec { width, height, display, exr, provenance: Some(provenance.clone()) };
     let mut kept = checkpoint::Kept::begin(&arguments.checkpoint, &renderer, outputs, started, arguments.quiet)?;
     let mut pictures = Pictures::create(outputs, &spec)?;
     let outcome = renderer.render_from(started, &progress, kept.checkpoint.as_mut(), &mut |band| pictures.write_band(band));

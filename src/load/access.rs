@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::error::SceneError;
 use super::files::Files;
+use super::view::ModelView;
 
 /// What whoever reads a scene allows.
 #[derive(Debug, Clone, Default)]
@@ -16,6 +17,8 @@ pub struct LoadOptions {
     pub definitions: Vec<(String, String)>,
     /// The camera of an imported file that has several, by its name.
     pub camera: Option<String>,
+    /// How a model is shown that comes without camera and light. Of scene files, only its environment counts.
+    pub view: ModelView,
 }
 
 /// [`LoadOptions`] whose folder is there.

@@ -52,6 +52,11 @@ pub fn builtin_text(name: &str) -> Option<&'static str> {
     SCENES.iter().find(|(other, _)| *other == name).map(|(_, text)| *text)
 }
 
+/// Whether a file is a part of the program, and not on disk.
+pub fn is_builtin(path: &Path) -> bool {
+    path.starts_with(FOLDER)
+}
+
 /// A file that built-in scenes name.
 pub(super) fn embedded(path: &Path) -> Option<&'static [u8]> {
     let within = path.strip_prefix(FOLDER).ok()?;

@@ -1,11 +1,17 @@
 //! A stage for a model that comes without one: ground, light, camera, all sized by the model.
 
-use glam::DVec3;
+use std::path::Path;
+use std::sync::Arc;
 
-use super::error::SceneError;
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::error::{SceneError, show};
+use super::files::Files;
+use super::image_file::Pictures;
+use super::view::{ModelView, Up};
 use crate::scene::{
-    Camera, ColorInput, Emission, Environment, EnvironmentRadiance, Geometry, Light, Material, MaterialKind, Plane, Projection,
-    Rectangle, Scene, Shape, Transform,
+    Camera, ColorInput, Emission, Environment, EnvironmentRadiance, Geometry, ImageSource, Light, Material, MaterialKind, Plane,
+    Projection, Rectangle, Scene, Shape, Transform, TransformStep,
 };
 
 /// Vertical field of view of the camera, degrees: a short telephoto lens, which does not distort.
@@ -13,28 +19,58 @@ pub const FIELD_OF_VIEW: f64 = 30.0;
 /// Reflectance of the ground.
 pub const GROUND: f64 = 0.5;
 /// Radiance of the light and of the sky.
-pub const LIGHT: f64 = 8.0;
-pub const SKY: f64 = 0.4;
+pub const LIGHT: f64 = 9.0;
+pub const SKY: f64 = 0.2;
+/// Degrees from the front to the right, and above the horizon, from which the camera looks.
+const AZIMUTH: f64 = 27.0;
+const ELEVATION: f64 = 17.5;
+/// How much of the picture's width or height the model takes.
+const FILLED: f64 = 0.88;
 
-/// Puts the scene's shapes, which stand with +Y up, on a grey ground under a soft rectangle light and a dim grey sky, seen from the
-/// front (+Z), a little from the right and from above.
-pub fn frame(mut scene: Scene, name: &str) -> Result<Scene, SceneError> {
-    let stage = Stage::around(bounds(&scene), name)?;
-    let ground = diffuse("(ground)", GROUND);
-    let light = Material {
-        name: "(light)".to_owned(),
-        kind: MaterialKind::Emissive,
-        normal_map: None,
-        emission: Some(Emission { radiance: ColorInput::grey(LIGHT), two_sided: false }),
-    };
-    add(&mut scene, "(ground)", ground, Geometry::Plane(stage.ground));
-    add(&mut scene, "(light)", light, Geometry::Rectangle(stage.light));
-    scene.lights.push(Light::Environment(Environment {
-        radiance: EnvironmentRadiance::Constant(DVec3::splat(SKY)),
-        rotation_degrees: 0.0,
-    }));
-    scene.camera = stage.camera;
+/// Puts the scene's shapes on a grey ground under a soft rectangle light and a dim grey sky, seen from the front (+Z, once +Y is up), a
+/// little from the right and from above.
+pub fn frame(mut scene: Scene, name: &str, view: &ModelView) -> Result<Scene, SceneError> {
+    place(&mut scene, view);
+    let points = points(&scene);
+    let Stage { ground, light, .. } = Stage::around(bounds(&points), name)?;
+    let (center, radius) = sphere_around(&points);
+    let elevation = view.elevation_degrees.unwrap_or(ELEVATION);
+    if !view.no_ground && elevation < 0.0 {
+        scene.warnings.push(format!("{name}: the camera looks from below, so the ground is left out"));
+    } else if !view.no_ground {
+        add(&mut scene, "(ground)", diffuse("(ground)", GROUND), Geometry::Plane(ground));
+    }
+    if view.environment.is_none() {
+        add_lights(&mut scene, light);
+    }
+    let [width, height] = view.size.unwrap_or(scene.film.size).map(f64::from);
+    scene.camera = camera(&points, (center, radius), elevation, width / height);
     Ok(scene)
+}
+
+/// Stands the model up and turns it.
+fn place(scene: &mut Scene, view: &ModelView) {
+    let mut steps = Vec::new();
+    if view.up == Up::Z {
+        // z to y and y to −z: exact, as a rotation by a right angle is not.
+        let matrix3 = DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y);
+        steps.push(TransformStep::Matrix(DAffine3 { matrix3, translation: DVec3::ZERO }));
+    }
+    if view.turn_degrees != 0.0 {
+        steps.push(TransformStep::Rotate { axis: DVec3::Y, degrees: view.turn_degrees });
+    }
+    scene.shapes.iter_mut().for_each(|shape| shape.transform.steps.extend_from_slice(&steps));
+}
+
+fn add_lights(scene: &mut Scene, rectangle: Rectangle) {
+    let light = Material {
+        emission: Some(Emission { radiance: ColorInput::grey(LIGHT), two_sided: false }),
+        kind: MaterialKind::Emissive,
+        ..diffuse("(light)", 0.0)
+    };
+    add(scene, "(light)", light, Geometry::Rectangle(rectangle));
+    let radiance = EnvironmentRadiance::Constant(DVec3::splat(SKY));
+    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees: 0.0 }));
 }
 
 /// Where ground, light and camera stand.
@@ -64,18 +100,69 @@ impl Stage {
         let along = toward_light.cross(across);
         let corner = center + 4.0 * radius * toward_light - 0.5 * (across + along);
         // The front is where edge_u × edge_v points: toward the model.
-        Ok(Self { ground, light: Rectangle { corner, edge_u: along, edge_v: across }, camera: camera(center, radius) })
+        Ok(Self {
+            ground,
+            light: Rectangle { corner, edge_u: along, edge_v: across },
+            camera: camera(&corners(min, max), (center, radius), ELEVATION, 1.0),
+        })
     }
 }
 
-/// Far enough for the bounding sphere to be in the picture, with some room around it.
-fn camera(center: DVec3, radius: f64) -> Camera {
-    let distance = 1.05 * radius / (0.5 * FIELD_OF_VIEW.to_radians()).sin();
-    let toward_camera = DVec3::new(0.5, 0.35, 1.0).normalize();
+fn corners(min: DVec3, max: DVec3) -> [DVec3; 8] {
+    let side = |bits: usize, axis: usize| if bits >> axis & 1 == 0 { min[axis] } else { max[axis] };
+    std::array::from_fn(|bits| DVec3::new(side(bits, 0), side(bits, 1), side(bits, 2)))
+}
+
+/// Center and radius of the box around the points.
+fn sphere_around(points: &[DVec3]) -> (DVec3, f64) {
+    let (min, max) = bounds(points).unwrap_or_default();
+    (0.5 * (min + max), 0.5 * (max - min).length())
+}
+
+/// Puts a lat-long map in the place of the scene's environment.
+pub fn light_by(scene: &mut Scene, map: &Path, files: Files) -> Result<(), SceneError> {
+    let read = Pictures::new(files).read(map, None).map_err(|reason| SceneError::in_file(show(map), reason))?;
+    scene.warnings.extend(read.change.map(|change| format!("{}: {change}", show(map))));
+    if let Some(bits) = read.integer_bits {
+        scene.warnings.push(format!("{}: the map has colours of {bits} bits, of which none is brighter than 1", show(map)));
+    }
+    let image = Arc::new(read.image);
+    scene.sources.add_image(&image, ImageSource { path: map.to_owned(), color_space: None, scale: 1.0 });
+    scene.lights.retain(|light| !light.is_environment());
+    let radiance = EnvironmentRadiance::Map(image);
+    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees: 0.0 }));
+    Ok(())
+}
+
+/// As near as the model fits into the picture, whose width is `aspect` times its height.
+fn camera(points: &[DVec3], (center, radius): (DVec3, f64), elevation: f64, aspect: f64) -> Camera {
+    let (sine, cosine) = elevation.to_radians().sin_cos();
+    let (azimuth_sine, azimuth_cosine) = AZIMUTH.to_radians().sin_cos();
+    let level = DVec3::new(azimuth_sine, 0.0, azimuth_cosine);
+    let backward = (cosine * level + sine * DVec3::Y).normalize();
+    // Seen from straight above, what is farther back is up.
+    let up = if cosine < 1e-3 { -level * sine } else { DVec3::Y };
+    let right = up.cross(backward).normalize();
+    let upward = backward.cross(right);
+    let half_height = FILLED * (0.5 * FIELD_OF_VIEW).to_radians().tan();
+    // Along one axis of the picture: the distance from the center at which the farthest points touch its edges, and where its middle is.
+    let fit = |axis: DVec3, half: f64| {
+        let reach = |side: f64| {
+            let of_point = |point: &DVec3| (*point - center).dot(backward) + side * (*point - center).dot(axis) / half;
+            points.iter().map(of_point).fold(f64::NEG_INFINITY, f64::max)
+        };
+        let (above, below) = (reach(1.0), reach(-1.0));
+        (0.5 * (above + below), 0.5 * half * (above - below))
+    };
+    let (distance_across, middle_across) = fit(right, half_height * aspect);
+    let (distance_along, middle_along) = fit(upward, half_height);
+    let nearest = points.iter().map(|point| (*point - center).dot(backward)).fold(f64::NEG_INFINITY, f64::max);
+    let distance = distance_across.max(distance_along).max(nearest + 0.05 * radius);
+    let look_at = center + middle_across * right + middle_along * upward;
     Camera {
-        position: center + distance * toward_camera,
-        look_at: center,
-        up: DVec3::Y,
+        position: look_at + distance * backward,
+        look_at,
+        up,
         projection: Projection::Perspective { vertical_fov_degrees: FIELD_OF_VIEW },
         focus_distance: distance,
         ..Camera::default()
@@ -103,14 +190,20 @@ fn add(scene: &mut Scene, label: &str, material: Material, geometry: Geometry) {
     });
 }
 
-/// Corners of the box around every mesh of the scene.
-fn bounds(scene: &Scene) -> Option<(DVec3, DVec3)> {
-    let used = scene.shapes.iter().flat_map(|shape| {
+/// Corners of all faces of every mesh of the scene, in the world.
+fn points(scene: &Scene) -> Vec<DVec3> {
+    let of_shape = |shape: &Shape| {
         let positions = shape.world_positions();
-        shape.world_faces().into_iter().flatten().map(move |index| positions[index as usize].as_dvec3()).collect::<Vec<_>>()
-    });
-    used.fold(None, |bounds, point| match bounds {
-        None => Some((point, point)),
-        Some((min, max)) => Some((min.min(point), max.max(point))),
-    })
+        let mut used: Vec<u32> = shape.world_faces().into_iter().flatten().collect();
+        used.sort_unstable();
+        used.dedup();
+        used.into_iter().map(move |index| positions[index as usize].as_dvec3()).collect::<Vec<_>>()
+    };
+    scene.shapes.iter().flat_map(of_shape).collect()
+}
+
+/// Corners of the box around the points.
+fn bounds(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
+    let (first, rest) = points.split_first()?;
+    Some(rest.iter().fold((*first, *first), |(min, max), point| (min.min(*point), max.max(*point))))
 }

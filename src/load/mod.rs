@@ -3,7 +3,7 @@
 //! - [`source`]: what a person may name as the scene.
 //! - [`file`]: scene files in TOML; `obj`, `ply`: models, of which `model` is what they have in common; `image_file`: textures and environment maps.
 //! - `mitsuba`, `gltf`: scenes of other programs, which become scene files in the terms of `import`.
-//! - `framing`: camera, ground and light for a model that comes without them.
+//! - `framing`: camera, ground and light for a model that comes without them; `view`: what a person may say of that; `presets`: materials by name.
 //! - `builtin`: scenes that are part of the program.
 //! - [`error`]: what is wrong with an input file, and where.
 
@@ -26,19 +26,23 @@ mod model;
 mod obj;
 mod ply;
 mod polygon;
+mod presets;
 mod printable;
 pub mod source;
+mod view;
 
 pub use access::LoadOptions;
-pub use builtin::{builtin_names, builtin_text};
+pub use builtin::{builtin_names, builtin_text, is_builtin};
 pub use error::SceneError;
 pub use excerpt::Excerpt;
 pub use file::{json_schema, load_toml_str};
 pub use image_file::read_image;
 pub use import_file::{WrittenScene, as_scene_file};
 pub use mitsuba::WrittenMitsuba;
+pub use presets::preset_names;
 pub use printable::printable;
 pub use source::{SceneSource, as_mitsuba, load, load_with};
+pub use view::{ModelView, Up};
 
 /// Whether a scene that this process read is made of this file, by whatever name.
 pub fn was_read(path: &std::path::Path) -> bool {

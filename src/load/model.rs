@@ -32,6 +32,8 @@ pub struct ModelFile {
     /// Runs of faces of one object and one material, each with at least one face that has area.
     pub parts: Vec<Part>,
     pub materials: Vec<MtlMaterial>,
+    /// A number of each face that stands for a material, of formats whose faces have such numbers and one part.
+    pub face_groups: Option<Vec<u32>>,
     /// What could not be taken as written, in sentences.
     pub warnings: Vec<String>,
     /// What is missing and has something else in its place, in words that follow the file's name.

@@ -8,7 +8,8 @@ use super::builtin::{FOLDER, builtin_names, builtin_text};
 use super::error::{SceneError, show};
 use super::files::MOST_SCENE_BYTES;
 use super::model::ModelFormat;
-use super::{encoding, file, formats, framing, import_file, memory, mitsuba};
+use super::view::ModelView;
+use super::{encoding, file, formats, framing, import_file, memory, mitsuba, presets};
 use crate::input;
 use crate::scene::Scene;
 
@@ -56,8 +57,16 @@ impl SceneSource {
             .with_help(format!("{help}; or a file that ends in .toml, .gltf, .glb, .xml, {}", formats::MODEL_ENDINGS)))
     }
 
-    /// Reads the scene.
+    /// Reads the scene, and puts the environment that is asked for in the place of its own.
     pub fn load(&self, options: &LoadOptions) -> Result<Scene, SceneError> {
+        let mut scene = self.load_as_it_is(options)?;
+        if let Some(map) = &options.view.environment {
+            framing::light_by(&mut scene, map, options.access()?.files)?;
+        }
+        Ok(scene)
+    }
+
+    fn load_as_it_is(&self, options: &LoadOptions) -> Result<Scene, SceneError> {
         let access = options.access()?;
         match self {
             Self::BuiltIn(name) => {
@@ -73,9 +82,9 @@ impl SceneSource {
                 load_bytes(read, &show(path), path.parent().unwrap_or(Path::new("")), access)
             }
             Self::Model(path) => {
-                let mut scene = file::load_model(path, access)?;
+                let mut scene = load_model(path, &options.view, access)?;
                 scene.name = super::file::stem(&show(path));
-                framing::frame(scene, &show(path))
+                framing::frame(scene, &show(path), &options.view)
             }
             Self::Import(path) => {
                 let description = import_file::load(&access.files, path, options)?;
@@ -83,6 +92,32 @@ impl SceneSource {
             }
         }
     }
+
+    /// It comes without camera and light.
+    pub fn is_model(&self) -> bool {
+        matches!(self, Self::Model(_))
+    }
+}
+
+/// Reads a model with the material that is asked for.
+fn load_model(path: &Path, view: &ModelView, access: Access) -> Result<Scene, SceneError> {
+    let Some(material) = &view.material else { return file::load_model(path, view.smooth, access) };
+    let library = Path::new(material);
+    if library.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
+        let read = input::read(library, most_scene_bytes());
+        let bytes = read.map_err(|error| SceneError::in_file(show(library), format!("cannot be read: {error}")))?;
+        let (text, _) = encoding::decode(&bytes);
+        let folder = library.parent().unwrap_or(Path::new(""));
+        return file::load_model_of(path, view.smooth, (&show(library), &text, folder), access);
+    }
+    let Some(text) = presets::preset(material) else {
+        let names: Vec<&str> = presets::preset_names().collect();
+        let help = file::did_you_mean(material, &names).unwrap_or_default();
+        return Err(
+            SceneError::in_file(material, "is no material").with_help(format!("{help}; or a .toml file with a [[material]]"))
+        );
+    };
+    file::load_model_of(path, view.smooth, (material, text, Path::new("")), access)
 }
 
 /// As many bytes as can be parsed in the memory that is free: the tree of a text takes a hundred times as much at worst.

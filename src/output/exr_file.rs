@@ -1,4 +1,4 @@
-//! OpenEXR pictures: f32 RGB scan lines, lossless, written block by block.
+//! OpenEXR pictures: RGB scan lines, f32 or f16, written block by block.
 
 use std::io::{Seek, SeekFrom, Write};
 use std::thread::available_parallelism;
@@ -9,11 +9,11 @@ use exr::error::{Error, UnitResult};
 use exr::meta::attribute::{AttributeValue, ChannelDescription, Chromaticities, LineOrder, SampleType, Text};
 use exr::meta::header::Header;
 use exr::meta::{BlockDescription, Headers, MetaData};
-use exr::prelude::{Compression, Vec2};
+use exr::prelude::{Compression, Vec2, f16};
 
 use super::provenance::Entry;
 use super::rows::{Completeness, Rows};
-use super::spec::PictureSpec;
+use super::spec::{ExrCompression, PictureSpec};
 
 /// Blocks compressed at once. Each takes 32 rows of memory, so more would be felt at 8K.
 const COMPRESSING_THREADS: usize = 4;
@@ -67,13 +67,18 @@ fn write_blocks<W: Write + Seek>(meta: &MetaData, chunks: &mut ChunkWriter<W>, r
 /// Packs the rows as the file wants them, block by block from the top.
 fn for_each_block(meta: &MetaData, rows: &mut Rows, mut write: impl FnMut(usize, UncompressedBlock) -> UnitResult) -> UnitResult {
     let bytes_per_pixel = meta.headers[0].channels.bytes_per_pixel;
+    let half = meta.headers[0].channels.list[0].sample_type == SampleType::F16;
     for (index_in_file, index) in meta.enumerate_ordered_header_block_indices() {
         let mut data = Vec::with_capacity(index.pixel_size.area() * bytes_per_pixel);
         for _ in 0..index.pixel_size.height() {
             let (row, counts) = rows.next_row().map_err(|_| Error::Aborted)?;
             // Channels lie one after another in a scan line, in the alphabetical order of their names.
             for channel in [2, 1, 0] {
-                data.extend(row.iter().flat_map(|pixel| pixel[channel].to_ne_bytes()));
+                if half {
+                    data.extend(row.iter().flat_map(|pixel| to_half(pixel[channel]).to_ne_bytes()));
+                } else {
+                    data.extend(row.iter().flat_map(|pixel| pixel[channel].to_ne_bytes()));
+                }
             }
             if meta.headers[0].channels.list.len() > COLOURS.len() {
                 let count = |pixel: usize| counts.of(pixel) as f32;
@@ -85,13 +90,21 @@ fn for_each_block(meta: &MetaData, rows: &mut Rows, mut write: impl FnMut(usize,
     rows.wait_for_finish().map_err(|_| Error::Aborted).map(|_| ())
 }
 
+/// The largest number of half precision stands for what is beyond: of a picture it is as bright, and it is a number.
+fn to_half(value: f32) -> f16 {
+    let largest = f16::MAX.to_f32();
+    f16::from_f32(if value.is_nan() { value } else { value.clamp(-largest, largest) })
+}
+
 /// `have_counts`: the file says how many samples each pixel has, in a channel of its own.
 fn header(spec: &PictureSpec, samples: u32, completeness: Completeness, have_counts: bool) -> Header {
     let names = COLOURS.iter().copied().chain(have_counts.then_some(COUNT));
-    let channels = names.map(|name| ChannelDescription::new(name, SampleType::F32, false)).collect::<Vec<_>>();
+    let colour = if spec.exr.half { SampleType::F16 } else { SampleType::F32 };
+    let sample_type = |name| if name == COUNT { SampleType::F32 } else { colour };
+    let channels = names.map(|name| ChannelDescription::new(name, sample_type(name), false)).collect::<Vec<_>>();
     let size = Vec2(spec.width as usize, spec.height as usize);
     let mut header = Header::new(Text::from("gpt"), size, channels.into_iter().collect()).with_encoding(
-        Compression::PIZ,
+        compression(spec.exr.compression),
         BlockDescription::ScanLines,
         LineOrder::Increasing,
     );
@@ -103,6 +116,17 @@ fn header(spec: &PictureSpec, samples: u32, completeness: Completeness, have_cou
     }
     header.shared_attributes.chromaticities = Some(REC_709);
     header
+}
+
+fn compression(choice: ExrCompression) -> Compression {
+    match choice {
+        ExrCompression::None => Compression::Uncompressed,
+        ExrCompression::Rle => Compression::RLE,
+        ExrCompression::Zips => Compression::ZIP1,
+        ExrCompression::Zip => Compression::ZIP16,
+        ExrCompression::Piz => Compression::PIZ,
+        ExrCompression::Pxr24 => Compression::PXR24,
+    }
 }
 
 /// An entry as the header has it.

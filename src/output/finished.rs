@@ -1,22 +1,26 @@
 //! Whether a file is a finished picture of a certain render.
 
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufReader, Read};
 use std::path::Path;
 
 use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, Text};
 
+use super::developed::software;
 use super::format::PictureFormat;
 use super::picture::is_finished;
 use super::provenance::{COMPLETE_KEY, Entry, SAMPLES_KEY};
 use super::read::read_image;
 use super::rows::Completeness;
 use super::spec::PictureSpec;
-use super::{exr_file, png_file};
+use super::{exr_file, hdr_file, jpeg_file, png_file};
 
 /// Entries of headers that do not decide what a picture shows.
 const INCIDENTAL: [&str; 5] = ["gpt:version", "gpt:scene", "gpt:device", SAMPLES_KEY, COMPLETE_KEY];
+
+/// Within so many bytes stands the line that says how a preview was made.
+const LONGEST_START: u64 = 70_000;
 
 /// Whether a readable picture stands there that was made of the same scene with the same settings, and whose render did not break off. The
 /// device does not matter.
@@ -27,6 +31,7 @@ pub fn is_finished_picture(path: &Path, format: PictureFormat, spec: &PictureSpe
         && match format {
             PictureFormat::Exr => exr_agrees(path, spec),
             PictureFormat::Png => png_agrees(path, spec),
+            PictureFormat::Jpeg | PictureFormat::Hdr => text_agrees(path, format, spec),
         }
         && read_image(path).is_ok_and(has_size)
 }
@@ -56,11 +61,30 @@ fn png_agrees(path: &Path, spec: &PictureSpec) -> bool {
     let Ok(reader) = png::Decoder::new(BufReader::new(file)).read_info() else { return false };
     let mut texts = reader.info().utf8_text.iter().filter(|text| text.keyword == png_file::KEYWORD);
     let Some(Ok(found)) = texts.next().map(|text| text.get_text()) else { return false };
+    is_of(&found, spec)
+}
+
+/// Whether the line that previews carry is that of this render, whatever the device.
+fn is_of(found: &str, spec: &PictureSpec) -> bool {
     let without_device = |text: &str| {
         let words = text.split("; ").filter(|word| !["device=", "scene="].iter().any(|key| word.contains(key)));
         words.filter(|word| !word.contains("version=")).map(str::to_owned).collect::<Vec<_>>()
     };
-    without_device(&found) == without_device(&png_file::software(spec))
+    without_device(found) == without_device(&software(spec))
+}
+
+/// Of files that have that line near their beginning: a comment of a JPEG, or an entry of a Radiance header.
+fn text_agrees(path: &Path, format: PictureFormat, spec: &PictureSpec) -> bool {
+    let mut start = Vec::new();
+    let Ok(file) = File::open(path) else { return false };
+    if file.take(LONGEST_START).read_to_end(&mut start).is_err() {
+        return false;
+    }
+    let text = match format {
+        PictureFormat::Jpeg => jpeg_file::comment(&start),
+        _ => hdr_file::software_entry(&start),
+    };
+    text.and_then(|text| std::str::from_utf8(text).ok()).is_some_and(|text| is_of(text, spec))
 }
 
 #[cfg(test)]
@@ -69,7 +93,7 @@ mod tests {
 
     use super::*;
     use crate::film::Band;
-    use crate::output::{PictureFile, Provenance};
+    use crate::output::{Display, ExrOptions, PictureFile, Provenance};
     use crate::scene::{Filter, RenderSettings};
 
     fn spec(seed: u32, device: &str) -> PictureSpec {
@@ -83,13 +107,18 @@ mod tests {
             adaptive: false,
             device: device.to_owned(),
         };
-        PictureSpec { width: 8, height: 4, exposure: 0.0, provenance: Some(provenance) }
+        PictureSpec { width: 8, height: 4, display: Display::default(), exr: ExrOptions::default(), provenance: Some(provenance) }
     }
 
     #[test]
     fn only_a_finished_picture_of_the_same_render_is_one() {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        for (name, format) in [("a.exr", PictureFormat::Exr), ("a.png", PictureFormat::Png)] {
+        for (name, format) in [
+            ("a.exr", PictureFormat::Exr),
+            ("a.png", PictureFormat::Png),
+            ("a.jpg", PictureFormat::Jpeg),
+            ("a.hdr", PictureFormat::Hdr),
+        ] {
             let path = folder.path().join(name);
             let ours = spec(1, "a device");
             assert!(!is_finished_picture(&path, format, &ours), "there is none");

@@ -3,10 +3,14 @@
 //! Writers hold a few bands at a time, never the picture, so that memory does not grow with its size.
 
 mod atomic;
+mod developed;
+mod display;
 mod error;
 mod exr_file;
 mod finished;
 mod format;
+mod hdr_file;
+mod jpeg_file;
 mod picture;
 mod png_file;
 mod provenance;
@@ -15,11 +19,11 @@ mod rows;
 mod spec;
 
 pub use atomic::{AtomicFile, check_target, follow_links, remove_unfinished};
+pub use display::{Developer, Display, Exposure, Meter, ToneCurve, srgb_byte};
 pub use error::OutputError;
 pub use finished::is_finished_picture;
-pub use format::PictureFormat;
+pub use format::{PICTURE_ENDINGS, PictureFormat};
 pub use picture::{PictureFile, STDOUT};
-pub use png_file::srgb_byte;
 pub use provenance::Provenance;
 pub use read::{Image, PictureKind, ReadError, read_image};
-pub use spec::PictureSpec;
+pub use spec::{ExrCompression, ExrOptions, PictureSpec};

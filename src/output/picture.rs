@@ -17,7 +17,7 @@ use super::format::PictureFormat;
 use super::provenance::BROKEN_OFF_KEY;
 use super::rows::{Completeness, Message, Rows};
 use super::spec::PictureSpec;
-use super::{exr_file, png_file};
+use super::{exr_file, hdr_file, jpeg_file, png_file};
 use crate::film::Band;
 
 /// Bands that wait for the encoder; with the one it works on and the one being rendered, this bounds the memory.
@@ -69,6 +69,8 @@ impl PictureFile {
         let encode = move || match format {
             PictureFormat::Exr => exr_file::write(writer, rows, &encoder_spec),
             PictureFormat::Png => png_file::write(writer, rows, &encoder_spec),
+            PictureFormat::Jpeg => jpeg_file::write(writer, rows, &encoder_spec),
+            PictureFormat::Hdr => hdr_file::write(writer, rows, &encoder_spec),
         };
         let encoder = thread::Builder::new().name("picture".to_owned()).spawn(encode).map_err(failure)?;
         Ok(Self { place, messages, encoder: Some(encoder), rows_taken: 0, spec: spec.clone() })
@@ -213,7 +215,7 @@ mod tests {
     use exr::prelude::{Text, Vec2};
 
     use super::*;
-    use crate::output::{Provenance, read_image, srgb_byte};
+    use crate::output::{Display, Exposure, ExrCompression, ExrOptions, Provenance, ToneCurve, read_image, srgb_byte};
     use crate::scene::settings::SETTINGS;
     use crate::scene::{Filter, RenderSettings};
 
@@ -229,7 +231,7 @@ mod tests {
             adaptive: false,
             device: "a device".to_owned(),
         };
-        PictureSpec { width, height, exposure: 0.0, provenance: Some(provenance) }
+        PictureSpec { width, height, display: Display::CLIP, exr: ExrOptions::default(), provenance: Some(provenance) }
     }
 
     fn value(x: u32, y: u32) -> [f32; 3] {
@@ -298,7 +300,7 @@ mod tests {
     fn equal_pictures_are_equal_files() {
         let folder = tempfile::tempdir().unwrap();
         // Ten attributes in the order of a hash map agree by chance once in millions.
-        for format in ["exr", "png"] {
+        for format in ["exr", "png", "jpg", "hdr"] {
             let [a, b] = ["a", "b"].map(|name| {
                 let path = folder.path().join(name).with_extension(format);
                 let mut file = PictureFile::create(&path, PictureFormat::from_path(&path).unwrap(), &spec(64, 40, 8)).unwrap();
@@ -340,7 +342,7 @@ mod tests {
             let place = if is_finished { file.finish().map(|()| path) } else { file.finish_broken_off() };
             place.unwrap().file_name().unwrap().to_str().unwrap().to_owned()
         };
-        for ending in ["exr", "png"] {
+        for ending in ["exr", "png", "jpg", "hdr"] {
             let [a, beside] = [format!("a.{ending}"), format!("a.incomplete.{ending}")];
             // Fewer samples than wanted, as a time limit leaves them, are no break.
             for (samples, is_finished, place) in
@@ -351,14 +353,15 @@ mod tests {
             assert_eq!(write(&beside, 9, true), beside);
             assert_eq!(write(&a, 10, false), format!("a.incomplete-2.{ending}"));
         }
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 6);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 4 * 3);
     }
 
     #[test]
     fn a_png_holds_the_exposed_picture_in_srgb() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.png");
-        let spec = PictureSpec { exposure: -2.0, ..spec(30, 20, 1) };
+        let display = Display { exposure: Exposure::Stops(-2.0), ..Display::CLIP };
+        let spec = PictureSpec { display, ..spec(30, 20, 1) };
         let mut file = PictureFile::create(&path, PictureFormat::Png, &spec).unwrap();
         file.write_band(&band(0, 20, 30, 1)).unwrap();
         file.finish().unwrap();
@@ -370,10 +373,101 @@ mod tests {
         assert!(bytes.windows(4).any(|window| window == b"sRGB"));
     }
 
+    /// Of the whole picture, whose last rows are brighter by far; as JPEG, with its losses, as well.
+    #[test]
+    fn automatic_exposure_sees_the_whole_picture() {
+        let folder = tempfile::tempdir().unwrap();
+        let grey = |rows: u32, first_row, value: f32| {
+            let mean = vec![[value; 3]; rows as usize * 16];
+            Arc::new(Band { first_row, width: 16, rows, samples: 1, counts: None, mean, second_moment: vec![] })
+        };
+        for (name, tolerance) in [("a.png", 0), ("a.jpg", 3)] {
+            let path = folder.path().join(name);
+            let display = Display { exposure: Exposure::Auto, ..Display::CLIP };
+            let spec = PictureSpec { display, ..spec(16, 32, 1) };
+            let mut file = PictureFile::create(&path, PictureFormat::from_path(&path).unwrap(), &spec).unwrap();
+            file.write_band(&grey(16, 0, 0.01)).unwrap();
+            file.write_band(&grey(16, 16, 1.0)).unwrap();
+            file.finish().unwrap();
+            // The geometric mean, 0.1, becomes 0.18.
+            let decoded = image::open(&path).unwrap().into_rgb8();
+            for (row, value) in [(0, 0.018), (31, 1.8)] {
+                let found = decoded.get_pixel(3, row).0[1];
+                assert!(found.abs_diff(srgb_byte(value)) <= tolerance, "{name}, row {row}: {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn tone_curves_show_in_the_picture() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut bytes = Vec::new();
+        for tone_curve in ToneCurve::ALL {
+            let path = folder.path().join("a.png");
+            let spec = PictureSpec { display: Display { tone_curve, ..Display::CLIP }, ..spec(30, 20, 1) };
+            let mut file = PictureFile::create(&path, PictureFormat::Png, &spec).unwrap();
+            file.write_band(&band(0, 20, 30, 1)).unwrap();
+            file.finish().unwrap();
+            bytes.push(image::open(&path).unwrap().into_rgb8().into_raw());
+        }
+        assert!(bytes[0] != bytes[1] && bytes[1] != bytes[2] && bytes[0] != bytes[2]);
+    }
+
+    /// Without loss, but for pxr24 and for halves, which keep 16 and 11 bits.
+    #[test]
+    fn exr_files_keep_what_their_options_promise() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.exr");
+        for compression in ExrCompression::ALL {
+            for half in [false, true] {
+                let spec = PictureSpec { exr: ExrOptions { half, compression }, ..spec(37, 20, 1) };
+                let mut file = PictureFile::create(&path, PictureFormat::Exr, &spec).unwrap();
+                file.write_band(&band(0, 20, 37, 1)).unwrap();
+                file.finish().unwrap();
+                let tolerance = match (half, compression) {
+                    (true, _) => 2.0_f32.powi(-11),
+                    (false, ExrCompression::Pxr24) => 2.0_f32.powi(-16),
+                    (false, _) => 0.0,
+                };
+                for (index, found) in read_image(&path).unwrap().pixels.iter().enumerate() {
+                    let wanted = value(index as u32 % 37, index as u32 / 37);
+                    for (found, wanted) in found.iter().zip(wanted) {
+                        let wanted = if half { wanted.min(65_504.0) } else { wanted };
+                        let error = (found - wanted).abs();
+                        // Below 2^-14, halves have steps of 2^-24.
+                        assert!(
+                            error <= tolerance * wanted.abs() + if half { 3e-8 } else { 0.0 },
+                            "{compression:?} {half}: {found} {wanted}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_radiance_file_is_read_back_within_its_eight_bits() {
+        let folder = tempfile::tempdir().unwrap();
+        // Rows of fewer than 8 pixels are written another way.
+        for width in [5, 300] {
+            let path = folder.path().join("a.hdr");
+            let mut file = PictureFile::create(&path, PictureFormat::Hdr, &spec(width, 20, 1)).unwrap();
+            file.write_band(&band(0, 20, width, 1)).unwrap();
+            file.finish().unwrap();
+            for (index, found) in read_image(&path).unwrap().pixels.iter().enumerate() {
+                let wanted = value(index as u32 % width, index as u32 / width).map(|channel| channel.max(0.0));
+                let largest = wanted.into_iter().fold(0.0, f32::max);
+                for (found, wanted) in found.iter().zip(wanted) {
+                    assert!((found - wanted).abs() <= largest / 128.0, "{index}: {found} {wanted}");
+                }
+            }
+        }
+    }
+
     #[test]
     fn a_broken_off_render_leaves_no_file_and_bad_bands_are_refused() {
         let folder = tempfile::tempdir().unwrap();
-        for (name, format) in [("a.exr", PictureFormat::Exr), ("a.png", PictureFormat::Png)] {
+        for (name, format) in [("a.exr", PictureFormat::Exr), ("a.png", PictureFormat::Png), ("a.jpg", PictureFormat::Jpeg)] {
             let mut file = PictureFile::create(&folder.path().join(name), format, &spec(8, 40, 64)).unwrap();
             file.write_band(&band(0, 10, 8, 64)).unwrap();
             assert!(file.write_band(&band(5, 10, 8, 64)).is_err(), "an overlap");

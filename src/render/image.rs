@@ -7,7 +7,7 @@ use super::progressive::Outcome;
 use crate::compare::{self, Comparison};
 use crate::error::Error;
 use crate::film::Band;
-use crate::output::{self, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, read_image};
+use crate::output::{self, Display, ExrOptions, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, read_image};
 
 /// A picture: linear Rec. 709 radiance, row by row from the top.
 #[derive(Debug, Clone)]
@@ -76,7 +76,8 @@ impl Image {
         self.rendered.as_ref().map(|rendered| &rendered.outcome)
     }
 
-    /// Writes the picture. The ending names the format: `.exr` holds the values as they are, `.png` is a preview in sRGB. The file's header
+    /// Writes the picture. The ending names the format: `.exr` holds the values as they are, `.hdr` rounds them to 8 bits
+    /// and an exponent, `.png` and `.jpg` are previews in sRGB, tone-mapped by AgX. The file's header
     /// says how a rendered picture was made. The file appears whole or not at all, over an older one of that name.
     ///
     /// # Errors
@@ -88,11 +89,12 @@ impl Image {
     fn write(&self, path: &Path) -> Result<(), OutputError> {
         let format = PictureFormat::from_path(path).ok_or_else(|| OutputError::BadTarget {
             path: path.to_owned(),
-            what: "the ending names no picture format; .exr and .png do",
+            what: "the ending names no picture format; .exr, .hdr, .png and .jpg do",
         })?;
         let output::Image { width, height, ref pixels } = self.pixels;
         let provenance = self.rendered.as_ref().map(|rendered| rendered.provenance.clone());
-        let mut file = PictureFile::create(path, format, &PictureSpec { width, height, exposure: 0.0, provenance })?;
+        let (display, exr) = (Display::default(), ExrOptions::default());
+        let mut file = PictureFile::create(path, format, &PictureSpec { width, height, display, exr, provenance })?;
         let samples = self.rendered.as_ref().map_or(0, |rendered| rendered.fewest_samples);
         let counts = self.rendered.as_ref().and_then(|rendered| rendered.counts.clone());
         let band = Band { first_row: 0, width, rows: height, samples, counts, mean: pixels.clone(), second_moment: Vec::new() };

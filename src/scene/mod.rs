@@ -20,6 +20,7 @@ mod placement;
 mod precision;
 pub mod settings;
 pub mod shape;
+mod sources;
 mod summary;
 pub mod texture;
 pub mod transform;
@@ -45,6 +46,7 @@ pub use settings::{
     RenderSettings, SamplerKind,
 };
 pub use shape::*;
+pub use sources::{ImageSource, MeshSource, Sources};
 pub use summary::SceneSummary;
 pub use texture::{
     ChannelInput, ColorInput, ImageTexture, Texture, TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,

@@ -6,6 +6,7 @@ use super::light::Light;
 use super::material::{Material, MaterialId, MaterialKind};
 use super::settings::{FilmSettings, RenderSettings};
 use super::shape::Shape;
+use super::sources::Sources;
 use super::texture::Texture;
 
 /// Everything a render needs: a camera, surfaces, materials, lights, and how light is estimated. It is read by [`Scene::load`] or
@@ -34,6 +35,9 @@ pub struct Scene {
     /// What is not rendered exactly as an imported file says it.
     #[doc(hidden)]
     pub import_report: ImportReport,
+    /// The files that meshes and pictures came from.
+    #[doc(hidden)]
+    pub sources: Sources,
 }
 
 impl Scene {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::Verdict;
 use crate::film::Band;
-use crate::output::{OutputError, PictureFile, PictureFormat, PictureSpec, Provenance};
+use crate::output::{Display, ExrOptions, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance};
 use crate::scene::Scene;
 
 /// Writes `SCENE-gpu.exr`, `SCENE-cpu.exr`, `SCENE-difference.exr` (gpu − cpu) and `SCENE-heat.png` into a folder.
@@ -57,7 +57,8 @@ fn write_picture(
         adaptive: false,
         device: verdict.device.clone(),
     };
-    let spec = PictureSpec { width: verdict.width, height: verdict.height, exposure: 0.0, provenance: Some(provenance) };
+    let (width, height, exr) = (verdict.width, verdict.height, ExrOptions::default());
+    let spec = PictureSpec { width, height, display: Display::CLIP, exr, provenance: Some(provenance) };
     let mut file = PictureFile::create(path, format, &spec)?;
     let band = Band {
         first_row: 0,

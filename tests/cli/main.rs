@@ -11,6 +11,7 @@ mod faults;
 mod goals;
 mod imports;
 mod inputs;
+mod models;
 #[cfg(unix)]
 mod on_unix;
 mod outputs;
@@ -99,7 +100,7 @@ fn header_number(path: &Path, key: &str) -> i32 {
 #[test]
 fn a_render_writes_its_files_whole_and_says_nothing_on_stdout() {
     let place = Workplace::new();
-    let output = place.run("render scene.toml --device cpu -o a.exr -o a.png --stats stats.json");
+    let output = place.run("render scene.toml --device cpu --tonemap clip -o a.exr -o a.png --stats stats.json");
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     assert_eq!(text(&output.stdout), "");
     assert!(text(&output.stderr).contains("a.exr, a.png: 24x16, 8 spp"), "{}", text(&output.stderr));
@@ -153,9 +154,9 @@ fn stats_have_the_keys_that_other_programs_rely_on() {
 fn the_default_picture_lies_in_the_current_folder() {
     let place = Workplace::new();
     place.expect(0, "render scene.toml --device cpu --spp 1");
-    assert_eq!(place.files(), ["scene.exr", "scene.toml"]);
+    assert_eq!(place.files(), ["scene.exr", "scene.png", "scene.toml"]);
     place.expect(0, "render --device cpu --spp 1 --size 8x8");
-    assert_eq!(place.files(), ["cornell.exr", "scene.exr", "scene.toml"]);
+    assert_eq!(place.files(), ["cornell.exr", "cornell.png", "scene.exr", "scene.png", "scene.toml"]);
 }
 
 #[test]
@@ -212,7 +213,16 @@ fn usage_errors_are_refused_before_anything_happens() {
         ("render --light-samples 17", "1..=16"),
         ("render --exposure nan", "--exposure"),
         ("render --first-sample 2147483600 --device cpu", "--first-sample"),
-        ("render -o picture.jpg", ".exr"),
+        ("render --exposure bright", "or auto"),
+        ("render --white-balance 500", "from 1000 to 40000"),
+        ("render --tonemap reinhard", "filmic"),
+        ("render --compression zap", "piz"),
+        ("render model.obj --elevation 91", "from -90 to 90"),
+        ("render model.obj --up x", "--up"),
+        ("render scene.toml --turn 30 --smooth", "are for models"),
+        ("render scene.toml --save-scene out.txt --device cpu --spp 1 -o -", "ends in .toml"),
+        ("scenes cornel", "no built-in scene"),
+        ("render -o picture.tif", ".exr"),
         ("render -o picture", "picture"),
         ("render -o a.exr -o ./a.exr", "twice"),
         ("render --nonsense", "--nonsense"),

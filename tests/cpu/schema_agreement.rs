@@ -50,7 +50,7 @@ const RELATIONS: &[&str] = &[
 ];
 
 /// Every table with every key somewhere, and nothing that needs a file.
-const EVERYTHING: &str = r#"
+const EVERYTHING: &str = r##"
 [film]
 size = [64, 32]
 filter = { type = "gaussian", radius = 1.5 }
@@ -93,11 +93,12 @@ seed = 1
 [[material]]
 name = "plain"
 type = "diffuse"
-reflectance = { texture = "checks" }
+reflectance = { texture = "checks", factor = [0.5, 1, 0.25] }
+emission = { kelvin = 3000, factor = 0.5 }
 [[material]]
 name = "lamp"
 type = "emissive"
-radiance = [3, 2, 1]
+radiance = "#ffccaa"
 two_sided = true
 [[material]]
 name = "half"
@@ -158,7 +159,7 @@ falloff = 5
 type = "directional"
 direction = [0, -1, 0]
 irradiance = 1
-"#;
+"##;
 
 /// Right scene files that need no other: all tables, all materials, and built-in scenes.
 fn right_files() -> Vec<Value> {
@@ -220,6 +221,13 @@ impl Generator {
             json!({}),
             json!({ "texture": "checks" }),
             json!({ "texture": 3 }),
+            json!({ "texture": "checks", "factor": 2 }),
+            json!({ "texture": "checks", "factor": [0.5, 0, 1] }),
+            json!({ "kelvin": 3200 }),
+            json!({ "kelvin": 900 }),
+            json!({ "kelvin": 5000, "factor": 2 }),
+            json!("#ff8800"),
+            json!("#ff880"),
             json!({ "type": "constant", "value": 0.5 }),
             json!([{ "scale": 2 }]),
             json!({ "scale": 2, "translate": [0, 0, 1] }),

@@ -81,8 +81,19 @@ fn load_whole(document: Document<'_>, folder: &Path, access: Access) -> Result<S
 }
 
 /// Reads a model file alone: its meshes with its own materials, in a scene without a camera of its own and without lights.
-pub(super) fn load_model(path: &Path, access: Access) -> Result<Scene, SceneError> {
-    resolve::resolve_model(path, access)
+pub(super) fn load_model(path: &Path, smooth: Option<bool>, access: Access) -> Result<Scene, SceneError> {
+    resolve::resolve_model(path, smooth, access)
+}
+
+/// As [`load_model`], with the last material of a scene file's text in place of the model's own. `name` is what errors call that file, and
+/// paths in it are relative to `folder`.
+pub(super) fn load_model_of(
+    path: &Path,
+    smooth: Option<bool>,
+    (name, text, folder): (&str, &str, &Path),
+    access: Access,
+) -> Result<Scene, SceneError> {
+    resolve::resolve_model_of(path, smooth, (Document { name, text, origins: &[] }, folder), access)
 }
 
 /// A file's name without folder and ending.

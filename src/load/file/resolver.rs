@@ -33,8 +33,8 @@ impl From<Picture> for CachedImage {
     }
 }
 
-/// What decides how a mesh file is read: the file, `smooth`, and whether it keeps its own materials.
-pub type MeshFileKey = (PathBuf, Option<bool>, bool);
+/// What decides how a mesh file is read: the file, `smooth`, and, where it keeps its own materials, which ones are replaced.
+pub type MeshFileKey = (PathBuf, Option<bool>, Option<Vec<(String, MaterialId)>>);
 
 /// A mesh and its material, or that of its first face where faces have their own.
 #[derive(Clone)]

@@ -11,6 +11,8 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
+use crate::black_body::black_body;
+use crate::math::srgb_to_linear_f64;
 use crate::scene::Channel;
 use crate::scene::settings::{LARGEST_FILTER_RADIUS, SMALLEST_FILTER_RADIUS};
 
@@ -58,6 +60,7 @@ rules! {
     HalfAngle "an angle above 0, at most 90 (degrees)" {
         const MINIMUM: f64 = 0.0; const MAXIMUM: f64 = 90.0; const ABOVE_MINIMUM: bool = true;
     }
+    Temperature "a temperature from 1000 to 40000 (kelvin)" { const MINIMUM: f64 = 1000.0; const MAXIMUM: f64 = 40_000.0; }
     IndexOfRefraction "an index of refraction from 0.1 to 10" { const MINIMUM: f64 = 0.1; const MAXIMUM: f64 = 10.0; }
 }
 
@@ -216,11 +219,11 @@ impl<T: JsonSchema> JsonSchema for Located<T> {
     }
 }
 
-/// `[r, g, b]` or one number for grey.
+/// `[r, g, b]`, one number for grey, `"#rrggbb"` or `{ kelvin = 3200 }`.
 #[derive(Debug, Clone)]
 pub struct Rgb<R>(pub DVec3, PhantomData<R>);
 
-/// `[r, g, b]`, one number for grey, or `{ texture = "name" }`.
+/// As [`Rgb`], or `{ texture = "name" }`.
 #[derive(Debug, Clone)]
 pub enum Colour<R> {
     Constant(Rgb<R>),
@@ -253,6 +256,65 @@ struct ColourTexture {
     channel: Option<ChannelName>,
     /// Multiplies the texture, 1 when left out.
     factor: Option<Rgb<NonNegative>>,
+}
+
+/// A table where a colour can stand: a texture or a temperature.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table with the key `texture` or `kelvin`")]
+struct ColourTable {
+    texture: Option<Located<String>>,
+    channel: Option<ChannelName>,
+    kelvin: Option<Checked<Temperature>>,
+    factor: Option<Rgb<NonNegative>>,
+}
+
+/// A table where a colour without texture can stand.
+#[derive(Debug, Clone, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table with the key `kelvin`")]
+#[schemars(rename = "ColourOfTemperature")]
+struct TemperatureTable {
+    /// The colour of a black body of this temperature, its largest channel 1.
+    kelvin: Checked<Temperature>,
+    /// Multiplies the colour, 1 when left out.
+    factor: Option<Rgb<NonNegative>>,
+}
+
+/// The same where a colour is a share of light.
+#[derive(JsonSchema)]
+#[schemars(rename = "ShareOfTemperature", deny_unknown_fields)]
+#[allow(dead_code, reason = "it is read as a `TemperatureTable`, and described as this")]
+struct ShareTable {
+    /// The colour of a black body of this temperature, its largest channel 1.
+    kelvin: Checked<Temperature>,
+}
+
+impl TemperatureTable {
+    fn colour<R: Rule, E: Error>(self) -> Result<DVec3, E> {
+        if self.factor.is_some() && is_share::<R>() {
+            return Err(E::custom("a temperature has a `factor` where the colour is one of light, not a share of it"));
+        }
+        let colour = black_body(self.kelvin.0) * self.factor.map_or(DVec3::ONE, |factor| factor.0);
+        colour.to_array().into_iter().try_for_each(|channel| Checked::<R>::new(channel).map(|_| ()))?;
+        Ok(colour)
+    }
+}
+
+/// Every colour of a screen is among the values. Of an index of refraction, which has three channels as well, 0 is not.
+fn is_colour<R: Rule>() -> bool {
+    R::accepts(0.0) && R::accepts(1.0)
+}
+
+fn is_share<R: Rule>() -> bool {
+    !R::accepts(2.0)
+}
+
+/// The linear colour that `#rrggbb` is in sRGB.
+fn hexadecimal(text: &str) -> Option<DVec3> {
+    let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6)?;
+    let is_digit = |byte: u8| byte.is_ascii_hexdigit();
+    let code = u32::from_str_radix(digits, 16).ok().filter(|_| digits.bytes().all(is_digit))?;
+    let [_, red, green, blue] = code.to_be_bytes().map(|byte| srgb_to_linear_f64(f64::from(byte) / 255.0));
+    Some(DVec3::new(red, green, blue))
 }
 
 /// A texture in place of a number.
@@ -316,6 +378,8 @@ struct FormVisitor<R, T> {
     words: &'static str,
     triple: bool,
     texture: bool,
+    /// `"#rrggbb"` is possible.
+    code: bool,
     of: PhantomData<(R, T)>,
 }
 
@@ -346,6 +410,16 @@ impl<'de, R: Rule, T: Deserialize<'de>> Visitor<'de> for FormVisitor<R, T> {
         let triple = values.try_into().map_err(|_| Error::invalid_length(length, &"3 numbers, [r, g, b]"))?;
         Ok(Form::Triple(triple))
     }
+    fn visit_str<E: Error>(self, text: &str) -> Result<Self::Value, E> {
+        if !self.code {
+            return Err(E::invalid_type(serde::de::Unexpected::Str(text), &self));
+        }
+        let Some(colour) = hexadecimal(text) else {
+            return Err(E::custom(format_args!("expected a colour such as \"#ff8800\", found \"{text}\"")));
+        };
+        let [red, green, blue] = colour.to_array().map(Checked::new);
+        Ok(Form::Triple([red?, green?, blue?]))
+    }
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
         if !self.texture {
             return Err(Error::invalid_type(serde::de::Unexpected::Map, &self));
@@ -357,7 +431,7 @@ impl<'de, R: Rule, T: Deserialize<'de>> Visitor<'de> for FormVisitor<R, T> {
 impl<R: Rule> Rgb<R> {
     /// Reads three numbers or one that stands for all three; `words` say what is expected.
     pub fn deserialize_as<'de, D: Deserializer<'de>>(deserializer: D, words: &'static str) -> Result<DVec3, D::Error> {
-        let visitor = FormVisitor::<R, IgnoredAny> { words, triple: true, texture: false, of: PhantomData };
+        let visitor = FormVisitor::<R, IgnoredAny> { words, triple: true, texture: false, code: false, of: PhantomData };
         match deserializer.deserialize_any(visitor)? {
             Form::Triple(values) => Ok(triple(values)),
             Form::Number(number) => Ok(DVec3::splat(number.0)),
@@ -368,18 +442,34 @@ impl<R: Rule> Rgb<R> {
 
 impl<'de, R: Rule> Deserialize<'de> for Rgb<R> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Ok(Self(Self::deserialize_as(deserializer, "a colour: [r, g, b] or one number")?, PhantomData))
+        if !is_colour::<R>() {
+            return Ok(Self(Self::deserialize_as(deserializer, "[r, g, b] or one number")?, PhantomData));
+        }
+        let words = "a colour: [r, g, b], one number, \"#rrggbb\" or { kelvin = 3200 }";
+        let visitor = FormVisitor::<R, TemperatureTable> { words, triple: true, texture: true, code: true, of: PhantomData };
+        let colour = match deserializer.deserialize_any(visitor)? {
+            Form::Triple(values) => triple(values),
+            Form::Number(number) => DVec3::splat(number.0),
+            Form::Texture(temperature) => temperature.colour::<R, D::Error>()?,
+        };
+        Ok(Self(colour, PhantomData))
     }
 }
 
 impl<'de, R: Rule> Deserialize<'de> for Colour<R> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let words = "a colour: [r, g, b], one number or { texture = \"name\" }";
-        let visitor = FormVisitor::<R, ColourTexture> { words, triple: true, texture: true, of: PhantomData };
+        let words = "a colour: [r, g, b], one number, \"#rrggbb\", { kelvin = 3200 } or { texture = \"name\" }";
+        let visitor = FormVisitor::<R, ColourTable> { words, triple: true, texture: true, code: true, of: PhantomData };
         Ok(match deserializer.deserialize_any(visitor)? {
             Form::Number(value) => Self::Constant(Rgb(DVec3::splat(value.0), PhantomData)),
             Form::Triple(values) => Self::Constant(Rgb(triple(values), PhantomData)),
-            Form::Texture(texture) => Self::Texture(texture.into()),
+            Form::Texture(ColourTable { texture: Some(texture), channel, kelvin: None, factor }) => {
+                Self::Texture(ColourTexture { texture, channel, factor }.into())
+            }
+            Form::Texture(ColourTable { texture: None, channel: None, kelvin: Some(kelvin), factor }) => {
+                Self::Constant(Rgb(TemperatureTable { kelvin, factor }.colour::<R, D::Error>()?, PhantomData))
+            }
+            Form::Texture(_) => return Err(Error::custom("expected a table with one of the keys `texture` and `kelvin`")),
         })
     }
 }
@@ -387,7 +477,7 @@ impl<'de, R: Rule> Deserialize<'de> for Colour<R> {
 impl<'de, R: Rule> Deserialize<'de> for Scalar<R> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let words = "one number or { texture = \"name\" }";
-        let visitor = FormVisitor::<R, ScalarTexture> { words, triple: false, texture: true, of: PhantomData };
+        let visitor = FormVisitor::<R, ScalarTexture> { words, triple: false, texture: true, code: false, of: PhantomData };
         match deserializer.deserialize_any(visitor)? {
             Form::Number(value) => Ok(Self::Constant(value)),
             Form::Texture(texture) => Ok(Self::Texture(texture.into())),
@@ -406,7 +496,15 @@ impl<R: Rule> JsonSchema for Rgb<R> {
         format!("ConstantColour{}", R::NAME).into()
     }
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        any_of(vec![generator.subschema_for::<Exactly<Checked<R>, 3>>(), generator.subschema_for::<Checked<R>>()])
+        let mut forms = vec![generator.subschema_for::<Exactly<Checked<R>, 3>>(), generator.subschema_for::<Checked<R>>()];
+        if is_colour::<R>() {
+            forms.push(json_schema!({ "description": "sRGB.", "type": "string", "pattern": "^#[0-9a-fA-F]{6}$" }));
+            forms.push(match is_share::<R>() {
+                true => generator.subschema_for::<ShareTable>(),
+                false => generator.subschema_for::<TemperatureTable>(),
+            });
+        }
+        any_of(forms)
     }
 }
 

@@ -4,6 +4,8 @@ use ply_rs_bw::ply::{ElementDef, Property, PropertyAccess, PropertyAccessResult,
 
 /// Stands for an index below 0, which begins a new strip, and for one that no vertex can have.
 pub const NO_VERTEX: u32 = u32::MAX;
+/// Stands for a number below 0 in place of a material.
+const NO_GROUP: u32 = u32::MAX;
 
 /// Names of the texture coordinates, as programs write them.
 const U: [&str; 4] = ["u", "s", "texture_u", "texture_s"];
@@ -51,9 +53,17 @@ impl PropertyAccess for Vertex {
     }
 }
 
-/// A polygon or a strip of triangles: indices of vertices.
+/// Names of the number that a face has in place of a material.
+const GROUPS: [&str; 2] = ["material_index", "material_indices"];
+
+/// A polygon or a strip of triangles.
 #[derive(Debug, Default)]
-pub struct Corners(pub Vec<u32>);
+pub struct Corners {
+    /// Indices of vertices.
+    pub corners: Vec<u32>,
+    /// What stands for its material.
+    pub group: u32,
+}
 
 impl PropertyAccess for Corners {
     fn new() -> Self {
@@ -61,11 +71,23 @@ impl PropertyAccess for Corners {
     }
 
     fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
+        if GROUPS.contains(&name) {
+            self.group = match property {
+                Property::UInt(group) => group,
+                Property::Int(group) => u32::try_from(group).unwrap_or(NO_GROUP),
+                Property::UShort(group) => group.into(),
+                Property::Short(group) => u32::try_from(group).unwrap_or(NO_GROUP),
+                Property::UChar(group) => group.into(),
+                Property::Char(group) => u32::try_from(group).unwrap_or(NO_GROUP),
+                _ => return PropertyAccessResult::Ignored,
+            };
+            return PropertyAccessResult::Set;
+        }
         if !CORNERS.contains(&name) {
             return PropertyAccessResult::Ignored;
         }
         let of_signed = |index: i64| u32::try_from(index).unwrap_or(NO_VERTEX);
-        self.0 = match property {
+        self.corners = match property {
             Property::ListUInt(list) => list,
             Property::ListInt(list) => list.into_iter().map(|index| of_signed(index.into())).collect(),
             Property::ListUShort(list) => list.into_iter().map(u32::from).collect(),
@@ -114,6 +136,11 @@ impl Declared<'_> {
             .any(|name| self.0.properties.get(*name).is_some_and(|property| matches!(property.data_type, PropertyType::List(..))))
     }
 
+    /// Its faces have numbers in place of materials.
+    pub fn has_groups(&self) -> bool {
+        GROUPS.iter().any(|name| self.is_scalar(name))
+    }
+
     /// Names of its properties that nothing is made of.
     pub fn without_effect<'b>(&'b self, used: &'b [&'b str]) -> impl Iterator<Item = String> + 'b {
         let known = move |name: &&String| used.contains(&name.as_str());
@@ -127,5 +154,5 @@ pub fn vertex_names() -> Vec<&'static str> {
 }
 
 pub fn corner_names() -> Vec<&'static str> {
-    CORNERS.to_vec()
+    [CORNERS, GROUPS].concat()
 }

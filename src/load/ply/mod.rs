@@ -40,6 +40,8 @@ struct Model {
     /// Corners of all faces one after the other, and where each face ends.
     corners: Vec<u32>,
     ends: Vec<usize>,
+    /// What stands for the material of each face, where the file says so.
+    groups: Option<Vec<u32>>,
     strips: Vec<u32>,
     without_effect: Vec<String>,
 }
@@ -81,13 +83,17 @@ impl Model {
             "face" | "tristrips" if declared.has_corners() => {
                 self.without_effect.extend(declared.without_effect(&elements::corner_names()));
                 let strips = element.name == "tristrips";
-                in_chunks(element, header, reader, |Corners(corners)| {
+                if declared.has_groups() && !strips {
+                    self.groups = Some(Vec::new());
+                }
+                in_chunks(element, header, reader, |Corners { corners, group }| {
                     if strips {
                         self.strips.extend(corners);
                         self.strips.push(NO_VERTEX);
                     } else if corners.len() > 2 {
                         self.corners.extend(corners);
                         self.ends.push(self.corners.len());
+                        self.groups.iter_mut().for_each(|groups| groups.push(group));
                     }
                     Ok(())
                 })
@@ -114,10 +120,7 @@ impl Model {
             }
             mesh.positions.push(position);
             if has_normals {
-                // A normal of length 1 stays as it is to the last bit. One of no length is computed later.
-                let normal = Vec3::from(vertex.normal);
-                let is_unit = (normal.length_squared() - 1.0).abs() < 1e-6;
-                mesh.normals.push(if is_unit { normal } else { normal.try_normalize().unwrap_or_default() });
+                mesh.normals.push(unit(Vec3::from(vertex.normal)));
             }
             if has_uvs {
                 let uv = Vec2::from(vertex.uv);
@@ -151,9 +154,13 @@ impl Model {
         }
         let mut crossing = 0;
         let mut start = 0;
-        for end in self.ends {
+        let mut groups = Vec::new();
+        for (face, end) in self.ends.into_iter().enumerate() {
             crossing += usize::from(add_polygon(&mut mesh, &self.corners[start..end]));
             start = end;
+            if let Some(of_faces) = &self.groups {
+                groups.resize(mesh.faces.len(), of_faces[face]);
+            }
         }
         for strip in self.strips.split(|&index| index == NO_VERTEX) {
             // Every other triangle of a strip is turned the other way.
@@ -166,15 +173,27 @@ impl Model {
         if crossing > 0 {
             warnings.push(format!("{name}: {crossing} polygons cross themselves; they are filled as far as that can be"));
         }
+        // Triangles of strips have no number.
+        groups.resize(if groups.is_empty() { 0 } else { mesh.faces.len() }, NO_VERTEX);
+        // They go with the faces that are dropped, as materials do.
+        mesh.face_materials = groups.into_iter().map(|group| group as usize).collect();
         let dropped = mesh.drop_degenerate_faces();
+        let groups = std::mem::take(&mut mesh.face_materials);
         if mesh.faces.is_empty() {
             return Err("there is nothing to render in the model: none of its faces has an area".to_owned());
         }
         if dropped > 0 {
             warnings.push(format!("{name}: {dropped} triangles without area were left out"));
         }
-        Ok(ModelFile { parts: vec![Part { mesh, material: None }], warnings, ..ModelFile::default() })
+        let face_groups = (!groups.is_empty()).then(|| groups.into_iter().map(|group| group as u32).collect());
+        Ok(ModelFile { parts: vec![Part { mesh, material: None }], face_groups, warnings, ..ModelFile::default() })
     }
+}
+
+/// A normal of about length 1 stays as it is: what is made of it later is of length 1 in double precision. One of no length is computed
+/// later.
+fn unit(normal: Vec3) -> Vec3 {
+    if (0.5..2.0).contains(&normal.length_squared()) { normal } else { normal.try_normalize().unwrap_or_default() }
 }
 
 fn no_such_vertex(what: &str, index: u32, count: usize) -> String {

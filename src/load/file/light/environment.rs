@@ -10,7 +10,7 @@ use super::keys::LightKeys;
 use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, LARGEST, Located, NonNegative, Number, Rgb};
-use crate::scene::{Environment, EnvironmentRadiance, ImageData};
+use crate::scene::{Environment, EnvironmentRadiance, ImageData, ImageSource};
 
 /// Radiance from outside the scene: either `radiance` or `file`.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -67,11 +67,11 @@ impl Keys {
             let message = format!("the map's radiance times {scale} is too large: more than 1e18");
             return Err(resolver.error(&written.span, message));
         }
-        Ok(EnvironmentRadiance::Map(Arc::new(ImageData {
-            texels: texels.into(),
-            width: image.width,
-            height: image.height,
-            has_alpha: image.has_alpha,
-        })))
+        let scaled =
+            Arc::new(ImageData { texels: texels.into(), width: image.width, height: image.height, has_alpha: image.has_alpha });
+        if let Some(source) = resolver.scene.sources.image(&image).cloned() {
+            resolver.scene.sources.add_image(&scaled, ImageSource { scale, ..source });
+        }
+        Ok(EnvironmentRadiance::Map(scaled))
     }
 }

@@ -10,7 +10,7 @@ use std::path::Path;
 
 use super::document::Document;
 use super::resolver::Resolver;
-use super::syntax::SceneFile;
+use super::syntax::{PartOfFile, SceneFile};
 use crate::load::access::Access;
 use crate::load::error::{SceneError, show};
 use crate::scene::Scene;
@@ -38,9 +38,30 @@ pub fn resolve(document: Document<'_>, folder: &Path, file: SceneFile, access: A
 }
 
 /// Reads a model by itself: a scene of one shape with the model's own materials and nothing else.
-pub fn resolve_model(path: &Path, access: Access) -> Result<Scene, SceneError> {
+pub fn resolve_model(path: &Path, smooth: Option<bool>, access: Access) -> Result<Scene, SceneError> {
     let name = show(path);
     let mut resolver = Resolver::new(Document { name: &name, text: "", origins: &[] }, Path::new(""), access);
-    resolver.lone_mesh(path)?;
+    resolver.lone_mesh(path, smooth, None)?;
+    resolver.finish()
+}
+
+/// As [`resolve_model`], with the last of the materials of a file in place of the model's own.
+pub fn resolve_model_of(
+    path: &Path,
+    smooth: Option<bool>,
+    (document, folder): (Document<'_>, &Path),
+    access: Access,
+) -> Result<Scene, SceneError> {
+    let file: PartOfFile = document.read().map_err(|first| document.all_mistakes::<PartOfFile>(first))?;
+    let mut resolver = Resolver::new(document, folder, access);
+    resolver.textures(&file.texture)?;
+    resolver.materials(&file.material)?;
+    if !resolver.errors.is_empty() {
+        return resolver.finish();
+    }
+    let Some(last) = resolver.scene.materials.len().checked_sub(1) else {
+        return Err(SceneError::in_file(document.name, "has no [[material]] to take"));
+    };
+    resolver.lone_mesh(path, smooth, Some(last))?;
     resolver.finish()
 }

@@ -14,7 +14,9 @@ use crate::load::file::syntax::{ColorSpaceEntry, ImageEntry, TextureEntry, Textu
 use crate::load::file::value::{Checked, Exactly, Located, Number, Positive};
 use crate::load::formats;
 use crate::scene::validate::MOST_OCTAVES;
-use crate::scene::{ColorSpace, ImageData, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap, UvTransform};
+use crate::scene::{
+    ColorSpace, ImageData, ImageSource, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap, UvTransform,
+};
 
 impl Resolver<'_> {
     pub(super) fn textures(&mut self, written: &[TextureEntry]) -> Result<(), SceneError> {
@@ -120,6 +122,8 @@ impl Resolver<'_> {
             Entry::Occupied(entry) => entry.into_mut(),
             Entry::Vacant(entry) => entry.insert(self.pictures.read(path, space)?.into()),
         };
+        let source = ImageSource { path: path.to_owned(), color_space: space, scale: 1.0 };
+        self.scene.sources.add_image(&cached.image, source);
         if let Some(change) = cached.change.take() {
             self.scene.warnings.push(format!("{}: {change}", show(path)));
         }

@@ -1,11 +1,12 @@
 //! `type = "mesh"`: triangles from a model file or written in the scene file.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::Vec2;
 
 use super::keys::{ShapeKeys, Written, shape_keys};
-use super::mesh_file::choose_normals;
+use super::mesh_file::{Replaced, choose_normals};
 use crate::load::error::SceneError;
 use crate::load::error::show;
 use crate::load::file::resolver::{LoadedMesh, Resolver};
@@ -19,8 +20,11 @@ shape_keys! {
     #[schemars(extend("allOf" = [{ "oneOf": [
         { "required": ["file"], "not": { "anyOf": [
             { "required": ["positions"] }, { "required": ["faces"] }, { "required": ["uvs"] }, { "required": ["normals"] },
+            { "required": ["material", "materials"] },
         ] } },
-        { "required": ["positions", "faces", "material"], "not": { "required": ["file"] } },
+        { "required": ["positions", "faces", "material"], "not": { "anyOf": [
+            { "required": ["file"] }, { "required": ["materials"] },
+        ] } },
     ] }]))]
     "MeshShape" {
         /// Path of an OBJ or a PLY file (`.obj`, `.ply`, `.ply.gz`), relative to the scene file.
@@ -33,6 +37,9 @@ shape_keys! {
         uvs: Option<Located<Vec<Exactly<Number, 2>>>>,
         /// One per position.
         normals: Option<Located<Vec<Located<Vector>>>>,
+        /// Of a file's own materials, by their names, those for which a `[[material]]` of this scene stands: `{ Wood = "oak" }`. The names
+        /// of a PLY file's are the numbers `material_index` of its faces.
+        materials: Option<Located<BTreeMap<String, Located<String>>>>,
         /// Interpolate normals over the faces; when left out, true if there are normals.
         smooth: Option<bool>,
     }
@@ -48,6 +55,9 @@ impl ShapeKeys for Keys {
     /// A mesh file may bring materials of its own.
     fn resolve(&self, resolver: &mut Resolver<'_>, entry: &mut Written<'_>) -> Result<Arc<Mesh>, SceneError> {
         let Some(file) = &self.file else {
+            if let Some(materials) = &self.materials {
+                return Err(resolver.error(&materials.span, "`materials` is for meshes with `file`"));
+            }
             if entry.material.is_none() {
                 return Err(resolver.error(entry.span, "the key `material` is missing: only a mesh file can have its own"));
             }
@@ -74,13 +84,25 @@ impl ShapeKeys for Keys {
         if !resolver.files().exists(&path) {
             return Err(resolver.error(&file.span, format!("there is no file {}", show(&path))));
         }
-        let LoadedMesh { mesh, material } = resolver.mesh_file(&path, self.smooth, entry.material)?;
+        let replaced = self.replaced(resolver, entry)?;
+        let LoadedMesh { mesh, material } = resolver.mesh_file(&path, self.smooth, entry.material, &replaced)?;
         entry.material = Some(material);
         Ok(mesh)
     }
 }
 
 impl Keys {
+    /// The file's materials for which others stand, and those.
+    fn replaced(&self, resolver: &Resolver<'_>, entry: &Written<'_>) -> Result<Replaced<'_>, SceneError> {
+        let Some(materials) = &self.materials else { return Ok(Replaced::default()) };
+        if entry.material.is_some() {
+            let message = "a mesh has either `material`, for all of its faces, or `materials`, for some";
+            return Err(resolver.error(&materials.span, message));
+        }
+        let id = |(of_file, name): (&String, &Located<String>)| Ok((of_file.clone(), resolver.material_id(name)?));
+        Ok(Replaced { names: materials.value.iter().map(id).collect::<Result<_, _>>()?, span: Some(&materials.span) })
+    }
+
     fn inline_mesh(&self, resolver: &mut Resolver<'_>, &Written { span, index, .. }: &Written<'_>) -> Result<Mesh, SceneError> {
         let (Some(positions), Some(faces)) = (&self.positions, &self.faces) else {
             return Err(resolver.error(span, "a mesh needs the key `file`, or both `positions` and `faces`"));

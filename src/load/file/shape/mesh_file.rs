@@ -1,5 +1,7 @@
 //! Meshes from files of models.
 
+use std::collections::{BTreeSet, HashMap};
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -7,22 +9,35 @@ use glam::{Vec2, Vec3};
 
 use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::{LoadedMesh, Resolver};
+use crate::load::file::wording::did_you_mean_name;
 use crate::load::model::{ModelFile, ModelFormat, Part};
 use crate::load::{obj, ply};
-use crate::scene::{ColorInput, Material, MaterialId, MaterialKind, Mesh};
+use crate::scene::{ColorInput, Material, MaterialId, MaterialKind, Mesh, MeshSource};
 
 /// Reflectance of faces without a material.
 const DEFAULT_REFLECTANCE: f64 = 0.8;
 
+/// The materials of a model's file for which others of the scene stand.
+#[derive(Default)]
+pub struct Replaced<'a> {
+    /// Name in the file, and what stands for it.
+    pub names: Vec<(String, MaterialId)>,
+    /// Where that is written.
+    pub span: Option<&'a Range<usize>>,
+}
+
 impl Resolver<'_> {
-    /// Reads a model file, once for all shapes that use it alike.
+    /// Reads a model file, once for all shapes that use it alike. Its faces have the given material, or their own ones but for those that are
+    /// `replaced`, by their names.
     pub fn mesh_file(
         &mut self,
         path: &Path,
         smooth: Option<bool>,
         material: Option<MaterialId>,
+        replaced: &Replaced<'_>,
     ) -> Result<LoadedMesh, SceneError> {
-        let key = (path.to_owned(), smooth, material.is_none());
+        let Replaced { names: replaced, span } = replaced;
+        let key = (path.to_owned(), smooth, material.is_none().then(|| replaced.to_vec()));
         if let Some(loaded) = self.mesh_files.get(&key) {
             return Ok(LoadedMesh { mesh: loaded.mesh.clone(), material: material.unwrap_or(loaded.material) });
         }
@@ -34,26 +49,56 @@ impl Resolver<'_> {
             Some(ModelFormat::Ply) => ply::load(self.files(), path)?,
             Some(ModelFormat::Obj) | None => obj::load(self.files(), path, material.is_none())?,
         };
+        if let Some(span) = span {
+            self.check_replaced(&file, replaced, span)?;
+        }
         self.scene.warnings.append(&mut file.warnings);
         for what in std::mem::take(&mut file.substitutes) {
             self.substitute(path, what)?;
         }
         let loaded = match material {
             Some(material) => LoadedMesh { mesh: Arc::new(merge(file, smooth)), material },
-            None => self.with_own_materials(path, file, smooth)?,
+            None => self.with_own_materials(path, file, smooth, replaced)?,
         };
+        let name = |(of_file, id): &(String, MaterialId)| (of_file.clone(), self.scene.materials[*id].name.clone());
+        let (own_materials, replaced) = (material.is_none(), replaced.iter().map(name).collect());
+        self.scene.sources.add_mesh(&loaded.mesh, MeshSource { path: path.to_owned(), smooth, own_materials, replaced });
         self.mesh_files.insert(key, loaded.clone());
         Ok(loaded)
     }
 
-    fn with_own_materials(&mut self, path: &Path, mut file: ModelFile, smooth: Option<bool>) -> Result<LoadedMesh, SceneError> {
+    /// What is replaced is there.
+    fn check_replaced(&self, file: &ModelFile, replaced: &[(String, MaterialId)], span: &Range<usize>) -> Result<(), SceneError> {
+        let numbers: BTreeSet<String> = file.face_groups.iter().flatten().map(u32::to_string).collect();
+        let named = file.materials.iter().map(|entry| entry.material.name.as_str());
+        let known: Vec<&str> = named.chain(numbers.iter().map(String::as_str)).collect();
+        let Some((unknown, _)) = replaced.iter().find(|(name, _)| !known.contains(&name.as_str())) else { return Ok(()) };
+        let help = did_you_mean_name(unknown, &known);
+        let help = help.unwrap_or_else(|| "its faces have no materials; `material` gives all of them one".to_owned());
+        Err(self.error(span, format!("the mesh's file has no material named `{unknown}`")).with_help(help))
+    }
+
+    fn with_own_materials(
+        &mut self,
+        path: &Path,
+        mut file: ModelFile,
+        smooth: Option<bool>,
+        replaced: &[(String, MaterialId)],
+    ) -> Result<LoadedMesh, SceneError> {
+        if let Some(groups) = file.face_groups.take() {
+            return self.with_grouped_faces(path, file, smooth, (&groups, replaced));
+        }
+        let replacement = |name: &str| replaced.iter().find(|(known, _)| known == name).map(|(_, id)| *id);
         let mut used: Vec<Option<MaterialId>> = vec![None; file.materials.len()];
         let any_uvs = file.parts.iter().any(|part| !part.mesh.uvs.is_empty());
         for Part { mesh, material } in &mut file.parts {
             let id = match *material {
                 Some(index) => match used[index] {
                     Some(id) => id,
-                    None => *used[index].insert(self.mtl_material(&file.materials[index])?),
+                    None => *used[index].insert(match replacement(&file.materials[index].material.name) {
+                        Some(id) => id,
+                        None => self.mtl_material(&file.materials[index])?,
+                    }),
                 },
                 None => self.material_of_unnamed_faces(),
             };
@@ -65,12 +110,36 @@ impl Resolver<'_> {
             mesh.uvs.resize(if any_uvs { mesh.positions.len() } else { 0 }, Vec2::ZERO);
             mesh.face_materials = vec![id; mesh.faces.len()];
         }
-        let mut mesh = merge(file, smooth);
-        let material = mesh.face_materials[0];
-        if mesh.face_materials.iter().all(|&other| other == material) {
-            mesh.face_materials.clear();
+        Ok(with_fewest_materials(merge(file, smooth)))
+    }
+
+    /// Of a file whose faces have numbers in place of materials: `replaced` says what they stand for, and grey are those that it leaves out.
+    fn with_grouped_faces(
+        &mut self,
+        path: &Path,
+        file: ModelFile,
+        smooth: Option<bool>,
+        (groups, replaced): (&[u32], &[(String, MaterialId)]),
+    ) -> Result<LoadedMesh, SceneError> {
+        let named: HashMap<u32, MaterialId> = replaced.iter().filter_map(|(name, id)| Some((name.parse().ok()?, *id))).collect();
+        if named.is_empty() {
+            let name = show(path);
+            self.scene
+                .warnings
+                .push(format!("{name}: without effect: face material_index, which the key `materials` gives a meaning"));
         }
-        Ok(LoadedMesh { mesh: Arc::new(mesh), material })
+        let mut mesh = merge(file, smooth);
+        let unnamed = groups.iter().any(|group| !named.contains_key(group)).then(|| self.material_of_unnamed_faces());
+        let materials = groups.iter().map(|group| named.get(group).copied().or(unnamed));
+        mesh.face_materials = materials.collect::<Option<_>>().unwrap_or_default();
+        if mesh.uvs.is_empty()
+            && let Some(&id) = named.values().find(|&&id| self.uses_texture(id))
+        {
+            let name = &self.scene.materials[id].name;
+            let message = format!("faces of the material `{name}` have a texture and no uv coordinates");
+            return Err(SceneError::in_file(show(path), message));
+        }
+        Ok(with_fewest_materials(mesh))
     }
 
     /// A grey that every mesh file's faces without a material share.
@@ -87,6 +156,15 @@ impl Resolver<'_> {
         });
         *self.unnamed_material.insert(id)
     }
+}
+
+/// A mesh whose faces all have a material, which is the shape's where it is the same for all.
+fn with_fewest_materials(mut mesh: Mesh) -> LoadedMesh {
+    let material = mesh.face_materials[0];
+    if mesh.face_materials.iter().all(|&other| other == material) {
+        mesh.face_materials.clear();
+    }
+    LoadedMesh { mesh: Arc::new(mesh), material }
 }
 
 /// All parts as one mesh. Normals are kept, made or left out as `smooth` asks; without a wish, a file with normals is smooth.

@@ -12,12 +12,13 @@ use serde::Deserialize;
 pub use self::transform::TransformEntry;
 
 use self::keys::{CommonKeys, ShapeKeys, Written};
+use self::mesh_file::Replaced;
 use super::resolver::{LoadedMesh, Resolver};
 use super::value::Located;
 use crate::load::error::SceneError;
 use crate::load::error::show;
 use crate::scene::shape::shape_table;
-use crate::scene::{Geometry, MaterialKind, Shape, Transform};
+use crate::scene::{Geometry, MaterialId, MaterialKind, Shape, Transform};
 
 /// The entries of a scene file, by the rows of the table of shapes.
 macro_rules! entries {
@@ -140,9 +141,14 @@ impl Resolver<'_> {
         }
     }
 
-    /// A whole scene of one model with the materials of its file.
-    pub(super) fn lone_mesh(&mut self, path: &Path) -> Result<(), SceneError> {
-        let LoadedMesh { mesh, material } = self.mesh_file(path, None, None)?;
+    /// A whole scene of one model with the materials of its file, or one for all.
+    pub(super) fn lone_mesh(
+        &mut self,
+        path: &Path,
+        smooth: Option<bool>,
+        material: Option<MaterialId>,
+    ) -> Result<(), SceneError> {
+        let LoadedMesh { mesh, material } = self.mesh_file(path, smooth, material, &Replaced::default())?;
         self.scene.shapes.push(Shape {
             label: show(path),
             geometry: Geometry::Mesh(mesh),
@@ -151,6 +157,12 @@ impl Resolver<'_> {
             motion: None,
             portal: false,
         });
+        let lacking = self.scene.shapes[0].geometry.lacks_uv();
+        if let (Some(lacking), true) = (lacking, self.uses_texture(material)) {
+            let name = &self.scene.materials[material].name;
+            let message = format!("the material `{name}` uses a texture, which needs uv coordinates: {lacking}");
+            return Err(SceneError::in_file(show(path), message));
+        }
         Ok(())
     }
 }

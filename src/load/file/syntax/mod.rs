@@ -55,9 +55,9 @@ pub struct PartOfFile {
     render: Option<RenderTable>,
     camera: Option<CameraTable>,
     #[serde(default)]
-    texture: Vec<TextureEntry>,
+    pub texture: Vec<TextureEntry>,
     #[serde(default)]
-    material: Vec<MaterialEntry>,
+    pub material: Vec<MaterialEntry>,
     #[serde(default)]
     shape: Vec<Located<ShapeEntry>>,
     #[serde(default)]

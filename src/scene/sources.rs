@@ -1,0 +1,85 @@
+//! Where the bulk of a scene came from, so that a scene file can name it again.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Weak};
+
+use super::image::{ColorSpace, ImageData};
+use super::shape::Mesh;
+
+/// The files that a scene's meshes and pictures were read from. What was changed since, or made by a program, has none.
+#[derive(Debug, Clone, Default)]
+pub struct Sources {
+    images: HashMap<usize, (Weak<ImageData>, ImageSource)>,
+    meshes: HashMap<usize, (Weak<Mesh>, MeshSource)>,
+}
+
+/// How a picture was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImageSource {
+    pub path: PathBuf,
+    /// As it was asked for; None: the format's own.
+    pub color_space: Option<ColorSpace>,
+    /// Factor of its values.
+    pub scale: f64,
+}
+
+/// How a model was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshSource {
+    pub path: PathBuf,
+    pub smooth: Option<bool>,
+    /// Its faces have the materials of its file, but for those that stand in `replaced`: name in the file, name in the scene.
+    pub own_materials: bool,
+    pub replaced: Vec<(String, String)>,
+}
+
+// What is known by its address is also remembered, weakly: as long as it is, no other has that address.
+impl Sources {
+    pub fn add_image(&mut self, image: &Arc<ImageData>, source: ImageSource) {
+        self.images.insert(address(image), (Arc::downgrade(image), source));
+    }
+
+    pub fn add_mesh(&mut self, mesh: &Arc<Mesh>, source: MeshSource) {
+        self.meshes.insert(address(mesh), (Arc::downgrade(mesh), source));
+    }
+
+    /// The file of a picture.
+    pub fn image(&self, image: &Arc<ImageData>) -> Option<&ImageSource> {
+        self.images.get(&address(image)).map(|(_, source)| source)
+    }
+
+    /// The file of a mesh.
+    pub fn mesh(&self, mesh: &Arc<Mesh>) -> Option<&MeshSource> {
+        self.meshes.get(&address(mesh)).map(|(_, source)| source)
+    }
+
+    /// Every file that something of the scene came from.
+    pub fn paths(&self) -> impl Iterator<Item = &Path> {
+        let images = self.images.values().map(|(_, source)| source.path.as_path());
+        images.chain(self.meshes.values().map(|(_, source)| source.path.as_path()))
+    }
+}
+
+fn address<T>(shared: &Arc<T>) -> usize {
+    Arc::as_ptr(shared) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_changed_has_no_source_any_more() {
+        let mut sources = Sources::default();
+        let mut mesh = Arc::new(Mesh::default());
+        let source = MeshSource { path: "a.obj".into(), smooth: None, own_materials: true, replaced: Vec::new() };
+        sources.add_mesh(&mesh, source.clone());
+        let shared = mesh.clone();
+        assert_eq!(sources.mesh(&shared), Some(&source));
+        assert_eq!(sources.mesh(&Arc::new(Mesh::default())), None);
+        Arc::make_mut(&mut mesh).smooth = true;
+        assert_eq!(sources.mesh(&mesh), None);
+        assert_eq!(sources.mesh(&shared), Some(&source));
+    }
+}

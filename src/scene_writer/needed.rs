@@ -1,0 +1,83 @@
+//! Which textures and materials a scene file has to define.
+
+use crate::scene::{BlendWeight, ColorInput, Geometry, Material, MaterialId, MaterialKind, Scene, Shape, TextureId};
+
+/// All but those that only models bring along whose files are named.
+pub struct Needed {
+    textures: Vec<bool>,
+    materials: Vec<bool>,
+}
+
+impl Needed {
+    pub fn of(scene: &Scene) -> Self {
+        let mut brought = vec![false; scene.materials.len()];
+        let mut wanted = vec![false; scene.materials.len()];
+        for shape in &scene.shapes {
+            match brings_materials(scene, shape) {
+                Some(replaced) => shape.materials().for_each(|id| {
+                    let stays = replaced.iter().any(|(_, name)| *name == scene.materials[id].name);
+                    mark(scene, if stays { &mut wanted } else { &mut brought }, id);
+                }),
+                None => shape.materials().for_each(|id| mark(scene, &mut wanted, id)),
+            }
+        }
+        let materials: Vec<bool> = wanted.iter().zip(&brought).map(|(wanted, brought)| *wanted || !brought).collect();
+        let mut of_written = vec![false; scene.textures.len()];
+        let mut of_others = vec![false; scene.textures.len()];
+        for (material, written) in scene.materials.iter().zip(&materials) {
+            let used = if *written { &mut of_written } else { &mut of_others };
+            textures_of(material).into_iter().for_each(|id| used[id] = true);
+        }
+        let textures = of_written.iter().zip(&of_others).map(|(written, other)| *written || !other).collect();
+        Self { textures, materials }
+    }
+
+    pub fn textures(&self) -> impl Iterator<Item = TextureId> + '_ {
+        marked(&self.textures)
+    }
+
+    pub fn materials(&self) -> impl Iterator<Item = MaterialId> + '_ {
+        marked(&self.materials)
+    }
+}
+
+fn marked(marks: &[bool]) -> impl Iterator<Item = usize> + '_ {
+    marks.iter().enumerate().filter_map(|(id, mark)| mark.then_some(id))
+}
+
+/// What the scene puts in the place of materials of the shape's file, if the shape has its file's own ones.
+fn brings_materials<'s>(scene: &'s Scene, shape: &Shape) -> Option<&'s [(String, String)]> {
+    let Geometry::Mesh(mesh) = &shape.geometry else { return None };
+    super::shape::named_file(scene, mesh).filter(|source| source.own_materials).map(|source| source.replaced.as_slice())
+}
+
+/// Marks a material and all that it is blended of.
+fn mark(scene: &Scene, marks: &mut [bool], id: MaterialId) {
+    let mut to_visit = vec![id];
+    while let Some(id) = to_visit.pop() {
+        if !std::mem::replace(&mut marks[id], true) {
+            to_visit.extend_from_slice(scene.materials[id].parts());
+        }
+    }
+}
+
+/// Textures that the material itself looks up.
+fn textures_of(material: &Material) -> Vec<TextureId> {
+    let of_input = |input: ColorInput| input.texture();
+    let mut textures: Vec<TextureId> =
+        material.kind.lobe().into_iter().flat_map(|lobe| lobe.inputs()).filter_map(of_input).collect();
+    textures.extend(material.emission.and_then(|emission| of_input(emission.radiance)));
+    textures.extend(material.normal_map);
+    if let MaterialKind::Blend { weight, .. } = &material.kind {
+        textures.extend(texture_of_weight(weight));
+    }
+    textures
+}
+
+fn texture_of_weight(weight: &BlendWeight) -> Option<TextureId> {
+    match weight {
+        BlendWeight::Texture { texture } | BlendWeight::Channel { texture, .. } => Some(*texture),
+        BlendWeight::Reverse { of } | BlendWeight::Threshold { of, .. } => texture_of_weight(of),
+        BlendWeight::Constant { .. } | BlendWeight::Facing { .. } | BlendWeight::Fresnel { .. } => None,
+    }
+}

@@ -1,0 +1,80 @@
+//! `[film]`, `[render]` and `[camera]`.
+
+use std::fmt::Write;
+
+use glam::DVec3;
+
+use super::value::{line, number, numbers, text, vector};
+use crate::choice::Choice;
+use crate::scene::{Aperture, ApertureShape, Camera, FilmSettings, Filter, PixelSampler, Projection, RenderSettings, Scene};
+
+/// All three; of the settings, those that are not at their defaults.
+pub fn settings(scene: &Scene) -> String {
+    let mut out = film(&scene.film);
+    let written = render(&scene.render);
+    if !written.is_empty() {
+        let _ = write!(out, "\n[render]\n{written}");
+    }
+    out + &camera(&scene.camera)
+}
+
+fn film(film: &FilmSettings) -> String {
+    let [width, height] = film.size;
+    let mut out = format!("[film]\nsize = [{width}, {height}]\n");
+    if film.filter != Filter::default() {
+        let Filter { kind, radius } = film.filter;
+        out += &line("filter", &format!("{{ type = {}, radius = {} }}", text(kind.name()), number(radius)));
+    }
+    out
+}
+
+fn render(settings: &RenderSettings) -> String {
+    // The pixel's sampler is the path's where it is no other.
+    let is_same = [PixelSampler::SameAsPath, PixelSampler::Other(settings.sampler)].contains(&settings.pixel_sampler);
+    let written = settings.values().filter(|(setting, value)| match setting.name {
+        "pixel_sampler" => !is_same,
+        _ => *value != setting.default(),
+    });
+    written
+        .map(|(setting, value)| {
+            // A number or a name: both are values of TOML.
+            let value = toml::Value::try_from(value).map_or_else(|_| value.to_string(), |value| value.to_string());
+            line(setting.name, &value)
+        })
+        .collect()
+}
+
+fn camera(camera: &Camera) -> String {
+    let mut out = format!("\n[camera]\nposition = {}\nlook_at = {}\n", vector(camera.position), vector(camera.look_at));
+    if camera.up != DVec3::Y {
+        out += &line("up", &vector(camera.up));
+    }
+    match camera.projection {
+        Projection::Perspective { vertical_fov_degrees } => out += &line("vfov", &number(vertical_fov_degrees)),
+        Projection::Orthographic { height } => {
+            out += "projection = \"orthographic\"\n";
+            out += &line("height", &number(height));
+        }
+    }
+    if let Some(aperture) = &camera.aperture {
+        out += &line("aperture", &opening(aperture));
+    }
+    if camera.aperture.is_some() || camera.focus_distance != (camera.look_at - camera.position).length() {
+        out += &line("focus_distance", &number(camera.focus_distance));
+    }
+    if camera.shutter != Camera::default().shutter {
+        out += &line("shutter", &numbers(&camera.shutter));
+    }
+    out
+}
+
+fn opening(aperture: &Aperture) -> String {
+    let radius = number(aperture.radius);
+    match aperture.shape {
+        ApertureShape::Disk => format!("{{ shape = \"disk\", radius = {radius} }}"),
+        ApertureShape::Square => format!("{{ shape = \"square\", radius = {radius} }}"),
+        ApertureShape::Polygon { blades, rotation_degrees } => {
+            format!("{{ shape = \"polygon\", radius = {radius}, blades = {blades}, rotation = {} }}", number(rotation_degrees))
+        }
+    }
+}

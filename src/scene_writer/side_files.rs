@@ -1,0 +1,83 @@
+//! Files beside a scene file, and how it names files.
+
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+use super::value::text;
+use crate::load::is_builtin;
+use crate::output::{AtomicFile, OutputError};
+
+/// Files that are to be written beside a scene file.
+pub struct SideFiles {
+    /// The folder of the scene file, with links followed where it exists.
+    folder: PathBuf,
+    /// The folder of the files, within that.
+    subfolder: String,
+    files: Vec<(PathBuf, Vec<u8>)>,
+}
+
+impl SideFiles {
+    pub fn beside(scene_file: &Path) -> Self {
+        let folder = scene_file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let stem = scene_file.file_stem().unwrap_or_default().to_string_lossy();
+        let folder = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
+        Self { folder, subfolder: format!("{stem}.files"), files: Vec::new() }
+    }
+
+    /// Adds a file; how the scene file names it, in quotes.
+    pub fn add(&mut self, name: &str, content: Vec<u8>) -> String {
+        let within = format!("{}/{name}", self.subfolder);
+        self.files.push((self.folder.join(&within), content));
+        text(&within)
+    }
+
+    /// How the scene file names a file that is there, in quotes: relative to its own folder.
+    pub fn name_of(&self, path: &Path) -> String {
+        let absolute = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        text(&relative(&absolute, &self.folder).to_string_lossy())
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.files.len()
+    }
+
+    /// Writes them; their paths.
+    pub fn write(self) -> Result<Vec<PathBuf>, OutputError> {
+        if !self.files.is_empty() {
+            let path = self.folder.join(&self.subfolder);
+            fs::create_dir_all(&path).map_err(|source| OutputError::Write { path, source })?;
+        }
+        let write = |(path, content): (PathBuf, Vec<u8>)| AtomicFile::write(&path, &content).map(|()| path);
+        self.files.into_iter().map(write).collect()
+    }
+}
+
+/// Whether there is such a file for others to name. Those of built-in and of imported scenes may be in memory alone.
+pub fn is_on_disk(path: &Path) -> bool {
+    !is_builtin(path) && path.is_file()
+}
+
+/// The way from a folder to a file; both are absolute. The file's own path where they have nothing in common, as on two drives.
+fn relative(file: &Path, folder: &Path) -> PathBuf {
+    let (file_parts, folder_parts): (Vec<Component>, Vec<Component>) =
+        (file.components().collect(), folder.components().collect());
+    let common = file_parts.iter().zip(&folder_parts).take_while(|(a, b)| a == b).count();
+    if common == 0 {
+        return file.to_owned();
+    }
+    let up = folder_parts[common..].iter().map(|_| Component::ParentDir);
+    up.chain(file_parts[common..].iter().copied()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_named_from_the_scene_files_folder() {
+        let way = |file: &str, folder: &str| relative(Path::new(file), Path::new(folder));
+        assert_eq!(way("/a/b/c.obj", "/a/b"), Path::new("c.obj"));
+        assert_eq!(way("/a/m/c.obj", "/a/b/d"), Path::new("../../m/c.obj"));
+    }
+}

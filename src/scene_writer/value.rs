@@ -1,0 +1,99 @@
+//! Numbers, vectors and texts as scene files have them. Numbers come back bit for bit.
+
+use glam::{DVec3, Vec2, Vec3};
+
+/// Whole numbers up to this are written without a point.
+const LARGEST_WHOLE: f64 = 1e9;
+/// Ways that are tried to write a direction.
+const MOST_TRIALS: u32 = 4096;
+
+/// In the fewest digits that mean this number.
+pub fn number(value: f64) -> String {
+    let is_whole = value.fract() == 0.0 && value.abs() <= LARGEST_WHOLE && !(value == 0.0 && value.is_sign_negative());
+    if is_whole { format!("{value:.0}") } else { format!("{value:?}") }
+}
+
+/// A number that is read in double precision and then rounded.
+pub fn number_f32(value: f32) -> String {
+    let short = format!("{value:?}");
+    // Rounding twice may differ from rounding once.
+    let comes_back = short.parse::<f64>().is_ok_and(|read| (read as f32).to_bits() == value.to_bits());
+    if value.fract() == 0.0 || !comes_back { number(f64::from(value)) } else { short }
+}
+
+pub fn numbers(values: &[f64]) -> String {
+    let values: Vec<String> = values.iter().map(|&value| number(value)).collect();
+    format!("[{}]", values.join(", "))
+}
+
+pub fn vector(value: DVec3) -> String {
+    numbers(&value.to_array())
+}
+
+pub fn vector_f32(value: Vec3) -> String {
+    format!("[{}]", value.to_array().map(number_f32).join(", "))
+}
+
+pub fn pair_f32(value: Vec2) -> String {
+    format!("[{}]", value.to_array().map(number_f32).join(", "))
+}
+
+/// One number where all channels are equal.
+pub fn colour(value: DVec3) -> String {
+    if value.min_element() == value.max_element() { number(value.x) } else { vector(value) }
+}
+
+/// A direction of length 1. The reader makes its length 1 once more, which may change last bits: a multiple is written that becomes exactly
+/// this one, if one is found.
+pub fn direction(value: DVec3) -> String {
+    let multiples = (0..MOST_TRIALS).map(|trial| value * (1.0 + f64::from(trial) / f64::from(MOST_TRIALS)));
+    let exact = multiples.into_iter().find(|multiple| multiple.try_normalize() == Some(value));
+    vector(exact.unwrap_or(value))
+}
+
+/// Text in quotes.
+pub fn text(value: &str) -> String {
+    toml::Value::from(value).to_string()
+}
+
+/// `key = value` on a line.
+pub fn line(key: &str, value: &str) -> String {
+    format!("{key} = {value}\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_come_back() {
+        for value in [0.0, -0.0, 1.0, -3.0, 0.1, 1e18, 1e-18, 123_456_789_012.0, f64::MIN_POSITIVE, 2.0_f64.sqrt()] {
+            let read: toml::Value = toml::from_str::<toml::Table>(&line("x", &number(value))).unwrap()["x"].clone();
+            let read = read.as_float().or(read.as_integer().map(|whole| whole as f64)).unwrap();
+            assert_eq!(read.to_bits(), value.to_bits(), "{value:?} as {}", number(value));
+        }
+        assert_eq!([number(2.0), number(0.5), number_f32(0.1), number_f32(3.0)], ["2", "0.5", "0.1", "3"]);
+    }
+
+    #[test]
+    fn directions_come_back() {
+        let mut exact = 0;
+        for index in 0..1000 {
+            let angle = f64::from(index);
+            let value = DVec3::new(angle.sin(), (1.7 * angle).cos(), 0.3).normalize();
+            let read: toml::Table = toml::from_str(&line("x", &direction(value))).unwrap();
+            let number = |part: &toml::Value| part.as_float().or(part.as_integer().map(|whole| whole as f64));
+            let parts: Vec<f64> = read["x"].as_array().unwrap().iter().map(|part| number(part).unwrap()).collect();
+            exact += usize::from(DVec3::from_slice(&parts).normalize() == value);
+        }
+        assert_eq!(exact, 1000);
+    }
+
+    #[test]
+    fn texts_are_quoted() {
+        for name in ["plain", "a \"b\"", "back\\slash", "line\nbreak", "küche 厨房", "\u{7f}\u{1}"] {
+            let read: toml::Table = toml::from_str(&line("x", &text(name))).unwrap();
+            assert_eq!(read["x"].as_str(), Some(name));
+        }
+    }
+}
