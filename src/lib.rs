@@ -84,6 +84,8 @@ pub mod load;
 #[doc(hidden)]
 pub mod math;
 #[doc(hidden)]
+pub mod merge;
+#[doc(hidden)]
 pub mod output;
 #[doc(hidden)]
 pub mod packed;

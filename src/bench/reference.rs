@@ -10,9 +10,7 @@ use super::subject::{BenchError, Subject};
 use crate::compare::Moments;
 use crate::compare::relative_weight;
 use crate::film::Band;
-use crate::output::{
-    AtomicFile, Display, ExrOptions, Image, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, read_image,
-};
+use crate::output::{AtomicFile, Display, Image, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, read_image};
 use crate::scene::{self, Scene};
 
 /// Independent pictures that a reference is the mean of: their scatter says how far it is from the truth.
@@ -187,19 +185,11 @@ fn write_exr(path: &Path, scene: &Scene, device: &str, reference: &Reference) ->
         target_error: None,
         device: device.to_owned(),
     };
-    let (width, height, display, exr) = (image.width, image.height, Display::CLIP, ExrOptions::default());
-    let spec = PictureSpec { width, height, display, exr, provenance: Some(provenance) };
+    let (width, height, display) = (image.width, image.height, Display::CLIP);
+    let spec = PictureSpec { width, height, display, provenance: Some(provenance), ..PictureSpec::default() };
     let mut file = PictureFile::create(path, PictureFormat::Exr, &spec)?;
     let mean = image.pixels.clone();
-    let band = Band {
-        first_row: 0,
-        width: image.width,
-        rows: image.height,
-        samples,
-        counts: None,
-        second_moment: vec![0.0; mean.len()],
-        mean,
-    };
+    let band = Band { first_row: 0, width: image.width, rows: image.height, samples, mean, ..Band::default() };
     file.write_band(&Arc::new(band)).map_err(|source| OutputError::Write { path: path.into(), source })?;
     Ok(file.finish()?)
 }

@@ -14,8 +14,10 @@ use gpt::scene::settings::MOST_SAMPLES;
 use super::bench::BenchArguments;
 use super::choice::by_name;
 use super::exit::Exit;
+use super::machine_progress::ProgressFormat;
 use super::model_arguments::ModelArguments;
 use super::picture_arguments::{DisplayArguments, ExrArguments};
+use super::setting_flags::SettingFlags;
 use super::settings::EstimateArguments;
 use super::traversal::TraversalArguments;
 use super::values::{parse_device, parse_pixel, parse_size};
@@ -33,6 +35,10 @@ pub enum Command {
     /// Render a scene to picture files
     #[command(after_help = RENDER_EXAMPLES)]
     Render(Box<RenderArguments>),
+    /// Cut a render into chunks for several machines, with their commands, memory and time, as JSON
+    Plan(PlanArguments),
+    /// Join parts of a picture that `gpt render` wrote with --first-sample or --crop
+    Merge(MergeArguments),
     /// Measure how far two pictures are apart; exit code 7 if they differ
     Compare(CompareArguments),
     /// Render on the GPU and by the CPU reference with the same random numbers; exit code 7 if they differ
@@ -102,6 +108,9 @@ pub struct RenderArguments {
     /// Write what the render did and how long it took as JSON; - is standard output
     #[arg(long, value_name = "FILE.json", help_heading = REPORT)]
     pub stats: Option<PathBuf>,
+    /// Tell of progress on standard output, once a second: words, JSON lines, or as Open Job Description has it
+    #[arg(long, value_name = "FORMAT", value_enum)]
+    pub progress: Option<ProgressFormat>,
     /// No progress on stderr
     #[arg(short, long, help_heading = REPORT)]
     pub quiet: bool,
@@ -153,13 +162,13 @@ impl AccessArguments {
 #[derive(Debug, Default, Args)]
 pub struct GoalArguments {
     /// Stop after this time since the program's start, with a whole picture of fewer samples per pixel
-    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, conflicts_with = "crop")]
     pub time_limit: Option<Duration>,
     /// Stop once the picture's relative mean squared error is below X with 95 % confidence; --spp is then the most it may take
-    #[arg(long, value_name = "X", value_parser = parse_target, conflicts_with = "first_sample")]
+    #[arg(long, value_name = "X", value_parser = parse_target, conflicts_with_all = ["first_sample", "crop"])]
     pub target_error: Option<f64>,
     /// Give noisy pixels more samples and calm ones fewer, --spp on average; unbiased
-    #[arg(long, conflicts_with = "first_sample")]
+    #[arg(long, conflicts_with_all = ["first_sample", "crop"])]
     pub adaptive: bool,
 }
 
@@ -172,6 +181,47 @@ pub struct CheckpointArguments {
     /// Go on from that state, if there is one, and save further ones [every 60 s]; render nothing where all pictures are finished
     #[arg(long)]
     pub resume: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct PlanArguments {
+    /// A .toml scene, an .obj or .ply model, or the name of a built-in scene
+    pub scene: OsString,
+    #[command(flatten)]
+    pub access: AccessArguments,
+    /// How many chunks
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub chunks: u32,
+    /// Picture that the merge writes [default: SCENE-name.exr]
+    #[arg(short, long, value_name = "FILE.exr")]
+    pub output: Option<PathBuf>,
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+    #[command(flatten)]
+    pub settings: SettingFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct MergeArguments {
+    /// The parts, in any order
+    #[arg(required = true, value_name = "PART.exr")]
+    pub parts: Vec<PathBuf>,
+    /// Picture to write: .exr (linear float), .png (sRGB preview), or - (standard output, EXR); may be given several times
+    #[arg(short, long = "output", value_name = "FILE", required = true)]
+    pub outputs: Vec<PathBuf>,
+    /// Samples per pixel that the picture shall have, so that missing ones at its end are noticed [default: up to the last part's last]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SAMPLES)))]
+    pub spp: Option<u32>,
+    /// Join what there is, though samples or regions are missing
+    #[arg(long)]
+    pub partial: bool,
+    /// Say how many more parts it would take to bring the relative mean squared error below X
+    #[arg(long, value_name = "X", value_parser = parse_target)]
+    pub target_error: Option<f64>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 #[derive(Debug, Args)]

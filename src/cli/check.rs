@@ -5,7 +5,7 @@ use std::time::Instant;
 use gpt::gpu::select_adapter;
 use gpt::load::{self, SceneError, printable};
 use gpt::packed::{PackError, PackedScene};
-use gpt::plan::{Decision, DeviceLimits, Plan};
+use gpt::plan::{Decision, DeviceLimits, Plan, PlanOptions};
 use gpt::reference::ReferenceRenderer;
 use gpt::renderer::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
 use gpt::scene::{ImportReport, ReportItem, Scene, SceneSummary};
@@ -99,11 +99,7 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
     let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
     let options = arguments.traversal.options();
     let packed = PackedScene::for_traversal(&scene, options.packed_traversal()).map_err(does_not_fit)?;
-    // Without an adapter the plan is the one for a device that has just what WebGPU promises.
-    let (device, limits) = match select_adapter(&DeviceChoice::Auto) {
-        Ok(adapter) => (adapter.get_info().name, DeviceLimits::of(&adapter)),
-        Err(_) => ("a device with the limits that WebGPU promises".to_owned(), DeviceLimits::default()),
-    };
+    let (device, limits) = usual_device();
     let plan = Plan::new(&scene, &packed, &limits, &options).map_err(RenderError::from)?;
     let summary = SceneSummary::of(&scene);
     let exit = if arguments.strict && !scene.import_report.is_empty() { Exit::Input } else { Exit::Done };
@@ -157,8 +153,26 @@ fn listed(report: &ImportReport) -> String {
     printable(&text)
 }
 
+/// The device that `--device auto` takes, and what it needs of its memory for the scene.
+pub fn device_memory(scene: &Scene) -> Result<(String, u64), Failure> {
+    let options = PlanOptions::default();
+    let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
+    let packed = PackedScene::for_traversal(scene, options.packed_traversal()).map_err(does_not_fit)?;
+    let (device, limits) = usual_device();
+    let plan = Plan::new(scene, &packed, &limits, &options).map_err(RenderError::from)?;
+    Ok((device, plan.memory.total()))
+}
+
+/// The device that `--device auto` takes; without an adapter, one that has just what WebGPU promises.
+fn usual_device() -> (String, DeviceLimits) {
+    match select_adapter(&DeviceChoice::Auto) {
+        Ok(adapter) => (adapter.get_info().name, DeviceLimits::of(&adapter)),
+        Err(_) => ("a device with the limits that WebGPU promises".to_owned(), DeviceLimits::default()),
+    }
+}
+
 /// Seconds that the CPU would take, by one sample of each pixel of a small picture.
-fn guess_time(scene: &Scene) -> Result<f64, Failure> {
+pub fn guess_time(scene: &Scene) -> Result<f64, Failure> {
     let mut small = scene.clone();
     verify::shrink(&mut small, PROBE_SIDE);
     small.render.spp = 1;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use gpt::output::{Display, ExrOptions, OutputError, PictureFormat, PictureSpec, is_finished_picture};
+use gpt::output::{Display, ExrOptions, OutputError, PartSpec, PictureFormat, PictureSpec, is_finished_picture};
 use gpt::render::checkpoint::{Checkpoint, DEFAULT_INTERVAL, path_beside};
 use gpt::{RenderOptions, Renderer, Scene};
 
@@ -44,14 +44,14 @@ pub fn all_are_finished(
     outputs: &[(PathBuf, PictureFormat)],
     scene: &Scene,
     options: &RenderOptions,
-    (display, exr): (Display, ExrOptions),
+    (display, exr, part): (Display, ExrOptions, Option<PartSpec>),
 ) -> bool {
     if outputs.iter().any(|(path, _)| is_stdout(path) || !path.is_file()) {
         return false;
     }
     let provenance = Some(Renderer::provenance_of(scene, options, ""));
-    let [width, height] = scene.film.size;
-    let spec = PictureSpec { width, height, display, exr, provenance };
+    let [width, height] = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
+    let spec = PictureSpec { width, height, display, exr, provenance, part };
     outputs.iter().all(|(path, format)| is_finished_picture(path, *format, &spec))
 }
 
@@ -81,7 +81,7 @@ impl Kept {
                     "{place} is the state of an earlier render and will be replaced; --resume would go on from it"
                 ));
             }
-        } else if let Some((device, samples)) = checkpoint.find(renderer.size())? {
+        } else if let Some((device, samples)) = checkpoint.find(renderer.film())? {
             kept.resumed_samples = samples;
             if device != renderer.device() {
                 let ours = renderer.device();

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use gpt::bench::subject::BenchError;
 use gpt::compare::SizeMismatch;
 use gpt::load::SceneError;
+use gpt::merge::MergeError;
 use gpt::output::{OutputError, ReadError};
 use gpt::render::checkpoint::CheckpointError;
 use gpt::renderer::RenderError;
@@ -97,6 +98,8 @@ pub enum Failure {
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Outputs(Vec<OutputError>),
     #[error(transparent)]
+    Merge(MergeError),
+    #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
     #[error("interrupted before anything could be said; nothing is saved")]
     Interrupted,
@@ -136,9 +139,12 @@ impl From<&Failure> for Exit {
     fn from(failure: &Failure) -> Self {
         match failure {
             Failure::Usage { .. } => Self::Usage,
-            Failure::Scene(_) | Failure::Picture(_) | Failure::Sizes(_) | Failure::BadScene(_) | Failure::Checkpoint(_) => {
-                Self::Input
-            }
+            Failure::Scene(_)
+            | Failure::Picture(_)
+            | Failure::Sizes(_)
+            | Failure::BadScene(_)
+            | Failure::Checkpoint(_)
+            | Failure::Merge(_) => Self::Input,
             Failure::Render(RenderError::InvalidScene(_)) => Self::Input,
             Failure::Render(RenderError::NoDevice(_) | RenderError::DoesNotFit(_)) => Self::Device,
             Failure::Render(RenderError::DeviceLost(_)) => Self::DeviceLost,

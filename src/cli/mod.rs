@@ -11,9 +11,12 @@ mod exit;
 mod export;
 mod import;
 mod interrupt;
+mod machine_progress;
+mod merge;
 mod model_arguments;
 mod picture_arguments;
 mod pictures;
+mod plan;
 mod progress;
 #[cfg(test)]
 mod reference_pages;
@@ -58,6 +61,8 @@ pub fn run() -> ExitCode {
     };
     let outcome = match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
+        Command::Plan(arguments) => plan::run(&arguments),
+        Command::Merge(arguments) => merge::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),

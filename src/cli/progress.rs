@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use gpt::renderer::Observer;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::machine_progress::{MachineProgress, Needs, ProgressFormat};
 use super::{interrupt, terminal};
 
 /// Time between two plain lines.
@@ -22,8 +23,14 @@ const TICK: Duration = Duration::from_millis(120);
 const WIDEST_BAR: usize = 30;
 const NARROWEST_BAR: usize = 8;
 
-/// Shows progress and passes on the wish to stop.
-pub enum Progress {
+/// Shows progress to people and to other programs, and passes on the wish to stop.
+pub struct Progress {
+    shown: Shown,
+    machine: Option<Mutex<(MachineProgress, Pace)>>,
+}
+
+/// What people see.
+enum Shown {
     Hidden,
     Bar(ProgressBar, Mutex<Pace>),
     Lines(Mutex<Lines>),
@@ -54,7 +61,34 @@ impl Pace {
 
 impl Progress {
     /// A bar where stderr is a terminal, else lines; nothing if `quiet`. The scene is being prepared until samples come.
-    pub fn new(quiet: bool) -> Self {
+    /// `format`: lines for other programs too.
+    pub fn new(quiet: bool, format: Option<ProgressFormat>) -> Self {
+        let machine = format.map(|format| Mutex::new((MachineProgress::new(format), Pace::default())));
+        Self { shown: Shown::new(quiet), machine }
+    }
+
+    /// Says to other programs what the render is about to take.
+    pub fn start(&self, needs: Needs) {
+        if let Some(machine) = &self.machine {
+            lock(machine).0.start(needs);
+        }
+    }
+
+    /// Says to other programs that the render is over.
+    pub fn end(&self, complete: bool, outputs: &[String]) {
+        if let Some(machine) = &self.machine {
+            lock(machine).0.end(complete, outputs);
+        }
+    }
+
+    /// Takes the bar off the screen.
+    pub fn clear(&self) {
+        self.shown.clear();
+    }
+}
+
+impl Shown {
+    fn new(quiet: bool) -> Self {
         if quiet {
             return Self::Hidden;
         }
@@ -66,8 +100,7 @@ impl Progress {
         Self::Lines(Mutex::new(Lines { last: Instant::now(), pace: Pace::default(), preparing: tell_if_long() }))
     }
 
-    /// Takes the bar off the screen.
-    pub fn clear(&self) {
+    fn clear(&self) {
         match self {
             Self::Hidden => {}
             Self::Bar(bar, _) => bar.finish_and_clear(),
@@ -76,7 +109,7 @@ impl Progress {
     }
 }
 
-impl Observer for Progress {
+impl Shown {
     fn progress(&self, done: u64, total: u64) {
         match self {
             Self::Hidden => {}
@@ -95,6 +128,17 @@ impl Observer for Progress {
                     terminal::note(&line(done, total, rate));
                 }
             }
+        }
+    }
+}
+
+impl Observer for Progress {
+    fn progress(&self, done: u64, total: u64) {
+        self.shown.progress(done, total);
+        if let Some(machine) = &self.machine {
+            let (machine, pace) = &mut *lock(machine);
+            let rate = pace.rate(done);
+            machine.progress(done, total, rate);
         }
     }
 

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use gpt::load::{self, LoadOptions, SceneSource};
-use gpt::output::{AtomicFile, PictureFormat, PictureSpec, Provenance, check_target};
-use gpt::plan::PlanOptions;
+use gpt::output::{AtomicFile, PartSpec, PictureFormat, PictureSpec, Provenance, check_target};
+use gpt::plan::memory::FILM_BYTES;
+use gpt::plan::{DeviceLimits, PlanOptions};
 use gpt::render::choice::Choice;
 use gpt::render::progressive::STREAMS;
 use gpt::renderer::{DeviceChoice, RenderError, RenderReport};
@@ -15,8 +16,10 @@ use gpt::{ErrorEstimate, Outcome, RenderOptions, Renderer, Scene, Stop};
 use super::arguments::RenderArguments;
 use super::checkpoint;
 use super::exit::{Exit, Failure};
+use super::machine_progress::Needs;
 use super::pictures::{PictureSummary, Pictures, is_stdout, output_formats};
 use super::progress::Progress;
+use super::settings::EstimateArguments;
 use super::stats::Stats;
 use super::{interrupt, settings, terminal};
 
@@ -24,12 +27,17 @@ use super::{interrupt, settings, terminal};
 pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let started = Instant::now();
     let mut outputs = output_formats(&arguments.outputs, arguments.stats.as_deref())?;
+    let mut on_stdout = arguments.outputs.iter().map(PathBuf::as_path).chain(arguments.stats.as_deref());
+    if arguments.progress.is_some() && on_stdout.any(is_stdout) {
+        return Err(Failure::usage("--progress tells of progress on standard output, and -o - or --stats - write there"));
+    }
     interrupt::install()?;
 
     let device = device(arguments)?;
     let options = RenderOptions {
         device: device.clone(),
-        first_sample: arguments.estimate.first_sample,
+        first_sample: arguments.estimate.first_sample.unwrap_or(0),
+        crop: arguments.estimate.crop,
         time_limit: arguments.goal.time_limit,
         target_error: arguments.goal.target_error,
         adaptive: arguments.goal.adaptive,
@@ -51,7 +59,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
         save_scene(&scene, path)?;
     }
     checkpoint::check(&arguments.checkpoint, &outputs)?;
-    let shown = (arguments.display.display(), arguments.exr.options());
+    let shown = (arguments.display.display(), arguments.exr.options(), part(arguments, scene.film.size));
     if arguments.checkpoint.resume && checkpoint::all_are_finished(&outputs, &scene, &options, shown) {
         if !arguments.quiet {
             terminal::note(&format!("{}: finished before, nothing is left to render", names(&outputs)));
@@ -60,8 +68,9 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     }
     let load_seconds = started.elapsed().as_secs_f64();
 
+    let progress = Progress::new(arguments.quiet, arguments.progress);
     let Rendered { outcome, mut pictures, provenance, mut kept } =
-        render(arguments, (choice, &options), &scene, &outputs, started)?;
+        render(arguments, (choice, &options), &scene, &outputs, (started, &progress))?;
     let broke_off = outcome.stop == Stop::Interrupted;
     if broke_off && kept.save() {
         pictures.give_up_beside_finished();
@@ -74,6 +83,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let report = outcome.report;
     let mut stats = Stats::new(&scene, &report);
     stats.resumed(kept.resumed_samples);
+    [stats.width, stats.height] = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
     stats.spp_done = summary.samples[0];
     stats.stopped_by = stop_name(outcome.stop);
     stats.adaptive = arguments.goal.adaptive;
@@ -81,7 +91,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     stats.expected_error = outcome.error.map(|error| error.mean);
     stats.error_bound = outcome.error.map(|error| error.upper);
     stats.scene_hash = provenance.scene_hash;
-    stats.first_sample = arguments.estimate.first_sample;
+    stats.first_sample = arguments.estimate.first_sample.unwrap_or(0);
     stats.mean = summary.mean;
     stats.outputs = summary.places.iter().map(|path| path.display().to_string()).collect();
     stats.seconds.load = load_seconds;
@@ -92,6 +102,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     }
     tell(&stats, &summary, arguments.quiet);
     kept.tell();
+    progress.end(!broke_off && summary.failures.is_empty(), &stats.outputs);
     tell_of_error(arguments, outcome.error, outcome.stop);
     if !summary.failures.is_empty() {
         return Err(Failure::Outputs(summary.failures));
@@ -116,6 +127,14 @@ fn check_inputs(outputs: &[(PathBuf, PictureFormat)], arguments: &RenderArgument
         Some(path) => Err(Failure::usage(format!("{} is a file of the scene, and would be overwritten", path.display()))),
         None => Ok(()),
     }
+}
+
+/// What is told before it is taken: 32 bytes a pixel of the rows that the film has at a time.
+fn needs(scene: &Scene, options: &RenderOptions) -> Needs {
+    let [width, height] = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
+    let film = scene.film.size.map(u64::from).iter().product::<u64>();
+    let film_bytes = film.min(DeviceLimits::default().film_pixels) * FILM_BYTES;
+    Needs { width, height, film_bytes }
 }
 
 /// The pictures by name, for messages.
@@ -181,21 +200,22 @@ fn render(
     (choice, options): (Choice, &RenderOptions),
     scene: &Scene,
     outputs: &[(PathBuf, PictureFormat)],
-    started: Instant,
+    (started, progress): (Instant, &Progress),
 ) -> Result<Rendered, Failure> {
-    let progress = Progress::new(arguments.quiet);
+    progress.start(needs(scene, options));
     let mut renderer = Renderer::on(choice, scene, options).inspect_err(|_| progress.clear())?;
     if let Some(notice) = renderer.notice() {
         progress.clear();
         terminal::note(notice);
     }
     let [width, height] = renderer.size();
+    let part = part(arguments, renderer.film());
     let provenance = renderer.provenance().clone();
     let (display, exr) = (arguments.display.display(), arguments.exr.options());
-    let spec = PictureSpec { width, height, display, exr, provenance: Some(provenance.clone()) };
+    let spec = PictureSpec { width, height, display, exr, provenance: Some(provenance.clone()), part };
     let mut kept = checkpoint::Kept::begin(&arguments.checkpoint, &renderer, outputs, started, arguments.quiet)?;
     let mut pictures = Pictures::create(outputs, &spec)?;
-    let outcome = renderer.render_from(started, &progress, kept.checkpoint.as_mut(), &mut |band| pictures.write_band(band));
+    let outcome = renderer.render_from(started, progress, kept.checkpoint.as_mut(), &mut |band| pictures.write_band(band));
     progress.clear();
     match outcome {
         // The files themselves say more than that none could take any more.
@@ -222,6 +242,13 @@ fn render(
         Ok(outcome) if pictures.any() || outcome.report.interrupted => Ok(Rendered { outcome, pictures, provenance, kept }),
         Ok(_) => Err(RenderError::Internal("the renderer finished without delivering a picture".to_owned()).into()),
     }
+}
+
+/// Where the picture stands in the whole, if it is a part of one.
+fn part(arguments: &RenderArguments, film: [u32; 2]) -> Option<PartSpec> {
+    let EstimateArguments { first_sample, crop, .. } = &arguments.estimate;
+    let origin = crop.map_or([0, 0], |[x, y, ..]| [x, y]);
+    (first_sample.is_some() || crop.is_some()).then_some(PartSpec { film, origin })
 }
 
 /// Saves what there is of a picture whose render failed, and says where.

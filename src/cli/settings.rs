@@ -1,20 +1,23 @@
 //! What the command line puts over the scene's own settings.
 
 use clap::Args;
-use gpt::render::options::PARTS_OF_STRATA;
+use gpt::render::options::{PARTS_OF_STRATA, fits};
 use gpt::scene::Scene;
 use gpt::scene::settings::MOST_SAMPLES;
 
 use super::exit::Failure;
 use super::setting_flags::SettingFlags;
-use super::values::parse_size;
+use super::values::{parse_region, parse_size};
 
 /// What overrides the scene's own `[film]` and `[render]`.
 #[derive(Debug, Default, Args)]
 pub struct EstimateArguments {
-    /// Absolute index of the first sample: 0 and 128, with --spp 128 each, together are the samples of --spp 256
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..i64::from(MOST_SAMPLES)))]
-    pub first_sample: u32,
+    /// Render a part of the samples, from this absolute index on: 0 and 128, with --spp 128 each, together are those of --spp 256; `gpt merge` joins parts
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..i64::from(MOST_SAMPLES)))]
+    pub first_sample: Option<u32>,
+    /// Render a region: first column and row, width and height in pixels; `gpt merge` joins regions
+    #[arg(long, value_name = "X,Y,W,H", value_parser = parse_region)]
+    pub crop: Option<[u32; 4]>,
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
@@ -27,20 +30,37 @@ pub struct EstimateArguments {
 /// # Errors
 /// Combinations that no single flag shows to be wrong, and a scene file's own size that cannot be rendered.
 pub fn apply(arguments: &EstimateArguments, scene: &mut Scene) -> Result<(), Failure> {
-    if let Some(size) = arguments.size {
-        scene.film.size = size;
+    apply_to(arguments.size, &arguments.settings, scene)?;
+    if let Some(crop) = arguments.crop
+        && !fits(crop, scene.film.size)
+    {
+        let ([x, y, columns, rows], [width, height]) = (crop, scene.film.size);
+        return Err(Failure::usage(format!(
+            "--crop {x},{y},{columns},{rows}: the region does not lie within the picture of {width}x{height} pixels"
+        )));
     }
-    for setting in &arguments.settings.0 {
-        setting.apply(&mut scene.render);
-    }
-    check(scene)?;
-    if arguments.first_sample.checked_add(scene.render.spp).is_none_or(|end| end > MOST_SAMPLES) {
+    let first_sample = arguments.first_sample.unwrap_or(0);
+    if first_sample.checked_add(scene.render.spp).is_none_or(|end| end > MOST_SAMPLES) {
         return Err(Failure::usage(format!("--first-sample and the samples per pixel together must stay within {MOST_SAMPLES}")));
     }
-    if arguments.first_sample > 0 && scene.render.uses_strata() {
-        return Err(Failure::usage(format!("--first-sample {}: {PARTS_OF_STRATA}", arguments.first_sample)));
+    if first_sample > 0 && scene.render.uses_strata() {
+        return Err(Failure::usage(format!("--first-sample {first_sample}: {PARTS_OF_STRATA}")));
     }
     Ok(())
+}
+
+/// Overrides size and settings, where they are given.
+///
+/// # Errors
+/// As [`check`].
+pub fn apply_to(size: Option<[u32; 2]>, settings: &SettingFlags, scene: &mut Scene) -> Result<(), Failure> {
+    if let Some(size) = size {
+        scene.film.size = size;
+    }
+    for setting in &settings.0 {
+        setting.apply(&mut scene.render);
+    }
+    check(scene)
 }
 
 /// Whether the scene can be rendered with its settings and the command line's together.
@@ -86,6 +106,8 @@ mod tests {
             let part = flags(&format!("--first-sample 4 {stratified}"));
             assert!(matches!(apply(&part, &mut Scene::default()), Err(Failure::Usage { .. })));
         }
+        assert!(matches!(apply(&flags("--size 8x8 --crop 5,0,4,1"), &mut Scene::default()), Err(Failure::Usage { .. })));
+        assert!(apply(&flags("--size 8x8 --crop 5,0,3,1"), &mut Scene::default()).is_ok());
         assert!(apply(&flags("--first-sample 4 --sampler quadrant"), &mut Scene::default()).is_ok());
         let mut huge = Scene::default();
         huge.film.size = [100_000, 1];

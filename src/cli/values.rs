@@ -27,6 +27,13 @@ pub fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
     Ok([place(parts.0)?, place(parts.1)?])
 }
 
+pub fn parse_region(text: &str) -> Result<[u32; 4], String> {
+    let expected = || "expected COLUMN,ROW,WIDTH,HEIGHT in pixels, for example 64,48,128,96".to_owned();
+    let numbers = text.split(',').map(|part| part.trim().parse::<u32>()).collect::<Result<Vec<_>, _>>();
+    let region: [u32; 4] = numbers.ok().and_then(|numbers| numbers.try_into().ok()).ok_or_else(expected)?;
+    if region[2] == 0 || region[3] == 0 { Err(expected()) } else { Ok(region) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -45,6 +52,14 @@ mod tests {
         assert_eq!(parse_pixel("3,0"), Ok([3, 0]));
         for bad in ["3", "3,", "-1,2", "1,2,3", "1.5,2", "3x4"] {
             assert!(parse_pixel(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn regions_are_four_numbers() {
+        assert_eq!(parse_region("3,0, 5,6"), Ok([3, 0, 5, 6]));
+        for bad in ["3,0", "1,2,3,4,5", "0,0,0,4", "0,0,4,0", "-1,0,2,2", "a,b,c,d", ""] {
+            assert!(parse_region(bad).is_err(), "{bad}");
         }
     }
 

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::buffers::FilmHalf;
 use super::device::Device;
-use crate::film::Band;
+use crate::film::{Band, rounded};
 use crate::renderer::state::FilmState;
 use crate::renderer::{Batch, RenderError};
 
@@ -148,7 +148,7 @@ fn means(
 ) -> Band {
     let first = (first_row * width) as usize;
     let mut samples = batch.request.samples.len() as u32;
-    let mut mean = Vec::with_capacity(sums.len());
+    let (mut mean, mut remainder) = (Vec::with_capacity(sums.len()), Vec::with_capacity(sums.len()));
     let mut second_moment = Vec::with_capacity(sums.len());
     let mut counts = Vec::with_capacity(if reached.with_counts { sums.len() } else { 0 });
     for (pixel, (sum, compensation)) in sums.iter().zip(compensations).enumerate() {
@@ -162,11 +162,13 @@ fn means(
         if reached.with_counts {
             counts.push(count);
         }
-        let per_sample = |x: f64| if count > 0 { (x / f64::from(count)) as f32 } else { 0.0 };
+        let per_sample = |x: f64| if count > 0 { x / f64::from(count) } else { 0.0 };
         // The true sum is the stored one less what its compensation still owes.
-        mean.push([0, 1, 2].map(|c| per_sample(f64::from(sum[c]) - f64::from(compensation[c]))));
-        second_moment.push(per_sample(f64::from(compensation[3])));
+        let (nearest, rest) = rounded([0, 1, 2].map(|c| per_sample(f64::from(sum[c]) - f64::from(compensation[c]))));
+        mean.push(nearest);
+        remainder.push(rest);
+        second_moment.push(per_sample(f64::from(compensation[3])) as f32);
     }
     let rows = (sums.len() / width as usize) as u32;
-    Band { first_row, width, rows, samples, counts: reached.with_counts.then_some(counts), mean, second_moment }
+    Band { first_row, width, rows, samples, counts: reached.with_counts.then_some(counts), mean, remainder, second_moment }
 }

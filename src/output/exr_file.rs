@@ -6,20 +6,24 @@ use std::thread::available_parallelism;
 use exr::block::UncompressedBlock;
 use exr::block::writer::{ChunkWriter, ChunksWriter, ParallelBlocksCompressor};
 use exr::error::{Error, UnitResult};
-use exr::meta::attribute::{AttributeValue, ChannelDescription, Chromaticities, LineOrder, SampleType, Text};
+use exr::meta::attribute::{AttributeValue, ChannelDescription, Chromaticities, IntegerBounds, LineOrder, SampleType, Text};
 use exr::meta::header::Header;
 use exr::meta::{BlockDescription, Headers, MetaData};
 use exr::prelude::{Compression, Vec2, f16};
 
 use super::provenance::Entry;
-use super::rows::{Completeness, Rows};
-use super::spec::{ExrCompression, PictureSpec};
+use super::rows::{Completeness, PartRow, Rows};
+use super::spec::{ExrCompression, PartSpec, PictureSpec};
+use crate::film::variance;
 
 /// Blocks compressed at once. Each takes 32 rows of memory, so more would be felt at 8K.
 const COMPRESSING_THREADS: usize = 4;
 /// Channels of every file, in alphabetical order, and the one of pixels that differ in their numbers of samples.
 const COLOURS: [&str; 3] = ["B", "G", "R"];
 const COUNT: &str = "SampleCount";
+/// Channels of a part, in alphabetical order: what rounding to a colour lost is its remainder, and variances are those of the means.
+const PART: [&str; 10] =
+    ["B", "G", "R", "Remainder.B", "Remainder.G", "Remainder.R", COUNT, "Variance.B", "Variance.G", "Variance.R"];
 /// Bytes before the header in every file: the magic number and the version.
 const PREAMBLE_BYTES: u64 = 8;
 
@@ -70,7 +74,13 @@ fn for_each_block(meta: &MetaData, rows: &mut Rows, mut write: impl FnMut(usize,
     let half = meta.headers[0].channels.list[0].sample_type == SampleType::F16;
     for (index_in_file, index) in meta.enumerate_ordered_header_block_indices() {
         let mut data = Vec::with_capacity(index.pixel_size.area() * bytes_per_pixel);
+        let is_part = meta.headers[0].channels.list.len() == PART.len();
         for _ in 0..index.pixel_size.height() {
+            if is_part {
+                let row = rows.next_part_row().map_err(|_| Error::Aborted)?;
+                pack_part_row(&row, &mut data);
+                continue;
+            }
             let (row, counts) = rows.next_row().map_err(|_| Error::Aborted)?;
             // Channels lie one after another in a scan line, in the alphabetical order of their names.
             for channel in [2, 1, 0] {
@@ -96,15 +106,44 @@ fn to_half(value: f32) -> f16 {
     f16::from_f32(if value.is_nan() { value } else { value.clamp(-largest, largest) })
 }
 
+/// Adds a row of a part, channel after channel.
+fn pack_part_row(row: &PartRow<'_>, data: &mut Vec<u8>) {
+    let values = |pixel: usize| {
+        let mean = row.mean[pixel];
+        let remainder = row.remainder.get(pixel).copied().unwrap_or_default();
+        let count = row.counts.of(pixel);
+        let exact = std::array::from_fn(|channel| f64::from(mean[channel]) + f64::from(remainder[channel]));
+        let second_moment = row.second_moment.get(pixel).copied().unwrap_or_default();
+        let variance = variance(exact, f64::from(second_moment), f64::from(count)).map(|variance| variance as f32);
+        let [[r, g, b], [rest_r, rest_g, rest_b], [var_r, var_g, var_b]] = [mean, remainder, variance];
+        [b, g, r, rest_b, rest_g, rest_r, count as f32, var_b, var_g, var_r]
+    };
+    let pixels: Vec<[f32; PART.len()]> = (0..row.mean.len()).map(values).collect();
+    for channel in 0..PART.len() {
+        data.extend(pixels.iter().flat_map(|pixel| pixel[channel].to_ne_bytes()));
+    }
+}
+
+/// Channels of a part, in alphabetical order.
+pub fn part_channels() -> impl Iterator<Item = &'static str> {
+    PART.into_iter()
+}
+
 /// `have_counts`: the file says how many samples each pixel has, in a channel of its own.
 fn header(spec: &PictureSpec, samples: u32, completeness: Completeness, have_counts: bool) -> Header {
-    let names = COLOURS.iter().copied().chain(have_counts.then_some(COUNT));
-    let colour = if spec.exr.half { SampleType::F16 } else { SampleType::F32 };
+    let usual = COLOURS.iter().copied().chain(have_counts.then_some(COUNT));
+    let names: Vec<&str> = if spec.part.is_some() { PART.to_vec() } else { usual.collect() };
+    let is_half = spec.exr.half && spec.part.is_none();
+    let colour = if is_half { SampleType::F16 } else { SampleType::F32 };
     let sample_type = |name| if name == COUNT { SampleType::F32 } else { colour };
-    let channels = names.map(|name| ChannelDescription::new(name, sample_type(name), false)).collect::<Vec<_>>();
+    let channels = names.into_iter().map(|name| ChannelDescription::new(name, sample_type(name), false)).collect::<Vec<_>>();
     let size = Vec2(spec.width as usize, spec.height as usize);
     let mut header = Header::new(Text::from("gpt"), size, channels.into_iter().collect()).with_encoding(
-        compression(spec.exr.compression),
+        match spec.exr.compression {
+            // Of a part, nothing may be lost.
+            ExrCompression::Pxr24 if spec.part.is_some() => Compression::ZIP16,
+            choice => compression(choice),
+        },
         BlockDescription::ScanLines,
         LineOrder::Increasing,
     );
@@ -115,6 +154,11 @@ fn header(spec: &PictureSpec, samples: u32, completeness: Completeness, have_cou
         header.own_attributes.other.insert(Text::from(key), attribute(entry));
     }
     header.shared_attributes.chromaticities = Some(REC_709);
+    if let Some(PartSpec { film, origin }) = spec.part {
+        let [x, y] = origin.map(|place| i32::try_from(place).unwrap_or(i32::MAX));
+        header.own_attributes.layer_position = Vec2(x, y);
+        header.shared_attributes.display_window = IntegerBounds::from_dimensions((film[0] as usize, film[1] as usize));
+    }
     header
 }
 

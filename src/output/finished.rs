@@ -11,7 +11,7 @@ use super::developed::software;
 use super::format::PictureFormat;
 use super::picture::is_finished;
 use super::provenance::{COMPLETE_KEY, Entry, SAMPLES_KEY};
-use super::read::read_image;
+use super::read::{Image, read_image};
 use super::rows::Completeness;
 use super::spec::PictureSpec;
 use super::{exr_file, hdr_file, jpeg_file, png_file};
@@ -25,7 +25,7 @@ const LONGEST_START: u64 = 70_000;
 /// Whether a readable picture stands there that was made of the same scene with the same settings, and whose render did not break off. The
 /// device does not matter.
 pub fn is_finished_picture(path: &Path, format: PictureFormat, spec: &PictureSpec) -> bool {
-    let has_size = |image: super::Image| (image.width, image.height) == (spec.width, spec.height);
+    let has_size = |image: Image| (image.width, image.height) == (spec.width, spec.height);
     path.is_file()
         && is_finished(path)
         && match format {
@@ -45,6 +45,9 @@ fn decisive(spec: &PictureSpec) -> impl Iterator<Item = (&'static str, Entry)> {
 fn exr_agrees(path: &Path, spec: &PictureSpec) -> bool {
     let Ok(meta) = MetaData::read_from_file(path, false) else { return false };
     let Some(header) = meta.headers.first() else { return false };
+    if header.channels.list.iter().any(|channel| channel.name.eq("Remainder.R")) != spec.part.is_some() {
+        return false;
+    }
     let found: Vec<(&Text, &AttributeValue)> = header.own_attributes.other.iter().collect();
     let entries: Vec<_> = decisive(spec).collect();
     let has = |(key, entry): &(&str, Entry)| {
@@ -93,7 +96,7 @@ mod tests {
 
     use super::*;
     use crate::film::Band;
-    use crate::output::{Display, ExrOptions, PictureFile, Provenance};
+    use crate::output::{PictureFile, Provenance};
     use crate::scene::{Filter, RenderSettings};
 
     fn spec(seed: u32, device: &str) -> PictureSpec {
@@ -107,7 +110,7 @@ mod tests {
             adaptive: false,
             device: device.to_owned(),
         };
-        PictureSpec { width: 8, height: 4, display: Display::default(), exr: ExrOptions::default(), provenance: Some(provenance) }
+        PictureSpec { width: 8, height: 4, provenance: Some(provenance), ..PictureSpec::default() }
     }
 
     #[test]

@@ -231,7 +231,7 @@ mod tests {
             adaptive: false,
             device: "a device".to_owned(),
         };
-        PictureSpec { width, height, display: Display::CLIP, exr: ExrOptions::default(), provenance: Some(provenance) }
+        PictureSpec { width, height, display: Display::CLIP, provenance: Some(provenance), ..PictureSpec::default() }
     }
 
     fn value(x: u32, y: u32) -> [f32; 3] {
@@ -240,7 +240,7 @@ mod tests {
 
     fn band(first_row: u32, rows: u32, width: u32, samples: u32) -> Arc<Band> {
         let mean = (first_row..first_row + rows).flat_map(|y| (0..width).map(move |x| value(x, y))).collect();
-        Arc::new(Band { first_row, width, rows, samples, counts: None, mean, second_moment: vec![] })
+        Arc::new(Band { first_row, width, rows, samples, mean, ..Band::default() })
     }
 
     #[test]
@@ -379,7 +379,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let grey = |rows: u32, first_row, value: f32| {
             let mean = vec![[value; 3]; rows as usize * 16];
-            Arc::new(Band { first_row, width: 16, rows, samples: 1, counts: None, mean, second_moment: vec![] })
+            Arc::new(Band { first_row, width: 16, rows, samples: 1, mean, ..Band::default() })
         };
         for (name, tolerance) in [("a.png", 0), ("a.jpg", 3)] {
             let path = folder.path().join(name);

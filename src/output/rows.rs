@@ -47,6 +47,14 @@ impl Counts<'_> {
     }
 }
 
+/// A row of a part; what is not known is empty.
+pub(super) struct PartRow<'a> {
+    pub(super) mean: &'a [[f32; 3]],
+    pub(super) counts: Counts<'a>,
+    pub(super) remainder: &'a [[f32; 3]],
+    pub(super) second_moment: &'a [f32],
+}
+
 /// The render ended without a word, so the file must not be finished.
 #[derive(Debug)]
 pub(super) struct Abandoned;
@@ -86,6 +94,27 @@ impl Rows {
             None => Counts::Even(self.band.samples),
         };
         Ok((&self.band.mean[start..start + width], counts))
+    }
+
+    /// As [`Rows::next_row`], with what a part needs.
+    pub(super) fn next_part_row(&mut self) -> Result<PartRow<'_>, Abandoned> {
+        let row = self.next_row;
+        self.next_row()?;
+        if row < self.band.first_row || row >= self.band.first_row + self.band.rows {
+            return Ok(PartRow { mean: &self.blank, counts: Counts::Even(0), remainder: &[], second_moment: &[] });
+        }
+        let width = self.blank.len();
+        let start = (row - self.band.first_row) as usize * width;
+        let Band { mean, counts, remainder, second_moment, samples, .. } = &*self.band;
+        Ok(PartRow {
+            mean: &mean[start..start + width],
+            counts: match counts {
+                Some(counts) => Counts::Each(&counts[start..start + width]),
+                None => Counts::Even(*samples),
+            },
+            remainder: remainder.get(start..start + width).unwrap_or_default(),
+            second_moment: second_moment.get(start..start + width).unwrap_or_default(),
+        })
     }
 
     /// Takes bands until one reaches to the row or beyond.
@@ -128,15 +157,7 @@ mod tests {
 
     fn band(first_row: u32, rows: u32, samples: u32) -> Message {
         let mean = (0..rows * 2).map(|index| [(first_row * 2 + index) as f32; 3]).collect();
-        Message::Band(Arc::new(Band {
-            first_row,
-            width: 2,
-            rows,
-            samples,
-            counts: None,
-            mean,
-            second_moment: vec![0.0; rows as usize * 2],
-        }))
+        Message::Band(Arc::new(Band { first_row, width: 2, rows, samples, counts: None, mean, ..Band::default() }))
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! What is known of a picture before its first row.
 
 use super::display::Display;
-use super::provenance::{Entry, Provenance};
+use super::provenance::{CROP_KEY, Entry, Provenance};
 use super::rows::Completeness;
 use crate::choice::choices;
 
@@ -37,8 +37,17 @@ impl Default for ExrCompression {
     }
 }
 
+/// Where the pixels of a part stand in the whole picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PartSpec {
+    /// Width and height of the whole picture.
+    pub film: [u32; 2],
+    /// Column and row of the part's first pixel.
+    pub origin: [u32; 2],
+}
+
 /// What a file's encoder needs to know before the first row.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct PictureSpec {
     pub width: u32,
     pub height: u32,
@@ -47,6 +56,8 @@ pub struct PictureSpec {
     pub exr: ExrOptions,
     /// None of a picture whose origin is not known.
     pub provenance: Option<Provenance>,
+    /// Of a part that `gpt merge` joins with others: float files hold what that needs.
+    pub part: Option<PartSpec>,
 }
 
 impl PictureSpec {
@@ -57,6 +68,14 @@ impl PictureSpec {
 
     /// The entries of the header of a file in which every pixel received at least `samples`.
     pub(super) fn header_entries(&self, samples: u32, completeness: Completeness) -> Vec<(&'static str, Entry)> {
-        self.provenance.as_ref().map_or_else(Vec::new, |provenance| provenance.entries(samples, completeness))
+        let entries = self.provenance.as_ref().map(|provenance| provenance.entries(samples, completeness));
+        entries.unwrap_or_default().into_iter().chain(self.crop().map(|crop| (CROP_KEY, Entry::Text(crop)))).collect()
+    }
+
+    /// Which region of the whole picture it is, where it is not all of it.
+    fn crop(&self) -> Option<String> {
+        let PartSpec { film, origin: [x, y] } = self.part?;
+        let size = [self.width, self.height];
+        (film != size).then(|| format!("{x},{y},{},{}", self.width, self.height))
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::film::Band;
+use crate::film::{Band, rounded};
 use crate::renderer::state::{BatchState, FilmState, Tally};
 use crate::renderer::{Batch, Observer, Stopping};
 use crate::sampling::Sampling;
@@ -109,13 +109,15 @@ impl Group {
 impl BandSums {
     pub fn finish(&self, width: u32, batch: &BatchSamples<'_>, with_counts: bool) -> Band {
         let scale = |sum: &PixelSum| 1.0 / f64::from(sum.samples.max(1));
+        let (mean, remainder) = self.pixels.iter().map(|sum| rounded((sum.radiance * scale(sum)).to_array())).unzip();
         Band {
             first_row: self.first_row,
             width,
             rows: self.rows,
             samples: self.counts(batch, width).fold(batch.range.len() as u32, u32::min),
             counts: with_counts.then(|| self.pixels.iter().map(|sum| sum.samples).collect()),
-            mean: self.pixels.iter().map(|sum| (sum.radiance * scale(sum)).as_vec3().to_array()).collect(),
+            mean,
+            remainder,
             second_moment: self.pixels.iter().map(|sum| (sum.squared_luminance * scale(sum)) as f32).collect(),
         }
     }

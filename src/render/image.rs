@@ -7,7 +7,7 @@ use super::progressive::Outcome;
 use crate::compare::{self, Comparison};
 use crate::error::Error;
 use crate::film::Band;
-use crate::output::{self, Display, ExrOptions, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, read_image};
+use crate::output::{self, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, read_image};
 
 /// A picture: linear Rec. 709 radiance, row by row from the top.
 #[derive(Debug, Clone)]
@@ -93,11 +93,10 @@ impl Image {
         })?;
         let output::Image { width, height, ref pixels } = self.pixels;
         let provenance = self.rendered.as_ref().map(|rendered| rendered.provenance.clone());
-        let (display, exr) = (Display::default(), ExrOptions::default());
-        let mut file = PictureFile::create(path, format, &PictureSpec { width, height, display, exr, provenance })?;
+        let mut file = PictureFile::create(path, format, &PictureSpec { width, height, provenance, ..PictureSpec::default() })?;
         let samples = self.rendered.as_ref().map_or(0, |rendered| rendered.fewest_samples);
         let counts = self.rendered.as_ref().and_then(|rendered| rendered.counts.clone());
-        let band = Band { first_row: 0, width, rows: height, samples, counts, mean: pixels.clone(), second_moment: Vec::new() };
+        let band = Band { first_row: 0, width, rows: height, samples, counts, mean: pixels.clone(), ..Band::default() };
         file.write_band(&Arc::new(band)).map_err(|source| OutputError::Write { path: path.to_owned(), source })?;
         file.finish()
     }

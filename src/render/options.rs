@@ -25,6 +25,8 @@ pub struct RenderOptions {
     pub samples: Option<u32>,
     /// Absolute index of the first sample. Samples 0 to 127 and 128 to 255 together are those of one render with 256.
     pub first_sample: u32,
+    /// The region of the picture that is rendered: first column and row, width and height. Its pixels are those of the whole picture.
+    pub crop: Option<[u32; 4]>,
     /// Width and height in pixels, in place of the scene's.
     pub size: Option<[u32; 2]>,
     /// Key of every random number, in place of the scene's.
@@ -43,7 +45,8 @@ pub struct RenderOptions {
 impl RenderOptions {
     /// What the plan is told.
     pub(super) fn plan_options(&self) -> PlanOptions {
-        PlanOptions { pixel_list: self.adaptive, ..self.plan.clone() }
+        // A region of some columns leaves pixels out.
+        PlanOptions { pixel_list: self.adaptive || self.crop.is_some(), ..self.plan.clone() }
     }
 
     /// The scene as these options want it.
@@ -86,6 +89,17 @@ impl RenderOptions {
         if self.first_sample > 0 && scene.render.uses_strata() {
             return Some(PARTS_OF_STRATA.to_owned());
         }
+        if let Some(crop) = self.crop {
+            if self.adaptive || self.target_error.is_some() || self.time_limit.is_some() {
+                return Some("crop belongs to renders with a fixed number of samples".to_owned());
+            }
+            if !fits(crop, scene.film.size) {
+                let ([x, y, columns, rows], [width, height]) = (crop, scene.film.size);
+                return Some(format!(
+                    "the region {x},{y},{columns},{rows} does not lie within the picture of {width}x{height} pixels"
+                ));
+            }
+        }
         let target = self.target_error?;
         if !(target.is_finite() && target > 0.0) {
             return Some(format!("target_error is a number above 0, not {target}"));
@@ -93,6 +107,13 @@ impl RenderOptions {
         let least = 2 * STREAMS;
         (samples < least).then(|| format!("target_error needs at least {least} samples per pixel; {samples} are allowed"))
     }
+}
+
+/// Whether a region has pixels, all of them in the picture.
+#[doc(hidden)]
+pub fn fits([x, y, columns, rows]: [u32; 4], [width, height]: [u32; 2]) -> bool {
+    let ends_within = |start: u32, length: u32, end: u32| length > 0 && start.checked_add(length).is_some_and(|last| last <= end);
+    ends_within(x, columns, width) && ends_within(y, rows, height)
 }
 
 #[cfg(test)]
@@ -122,6 +143,10 @@ mod tests {
             RenderOptions { first_sample: 1, adaptive: true, ..default() },
             RenderOptions { first_sample: 1, target_error: Some(0.1), ..default() },
             RenderOptions { target_error: Some(0.0), ..default() },
+            RenderOptions { crop: Some([0, 0, 0, 5]), ..default() },
+            RenderOptions { crop: Some([500, 0, 13, 5]), ..default() },
+            RenderOptions { crop: Some([u32::MAX, 0, 2, 5]), ..default() },
+            RenderOptions { crop: Some([0, 0, 5, 5]), adaptive: true, ..default() },
             RenderOptions { target_error: Some(f64::NAN), ..default() },
             RenderOptions { target_error: Some(0.1), samples: Some(2 * STREAMS - 1), ..default() },
         ];

@@ -31,6 +31,8 @@ pub struct Renderer {
     renderer: Box<dyn renderer::Renderer>,
     notice: Option<String>,
     options: RenderOptions,
+    /// Width and height of the whole picture, and of the region that is rendered.
+    film: [u32; 2],
     size: [u32; 2],
     provenance: Provenance,
 }
@@ -60,7 +62,9 @@ impl Renderer {
     pub fn on(choice: Choice, scene: &Scene, options: &RenderOptions) -> Result<Self, RenderError> {
         let ChosenRenderer { renderer, notice } = choice.renderer(scene, &options.plan_options())?;
         let provenance = Self::provenance_of(scene, options, renderer.device());
-        Ok(Self { renderer, notice, options: options.clone(), size: scene.film.size, provenance })
+        let film = scene.film.size;
+        let size = options.crop.map_or(film, |[_, _, width, height]| [width, height]);
+        Ok(Self { renderer, notice, options: options.clone(), film, size, provenance })
     }
 
     /// What the headers of pictures of the scene say that are rendered with these options on a device of this name.
@@ -88,7 +92,7 @@ impl Renderer {
         self.notice.as_deref()
     }
 
-    /// Width and height of the picture in pixels.
+    /// Width and height of the picture in pixels; of a region of it, of that.
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
@@ -132,21 +136,32 @@ impl Renderer {
         let deadline = self.options.time_limit.and_then(|limit| start.checked_add(left(limit)));
         let goal = Goal { deadline, ..self.goal() };
         let (renderer, seed) = (self.renderer.as_mut(), self.provenance.settings.seed);
-        progressive::render_kept(renderer, self.size, seed, &goal, observer, checkpoint, on_band)
+        let crop = self.options.crop;
+        let mut cropped = |band: Band| match crop {
+            Some(region) => on_band(band.cropped(region)),
+            None => on_band(band),
+        };
+        progressive::render_kept(renderer, self.film, seed, &goal, observer, checkpoint, &mut cropped)
     }
 
     /// What the options ask for; a deadline is some time.
     fn goal(&self) -> Goal {
         let RenderOptions { first_sample, time_limit, target_error, adaptive, .. } = self.options;
         let samples = first_sample..first_sample + self.provenance.settings.spp;
-        Goal { samples, deadline: time_limit.map(|_| Instant::now()), target_error, adaptive }
+        Goal { samples, region: self.options.crop, deadline: time_limit.map(|_| Instant::now()), target_error, adaptive }
     }
 
     /// What decides the picture, and from what state a render of it can go on.
     #[doc(hidden)]
     pub fn identity(&self) -> Identity {
         let is_one_batch = progressive::is_one_batch(&self.goal(), self.renderer.holds_whole_film());
-        Identity::new(&self.provenance, self.size, is_one_batch)
+        Identity::new(&self.provenance, self.film, self.options.crop, is_one_batch)
+    }
+
+    /// Width and height of the whole picture.
+    #[doc(hidden)]
+    pub fn film(&self) -> [u32; 2] {
+        self.film
     }
 
     /// What the headers of the picture's files say.

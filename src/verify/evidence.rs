@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::Verdict;
 use crate::film::Band;
-use crate::output::{Display, ExrOptions, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance};
+use crate::output::{Display, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance};
 use crate::scene::Scene;
 
 /// Writes `SCENE-gpu.exr`, `SCENE-cpu.exr`, `SCENE-difference.exr` (gpu − cpu) and `SCENE-heat.png` into a folder.
@@ -57,18 +57,11 @@ fn write_picture(
         adaptive: false,
         device: verdict.device.clone(),
     };
-    let (width, height, exr) = (verdict.width, verdict.height, ExrOptions::default());
-    let spec = PictureSpec { width, height, display: Display::CLIP, exr, provenance: Some(provenance) };
+    let (width, height) = (verdict.width, verdict.height);
+    let spec = PictureSpec { width, height, display: Display::CLIP, provenance: Some(provenance), ..PictureSpec::default() };
     let mut file = PictureFile::create(path, format, &spec)?;
-    let band = Band {
-        first_row: 0,
-        width: verdict.width,
-        rows: verdict.height,
-        samples: verdict.spp,
-        counts: None,
-        second_moment: vec![0.0; pixels.len()],
-        mean: pixels,
-    };
+    let band =
+        Band { first_row: 0, width: verdict.width, rows: verdict.height, samples: verdict.spp, mean: pixels, ..Band::default() };
     file.write_band(&Arc::new(band)).map_err(|source| OutputError::Write { path: path.into(), source })?;
     file.finish()
 }

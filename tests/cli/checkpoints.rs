@@ -20,7 +20,7 @@ fn start(place: &Workplace, arguments: &str) -> Child {
     place.command(arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("a process")
 }
 
-fn devices() -> Vec<&'static str> {
+pub fn devices() -> Vec<&'static str> {
     let gpu = std::env::var("GPT_TEST_GPU").as_deref() != Ok("skip");
     ["cpu", "gpu"].into_iter().filter(|device| *device == "cpu" || gpu).collect()
 }

@@ -191,3 +191,39 @@ fn an_adapter_that_does_not_open_is_told_of() {
     place.expect(2, "render scene.toml --require-device --device cpu");
     place.expect(0, "render scene.toml --require-device --spp 1 -q -o a.exr");
 }
+
+/// The state that a lost device leaves is gone on from, on the same device bit for bit, and on another.
+#[test]
+fn a_render_goes_on_after_its_device_was_lost() {
+    let Some(layer) = layer() else { return };
+    let place = Workplace::new();
+    let render = "render spheres --size 96x64 --spp 400 -q -o";
+    place.expect(0, &format!("{render} whole.exr --device gpu"));
+    let whole = fs::read(place.path("whole.exr")).expect("the picture");
+    for device in ["gpu", "cpu"] {
+        let fault = "vkQueueSubmit:25:lost";
+        let first = format!("{render} a.exr --device gpu --checkpoint 0.001");
+        let (code, _, said) = run_with(&place, layer, fault, &first);
+        assert_eq!(code, Some(5), "{said}");
+        assert!(said.contains("a.exr.checkpoint: the state is saved"), "{said}");
+        assert!(place.path("a.exr.checkpoint").exists());
+        let spp = if device == "gpu" { "400" } else { "401" };
+        if device == "cpu" {
+            // The control: of another number of samples it is not the state.
+            place.expect(3, &format!("render spheres --size 96x64 --spp {spp} -q -o a.exr --device cpu --resume"));
+        }
+        let said = place.expect(0, &format!("{render} a.exr --device {device} --resume --stats s.json"));
+        assert_eq!(said.contains("goes on: the picture has the rounding of both"), device == "cpu", "{said}");
+        assert!(place.stats("s.json")["resumed_samples"].as_u64() > Some(0));
+        assert!(!place.path("a.exr.checkpoint").exists());
+        if device == "gpu" {
+            assert!(fs::read(place.path("a.exr")).expect("the picture") == whole);
+        } else {
+            let [a, b] = ["a.exr", "whole.exr"].map(|name| place.image(name));
+            let far =
+                a.pixels.iter().flatten().zip(b.pixels.iter().flatten()).filter(|(a, b)| (**a - **b).abs() > 1e-3 * (**b + 0.01));
+            assert!(far.count() < 96 * 64 * 3 / 50);
+        }
+        fs::remove_file(place.path("a.exr")).expect("it is there");
+    }
+}

@@ -7,6 +7,7 @@ mod bench;
 mod checkpoints;
 mod documents;
 mod endings;
+mod farm;
 mod faults;
 mod goals;
 mod imports;
@@ -15,6 +16,7 @@ mod models;
 #[cfg(unix)]
 mod on_unix;
 mod outputs;
+mod parts;
 mod traversal;
 
 use std::fs;
@@ -50,8 +52,6 @@ impl Workplace {
     fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_gpt"));
         command.args(arguments.split_whitespace()).current_dir(self.0.path()).env_remove("NO_COLOR");
-        #[cfg(unix)]
-        on_unix::obey_signals(&mut command);
         command
     }
 

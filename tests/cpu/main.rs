@@ -17,6 +17,7 @@ mod light_strategies;
 mod models;
 mod plan;
 mod samplers;
+mod scaling;
 mod scene_files;
 mod schema_agreement;
 mod shader_imports;

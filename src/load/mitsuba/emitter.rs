@@ -142,11 +142,12 @@ impl Converter<'_> {
             self.drop(plugin, "mirroring `to_world` of an environment map", "the map is not mirrored");
         }
         let degrees = turn.x_axis.z.atan2(turn.x_axis.x) * -180.0 / PI;
-        // Mitsuba's first column lies at the edge of the map, and its first row on the pole.
+        // Mitsuba's texels begin at the edges of the map, ours stand half a texel within.
         let width =
             crate::load::image_file::size(self.files, &path).map_err(|reason| plugin.error(format!("{written}: {reason}")))?[0];
         let degrees = degrees + 180.0 / f64::from(width);
-        let keys = Keys::of_type("environment").with("file", FileReference::Disk(path)).with("rows", "to_poles");
+        self.approximate(plugin, "rows of an environment map", "they stand half a row further from the poles, as in other maps");
+        let keys = Keys::of_type("environment").with("file", FileReference::Disk(path));
         let keys = if scale == 1.0 { keys } else { keys.with("scale", scale) };
         Ok(keys.with("rotate", degrees))
     }

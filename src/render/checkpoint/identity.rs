@@ -26,8 +26,8 @@ pub struct Difference {
 }
 
 impl Identity {
-    /// Of a render of so many pixels, in one batch or in steps.
-    pub fn new(provenance: &Provenance, [width, height]: [u32; 2], is_one_batch: bool) -> Self {
+    /// Of a render of a film of so many pixels or of a region of it, in one batch or in steps.
+    pub fn new(provenance: &Provenance, [width, height]: [u32; 2], crop: Option<[u32; 4]>, is_one_batch: bool) -> Self {
         let Provenance { scene_hash, settings, filter, first_sample, target_error, adaptive, .. } = provenance;
         let order = if cfg!(target_endian = "little") { "little" } else { "big" };
         let mut entries = vec![
@@ -35,6 +35,7 @@ impl Identity {
             (BYTES.to_owned(), order.to_owned()),
             (SCENE.to_owned(), scene_hash.clone()),
             ("--size".to_owned(), format!("{width}x{height}")),
+            ("--crop".to_owned(), crop.map_or_else(|| "none".to_owned(), |crop| crop.map(|side| side.to_string()).join(","))),
             ("filter".to_owned(), filter.to_string()),
             ("--first-sample".to_owned(), first_sample.to_string()),
             ("--adaptive".to_owned(), adaptive.to_string()),
@@ -97,9 +98,9 @@ mod tests {
 
     #[test]
     fn what_decides_the_picture_is_told_by_name() {
-        let ours = Identity::new(&provenance(), [4, 3], true);
+        let ours = Identity::new(&provenance(), [4, 3], None, true);
         let difference =
-            |theirs: Provenance| ours.difference(&Identity::new(&theirs, [4, 3], true)).map(|found| found.to_string());
+            |theirs: Provenance| ours.difference(&Identity::new(&theirs, [4, 3], None, true)).map(|found| found.to_string());
         assert_eq!(difference(provenance()), None);
         // Neither of these does.
         assert_eq!(difference(Provenance { scene: "b".to_owned(), device: "c".to_owned(), ..provenance() }), None);
@@ -111,8 +112,8 @@ mod tests {
         let scene = difference(Provenance { scene_hash: "ff".to_owned(), ..provenance() });
         assert_eq!(scene.as_deref(), Some("it is of another scene (digest ff…, and this one's is 0123456789ab…)"));
         assert!(difference(Provenance { adaptive: true, ..provenance() }).is_some_and(|text| text.contains("--adaptive")));
-        assert!(ours.difference(&Identity::new(&provenance(), [4, 4], true)).is_some());
-        assert!(ours.difference(&Identity::new(&provenance(), [4, 3], false)).is_some());
+        assert!(ours.difference(&Identity::new(&provenance(), [4, 4], None, true)).is_some());
+        assert!(ours.difference(&Identity::new(&provenance(), [4, 3], None, false)).is_some());
         for setting in SETTINGS {
             assert!(ours.0.iter().any(|entry| entry.0 == setting.flag), "{}", setting.flag);
         }

@@ -53,11 +53,12 @@ impl RowsFile {
     pub fn append(&mut self, band: &Band) -> io::Result<()> {
         let mut bytes = Vec::new();
         let numbers = [band.first_row, band.width, band.rows, band.samples, u32::from(band.counts.is_some())];
-        let lengths = [band.mean.len() as u32, band.second_moment.len() as u32];
+        let lengths = [band.mean.len() as u32, band.remainder.len() as u32, band.second_moment.len() as u32];
         bytes.extend_from_slice(bytemuck::cast_slice(&numbers));
         bytes.extend_from_slice(bytemuck::cast_slice(&lengths));
         bytes.extend_from_slice(bytemuck::cast_slice(band.counts.as_deref().unwrap_or_default()));
         bytes.extend_from_slice(bytemuck::cast_slice(&band.mean));
+        bytes.extend_from_slice(bytemuck::cast_slice(&band.remainder));
         bytes.extend_from_slice(bytemuck::cast_slice(&band.second_moment));
         self.file.write_all(&bytes)?;
         self.bytes += bytes.len() as u64;
@@ -75,17 +76,17 @@ impl RowsFile {
         self.file.rewind()?;
         let mut left = self.bytes;
         while left > 0 {
-            let [first_row, width, rows, samples, has_counts, means, squares] = {
-                let mut bytes = [0; 28];
+            let [first_row, width, rows, samples, has_counts, means, remainders, squares] = {
+                let mut bytes = [0; 32];
                 self.file.read_exact(&mut bytes)?;
-                bytemuck::pod_read_unaligned::<[u32; 7]>(&bytes)
+                bytemuck::pod_read_unaligned::<[u32; 8]>(&bytes)
             };
             let counts = if has_counts == 1 { means } else { 0 };
-            let length = 4 * u64::from(counts) + 12 * u64::from(means) + 4 * u64::from(squares);
-            left = left.checked_sub(28 + length).ok_or(io::ErrorKind::InvalidData)?;
+            let length = 4 * u64::from(counts) + 12 * (u64::from(means) + u64::from(remainders)) + 4 * u64::from(squares);
+            left = left.checked_sub(32 + length).ok_or(io::ErrorKind::InvalidData)?;
             let counts = (has_counts == 1).then(|| self.items(counts)).transpose()?;
-            let (mean, second_moment) = (self.items(means)?, self.items(squares)?);
-            on_band(Band { first_row, width, rows, samples, counts, mean, second_moment })?;
+            let (mean, remainder, second_moment) = (self.items(means)?, self.items(remainders)?, self.items(squares)?);
+            on_band(Band { first_row, width, rows, samples, counts, mean, remainder, second_moment })?;
         }
         self.file.seek(SeekFrom::Start(self.bytes)).map(|_| ())
     }
@@ -123,7 +124,16 @@ mod tests {
     use super::*;
 
     fn band(first_row: u32, counts: Option<Vec<u32>>) -> Band {
-        Band { first_row, width: 2, rows: 1, samples: 3, counts, mean: vec![[0.5; 3]; 2], second_moment: vec![0.25; 2] }
+        Band {
+            first_row,
+            width: 2,
+            rows: 1,
+            samples: 3,
+            counts,
+            mean: vec![[0.5; 3]; 2],
+            remainder: Vec::new(),
+            second_moment: vec![0.25; 2],
+        }
     }
 
     fn rows(file: &mut RowsFile) -> Vec<(u32, Option<Vec<u32>>, usize)> {

@@ -216,7 +216,7 @@ mod tests {
             adaptive: false,
             device: String::new(),
         };
-        Identity::new(&provenance, [2, 3], true)
+        Identity::new(&provenance, [2, 3], None, true)
     }
 
     #[test]

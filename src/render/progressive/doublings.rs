@@ -57,7 +57,7 @@ mod tests {
     use super::*;
 
     fn band(value: f32) -> Band {
-        Band { first_row: 1, width: 1, rows: 1, samples: 1, counts: None, mean: vec![[value; 3]], second_moment: Vec::new() }
+        Band { first_row: 1, width: 1, rows: 1, samples: 1, mean: vec![[value; 3]], ..Band::default() }
     }
 
     #[test]

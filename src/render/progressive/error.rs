@@ -111,7 +111,7 @@ impl ErrorEstimator {
 }
 
 /// Standard deviations that make up for the doubt granted to a look: DOUBT / (k (k + 1)) to the k-th, which add up to DOUBT.
-fn standard_deviations(look: u32) -> f64 {
+pub fn standard_deviations(look: u32) -> f64 {
     let look = f64::from(look);
     Normal::standard().inverse_cdf(1.0 - DOUBT / (look * (look + 1.0)))
 }
@@ -164,7 +164,7 @@ mod tests {
             for first_row in (0..1000).step_by(100) {
                 let value = |index: u32| [(first_row * 1024 + index) as f32; 3];
                 let mean = (0..102_400).map(value).collect();
-                let band = Band { first_row, width: 1024, rows: 100, samples: 2, counts: None, mean, second_moment: Vec::new() };
+                let band = Band { first_row, width: 1024, rows: 100, samples: 2, mean, ..Band::default() };
                 estimator.add(stream, &band, None);
             }
         }

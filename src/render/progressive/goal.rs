@@ -14,6 +14,8 @@ pub const STREAMS: u32 = 8;
 pub struct Goal {
     /// Absolute indices of the samples that a pixel gets at most (on average, where they follow the noise).
     pub samples: Range<u32>,
+    /// The region that is rendered, first column and row, width and height; only of renders that nothing ends early.
+    pub region: Option<[u32; 4]>,
     /// No step begins that would end later.
     pub deadline: Option<Instant>,
     /// Relative mean squared error (as `gpt compare` measures it) that the picture shall have at most, with 95 % confidence.

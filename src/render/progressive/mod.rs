@@ -70,9 +70,16 @@ pub fn render_kept(
         None => None,
     };
     if is_one_batch(goal, renderer.holds_whole_film()) {
-        let request = RenderRequest { rows: 0..size[1], samples: goal.samples.clone() };
+        let [x, y, columns, rows] = goal.region.unwrap_or([0, 0, size[0], size[1]]);
+        let request = RenderRequest { rows: y..y + rows, samples: goal.samples.clone() };
         let resume = resume.map(|saved| saved.batch);
-        let batch = Batch { seed: Some(seed), deadline: goal.deadline, resume: resume.as_ref(), ..Batch::of(&request) };
+        let batch = Batch {
+            seed: Some(seed),
+            columns: Some((x, x + columns)).filter(|_| columns < size[0]),
+            deadline: goal.deadline,
+            resume: resume.as_ref(),
+            ..Batch::of(&request)
+        };
         return render_sweeps(renderer, &batch, observer, checkpoint, on_band);
     }
     let start = Instant::now();

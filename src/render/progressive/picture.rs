@@ -98,7 +98,7 @@ impl Picture {
             samples: samples as u32,
             counts: with_counts.then(|| pixels.iter().map(|sum| sum[3] as u32).collect()),
             mean: pixels.iter().map(mean).collect(),
-            second_moment: Vec::new(),
+            ..Band::default()
         }
     }
 }
@@ -117,6 +117,7 @@ mod tests {
             counts: None,
             mean: vec![[value; 3]; pixels],
             second_moment: vec![value; pixels],
+            ..Band::default()
         }
     }
 

@@ -35,7 +35,7 @@ fn cornell(size: [u32; 2]) -> Scene {
 }
 
 fn goal(spp: u32) -> Goal {
-    Goal { samples: 0..spp, deadline: None, target_error: None, adaptive: false }
+    Goal { samples: 0..spp, region: None, deadline: None, target_error: None, adaptive: false }
 }
 
 /// Pixels from the top.

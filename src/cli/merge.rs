@@ -1,0 +1,110 @@
+//! `gpt merge`.
+
+use std::path::Path;
+
+use gpt::merge::{MergeError, Merged, PartHeader, merge};
+use gpt::output::PictureSpec;
+use serde::Serialize;
+
+use super::arguments::MergeArguments;
+use super::exit::{Exit, Failure};
+use super::pictures::{Pictures, output_formats};
+use super::terminal;
+
+/// What was joined, for other programs. Its keys stay as they are; new ones may be added.
+#[derive(Serialize)]
+struct Report {
+    parts: usize,
+    width: u32,
+    height: u32,
+    /// Absolute indices of the first sample and the one after the last.
+    first_sample: u32,
+    end_sample: u32,
+    /// What is missing, in words.
+    missing: Option<String>,
+    /// Relative mean squared error: what is expected, and what it is below with 95 % confidence.
+    expected_error: Option<f64>,
+    error_bound: Option<f64>,
+    target_error: Option<f64>,
+    /// How many more parts as long as the longest it would take to reach the target.
+    parts_to_target: Option<u64>,
+    outputs: Vec<String>,
+}
+
+/// Joins parts to a picture.
+pub fn run(arguments: &MergeArguments) -> Result<Exit, Failure> {
+    let outputs = output_formats(&arguments.outputs, None)?;
+    let is_part = |path: &Path| arguments.parts.iter().any(|part| same_file(part, path));
+    if let Some((path, _)) = outputs.iter().find(|(path, _)| is_part(path)) {
+        return Err(Failure::usage(format!("{} is one of the parts, and would be overwritten", path.display())));
+    }
+    let parts = arguments.parts.iter().map(|path| PartHeader::read(path)).collect::<Result<Vec<_>, _>>()?;
+    let count = parts.len();
+    let merged = merge(parts, arguments.spp, arguments.partial)?;
+    let [width, height] = merged.size;
+    let spec = PictureSpec { width, height, provenance: Some(merged.provenance.clone()), ..PictureSpec::default() };
+    let mut pictures = Pictures::create(&outputs, &spec)?;
+    for band in merged.bands() {
+        if pictures.write_band(band).is_err() {
+            break;
+        }
+    }
+    let summary = pictures.finish(false);
+    let report = report(arguments, count, &merged, summary.places.iter().map(|path| path.display().to_string()).collect());
+    if arguments.json {
+        terminal::answer_json(&report)?;
+    } else {
+        tell(&report, &merged);
+    }
+    if summary.failures.is_empty() { Ok(Exit::Done) } else { Err(Failure::Outputs(summary.failures)) }
+}
+
+/// Whether two paths lead to one file that is there.
+fn same_file(a: &Path, b: &Path) -> bool {
+    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
+
+fn report(arguments: &MergeArguments, parts: usize, merged: &Merged, outputs: Vec<String>) -> Report {
+    Report {
+        parts,
+        width: merged.size[0],
+        height: merged.size[1],
+        first_sample: merged.samples.start,
+        end_sample: merged.samples.end,
+        missing: merged.missing.as_ref().map(ToString::to_string),
+        expected_error: merged.error.map(|error| error.mean),
+        error_bound: merged.error.map(|error| error.upper),
+        target_error: arguments.target_error,
+        parts_to_target: arguments.target_error.and_then(|target| merged.parts_to_reach(target)),
+        outputs,
+    }
+}
+
+fn tell(report: &Report, merged: &Merged) {
+    let Report { parts, width, height, first_sample, end_sample, .. } = report;
+    let samples = end_sample - first_sample;
+    let files = report.outputs.join(", ");
+    terminal::note(&format!("{files}: {width}x{height}, {samples} spp of {parts} parts"));
+    if let Some(missing) = &report.missing {
+        terminal::warn(&format!("the picture is not whole: {missing}"));
+    }
+    if let Some(error) = merged.error {
+        let (mean, upper) = (error.mean, error.upper);
+        terminal::note(&format!("relative mean squared error: {mean:.3e} expected, below {upper:.3e} with 95 % confidence"));
+    }
+    match (report.target_error, report.parts_to_target) {
+        (Some(target), Some(0)) => terminal::note(&format!("the error of {target} is reached")),
+        (Some(target), Some(more)) => terminal::note(&format!(
+            "an error of {target} would take about {more} more parts of {} samples per pixel",
+            merged.longest
+        )),
+        (Some(_), None) => terminal::warn("the error is not known: a pixel needs two parts for that"),
+        (None, _) => {}
+    }
+}
+
+impl From<MergeError> for Failure {
+    fn from(error: MergeError) -> Self {
+        Self::Merge(error)
+    }
+}

@@ -1,0 +1,116 @@
+//! How far a picture is from the truth, told by what its parts differ by.
+//!
+//! With m of n samples of a pixel, a part's mean has the variance σ²/m if parts are independent; then Σ m (x − x̄)² / (K − 1) over K parts is
+//! an estimate of σ², and σ²/n the squared error of the mean of all. Parts of one low-discrepancy sequence complete each other, so the truth is
+//! rather better. Errors are relative to the mean of the other parts, as in [`crate::render::progressive::error`].
+
+use crate::compare::RELATIVE_EPSILON;
+use crate::render::progressive::error::{ErrorEstimate, standard_deviations};
+use crate::sampling::hash::mix;
+
+/// Values of pixels that are kept, at most: parts times pixels.
+const MOST_VALUES: u64 = 1 << 21;
+const MOST_PIXELS: u64 = 1 << 18;
+
+/// What the parts say of the pixels that are looked at.
+pub struct PartsError {
+    total_pixels: u64,
+    /// Index of each pixel looked at, ascending, and its value and number of samples in each part that has it.
+    pixels: Vec<u64>,
+    values: Vec<Vec<([f32; 3], f32)>>,
+}
+
+impl PartsError {
+    /// Of a picture of so many pixels, and at most so many parts of each.
+    pub fn new(total_pixels: u64, parts: usize) -> Self {
+        let most = (MOST_VALUES / (parts as u64).max(1)).clamp(1, MOST_PIXELS);
+        let stride = total_pixels.div_ceil(most).max(1);
+        // One pixel of each run of `stride`, at random, so that no pattern of the picture is missed.
+        let in_run = |run: u64| run * stride + u64::from(mix(run as u32)) % stride;
+        let pixels: Vec<u64> = (0..total_pixels / stride).map(in_run).collect();
+        let values = vec![Vec::new(); pixels.len()];
+        Self { total_pixels, pixels, values }
+    }
+
+    /// Adds a run of a part's pixels, the first of which is pixel `first` of the picture.
+    pub fn add(&mut self, first: u64, values: impl Fn(usize) -> ([f32; 3], f32), count: usize) {
+        let start = self.pixels.partition_point(|pixel| *pixel < first);
+        let end = self.pixels.partition_point(|pixel| *pixel < first + count as u64);
+        for index in start..end {
+            self.values[index].push(values((self.pixels[index] - first) as usize));
+        }
+    }
+
+    /// The relative mean squared error of the mean of all parts; None where too few pixels are in several parts.
+    pub fn estimate(&self) -> Option<ErrorEstimate> {
+        let errors: Vec<(f64, f64)> = self.values.iter().filter_map(|values| squared_error(values)).collect();
+        let count = errors.len() as f64;
+        if errors.is_empty() || errors.len() * 2 < self.pixels.len() {
+            return None;
+        }
+        let mean = errors.iter().map(|(error, _)| error).sum::<f64>() / count;
+        let mean_square = errors.iter().map(|(error, _)| error * error).sum::<f64>() / count;
+        let freedom = errors.iter().map(|(_, freedom)| freedom).sum::<f64>() / count;
+        // As for streams: what the error itself, its estimate, and the choice of pixels vary by.
+        let of_error = 2.0 * mean_square / self.total_pixels as f64;
+        let of_estimate = 2.0 * mean_square / (count * freedom);
+        let unseen = 1.0 - count / self.total_pixels as f64;
+        let of_choice = unseen * (mean_square - mean * mean).max(0.0) / count;
+        let deviation = (of_error + of_estimate + of_choice).sqrt();
+        Some(ErrorEstimate { mean, upper: mean + standard_deviations(1) * deviation })
+    }
+}
+
+/// Estimated squared relative error of a pixel's mean, averaged over the channels, and its degrees of freedom.
+fn squared_error(values: &[([f32; 3], f32)]) -> Option<(f64, f64)> {
+    let freedom = values.len().checked_sub(1).filter(|freedom| *freedom > 0)? as f64;
+    let samples: f64 = values.iter().map(|(_, count)| f64::from(*count)).sum();
+    let mut error = 0.0;
+    for channel in 0..3 {
+        let total: f64 = values.iter().map(|(mean, count)| f64::from(mean[channel]) * f64::from(*count)).sum();
+        let mean = total / samples;
+        let of_part = |(value, count): &([f32; 3], f32)| {
+            let (value, count) = (f64::from(value[channel]), f64::from(*count));
+            let others = (total - value * count) / (samples - count);
+            count * (value - mean).powi(2) / (others * others + RELATIVE_EPSILON)
+        };
+        error += values.iter().map(of_part).sum::<f64>() / (freedom * samples) / 3.0;
+    }
+    Some((error, freedom))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A number between 0 and 1.
+    fn uniform(index: u32) -> f32 {
+        mix(index) as f32 / u32::MAX as f32
+    }
+
+    /// Of values whose error is known, in parts of equal and of different lengths.
+    #[test]
+    fn the_error_of_known_values_is_found() {
+        // Samples are uniform in [0, 2]: the mean is 1, the variance 1/3.
+        for lengths in [vec![16; 8], vec![4, 12, 16, 32, 64]] {
+            let samples: u32 = lengths.iter().sum();
+            let mut error = PartsError::new(4096, lengths.len());
+            let mut first = 0;
+            for (part, length) in lengths.iter().enumerate() {
+                let value = |pixel: usize| {
+                    let sample = |s: u32| 2.0 * uniform((pixel as u32 * samples + first + s) * 7 + part as u32);
+                    ([(0..*length).map(sample).sum::<f32>() / *length as f32; 3], *length as f32)
+                };
+                error.add(0, value, 4096);
+                first += length;
+            }
+            let estimate = error.estimate().expect("there are several parts");
+            let truth = 1.0 / 3.0 / f64::from(samples);
+            assert!((estimate.mean / truth - 1.0).abs() < 0.25, "{} instead of {truth}", estimate.mean);
+            assert!(estimate.upper > estimate.mean);
+        }
+        let mut single = PartsError::new(16, 1);
+        single.add(0, |_| ([1.0; 3], 4.0), 16);
+        assert!(single.estimate().is_none(), "one part says nothing of its error");
+    }
+}

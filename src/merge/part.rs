@@ -1,0 +1,235 @@
+//! A part's header, and its pixels.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use exr::image::{AnyChannels, FlatSamples};
+use exr::meta::MetaData;
+use exr::meta::attribute::AttributeValue;
+use exr::prelude::{ReadChannels, ReadLayers};
+
+use crate::choice::Choice;
+use crate::output::{CROP_KEY, Provenance, part_channels};
+use crate::scene::settings::{SETTINGS, Values};
+use crate::scene::{Filter, FilterKind, RenderSettings};
+
+/// Why files are not joined.
+#[derive(Debug, thiserror::Error)]
+pub enum MergeError {
+    #[error("{}: {what}", path.display())]
+    Part { path: PathBuf, what: String },
+    /// Two parts that do not belong together.
+    #[error("{} and {} are parts of different pictures: {what}", a.display(), b.display())]
+    Mixture { a: PathBuf, b: PathBuf, what: String },
+    #[error("{} and {} overlap: both have {what}", a.display(), b.display())]
+    Overlap { a: PathBuf, b: PathBuf, what: String },
+    /// What is not there, in words.
+    #[error("the picture is not whole: {0}; --partial joins what there is")]
+    Missing(String),
+}
+
+/// Entries of a header in which parts of one picture may differ.
+const OWN: [&str; 7] =
+    ["gpt:device", "gpt:firstSample", "gpt:samples", "gpt:samplesWanted", "gpt:complete", "gpt:brokenOff", CROP_KEY];
+
+/// What a part says of itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PartHeader {
+    pub path: PathBuf,
+    /// Width and height of the whole picture.
+    pub film: [u32; 2],
+    /// First column and row, width and height.
+    pub region: [u32; 4],
+    /// Absolute indices.
+    pub samples: Range<u32>,
+    entries: BTreeMap<String, String>,
+}
+
+/// The pixels of a part, row by row, channel by channel.
+pub struct PartPixels {
+    channels: Vec<Vec<f32>>,
+}
+
+/// What a pixel of a part has.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PartPixel {
+    pub mean: [f64; 3],
+    pub count: f64,
+    /// Mean of the squared luminance.
+    pub second_moment: f64,
+}
+
+impl PartHeader {
+    /// Reads a header.
+    ///
+    /// # Errors
+    /// A file that is no part, or whose render broke off.
+    pub fn read(path: &Path) -> Result<Self, MergeError> {
+        let failure = |what: String| MergeError::Part { path: path.to_owned(), what };
+        if let Err(error) = std::fs::metadata(path) {
+            return Err(failure(error.to_string()));
+        }
+        let meta = MetaData::read_from_file(path, false).map_err(|error| failure(format!("it is no EXR picture: {error}")))?;
+        let header = meta.headers.first().ok_or_else(|| failure("it is no EXR picture".to_owned()))?;
+        let has = |name: &str| header.channels.list.iter().any(|channel| channel.name.eq(name));
+        if !part_channels().all(has) {
+            return Err(failure(
+                "it is no part of a picture: `gpt render --first-sample A --spp N` or `--crop X,Y,W,H` writes parts".to_owned(),
+            ));
+        }
+        let text = |value: &AttributeValue| match value {
+            AttributeValue::I32(number) => Some(number.to_string()),
+            AttributeValue::Text(text) => Some(text.to_string()),
+            _ => None,
+        };
+        let own = header.own_attributes.other.iter();
+        let entries: BTreeMap<String, String> = own.filter_map(|(name, value)| Some((name.to_string(), text(value)?))).collect();
+        let number = |key: &str| {
+            let found = entries.get(key).and_then(|text| text.parse::<u32>().ok());
+            found.ok_or_else(|| failure(format!("its header has no {key}")))
+        };
+        let [first, samples] = [number("gpt:firstSample")?, number("gpt:samples")?];
+        if number("gpt:brokenOff")? != 0 || samples == 0 {
+            return Err(failure("its render broke off; render it again".to_owned()));
+        }
+        let side = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
+        let window = header.shared_attributes.display_window.size;
+        let film = [side(window.width()), side(window.height())];
+        let place = header.own_attributes.layer_position;
+        let [x, y] = [place.x(), place.y()].map(|place| u32::try_from(place).unwrap_or(u32::MAX));
+        let region = [x, y, side(header.layer_size.width()), side(header.layer_size.height())];
+        let fits = x.checked_add(region[2]).is_some_and(|end| end <= film[0])
+            && y.checked_add(region[3]).is_some_and(|end| end <= film[1]);
+        let end = first.checked_add(samples).filter(|_| fits);
+        let end = end.ok_or_else(|| failure("its header contradicts itself".to_owned()))?;
+        Ok(Self { path: path.to_owned(), film, region, samples: first..end, entries })
+    }
+
+    /// A part that stands in no file.
+    #[cfg(test)]
+    pub fn for_tests(film: [u32; 2], region: [u32; 4], samples: Range<u32>) -> Self {
+        let path = PathBuf::from(format!("{region:?}-{samples:?}.exr"));
+        Self { path, film, region, samples, entries: BTreeMap::new() }
+    }
+
+    /// Whether the other is a part of the same picture.
+    ///
+    /// # Errors
+    /// The first thing in which they differ.
+    pub fn belongs_with(&self, other: &Self) -> Result<(), MergeError> {
+        let mixture = |what: String| MergeError::Mixture { a: self.path.clone(), b: other.path.clone(), what };
+        if self.film != other.film {
+            let [a, b] = [self.film, other.film].map(|[width, height]| format!("{width}x{height}"));
+            return Err(mixture(format!("the pictures have {a} and {b} pixels")));
+        }
+        let keys = self.entries.keys().chain(other.entries.keys());
+        for key in keys.filter(|key| key.starts_with("gpt:") && !OWN.contains(&key.as_str())) {
+            let [a, b] = [self, other].map(|part| part.entries.get(key).map_or("nothing", String::as_str));
+            if a != b {
+                return Err(mixture(match key.as_str() {
+                    "gpt:sceneHash" => "their scenes differ".to_owned(),
+                    "gpt:scene" => continue,
+                    "gpt:version" => format!("gpt {a} and gpt {b} made them"),
+                    _ => {
+                        let setting = SETTINGS.iter().find(|setting| setting.header == key);
+                        let name = setting.map_or(key.trim_start_matches("gpt:"), |setting| setting.flag);
+                        format!("{name} is {a} and {b}")
+                    }
+                }));
+            }
+        }
+        Ok(())
+    }
+
+    /// What the header of the whole picture says, with so many samples per pixel from the first on.
+    pub fn provenance(&self, first_sample: u32, spp: u32, device: String) -> Provenance {
+        let entry = |key: &str| self.entries.get(key).cloned().unwrap_or_default();
+        let mut settings = RenderSettings::default();
+        for setting in SETTINGS {
+            let text = entry(setting.header);
+            let assignment = match setting.values {
+                Values::Whole(..) => text.parse().ok().and_then(|number| setting.number(number).ok()),
+                Values::Names(_) => setting.name(&text).ok(),
+            };
+            if let Some(assignment) = assignment {
+                assignment.apply(&mut settings);
+            }
+        }
+        settings.spp = spp;
+        Provenance {
+            scene: entry("gpt:scene"),
+            scene_hash: entry("gpt:sceneHash"),
+            settings,
+            filter: filter(&entry("gpt:filter")),
+            first_sample,
+            target_error: None,
+            adaptive: false,
+            device,
+        }
+    }
+
+    /// What rendered it.
+    pub fn device(&self) -> &str {
+        self.entries.get("gpt:device").map_or("", String::as_str)
+    }
+
+    /// Reads the pixels.
+    ///
+    /// # Errors
+    /// A file that is damaged.
+    pub fn pixels(&self) -> Result<PartPixels, MergeError> {
+        let failure = |what: String| MergeError::Part { path: self.path.clone(), what };
+        let image = exr::prelude::read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+            .first_valid_layer()
+            .all_attributes()
+            .from_file(&self.path)
+            .map_err(|error| failure(error.to_string()))?;
+        let AnyChannels { list } = image.layer_data.channel_data;
+        let channel = |name: &str| {
+            let found = list.iter().find(|channel| channel.name.eq(name));
+            match found.map(|channel| &channel.sample_data) {
+                Some(FlatSamples::F32(values)) if values.len() == self.region[2] as usize * self.region[3] as usize => {
+                    Ok(values.clone())
+                }
+                _ => Err(failure(format!("its channel {name} is not as this program writes it"))),
+            }
+        };
+        Ok(PartPixels { channels: part_channels().map(channel).collect::<Result<_, _>>()? })
+    }
+}
+
+/// The filter of which a header tells.
+fn filter(text: &str) -> Filter {
+    let parsed = text
+        .split_once(", radius ")
+        .and_then(|(kind, radius)| Some(Filter { kind: FilterKind::from_name(kind)?, radius: radius.parse().ok()? }));
+    parsed.unwrap_or_default()
+}
+
+impl PartPixels {
+    /// A pixel, counted within the part.
+    pub fn at(&self, pixel: usize) -> PartPixel {
+        // In the order of their names: blue, green and red, their remainders, the number of samples, and the variances.
+        let [b, g, r, rest_b, rest_g, rest_r, count, var_b, var_g, var_r] =
+            std::array::from_fn(|channel| f64::from(self.channels[channel][pixel]));
+        let mean = [r + rest_r, g + rest_g, b + rest_b];
+        let second_moment = crate::film::second_moment(mean, [var_r, var_g, var_b], count);
+        PartPixel { mean, count, second_moment }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn filters_are_read_as_they_are_told() {
+        for filter_told in [Filter::default(), Filter { kind: FilterKind::Gaussian, radius: 1.5 }] {
+            assert_eq!(filter(&filter_told.to_string()), filter_told);
+        }
+    }
+}

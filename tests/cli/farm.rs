@@ -1,0 +1,133 @@
+//! Jobs on the schedulers that are there: Slurm by daemons of its own, Open Job Description by its command line.
+
+use super::common::effort::announce;
+use super::parts::most_units;
+use super::*;
+
+fn farm() -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("farm")
+}
+
+/// Whether all of these programs are installed; a line says what is missing.
+fn are_installed(programs: &[&str], what: &str) -> bool {
+    let is_missing =
+        |program: &&&str| Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_err();
+    match programs.iter().find(is_missing) {
+        None => true,
+        Some(program) => {
+            announce(&format!("left out: {what}, because {program} is not installed"));
+            false
+        }
+    }
+}
+
+/// The picture of the chunks is the one of a single render, to the last place.
+fn check(place: &Workplace, picture: &str, flags: &str) {
+    place.expect(0, &format!("render scene.toml -q {flags} -o whole.exr"));
+    let [whole, merged] = ["whole.exr", picture].map(|name| place.image(name));
+    assert!(most_units(&whole, &merged) <= 1, "{}", most_units(&whole, &merged));
+    assert!(place.files().iter().all(|name| !name.contains("part")), "{:?}", place.files());
+    // The control: one sample less is another picture.
+    place.expect(0, "render scene.toml -q --device cpu --size 64x48 --spp 5 -o whole.exr");
+    assert!(most_units(&place.image("whole.exr"), &merged) > 100);
+}
+
+#[test]
+fn a_plan_is_what_its_commands_do() {
+    let place = Workplace::new();
+    let output = place.run("plan scene.toml --chunks 3 --spp 10 --size 20x12 --seed 4 -o p.exr");
+    let plan: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let chunks = plan["chunks"].as_array().expect("a list");
+    assert_eq!(chunks.len(), 3);
+    let run = |command: &Value| {
+        let words: Vec<&str> = command.as_array().expect("words").iter().map(|word| word.as_str().expect("a word")).collect();
+        assert_eq!(words[0], "gpt");
+        place.expect(0, &words[1..].join(" "))
+    };
+    for chunk in chunks {
+        assert!(["device_bytes", "host_bytes", "cpu_seconds"].iter().all(|key| chunk[key].as_f64() > Some(0.0)), "{chunk}");
+        run(&chunk["command"]);
+    }
+    run(&plan["merge"]["command"]);
+    place.expect(0, "render scene.toml -q --spp 10 --size 20x12 --seed 4 -o whole.exr");
+    assert!(most_units(&place.image("whole.exr"), &place.image("p.exr")) <= 1);
+    assert_eq!(plan["exit_codes"]["retry"], serde_json::json!([5, 130]));
+    place.expect(2, "plan scene.toml --chunks 11 --spp 10");
+    place.expect(3, "plan none.toml --chunks 1");
+}
+
+/// With a chunk that is killed and one that is asked to stop on the way.
+#[cfg(target_os = "linux")]
+#[test]
+fn slurm_renders_a_picture_in_chunks() {
+    if !are_installed(&["sbatch", "slurmctld", "slurmd"], "a job array on Slurm") {
+        return;
+    }
+    let place = Workplace::new();
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/farm/slurm.sh");
+    // Far from the ports of other runs.
+    let port = 20_000 + std::process::id() % 10_000 * 3;
+    let flags = "--device cpu --size 64x48";
+    let output = Command::new("sh")
+        .arg(script)
+        .args([folder.path().to_str().expect("a name"), &port.to_string(), "4", "8000"])
+        .args(["scene.toml", "picture.exr", "--checkpoint", "0.2"])
+        .args(flags.split(' '))
+        .env("GPT", env!("CARGO_BIN_EXE_gpt"))
+        .current_dir(place.path(""))
+        .output()
+        .expect("a shell");
+    let said = format!("{}{}", text(&output.stdout), text(&output.stderr));
+    assert!(output.status.success(), "{said}");
+    assert!(said.contains("sent SIGKILL") && said.contains("sent SIGTERM"), "{said}");
+    check(&place, "picture.exr", &format!("{flags} --spp 8000"));
+}
+
+#[cfg(unix)]
+#[test]
+fn open_job_description_renders_a_picture_in_chunks() {
+    if !are_installed(&["openjd"], "a job of Open Job Description") {
+        return;
+    }
+    let place = Workplace::new();
+    let scene = place.path("scene.toml").display().to_string();
+    let picture = place.path("picture.exr").display().to_string();
+    let parameters = [
+        format!("Farm={}", farm().display()),
+        format!("Gpt={}", env!("CARGO_BIN_EXE_gpt")),
+        format!("Scene={scene}"),
+        format!("Picture={picture}"),
+        "Spp=8".to_owned(),
+        "LastChunk=2".to_owned(),
+    ];
+    let mut command = Command::new("openjd");
+    command.arg("run").arg(farm().join("openjd/render.yaml")).args(["--step", "Merge", "--run-dependencies"]);
+    for parameter in &parameters {
+        command.args(["-p", parameter]);
+    }
+    let output = command.output().expect("openjd");
+    let said = format!("{}{}", text(&output.stdout), text(&output.stderr));
+    assert!(output.status.success() && said.contains("openjd_progress: 100.0"), "{said}");
+    check(&place, "picture.exr", "--spp 8");
+}
+
+/// Lines on standard output for other programs.
+#[test]
+fn progress_is_told_to_other_programs() {
+    let place = Workplace::new();
+    let render = "render scene.toml --device cpu -q -o a.exr --progress";
+    let lines =
+        |format: &str| text(&place.run(&format!("{render} {format}")).stdout).lines().map(str::to_owned).collect::<Vec<_>>();
+    let events: Vec<Value> = lines("json").iter().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    assert_eq!((&events[0]["event"], &events[0]["film_bytes"]), (&"start".into(), &(24 * 16 * 32).into()));
+    assert!(events.iter().any(|event| event["event"] == "progress" && event["percent"] == 100.0), "{events:?}");
+    let last = events.last().expect("events");
+    assert_eq!((&last["event"], &last["complete"], &last["outputs"][0]), (&"end".into(), &true.into(), &"a.exr".into()));
+    let openjd = lines("openjd");
+    assert!(openjd.iter().all(|line| line.starts_with("openjd_progress: ") || line.starts_with("openjd_status: ")), "{openjd:?}");
+    assert!(lines("plain").iter().any(|line| line.starts_with("100.0 %, 3072 of 3072 samples")));
+    place.expect(2, &format!("{render} json -o -"));
+    // The control: nothing is said without.
+    assert_eq!(text(&place.run("render scene.toml --device cpu -q -o a.exr").stdout), "");
+}
