@@ -14,6 +14,12 @@
 #import shading/scattering.wgsl
 #import shading/surface.wgsl
 #import shading/trace.wgsl
+#if LAYER_OF_LIGHT
+#import shading/layer.wgsl
+#endif
+#if LAYER_OF_SURFACES
+#import shading/surface_layer.wgsl
+#endif
 
 struct Path {
     ray: Ray,
@@ -112,6 +118,9 @@ fn escaped_radiance(path: Path, depth: u32) -> vec3<f32> {
         radiance *= weight;
     }
     trace_found(radiance, weight);
+#if LAYER_OF_LIGHT
+    radiance = select(vec3<f32>(0.0), radiance, is_in_layer(depth));
+#endif
     return radiance;
 }
 
@@ -129,6 +138,9 @@ fn emitted_radiance(path: Path, surface: Surface, depth: u32) -> vec3<f32> {
             }
             radiance = path.throughput * emitted * weight;
             trace_found(radiance, weight);
+#if LAYER_OF_LIGHT
+            radiance = select(vec3<f32>(0.0), radiance, is_in_layer(depth));
+#endif
         }
     }
     return radiance;
@@ -160,6 +172,9 @@ fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, ligh
         radiance = radiance / count;
     }
     trace_light(light.wi, pdf_light, radiance, weight, choose_light(light_bits), value.pdf_solid_angle);
+#if LAYER_OF_LIGHT
+    radiance = select(vec3<f32>(0.0), radiance, is_in_layer(depth + 1u));
+#endif
     return ShadowRay(Ray(origin, light.wi), light.distance, radiance);
 }
 
@@ -172,6 +187,42 @@ fn further_shadow_ray(lit: LitVertex, number: u32) -> ShadowRay {
     return shadow_ray(lit.path, lit.surface, depth, light, light_bits.x, value);
 }
 
+#if LAYER_OF_SURFACES
+// Follows a path whose ray met `hit`, its vertex number `vertex`, to the surface that the layer is of: replaces `path`, or returns the layer's
+// value as what was found.
+fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
+    let incoming = *path;
+    let wo = -incoming.ray.direction;
+    var shading = no_shading();
+    trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
+    if hit.primitive == NONE {
+        shading.radiance = vec3<f32>(NOTHING_MET);
+        return shading;
+    }
+    let surface = hit_surface(incoming.ray, hit);
+    trace_surface(surface.position, surface.shading_normal, surface.material);
+    var drawn = no_sample();
+    if depth_at(incoming, vertex) < MAX_DEPTH {
+        let random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex);
+        let more_random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex + 1u);
+        let bsdf = load_bsdf(surface, wo, uniform_float(more_random.w));
+        let scattering = scatter(
+            bsdf, surface, wo, false, wo, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)
+        );
+        drawn = scattering.drawn;
+    }
+    if !is_followed(drawn) {
+        shading.radiance = surface_value(incoming.throughput, surface, drawn);
+        return shading;
+    }
+    shading.alive = true;
+    (*path).ray = Ray(offset_origin(surface, drawn.wi), drawn.wi);
+    (*path).throughput = incoming.throughput * drawn.weight;
+    (*path).pdf_solid_angle = drawn.pdf_solid_angle;
+    (*path).null_vertices += select(0u, 1u, drawn.is_null);
+    return shading;
+}
+#else
 // Extends a path whose ray met `hit`, its vertex number `vertex`: replaces `path`, returns what was found.
 fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     let incoming = *path;
@@ -236,3 +287,4 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     (*path).null_vertices += select(0u, 1u, drawn.is_null);
     return shading;
 }
+#endif

@@ -68,11 +68,25 @@ fn opaque(x: vec3<f32>) -> vec3<f32> {
 // Compensated summation (Kahan 1965), sample by sample: the relative error does not grow with the number of samples, and the sum does
 // not depend on how samples were cut into passes. `opaque` keeps compilers from cancelling (sum + y) - sum.
 // A sample that is not finite is refused: it counts as 0, and is counted.
+#if LAYER_SQUARES
+// What variances are made of.
 fn add_sample(pixel: ptr<function, FilmPixel>, radiance: vec3<f32>) {
+    add_to_sum(pixel, radiance * radiance);
+}
+
+fn add_to_sum(pixel: ptr<function, FilmPixel>, radiance: vec3<f32>) {
+#else
+fn add_sample(pixel: ptr<function, FilmPixel>, radiance: vec3<f32>) {
+#endif
     (*pixel).sum.w += 1.0;
     let l = luminance(radiance);
     if !is_finite(l * l) || !is_finite(max_component(abs(radiance))) {
+#if LAYER_OF_SURFACES
+        // Nothing was met: the mean is over the samples that met something.
+        (*pixel).sum.w -= 1.0;
+#else
         (*pixel).refused++;
+#endif
         return;
     }
     let old = (*pixel).sum.xyz;

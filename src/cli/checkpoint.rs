@@ -51,7 +51,7 @@ pub fn all_are_finished(
     }
     let provenance = Some(Renderer::provenance_of(scene, options, ""));
     let [width, height] = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
-    let spec = PictureSpec { width, height, display, exr, provenance, part };
+    let spec = PictureSpec { width, height, display, exr, layers: Vec::new(), provenance, part };
     outputs.iter().all(|(path, format)| is_finished_picture(path, *format, &spec))
 }
 

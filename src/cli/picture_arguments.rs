@@ -1,6 +1,7 @@
 //! What decides how picture files show a render.
 
 use clap::Args;
+use gpt::film::Layer;
 use gpt::output::{Display, Exposure, ExrCompression, ExrOptions, ToneCurve};
 
 use super::choice::by_name;
@@ -31,6 +32,9 @@ pub struct ExrArguments {
     /// Red, green and blue of .exr files in half precision: half the size, 11 bits, up to 65504
     #[arg(long)]
     pub half: bool,
+    /// Layers that .exr files hold beside the picture, of the same samples; each is a render of its own
+    #[arg(long, value_name = "LAYER,…", value_delimiter = ',', value_parser = by_name::<Layer>())]
+    pub aov: Vec<Layer>,
     /// How .exr files are compressed
     #[arg(long, value_name = "METHOD", default_value = "piz", value_parser = by_name::<ExrCompression>())]
     pub compression: ExrCompression,

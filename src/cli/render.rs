@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use gpt::load::{self, LoadOptions, SceneSource};
-use gpt::output::{AtomicFile, PartSpec, PictureFormat, PictureSpec, Provenance, check_target};
+use gpt::output::{AtomicFile, LayerChannel, PartSpec, PictureFormat, PictureSpec, Provenance, check_target};
 use gpt::plan::memory::FILM_BYTES;
 use gpt::plan::{DeviceLimits, PlanOptions};
 use gpt::render::choice::Choice;
+use gpt::render::layers::render_layers;
 use gpt::render::progressive::STREAMS;
 use gpt::renderer::{DeviceChoice, RenderError, RenderReport};
 use gpt::scene_writer;
@@ -60,7 +61,9 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     }
     checkpoint::check(&arguments.checkpoint, &outputs)?;
     let shown = (arguments.display.display(), arguments.exr.options(), part(arguments, scene.film.size));
-    if arguments.checkpoint.resume && checkpoint::all_are_finished(&outputs, &scene, &options, shown) {
+    // What layers a finished picture has is not looked at.
+    let may_be_finished = arguments.checkpoint.resume && arguments.exr.aov.is_empty();
+    if may_be_finished && checkpoint::all_are_finished(&outputs, &scene, &options, shown) {
         if !arguments.quiet {
             terminal::note(&format!("{}: finished before, nothing is left to render", names(&outputs)));
         }
@@ -69,8 +72,9 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let load_seconds = started.elapsed().as_secs_f64();
 
     let progress = Progress::new(arguments.quiet, arguments.progress);
+    let layers = layers(arguments, &options, &scene, (&outputs, &progress))?;
     let Rendered { outcome, mut pictures, provenance, mut kept } =
-        render(arguments, (choice, &options), &scene, &outputs, (started, &progress))?;
+        render(arguments, (choice, &options), &scene, (&outputs, layers), (started, &progress))?;
     let broke_off = outcome.stop == Stop::Interrupted;
     if broke_off && kept.save() {
         pictures.give_up_beside_finished();
@@ -108,6 +112,28 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
         return Err(Failure::Outputs(summary.failures));
     }
     Ok(exit(&report, arguments.strict))
+}
+
+/// Renders the layers that are asked for.
+fn layers(
+    arguments: &RenderArguments,
+    options: &RenderOptions,
+    scene: &Scene,
+    (outputs, progress): (&[(PathBuf, PictureFormat)], &Progress),
+) -> Result<Vec<LayerChannel>, Failure> {
+    let wanted = &arguments.exr.aov;
+    if wanted.is_empty() {
+        return Ok(Vec::new());
+    }
+    if part(arguments, scene.film.size).is_some() {
+        return Err(Failure::usage("--aov: layers belong to whole pictures, without --crop and --first-sample"));
+    }
+    if !outputs.iter().any(|(_, format)| *format == PictureFormat::Exr) {
+        return Err(Failure::usage("--aov: layers go into an .exr file, and -o names none"));
+    }
+    let rendered = render_layers(scene, options, wanted, progress);
+    progress.clear();
+    rendered?.ok_or(Failure::Interrupted)
 }
 
 /// Writes the statistics to a file, or to standard output.
@@ -199,7 +225,7 @@ fn render(
     arguments: &RenderArguments,
     (choice, options): (Choice, &RenderOptions),
     scene: &Scene,
-    outputs: &[(PathBuf, PictureFormat)],
+    (outputs, layers): (&[(PathBuf, PictureFormat)], Vec<LayerChannel>),
     (started, progress): (Instant, &Progress),
 ) -> Result<Rendered, Failure> {
     progress.start(needs(scene, options));
@@ -212,7 +238,7 @@ fn render(
     let part = part(arguments, renderer.film());
     let provenance = renderer.provenance().clone();
     let (display, exr) = (arguments.display.display(), arguments.exr.options());
-    let spec = PictureSpec { width, height, display, exr, provenance: Some(provenance.clone()), part };
+    let spec = PictureSpec { width, height, display, exr, layers, provenance: Some(provenance.clone()), part };
     let mut kept = checkpoint::Kept::begin(&arguments.checkpoint, &renderer, outputs, started, arguments.quiet)?;
     let mut pictures = Pictures::create(outputs, &spec)?;
     let outcome = renderer.render_from(started, progress, kept.checkpoint.as_mut(), &mut |band| pictures.write_band(band));

@@ -1,4 +1,8 @@
-//! What rendering produces: finished rows of pixels.
+//! What rendering produces: finished rows of pixels, and layers beside them.
+
+mod layer;
+
+pub use layer::{KernelLayer, Layer};
 
 use crate::math::luminance;
 

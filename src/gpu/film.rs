@@ -130,7 +130,8 @@ pub fn deliver_band(
         let first_row = reached.first_row + rows.start;
         let (sums, compensations) = read(rows)?;
         let band = means(&sums, &compensations, [width, first_row], reached, &mut pixels_before, batch);
-        if band.counts.is_none() || band.counts.iter().flatten().any(|count| *count > 0) {
+        // Of a layer of surfaces, rows may well have met nothing.
+        if band.counts.is_none() || batch.selection.is_none() || band.counts.iter().flatten().any(|count| *count > 0) {
             on_band(band)?;
         }
     }

@@ -127,7 +127,9 @@ impl GpuRenderer {
             sink.state(self.state(band, sweeps)?)?;
         }
         if band.reached > 0 || band.pixels == 0 {
-            let reached = band.reached(is_cut || band.is_uneven());
+            // Of a layer of surfaces, pixels count the samples that met something.
+            let counts_hits = self.plan().switches.enabled.contains("LAYER_OF_SURFACES");
+            let reached = band.reached(is_cut || band.is_uneven() || counts_hits);
             let mut next_row = band.first_row;
             let delivered = self.deliver_band(&reached, batch, &mut |band| {
                 next_row = band.first_row + band.rows;

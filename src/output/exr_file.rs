@@ -1,6 +1,9 @@
 //! OpenEXR pictures: RGB scan lines, f32 or f16, written block by block.
 
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::io::{Seek, SeekFrom, Write};
+use std::sync::Arc;
 use std::thread::available_parallelism;
 
 use exr::block::UncompressedBlock;
@@ -11,15 +14,16 @@ use exr::meta::header::Header;
 use exr::meta::{BlockDescription, Headers, MetaData};
 use exr::prelude::{Compression, Vec2, f16};
 
-use super::provenance::Entry;
-use super::rows::{Completeness, PartRow, Rows};
+use super::layers::{LayerChannel, LayerPicture, LayerSource, sample_variance};
+use super::provenance;
+use super::rows::{Completeness, Counts, PartRow, Rows};
 use super::spec::{ExrCompression, PartSpec, PictureSpec};
 use crate::film::variance;
 
 /// Blocks compressed at once. Each takes 32 rows of memory, so more would be felt at 8K.
 const COMPRESSING_THREADS: usize = 4;
-/// Channels of every file, in alphabetical order, and the one of pixels that differ in their numbers of samples.
-const COLOURS: [&str; 3] = ["B", "G", "R"];
+/// Channels of every file, and the one of pixels that differ in their numbers of samples.
+const COLOURS: [&str; 3] = ["R", "G", "B"];
 const COUNT: &str = "SampleCount";
 /// Channels of a part, in alphabetical order: what rounding to a colour lost is its remainder, and variances are those of the means.
 const PART: [&str; 10] =
@@ -32,7 +36,8 @@ pub(super) fn write<W: Write + Seek>(mut writer: W, mut rows: Rows, spec: &Pictu
     let have_counts = rows.have_counts().map_err(|_| "the render broke off".to_owned())?;
     let first = header(spec, spec.samples_wanted(), Completeness::Finished, have_counts);
     let headers: Headers = [first].into_iter().collect();
-    exr::block::write(&mut writer, headers, true, |meta, chunks| write_blocks(&meta, chunks, &mut rows))
+    let channels = channels(spec, have_counts);
+    exr::block::write(&mut writer, headers, true, |meta, chunks| write_blocks(&meta, chunks, (&mut rows, &channels)))
         .map_err(|error| error.to_string())?;
 
     // The header went out before the samples were counted, and with its attributes in no order, for they were in a hash map. Numbers have a
@@ -57,7 +62,7 @@ fn sorted_bytes(header: &Header) -> Result<Vec<u8>, Error> {
     Ok(bytes)
 }
 
-fn write_blocks<W: Write + Seek>(meta: &MetaData, chunks: &mut ChunkWriter<W>, rows: &mut Rows) -> UnitResult {
+fn write_blocks<W: Write + Seek>(meta: &MetaData, chunks: &mut ChunkWriter<W>, rows: (&mut Rows, &[Channel])) -> UnitResult {
     let threads = available_parallelism().map_or(1, usize::from).min(COMPRESSING_THREADS);
     let pool = || rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     if let Some(mut compressor) = ParallelBlocksCompressor::new_with_thread_pool(meta, chunks, pool) {
@@ -68,36 +73,113 @@ fn write_blocks<W: Write + Seek>(meta: &MetaData, chunks: &mut ChunkWriter<W>, r
     }
 }
 
+/// A channel of the file.
+struct Channel {
+    name: &'static str,
+    sample_type: SampleType,
+    content: Content,
+}
+
+enum Content {
+    /// Red, green or blue.
+    Colour(usize),
+    Layer(LayerSource),
+}
+
+/// All channels in the alphabetical order of their names, in which they lie one after another in a scan line. `have_counts`: the file says how
+/// many samples each pixel has. Empty for a part, which has channels of its own.
+fn channels(spec: &PictureSpec, have_counts: bool) -> Vec<Channel> {
+    if spec.part.is_some() {
+        return Vec::new();
+    }
+    let colour = if spec.exr.half { SampleType::F16 } else { SampleType::F32 };
+    let of_colour = |(place, name)| Channel { name, sample_type: colour, content: Content::Colour(place) };
+    let of_layer = |LayerChannel { name, source }: LayerChannel| Channel {
+        name,
+        sample_type: if matches!(source, LayerSource::Whole(..)) { SampleType::U32 } else { SampleType::F32 },
+        content: Content::Layer(source),
+    };
+    let mut channels: Vec<Channel> = COLOURS.into_iter().enumerate().map(of_colour).collect();
+    let count = LayerChannel { name: COUNT, source: LayerSource::Count };
+    let is_asked_for = spec.layers.iter().any(|layer| layer.name == COUNT);
+    channels.extend(spec.layers.iter().cloned().chain((have_counts && !is_asked_for).then_some(count)).map(of_layer));
+    channels.sort_unstable_by_key(|channel| channel.name);
+    channels
+}
+
 /// Packs the rows as the file wants them, block by block from the top.
-fn for_each_block(meta: &MetaData, rows: &mut Rows, mut write: impl FnMut(usize, UncompressedBlock) -> UnitResult) -> UnitResult {
+fn for_each_block(
+    meta: &MetaData,
+    (rows, channels): (&mut Rows, &[Channel]),
+    mut write: impl FnMut(usize, UncompressedBlock) -> UnitResult,
+) -> UnitResult {
     let bytes_per_pixel = meta.headers[0].channels.bytes_per_pixel;
-    let half = meta.headers[0].channels.list[0].sample_type == SampleType::F16;
     for (index_in_file, index) in meta.enumerate_ordered_header_block_indices() {
         let mut data = Vec::with_capacity(index.pixel_size.area() * bytes_per_pixel);
-        let is_part = meta.headers[0].channels.list.len() == PART.len();
-        for _ in 0..index.pixel_size.height() {
-            if is_part {
+        let first_row = index.pixel_position.y();
+        for row in 0..index.pixel_size.height() {
+            // Parts have channels of their own.
+            if channels.is_empty() {
                 let row = rows.next_part_row().map_err(|_| Error::Aborted)?;
                 pack_part_row(&row, &mut data);
                 continue;
             }
-            let (row, counts) = rows.next_row().map_err(|_| Error::Aborted)?;
-            // Channels lie one after another in a scan line, in the alphabetical order of their names.
-            for channel in [2, 1, 0] {
-                if half {
-                    data.extend(row.iter().flat_map(|pixel| to_half(pixel[channel]).to_ne_bytes()));
-                } else {
-                    data.extend(row.iter().flat_map(|pixel| pixel[channel].to_ne_bytes()));
-                }
-            }
-            if meta.headers[0].channels.list.len() > COLOURS.len() {
-                let count = |pixel: usize| counts.of(pixel) as f32;
-                data.extend((0..row.len()).flat_map(|pixel| count(pixel).to_ne_bytes()));
+            let (pixels, counts) = rows.next_row().map_err(|_| Error::Aborted)?;
+            let layers = layer_rows(channels, (first_row + row) as u32)?;
+            for channel in channels {
+                pack(channel, pixels, &counts, &layers, &mut data);
             }
         }
         write(index_in_file, UncompressedBlock { index, data })?;
     }
     rows.wait_for_finish().map_err(|_| Error::Aborted).map(|_| ())
+}
+
+/// A row of each picture that layers come from, by its address.
+fn layer_rows(channels: &[Channel], row: u32) -> Result<BTreeMap<usize, Vec<[f32; 3]>>, Error> {
+    let mut rows = BTreeMap::new();
+    for channel in channels {
+        if let Content::Layer(source) = &channel.content
+            && let Some(picture) = source.picture()
+            && let Entry::Vacant(entry) = rows.entry(Arc::as_ptr(picture) as usize)
+        {
+            entry.insert(picture.row(row)?);
+        }
+    }
+    Ok(rows)
+}
+
+/// Appends a row of a channel.
+fn pack(
+    channel: &Channel,
+    pixels: &[[f32; 3]],
+    counts: &Counts<'_>,
+    layers: &BTreeMap<usize, Vec<[f32; 3]>>,
+    data: &mut Vec<u8>,
+) {
+    let layer = |picture: &Arc<LayerPicture>| layers[&(Arc::as_ptr(picture) as usize)].iter();
+    match &channel.content {
+        Content::Colour(place) if channel.sample_type == SampleType::F16 => {
+            data.extend(pixels.iter().flat_map(|pixel| to_half(pixel[*place]).to_ne_bytes()));
+        }
+        Content::Colour(place) => data.extend(pixels.iter().flat_map(|pixel| pixel[*place].to_ne_bytes())),
+        Content::Layer(LayerSource::Count) => {
+            data.extend((0..pixels.len()).flat_map(|pixel| (counts.of(pixel) as f32).to_ne_bytes()));
+        }
+        Content::Layer(LayerSource::Component(picture, place)) => {
+            data.extend(layer(picture).flat_map(|values| values[*place].to_ne_bytes()));
+        }
+        Content::Layer(LayerSource::Whole(picture, place)) => {
+            data.extend(layer(picture).flat_map(|values| (values[*place] as u32).to_ne_bytes()));
+        }
+        Content::Layer(LayerSource::Variance(picture, place)) => {
+            let variances = layer(picture)
+                .zip(pixels)
+                .enumerate()
+                .map(|(pixel, (squares, means))| sample_variance(means[*place], squares[*place], counts.of(pixel)));
+            data.extend(variances.flat_map(f32::to_ne_bytes));
+        }
+    }
 }
 
 /// The largest number of half precision stands for what is beyond: of a picture it is as bright, and it is a number.
@@ -131,12 +213,10 @@ pub fn part_channels() -> impl Iterator<Item = &'static str> {
 
 /// `have_counts`: the file says how many samples each pixel has, in a channel of its own.
 fn header(spec: &PictureSpec, samples: u32, completeness: Completeness, have_counts: bool) -> Header {
-    let usual = COLOURS.iter().copied().chain(have_counts.then_some(COUNT));
-    let names: Vec<&str> = if spec.part.is_some() { PART.to_vec() } else { usual.collect() };
-    let is_half = spec.exr.half && spec.part.is_none();
-    let colour = if is_half { SampleType::F16 } else { SampleType::F32 };
-    let sample_type = |name| if name == COUNT { SampleType::F32 } else { colour };
-    let channels = names.into_iter().map(|name| ChannelDescription::new(name, sample_type(name), false)).collect::<Vec<_>>();
+    let of_part = PART.map(|name| ChannelDescription::new(name, SampleType::F32, false));
+    let describe = |channel: &Channel| ChannelDescription::new(channel.name, channel.sample_type, false);
+    let usual = channels(spec, have_counts);
+    let channels: Vec<_> = if usual.is_empty() { of_part.to_vec() } else { usual.iter().map(describe).collect() };
     let size = Vec2(spec.width as usize, spec.height as usize);
     let mut header = Header::new(Text::from("gpt"), size, channels.into_iter().collect()).with_encoding(
         match spec.exr.compression {
@@ -174,10 +254,10 @@ fn compression(choice: ExrCompression) -> Compression {
 }
 
 /// An entry as the header has it.
-pub(super) fn attribute(entry: Entry) -> AttributeValue {
+pub(super) fn attribute(entry: provenance::Entry) -> AttributeValue {
     match entry {
-        Entry::Text(text) => AttributeValue::Text(header_text(&text)),
-        Entry::Number(number) => AttributeValue::I32(i32::try_from(number).unwrap_or(i32::MAX)),
+        provenance::Entry::Text(text) => AttributeValue::Text(header_text(&text)),
+        provenance::Entry::Number(number) => AttributeValue::I32(i32::try_from(number).unwrap_or(i32::MAX)),
     }
 }
 

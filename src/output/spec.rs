@@ -1,6 +1,7 @@
 //! What is known of a picture before its first row.
 
 use super::display::Display;
+use super::layers::LayerChannel;
 use super::provenance::{CROP_KEY, Entry, Provenance};
 use super::rows::Completeness;
 use crate::choice::choices;
@@ -54,6 +55,8 @@ pub struct PictureSpec {
     /// How previews show radiance. Files of floating-point numbers are not changed by it.
     pub display: Display,
     pub exr: ExrOptions,
+    /// Channels beside red, green and blue, of EXR files.
+    pub layers: Vec<LayerChannel>,
     /// None of a picture whose origin is not known.
     pub provenance: Option<Provenance>,
     /// Of a part that `gpt merge` joins with others: float files hold what that needs.

@@ -8,6 +8,7 @@ use super::model::Plan;
 use super::options::PlanOptions;
 use super::path_state::{PATH_STATE_BYTES, WORKGROUP};
 use super::{chunks, decisions, generated, ray_query, switches, unroll};
+use crate::film::KernelLayer;
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
 use crate::scene::Scene;
@@ -96,6 +97,9 @@ impl Plan {
         plan.switches = switches::choose(scene, packed, &plan);
         plan.switches.enable("TRACE", options.trace);
         plan.switches.enable("PIXEL_LIST", options.pixel_list && !options.trace);
+        for switch in options.layer.map_or(&[][..], KernelLayer::switches) {
+            plan.switches.enable(switch, true);
+        }
         for switch in &options.compile_in {
             plan.switches.enable(switch, true);
         }

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use super::choices::StageMode;
 use super::fault::Fault;
+use crate::film::KernelLayer;
 use crate::packed::hierarchy::Traversal;
 
 /// How rays find what they meet on a graphics device (`--traversal`).
@@ -28,6 +29,8 @@ pub struct PlanOptions {
     pub pixel_list: bool,
     /// Write down what happens along a path, for [`crate::gpu::GpuRenderer::trace`]; one kernel then traces whole paths.
     pub trace: bool,
+    /// What is made in place of the picture, from a scene that is [made ready for it](crate::reference::layer::layer_scene).
+    pub layer: Option<KernelLayer>,
     /// Keep naga's bounds checks and loop bounds in the kernels.
     pub checked_shaders: bool,
     /// Switches of parts that are compiled though the scene does not need them, to measure what leaving them out is worth.

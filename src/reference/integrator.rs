@@ -6,12 +6,12 @@
 //! is the path's throughput. Emission that both samples can find is shared out by multiple importance sampling, see
 //! [`super::mis`].
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::bsdf::{Bsdf, BsdfSample, Density};
 use super::camera::ProjectiveCamera;
 use super::emission::emitted;
-use super::intersect::{Moment, Ray, Surface, World};
+use super::intersect::{Moment, Owner, Ray, Surface, World};
 use super::lights::{LightSample, Lights};
 use super::mis;
 use super::trace::{LightConnection, PathVisitor};
@@ -69,6 +69,20 @@ impl Integrator {
 
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+
+    /// Where the camera stands, relative to the scene's center, and where it looks.
+    pub fn view_axis(&self) -> [DVec3; 2] {
+        let camera = &self.scene.camera;
+        [camera.position, -camera.frame()[2]]
+    }
+
+    /// What the ray through the middle of a pixel and of the lens meets when the shutter opens.
+    pub fn owner_at_centre(&self, x: u32, y: u32) -> Option<Owner> {
+        let ray = self.camera.ray(f64::from(x) + 0.5, f64::from(y) + 0.5, DVec2::ZERO);
+        let moment = if self.moves { Moment::new(&self.scene, self.scene.camera.shutter[0]) } else { Moment::default() };
+        let hit = self.world.closest(ray, &moment)?;
+        Some(self.world.surface(&ray, &hit, &moment).owner)
     }
 
     /// Changes what stratified random numbers depend on; nothing that was built from the scene does.

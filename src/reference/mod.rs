@@ -11,6 +11,7 @@ pub mod emission;
 mod film;
 pub mod integrator;
 pub mod intersect;
+pub mod layer;
 pub mod lights;
 pub mod mis;
 mod renderer;

@@ -9,8 +9,10 @@ use rayon::prelude::*;
 use super::film::{BAND_ROWS, BandSums, BatchSamples, Group, PixelSum, are_even};
 use super::integrator::Integrator;
 use super::intersect::Ray;
+use super::layer::LayerVisitor;
 use super::rounding::Rounding;
 use super::trace::{PathTrace, PathVisitor, RayCounter};
+use crate::film::KernelLayer;
 use crate::math::luminance;
 use crate::renderer::sink::Sink;
 use crate::renderer::state::{MOST_SAMPLES_PER_SWEEP, Tally};
@@ -32,6 +34,8 @@ const PASS_DURATION: Duration = Duration::from_millis(150);
 #[derive(Debug, Clone)]
 pub struct ReferenceRenderer {
     integrator: Integrator,
+    /// What is made in place of the picture.
+    layer: Option<KernelLayer>,
     build_seconds: f64,
     /// Passes done and how long they took, to size the next.
     timed_samples: f64,
@@ -84,9 +88,19 @@ impl Add for Counts {
 impl ReferenceRenderer {
     /// Builds what is needed to trace paths. Fails on what the reference cannot render.
     pub fn new(scene: &Scene) -> Result<Self, RenderError> {
+        Self::of_layer(scene, None)
+    }
+
+    /// As [`ReferenceRenderer::new`], to make a layer in place of the picture, of a scene that is [made ready](super::layer::layer_scene) for it.
+    pub fn of_layer(scene: &Scene, layer: Option<KernelLayer>) -> Result<Self, RenderError> {
         let start = Instant::now();
         let integrator = Integrator::new(scene)?;
-        Ok(Self { integrator, build_seconds: start.elapsed().as_secs_f64(), timed_samples: 0.0, timed_seconds: 0.0 })
+        Ok(Self { integrator, layer, build_seconds: start.elapsed().as_secs_f64(), timed_samples: 0.0, timed_seconds: 0.0 })
+    }
+
+    /// What is met at a pixel's centre at the shutter's opening: the number of the shape and of its material, from 1.
+    pub fn ids(&self, x: u32, y: u32) -> [u32; 2] {
+        self.integrator.owner_at_centre(x, y).map_or([0; 2], |owner| [owner.shape as u32 + 1, owner.material as u32 + 1])
     }
 
     /// What one sample of one pixel sees, as it is before the film refuses what is not finite.
@@ -119,15 +133,28 @@ impl ReferenceRenderer {
         let sampling = &batch.sampling;
         let pixel = y.wrapping_mul(self.integrator.scene().film.size[0]).wrapping_add(x);
         let mut watched = Watched { rays: 0, stopping: &batch.stopping, gave_up: None };
-        let (mut samples, mut non_finite) = (0, 0);
+        let (mut samples, mut traced, mut non_finite) = (0, 0_u64, 0);
+        let camera = self.integrator.view_axis();
         for point in points {
             let sampler = PathSampler::new(sampling, pixel, point);
-            let radiance = self.integrator.radiance(x, y, &sampler, &mut watched);
+            let mut radiance = DVec3::ZERO;
+            if let Some(layer) = self.layer {
+                let mut visitor = LayerVisitor::new(layer, camera, &mut watched);
+                let found = self.integrator.radiance(x, y, &sampler, &mut visitor);
+                let Some(value) = visitor.value(found) else {
+                    traced += 1;
+                    continue;
+                };
+                radiance += value;
+            } else {
+                radiance += self.integrator.radiance(x, y, &sampler, &mut watched);
+            }
             if watched.gave_up.is_some() {
                 break;
             }
-            samples += 1;
-            if is_acceptable(radiance) {
+            (samples, traced) = (samples + 1, traced + 1);
+            // Normals and positions may well be negative.
+            if is_acceptable(if self.layer.is_some() { radiance.abs() } else { radiance }) {
                 sum.radiance += radiance;
                 sum.squared_luminance += luminance(radiance).powi(2);
             } else {
@@ -135,7 +162,7 @@ impl ReferenceRenderer {
             }
         }
         sum.samples += samples;
-        Counts { samples: u64::from(samples), rays: watched.rays, non_finite, gave_up: watched.gave_up }
+        Counts { samples: traced, rays: watched.rays, non_finite, gave_up: watched.gave_up }
     }
 
     /// One pass over a band: the samples `range` of the request, but for its first pixels, which have them.
@@ -339,7 +366,9 @@ impl Renderer for ReferenceRenderer {
             let ended = self.render_group(&mut group, &samples, &mut progress, sink)?;
             let bands = group.bands;
             // Where a part of the picture is rendered at a time, earlier parts cannot know that a later one ends in the middle of a sweep.
-            let with_counts = ((end - first_row) as usize) < rows.len() || !are_even(&bands, &samples, width);
+            // Of a layer of surfaces, pixels count the samples that met something.
+            let counts_hits = self.layer.is_some_and(KernelLayer::is_of_surfaces);
+            let with_counts = ((end - first_row) as usize) < rows.len() || counts_hits || !are_even(&bands, &samples, width);
             let is_worth_delivering = |band: &&BandSums| ended.is_none() || band.has_samples();
             bands.iter().filter(is_worth_delivering).try_for_each(|band| sink.band(band.finish(width, &samples, with_counts)))?;
             if ended.is_some() {

@@ -38,11 +38,11 @@ impl Choice {
     /// No such device, or a scene that does not fit it.
     pub fn renderer(self, scene: &Scene, options: &PlanOptions) -> Result<ChosenRenderer, RenderError> {
         let Some(opening) = self.opening else {
-            return Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: None });
+            return Ok(ChosenRenderer { renderer: on_the_cpu(scene, options)?, notice: None });
         };
         match GpuRenderer::once_open(opening, scene, options) {
             Err(RenderError::NoDevice(why)) if self.choice == DeviceChoice::Auto && !options.asks_for_ray_queries() => {
-                Ok(ChosenRenderer { renderer: on_the_cpu(scene)?, notice: Some(no_adapter_notice(&why)) })
+                Ok(ChosenRenderer { renderer: on_the_cpu(scene, options)?, notice: Some(no_adapter_notice(&why)) })
             }
             outcome => Ok(ChosenRenderer { renderer: Box::new(outcome?), notice: None }),
         }
@@ -65,6 +65,6 @@ fn no_adapter_notice(why: &str) -> String {
     format!("rendering on the CPU, which is slower, because {}", obstacles.join("; "))
 }
 
-fn on_the_cpu(scene: &Scene) -> Result<Box<dyn Renderer>, RenderError> {
-    Ok(Box::new(ReferenceRenderer::new(scene)?))
+fn on_the_cpu(scene: &Scene, options: &PlanOptions) -> Result<Box<dyn Renderer>, RenderError> {
+    Ok(Box::new(ReferenceRenderer::of_layer(scene, options.layer)?))
 }

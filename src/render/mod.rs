@@ -2,12 +2,13 @@
 //!
 //! - `scene`, [`options`], [`stream`], [`image`]: what users of the crate see.
 //! - [`checkpoint`]: states of a render in a file, from which another goes on.
-//! - [`choice`]: which device renders.
+//! - [`choice`]: which device renders. [`layers`]: what is rendered beside the picture.
 //! - [`progressive`]: renders that end by a time or an error, and samples that follow the noise.
 
 pub mod checkpoint;
 pub mod choice;
 pub mod image;
+pub mod layers;
 pub mod options;
 pub mod progressive;
 mod scene;

@@ -122,6 +122,18 @@ const TEXEL_FORMATS: &[&str] = &["TEXELS_IN_BYTES", "TEXELS_IN_FLOATS", "TEXELS_
 /// Kinds of sampled light; where lights are sampled there is one at least.
 const LIGHT_KINDS: &[&str] = &["DELTA_LIGHTS", "AREA_LIGHTS", "SPHERE_LIGHTS", "ENVIRONMENT_LIGHT", "PORTALS"];
 
+/// Layers, of which a render makes one at most.
+const LAYERS: &[&str] = &[
+    "LAYER_ALBEDO",
+    "LAYER_DEPTH",
+    "LAYER_DIRECT",
+    "LAYER_EMISSION",
+    "LAYER_INDIRECT",
+    "LAYER_NORMAL",
+    "LAYER_POSITION",
+    "LAYER_SQUARES",
+];
+
 /// The table, in alphabetical order.
 pub static SWITCHES: LazyLock<Vec<Switch>> = LazyLock::new(|| {
     let mut rows = [&[OF_FEATURES, LOBES, LIGHTS], SHAPES].concat().concat();
@@ -155,6 +167,18 @@ const OF_FEATURES: &[Switch] = &[
     switch("FILTER_CURVE").requires(&["FILTER"]),
     switch("HEURISTIC_POWER"),
     switch("IMAGES").requires(&["TEXELS", "TEXTURES"]).one_of(TEXEL_FORMATS),
+    // What a render makes in place of the picture.
+    switch("LAYER_ALBEDO").requires(&["LAYER_OF_SURFACES"]).excludes(LAYERS),
+    switch("LAYER_DEPTH").requires(&["LAYER_OF_FIRST_SURFACE"]).excludes(LAYERS),
+    switch("LAYER_DIRECT").requires(&["LAYER_OF_LIGHT"]).excludes(LAYERS),
+    switch("LAYER_EMISSION").requires(&["LAYER_OF_LIGHT"]).excludes(LAYERS),
+    switch("LAYER_INDIRECT").requires(&["LAYER_OF_LIGHT"]).excludes(LAYERS),
+    switch("LAYER_NORMAL").requires(&["LAYER_OF_SURFACES"]).excludes(LAYERS),
+    switch("LAYER_OF_FIRST_SURFACE").requires(&["LAYER_OF_SURFACES"]).one_of(&["LAYER_DEPTH", "LAYER_POSITION"]),
+    switch("LAYER_OF_LIGHT").one_of(&["LAYER_DIRECT", "LAYER_EMISSION", "LAYER_INDIRECT"]).excludes(&["LAYER_OF_SURFACES"]),
+    switch("LAYER_OF_SURFACES").one_of(&["LAYER_ALBEDO", "LAYER_DEPTH", "LAYER_NORMAL", "LAYER_POSITION"]),
+    switch("LAYER_POSITION").requires(&["LAYER_OF_FIRST_SURFACE"]).excludes(LAYERS),
+    switch("LAYER_SQUARES").excludes(LAYERS),
     switch("LENS"),
     switch("LIGHTS").one_of(LIGHT_KINDS),
     switch("MIXTURE").requires(&["BLENDS"]).excludes(&["PICK"]),

@@ -163,3 +163,61 @@ fn previews_are_shown_as_the_command_line_says() {
     let half = meta.headers[0].channels.list.iter().all(|channel| channel.sample_type == exr::meta::attribute::SampleType::F16);
     assert!(half && meta.headers[0].compression == exr::prelude::Compression::ZIP16);
 }
+
+/// Layers beside the picture, by their names in EXR files.
+#[test]
+fn layers_stand_beside_the_picture() {
+    let place = Workplace::new();
+    let layers = "albedo,normal,position,depth,alpha,variance,samples,direct,indirect,emission,ids";
+    place.expect(0, &format!("render spheres --device cpu --spp 4 --size 24x16 -q --aov {layers} -o layers.exr"));
+    place.expect(0, "render spheres --device cpu --spp 4 --size 24x16 -q -o plain.exr");
+    assert_eq!(place.image("layers.exr").pixels, place.image("plain.exr").pixels);
+
+    let read = exr::prelude::read_first_flat_layer_from_file(place.path("layers.exr")).expect("an EXR file");
+    let list = &read.layer_data.channel_data.list;
+    let names: Vec<String> = list.iter().map(|channel| channel.name.to_string()).collect();
+    let expected = "A Albedo.B Albedo.G Albedo.R B Direct.B Direct.G Direct.R Emission.B Emission.G Emission.R G Indirect.B Indirect.G \
+                    Indirect.R MaterialId N.X N.Y N.Z ObjectId P.X P.Y P.Z R SampleCount Variance.B Variance.G Variance.R Z";
+    assert_eq!(names.join(" "), expected);
+    let channel = |name: &str| -> Vec<f32> {
+        let place = names.iter().position(|other| other == name).expect(name);
+        list[place].sample_data.values_as_f32().collect()
+    };
+    assert!(channel("SampleCount").iter().all(|count| *count == 4.0));
+    let (alpha, ids, depth, variance) = (channel("A"), channel("ObjectId"), channel("Z"), channel("Variance.G"));
+    for pixel in 0..24 * 16 {
+        assert!(alpha[pixel] == 0.0 || depth[pixel] > 0.0, "{pixel}");
+        assert!(alpha[pixel] != 1.0 || ids[pixel] > 0.0, "{pixel}");
+        assert!(variance[pixel] >= 0.0);
+    }
+    assert!(variance.iter().any(|value| *value > 0.0) && ids.iter().any(|id| *id > 1.0));
+    for colour in ["R", "G", "B"] {
+        let parts = ["Emission", "Direct", "Indirect"].map(|part| channel(&format!("{part}.{colour}")));
+        for (pixel, value) in channel(colour).iter().enumerate() {
+            let sum: f32 = parts.iter().map(|part| part[pixel]).sum();
+            assert!((sum - value).abs() <= 1e-5 * (1.0 + value), "{colour} {pixel}: {sum} {value}");
+        }
+    }
+    let stderr = place.expect(2, "render spheres --device cpu --spp 1 --aov normal -o a.png");
+    assert!(stderr.contains(".exr"), "{stderr}");
+    let stderr = place.expect(2, "render spheres --aov normals -o a.exr");
+    assert!(stderr.contains("albedo"), "{stderr}");
+}
+
+/// By the tools of OpenImageIO, another implementation of the format, where they are installed.
+#[test]
+fn other_programs_read_the_layers() {
+    let tools = ["oiiotool"];
+    let Some(tool) = tools.into_iter().find(|tool| Command::new(tool).arg("--version").output().is_ok()) else {
+        eprintln!("oiiotool is not installed: what it makes of the layers is not tested");
+        return;
+    };
+    let place = Workplace::new();
+    place.expect(0, "render spheres --device cpu --spp 2 --size 24x16 -q --aov albedo,normal,depth,ids -o layers.exr");
+    let output = Command::new(tool).args(["--info", "-v", "--stats"]).arg(place.path("layers.exr")).output().expect("it starts");
+    let said = text(&output.stdout);
+    for name in ["R", "G", "B", "Albedo.R", "N.X", "Z", "ObjectId"] {
+        assert!(said.contains(name), "{name} in {said}");
+    }
+    assert!(said.contains("24 x") && !said.to_lowercase().contains("error"), "{said}");
+}

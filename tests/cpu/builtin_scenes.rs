@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use gpt::film::KernelLayer;
 use gpt::load;
 use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
@@ -11,9 +12,20 @@ use gpt::scene::Scene;
 use gpt::shader::switches::SWITCHES;
 
 /// Switches that depend on the device or on what a render is asked for, whatever the scene.
-const OF_DEVICES: [&str; 12] = [
+const OF_DEVICES: [&str; 23] = [
     "ATTRIBUTE_CHUNKS",
     "FILM_TEXTURE",
+    "LAYER_ALBEDO",
+    "LAYER_DEPTH",
+    "LAYER_DIRECT",
+    "LAYER_EMISSION",
+    "LAYER_INDIRECT",
+    "LAYER_NORMAL",
+    "LAYER_OF_FIRST_SURFACE",
+    "LAYER_OF_LIGHT",
+    "LAYER_OF_SURFACES",
+    "LAYER_POSITION",
+    "LAYER_SQUARES",
     "NODE_CHUNKS",
     "PACKETS",
     "PIXEL_LIST",
@@ -50,7 +62,7 @@ fn built_in_scenes_use_every_switch() {
         DeviceLimits { software: true, threads: 4, subgroup_size: Some(8), read_write_rgba32float: true, ..hardware.clone() };
     let with_subgroups = DeviceLimits { subgroups: true, ..hardware.clone() };
     let with_ray_queries = DeviceLimits { ray_queries: Some(RayQueryLimits { max_primitives: 1 << 24 }), ..hardware.clone() };
-    let small_bindings = DeviceLimits { max_array: 64 << 10, max_storage_buffers: 100, ..hardware };
+    let small_bindings = DeviceLimits { max_array: 64 << 10, max_storage_buffers: 100, ..hardware.clone() };
     let by_query = PlanOptions { traversal: TraversalChoice::RayQuery, ..PlanOptions::default() };
     let of_some_pixels = PlanOptions { pixel_list: true, ..PlanOptions::default() };
     let mut anywhere = scenes;
@@ -61,6 +73,9 @@ fn built_in_scenes_use_every_switch() {
         (small_bindings, PlanOptions::default()),
     ] {
         anywhere.extend(compiled_in(&built_in, &limits, &options));
+    }
+    for layer in KernelLayer::ALL {
+        anywhere.extend(compiled_in(&built_in[..1], &hardware, &PlanOptions { layer: Some(layer), ..PlanOptions::default() }));
     }
     let missing: Vec<_> = every.filter(|name| !anywhere.contains(name)).collect();
     assert!(missing.is_empty(), "no built-in scene uses {missing:?} on any of these devices");

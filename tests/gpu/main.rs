@@ -11,6 +11,7 @@ mod checkpoints;
 mod chunks;
 mod closed_forms;
 mod film;
+mod layers;
 mod motion;
 mod progressive;
 mod ray_queries;

@@ -1,0 +1,111 @@
+//! Layers that go into an EXR file beside the picture. They are rendered before it and wait in temporary files, not in memory.
+
+use std::fs::File;
+use std::io::{Read, Result, Seek, SeekFrom, Write};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Three numbers a pixel, row by row.
+#[derive(Debug)]
+pub struct LayerPicture {
+    width: usize,
+    file: Mutex<File>,
+}
+
+impl LayerPicture {
+    /// All 0.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn new([width, height]: [u32; 2]) -> Result<Self> {
+        let file = tempfile::tempfile()?;
+        file.set_len(u64::from(width) * u64::from(height) * size_of::<[f32; 3]>() as u64)?;
+        Ok(Self { width: width as usize, file: Mutex::new(file) })
+    }
+
+    /// Writes whole rows, from this one on.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn write_rows(&self, first_row: u32, pixels: &[[f32; 3]]) -> Result<()> {
+        let mut file = self.at_row(first_row)?;
+        file.write_all(bytemuck::cast_slice(pixels))
+    }
+
+    /// A row.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn row(&self, row: u32) -> Result<Vec<[f32; 3]>> {
+        let mut pixels = vec![[0.0; 3]; self.width];
+        let mut file = self.at_row(row)?;
+        file.read_exact(bytemuck::cast_slice_mut(&mut pixels))?;
+        Ok(pixels)
+    }
+
+    fn at_row(&self, row: u32) -> Result<std::sync::MutexGuard<'_, File>> {
+        // The file has no state but its position, which is set anew.
+        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        file.seek(SeekFrom::Start(u64::from(row) * (self.width * size_of::<[f32; 3]>()) as u64))?;
+        Ok(file)
+    }
+}
+
+/// A channel beside red, green and blue.
+#[derive(Debug, Clone)]
+pub struct LayerChannel {
+    pub name: &'static str,
+    pub source: LayerSource,
+}
+
+/// Where a channel's numbers come from.
+#[derive(Debug, Clone)]
+pub enum LayerSource {
+    /// One of a layer's three numbers.
+    Component(Arc<LayerPicture>, usize),
+    /// The same, a whole number.
+    Whole(Arc<LayerPicture>, usize),
+    /// The variance of a sample, from the mean of its square and the picture itself.
+    Variance(Arc<LayerPicture>, usize),
+    /// Samples of the pixel.
+    Count,
+}
+
+impl LayerSource {
+    /// The picture that holds it.
+    pub fn picture(&self) -> Option<&Arc<LayerPicture>> {
+        match self {
+            Self::Component(picture, _) | Self::Whole(picture, _) | Self::Variance(picture, _) => Some(picture),
+            Self::Count => None,
+        }
+    }
+}
+
+/// Variance of a sample, unbiased, from the mean of so many and that of their squares.
+pub fn sample_variance(mean: f32, square: f32, samples: u32) -> f32 {
+    if samples < 2 {
+        return 0.0;
+    }
+    let [mean, square, samples] = [f64::from(mean), f64::from(square), f64::from(samples)];
+    ((square - mean * mean).max(0.0) * samples / (samples - 1.0)) as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_come_back_and_others_are_0() {
+        let picture = LayerPicture::new([3, 4]).unwrap();
+        picture.write_rows(1, &[[1.0, 2.0, 3.0]; 6]).unwrap();
+        assert_eq!(picture.row(2).unwrap(), [[1.0, 2.0, 3.0]; 3]);
+        assert_eq!(picture.row(0).unwrap(), [[0.0; 3]; 3]);
+        assert_eq!(picture.row(3).unwrap(), [[0.0; 3]; 3]);
+    }
+
+    #[test]
+    fn variances_are_those_of_the_samples() {
+        // 1, 2, 6: mean 3, squares 41/3, variance 7.
+        assert!((sample_variance(3.0, 41.0 / 3.0, 3) - 7.0).abs() < 1e-5);
+        assert_eq!((sample_variance(3.0, 9.0, 1), sample_variance(2.0, 3.9999, 5)), (0.0, 0.0));
+    }
+}

@@ -1,0 +1,117 @@
+//! Layers beside the picture, by watching paths: `shaders/shading/layer.wgsl` and `surface_layer.wgsl` are the same on the device.
+
+use std::borrow::Cow;
+
+use glam::DVec3;
+
+use super::bsdf::{BsdfSample, Density, View};
+use super::intersect::{Ray, Surface};
+use super::trace::{LightConnection, PathVisitor};
+use crate::film::KernelLayer;
+use crate::scene::{Estimator, Scene};
+
+/// Edges of a path at most that a layer of surfaces follows through mirrors and glass.
+const MOST_EDGES: u32 = 64;
+
+/// The scene as it is rendered for a layer. Paths to surfaces are followed as far as need be, need no light and are not ended by chance.
+pub fn layer_scene(scene: &Scene, layer: KernelLayer) -> Cow<'_, Scene> {
+    if !layer.is_of_surfaces() {
+        return Cow::Borrowed(scene);
+    }
+    let mut scene = scene.clone();
+    scene.render.estimator = Estimator::Bsdf;
+    scene.render.max_depth = MOST_EDGES;
+    scene.render.roulette_depth = 0;
+    Cow::Owned(scene)
+}
+
+/// Watches a path of a [`layer_scene`], and gives it up where the layer's surface is reached.
+pub struct LayerVisitor<'a, V> {
+    layer: KernelLayer,
+    /// Where depth is counted from, and along what.
+    camera: [DVec3; 2],
+    /// Is told of rays, and may give paths up as well.
+    other: &'a mut V,
+    /// Edges up to the ray's end.
+    edges: u32,
+    throughput: DVec3,
+    /// Of the surface that was met last; None where nothing was.
+    found: Option<DVec3>,
+    reached: bool,
+    light: DVec3,
+}
+
+impl<'a, V: PathVisitor> LayerVisitor<'a, V> {
+    pub fn new(layer: KernelLayer, camera: [DVec3; 2], other: &'a mut V) -> Self {
+        let (throughput, light) = (DVec3::ONE, DVec3::ZERO);
+        Self { layer, camera, other, edges: 1, throughput, found: None, reached: false, light }
+    }
+
+    /// The layer's value for a path that found this radiance; None where a layer of surfaces met nothing.
+    pub fn value(&self, radiance: DVec3) -> Option<DVec3> {
+        match self.layer {
+            layer if layer.is_of_surfaces() => self.found,
+            KernelLayer::Squares => Some(radiance * radiance),
+            _ => Some(self.light),
+        }
+    }
+
+    fn add(&mut self, edges: u32, contribution: DVec3) {
+        if self.layer.holds_light(edges) {
+            self.light += contribution;
+        }
+    }
+}
+
+impl<V: PathVisitor> PathVisitor for LayerVisitor<'_, V> {
+    fn ray(&mut self, ray: &Ray) {
+        self.other.ray(ray);
+    }
+
+    fn surface(&mut self, _depth: u32, surface: &Surface, wo: DVec3, throughput: DVec3) {
+        let [origin, forward] = self.camera;
+        let normal = surface.point.normal;
+        self.throughput = throughput;
+        self.found = Some(match self.layer {
+            KernelLayer::Position => surface.point.position,
+            KernelLayer::Depth => DVec3::splat((surface.point.position - origin).dot(forward)),
+            KernelLayer::Normal if normal.dot(wo) > 0.0 => normal,
+            KernelLayer::Normal => -normal,
+            _ => DVec3::ZERO,
+        });
+    }
+
+    fn view(&mut self, view: &View) {
+        if self.layer == KernelLayer::Normal {
+            self.found = Some(view.normal());
+        }
+    }
+
+    fn emission(&mut self, _radiance: DVec3, _weight: f64, contribution: DVec3) {
+        self.add(self.edges, contribution);
+    }
+
+    fn light(&mut self, connection: &LightConnection) {
+        self.add(self.edges + 1, connection.contribution);
+    }
+
+    fn scattered(&mut self, sample: &BsdfSample) {
+        if self.layer.is_of_surfaces() {
+            let goes_on = sample.density == Density::Delta && sample.weight.max_element() > 0.0;
+            self.reached = !goes_on || (self.layer.is_of_first_surface() && !sample.is_null);
+            if self.reached && self.layer == KernelLayer::Albedo {
+                self.found = Some(self.throughput * sample.weight);
+            }
+        }
+        self.edges += u32::from(!sample.is_null);
+    }
+
+    fn gives_up(&mut self, vertices: u32) -> bool {
+        self.reached || self.other.gives_up(vertices)
+    }
+
+    fn escaped(&mut self, _radiance: DVec3, _weight: f64, contribution: DVec3) {
+        self.found = None;
+        self.add(self.edges, contribution);
+    }
+}
