@@ -6,18 +6,19 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use super::super::subject::BenchError;
-use crate::output::{Image, srgb_byte};
+use crate::output::{Developer, Display, Image, Meter};
 
 /// Relative error of 0.1 %, 1 %, 10 %, 100 %, in linear sRGB values of 0 to 255.
 pub const HEAT_STOPS: [(&str, [f32; 3]); 4] =
     [("0.1 %", [8.0, 8.0, 24.0]), ("1 %", [92.0, 24.0, 130.0]), ("10 %", [235.0, 90.0, 60.0]), ("100 %", [252.0, 250.0, 190.0])];
 
-/// A picture as the address of an image, PNG inside.
+/// A picture as the address of an image, PNG inside, shown as the previews of renders are.
 ///
 /// # Errors
 /// What the encoder reports.
 pub fn picture_address(picture: &Image) -> Result<String, BenchError> {
-    address(picture.width, picture.height, picture.pixels.iter().map(|pixel| pixel.map(srgb_byte)))
+    let developer = Developer::new(&Display::default(), &Meter::default());
+    address(picture.width, picture.height, picture.pixels.iter().map(|pixel| developer.bytes(*pixel)))
 }
 
 /// A map of |picture − reference| over the reference's brightness, on a logarithmic scale.
@@ -72,7 +73,8 @@ mod tests {
         let address = picture_address(&picture).unwrap();
         let png = STANDARD.decode(address.strip_prefix("data:image/png;base64,").unwrap()).unwrap();
         let decoded = image::load_from_memory(&png).unwrap().into_rgb8();
-        assert_eq!(decoded.get_pixel(1, 0).0, [2.0, 0.1, 0.0].map(srgb_byte));
+        let developer = Developer::new(&Display::default(), &Meter::default());
+        assert_eq!(decoded.get_pixel(1, 0).0, developer.bytes([2.0, 0.1, 0.0]));
         assert!(picture_address(&Image { width: 3, ..picture }).is_err());
     }
 }
