@@ -6,6 +6,9 @@
 enable wgpu_ray_query;
 #import core/math.wgsl
 #import geometry/constants.wgsl
+#if TRANSPARENT_SHADOWS
+#import shading/transmittance.wgsl
+#endif
 #import geometry/prepared_ray.wgsl
 #import geometry/records.wgsl
 #import geometry/shapes.wgsl
@@ -21,11 +24,11 @@ const DEVICE_ERROR: f32 = 1.0e-6;
 // Coordinates of rays that start at 0.
 const TINY: f32 = 1.0e-20;
 
-// The nearest of what the structure holds between the origin and before.t; where nothing is, `before`. With
+// The nearest of what the structure holds between the distances `after` and before.t; where nothing is, `before`. With
 // RAY_FLAG_TERMINATE_ON_FIRST_HIT anything in between.
-fn hit_by_query(ray: PreparedRay, before: Hit, flags: u32) -> Hit {
+fn hit_by_query(ray: PreparedRay, before: Hit, after: f32, flags: u32) -> Hit {
     var hit = before;
-    var t_min = 0.0;
+    var t_min = after;
     var t_max = before.t;
     var query: ray_query;
     for (var count = 0u; count < MOST_QUERIES && t_min < t_max; count++) {
@@ -90,14 +93,30 @@ fn closest_hit(traced: Ray, t_max: f32) -> Hit {
     let ray = prepare_ray(traced);
     var hit = Hit(t_max, NONE, 0.0, 0.0);
     closest_of_constants(ray, &hit);
-    return hit_by_query(ray, hit, RAY_FLAG_NONE);
+    return hit_by_query(ray, hit, 0.0, RAY_FLAG_NONE);
 }
 
-// Whether anything lies between the origin and t_max.
-fn occluded(traced: Ray, t_max: f32) -> bool {
+// What share of the light comes through all that lies between the origin and t_max; 0 where something opaque does.
+fn transmittance(traced: Ray, t_max: f32) -> f32 {
     let ray = prepare_ray(traced);
     if any_of_constants(ray, t_max) {
-        return true;
+        return 0.0;
     }
-    return hit_by_query(ray, Hit(t_max, NONE, 0.0, 0.0), RAY_FLAG_TERMINATE_ON_FIRST_HIT).primitive != NONE;
+#if TRANSPARENT_SHADOWS
+    // One surface after the other, nearest first: the device's own order may come to a primitive twice.
+    var through = transmittance_of_constants(ray, t_max);
+    var t_min = 0.0;
+    while through > 0.0 {
+        let hit = hit_by_query(ray, Hit(t_max, NONE, 0.0, 0.0), t_min, RAY_FLAG_NONE);
+        if hit.primitive == NONE {
+            break;
+        }
+        through *= hit_transmittance(traced, hit, t_max);
+        t_min = hit.t * (1.0 + DEVICE_ERROR);
+    }
+    return through;
+#else
+    let hit = hit_by_query(ray, Hit(t_max, NONE, 0.0, 0.0), 0.0, RAY_FLAG_TERMINATE_ON_FIRST_HIT);
+    return select(0.0, 1.0, hit.primitive == NONE);
+#endif
 }

@@ -6,6 +6,9 @@
 #import geometry/records.wgsl
 #import geometry/stored.wgsl
 #import geometry/constants.wgsl
+#if TRANSPARENT_SHADOWS
+#import shading/transmittance.wgsl
+#endif
 
 alias StackEntry = u32;
 
@@ -36,6 +39,11 @@ struct Traversal {
     inverse_direction: vec3<f32>,
     hit: Hit,
     pending: Pending,
+#if TRANSPARENT_SHADOWS
+    // Of a shadow ray: where it ends, and what share of the light comes through the surfaces met so far.
+    limit: f32,
+    transmittance: f32,
+#endif
 }
 
 // A direction whose components are never 0, for reciprocals that stay finite. The change is far below rounding.
@@ -46,7 +54,12 @@ fn safe_inverse(direction: vec3<f32>) -> vec3<f32> {
 }
 
 fn begin_traversal(traced: Ray, t_max: f32) -> Traversal {
-    return Traversal(prepare_ray(traced), safe_inverse(traced.direction), Hit(t_max, NONE, 0.0, 0.0), pending_root());
+    return Traversal(
+        prepare_ray(traced), safe_inverse(traced.direction), Hit(t_max, NONE, 0.0, 0.0), pending_root()
+#if TRANSPARENT_SHADOWS
+        , t_max, 1.0
+#endif
+    );
 }
 
 // A traversal that has nothing to do.
@@ -125,6 +138,15 @@ fn step_closest(traversal: ptr<function, Traversal>, stack: ptr<function, array<
 fn step_any(traversal: ptr<function, Traversal>, stack: ptr<function, array<StackEntry, STACK_SIZE>>) {
     step_closest(traversal, stack);
     if (*traversal).hit.primitive != NONE {
+#if TRANSPARENT_SHADOWS
+        // What lets light through is behind the ray then, which goes on to its end.
+        let ray = Ray((*traversal).ray.origin, (*traversal).ray.direction);
+        (*traversal).transmittance *= hit_transmittance(ray, (*traversal).hit, (*traversal).limit);
+        if (*traversal).transmittance > 0.0 {
+            (*traversal).hit = Hit((*traversal).limit, NONE, 0.0, 0.0);
+            return;
+        }
+#endif
         (*traversal).pending = nothing_pending();
     }
 }
@@ -143,6 +165,14 @@ fn begin_any(traced: Ray, t_max: f32) -> Traversal {
     if any_of_constants(traversal.ray, t_max) {
         traversal.hit.primitive = 0u;
         traversal.pending = nothing_pending();
+#if TRANSPARENT_SHADOWS
+    } else {
+        traversal.transmittance = transmittance_of_constants(traversal.ray, t_max);
+        if traversal.transmittance <= 0.0 {
+            traversal.hit.primitive = 0u;
+            traversal.pending = nothing_pending();
+        }
+#endif
     }
     return traversal;
 }
@@ -156,12 +186,22 @@ fn closest_hit(traced: Ray, t_max: f32) -> Hit {
     return traversal.hit;
 }
 
-// Whether anything lies between the origin and t_max.
-fn occluded(traced: Ray, t_max: f32) -> bool {
+// What share of the light comes through all that lies between the origin and t_max; 0 where something opaque does.
+fn transmittance(traced: Ray, t_max: f32) -> f32 {
     var stack: array<StackEntry, STACK_SIZE>;
     var traversal = begin_any(traced, t_max);
     while !is_finished(traversal) {
         step_any(&traversal, &stack);
     }
-    return traversal.hit.primitive != NONE;
+    return light_through(traversal);
+}
+
+// The same of a shadow ray that is traced to its end.
+fn light_through(traversal: Traversal) -> f32 {
+#if TRANSPARENT_SHADOWS
+    let through = traversal.transmittance;
+#else
+    let through = 1.0;
+#endif
+    return select(0.0, through, traversal.hit.primitive == NONE);
 }

@@ -10,7 +10,14 @@ fn closest_hit(traced: Ray, t_max: f32) -> Hit {
     return hit;
 }
 
-// Whether anything lies between the origin and t_max.
-fn occluded(traced: Ray, t_max: f32) -> bool {
-    return any_of_constants(prepare_ray(traced), t_max);
+// What share of the light comes through all that lies between the origin and t_max; 0 where something opaque does.
+fn transmittance(traced: Ray, t_max: f32) -> f32 {
+    let ray = prepare_ray(traced);
+    var through = select(1.0, 0.0, any_of_constants(ray, t_max));
+#if TRANSPARENT_SHADOWS
+    if through > 0.0 {
+        through = transmittance_of_constants(ray, t_max);
+    }
+#endif
+    return through;
 }

@@ -26,11 +26,9 @@ fn blend_weight(index: u32, cosine: f32, uv: vec2<f32>) -> f32 {
             w = 1.0 - fresnel_dielectric(cosine, h.y);
         }
 #if TEXTURES
-        case WEIGHT_TEXTURE: {
-            w = luminance(texture_color(bitcast<u32>(h.w), uv));
-        }
-        case WEIGHT_CHANNEL: {
-            w = h.y * texture_color(bitcast<u32>(h.w), uv).x;
+        case WEIGHT_TEXTURE, WEIGHT_CHANNEL: {
+            let color = texture_color(bitcast<u32>(h.w), uv);
+            w = select(luminance(color), h.y * color.x, (flags & 255u) == WEIGHT_CHANNEL);
         }
 #endif
         default: {}

@@ -28,80 +28,55 @@ fn wrapped_texel(index: i32, size: i32, wrap: u32) -> i32 {
 }
 
 #if TEXELS_IN_HALF_FLOATS
-// The number of which these are the bits, without the rounding to 0 that conversions may do.
-fn half_float(bits: u32) -> f32 {
-    let magnitude = bits & 0x7fffu;
-    let normal = bitcast<f32>((magnitude << 13u) + 0x38000000u);
-    let small = f32(magnitude) * 5.9604644775390625e-8;
-    return select(normal, small, magnitude < 0x400u);
+// The numbers of which these are the bits, without the rounding to 0 that conversions may do.
+fn half_floats(bits: vec3<u32>) -> vec3<f32> {
+    let magnitude = bits & vec3<u32>(0x7fffu);
+    let normal = bitcast<vec3<f32>>((magnitude << vec3<u32>(13u)) + vec3<u32>(0x38000000u));
+    let small = vec3<f32>(magnitude) * 5.9604644775390625e-8;
+    return select(normal, small, magnitude < vec3<u32>(0x400u));
 }
 #endif
 
+// A colour; or a grey, where one channel counts. Whatever the format, what it leads to is loaded at the end by the same code: drivers copy
+// what is called to wherever it is called.
+fn texel(image: Image, x: i32, y: i32) -> vec3<f32> {
+    let place = u32(y * image.size.x + x);
+    // Which of a texel's values: red, green, blue or alpha.
+    var numbers = vec3<u32>(0u, 1u, 2u);
 #if TEXTURE_CHANNELS
-// One value of texel number `place`: red, green, blue or alpha by its number from 0.
-fn texel_value(image: Image, place: u32, number: u32) -> f32 {
+    let channel = (image.flags >> CHANNEL_SHIFT) & 7u;
+    if channel != 0u {
+        numbers = vec3<u32>(channel - 1u);
+    }
+#endif
+    // Where those stand, or what their integers stand for.
+    var words = vec3<u32>(0u);
     switch (image.flags >> FORMAT_SHIFT) & 3u {
 #if TEXELS_IN_BYTES
         case TEXELS_OF_BYTES: {
-            return texel_float(image.first_value + ((texel_word(image.first + place) >> (8u * number)) & 255u));
+            let codes = (vec3<u32>(texel_word(image.first + place)) >> (8u * numbers)) & vec3<u32>(255u);
+            words = image.first_value + codes;
         }
 #endif
 #if TEXELS_IN_SHORTS
         case TEXELS_OF_SHORTS: {
-            let word = texel_word(image.first + 2u * place + (number >> 1u));
-            return texel_float(image.first_value + ((word >> (16u * (number & 1u))) & 0xffffu));
+            words = image.first_value + texel_halves(image, place, numbers);
         }
 #endif
 #if TEXELS_IN_HALF_FLOATS
         case TEXELS_OF_HALF_FLOATS: {
-            return half_float(texel_word(image.first + 2u * place + (number >> 1u)) >> (16u * (number & 1u)));
+            return half_floats(texel_halves(image, place, numbers));
         }
 #endif
 #if TEXELS_IN_FLOATS
         case TEXELS_OF_FLOATS: {
-            return texel_float(image.first + select(3u, 4u, (image.flags & FLOAT_ALPHA) != 0u) * place + number);
+            words = image.first + select(3u, 4u, (image.flags & FLOAT_ALPHA) != 0u) * place + numbers;
         }
 #endif
-        default: { return 0.0; }
+        default: {}
     }
-}
-#endif
-
-fn texel_color(image: Image, place: u32) -> vec3<f32> {
-    switch (image.flags >> FORMAT_SHIFT) & 3u {
-#if TEXELS_IN_BYTES
-        case TEXELS_OF_BYTES: {
-            let codes = (vec3<u32>(texel_word(image.first + place)) >> vec3<u32>(0u, 8u, 16u)) & vec3<u32>(255u);
-            return texel_values(image.first_value + codes);
-        }
-#endif
-#if TEXELS_IN_SHORTS
-        case TEXELS_OF_SHORTS: {
-            let first = image.first + 2u * place;
-            let low = texel_word(first);
-            return texel_values(image.first_value + vec3<u32>(low & 0xffffu, low >> 16u, texel_word(first + 1u) & 0xffffu));
-        }
-#endif
-#if TEXELS_IN_HALF_FLOATS
-        case TEXELS_OF_HALF_FLOATS: {
-            let first = image.first + 2u * place;
-            let low = texel_word(first);
-            return vec3<f32>(half_float(low), half_float(low >> 16u), half_float(texel_word(first + 1u)));
-        }
-#endif
-#if TEXELS_IN_FLOATS
-        case TEXELS_OF_FLOATS: {
-            let first = image.first + select(3u, 4u, (image.flags & FLOAT_ALPHA) != 0u) * place;
-            return texel_values(vec3<u32>(first, first + 1u, first + 2u));
-        }
-#endif
-        default: { return vec3<f32>(0.0); }
-    }
-}
-
-fn texel_values(words: vec3<u32>) -> vec3<f32> {
 #if TEXEL_CHUNKS
-    // One load of many branches, not three: drivers copy what is called to wherever it is called.
+    // One load of many branches, not three.
     var values: vec3<f32>;
     for (var number = 0u; number < 3u; number++) {
         values[number] = texel_float(words[number]);
@@ -112,16 +87,11 @@ fn texel_values(words: vec3<u32>) -> vec3<f32> {
 #endif
 }
 
-// A colour; or a grey, where one channel counts.
-fn texel(image: Image, x: i32, y: i32) -> vec3<f32> {
-    let place = u32(y * image.size.x + x);
-#if TEXTURE_CHANNELS
-    let channel = (image.flags >> CHANNEL_SHIFT) & 7u;
-    if channel != 0u {
-        return vec3<f32>(texel_value(image, place, channel - 1u));
-    }
-#endif
-    return texel_color(image, place);
+// Of a texel of two words, halves by their numbers.
+fn texel_halves(image: Image, place: u32, numbers: vec3<u32>) -> vec3<u32> {
+    let first = image.first + 2u * place;
+    let both = select(vec3<u32>(texel_word(first)), vec3<u32>(texel_word(first + 1u)), numbers > vec3<u32>(1u));
+    return (both >> (16u * (numbers & vec3<u32>(1u)))) & vec3<u32>(0xffffu);
 }
 
 // v = 0 is the bottom row.

@@ -33,6 +33,10 @@ struct Path {
     sample_in_pass: u32,
     // Vertices at null surfaces so far.
     null_vertices: u32,
+#if TRANSPARENT_SHADOWS
+    // Where the ray began that went on through the null surfaces last met: light was sampled from there.
+    lit_from: vec3<f32>,
+#endif
 }
 
 struct ShadowRay {
@@ -65,7 +69,22 @@ struct Shading {
 
 // A path on its first edge.
 fn new_path(ray: Ray, pixel: u32, sample_in_pass: u32) -> Path {
-    return Path(ray, vec3<f32>(1.0), -1.0, 1.0, pixel, sample_in_pass, 0u);
+    return Path(
+        ray, vec3<f32>(1.0), -1.0, 1.0, pixel, sample_in_pass, 0u
+#if TRANSPARENT_SHADOWS
+        , ray.origin
+#endif
+    );
+}
+
+// The path's ray from where light was last sampled: shadow rays from there meet the same surfaces as the path, and go on through null ones
+// as it does. So what both find is shared out by the densities that they have there.
+fn ray_from_lit_vertex(path: Path) -> Ray {
+#if TRANSPARENT_SHADOWS
+    return Ray(path.lit_from, path.ray.direction);
+#else
+    return path.ray;
+#endif
 }
 
 fn no_shadow_ray() -> ShadowRay {
@@ -113,7 +132,7 @@ fn escaped_radiance(path: Path, depth: u32) -> vec3<f32> {
     var weight = 1.0;
     // After the camera or a delta lobe no light sample could have found it.
     if HAS_ENVIRONMENT_SAMPLED && path.pdf_solid_angle >= 0.0 {
-        let pdf_light = f32(light_samples_at(depth - 1u)) * environment_pdf_solid_angle(path.ray);
+        let pdf_light = f32(light_samples_at(depth - 1u)) * environment_pdf_solid_angle(ray_from_lit_vertex(path));
         weight = emission_weight(path.pdf_solid_angle, pdf_light);
         radiance *= weight;
     }
@@ -133,7 +152,7 @@ fn emitted_radiance(path: Path, surface: Surface, depth: u32) -> vec3<f32> {
         if max_component(emitted) > 0.0 {
             var weight = 1.0;
             if HAS_LIGHTS {
-                let pdf_light = f32(light_samples_at(depth - 1u)) * light_pdf_solid_angle(path.ray, surface);
+                let pdf_light = f32(light_samples_at(depth - 1u)) * light_pdf_solid_angle(ray_from_lit_vertex(path), surface);
                 weight = emission_weight(path.pdf_solid_angle, pdf_light);
             }
             radiance = path.throughput * emitted * weight;
@@ -282,7 +301,13 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     shading.alive = true;
     (*path).ray = Ray(offset_origin(surface, drawn.wi), drawn.wi);
     (*path).throughput = throughput;
+#if TRANSPARENT_SHADOWS
+    // Through a null surface goes the ray that was drawn before.
+    (*path).pdf_solid_angle = select(drawn.pdf_solid_angle, incoming.pdf_solid_angle, drawn.is_null);
+    (*path).lit_from = select((*path).ray.origin, incoming.lit_from, drawn.is_null);
+#else
     (*path).pdf_solid_angle = drawn.pdf_solid_angle;
+#endif
     (*path).eta_scale = eta_scale;
     (*path).null_vertices += select(0u, 1u, drawn.is_null);
     return shading;

@@ -57,8 +57,9 @@ fn trace_roulette(survival: f32) {
     trace_note(TRACED_ROULETTE);
 }
 
-// The light sample written down last reaches its light.
-fn trace_light_seen() {
+// The light sample written down last reaches its light, of which this share comes through.
+fn trace_light_seen(share: f32) {
+    traced[6] = vec4<f32>(traced[6].xyz * share, traced[6].w);
     trace_note(TRACED_LIGHT_SEEN);
 }
 
@@ -79,7 +80,7 @@ fn trace_found(contribution: vec3<f32>, weight: f32) {}
 
 fn trace_light(wi: vec3<f32>, pdf: f32, contribution: vec3<f32>, weight: f32, light: u32, bsdf_pdf: f32) {}
 
-fn trace_light_seen() {}
+fn trace_light_seen(share: f32) {}
 
 fn trace_sample(wi: vec3<f32>, pdf: f32, weight: vec3<f32>, eta_scale: f32, is_null: bool) {}
 

@@ -31,16 +31,16 @@ fn nearest(ray: Ray, has_ray: bool) -> Hit {
 #endif
 }
 
-// Whether nothing is in the shadow ray's way, of the lanes that have one.
-fn is_lit(shadow: ShadowRay, has_ray: bool) -> bool {
+// What share of the light comes along the shadow ray, of the lanes that have one; 0 of the others.
+fn light_share(shadow: ShadowRay, has_ray: bool) -> f32 {
 #if PACKETS
-    return !occluded_together(shadow.ray, select(-1.0, shadow.distance, has_ray)) && has_ray;
+    return select(0.0, transmittance_together(shadow.ray, select(-1.0, shadow.distance, has_ray)), has_ray);
 #else
-    var lit = false;
+    var share = 0.0;
     if has_ray {
-        lit = !occluded(shadow.ray, shadow.distance);
+        share = transmittance(shadow.ray, shadow.distance);
     }
-    return lit;
+    return share;
 #endif
 }
 
@@ -48,9 +48,14 @@ fn is_lit(shadow: ShadowRay, has_ray: bool) -> bool {
 fn trace_shadow_ray(shadow: ShadowRay, radiance: ptr<function, vec3<f32>>, rays: ptr<function, u32>) {
     let has_ray = is_needed(shadow);
     *rays += select(0u, 1u, has_ray);
-    if is_lit(shadow, has_ray) {
-        trace_light_seen();
+    let share = light_share(shadow, has_ray);
+    if share > 0.0 {
+        trace_light_seen(share);
+#if TRANSPARENT_SHADOWS
+        *radiance += share * shadow.radiance;
+#else
         *radiance += shadow.radiance;
+#endif
     }
 }
 

@@ -7,9 +7,9 @@
 #import geometry/motion.wgsl
 #endif
 
-// Five planes of PATH_CAPACITY vec4 each:
+// Planes of PATH_CAPACITY vec4 each:
 //   ray origin and pixel within the pass (within the band where pixels are listed) | sample in the pass << 24; ray direction and its density; throughput and eta scale;
-//   radiance and null vertices; hit
+//   radiance and null vertices; hit; where shadow rays go through surfaces, the point that light was last sampled from
 @group(0) @binding(BINDING_PATH_STATE) var<storage, read_write> path_state: array<vec4<f32>>;
 // The queue of paths with shadow rays: for each of LIGHT_SAMPLES rays, three planes of PATH_CAPACITY vec4: origin and distance; direction and
 // path slot; radiance and, where paths have several and of the first, how many the path has.
@@ -24,6 +24,9 @@ const PLANE_DIRECTION: u32 = PATH_CAPACITY;
 const PLANE_THROUGHPUT: u32 = 2u * PATH_CAPACITY;
 const PLANE_RADIANCE: u32 = 3u * PATH_CAPACITY;
 const PLANE_HIT: u32 = 4u * PATH_CAPACITY;
+#if TRANSPARENT_SHADOWS
+const PLANE_LIT_FROM: u32 = PATH_STATE_WORDS * PATH_CAPACITY;
+#endif
 
 const SHADOW_ORIGIN: u32 = 0u;
 const SHADOW_DIRECTION: u32 = PATH_CAPACITY;
@@ -56,6 +59,9 @@ fn load_path(slot: u32) -> Path {
     }
     return Path(
         Ray(p0.xyz, p1.xyz), p2.xyz, p1.w, p2.w, pass_parameters.first_pixel + (identity & 0x00ffffffu), identity >> 24u, null_vertices
+#if TRANSPARENT_SHADOWS
+        , path_state[PLANE_LIT_FROM + slot].xyz
+#endif
     );
 }
 
@@ -65,6 +71,9 @@ fn store_path(slot: u32, path: Path) {
     path_state[PLANE_ORIGIN + slot] = vec4<f32>(path.ray.origin, bitcast<f32>(identity));
     path_state[PLANE_DIRECTION + slot] = vec4<f32>(path.ray.direction, path.pdf_solid_angle);
     path_state[PLANE_THROUGHPUT + slot] = vec4<f32>(path.throughput, path.eta_scale);
+#if TRANSPARENT_SHADOWS
+    path_state[PLANE_LIT_FROM + slot] = vec4<f32>(path.lit_from, 0.0);
+#endif
 }
 
 // Where in its planes shadow ray `number` stands of the path with this index in the queue.

@@ -11,7 +11,6 @@ use super::subject::{BenchError, Devices, SceneSubject, Subject};
 use crate::gpu::GpuRenderer;
 use crate::load::SceneError;
 use crate::packed::hierarchy::Traversal;
-use crate::plan::path_state::PATH_STATE_BYTES;
 use crate::plan::{PlanOptions, StageMode, memory};
 use crate::reference::ReferenceRenderer;
 use crate::renderer::{DeviceChoice, Observer, RenderError, RenderRequest, Renderer};
@@ -283,7 +282,7 @@ fn prepare<'a>(
         first_picture_seconds,
         stages: if wavefront { "wavefront" } else { "fused" },
         traversal: renderer.plan().traversal_in_use(),
-        bytes_per_path: wavefront.then_some(PATH_STATE_BYTES + memory::QUEUE_BYTES + shadow_rays),
+        bytes_per_path: wavefront.then_some(renderer.plan().path_state_bytes() + memory::QUEUE_BYTES + shadow_rays),
         device_bytes: renderer.plan().memory.total(),
         profile: look_inside(&renderer, options.rounds)?,
         subject: SceneSubject { renderer: Box::new(renderer), size: scene.film.size, observer },

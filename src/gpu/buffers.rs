@@ -13,7 +13,7 @@ use crate::packed::texture::PackedTextures;
 use crate::plan::bindings::Binding;
 use crate::plan::chunks::{ATTRIBUTES, NODES, PRIMITIVES, TEXELS};
 use crate::plan::parameters::{PassParameters, VertexParameters};
-use crate::plan::path_state::{COUNTS, DISPATCH_SIZE_WORDS, PATH_STATE_BYTES};
+use crate::plan::path_state::{COUNTS, DISPATCH_SIZE_WORDS};
 use crate::plan::trace_record::TRACE_BYTES;
 use crate::plan::{FilmStorage, MAX_SAMPLES_PER_PASS, Plan, StageMode, memory};
 
@@ -88,7 +88,7 @@ impl Buffers {
         }
         if plan.stages == StageMode::Wavefront {
             let paths = u64::from(plan.path_capacity);
-            make(Binding::PathState as u32, "path state", paths * PATH_STATE_BYTES, storage);
+            make(Binding::PathState as u32, "path state", paths * plan.path_state_bytes(), storage);
             make(Binding::Queues as u32, "queues", paths * memory::QUEUE_BYTES, storage);
             make(
                 Binding::Counts as u32,

@@ -6,17 +6,21 @@ use std::path::Path;
 pub(super) const FOLDER: &str = "builtin:";
 
 /// Path within [`FOLDER`] and content of every file that built-in scenes name.
-const FILES: [(&str, &[u8]); 5] = [
+const FILES: [(&str, &[u8]); 9] = [
     ("models/teapot.obj", include_bytes!("../../scenes/models/teapot.obj")),
     ("models/knot.obj", include_bytes!("../../scenes/models/knot.obj")),
     // scripts/textures makes them.
+    ("textures/embers.hdr", include_bytes!("../../scenes/textures/embers.hdr")),
     ("textures/evening.hdr", include_bytes!("../../scenes/textures/evening.hdr")),
     ("textures/hammered.png", include_bytes!("../../scenes/textures/hammered.png")),
     ("textures/harbour.png", include_bytes!("../../scenes/textures/harbour.png")),
+    ("textures/lamps.hdr", include_bytes!("../../scenes/textures/lamps.hdr")),
+    ("textures/leaf.png", include_bytes!("../../scenes/textures/leaf.png")),
+    ("textures/worn.png", include_bytes!("../../scenes/textures/worn.png")),
 ];
 
 /// Name and text of every built-in scene; the first is the default.
-const SCENES: [(&str, &str); 23] = [
+const SCENES: [(&str, &str); 24] = [
     ("cornell", include_str!("../../scenes/cornell.toml")),
     ("spheres", include_str!("../../scenes/spheres.toml")),
     ("veach-mis", include_str!("../../scenes/veach-mis.toml")),
@@ -35,6 +39,7 @@ const SCENES: [(&str, &str); 23] = [
     ("terrace", include_str!("../../scenes/terrace.toml")),
     ("crystal", include_str!("../../scenes/crystal.toml")),
     ("lanterns", include_str!("../../scenes/lanterns.toml")),
+    ("arbour", include_str!("../../scenes/arbour.toml")),
     ("model-town", include_str!("../../scenes/model-town.toml")),
     ("furnace-lambert", include_str!("../../scenes/furnace-lambert.toml")),
     ("furnace-box", include_str!("../../scenes/furnace-box.toml")),

@@ -28,6 +28,8 @@ shared_constants!(flags {
     pub(super) const EMITS_TWO_SIDED: u32 = 2;
     /// Some part of the blend emits.
     pub(super) const PARTS_EMIT: u32 = 4;
+    /// It is, or some part of the blend is, a surface that is not there.
+    pub(super) const LETS_THROUGH: u32 = 8;
     /// GGX narrower than this is a delta lobe: f32 no longer resolves it.
     const DELTA_ALPHA: f32 = material::DELTA_ALPHA as f32;
 });
@@ -186,6 +188,9 @@ impl PackedMaterials {
         if !emitting_blends.is_empty() || plain.iter().any(|part| scene.materials[part.material].emission.is_some()) {
             packed.emission_flags |= PARTS_EMIT;
         }
+        if plain.iter().any(|part| matches!(scene.materials[part.material].kind, MaterialKind::Pass)) {
+            packed.emission_flags |= LETS_THROUGH;
+        }
         packed.color1 = [self.parts.len(), plain.len(), emitting_blends.len()].map(|number| f32::from_bits(number as u32));
         for part in plain.into_iter().chain(emitting_blends) {
             self.parts.push(PackedBlendPart {
@@ -288,7 +293,9 @@ impl PackedMaterial {
             color1,
             ior: lobe.and_then(|lobe| lobe.ior).unwrap_or(1.0) as f32,
             emission,
-            emission_flags: if radiance == black { 0 } else { EMITS } | if two_sided { EMITS_TWO_SIDED } else { 0 },
+            emission_flags: if radiance == black { 0 } else { EMITS }
+                | if two_sided { EMITS_TWO_SIDED } else { 0 }
+                | if kind == LobeKind::Null as u32 { LETS_THROUGH } else { 0 },
             color0_texture,
             emission_texture,
             color1_texture,
@@ -307,6 +314,16 @@ impl PackedMaterial {
 
     pub fn kind(&self) -> u32 {
         self.kind_and_form & ((1 << FORM_SHIFT) - 1)
+    }
+
+    /// Some light may go straight through it.
+    pub fn lets_through(&self) -> bool {
+        self.emission_flags & LETS_THROUGH != 0
+    }
+
+    /// It, or some part of it, emits.
+    pub fn emits(&self) -> bool {
+        self.emission_flags & (EMITS | PARTS_EMIT) != 0
     }
 
     /// Its lobe reads other numbers than those it has where none are loaded.

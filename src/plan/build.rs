@@ -6,7 +6,7 @@ use super::limits::DeviceLimits;
 use super::memory::{self, Memory};
 use super::model::Plan;
 use super::options::PlanOptions;
-use super::path_state::{PATH_STATE_BYTES, WORKGROUP};
+use super::path_state::{WORKGROUP, path_state_bytes};
 use super::{chunks, decisions, generated, ray_query, switches, unroll};
 use crate::film::KernelLayer;
 use crate::packed::PackedScene;
@@ -37,6 +37,7 @@ impl Plan {
         }
         let (geometry, why_geometry) = decisions::geometry(packed, options);
         let light_samples = if switches::samples_lights(scene, packed) { scene.render.light_samples } else { 1 };
+        let state_bytes = path_state_bytes(switches::shadows_are_transparent(scene, packed));
         let (stages, why_stages) = decisions::stages(geometry, &scene.render, limits, options);
         // On software devices the arithmetic of a step through a hierarchy costs the same for one lane as for all, so the lanes of a subgroup
         // go through it as one packet, whose stack lies in registers, an entry a lane (shaders/geometry/software/packet.wgsl). Geometry that is code is
@@ -73,7 +74,7 @@ impl Plan {
             chunks: Vec::new(),
             stages,
             film,
-            path_capacity: limits.paths_with_shadow_rays(u64::from(light_samples) * memory::SHADOW_RAY_BYTES),
+            path_capacity: limits.paths_with_shadow_rays(state_bytes, u64::from(light_samples) * memory::SHADOW_RAY_BYTES),
             rays_per_invocation: if limits.software { 32 } else { 1 },
             lanes,
             subgroup_queues,
@@ -111,7 +112,10 @@ impl Plan {
             GeometryPlacement::Hierarchy => packed.hierarchy.primitive_count as usize,
         };
         plan.switches.generated.extend(generated::files());
-        plan.switches.generated.insert("geometry/constants.wgsl", unroll::constants(packed, first_constant));
+        plan.switches.generated.insert(
+            "geometry/constants.wgsl",
+            unroll::constants(packed, first_constant, switches::shadows_are_transparent(scene, packed)),
+        );
         for array in plan.chunks.iter().filter(|array| !array.is_whole()) {
             plan.switches.enable(array.array.switch, true);
             plan.switches.generated.insert(array.array.file, array.wgsl());
@@ -153,7 +157,7 @@ fn count_memory(packed: &PackedScene, plan: &Plan, width: u32) -> Memory {
     }
     if plan.stages == StageMode::Wavefront {
         let paths = u64::from(plan.path_capacity);
-        arrays.push(("path state", paths * PATH_STATE_BYTES));
+        arrays.push(("path state", paths * plan.path_state_bytes()));
         arrays.push(("queues", paths * memory::QUEUE_BYTES));
         if plan.samples_lights() {
             arrays.push(("shadow rays", paths * plan.shadow_ray_bytes()));

@@ -2,7 +2,7 @@
 
 use super::choices::{FILM_BYTES, FilmStorage};
 use super::error::PlanError;
-use super::path_state::PATH_STATE_BYTES;
+use super::path_state::path_state_bytes;
 
 /// Bytes that the queue of shadow rays takes at most: five million of them keep any device busy.
 const MOST_SHADOW_RAY_BYTES: u64 = 256 << 20;
@@ -86,7 +86,7 @@ impl DeviceLimits {
         let max_array = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
         let max_workgroups = limits.max_compute_workgroups_per_dimension;
         let wanted_paths: u64 = if software { 1 << 18 } else { 1 << 20 };
-        let most_paths = (max_array / PATH_STATE_BYTES).min(u64::from(max_workgroups) * 64);
+        let most_paths = (max_array / path_state_bytes(true)).min(u64::from(max_workgroups) * 64);
         Self {
             max_storage_binding: limits.max_storage_buffer_binding_size,
             max_uniform_binding: limits.max_uniform_buffer_binding_size.min(64 << 10) as u32,
@@ -118,11 +118,11 @@ impl DeviceLimits {
         self.ray_queries.ok_or_else(missing)
     }
 
-    /// Paths in flight, each with so many bytes of shadow rays: as many as one binding holds of either.
-    pub fn paths_with_shadow_rays(&self, bytes: u64) -> u32 {
+    /// Paths in flight, each with so many bytes of state and of shadow rays: as many as one binding holds of either.
+    pub fn paths_with_shadow_rays(&self, state_bytes: u64, bytes: u64) -> u32 {
         let binding = self.max_storage_binding.min(self.max_buffer);
         let by_shadow_rays = binding.min(MOST_SHADOW_RAY_BYTES) / bytes.max(1);
-        u64::from(self.path_capacity).min(binding / PATH_STATE_BYTES).min(by_shadow_rays) as u32
+        u64::from(self.path_capacity).min(binding / state_bytes).min(by_shadow_rays) as u32
     }
 
     /// The same, for a device that turned out to have no memory for a film of this size; None where a smaller one would not help.

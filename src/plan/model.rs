@@ -6,6 +6,7 @@ use super::choices::{FilmStorage, GeometryPlacement, StageMode};
 use super::chunks::Chunks;
 use super::decision::Decision;
 use super::memory::{Memory, SHADOW_RAY_BYTES};
+use super::path_state::path_state_bytes;
 use crate::packed::hierarchy::Traversal;
 use crate::sampling::dimension::SEQUENCE_DIMENSIONS;
 use crate::shader::Switches;
@@ -64,6 +65,11 @@ impl Plan {
     /// Bytes of the shadow rays that a path in flight has at a time.
     pub fn shadow_ray_bytes(&self) -> u64 {
         u64::from(self.light_samples) * SHADOW_RAY_BYTES
+    }
+
+    /// Bytes of the state of a path in flight.
+    pub fn path_state_bytes(&self) -> u64 {
+        path_state_bytes(self.switches.enabled.contains("TRANSPARENT_SHADOWS"))
     }
 
     /// How rays find what stands in the hierarchy, where there is one.

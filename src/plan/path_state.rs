@@ -7,6 +7,8 @@ shared_constants!(constants {
     pub const WORKGROUP: u32 = 64;
     /// vec4s of a path's state: `shaders/stages/wavefront.wgsl` says what they hold.
     pub const PATH_STATE_WORDS: u32 = 5;
+    /// The same where shadow rays go through surfaces.
+    pub const TRANSPARENT_PATH_STATE_WORDS: u32 = PATH_STATE_WORDS + 1;
     /// vec4s of a shadow ray.
     pub const SHADOW_RAY_WORDS: u32 = 3;
     /// Queues of paths: one is read while the other is filled.
@@ -23,5 +25,8 @@ shared_constants!(constants {
     pub const DISPATCH_SIZE_WORDS: u32 = 9;
 });
 
-/// Bytes of state per path: ray, throughput, radiance, hit (`shaders/stages/wavefront.wgsl`).
-pub const PATH_STATE_BYTES: u64 = 16 * PATH_STATE_WORDS as u64;
+/// Bytes of state per path: ray, throughput, radiance, hit (`shaders/stages/wavefront.wgsl`), and where `shadows_are_transparent` the point
+/// that light was last sampled from.
+pub fn path_state_bytes(shadows_are_transparent: bool) -> u64 {
+    16 * u64::from(if shadows_are_transparent { TRANSPARENT_PATH_STATE_WORDS } else { PATH_STATE_WORDS })
+}

@@ -129,11 +129,17 @@ pub fn samples_lights(scene: &Scene, packed: &PackedScene) -> bool {
     !packed.lights.is_empty() && scene.render.max_depth != 1
 }
 
+/// Whether shadow rays may meet null surfaces, and go on through them.
+pub fn shadows_are_transparent(scene: &Scene, packed: &PackedScene) -> bool {
+    samples_lights(scene, packed) && packed.materials.has(LobeKind::Null as u32)
+}
+
 fn choose_lights(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
     let render = &scene.render;
     let has = |kind: LightKind| packed.lights.iter().any(|light| light.is(kind));
     let sampled = samples_lights(scene, packed);
     switches.enable("LIGHTS", sampled);
+    switches.enable("TRANSPARENT_SHADOWS", shadows_are_transparent(scene, packed));
     switches.enable("ONE_LIGHT", packed.lights.len() == 1);
     let has_surface = |sampling: SurfaceSampling| {
         let is_it = |light: &PackedLight| light.is_surface() && light.shape().is_some_and(|kind| kind.sampling() == sampling);
@@ -213,6 +219,6 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     switches.enable("MORE_LOBES", blends && mixture && more_lobes);
     switches.enable("PICK", blends && !mixture);
     switches.enable("NORMAL_MAPS", packed.materials.materials.iter().any(|material| material.normal_map != NONE));
-    switches.enable("EMISSION", packed.materials.materials.iter().any(|material| material.emission_flags != 0));
+    switches.enable("EMISSION", materials.iter().any(PackedMaterial::emits));
     switches.enable("VARYING_LIGHTS", samples_lights(scene, packed) && packed.lights.iter().any(PackedLight::varies));
 }

@@ -8,7 +8,7 @@ use super::bsdf::{Lookup, View, blend};
 use super::intersect::Surface;
 use super::texture;
 use crate::math::luminance;
-use crate::scene::{Emission, MaterialId, Scene};
+use crate::scene::{Emission, MaterialId, MaterialKind, Scene};
 
 /// Radiance that leaves the surface towards `wo` by its own emission: that of the material, and, where it is a blend, that of its
 /// parts by their weights.
@@ -27,6 +27,18 @@ pub fn emitted(scene: &Scene, surface: &Surface, wo: DVec3) -> DVec3 {
         sum += part.emission.as_ref().map_or(DVec3::ZERO, radiance) * weight;
     });
     sum
+}
+
+/// The weight of all null parts of the surface's material, seen along `wo`: the share of light that goes straight through it.
+pub fn null_weight(scene: &Scene, surface: &Surface, wo: DVec3) -> f64 {
+    let view = View::new(wo, surface.point.normal, surface.shading_normal);
+    let mut sum = 0.0;
+    blend::for_each_part(&Lookup::new(scene, surface, &view), surface.owner.material, |part, weight| {
+        if matches!(part.kind, MaterialKind::Pass) {
+            sum += weight;
+        }
+    });
+    sum.min(1.0)
 }
 
 /// Luminous power per area: π·L, doubled where any part emits on both sides, L the luminance of the mean emission. Weights that

@@ -10,14 +10,14 @@ use glam::{DVec2, DVec3};
 
 use super::bsdf::{Bsdf, BsdfSample, Density};
 use super::camera::ProjectiveCamera;
-use super::emission::emitted;
+use super::emission::{emitted, null_weight};
 use super::intersect::{Moment, Owner, Ray, Surface, World};
 use super::lights::{LightSample, Lights};
 use super::mis;
 use super::trace::{LightConnection, PathVisitor};
 use crate::renderer::RenderError;
 use crate::sampling::{CameraDimension, Dimension, PathSampler, VertexDimension};
-use crate::scene::{Estimator, Scene};
+use crate::scene::{Estimator, MaterialId, MaterialKind, Scene};
 
 /// Edges from which on Russian roulette always has a chance to end the path, whatever its throughput.
 const CERTAIN_ROULETTE_DEPTH: u32 = 64;
@@ -33,6 +33,8 @@ pub struct Integrator {
     camera: ProjectiveCamera,
     /// Something does.
     moves: bool,
+    /// Of each material: some light goes straight through it.
+    lets_through: Vec<bool>,
 }
 
 /// A path under construction.
@@ -47,8 +49,10 @@ struct Path {
     /// Product of eta² over the refractions so far: undoes the scaling of radiance, so that roulette does not end paths for being
     /// inside glass.
     eta_scale: f64,
-    /// How the ray's direction was sampled.
+    /// How the ray's direction was sampled at the last vertex that is no null surface, and where the ray began there. Shadow rays from there
+    /// go on through null surfaces as the path does, so both are weighed against each other by the densities that they have there.
     previous: Density,
+    lit_from: DVec3,
     /// Edges of the path up to the end of the ray: the camera's has 1.
     depth: u32,
     /// Number of the next vertex, from 0: each has random numbers of its own. Null surfaces end no edge, else it would be depth − 1.
@@ -64,7 +68,8 @@ impl Integrator {
         let lights = Lights::new(scene, &world);
         let camera = ProjectiveCamera::new(&scene.camera, &scene.film);
         let moves = scene.shapes.iter().any(|shape| shape.motion.is_some());
-        Ok(Self { scene: scene.clone(), world, lights, camera, moves })
+        let lets_through = scene.materials_that(|material| matches!(material.kind, MaterialKind::Pass));
+        Ok(Self { scene: scene.clone(), world, lights, camera, moves, lets_through })
     }
 
     pub fn scene(&self) -> &Scene {
@@ -95,6 +100,7 @@ impl Integrator {
         let mut ray = self.camera.sample(x, y, sampler);
         visitor.round_ray(&mut ray, None);
         let mut path = Path {
+            lit_from: ray.origin,
             ray,
             moment: self.moment(sampler),
             throughput: DVec3::ONE,
@@ -157,13 +163,14 @@ impl Integrator {
         let BsdfSample { wi, weight, density, eta, is_null } = scattered;
         path.throughput *= weight;
         path.eta_scale *= eta * eta;
-        path.previous = density;
         path.ray = Ray { origin: surface.point.leave_towards(wi), direction: wi };
         visitor.round_ray(&mut path.ray, Some(&surface.point));
         path.vertex += 1;
         if is_null {
             return true;
         }
+        path.previous = density;
+        path.lit_from = path.ray.origin;
         let u_roulette = visitor.round_number(random(VertexDimension::Roulette));
         let survives = self.survives_roulette(path, u_roulette, visitor);
         path.depth += 1;
@@ -173,7 +180,7 @@ impl Integrator {
     /// A ray that left the scene finds the environment, shared with the light sample of the surface before.
     fn add_environment<V: PathVisitor>(&self, path: &mut Path, visitor: &mut V) {
         let radiance = self.lights.outside().radiance(path.ray.direction);
-        let light_pdf = || self.lights.environment_pdf(&self.world, path.ray.origin, path.ray.direction);
+        let light_pdf = || self.lights.environment_pdf(&self.world, path.lit_from, path.ray.direction);
         let weight = self.weight_of_found(path, light_pdf);
         let contribution = path.throughput * radiance * weight;
         path.radiance += contribution;
@@ -186,7 +193,7 @@ impl Integrator {
         if radiance == DVec3::ZERO {
             return;
         }
-        let weight = self.weight_of_found(path, || self.lights.pdf((&self.world, &path.moment), path.ray.origin, surface));
+        let weight = self.weight_of_found(path, || self.lights.pdf((&self.world, &path.moment), path.lit_from, surface));
         let contribution = path.throughput * radiance * weight;
         path.radiance += contribution;
         visitor.emission(radiance, weight, contribution);
@@ -242,11 +249,13 @@ impl Integrator {
         let mut ray = Ray { origin: surface.point.leave_towards(light.wi), direction: light.wi };
         visitor.round_ray(&mut ray, Some(&surface.point));
         visitor.ray(&ray);
-        let visible = !self.world.blocked(ray, light.distance, light.target, &path.moment);
+        let share = |surface: &Surface| null_weight(&self.scene, surface, -light.wi);
+        let lets_through = |material: MaterialId| self.lets_through[material];
+        let transmittance = self.world.transmittance(ray, light.distance, light.target, &path.moment, lets_through, share);
         let unshadowed = path.throughput * scattering.value * light.radiance * (weight / light.pdf);
-        let contribution = if visible { unshadowed } else { DVec3::ZERO };
+        let contribution = unshadowed * transmittance;
         path.radiance += contribution;
-        visitor.light(&LightConnection { light, bsdf_pdf: scattering.pdf, weight, visible, contribution });
+        visitor.light(&LightConnection { light, bsdf_pdf: scattering.pdf, weight, visible: transmittance > 0.0, contribution });
     }
 
     /// A sample of a light, its direction and length rounded. What comes from outside the scene depends on the direction alone.

@@ -61,6 +61,7 @@ shader_files![
     "shading/sphere_light.wgsl",
     "shading/surface.wgsl",
     "shading/surface_layer.wgsl",
+    "shading/transmittance.wgsl",
     "shading/image.wgsl",
     "shading/texture.wgsl",
     "shading/trace.wgsl",

@@ -227,6 +227,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("TEXTURE_CHANNELS").requires(&["IMAGES"]),
     switch("TEXTURE_ROTATION").requires(&["TEXTURES"]),
     switch("TRACE").debug(),
+    // Shadow rays go on through null surfaces.
+    switch("TRANSPARENT_SHADOWS").requires(&["LIGHTS", "NULL_SURFACES"]),
     switch("UNIFORM_HEMISPHERE"),
     switch("UNIFORM_NODES").requires(&["BVH"]),
     switch("UNIFORM_PRIMITIVES"),

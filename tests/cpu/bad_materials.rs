@@ -107,7 +107,7 @@ fn numbers_out_of_range_name_the_key_and_the_range() {
         ),
         (
             material("type = \"glossy\"\nreflectance = 1\nexponent = { texture = \"checks\", channel = \"x\" }"),
-            "exponent.channel: `x` is not a valid choice [valid choices: r, g, b, a]",
+            "exponent.channel: `x` is not a valid choice [did you mean `a`? valid choices: r, g, b, a]",
         ),
         (
             material("type = \"glossy\"\nreflectance = 1\nexponent = { texture = \"checks\", factor = [1, 1, 1] }"),
@@ -124,6 +124,23 @@ fn numbers_out_of_range_name_the_key_and_the_range() {
         (
             blend("{ type = \"texture\", texture = \"checks\", channel = \"b\", factor = 1.5 }"),
             "material[2].weight.factor: expected a number from 0 to 1, found 1.5",
+        ),
+        (
+            material("type = \"mirror\"\nopacity = 1.5"),
+            "material[2].opacity: expected one number or { texture = \"name\" } (a number",
+        ),
+        (material("type = \"mirror\"\nopacity = \"half\""), "material[2].opacity: expected one number or { texture = \"name\" }"),
+        (
+            material("type = \"mirror\"\nopacity = { texture = \"checks\" }"),
+            "material[2].opacity.texture: expected a number from 0 to 1, found 3 in the texture `checks`",
+        ),
+        (
+            material("type = \"mirror\"\nopacity = { texture = \"checks\", factor = 0.3, cutoff = 2 }"),
+            "material[2].opacity.cutoff: expected a number from 0 to 1, found 2",
+        ),
+        (
+            material("type = \"mirror\"\nopacity = { texture = \"checks\", cutof = 0.5 }"),
+            "material[2].opacity: unknown key `cutof`",
         ),
         (material("type = \"blend\"\nmaterials = [\"white\"]\nweight = { type = \"facing\" }"), "materials"),
         (

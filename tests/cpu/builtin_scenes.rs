@@ -12,7 +12,7 @@ use gpt::scene::Scene;
 use gpt::shader::switches::SWITCHES;
 
 /// Switches that depend on the device or on what a render is asked for, whatever the scene.
-const OF_DEVICES: [&str; 23] = [
+const OF_DEVICES: [&str; 24] = [
     "ATTRIBUTE_CHUNKS",
     "FILM_TEXTURE",
     "LAYER_ALBEDO",
@@ -33,6 +33,7 @@ const OF_DEVICES: [&str; 23] = [
     "RAY_QUERY",
     "SPREAD",
     "SUBGROUP_QUEUES",
+    "TEXEL_CHUNKS",
     "UNIFORM_NODES",
     "UNIFORM_PRIMITIVES",
     "UNIFORM_TABLES",

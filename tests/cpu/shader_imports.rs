@@ -120,7 +120,7 @@ fn all_files() -> Files {
     let scene = gpt::load::load(Some("spheres")).expect("it is built in");
     let packed = gpt::packed::PackedScene::new(&scene).expect("it packs");
     texts.extend(gpt::plan::generated::files().into_iter().map(|(name, text)| (name.to_owned(), text)));
-    texts.insert("geometry/constants.wgsl".to_owned(), gpt::plan::unroll::constants(&packed, 0));
+    texts.insert("geometry/constants.wgsl".to_owned(), gpt::plan::unroll::constants(&packed, 0, false));
     texts.into_iter().map(|(name, text)| (name, Names::of(&text))).collect()
 }
 

@@ -13,6 +13,7 @@ mod closed_forms;
 mod film;
 mod layers;
 mod motion;
+mod opacity;
 mod progressive;
 mod ray_queries;
 mod strategies;

@@ -16,6 +16,9 @@
 #import geometry/software/packet_stack.wgsl
 #import geometry/stored.wgsl
 #import geometry/traversal.wgsl
+#if TRANSPARENT_SHADOWS
+#import shading/transmittance.wgsl
+#endif
 
 // The key of a child that no ray meets: the bits of INFINITY_DISTANCE but for the last two.
 const MISSED: u32 = 0x7f61b1e4u;
@@ -56,8 +59,11 @@ fn descend_together(ray: PreparedRay, inverse_direction: vec3<f32>, t_max: f32, 
     go_on(stack, subgroupShuffle(entry, nearest & 3u), subgroupShuffle(entry, sorted_four(key) & 3u), count);
 }
 
-// Goes through the hierarchy. With `any_hit`, each ray is done with its first hit, and the packet when all are.
-fn traverse_together(ray: PreparedRay, inverse_direction: vec3<f32>, first_hit: Hit, any_hit: bool) -> Hit {
+// Goes through the hierarchy. With `any_hit`, each ray is done with its first hit that takes all of its light, and the packet when all are;
+// `through` then is the share of it that is left.
+fn traverse_together(
+    ray: PreparedRay, inverse_direction: vec3<f32>, first_hit: Hit, any_hit: bool, through: ptr<function, f32>
+) -> Hit {
     var hit = first_hit;
     var stack = packet_at_root();
     // Software devices run what a branch leaves out, with all lanes masked; only loops end. So nodes have one, and primitives have one.
@@ -79,6 +85,14 @@ fn traverse_together(ray: PreparedRay, inverse_direction: vec3<f32>, first_hit: 
             if candidate.primitive == primitive && exists {
                 hit = candidate;
             }
+#if TRANSPARENT_SHADOWS
+            if any_hit && hit.primitive != NONE && hit.t > 0.0 {
+                *through *= hit_transmittance(Ray(ray.origin, ray.direction), hit, first_hit.t);
+                if *through > 0.0 {
+                    hit = first_hit;
+                }
+            }
+#endif
             if any_hit && hit.primitive != NONE {
                 hit.t = -1.0;
             }
@@ -107,13 +121,22 @@ fn closest_hit_together(traced: Ray, t_max: f32) -> Hit {
     let ray = prepare_ray(traced);
     var hit = Hit(t_max, NONE, 0.0, 0.0);
     closest_of_constants(ray, &hit);
-    return traverse_together(ray, safe_inverse(traced.direction), hit, false);
+    var through = 1.0;
+    return traverse_together(ray, safe_inverse(traced.direction), hit, false, &through);
 }
 
-// As occluded, for all lanes.
-fn occluded_together(traced: Ray, t_max: f32) -> bool {
+// As transmittance, for all lanes.
+fn transmittance_together(traced: Ray, t_max: f32) -> f32 {
     let ray = prepare_ray(traced);
-    let blocked = any_of_constants(ray, t_max);
+    var through = 1.0;
+    var blocked = any_of_constants(ray, t_max);
+#if TRANSPARENT_SHADOWS
+    if !blocked && t_max > 0.0 {
+        through = transmittance_of_constants(ray, t_max);
+        blocked = through <= 0.0;
+    }
+#endif
     let hit = Hit(select(t_max, -1.0, blocked), select(NONE, 0u, blocked), 0.0, 0.0);
-    return traverse_together(ray, safe_inverse(traced.direction), hit, true).primitive != NONE;
+    let found = traverse_together(ray, safe_inverse(traced.direction), hit, true, &through);
+    return select(0.0, through, found.primitive == NONE);
 }

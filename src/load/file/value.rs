@@ -486,6 +486,34 @@ impl<'de, R: Rule> Deserialize<'de> for Scalar<R> {
     }
 }
 
+/// One number or a table that names a texture.
+#[derive(Debug, Clone)]
+pub enum NumberOr<R, T> {
+    Number(Checked<R>),
+    Table(T),
+}
+
+impl<'de, R: Rule, T: Deserialize<'de>> Deserialize<'de> for NumberOr<R, T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let words = "one number or { texture = \"name\" }";
+        let visitor = FormVisitor::<R, T> { words, triple: false, texture: true, code: false, of: PhantomData };
+        match deserializer.deserialize_any(visitor)? {
+            Form::Number(value) => Ok(Self::Number(value)),
+            Form::Texture(table) => Ok(Self::Table(table)),
+            Form::Triple(_) => Err(Error::custom("a colour is not possible here, expected one number")),
+        }
+    }
+}
+
+impl<R: Rule, T: JsonSchema> JsonSchema for NumberOr<R, T> {
+    fn schema_name() -> Cow<'static, str> {
+        format!("{}Or{}", R::NAME, T::schema_name()).into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        any_of(vec![generator.subschema_for::<Checked<R>>(), generator.subschema_for::<T>()])
+    }
+}
+
 /// The schema of a value that may take any of these forms.
 pub fn any_of(forms: Vec<Schema>) -> Schema {
     json_schema!({ "anyOf": forms })

@@ -49,9 +49,10 @@ impl PackedScene {
         if material.kind() > material::BLEND || material.kind_and_form >> material::FORM_SHIFT > COMPLEX_FRESNEL {
             return Err(format!("is of kind {:#x}", material.kind_and_form));
         }
-        let known_flags = material::EMITS | material::EMITS_TWO_SIDED | if is_blend { material::PARTS_EMIT } else { 0 };
+        let own_flags = material::EMITS | material::EMITS_TWO_SIDED | material::LETS_THROUGH;
+        let known_flags = own_flags | if is_blend { material::PARTS_EMIT } else { 0 };
         if material.emission_flags & !known_flags != 0 {
-            return Err(format!("emits by {:#x}", material.emission_flags));
+            return Err(format!("has the flags {:#x}", material.emission_flags));
         }
         if is_blend {
             let parts = &self.materials.parts;

@@ -84,8 +84,9 @@ fn the_hierarchy_finds_what_a_search_over_everything_finds() {
         assert_eq!(found.map(|hit| hit.surface), nearest.map(SurfaceId::Primitive));
         assert_eq!(found.map_or(f64::INFINITY, |hit| hit.distance), limit);
         hits += usize::from(nearest.is_some());
-        assert_eq!(world.blocked(ray, f64::INFINITY, None, &Moment::default()), nearest.is_some());
-        assert!(!world.blocked(ray, limit, None, &Moment::default()));
+        let transmittance = |limit| world.transmittance(ray, limit, None, &Moment::default(), |_| false, |_| 1.0);
+        assert_eq!(transmittance(f64::INFINITY), if nearest.is_some() { 0.0 } else { 1.0 });
+        assert_eq!(transmittance(limit), 1.0);
     }
     assert!(hits > 2_000, "{hits}");
 }

@@ -158,21 +158,52 @@ impl World {
         closest
     }
 
-    /// Whether the ray meets anything but `target` before `limit`. `target` is the place of the primitive the ray ends on.
-    pub fn blocked(&self, ray: Ray, limit: f64, target: Option<usize>, moment: &Moment) -> bool {
+    /// The share of light that comes through all that the ray meets but `target` before `limit`: the product of what each surface lets through,
+    /// `share`, of those whose materials let any through. `target` is the place of the primitive the ray ends on.
+    pub fn transmittance(
+        &self,
+        ray: Ray,
+        limit: f64,
+        target: Option<usize>,
+        moment: &Moment,
+        lets_through: impl Fn(MaterialId) -> bool,
+        share: impl Fn(&Surface) -> f64,
+    ) -> f64 {
         let prepared = PreparedRay::new(ray);
-        if self.infinite.iter().any(|(primitive, _)| primitive.intersect(&prepared, limit).is_some()) {
-            return true;
+        let mut product = 1.0;
+        let mut meet = |surface: SurfaceId, distance: f64, local: Local| {
+            if !lets_through(self.owner(surface).material) {
+                product = 0.0;
+                return false;
+            }
+            let near = self.surface(&ray, &Hit { surface, distance, local }, moment);
+            product *= share(&near);
+            // What is round is met again on its far side.
+            let within = Ray { origin: near.point.leave_towards(ray.direction), direction: ray.direction };
+            if let SurfaceId::Primitive(place) = surface
+                && let Some((distance, local)) = self.intersect(place, &PreparedRay::new(within), limit - distance, moment)
+            {
+                product *= share(&self.surface(&within, &Hit { surface, distance, local }, moment));
+            }
+            product > 0.0
+        };
+        for (index, (primitive, _)) in self.infinite.iter().enumerate() {
+            if let Some((distance, local)) = primitive.intersect(&prepared, limit)
+                && !meet(SurfaceId::Infinite(index), distance, local)
+            {
+                return 0.0;
+            }
         }
-        let mut blocked = false;
         self.hierarchy.traverse(&prepared, limit, |place, limit| {
-            if Some(place) != target && self.intersect(place, &prepared, limit, moment).is_some() {
-                blocked = true;
+            if Some(place) != target
+                && let Some((distance, local)) = self.intersect(place, &prepared, limit, moment)
+                && !meet(SurfaceId::Primitive(place), distance, local)
+            {
                 return -1.0;
             }
             limit
         });
-        blocked
+        product
     }
 
     /// The surface at a hit of `ray`.

@@ -1,5 +1,6 @@
 //! What every type of material gives, and the keys that all have.
 
+use super::opacity::Opacity;
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Colour, IndexOfRefraction, Located, NonNegative};
@@ -54,6 +55,7 @@ pub struct CommonKeys<'a> {
     pub normal_map: Option<&'a Located<String>>,
     pub emission: Option<&'a Located<Colour<NonNegative>>>,
     pub emission_two_sided: Option<&'a Located<bool>>,
+    pub opacity: Option<&'a Located<Opacity>>,
 }
 
 /// Declares a material's `Keys`: its own and those that every material has. Serde cannot tell unknown keys from those of a struct within.
@@ -76,6 +78,8 @@ macro_rules! material_keys {
             >>,
             /// Emission leaves the front only, unless this is true.
             emission_two_sided: Option<$crate::load::file::value::Located<bool>>,
+            /// How much of the surface there is: light goes straight through the rest, to shadows too. 1 when left out.
+            opacity: Option<$crate::load::file::value::Located<$crate::load::file::material::opacity::Opacity>>,
         }
 
         impl Keys {
@@ -85,6 +89,7 @@ macro_rules! material_keys {
                     normal_map: self.normal_map.as_ref(),
                     emission: self.emission.as_ref(),
                     emission_two_sided: self.emission_two_sided.as_ref(),
+                    opacity: self.opacity.as_ref(),
                 }
             }
         }

@@ -2,6 +2,7 @@
 
 mod blend_weight;
 mod keys;
+mod opacity;
 mod roughness;
 
 use schemars::JsonSchema;

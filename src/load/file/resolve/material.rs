@@ -4,7 +4,7 @@ use crate::load::error::SceneError;
 use crate::load::file::material::MaterialEntry;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::Located;
-use crate::scene::{Material, MaterialKind, TextureId, check_blends};
+use crate::scene::{BlendWeight, Material, MaterialKind, TextureId, check_blends};
 
 impl Resolver<'_> {
     pub(super) fn materials(&mut self, written: &[MaterialEntry]) -> Result<(), SceneError> {
@@ -18,14 +18,55 @@ impl Resolver<'_> {
                 self.note(material).unwrap_or_else(|| Material { name: name(), kind, normal_map: None, emission: None });
             self.scene.materials.push(material);
         }
+        let of_entry = self.make_transparent(written);
         if !self.errors.is_empty() {
             return Ok(());
         }
         for entry in written {
             entry.check_parts(self)?;
         }
-        // Materials stand in the order of their entries.
-        check_blends(&self.scene.materials).map_err(|(id, message)| self.error(&written[id].common().name.span, message))
+        // Materials stand in the order of their entries, and behind them what some of those are made of.
+        check_blends(&self.scene.materials).map_err(|(id, message)| {
+            let entry = id.checked_sub(written.len()).map_or(id, |behind| of_entry[behind]);
+            self.error(&written[entry].common().name.span, message)
+        })
+    }
+
+    /// Makes each material with an opacity a blend of what it was and of nothing. Which entry each material belongs to that is added for it.
+    fn make_transparent(&mut self, written: &[MaterialEntry]) -> Vec<usize> {
+        let mut of_entry = Vec::new();
+        for (id, entry) in written.iter().enumerate() {
+            let Some(opacity) = entry.common().opacity else { continue };
+            let weight = opacity.value.weight(self);
+            let Some(weight) = self.note(weight) else { continue };
+            let material = &mut self.scene.materials[id];
+            match weight {
+                _ if matches!(material.kind, MaterialKind::Pass) => {}
+                BlendWeight::Constant { value: 1.0 } => {}
+                BlendWeight::Constant { value: 0.0 } => {
+                    *material =
+                        Material { kind: MaterialKind::Pass, normal_map: None, emission: None, name: material.name.clone() };
+                }
+                weight => {
+                    let count = written.len() + of_entry.len();
+                    let blend = Material {
+                        name: material.name.clone(),
+                        kind: MaterialKind::Blend { materials: [count, count + 1], weight },
+                        // The parts lie on one surface: its normals are the blend's own.
+                        normal_map: material.normal_map.take(),
+                        emission: None,
+                    };
+                    let mut whole = std::mem::replace(material, blend);
+                    let name = |what: &str| format!("{} ({what})", entry.common().name.value);
+                    whole.name = name("where it is");
+                    let nothing =
+                        Material { name: name("where it is not"), kind: MaterialKind::Pass, normal_map: None, emission: None };
+                    self.scene.materials.extend([whole, nothing]);
+                    of_entry.extend([id, id]);
+                }
+            }
+        }
+        of_entry
     }
 
     fn material(&self, entry: &MaterialEntry) -> Result<Material, SceneError> {

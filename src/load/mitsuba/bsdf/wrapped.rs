@@ -32,11 +32,6 @@ pub fn mask(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Res
     }
     let names = converter.names_within(plugin, depth)?;
     let Some((name, two_sided)) = names.into_iter().next() else { return Err(plugin.error("a mask needs a bsdf within")) };
-    converter.approximate(
-        plugin,
-        "opacity",
-        "shadow rays end at the surface wherever it is; light reaches what is behind by paths alone",
-    );
     let behind = converter.extra(plugin, "what is behind", Keys::of_type("pass"));
     Ok((blended(Value::Text(name), behind, &opacity), two_sided))
 }

@@ -1,0 +1,49 @@
+//! How much of a surface there is: a key of every material.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::load::error::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::value::{ChannelName, Checked, Fraction, Located, NumberOr};
+use crate::scene::{BlendWeight, Channel, ChannelInput, ColorInput};
+
+/// One number, or a texture.
+pub type Opacity = NumberOr<Fraction, OpacityTexture>;
+
+/// A texture that says how much of a surface there is.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table with the key `texture`")]
+pub struct OpacityTexture {
+    /// A `[[texture]]`'s name.
+    texture: Located<String>,
+    /// The channel that counts; the red one when left out.
+    channel: Option<ChannelName>,
+    /// Multiplies the texture, 1 when left out.
+    factor: Option<Checked<Fraction>>,
+    /// Where it is written, the surface is whole where the product is at least this, and not there elsewhere.
+    cutoff: Option<Checked<Fraction>>,
+}
+
+impl Opacity {
+    /// The weight of the surface against nothing.
+    pub fn weight(&self, resolver: &Resolver<'_>) -> Result<BlendWeight, SceneError> {
+        let keys = match self {
+            Self::Number(value) => return Ok(BlendWeight::Constant { value: value.0 }),
+            Self::Table(keys) => keys,
+        };
+        let channel = keys.channel.map_or(Channel::R, Into::into);
+        let factor = glam::DVec3::splat(keys.factor.map_or(1.0, |factor| factor.0));
+        let weight = match resolver.texture_in_range::<Fraction>(&keys.texture, Some(channel), factor)? {
+            ColorInput::Channel(ChannelInput { texture, channel, factor, .. }) => {
+                BlendWeight::Channel { texture, channel, factor: factor.x }
+            }
+            // With a channel, nothing else comes of it.
+            other => BlendWeight::Texture { texture: other.texture().unwrap_or_default() },
+        };
+        Ok(match keys.cutoff {
+            Some(cutoff) => BlendWeight::Threshold { tau: cutoff.0, of: Box::new(weight) },
+            None => weight,
+        })
+    }
+}
