@@ -1,4 +1,4 @@
-// closest_hit and occluded, wherever the plan put the geometry.
+// closest_hit and transmittance, wherever the plan put the geometry.
 #if BVH
 #export geometry/traversal.wgsl
 #else
