@@ -32,7 +32,7 @@ const FILLED: f64 = 0.88;
 pub fn frame(mut scene: Scene, name: &str, view: &ModelView) -> Result<Scene, SceneError> {
     place(&mut scene, view);
     let points = points(&scene);
-    let Stage { ground, light, .. } = Stage::around(bounds(&points), name)?;
+    let Stage { ground, light, .. } = Stage::around(&points, name)?;
     let (center, radius) = sphere_around(&points);
     let elevation = view.elevation_degrees.unwrap_or(ELEVATION);
     if !view.no_ground && elevation < 0.0 {
@@ -83,12 +83,12 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// Around a box, given by its corners.
+    /// Around all points.
     ///
     /// # Errors
-    /// There is no box, or nothing in it.
-    pub fn around(bounds: Option<(DVec3, DVec3)>, name: &str) -> Result<Self, SceneError> {
-        let (min, max) = bounds.ok_or_else(|| SceneError::in_file(name, "the model has no vertices"))?;
+    /// There are none, or all are the same.
+    pub fn around(points: &[DVec3], name: &str) -> Result<Self, SceneError> {
+        let (min, max) = bounds(points).ok_or_else(|| SceneError::in_file(name, "the model has no vertices"))?;
         let center = 0.5 * (min + max);
         let radius = 0.5 * (max - min).length();
         if !(radius.is_finite() && radius > 1e-15) {
@@ -103,14 +103,9 @@ impl Stage {
         Ok(Self {
             ground,
             light: Rectangle { corner, edge_u: along, edge_v: across },
-            camera: camera(&corners(min, max), (center, radius), ELEVATION, 1.0),
+            camera: camera(points, (center, radius), ELEVATION, 1.0),
         })
     }
-}
-
-fn corners(min: DVec3, max: DVec3) -> [DVec3; 8] {
-    let side = |bits: usize, axis: usize| if bits >> axis & 1 == 0 { min[axis] } else { max[axis] };
-    std::array::from_fn(|bits| DVec3::new(side(bits, 0), side(bits, 1), side(bits, 2)))
 }
 
 /// Center and radius of the box around the points.

@@ -114,7 +114,7 @@ fn frame(description: &mut Description, name: &str) -> Result<(), SceneError> {
         description.lights.push(sky());
         return Ok(());
     }
-    let stage = Stage::around(description.bounds(), name)?;
+    let stage = Stage::around(&description.points(), name)?;
     let camera = &stage.camera;
     let keys = Keys::new().with("position", camera.position).with("look_at", camera.look_at).with("vfov", FIELD_OF_VIEW);
     description.camera = Some(Entry { keys, ..Entry::default() });

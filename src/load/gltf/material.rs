@@ -4,7 +4,7 @@ use glam::{DAffine2, DMat2, DVec2, DVec3};
 
 use super::Importer;
 use super::json::{Material, TextureInfo, TextureTransform, extension};
-use crate::load::import::{Description, Entry, Keys, Value};
+use crate::load::import::{Entry, Keys, Value};
 
 /// Of a material of a primitive.
 #[derive(Debug, Clone)]
@@ -52,7 +52,7 @@ impl Importer<'_> {
         let keys = surface.keys()?;
         let coordinates = surface.coordinates;
         let place = surface.place;
-        let name = Description::free_name(&self.scene.materials, name);
+        let name = self.scene.free_material_name(name);
         let mut named = Keys::new().with("name", name.as_str());
         named.0.extend(keys.0);
         self.scene.materials.push(Entry { place: self.place(&place), keys: named });
@@ -250,7 +250,7 @@ impl Surface<'_, '_> {
 
     fn extra(&mut self, what: &str, keys: Keys) -> Value {
         let name = format!("{}, {what}", self.material.name.as_deref().unwrap_or("(unnamed)"));
-        let name = Description::free_name(&self.importer.scene.materials, &name);
+        let name = self.importer.scene.free_material_name(&name);
         let mut named = Keys::new().with("name", name.as_str());
         named.0.extend(keys.0);
         let place = self.importer.place(&self.place);

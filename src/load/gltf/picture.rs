@@ -5,7 +5,7 @@ use std::path::Path;
 use super::Importer;
 use super::buffers::{file_of, read_uri};
 use super::json::Image;
-use crate::load::import::{Description, Entry, FileReference, Keys};
+use crate::load::import::{Entry, FileReference, Keys};
 
 const CLAMP: u64 = 33_071;
 const MIRROR: u64 = 33_648;
@@ -33,7 +33,7 @@ impl Importer<'_> {
         let image = self.root.images.get(source).cloned().ok_or_else(|| of_texture(format!("there is no images[{source}]")))?;
         let file = self.picture(source, &image).map_err(|message| format!("images[{source}]: {message}"))?;
         let wanted = image.name.clone().filter(|name| !name.is_empty()).unwrap_or_else(|| format!("image {source}"));
-        let name = Description::free_name(&self.scene.textures, &wanted);
+        let name = self.scene.free_texture_name(&wanted);
         let mut keys = Keys::new().with("name", name.as_str()).with("type", "image").with("file", file);
         keys.set("color_space", if linear { "linear" } else { "srgb" });
         if let Some(sampler) = texture.sampler {

@@ -1,6 +1,6 @@
 //! A scene file in the making.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -26,6 +26,8 @@ pub struct Description {
     /// Meshes and pictures, by [`FileReference::Held`].
     pub held: Vec<(String, HeldContent)>,
     pub report: ImportReport,
+    pub(super) material_names: Names,
+    pub(super) texture_names: Names,
 }
 
 /// Something that a file would hold.
@@ -194,38 +196,60 @@ impl Description {
         !self.lights.is_empty() || self.shapes.iter().any(is_lamp)
     }
 
-    /// Corners of the box around all meshes.
-    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
-        let mut bounds: Option<(DVec3, DVec3)> = None;
+    /// The vertices of all meshes that faces use, in the world.
+    pub fn points(&self) -> Vec<DVec3> {
+        let mut points = Vec::new();
         for shape in &self.shapes {
             let Some(Value::File(file)) = shape.keys.get("file") else { continue };
             let Some(mesh) = self.mesh(file) else { continue };
             let map = shape.keys.get("transform").and_then(matrix_of).unwrap_or(DAffine3::IDENTITY);
-            for &index in mesh.faces.iter().flatten() {
-                let at = map.transform_point3(mesh.positions[index as usize].as_dvec3());
-                bounds = Some(bounds.map_or((at, at), |(low, high)| (low.min(at), high.max(at))));
-            }
+            let mut used = vec![false; mesh.positions.len()];
+            mesh.faces.iter().flatten().for_each(|&index| used[index as usize] = true);
+            let placed = mesh.positions.iter().zip(used).filter(|(_, used)| *used);
+            points.extend(placed.map(|(position, _)| map.transform_point3(position.as_dvec3())));
         }
-        bounds
+        points
     }
 
     /// Adds a shape with a material of its own.
     pub fn add_surface(&mut self, name: &str, material: Keys, shape: Keys) {
-        let name = Self::free_name(&self.materials, name);
+        let name = self.free_material_name(name);
         let mut named = Keys::new().with("name", name.as_str());
         named.0.extend(material.0);
         self.materials.push(Entry { keys: named, ..Entry::default() });
         self.shapes.push(Entry { keys: shape.with("material", name), ..Entry::default() });
     }
 
-    /// A name for an entry that none of the list has, as near to the wanted one as can be.
-    pub fn free_name(list: &[Entry], wanted: &str) -> String {
-        let taken = |name: &str| list.iter().any(|entry| entry.keys.text("name") == Some(name));
+    /// A name for a material that no other has, as near to the wanted one as can be.
+    pub fn free_material_name(&mut self, wanted: &str) -> String {
+        self.material_names.free(wanted)
+    }
+
+    /// The same for a texture.
+    pub fn free_texture_name(&mut self, wanted: &str) -> String {
+        self.texture_names.free(wanted)
+    }
+}
+
+/// Names that are taken.
+#[derive(Debug, Default)]
+pub(super) struct Names {
+    taken: HashSet<String>,
+    /// How often each was wanted, so that many of a kind take no longer than few.
+    wanted: HashMap<String, usize>,
+}
+
+impl Names {
+    fn free(&mut self, wanted: &str) -> String {
         let wanted = if wanted.is_empty() { "unnamed" } else { wanted };
-        if !taken(wanted) {
-            return wanted.to_owned();
+        let count = self.wanted.entry(wanted.to_owned()).or_default();
+        loop {
+            *count += 1;
+            let name = if *count == 1 { wanted.to_owned() } else { format!("{wanted} ({count})") };
+            if self.taken.insert(name.clone()) {
+                return name;
+            }
         }
-        (2..).map(|number| format!("{wanted} ({number})")).find(|name| !taken(name)).unwrap_or_default()
     }
 }
 

@@ -146,8 +146,7 @@ impl Converter<'_> {
         let width =
             crate::load::image_file::size(self.files, &path).map_err(|reason| plugin.error(format!("{written}: {reason}")))?[0];
         let degrees = degrees + 180.0 / f64::from(width);
-        self.approximate(plugin, "rows of an environment map", "they stand half a row further from the poles, as in other maps");
-        let keys = Keys::of_type("environment").with("file", FileReference::Disk(path));
+        let keys = Keys::of_type("environment").with("file", FileReference::Disk(path)).with("rows", "to_poles");
         let keys = if scale == 1.0 { keys } else { keys.with("scale", scale) };
         Ok(keys.with("rotate", degrees))
     }

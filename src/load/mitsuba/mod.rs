@@ -53,6 +53,8 @@ pub fn load(files: &Files, path: &Path, options: &Options) -> Result<Description
         scene: Description::default(),
         world: DAffine3::IDENTITY,
         materials: HashMap::new(),
+        lamps: HashMap::new(),
+        default_material: None,
         textures: HashMap::new(),
         meshes: HashMap::new(),
         read_meshes: HashMap::new(),
@@ -74,6 +76,10 @@ struct Converter<'a> {
     /// What all of the scene is turned by, so that its environment stands upright.
     world: DAffine3,
     materials: HashMap<*const Plugin, bsdf::Made>,
+    /// Materials that give light, by their keys.
+    lamps: HashMap<String, String>,
+    /// That of shapes without a BSDF.
+    default_material: Option<usize>,
     textures: HashMap<(*const Plugin, bool, Texels), Input>,
     meshes: HashMap<String, super::import::FileReference>,
     /// Files of meshes as they stand.

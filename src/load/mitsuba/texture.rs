@@ -10,7 +10,7 @@ use super::Converter;
 use super::colour::Role;
 use super::plugin::{Plugin, PropertyValue, Spectrum};
 use crate::load::error::SceneError;
-use crate::load::import::{Description, Entry, FileReference, Keys, Value, list};
+use crate::load::import::{Entry, FileReference, Keys, Value, list};
 
 /// A parameter: a constant or the name of a texture.
 #[derive(Debug, Clone, PartialEq)]
@@ -239,7 +239,7 @@ impl Converter<'_> {
 
     fn add_texture(&mut self, plugin: &Plugin, otherwise: &str, keys: Keys) -> Input {
         let wanted = if plugin.id.is_empty() { otherwise } else { &plugin.id };
-        let name = Description::free_name(&self.scene.textures, wanted);
+        let name = self.scene.free_texture_name(wanted);
         let mut named = Keys::new().with("name", name.as_str());
         named.0.extend(keys.0);
         self.scene.textures.push(Entry { place: plugin.place.clone(), keys: named });

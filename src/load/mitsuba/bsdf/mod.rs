@@ -14,7 +14,7 @@ use super::Converter;
 use super::plugin::Plugin;
 use super::texture::Input;
 use crate::load::error::SceneError;
-use crate::load::import::{Description, Entry, Keys, Value};
+use crate::load::import::{Entry, Keys, Value};
 
 /// Most BSDFs within each other.
 const DEEPEST: usize = 32;
@@ -62,30 +62,29 @@ impl Converter<'_> {
             keys.set("emission", light.value());
         }
         // The same surface with the same light is one material.
-        let same = |other: &&Entry| {
-            let mut named = keys.clone();
-            named.set("name", other.keys.text("name").unwrap_or_default());
-            named == other.keys
-        };
-        if let Some(known) = self.scene.materials.iter().find(same) {
-            return Ok(known.keys.text("name").unwrap_or_default().to_owned());
+        let key = format!("{:?}", keys.0.iter().filter(|(key, _)| *key != "name").collect::<Vec<_>>());
+        if let Some(known) = self.lamps.get(&key) {
+            return Ok(known.clone());
         }
         let wanted = if shape.id.is_empty() { format!("{plain}, giving light") } else { shape.id.clone() };
-        let name = Description::free_name(&self.scene.materials, &wanted);
+        let name = self.scene.free_material_name(&wanted);
         keys.set("name", name.as_str());
         self.scene.materials.push(Entry { place: shape.place.clone(), keys });
+        self.lamps.insert(key, name.clone());
         Ok(name)
     }
 
     /// Mitsuba's surface without a BSDF is a grey diffuse one.
     fn default_bsdf(&mut self) -> Made {
         const NAME: &str = "(no bsdf)";
-        let known = self.scene.materials.iter().position(|entry| entry.keys.text("name") == Some(NAME));
+        let known = self.default_material;
         let material = known.unwrap_or_else(|| {
             let keys = Keys::new().with("name", NAME).with("type", "diffuse").with("reflectance", 0.5);
+            self.scene.free_material_name(NAME);
             self.scene.materials.push(Entry { keys, ..Entry::default() });
             self.scene.materials.len() - 1
         });
+        self.default_material = Some(material);
         Made { material, two_sided: false }
     }
 
@@ -96,7 +95,7 @@ impl Converter<'_> {
         }
         let (keys, two_sided) = self.bsdf_keys(plugin, depth)?;
         let wanted = if plugin.id.is_empty() { plugin.name.clone() } else { plugin.id.clone() };
-        let name = Description::free_name(&self.scene.materials, &wanted);
+        let name = self.scene.free_material_name(&wanted);
         let mut named = Keys::new().with("name", name);
         named.0.extend(keys.0.into_iter().filter(|(key, _)| *key != "name"));
         self.scene.materials.push(Entry { place: plugin.place.clone(), keys: named });
@@ -160,7 +159,7 @@ impl Converter<'_> {
 
     /// A material beside the plugin's own.
     fn extra(&mut self, plugin: &Plugin, wanted: &str, keys: Keys) -> Value {
-        let name = Description::free_name(&self.scene.materials, wanted);
+        let name = self.scene.free_material_name(wanted);
         let mut named = Keys::new().with("name", name.as_str());
         named.0.extend(keys.0);
         self.scene.materials.push(Entry { place: plugin.place.clone(), keys: named });

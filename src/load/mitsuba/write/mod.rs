@@ -198,7 +198,9 @@ impl Writer<'_> {
         };
         let path = self.folder.join(file);
         let width = crate::load::image_file::size(self.files, &path).map_err(|reason| SceneError::in_file(self.name, reason))?[0];
-        self.approximate("rows of an environment map", place, "they stand half a row nearer to the poles");
+        if text(light, "rows") != Some("to_poles") {
+            self.approximate("rows of an environment map", place, "they stand half a row nearer to the poles");
+        }
         // Mitsuba's texels begin at the edges of the map, ours stand half a texel within.
         let degrees = number(light, "rotate").unwrap_or(0.0) - 180.0 / f64::from(width);
         let file = self.file(file)?;
