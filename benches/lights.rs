@@ -171,8 +171,13 @@ fn time_ratios(renderers: &mut [GpuRenderer]) -> Result<Vec<[f64; 3]>, RenderErr
 /// A panel of 10,000 triangles over the floor, of which two or all emit.
 fn panel(emitting: usize) -> Scene {
     let mut scene = load(&format!("{FLOOR}[[light]]\ntype = \"point\"\nposition = [0, 9, 0]\nintensity = 1e-6\n"));
-    let material =
-        |name: &str, emission| Material { name: name.into(), kind: MaterialKind::Emissive, normal_map: None, emission };
+    let material = |name: &str, emission| Material {
+        name: name.into(),
+        kind: MaterialKind::Emissive,
+        normal_map: None,
+        emission,
+        two_sided: true,
+    };
     let first = scene.materials.len();
     scene.materials.push(material("dark", None));
     scene.materials.push(material("bright", Some(Emission { radiance: ColorInput::grey(2.0), two_sided: false })));

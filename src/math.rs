@@ -1,4 +1,4 @@
-//! Small mathematics that several steps of the data's way share: colour, outward rounding, frames.
+//! Small mathematics that several steps of the data's way share: colour, outward rounding, frames, what a dielectric reflects.
 
 use glam::{DVec3, Vec3};
 
@@ -37,6 +37,19 @@ pub fn outward(min: DVec3, max: DVec3) -> (Vec3, Vec3) {
     ((min - margin).as_vec3(), (max + margin).as_vec3())
 }
 
+/// Share of unpolarised light that a dielectric boundary reflects. `cos_incident` is that of the angle with the normal on the
+/// incident side, `eta` the index of refraction of the other side over the incident side's. Exactly 1 in total internal reflection.
+pub fn dielectric_reflectance(cos_incident: f64, eta: f64) -> f64 {
+    let sin_squared_transmitted = (1.0 - cos_incident * cos_incident) / (eta * eta);
+    if sin_squared_transmitted >= 1.0 {
+        return 1.0;
+    }
+    let cos_transmitted = (1.0 - sin_squared_transmitted).sqrt();
+    let parallel = (eta * cos_incident - cos_transmitted) / (eta * cos_incident + cos_transmitted);
+    let perpendicular = (cos_incident - eta * cos_transmitted) / (cos_incident + eta * cos_transmitted);
+    0.5 * (parallel * parallel + perpendicular * perpendicular)
+}
+
 /// A right-handed frame whose z axis is a given unit vector.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
@@ -58,6 +71,14 @@ impl Frame {
             tangent: DVec3::new(1.0 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x),
             bitangent: DVec3::new(b, sign + normal.y * normal.y * a, -normal.y),
             normal,
+        }
+    }
+
+    /// About `normal`, x along what of `tangent` is perpendicular to it, of any length; as [`Frame::around`] where nothing is.
+    pub fn along(normal: DVec3, tangent: DVec3) -> Self {
+        match (tangent - normal * normal.dot(tangent)).try_normalize() {
+            Some(tangent) => Self { tangent, bitangent: normal.cross(tangent), normal },
+            None => Self::around(normal),
         }
     }
 

@@ -67,6 +67,16 @@ fn frame_from_normal(n: vec3<f32>) -> Frame {
     return Frame(vec3<f32>(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3<f32>(b, s + n.y * n.y * a, -n.y), n);
 }
 
+// About a unit normal, x along what of `tangent` is perpendicular to it; any frame where nothing is.
+fn frame_along(n: vec3<f32>, tangent: vec3<f32>) -> Frame {
+    let along = tangent - n * dot(n, tangent);
+    if dot(along, along) == 0.0 {
+        return frame_from_normal(n);
+    }
+    let unit = normalize(along);
+    return Frame(unit, cross(n, unit), n);
+}
+
 fn frame_to_world(frame: Frame, local: vec3<f32>) -> vec3<f32> {
     return frame.tangent * local.x + frame.bitangent * local.y + frame.normal * local.z;
 }

@@ -25,19 +25,36 @@ fn part_run(material: u32) -> PartRun {
 struct WeightedPart {
     material: u32,
     weight: f32,
+#if ONE_SIDED
+    // The back scatters nothing.
+    front_only: bool,
+#endif
 }
 
 fn weighted_part(run: PartRun, index: u32, cosine: f32, uv: vec2<f32>) -> WeightedPart {
     if run.first == NONE {
+#if ONE_SIDED
+        return WeightedPart(run.material, 1.0, is_front_only(run.material));
+#else
         return WeightedPart(run.material, 1.0);
+#endif
     }
     let word = tables[FIRST_PART_WORD + run.first + index];
     let part = bitcast<vec4<u32>>(word);
     var weight = word.w;
-    for (var factor = part.y; factor < part.y + part.z; factor++) {
+#if ONE_SIDED
+    let count = part.z & ~PART_FRONT_ONLY;
+#else
+    let count = part.z;
+#endif
+    for (var factor = part.y; factor < part.y + count; factor++) {
         weight *= blend_weight(factor, cosine, uv);
     }
+#if ONE_SIDED
+    return WeightedPart(part.x, weight, (part.z & PART_FRONT_ONLY) != 0u);
+#else
     return WeightedPart(part.x, weight);
+#endif
 }
 
 // Σ wᵢ Leᵢ, and what the blend emits by itself.

@@ -17,16 +17,17 @@ struct Bsdf {
 
 #if PICK
 // One part of the blend per hit, chosen with its weight as probability; from then on it is the whole material.
-fn pick_part(surface: Surface, wo: vec3<f32>, choice: f32) -> u32 {
+fn pick_part(surface: Surface, wo: vec3<f32>, choice: f32) -> WeightedPart {
     let cosine = clamp(dot(wo, surface.shading_normal), 0.0, 1.0);
     let run = part_run(surface.material);
     var below = 0.0;
-    var chosen = run.material;
+    var chosen: WeightedPart;
+    chosen.material = run.material;
     for (var index = 0u; index < run.count; index++) {
         let part = weighted_part(run, index, cosine, surface.uv);
         if part.weight > 0.0 {
             // The last part of any weight takes what rounding leaves over.
-            chosen = part.material;
+            chosen = part;
             below += part.weight;
             if choice < below {
                 break;
@@ -37,10 +38,21 @@ fn pick_part(surface: Surface, wo: vec3<f32>, choice: f32) -> u32 {
 }
 
 fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
-    return Bsdf(load_lobe(pick_part(surface, wo, choice), surface.uv));
+    let part = pick_part(surface, wo, choice);
+#if ONE_SIDED
+    if part.front_only && !surface.front {
+        return Bsdf(no_lobe());
+    }
+#endif
+    return Bsdf(load_lobe(part.material, surface.uv));
 }
 #else
 fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
+#if ONE_SIDED
+    if !surface.front && is_front_only(surface.material) {
+        return Bsdf(no_lobe());
+    }
+#endif
     return Bsdf(load_lobe(surface.material, surface.uv));
 }
 #endif

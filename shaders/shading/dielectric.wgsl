@@ -55,3 +55,28 @@ fn sample_delta_dielectric(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: 
     let weight = (1.0 - reflected) / ((1.0 - probability) * eta * eta);
     return BsdfSample(wi, lobe.color1 * weight, -1.0, eta * eta, false);
 }
+
+// Share that a plate with two boundaries reflects: light goes to and fro between them. From either side it is the denser.
+fn plate_reflectance(lobe: Lobe, cosine: f32) -> f32 {
+    let reflected = fresnel_dielectric(cosine, lobe.ior);
+    return 2.0 * reflected / (1.0 + reflected);
+}
+
+// A direction that a smooth plate reflects, or the one straight on.
+fn sample_delta_plate(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32) -> BsdfSample {
+    let n = surface.shading_normal;
+    let cosine = min(dot(wo, n), 1.0);
+    let reflected = plate_reflectance(lobe, cosine);
+    if max(max_component(lobe.color0) * reflected, max_component(lobe.color1) * (1.0 - reflected)) <= 0.0 {
+        return no_sample();
+    }
+    let probability = reflection_probability(lobe, reflected);
+    if choice < probability {
+        let wi = 2.0 * cosine * n - wo;
+        if dot(wi, surface.facing_normal) <= 0.0 {
+            return no_sample();
+        }
+        return BsdfSample(wi, lobe.color0 * (reflected / probability), -1.0, 1.0, false);
+    }
+    return BsdfSample(-wo, lobe.color1 * ((1.0 - reflected) / (1.0 - probability)), -1.0, 1.0, false);
+}

@@ -13,7 +13,49 @@ struct Lobe {
     color1: vec3<f32>,
     ior: f32,
     roughness: f32,
+#if FURTHER_PARAMETERS
+    // Looked up too: what it has beyond those, if it does.
+    further_count: u32,
+    further: array<vec3<f32>, MOST_FURTHER>,
+#endif
+#if ROUGH_PLASTIC
+    // Where those that need no look-up stand in the tables.
+    further_word: u32,
+#endif
 }
+
+#if FURTHER_PARAMETERS
+// A further parameter; `otherwise` where the lobe has none.
+fn further_parameter(lobe: Lobe, index: u32, otherwise: vec3<f32>) -> vec3<f32> {
+    if index >= lobe.further_count {
+        return otherwise;
+    }
+    var further = lobe.further;
+    return further[index];
+}
+
+fn load_further(lobe: ptr<function, Lobe>, material: u32, uv: vec2<f32>) {
+    let run = bitcast<u32>(tables[material * MATERIAL_WORDS + 4u].w);
+    let first = FIRST_FURTHER_WORD + (run & ((1u << FURTHER_SHIFT) - 1u));
+    let count = run >> FURTHER_SHIFT;
+    (*lobe).further_count = count;
+#if ROUGH_PLASTIC
+    (*lobe).further_word = first + count;
+#endif
+    for (var index = 0u; index < count; index++) {
+        let word = tables[first + index];
+        (*lobe).further[index] = material_color(word.xyz, word.w, uv);
+    }
+}
+#endif
+
+#if ANISOTROPY
+// Width of microfacets across the tangent.
+fn lobe_width_across(lobe: Lobe) -> f32 {
+    let width = further_parameter(lobe, 0u, vec3<f32>(lobe.roughness)).x;
+    return select(width, width * width, (lobe.kind & ACROSS_IS_SQUARED) != 0u);
+}
+#endif
 
 fn material_color(constant: vec3<f32>, texture: f32, uv: vec2<f32>) -> vec3<f32> {
 #if TEXTURES
@@ -28,7 +70,10 @@ fn material_color(constant: vec3<f32>, texture: f32, uv: vec2<f32>) -> vec3<f32>
 fn load_lobe(material: u32, uv: vec2<f32>) -> Lobe {
     let word = material * MATERIAL_WORDS;
     let m0 = tables[word];
-    var lobe = Lobe(bitcast<u32>(m0.w), m0.xyz, vec3<f32>(0.0), 1.0, 0.0);
+    var lobe: Lobe;
+    lobe.kind = bitcast<u32>(m0.w);
+    lobe.color0 = m0.xyz;
+    lobe.ior = 1.0;
 #if COLOR1
     let m1 = tables[word + 1u];
     lobe.color1 = m1.xyz;
@@ -56,8 +101,25 @@ fn load_lobe(material: u32, uv: vec2<f32>) -> Lobe {
     }
 #endif
 #endif
+#if FURTHER_PARAMETERS
+    load_further(&lobe, material, uv);
+#endif
     return lobe;
 }
+
+#if ONE_SIDED
+// The back of the material scatters nothing.
+fn is_front_only(material: u32) -> bool {
+    return (bitcast<u32>(tables[material * MATERIAL_WORDS + 2u].w) & FRONT_ONLY) != 0u;
+}
+
+// As the lobe of what scatters nothing.
+fn no_lobe() -> Lobe {
+    var lobe: Lobe;
+    lobe.kind = NO_LOBE;
+    return lobe;
+}
+#endif
 
 // Radiance that the front, or the back, of a material that is no blend sends out.
 fn own_emission(material: u32, front: bool, uv: vec2<f32>) -> vec3<f32> {

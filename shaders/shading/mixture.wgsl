@@ -30,11 +30,16 @@ struct WeightedLobe {
     share: f32,
 }
 
-fn load_weighted_lobe(bsdf: Bsdf, index: u32, uv: vec2<f32>) -> WeightedLobe {
-    let part = weighted_part(bsdf.run, index, bsdf.cosine, uv);
+fn load_weighted_lobe(bsdf: Bsdf, index: u32, surface: Surface) -> WeightedLobe {
+    let part = weighted_part(bsdf.run, index, bsdf.cosine, surface.uv);
     var weighted: WeightedLobe;
+#if ONE_SIDED
+    if part.front_only && !surface.front {
+        return weighted;
+    }
+#endif
     if part.weight > 0.0 {
-        weighted.lobe = load_lobe(part.material, uv);
+        weighted.lobe = load_lobe(part.material, surface.uv);
         weighted.weight = part.weight;
         if lobe_kind(weighted.lobe) != DIFFUSE {
             weighted.share = part.weight * lobe_sampling_weight(weighted.lobe);
@@ -49,7 +54,7 @@ fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
     bsdf.run = part_run(surface.material);
     bsdf.cosine = cosine;
     for (var index = 0u; index < bsdf.run.count; index++) {
-        let weighted = load_weighted_lobe(bsdf, index, surface.uv);
+        let weighted = load_weighted_lobe(bsdf, index, surface);
         if weighted.weight > 0.0 && lobe_kind(weighted.lobe) == DIFFUSE {
             bsdf.diffuse += weighted.weight * weighted.lobe.color0;
         }
@@ -81,7 +86,7 @@ fn evaluate_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> 
 #if MORE_LOBES
     if bsdf.more_lobes {
         for (var index = 0u; index < bsdf.run.count; index++) {
-            let weighted = load_weighted_lobe(bsdf, index, surface.uv);
+            let weighted = load_weighted_lobe(bsdf, index, surface);
             if weighted.share > 0.0 {
                 let value = evaluate_lobe(weighted.lobe, surface, wo, wi);
                 sum.value += weighted.weight * value.value;
@@ -114,7 +119,7 @@ fn draw_direction(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, choice: f32, u: f
     } else {
         var weighted: WeightedLobe;
         for (var index = 0u; index < bsdf.run.count; index++) {
-            let candidate = load_weighted_lobe(bsdf, index, surface.uv);
+            let candidate = load_weighted_lobe(bsdf, index, surface);
             if candidate.share > 0.0 {
                 // The last lobe takes what rounding leaves over.
                 weighted = candidate;

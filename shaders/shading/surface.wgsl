@@ -28,6 +28,11 @@ struct Surface {
     // For densities of light sampling: area, or 0 for a sphere; center and radius of a sphere.
     area: f32,
     sphere: vec4<f32>,
+#if ANISOTROPY
+    // The directions in which texture coordinates grow, of any length; 0 where there are none.
+    along_u: vec3<f32>,
+    along_v: vec3<f32>,
+#endif
 }
 
 // An interpolated or mapped normal on wo's side; the facing normal where there is none or wo is below its horizon.
@@ -85,9 +90,15 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
 #if MOTION
     size += placed.magnitude;
 #endif
+#if ANISOTROPY
+    let tangents = shape_tangents(kind, bitcast<u32>(p2.w), point);
+#endif
     return Surface(
         point.position, facing_normal, shading_normal, uv, front, POINT_ERROR * dot(abs(facing_normal), size) + point.error,
         primitive_material(p0.w), bitcast<u32>(p1.w), point.area, sphere
+#if ANISOTROPY
+        , tangents.along_u, tangents.along_v
+#endif
     );
 }
 

@@ -87,8 +87,13 @@ pub fn panel(emitting: u32) -> Result<Scene, SceneError> {
     let first = scene.materials.len();
     let emitting = emitting.clamp(1, 10_000);
     let radiance = 20_000.0 / f64::from(emitting);
-    let material =
-        |name: &str, emission| Material { name: name.into(), kind: MaterialKind::Emissive, normal_map: None, emission };
+    let material = |name: &str, emission| Material {
+        name: name.into(),
+        kind: MaterialKind::Emissive,
+        normal_map: None,
+        emission,
+        two_sided: true,
+    };
     scene.materials.push(material("dark", None));
     scene.materials.push(material("bright", Some(Emission { radiance: ColorInput::grey(radiance), two_sided: false })));
     let mut mesh = grid(100, 50, |u, v| Vec3::new(4.0 * u - 2.0, 3.0, 2.0 * v - 1.0));

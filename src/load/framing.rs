@@ -170,6 +170,7 @@ fn diffuse(name: &str, reflectance: f64) -> Material {
         kind: MaterialKind::Diffuse { reflectance: ColorInput::grey(reflectance) },
         normal_map: None,
         emission: None,
+        two_sided: true,
     }
 }
 

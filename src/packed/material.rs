@@ -1,6 +1,7 @@
 //! Materials as the device reads them. A blend becomes a run of parts, each with the weights along its branch: data, whatever the
 //! depth of the tree.
 
+use std::collections::hash_map::Entry;
 use std::collections::{BTreeSet, HashMap};
 
 use glam::DVec3;
@@ -24,12 +25,29 @@ shared_constants!(flags {
     pub const MATERIAL_WORDS: u32 = (size_of::<PackedMaterial>() / 16) as u32;
     /// Flag beside the kind of a conductor: its colours are eta and k.
     pub(super) const COMPLEX_FRESNEL: u32 = material::COMPLEX_FRESNEL << FORM_SHIFT;
+    /// Flags beside the kinds of other lobes.
+    const BECKMANN_FACETS: u32 = material::BECKMANN << FORM_SHIFT;
+    const SEPARABLE_MASKS: u32 = material::SEPARABLE_MASKING << FORM_SHIFT;
+    const NONLINEAR_BASE: u32 = material::NONLINEAR << FORM_SHIFT;
+    const ACROSS_IS_SQUARED: u32 = material::SQUARED_ACROSS << FORM_SHIFT;
+    const ANISOTROPIC: u32 = material::ANISOTROPIC << FORM_SHIFT;
+    const THIN_WALL: u32 = material::THIN_WALL << FORM_SHIFT;
+    /// Nearer to 1 an index of refraction bends no light.
+    const SMALLEST_BEND: f32 = material::SMALLEST_BEND as f32;
+    /// Angles in the table of what a rough plastic's surface lets through.
+    const TRANSMITTANCE_NODES: u32 = material::TRANSMITTANCE_NODES as u32;
     pub(super) const EMITS: u32 = 1;
     pub(super) const EMITS_TWO_SIDED: u32 = 2;
     /// Some part of the blend emits.
     pub(super) const PARTS_EMIT: u32 = 4;
     /// It is, or some part of the blend is, a surface that is not there.
     pub(super) const LETS_THROUGH: u32 = 8;
+    /// The back scatters nothing.
+    pub(super) const FRONT_ONLY: u32 = 16;
+    /// Flag beside the number of a part's factors: its back scatters nothing.
+    pub(super) const PART_FRONT_ONLY: u32 = 1 << 31;
+    /// Above the first of a material's further parameters stands how many are looked up.
+    pub(super) const FURTHER_SHIFT: u32 = 24;
     /// GGX narrower than this is a delta lobe: f32 no longer resolves it.
     const DELTA_ALPHA: f32 = material::DELTA_ALPHA as f32;
 });
@@ -53,6 +71,7 @@ pub struct PackedMaterial {
     pub color1: [f32; 3],
     pub ior: f32,
     pub emission: [f32; 3],
+    /// What the two sides do: emit, or scatter nothing.
     pub emission_flags: u32,
     pub color0_texture: u32,
     pub emission_texture: u32,
@@ -63,7 +82,18 @@ pub struct PackedMaterial {
     pub normal_map: u32,
     /// 1 where the roughness comes from a texture and the square of both together is the GGX width.
     pub roughness_is_squared: u32,
-    pub padding: u32,
+    /// The first of its further parameters, and in the upper eight bits how many of them are looked up at a hit; 0: it has none.
+    pub further: u32,
+}
+
+/// A further parameter of a lobe, 16 bytes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct PackedParameter {
+    /// A scalar is the first.
+    pub color: [f32; 3],
+    /// Index of the texture that it is multiplied by, or NONE.
+    pub texture: u32,
 }
 
 /// Most weights of all parts together: 16 MiB of them.
@@ -76,6 +106,7 @@ pub struct PackedBlendPart {
     pub material: u32,
     /// Its weight is the constant factor times the blend weights `first_factor..first_factor + factor_count`.
     pub first_factor: u32,
+    /// And [`PART_FRONT_ONLY`].
     pub factor_count: u32,
     pub constant_factor: f32,
 }
@@ -86,6 +117,8 @@ pub struct PackedMaterials {
     pub materials: Vec<PackedMaterial>,
     /// Which of the scene's materials each one is.
     pub scene_ids: Vec<MaterialId>,
+    /// What lobes have beyond the parameters that most have, in runs.
+    pub further: Vec<PackedParameter>,
     pub parts: Vec<PackedBlendPart>,
     pub weights: Vec<PackedBlendWeight>,
 }
@@ -127,7 +160,7 @@ impl PackedMaterials {
         for &id in of_surfaces {
             let material = match scene.materials[id].kind {
                 MaterialKind::Blend { .. } => packed.blend(scene, id)?,
-                _ => PackedMaterial::new(&scene.materials[id]),
+                _ => packed.plain(&scene.materials[id]),
             };
             packed.materials.push(material);
             packed.scene_ids.push(id);
@@ -139,15 +172,34 @@ impl PackedMaterials {
     /// Adds the parts of blends that no surface is made of alone; blends then name their places instead of the scene's numbers.
     fn add_parts(&mut self, scene: &Scene) {
         let mut places: HashMap<MaterialId, usize> = self.scene_ids.iter().enumerate().map(|(place, id)| (*id, place)).collect();
-        for part in &mut self.parts {
+        let mut parts = std::mem::take(&mut self.parts);
+        for part in &mut parts {
             let id = part.material as MaterialId;
-            let place = *places.entry(id).or_insert_with(|| {
-                self.materials.push(PackedMaterial::new(&scene.materials[id]));
-                self.scene_ids.push(id);
-                self.materials.len() - 1
-            });
+            let place = match places.entry(id) {
+                Entry::Occupied(place) => *place.get(),
+                Entry::Vacant(vacant) => {
+                    let material = self.plain(&scene.materials[id]);
+                    self.materials.push(material);
+                    self.scene_ids.push(id);
+                    *vacant.insert(self.materials.len() - 1)
+                }
+            };
             part.material = place as u32;
         }
+        self.parts = parts;
+    }
+
+    /// Packs a material that is no blend, or what a blend is besides its parts.
+    fn plain(&mut self, material: &Material) -> PackedMaterial {
+        let mut packed = PackedMaterial::new(material);
+        if let Some(lobe) = material.kind.lobe().filter(|lobe| !lobe.further.is_empty()) {
+            packed.further = self.further.len() as u32 | (lobe.looked_up as u32) << FURTHER_SHIFT;
+            self.further.extend(lobe.further.iter().map(|input| {
+                let (color, texture) = color_and_texture(input);
+                PackedParameter { color, texture }
+            }));
+        }
+        packed
     }
 
     /// Where each of the scene's materials stands; [`NONE`] where it is left out.
@@ -162,20 +214,27 @@ impl PackedMaterials {
     /// Every mention of a texture, to be renumbered.
     pub(super) fn textures_mut(&mut self) -> impl Iterator<Item = &mut u32> {
         let of_weights = self.weights.iter_mut().map(|weight| &mut weight.texture);
-        self.materials.iter_mut().flat_map(PackedMaterial::textures_mut).chain(of_weights).filter(|texture| **texture != NONE)
+        let of_further = self.further.iter_mut().map(|parameter| &mut parameter.texture);
+        self.materials
+            .iter_mut()
+            .flat_map(PackedMaterial::textures_mut)
+            .chain(of_weights)
+            .chain(of_further)
+            .filter(|texture| **texture != NONE)
     }
 
     fn blend(&mut self, scene: &Scene, id: MaterialId) -> Result<PackedMaterial, PackError> {
         let Parts { plain, emitting_blends } = parts(scene, id)?;
         let mut packed = PackedMaterial::new(&scene.materials[id]);
         // A blend that always is one of its materials is that material.
-        if let [Part { material, constant: 1.0, factors }] = plain.as_slice()
+        if let [Part { material, constant: 1.0, factors, front_only }] = plain.as_slice()
             && factors.is_empty()
+            && *front_only == !scene.materials[*material].two_sided
             && emitting_blends.is_empty()
             && packed.emission_flags == 0
             && packed.normal_map == NONE
         {
-            return Ok(PackedMaterial::new(&scene.materials[*material]));
+            return Ok(self.plain(&scene.materials[*material]));
         }
         if scene.render.blend == BlendMode::Mixture
             && emitting_blends.is_empty()
@@ -196,7 +255,7 @@ impl PackedMaterials {
             self.parts.push(PackedBlendPart {
                 material: part.material as u32,
                 first_factor: self.weights.len() as u32,
-                factor_count: part.factors.len() as u32,
+                factor_count: part.factors.len() as u32 | if part.front_only { PART_FRONT_ONLY } else { 0 },
                 constant_factor: part.constant as f32,
             });
             self.weights.extend(part.factors);
@@ -205,6 +264,11 @@ impl PackedMaterials {
             return Err(PackError::TooManyWeights { material: scene.materials[id].name.clone(), limit: MOST_WEIGHTS });
         }
         Ok(packed)
+    }
+
+    /// Some part of a blend is black from behind.
+    pub fn has_front_only_parts(&self) -> bool {
+        self.parts.iter().any(|part| part.factor_count & PART_FRONT_ONLY != 0)
     }
 
     /// Some material is of this kind.
@@ -219,6 +283,8 @@ struct Part {
     material: MaterialId,
     constant: f64,
     factors: Vec<PackedBlendWeight>,
+    /// It or a blend that it is in scatters nothing on the back.
+    front_only: bool,
 }
 
 struct Parts {
@@ -232,8 +298,9 @@ struct Parts {
 fn parts(scene: &Scene, id: MaterialId) -> Result<Parts, PackError> {
     let mut weights = 0;
     let mut found = Parts { plain: Vec::new(), emitting_blends: Vec::new() };
-    let mut to_visit = vec![Part { material: id, constant: 1.0, factors: Vec::new() }];
-    while let Some(branch) = to_visit.pop() {
+    let mut to_visit = vec![Part { material: id, constant: 1.0, factors: Vec::new(), front_only: false }];
+    while let Some(mut branch) = to_visit.pop() {
+        branch.front_only |= !scene.materials[branch.material].two_sided;
         // Checked on the way: a deep chain of blends would fill the memory before it ends.
         weights += branch.factors.len();
         if weights > 2 * MOST_WEIGHTS {
@@ -267,7 +334,7 @@ fn lambert_of_the_mean(scene: &Scene, plain: &[Part]) -> Option<DVec3> {
         plain.iter().map(|part| match &scene.materials[part.material] {
             Material {
                 kind: MaterialKind::Diffuse { reflectance: ColorInput::Constant(reflectance) }, emission: None, ..
-            } if part.factors.is_empty() => Some(part.constant * *reflectance),
+            } if part.factors.is_empty() && !part.front_only => Some(part.constant * *reflectance),
             _ => None,
         });
     weighted.sum()
@@ -278,6 +345,7 @@ impl PackedMaterial {
     fn new(material: &Material) -> Self {
         let without_lobe = if material.is_blend() { BLEND } else { NO_LOBE };
         let lobe = material.kind.lobe();
+        let lobe = lobe.as_ref();
         let kind = lobe.map_or(without_lobe, |parameters| parameters.lobe as u32);
         let black = ColorInput::grey(0.0);
         let (color0, color0_texture) = color_and_texture(&lobe.map_or(black, |lobe| lobe.color0));
@@ -295,7 +363,8 @@ impl PackedMaterial {
             emission,
             emission_flags: if radiance == black { 0 } else { EMITS }
                 | if two_sided { EMITS_TWO_SIDED } else { 0 }
-                | if kind == LobeKind::Null as u32 { LETS_THROUGH } else { 0 },
+                | if kind == LobeKind::Null as u32 { LETS_THROUGH } else { 0 }
+                | if material.two_sided { 0 } else { FRONT_ONLY },
             color0_texture,
             emission_texture,
             color1_texture,
@@ -303,7 +372,7 @@ impl PackedMaterial {
             roughness,
             normal_map: material.normal_map.map_or(NONE, |texture| texture as u32),
             roughness_is_squared,
-            padding: 0,
+            further: 0,
         }
     }
 
@@ -329,6 +398,21 @@ impl PackedMaterial {
     /// Its lobe reads other numbers than those it has where none are loaded.
     pub fn uses_color1(&self) -> bool {
         self.kind() != BLEND && (self.color1 != [0.0; 3] || self.color1_texture != NONE || self.ior != 1.0)
+    }
+
+    /// How many of its further parameters a hit looks up.
+    pub fn looked_up(&self) -> u32 {
+        self.further >> FURTHER_SHIFT
+    }
+
+    /// One of the forms of its lobe, by its bit in [`LobeParameters::form`](crate::scene::LobeParameters).
+    pub fn has_form(&self, form: u32) -> bool {
+        self.kind_and_form >> FORM_SHIFT & form != 0
+    }
+
+    /// Its back scatters nothing.
+    pub fn is_front_only(&self) -> bool {
+        self.emission_flags & FRONT_ONLY != 0
     }
 
     /// The same of the roughness.

@@ -1,4 +1,5 @@
-//! One array for all that shading looks up: materials, the parts and weights of blends, lights, textures, motions.
+//! One array for all that shading looks up: materials and their further parameters, the parts and weights of blends, lights, textures,
+//! motions.
 
 use super::scene::PackedScene;
 
@@ -11,6 +12,7 @@ pub struct Tables {
     pub first_light: u32,
     pub first_texture: u32,
     pub first_motion: u32,
+    pub first_further: u32,
 }
 
 impl Tables {
@@ -22,6 +24,7 @@ impl Tables {
         tables.first_light = tables.append(&packed.lights);
         tables.first_texture = tables.append(&packed.textures.textures);
         tables.first_motion = tables.append(&packed.motions);
+        tables.first_further = tables.append(&packed.materials.further);
         tables
     }
 

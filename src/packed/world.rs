@@ -9,7 +9,7 @@ use super::constants::NONE;
 use super::motion::PackedMotion;
 use super::primitive::WorldPrimitive;
 use super::shape::{self, Placement};
-use crate::scene::{Material, MaterialId, MaterialKind, Scene};
+use crate::scene::{MaterialId, MaterialKind, Scene};
 
 /// All primitives of a scene, and the attributes of those that have some.
 #[derive(Debug, Default)]
@@ -26,7 +26,7 @@ pub struct WorldGeometry {
 /// Surfaces made of `pass` are left out: to every ray they are not there.
 pub fn collect(scene: &Scene) -> WorldGeometry {
     let mut world = WorldGeometry::default();
-    let textured = scene.materials_that(Material::uses_texture);
+    let textured = scene.materials_that(|material| material.uses_texture() || material.is_anisotropic());
     for (index, shape) in scene.shapes.iter().enumerate() {
         let first = world.primitives.len();
         shape::add(&Placement::new(shape, &textured), &mut |geometry, attributes, face| {

@@ -10,6 +10,7 @@ use crate::packed::shape::{PrimitiveKind, SurfaceSampling};
 use crate::packed::texture::{PackedTextureKind, TexelFormat};
 use crate::packed::{NONE, PackedScene};
 use crate::sampling::Decorrelation;
+use crate::scene::material::{self, ANISOTROPIC, SEPARABLE_MASKING};
 use crate::scene::{ApertureShape, Filter, FilterKind, HemisphereSampling, Projection};
 use crate::scene::{
     BlendMode, Estimator, LightSampling, LobeKind, LobeSupport, MisHeuristic, PixelSampler, RenderSettings, Scene,
@@ -81,6 +82,7 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
         ("ENVIRONMENT_WIDTH", map.width),
         ("FILM_WIDTH", scene.film.size[0]),
         ("FIRST_BLEND_WEIGHT_WORD", tables.first_blend_weight),
+        ("FIRST_FURTHER_WORD", tables.first_further),
         ("FIRST_PART_WORD", tables.first_part),
         ("FIRST_LIGHT_WORD", tables.first_light),
         ("FIRST_MOTION_WORD", tables.first_motion),
@@ -93,6 +95,7 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
         // Depth 0 means no limit: an edge that is never reached.
         ("MAX_DEPTH", if render.max_depth == 0 { u32::MAX } else { render.max_depth }),
         ("MAX_SAMPLES_PER_PASS", MAX_SAMPLES_PER_PASS),
+        ("MOST_FURTHER", packed.materials.materials.iter().map(PackedMaterial::looked_up).max().unwrap_or(0).max(1)),
         ("PATH_CAPACITY", plan.path_capacity),
         ("PORTAL_COUNT", packed.lights.iter().filter(|light| light.is(LightKind::Portal)).count() as u32),
         ("PRIMITIVE_WORDS", (3 * packed.primitives.len() as u32).max(1)),
@@ -220,5 +223,12 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     switches.enable("PICK", blends && !mixture);
     switches.enable("NORMAL_MAPS", packed.materials.materials.iter().any(|material| material.normal_map != NONE));
     switches.enable("EMISSION", materials.iter().any(PackedMaterial::emits));
+    switches.enable("FURTHER_PARAMETERS", materials.iter().any(|material| material.looked_up() > 0));
+    switches.enable("BECKMANN", materials.iter().any(|material| material.has_form(material::BECKMANN)));
+    switches.enable("SEPARABLE_MASKING", materials.iter().any(|material| material.has_form(SEPARABLE_MASKING)));
+    let transmits = |material: &PackedMaterial| material.has_form(material::TRANSMITS);
+    switches.enable("PRINCIPLED_TRANSMISSION", materials.iter().any(transmits));
+    switches.enable("ANISOTROPY", materials.iter().any(|material| material.has_form(ANISOTROPIC)));
+    switches.enable("ONE_SIDED", materials.iter().any(PackedMaterial::is_front_only) || packed.materials.has_front_only_parts());
     switches.enable("VARYING_LIGHTS", samples_lights(scene, packed) && packed.lights.iter().any(PackedLight::varies));
 }

@@ -36,8 +36,8 @@ pub use light::{
     Sky, SpotLight,
 };
 pub use material::{
-    BlendWeight, ConductorFresnel, Emission, LobeKind, LobeParameters, LobeSupport, Material, MaterialId, MaterialKind,
-    MicrofacetDistribution,
+    BlendWeight, ConductorFresnel, Emission, LobeKind, LobeParameters, LobeSupport, Masking, Material, MaterialId, MaterialKind,
+    MicrofacetDistribution, Microfacets, PlasticInterface, Principled,
 };
 pub use model::Scene;
 pub use motion::{Motion, MotionStep};

@@ -51,6 +51,11 @@ impl ColorInput {
         }
     }
 
+    /// What is looked up, times its factor, is squared.
+    pub fn is_squared(&self) -> bool {
+        matches!(self, Self::SquaredTexture(_) | Self::Channel(ChannelInput { is_squared: true, .. }))
+    }
+
     /// The same times a factor; of a squared one, the square of the product.
     #[must_use]
     pub fn scaled(self, by: DVec3) -> Self {

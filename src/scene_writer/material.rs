@@ -3,7 +3,8 @@
 use super::value::{colour, line, number};
 use super::writer::Writer;
 use crate::scene::{
-    BlendWeight, Channel, ChannelInput, ColorInput, ConductorFresnel, Emission, MaterialId, MaterialKind, MicrofacetDistribution,
+    BlendWeight, Channel, ChannelInput, ColorInput, ConductorFresnel, Emission, Masking, MaterialId, MaterialKind,
+    MicrofacetDistribution, Microfacets, PlasticInterface, Principled,
 };
 
 impl Writer<'_> {
@@ -28,6 +29,9 @@ impl Writer<'_> {
             None if emits => out += &line("radiance", "0"),
             None => {}
         }
+        if !material.two_sided {
+            out += &line("two_sided", "false");
+        }
         out
     }
 
@@ -40,22 +44,31 @@ impl Writer<'_> {
             MaterialKind::Phong { diffuse, specular, exponent } => {
                 input("diffuse", diffuse) + &input("specular", specular) + &input("exponent", exponent)
             }
-            MaterialKind::Glass { ior, reflectance, transmittance } => {
-                line("ior", &number(*ior)) + &input("reflectance", reflectance) + &input("transmittance", transmittance)
+            MaterialKind::Glass { ior, reflectance, transmittance, thin } => {
+                let tints = input("reflectance", reflectance) + &input("transmittance", transmittance);
+                line("ior", &number(*ior)) + &tints + thin_line(*thin)
             }
-            MaterialKind::RoughGlass { ior, alpha, distribution, reflectance, transmittance } => {
-                let width = match distribution {
-                    MicrofacetDistribution::Ggx => self.alpha(*alpha),
-                    MicrofacetDistribution::Phong => input("exponent", alpha),
-                };
-                line("ior", &number(*ior)) + &width + &input("reflectance", reflectance) + &input("transmittance", transmittance)
+            MaterialKind::RoughGlass { ior, facets, reflectance, transmittance, thin } => {
+                let tints = input("reflectance", reflectance) + &input("transmittance", transmittance);
+                line("ior", &number(*ior)) + &self.facets(facets) + &tints + thin_line(*thin)
             }
-            MaterialKind::Conductor { fresnel, alpha } => {
+            MaterialKind::Plastic { interface, reflectance, specular_reflectance, nonlinear } => {
+                let colours = input("reflectance", reflectance) + &input("specular_reflectance", specular_reflectance);
+                let nonlinear = if *nonlinear { line("nonlinear", "true") } else { String::new() };
+                self.interface(interface) + &colours + &nonlinear
+            }
+            MaterialKind::Principled(principled) => self.principled(principled),
+            MaterialKind::Conductor { fresnel, facets, specular_reflectance } => {
                 let fresnel = match fresnel {
                     ConductorFresnel::Complex { eta, k } => line("eta", &colour(*eta)) + &line("k", &colour(*k)),
                     ConductorFresnel::Reflectance(reflectance) => input("reflectance", reflectance),
                 };
-                fresnel + &self.alpha(*alpha)
+                let factor = match *specular_reflectance == ColorInput::grey(1.0) {
+                    true => String::new(),
+                    false => input("specular_reflectance", specular_reflectance),
+                };
+                let is_smooth = *facets == Microfacets::ggx(ColorInput::grey(0.0));
+                fresnel + &if is_smooth { line("alpha", "0") } else { self.facets(facets) } + &factor
             }
             MaterialKind::Blend { materials, weight } => {
                 let [first, second] = materials.map(|part| self.materials.quoted(part));
@@ -63,6 +76,61 @@ impl Writer<'_> {
             }
             MaterialKind::Emissive | MaterialKind::Pass => String::new(),
         }
+    }
+
+    /// Widths, distribution and masking of microfacets, or the exponent of Phong's distribution.
+    fn facets(&self, facets: &Microfacets) -> String {
+        let Microfacets { alpha, alpha_v, distribution, masking } = *facets;
+        if distribution == MicrofacetDistribution::Phong {
+            return line("exponent", &self.input(alpha));
+        }
+        let widths = match alpha_v {
+            None => self.alpha(alpha),
+            Some(across) if alpha.is_squared() || across.is_squared() => {
+                line("roughness_u", &self.roughness(alpha)) + &line("roughness_v", &self.roughness(across))
+            }
+            Some(across) => line("alpha_u", &self.input(alpha)) + &line("alpha_v", &self.input(across)),
+        };
+        widths + &distribution_line(distribution) + &masking_line(masking)
+    }
+
+    /// The root of a width.
+    fn roughness(&self, alpha: ColorInput) -> String {
+        match alpha {
+            ColorInput::Constant(value) => colour(value.map(f64::sqrt)),
+            other => self.input(other),
+        }
+    }
+
+    fn interface(&self, interface: &PlasticInterface) -> String {
+        let ior = line("ior", &number(interface.ior));
+        if !interface.is_rough() {
+            return ior;
+        }
+        let rough = distribution_line(interface.distribution) + &masking_line(interface.masking);
+        ior + &line("alpha", &number(interface.alpha)) + &rough
+    }
+
+    fn principled(&self, principled: &Principled) -> String {
+        let input = |key: &str, input: &ColorInput| line(key, &self.input(*input));
+        let mut out = input("base_color", &principled.base_color)
+            + &input("metallic", &principled.metallic)
+            + &input("roughness", &principled.roughness)
+            + &line("ior", &number(principled.ior))
+            + &input("specular", &principled.specular)
+            + &input("specular_color", &principled.specular_color)
+            + &input("transmission", &principled.transmission)
+            + thin_line(principled.thin)
+            + &input("clearcoat", &principled.clearcoat)
+            + &input("clearcoat_roughness", &principled.clearcoat_roughness);
+        if let Some(anisotropy) = &principled.anisotropy {
+            out += &input("anisotropy", anisotropy);
+            out += &line("anisotropy_rotation", &number(principled.anisotropy_rotation_degrees));
+        }
+        if principled.masking == Masking::HeightCorrelated {
+            out += &line("masking", "\"height_correlated\"");
+        }
+        out
     }
 
     /// A width of microfacets: the square of a texture is what `roughness` means.
@@ -107,6 +175,26 @@ impl Writer<'_> {
                 format!("{{ type = \"threshold\", tau = {}, of = {} }}", number(*tau), self.weight(of))
             }
         }
+    }
+}
+
+fn thin_line(thin: bool) -> &'static str {
+    if thin { "thin = true\n" } else { "" }
+}
+
+/// Nothing where it is what is meant without the key.
+fn distribution_line(distribution: MicrofacetDistribution) -> String {
+    match distribution {
+        MicrofacetDistribution::Beckmann => line("distribution", "\"beckmann\""),
+        MicrofacetDistribution::Ggx | MicrofacetDistribution::Phong => String::new(),
+    }
+}
+
+/// The same.
+fn masking_line(masking: Masking) -> String {
+    match masking {
+        Masking::Separable => line("masking", "\"separable\""),
+        Masking::HeightCorrelated => String::new(),
     }
 }
 

@@ -143,11 +143,13 @@ pub static SWITCHES: LazyLock<Vec<Switch>> = LazyLock::new(|| {
 
 /// All but lobes, shapes, and lights that are no surfaces.
 const OF_FEATURES: &[Switch] = &[
+    switch("ANISOTROPY").requires(&["FURTHER_PARAMETERS"]),
     switch("APERTURE_POLYGON").requires(&["LENS"]).excludes(&["APERTURE_SQUARE"]),
     switch("APERTURE_SQUARE").requires(&["LENS"]),
     switch("AREA_LIGHTS").one_of(DRAWN_BY_AREA),
     switch("ATTRIBUTES"),
     switch("ATTRIBUTE_CHUNKS").requires(&["ATTRIBUTES"]),
+    switch("BECKMANN"),
     switch("BLENDS").one_of(&["MIXTURE", "PICK"]),
     // Kernels walk nodes.
     switch("BVH").one_of(HELD).excludes(&["RAY_QUERY"]),
@@ -166,6 +168,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("FILTER_BOX").requires(&["FILTER"]).excludes(&["FILTER_CURVE"]),
     switch("FILTER_CURVE").requires(&["FILTER"]),
     switch("HEURISTIC_POWER"),
+    switch("FURTHER_PARAMETERS"),
     switch("IMAGES").requires(&["TEXELS", "TEXTURES"]).one_of(TEXEL_FORMATS),
     // What a render makes in place of the picture.
     switch("LAYER_ALBEDO").requires(&["LAYER_OF_SURFACES"]).excludes(LAYERS),
@@ -191,6 +194,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("NON_DELTA_TRANSMISSION"),
     switch("NORMAL_MAPS").requires(&["TEXTURES"]),
     switch("ONE_LIGHT"),
+    switch("ONE_SIDED"),
     switch("ONLY_TRIANGLES_IN_HIERARCHY").requires(&["TRIANGLES_IN_HIERARCHY"]).excludes(HELD_BESIDE_TRIANGLES),
     switch("ORTHOGRAPHIC"),
     switch("PACKETS").requires(&["BVH"]).excludes(&["TRACE"]),
@@ -206,11 +210,13 @@ const OF_FEATURES: &[Switch] = &[
     switch("PLANT_MIS").requires(&["ESTIMATOR_MIS", "LIGHTS"]).debug(),
     switch("PORTALS").requires(&["ENVIRONMENT_SAMPLED"]),
     switch("PRIMITIVE_CHUNKS").excludes(&["UNIFORM_PRIMITIVES"]),
+    switch("PRINCIPLED_TRANSMISSION"),
     switch("PROCEDURAL_TEXTURES").requires(&["TEXTURES"]).one_of(&["CHECKERS", "PERLIN", "WORLEY"]),
     // Acceleration structures hold a scene at rest.
     switch("RAY_QUERY").one_of(HELD).excludes(&["MOTION"]),
     switch("ROUGHNESS"),
     switch("ROULETTE"),
+    switch("SEPARABLE_MASKING"),
     switch("SEQUENCE"),
     switch("SPHERE_LIGHTS_BY_POINT").requires(&["SPHERE_LIGHTS"]),
     switch("SPHERE_LIGHTS_VISIBLE_HALF").requires(&["SPHERE_LIGHTS_BY_POINT"]),

@@ -64,6 +64,49 @@ fn blend(weight: &str) -> String {
     material(&format!("type = \"blend\"\nmaterials = [\"white\", \"mirror\"]\nweight = {weight}"))
 }
 
+/// Keys that exclude each other, or need each other.
+#[test]
+fn keys_of_rough_surfaces_that_do_not_go_together_are_refused() {
+    let metal = |keys: &str| material(&format!("type = \"conductor\"\nreflectance = 0.9\n{keys}"));
+    let glass = |keys: &str| material(&format!("type = \"rough_glass\"\n{keys}"));
+    let plastic = |keys: &str| material(&format!("type = \"plastic\"\nreflectance = 0.5\n{keys}"));
+    let principled = |keys: &str| material(&format!("type = \"principled\"\n{keys}"));
+    let rows = [
+        (metal("alpha_u = 0.1"), "`alpha_u` needs `alpha_v`"),
+        (metal("roughness_v = 0.1"), "`roughness_v` needs `roughness_u`"),
+        (metal("alpha = 0.1\nalpha_u = 0.1\nalpha_v = 0.2"), "one width, or two"),
+        (metal("alpha_u = 0.1\nalpha_v = 0.2\nroughness_u = 0.1\nroughness_v = 0.2"), "either `alpha_u` and `alpha_v` or"),
+        (metal("distribution = \"beckmann\""), "`distribution` is for rough surfaces"),
+        (metal("masking = \"separable\""), "`masking` is for rough surfaces"),
+        (metal("alpha = 0.1\ndistribution = \"phong\""), "distribution: `phong` is not a valid choice"),
+        (metal("alpha = 0.1\nmasking = \"none\""), "masking: `none` is not a valid choice"),
+        (metal("specular_reflectance = 1.5"), "expected a number from 0 to 1, found 1.5"),
+        (metal("alpha_u = 0.1\nalpha_v = 2"), "alpha_v: expected a number from 0 to 1, found 2"),
+        (glass("exponent = 20\nmasking = \"separable\""), "`masking` is for microfacets"),
+        (glass("exponent = 20\nthin = true"), "thin walls are for microfacets"),
+        (glass("exponent = 20\nalpha_u = 0.1\nalpha_v = 0.2"), "either `exponent` or one of"),
+        (glass("exponent = 20\ndistribution = \"beckmann\""), "`exponent` belongs to distribution = \"phong\""),
+        (plastic("alpha = 0.1\nroughness = 0.1"), "either `alpha` or `roughness`"),
+        (plastic("masking = \"separable\""), "`masking` is for rough surfaces"),
+        (plastic("ior = 0"), "ior: expected an index of refraction from 0.1 to 10, found 0"),
+        (principled("anisotropy_rotation = 30"), "`anisotropy_rotation` needs the key `anisotropy`"),
+        (principled("thin = true"), "`thin` needs the key `transmission`"),
+        (principled("clearcoat_roughness = 0.1"), "`clearcoat_roughness` needs the key `clearcoat`"),
+        (principled("metallic = 1.1"), "metallic: expected a number from 0 to 1, found 1.1"),
+        (principled("specular_color = -1"), "specular_color: expected a number from 0 to 1e18, found -1"),
+        (material("type = \"pass\"\ntwo_sided = false"), "`pass` is the same on both sides"),
+    ];
+    for (text, expected) in rows {
+        let found = complaint(&text);
+        assert!(found.contains(expected), "expected: {expected}\nfound: {found}\nfor:\n{text}");
+    }
+    for keys in
+        ["alpha = 0.1", "alpha_u = 0.1\nalpha_v = 0.1", "roughness_u = 0.1\nroughness_v = 0.5\ndistribution = \"beckmann\""]
+    {
+        assert!(load(&metal(keys)).is_ok(), "{keys}");
+    }
+}
+
 #[test]
 fn numbers_out_of_range_name_the_key_and_the_range() {
     let rows = [

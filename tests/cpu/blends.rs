@@ -81,7 +81,7 @@ fn stage() -> Scene {
 }
 
 fn material(scene: &mut Scene, kind: MaterialKind, emission: Option<Emission>) -> MaterialId {
-    scene.materials.push(Material { name: scene.materials.len().to_string(), kind, normal_map: None, emission });
+    scene.materials.push(Material { name: scene.materials.len().to_string(), kind, normal_map: None, emission, two_sided: true });
     scene.materials.len() - 1
 }
 
@@ -99,11 +99,12 @@ fn blend(scene: &mut Scene, first: MaterialId, second: MaterialId, weight: Blend
 }
 
 fn metal(alpha: f64) -> MaterialKind {
-    MaterialKind::Conductor { fresnel: ConductorFresnel::Reflectance(grey(0.8)), alpha: grey(alpha) }
+    let (fresnel, facets) = (ConductorFresnel::Reflectance(grey(0.8)), Microfacets::ggx(grey(alpha)));
+    MaterialKind::Conductor { fresnel, facets, specular_reflectance: grey(1.0) }
 }
 
-fn rough_glass(parameter: f64, distribution: MicrofacetDistribution) -> MaterialKind {
-    MaterialKind::RoughGlass { ior: 1.5, alpha: grey(parameter), distribution, reflectance: grey(1.0), transmittance: grey(1.0) }
+fn rough_glass(facets: Microfacets) -> MaterialKind {
+    MaterialKind::RoughGlass { ior: 1.5, facets, reflectance: grey(1.0), transmittance: grey(1.0), thin: false }
 }
 
 /// Balls of nested blends: every kind of lobe, a light among them, weights by angle and by noise.
@@ -123,7 +124,7 @@ fn blended_balls() -> Scene {
     let blue = material(&mut scene, blue, None);
     let mirror = material(&mut scene, MaterialKind::Mirror { reflectance: grey(0.9) }, None);
     let steel = material(&mut scene, metal(0.2), None);
-    let frosted = material(&mut scene, rough_glass(0.3, MicrofacetDistribution::Ggx), None);
+    let frosted = material(&mut scene, rough_glass(Microfacets::ggx(grey(0.3))), None);
     let emission = Emission { radiance: grey(0.5), two_sided: false };
     let glow = material(&mut scene, MaterialKind::Emissive, Some(emission));
     let marble = blend(&mut scene, red, blue, BlendWeight::Texture { texture: 0 });
@@ -149,8 +150,8 @@ fn pick_and_mixture_agree() {
 #[test]
 fn the_estimators_agree_on_rough_materials() {
     let kinds = [
-        ("rough glass", rough_glass(0.4, MicrofacetDistribution::Ggx)),
-        ("Phong glass", rough_glass(8.0, MicrofacetDistribution::Phong)),
+        ("rough glass", rough_glass(Microfacets::ggx(grey(0.4)))),
+        ("Phong glass", rough_glass(Microfacets::phong(grey(8.0)))),
         ("metal", metal(0.3)),
         ("glossy", MaterialKind::Glossy { reflectance: grey(0.8), exponent: grey(15.0) }),
         ("phong", MaterialKind::Phong { diffuse: grey(0.3), specular: grey(0.5), exponent: grey(25.0) }),
@@ -181,9 +182,9 @@ fn a_blend_of_one_material_is_that_material() {
     let kinds = [
         MaterialKind::Diffuse { reflectance: grey(0.7) },
         MaterialKind::Mirror { reflectance: grey(0.7) },
-        MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one },
+        MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one, thin: false },
         metal(0.3),
-        rough_glass(0.3, MicrofacetDistribution::Ggx),
+        rough_glass(Microfacets::ggx(grey(0.3))),
     ];
     for kind in kinds {
         let mut scene = stage();

@@ -8,11 +8,20 @@
 #import shading/surface.wgsl
 
 fn conductor_is_non_delta(lobe: Lobe) -> bool {
-    return lobe.roughness >= DELTA_ALPHA;
+    return !facets_are_smooth(lobe_facets(lobe));
 }
 
 fn conductor_sampling_weight(lobe: Lobe) -> f32 {
-    return max_component(conductor_fresnel(lobe, 1.0));
+    return max_component(conductor_reflectance(lobe, 1.0));
+}
+
+// What a microfacet reflects.
+fn conductor_reflectance(lobe: Lobe, cosine: f32) -> vec3<f32> {
+#if FURTHER_PARAMETERS
+    return conductor_fresnel(lobe, cosine) * further_parameter(lobe, 1u, vec3<f32>(1.0));
+#else
+    return conductor_fresnel(lobe, cosine);
+#endif
 }
 
 // Reflectance of a metal: the exact equations for a complex index of refraction, or Schlick's approximation.
@@ -39,45 +48,47 @@ fn conductor_fresnel(lobe: Lobe, cosine: f32) -> vec3<f32> {
 }
 
 fn evaluate_conductor(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
-    if lobe.roughness < DELTA_ALPHA || !on_wo_side(surface, wi) {
+    let facets = lobe_facets(lobe);
+    if facets_are_smooth(facets) || !on_wo_side(surface, wi) {
         return no_value();
     }
-    let frame = frame_from_normal(surface.shading_normal);
+    let frame = facet_frame(facets, surface);
     let o = to_local(frame, wo);
     let i = to_local(frame, wi);
     let m = normalize(o + i);
-    return conductor_value(lobe, o, i, m);
+    return conductor_value(lobe, facets, o, i, m);
 }
 
-fn conductor_value(lobe: Lobe, o: vec3<f32>, i: vec3<f32>, m: vec3<f32>) -> BsdfValue {
-    let fresnel = conductor_fresnel(lobe, clamp(dot(o, m), 0.0, 1.0));
-    let lambda_o = ggx_lambda(o, lobe.roughness);
-    let common_factor = ggx_distribution(m, lobe.roughness) / (4.0 * o.z);
-    let shadowing = 1.0 / (1.0 + lambda_o + ggx_lambda(i, lobe.roughness));
+fn conductor_value(lobe: Lobe, facets: Facets, o: vec3<f32>, i: vec3<f32>, m: vec3<f32>) -> BsdfValue {
+    let fresnel = conductor_reflectance(lobe, clamp(dot(o, m), 0.0, 1.0));
+    let lambda_o = facet_lambda(facets, o);
+    let common_factor = facet_distribution(facets, m) / (4.0 * o.z);
+    let shadowing = facet_shadowing(facets, lambda_o, facet_lambda(facets, i));
     return BsdfValue(fresnel * (common_factor * shadowing), common_factor / (1.0 + lambda_o));
 }
 
 fn sample_conductor(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
-    if lobe.roughness < DELTA_ALPHA {
+    let facets = lobe_facets(lobe);
+    if facets_are_smooth(facets) {
         let wi = mirrored(surface, wo);
         if dot(wi, surface.facing_normal) <= 0.0 {
             return no_sample();
         }
         let cosine = clamp(dot(wo, surface.shading_normal), 0.0, 1.0);
-        return BsdfSample(wi, conductor_fresnel(lobe, cosine), -1.0, 1.0, false);
+        return BsdfSample(wi, conductor_reflectance(lobe, cosine), -1.0, 1.0, false);
     }
-    let frame = frame_from_normal(surface.shading_normal);
+    let frame = facet_frame(facets, surface);
     let o = to_local(frame, wo);
-    let m = sample_visible_normal(o, lobe.roughness, u, v);
+    let m = sample_visible_normal(facets, o, u, v);
     let i = 2.0 * dot(o, m) * m - o;
     let wi = frame_to_world(frame, i);
     if i.z <= 0.0 || dot(wi, surface.facing_normal) <= 0.0 {
         return no_sample();
     }
     // The weight is F G2 / G1; the distribution cancels and with it its rounding.
-    let value = conductor_value(lobe, o, i, m);
-    let fresnel = conductor_fresnel(lobe, clamp(dot(o, m), 0.0, 1.0));
-    let lambda_o = ggx_lambda(o, lobe.roughness);
-    let weight = fresnel * ((1.0 + lambda_o) / (1.0 + lambda_o + ggx_lambda(i, lobe.roughness)));
+    let value = conductor_value(lobe, facets, o, i, m);
+    let fresnel = conductor_reflectance(lobe, clamp(dot(o, m), 0.0, 1.0));
+    let lambda_o = facet_lambda(facets, o);
+    let weight = fresnel * facet_shadowing_of_visible(facets, lambda_o, facet_lambda(facets, i));
     return BsdfSample(wi, weight, value.pdf_solid_angle, 1.0, false);
 }

@@ -1,4 +1,4 @@
-// Rough glass with GGX microfacets.
+// Rough glass of microfacets.
 #import core/layout.wgsl
 #import core/math.wgsl
 #import shading/dielectric.wgsl
@@ -10,7 +10,7 @@
 #import shading/surface.wgsl
 
 fn rough_glass_is_non_delta(lobe: Lobe) -> bool {
-    return lobe.roughness >= DELTA_ALPHA;
+    return !facets_are_smooth(lobe_facets(lobe));
 }
 
 fn rough_glass_sampling_weight(lobe: Lobe) -> f32 {
@@ -20,23 +20,24 @@ fn rough_glass_sampling_weight(lobe: Lobe) -> f32 {
 // Both lobes by the side of wi. The refraction's half vector lies along wo + eta wi; its Jacobian is Walter et al. 2007, equation 17
 // with eta = transmitted over incident: |wi·m| / (wi·m + wo·m / eta)². Radiance is scaled by 1 / eta².
 fn evaluate_rough_glass(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
-    if lobe.roughness < DELTA_ALPHA {
+    let facets = lobe_facets(lobe);
+    if facets_are_smooth(facets) {
         return no_value();
     }
     let reflects = on_wo_side(surface, wi);
     if !reflects && !on_far_side(surface, wi) {
         return no_value();
     }
-    let frame = frame_from_normal(surface.shading_normal);
+    let frame = facet_frame(facets, surface);
     let o = to_local(frame, wo);
     let i = to_local(frame, wi);
     let eta = relative_ior(lobe, surface);
     var m = normalize(o + select(eta, 1.0, reflects) * i);
     m = select(-m, m, m.z > 0.0);
-    return rough_glass_value(lobe, o, i, m, eta, reflects);
+    return rough_glass_value(lobe, facets, o, i, m, eta, reflects);
 }
 
-fn rough_glass_value(lobe: Lobe, o: vec3<f32>, i: vec3<f32>, m: vec3<f32>, eta: f32, reflects: bool) -> BsdfValue {
+fn rough_glass_value(lobe: Lobe, facets: Facets, o: vec3<f32>, i: vec3<f32>, m: vec3<f32>, eta: f32, reflects: bool) -> BsdfValue {
     let o_m = dot(o, m);
     let i_m = dot(i, m);
     // Facets that wo or wi sees from behind do not connect them.
@@ -45,9 +46,9 @@ fn rough_glass_value(lobe: Lobe, o: vec3<f32>, i: vec3<f32>, m: vec3<f32>, eta: 
     }
     let reflected = fresnel_dielectric(min(o_m, 1.0), eta);
     let probability = reflection_probability(lobe, reflected);
-    let lambda_o = ggx_lambda(o, lobe.roughness);
-    let visible = ggx_distribution(m, lobe.roughness) * o_m / o.z;
-    let shadowing = 1.0 / (1.0 + lambda_o + ggx_lambda(i, lobe.roughness));
+    let lambda_o = facet_lambda(facets, o);
+    let visible = facet_distribution(facets, m) * o_m / o.z;
+    let shadowing = facet_shadowing(facets, lambda_o, facet_lambda(facets, i));
     let pdf_m = visible / (1.0 + lambda_o);
     if reflects {
         let jacobian = 1.0 / (4.0 * o_m);
@@ -62,12 +63,13 @@ fn rough_glass_value(lobe: Lobe, o: vec3<f32>, i: vec3<f32>, m: vec3<f32>, eta: 
 }
 
 fn sample_rough_glass(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
-    if lobe.roughness < DELTA_ALPHA {
+    let facets = lobe_facets(lobe);
+    if facets_are_smooth(facets) {
         return sample_delta_dielectric(lobe, surface, wo, choice);
     }
-    let frame = frame_from_normal(surface.shading_normal);
+    let frame = facet_frame(facets, surface);
     let o = to_local(frame, wo);
-    let m = sample_visible_normal(o, lobe.roughness, u, v);
+    let m = sample_visible_normal(facets, o, u, v);
     let eta = relative_ior(lobe, surface);
     let reflected = fresnel_dielectric(clamp(dot(o, m), 0.0, 1.0), eta);
     let probability = reflection_probability(lobe, reflected);
@@ -80,12 +82,12 @@ fn sample_rough_glass(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, 
     if reflects != (i.z > 0.0) || reflects != (dot(wi, surface.facing_normal) > 0.0) {
         return no_sample();
     }
-    let value = rough_glass_value(lobe, o, i, m, eta, reflects);
+    let value = rough_glass_value(lobe, facets, o, i, m, eta, reflects);
     if value.pdf_solid_angle <= 0.0 {
         return no_sample();
     }
-    let lambda_o = ggx_lambda(o, lobe.roughness);
-    let masking = (1.0 + lambda_o) / (1.0 + lambda_o + ggx_lambda(i, lobe.roughness));
+    let lambda_o = facet_lambda(facets, o);
+    let masking = facet_shadowing_of_visible(facets, lambda_o, facet_lambda(facets, i));
     if reflects {
         return BsdfSample(wi, lobe.color0 * (reflected / probability * masking), value.pdf_solid_angle, 1.0, false);
     }

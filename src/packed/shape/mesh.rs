@@ -13,7 +13,8 @@ pub fn add(mesh: &Mesh, placement: &Placement<'_>, push: &mut dyn FnMut(Triangle
     let normals = if mesh.smooth && !mesh.normals.is_empty() { placement.shape.world_normals() } else { Vec::new() };
     for (index, face) in placement.shape.world_faces().into_iter().enumerate() {
         let corners = face.map(|corner| corner as usize);
-        let textured = !mesh.uvs.is_empty() && placement.is_textured(index);
+        // Without coordinates they are all 0, which says that they grow in no direction.
+        let textured = placement.is_textured(index);
         let attributes = (!normals.is_empty() || textured).then(|| {
             let corner_normals = if normals.is_empty() { [Vec3::ZERO; 3] } else { corners.map(|c| normals[c]) };
             let corner_uvs = if mesh.uvs.is_empty() { [Vec2::ZERO; 3] } else { corners.map(|c| mesh.uvs[c]) };

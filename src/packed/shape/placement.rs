@@ -7,7 +7,7 @@ use crate::scene::Shape;
 pub struct Placement<'a> {
     pub shape: &'a Shape,
     pub to_world: DAffine3,
-    /// By material: it looks up a texture.
+    /// By material: it depends on texture coordinates.
     pub textured: &'a [bool],
 }
 
@@ -33,7 +33,7 @@ impl<'a> Placement<'a> {
         self.to_world.matrix3.determinant().abs().cbrt()
     }
 
-    /// The material of a face looks up a texture.
+    /// The material of a face depends on texture coordinates.
     pub fn is_textured(&self, face: usize) -> bool {
         self.textured[self.shape.face_material(face)]
     }

@@ -8,7 +8,8 @@ use crate::packed::material::{self, PackedMaterial};
 use crate::packed::scene::PackedScene;
 use crate::packed::shape::PrimitiveKind;
 use crate::packed::texture::{self, PackedTexture, PackedTextureKind, TexelFormat};
-use crate::scene::material::COMPLEX_FRESNEL;
+use crate::scene::LobeKind;
+use crate::scene::material::FORMS;
 use crate::scene::validate::MOST_OCTAVES;
 
 /// Most texels along a side of an image: kernels compute with twice as many in signed numbers.
@@ -29,8 +30,9 @@ impl PackedScene {
             self.check_material(material).map_err(|message| format!("material {index} {message}"))?;
         }
         for (index, part) in materials.parts.iter().enumerate() {
-            if !is_within(part.first_factor, part.factor_count, materials.weights.len()) {
-                return Err(format!("part {index} has {} factors from {} on", part.factor_count, part.first_factor));
+            let count = part.factor_count & !material::PART_FRONT_ONLY;
+            if !is_within(part.first_factor, count, materials.weights.len()) {
+                return Err(format!("part {index} has {count} factors from {} on", part.first_factor));
             }
         }
         for (index, weight) in materials.weights.iter().enumerate() {
@@ -46,13 +48,21 @@ impl PackedScene {
 
     fn check_material(&self, material: &PackedMaterial) -> Check {
         let is_blend = material.kind() == material::BLEND;
-        if material.kind() > material::BLEND || material.kind_and_form >> material::FORM_SHIFT > COMPLEX_FRESNEL {
+        if material.kind() > material::BLEND || material.kind_and_form >> material::FORM_SHIFT & !FORMS != 0 {
             return Err(format!("is of kind {:#x}", material.kind_and_form));
         }
-        let own_flags = material::EMITS | material::EMITS_TWO_SIDED | material::LETS_THROUGH;
+        let own_flags = material::EMITS | material::EMITS_TWO_SIDED | material::LETS_THROUGH | material::FRONT_ONLY;
         let known_flags = own_flags | if is_blend { material::PARTS_EMIT } else { 0 };
         if material.emission_flags & !known_flags != 0 {
             return Err(format!("has the flags {:#x}", material.emission_flags));
+        }
+        let lobe = LobeKind::ALL.get(material.kind() as usize);
+        let [count, to_look_up] = lobe.map_or([0, 0], |lobe| lobe.further_counts());
+        let [first, looked_up] = [material.further & ((1 << material::FURTHER_SHIFT) - 1), material.looked_up()];
+        let has_all = looked_up as usize == to_look_up && is_within(first, count as u32, self.materials.further.len());
+        let has_none = material.further == 0 && !lobe.is_some_and(|lobe| lobe.needs_further());
+        if !has_none && !has_all {
+            return Err(format!("has further parameters from {first} on, of which {looked_up} are looked up"));
         }
         if is_blend {
             let parts = &self.materials.parts;

@@ -8,7 +8,7 @@ use crate::packed::attributes::TriangleAttributes;
 use crate::packed::blend_weight::PackedBlendWeight;
 use crate::packed::bvh4::Node;
 use crate::packed::light::PackedLight;
-use crate::packed::material::{BLEND, PackedBlendPart, PackedMaterial};
+use crate::packed::material::{BLEND, PackedBlendPart, PackedMaterial, PackedParameter};
 use crate::packed::primitive::Primitive;
 use crate::packed::scene::PackedScene;
 use crate::packed::texture::{PackedTexture, PackedTextureKind};
@@ -20,6 +20,7 @@ pub enum Array {
     Attributes,
     Nodes,
     Materials,
+    Parameters,
     BlendParts,
     Weights,
     Lights,
@@ -27,11 +28,12 @@ pub enum Array {
 }
 
 impl Array {
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Primitives,
         Self::Attributes,
         Self::Nodes,
         Self::Materials,
+        Self::Parameters,
         Self::BlendParts,
         Self::Weights,
         Self::Lights,
@@ -45,6 +47,7 @@ impl Array {
             Self::Attributes => &ATTRIBUTES,
             Self::Nodes => &NODE,
             Self::Materials => &MATERIAL,
+            Self::Parameters => &PARAMETER,
             Self::BlendParts => &BLEND_PART,
             Self::Weights => &WEIGHT,
             Self::Lights => &LIGHT,
@@ -59,6 +62,7 @@ impl Array {
             Self::Attributes => size_of::<TriangleAttributes>(),
             Self::Nodes => size_of::<Node>(),
             Self::Materials => size_of::<PackedMaterial>(),
+            Self::Parameters => size_of::<PackedParameter>(),
             Self::BlendParts => size_of::<PackedBlendPart>(),
             Self::Weights => size_of::<PackedBlendWeight>(),
             Self::Lights => size_of::<PackedLight>(),
@@ -74,6 +78,7 @@ impl Array {
             Self::Attributes => bytemuck::cast_slice(&scene.attributes),
             Self::Nodes => bytemuck::cast_slice(&scene.hierarchy.nodes),
             Self::Materials => bytemuck::cast_slice(&scene.materials.materials),
+            Self::Parameters => bytemuck::cast_slice(&scene.materials.further),
             Self::BlendParts => bytemuck::cast_slice(&scene.materials.parts),
             Self::Weights => bytemuck::cast_slice(&scene.materials.weights),
             Self::Lights => bytemuck::cast_slice(&scene.lights),
@@ -123,7 +128,7 @@ const NODE: [(usize, Word); 3] = [
     (word!(Node, first_primitive_and_sizes), Checked),
 ];
 
-const MATERIAL: [(usize, Word); 10] = [
+const MATERIAL: [(usize, Word); 11] = [
     (word!(PackedMaterial, kind_and_form), Checked),
     // The run of a blend's parts.
     (word!(PackedMaterial, color1), CheckedIn(is_blend)),
@@ -135,7 +140,10 @@ const MATERIAL: [(usize, Word); 10] = [
     (word!(PackedMaterial, color1_texture), Optional(Array::Textures)),
     (word!(PackedMaterial, roughness_texture), Optional(Array::Textures)),
     (word!(PackedMaterial, normal_map), Optional(Array::Textures)),
+    (word!(PackedMaterial, further), Checked),
 ];
+
+const PARAMETER: [(usize, Word); 1] = [(word!(PackedParameter, texture), Optional(Array::Textures))];
 
 const BLEND_PART: [(usize, Word); 3] = [
     (word!(PackedBlendPart, material), Index(Array::Materials)),

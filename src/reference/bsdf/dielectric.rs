@@ -44,7 +44,17 @@ impl Dielectric {
     /// Chooses reflection with a probability P in proportion to the light each direction carries, Fresnel's F for equal tints:
     /// P = F·max ρ / (F·max ρ + (1−F)·max τ). None where neither carries any. `cosine` is that of wo with the facet's normal.
     pub fn split(&self, cosine: f64, eta: f64) -> Option<Split> {
-        let fresnel = dielectric_reflectance(cosine, eta);
+        self.split_by(dielectric_reflectance(cosine, eta))
+    }
+
+    /// The same of a plate with two boundaries. Light that goes to and fro between them adds up to R = F + (1−F)²F/(1−F²) = 2F/(1+F); the
+    /// rest goes through. From either side the plate is denser than what it stands in.
+    pub fn split_of_plate(&self, cosine: f64) -> Option<Split> {
+        let fresnel = dielectric_reflectance(cosine.clamp(0.0, 1.0), self.ior);
+        self.split_by(2.0 * fresnel / (1.0 + fresnel))
+    }
+
+    fn split_by(&self, fresnel: f64) -> Option<Split> {
         let reflected = fresnel * self.reflectance.max_element();
         let transmitted = (1.0 - fresnel) * self.transmittance.max_element();
         let sum = reflected + transmitted;
@@ -65,5 +75,17 @@ impl Dielectric {
         let weight = self.transmittance * ((1.0 - fresnel) / (1.0 - choose_reflection) / (eta * eta));
         // An interpolated normal may refract to the side the light came from, where there is nothing to enter.
         view.transmits(wi).then_some(BsdfSample { wi, weight, density: Density::Delta, eta, is_null: false })
+    }
+
+    /// A direction reflected by a smooth plate, or the one straight on.
+    pub fn sample_delta_plate(&self, view: &View, u_lobe: f64) -> Option<BsdfSample> {
+        let Split { fresnel, choose_reflection } = self.split_of_plate(view.wo.dot(view.normal()))?;
+        if u_lobe < choose_reflection {
+            let wi = view.mirrored();
+            let weight = self.reflectance * (fresnel / choose_reflection);
+            return view.reflects(wi).then_some(BsdfSample { weight, ..BsdfSample::reflected(wi, Density::Delta) });
+        }
+        let weight = self.transmittance * ((1.0 - fresnel) / (1.0 - choose_reflection));
+        Some(BsdfSample { weight, ..BsdfSample::reflected(-view.wo, Density::Delta) })
     }
 }

@@ -67,16 +67,21 @@ impl Lobes {
 impl Bsdf {
     /// `u_blend` picks the material where one is picked.
     pub fn new(scene: &Scene, surface: &Surface, wo: DVec3, u_blend: f64) -> Self {
-        let view = View::new(wo, surface.point.normal, surface.shading_normal).with_hemisphere(scene.render.hemisphere);
+        let view = View::new(wo, surface.point.normal, surface.shading_normal)
+            .with_hemisphere(scene.render.hemisphere)
+            .with_tangents(surface.tangents);
         let lookup = Lookup::new(scene, surface, &view);
         let material = surface.owner.material;
         if scene.render.blend == BlendMode::Pick {
-            let picked = pick(&lookup, material, u_blend).and_then(|part| Lobe::of(&part.kind, &lookup));
+            let picked = pick(&lookup, material, u_blend).filter(|(_, two_sided)| *two_sided || view.front);
+            let picked = picked.and_then(|(part, _)| Lobe::of(&part.kind, &lookup));
             return Self::mixture(view, picked.map(|lobe| (lobe, 1.0)));
         }
         let mut lobes = Collected::default();
-        blend::for_each_part(&lookup, material, |part, weight| {
-            if let Some(lobe) = Lobe::of(&part.kind, &lookup) {
+        blend::for_each_sided_part(&lookup, material, |part, weight, two_sided| {
+            if (two_sided || view.front)
+                && let Some(lobe) = Lobe::of(&part.kind, &lookup)
+            {
                 lobes.push(lobe, weight);
             }
         });
@@ -169,13 +174,13 @@ impl Collected {
 }
 
 /// The part whose share of [0, 1), as long as its weight, holds `u`.
-fn pick<'a>(lookup: &Lookup<'a>, material: MaterialId, u: f64) -> Option<&'a Material> {
+fn pick<'a>(lookup: &Lookup<'a>, material: MaterialId, u: f64) -> Option<(&'a Material, bool)> {
     let (mut before, mut picked) = (0.0, None);
-    blend::for_each_part(lookup, material, |part, weight| {
+    blend::for_each_sided_part(lookup, material, |part, weight, two_sided| {
         if !part.is_blend() {
             // The last one also gets what rounding leaves.
             if u >= before || picked.is_none() {
-                picked = Some(part);
+                picked = Some((part, two_sided));
             }
             before += weight;
         }

@@ -40,13 +40,12 @@ impl PhongGlass {
 
 impl Scatter for PhongGlass {
     fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
-        let MaterialKind::RoughGlass { ior, alpha, distribution: MicrofacetDistribution::Phong, reflectance, transmittance } =
-            kind
-        else {
+        let MaterialKind::RoughGlass { ior, facets, reflectance, transmittance, thin: _ } = kind else { return None };
+        if facets.distribution != MicrofacetDistribution::Phong {
             return None;
-        };
+        }
         let dielectric = Dielectric::new(*ior, reflectance, transmittance, lookup);
-        Some(Self { dielectric, exponent: lookup.exponent(alpha) })
+        Some(Self { dielectric, exponent: lookup.exponent(&facets.alpha) })
     }
 
     fn sampling_weight(&self) -> f64 {

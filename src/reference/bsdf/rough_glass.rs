@@ -1,14 +1,14 @@
-//! Rough dielectrics with GGX microfacets (Walter et al. 2007).
+//! Rough dielectrics (Walter et al. 2007).
 
 use glam::DVec3;
 
 use super::dielectric::{Dielectric, Split};
 use super::fresnel::refract;
 use super::lookup::Lookup;
-use super::microfacet::Ggx;
+use super::microfacet::Facets;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
-use crate::scene::material::{DELTA_ALPHA, SMALLEST_BEND};
+use crate::scene::material::SMALLEST_BEND;
 use crate::scene::{MaterialKind, MicrofacetDistribution};
 
 /// Every microfacet m reflects and refracts as smooth glass does. With η the index of refraction on wi's side over that on wo's,
@@ -24,16 +24,16 @@ use crate::scene::{MaterialKind, MicrofacetDistribution};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoughGlass {
     pub dielectric: Dielectric,
-    pub ggx: Ggx,
+    pub facets: Facets,
 }
 
 impl RoughGlass {
     fn evaluate_reflection(&self, wo: DVec3, wi: DVec3, eta: f64) -> Option<Evaluation> {
         let m = (wo + wi).normalize();
         let Split { fresnel, choose_reflection } = self.dielectric.split(wo.dot(m), eta)?;
-        let unshadowed = self.ggx.distribution(m) / (4.0 * wo.z);
-        let value = self.dielectric.reflectance * (fresnel * unshadowed * self.ggx.shadowing_masking(wo, wi));
-        Some(Evaluation { value, pdf: choose_reflection * unshadowed * self.ggx.masking(wo) })
+        let unshadowed = self.facets.distribution(m) / (4.0 * wo.z);
+        let value = self.dielectric.reflectance * (fresnel * unshadowed * self.facets.shadowing_masking(wo, wi));
+        Some(Evaluation { value, pdf: choose_reflection * unshadowed * self.facets.masking(wo) })
     }
 
     fn evaluate_transmission(&self, wo: DVec3, wi: DVec3, eta: f64) -> Option<Evaluation> {
@@ -46,20 +46,20 @@ impl RoughGlass {
             return None;
         }
         let Split { fresnel, choose_reflection } = self.dielectric.split(cos_o, eta)?;
-        let common = self.ggx.distribution(m) * cos_o * -cos_i / (wo.z * (cos_o + eta * cos_i).powi(2));
-        let value = self.dielectric.transmittance * ((1.0 - fresnel) * common * self.ggx.shadowing_masking(wo, wi));
-        Some(Evaluation { value, pdf: (1.0 - choose_reflection) * common * self.ggx.masking(wo) * eta * eta })
+        let common = self.facets.distribution(m) * cos_o * -cos_i / (wo.z * (cos_o + eta * cos_i).powi(2));
+        let value = self.dielectric.transmittance * ((1.0 - fresnel) * common * self.facets.shadowing_masking(wo, wi));
+        Some(Evaluation { value, pdf: (1.0 - choose_reflection) * common * self.facets.masking(wo) * eta * eta })
     }
 }
 
 impl Scatter for RoughGlass {
     fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
-        let MaterialKind::RoughGlass { ior, alpha, distribution: MicrofacetDistribution::Ggx, reflectance, transmittance } = kind
-        else {
+        let MaterialKind::RoughGlass { ior, facets, reflectance, transmittance, thin: false } = kind else { return None };
+        if facets.distribution == MicrofacetDistribution::Phong {
             return None;
-        };
+        }
         let dielectric = Dielectric::new(*ior, reflectance, transmittance, lookup);
-        Some(Self { dielectric, ggx: Ggx { alpha: lookup.scalar(alpha) } })
+        Some(Self { dielectric, facets: Facets::of(facets, lookup) })
     }
 
     fn sampling_weight(&self) -> f64 {
@@ -68,14 +68,15 @@ impl Scatter for RoughGlass {
 
     /// Where it is smooth, or hardly bends light.
     fn is_delta(&self) -> bool {
-        self.ggx.alpha < DELTA_ALPHA || (self.dielectric.ior - 1.0).abs() < SMALLEST_BEND
+        self.facets.are_smooth() || (self.dielectric.ior - 1.0).abs() < SMALLEST_BEND
     }
 
     fn evaluate(&self, view: &View, wi: DVec3) -> Evaluation {
         if self.is_delta() {
             return Evaluation::default();
         }
-        let (wo, local) = (view.frame.to_local(view.wo), view.frame.to_local(wi));
+        let frame = view.facet_frame(self.facets.anisotropic);
+        let (wo, local) = (frame.to_local(view.wo), frame.to_local(wi));
         let eta = self.dielectric.eta(view);
         let evaluated = if view.reflects(wi) {
             self.evaluate_reflection(wo, local, eta)
@@ -93,22 +94,23 @@ impl Scatter for RoughGlass {
         if self.is_delta() {
             return self.dielectric.sample_delta(view, u_lobe);
         }
-        let wo = view.frame.to_local(view.wo);
+        let frame = view.facet_frame(self.facets.anisotropic);
+        let wo = frame.to_local(view.wo);
         let eta = self.dielectric.eta(view);
-        let m = self.ggx.sample_visible(wo, u1, u2);
+        let m = self.facets.sample_visible(wo, u1, u2);
         let cos_o = wo.dot(m);
         let Split { fresnel, choose_reflection } = self.dielectric.split(cos_o, eta)?;
-        let shadowing = |wi: DVec3| self.ggx.shadowing_masking(wo, wi) / self.ggx.masking(wo);
-        let facet_pdf = self.ggx.visible_pdf(wo, m);
+        let shadowing = |wi: DVec3| self.facets.shadowing_of_visible(wo, wi);
+        let facet_pdf = self.facets.visible_pdf(wo, m);
         if u_lobe < choose_reflection {
             let local = m * (2.0 * cos_o) - wo;
-            let wi = view.frame.to_world(local).normalize();
+            let wi = frame.to_world(local).normalize();
             let weight = self.dielectric.reflectance * (fresnel / choose_reflection * shadowing(local));
             let density = Density::SolidAngle(choose_reflection * facet_pdf / (4.0 * cos_o));
             return view.reflects(wi).then_some(BsdfSample { weight, ..BsdfSample::reflected(wi, density) });
         }
         let local = refract(wo, m, eta)?;
-        let wi = view.frame.to_world(local).normalize();
+        let wi = frame.to_world(local).normalize();
         let cos_i = local.dot(m);
         let weight = (1.0 - fresnel) / (1.0 - choose_reflection) * shadowing(local) / (eta * eta);
         let jacobian = eta * eta * -cos_i / (cos_o + eta * cos_i).powi(2);

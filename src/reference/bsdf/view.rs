@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::math::Frame;
+use crate::reference::intersect::Tangents;
 use crate::scene::HemisphereSampling;
 
 /// A surface as seen from wo, both normals on wo's side.
@@ -16,6 +17,8 @@ pub struct View {
     pub frame: Frame,
     /// How diffuse lobes are sampled.
     pub hemisphere: HemisphereSampling,
+    /// The directions in which texture coordinates grow, where they do.
+    pub tangents: Option<Tangents>,
 }
 
 impl View {
@@ -27,11 +30,33 @@ impl View {
             // Near silhouettes an interpolated normal may turn away from the viewer; the true one does not.
             normal = geometric_normal;
         }
-        Self { wo, front, geometric_normal, frame: Frame::around(normal), hemisphere: HemisphereSampling::Cosine }
+        Self { wo, front, geometric_normal, frame: Frame::around(normal), hemisphere: HemisphereSampling::Cosine, tangents: None }
     }
 
     pub fn with_hemisphere(self, hemisphere: HemisphereSampling) -> Self {
         Self { hemisphere, ..self }
+    }
+
+    pub fn with_tangents(self, tangents: Option<Tangents>) -> Self {
+        Self { tangents, ..self }
+    }
+
+    /// The frame that microfacets lie in: x along the tangent where that matters and there is one.
+    pub(super) fn facet_frame(&self, anisotropic: bool) -> Frame {
+        match self.tangents {
+            Some(tangents) if anisotropic => Frame::along(self.normal(), tangents.along_u),
+            _ => self.frame,
+        }
+    }
+
+    /// The same, turned about the normal by an angle in radians, from the tangent towards the side where v grows.
+    pub(super) fn turned_facet_frame(&self, anisotropic: bool, angle: f64) -> Frame {
+        let frame = self.facet_frame(anisotropic);
+        if !anisotropic {
+            return frame;
+        }
+        let side = if self.tangents.is_some_and(|tangents| frame.bitangent.dot(tangents.along_v) < 0.0) { -1.0 } else { 1.0 };
+        Frame::along(frame.normal, frame.tangent * angle.cos() + frame.bitangent * (side * angle.sin()))
     }
 
     pub fn normal(&self) -> DVec3 {

@@ -9,6 +9,7 @@ mod shape;
 mod world;
 
 pub use hierarchy::PreparedRay;
+pub use normal_map::Tangents;
 pub use pose::{Moment, Pose};
 pub use ray::{Ray, SurfacePoint};
 pub use shape::Primitive;

@@ -10,7 +10,7 @@ use super::pose::{self, Moment, Pose};
 use super::ray::{Local, Ray, SurfacePoint};
 use super::shape::{self, Placement, Primitive, Triangle};
 use crate::renderer::RenderError;
-use crate::scene::{Geometry, MaterialId, MaterialKind, Mesh, Scene, Shape};
+use crate::scene::{Geometry, Material, MaterialId, MaterialKind, Mesh, Scene, Shape};
 
 /// Which of the world's surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,6 +47,8 @@ pub struct Surface {
     /// Interpolated over the faces of smooth meshes, else the geometric normal; then bent by the material's normal map.
     pub shading_normal: DVec3,
     pub uv: DVec2,
+    /// The directions in which texture coordinates grow, where the material depends on them and there are some.
+    pub tangents: Option<Tangents>,
 }
 
 /// Surfaces that exist for rays. Those of a `pass` material do not, and are left out.
@@ -61,6 +63,8 @@ pub struct World {
     infinite: Vec<(Primitive, Owner)>,
     shapes: Vec<ShapeData>,
     normal_maps: NormalMaps,
+    /// By material: it or a part of it depends on the directions of texture coordinates.
+    anisotropic: Vec<bool>,
     /// Windows that directions to the environment are sampled through; rays do not meet them.
     portals: Vec<Primitive>,
 }
@@ -101,7 +105,8 @@ impl World {
         let (primitives, owners) = leaf_order.iter().map(in_leaf_order).unzip();
         let Collected { infinite, shapes, portals, .. } = collected;
         let normal_maps = NormalMaps::new(scene);
-        Ok(Self { hierarchy, primitives, owners, scene_order, infinite, shapes, normal_maps, portals })
+        let anisotropic = scene.materials_that(Material::is_anisotropic);
+        Ok(Self { hierarchy, primitives, owners, scene_order, infinite, shapes, normal_maps, anisotropic, portals })
     }
 
     /// Leaf-order places of all primitives, in the order of the scene file; planes are not among them.
@@ -220,7 +225,7 @@ impl World {
             }
             SurfaceId::Infinite(index) => {
                 let point = self.infinite[index].0.element().point(ray, hit.distance, hit.local);
-                Surface { id: hit.surface, owner, point, shading_normal: point.normal, uv: DVec2::ZERO }
+                Surface { id: hit.surface, owner, point, shading_normal: point.normal, uv: DVec2::ZERO, tangents: None }
             }
         }
     }
@@ -235,14 +240,16 @@ impl World {
             Primitive::Triangle(_) => shape.interpolate(owner.part, local, point.normal, pose),
             Primitive::Other(element) => (point.normal, element.uv(local, at_rest)),
         };
-        let tangents = || match &self.primitives[place] {
-            Primitive::Triangle(triangle) => shape.tangents(owner.part, triangle),
-            Primitive::Other(element) => element.tangents(local, at_rest),
+        let tangents = || {
+            let at_rest = match &self.primitives[place] {
+                Primitive::Triangle(triangle) => shape.tangents(owner.part, triangle),
+                Primitive::Other(element) => element.tangents(local, at_rest),
+            };
+            at_rest.map(|tangents| pose.map_or(tangents, |pose| pose.tangents(tangents)))
         };
-        let shading_normal = self.normal_maps.bend(owner.material, normal, uv, || {
-            tangents().map(|tangents| pose.map_or(tangents, |pose| pose.tangents(tangents)))
-        });
-        Surface { id: SurfaceId::Primitive(place), owner, point, shading_normal, uv }
+        let shading_normal = self.normal_maps.bend(owner.material, normal, uv, tangents);
+        let tangents = if self.anisotropic[owner.material] { tangents() } else { None };
+        Surface { id: SurfaceId::Primitive(place), owner, point, shading_normal, uv, tangents }
     }
 }
 

@@ -16,7 +16,13 @@ use crate::statistics::{SphereBins, density_by_differences, test_directional_sam
 /// A scene whose shapes all emit grey radiance 2 from both sides, with a point light of intensity 3.
 fn glowing(shapes: Vec<Geometry>) -> (Scene, World) {
     let emission = Emission { radiance: ColorInput::grey(2.0), two_sided: true };
-    let material = Material { name: "glow".into(), kind: MaterialKind::Emissive, normal_map: None, emission: Some(emission) };
+    let material = Material {
+        name: "glow".into(),
+        kind: MaterialKind::Emissive,
+        normal_map: None,
+        emission: Some(emission),
+        two_sided: true,
+    };
     let shape = |geometry| Shape {
         label: "shape".into(),
         geometry,
@@ -150,7 +156,8 @@ fn directions_to_the_environment_and_through_portals_follow_their_density() {
     {
         let windows: Vec<Geometry> = portal.clone().into_iter().collect();
         let (mut scene, _) = glowing(windows);
-        scene.materials[0] = Material { name: "gone".into(), kind: MaterialKind::Pass, normal_map: None, emission: None };
+        scene.materials[0] =
+            Material { name: "gone".into(), kind: MaterialKind::Pass, normal_map: None, emission: None, two_sided: true };
         scene.shapes.iter_mut().for_each(|shape| shape.portal = true);
         let (zenith, horizon, ground) = (DVec3::ONE, DVec3::splat(0.5), DVec3::splat(0.2));
         scene.lights = vec![Light::Sky(Sky { zenith, horizon, ground })];

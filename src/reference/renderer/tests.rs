@@ -22,12 +22,12 @@ fn scene(size: [u32; 2]) -> Scene {
     let kinds = [
         MaterialKind::Diffuse { reflectance: ColorInput::Constant(DVec3::new(0.8, 0.5, 0.3)) },
         MaterialKind::Mirror { reflectance: grey(0.9) },
-        MaterialKind::Glass { ior: 1.5, reflectance: grey(1.0), transmittance: grey(1.0) },
+        MaterialKind::Glass { ior: 1.5, reflectance: grey(1.0), transmittance: grey(1.0), thin: false },
         MaterialKind::Emissive,
     ];
     for (index, kind) in kinds.into_iter().enumerate() {
         let emission = (index == 3).then(|| Emission { radiance: grey(20.0), two_sided: false });
-        scene.materials.push(Material { name: index.to_string(), kind, normal_map: None, emission });
+        scene.materials.push(Material { name: index.to_string(), kind, normal_map: None, emission, two_sided: true });
     }
     let floor = Geometry::Plane(Plane { point: DVec3::ZERO, normal: DVec3::Y });
     let ball = |x: f64, y: f64, radius: f64| Geometry::Sphere(Sphere { center: DVec3::new(x, y, 0.0), radius });

@@ -3,6 +3,8 @@
 use glam::DVec3;
 
 use super::blend_weight::BlendWeight;
+use super::microfacets::{Masking, MicrofacetDistribution, Microfacets};
+use super::plastic::{PlasticInterface, TRANSMITTANCE_NODES};
 use crate::scene::texture::ColorInput;
 
 /// Index into [`crate::scene::Scene::materials`].
@@ -23,9 +25,15 @@ macro_rules! material_table {
             Mirror mirror { Mirror mirror MIRROR Delta }
             Glossy glossy { Glossy glossy GLOSSY Hemisphere }
             Phong phong { Phong phong PHONG Hemisphere }
-            Glass glass { Glass glass GLASS Delta }
-            RoughGlass rough_glass { RoughGlass rough_glass ROUGH_GLASS Sphere PhongGlass phong_glass PHONG_GLASS Sphere }
+            Glass glass { Glass glass GLASS Delta ThinGlass thin_glass THIN_GLASS Delta }
+            RoughGlass rough_glass {
+                RoughGlass rough_glass ROUGH_GLASS Sphere
+                PhongGlass phong_glass PHONG_GLASS Sphere
+                RoughThinGlass rough_thin_glass ROUGH_THIN_GLASS Sphere
+            }
+            Plastic plastic { Plastic plastic PLASTIC Hemisphere RoughPlastic rough_plastic ROUGH_PLASTIC Hemisphere }
             Conductor conductor { Conductor conductor CONDUCTOR Hemisphere }
+            Principled principled { Principled principled PRINCIPLED Sphere }
             Emissive emissive {}
             Blend blend {}
             Pass pass { Null null NULL_SURFACES Delta }
@@ -45,18 +53,17 @@ pub enum MaterialKind {
     Glossy { reflectance: ColorInput, exponent: ColorInput },
     /// Modified Phong (Lafortune and Willems 1994).
     Phong { diffuse: ColorInput, specular: ColorInput, exponent: ColorInput },
-    /// Smooth dielectric with exact Fresnel equations. `ior` is inside over outside, the outside being where the normal points.
-    Glass { ior: f64, reflectance: ColorInput, transmittance: ColorInput },
-    /// Rough dielectric; `alpha` is the GGX width or, for the Phong distribution, the exponent.
-    RoughGlass {
-        ior: f64,
-        alpha: ColorInput,
-        distribution: MicrofacetDistribution,
-        reflectance: ColorInput,
-        transmittance: ColorInput,
-    },
-    /// GGX conductor with height-correlated Smith shadowing; `alpha` 0 is a smooth metal.
-    Conductor { fresnel: ConductorFresnel, alpha: ColorInput },
+    /// Smooth dielectric with exact Fresnel equations. `ior` is inside over outside, the outside being where the normal points; a `thin` one
+    /// is a plate of both boundaries, which light crosses without changing its direction.
+    Glass { ior: f64, reflectance: ColorInput, transmittance: ColorInput, thin: bool },
+    /// Rough dielectric; of a `thin` one every microfacet is a thin plate.
+    RoughGlass { ior: f64, facets: Microfacets, reflectance: ColorInput, transmittance: ColorInput, thin: bool },
+    /// A diffuse base below a dielectric surface; `nonlinear` takes account of how the colour deepens as light goes up and down within.
+    Plastic { interface: PlasticInterface, reflectance: ColorInput, specular_reflectance: ColorInput, nonlinear: bool },
+    /// Conductor of microfacets, smooth where their width is 0. What it reflects is multiplied by `specular_reflectance`.
+    Conductor { fresnel: ConductorFresnel, facets: Microfacets, specular_reflectance: ColorInput },
+    /// The material of glTF 2.0's Appendix B.
+    Principled(Box<Principled>),
     /// Reflects nothing; what it emits is the material's `emission`.
     Emissive,
     /// w0·first + (1 − w0)·second.
@@ -65,11 +72,29 @@ pub enum MaterialKind {
     Pass,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum MicrofacetDistribution {
-    Ggx,
-    /// Cosine-power perturbation of the refracted direction (Honsdorf 2013, section 5.3).
-    Phong,
+/// The parameters of glTF 2.0's metallic-roughness material and of its extensions. Scalars are the first channel of their colour.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Principled {
+    pub base_color: ColorInput,
+    pub metallic: ColorInput,
+    /// Its square is the width of the microfacets.
+    pub roughness: ColorInput,
+    /// Of the dielectric, inside over outside.
+    pub ior: f64,
+    /// Factor of what the dielectric reflects, and its colour along the normal.
+    pub specular: ColorInput,
+    pub specular_color: ColorInput,
+    /// Share of the dielectric's base that lets light through instead of scattering it back.
+    pub transmission: ColorInput,
+    /// What lets light through is a wall without thickness, which does not bend it.
+    pub thin: bool,
+    pub clearcoat: ColorInput,
+    pub clearcoat_roughness: ColorInput,
+    /// How much wider microfacets are along the direction of the anisotropy, by the square; None: not at all.
+    pub anisotropy: Option<ColorInput>,
+    /// Of that direction, from the one in which texture coordinate u grows towards that of v.
+    pub anisotropy_rotation_degrees: f64,
+    pub masking: Masking,
 }
 
 #[derive(Debug, Clone)]
@@ -81,10 +106,10 @@ pub enum ConductorFresnel {
 }
 
 /// A lobe and its parameters, in the slots that tables of materials have for them.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct LobeParameters {
     pub lobe: LobeKind,
-    /// Which of its forms the lobe has, where it has several.
+    /// Which of its forms the lobe has, where it has several: bits.
     pub form: u32,
     /// What is reflected; a diffuse share of it; or the real part of a complex index of refraction.
     pub color0: ColorInput,
@@ -93,21 +118,77 @@ pub struct LobeParameters {
     /// The width of a distribution of microfacets, or the exponent of a power of a cosine.
     pub roughness: Option<ColorInput>,
     pub ior: Option<f64>,
+    /// What further parameters the lobe has, or none where they are what the lobe takes them for by itself:
+    ///
+    /// - of a conductor, and of rough glass, thin or not, the width across the tangent, and a factor of what is reflected;
+    /// - of the principled lobe, metallic, specular, transmission, clearcoat, its roughness, anisotropy, and 1 plus the cosine and the sine of
+    ///   its rotation;
+    /// - of plastic, the share of light from within that the surface sends back;
+    /// - of rough plastic, the same, and then what the surface lets through, three angles an entry.
+    pub further: Vec<ColorInput>,
+    /// How many of those may come from textures, the first ones.
+    pub looked_up: usize,
 }
 
-/// [`LobeParameters::form`] of a conductor whose colours are its complex index of refraction.
+/// Bits of [`LobeParameters::form`]: the colours of a conductor are its complex index of refraction.
 pub const COMPLEX_FRESNEL: u32 = 1;
+/// The slopes of the microfacets are normally distributed.
+pub const BECKMANN: u32 = 2;
+/// Microfacets are masked from one side whether or not they are from the other.
+pub const SEPARABLE_MASKING: u32 = 4;
+/// The colour of plastic deepens as light goes up and down within.
+pub const NONLINEAR: u32 = 8;
+/// The width across the tangent is the square of the texture.
+pub const SQUARED_ACROSS: u32 = 16;
+/// Microfacets have two widths, one of them across the tangent.
+pub const ANISOTROPIC: u32 = 32;
+/// What lets light through is a wall without thickness.
+pub const THIN_WALL: u32 = 64;
+/// The lobe lets light through.
+pub const TRANSMITS: u32 = 128;
+/// All of these.
+pub const FORMS: u32 =
+    COMPLEX_FRESNEL | BECKMANN | SEPARABLE_MASKING | NONLINEAR | SQUARED_ACROSS | ANISOTROPIC | THIN_WALL | TRANSMITS;
+
+/// Entries that the transmittance of rough plastic takes.
+const TRANSMITTANCE_ENTRIES: usize = TRANSMITTANCE_NODES.div_ceil(3);
 
 impl LobeParameters {
     /// Of a lobe with one colour.
     fn new(lobe: LobeKind, color0: ColorInput) -> Self {
-        Self { lobe, form: 0, color0, color1: None, roughness: None, ior: None }
+        Self { lobe, form: 0, color0, color1: None, roughness: None, ior: None, further: Vec::new(), looked_up: 0 }
+    }
+
+    /// The same with microfacets, and what is reflected multiplied by `factor`.
+    fn with_facets(mut self, facets: &Microfacets, factor: ColorInput) -> Self {
+        self.roughness = Some(facets.alpha);
+        self.form |= if facets.distribution == MicrofacetDistribution::Beckmann { BECKMANN } else { 0 }
+            | if facets.masking == Masking::Separable { SEPARABLE_MASKING } else { 0 }
+            | if facets.alpha_v.is_some() { ANISOTROPIC } else { 0 };
+        if facets.alpha_v.is_some() || factor != ColorInput::grey(1.0) {
+            let across = facets.alpha_v.unwrap_or(facets.alpha);
+            self.form |= if across.is_squared() { SQUARED_ACROSS } else { 0 };
+            self.further = vec![across, factor];
+            self.looked_up = 2;
+        }
+        self
     }
 
     /// All parameters that may come from textures.
-    pub fn inputs(self) -> impl Iterator<Item = ColorInput> {
-        [Some(self.color0), self.color1, self.roughness].into_iter().flatten()
+    pub fn inputs(&self) -> impl Iterator<Item = ColorInput> {
+        [Some(self.color0), self.color1, self.roughness].into_iter().flatten().chain(self.further.iter().copied())
     }
+}
+
+/// The share of light from within that a plastic's surface sends back, and what a rough one lets through.
+fn interface_parameters(interface: &PlasticInterface) -> Vec<ColorInput> {
+    let mut further = vec![ColorInput::grey(interface.internal_reflectance())];
+    if let Some(table) = interface.transmittance_table() {
+        let at = |node: usize| f64::from(table[node.min(TRANSMITTANCE_NODES - 1)]);
+        let entry = |first: usize| ColorInput::Constant(DVec3::new(at(first), at(first + 1), at(first + 2)));
+        further.extend((0..TRANSMITTANCE_ENTRIES).map(|index| entry(3 * index)));
+    }
+    further
 }
 
 impl MaterialKind {
@@ -124,36 +205,82 @@ impl MaterialKind {
                 roughness: Some(exponent),
                 ..LobeParameters::new(LobeKind::Phong, diffuse)
             },
-            Self::Glass { ior, reflectance, transmittance } => LobeParameters {
+            Self::Glass { ior, reflectance, transmittance, thin } => LobeParameters {
                 color1: Some(transmittance),
                 ior: Some(ior),
-                ..LobeParameters::new(LobeKind::Glass, reflectance)
+                ..LobeParameters::new(if thin { LobeKind::ThinGlass } else { LobeKind::Glass }, reflectance)
             },
-            Self::RoughGlass { ior, alpha, distribution, reflectance, transmittance } => {
-                let lobe = match distribution {
-                    MicrofacetDistribution::Phong => LobeKind::PhongGlass,
-                    MicrofacetDistribution::Ggx if is_smooth_glass(alpha, ior) => LobeKind::Glass,
-                    MicrofacetDistribution::Ggx => LobeKind::RoughGlass,
+            Self::RoughGlass { ior, facets, reflectance, transmittance, thin } => {
+                let lobe = match (facets.distribution, thin) {
+                    (MicrofacetDistribution::Phong, _) => LobeKind::PhongGlass,
+                    (_, true) if facets.are_smooth() => LobeKind::ThinGlass,
+                    (_, true) => LobeKind::RoughThinGlass,
+                    (_, false) if facets.are_smooth() || (ior - 1.0).abs() < SMALLEST_BEND => LobeKind::Glass,
+                    (_, false) => LobeKind::RoughGlass,
                 };
-                LobeParameters {
-                    color1: Some(transmittance),
-                    roughness: Some(alpha),
-                    ior: Some(ior),
-                    ..LobeParameters::new(lobe, reflectance)
+                let glass =
+                    LobeParameters { color1: Some(transmittance), ior: Some(ior), ..LobeParameters::new(lobe, reflectance) };
+                match lobe {
+                    LobeKind::Glass | LobeKind::ThinGlass => LobeParameters { roughness: Some(facets.alpha), ..glass },
+                    _ => glass.with_facets(&facets, ColorInput::grey(1.0)),
                 }
             }
-            Self::Conductor { fresnel: ConductorFresnel::Complex { eta, k }, alpha } => LobeParameters {
-                form: COMPLEX_FRESNEL,
-                color1: Some(ColorInput::Constant(k)),
-                roughness: Some(alpha),
-                ..LobeParameters::new(LobeKind::Conductor, ColorInput::Constant(eta))
-            },
-            Self::Conductor { fresnel: ConductorFresnel::Reflectance(reflectance), alpha } => {
-                LobeParameters { roughness: Some(alpha), ..LobeParameters::new(LobeKind::Conductor, reflectance) }
+            Self::Plastic { ref interface, reflectance, specular_reflectance, nonlinear } => {
+                let lobe = if interface.is_rough() { LobeKind::RoughPlastic } else { LobeKind::Plastic };
+                let facets = Microfacets {
+                    alpha: ColorInput::grey(interface.alpha),
+                    alpha_v: None,
+                    distribution: interface.distribution,
+                    masking: interface.masking,
+                };
+                let mut plastic = LobeParameters::new(lobe, reflectance).with_facets(&facets, ColorInput::grey(1.0));
+                plastic.form |= if nonlinear { NONLINEAR } else { 0 };
+                let further = interface_parameters(interface);
+                LobeParameters { color1: Some(specular_reflectance), ior: Some(interface.ior), further, looked_up: 1, ..plastic }
             }
+            Self::Conductor { ref fresnel, facets, specular_reflectance } => {
+                let (form, color0, color1) = match *fresnel {
+                    ConductorFresnel::Complex { eta, k } => {
+                        (COMPLEX_FRESNEL, ColorInput::Constant(eta), Some(ColorInput::Constant(k)))
+                    }
+                    ConductorFresnel::Reflectance(reflectance) => (0, reflectance, None),
+                };
+                LobeParameters { form, color1, ..LobeParameters::new(LobeKind::Conductor, color0) }
+                    .with_facets(&facets, specular_reflectance)
+            }
+            Self::Principled(ref principled) => principled.lobe(),
             Self::Pass => LobeParameters::new(LobeKind::Null, ColorInput::grey(0.0)),
             Self::Emissive | Self::Blend { .. } => return None,
         })
+    }
+}
+
+impl Principled {
+    fn lobe(&self) -> LobeParameters {
+        let zero = ColorInput::grey(0.0);
+        let turned = self.anisotropy_rotation_degrees.to_radians();
+        let form = if self.masking == Masking::Separable { SEPARABLE_MASKING } else { 0 }
+            | if self.anisotropy.is_some() { ANISOTROPIC } else { 0 }
+            | if self.thin { THIN_WALL } else { 0 }
+            | if self.transmission == zero { 0 } else { TRANSMITS };
+        let further = vec![
+            self.metallic,
+            self.specular,
+            self.transmission,
+            self.clearcoat,
+            self.clearcoat_roughness,
+            self.anisotropy.unwrap_or(zero),
+            ColorInput::Constant(DVec3::new(1.0 + turned.cos(), 1.0 + turned.sin(), 0.0)),
+        ];
+        LobeParameters {
+            form,
+            color1: Some(self.specular_color),
+            roughness: Some(self.roughness),
+            ior: Some(self.ior),
+            looked_up: further.len(),
+            further,
+            ..LobeParameters::new(LobeKind::Principled, self.base_color)
+        }
     }
 }
 
@@ -161,11 +288,6 @@ impl MaterialKind {
 pub const DELTA_ALPHA: f64 = 1e-4;
 /// An index of refraction nearer to 1 than this bends no ray that rounding would not: such glass sends light straight on, however rough.
 pub const SMALLEST_BEND: f64 = 1e-4;
-
-/// Rough glass that is smooth all over the surface.
-fn is_smooth_glass(alpha: ColorInput, ior: f64) -> bool {
-    matches!(alpha, ColorInput::Constant(alpha) if alpha.x < DELTA_ALPHA) || (ior - 1.0).abs() < SMALLEST_BEND
-}
 
 /// The directions that a lobe scatters into.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -176,6 +298,24 @@ pub enum LobeSupport {
     Hemisphere,
     /// Both sides.
     Sphere,
+}
+
+impl LobeKind {
+    /// How many [further parameters](LobeParameters::further) the lobe has where it has some, and how many of them are looked up.
+    pub(crate) fn further_counts(self) -> [usize; 2] {
+        match self {
+            Self::Conductor | Self::RoughGlass | Self::RoughThinGlass => [2, 2],
+            Self::Plastic => [1, 1],
+            Self::Principled => [7, 7],
+            Self::RoughPlastic => [1 + TRANSMITTANCE_ENTRIES, 1],
+            _ => [0, 0],
+        }
+    }
+
+    /// The lobe cannot do without them.
+    pub(crate) fn needs_further(self) -> bool {
+        matches!(self, Self::Plastic | Self::RoughPlastic | Self::Principled)
+    }
 }
 
 /// What the table of materials says of lobes and of names.
@@ -200,6 +340,7 @@ macro_rules! kinds {
                 match self { $($(Self::$lobe => stringify!($number),)*)* }
             }
 
+            /// The directions that it scatters into.
             pub fn support(self) -> LobeSupport {
                 match self { $($(Self::$lobe => LobeSupport::$support,)*)* }
             }

@@ -2,13 +2,17 @@
 
 mod blend_weight;
 mod kind;
+mod microfacets;
+mod plastic;
 
 pub use blend_weight::BlendWeight;
 pub(crate) use kind::material_table;
 pub use kind::{
-    COMPLEX_FRESNEL, ConductorFresnel, DELTA_ALPHA, LobeKind, LobeParameters, LobeSupport, MaterialId, MaterialKind,
-    MicrofacetDistribution, SMALLEST_BEND,
+    ANISOTROPIC, BECKMANN, COMPLEX_FRESNEL, ConductorFresnel, DELTA_ALPHA, FORMS, LobeKind, LobeParameters, LobeSupport,
+    MaterialId, MaterialKind, NONLINEAR, Principled, SEPARABLE_MASKING, SMALLEST_BEND, SQUARED_ACROSS, THIN_WALL, TRANSMITS,
 };
+pub use microfacets::{Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};
+pub use plastic::{PlasticInterface, TRANSMITTANCE_NODES, diffuse_reflectance};
 
 use super::texture::{ColorInput, TextureId};
 
@@ -20,6 +24,8 @@ pub struct Material {
     pub normal_map: Option<TextureId>,
     /// Radiance the surface sends out by itself, whatever it reflects.
     pub emission: Option<Emission>,
+    /// Both sides scatter light. Else the back is black, whatever the material is made of.
+    pub two_sided: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,6 +46,15 @@ impl Material {
         match &self.kind {
             MaterialKind::Blend { materials, .. } => materials,
             _ => &[],
+        }
+    }
+
+    /// The material itself, not those it blends, depends on the directions in which texture coordinates grow, where there are some.
+    pub fn is_anisotropic(&self) -> bool {
+        match &self.kind {
+            MaterialKind::RoughGlass { facets, .. } | MaterialKind::Conductor { facets, .. } => facets.alpha_v.is_some(),
+            MaterialKind::Principled(principled) => principled.anisotropy.is_some(),
+            _ => false,
         }
     }
 

@@ -6,12 +6,13 @@ use super::*;
 use crate::reference::ReferenceRenderer;
 use crate::renderer::RenderError;
 use crate::scene::{
-    Aperture, ConductorFresnel, Cuboid, DirectionalLight, Disk, Emission, Geometry, ImageData, ImageTexture, Mesh, Motion,
-    MotionStep, Plane, PointLight, Rectangle, Sphere, SpotLight, Texture, TextureFilter, TextureWrap, Transform, TransformStep,
+    Aperture, ConductorFresnel, Cuboid, DirectionalLight, Disk, Emission, Geometry, ImageData, ImageTexture, Mesh, Microfacets,
+    Motion, MotionStep, Plane, PointLight, Rectangle, Sphere, SpotLight, Texture, TextureFilter, TextureWrap, Transform,
+    TransformStep,
 };
 
 fn material(name: &str, kind: MaterialKind) -> Material {
-    Material { name: name.into(), kind, normal_map: None, emission: None }
+    Material { name: name.into(), kind, normal_map: None, emission: None, two_sided: true }
 }
 
 fn shape(label: &str, geometry: Geometry, material: MaterialId) -> Shape {
@@ -39,8 +40,12 @@ fn scene() -> Scene {
     }
     let grey = ColorInput::grey(0.5);
     let textured = MaterialKind::Diffuse { reflectance: ColorInput::Texture(0) };
-    let glass = MaterialKind::Glass { ior: 1.5, reflectance: grey, transmittance: grey };
-    let metal = MaterialKind::Conductor { fresnel: ConductorFresnel::Complex { eta: DVec3::ONE, k: DVec3::ONE }, alpha: grey };
+    let glass = MaterialKind::Glass { ior: 1.5, reflectance: grey, transmittance: grey, thin: false };
+    let metal = MaterialKind::Conductor {
+        fresnel: ConductorFresnel::Complex { eta: DVec3::ONE, k: DVec3::ONE },
+        facets: Microfacets::ggx(grey),
+        specular_reflectance: grey,
+    };
     let weight = BlendWeight::Reverse { of: Box::new(BlendWeight::Texture { texture: 1 }) };
     let blend = MaterialKind::Blend { materials: [1, 2], weight };
     for (name, kind) in [
@@ -158,14 +163,18 @@ fn each_mistake_is_named_with_its_part() {
         (
             |s| {
                 let white = ColorInput::grey(1.0);
-                s.materials[2].kind = MaterialKind::Glass { ior: 0.0, reflectance: white, transmittance: white };
+                s.materials[2].kind = MaterialKind::Glass { ior: 0.0, reflectance: white, transmittance: white, thin: false };
             },
             "material `glass`: the index of refraction must be positive",
         ),
         (
             |s| {
                 let fresnel = ConductorFresnel::Complex { eta: DVec3::NAN, k: DVec3::ONE };
-                s.materials[3].kind = MaterialKind::Conductor { fresnel, alpha: ColorInput::grey(0.1) };
+                s.materials[3].kind = MaterialKind::Conductor {
+                    fresnel,
+                    facets: Microfacets::ggx(ColorInput::grey(0.1)),
+                    specular_reflectance: ColorInput::grey(1.0),
+                };
             },
             "material `metal`: a colour, or a complex index of refraction",
         ),

@@ -123,6 +123,21 @@ const LOBES: &[(&str, &str)] = &[
     ("textured glass", "type = \"glass\"\ntransmittance = { texture = \"cells\" }"),
     ("textured width", "type = \"conductor\"\npreset = \"gold\"\nalpha = { texture = \"clouds\" }"),
     ("textured roughness", "type = \"rough_glass\"\nroughness = { texture = \"clouds\" }"),
+    (
+        "textured widths",
+        "type = \"conductor\"\npreset = \"gold\"\nroughness_u = { texture = \"clouds\" }\nroughness_v = { texture = \"cells\" }",
+    ),
+    ("brushed and bumpy", "type = \"conductor\"\npreset = \"gold\"\nalpha_u = 0.1\nalpha_v = 0.5\nnormal_map = \"bumps\""),
+    ("textured factor", "type = \"conductor\"\npreset = \"gold\"\nspecular_reflectance = { texture = \"cells\" }"),
+    (
+        "textured plastic",
+        "type = \"plastic\"\nreflectance = { texture = \"checks\" }\nalpha = 0.3\nspecular_reflectance = { texture = \"clouds\" }",
+    ),
+    ("black from behind", "type = \"glass\"\ntwo_sided = false"),
+    (
+        "textured principled",
+        "type = \"principled\"\nbase_color = { texture = \"checks\" }\nmetallic = { texture = \"clouds\" }\nroughness = { texture = \"cells\" }",
+    ),
     ("normal map", "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\""),
     ("normal map of a mirror", "type = \"mirror\"\nnormal_map = \"bumps\""),
     ("textured exponent", "type = \"glossy\"\nreflectance = 0.8\nexponent = { texture = \"cells\" }"),
@@ -190,6 +205,18 @@ fn every_kind_of_blend_agrees_in_every_way_to_run() {
         ("emission from both sides", blend("glow-both", "mirror", "{ type = \"texture\", texture = \"checks\" }")),
         ("textured emission", "type = \"emissive\"\nradiance = { texture = \"cells\" }".to_owned()),
         ("emission beside", blend("red", "white", half) + "\nemission = { texture = \"cells\" }\nemission_two_sided = true"),
+        (
+            "black from behind",
+            blend("front", "mirror", half)
+                + &inner("front", "type = \"plastic\"\nreflectance = [0.7, 0.3, 0.1]\ntwo_sided = false"),
+        ),
+        ("black from behind as a whole", blend("red", "gold", facing) + "\ntwo_sided = false"),
+        (
+            "plastic and principled",
+            blend("p", "q", facing)
+                + &inner("p", "type = \"plastic\"\nreflectance = 0.6")
+                + &inner("q", "type = \"principled\"\nroughness = 0.5\nmetallic = 0.5"),
+        ),
         ("pass", blend("red", "gone", half)),
         (
             "pass through a mask",

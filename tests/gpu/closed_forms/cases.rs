@@ -99,8 +99,8 @@ fn environments(cases: &mut Vec<Case>) {
     let kinds = [
         ("Lambert", MaterialKind::Diffuse { reflectance: input }, tint),
         ("mirror", MaterialKind::Mirror { reflectance: input }, tint),
-        ("glass 1.5", MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one }, DVec3::ONE),
-        ("glass 1/1.5", MaterialKind::Glass { ior: 1.0 / 1.5, reflectance: one, transmittance: one }, DVec3::ONE),
+        ("glass 1.5", MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one, thin: false }, DVec3::ONE),
+        ("glass 1/1.5", MaterialKind::Glass { ior: 1.0 / 1.5, reflectance: one, transmittance: one, thin: false }, DVec3::ONE),
     ];
     for (name, kind, expected) in kinds {
         // To within about a degree of the sphere's silhouette, at asin(1/3) = 19.47° from its middle.

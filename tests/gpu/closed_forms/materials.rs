@@ -63,17 +63,45 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
     let exponent = ColorInput::grey(12.0);
     let white_metal = |alpha: f64| MaterialKind::Conductor {
         fresnel: ConductorFresnel::Reflectance(constant(DVec3::ONE)),
-        alpha: ColorInput::grey(alpha),
+        facets: Microfacets::ggx(ColorInput::grey(alpha)),
+        specular_reflectance: ColorInput::grey(1.0),
     };
     let (eta, k) = (DVec3::new(0.18, 0.42, 1.37), DVec3::new(3.42, 2.35, 1.77));
     let normal_reflectance = ((eta - 1.0).powf(2.0) + k * k) / ((eta + 1.0).powf(2.0) + k * k);
-    let smooth_gold = MaterialKind::Conductor { fresnel: ConductorFresnel::Complex { eta, k }, alpha: ColorInput::grey(0.0) };
-    let glass = |distribution| MaterialKind::RoughGlass {
-        ior: 1.5,
-        alpha: exponent,
-        distribution,
+    let smooth_gold = MaterialKind::Conductor {
+        fresnel: ConductorFresnel::Complex { eta, k },
+        facets: Microfacets::ggx(ColorInput::grey(0.0)),
+        specular_reflectance: ColorInput::grey(1.0),
+    };
+    let glass =
+        |facets| MaterialKind::RoughGlass { ior: 1.5, facets, thin: false, reflectance: constant(a), transmittance: constant(b) };
+    let internal = 1.0 - (1.0 - 0.091_777_6) / 2.25;
+    let plastic = |nonlinear| MaterialKind::Plastic {
+        interface: PlasticInterface::smooth(1.5),
         reflectance: constant(a),
-        transmittance: constant(b),
+        specular_reflectance: constant(b),
+        nonlinear,
+    };
+    let one = constant(DVec3::ONE);
+    let facets = Microfacets::ggx(ColorInput::grey(1.0));
+    let rough_plate = MaterialKind::RoughGlass { ior: 1.5, facets, reflectance: one, transmittance: one, thin: true };
+    let principled = |base: DVec3, metallic: f64, roughness: f64, transmission: f64| {
+        let (zero, grey) = (ColorInput::grey(0.0), ColorInput::grey);
+        MaterialKind::Principled(Box::new(Principled {
+            base_color: constant(base),
+            metallic: grey(metallic),
+            roughness: grey(roughness),
+            ior: 1.5,
+            specular: one,
+            specular_color: one,
+            transmission: grey(transmission),
+            thin: true,
+            clearcoat: zero,
+            clearcoat_roughness: zero,
+            anisotropy: None,
+            anisotropy_rotation_degrees: 0.0,
+            masking: Masking::Separable,
+        }))
     };
     let kinds = [
         ("glossy", MaterialKind::Glossy { reflectance: constant(a), exponent }, a),
@@ -87,8 +115,22 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
         // Half of the light would meet a second microfacet, and more.
         ("white metal of alpha 1", white_metal(1.0), DVec3::splat(1.0 - std::f64::consts::LN_2)),
         ("smooth gold", smooth_gold, normal_reflectance),
+        // 4 % are reflected above the base, and as much comes out again as goes in.
+        ("plastic", plastic(false), 0.04 * b + 0.96 * a),
+        ("nonlinear plastic", plastic(true), 0.04 * b + 0.96 * a * (1.0 - internal) / (1.0 - a * internal)),
+        // Both boundaries reflect, and what goes to and fro between them: 2F/(1 + F).
+        (
+            "thin glass",
+            MaterialKind::Glass { ior: 1.5, reflectance: constant(a), transmittance: constant(b), thin: true },
+            (0.08 * a + 0.96 * b) / 1.04,
+        ),
+        // Of light that meets one microfacet alone, what is not reflected goes through.
+        ("rough thin glass of alpha 1", rough_plate, DVec3::splat(1.0 - std::f64::consts::LN_2)),
+        ("principled white metal", principled(DVec3::ONE, 1.0, 1.0, 0.0), DVec3::splat(1.0 - std::f64::consts::LN_2)),
+        ("principled smooth dielectric", principled(a, 0.0, 0.0, 0.0), 0.04 + a * (1.0 - reflected_by_half_vectors())),
+        ("principled thin wall", principled(a, 0.0, 0.0, 1.0), 0.04 + 0.96 * a),
         // 4 % are reflected; the rest is spread over a cone ior² times as large.
-        ("Phong glass", glass(MicrofacetDistribution::Phong), 0.04 * a + 0.96 / 2.25 * b),
+        ("Phong glass", glass(Microfacets::phong(exponent)), 0.04 * a + 0.96 / 2.25 * b),
     ];
     for (name, kind, expected) in kinds {
         let mut scene = spot(256, 0.0);
@@ -96,6 +138,14 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
         floor_at_spot(&mut scene, material);
         push(cases, name, &scene, expected, &ALL);
     }
+}
+
+/// ∫ F(cos θ/2) cosθ/π dω with Schlick's F from 0.04 on: of light along the normal, what the half vectors take from a diffuse base.
+fn reflected_by_half_vectors() -> f64 {
+    let count = 10_000;
+    let at = |step: u32| (f64::from(step) + 0.5) / f64::from(count);
+    let fresnel = |cosine: f64| 0.04 + 0.96 * (1.0 - ((1.0 + cosine) / 2.0).sqrt()).powi(5);
+    (0..count).map(|step| 2.0 * at(step) * fresnel(at(step))).sum::<f64>() / f64::from(count)
 }
 
 /// ρ1 + (ρ0 − ρ1)·w0, w0 by the angle of view or by a texture.
@@ -165,7 +215,9 @@ fn blends_with_delta_lobes(cases: &mut Vec<Case>) {
     let mut scene = sphere_before(128);
     let (shiny, light, dark) = (mirror(&mut scene), diffuse(&mut scene, 0.6), diffuse(&mut scene, 0.2));
     let fresnel = ConductorFresnel::Reflectance(ColorInput::grey(1.0));
-    let metal = material(&mut scene, MaterialKind::Conductor { fresnel, alpha: ColorInput::grey(0.0) }, None);
+    let facets = Microfacets::ggx(ColorInput::grey(0.0));
+    let metal = MaterialKind::Conductor { fresnel, facets, specular_reflectance: ColorInput::grey(1.0) };
+    let metal = material(&mut scene, metal, None);
     let inner = blend(&mut scene, dark, metal, half());
     let middle = blend(&mut scene, light, inner, BlendWeight::Constant { value: 0.4 });
     let outer = blend(&mut scene, shiny, middle, BlendWeight::Constant { value: 0.25 });

@@ -25,7 +25,7 @@ pub fn camera(position: DVec3, look_at: DVec3, vertical_fov_degrees: f64) -> Cam
 /// Adds a material and gives its index.
 pub fn material(scene: &mut Scene, kind: MaterialKind, emission: Option<Emission>) -> MaterialId {
     let name = format!("material {}", scene.materials.len());
-    scene.materials.push(Material { name, kind, normal_map: None, emission });
+    scene.materials.push(Material { name, kind, normal_map: None, emission, two_sided: true });
     scene.materials.len() - 1
 }
 
@@ -47,7 +47,7 @@ pub fn emissive(scene: &mut Scene, radiance: DVec3) -> MaterialId {
 
 pub fn glass(scene: &mut Scene, ior: f64) -> MaterialId {
     let one = ColorInput::grey(1.0);
-    material(scene, MaterialKind::Glass { ior, reflectance: one, transmittance: one }, None)
+    material(scene, MaterialKind::Glass { ior, reflectance: one, transmittance: one, thin: false }, None)
 }
 
 pub fn shape(scene: &mut Scene, geometry: Geometry, material: MaterialId) {

@@ -5,21 +5,33 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::keys::{MaterialKeys, material_keys};
-use super::roughness::ggx_alpha;
+use super::roughness::{DistributionEntry, FacetKeys, MaskingEntry};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Colour, Fraction, Located, NonNegative, Positive, Rgb, Scalar};
-use crate::scene::{ColorInput, ConductorFresnel, MaterialKind};
+use crate::scene::{ColorInput, ConductorFresnel, MaterialKind, Microfacets};
 
 material_keys! {
-    /// GGX with height-correlated Smith shadowing: `eta` and `k`, a `preset`, or `reflectance`.
+    /// A metal, smooth or of microfacets: `eta` and `k`, a `preset`, or `reflectance`.
     #[schemars(extend("allOf" = [
         { "oneOf": [
             { "required": ["eta", "k"], "not": { "anyOf": [{ "required": ["preset"] }, { "required": ["reflectance"] }] } },
             { "required": ["preset"], "not": { "anyOf": [{ "required": ["eta"] }, { "required": ["k"] }, { "required": ["reflectance"] }] } },
             { "required": ["reflectance"], "not": { "anyOf": [{ "required": ["eta"] }, { "required": ["k"] }, { "required": ["preset"] }] } },
         ] },
-        { "not": { "required": ["alpha", "roughness"] } },
+        { "not": { "anyOf": [
+            { "required": ["alpha", "roughness"] }, { "required": ["alpha", "alpha_u"] }, { "required": ["alpha", "roughness_u"] },
+            { "required": ["roughness", "alpha_u"] }, { "required": ["roughness", "roughness_u"] }, { "required": ["alpha_u", "roughness_u"] },
+        ] } },
+        { "dependentRequired": {
+            "alpha_u": ["alpha_v"], "alpha_v": ["alpha_u"], "roughness_u": ["roughness_v"], "roughness_v": ["roughness_u"],
+        } },
+        {
+            "if": { "anyOf": [{ "required": ["distribution"] }, { "required": ["masking"] }] },
+            "then": { "anyOf": [
+                { "required": ["alpha"] }, { "required": ["roughness"] }, { "required": ["alpha_u"] }, { "required": ["roughness_u"] },
+            ] },
+        },
     ]))]
     {
         /// A metal whose eta and k are known.
@@ -28,10 +40,24 @@ material_keys! {
         k: Option<Located<Rgb<NonNegative>>>,
         /// At normal incidence (Schlick's approximation).
         reflectance: Option<Located<Colour<Fraction>>>,
-        /// GGX width; 0, a smooth metal, when left out.
+        /// Factor of what is reflected, 1 when left out.
+        specular_reflectance: Option<Colour<Fraction>>,
+        /// Width of the microfacets; 0, a smooth metal, when left out.
         alpha: Option<Located<Scalar<Fraction>>>,
         /// alpha = roughness²
         roughness: Option<Located<Scalar<Fraction>>>,
+        /// Width along the direction in which texture coordinate u grows, instead of `alpha`.
+        alpha_u: Option<Located<Scalar<Fraction>>>,
+        /// And across it.
+        alpha_v: Option<Located<Scalar<Fraction>>>,
+        /// alpha_u = roughness_u²
+        roughness_u: Option<Located<Scalar<Fraction>>>,
+        /// alpha_v = roughness_v²
+        roughness_v: Option<Located<Scalar<Fraction>>>,
+        /// "ggx" when left out.
+        distribution: Option<Located<DistributionEntry>>,
+        /// "height_correlated" when left out.
+        masking: Option<Located<MaskingEntry>>,
     }
 }
 
@@ -45,8 +71,15 @@ pub enum MetalEntry {
 }
 
 impl MaterialKeys for Keys {
-    const EXAMPLES: &'static [&'static str] =
-        &["preset = \"copper\"\nroughness = 0.3", "reflectance = [0.9, 0.6, 0.3]\nalpha = 0.3", "preset = \"silver\""];
+    const EXAMPLES: &'static [&'static str] = &[
+        "preset = \"copper\"\nroughness = 0.3",
+        "reflectance = [0.9, 0.6, 0.3]\nalpha = 0.3",
+        "preset = \"silver\"",
+        "preset = \"gold\"\nalpha = 0.4\ndistribution = \"beckmann\"\nspecular_reflectance = [0.5, 0.8, 0.9]",
+        "preset = \"aluminium\"\nalpha_u = 0.6\nalpha_v = 0.15\nmasking = \"separable\"",
+        "reflectance = [0.9, 0.6, 0.3]\nroughness_u = 0.3\nroughness_v = 0.8\ndistribution = \"beckmann\"\nmasking = \"separable\"",
+        "preset = \"copper\"\nroughness = 0.4\ntwo_sided = false",
+    ];
 
     fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
         let fresnel = match (&self.eta, &self.k, &self.preset, &self.reflectance) {
@@ -58,8 +91,19 @@ impl MaterialKeys for Keys {
                 return Err(resolver.error(&self.name.span, message));
             }
         };
-        let alpha = ggx_alpha(self.alpha.as_ref(), self.roughness.as_ref(), resolver)?;
-        Ok(MaterialKind::Conductor { fresnel, alpha: alpha.unwrap_or(ColorInput::grey(0.0)) })
+        let facets = FacetKeys {
+            alpha: self.alpha.as_ref(),
+            roughness: self.roughness.as_ref(),
+            alphas: [self.alpha_u.as_ref(), self.alpha_v.as_ref()],
+            roughnesses: [self.roughness_u.as_ref(), self.roughness_v.as_ref()],
+            distribution: self.distribution.as_ref(),
+            masking: self.masking.as_ref(),
+        };
+        Ok(MaterialKind::Conductor {
+            fresnel,
+            facets: facets.resolve(resolver)?.unwrap_or(Microfacets::ggx(ColorInput::grey(0.0))),
+            specular_reflectance: resolver.colour_or_white(&self.specular_reflectance)?,
+        })
     }
 }
 

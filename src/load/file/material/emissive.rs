@@ -3,16 +3,17 @@
 use super::keys::{CommonKeys, MaterialKeys, emission_of, material_keys, only_for_reflecting};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Colour, NonNegative};
+use crate::load::file::value::{Colour, Located, NonNegative};
 use crate::scene::{Emission, MaterialKind};
 
 material_keys! {
+    own two_sided
     /// Emits and reflects nothing.
     #[schemars(extend("not" = { "required": ["emission"] }))]
     {
         radiance: Colour<NonNegative>,
         /// Emission leaves the front only, unless this is true.
-        two_sided: Option<bool>,
+        two_sided: Option<Located<bool>>,
     }
 }
 
@@ -23,6 +24,11 @@ impl MaterialKeys for Keys {
         Ok(MaterialKind::Emissive)
     }
 
+    /// The key says where light is sent out; nothing is reflected on either side.
+    fn two_sided(&self, _common: &CommonKeys<'_>, _resolver: &Resolver<'_>) -> Result<bool, SceneError> {
+        Ok(true)
+    }
+
     fn emission(&self, common: &CommonKeys<'_>, resolver: &Resolver<'_>) -> Result<Option<Emission>, SceneError> {
         match (common.emission, common.emission_two_sided) {
             (Some(emission), _) => Err(only_for_reflecting(emission, resolver)),
@@ -30,7 +36,10 @@ impl MaterialKeys for Keys {
                 let message = "`emission_two_sided` is for materials that reflect; an emissive one has `two_sided`";
                 Err(resolver.error(&two_sided.span, message))
             }
-            (None, None) => Ok(emission_of(resolver.colour(&self.radiance)?, self.two_sided.unwrap_or(false))),
+            (None, None) => Ok(emission_of(
+                resolver.colour(&self.radiance)?,
+                self.two_sided.as_ref().is_some_and(|two_sided| two_sided.value),
+            )),
         }
     }
 }

@@ -15,17 +15,24 @@ material_keys! {
         reflectance: Option<Colour<Fraction>>,
         /// 1 when left out.
         transmittance: Option<Colour<Fraction>>,
+        /// A plate with two boundaries, too thin to be seen: light goes through without changing its direction.
+        #[serde(default)]
+        thin: bool,
     }
 }
 
 impl MaterialKeys for Keys {
-    const EXAMPLES: &'static [&'static str] = &["ior = 1.7\nreflectance = 0.8\ntransmittance = [0.4, 0.8, 0.9]"];
+    const EXAMPLES: &'static [&'static str] = &[
+        "ior = 1.7\nreflectance = 0.8\ntransmittance = [0.4, 0.8, 0.9]",
+        "ior = 1.6\nthin = true\nreflectance = 0.8\ntransmittance = [0.4, 0.8, 0.9]",
+    ];
 
     fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
         Ok(MaterialKind::Glass {
             ior: ior_or_default(self.ior),
             reflectance: resolver.colour_or_white(&self.reflectance)?,
             transmittance: resolver.colour_or_white(&self.transmittance)?,
+            thin: self.thin,
         })
     }
 }

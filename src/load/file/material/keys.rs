@@ -26,6 +26,11 @@ pub trait MaterialKeys {
         }
     }
 
+    /// Whether it scatters light on both sides.
+    fn two_sided(&self, common: &CommonKeys<'_>, _resolver: &Resolver<'_>) -> Result<bool, SceneError> {
+        Ok(common.two_sided.is_none_or(|two_sided| two_sided.value))
+    }
+
     /// Checks what it says of other materials, once all are known.
     fn check_parts(&self, _resolver: &Resolver<'_>) -> Result<(), SceneError> {
         Ok(())
@@ -56,11 +61,17 @@ pub struct CommonKeys<'a> {
     pub emission: Option<&'a Located<Colour<NonNegative>>>,
     pub emission_two_sided: Option<&'a Located<bool>>,
     pub opacity: Option<&'a Located<Opacity>>,
+    pub two_sided: Option<&'a Located<bool>>,
 }
 
 /// Declares a material's `Keys`: its own and those that every material has. Serde cannot tell unknown keys from those of a struct within.
+/// After `own two_sided`, the key of that name is among its own and means something else.
 macro_rules! material_keys {
-    ($(#[$doc:meta])* { $($(#[$field_doc:meta])* $field:ident: $type:ty,)* }) => {
+    (own two_sided $(#[$doc:meta])* { $($fields:tt)* }) => {
+        $crate::load::file::material::keys::material_keys!(@struct [$(#[$doc])*] [$($fields)*] []);
+    };
+    (@struct [$(#[$doc:meta])*] [$($(#[$field_doc:meta])* $field:ident: $type:ty,)*]
+     [$($(#[$last_doc:meta])* $last:ident: $last_type:ty,)*]) => {
         #[derive(Debug, serde::Deserialize, schemars::JsonSchema)]
         #[serde(deny_unknown_fields, expecting = "a table")]
         #[schemars(extend("dependentRequired" = { "emission_two_sided": ["emission"] }))]
@@ -80,6 +91,7 @@ macro_rules! material_keys {
             emission_two_sided: Option<$crate::load::file::value::Located<bool>>,
             /// How much of the surface there is: light goes straight through the rest, to shadows too. 1 when left out.
             opacity: Option<$crate::load::file::value::Located<$crate::load::file::material::opacity::Opacity>>,
+            $($(#[$last_doc])* $last: $last_type,)*
         }
 
         impl Keys {
@@ -90,9 +102,16 @@ macro_rules! material_keys {
                     emission: self.emission.as_ref(),
                     emission_two_sided: self.emission_two_sided.as_ref(),
                     opacity: self.opacity.as_ref(),
+                    two_sided: self.two_sided.as_ref(),
                 }
             }
         }
+    };
+    ($(#[$doc:meta])* { $($fields:tt)* }) => {
+        $crate::load::file::material::keys::material_keys!(@struct [$(#[$doc])*] [$($fields)*] [
+            /// Both sides scatter light, unless this is false: then the back is black.
+            two_sided: Option<$crate::load::file::value::Located<bool>>,
+        ]);
     };
 }
 pub(super) use material_keys;

@@ -42,6 +42,10 @@ macro_rules! entries {
                 match self { $(Self::$material(keys) => keys.emission(&keys.common(), resolver),)* }
             }
 
+            pub fn two_sided(&self, resolver: &Resolver<'_>) -> Result<bool, SceneError> {
+                match self { $(Self::$material(keys) => keys.two_sided(&keys.common(), resolver),)* }
+            }
+
             pub fn check_parts(&self, resolver: &Resolver<'_>) -> Result<(), SceneError> {
                 match self { $(Self::$material(keys) => keys.check_parts(resolver),)* }
             }

@@ -7,7 +7,7 @@ use crate::scene::{Emission, MaterialKind};
 
 material_keys! {
     /// The ray goes on as if nothing were there.
-    #[schemars(extend("not" = { "required": ["emission"] }))]
+    #[schemars(extend("not" = { "anyOf": [{ "required": ["emission"] }, { "required": ["two_sided"] }] }))]
     {}
 }
 
@@ -16,6 +16,15 @@ impl MaterialKeys for Keys {
 
     fn kind(&self, _resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
         Ok(MaterialKind::Pass)
+    }
+
+    fn two_sided(&self, common: &CommonKeys<'_>, resolver: &Resolver<'_>) -> Result<bool, SceneError> {
+        match common.two_sided {
+            Some(two_sided) => {
+                Err(resolver.error(&two_sided.span, "`pass` is the same on both sides: it has no key `two_sided`"))
+            }
+            None => Ok(true),
+        }
     }
 
     fn emission(&self, common: &CommonKeys<'_>, resolver: &Resolver<'_>) -> Result<Option<Emission>, SceneError> {

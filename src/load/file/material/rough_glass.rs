@@ -4,30 +4,54 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::keys::{MaterialKeys, ior_or_default, material_keys};
-use super::roughness::ggx_alpha;
+use super::roughness::{FacetKeys, MaskingEntry};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Colour, Fraction, IndexOfRefraction, Located, Positive, Scalar};
-use crate::scene::{ColorInput, MaterialKind, MicrofacetDistribution};
+use crate::scene::{Masking, MaterialKind, MicrofacetDistribution, Microfacets};
 
 material_keys! {
-    /// A rough dielectric: one of `alpha`, `roughness` and `exponent`.
-    #[schemars(extend("allOf" = [{ "oneOf": [
-        { "required": ["alpha"], "not": { "anyOf": [{ "required": ["roughness"] }, { "required": ["exponent"] }] }, "properties": { "distribution": { "const": "ggx" } } },
-        { "required": ["roughness"], "not": { "anyOf": [{ "required": ["alpha"] }, { "required": ["exponent"] }] }, "properties": { "distribution": { "const": "ggx" } } },
-        { "required": ["exponent"], "not": { "anyOf": [{ "required": ["alpha"] }, { "required": ["roughness"] }] }, "properties": { "distribution": { "const": "phong" } } },
-    ] }]))]
+    /// A rough dielectric: one of `alpha`, `roughness`, `alpha_u` with `alpha_v`, `roughness_u` with `roughness_v`, and `exponent`.
+    #[schemars(extend("allOf" = [
+        { "oneOf": [
+            { "required": ["alpha"] }, { "required": ["roughness"] }, { "required": ["alpha_u"] }, { "required": ["roughness_u"] },
+            { "required": ["exponent"] },
+        ] },
+        { "dependentRequired": {
+            "alpha_u": ["alpha_v"], "alpha_v": ["alpha_u"], "roughness_u": ["roughness_v"], "roughness_v": ["roughness_u"],
+        } },
+        {
+            "if": { "required": ["exponent"] },
+            "then": {
+                "properties": { "distribution": { "const": "phong" }, "thin": { "const": false } },
+                "not": { "required": ["masking"] },
+            },
+            "else": { "properties": { "distribution": { "enum": ["ggx", "beckmann"] } } },
+        },
+    ]))]
     {
         /// Inside over outside, 1.5 when left out.
         ior: Option<Checked<IndexOfRefraction>>,
-        /// GGX width.
+        /// Width of the microfacets.
         alpha: Option<Located<Scalar<Fraction>>>,
         /// alpha = roughness²
         roughness: Option<Located<Scalar<Fraction>>>,
+        /// Width along the direction in which texture coordinate u grows, instead of `alpha`.
+        alpha_u: Option<Located<Scalar<Fraction>>>,
+        /// And across it.
+        alpha_v: Option<Located<Scalar<Fraction>>>,
+        /// alpha_u = roughness_u²
+        roughness_u: Option<Located<Scalar<Fraction>>>,
+        /// alpha_v = roughness_v²
+        roughness_v: Option<Located<Scalar<Fraction>>>,
         /// Of the Phong distribution.
         exponent: Option<Located<Scalar<Positive>>>,
         /// "ggx" when left out, but "phong" with an `exponent`.
         distribution: Option<Located<MicrofacetEntry>>,
+        /// "height_correlated" when left out.
+        masking: Option<Located<MaskingEntry>>,
+        /// Every microfacet is a plate with two boundaries, too thin to be seen.
+        thin: Option<Located<bool>>,
         /// 1 when left out.
         reflectance: Option<Colour<Fraction>>,
         /// 1 when left out.
@@ -38,7 +62,11 @@ material_keys! {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MicrofacetEntry {
+    /// Long tails: a halo around highlights.
     Ggx,
+    /// Normally distributed slopes.
+    Beckmann,
+    /// Cosine-power lobes about the directions of smooth glass.
     Phong,
 }
 
@@ -47,41 +75,65 @@ impl MaterialKeys for Keys {
         "ior = 1.5\nroughness = 0.4",
         "ior = 1.7\nalpha = 0.3\nreflectance = 0.8\ntransmittance = [0.4, 0.8, 0.9]",
         "exponent = 60",
+        "alpha = 0.3\ndistribution = \"beckmann\"\nmasking = \"separable\"",
+        "ior = 1.4\nalpha_u = 0.5\nalpha_v = 0.15\ntransmittance = [0.4, 0.8, 0.9]",
+        "ior = 1.6\nalpha = 0.3\nthin = true\ntransmittance = [0.4, 0.8, 0.9]",
+        "roughness_u = 0.3\nroughness_v = 0.7\ndistribution = \"beckmann\"\nthin = true",
     ];
 
     fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
-        let (alpha, distribution) = self.distribution(resolver)?;
+        let facets = match &self.exponent {
+            Some(exponent) => self.phong(exponent, resolver)?,
+            None => self.facets(resolver)?,
+        };
         Ok(MaterialKind::RoughGlass {
             ior: ior_or_default(self.ior),
-            alpha,
-            distribution,
+            facets,
             reflectance: resolver.colour_or_white(&self.reflectance)?,
             transmittance: resolver.colour_or_white(&self.transmittance)?,
+            thin: self.thin.as_ref().is_some_and(|thin| thin.value),
         })
     }
 }
 
 impl Keys {
-    /// GGX and its width, or Phong's distribution and its exponent.
-    fn distribution(&self, resolver: &Resolver<'_>) -> Result<(ColorInput, MicrofacetDistribution), SceneError> {
-        let name = self.distribution.as_ref();
-        match (&self.exponent, name.map(|name| name.value)) {
-            (Some(exponent), None | Some(MicrofacetEntry::Phong)) => match self.alpha.as_ref().or(self.roughness.as_ref()) {
-                Some(other) => Err(resolver.error(&other.span, "either `exponent` or one of `alpha` and `roughness`")),
-                None => Ok((resolver.scalar(&exponent.value)?, MicrofacetDistribution::Phong)),
-            },
-            (Some(exponent), Some(MicrofacetEntry::Ggx)) => {
-                Err(resolver.error(&exponent.span, "`exponent` belongs to distribution = \"phong\""))
-            }
-            (None, Some(MicrofacetEntry::Phong)) => {
-                let span = name.map_or(&self.name.span, |name| &name.span);
-                Err(resolver.error(span, "distribution = \"phong\" needs the key `exponent`"))
-            }
-            (None, None | Some(MicrofacetEntry::Ggx)) => {
-                let missing = || resolver.error(&self.name.span, "rough_glass needs one of `alpha`, `roughness` and `exponent`");
-                let alpha = ggx_alpha(self.alpha.as_ref(), self.roughness.as_ref(), resolver)?.ok_or_else(missing)?;
-                Ok((alpha, MicrofacetDistribution::Ggx))
-            }
+    /// Phong's distribution, which has an exponent and nothing of what microfacets have.
+    fn phong(&self, exponent: &Located<Scalar<Positive>>, resolver: &Resolver<'_>) -> Result<Microfacets, SceneError> {
+        if self.distribution.as_ref().is_some_and(|name| name.value != MicrofacetEntry::Phong) {
+            return Err(resolver.error(&exponent.span, "`exponent` belongs to distribution = \"phong\""));
         }
+        let pairs = [&self.alpha_u, &self.alpha_v, &self.roughness_u, &self.roughness_v];
+        if let Some(other) = [&self.alpha, &self.roughness].into_iter().chain(pairs).flatten().next() {
+            return Err(resolver.error(&other.span, "either `exponent` or one of `alpha` and `roughness`"));
+        }
+        if let Some(masking) = &self.masking {
+            return Err(resolver.error(&masking.span, "`masking` is for microfacets: distribution = \"phong\" has none"));
+        }
+        if let Some(thin) = self.thin.as_ref().filter(|thin| thin.value) {
+            return Err(resolver.error(&thin.span, "thin walls are for microfacets: distribution = \"phong\" has none"));
+        }
+        Ok(Microfacets::phong(resolver.scalar(&exponent.value)?))
+    }
+
+    fn facets(&self, resolver: &Resolver<'_>) -> Result<Microfacets, SceneError> {
+        let distribution = match &self.distribution {
+            Some(name) if name.value == MicrofacetEntry::Phong => {
+                return Err(resolver.error(&name.span, "distribution = \"phong\" needs the key `exponent`"));
+            }
+            Some(Located { value: MicrofacetEntry::Beckmann, .. }) => MicrofacetDistribution::Beckmann,
+            _ => MicrofacetDistribution::Ggx,
+        };
+        let keys = FacetKeys {
+            alpha: self.alpha.as_ref(),
+            roughness: self.roughness.as_ref(),
+            alphas: [self.alpha_u.as_ref(), self.alpha_v.as_ref()],
+            roughnesses: [self.roughness_u.as_ref(), self.roughness_v.as_ref()],
+            distribution: None,
+            masking: None,
+        };
+        let missing = || resolver.error(&self.name.span, "rough_glass needs one of `alpha`, `roughness` and `exponent`");
+        let facets = keys.resolve(resolver)?.ok_or_else(missing)?;
+        let masking = self.masking.as_ref().map_or(Masking::HeightCorrelated, |masking| masking.value.into());
+        Ok(Microfacets { distribution, masking, ..facets })
     }
 }

@@ -1,9 +1,12 @@
-//! The width of a distribution of microfacets, by whichever of two keys is written.
+//! The microfacets of a surface: how wide they are spread, by whichever of the keys for it are written, and how.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
 
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Fraction, Located, Scalar};
-use crate::scene::ColorInput;
+use crate::scene::{ColorInput, Masking, MicrofacetDistribution, Microfacets};
 
 type Key<'a> = Option<&'a Located<Scalar<Fraction>>>;
 
@@ -14,5 +17,113 @@ pub fn ggx_alpha(alpha: Key<'_>, roughness: Key<'_>, resolver: &Resolver<'_>) ->
         (Some(alpha), None) => resolver.scalar(&alpha.value).map(Some),
         (None, Some(roughness)) => Ok(Some(resolver.scalar(&roughness.value)?.squared())),
         (None, None) => Ok(None),
+    }
+}
+
+/// Slopes of microfacets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DistributionEntry {
+    /// Long tails: a halo around highlights.
+    Ggx,
+    /// Normally distributed slopes.
+    Beckmann,
+}
+
+impl From<DistributionEntry> for MicrofacetDistribution {
+    fn from(entry: DistributionEntry) -> Self {
+        match entry {
+            DistributionEntry::Ggx => Self::Ggx,
+            DistributionEntry::Beckmann => Self::Beckmann,
+        }
+    }
+}
+
+/// How the visibility of microfacets from two directions goes together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MaskingEntry {
+    /// What is high is seen from both.
+    HeightCorrelated,
+    /// One has nothing to do with the other, as in Mitsuba and in glTF's model.
+    Separable,
+}
+
+impl From<MaskingEntry> for Masking {
+    fn from(entry: MaskingEntry) -> Self {
+        match entry {
+            MaskingEntry::HeightCorrelated => Self::HeightCorrelated,
+            MaskingEntry::Separable => Self::Separable,
+        }
+    }
+}
+
+/// All keys of a surface's microfacets.
+pub struct FacetKeys<'a> {
+    pub alpha: Key<'a>,
+    pub roughness: Key<'a>,
+    /// Along and across the direction in which texture coordinate u grows.
+    pub alphas: [Key<'a>; 2],
+    pub roughnesses: [Key<'a>; 2],
+    pub distribution: Option<&'a Located<DistributionEntry>>,
+    pub masking: Option<&'a Located<MaskingEntry>>,
+}
+
+impl FacetKeys<'_> {
+    /// None where no width is written.
+    pub fn resolve(&self, resolver: &Resolver<'_>) -> Result<Option<Microfacets>, SceneError> {
+        let pair = self.pair(resolver)?;
+        let single = self.alpha.or(self.roughness);
+        if let (Some(single), Some(_)) = (single, &pair) {
+            let message = "one width, or two: either `alpha` or `roughness`, or both of `alpha_u` and `alpha_v` or of `roughness_u` and `roughness_v`";
+            return Err(resolver.error(&single.span, message));
+        }
+        let widths = match pair {
+            // Equal ones have no direction.
+            Some([along, across]) => Some((along, Some(across).filter(|across| *across != along))),
+            None => ggx_alpha(self.alpha, self.roughness, resolver)?.map(|alpha| (alpha, None)),
+        };
+        let Some((alpha, alpha_v)) = widths else {
+            let unused = self.distribution.map(|key| ("distribution", &key.span));
+            return match unused.or(self.masking.map(|key| ("masking", &key.span))) {
+                Some((name, span)) => {
+                    Err(resolver.error(span, format!("`{name}` is for rough surfaces: it needs `alpha` or `roughness`")))
+                }
+                None => Ok(None),
+            };
+        };
+        Ok(Some(Microfacets {
+            alpha_v,
+            distribution: self.distribution.map_or(MicrofacetDistribution::Ggx, |key| key.value.into()),
+            masking: self.masking.map_or(Masking::HeightCorrelated, |key| key.value.into()),
+            ..Microfacets::ggx(alpha)
+        }))
+    }
+
+    /// Both widths, by either of the names for them.
+    fn pair(&self, resolver: &Resolver<'_>) -> Result<Option<[ColorInput; 2]>, SceneError> {
+        let [alphas, roughnesses] = [self.alphas, self.roughnesses];
+        let is_written = |keys: [Key<'_>; 2]| keys.iter().any(Option::is_some);
+        if is_written(alphas) && is_written(roughnesses) {
+            let span = roughnesses.into_iter().flatten().next().map_or(0..0, |key| key.span.clone());
+            return Err(resolver.error(&span, "either `alpha_u` and `alpha_v` or `roughness_u` and `roughness_v`"));
+        }
+        for (keys, [u, v]) in [(alphas, ["alpha_u", "alpha_v"]), (roughnesses, ["roughness_u", "roughness_v"])] {
+            match keys {
+                [Some(key), None] => return Err(resolver.error(&key.span, format!("`{u}` needs `{v}`"))),
+                [None, Some(key)] => return Err(resolver.error(&key.span, format!("`{v}` needs `{u}`"))),
+                _ => {}
+            }
+        }
+        if let [Some(along), Some(across)] = alphas {
+            return Ok(Some([resolver.scalar(&along.value)?, resolver.scalar(&across.value)?]));
+        }
+        match roughnesses {
+            [Some(along), Some(across)] => {
+                let squared = |key| Ok(ggx_alpha(None, Some(key), resolver)?.unwrap_or(ColorInput::grey(0.0)));
+                Ok(Some([squared(along)?, squared(across)?]))
+            }
+            _ => Ok(None),
+        }
     }
 }

@@ -14,8 +14,13 @@ impl Resolver<'_> {
             let name = || entry.common().name.value.clone();
             // Something has to stand in its place, or others would have none.
             let kind = MaterialKind::Pass;
-            let material =
-                self.note(material).unwrap_or_else(|| Material { name: name(), kind, normal_map: None, emission: None });
+            let material = self.note(material).unwrap_or_else(|| Material {
+                name: name(),
+                kind,
+                normal_map: None,
+                emission: None,
+                two_sided: true,
+            });
             self.scene.materials.push(material);
         }
         let of_entry = self.make_transparent(written);
@@ -44,8 +49,13 @@ impl Resolver<'_> {
                 _ if matches!(material.kind, MaterialKind::Pass) => {}
                 BlendWeight::Constant { value: 1.0 } => {}
                 BlendWeight::Constant { value: 0.0 } => {
-                    *material =
-                        Material { kind: MaterialKind::Pass, normal_map: None, emission: None, name: material.name.clone() };
+                    *material = Material {
+                        kind: MaterialKind::Pass,
+                        normal_map: None,
+                        emission: None,
+                        name: material.name.clone(),
+                        two_sided: true,
+                    };
                 }
                 weight => {
                     let count = written.len() + of_entry.len();
@@ -55,12 +65,18 @@ impl Resolver<'_> {
                         // The parts lie on one surface: its normals are the blend's own.
                         normal_map: material.normal_map.take(),
                         emission: None,
+                        two_sided: true,
                     };
                     let mut whole = std::mem::replace(material, blend);
                     let name = |what: &str| format!("{} ({what})", entry.common().name.value);
                     whole.name = name("where it is");
-                    let nothing =
-                        Material { name: name("where it is not"), kind: MaterialKind::Pass, normal_map: None, emission: None };
+                    let nothing = Material {
+                        name: name("where it is not"),
+                        kind: MaterialKind::Pass,
+                        normal_map: None,
+                        emission: None,
+                        two_sided: true,
+                    };
                     self.scene.materials.extend([whole, nothing]);
                     of_entry.extend([id, id]);
                 }
@@ -76,6 +92,7 @@ impl Resolver<'_> {
             kind: entry.kind(self)?,
             normal_map: common.normal_map.map(|name| self.normal_map(name)).transpose()?,
             emission: entry.emission(self)?,
+            two_sided: entry.two_sided(self)?,
         })
     }
 

@@ -51,13 +51,13 @@ impl Resolver<'_> {
         if written.is_missing {
             let kind = MaterialKind::Diffuse { reflectance: ColorInput::Constant(MAGENTA) };
             let name = format!("{} (missing)", written.material.name);
-            return Ok(self.add(Material { name, kind, normal_map: None, emission: None }));
+            return Ok(self.add(Material { name, kind, normal_map: None, emission: None, two_sided: true }));
         }
         let opacity = self.opacity(written)?;
         let kind = self.mtl_kind(written, opacity)?;
         let emission = self.mtl_emission(written)?;
         let see_through = matches!(kind, MaterialKind::Glass { .. } | MaterialKind::Pass);
-        let material = Material { name: written.material.name.clone(), kind, normal_map: None, emission };
+        let material = Material { name: written.material.name.clone(), kind, normal_map: None, emission, two_sided: true };
         let id = self.add(material);
         if opacity >= 1.0 || see_through {
             return Ok(id);
@@ -68,6 +68,7 @@ impl Resolver<'_> {
             kind: MaterialKind::Pass,
             normal_map: None,
             emission: None,
+            two_sided: true,
         });
         let weight = BlendWeight::Constant { value: opacity };
         Ok(self.add(Material {
@@ -75,6 +76,7 @@ impl Resolver<'_> {
             kind: MaterialKind::Blend { materials: [id, pass], weight },
             normal_map: None,
             emission: None,
+            two_sided: true,
         }))
     }
 
@@ -144,7 +146,12 @@ impl Resolver<'_> {
             <[f64; 3]>::try_from(values).ok().map(DVec3::from_array)
         });
         let transmittance = filter.map_or(DVec3::ONE, |filter| self.at_most_one(written, "Tf", filter));
-        Ok(MaterialKind::Glass { ior, reflectance: ColorInput::grey(1.0), transmittance: ColorInput::Constant(transmittance) })
+        Ok(MaterialKind::Glass {
+            ior,
+            reflectance: ColorInput::grey(1.0),
+            transmittance: ColorInput::Constant(transmittance),
+            thin: false,
+        })
     }
 
     fn mtl_diffuse(&mut self, written: &MtlMaterial) -> Result<ColorInput, SceneError> {

@@ -153,6 +153,7 @@ impl Resolver<'_> {
             kind: MaterialKind::Diffuse { reflectance: ColorInput::grey(DEFAULT_REFLECTANCE) },
             normal_map: None,
             emission: None,
+            two_sided: true,
         });
         *self.unnamed_material.insert(id)
     }

@@ -6,8 +6,10 @@ use std::collections::HashSet;
 
 use crate::packed::environment::PackedMap;
 use crate::packed::hierarchy::Traversal;
+use crate::packed::material::BLEND;
 use crate::packed::tables::Tables;
 use crate::packed::{NONE, PackedScene};
+use crate::scene::LobeKind;
 
 /// What a kernel would do that it must not.
 type Read<T> = Result<T, String>;
@@ -177,7 +179,7 @@ impl Kernel<'_> {
         }
         let first = material.wrapping_mul(5);
         let words = (0..5).map(|word| self.table(first.wrapping_add(word))).collect::<Read<Vec<_>>>()?;
-        let is_blend = words[0][3] & 255 == 10;
+        let is_blend = words[0][3] & 255 == BLEND;
         if words[4][1] != NONE {
             self.texture(words[4][1])?;
         }
@@ -194,7 +196,7 @@ impl Kernel<'_> {
         while index < count.wrapping_add(behind) {
             let part = self.table(self.tables.first_part.wrapping_add(run).wrapping_add(index))?;
             let mut factor = part[1];
-            while factor < part[1].wrapping_add(part[2]) {
+            while factor < part[1].wrapping_add(part[2] & 0x7fff_ffff) {
                 self.weight(factor)?;
                 factor += 1;
             }
@@ -211,8 +213,23 @@ impl Kernel<'_> {
         if !self.is_new(Part::Plain, material) {
             return Ok(());
         }
-        let textures = self.table(material.wrapping_mul(5).wrapping_add(3))?;
-        [0, 2, 3].into_iter().filter(|&slot| textures[slot] != NONE).try_for_each(|slot| self.texture(textures[slot]))
+        let words = (0..5).map(|word| self.table(material.wrapping_mul(5).wrapping_add(word))).collect::<Read<Vec<_>>>()?;
+        let textures = words[3];
+        [0, 2, 3].into_iter().filter(|&slot| textures[slot] != NONE).try_for_each(|slot| self.texture(textures[slot]))?;
+        // Further parameters; behind those that are looked up stands what the surface of rough plastic lets through.
+        let first = self.tables.first_further.wrapping_add(words[4][3] & 0x00ff_ffff);
+        let count = words[4][3] >> 24;
+        // Kernels have room for as many as the material that has most.
+        for index in 0..count {
+            let word = self.table(first.wrapping_add(index))?;
+            if word[3] != NONE {
+                self.texture(word[3])?;
+            }
+        }
+        if words[0][3] & 255 == LobeKind::RoughPlastic as u32 {
+            (0..22).try_for_each(|index| self.table(first.wrapping_add(count + index)).map(drop))?;
+        }
+        Ok(())
     }
 
     fn emission(&self, material: u32) -> Read<()> {

@@ -21,6 +21,7 @@ fn words_mut(scene: &mut PackedScene, array: Array) -> &mut [u32] {
         Array::Attributes => bytemuck::cast_slice_mut(&mut scene.attributes),
         Array::Nodes => bytemuck::cast_slice_mut(&mut scene.hierarchy.nodes),
         Array::Materials => bytemuck::cast_slice_mut(&mut scene.materials.materials),
+        Array::Parameters => bytemuck::cast_slice_mut(&mut scene.materials.further),
         Array::BlendParts => bytemuck::cast_slice_mut(&mut scene.materials.parts),
         Array::Weights => bytemuck::cast_slice_mut(&mut scene.materials.weights),
         Array::Lights => bytemuck::cast_slice_mut(&mut scene.lights),
@@ -223,12 +224,13 @@ fn cut_last<T>(array: &mut Vec<T>) {
 
 #[test]
 fn arrays_cut_short_are_refused_where_something_names_their_end() {
-    let cuts: [fn(&mut PackedScene); 11] = [
+    let cuts: [fn(&mut PackedScene); 12] = [
         |scene| scene.primitives.truncate(1),
         |scene| cut_last(&mut scene.attributes),
         |scene| cut_last(&mut scene.hierarchy.nodes),
         |scene| cut_last(&mut scene.hierarchy.boxes),
         |scene| cut_last(&mut scene.materials.materials),
+        |scene| cut_last(&mut scene.materials.further),
         |scene| cut_last(&mut scene.materials.parts),
         |scene| cut_last(&mut scene.materials.weights),
         |scene| cut_last(&mut scene.lights),

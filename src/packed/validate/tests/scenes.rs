@@ -8,9 +8,10 @@ use crate::load::file::delta_light_examples;
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
 use crate::scene::{
-    BlendWeight, Channel, ChannelInput, ColorInput, ColorSpace, Cuboid, Disk, Emission, Environment, EnvironmentRadiance,
-    Geometry, ImageData, ImageTexture, Light, Material, MaterialKind, Mesh, MicrofacetDistribution, Motion, MotionStep, Plane,
-    Rectangle, Scene, Shape, Sphere, Texels, Texture, TextureFilter, TextureKind, TextureWrap, Transform,
+    BlendWeight, Channel, ChannelInput, ColorInput, ColorSpace, ConductorFresnel, Cuboid, Disk, Emission, Environment,
+    EnvironmentRadiance, Geometry, ImageData, ImageTexture, Light, Masking, Material, MaterialKind, Mesh, MicrofacetDistribution,
+    Microfacets, Motion, MotionStep, Plane, PlasticInterface, Rectangle, Scene, Shape, Sphere, Texels, Texture, TextureFilter,
+    TextureKind, TextureWrap, Transform,
 };
 
 /// By name: walked by kernels, and left to the device.
@@ -28,7 +29,7 @@ pub fn grid(side: u32) -> PackedScene {
 }
 
 fn plain(name: &str, kind: MaterialKind) -> Material {
-    Material { name: name.into(), kind, normal_map: None, emission: None }
+    Material { name: name.into(), kind, normal_map: None, emission: None, two_sided: true }
 }
 
 fn shape(geometry: Geometry, material: usize) -> Shape {
@@ -88,8 +89,15 @@ fn everything() -> Scene {
     let channel =
         |texture, channel| ColorInput::Channel(ChannelInput { texture, channel, factor: DVec3::splat(0.5), is_squared: false });
     let (grey, of) = (ColorInput::grey(0.5), ColorInput::Texture);
-    let rough =
-        |alpha, distribution| MaterialKind::RoughGlass { ior: 1.5, alpha, distribution, reflectance: grey, transmittance: grey };
+    let rough = |facets| MaterialKind::RoughGlass { ior: 1.5, facets, reflectance: grey, transmittance: grey, thin: false };
+    let plastic =
+        |interface| MaterialKind::Plastic { interface, reflectance: of(0), specular_reflectance: grey, nonlinear: true };
+    let brushed = MaterialKind::Conductor {
+        fresnel: ConductorFresnel::Reflectance(grey),
+        facets: Microfacets { alpha_v: Some(ColorInput::SquaredTexture(1)), ..Microfacets::ggx(of(2)) },
+        specular_reflectance: of(3),
+    };
+    let rough_interface = PlasticInterface::rough(1.5, 0.3, MicrofacetDistribution::Beckmann, Masking::Separable);
     let blend = |materials, weight| MaterialKind::Blend { materials, weight };
     let threshold = BlendWeight::Threshold { tau: 0.5, of: Box::new(BlendWeight::Texture { texture: 4 }) };
     for (kind, emission) in [
@@ -97,18 +105,23 @@ fn everything() -> Scene {
         (MaterialKind::Mirror { reflectance: of(3) }, None),
         (MaterialKind::Glossy { reflectance: grey, exponent: of(1) }, None),
         (MaterialKind::Phong { diffuse: channel(6, Channel::A), specular: of(5), exponent: channel(7, Channel::G) }, None),
-        (rough(ColorInput::SquaredTexture(2), MicrofacetDistribution::Ggx), None),
-        (rough(ColorInput::grey(50.0), MicrofacetDistribution::Phong), None),
+        (rough(Microfacets::ggx(ColorInput::SquaredTexture(2))), None),
+        (rough(Microfacets::phong(ColorInput::grey(50.0))), None),
         (MaterialKind::Emissive, Some(of(4))),
         (blend([0, 1], BlendWeight::Facing { power: 2.0 }), Some(grey)),
         (blend([7, 2], BlendWeight::Fresnel { ior: 1.5, exact: true }), None),
         (blend([3, 8], threshold), None),
         (MaterialKind::Pass, None),
+        (plastic(PlasticInterface::smooth(1.5)), None),
+        (brushed, None),
+        (plastic(rough_interface), None),
     ] {
         let emission = emission.map(|radiance| Emission { radiance, two_sided: true });
         scene.materials.push(Material { emission, ..plain("material", kind) });
     }
     scene.materials[5].normal_map = Some(2);
+    scene.materials[3].two_sided = false;
+    scene.materials[12].two_sided = false;
     let turning = Motion {
         steps: vec![MotionStep::Rotate { axis: DVec3::Y, degrees: 40.0 }, MotionStep::Translate(DVec3::X), MotionStep::Scale(b)],
     };
@@ -116,7 +129,7 @@ fn everything() -> Scene {
     let sheet = |z: f64| Geometry::Rectangle(Rectangle { corner: DVec3::new(0.0, 0.0, z), edge_u: DVec3::X, edge_v: DVec3::Y });
     let disk = Geometry::Disk(Disk { center: DVec3::new(0.0, 8.0, 0.0), normal: DVec3::Y, radius: 1.0 });
     for (geometry, material, moves) in [
-        (Geometry::Mesh(Arc::new(mesh(3, &[0, 1, 2, 4, 9]))), 0, false),
+        (Geometry::Mesh(Arc::new(mesh(3, &[0, 1, 2, 4, 9, 11, 12, 13]))), 0, false),
         (Geometry::Mesh(Arc::new(mesh(2, &[]))), 5, true),
         (ball(0.0), 6, false),
         (ball(3.0), 8, true),

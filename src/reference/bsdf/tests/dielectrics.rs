@@ -1,7 +1,6 @@
 //! Glass, smooth and rough.
 
 use super::*;
-use crate::scene::{MaterialKind, MicrofacetDistribution};
 
 /// Reflected and transmitted power sum to 1 for clear glass and to the tints for tinted glass.
 #[test]
@@ -58,8 +57,8 @@ fn total_reflection_leaves_nothing_to_transmit() {
 fn rough_glass_of_ior_one_is_not_there() {
     let kind = MaterialKind::RoughGlass {
         ior: 1.0,
-        alpha: ColorInput::grey(0.3),
-        distribution: MicrofacetDistribution::Ggx,
+        facets: Microfacets::ggx(ColorInput::grey(0.3)),
+        thin: false,
         reflectance: ColorInput::grey(1.0),
         transmittance: ColorInput::grey(1.0),
     };

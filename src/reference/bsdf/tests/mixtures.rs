@@ -9,7 +9,7 @@ fn scene(kinds: Vec<MaterialKind>, mode: BlendMode) -> Scene {
     let mut scene = Scene::default();
     scene.render.blend = mode;
     for (index, kind) in kinds.into_iter().enumerate() {
-        scene.materials.push(Material { name: index.to_string(), kind, normal_map: None, emission: None });
+        scene.materials.push(Material { name: index.to_string(), kind, normal_map: None, emission: None, two_sided: true });
     }
     let geometry =
         Geometry::Rectangle(Rectangle { corner: DVec3::new(-5.0, -5.0, 0.0), edge_u: DVec3::X * 10.0, edge_v: DVec3::Y * 10.0 });
@@ -20,7 +20,7 @@ fn scene(kinds: Vec<MaterialKind>, mode: BlendMode) -> Scene {
 }
 
 /// The rectangle's middle.
-fn surface(scene: &Scene) -> Surface {
+pub(super) fn surface(scene: &Scene) -> Surface {
     let world = World::new(scene).expect("the scene is sound");
     let ray = Ray { origin: DVec3::Z, direction: -DVec3::Z };
     world.surface(&ray, &world.closest(ray, &Moment::default()).expect("the rectangle is there"), &Moment::default())
@@ -52,7 +52,8 @@ fn a_blend_with_one_part_is_that_part() {
     let kinds = || {
         let conductor = MaterialKind::Conductor {
             fresnel: crate::scene::ConductorFresnel::Reflectance(ColorInput::grey(0.7)),
-            alpha: ColorInput::grey(0.3),
+            facets: Microfacets::ggx(ColorInput::grey(0.3)),
+            specular_reflectance: ColorInput::grey(1.0),
         };
         let phong = MaterialKind::Phong {
             diffuse: ColorInput::grey(0.3),
@@ -60,7 +61,13 @@ fn a_blend_with_one_part_is_that_part() {
             exponent: ColorInput::grey(9.0),
         };
         let one = ColorInput::grey(1.0);
-        [grey(0.6), mirror_kind(0.8), conductor, phong, MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one }]
+        [
+            grey(0.6),
+            mirror_kind(0.8),
+            conductor,
+            phong,
+            MaterialKind::Glass { ior: 1.5, reflectance: one, transmittance: one, thin: false },
+        ]
     };
     for mode in [BlendMode::Mixture, BlendMode::Pick] {
         for pure in kinds() {
@@ -96,7 +103,8 @@ fn diffuse_lobes_are_one_lobe_of_the_mean() {
 /// becoming the lobe's own.
 #[test]
 fn lobes_are_chosen_in_order_by_weight_times_reflectance() {
-    let glass = MaterialKind::Glass { ior: 1.5, reflectance: ColorInput::grey(1.0), transmittance: ColorInput::grey(1.0) };
+    let white = ColorInput::grey(1.0);
+    let glass = MaterialKind::Glass { ior: 1.5, reflectance: white, transmittance: white, thin: false };
     // Mirror 0.5 × 0.8, glass 0.25 × 1, diffuse 0.25 × 0.6: diffuse 0.15, mirror 0.40, glass 0.25 of 0.80 in all.
     let kinds = vec![mirror_kind(0.8), glass, grey(0.6), blend(1, 2, 0.5), blend(0, 3, 0.5)];
     let blended = bsdf(&scene(kinds, BlendMode::Mixture), 0.5);

@@ -4,8 +4,11 @@ mod blend_weights;
 mod densities;
 mod dielectrics;
 mod energy;
+mod facets;
 mod fresnel;
 mod mixtures;
+mod plastic;
+mod sides;
 mod views;
 
 use std::collections::BTreeSet;
@@ -20,17 +23,23 @@ use super::fresnel::{dielectric_reflectance, refract};
 use super::glass::Glass;
 use super::glossy::Glossy;
 use super::lobe::Lobe;
-use super::microfacet::Ggx;
+use super::microfacet::Facets;
 use super::mirror::Mirror;
 use super::null::Null;
 use super::phong::Phong;
 use super::phong_glass::PhongGlass;
+use super::plastic::{Base, Plastic};
 use super::rough_glass::RoughGlass;
+use super::rough_plastic::RoughPlastic;
+use super::rough_thin_glass::RoughThinGlass;
 use super::scatter::{Evaluation, Scatter};
+use super::thin_glass::ThinGlass;
 use super::*;
 use crate::load::file::{load_toml_str, material_examples};
 use crate::reference::intersect::Surface;
-use crate::scene::{ColorInput, HemisphereSampling, LobeKind, MaterialKind, Scene};
+use crate::scene::{
+    ColorInput, HemisphereSampling, LobeKind, Masking, MaterialKind, MicrofacetDistribution, Microfacets, PlasticInterface, Scene,
+};
 
 /// A unit vector at an angle from +z, in degrees.
 fn at_degrees(theta: f64, phi: f64) -> DVec3 {
@@ -70,12 +79,16 @@ fn phong(diffuse: f64, specular: f64, exponent: f64) -> Lobe {
 /// Gold at about 630, 530 and 465 nm.
 fn gold(alpha: f64) -> Lobe {
     let fresnel = Fresnel::Complex { eta: DVec3::new(0.18, 0.42, 1.37), k: DVec3::new(3.42, 2.35, 1.77) };
-    Lobe::Conductor(Conductor { fresnel, alpha })
+    Lobe::Conductor(Conductor { fresnel, facets: Facets::ggx(alpha), tint: DVec3::ONE })
 }
 
 /// A metal that reflects everything.
 fn white_metal(alpha: f64) -> Lobe {
-    Lobe::Conductor(Conductor { fresnel: Fresnel::Schlick(DVec3::ONE), alpha })
+    white_metal_of(Facets::ggx(alpha))
+}
+
+fn white_metal_of(facets: Facets) -> Lobe {
+    Lobe::Conductor(Conductor { fresnel: Fresnel::Schlick(DVec3::ONE), facets, tint: DVec3::ONE })
 }
 
 fn clear(ior: f64) -> Dielectric {
@@ -91,7 +104,30 @@ fn glass(dielectric: Dielectric) -> Lobe {
 }
 
 fn rough_glass(dielectric: Dielectric, alpha: f64) -> Lobe {
-    Lobe::RoughGlass(RoughGlass { dielectric, ggx: Ggx { alpha } })
+    Lobe::RoughGlass(RoughGlass { dielectric, facets: Facets::ggx(alpha) })
+}
+
+fn thin_glass(dielectric: Dielectric) -> Lobe {
+    Lobe::ThinGlass(ThinGlass { dielectric })
+}
+
+fn rough_thin_glass(dielectric: Dielectric, facets: Facets) -> Lobe {
+    Lobe::RoughThinGlass(RoughThinGlass { dielectric, facets })
+}
+
+/// Plastic whose surface reflects by Fresnel's equations alone.
+fn plastic(interface: PlasticInterface, reflectance: DVec3, nonlinear: bool) -> Lobe {
+    let base = Base {
+        reflectance,
+        specular: DVec3::ONE,
+        ior: interface.ior,
+        internal_reflectance: interface.internal_reflectance(),
+        nonlinear,
+    };
+    match interface.transmittance_table() {
+        None => Lobe::Plastic(Plastic { base }),
+        Some(&transmittance) => Lobe::RoughPlastic(RoughPlastic { base, facets: Facets::of_plastic(&interface), transmittance }),
+    }
 }
 
 fn phong_glass(dielectric: Dielectric, exponent: f64) -> Lobe {
@@ -110,8 +146,13 @@ fn examples() -> Vec<(String, Lobe, f64)> {
         assert_eq!(kind.type_name(), name);
         let lobe = Lobe::of(kind, &Lookup { scene: &scene, uv: DVec2::ZERO, cosine: 1.0 });
         let parameters = kind.lobe();
-        assert_eq!(lobe.map(|lobe| lobe.kind()), parameters.map(|parameters| parameters.lobe), "{name}");
-        Some((format!("{name}: {}", keys.replace('\n', ", ")), lobe?, parameters?.ior.unwrap_or(1.0)))
+        assert_eq!(lobe.map(|lobe| lobe.kind()), parameters.as_ref().map(|parameters| parameters.lobe), "{name}");
+        let parameters = parameters?;
+        // Light that goes through a plate is in the same medium again.
+        let is_plate = matches!(parameters.lobe, LobeKind::ThinGlass | LobeKind::RoughThinGlass)
+            || matches!(kind, MaterialKind::Principled(principled) if principled.thin);
+        let ior = parameters.ior.filter(|_| !is_plate).unwrap_or(1.0);
+        Some((format!("{name}: {}", keys.replace('\n', ", ")), lobe?, ior))
     };
     let (mut lobes, mut types) = (Vec::new(), BTreeSet::new());
     for (name, keys) in material_examples() {
@@ -132,6 +173,17 @@ fn non_delta_lobes() -> Vec<(String, Lobe, f64)> {
         ("phong", phong(0.5, 0.4, 25.0), 1.0),
         ("gold 0.15", gold(0.15), 1.0),
         ("white metal 0.6", white_metal(0.6), 1.0),
+        (
+            "narrow Beckmann metal",
+            white_metal_of(Facets { distribution: MicrofacetDistribution::Beckmann, ..Facets::ggx(0.05) }),
+            1.0,
+        ),
+        (
+            "wide Beckmann metal",
+            white_metal_of(Facets { distribution: MicrofacetDistribution::Beckmann, ..Facets::ggx(0.9) }),
+            1.0,
+        ),
+        ("brushed metal", white_metal_of(Facets { alpha: DVec2::new(0.05, 0.8), anisotropic: true, ..Facets::ggx(0.0) }), 1.0),
         ("rough glass 0.3", rough_glass(clear(1.5), 0.3), 1.5),
         ("rough glass 0.6, less dense inside", rough_glass(tinted(0.7), 0.6), 0.7),
         ("Phong glass 15", phong_glass(tinted(1.5), 15.0), 1.5),

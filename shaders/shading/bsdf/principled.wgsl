@@ -1,0 +1,287 @@
+// The material of glTF 2.0's Appendix B with its extensions; src/reference/bsdf/principled.rs has the model. color0 is the base colour,
+// color1 the specular colour; the further parameters are metallic, specular, transmission, clearcoat, its roughness, the anisotropy and its
+// rotation, 1 plus its cosine and sine.
+#import core/layout.wgsl
+#import core/math.wgsl
+#import shading/dielectric.wgsl
+#import shading/fresnel.wgsl
+#import shading/hemisphere.wgsl
+#import shading/lobe.wgsl
+#import shading/microfacet.wgsl
+#import shading/scattering.wgsl
+#import shading/sides.wgsl
+#import shading/surface.wgsl
+
+// Largest share of the base's samples that the reflection takes, and least share of those of a reflection that there is.
+const MOST_REFLECTED: f32 = 0.95;
+const LEAST_REFLECTED: f32 = 0.02;
+
+struct Principled {
+    base: vec3<f32>,
+    // Of the dielectric, at normal incidence.
+    normal_incidence: vec3<f32>,
+    metallic: f32,
+    specular: f32,
+    transmission: f32,
+    coat: f32,
+    facets: Facets,
+    coat_facets: Facets,
+    // Transmitted light goes on as if the wall had no thickness.
+    thin: bool,
+    // Of the index of refraction beyond over that on wo's side; 1 where no light comes from within.
+    eta: f32,
+}
+
+struct PrincipledShares {
+    below_coat: f32,
+    coat: f32,
+    reflection: f32,
+    diffuse: f32,
+    transmission: f32,
+}
+
+fn principled_parameter(lobe: Lobe, index: u32) -> vec3<f32> {
+#if FURTHER_PARAMETERS
+    return further_parameter(lobe, index, vec3<f32>(0.0));
+#else
+    return vec3<f32>(0.0);
+#endif
+}
+
+fn principled_of(lobe: Lobe, front: bool) -> Principled {
+    var p: Principled;
+    p.base = lobe.color0;
+    let r = (lobe.ior - 1.0) / (lobe.ior + 1.0);
+    p.normal_incidence = min(r * r * lobe.color1, vec3<f32>(1.0));
+    p.metallic = principled_parameter(lobe, 0u).x;
+    p.specular = principled_parameter(lobe, 1u).x;
+    p.eta = 1.0;
+    p.thin = true;
+#if PRINCIPLED_TRANSMISSION
+    p.transmission = principled_parameter(lobe, 2u).x;
+    p.thin = (lobe.kind & THIN_WALL) != 0u || abs(lobe.ior - 1.0) < SMALLEST_BEND;
+    if p.transmission > 0.0 && !p.thin {
+        p.eta = select(1.0 / lobe.ior, lobe.ior, front);
+    }
+#endif
+    p.coat = principled_parameter(lobe, 3u).x;
+    let coat_roughness = principled_parameter(lobe, 4u).x;
+    p.coat_facets = Facets(coat_roughness * coat_roughness, coat_roughness * coat_roughness, lobe.kind & ~ANISOTROPIC);
+    let alpha = lobe.roughness * lobe.roughness;
+    p.facets = Facets(alpha, alpha, lobe.kind);
+#if ANISOTROPY
+    if (lobe.kind & ANISOTROPIC) != 0u {
+        let strength = principled_parameter(lobe, 5u).x;
+        let along = mix(alpha, 1.0, strength * strength);
+        p.facets.alpha = along;
+        if along >= DELTA_ALPHA {
+            p.facets.alpha_v = max(alpha, DELTA_ALPHA);
+        }
+    }
+#endif
+    return p;
+}
+
+fn principled_frame(lobe: Lobe, facets: Facets, surface: Surface) -> Frame {
+#if ANISOTROPY
+    if (facets.flags & ANISOTROPIC) != 0u {
+        let frame = facet_frame(facets, surface);
+        let turned = principled_parameter(lobe, 6u).xy - 1.0;
+        // Towards the side where v grows.
+        let side = select(-1.0, 1.0, dot(frame.bitangent, surface.along_v) >= 0.0);
+        let tangent = turned.x * frame.tangent + turned.y * side * frame.bitangent;
+        return Frame(tangent, cross(frame.normal, tangent), frame.normal);
+    }
+#endif
+    return facet_frame(facets, surface);
+}
+
+fn schlick(cosine: f32, normal_incidence: vec3<f32>) -> vec3<f32> {
+    let away = 1.0 - cosine;
+    let away2 = away * away;
+    return normal_incidence + (1.0 - normal_incidence) * (away2 * away2 * away);
+}
+
+struct PrincipledSplit {
+    reflected: vec3<f32>,
+    // Share that goes on to the dielectric's base.
+    passed: f32,
+}
+
+// What a facet does to light that it sees at an angle of the given cosine. Fresnel's angle is that on the side of air.
+fn principled_split(p: Principled, cosine: f32) -> PrincipledSplit {
+    var outside = cosine;
+    if p.eta < 1.0 {
+        let cosine2 = transmitted_cosine2(cosine, p.eta);
+        if cosine2 <= 0.0 {
+            return PrincipledSplit(vec3<f32>(1.0), 0.0);
+        }
+        outside = min(sqrt(cosine2), 1.0);
+    }
+    let dielectric = p.specular * schlick(outside, p.normal_incidence);
+    let reflected = mix(dielectric, schlick(cosine, p.base), p.metallic);
+    return PrincipledSplit(reflected, (1.0 - p.metallic) * (1.0 - max_component(dielectric)));
+}
+
+fn principled_shares(p: Principled, surface: Surface, wo: vec3<f32>) -> PrincipledShares {
+    let cosine = clamp(dot(wo, surface.shading_normal), 0.0, 1.0);
+    // The coat lies on the outside.
+    let coat = select(p.coat * schlick(cosine, vec3<f32>(0.04)).x, 0.0, !surface.front && p.transmission > 0.0 && !p.thin);
+    let split = principled_split(p, cosine);
+    let possible = select(max(p.metallic, (1.0 - p.metallic) * p.specular), 1.0, p.eta < 1.0);
+    let reflection = max(max_component(split.reflected), LEAST_REFLECTED * possible);
+    let base = max(split.passed, (1.0 - p.metallic) * (1.0 - MOST_REFLECTED)) * max_component(p.base);
+    let diffuse = base * (1.0 - p.transmission);
+    let transmission = base * p.transmission;
+    let sum = max(coat + (1.0 - coat) * (reflection + diffuse + transmission), 1.0e-30);
+    return PrincipledShares(
+        1.0 - coat, coat / sum, (1.0 - coat) * reflection / sum, (1.0 - coat) * diffuse / sum, (1.0 - coat) * transmission / sum
+    );
+}
+
+fn principled_is_non_delta(lobe: Lobe) -> bool {
+    let p = principled_of(lobe, true);
+    let diffuse = (1.0 - p.metallic) * (1.0 - p.transmission) * max_component(p.base);
+    return !facets_are_smooth(p.facets) || diffuse > 0.0 || (p.coat > 0.0 && !facets_are_smooth(p.coat_facets));
+}
+
+fn principled_sampling_weight(lobe: Lobe) -> f32 {
+    var p = principled_of(lobe, true);
+    p.eta = 1.0;
+    let split = principled_split(p, 1.0);
+    let coat = 0.04 * p.coat;
+    return coat + (1.0 - coat) * max_component(split.reflected + p.base * split.passed);
+}
+
+// D G2 / (4 cosθo), and the density of the reflected direction.
+fn principled_mirror(facets: Facets, o: vec3<f32>, i: vec3<f32>, m: vec3<f32>) -> vec2<f32> {
+    let lambda_o = facet_lambda(facets, o);
+    let unshadowed = facet_distribution(facets, m) / (4.0 * o.z);
+    return vec2<f32>(unshadowed * facet_shadowing(facets, lambda_o, facet_lambda(facets, i)), unshadowed / (1.0 + lambda_o));
+}
+
+fn evaluate_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
+    let p = principled_of(lobe, surface.front);
+    return principled_value(lobe, p, principled_shares(p, surface, wo), surface, wo, wi);
+}
+
+fn principled_value(
+    lobe: Lobe, p: Principled, shares: PrincipledShares, surface: Surface, wo: vec3<f32>, wi: vec3<f32>
+) -> BsdfValue {
+    let frame = principled_frame(lobe, p.facets, surface);
+    let o = to_local(frame, wo);
+    let i = to_local(frame, wi);
+    if on_wo_side(surface, wi) {
+        let m = normalize(o + i);
+        let split = principled_split(p, clamp(dot(o, m), 0.0, 1.0));
+        var value = p.base * (split.passed * (1.0 - p.transmission) * INVERSE_PI * i.z);
+        var pdf = shares.diffuse * hemisphere_pdf(i.z);
+        if !facets_are_smooth(p.facets) {
+            let mirror = principled_mirror(p.facets, o, i, m);
+            value += split.reflected * mirror.x;
+            pdf += shares.reflection * mirror.y;
+        }
+        value *= shares.below_coat;
+        if shares.coat > 0.0 && !facets_are_smooth(p.coat_facets) {
+            let coat_mirror = principled_mirror(p.coat_facets, o, i, m);
+            value += (1.0 - shares.below_coat) * coat_mirror.x;
+            pdf += shares.coat * coat_mirror.y;
+        }
+        return BsdfValue(value, pdf);
+    }
+#if PRINCIPLED_TRANSMISSION
+    if on_far_side(surface, wi) && shares.transmission > 0.0 && !facets_are_smooth(p.facets) {
+        var terms = vec2<f32>(0.0);
+        var cosine = 0.0;
+        if p.thin {
+            let across = vec3<f32>(i.xy, -i.z);
+            let m = normalize(o + across);
+            cosine = clamp(dot(o, m), 0.0, 1.0);
+            terms = principled_mirror(p.facets, o, across, m);
+        } else {
+            var m = normalize(o + p.eta * i);
+            m = select(-m, m, m.z > 0.0);
+            let o_m = dot(o, m);
+            let i_m = dot(i, m);
+            if o_m <= 0.0 || i_m >= 0.0 {
+                return no_value();
+            }
+            cosine = min(o_m, 1.0);
+            let lambda_o = facet_lambda(p.facets, o);
+            let refraction = i_m + o_m / p.eta;
+            let density = facet_distribution(p.facets, m) * o_m / o.z * (-i_m / (refraction * refraction));
+            let shadowing = facet_shadowing(p.facets, lambda_o, facet_lambda(p.facets, i));
+            terms = vec2<f32>(density * shadowing / (p.eta * p.eta), density / (1.0 + lambda_o));
+        }
+        let passed = principled_split(p, cosine).passed;
+        return BsdfValue(p.base * (shares.below_coat * passed * p.transmission * terms.x), shares.transmission * terms.y);
+    }
+#endif
+    return no_value();
+}
+
+fn sample_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
+    let p = principled_of(lobe, surface.front);
+    let shares = principled_shares(p, surface, wo);
+    let below_reflection = shares.coat + shares.reflection;
+    let below_diffuse = below_reflection + shares.diffuse;
+    let is_coat = choice < shares.coat;
+    let is_reflection = !is_coat && choice < below_reflection;
+    let is_diffuse = !is_coat && !is_reflection && (choice < below_diffuse || shares.transmission == 0.0);
+    let transmits = !is_coat && !is_reflection && !is_diffuse;
+    var facets = p.facets;
+    if is_coat {
+        facets = p.coat_facets;
+    }
+    let cosine = min(dot(wo, surface.shading_normal), 1.0);
+    var eta_scale = 1.0;
+    if transmits {
+        eta_scale = p.eta * p.eta;
+    }
+    if !is_diffuse && facets_are_smooth(facets) {
+        var wi = mirrored(surface, wo);
+        var weight = vec3<f32>((1.0 - shares.below_coat) / shares.coat);
+        let split = principled_split(p, cosine);
+        if is_reflection {
+            weight = split.reflected * (shares.below_coat / shares.reflection);
+        } else if transmits {
+            if split.passed <= 0.0 {
+                return no_sample();
+            }
+            wi = -wo;
+            if !p.thin {
+                wi = refracted(surface.shading_normal, wo, p.eta);
+            }
+            weight = p.base * (shares.below_coat * split.passed * p.transmission / (shares.transmission * eta_scale));
+        }
+        if transmits == (dot(wi, surface.facing_normal) > 0.0) {
+            return no_sample();
+        }
+        return BsdfSample(wi, weight, -1.0, eta_scale, false);
+    }
+    var wi = vec3<f32>(0.0);
+    if is_diffuse {
+        wi = sample_hemisphere(surface, u, v).xyz;
+    } else {
+        let frame = principled_frame(lobe, facets, surface);
+        let o = to_local(frame, wo);
+        let m = sample_visible_normal(facets, o, u, v);
+        var i = 2.0 * dot(o, m) * m - o;
+        if transmits {
+            if p.thin {
+                i.z = -i.z;
+            } else {
+                if transmitted_cosine2(clamp(dot(o, m), 0.0, 1.0), p.eta) <= 0.0 {
+                    return no_sample();
+                }
+                i = refracted(m, o, p.eta);
+            }
+        }
+        wi = frame_to_world(frame, i);
+    }
+    // A facet that is seen from the other side would be taken for the other way.
+    if transmits == on_wo_side(surface, wi) {
+        return no_sample();
+    }
+    return from_value(wi, principled_value(lobe, p, shares, surface, wo, wi), eta_scale);
+}

@@ -1,0 +1,71 @@
+// A thin plate of glass whose microfacets lie alike on both sides: what one lets through goes where its reflection would, mirrored in the
+// surface.
+#import core/math.wgsl
+#import shading/dielectric.wgsl
+#import shading/lobe.wgsl
+#import shading/microfacet.wgsl
+#import shading/scattering.wgsl
+#import shading/sides.wgsl
+#import shading/surface.wgsl
+
+fn rough_thin_glass_is_non_delta(lobe: Lobe) -> bool {
+    return !facets_are_smooth(lobe_facets(lobe));
+}
+
+fn rough_thin_glass_sampling_weight(lobe: Lobe) -> f32 {
+    return dielectric_sampling_weight(lobe);
+}
+
+fn evaluate_rough_thin_glass(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
+    let facets = lobe_facets(lobe);
+    let reflects = on_wo_side(surface, wi);
+    if facets_are_smooth(facets) || (!reflects && !on_far_side(surface, wi)) {
+        return no_value();
+    }
+    let frame = facet_frame(facets, surface);
+    let o = to_local(frame, wo);
+    let local = to_local(frame, wi);
+    let i = vec3<f32>(local.xy, abs(local.z));
+    return rough_thin_glass_value(lobe, facets, o, i, normalize(o + i), reflects);
+}
+
+// `i` is on wo's side, whether light comes from there or from the other one.
+fn rough_thin_glass_value(lobe: Lobe, facets: Facets, o: vec3<f32>, i: vec3<f32>, m: vec3<f32>, reflects: bool) -> BsdfValue {
+    let reflected = plate_reflectance(lobe, clamp(dot(o, m), 0.0, 1.0));
+    let probability = reflection_probability(lobe, reflected);
+    let lambda_o = facet_lambda(facets, o);
+    let common_factor = facet_distribution(facets, m) / (4.0 * o.z);
+    let shadowed = common_factor * facet_shadowing(facets, lambda_o, facet_lambda(facets, i));
+    let pdf = common_factor / (1.0 + lambda_o);
+    if reflects {
+        return BsdfValue(lobe.color0 * (reflected * shadowed), probability * pdf);
+    }
+    return BsdfValue(lobe.color1 * ((1.0 - reflected) * shadowed), (1.0 - probability) * pdf);
+}
+
+fn sample_rough_thin_glass(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
+    let facets = lobe_facets(lobe);
+    if facets_are_smooth(facets) {
+        return sample_delta_plate(lobe, surface, wo, choice);
+    }
+    let frame = facet_frame(facets, surface);
+    let o = to_local(frame, wo);
+    let m = sample_visible_normal(facets, o, u, v);
+    let reflected = plate_reflectance(lobe, clamp(dot(o, m), 0.0, 1.0));
+    let probability = reflection_probability(lobe, reflected);
+    let reflects = choice < probability;
+    let i = 2.0 * dot(o, m) * m - o;
+    let wi = frame_to_world(frame, vec3<f32>(i.xy, select(-i.z, i.z, reflects)));
+    if i.z <= 0.0 || reflects != (dot(wi, surface.facing_normal) > 0.0) {
+        return no_sample();
+    }
+    let value = rough_thin_glass_value(lobe, facets, o, i, m, reflects);
+    if value.pdf_solid_angle <= 0.0 {
+        return no_sample();
+    }
+    let masking = facet_shadowing_of_visible(facets, facet_lambda(facets, o), facet_lambda(facets, i));
+    if reflects {
+        return BsdfSample(wi, lobe.color0 * (reflected / probability * masking), value.pdf_solid_angle, 1.0, false);
+    }
+    return BsdfSample(wi, lobe.color1 * ((1.0 - reflected) / (1.0 - probability) * masking), value.pdf_solid_angle, 1.0, false);
+}

@@ -1,0 +1,94 @@
+//! `type = "principled"`
+
+use super::keys::{MaterialKeys, ior_or_default, material_keys};
+use super::roughness::MaskingEntry;
+use crate::load::error::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::value::{Checked, Colour, Fraction, IndexOfRefraction, Located, NonNegative, Number, Scalar};
+use crate::scene::{ColorInput, Masking, MaterialKind, Principled};
+
+material_keys! {
+    /// The metallic-roughness material of glTF 2.0 (Appendix B) with its extensions for the index of refraction, specular, transmission,
+    /// clearcoat and anisotropy.
+    #[schemars(extend("allOf" = [{ "dependentRequired": { "anisotropy_rotation": ["anisotropy"], "thin": ["transmission"], "clearcoat_roughness": ["clearcoat"] } }]))]
+    {
+        /// 1 when left out.
+        base_color: Option<Colour<Fraction>>,
+        /// 1 when left out.
+        metallic: Option<Scalar<Fraction>>,
+        /// Its square is the width of the microfacets. 1 when left out.
+        roughness: Option<Scalar<Fraction>>,
+        /// Of the dielectric, 1.5 when left out.
+        ior: Option<Checked<IndexOfRefraction>>,
+        /// Factor of what the dielectric reflects, 1 when left out.
+        specular: Option<Scalar<Fraction>>,
+        /// Its colour along the normal, 1 when left out; above 1 it reflects more than the index of refraction says, at most all light.
+        specular_color: Option<Colour<NonNegative>>,
+        /// Share of light that goes through the dielectric's base instead of being scattered back; 0 when left out.
+        transmission: Option<Scalar<Fraction>>,
+        /// Light goes through a wall without thickness, which does not bend it.
+        thin: Option<Located<bool>>,
+        /// 0 when left out.
+        clearcoat: Option<Scalar<Fraction>>,
+        /// 0 when left out.
+        clearcoat_roughness: Option<Located<Scalar<Fraction>>>,
+        /// 0 when left out.
+        anisotropy: Option<Scalar<Fraction>>,
+        /// Degrees, from the direction in which texture coordinate u grows towards that of v.
+        anisotropy_rotation: Option<Located<Number>>,
+        /// "separable" when left out.
+        masking: Option<MaskingEntry>,
+    }
+}
+
+impl MaterialKeys for Keys {
+    const EXAMPLES: &'static [&'static str] = &[
+        "base_color = [0.8, 0.4, 0.1]\nmetallic = 0\nroughness = 0.5",
+        "base_color = [0.9, 0.6, 0.3]\nroughness = 0.4\nmasking = \"height_correlated\"",
+        "base_color = [0.8, 0.2, 0.1]\nmetallic = 0.3\nroughness = 0.6\nclearcoat = 0.8\nclearcoat_roughness = 0.2\nspecular = 0.7\nspecular_color = [0.5, 1, 2]",
+        "base_color = [0.4, 0.8, 0.9]\nmetallic = 0.2\nroughness = 0.5\ntransmission = 0.7\nior = 1.4",
+        "base_color = [0.4, 0.8, 0.9]\nmetallic = 0.1\nroughness = 0.5\ntransmission = 0.8\nthin = true\nclearcoat = 0.5",
+        "base_color = [0.9, 0.6, 0.3]\nmetallic = 0.8\nroughness = 0.4\nanisotropy = 0.7\nanisotropy_rotation = 30",
+        "base_color = [0.4, 0.8, 0.9]\nmetallic = 0\nroughness = 0\ntransmission = 1",
+        "metallic = 0\nroughness = 0\nclearcoat = 1",
+    ];
+
+    fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
+        self.check_unused(resolver)?;
+        let scalar = |written: &Option<Scalar<Fraction>>, otherwise: f64| {
+            written.as_ref().map_or(Ok(ColorInput::grey(otherwise)), |written| resolver.scalar(written))
+        };
+        let anisotropy = self.anisotropy.as_ref().map(|written| resolver.scalar(written)).transpose()?;
+        let clearcoat_roughness = self.clearcoat_roughness.as_ref().map(|written| resolver.scalar(&written.value)).transpose()?;
+        Ok(MaterialKind::Principled(Box::new(Principled {
+            base_color: resolver.colour_or_white(&self.base_color)?,
+            metallic: scalar(&self.metallic, 1.0)?,
+            roughness: scalar(&self.roughness, 1.0)?,
+            ior: ior_or_default(self.ior),
+            specular: scalar(&self.specular, 1.0)?,
+            specular_color: resolver.colour_or_white(&self.specular_color)?,
+            transmission: scalar(&self.transmission, 0.0)?,
+            thin: self.thin.as_ref().is_some_and(|thin| thin.value),
+            clearcoat: scalar(&self.clearcoat, 0.0)?,
+            clearcoat_roughness: clearcoat_roughness.unwrap_or(ColorInput::grey(0.0)),
+            anisotropy: anisotropy.filter(|strength| *strength != ColorInput::grey(0.0)),
+            anisotropy_rotation_degrees: self.anisotropy_rotation.as_ref().map_or(0.0, |degrees| degrees.value.0),
+            masking: self.masking.map_or(Masking::Separable, Masking::from),
+        })))
+    }
+}
+
+impl Keys {
+    /// Nothing that is written goes without an effect.
+    fn check_unused(&self, resolver: &Resolver<'_>) -> Result<(), SceneError> {
+        let needs = |span: &std::ops::Range<usize>, name: &str, needed: &str| {
+            Err(resolver.error(span, format!("`{name}` needs the key `{needed}`")))
+        };
+        match (&self.anisotropy_rotation, &self.thin, &self.clearcoat_roughness) {
+            (Some(rotation), ..) if self.anisotropy.is_none() => needs(&rotation.span, "anisotropy_rotation", "anisotropy"),
+            (_, Some(thin), _) if self.transmission.is_none() => needs(&thin.span, "thin", "transmission"),
+            (.., Some(roughness)) if self.clearcoat.is_none() => needs(&roughness.span, "clearcoat_roughness", "clearcoat"),
+            _ => Ok(()),
+        }
+    }
+}

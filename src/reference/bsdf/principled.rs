@@ -1,0 +1,309 @@
+//! The material of glTF 2.0's Appendix B, with its extensions for indices of refraction, specular, transmission, clearcoat and anisotropy.
+
+use std::f64::consts::FRAC_1_PI;
+
+use glam::{DVec2, DVec3};
+
+use super::fresnel::{normal_incidence_reflectance, refract, schlick_reflectance};
+use super::hemisphere::{hemisphere_pdf, sample_hemisphere};
+use super::lookup::Lookup;
+use super::microfacet::Facets;
+use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
+use super::view::View;
+use crate::math::Frame;
+use crate::scene::material::{DELTA_ALPHA, SMALLEST_BEND};
+use crate::scene::{MaterialKind, MicrofacetDistribution};
+
+/// Largest share of the base's samples that the surface's reflection takes: facets that are turned away from the normal let more through.
+const MOST_REFLECTED: f64 = 0.95;
+/// Least share of samples of a reflection that there is: other facets reflect more than one along the normal.
+const LEAST_REFLECTED: f64 = 0.02;
+
+/// With h the half vector, s = (1 − |wo·h|)⁵, D and G those of GGX, and M = D·G/(4·cosθo·cosθi):
+///
+/// ```text
+/// metal       M · (c + (1 − c)·s)                            c: base colour
+/// dielectric  w·F·M + (1 − w·max F) · ((1 − t)·c/π + t·c·T)   F = f + (1 − f)·s, f = min(((η − 1)/(η + 1))²·k, 1)
+/// surface     metallic · metal + (1 − metallic) · dielectric
+/// material    coat·Fc·Mc + (1 − coat·Fc) · surface            Fc = 0.04 + 0.96·(1 − cosθo)⁵
+/// ```
+///
+/// w and k are the specular factor and colour, t is the transmission. T is the microfacets' transmission: of a thin wall M mirrored in the
+/// surface, else Walter's refraction. Its h is that of the facet which bends wi to wo; |wo·h| is taken on the side of air, and where a facet
+/// reflects totally F is 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Principled {
+    pub base: DVec3,
+    pub metallic: f64,
+    pub ior: f64,
+    pub specular: f64,
+    pub specular_color: DVec3,
+    pub transmission: f64,
+    pub thin: bool,
+    pub coat: f64,
+    pub facets: Facets,
+    pub coat_facets: Facets,
+    /// From the tangent towards the bitangent, in radians.
+    pub rotation: f64,
+}
+
+/// The ways in which light is scattered, and the probability of sampling each.
+#[derive(Debug, Clone, Copy)]
+struct Shares {
+    /// Of all light, what the coat leaves to the rest.
+    below_coat: f64,
+    coat: f64,
+    reflection: f64,
+    diffuse: f64,
+    transmission: f64,
+}
+
+/// What a facet does to light.
+struct Split {
+    /// Reflected.
+    reflected: DVec3,
+    /// Share that goes on to the dielectric's base.
+    passed: f64,
+}
+
+impl Principled {
+    /// Transmitted light goes on as if the wall had no thickness.
+    fn is_thin(&self) -> bool {
+        self.thin || (self.ior - 1.0).abs() < SMALLEST_BEND
+    }
+
+    /// Index of refraction beyond over that on wo's side.
+    fn eta(&self, view: &View) -> f64 {
+        if view.front { self.ior } else { 1.0 / self.ior }
+    }
+
+    /// What a facet reflects seen at an angle of the given cosine, and lets through. `eta` is 1 where light does not change the medium.
+    fn split(&self, cosine: f64, eta: f64) -> Split {
+        // On the side of air. None: total reflection.
+        let outside = if eta < 1.0 { 1.0 - (1.0 - cosine * cosine) / (eta * eta) } else { cosine * cosine };
+        if outside <= 0.0 && eta < 1.0 {
+            return Split { reflected: DVec3::ONE, passed: 0.0 };
+        }
+        let outside = outside.max(0.0).sqrt().min(1.0);
+        let normal_incidence = (normal_incidence_reflectance(self.ior) * self.specular_color).min(DVec3::ONE);
+        let dielectric = schlick_reflectance(outside, normal_incidence) * self.specular;
+        let metal = schlick_reflectance(cosine.min(1.0), self.base);
+        let reflected = metal * self.metallic + dielectric * (1.0 - self.metallic);
+        Split { reflected, passed: (1.0 - self.metallic) * (1.0 - dielectric.max_element()) }
+    }
+
+    /// The ratio of indices that reflection is judged by: 1 where no light comes from within.
+    fn eta_of_reflection(&self, view: &View) -> f64 {
+        if self.transmission > 0.0 && !self.is_thin() { self.eta(view) } else { 1.0 }
+    }
+
+    /// The coat lies on the outside.
+    fn coat_reflectance(&self, view: &View, cosine: f64) -> f64 {
+        let is_within = !view.front && self.transmission > 0.0 && !self.is_thin();
+        if is_within { 0.0 } else { self.coat * schlick_reflectance(cosine, DVec3::splat(0.04)).x }
+    }
+
+    fn shares(&self, view: &View) -> Shares {
+        let cosine = view.wo.dot(view.normal()).clamp(0.0, 1.0);
+        let eta = self.eta_of_reflection(view);
+        let coat = self.coat_reflectance(view, cosine);
+        let Split { reflected, passed } = self.split(cosine, eta);
+        let possible = if eta < 1.0 { 1.0 } else { self.metallic.max((1.0 - self.metallic) * self.specular) };
+        let reflection = reflected.max_element().max(LEAST_REFLECTED * possible);
+        let base = passed.max((1.0 - self.metallic) * (1.0 - MOST_REFLECTED)) * self.base.max_element();
+        let [diffuse, transmission] = [base * (1.0 - self.transmission), base * self.transmission];
+        let sum = coat + (1.0 - coat) * (reflection + diffuse + transmission);
+        let of = |share: f64| if sum > 0.0 { share / sum } else { 0.0 };
+        Shares {
+            below_coat: 1.0 - coat,
+            coat: of(coat),
+            reflection: of((1.0 - coat) * reflection),
+            diffuse: of((1.0 - coat) * diffuse),
+            transmission: of((1.0 - coat) * transmission),
+        }
+    }
+
+    fn frame(&self, view: &View) -> Frame {
+        view.turned_facet_frame(self.facets.anisotropic, self.rotation)
+    }
+
+    /// D·G2/(4·cosθo) and the density of the reflected direction.
+    fn mirror_terms(facets: &Facets, wo: DVec3, wi: DVec3, m: DVec3) -> (f64, f64) {
+        let unshadowed = facets.distribution(m) / (4.0 * wo.z);
+        (unshadowed * facets.shadowing_masking(wo, wi), unshadowed * facets.masking(wo))
+    }
+
+    fn evaluate_reflection(&self, view: &View, wi: DVec3, shares: &Shares) -> Evaluation {
+        let frame = self.frame(view);
+        let (wo, local) = (frame.to_local(view.wo), frame.to_local(wi));
+        let m = (wo + local).normalize();
+        let Split { reflected, passed } = self.split(wo.dot(m), self.eta_of_reflection(view));
+        let mut value = self.base * (passed * (1.0 - self.transmission) * FRAC_1_PI * local.z);
+        let mut pdf = shares.diffuse * hemisphere_pdf(view, local.z);
+        if !self.facets.are_smooth() {
+            let (shadowed, density) = Self::mirror_terms(&self.facets, wo, local, m);
+            value += reflected * shadowed;
+            pdf += shares.reflection * density;
+        }
+        value *= shares.below_coat;
+        if !self.coat_facets.are_smooth() && shares.coat > 0.0 {
+            let (wo, local) = (view.frame.to_local(view.wo), view.frame.to_local(wi));
+            let (shadowed, density) = Self::mirror_terms(&self.coat_facets, wo, local, (wo + local).normalize());
+            value += DVec3::splat((1.0 - shares.below_coat) * shadowed);
+            pdf += shares.coat * density;
+        }
+        Evaluation { value, pdf }
+    }
+
+    fn evaluate_transmission(&self, view: &View, wi: DVec3, shares: &Shares) -> Option<Evaluation> {
+        if self.facets.are_smooth() || shares.transmission == 0.0 {
+            return None;
+        }
+        let frame = self.frame(view);
+        let (wo, local) = (frame.to_local(view.wo), frame.to_local(wi));
+        let (shadowed, density, cosine, eta) = if self.is_thin() {
+            let mirrored = DVec3::new(local.x, local.y, -local.z);
+            let m = (wo + mirrored).normalize();
+            let (shadowed, density) = Self::mirror_terms(&self.facets, wo, mirrored, m);
+            (shadowed, density, wo.dot(m), 1.0)
+        } else {
+            let eta = self.eta(view);
+            let sum = (wo + local * eta).try_normalize()?;
+            let m = if sum.z < 0.0 { -sum } else { sum };
+            let (cos_o, cos_i) = (wo.dot(m), local.dot(m));
+            if cos_o <= 0.0 || cos_i >= 0.0 {
+                return None;
+            }
+            let common = self.facets.distribution(m) * cos_o * -cos_i / (wo.z * (cos_o + eta * cos_i).powi(2));
+            let shadowed = common * self.facets.shadowing_masking(wo, local);
+            (shadowed, common * self.facets.masking(wo) * eta * eta, cos_o, eta)
+        };
+        let passed = self.split(cosine, eta).passed;
+        let value = self.base * (shares.below_coat * passed * self.transmission * shadowed);
+        Some(Evaluation { value, pdf: shares.transmission * density })
+    }
+
+    /// A direction that a smooth surface reflects or lets through.
+    fn sample_delta(&self, view: &View, shares: &Shares, reflects: bool) -> Option<BsdfSample> {
+        let cosine = view.wo.dot(view.normal());
+        if reflects {
+            let wi = view.mirrored();
+            let reflected = self.split(cosine, self.eta_of_reflection(view)).reflected;
+            let weight = reflected * (shares.below_coat / shares.reflection);
+            return view.reflects(wi).then_some(BsdfSample { weight, ..BsdfSample::reflected(wi, Density::Delta) });
+        }
+        let eta = if self.is_thin() { 1.0 } else { self.eta(view) };
+        let wi = if self.is_thin() { -view.wo } else { refract(view.wo, view.normal(), eta)? };
+        let passed = self.split(cosine, eta).passed;
+        let weight = self.base * (shares.below_coat * passed * self.transmission / (shares.transmission * eta * eta));
+        let is_possible = self.is_thin() || view.transmits(wi);
+        (is_possible && passed > 0.0).then_some(BsdfSample { wi, weight, density: Density::Delta, eta, is_null: false })
+    }
+
+    /// A direction of the microfacets' transmission.
+    fn transmitted(&self, view: &View, u1: f64, u2: f64) -> Option<DVec3> {
+        let frame = self.frame(view);
+        let wo = frame.to_local(view.wo);
+        let m = self.facets.sample_visible(wo, u1, u2);
+        let local = if self.is_thin() {
+            let mirrored = m * (2.0 * wo.dot(m)) - wo;
+            DVec3::new(mirrored.x, mirrored.y, -mirrored.z)
+        } else {
+            refract(wo, m, self.eta(view))?
+        };
+        Some(frame.to_world(local).normalize())
+    }
+}
+
+/// The mirror direction of a facet drawn from those that are seen.
+fn reflected(facets: &Facets, frame: &Frame, view: &View, u1: f64, u2: f64) -> DVec3 {
+    let wo = frame.to_local(view.wo);
+    let m = facets.sample_visible(wo, u1, u2);
+    frame.to_world(m * (2.0 * wo.dot(m)) - wo).normalize()
+}
+
+impl Scatter for Principled {
+    fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
+        let MaterialKind::Principled(written) = kind else { return None };
+        let alpha = lookup.scalar(&written.roughness).powi(2);
+        let strength = written.anisotropy.map_or(0.0, |anisotropy| lookup.scalar(&anisotropy));
+        let (distribution, masking) = (MicrofacetDistribution::Ggx, written.masking);
+        let isotropic = |alpha: f64| Facets { alpha: DVec2::splat(alpha), distribution, masking, anisotropic: false };
+        let mut facets = isotropic(alpha);
+        if written.anisotropy.is_some() {
+            facets.anisotropic = true;
+            facets.alpha.x = alpha + (1.0 - alpha) * strength * strength;
+            if facets.alpha.x >= DELTA_ALPHA {
+                facets.alpha = facets.alpha.max(DVec2::splat(DELTA_ALPHA));
+            }
+        }
+        Some(Self {
+            base: lookup.color(&written.base_color),
+            metallic: lookup.scalar(&written.metallic),
+            ior: written.ior,
+            specular: lookup.scalar(&written.specular),
+            specular_color: lookup.color(&written.specular_color),
+            transmission: lookup.scalar(&written.transmission),
+            thin: written.thin,
+            coat: lookup.scalar(&written.clearcoat),
+            facets,
+            coat_facets: isotropic(lookup.scalar(&written.clearcoat_roughness).powi(2)),
+            rotation: written.anisotropy_rotation_degrees.to_radians(),
+        })
+    }
+
+    /// About what is reflected, and let through, seen along the normal.
+    fn sampling_weight(&self) -> f64 {
+        let Split { reflected, passed } = self.split(1.0, 1.0);
+        let coat = 0.04 * self.coat;
+        coat + (1.0 - coat) * (reflected + self.base * passed).max_element()
+    }
+
+    fn is_delta(&self) -> bool {
+        let diffuse = (1.0 - self.metallic) * (1.0 - self.transmission) * self.base.max_element();
+        self.facets.are_smooth() && diffuse == 0.0 && (self.coat == 0.0 || self.coat_facets.are_smooth())
+    }
+
+    fn evaluate(&self, view: &View, wi: DVec3) -> Evaluation {
+        let shares = self.shares(view);
+        if view.reflects(wi) {
+            self.evaluate_reflection(view, wi, &shares)
+        } else if view.transmits(wi) {
+            self.evaluate_transmission(view, wi, &shares).unwrap_or_default()
+        } else {
+            Evaluation::default()
+        }
+    }
+
+    fn sample(&self, view: &View, u_lobe: f64, u1: f64, u2: f64) -> Option<BsdfSample> {
+        let shares = self.shares(view);
+        let smooth = self.facets.are_smooth();
+        let below_reflection = shares.coat + shares.reflection;
+        let below_diffuse = below_reflection + shares.diffuse;
+        let wi = if u_lobe < shares.coat {
+            if self.coat_facets.are_smooth() {
+                let (wi, weight) = (view.mirrored(), DVec3::splat((1.0 - shares.below_coat) / shares.coat));
+                return view.reflects(wi).then_some(BsdfSample { weight, ..BsdfSample::reflected(wi, Density::Delta) });
+            }
+            reflected(&self.coat_facets, &view.frame, view, u1, u2)
+        } else if u_lobe < below_reflection {
+            if smooth {
+                return self.sample_delta(view, &shares, true);
+            }
+            reflected(&self.facets, &self.frame(view), view, u1, u2)
+        } else if u_lobe < below_diffuse || shares.transmission == 0.0 {
+            view.frame.to_world(sample_hemisphere(view, u1, u2))
+        } else {
+            if smooth {
+                return self.sample_delta(view, &shares, false);
+            }
+            self.transmitted(view, u1, u2)?
+        };
+        // A facet that is seen from the other side would be taken for the other way.
+        let transmits = u_lobe >= below_diffuse && shares.transmission > 0.0;
+        let Evaluation { value, pdf } = self.evaluate(view, wi);
+        let eta = if transmits && !self.is_thin() { self.eta(view) } else { 1.0 };
+        let is_possible = pdf > 0.0 && transmits != view.reflects(wi);
+        is_possible.then(|| BsdfSample { wi, weight: value / pdf, density: Density::SolidAngle(pdf), eta, is_null: false })
+    }
+}

@@ -1,0 +1,39 @@
+//! A smooth plate of glass, too thin to see its thickness.
+
+use glam::DVec3;
+
+use super::dielectric::Dielectric;
+use super::lookup::Lookup;
+use super::scatter::{BsdfSample, Evaluation, Scatter};
+use super::view::View;
+use crate::scene::MaterialKind;
+
+/// Light is reflected by both boundaries, to and fro between them, and what goes through leaves in the direction in which it came
+/// ([`Dielectric::split_of_plate`]).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ThinGlass {
+    pub dielectric: Dielectric,
+}
+
+impl Scatter for ThinGlass {
+    fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
+        let MaterialKind::Glass { ior, reflectance, transmittance, thin: true } = kind else { return None };
+        Some(Self { dielectric: Dielectric::new(*ior, reflectance, transmittance, lookup) })
+    }
+
+    fn sampling_weight(&self) -> f64 {
+        self.dielectric.sampling_weight()
+    }
+
+    fn is_delta(&self) -> bool {
+        true
+    }
+
+    fn evaluate(&self, _view: &View, _wi: DVec3) -> Evaluation {
+        Evaluation::default()
+    }
+
+    fn sample(&self, view: &View, u_lobe: f64, _u1: f64, _u2: f64) -> Option<BsdfSample> {
+        self.dielectric.sample_delta_plate(view, u_lobe)
+    }
+}
