@@ -64,13 +64,12 @@ renderer() {
 }
 for signal in KILL TERM; do
     waited=0
-    while process=$(renderer); [ -z "$process" ]; do
+    # One that ends by itself before it is reached is none: then the next.
+    while process=$(renderer); sleep 0.3; [ -z "$process" ] || ! kill -$signal "$process" 2> /dev/null; do
         waited=$((waited + 1))
         [ "$waited" -lt 300 ] || { echo "no chunk ever ran" >&2; squeue >&2; cat "$folder"/*.out "$folder"/*.log >&2; exit 1; }
-        sleep 0.2
     done
-    sleep 1
-    kill -$signal "$process" && echo "sent SIG$signal to a chunk"
+    echo "sent SIG$signal to a chunk"
     sleep 2
 done
 
