@@ -238,7 +238,9 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     (*path).ray = Ray(offset_origin(surface, drawn.wi), drawn.wi);
     (*path).throughput = incoming.throughput * drawn.weight;
     (*path).pdf_solid_angle = drawn.pdf_solid_angle;
-    (*path).null_vertices += select(0u, 1u, drawn.is_null);
+    if drawn.is_null {
+        (*path).null_vertices++;
+    }
     return shading;
 }
 #else
