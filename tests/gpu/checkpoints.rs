@@ -135,8 +135,9 @@ fn a_render_in_pieces_is_the_render_in_one_piece() {
     let on = |device: &'static str, goal: &Goal, make: Make<'_>| {
         let expected = whole(&scene, goal, make);
         let (found, pieces) = in_pieces(&scene, goal, &[make], folder.path());
-        // A stop is noticed between two passes over a band, and small bands may take one.
-        assert!(pieces > 1 || device == "bands", "{device}, {goal:?}: only {pieces} pieces");
+        // A stop is noticed between two passes over a band, and small bands and the batches of steps may take one.
+        let may_be_one = device == "bands" || goal.adaptive || goal.target_error.is_some();
+        assert!(pieces > 1 || may_be_one, "{device}, {goal:?}: only {pieces} pieces");
         assert!(found == expected, "{device}, {goal:?}");
     };
     for goal in &goals {
@@ -171,7 +172,7 @@ fn another_device_goes_on() {
         let on_cpu = || cpu(&scene);
         let expected = whole(&scene, &goal, &on_cpu);
         let (found, pieces) = in_pieces(&scene, &goal, &[&on_gpu, &on_cpu, &on_bands], folder.path());
-        assert!(pieces > 2, "{pieces}");
+        assert!(pieces > 2 || goal.adaptive, "{pieces}");
         let far = |[a, b]: [&[u32; 3]; 2]| {
             a.iter().zip(b).any(|(a, b)| (f32::from_bits(*a) - f32::from_bits(*b)).abs() > 1e-3 * (f32::from_bits(*b) + 0.01))
         };
