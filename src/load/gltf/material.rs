@@ -102,53 +102,89 @@ impl Surface<'_, '_> {
         self.see_through(keys, factor[3])
     }
 
-    /// What scatters light: a metal and a dielectric, mixed by `metallic`.
+    /// What scatters light: the metallic-roughness material with its extensions.
     fn lit(&mut self, base: Value) -> Result<Keys, String> {
-        let pbr = &self.material.pbr_metallic_roughness;
-        let metallic = pbr.metallic_factor.unwrap_or(1.0).clamp(0.0, 1.0);
-        let roughness = pbr.roughness_factor.unwrap_or(1.0).clamp(0.0, 1.0);
-        let pbr = pbr.clone();
+        const SPECULAR: &str = "KHR_materials_specular";
+        const TRANSMISSION: &str = "KHR_materials_transmission";
+        const CLEARCOAT: &str = "KHR_materials_clearcoat";
+        const ANISOTROPY: &str = "KHR_materials_anisotropy";
+        let pbr = self.material.pbr_metallic_roughness.clone();
         let map = match &pbr.metallic_roughness_texture {
             Some(info) => self.texture_name(info, "metallic and roughness")?,
             None => None,
         };
         // Of the texture, green is roughness and blue metallic.
-        let of_map = |channel: &str, factor: f64| match &map {
-            Some(name) => Value::Table(channel_of(name, channel, factor)),
-            None => Value::Number(factor),
-        };
-        let roughness = of_map("g", roughness);
-        let metallic_share = match &map {
-            Some(name) if metallic > 0.0 => channel_weight(name, "b", metallic),
-            _ => Keys::of_type("constant").with("value", metallic),
-        };
-        let metallic_everywhere = metallic == 1.0 && map.is_none();
-        let ior = self.number("KHR_materials_ior", "ior", IOR);
-        let ior = if ior == 0.0 { 10.0 } else { ior.clamp(1.0, 10.0) };
-        let transmission = self.number("KHR_materials_transmission", "transmissionFactor", 0.0).clamp(0.0, 1.0);
-        let rough = |keys: Keys| keys.with("roughness", roughness.clone());
-        let metal = rough(Keys::of_type("conductor").with("reflectance", base.clone()));
-        if metallic_everywhere {
-            return Ok(metal);
-        }
-        let specular = self.number("KHR_materials_specular", "specularFactor", 1.0);
-        if metallic == 0.0 && transmission == 0.0 && specular == 0.0 {
+        let share = |factor: Option<f64>| factor.unwrap_or(1.0).clamp(0.0, 1.0);
+        let metallic = of_channel(map.as_deref(), "b", share(pbr.metallic_factor));
+        let roughness = of_channel(map.as_deref(), "g", share(pbr.roughness_factor));
+        let specular = self.factor(SPECULAR, "specularFactor", 1.0, "specularTexture", "a")?;
+        let transmission = self.factor(TRANSMISSION, "transmissionFactor", 0.0, "transmissionTexture", "r")?;
+        let clearcoat = self.factor(CLEARCOAT, "clearcoatFactor", 0.0, "clearcoatTexture", "r")?;
+        let [none, one] = [0.0, 1.0].map(Value::Number);
+        if metallic == none && transmission == none && specular == none && clearcoat == none {
             return Ok(Keys::of_type("diffuse").with("reflectance", base));
         }
-        self.approximate("dielectric surface", "a diffuse base under a rough mirror, blended by Fresnel's equations");
-        let diffuse = self.extra("base", Keys::of_type("diffuse").with("reflectance", base.clone()));
-        let coat = self.extra("coat", rough(Keys::of_type("conductor").with("reflectance", 1.0)));
-        let weight = Keys::of_type("fresnel").with("ior", ior);
-        let mut keys = Keys::of_type("blend").with("materials", vec![diffuse, coat]).with("weight", weight);
-        if transmission > 0.0 {
-            let glass = rough(Keys::of_type("rough_glass").with("ior", ior.max(1.001))).with("transmittance", base);
-            let share = Keys::of_type("constant").with("value", transmission);
-            keys = if transmission == 1.0 { glass } else { self.mixed(glass, keys, share, "glass") };
+        let ior = self.number("KHR_materials_ior", "ior", IOR);
+        let mut keys =
+            Keys::of_type("principled").with("base_color", base).with("metallic", metallic).with("roughness", roughness);
+        keys.set("ior", if ior == 0.0 { 10.0 } else { ior.clamp(1.0, 10.0) });
+        if specular != one {
+            keys.set("specular", specular);
         }
-        if metallic > 0.0 {
-            keys = self.mixed(metal, keys, metallic_share, "metal");
+        let tint = self.specular_colour(SPECULAR)?;
+        if tint != one {
+            keys.set("specular_color", tint);
+        }
+        if transmission != none {
+            keys.set("transmission", transmission);
+            // What has no volume is a wall without thickness.
+            if self.number("KHR_materials_volume", "thicknessFactor", 0.0) == 0.0 {
+                keys.set("thin", true);
+            }
+        }
+        if clearcoat != none {
+            let roughness = self.factor(CLEARCOAT, "clearcoatRoughnessFactor", 0.0, "clearcoatRoughnessTexture", "g")?;
+            keys.set("clearcoat", clearcoat);
+            keys.set("clearcoat_roughness", roughness);
+        }
+        let anisotropy = self.number(ANISOTROPY, "anisotropyStrength", 0.0).clamp(0.0, 1.0);
+        if anisotropy > 0.0 {
+            keys.set("anisotropy", anisotropy);
+            keys.set("anisotropy_rotation", self.number(ANISOTROPY, "anisotropyRotation", 0.0).to_degrees());
+            // Directions follow texture coordinates.
+            self.coordinates.get_or_insert(Coordinates { set: 0, map: DAffine2::IDENTITY });
         }
         Ok(keys)
+    }
+
+    /// A factor of an extension, times a channel of its texture.
+    fn factor(&mut self, of: &str, key: &str, default: f64, texture: &str, channel: &str) -> Result<Value, String> {
+        let factor = self.number(of, key, default).clamp(0.0, 1.0);
+        let map = match self.texture_of(of, texture)? {
+            Some(info) if factor > 0.0 => self.texture_name(&info, texture)?,
+            _ => None,
+        };
+        Ok(of_channel(map.as_deref(), channel, factor))
+    }
+
+    /// A texture of an extension.
+    fn texture_of(&self, of: &str, key: &str) -> Result<Option<TextureInfo>, String> {
+        match self.material.extensions.get(of).and_then(serde_json::Value::as_object) {
+            Some(object) => extension(object, key),
+            None => Ok(None),
+        }
+    }
+
+    fn specular_colour(&mut self, of: &str) -> Result<Value, String> {
+        let written = self.material.extensions.get(of).and_then(|object| object.get("specularColorFactor"));
+        let channels: Option<Vec<f64>> =
+            written.and_then(|list| list.as_array()?.iter().map(serde_json::Value::as_f64).collect());
+        let factor = channels.and_then(|channels| <[f64; 3]>::try_from(channels).ok()).map_or(DVec3::ONE, DVec3::from);
+        let factor = factor.max(DVec3::ZERO);
+        match self.texture_of(of, "specularColorTexture")? {
+            Some(info) => self.texture(&info, false, factor, "specular colour"),
+            None => Ok(constant(factor)),
+        }
     }
 
     /// The first by its share, the second by the rest.
@@ -222,26 +258,27 @@ impl Surface<'_, '_> {
 
     /// Names what of known extensions has no effect.
     fn report_extensions(&mut self) {
-        const PARTS: [(&str, &str); 9] = [
-            ("KHR_materials_specular", "specular reflection is as the index of refraction says"),
-            ("KHR_materials_volume", "what is inside takes no light"),
-            ("KHR_materials_clearcoat", "there is no coat"),
+        const PARTS: [(&str, &str); 5] = [
             ("KHR_materials_sheen", "there is no sheen"),
-            ("KHR_materials_anisotropy", "roughness is the same in all directions"),
             ("KHR_materials_iridescence", "there is no thin film"),
             ("KHR_materials_dispersion", "all colours are bent alike"),
             ("KHR_materials_diffuse_transmission", "light does not come through"),
             ("KHR_materials_pbrSpecularGlossiness", "the metallic-roughness parameters count"),
         ];
+        let parts_of = [
+            ("KHR_materials_volume", "attenuationDistance", "what is inside takes no light"),
+            ("KHR_materials_clearcoat", "clearcoatNormalTexture", "the coat lies as the surface does"),
+            ("KHR_materials_anisotropy", "anisotropyTexture", "the factors alone count"),
+        ];
+        for (name, key, instead) in parts_of {
+            if self.material.extensions.get(name).is_some_and(|object| object.get(key).is_some()) {
+                self.drop(&format!("{name}: {key}"), instead);
+            }
+        }
         for (name, instead) in PARTS {
             if self.material.extensions.contains_key(name) {
                 self.drop(name, instead);
             }
-        }
-        let textured =
-            self.material.extensions.get("KHR_materials_transmission").is_some_and(|e| e.get("transmissionTexture").is_some());
-        if textured {
-            self.drop("transmissionTexture", "the factor alone counts");
         }
         if self.material.occlusion_texture.is_some() {
             self.drop("occlusionTexture", "light is traced, so what is hidden is dark by itself");
@@ -302,4 +339,12 @@ fn channel_weight(name: &str, channel: &str, factor: f64) -> Keys {
     let mut keys = Keys::of_type("texture");
     keys.0.extend(channel_of(name, channel, factor).0);
     keys
+}
+
+/// A factor, times a channel where there is a texture.
+fn of_channel(texture: Option<&str>, channel: &str, factor: f64) -> Value {
+    match texture {
+        Some(name) => Value::Table(channel_of(name, channel, factor)),
+        None => Value::Number(factor),
+    }
 }

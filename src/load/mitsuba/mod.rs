@@ -53,6 +53,7 @@ pub fn load(files: &Files, path: &Path, options: &Options) -> Result<Description
         scene: Description::default(),
         world: DAffine3::IDENTITY,
         materials: HashMap::new(),
+        both_sides: false,
         lamps: HashMap::new(),
         default_material: None,
         textures: HashMap::new(),
@@ -75,7 +76,9 @@ struct Converter<'a> {
     scene: Description,
     /// What all of the scene is turned by, so that its environment stands upright.
     world: DAffine3,
-    materials: HashMap<*const Plugin, bsdf::Made>,
+    /// By the plugin, and whether it is within one that has two sides.
+    materials: HashMap<(*const Plugin, bool), bsdf::Made>,
+    both_sides: bool,
     /// Materials that give light, by their keys.
     lamps: HashMap<String, String>,
     /// That of shapes without a BSDF.

@@ -225,5 +225,6 @@ pub fn turn_inside_out(mesh: &mut Mesh) {
 fn uses_texture(plugin: &Rc<Plugin>) -> bool {
     const CONSTANT: [&str; 9] = ["rgb", "srgb", "uniform", "d65", "regular", "irregular", "blackbody", "srgb_d65", "rawconstant"];
     let is_texture = ["texture", "spectrum"].contains(&plugin.kind.as_str()) && !CONSTANT.contains(&plugin.name.as_str());
-    is_texture || plugin.children.iter().any(|child| uses_texture(&child.plugin))
+    // Directions of roughness follow texture coordinates.
+    is_texture || plugin.has("alpha_u") || plugin.children.iter().any(|child| uses_texture(&child.plugin))
 }

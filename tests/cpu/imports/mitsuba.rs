@@ -218,7 +218,6 @@ fn nothing_is_left_out_silently() {
         "medium `homogeneous` in shape",
         "shape `hair`",
         "emitter `projector`",
-        "one-sided bsdf `diffuse`",
         "medium `homogeneous` in scene",
     ] {
         assert!(report.contains(said), "{said}:\n{report}");

@@ -43,7 +43,7 @@ pub fn conductor(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed
     let mut keys = Keys::of_type("conductor");
     keys.0.extend(fresnel.0);
     if tint.constant() != Some(DVec3::ONE) {
-        converter.drop(plugin, "specular_reflectance of a conductor", "1 is taken");
+        keys.set("specular_reflectance", tint.value());
     }
     if rough {
         keys = with_roughness(converter, plugin, keys)?;
@@ -79,36 +79,37 @@ fn outside(plugin: &Plugin, name: &str) -> Result<f64, SceneError> {
     }
 }
 
-/// The width of the microfacets' distribution.
+/// The distribution of microfacets: Mitsuba's masks and shadows them separately.
 pub fn with_roughness(converter: &mut Converter, plugin: &Rc<Plugin>, keys: Keys) -> Result<Keys, SceneError> {
-    plugin.without_effect(&["sample_visible", "sample_all"]);
-    let distribution = plugin.text("distribution")?.unwrap_or("beckmann").to_ascii_lowercase();
-    if distribution != "ggx" {
-        let what = format!("distribution `{distribution}` of microfacets");
-        converter.approximate(plugin, &what, "GGX of the same width is taken");
-    }
-    converter.approximate(
-        plugin,
-        "masking and shadowing that are separate",
-        "they are height-correlated: 1 to 2 % brighter at grazing angles",
-    );
-    let (u, v) = if plugin.has("alpha_u") || plugin.has("alpha_v") {
-        (converter.scalar(plugin, "alpha_u", 0.1)?, converter.scalar(plugin, "alpha_v", 0.1)?)
-    } else {
-        let alpha = converter.scalar(plugin, "alpha", 0.1)?;
-        (alpha.clone(), alpha)
-    };
-    let alpha = match (u.constant(), v.constant()) {
-        (Some(u), Some(v)) if u == v => Input::Constant(u),
-        (Some(u), Some(v)) => {
-            converter.approximate(plugin, "roughness that differs by direction", "the geometric mean of both is taken");
-            Input::grey((u.x * v.x).max(0.0).sqrt())
-        }
-        _ => u,
-    };
-    let alpha = match alpha {
+    let clamped = |input: Input| match input {
         Input::Constant(alpha) => Input::grey(alpha.x.clamp(0.0, 1.0)),
         texture => texture,
     };
-    Ok(keys.with("alpha", alpha.value()))
+    let keys = if plugin.has("alpha_u") || plugin.has("alpha_v") {
+        let (u, v) = (converter.scalar(plugin, "alpha_u", 0.1)?, converter.scalar(plugin, "alpha_v", 0.1)?);
+        if u == v {
+            keys.with("alpha", clamped(u).value())
+        } else {
+            keys.with("alpha_u", clamped(u).value()).with("alpha_v", clamped(v).value())
+        }
+    } else {
+        let alpha = converter.scalar(plugin, "alpha", 0.1)?;
+        keys.with("alpha", clamped(alpha).value())
+    };
+    with_distribution(converter, plugin, keys)
+}
+
+/// `distribution` and `masking`.
+pub fn with_distribution(converter: &mut Converter, plugin: &Rc<Plugin>, keys: Keys) -> Result<Keys, SceneError> {
+    plugin.without_effect(&["sample_visible", "sample_all"]);
+    let keys = match plugin.text("distribution")?.unwrap_or("beckmann").to_ascii_lowercase().as_str() {
+        "ggx" => keys,
+        "beckmann" => keys.with("distribution", "beckmann"),
+        other => {
+            let what = format!("distribution `{other}` of microfacets");
+            converter.approximate(plugin, &what, "Beckmann's of the same width is taken");
+            keys.with("distribution", "beckmann")
+        }
+    };
+    Ok(keys.with("masking", "separable"))
 }

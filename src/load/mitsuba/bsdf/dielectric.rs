@@ -28,21 +28,7 @@ pub fn dielectric(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keye
 
 /// Two surfaces so near to each other that nothing is bent.
 pub fn thin(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {
-    let ior = relative_ior(plugin, "bk7")?;
-    let reflectance = converter.reflectance(plugin, "specular_reflectance", 1.0)?;
-    let transmittance = converter.reflectance(plugin, "specular_transmittance", 1.0)?;
-    if transmittance.constant() != Some(glam::DVec3::ONE) {
-        converter.drop(plugin, "specular_transmittance of bsdf `thindielectric`", "1 is taken");
-    }
-    converter.approximate(
-        plugin,
-        "bsdf `thindielectric`",
-        "a mirror by Fresnel's equations before what is behind: no light between the surfaces",
-    );
-    let mirror = converter.extra(plugin, "thin glass, mirror", Keys::of_type("mirror").with("reflectance", reflectance.value()));
-    let behind = converter.extra(plugin, "thin glass, behind", Keys::of_type("pass"));
-    let weight = Keys::of_type("fresnel").with("ior", ior).with("exact", true);
-    Ok((Keys::of_type("blend").with("materials", vec![behind, mirror]).with("weight", weight), true))
+    dielectric(converter, plugin).map(|(keys, two_sided)| (keys.with("thin", true), two_sided))
 }
 
 /// `int_ior` over `ext_ior`, numbers or names.

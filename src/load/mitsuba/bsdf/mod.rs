@@ -24,8 +24,14 @@ const DEEPEST: usize = 32;
 pub struct Made {
     /// Index into [`Description::materials`].
     pub material: usize,
-    /// It reflects or transmits on both sides, so that it is rendered as it is meant.
-    pub two_sided: bool,
+}
+
+/// The BSDFs within another one.
+#[derive(Debug, Default)]
+struct Parts {
+    names: Vec<Value>,
+    /// The map that all of them have.
+    normal_map: Option<Value>,
 }
 
 /// Keys of a material and whether both sides count.
@@ -43,11 +49,6 @@ impl Converter<'_> {
             Some(bsdf) => self.bsdf(bsdf, 0)?,
             None => self.default_bsdf(),
         };
-        if !made.two_sided {
-            let title = bsdf.map_or("no bsdf".to_owned(), |bsdf| bsdf.title());
-            let what = format!("one-sided {title}");
-            self.approximate(shape, &what, "it reflects on both sides");
-        }
         let entry = &self.scene.materials[made.material];
         let plain = entry.keys.text("name").unwrap_or_default().to_owned();
         let Some(light) = light else { return Ok(plain) };
@@ -79,28 +80,30 @@ impl Converter<'_> {
         const NAME: &str = "(no bsdf)";
         let known = self.default_material;
         let material = known.unwrap_or_else(|| {
-            let keys = Keys::new().with("name", NAME).with("type", "diffuse").with("reflectance", 0.5);
+            let keys = Keys::new().with("name", NAME).with("type", "diffuse").with("reflectance", 0.5).with("two_sided", false);
             self.scene.free_material_name(NAME);
             self.scene.materials.push(Entry { keys, ..Entry::default() });
             self.scene.materials.len() - 1
         });
         self.default_material = Some(material);
-        Made { material, two_sided: false }
+        Made { material }
     }
 
     /// The material of a BSDF, made once.
     fn bsdf(&mut self, plugin: &Rc<Plugin>, depth: usize) -> Result<Made, SceneError> {
-        if let Some(made) = self.materials.get(&Rc::as_ptr(plugin)) {
+        let key = (Rc::as_ptr(plugin), self.both_sides);
+        if let Some(made) = self.materials.get(&key) {
             return Ok(made.clone());
         }
         let (keys, two_sided) = self.bsdf_keys(plugin, depth)?;
+        let keys = if two_sided { keys } else { self.sided(keys) };
         let wanted = if plugin.id.is_empty() { plugin.name.clone() } else { plugin.id.clone() };
         let name = self.scene.free_material_name(&wanted);
         let mut named = Keys::new().with("name", name);
         named.0.extend(keys.0.into_iter().filter(|(key, _)| *key != "name"));
         self.scene.materials.push(Entry { place: plugin.place.clone(), keys: named });
-        let made = Made { material: self.scene.materials.len() - 1, two_sided };
-        self.materials.insert(Rc::as_ptr(plugin), made.clone());
+        let made = Made { material: self.scene.materials.len() - 1 };
+        self.materials.insert(key, made.clone());
         Ok(made)
     }
 
@@ -147,10 +150,42 @@ impl Converter<'_> {
         self.bsdf_keys(&within, depth + 1)
     }
 
-    /// The names of all BSDFs within another one.
-    fn names_within(&mut self, plugin: &Rc<Plugin>, depth: usize) -> Result<Vec<(String, bool)>, SceneError> {
+    /// One that reflects on its front alone. A blend leaves that to its parts.
+    fn sided(&self, keys: Keys) -> Keys {
+        let is_whole = matches!(keys.text("type"), Some("blend" | "pass" | "emissive" | "glass" | "rough_glass"));
+        if self.both_sides || is_whole { keys } else { keys.with("two_sided", false) }
+    }
+
+    /// All BSDFs within another one, whose normals are its own.
+    fn parts(&mut self, plugin: &Rc<Plugin>, depth: usize) -> Result<Parts, SceneError> {
         let within: Vec<Rc<Plugin>> = plugin.children_of("bsdf").into_iter().cloned().collect();
-        within.iter().map(|plugin| self.bsdf(plugin, depth + 1).map(|made| (self.name_of(&made), made.two_sided))).collect()
+        let mut parts = Parts::default();
+        let mut maps = Vec::new();
+        for part in &within {
+            let made = self.bsdf(part, depth + 1)?;
+            let keys = self.scene.materials[made.material].keys.clone();
+            let map = keys.get("normal_map").cloned();
+            parts.names.push(match &map {
+                None => Value::Text(self.name_of(&made)),
+                Some(_) => {
+                    let name = format!("{}, as it lies", keys.text("name").unwrap_or_default());
+                    self.extra(
+                        part,
+                        &name,
+                        Keys(keys.0.into_iter().filter(|(key, _)| !["name", "normal_map"].contains(key)).collect()),
+                    )
+                }
+            });
+            maps.push(map);
+        }
+        match &maps[..] {
+            [first, rest @ ..] if rest.iter().all(|map| map == first) => parts.normal_map = first.clone(),
+            _ => {}
+        }
+        if parts.normal_map.is_none() && maps.iter().any(Option::is_some) {
+            self.drop(plugin, "normal map of one part of a blend", "the part lies as the surface does");
+        }
+        Ok(parts)
     }
 
     fn name_of(&self, made: &Made) -> String {
@@ -159,6 +194,7 @@ impl Converter<'_> {
 
     /// A material beside the plugin's own.
     fn extra(&mut self, plugin: &Plugin, wanted: &str, keys: Keys) -> Value {
+        let keys = self.sided(keys);
         let name = self.scene.free_material_name(wanted);
         let mut named = Keys::new().with("name", name.as_str());
         named.0.extend(keys.0);

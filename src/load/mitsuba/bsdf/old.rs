@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::Keyed;
 use super::dielectric::relative_ior;
 use crate::load::error::SceneError;
-use crate::load::import::{Keys, Value};
+use crate::load::import::Keys;
 use crate::load::mitsuba::Converter;
 use crate::load::mitsuba::plugin::Plugin;
 use crate::load::mitsuba::texture::Input;
@@ -32,11 +32,17 @@ pub fn coating(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> 
     plugin.without_effect(&["thickness", "sigma_a", "alpha", "distribution", "sample_visible", "sample_all"]);
     let ior = relative_ior(plugin, "bk7")?;
     let specular = converter.reflectance(plugin, "specular_reflectance", 1.0)?;
-    let names = converter.names_within(plugin, depth)?;
-    let Some((base, _)) = names.first() else { return Err(plugin.error("a coating needs a bsdf within")) };
+    let parts = converter.parts(plugin, depth)?;
+    let Some(base) = parts.names.first().cloned() else { return Err(plugin.error("a coating needs a bsdf within")) };
     let what = plugin.title();
     converter.approximate(plugin, &what, "a mirror over what is below, blended by Fresnel's equations");
     let coat = converter.extra(plugin, "coat", Keys::of_type("mirror").with("reflectance", specular.value()));
     let weight = Keys::of_type("fresnel").with("ior", ior).with("exact", true);
-    Ok((Keys::of_type("blend").with("materials", vec![Value::from(base.as_str()), coat]).with("weight", weight), false))
+    Ok((
+        Keys::of_type("blend")
+            .with("materials", vec![base, coat])
+            .with("weight", weight)
+            .with_some("normal_map", parts.normal_map),
+        false,
+    ))
 }

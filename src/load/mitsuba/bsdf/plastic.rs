@@ -2,7 +2,10 @@
 
 use std::rc::Rc;
 
+use glam::DVec3;
+
 use super::Keyed;
+use super::conductor::with_distribution;
 use super::dielectric::relative_ior;
 use crate::load::error::SceneError;
 use crate::load::import::Keys;
@@ -10,14 +13,26 @@ use crate::load::mitsuba::Converter;
 use crate::load::mitsuba::plugin::Plugin;
 
 pub fn plastic(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {
-    plugin.without_effect(&["nonlinear", "alpha", "distribution", "sample_visible"]);
     let ior = relative_ior(plugin, "polypropylene")?;
     let diffuse = converter.reflectance(plugin, "diffuse_reflectance", 0.5)?;
     let specular = converter.reflectance(plugin, "specular_reflectance", 1.0)?;
-    let what = plugin.title();
-    converter.approximate(plugin, &what, "a diffuse surface and a mirror, blended by Fresnel's equations");
-    let base = converter.extra(plugin, "plastic, base", Keys::of_type("diffuse").with("reflectance", diffuse.value()));
-    let coat = converter.extra(plugin, "plastic, coat", Keys::of_type("mirror").with("reflectance", specular.value()));
-    let weight = Keys::of_type("fresnel").with("ior", ior).with("exact", true);
-    Ok((Keys::of_type("blend").with("materials", vec![base, coat]).with("weight", weight), false))
+    let mut keys = Keys::of_type("plastic").with("reflectance", diffuse.value()).with("ior", ior);
+    if specular.constant() != Some(DVec3::ONE) {
+        keys.set("specular_reflectance", specular.value());
+    }
+    if plugin.flag("nonlinear", false)? {
+        keys.set("nonlinear", true);
+    }
+    if plugin.name == "roughplastic" {
+        let alpha = converter.scalar(plugin, "alpha", 0.1)?;
+        let alpha = alpha.constant().map_or_else(
+            || {
+                converter.drop(plugin, "texture of the roughness of plastic", "0.1 is taken");
+                0.1
+            },
+            |alpha| alpha.x.clamp(0.0, 1.0),
+        );
+        keys = with_distribution(converter, plugin, keys.with("alpha", alpha))?;
+    }
+    Ok((keys, false))
 }

@@ -9,13 +9,10 @@ use crate::load::mitsuba::Converter;
 use crate::load::mitsuba::plugin::Plugin;
 use crate::load::mitsuba::texture::Input;
 
-const PARAMETERS: [&str; 12] = [
-    "anisotropic",
+const PARAMETERS: [&str; 9] = [
     "spec_tint",
     "sheen",
     "sheen_tint",
-    "clearcoat",
-    "clearcoat_gloss",
     "flatness",
     "diff_trans",
     "diffuse_reflectance_sampling_rate",
@@ -24,14 +21,12 @@ const PARAMETERS: [&str; 12] = [
     "main_specular_sampling_rate",
 ];
 
-/// Metal and dielectric by `metallic`, glass by `spec_trans`.
+/// The principled material of glTF, which is near.
 pub fn principled(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {
     plugin.without_effect(&PARAMETERS);
     let what = plugin.title();
-    converter.approximate(plugin, &what, "a metal, a diffuse surface under a mirror, and glass, blended");
+    converter.approximate(plugin, &what, "the principled material of glTF, whose base is Lambert's");
     let colour = converter.reflectance(plugin, "base_color", 0.5)?;
-    let roughness = converter.scalar(plugin, "roughness", 0.5)?;
-    let metallic = converter.scalar(plugin, "metallic", 0.0)?;
     let transmission = converter.scalar(plugin, "spec_trans", 0.0)?;
     let ior = match plugin.number("eta")? {
         Some(eta) => eta,
@@ -41,34 +36,31 @@ pub fn principled(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keye
             (1.0 + root) / (1.0 - root)
         }
     };
-    let ior = ior.clamp(1.0, 10.0);
-    let rough = |keys: Keys| keys.with("roughness", clamped(&roughness).value());
-    let metal = rough(Keys::of_type("conductor").with("reflectance", colour.value()));
-    if is(&metallic, 1.0) {
-        return Ok((metal, false));
+    let mut keys = Keys::of_type("principled").with("base_color", colour.value());
+    for (ours, theirs, default) in [("metallic", "metallic", 0.0), ("roughness", "roughness", 0.5)] {
+        let input = converter.scalar(plugin, theirs, default)?;
+        keys.set(ours, clamped(&input).value());
     }
-    let base = converter.extra(plugin, "principled, base", Keys::of_type("diffuse").with("reflectance", colour.value()));
-    let coat = converter.extra(plugin, "principled, coat", rough(Keys::of_type("conductor").with("reflectance", 1.0)));
-    let weight = Keys::of_type("fresnel").with("ior", ior).with("exact", true);
-    let mut keys = Keys::of_type("blend").with("materials", vec![base, coat]).with("weight", weight);
-    let mut two_sided = false;
-    if !is(&transmission, 0.0) {
-        let glass = rough(Keys::of_type("rough_glass").with("ior", ior.max(1.01)).with("transmittance", colour.value()));
-        if is(&transmission, 1.0) {
-            keys = glass;
-        } else {
-            let (glass, opaque) =
-                (converter.extra(plugin, "principled, glass", glass), converter.extra(plugin, "principled, opaque", keys));
-            keys = blended(glass, opaque, &transmission);
+    keys.set("ior", ior.clamp(1.0, 10.0));
+    let see_through = !is(&transmission, 0.0);
+    if see_through {
+        keys.set("transmission", clamped(&transmission).value());
+        if plugin.name == "principledthin" {
+            keys.set("thin", true);
         }
-        two_sided = true;
     }
-    if !is(&metallic, 0.0) {
-        let (metal, rest) =
-            (converter.extra(plugin, "principled, metal", metal), converter.extra(plugin, "principled, rest", keys));
-        keys = blended(metal, rest, &metallic);
+    let coat = converter.scalar(plugin, "clearcoat", 0.0)?;
+    if !is(&coat, 0.0) {
+        keys.set("clearcoat", clamped(&coat).value());
+        let gloss = plugin.number("clearcoat_gloss").ok().flatten().unwrap_or(0.0).clamp(0.0, 1.0);
+        // The coat's width goes from 0.1 to 0.001 there; a roughness is its root.
+        keys.set("clearcoat_roughness", (0.1 + (0.001 - 0.1) * gloss).sqrt());
     }
-    Ok((keys, two_sided))
+    let anisotropic = converter.scalar(plugin, "anisotropic", 0.0)?;
+    if let Some(strength) = anisotropic.constant().filter(|strength| strength.x > 0.0) {
+        keys.set("anisotropy", strength.x.clamp(0.0, 1.0));
+    }
+    Ok((keys, see_through))
 }
 
 fn is(input: &Input, value: f64) -> bool {

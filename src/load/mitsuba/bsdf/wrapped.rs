@@ -4,8 +4,8 @@ use std::rc::Rc;
 
 use glam::DVec3;
 
-use super::Keyed;
 use super::principled::{blended, weight};
+use super::{Keyed, Parts};
 use crate::load::error::SceneError;
 use crate::load::import::{Keys, Value};
 use crate::load::mitsuba::Converter;
@@ -18,7 +18,10 @@ pub fn two_sided(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -
     if within.len() > 1 && !Rc::ptr_eq(within[0], within[1]) {
         converter.drop(plugin, "second side of bsdf `twosided`", "the first one's is on both sides");
     }
-    converter.within(plugin, depth).map(|(keys, _)| (keys, true))
+    let outside = std::mem::replace(&mut converter.both_sides, true);
+    let within = converter.within(plugin, depth);
+    converter.both_sides = outside;
+    within.map(|(keys, _)| (keys, true))
 }
 
 pub fn mask(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
@@ -30,10 +33,10 @@ pub fn mask(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Res
         converter.within(plugin, depth)?;
         return Ok((Keys::of_type("pass"), true));
     }
-    let names = converter.names_within(plugin, depth)?;
-    let Some((name, two_sided)) = names.into_iter().next() else { return Err(plugin.error("a mask needs a bsdf within")) };
+    let parts = converter.parts(plugin, depth)?;
+    let Some(part) = parts.names.into_iter().next() else { return Err(plugin.error("a mask needs a bsdf within")) };
     let behind = converter.extra(plugin, "what is behind", Keys::of_type("pass"));
-    Ok((blended(Value::Text(name), behind, &opacity), two_sided))
+    Ok((blended(part, behind, &opacity).with_some("normal_map", parts.normal_map), false))
 }
 
 pub fn bump_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
@@ -56,8 +59,9 @@ pub fn normal_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) 
 /// Mitsuba's weight is the second one's share.
 pub fn blend(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
     let share = converter.scalar(plugin, "weight", 0.5)?;
-    match &converter.names_within(plugin, depth)?[..] {
-        [(first, a), (second, b)] => Ok((blended(Value::from(second.as_str()), Value::from(first.as_str()), &share), *a && *b)),
+    let parts = converter.parts(plugin, depth)?;
+    match &parts.names[..] {
+        [first, second] => Ok((blended(second.clone(), first.clone(), &share).with_some("normal_map", parts.normal_map), false)),
         others => Err(plugin.error(format!("a blend has two bsdfs within, and this one {}", others.len()))),
     }
 }
@@ -66,12 +70,12 @@ pub fn blend(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Re
 pub fn mixture(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
     let text = plugin.text("weights")?.ok_or_else(|| plugin.error("a mixture needs the string `weights`"))?;
     let weights = crate::load::mitsuba::transform::numbers(&plugin.place, text)?;
-    let mut names = converter.names_within(plugin, depth)?;
+    let Parts { names, normal_map } = converter.parts(plugin, depth)?;
     let sum: f64 = weights.iter().sum();
     if weights.len() != names.len() || names.is_empty() || weights.iter().any(|weight| *weight < 0.0) || sum > 1.0 + 1e-6 {
         return Err(plugin.error("a mixture has a weight from 0 to 1 for each bsdf within, at most 1 in all"));
     }
-    let mut parts: Vec<(Value, f64)> = names.drain(..).map(|(name, _)| Value::Text(name)).zip(weights).collect();
+    let mut parts: Vec<(Value, f64)> = names.into_iter().zip(weights).collect();
     if sum < 1.0 - 1e-6 {
         parts.push((converter.extra(plugin, "black", Keys::of_type("diffuse").with("reflectance", 0.0)), 1.0 - sum));
     }
@@ -89,7 +93,7 @@ pub fn mixture(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> 
         keys = Some(made);
     }
     match keys {
-        Some(keys) => Ok((keys, false)),
+        Some(keys) => Ok((keys.with_some("normal_map", normal_map), false)),
         None => converter.within(plugin, depth),
     }
 }

@@ -67,6 +67,17 @@ impl Writer<'_> {
                 let element = element.boolean("nonlinear", flag(material, "nonlinear") == Some(true));
                 if rough { self.facets(element, material, place)? } else { element }
             }
+            "principled" => {
+                self.approximate("material of type `principled`", place, "Mitsuba's, whose base is no Lambertian one");
+                let element = self.with_colour(Element::new("bsdf", "principled"), "base_color", material, "base_color")?;
+                let share = |key: &str, default: f64| number(material, key).unwrap_or(default);
+                element
+                    .float("metallic", share("metallic", 1.0))
+                    .float("roughness", share("roughness", 1.0))
+                    .float("spec_trans", share("transmission", 0.0))
+                    .float("clearcoat", share("clearcoat", 0.0))
+                    .float("eta", share("ior", 1.5).max(1.001))
+            }
             "emissive" => Element::new("bsdf", "diffuse").rgb("reflectance", DVec3::ZERO),
             "pass" => Element::new("bsdf", "null"),
             "blend" => self.blend(material, place)?,
