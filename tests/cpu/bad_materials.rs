@@ -169,7 +169,10 @@ fn numbers_out_of_range_name_the_key_and_the_range() {
             "material[2].weight.factor: expected a number from 0 to 1, found 1.5",
         ),
         (material("type = \"mirror\"\nopacity = 1.5"), "material[2].opacity: expected a number from 0 to 1, found 1.5"),
-        (material("type = \"mirror\"\nopacity = \"half\""), "material[2].opacity: expected one number or { texture = \"name\" }"),
+        (
+            material("type = \"mirror\"\nopacity = \"half\""),
+            "material[2].opacity: invalid type: string \"half\", expected one number or { texture = \"name\" }",
+        ),
         (
             material("type = \"mirror\"\nopacity = { texture = \"checks\" }"),
             "material[2].opacity.texture: expected a number from 0 to 1, found 3 in the texture `checks`",
