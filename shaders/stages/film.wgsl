@@ -68,15 +68,12 @@ fn opaque(x: vec3<f32>) -> vec3<f32> {
 // Compensated summation (Kahan 1965), sample by sample: the relative error does not grow with the number of samples, and the sum does
 // not depend on how samples were cut into passes. `opaque` keeps compilers from cancelling (sum + y) - sum.
 // A sample that is not finite is refused: it counts as 0, and is counted.
+fn add_sample(pixel: ptr<function, FilmPixel>, sample: vec3<f32>) {
 #if LAYER_SQUARES
-// What variances are made of.
-fn add_sample(pixel: ptr<function, FilmPixel>, radiance: vec3<f32>) {
-    add_to_sum(pixel, radiance * radiance);
-}
-
-fn add_to_sum(pixel: ptr<function, FilmPixel>, radiance: vec3<f32>) {
+    // What variances are made of.
+    let radiance = sample * sample;
 #else
-fn add_sample(pixel: ptr<function, FilmPixel>, radiance: vec3<f32>) {
+    let radiance = sample;
 #endif
     (*pixel).sum.w += 1.0;
     let l = luminance(radiance);

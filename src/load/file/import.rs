@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::de::DeTable;
 
-use super::document::Document;
+use super::document::{self, Document};
 use super::resolver::Resolver;
 use super::shape::TransformEntry;
 use super::value::Located;
@@ -131,7 +131,7 @@ fn read(
 
 /// Names of the file are told apart by its name, and by a number where it is imported again.
 fn prefix(imports: &[ImportEntry], place: usize) -> Cow<'_, str> {
-    let stem = |entry: &ImportEntry| super::stem(&entry.file.value);
+    let stem = |entry: &ImportEntry| document::stem(&entry.file.value);
     let own = stem(&imports[place]);
     match imports[..place].iter().filter(|entry| stem(entry) == own).count() {
         0 => own.into(),

@@ -17,7 +17,7 @@ mod wording;
 
 use std::path::Path;
 
-use document::Document;
+use document::{Document, stem};
 #[cfg(test)]
 pub use light::delta_examples as delta_light_examples;
 pub use light::examples as light_examples;
@@ -94,10 +94,4 @@ pub(super) fn load_model_of(
     access: Access,
 ) -> Result<Scene, SceneError> {
     resolve::resolve_model_of(path, smooth, (Document { name, text, origins: &[] }, folder), access)
-}
-
-/// A file's name without folder and ending.
-pub(super) fn stem(name: &str) -> String {
-    let path = std::path::Path::new(name);
-    path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned())
 }

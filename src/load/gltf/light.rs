@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::Importer;
+use super::importer::Importer;
 use super::json::{Light, Node};
 use crate::load::import::{Entry, Keys, world_direction};
 

@@ -2,24 +2,9 @@
 
 use glam::{DAffine2, DMat2, DVec2, DVec3};
 
-use super::Importer;
+use super::importer::Importer;
 use super::json::{Material, TextureInfo, TextureTransform, extension};
 use crate::load::import::{Entry, Keys, Value};
-
-/// Of a material of a primitive.
-#[derive(Debug, Clone)]
-pub struct Made {
-    pub name: String,
-    /// The set of texture coordinates that its textures use, and what is done to them.
-    pub coordinates: Option<Coordinates>,
-}
-
-/// Which texture coordinates, and their map.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Coordinates {
-    pub set: u64,
-    pub map: DAffine2,
-}
 
 /// Index of refraction where nothing is said.
 const IOR: f64 = 1.5;

@@ -77,7 +77,9 @@ fn attributes(bytes: &[u8], count: usize, stride: usize) -> Result<Vec<u8>, Stri
     let body_end = bytes.len().checked_sub(tail).filter(|end| *end >= 1).ok_or_else(ends)?;
     let mut reader = Reader { bytes: &bytes[..body_end], at: 1 };
     let mut last = bytes[bytes.len() - stride..].to_vec();
-    let mut unpacked = vec![0; count.checked_mul(stride).ok_or_else(ends)?];
+    // Sixty-four elements take a byte for each of theirs at least, so that no file of few bytes takes much memory.
+    count.div_ceil(64).checked_mul(stride).filter(|least| *least <= body_end).ok_or_else(ends)?;
+    let mut unpacked = vec![0; count * stride];
     let most = ((8192 / stride) & !(GROUP - 1)).min(256);
     for block in unpacked.chunks_mut(most * stride) {
         let elements = block.len() / stride;

@@ -4,8 +4,10 @@
 //! the texture coordinates that the primitive's material wants. Texture coordinates run downward there and upward here.
 
 mod buffers;
+mod importer;
 mod json;
 mod light;
+mod made;
 mod material;
 mod meshopt;
 mod node;
@@ -13,47 +15,19 @@ mod picture;
 mod primitive;
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use self::buffers::Buffers;
+use self::importer::{Importer, KNOWN};
 use self::json::Root;
 use super::error::{SceneError, show};
 use super::files::{Files, MOST_MODEL_BYTES};
-use super::import::{Description, FileReference, Place};
+use super::import::Description;
 
 /// What turns pictures of KTX2 into PNG.
 const BASIS_COMMAND: &str = "npx @gltf-transform/cli ktxdecompress IN.glb OUT.glb";
 /// What undoes Draco's compression.
 const DRACO_COMMAND: &str = "npx @gltf-transform/cli copy IN.glb OUT.glb";
-
-/// Extensions that are read; what of them is not exact is in the report.
-const KNOWN: [&str; 24] = [
-    "KHR_lights_punctual",
-    "KHR_texture_transform",
-    "KHR_mesh_quantization",
-    "EXT_meshopt_compression",
-    "KHR_meshopt_compression",
-    "EXT_mesh_gpu_instancing",
-    "EXT_texture_webp",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
-    "KHR_materials_volume",
-    "KHR_materials_clearcoat",
-    "KHR_materials_sheen",
-    "KHR_materials_anisotropy",
-    "KHR_materials_iridescence",
-    "KHR_materials_dispersion",
-    "KHR_materials_diffuse_transmission",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_unlit",
-    "KHR_materials_variants",
-    // Metadata.
-    "KHR_xmp",
-    "KHR_xmp_json_ld",
-    "KHR_animation_pointer",
-];
 
 /// Reads a file. `camera` is the name of a camera or of its node; the first one where none is named.
 pub fn load(files: &Files, path: &Path, camera: Option<&str>) -> Result<Description, SceneError> {
@@ -150,49 +124,4 @@ fn check_extensions(root: &Root, name: &str) -> Result<(), SceneError> {
         }
     }
     Ok(())
-}
-
-/// A description in the making. Errors are sentences without the file's name.
-struct Importer<'a> {
-    files: &'a Files,
-    folder: PathBuf,
-    name: String,
-    root: &'a Root,
-    buffers: Buffers<'a>,
-    scene: Description,
-    materials: HashMap<Option<usize>, material::Made>,
-    textures: HashMap<(usize, bool), String>,
-    pictures: HashMap<usize, FileReference>,
-    /// Of primitives without skin, by mesh and place in it.
-    meshes: HashMap<(usize, usize), primitive::Made>,
-    /// Of all shapes, copies counted.
-    triangles: u64,
-}
-
-impl Importer<'_> {
-    fn place(&self, key: &str) -> Place {
-        Place { file: self.name.clone(), line: None, key: key.to_owned() }
-    }
-
-    fn drop(&mut self, what: impl Into<String>, key: &str, instead: &str) {
-        let place = self.place(key).to_string();
-        self.scene.report.drop(what, place, instead);
-    }
-
-    fn report_extensions(&mut self) {
-        for extension in &self.root.extensions_used {
-            let is_draco = extension == "KHR_draco_mesh_compression" || extension == "KHR_texture_basisu";
-            if !KNOWN.contains(&extension.as_str()) && !is_draco {
-                self.drop(extension.as_str(), "extensionsUsed", "it has no effect");
-            }
-        }
-        if self.root.extensions_used.iter().any(|extension| extension == "KHR_materials_variants") {
-            self.drop("KHR_materials_variants", "extensions", "the materials that primitives name themselves are taken");
-        }
-        if !self.root.animations.is_empty() {
-            for index in 0..self.root.animations.len() {
-                self.drop("animation", &format!("animations[{index}]"), "everything is at rest");
-            }
-        }
-    }
 }

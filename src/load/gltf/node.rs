@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3, DVec4};
 
-use super::Importer;
+use super::importer::Importer;
 use super::json::{Instances, Node, extension};
 use super::primitive::Skinning;
 use crate::load::import::{Entry, Keys, camera_keys, matrix_value};

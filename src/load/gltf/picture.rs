@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::Importer;
+use super::importer::Importer;
 use super::buffers::{file_of, read_uri};
 use super::json::Image;
 use crate::load::import::{Entry, FileReference, Keys};

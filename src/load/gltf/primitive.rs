@@ -3,21 +3,11 @@
 use glam::{DAffine3, DVec2, DVec3, Vec2, Vec3};
 use serde_json::{Map, Value};
 
-use super::Importer;
+use super::importer::Importer;
 use super::json::Primitive;
-use super::material::Coordinates;
 use crate::load::import::FileReference;
 use crate::load::model::FARTHEST;
 use crate::scene::Mesh;
-
-/// What a primitive became.
-#[derive(Debug, Clone)]
-pub struct Made {
-    pub file: FileReference,
-    pub material: String,
-    pub smooth: bool,
-    pub triangles: u64,
-}
 
 /// Of each joint, the map from the mesh's space to the world.
 pub struct Skinning(pub Vec<DAffine3>);

@@ -4,6 +4,7 @@
 //! their own. It is read like any scene file, so what an import shows is what the written scene file shows, bit for bit.
 
 mod description;
+mod keys;
 mod mesh;
 mod placed;
 mod ply_file;
@@ -11,7 +12,8 @@ mod text;
 mod within;
 
 pub use crate::scene::ImportReport;
-pub use description::{Description, Entry, FileReference, HeldContent, Keys, Place, Value, list};
+pub use description::{Description, Entry, HeldContent, Place};
+pub use keys::{FileReference, Keys, Value, list};
 pub use mesh::{cylinder, disk, grid_sphere, smooth_by_index, unit_cube};
 pub use placed::{camera_keys, is_uniform, matrix_value, world_direction};
 pub use ply_file::write_ply;

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DMat4, DVec3};
 
-use super::description::{Keys, Value, list};
+use super::keys::{Keys, Value, list};
 
 /// `{ matrix = [16 numbers] }`; None for the identity.
 pub fn matrix_value(map: &DAffine3) -> Option<Value> {

@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::description::{Description, Entry, FileReference, Keys, Place, Value};
+use super::description::{Description, Entry, Place};
+use super::keys::{FileReference, Keys, Value};
 
 /// Text of a scene file, and what its parts were made from.
 #[derive(Debug, Default)]

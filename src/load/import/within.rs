@@ -2,7 +2,8 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::description::{Description, Entry, HeldContent, Keys, Value};
+use super::description::{Description, Entry, HeldContent};
+use super::keys::{Keys, Value};
 use super::placed::{matrix_of, matrix_value};
 
 /// Keys whose values are names of materials or textures.

@@ -4,7 +4,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::document::parse_number;
+use super::number::parse_number;
 use super::plugin::{PropertyValue, Spectrum, error_at};
 use super::transform::numbers;
 use crate::load::error::SceneError;

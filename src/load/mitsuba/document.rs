@@ -8,6 +8,7 @@ use std::rc::Rc;
 use glam::DAffine3;
 use roxmltree::{Document, Node};
 
+use super::number::parse_number;
 use super::plugin::{Child, Plugin, Property, PropertyValue, Spectrum, error_at};
 use super::{colour, transform};
 use crate::load::encoding;
@@ -432,12 +433,6 @@ fn check_depth(name: &str, text: &str) -> Result<(), SceneError> {
         }
     }
     Ok(())
-}
-
-/// A finite number.
-pub fn parse_number(place: &Place, text: &str) -> Result<f64, SceneError> {
-    let number: Option<f64> = text.trim().trim_end_matches('f').parse().ok();
-    number.filter(|number| number.is_finite()).ok_or_else(|| error_at(place, format!("expected a number, found `{text}`")))
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ mod document;
 mod emitter;
 mod mesh_file;
 mod metals;
+mod number;
 mod plugin;
 mod sensor;
 mod serialized;

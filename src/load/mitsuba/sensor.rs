@@ -166,7 +166,7 @@ impl Converter<'_> {
                 let millimetres = match focal {
                     None => 50.0,
                     Some(super::plugin::PropertyValue::Text(text)) => {
-                        super::document::parse_number(&plugin.place, text.trim().trim_end_matches("mm"))?
+                        super::number::parse_number(&plugin.place, text.trim().trim_end_matches("mm"))?
                     }
                     Some(super::plugin::PropertyValue::Number(number)) => *number,
                     Some(_) => return Err(plugin.error("`focal_length` is a length as 50mm")),

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4};
 
-use super::document::parse_number;
+use super::number::parse_number;
 use super::plugin::error_at;
 use crate::load::error::SceneError;
 use crate::load::import::Place;

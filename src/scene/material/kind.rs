@@ -284,8 +284,6 @@ impl Principled {
     }
 }
 
-/// GGX narrower than this is a delta lobe: f32 no longer resolves it.
-pub const DELTA_ALPHA: f64 = 1e-4;
 /// An index of refraction nearer to 1 than this bends no ray that rounding would not: such glass sends light straight on, however rough.
 pub const SMALLEST_BEND: f64 = 1e-4;
 

@@ -4,8 +4,10 @@ use std::f64::consts::PI;
 
 use statrs::function::erf::{erf, erfc};
 
-use super::kind::DELTA_ALPHA;
 use crate::scene::texture::ColorInput;
+
+/// GGX narrower than this is a delta lobe: f32 no longer resolves it.
+pub const DELTA_ALPHA: f64 = 1e-4;
 
 /// The microfacets of a rough surface.
 #[derive(Debug, Clone, Copy, PartialEq)]

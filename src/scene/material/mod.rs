@@ -8,10 +8,10 @@ mod plastic;
 pub use blend_weight::BlendWeight;
 pub(crate) use kind::material_table;
 pub use kind::{
-    ANISOTROPIC, BECKMANN, COMPLEX_FRESNEL, ConductorFresnel, DELTA_ALPHA, FORMS, LobeKind, LobeParameters, LobeSupport,
+    ANISOTROPIC, BECKMANN, COMPLEX_FRESNEL, ConductorFresnel, FORMS, LobeKind, LobeParameters, LobeSupport,
     MaterialId, MaterialKind, NONLINEAR, Principled, SEPARABLE_MASKING, SMALLEST_BEND, SQUARED_ACROSS, THIN_WALL, TRANSMITS,
 };
-pub use microfacets::{Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};
+pub use microfacets::{DELTA_ALPHA, Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};
 pub use plastic::{PlasticInterface, TRANSMITTANCE_NODES, diffuse_reflectance};
 
 use super::texture::{ColorInput, TextureId};

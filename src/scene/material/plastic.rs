@@ -3,9 +3,8 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use super::microfacets::{Masking, MicrofacetDistribution};
+use super::microfacets::{DELTA_ALPHA, Masking, MicrofacetDistribution};
 use crate::math::dielectric_reflectance;
-use crate::scene::material::DELTA_ALPHA;
 
 /// Angles at which the transmittance of a rough surface is tabulated.
 pub const TRANSMITTANCE_NODES: usize = 64;

@@ -1,0 +1,84 @@
+//! A description in the making.
+
+use std::collections::HashMap;
+use std::path::PathBuf;
+
+use super::buffers::Buffers;
+use super::json::Root;
+use super::made::{MadeMaterial, MadePrimitive};
+use crate::load::files::Files;
+use crate::load::import::{Description, FileReference, Place};
+
+/// Extensions that are read; what of them is not exact is in the report.
+pub const KNOWN: [&str; 24] = [
+    "KHR_lights_punctual",
+    "KHR_texture_transform",
+    "KHR_mesh_quantization",
+    "EXT_meshopt_compression",
+    "KHR_meshopt_compression",
+    "EXT_mesh_gpu_instancing",
+    "EXT_texture_webp",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_volume",
+    "KHR_materials_clearcoat",
+    "KHR_materials_sheen",
+    "KHR_materials_anisotropy",
+    "KHR_materials_iridescence",
+    "KHR_materials_dispersion",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    // Metadata.
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+    "KHR_animation_pointer",
+];
+
+/// A description in the making. Errors are sentences without the file's name.
+pub struct Importer<'a> {
+    pub files: &'a Files,
+    pub folder: PathBuf,
+    pub name: String,
+    pub root: &'a Root,
+    pub buffers: Buffers<'a>,
+    pub scene: Description,
+    pub materials: HashMap<Option<usize>, MadeMaterial>,
+    pub textures: HashMap<(usize, bool), String>,
+    pub pictures: HashMap<usize, FileReference>,
+    /// Of primitives without skin, by mesh and place in it.
+    pub meshes: HashMap<(usize, usize), MadePrimitive>,
+    /// Of all shapes, copies counted.
+    pub triangles: u64,
+}
+
+impl Importer<'_> {
+    pub fn place(&self, key: &str) -> Place {
+        Place { file: self.name.clone(), line: None, key: key.to_owned() }
+    }
+
+    pub fn drop(&mut self, what: impl Into<String>, key: &str, instead: &str) {
+        let place = self.place(key).to_string();
+        self.scene.report.drop(what, place, instead);
+    }
+
+    pub fn report_extensions(&mut self) {
+        for extension in &self.root.extensions_used {
+            let is_draco = extension == "KHR_draco_mesh_compression" || extension == "KHR_texture_basisu";
+            if !KNOWN.contains(&extension.as_str()) && !is_draco {
+                self.drop(extension.as_str(), "extensionsUsed", "it has no effect");
+            }
+        }
+        if self.root.extensions_used.iter().any(|extension| extension == "KHR_materials_variants") {
+            self.drop("KHR_materials_variants", "extensions", "the materials that primitives name themselves are taken");
+        }
+        if !self.root.animations.is_empty() {
+            for index in 0..self.root.animations.len() {
+                self.drop("animation", &format!("animations[{index}]"), "everything is at rest");
+            }
+        }
+    }
+}
