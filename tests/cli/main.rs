@@ -52,6 +52,8 @@ impl Workplace {
     fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_gpt"));
         command.args(arguments.split_whitespace()).current_dir(self.0.path()).env_remove("NO_COLOR");
+        #[cfg(unix)]
+        on_unix::obey_signals(&mut command);
         command
     }
 

@@ -1,9 +1,23 @@
 //! Signals and terminals.
 
+use std::os::unix::process::CommandExt;
 use std::process::Child;
 use std::time::{Duration, Instant};
 
 use super::*;
+
+/// Signals end the program as they do at a terminal, though `nohup`, or a shell's `&`, ignores some for the tests and what they start.
+pub fn obey_signals(command: &mut Command) {
+    let reset = || {
+        for signal in [libc::SIGINT, libc::SIGHUP, libc::SIGQUIT, libc::SIGTERM, libc::SIGXCPU] {
+            // SAFETY: `signal` may be called between fork and exec, and SIG_DFL runs no code of this process.
+            unsafe { libc::signal(signal, libc::SIG_DFL) };
+        }
+        Ok(())
+    };
+    // SAFETY: the closure calls nothing but `signal`, and takes no memory and no lock.
+    unsafe { command.pre_exec(reset) };
+}
 
 pub fn interrupt(child: &Child) {
     let status = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill");
