@@ -6,7 +6,7 @@ use super::error::PackError;
 use super::texture::PackedTextures;
 use crate::math::luminance;
 use crate::sampling::MapDistribution;
-use crate::scene::{ImageData, OutsideParameters};
+use crate::scene::{ImageData, MapRows, OutsideParameters};
 
 /// A map's place among the texels: radiance row by row, then the quadtree that directions are drawn by, three words for each inner node,
 /// then the densities of the cells that it lies over.
@@ -53,8 +53,8 @@ impl PackedEnvironment {
                 is_constant: true,
                 ..Self::default()
             },
-            OutsideParameters::Varying { map: Some(image), words, .. } => {
-                let (mean_luminance, map) = pack_map(image, textures)?.unzip();
+            OutsideParameters::Varying { map: Some((image, rows)), words, .. } => {
+                let (mean_luminance, map) = pack_map(image, rows, textures)?.unzip();
                 Self {
                     mean_luminance: mean_luminance.unwrap_or(0.0),
                     words,
@@ -88,8 +88,8 @@ impl PackedEnvironment {
 }
 
 /// Mean luminance and place of a map that is appended to the texels; None of a black one.
-fn pack_map(image: &ImageData, textures: &mut PackedTextures) -> Result<Option<(f64, PackedMap)>, PackError> {
-    let Some(MapDistribution { warp, mean_luminance }) = MapDistribution::new(image) else { return Ok(None) };
+fn pack_map(image: &ImageData, rows: MapRows, textures: &mut PackedTextures) -> Result<Option<(f64, PackedMap)>, PackError> {
+    let Some(MapDistribution { warp, mean_luminance }) = MapDistribution::new(image, rows) else { return Ok(None) };
     let end = textures.texel_words() + 3 * image.texels.len() + 3 * warp.splits.len() + warp.densities.len();
     if end > u32::MAX as usize {
         return Err(PackError::TooManyTexels { words: end });

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::hierarchical_warp::HierarchicalWarp;
-use crate::scene::ImageData;
+use crate::scene::{ImageData, MapRows};
 
 /// Most cells along u and v. Larger maps have several texels in a cell.
 const MOST_CELLS: [u32; 2] = [1024, 512];
@@ -19,8 +19,8 @@ pub struct MapDistribution {
 
 impl MapDistribution {
     /// None where the map is black.
-    pub fn new(image: &ImageData) -> Option<Self> {
-        let weights = texel_weights(image);
+    pub fn new(image: &ImageData, rows: MapRows) -> Option<Self> {
+        let weights = texel_weights(image, rows);
         let size = [image.width, image.height];
         let cells = [0, 1].map(|axis| size[axis].min(MOST_CELLS[axis]));
         // The solid angle of a texel is 2π/width · π/height · sinθ.
@@ -31,15 +31,14 @@ impl MapDistribution {
     }
 }
 
-/// Mean luminance of the bilinear map over each texel times the sine of its θ. The mean of a bilinear function over a texel is that of
-/// the texel and its neighbours with weights 1, 6, 1 in each direction: it is positive wherever the looked-up radiance is.
-fn texel_weights(image: &ImageData) -> Vec<f64> {
+/// Mean luminance of the bilinear map over each of as many even cells as it has texels, times the sine of its θ. The mean over a cell is
+/// that of its texel and the neighbours, weighted: it is positive wherever the looked-up radiance is.
+fn texel_weights(image: &ImageData, rows: MapRows) -> Vec<f64> {
     let (width, height) = (image.width as usize, image.height as usize);
     let luminance: Vec<f64> = image.texels.colors().map(|texel| crate::math::luminance(texel.as_dvec3())).collect();
-    let smoothed = |before: f64, here: f64, after: f64| (before + 6.0 * here + after) / 8.0;
     let across: Vec<f64> = luminance
         .chunks_exact(width)
-        .flat_map(|row| (0..width).map(|x| smoothed(row[(x + width - 1) % width], row[x], row[(x + 1) % width])))
+        .flat_map(|row| (0..width).map(|x| mean_over_middle([row[(x + width - 1) % width], row[x], row[(x + 1) % width]])))
         .collect();
     let at = |x: usize, y: usize| across[y * width + x];
     let row = |y: usize| {
@@ -47,10 +46,30 @@ fn texel_weights(image: &ImageData) -> Vec<f64> {
         let (above, below) = (y.saturating_sub(1), (y + 1).min(height - 1));
         (0..width).map(move |x| (x, sine, above, below))
     };
+    let mean = |y: usize, values: [f64; 3]| match rows {
+        MapRows::Inside => mean_over_middle(values),
+        MapRows::ToPoles => mean_over_cell(y, height, values),
+    };
     (0..height)
         .flat_map(|y| row(y).map(move |item| (y, item)))
-        .map(|(y, (x, sine, above, below))| sine * smoothed(at(x, above), at(x, y), at(x, below)))
+        .map(|(y, (x, sine, above, below))| sine * mean(y, [at(x, above), at(x, y), at(x, below)]))
         .collect()
+}
+
+/// The mean of a linear interpolation of three values over the cell of the middle one, which reaches half-way to its neighbours.
+fn mean_over_middle([before, here, after]: [f64; 3]) -> f64 {
+    (before + 6.0 * here + after) / 8.0
+}
+
+/// The same over the y-th of as many even cells as there are rows, of which the first and the last lie on the poles.
+fn mean_over_cell(y: usize, height: usize, [before, here, after]: [f64; 3]) -> f64 {
+    if height == 1 {
+        return here; // the same from pole to pole
+    }
+    // How far the cell reaches above and below its row, in rows.
+    let (above, below) = (y as f64 / height as f64, 1.0 - (y + 1) as f64 / height as f64);
+    let shares = [above, below].map(|reach| 0.5 * reach * reach / (above + below));
+    shares[0] * before + (1.0 - shares[0] - shares[1]) * here + shares[1] * after
 }
 
 /// Sums of the texels' weights over cells, each texel's shared out by overlap.
@@ -94,13 +113,19 @@ mod tests {
 
     #[test]
     fn the_mean_of_a_constant_is_the_constant() {
-        for (width, height) in [(1, 1), (2, 1), (64, 32), (2000, 1030)] {
-            let distribution = MapDistribution::new(&map(width, height, |_, _| 3.0)).expect("it is not black");
+        for (width, height, rows) in [
+            (1, 1, MapRows::Inside),
+            (2, 1, MapRows::ToPoles),
+            (64, 32, MapRows::Inside),
+            (64, 32, MapRows::ToPoles),
+            (2000, 1030, MapRows::Inside),
+        ] {
+            let distribution = MapDistribution::new(&map(width, height, |_, _| 3.0), rows).expect("it is not black");
             // One row's midpoint is a coarse quadrature of the sine.
             let allowed = 0.6 / f64::from(height * height);
             assert!((distribution.mean_luminance / 3.0 - 1.0).abs() < allowed, "{width} x {height}");
         }
-        assert_eq!(MapDistribution::new(&map(4, 2, |_, _| 0.0)), None);
+        assert_eq!(MapDistribution::new(&map(4, 2, |_, _| 0.0), MapRows::Inside), None);
     }
 
     #[test]
@@ -118,7 +143,7 @@ mod tests {
 
     #[test]
     fn a_single_bright_texel_can_be_found_wherever_interpolation_spreads_it() {
-        let distribution = MapDistribution::new(&map(8, 8, |x, y| if (x, y) == (0, 3) { 1.0 } else { 0.0 }));
+        let distribution = MapDistribution::new(&map(8, 8, |x, y| if (x, y) == (0, 3) { 1.0 } else { 0.0 }), MapRows::Inside);
         let warp = distribution.expect("it is not black").warp;
         for (x, y) in (0..8).flat_map(|y| (0..8).map(move |x| (x, y))) {
             let near = [7, 0, 1].contains(&x) && (2..5).contains(&y);

@@ -97,7 +97,7 @@ pub enum OutsideParameters<'a> {
         /// Averaged over all directions; that of a map follows from the map.
         mean_luminance: f64,
         /// Texels that directions are drawn by as well.
-        map: Option<&'a ImageData>,
+        map: Option<(&'a ImageData, MapRows)>,
         /// What else its shader reads.
         words: [DVec4; 3],
     },
@@ -109,6 +109,27 @@ pub struct Environment {
     pub radiance: EnvironmentRadiance,
     /// Rotation about +Y, counter-clockwise seen from above.
     pub rotation_degrees: f64,
+    pub rows: MapRows,
+}
+
+/// Where the rows of a lat-long map lie between the poles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum MapRows {
+    /// The first and the last lie half a row within: each row covers as much of the angle.
+    #[default]
+    Inside,
+    /// The first and the last lie on the poles, as in Mitsuba.
+    ToPoles,
+}
+
+impl MapRows {
+    /// The row at v is scale · v + offset; row 0 is the first.
+    pub fn scale_and_offset(self, height: u32) -> (f64, f64) {
+        match self {
+            Self::Inside => (f64::from(height), -0.5),
+            Self::ToPoles => (f64::from(height) - 1.0, 0.0),
+        }
+    }
 }
 
 #[derive(Debug, Clone)]
@@ -135,15 +156,16 @@ impl SceneLight for Environment {
     }
 }
 
-/// Words of a map: (-; its rotation in turns).
+/// Words of a map: (scale and offset of its rows, -; its rotation in turns).
 impl OutsideLight for Environment {
     fn parameters(&self) -> OutsideParameters<'_> {
         match &self.radiance {
             EnvironmentRadiance::Constant(radiance) => OutsideParameters::Constant(*radiance),
             EnvironmentRadiance::Map(image) => {
                 let turns = (self.rotation_degrees / 360.0).rem_euclid(1.0);
-                let words = [DVec3::ZERO.extend(turns), DVec4::ZERO, DVec4::ZERO];
-                OutsideParameters::Varying { mean_luminance: 0.0, map: Some(image), words }
+                let (scale, offset) = self.rows.scale_and_offset(image.height);
+                let words = [DVec4::new(scale, offset, 0.0, turns), DVec4::ZERO, DVec4::ZERO];
+                OutsideParameters::Varying { mean_luminance: 0.0, map: Some((image, self.rows)), words }
             }
         }
     }

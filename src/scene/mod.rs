@@ -32,8 +32,8 @@ pub use digest::digest;
 pub use image::{Channel, ColorSpace, ImageData, Texels};
 pub use import_report::{ImportReport, ReportItem};
 pub use light::{
-    DirectionalLight, Environment, EnvironmentRadiance, Light, LightParameters, LightStrength, OutsideParameters, PointLight,
-    Sky, SpotLight,
+    DirectionalLight, Environment, EnvironmentRadiance, Light, LightParameters, LightStrength, MapRows, OutsideParameters,
+    PointLight, Sky, SpotLight,
 };
 pub use material::{
     BlendWeight, ConductorFresnel, Emission, LobeKind, LobeParameters, LobeSupport, Masking, Material, MaterialId, MaterialKind,

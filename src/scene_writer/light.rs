@@ -2,7 +2,7 @@
 
 use super::value::{colour, direction, line, number, vector};
 use super::writer::Writer;
-use crate::scene::{Environment, EnvironmentRadiance, Light};
+use crate::scene::{Environment, EnvironmentRadiance, Light, MapRows};
 
 impl Writer<'_> {
     pub fn light(&mut self, light: &Light) -> String {
@@ -38,6 +38,9 @@ impl Writer<'_> {
         };
         if environment.rotation_degrees != 0.0 {
             out += &line("rotate", &number(environment.rotation_degrees));
+        }
+        if environment.rows == MapRows::ToPoles {
+            out += &line("rows", "\"to_poles\"");
         }
         out
     }

@@ -19,7 +19,8 @@ fn map_texel(x: i32, y: i32) -> vec3<f32> {
 
 // Bilinear; the map goes round at its sides and ends at the poles.
 fn map_radiance(uv: vec2<f32>) -> vec3<f32> {
-    let position = uv * vec2<f32>(f32(ENVIRONMENT_WIDTH), f32(ENVIRONMENT_HEIGHT)) - 0.5;
+    let rows = view.environment[0].xy;
+    let position = vec2<f32>(uv.x * f32(ENVIRONMENT_WIDTH) - 0.5, uv.y * rows.x + rows.y);
     let corner = floor(position);
     let blend = position - corner;
     let x = i32(corner.x);

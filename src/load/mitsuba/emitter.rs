@@ -142,7 +142,7 @@ impl Converter<'_> {
             self.drop(plugin, "mirroring `to_world` of an environment map", "the map is not mirrored");
         }
         let degrees = turn.x_axis.z.atan2(turn.x_axis.x) * -180.0 / PI;
-        // Mitsuba's texels begin at the edges of the map, ours stand half a texel within.
+        // Mitsuba's first column lies at the edge of the map, and its first row on the pole.
         let width =
             crate::load::image_file::size(self.files, &path).map_err(|reason| plugin.error(format!("{written}: {reason}")))?[0];
         let degrees = degrees + 180.0 / f64::from(width);

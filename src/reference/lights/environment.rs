@@ -7,15 +7,15 @@ use glam::DVec3;
 
 use super::outside::{Environment, EnvironmentSample, Outside};
 use crate::sampling::MapDistribution;
-use crate::scene::{self, EnvironmentRadiance, ImageData};
+use crate::scene::{self, EnvironmentRadiance, ImageData, MapRows};
 
 pub fn new(light: &scene::Environment) -> Outside {
     match &light.radiance {
         EnvironmentRadiance::Constant(radiance) => Outside::Constant(*radiance),
-        EnvironmentRadiance::Map(image) => match MapDistribution::new(image) {
+        EnvironmentRadiance::Map(image) => match MapDistribution::new(image, light.rows) {
             Some(distribution) => {
                 let rotation = light.rotation_degrees / 360.0;
-                Outside::Varying(Arc::new(Map { image: image.clone(), distribution, rotation }))
+                Outside::Varying(Arc::new(Map { image: image.clone(), distribution, rotation, rows: light.rows }))
             }
             // A black picture.
             None => Outside::Constant(DVec3::ZERO),
@@ -30,6 +30,7 @@ struct Map {
     distribution: MapDistribution,
     /// Whole turns.
     rotation: f64,
+    rows: MapRows,
 }
 
 impl Map {
@@ -41,7 +42,8 @@ impl Map {
 
     fn lookup(&self, u: f64, v: f64) -> DVec3 {
         let image = &*self.image;
-        let (x, y) = (u * f64::from(image.width) - 0.5, v * f64::from(image.height) - 0.5);
+        let (scale, offset) = self.rows.scale_and_offset(image.height);
+        let (x, y) = (u * f64::from(image.width) - 0.5, v * scale + offset);
         let (left, top) = (x.floor(), y.floor());
         let texel = |column: f64, row: f64| {
             let column = (column as i64).rem_euclid(i64::from(image.width)) as usize;

@@ -9,7 +9,7 @@ use super::{Outside, outside_light};
 use crate::compare::sidak;
 use crate::math::luminance;
 use crate::reference::warp;
-use crate::scene::{Environment, EnvironmentRadiance, ImageData, Light, Sky};
+use crate::scene::{Environment, EnvironmentRadiance, ImageData, Light, MapRows, Sky};
 use crate::statistics::chi_squared_test;
 use crate::statistics::random::SplitMix64;
 
@@ -18,9 +18,13 @@ fn of_light(light: Light) -> Outside {
 }
 
 fn map(width: u32, height: u32, rotation: f64, texel: impl Fn(u32, u32) -> Vec3) -> Outside {
+    map_of([width, height], rotation, MapRows::Inside, texel)
+}
+
+fn map_of([width, height]: [u32; 2], rotation: f64, rows: MapRows, texel: impl Fn(u32, u32) -> Vec3) -> Outside {
     let texels: Vec<_> = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect();
     let radiance = EnvironmentRadiance::Map(Arc::new(ImageData { width, height, texels: texels.into(), has_alpha: false }));
-    of_light(Light::Environment(Environment { radiance, rotation_degrees: rotation }))
+    of_light(Light::Environment(Environment { radiance, rotation_degrees: rotation, rows }))
 }
 
 fn sky(zenith: f64, horizon: f64, ground: f64) -> Outside {
@@ -35,12 +39,14 @@ fn dotted(width: u32, height: u32, x: u32, y: u32) -> Outside {
 fn environments() -> Vec<(&'static str, Outside)> {
     let noise = |x: u32, y: u32| Vec3::new((x * 37 % 11) as f32, (y * 17 % 5) as f32 + 0.1, ((x + y) * 7 % 13) as f32);
     let radiance = EnvironmentRadiance::Constant(DVec3::ONE);
-    let constant = of_light(Light::Environment(Environment { radiance, rotation_degrees: 0.0 }));
+    let constant = of_light(Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: MapRows::Inside }));
     vec![
         ("1 x 1", map(1, 1, 0.0, |_, _| Vec3::ONE)),
         ("2 x 1", map(2, 1, 0.0, |x, _| Vec3::splat(1.0 + 4.0 * x as f32))),
         ("16 x 8, turned", map(16, 8, 130.0, noise)),
         ("7 x 5, turned back", map(7, 5, -20.0, noise)),
+        ("7 x 5, to the poles", map_of([7, 5], 10.0, MapRows::ToPoles, noise)),
+        ("a row, to the poles", map_of([3, 1], 0.0, MapRows::ToPoles, noise)),
         ("a bright texel", dotted(16, 8, 3, 2)),
         ("a bright texel at a pole", dotted(16, 8, 0, 0)),
         ("a texel 10¹² times the others", map(16, 8, 0.0, |x, y| Vec3::splat(if (x, y) == (5, 3) { 1e12 } else { 1.0 }))),
@@ -151,4 +157,19 @@ fn a_constant_map_is_a_constant_environment() {
         assert!((constant.radiance(wi) - DVec3::new(1.0, 2.0, 0.5)).length() < 1e-9);
     }
     assert!(map(4, 4, 0.0, |_, _| Vec3::ZERO).is_constant());
+}
+
+/// A map whose rows grow evenly is a straight line of v: between the middles of its first and last row, or between the poles.
+#[test]
+fn rows_lie_within_or_reach_the_poles() {
+    let map = |rows| map_of([3, 5], 0.0, rows, |_, row| Vec3::splat(row as f32));
+    let at = |outside: &Outside, v: f64| {
+        let (sine, cosine) = (PI * v).sin_cos();
+        outside.radiance(DVec3::new(sine, cosine, 0.0)).x
+    };
+    let (inside, to_poles) = (map(MapRows::Inside), map(MapRows::ToPoles));
+    for v in [0.0, 0.05, 0.2, 0.5, 0.77, 1.0] {
+        assert!((at(&to_poles, v) - 4.0 * v).abs() < 1e-12, "{v}");
+        assert!((at(&inside, v) - (5.0 * v - 0.5).clamp(0.0, 4.0)).abs() < 1e-12, "{v}");
+    }
 }

@@ -78,7 +78,7 @@ fn scene() -> Scene {
     }
     let spot =
         Light::Spot(SpotLight { position: b, direction: DVec3::Y, intensity: b, angle_degrees: 30.0, falloff_degrees: 20.0 });
-    let map = Environment { radiance: EnvironmentRadiance::Map(pixels(4, 2)), rotation_degrees: 0.0 };
+    let map = Environment { radiance: EnvironmentRadiance::Map(pixels(4, 2)), rotation_degrees: 0.0, rows: Default::default() };
     scene.lights = vec![
         Light::Point(PointLight { position: b, intensity: b }),
         spot,
@@ -112,7 +112,7 @@ fn each_mistake_is_named_with_its_part() {
         scene.materials[0].emission = Some(Emission { radiance, two_sided: false });
     }
     fn environment(radiance: EnvironmentRadiance) -> Light {
-        Light::Environment(Environment { radiance, rotation_degrees: 0.0 })
+        Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: Default::default() })
     }
     let cases: &[(Change, &str)] = &[
         (|s| s.film.size = [0, 4], "film: size: a picture of 0 x 4 pixels is empty"),

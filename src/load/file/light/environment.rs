@@ -10,7 +10,7 @@ use super::keys::LightKeys;
 use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, LARGEST, Located, NonNegative, Number, Rgb};
-use crate::scene::{Environment, EnvironmentRadiance, ImageData, ImageSource};
+use crate::scene::{Environment, EnvironmentRadiance, ImageData, ImageSource, MapRows};
 
 /// Radiance from outside the scene: either `radiance` or `file`.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -26,12 +26,24 @@ pub struct Keys {
     scale: Option<Located<Checked<NonNegative>>>,
     /// Degrees about +Y, counter-clockwise seen from above.
     rotate: Option<Number>,
+    /// Where the first and the last row of the map lie: half a row from the poles when left out.
+    rows: Option<Rows>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum Rows {
+    /// Half a row from the poles: each row covers as much of the angle.
+    Inside,
+    /// On the poles, as in Mitsuba.
+    ToPoles,
 }
 
 impl LightKeys for Keys {
     type Light = Environment;
 
-    const EXAMPLES: &'static [&'static str] = &["radiance = [0.2, 0.5, 1]", "file = \"map.exr\"\nscale = 1.5\nrotate = 40"];
+    const EXAMPLES: &'static [&'static str] =
+        &["radiance = [0.2, 0.5, 1]", "file = \"map.exr\"\nscale = 1.5\nrotate = 40", "file = \"map.exr\"\nrows = \"to_poles\""];
 
     fn resolve(&self, resolver: &mut Resolver<'_>, span: &Range<usize>) -> Result<Environment, SceneError> {
         let scale = self.scale.as_ref().map_or(1.0, |scale| scale.value.0);
@@ -43,7 +55,11 @@ impl LightKeys for Keys {
             }
             (None, None) => return Err(resolver.error(span, "an environment needs the key `radiance` or `file`")),
         };
-        Ok(Environment { radiance, rotation_degrees: self.rotate.map_or(0.0, |rotate| rotate.0) })
+        let rows = match self.rows {
+            Some(Rows::ToPoles) => MapRows::ToPoles,
+            Some(Rows::Inside) | None => MapRows::Inside,
+        };
+        Ok(Environment { radiance, rotation_degrees: self.rotate.map_or(0.0, |rotate| rotate.0), rows })
     }
 }
 

@@ -151,6 +151,6 @@ fn everything() -> Scene {
     scene.shapes[8].material = last;
     scene.lights = delta_light_examples().into_iter().map(|(_, light)| light).collect();
     let radiance = EnvironmentRadiance::Map(image(5, 3));
-    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees: 30.0 }));
+    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees: 30.0, rows: Default::default() }));
     scene
 }
