@@ -17,7 +17,8 @@ mod wording;
 
 use std::path::Path;
 
-use document::{Document, stem};
+use document::Document;
+pub(super) use document::stem;
 #[cfg(test)]
 pub use light::delta_examples as delta_light_examples;
 pub use light::examples as light_examples;

@@ -4,6 +4,7 @@ use glam::{DAffine2, DMat2, DVec2, DVec3};
 
 use super::importer::Importer;
 use super::json::{Material, TextureInfo, TextureTransform, extension};
+use super::made::{Coordinates, MadeMaterial};
 use crate::load::import::{Entry, Keys, Value};
 
 /// Index of refraction where nothing is said.
@@ -11,7 +12,7 @@ const IOR: f64 = 1.5;
 
 impl Importer<'_> {
     /// The material of a primitive; None for the one that the specification gives where none is named.
-    pub fn material(&mut self, index: Option<usize>) -> Result<Made, String> {
+    pub fn material(&mut self, index: Option<usize>) -> Result<MadeMaterial, String> {
         if let Some(made) = self.materials.get(&index) {
             return Ok(made.clone());
         }
@@ -32,7 +33,7 @@ impl Importer<'_> {
         Ok(made)
     }
 
-    fn make_material(&mut self, material: &Material, name: &str, place: String) -> Result<Made, String> {
+    fn make_material(&mut self, material: &Material, name: &str, place: String) -> Result<MadeMaterial, String> {
         let mut surface = Surface { importer: self, material, place, coordinates: None };
         let keys = surface.keys()?;
         let coordinates = surface.coordinates;
@@ -41,7 +42,7 @@ impl Importer<'_> {
         let mut named = Keys::new().with("name", name.as_str());
         named.0.extend(keys.0);
         self.scene.materials.push(Entry { place: self.place(&place), keys: named });
-        Ok(Made { name, coordinates })
+        Ok(MadeMaterial { name, coordinates })
     }
 }
 

@@ -5,7 +5,7 @@ use serde_json::{Map, Value};
 
 use super::importer::Importer;
 use super::json::Primitive;
-use crate::load::import::FileReference;
+use super::made::{Coordinates, MadePrimitive};
 use crate::load::model::FARTHEST;
 use crate::scene::Mesh;
 
@@ -20,7 +20,7 @@ impl Importer<'_> {
         index: usize,
         skinning: Option<&Skinning>,
         weights: Option<&[f64]>,
-    ) -> Result<Option<Made>, String> {
+    ) -> Result<Option<MadePrimitive>, String> {
         let is_shared = skinning.is_none() && weights.is_none();
         if is_shared && let Some(made) = self.meshes.get(&(mesh, index)) {
             return Ok(Some(made.clone()));
@@ -51,7 +51,7 @@ impl Importer<'_> {
         let name = of.name.clone().unwrap_or_else(|| format!("mesh-{mesh}"));
         let smooth = built.smooth;
         let file = self.scene.hold_mesh(&name, built);
-        let made = Made { file, material: material.name, smooth, triangles };
+        let made = MadePrimitive { file, material: material.name, smooth, triangles };
         if is_shared {
             self.meshes.insert((mesh, index), made.clone());
         }

@@ -5,9 +5,9 @@ use std::rc::Rc;
 
 use glam::DVec3;
 
-use super::Converter;
+use super::converter::Converter;
+use super::input::Input;
 use super::plugin::Plugin;
-use super::texture::Input;
 use crate::load::error::SceneError;
 use crate::load::import::{Entry, FileReference, Keys, world_direction};
 

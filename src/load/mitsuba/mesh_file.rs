@@ -1,15 +1,15 @@
 //! Shapes from files: OBJ, PLY and Mitsuba's own.
 
 use std::collections::HashSet;
-use std::path::PathBuf;
 use std::rc::Rc;
 
 use glam::{DAffine3, Vec2, Vec3};
 use rayon::prelude::*;
 
+use super::converter::{Converter, MeshKey};
 use super::plugin::{Plugin, PropertyValue};
+use super::serialized;
 use super::shape::turn_inside_out;
-use super::{Converter, serialized};
 use crate::load::error::{SceneError, show};
 use crate::load::files::Files;
 use crate::load::import::{Keys, smooth_by_index};
@@ -110,9 +110,6 @@ impl Converter<'_> {
 
 /// Elements whose plugins read files.
 const FORMATS: [&str; 3] = ["obj", "ply", "serialized"];
-
-/// A mesh of a file: the file, its format, and the bits of the mesh's number.
-pub type MeshKey = (PathBuf, String, u64);
 
 /// Reads a mesh. The error is that of the file, or why it is none.
 fn read(files: &Files, (path, format, index): &MeshKey) -> Result<Mesh, SceneError> {

@@ -5,8 +5,10 @@
 
 mod bsdf;
 mod colour;
+mod converter;
 mod document;
 mod emitter;
+mod input;
 mod mesh_file;
 mod metals;
 mod number;
@@ -25,12 +27,12 @@ use std::rc::Rc;
 
 use glam::DAffine3;
 
+use self::converter::Converter;
 use self::document::Reader;
 use self::plugin::Plugin;
-use self::texture::{Input, Texels};
 use super::error::SceneError;
 use super::files::Files;
-use super::import::{Description, Keys};
+use super::import::Description;
 use super::printable::short_list;
 pub use write::{WrittenMitsuba, write};
 
@@ -68,28 +70,6 @@ pub fn load(files: &Files, path: &Path, options: &Options) -> Result<Description
     let Converter { reader, mut scene, .. } = converter;
     scene.report.append(reader.report);
     Ok(scene)
-}
-
-/// A description in the making.
-struct Converter<'a> {
-    reader: Reader<'a>,
-    files: &'a Files,
-    scene: Description,
-    /// What all of the scene is turned by, so that its environment stands upright.
-    world: DAffine3,
-    /// By the plugin, and whether it is within one that has two sides.
-    materials: HashMap<(*const Plugin, bool), bsdf::Made>,
-    both_sides: bool,
-    /// Materials that give light, by their keys.
-    lamps: HashMap<String, String>,
-    /// That of shapes without a BSDF.
-    default_material: Option<usize>,
-    textures: HashMap<(*const Plugin, bool, Texels), Input>,
-    meshes: HashMap<String, super::import::FileReference>,
-    /// Files of meshes as they stand.
-    read_meshes: HashMap<mesh_file::MeshKey, Result<crate::scene::Mesh, SceneError>>,
-    /// Of all shapes, copies counted.
-    triangles: u64,
 }
 
 impl Converter<'_> {
@@ -134,40 +114,5 @@ impl Converter<'_> {
                 Err(if ids.is_empty() { error } else { error.with_help(format!("there are {}", short_list(&ids))) })
             }
         }
-    }
-
-    fn drop(&mut self, plugin: &Plugin, what: &str, instead: impl Into<String>) {
-        self.scene.report.drop(what, plugin.place.to_string(), instead);
-    }
-
-    fn approximate(&mut self, plugin: &Plugin, what: &str, instead: impl Into<String>) {
-        self.scene.report.approximate(what, plugin.place.to_string(), instead);
-    }
-
-    /// Names what nothing asked for, in plugins that are part of the picture.
-    fn report_unused(&mut self, root: &Rc<Plugin>) {
-        let mut seen: std::collections::HashSet<*const Plugin> = Default::default();
-        let mut to_visit = vec![root.clone()];
-        while let Some(plugin) = to_visit.pop() {
-            if !seen.insert(Rc::as_ptr(&plugin)) {
-                continue;
-            }
-            if plugin.visited.get() {
-                for property in plugin.properties.iter().filter(|property| !property.used.get()) {
-                    let what = format!("{}: `{}`", plugin.title(), property.name);
-                    self.scene.report.drop(what, property.place.to_string(), "it has no effect");
-                }
-                for child in plugin.children.iter().filter(|child| !child.used.get()) {
-                    let what = format!("{} in {}", child.plugin.title(), plugin.kind);
-                    self.scene.report.drop(what, child.plugin.place.to_string(), "it has no effect");
-                }
-            }
-            to_visit.extend(plugin.children.iter().rev().map(|child| child.plugin.clone()));
-        }
-    }
-
-    /// The keys of a transform that puts something into the world.
-    fn placed(&self, map: &DAffine3, keys: Keys) -> Keys {
-        keys.with_some("transform", super::import::matrix_value(&(self.world * *map)))
     }
 }

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-use super::Converter;
+use super::converter::Converter;
 use super::plugin::Plugin;
 use crate::load::error::SceneError;
 use crate::load::import::{Entry, Keys, camera_keys};

@@ -4,8 +4,9 @@ use std::rc::Rc;
 
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::converter::Converter;
+use super::emitter;
 use super::plugin::Plugin;
-use super::{Converter, emitter};
 use crate::load::error::SceneError;
 use crate::load::import::{Entry, FileReference, Keys, cylinder, disk, grid_sphere, is_uniform, unit_cube};
 use crate::load::memory;
@@ -56,7 +57,7 @@ impl Converter<'_> {
         let bsdf = plugin.first_of("bsdf").cloned();
         let light = plugin.first_of("emitter").cloned();
         let light = light.map(|light| emitter::area_radiance(self, &light)).transpose()?.flatten();
-        let textured = bsdf.as_ref().is_some_and(uses_texture) || matches!(light, Some(super::texture::Input::Texture(..)));
+        let textured = bsdf.as_ref().is_some_and(uses_texture) || matches!(light, Some(super::input::Input::Texture(..)));
         let flip = plugin.flag("flip_normals", false)?;
         let Some((keys, map)) = self.geometry(plugin, map, textured, flip)? else { return Ok(()) };
         let material = self.surface_material(plugin, bsdf.as_ref(), light)?;

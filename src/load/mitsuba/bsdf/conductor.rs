@@ -4,12 +4,13 @@ use std::rc::Rc;
 
 use glam::DVec3;
 
-use super::Keyed;
+use super::keyed::Keyed;
 use crate::load::error::SceneError;
 use crate::load::import::Keys;
+use crate::load::mitsuba::converter::Converter;
+use crate::load::mitsuba::input::Input;
+use crate::load::mitsuba::metals;
 use crate::load::mitsuba::plugin::{Plugin, PropertyValue};
-use crate::load::mitsuba::texture::Input;
-use crate::load::mitsuba::{Converter, metals};
 
 pub fn conductor(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {
     let tint = converter.reflectance(plugin, "specular_reflectance", 1.0)?;

@@ -2,12 +2,13 @@
 
 use std::rc::Rc;
 
-use super::Keyed;
 use super::conductor::with_roughness;
+use super::keyed::Keyed;
 use crate::load::error::SceneError;
 use crate::load::import::Keys;
+use crate::load::mitsuba::converter::Converter;
+use crate::load::mitsuba::metals;
 use crate::load::mitsuba::plugin::{Plugin, PropertyValue, Spectrum};
-use crate::load::mitsuba::{Converter, metals};
 
 pub fn dielectric(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {
     let ior = relative_ior(plugin, "bk7")?;

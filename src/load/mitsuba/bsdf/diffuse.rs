@@ -2,10 +2,10 @@
 
 use std::rc::Rc;
 
-use super::Keyed;
+use super::keyed::Keyed;
 use crate::load::error::SceneError;
 use crate::load::import::Keys;
-use crate::load::mitsuba::Converter;
+use crate::load::mitsuba::converter::Converter;
 use crate::load::mitsuba::plugin::Plugin;
 
 pub fn diffuse(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {

@@ -3,6 +3,7 @@
 mod conductor;
 mod dielectric;
 mod diffuse;
+mod keyed;
 mod old;
 mod plastic;
 mod principled;
@@ -10,32 +11,15 @@ mod wrapped;
 
 use std::rc::Rc;
 
-use super::Converter;
+use self::keyed::{Keyed, Parts};
+use super::converter::Converter;
+use super::input::Input;
 use super::plugin::Plugin;
-use super::texture::Input;
 use crate::load::error::SceneError;
 use crate::load::import::{Entry, Keys, Value};
 
 /// Most BSDFs within each other.
 const DEEPEST: usize = 32;
-
-/// What a BSDF became.
-#[derive(Debug, Clone)]
-pub struct Made {
-    /// Index into [`Description::materials`].
-    pub material: usize,
-}
-
-/// The BSDFs within another one.
-#[derive(Debug, Default)]
-struct Parts {
-    names: Vec<Value>,
-    /// The map that all of them have.
-    normal_map: Option<Value>,
-}
-
-/// Keys of a material and whether both sides count.
-type Keyed = (Keys, bool);
 
 impl Converter<'_> {
     /// The name of the material of a shape with this BSDF that gives this light.
@@ -49,7 +33,7 @@ impl Converter<'_> {
             Some(bsdf) => self.bsdf(bsdf, 0)?,
             None => self.default_bsdf(),
         };
-        let entry = &self.scene.materials[made.material];
+        let entry = &self.scene.materials[made];
         let plain = entry.keys.text("name").unwrap_or_default().to_owned();
         let Some(light) = light else { return Ok(plain) };
         let mut keys = entry.keys.clone();
@@ -76,7 +60,7 @@ impl Converter<'_> {
     }
 
     /// Mitsuba's surface without a BSDF is a grey diffuse one.
-    fn default_bsdf(&mut self) -> Made {
+    fn default_bsdf(&mut self) -> usize {
         const NAME: &str = "(no bsdf)";
         let known = self.default_material;
         let material = known.unwrap_or_else(|| {
@@ -86,14 +70,14 @@ impl Converter<'_> {
             self.scene.materials.len() - 1
         });
         self.default_material = Some(material);
-        Made { material }
+        material
     }
 
     /// The material of a BSDF, made once.
-    fn bsdf(&mut self, plugin: &Rc<Plugin>, depth: usize) -> Result<Made, SceneError> {
+    fn bsdf(&mut self, plugin: &Rc<Plugin>, depth: usize) -> Result<usize, SceneError> {
         let key = (Rc::as_ptr(plugin), self.both_sides);
         if let Some(made) = self.materials.get(&key) {
-            return Ok(made.clone());
+            return Ok(*made);
         }
         let (keys, two_sided) = self.bsdf_keys(plugin, depth)?;
         let keys = if two_sided { keys } else { self.sided(keys) };
@@ -102,8 +86,8 @@ impl Converter<'_> {
         let mut named = Keys::new().with("name", name);
         named.0.extend(keys.0.into_iter().filter(|(key, _)| *key != "name"));
         self.scene.materials.push(Entry { place: plugin.place.clone(), keys: named });
-        let made = Made { material: self.scene.materials.len() - 1 };
-        self.materials.insert(key, made.clone());
+        let made = self.scene.materials.len() - 1;
+        self.materials.insert(key, made);
         Ok(made)
     }
 
@@ -163,10 +147,10 @@ impl Converter<'_> {
         let mut maps = Vec::new();
         for part in &within {
             let made = self.bsdf(part, depth + 1)?;
-            let keys = self.scene.materials[made.material].keys.clone();
+            let keys = self.scene.materials[made].keys.clone();
             let map = keys.get("normal_map").cloned();
             parts.names.push(match &map {
-                None => Value::Text(self.name_of(&made)),
+                None => Value::Text(self.name_of(made)),
                 Some(_) => {
                     let name = format!("{}, as it lies", keys.text("name").unwrap_or_default());
                     self.extra(
@@ -188,8 +172,8 @@ impl Converter<'_> {
         Ok(parts)
     }
 
-    fn name_of(&self, made: &Made) -> String {
-        self.scene.materials[made.material].keys.text("name").unwrap_or_default().to_owned()
+    fn name_of(&self, made: usize) -> String {
+        self.scene.materials[made].keys.text("name").unwrap_or_default().to_owned()
     }
 
     /// A material beside the plugin's own.

@@ -2,13 +2,13 @@
 
 use std::rc::Rc;
 
-use super::Keyed;
 use super::dielectric::relative_ior;
+use super::keyed::Keyed;
 use crate::load::error::SceneError;
 use crate::load::import::Keys;
-use crate::load::mitsuba::Converter;
+use crate::load::mitsuba::converter::Converter;
+use crate::load::mitsuba::input::Input;
 use crate::load::mitsuba::plugin::Plugin;
-use crate::load::mitsuba::texture::Input;
 
 /// Modified Phong, which both programs have; Ward's model is said by it.
 pub fn phong(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {

@@ -4,12 +4,12 @@ use std::rc::Rc;
 
 use glam::DVec3;
 
-use super::Keyed;
 use super::conductor::with_distribution;
 use super::dielectric::relative_ior;
+use super::keyed::Keyed;
 use crate::load::error::SceneError;
 use crate::load::import::Keys;
-use crate::load::mitsuba::Converter;
+use crate::load::mitsuba::converter::Converter;
 use crate::load::mitsuba::plugin::Plugin;
 
 pub fn plastic(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {

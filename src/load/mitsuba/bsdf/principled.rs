@@ -2,12 +2,12 @@
 
 use std::rc::Rc;
 
-use super::Keyed;
+use super::keyed::Keyed;
 use crate::load::error::SceneError;
 use crate::load::import::Keys;
-use crate::load::mitsuba::Converter;
+use crate::load::mitsuba::converter::Converter;
+use crate::load::mitsuba::input::Input;
 use crate::load::mitsuba::plugin::Plugin;
-use crate::load::mitsuba::texture::Input;
 
 const PARAMETERS: [&str; 9] = [
     "spec_tint",

@@ -4,14 +4,14 @@ use std::rc::Rc;
 
 use glam::DVec3;
 
+use super::keyed::{Keyed, Parts};
 use super::principled::{blended, weight};
-use super::{Keyed, Parts};
 use crate::load::error::SceneError;
 use crate::load::import::{Keys, Value};
-use crate::load::mitsuba::Converter;
 use crate::load::mitsuba::colour::Role;
+use crate::load::mitsuba::converter::Converter;
+use crate::load::mitsuba::input::{Input, Texels};
 use crate::load::mitsuba::plugin::Plugin;
-use crate::load::mitsuba::texture::{Input, Texels};
 
 pub fn two_sided(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
     let within = plugin.children_of("bsdf");

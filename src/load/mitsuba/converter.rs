@@ -1,0 +1,77 @@
+//! A description in the making.
+
+use std::collections::{HashMap, HashSet};
+use std::path::PathBuf;
+use std::rc::Rc;
+
+use glam::DAffine3;
+
+use super::document::Reader;
+use super::input::{Input, Texels};
+use super::plugin::Plugin;
+use crate::load::error::SceneError;
+use crate::load::files::Files;
+use crate::load::import::{Description, FileReference, Keys, matrix_value};
+use crate::scene::Mesh;
+
+/// A mesh of a file: the file, its format, and the bits of the mesh's number.
+pub type MeshKey = (PathBuf, String, u64);
+
+/// A description in the making.
+pub struct Converter<'a> {
+    pub reader: Reader<'a>,
+    pub files: &'a Files,
+    pub scene: Description,
+    /// What all of the scene is turned by, so that its environment stands upright.
+    pub world: DAffine3,
+    /// By the plugin, and whether it is within one that has two sides.
+    pub materials: HashMap<(*const Plugin, bool), usize>,
+    pub both_sides: bool,
+    /// Materials that give light, by their keys.
+    pub lamps: HashMap<String, String>,
+    /// That of shapes without a BSDF.
+    pub default_material: Option<usize>,
+    pub textures: HashMap<(*const Plugin, bool, Texels), Input>,
+    pub meshes: HashMap<String, FileReference>,
+    /// Files of meshes as they stand.
+    pub read_meshes: HashMap<MeshKey, Result<Mesh, SceneError>>,
+    /// Of all shapes, copies counted.
+    pub triangles: u64,
+}
+
+impl Converter<'_> {
+    pub fn drop(&mut self, plugin: &Plugin, what: &str, instead: impl Into<String>) {
+        self.scene.report.drop(what, plugin.place.to_string(), instead);
+    }
+
+    pub fn approximate(&mut self, plugin: &Plugin, what: &str, instead: impl Into<String>) {
+        self.scene.report.approximate(what, plugin.place.to_string(), instead);
+    }
+
+    /// Names what nothing asked for, in plugins that are part of the picture.
+    pub fn report_unused(&mut self, root: &Rc<Plugin>) {
+        let mut seen: HashSet<*const Plugin> = Default::default();
+        let mut to_visit = vec![root.clone()];
+        while let Some(plugin) = to_visit.pop() {
+            if !seen.insert(Rc::as_ptr(&plugin)) {
+                continue;
+            }
+            if plugin.visited.get() {
+                for property in plugin.properties.iter().filter(|property| !property.used.get()) {
+                    let what = format!("{}: `{}`", plugin.title(), property.name);
+                    self.scene.report.drop(what, property.place.to_string(), "it has no effect");
+                }
+                for child in plugin.children.iter().filter(|child| !child.used.get()) {
+                    let what = format!("{} in {}", child.plugin.title(), plugin.kind);
+                    self.scene.report.drop(what, child.plugin.place.to_string(), "it has no effect");
+                }
+            }
+            to_visit.extend(plugin.children.iter().rev().map(|child| child.plugin.clone()));
+        }
+    }
+
+    /// The keys of a transform that puts something into the world.
+    pub fn placed(&self, map: &DAffine3, keys: Keys) -> Keys {
+        keys.with_some("transform", matrix_value(&(self.world * *map)))
+    }
+}
