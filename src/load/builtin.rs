@@ -20,7 +20,7 @@ const FILES: [(&str, &[u8]); 9] = [
 ];
 
 /// Name and text of every built-in scene; the first is the default.
-const SCENES: [(&str, &str); 24] = [
+const SCENES: [(&str, &str); 25] = [
     ("cornell", include_str!("../../scenes/cornell.toml")),
     ("spheres", include_str!("../../scenes/spheres.toml")),
     ("veach-mis", include_str!("../../scenes/veach-mis.toml")),
@@ -40,6 +40,7 @@ const SCENES: [(&str, &str); 24] = [
     ("crystal", include_str!("../../scenes/crystal.toml")),
     ("lanterns", include_str!("../../scenes/lanterns.toml")),
     ("arbour", include_str!("../../scenes/arbour.toml")),
+    ("vitrine", include_str!("../../scenes/vitrine.toml")),
     ("model-town", include_str!("../../scenes/model-town.toml")),
     ("furnace-lambert", include_str!("../../scenes/furnace-lambert.toml")),
     ("furnace-box", include_str!("../../scenes/furnace-box.toml")),

@@ -46,6 +46,7 @@ const MEASURED: &[(&str, MeasuredShare)] = &[
     ("crystal", MeasuredShare { matching: 157_268, paths: 157_696 }),
     ("lanterns", MeasuredShare { matching: 157_628, paths: 157_696 }),
     ("arbour", MeasuredShare { matching: 163_752, paths: 163_840 }),
+    ("vitrine", MeasuredShare { matching: 175_226, paths: 176_128 }),
     ("model-town", MeasuredShare { matching: 196_519, paths: 196_608 }),
     ("furnace-lambert", MeasuredShare { matching: 65_536, paths: 65_536 }),
     ("furnace-box", MeasuredShare { matching: 65_451, paths: 65_536 }),

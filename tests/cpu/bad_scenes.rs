@@ -48,13 +48,13 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
             "reflectance = 0.5",
             "reflectence = 0.5",
             "test.toml:13:1: material[0].reflectence: unknown key `reflectence` [did you mean `reflectance`? valid choices: name, \
-             reflectance, normal_map, emission, emission_two_sided, opacity]",
+             reflectance, normal_map, emission, emission_two_sided, opacity, two_sided]",
         ),
         (
             "type = \"diffuse\"",
             "type = \"diffusse\"",
             "test.toml:12:8: material[0].type: `diffusse` is not a valid choice [did you mean `diffuse`? valid choices: diffuse, \
-             mirror, glossy, phong, glass, rough_glass, conductor, emissive, blend, pass]",
+             mirror, glossy, phong, glass, rough_glass, plastic, conductor, principled, emissive, blend, pass]",
         ),
         (
             "type = \"sphere\"",
