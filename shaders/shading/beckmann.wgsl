@@ -1,5 +1,4 @@
 // Microfacets whose slopes are normally distributed, of width 1.
-#import core/math.wgsl
 
 const INVERSE_ROOT_PI: f32 = 0.56418958354775628695;
 

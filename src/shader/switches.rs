@@ -179,7 +179,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("LAYER_NORMAL").requires(&["LAYER_OF_SURFACES"]).excludes(LAYERS),
     switch("LAYER_OF_FIRST_SURFACE").requires(&["LAYER_OF_SURFACES"]).one_of(&["LAYER_DEPTH", "LAYER_POSITION"]),
     switch("LAYER_OF_LIGHT").one_of(&["LAYER_DIRECT", "LAYER_EMISSION", "LAYER_INDIRECT"]).excludes(&["LAYER_OF_SURFACES"]),
-    switch("LAYER_OF_SURFACES").one_of(&["LAYER_ALBEDO", "LAYER_DEPTH", "LAYER_NORMAL", "LAYER_POSITION"]),
+    switch("LAYER_OF_SURFACES").one_of(&["LAYER_DEPTH", "LAYER_ALBEDO", "LAYER_NORMAL", "LAYER_POSITION"]),
     switch("LAYER_POSITION").requires(&["LAYER_OF_FIRST_SURFACE"]).excludes(LAYERS),
     switch("LAYER_SQUARES").excludes(LAYERS),
     switch("LENS"),

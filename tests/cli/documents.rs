@@ -13,8 +13,9 @@ const README_LINES: usize = 120;
 const FOLDERS: [&str; 9] = ["src/", "shaders/", "tests/", "scripts/", "benches/", "docs/", "scenes/", "examples/", ".ci/"];
 /// What was, not what is: only their links are checked.
 const HISTORY: [&str; 2] = ["docs/notes/", "CHANGELOG.md"];
-/// Flags of cargo that documents use.
-const CARGO_FLAGS: [&str; 7] = ["--release", "--locked", "--path", "--bench", "--example", "--test", "--bin"];
+/// Flags of cargo and of openjd that documents use.
+const FLAGS_OF_OTHERS: [&str; 9] =
+    ["--release", "--locked", "--path", "--bench", "--example", "--test", "--bin", "--step", "--run-dependencies"];
 
 /// The flags of each command of the program, from its help.
 struct Help(BTreeMap<String, BTreeSet<String>>);
@@ -247,7 +248,7 @@ fn check_command(line: &str, root: &Path, help: &Help, script_flags: &BTreeSet<S
             .collect(),
         [script, ..] if script.starts_with("scripts/") && !root.join(script).exists() => vec![format!("there is no {script}")],
         _ => flags_of(line)
-            .filter(|flag| !help.has(flag) && !script_flags.contains(*flag) && !CARGO_FLAGS.contains(flag))
+            .filter(|flag| !help.has(flag) && !script_flags.contains(*flag) && !FLAGS_OF_OTHERS.contains(flag))
             .map(|flag| format!("nothing has the flag {flag}"))
             .collect(),
     }

@@ -1,5 +1,4 @@
 // Plastic with a smooth surface: a direction that the boundary reflects, and a diffuse base.
-#import core/math.wgsl
 #import shading/fresnel.wgsl
 #import shading/hemisphere.wgsl
 #import shading/lobe.wgsl

@@ -1,5 +1,4 @@
 // Rough glass of microfacets.
-#import core/layout.wgsl
 #import core/math.wgsl
 #import shading/dielectric.wgsl
 #import shading/fresnel.wgsl

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::importer::Importer;
 use super::buffers::{file_of, read_uri};
+use super::importer::Importer;
 use super::json::Image;
 use crate::load::import::{Entry, FileReference, Keys};
 

@@ -79,17 +79,19 @@ fn observer(wavelength: f64) -> [f64; 4] {
     std::array::from_fn(|column| OBSERVER[row][column] * (1.0 - part) + OBSERVER[row + 1][column] * part)
 }
 
-/// The colour of a spectrum that gives so much at each wavelength in nanometres.
+/// The colour of a spectrum that gives so much at each wavelength in nanometres. A surface that reflects everything is white to the last digit:
+/// the tables' own white is off by 0.2 % in blue.
 pub fn integrate(role: Role, spectrum: impl Fn(f64) -> f64) -> DVec3 {
-    let (mut sum, mut white) = (DVec3::ZERO, 0.0);
+    let (mut sum, mut white) = (DVec3::ZERO, DVec3::ZERO);
     for step in 0..=((OBSERVER.len() - 1) * STEP as usize) {
         let wavelength = FIRST_WAVELENGTH + step as f64;
         let [x, y, z, daylight] = observer(wavelength);
         let light = if role == Role::Surface { daylight } else { 1.0 };
         sum += DVec3::new(x, y, z) * light * spectrum(wavelength);
-        white += y * light;
+        white += DVec3::new(x, y, z) * light;
     }
-    from_xyz(sum / white)
+    let colour = from_xyz(sum / white.y);
+    if role == Role::Surface { colour / from_xyz(white / white.y) } else { colour }
 }
 
 /// Straight lines between samples, 0 outside of them.
@@ -201,7 +203,7 @@ mod tests {
     #[test]
     fn white_is_white_under_daylight() {
         let white = integrate(Role::Surface, |_| 1.0);
-        assert!((white - DVec3::ONE).abs().max_element() < 2e-3, "{white}");
+        assert!((white - DVec3::ONE).abs().max_element() < 1e-12, "{white}");
         // The control: a light of equal energy is reddish beside daylight.
         let light = integrate(Role::Light, |_| 1.0);
         assert!((light - DVec3::new(1.2048, 0.9484, 0.9087)).abs().max_element() < 2e-3, "{light}");

@@ -8,8 +8,8 @@ mod plastic;
 pub use blend_weight::BlendWeight;
 pub(crate) use kind::material_table;
 pub use kind::{
-    ANISOTROPIC, BECKMANN, COMPLEX_FRESNEL, ConductorFresnel, FORMS, LobeKind, LobeParameters, LobeSupport,
-    MaterialId, MaterialKind, NONLINEAR, Principled, SEPARABLE_MASKING, SMALLEST_BEND, SQUARED_ACROSS, THIN_WALL, TRANSMITS,
+    ANISOTROPIC, BECKMANN, COMPLEX_FRESNEL, ConductorFresnel, FORMS, LobeKind, LobeParameters, LobeSupport, MaterialId,
+    MaterialKind, NONLINEAR, Principled, SEPARABLE_MASKING, SMALLEST_BEND, SQUARED_ACROSS, THIN_WALL, TRANSMITS,
 };
 pub use microfacets::{DELTA_ALPHA, Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};
 pub use plastic::{PlasticInterface, TRANSMITTANCE_NODES, diffuse_reflectance};

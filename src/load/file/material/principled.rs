@@ -50,7 +50,7 @@ impl MaterialKeys for Keys {
         "base_color = [0.4, 0.8, 0.9]\nmetallic = 0.1\nroughness = 0.5\ntransmission = 0.8\nthin = true\nclearcoat = 0.5",
         "base_color = [0.9, 0.6, 0.3]\nmetallic = 0.8\nroughness = 0.4\nanisotropy = 0.7\nanisotropy_rotation = 30",
         "base_color = [0.4, 0.8, 0.9]\nmetallic = 0\nroughness = 0\ntransmission = 1",
-        "metallic = 0\nroughness = 0\nclearcoat = 1",
+        "base_color = [0.3, 0.2, 0.25]\nmetallic = 0\nroughness = 0\nclearcoat = 1",
     ];
 
     fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
