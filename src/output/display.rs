@@ -68,6 +68,7 @@ choices! {
     }
 }
 
+#[allow(clippy::derivable_impls, reason = "the table above derives no default")]
 impl Default for ToneCurve {
     fn default() -> Self {
         Self::Agx

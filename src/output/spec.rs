@@ -32,6 +32,7 @@ choices! {
     }
 }
 
+#[allow(clippy::derivable_impls, reason = "the table above derives no default")]
 impl Default for ExrCompression {
     fn default() -> Self {
         Self::Piz

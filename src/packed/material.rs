@@ -229,7 +229,7 @@ impl PackedMaterials {
         // A blend that always is one of its materials is that material.
         if let [Part { material, constant: 1.0, factors, front_only }] = plain.as_slice()
             && factors.is_empty()
-            && *front_only == !scene.materials[*material].two_sided
+            && *front_only != scene.materials[*material].two_sided
             && emitting_blends.is_empty()
             && packed.emission_flags == 0
             && packed.normal_map == NONE

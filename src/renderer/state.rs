@@ -96,7 +96,7 @@ mod tests {
 
     #[test]
     fn sums_survive_a_change_of_device() {
-        let sums = vec![[1.0 / 3.0, 1e-7, 12345.678_901_234, 9.0]];
+        let sums = vec![[1.0 / 3.0, 1e-7, 12_345.678_901_234, 9.0]];
         let double = FilmState::Double { sums: sums.clone(), samples: vec![77] };
         let (sum, compensation) = double.single(0);
         let single = FilmState::Single { sums: vec![sum], compensations: vec![compensation] };

@@ -144,7 +144,7 @@ fn a_models_file_is_named_and_its_materials_can_be_replaced() {
 
     std::fs::create_dir(folder.path().join("below")).unwrap();
     let path = folder.path().join("below/out.toml");
-    assert_eq!(save_scene(&original, &path).unwrap(), [path.clone()], "no file beside it");
+    assert_eq!(save_scene(&original, &path).unwrap(), std::slice::from_ref(&path), "no file beside it");
     let text = std::fs::read_to_string(&path).unwrap();
     assert!(text.contains("file = \"../a.obj\"") && text.contains("materials = { \"iron\" = \"red\" }"), "{text}");
     assert!(!text.contains("wood"), "{text}");

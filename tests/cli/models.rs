@@ -121,12 +121,12 @@ fn colours_are_written_in_the_ways_people_have_them() {
     };
     // Code 0x80 is 0.2158605 in sRGB.
     for (colour, expected) in [("\"#ff8000\"", [1.0, 0.215_860_5, 0.0]), ("\"#FF8000\"", [1.0, 0.215_860_5, 0.0])] {
-        place.write("colour.toml", &scene(colour));
+        place.write("colour.toml", scene(colour));
         place.expect(0, "render colour.toml --device cpu --spp 1 --size 4x4 -q -o a.exr");
         let found = place.image("a.exr").pixels[5];
         assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6), "{colour}: {found:?}");
     }
-    place.write("colour.toml", &scene("{ kelvin = 2700, factor = 5 }"));
+    place.write("colour.toml", scene("{ kelvin = 2700, factor = 5 }"));
     place.expect(0, "render colour.toml --device cpu --spp 1 --size 4x4 -q -o a.exr");
     let [red, green, blue] = place.image("a.exr").pixels[5];
     assert!((red - 5.0).abs() < 1e-5 && green < 4.0 && blue < 2.0 && blue > 0.3, "{red} {green} {blue}");
@@ -137,7 +137,7 @@ fn colours_are_written_in_the_ways_people_have_them() {
         ("{ kelvn = 500 }", "kelvin"),
         ("{ kelvin = 3000, texture = \"a\" }", "one of the keys"),
     ] {
-        place.write("colour.toml", &scene(colour));
+        place.write("colour.toml", scene(colour));
         let stderr = place.expect(3, "render colour.toml --device cpu");
         assert!(stderr.contains(words) && stderr.contains("colour.toml:8"), "{colour}: {stderr}");
     }

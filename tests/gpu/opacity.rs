@@ -264,7 +264,8 @@ fn paths_and_shadow_rays_through_veils_agree() {
         let verdict = verdict(device, &scene, &scene, &options);
         assert!(verdict.agrees, "{way}: {verdict:#?}");
     }
-    let changes: [(&str, fn(&mut Scene)); 4] = [
+    type Change = fn(&mut Scene);
+    let changes: [(&str, Change); 4] = [
         ("nee", |scene| scene.render.estimator = Estimator::Nee),
         ("bsdf", |scene| scene.render.estimator = Estimator::Bsdf),
         ("pick", |scene| scene.render.blend = BlendMode::Pick),

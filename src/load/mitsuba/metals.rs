@@ -49,6 +49,7 @@ struct Metal {
     oscillators: &'static [Oscillator],
 }
 
+#[allow(clippy::approx_constant, reason = "one of the fitted energies is near π by chance")]
 const METALS: [Metal; 7] = [
     Metal {
         name: "be",
