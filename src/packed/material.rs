@@ -106,7 +106,7 @@ pub struct PackedBlendPart {
     pub material: u32,
     /// Its weight is the constant factor times the blend weights `first_factor..first_factor + factor_count`.
     pub first_factor: u32,
-    /// And [`PART_FRONT_ONLY`].
+    /// And `PART_FRONT_ONLY`.
     pub factor_count: u32,
     pub constant_factor: f32,
 }

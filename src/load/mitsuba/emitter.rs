@@ -142,10 +142,7 @@ impl Converter<'_> {
             self.drop(plugin, "mirroring `to_world` of an environment map", "the map is not mirrored");
         }
         let degrees = turn.x_axis.z.atan2(turn.x_axis.x) * -180.0 / PI;
-        // Mitsuba's first column lies at the edge of the map, and its first row on the pole.
-        let width =
-            crate::load::image_file::size(self.files, &path).map_err(|reason| plugin.error(format!("{written}: {reason}")))?[0];
-        let degrees = degrees + 180.0 / f64::from(width);
+        // Mitsuba's columns lie as ours do; its first and last row lie on the poles.
         let keys = Keys::of_type("environment").with("file", FileReference::Disk(path)).with("rows", "to_poles");
         let keys = if scale == 1.0 { keys } else { keys.with("scale", scale) };
         Ok(keys.with("rotate", degrees))

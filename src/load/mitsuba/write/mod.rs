@@ -196,13 +196,10 @@ impl Writer<'_> {
                 Element::new("emitter", "constant").rgb("radiance", colour(light, "radiance").map(|channel| channel * scale))
             );
         };
-        let path = self.folder.join(file);
-        let width = crate::load::image_file::size(self.files, &path).map_err(|reason| SceneError::in_file(self.name, reason))?[0];
         if text(light, "rows") != Some("to_poles") {
             self.approximate("rows of an environment map", place, "they stand half a row nearer to the poles");
         }
-        // Mitsuba's texels begin at the edges of the map, ours stand half a texel within.
-        let degrees = number(light, "rotate").unwrap_or(0.0) - 180.0 / f64::from(width);
+        let degrees = number(light, "rotate").unwrap_or(0.0);
         let file = self.file(file)?;
         Ok(Element::new("emitter", "envmap")
             .string("filename", &file)
