@@ -51,18 +51,6 @@ pub fn read_image(path: &Path, color_space: Option<ColorSpace>) -> Result<ImageD
     Pictures::new(Files::default()).read(path, color_space).map(|picture| picture.image)
 }
 
-/// Width and height as the file's header says them.
-pub fn size(files: &Files, path: &Path) -> Result<[u32; 2], String> {
-    let file = files.open(path).map_err(|error| format!("cannot be read: {error}"))?;
-    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr")) {
-        let metadata = MetaData::read_from_buffered(file, false).map_err(|error| format!("is not a valid EXR: {error}"))?;
-        let size = metadata.headers.first().map(|header| header.layer_size).ok_or("is not a valid EXR: it has no layers")?;
-        return Ok([size.x(), size.y()].map(|side| u32::try_from(side).unwrap_or(u32::MAX)));
-    }
-    let (width, height) = guess(path, file)?.into_dimensions().map_err(|error| format!("is not a valid image: {error}"))?;
-    Ok([width, height])
-}
-
 impl Pictures {
     /// With half of the memory that is free.
     pub fn new(files: Files) -> Self {
