@@ -7,8 +7,9 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::colour::{Colour, Scalar, TextureReference};
 use super::document::Document;
-use super::value::{Colour, Located, Rule, Scalar, TextureReference, Vector, vector};
+use super::value::{Located, Rule, Vector, vector};
 use super::wording::did_you_mean_name;
 use crate::load::access::Access;
 use crate::load::error::{SceneError, show};

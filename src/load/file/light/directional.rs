@@ -7,8 +7,9 @@ use serde::Deserialize;
 
 use super::keys::LightKeys;
 use crate::load::error::SceneError;
+use crate::load::file::colour::Rgb;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Located, NonNegative, Rgb, Vector};
+use crate::load::file::value::{Located, NonNegative, Vector};
 use crate::scene::DirectionalLight;
 
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -8,8 +8,9 @@ use serde::Deserialize;
 
 use super::keys::LightKeys;
 use crate::load::error::{SceneError, show};
+use crate::load::file::colour::Rgb;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Checked, LARGEST, Located, NonNegative, Number, Rgb};
+use crate::load::file::value::{Checked, LARGEST, Located, NonNegative, Number};
 use crate::scene::{Environment, EnvironmentRadiance, ImageData, ImageSource, MapRows};
 
 /// Radiance from outside the scene: either `radiance` or `file`.

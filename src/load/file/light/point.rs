@@ -7,8 +7,9 @@ use serde::Deserialize;
 
 use super::keys::LightKeys;
 use crate::load::error::SceneError;
+use crate::load::file::colour::Rgb;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{NonNegative, Rgb, Vector, vector};
+use crate::load::file::value::{NonNegative, Vector, vector};
 use crate::scene::PointLight;
 
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -7,8 +7,9 @@ use serde::Deserialize;
 
 use super::keys::LightKeys;
 use crate::load::error::SceneError;
+use crate::load::file::colour::Rgb;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{NonNegative, Rgb};
+use crate::load::file::value::NonNegative;
 use crate::scene::Sky;
 
 /// Three colours by the height y of a direction of length 1: horizon + (zenith − horizon)·y above the horizon, ground below.

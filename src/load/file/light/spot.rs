@@ -7,8 +7,9 @@ use serde::Deserialize;
 
 use super::keys::LightKeys;
 use crate::load::error::SceneError;
+use crate::load::file::colour::Rgb;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Checked, HalfAngle, Located, NonNegative, Rgb, Vector, vector};
+use crate::load::file::value::{Checked, HalfAngle, Located, NonNegative, Vector, vector};
 use crate::scene::SpotLight;
 
 /// A point light cut to a cone. Between the angles `falloff` and `angle` the intensity falls as t²(3 − 2t), where t goes from 1 to 0 in

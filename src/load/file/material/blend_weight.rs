@@ -5,8 +5,9 @@ use serde::Deserialize;
 
 use super::keys::ior_or_default;
 use crate::load::error::SceneError;
+use crate::load::file::colour::ChannelName;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{ChannelName, Checked, Fraction, IndexOfRefraction, Located, NonNegative, Number};
+use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, NonNegative, Number};
 use crate::scene::{BlendWeight, TextureId, TextureKind};
 
 /// The weight of a blend's first material.

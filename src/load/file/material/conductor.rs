@@ -7,8 +7,9 @@ use serde::Deserialize;
 use super::keys::{MaterialKeys, material_keys};
 use super::roughness::{DistributionEntry, FacetKeys, MaskingEntry};
 use crate::load::error::SceneError;
+use crate::load::file::colour::{Colour, Rgb, Scalar};
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Colour, Fraction, Located, NonNegative, Positive, Rgb, Scalar};
+use crate::load::file::value::{Fraction, Located, NonNegative, Positive};
 use crate::scene::{ColorInput, ConductorFresnel, MaterialKind, Microfacets};
 
 material_keys! {

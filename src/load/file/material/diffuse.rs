@@ -2,8 +2,9 @@
 
 use super::keys::{MaterialKeys, material_keys};
 use crate::load::error::SceneError;
+use crate::load::file::colour::Colour;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Colour, Fraction};
+use crate::load::file::value::Fraction;
 use crate::scene::MaterialKind;
 
 material_keys! {

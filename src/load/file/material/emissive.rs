@@ -2,8 +2,9 @@
 
 use super::keys::{CommonKeys, MaterialKeys, emission_of, material_keys, only_for_reflecting};
 use crate::load::error::SceneError;
+use crate::load::file::colour::Colour;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Colour, Located, NonNegative};
+use crate::load::file::value::{Located, NonNegative};
 use crate::scene::{Emission, MaterialKind};
 
 material_keys! {

@@ -2,8 +2,9 @@
 
 use super::keys::{MaterialKeys, ior_or_default, material_keys};
 use crate::load::error::SceneError;
+use crate::load::file::colour::Colour;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Checked, Colour, Fraction, IndexOfRefraction};
+use crate::load::file::value::{Checked, Fraction, IndexOfRefraction};
 use crate::scene::MaterialKind;
 
 material_keys! {

@@ -2,8 +2,9 @@
 
 use super::opacity::Opacity;
 use crate::load::error::SceneError;
+use crate::load::file::colour::Colour;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Checked, Colour, IndexOfRefraction, Located, NonNegative};
+use crate::load::file::value::{Checked, IndexOfRefraction, Located, NonNegative};
 use crate::scene::{ColorInput, Emission, MaterialKind};
 
 /// What a material's keys mean.
@@ -85,7 +86,7 @@ macro_rules! material_keys {
             normal_map: Option<$crate::load::file::value::Located<String>>,
             /// Radiance the surface sends out by itself, besides what it reflects.
             emission: Option<$crate::load::file::value::Located<
-                $crate::load::file::value::Colour<$crate::load::file::value::NonNegative>,
+                $crate::load::file::colour::Colour<$crate::load::file::value::NonNegative>,
             >>,
             /// Emission leaves the front only, unless this is true.
             emission_two_sided: Option<$crate::load::file::value::Located<bool>>,

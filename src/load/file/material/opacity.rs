@@ -4,8 +4,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::load::error::SceneError;
+use crate::load::file::colour::{ChannelName, NumberOr};
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{ChannelName, Checked, Fraction, Located, NumberOr};
+use crate::load::file::value::{Checked, Fraction, Located};
 use crate::scene::{BlendWeight, Channel, ChannelInput, ColorInput};
 
 /// One number, or a texture.

@@ -3,8 +3,9 @@
 use super::keys::{MaterialKeys, ior_or_default, material_keys};
 use super::roughness::{DistributionEntry, MaskingEntry};
 use crate::load::error::SceneError;
+use crate::load::file::colour::Colour;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Checked, Colour, Fraction, IndexOfRefraction, Located};
+use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located};
 use crate::scene::{Masking, MaterialKind, MicrofacetDistribution, PlasticInterface};
 
 material_keys! {

@@ -3,8 +3,9 @@
 use super::keys::{MaterialKeys, ior_or_default, material_keys};
 use super::roughness::MaskingEntry;
 use crate::load::error::SceneError;
+use crate::load::file::colour::{Colour, Scalar};
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Checked, Colour, Fraction, IndexOfRefraction, Located, NonNegative, Number, Scalar};
+use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, NonNegative, Number};
 use crate::scene::{ColorInput, Masking, MaterialKind, Principled};
 
 material_keys! {

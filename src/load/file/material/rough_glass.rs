@@ -6,8 +6,9 @@ use serde::Deserialize;
 use super::keys::{MaterialKeys, ior_or_default, material_keys};
 use super::roughness::{FacetKeys, MaskingEntry};
 use crate::load::error::SceneError;
+use crate::load::file::colour::{Colour, Scalar};
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Checked, Colour, Fraction, IndexOfRefraction, Located, Positive, Scalar};
+use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, Positive};
 use crate::scene::{Masking, MaterialKind, MicrofacetDistribution, Microfacets};
 
 material_keys! {

@@ -4,8 +4,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::load::error::SceneError;
+use crate::load::file::colour::Scalar;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Fraction, Located, Scalar};
+use crate::load::file::value::{Fraction, Located};
 use crate::scene::{ColorInput, Masking, MicrofacetDistribution, Microfacets};
 
 type Key<'a> = Option<&'a Located<Scalar<Fraction>>>;

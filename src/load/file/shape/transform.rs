@@ -11,8 +11,9 @@ use serde::de::{MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
 use crate::load::error::SceneError;
+use crate::load::file::colour::{Rgb, any_of};
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Any, Exactly, Located, Number, Rgb, Vector, any_of, vector};
+use crate::load::file::value::{Any, Exactly, Located, Number, Vector, vector};
 use crate::scene::{Motion, MotionStep, Shape, Transform, TransformStep};
 
 /// Steps applied in their order, or one matrix.

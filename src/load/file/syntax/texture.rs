@@ -5,7 +5,8 @@ use std::num::NonZeroU32;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::load::file::value::{Any, Checked, Exactly, Located, Number, Positive, Rgb};
+use crate::load::file::colour::Rgb;
+use crate::load::file::value::{Any, Checked, Exactly, Located, Number, Positive};
 
 /// A colour that varies over a surface.
 #[derive(Debug, Deserialize, JsonSchema)]
