@@ -11,7 +11,7 @@ use crate::packed::texture::{PackedTextureKind, TexelFormat};
 use crate::packed::{NONE, PackedScene};
 use crate::sampling::Decorrelation;
 use crate::scene::material::{self, ANISOTROPIC, SEPARABLE_MASKING};
-use crate::scene::{ApertureShape, Filter, FilterKind, HemisphereSampling, Projection};
+use crate::scene::{ApertureShape, Filter, FilterKind, HemisphereSampling, MapRows, Projection};
 use crate::scene::{
     BlendMode, Estimator, LightSampling, LobeKind, LobeSupport, MisHeuristic, PixelSampler, RenderSettings, Scene,
 };
@@ -79,6 +79,7 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
         ("ENVIRONMENT_HEIGHT", map.height),
         ("ENVIRONMENT_LIGHT_INDEX", first_light(LightKind::Environment)),
         ("ENVIRONMENT_QUADTREE_LEVELS", map.levels),
+        ("ENVIRONMENT_ROWS_TO_POLES", u32::from(map.rows == MapRows::ToPoles)),
         ("ENVIRONMENT_WIDTH", map.width),
         ("FILM_WIDTH", scene.film.size[0]),
         ("FIRST_BLEND_WEIGHT_WORD", tables.first_blend_weight),

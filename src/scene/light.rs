@@ -156,15 +156,14 @@ impl SceneLight for Environment {
     }
 }
 
-/// Words of a map: (scale and offset of its rows, -; its rotation in turns).
+/// Words of a map: (-; its rotation in turns).
 impl OutsideLight for Environment {
     fn parameters(&self) -> OutsideParameters<'_> {
         match &self.radiance {
             EnvironmentRadiance::Constant(radiance) => OutsideParameters::Constant(*radiance),
             EnvironmentRadiance::Map(image) => {
                 let turns = (self.rotation_degrees / 360.0).rem_euclid(1.0);
-                let (scale, offset) = self.rows.scale_and_offset(image.height);
-                let words = [DVec4::new(scale, offset, 0.0, turns), DVec4::ZERO, DVec4::ZERO];
+                let words = [DVec3::ZERO.extend(turns), DVec4::ZERO, DVec4::ZERO];
                 OutsideParameters::Varying { mean_luminance: 0.0, map: Some((image, self.rows)), words }
             }
         }

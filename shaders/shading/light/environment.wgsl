@@ -17,10 +17,17 @@ fn map_texel(x: i32, y: i32) -> vec3<f32> {
     return vec3<f32>(texel_float(index), texel_float(index + 1u), texel_float(index + 2u));
 }
 
+// The first and the last row lie half a row from the poles, or on them.
+fn map_row(v: f32) -> f32 {
+    if ENVIRONMENT_ROWS_TO_POLES != 0u {
+        return v * f32(ENVIRONMENT_HEIGHT - 1u);
+    }
+    return v * f32(ENVIRONMENT_HEIGHT) - 0.5;
+}
+
 // Bilinear; the map goes round at its sides and ends at the poles.
 fn map_radiance(uv: vec2<f32>) -> vec3<f32> {
-    let rows = view.environment[0].xy;
-    let position = vec2<f32>(uv.x * f32(ENVIRONMENT_WIDTH) - 0.5, uv.y * rows.x + rows.y);
+    let position = vec2<f32>(uv.x * f32(ENVIRONMENT_WIDTH) - 0.5, map_row(uv.y));
     let corner = floor(position);
     let blend = position - corner;
     let x = i32(corner.x);

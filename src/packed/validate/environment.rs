@@ -18,7 +18,7 @@ impl PackedScene {
     }
 
     fn check_map(&self, map: &PackedMap) -> Check {
-        let &PackedMap { first_texel, width, height, first_node, first_density, grid_width, grid_height, levels } = map;
+        let &PackedMap { first_texel, width, height, rows: _, first_node, first_density, grid_width, grid_height, levels } = map;
         if [width, height, grid_width, grid_height].into_iter().any(|side| !(1..=LONGEST_SIDE).contains(&side)) {
             return Err(format!("has {width} × {height} texels and {grid_width} × {grid_height} cells"));
         }
