@@ -172,7 +172,8 @@ fn another_device_goes_on() {
         let on_cpu = || cpu(&scene);
         let expected = whole(&scene, &goal, &on_cpu);
         let (found, pieces) = in_pieces(&scene, &goal, &[&on_gpu, &on_cpu, &on_bands], folder.path());
-        assert!(pieces > 2 || goal.adaptive, "{pieces}");
+        // Two pieces are two devices. How many more there are depends on when a stop is noticed.
+        assert!(pieces > 1 || goal.adaptive, "{pieces}");
         let far = |[a, b]: [&[u32; 3]; 2]| {
             a.iter().zip(b).any(|(a, b)| (f32::from_bits(*a) - f32::from_bits(*b)).abs() > 1e-3 * (f32::from_bits(*b) + 0.01))
         };

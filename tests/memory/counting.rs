@@ -76,5 +76,6 @@ fn what_is_allocated_and_freed_again_is_counted() {
     let _turn = take_turn();
     let peak = Peak::from_now();
     drop(std::hint::black_box(vec![1_u8; 10 << 20]));
-    assert!((10 << 20..11 << 20).contains(&peak.bytes()), "{}", peak.bytes());
+    // The harness, on a thread of its own, takes and frees a little meanwhile.
+    assert!(peak.bytes().abs_diff(10 << 20) < 1 << 20, "{}", peak.bytes());
 }
