@@ -44,7 +44,7 @@ enum Place {
 }
 
 fn map_fields(map: &mut PackedMap) -> [&mut u32; 8] {
-    let PackedMap { first_texel, width, height, first_node, first_density, grid_width, grid_height, levels } = map;
+    let PackedMap { first_texel, width, height, first_node, first_density, grid_width, grid_height, levels, rows: _ } = map;
     [first_texel, width, height, first_node, first_density, grid_width, grid_height, levels]
 }
 
