@@ -1,58 +1,27 @@
 //! Every shader combination is valid WGSL and its layouts are those of the Rust side. No device is needed.
 
 use std::collections::BTreeSet;
+use std::sync::LazyLock;
 
 use gpt::gpu::kernels::used_bindings;
+use gpt::packed::PackedScene;
 use gpt::plan::bindings::Binding;
 use gpt::plan::chunks::{ATTRIBUTES, Chunks, NODES, PRIMITIVES, RecordArray, TEXELS};
 use gpt::plan::stages::{STAGES, Stage, When};
-use gpt::plan::{generated, layout};
+use gpt::plan::{DeviceLimits, Plan, PlanOptions, generated, layout};
 use gpt::shader::switches::{SWITCHES, close, contradiction};
 use gpt::shader::{ComposeError, Switches, compose};
 
+/// The constants that a plan declares in front of kernels, and those of planted faults.
+static CONSTANTS: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
+    let scene = gpt::load::load(Some("cornell")).expect("it is built in");
+    let packed = PackedScene::new(&scene).expect("it packs");
+    let plan = Plan::new(&scene, &packed, &DeviceLimits::default(), &PlanOptions::default()).expect("it fits");
+    plan.switches.constants.keys().copied().chain(["PLANTED_LIGHT", "PLANTED_MATERIAL"]).collect()
+});
+
 /// A set of switches that some plan can make, with what the plan adds to it.
 fn shippable(wanted: &BTreeSet<&'static str>) -> Switches {
-    let constants = [
-        "BLADES",
-        "ENVIRONMENT_FIRST_DENSITY",
-        "ENVIRONMENT_FIRST_NODE",
-        "ENVIRONMENT_FIRST_TEXEL",
-        "ENVIRONMENT_GRID_HEIGHT",
-        "ENVIRONMENT_GRID_WIDTH",
-        "ENVIRONMENT_HEIGHT",
-        "ENVIRONMENT_LIGHT_INDEX",
-        "ENVIRONMENT_QUADTREE_LEVELS",
-        "ENVIRONMENT_WIDTH",
-        "FILM_WIDTH",
-        "FIRST_BLEND_WEIGHT_WORD",
-        "FIRST_FURTHER_WORD",
-        "FIRST_PART_WORD",
-        "FIRST_LIGHT_WORD",
-        "FIRST_MOTION_WORD",
-        "FIRST_PORTAL",
-        "FIRST_TEXTURE_WORD",
-        "LANES",
-        "LIGHT_COUNT",
-        "LIGHT_SAMPLES",
-        "LIGHT_SAMPLES_DEPTH",
-        "MAX_DEPTH",
-        "MAX_SAMPLES_PER_PASS",
-        "MOST_FURTHER",
-        "PATH_CAPACITY",
-        "PLANTED_LIGHT",
-        "PLANTED_MATERIAL",
-        "PORTAL_COUNT",
-        "PRIMITIVE_WORDS",
-        "RAYS_PER_INVOCATION",
-        "ROULETTE_DEPTH",
-        "RUNS",
-        "SEQUENCE_BLOCKS",
-        "SEQUENCE_POINTS",
-        "SEQUENCE_STRIDE",
-        "STACK_SIZE",
-        "TABLE_WORDS",
-        "NODE_WORDS",
-    ];
     let geometry = "#import core/math.wgsl\n#import geometry/prepared_ray.wgsl\n\
                     fn closest_of_constants(ray: PreparedRay, hit: ptr<function, Hit>) {}\n\
                     fn any_of_constants(ray: PreparedRay, t_max: f32) -> bool { return false; }\n\
@@ -63,7 +32,7 @@ fn shippable(wanted: &BTreeSet<&'static str>) -> Switches {
     let cut = [PRIMITIVES, NODES, ATTRIBUTES, TEXELS].into_iter().map(chunks);
     Switches {
         enabled: close(wanted),
-        constants: constants.into_iter().map(|name| (name, 7)).collect(),
+        constants: CONSTANTS.iter().map(|name| (*name, 7)).collect(),
         generated: cut.chain(generated::files()).chain([("geometry/constants.wgsl", geometry.to_owned())]).collect(),
     }
 }
