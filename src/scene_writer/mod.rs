@@ -3,27 +3,20 @@
 //! Meshes and pictures that came from files are named, those that did not lie in files beside the scene file. Reading it again gives a scene
 //! that renders the same picture, bit for bit.
 
-mod light;
 mod material;
-mod names;
 mod needed;
-mod picture;
-mod ply;
 mod settings;
 mod shape;
-mod side_files;
 mod texture;
-mod value;
-mod writer;
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::load::file::write_light;
+use crate::load::file::writer::{Names, SideFiles, Writer};
 use crate::output::{AtomicFile, OutputError};
 use crate::scene::Scene;
-use names::Names;
 use needed::Needed;
-use side_files::SideFiles;
-use writer::Writer;
 
 /// Writes the scene as a TOML file, and in the folder `NAME.files` beside it the meshes and pictures that come from no file. All files that
 /// were written, the scene file last.
@@ -32,7 +25,7 @@ use writer::Writer;
 /// Files that cannot be written, and what no scene file can say, in a sentence.
 pub fn save_scene(scene: &Scene, path: &Path) -> Result<Vec<PathBuf>, OutputError> {
     let (text, files) = scene_text(scene, path);
-    let mut written = files.write()?;
+    let mut written = write_files(files)?;
     AtomicFile::write(path, text.as_bytes())?;
     written.push(path.to_owned());
     Ok(written)
@@ -49,18 +42,30 @@ fn scene_text(scene: &Scene, path: &Path) -> (String, SideFiles) {
     };
     let mut text = settings::settings(scene);
     for id in needed.textures() {
-        text.push_str(&writer.texture(id));
+        text.push_str(&texture::texture(id, &mut writer));
     }
     for id in needed.materials() {
-        text.push_str(&writer.material(id));
+        text.push_str(&material::material(id, &writer));
     }
     for shape in &scene.shapes {
-        text.push_str(&writer.shape(shape));
+        text.push_str(&shape::shape(shape, &mut writer));
     }
     for light in &scene.lights {
-        text.push_str(&writer.light(light));
+        let keys = write_light(light, &mut writer);
+        text.push_str(&format!("\n[[light]]\ntype = \"{}\"\n{keys}", light.kind_name()));
     }
     (text, writer.files)
+}
+
+/// Writes the files that lie beside the scene file; their paths.
+fn write_files(files: SideFiles) -> Result<Vec<PathBuf>, OutputError> {
+    let write = |(path, content): (PathBuf, Vec<u8>)| {
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder).map_err(|source| OutputError::Write { path: folder.to_owned(), source })?;
+        }
+        AtomicFile::write(&path, &content).map(|()| path)
+    };
+    files.into_files().into_iter().map(write).collect()
 }
 
 #[cfg(test)]

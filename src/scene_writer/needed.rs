@@ -1,5 +1,6 @@
 //! Which textures and materials a scene file has to define.
 
+use crate::load::file::writer::named_file;
 use crate::scene::{BlendWeight, ColorInput, Geometry, Material, MaterialId, MaterialKind, Scene, Shape, TextureId};
 
 /// All but those that only models bring along whose files are named.
@@ -48,7 +49,7 @@ fn marked(marks: &[bool]) -> impl Iterator<Item = usize> + '_ {
 /// What the scene puts in the place of materials of the shape's file, if the shape has its file's own ones.
 fn brings_materials<'s>(scene: &'s Scene, shape: &Shape) -> Option<&'s [(String, String)]> {
     let Geometry::Mesh(mesh) = &shape.geometry else { return None };
-    super::shape::named_file(scene, mesh).filter(|source| source.own_materials).map(|source| source.replaced.as_slice())
+    named_file(scene, mesh).filter(|source| source.own_materials).map(|source| source.replaced.as_slice())
 }
 
 /// Marks a material and all that it is blended of.

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use glam::DVec3;
 
-use super::value::{line, number, numbers, text, vector};
 use crate::choice::Choice;
+use crate::load::file::writer::{line, number, numbers, text, vector};
 use crate::scene::{Aperture, ApertureShape, Camera, FilmSettings, Filter, PixelSampler, Projection, RenderSettings, Scene};
 
 /// All three; of the settings, those that are not at their defaults.

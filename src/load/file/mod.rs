@@ -15,6 +15,7 @@ mod shape;
 mod syntax;
 mod value;
 mod wording;
+pub(crate) mod writer;
 
 use std::path::Path;
 
@@ -23,9 +24,12 @@ pub(super) use document::stem;
 #[cfg(test)]
 pub use light::delta_examples as delta_light_examples;
 pub use light::examples as light_examples;
+pub(crate) use light::write_light;
 pub use material::examples as material_examples;
+pub(crate) use material::write_kind;
 pub use schema::json_schema;
 pub use shape::examples as shape_examples;
+pub(crate) use shape::write_geometry;
 use syntax::{PartOfFile, SceneFile};
 pub(super) use wording::did_you_mean;
 

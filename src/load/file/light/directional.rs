@@ -10,6 +10,7 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Located, NonNegative, Vector};
+use crate::load::file::writer::{Writer, colour, direction, line};
 use crate::scene::DirectionalLight;
 
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -29,5 +30,9 @@ impl LightKeys for Keys {
 
     fn resolve(&self, resolver: &mut Resolver<'_>, _: &Range<usize>) -> Result<DirectionalLight, SceneError> {
         Ok(DirectionalLight { direction: resolver.direction(&self.direction)?, irradiance: self.irradiance.0 })
+    }
+
+    fn write(light: &DirectionalLight, _: &mut Writer<'_>) -> String {
+        line("direction", &direction(light.direction)) + &line("irradiance", &colour(light.irradiance))
     }
 }

@@ -11,6 +11,7 @@ use crate::load::error::{SceneError, show};
 use crate::load::file::colour::Rgb;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, LARGEST, Located, NonNegative, Number};
+use crate::load::file::writer::{Writer, colour, line, number};
 use crate::scene::{Environment, EnvironmentRadiance, ImageData, ImageSource, MapRows};
 
 /// Radiance from outside the scene: either `radiance` or `file`.
@@ -61,6 +62,24 @@ impl LightKeys for Keys {
             Some(Rows::Inside) | None => MapRows::Inside,
         };
         Ok(Environment { radiance, rotation_degrees: self.rotate.map_or(0.0, |rotate| rotate.0), rows })
+    }
+
+    fn write(environment: &Environment, writer: &mut Writer<'_>) -> String {
+        let mut out = match &environment.radiance {
+            EnvironmentRadiance::Constant(radiance) => line("radiance", &colour(*radiance)),
+            EnvironmentRadiance::Map(image) => {
+                let (file, _, scale) = writer.image(image);
+                let scale = if scale == 1.0 { String::new() } else { line("scale", &number(scale)) };
+                line("file", &file) + &scale
+            }
+        };
+        if environment.rotation_degrees != 0.0 {
+            out += &line("rotate", &number(environment.rotation_degrees));
+        }
+        if environment.rows == MapRows::ToPoles {
+            out += &line("rows", "\"to_poles\"");
+        }
+        out
     }
 }
 

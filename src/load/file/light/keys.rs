@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
+use crate::load::file::writer::Writer;
 
 /// What a light's keys mean.
 pub trait LightKeys {
@@ -15,4 +16,7 @@ pub trait LightKeys {
 
     /// The light; `span` is its whole table.
     fn resolve(&self, resolver: &mut Resolver<'_>, span: &Range<usize>) -> Result<Self::Light, SceneError>;
+
+    /// The keys that say a light, a line each.
+    fn write(light: &Self::Light, writer: &mut Writer<'_>) -> String;
 }

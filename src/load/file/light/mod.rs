@@ -8,6 +8,7 @@ use serde::Deserialize;
 use self::keys::LightKeys;
 use super::resolver::Resolver;
 use super::value::Located;
+use super::writer::Writer;
 use crate::load::error::SceneError;
 use crate::scene::Light;
 use crate::scene::light::light_table;
@@ -34,6 +35,11 @@ macro_rules! entries {
                     $($(LightEntry::$variant(keys) => keys.resolve(resolver, &self.span).map(Light::$variant),)*)*
                 }
             }
+        }
+
+        /// The keys of a light, as a scene file has them.
+        pub fn write_light(light: &Light, writer: &mut Writer<'_>) -> String {
+            match light { $($(Light::$variant(light) => $module::Keys::write(light, writer),)*)* }
         }
     };
 }

@@ -10,6 +10,7 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{NonNegative, Vector, vector};
+use crate::load::file::writer::{self, Writer, colour, line};
 use crate::scene::PointLight;
 
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -28,5 +29,9 @@ impl LightKeys for Keys {
 
     fn resolve(&self, _: &mut Resolver<'_>, _: &Range<usize>) -> Result<PointLight, SceneError> {
         Ok(PointLight { position: vector(self.position), intensity: self.intensity.0 })
+    }
+
+    fn write(light: &PointLight, _: &mut Writer<'_>) -> String {
+        line("position", &writer::vector(light.position)) + &line("intensity", &colour(light.intensity))
     }
 }

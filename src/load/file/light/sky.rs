@@ -10,6 +10,7 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::NonNegative;
+use crate::load::file::writer::{Writer, colour, line};
 use crate::scene::Sky;
 
 /// Three colours by the height y of a direction of length 1: horizon + (zenith − horizon)·y above the horizon, ground below.
@@ -29,5 +30,11 @@ impl LightKeys for Keys {
 
     fn resolve(&self, _: &mut Resolver<'_>, _: &Range<usize>) -> Result<Sky, SceneError> {
         Ok(Sky { zenith: self.zenith.0, horizon: self.horizon.0, ground: self.ground.0 })
+    }
+
+    fn write(sky: &Sky, _: &mut Writer<'_>) -> String {
+        [("zenith", sky.zenith), ("horizon", sky.horizon), ("ground", sky.ground)]
+            .map(|(key, radiance)| line(key, &colour(radiance)))
+            .concat()
     }
 }

@@ -10,6 +10,7 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, HalfAngle, Located, NonNegative, Vector, vector};
+use crate::load::file::writer::{self, Writer, colour, direction, line, number};
 use crate::scene::SpotLight;
 
 /// A point light cut to a cone. Between the angles `falloff` and `angle` the intensity falls as t²(3 − 2t), where t goes from 1 to 0 in
@@ -49,5 +50,16 @@ impl LightKeys for Keys {
             angle_degrees: angle,
             falloff_degrees: falloff,
         })
+    }
+
+    fn write(light: &SpotLight, _: &mut Writer<'_>) -> String {
+        [
+            line("position", &writer::vector(light.position)),
+            line("direction", &direction(light.direction)),
+            line("intensity", &colour(light.intensity)),
+            line("angle", &number(light.angle_degrees)),
+            line("falloff", &number(light.falloff_degrees)),
+        ]
+        .concat()
     }
 }

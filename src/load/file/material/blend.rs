@@ -1,10 +1,11 @@
 //! `type = "blend"`
 
-use super::blend_weight::BlendWeightEntry;
+use super::blend_weight::{self, BlendWeightEntry};
 use super::keys::{MaterialKeys, material_keys};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Exactly, Located};
+use crate::load::file::writer::{Writer, line};
 use crate::scene::MaterialKind;
 
 material_keys! {
@@ -36,5 +37,11 @@ impl MaterialKeys for Keys {
             }
         }
         Ok(())
+    }
+
+    fn write(kind: &MaterialKind, writer: &Writer<'_>) -> String {
+        let MaterialKind::Blend { materials, weight } = kind else { return String::new() };
+        let [first, second] = materials.map(|part| writer.materials.quoted(part));
+        line("materials", &format!("[{first}, {second}]")) + &line("weight", &blend_weight::write(weight, writer))
     }
 }

@@ -8,6 +8,7 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::ChannelName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, NonNegative, Number};
+use crate::load::file::writer::{Writer, channel_name, number};
 use crate::scene::{BlendWeight, TextureId, TextureKind};
 
 /// The weight of a blend's first material.
@@ -117,4 +118,24 @@ fn weight_texture(name: &Located<String>, resolver: &Resolver<'_>) -> Result<Tex
             .with_help("take a channel, `channel = \"a\"` for the alpha, or save the image without alpha, as the mask itself"));
     }
     Ok(id)
+}
+
+/// The weight as a scene file has it.
+pub fn write(weight: &BlendWeight, writer: &Writer<'_>) -> String {
+    match weight {
+        BlendWeight::Constant { value } => format!("{{ type = \"constant\", value = {} }}", number(*value)),
+        BlendWeight::Facing { power } => format!("{{ type = \"facing\", power = {} }}", number(*power)),
+        BlendWeight::Fresnel { ior, exact } => format!("{{ type = \"fresnel\", ior = {}, exact = {exact} }}", number(*ior)),
+        BlendWeight::Texture { texture } => format!("{{ type = \"texture\", texture = {} }}", writer.textures.quoted(*texture)),
+        BlendWeight::Channel { texture, channel, factor } => format!(
+            "{{ type = \"texture\", texture = {}, channel = \"{}\", factor = {} }}",
+            writer.textures.quoted(*texture),
+            channel_name(*channel),
+            number(*factor)
+        ),
+        BlendWeight::Reverse { of } => format!("{{ type = \"reverse\", of = {} }}", write(of, writer)),
+        BlendWeight::Threshold { tau, of } => {
+            format!("{{ type = \"threshold\", tau = {}, of = {} }}", number(*tau), write(of, writer))
+        }
+    }
 }

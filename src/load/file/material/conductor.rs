@@ -5,11 +5,12 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::keys::{MaterialKeys, material_keys};
-use super::roughness::{DistributionEntry, FacetKeys, MaskingEntry};
+use super::roughness::{DistributionEntry, FacetKeys, MaskingEntry, write_facets};
 use crate::load::error::SceneError;
 use crate::load::file::colour::{Colour, Rgb, Scalar};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Fraction, Located, NonNegative, Positive};
+use crate::load::file::writer::{Writer, colour, line};
 use crate::scene::{ColorInput, ConductorFresnel, MaterialKind, Microfacets};
 
 material_keys! {
@@ -105,6 +106,20 @@ impl MaterialKeys for Keys {
             facets: facets.resolve(resolver)?.unwrap_or(Microfacets::ggx(ColorInput::grey(0.0))),
             specular_reflectance: resolver.colour_or_white(&self.specular_reflectance)?,
         })
+    }
+
+    fn write(kind: &MaterialKind, writer: &Writer<'_>) -> String {
+        let MaterialKind::Conductor { fresnel, facets, specular_reflectance } = kind else { return String::new() };
+        let fresnel = match fresnel {
+            ConductorFresnel::Complex { eta, k } => line("eta", &colour(*eta)) + &line("k", &colour(*k)),
+            ConductorFresnel::Reflectance(reflectance) => writer.input("reflectance", reflectance),
+        };
+        let factor = match *specular_reflectance == ColorInput::grey(1.0) {
+            true => String::new(),
+            false => writer.input("specular_reflectance", specular_reflectance),
+        };
+        let is_smooth = *facets == Microfacets::ggx(ColorInput::grey(0.0));
+        fresnel + &if is_smooth { line("alpha", "0") } else { write_facets(facets, writer) } + &factor
     }
 }
 

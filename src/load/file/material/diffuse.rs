@@ -5,6 +5,7 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::Colour;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::Fraction;
+use crate::load::file::writer::Writer;
 use crate::scene::MaterialKind;
 
 material_keys! {
@@ -19,5 +20,10 @@ impl MaterialKeys for Keys {
 
     fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
         Ok(MaterialKind::Diffuse { reflectance: resolver.colour(&self.reflectance)? })
+    }
+
+    fn write(kind: &MaterialKind, writer: &Writer<'_>) -> String {
+        let MaterialKind::Diffuse { reflectance } = kind else { return String::new() };
+        writer.input("reflectance", reflectance)
     }
 }

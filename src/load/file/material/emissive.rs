@@ -5,6 +5,7 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::Colour;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Located, NonNegative};
+use crate::load::file::writer::Writer;
 use crate::scene::{Emission, MaterialKind};
 
 material_keys! {
@@ -42,5 +43,10 @@ impl MaterialKeys for Keys {
                 self.two_sided.as_ref().is_some_and(|two_sided| two_sided.value),
             )),
         }
+    }
+
+    /// What it sends out is written as every material's is.
+    fn write(_kind: &MaterialKind, _writer: &Writer<'_>) -> String {
+        String::new()
     }
 }

@@ -5,6 +5,7 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::Colour;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Fraction, IndexOfRefraction};
+use crate::load::file::writer::{Writer, flag, line, number};
 use crate::scene::MaterialKind;
 
 material_keys! {
@@ -35,5 +36,11 @@ impl MaterialKeys for Keys {
             transmittance: resolver.colour_or_white(&self.transmittance)?,
             thin: self.thin,
         })
+    }
+
+    fn write(kind: &MaterialKind, writer: &Writer<'_>) -> String {
+        let MaterialKind::Glass { ior, reflectance, transmittance, thin } = kind else { return String::new() };
+        let tints = writer.input("reflectance", reflectance) + &writer.input("transmittance", transmittance);
+        line("ior", &number(*ior)) + &tints + &flag("thin", *thin)
     }
 }

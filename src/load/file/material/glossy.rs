@@ -5,6 +5,7 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::{Colour, Scalar};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Fraction, NonNegative};
+use crate::load::file::writer::Writer;
 use crate::scene::MaterialKind;
 
 material_keys! {
@@ -21,5 +22,10 @@ impl MaterialKeys for Keys {
     fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
         let (reflectance, exponent) = (resolver.colour(&self.reflectance)?, resolver.scalar(&self.exponent)?);
         Ok(MaterialKind::Glossy { reflectance, exponent })
+    }
+
+    fn write(kind: &MaterialKind, writer: &Writer<'_>) -> String {
+        let MaterialKind::Glossy { reflectance, exponent } = kind else { return String::new() };
+        writer.input("reflectance", reflectance) + &writer.input("exponent", exponent)
     }
 }

@@ -5,6 +5,7 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::Colour;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, IndexOfRefraction, Located, NonNegative};
+use crate::load::file::writer::Writer;
 use crate::scene::{ColorInput, Emission, MaterialKind};
 
 /// What a material's keys mean.
@@ -14,6 +15,9 @@ pub trait MaterialKeys {
 
     /// How it scatters light.
     fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError>;
+
+    /// The keys of this type alone that say the same, a line each; nothing for a material of another type.
+    fn write(kind: &MaterialKind, writer: &Writer<'_>) -> String;
 
     /// What it sends out by itself.
     fn emission(&self, common: &CommonKeys<'_>, resolver: &Resolver<'_>) -> Result<Option<Emission>, SceneError> {

@@ -10,6 +10,7 @@ use serde::Deserialize;
 
 use self::keys::{CommonKeys, MaterialKeys};
 use super::resolver::Resolver;
+use super::writer::Writer;
 use crate::load::error::SceneError;
 use crate::scene::material::material_table;
 use crate::scene::{Emission, MaterialKind};
@@ -49,6 +50,11 @@ macro_rules! entries {
             pub fn check_parts(&self, resolver: &Resolver<'_>) -> Result<(), SceneError> {
                 match self { $(Self::$material(keys) => keys.check_parts(resolver),)* }
             }
+        }
+
+        /// The keys of a material's type alone, as a scene file has them.
+        pub fn write_kind(kind: &MaterialKind, writer: &Writer<'_>) -> String {
+            match kind { $(MaterialKind::$material { .. } => $module::Keys::write(kind, writer),)* }
         }
     };
 }

@@ -3,6 +3,7 @@
 use super::keys::{CommonKeys, MaterialKeys, material_keys, only_for_reflecting};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
+use crate::load::file::writer::Writer;
 use crate::scene::{Emission, MaterialKind};
 
 material_keys! {
@@ -33,5 +34,10 @@ impl MaterialKeys for Keys {
             (None, Some(two_sided)) => Err(resolver.error(&two_sided.span, "`emission_two_sided` needs the key `emission`")),
             (None, None) => Ok(None),
         }
+    }
+
+    /// No keys of its own.
+    fn write(_kind: &MaterialKind, _writer: &Writer<'_>) -> String {
+        String::new()
     }
 }

@@ -5,6 +5,7 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::{Colour, Scalar};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Fraction, Located, NonNegative};
+use crate::load::file::writer::Writer;
 use crate::scene::MaterialKind;
 
 material_keys! {
@@ -26,6 +27,11 @@ impl MaterialKeys for Keys {
             specular: resolver.colour(&self.specular.value)?,
             exponent: resolver.scalar(&self.exponent)?,
         })
+    }
+
+    fn write(kind: &MaterialKind, writer: &Writer<'_>) -> String {
+        let MaterialKind::Phong { diffuse, specular, exponent } = kind else { return String::new() };
+        writer.input("diffuse", diffuse) + &writer.input("specular", specular) + &writer.input("exponent", exponent)
     }
 }
 

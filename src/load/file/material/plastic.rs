@@ -1,11 +1,12 @@
 //! `type = "plastic"`
 
 use super::keys::{MaterialKeys, ior_or_default, material_keys};
-use super::roughness::{DistributionEntry, MaskingEntry};
+use super::roughness::{DistributionEntry, MaskingEntry, write_distribution, write_masking};
 use crate::load::error::SceneError;
 use crate::load::file::colour::Colour;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located};
+use crate::load::file::writer::{Writer, flag, line, number};
 use crate::scene::{Masking, MaterialKind, MicrofacetDistribution, PlasticInterface};
 
 material_keys! {
@@ -54,6 +55,14 @@ impl MaterialKeys for Keys {
             nonlinear: self.nonlinear,
         })
     }
+
+    fn write(kind: &MaterialKind, writer: &Writer<'_>) -> String {
+        let MaterialKind::Plastic { interface, reflectance, specular_reflectance, nonlinear } = kind else {
+            return String::new();
+        };
+        let colours = writer.input("reflectance", reflectance) + &writer.input("specular_reflectance", specular_reflectance);
+        write_interface(interface) + &colours + &flag("nonlinear", *nonlinear)
+    }
 }
 
 impl Keys {
@@ -77,4 +86,13 @@ impl Keys {
         let masking = self.masking.as_ref().map_or(Masking::HeightCorrelated, |key| key.value.into());
         Ok(PlasticInterface::rough(ior, alpha, distribution, masking))
     }
+}
+
+fn write_interface(interface: &PlasticInterface) -> String {
+    let ior = line("ior", &number(interface.ior));
+    if !interface.is_rough() {
+        return ior;
+    }
+    let rough = write_distribution(interface.distribution) + &write_masking(interface.masking);
+    ior + &line("alpha", &number(interface.alpha)) + &rough
 }

@@ -6,6 +6,7 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::{Colour, Scalar};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, NonNegative, Number};
+use crate::load::file::writer::{Writer, flag, line, number};
 use crate::scene::{ColorInput, Masking, MaterialKind, Principled};
 
 material_keys! {
@@ -76,6 +77,28 @@ impl MaterialKeys for Keys {
             anisotropy_rotation_degrees: self.anisotropy_rotation.as_ref().map_or(0.0, |degrees| degrees.value.0),
             masking: self.masking.map_or(Masking::Separable, Masking::from),
         })))
+    }
+
+    fn write(kind: &MaterialKind, writer: &Writer<'_>) -> String {
+        let MaterialKind::Principled(principled) = kind else { return String::new() };
+        let mut out = writer.input("base_color", &principled.base_color)
+            + &writer.input("metallic", &principled.metallic)
+            + &writer.input("roughness", &principled.roughness)
+            + &line("ior", &number(principled.ior))
+            + &writer.input("specular", &principled.specular)
+            + &writer.input("specular_color", &principled.specular_color)
+            + &writer.input("transmission", &principled.transmission)
+            + &flag("thin", principled.thin)
+            + &writer.input("clearcoat", &principled.clearcoat)
+            + &writer.input("clearcoat_roughness", &principled.clearcoat_roughness);
+        if let Some(anisotropy) = &principled.anisotropy {
+            out += &writer.input("anisotropy", anisotropy);
+            out += &line("anisotropy_rotation", &number(principled.anisotropy_rotation_degrees));
+        }
+        if principled.masking == Masking::HeightCorrelated {
+            out += &line("masking", "\"height_correlated\"");
+        }
+        out
     }
 }
 

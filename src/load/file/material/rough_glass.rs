@@ -4,11 +4,12 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::keys::{MaterialKeys, ior_or_default, material_keys};
-use super::roughness::{FacetKeys, MaskingEntry};
+use super::roughness::{FacetKeys, MaskingEntry, write_facets};
 use crate::load::error::SceneError;
 use crate::load::file::colour::{Colour, Scalar};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, Positive};
+use crate::load::file::writer::{Writer, flag, line, number};
 use crate::scene::{Masking, MaterialKind, MicrofacetDistribution, Microfacets};
 
 material_keys! {
@@ -94,6 +95,12 @@ impl MaterialKeys for Keys {
             transmittance: resolver.colour_or_white(&self.transmittance)?,
             thin: self.thin.as_ref().is_some_and(|thin| thin.value),
         })
+    }
+
+    fn write(kind: &MaterialKind, writer: &Writer<'_>) -> String {
+        let MaterialKind::RoughGlass { ior, facets, reflectance, transmittance, thin } = kind else { return String::new() };
+        let tints = writer.input("reflectance", reflectance) + &writer.input("transmittance", transmittance);
+        line("ior", &number(*ior)) + &write_facets(facets, writer) + &tints + &flag("thin", *thin)
     }
 }
 

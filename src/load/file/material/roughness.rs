@@ -7,6 +7,7 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::Scalar;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Fraction, Located};
+use crate::load::file::writer::{Writer, colour, line};
 use crate::scene::{ColorInput, Masking, MicrofacetDistribution, Microfacets};
 
 type Key<'a> = Option<&'a Located<Scalar<Fraction>>>;
@@ -126,5 +127,54 @@ impl FacetKeys<'_> {
             }
             _ => Ok(None),
         }
+    }
+}
+
+/// Widths, distribution and masking of microfacets as a scene file has them, or the exponent of Phong's distribution.
+pub fn write_facets(facets: &Microfacets, writer: &Writer<'_>) -> String {
+    let Microfacets { alpha, alpha_v, distribution, masking } = *facets;
+    if distribution == MicrofacetDistribution::Phong {
+        return writer.input("exponent", &alpha);
+    }
+    let widths = match alpha_v {
+        None => write_alpha(alpha, writer),
+        Some(across) if alpha.is_squared() || across.is_squared() => {
+            line("roughness_u", &write_root(alpha, writer)) + &line("roughness_v", &write_root(across, writer))
+        }
+        Some(across) => writer.input("alpha_u", &alpha) + &writer.input("alpha_v", &across),
+    };
+    widths + &write_distribution(distribution) + &write_masking(masking)
+}
+
+/// A width of microfacets: the square of a texture is what `roughness` means.
+fn write_alpha(alpha: ColorInput, writer: &Writer<'_>) -> String {
+    match alpha {
+        ColorInput::SquaredTexture(id) => writer.input("roughness", &ColorInput::Texture(id)),
+        ColorInput::Channel(input) if input.is_squared => writer.input("roughness", &alpha),
+        other => writer.input("alpha", &other),
+    }
+}
+
+/// The root of a width.
+fn write_root(alpha: ColorInput, writer: &Writer<'_>) -> String {
+    match alpha {
+        ColorInput::Constant(value) => colour(value.map(f64::sqrt)),
+        other => writer.value_of(other),
+    }
+}
+
+/// Nothing where it is what is meant without the key.
+pub fn write_distribution(distribution: MicrofacetDistribution) -> String {
+    match distribution {
+        MicrofacetDistribution::Beckmann => line("distribution", "\"beckmann\""),
+        MicrofacetDistribution::Ggx | MicrofacetDistribution::Phong => String::new(),
+    }
+}
+
+/// The same.
+pub fn write_masking(masking: Masking) -> String {
+    match masking {
+        Masking::Separable => line("masking", "\"separable\""),
+        Masking::HeightCorrelated => String::new(),
     }
 }

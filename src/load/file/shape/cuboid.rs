@@ -4,7 +4,8 @@ use super::keys::{ShapeKeys, Written, shape_keys};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Located, Vector, vector};
-use crate::scene::Cuboid;
+use crate::load::file::writer::{self, Writer, line};
+use crate::scene::{Cuboid, Shape};
 
 shape_keys! {
     /// Axis-aligned before its transform; at most one edge has no length.
@@ -27,5 +28,9 @@ impl ShapeKeys for Keys {
             return Err(resolver.error(&self.max.span, "the box has no area: at most one of its edges can have length 0"));
         }
         Ok(Cuboid { min, max })
+    }
+
+    fn write(cuboid: &Cuboid, shape: &Shape, writer: &mut Writer<'_>) -> String {
+        line("min", &writer::vector(cuboid.min)) + &line("max", &writer::vector(cuboid.max)) + &writer.material_of(shape)
     }
 }

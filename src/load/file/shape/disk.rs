@@ -4,7 +4,8 @@ use super::keys::{ShapeKeys, Written, shape_keys};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Located, Positive, Vector, vector};
-use crate::scene::Disk;
+use crate::load::file::writer::{self, Writer, direction, line, number};
+use crate::scene::{Disk, Shape};
 
 shape_keys! {
     /// A flat disk.
@@ -19,5 +20,15 @@ impl ShapeKeys for Keys {
 
     fn resolve(&self, resolver: &mut Resolver<'_>, _: &mut Written<'_>) -> Result<Disk, SceneError> {
         Ok(Disk { center: vector(self.center), normal: resolver.direction(&self.normal)?, radius: self.radius.0 })
+    }
+
+    fn write(disk: &Disk, shape: &Shape, writer: &mut Writer<'_>) -> String {
+        [
+            line("center", &writer::vector(disk.center)),
+            line("normal", &direction(disk.normal)),
+            line("radius", &number(disk.radius)),
+            writer.material_of(shape),
+        ]
+        .concat()
     }
 }

@@ -6,7 +6,8 @@ use super::transform::TransformEntry;
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::Located;
-use crate::scene::MaterialId;
+use crate::load::file::writer::Writer;
+use crate::scene::{MaterialId, Shape};
 
 /// What a shape's keys mean.
 pub trait ShapeKeys {
@@ -18,6 +19,9 @@ pub trait ShapeKeys {
 
     /// The geometry. Only a mesh file may bring a material, which it writes into `entry`.
     fn resolve(&self, resolver: &mut Resolver<'_>, entry: &mut Written<'_>) -> Result<Self::Shape, SceneError>;
+
+    /// The keys that say the geometry of `shape`, which this is, and its material, a line each.
+    fn write(geometry: &Self::Shape, shape: &Shape, writer: &mut Writer<'_>) -> String;
 }
 
 /// Declares the keys of a shape: its own and those that every shape has. `name` is what the schema calls them.

@@ -7,13 +7,15 @@ use glam::Vec2;
 
 use super::keys::{ShapeKeys, Written, shape_keys};
 use super::mesh_file::{Replaced, choose_normals};
+use super::mesh_writer;
 use crate::load::error::SceneError;
 use crate::load::error::show;
 use crate::load::file::resolver::{LoadedMesh, Resolver};
 use crate::load::file::value::{Exactly, Located, Number, Vector, vector};
+use crate::load::file::writer::Writer;
 use crate::load::formats;
 use crate::load::model::ModelFormat;
-use crate::scene::Mesh;
+use crate::scene::{Mesh, Shape};
 
 shape_keys! {
     /// Triangles, from a file or written here.
@@ -88,6 +90,10 @@ impl ShapeKeys for Keys {
         let LoadedMesh { mesh, material } = resolver.mesh_file(&path, self.smooth, entry.material, &replaced)?;
         entry.material = Some(material);
         Ok(mesh)
+    }
+
+    fn write(mesh: &Arc<Mesh>, shape: &Shape, writer: &mut Writer<'_>) -> String {
+        mesh_writer::write(mesh, shape, writer)
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod keys;
 mod mesh_file;
+mod mesh_writer;
 mod transform;
 
 use std::path::Path;
@@ -15,6 +16,7 @@ use self::keys::{CommonKeys, ShapeKeys, Written};
 use self::mesh_file::Replaced;
 use super::resolver::{LoadedMesh, Resolver};
 use super::value::Located;
+use super::writer::Writer;
 use crate::load::error::SceneError;
 use crate::load::error::show;
 use crate::scene::shape::shape_table;
@@ -48,6 +50,11 @@ macro_rules! entries {
                     $(Self::$variant(keys) => keys.resolve(resolver, entry).map(Geometry::$variant),)*
                 }
             }
+        }
+
+        /// The keys of a shape's geometry and its material, as a scene file has them.
+        pub fn write_geometry(shape: &Shape, writer: &mut Writer<'_>) -> String {
+            match &shape.geometry { $(Geometry::$variant(geometry) => $module::Keys::write(geometry, shape, writer),)* }
         }
     };
 }

@@ -4,7 +4,8 @@ use super::keys::{ShapeKeys, Written, shape_keys};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Located, Vector, vector};
-use crate::scene::Plane;
+use crate::load::file::writer::{self, Writer, direction, line};
+use crate::scene::{Plane, Shape};
 
 shape_keys! {
     /// Infinite.
@@ -19,5 +20,9 @@ impl ShapeKeys for Keys {
 
     fn resolve(&self, resolver: &mut Resolver<'_>, _: &mut Written<'_>) -> Result<Plane, SceneError> {
         Ok(Plane { point: vector(self.point), normal: resolver.direction(&self.normal)? })
+    }
+
+    fn write(plane: &Plane, shape: &Shape, writer: &mut Writer<'_>) -> String {
+        line("point", &writer::vector(plane.point)) + &line("normal", &direction(plane.normal)) + &writer.material_of(shape)
     }
 }

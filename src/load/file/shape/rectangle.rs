@@ -4,7 +4,8 @@ use super::keys::{ShapeKeys, Written, shape_keys};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Located, Vector, vector};
-use crate::scene::Rectangle;
+use crate::load::file::writer::{self, Writer, line};
+use crate::scene::{Rectangle, Shape};
 
 shape_keys! {
     /// A parallelogram; its front is where edge_u × edge_v points.
@@ -24,5 +25,15 @@ impl ShapeKeys for Keys {
             return Err(resolver.error(&self.edge_v.span, "the rectangle has no area: its edges are parallel or of length 0"));
         }
         Ok(Rectangle { corner: vector(self.corner), edge_u, edge_v })
+    }
+
+    fn write(rectangle: &Rectangle, shape: &Shape, writer: &mut Writer<'_>) -> String {
+        [
+            line("corner", &writer::vector(rectangle.corner)),
+            line("edge_u", &writer::vector(rectangle.edge_u)),
+            line("edge_v", &writer::vector(rectangle.edge_v)),
+            writer.material_of(shape),
+        ]
+        .concat()
     }
 }

@@ -4,7 +4,8 @@ use super::keys::{ShapeKeys, Written, shape_keys};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Positive, Vector, vector};
-use crate::scene::Sphere;
+use crate::load::file::writer::{self, Writer, line, number};
+use crate::scene::{Shape, Sphere};
 
 shape_keys! {
     /// The normal points outward.
@@ -19,5 +20,9 @@ impl ShapeKeys for Keys {
 
     fn resolve(&self, _: &mut Resolver<'_>, _: &mut Written<'_>) -> Result<Sphere, SceneError> {
         Ok(Sphere { center: vector(self.center), radius: self.radius.0 })
+    }
+
+    fn write(sphere: &Sphere, shape: &Shape, writer: &mut Writer<'_>) -> String {
+        line("center", &writer::vector(sphere.center)) + &line("radius", &number(sphere.radius)) + &writer.material_of(shape)
     }
 }

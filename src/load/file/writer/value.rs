@@ -61,6 +61,11 @@ pub fn line(key: &str, value: &str) -> String {
     format!("{key} = {value}\n")
 }
 
+/// `key = true` on a line, and nothing for false.
+pub fn flag(key: &str, value: bool) -> String {
+    if value { line(key, "true") } else { String::new() }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

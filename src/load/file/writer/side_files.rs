@@ -5,7 +5,6 @@ use std::path::{Component, Path, PathBuf};
 
 use super::value::text;
 use crate::load::is_builtin;
-use crate::output::{AtomicFile, OutputError};
 
 /// Files that are to be written beside a scene file.
 pub struct SideFiles {
@@ -42,14 +41,9 @@ impl SideFiles {
         self.files.len()
     }
 
-    /// Writes them; their paths.
-    pub fn write(self) -> Result<Vec<PathBuf>, OutputError> {
-        if !self.files.is_empty() {
-            let path = self.folder.join(&self.subfolder);
-            fs::create_dir_all(&path).map_err(|source| OutputError::Write { path, source })?;
-        }
-        let write = |(path, content): (PathBuf, Vec<u8>)| AtomicFile::write(&path, &content).map(|()| path);
-        self.files.into_iter().map(write).collect()
+    /// Their paths and contents.
+    pub fn into_files(self) -> Vec<(PathBuf, Vec<u8>)> {
+        self.files
     }
 }
 

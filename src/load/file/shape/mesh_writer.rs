@@ -1,0 +1,62 @@
+//! Meshes as scene files have them: by the file they came from, a file beside the scene file, or a few faces written out.
+
+use std::sync::Arc;
+
+use crate::load::file::writer::{Writer, line, named_file, pair_f32, ply, text, vector_f32};
+use crate::scene::{MaterialId, Mesh, MeshSource, Shape};
+
+/// Larger meshes that come from no file lie in one beside the scene file.
+const MOST_INLINE_FACES: usize = 24;
+
+/// The keys of a mesh and its material, a line each.
+pub fn write(mesh: &Arc<Mesh>, shape: &Shape, writer: &mut Writer<'_>) -> String {
+    let scene = writer.scene;
+    if let Some(source) = named_file(scene, mesh) {
+        return named_mesh(shape, source, writer);
+    }
+    let smooth = line("smooth", &mesh.smooth.to_string());
+    if mesh.faces.len() > MOST_INLINE_FACES || mesh.smooth || !mesh.face_materials.is_empty() {
+        return mesh_beside(mesh, shape, writer) + &smooth;
+    }
+    let list = |items: Vec<String>| format!("[{}]", items.join(", "));
+    let mut out = line("positions", &list(mesh.positions.iter().map(|&position| vector_f32(position)).collect()));
+    out += &line("faces", &list(mesh.faces.iter().map(|[a, b, c]| format!("[{a}, {b}, {c}]")).collect()));
+    if !mesh.uvs.is_empty() {
+        out += &line("uvs", &list(mesh.uvs.iter().map(|&uv| pair_f32(uv)).collect()));
+    }
+    out + &writer.material_of(shape) + &smooth
+}
+
+fn named_mesh(shape: &Shape, source: &MeshSource, writer: &Writer<'_>) -> String {
+    let mut out = line("file", &writer.files.name_of(&source.path));
+    if !source.own_materials {
+        out += &writer.material_of(shape);
+    } else if !source.replaced.is_empty() {
+        let id = |name: &str| writer.scene.materials.iter().position(|material| material.name == name);
+        let rows = source.replaced.iter().filter_map(|(of_file, name)| Some((of_file, id(name)?)));
+        let rows: Vec<String> =
+            rows.map(|(of_file, id)| format!("{} = {}", text(of_file), writer.materials.quoted(id))).collect();
+        out += &line("materials", &format!("{{ {} }}", rows.join(", ")));
+    }
+    if let Some(smooth) = source.smooth {
+        out += &line("smooth", &smooth.to_string());
+    }
+    out
+}
+
+/// Writes the mesh into a file of its own; faces of several materials have a number in place of theirs.
+fn mesh_beside(mesh: &Mesh, shape: &Shape, writer: &mut Writer<'_>) -> String {
+    let name = format!("mesh-{}.ply", writer.files.len() + 1);
+    if mesh.face_materials.is_empty() {
+        return line("file", &writer.files.add(&name, ply(mesh, None))) + &writer.material_of(shape);
+    }
+    let mut used: Vec<MaterialId> = mesh.face_materials.clone();
+    used.sort_unstable();
+    used.dedup();
+    // Every material of a face is among those that are used.
+    let group = |id: &MaterialId| used.binary_search(id).unwrap_or_default() as u32;
+    let groups: Vec<u32> = mesh.face_materials.iter().map(group).collect();
+    let rows: Vec<String> =
+        used.iter().enumerate().map(|(group, &id)| format!("{group} = {}", writer.materials.quoted(id))).collect();
+    line("file", &writer.files.add(&name, ply(mesh, Some(&groups)))) + &line("materials", &format!("{{ {} }}", rows.join(", ")))
+}

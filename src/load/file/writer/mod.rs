@@ -1,0 +1,83 @@
+//! Scene files in the making: what writing any of their entries needs. What an entry's own keys are stands where they are read.
+
+mod names;
+mod picture;
+mod ply;
+mod side_files;
+mod value;
+
+use std::sync::Arc;
+
+pub use names::Names;
+use picture::picture;
+pub use ply::ply;
+pub use side_files::SideFiles;
+use side_files::is_on_disk;
+pub use value::{colour, direction, flag, line, number, numbers, pair_f32, text, vector, vector_f32};
+
+use crate::scene::{Channel, ChannelInput, ColorInput, ColorSpace, ImageData, Mesh, MeshSource, Scene, Shape};
+
+/// A scene file in the making.
+pub struct Writer<'s> {
+    pub scene: &'s Scene,
+    /// Names by which textures and materials are written: each is there once.
+    pub textures: Names,
+    pub materials: Names,
+    pub files: SideFiles,
+}
+
+impl Writer<'_> {
+    /// A line that gives a key this colour or number, which may come from a texture.
+    pub fn input(&self, key: &str, input: &ColorInput) -> String {
+        line(key, &self.value_of(*input))
+    }
+
+    /// What stands behind the key.
+    pub fn value_of(&self, input: ColorInput) -> String {
+        match input {
+            ColorInput::Constant(value) => colour(value),
+            ColorInput::Texture(id) | ColorInput::SquaredTexture(id) => format!("{{ texture = {} }}", self.textures.quoted(id)),
+            ColorInput::ScaledTexture(id, scale) => {
+                format!("{{ texture = {}, factor = {} }}", self.textures.quoted(id), colour(scale))
+            }
+            ColorInput::Channel(ChannelInput { texture, channel, factor, .. }) => format!(
+                "{{ texture = {}, channel = \"{}\", factor = {} }}",
+                self.textures.quoted(texture),
+                channel_name(channel),
+                colour(factor)
+            ),
+        }
+    }
+
+    /// The line that names a shape's material.
+    pub fn material_of(&self, shape: &Shape) -> String {
+        line("material", &self.materials.quoted(shape.material))
+    }
+
+    /// The file that a picture came from, or else one beside the scene file; the colour space that it is read in, and the factor of its values.
+    pub fn image(&mut self, image: &Arc<ImageData>) -> (String, Option<ColorSpace>, f64) {
+        match self.scene.sources.image(image).filter(|source| is_on_disk(&source.path)) {
+            Some(source) => (self.files.name_of(&source.path), source.color_space, source.scale),
+            None => {
+                let (ending, space, content) = picture(image);
+                let name = format!("picture-{}.{ending}", self.files.len() + 1);
+                (self.files.add(&name, content), Some(space), 1.0)
+            }
+        }
+    }
+}
+
+/// What scene files call a channel.
+pub fn channel_name(channel: Channel) -> &'static str {
+    match channel {
+        Channel::R => "r",
+        Channel::G => "g",
+        Channel::B => "b",
+        Channel::A => "a",
+    }
+}
+
+/// The file that the scene file names for a mesh.
+pub fn named_file<'s>(scene: &'s Scene, mesh: &Arc<Mesh>) -> Option<&'s MeshSource> {
+    scene.sources.mesh(mesh).filter(|source| is_on_disk(&source.path))
+}
