@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use super::value::text;
-use crate::load::is_builtin;
+use crate::load::builtin::is_builtin;
 
 /// Files that are to be written beside a scene file.
 pub struct SideFiles {
