@@ -31,6 +31,20 @@ impl Observer for StopsAfter {
     }
 }
 
+/// Stops once so many bands are finished.
+struct StopsAtBands {
+    bands: u32,
+    finished: AtomicU32,
+}
+
+impl Observer for StopsAtBands {
+    fn progress(&self, _done: u64, _total: u64) {}
+
+    fn stop_requested(&self) -> bool {
+        self.finished.load(Ordering::Relaxed) >= self.bands
+    }
+}
+
 fn cornell(size: [u32; 2]) -> Scene {
     let mut scene = load::load(Some("cornell")).expect("it is built in");
     scene.film.size = size;
@@ -184,6 +198,43 @@ fn another_device_goes_on() {
         let others = whole(&scene, &other, &on_cpu);
         assert!(others.iter().zip(&expected).filter(|(a, b)| far([a, b])).count() > 300);
     }
+}
+
+/// What one device finished of a picture in bands, another keeps, and what that one finishes too.
+#[test]
+fn bands_that_several_devices_finish_are_all_kept() {
+    let (Some(device), Some(in_bands)) = (DEVICE.as_ref(), with_limits(|limits| limits.film_pixels = 40 * 8)) else { return };
+    let scene = cornell([40, 30]);
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = path_beside(&folder.path().join("a.exr"));
+    let options = PlanOptions::default();
+    let goal = goal(100);
+    let (size, seed) = (scene.film.size, scene.render.seed);
+    let mut picture = Vec::new();
+    for piece in 0.. {
+        // The first begins in bands of 8 rows; the others could hold the whole film.
+        let mut renderer = gpu(Some(if piece == 0 { &in_bands } else { device }), &scene, &options).expect("a device");
+        let mut checkpoint =
+            Checkpoint::new(path.clone(), identity(&scene, 0), "a device", Duration::ZERO, Instant::now()).expect("a place");
+        checkpoint.find(size).expect("it is of this render");
+        let observer = StopsAtBands { bands: piece + 1, finished: AtomicU32::new(0) };
+        let mut bands = Vec::new();
+        let mut on_band = |band: Band| {
+            let is_finished =
+                band.samples == 100 && band.counts.as_ref().is_none_or(|counts| counts.iter().all(|&count| count == 100));
+            observer.finished.fetch_add(u32::from(is_finished), Ordering::Relaxed);
+            bands.push(band);
+            Ok(())
+        };
+        let outcome = render_kept(renderer.as_mut(), size, seed, &goal, &observer, Some(&mut checkpoint), &mut on_band)
+            .expect("it renders");
+        checkpoint.finish().expect("it is written");
+        if outcome.stop != Stop::Interrupted {
+            picture = collect(&scene, bands);
+            break;
+        }
+    }
+    assert!(picture == whole(&scene, &goal, &|| gpu(Some(device), &scene, &options).expect("a device")));
 }
 
 /// Nobody goes on from the state of another render.

@@ -106,7 +106,9 @@ fn render_sweeps(
     checkpoint: Option<&mut Checkpoint>,
     on_band: &mut dyn FnMut(Band) -> io::Result<()>,
 ) -> Result<Outcome, RenderError> {
-    let in_bands = !renderer.holds_whole_film();
+    // A device that holds the whole film goes on in bands where one that does not began.
+    let goes_on_in_bands = batch.resume.is_some_and(|state| state.rows != batch.request.rows);
+    let in_bands = goes_on_in_bands || !renderer.holds_whole_film();
     let report = match checkpoint {
         None => renderer.render_batch(batch, observer, on_band)?,
         Some(checkpoint) => renderer.render_into(batch, observer, &mut WholeBatch { checkpoint, on_band, in_bands })?,
