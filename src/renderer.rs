@@ -9,6 +9,7 @@ use std::ops::Range;
 use std::time::Instant;
 
 use crate::film::Band;
+use crate::math::luminance;
 use crate::packed::hierarchy::Traversal;
 use crate::plan::{Decision, PlanError};
 use crate::scene::InvalidScene;
@@ -104,6 +105,10 @@ pub struct RenderReport {
     pub samples: u64,
     /// Samples that were not finite and that the film refused.
     pub non_finite_samples: u64,
+    /// Samples that were brighter than the setting `clamp` allows.
+    pub clamped_samples: u64,
+    /// The luminance that was taken from them, in [`state::CLAMP_UNITS`] of the radiance that is allowed.
+    pub clamped_units: u64,
     /// Most bytes allocated on the device at once (0 for the CPU).
     pub peak_device_bytes: u64,
     /// Seconds spent building acceleration structures and packing the scene.
@@ -115,6 +120,15 @@ pub struct RenderReport {
     pub interrupted: bool,
     /// The deadline came before all samples were done.
     pub out_of_time: bool,
+}
+
+impl RenderReport {
+    /// The share of the light at the film that clamping took, of a picture of this mean radiance whose samples were clamped at `limit`.
+    pub fn clamped_light(&self, limit: f64, mean: [f64; 3]) -> f64 {
+        let taken = self.clamped_units as f64 / state::CLAMP_UNITS * limit;
+        let kept = luminance(mean.into()) * self.samples as f64;
+        if taken > 0.0 { taken / (taken + kept) } else { 0.0 }
+    }
 }
 
 /// Why a render could not be done or finished.

@@ -52,23 +52,51 @@ struct FilmPixel {
     // number of samples, as many as a variance is worth.
     squares: f32,
     refused: u32,
+#if CLAMP
+    clamped: u32,
+    // Luminance that clamping took.
+    taken: f32,
+#endif
 }
 
 fn load_film_pixel(pixel_in_band: u32) -> FilmPixel {
     if pass_parameters.film_is_empty != 0u {
-        return FilmPixel(vec4<f32>(0.0), vec4<f32>(0.0), 0.0, 0u);
+        return FilmPixel();
     }
-    return FilmPixel(load_film_sum(pixel_in_band), load_film_compensation(pixel_in_band), 0.0, 0u);
+    var pixel = FilmPixel();
+    pixel.sum = load_film_sum(pixel_in_band);
+    pixel.compensation = load_film_compensation(pixel_in_band);
+    return pixel;
 }
 
 fn opaque(x: vec3<f32>) -> vec3<f32> {
     return bitcast<vec3<f32>>(bitcast<vec3<u32>>(x) ^ vec3<u32>(pass_parameters.opaque_zero));
 }
 
+#if CLAMP
+// The sample, its brightest channel no brighter than the setting `clamp` allows, in its own colour. One that is not finite is left as it is.
+fn clamped(pixel: ptr<function, FilmPixel>, sample: vec3<f32>) -> vec3<f32> {
+    let limit = bitcast<f32>(CLAMP_BITS);
+    let brightest = max_component(sample);
+    if !(brightest > limit) || !is_finite(max_component(abs(sample))) {
+        return sample;
+    }
+    let darkened = sample * (limit / brightest);
+    (*pixel).clamped++;
+    (*pixel).taken += luminance(sample - darkened);
+    return darkened;
+}
+#else
+fn clamped(pixel: ptr<function, FilmPixel>, sample: vec3<f32>) -> vec3<f32> {
+    return sample;
+}
+#endif
+
 // Compensated summation (Kahan 1965), sample by sample: the relative error does not grow with the number of samples, and the sum does
 // not depend on how samples were cut into passes. `opaque` keeps compilers from cancelling (sum + y) - sum.
 // A sample that is not finite is refused: it counts as 0, and is counted.
-fn add_sample(pixel: ptr<function, FilmPixel>, sample: vec3<f32>) {
+fn add_sample(pixel: ptr<function, FilmPixel>, found: vec3<f32>) {
+    let sample = clamped(pixel, found);
 #if LAYER_SQUARES
     // What variances are made of.
     let radiance = sample * sample;
@@ -101,4 +129,10 @@ fn store_film_pixel(pixel_in_band: u32, pixel: FilmPixel) {
     if pixel.refused > 0u {
         count_refused_samples(pixel.refused);
     }
+#if CLAMP
+    if pixel.clamped > 0u {
+        // CLAMP_UNITS and MOST_CLAMP_UNITS.
+        count_clamped_samples(pixel.clamped, u32(min(pixel.taken / bitcast<f32>(CLAMP_BITS) * 1024.0, 4.0e9)));
+    }
+#endif
 }

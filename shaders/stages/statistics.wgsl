@@ -7,12 +7,15 @@
 fn count_rays(rays: u32) {}
 
 fn count_refused_samples(samples: u32) {}
+
+fn count_clamped_samples(samples: u32, units: u32) {}
 #else
 #if PIXEL_LIST
-// Rays traced (low and high word), samples refused because they were not finite; then, in the same binding lest a stage need more than
+// The counts: rays traced (low and high word); samples refused because they were not finite; samples that were clamped, and 1024ths of the
+// clamp that this took of their luminance (low and high word). Then the pixels, in the same binding lest a stage need more than
 // eight storage buffers, the band's pixels in the order in which passes take them.
 struct Statistics {
-    counts: array<atomic<u32>, 4>,
+    counts: array<atomic<u32>, 8>,
     pixels: array<u32>,
 }
 
@@ -29,13 +32,22 @@ fn count_refused_samples(samples: u32) {
     atomicAdd(&statistics.counts[2], samples);
 }
 
+fn count_clamped_samples(samples: u32, units: u32) {
+    atomicAdd(&statistics.counts[3], samples);
+    let before = atomicAdd(&statistics.counts[4], units);
+    if before + units < before {
+        atomicAdd(&statistics.counts[5], 1u);
+    }
+}
+
 // Of the pixel with this index in the pass.
 fn listed_pixel_in_band(index: u32) -> u32 {
     return statistics.pixels[pass_parameters.first_pixel_in_band + index];
 }
 #else
-// Rays traced (low and high word), samples refused because they were not finite.
-@group(0) @binding(BINDING_STATISTICS) var<storage, read_write> statistics: array<atomic<u32>, 4>;
+// Rays traced (low and high word); samples refused because they were not finite; samples that were clamped, and 1024ths of the clamp that this
+// took of their luminance (low and high word).
+@group(0) @binding(BINDING_STATISTICS) var<storage, read_write> statistics: array<atomic<u32>, 8>;
 
 fn count_rays(rays: u32) {
     let before = atomicAdd(&statistics[0], rays);
@@ -46,6 +58,14 @@ fn count_rays(rays: u32) {
 
 fn count_refused_samples(samples: u32) {
     atomicAdd(&statistics[2], samples);
+}
+
+fn count_clamped_samples(samples: u32, units: u32) {
+    atomicAdd(&statistics[3], samples);
+    let before = atomicAdd(&statistics[4], units);
+    if before + units < before {
+        atomicAdd(&statistics[5], 1u);
+    }
 }
 #endif
 #endif

@@ -97,6 +97,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     stats.scene_hash = provenance.scene_hash;
     stats.first_sample = arguments.estimate.first_sample.unwrap_or(0);
     stats.mean = summary.mean;
+    stats.clamped_light = stats.clamped_samples.map(|_| report.clamped_light(scene.render.clamp, summary.mean));
     stats.outputs = summary.places.iter().map(|path| path.display().to_string()).collect();
     stats.seconds.load = load_seconds;
     stats.seconds.write = summary.seconds_writing;
@@ -315,6 +316,9 @@ fn tell_of_error(arguments: &RenderArguments, error: Option<ErrorEstimate>, stop
 fn tell(stats: &Stats, summary: &PictureSummary, quiet: bool) {
     if stats.non_finite_samples > 0 {
         terminal::warn(&format!("{} samples were not finite and are left out of the picture", stats.non_finite_samples));
+    }
+    if let (Some(samples), Some(light), false) = (stats.clamped_samples, stats.clamped_light, quiet) {
+        terminal::note(&format!("--clamp darkened {samples} samples, which took {:.3} % of the light", 100.0 * light));
     }
     if summary.black && !stats.interrupted {
         terminal::warn("every pixel is black: does the camera look at the scene, and does light reach what it sees?");

@@ -1,6 +1,6 @@
 //! The flags of the table of settings.
 
-use clap::builder::{RangedU64ValueParser, TypedValueParser, ValueParser};
+use clap::builder::{RangedU64ValueParser, StringValueParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches};
 use gpt::scene::settings::{Assignment, SETTINGS, Setting, Values};
 
@@ -72,6 +72,13 @@ fn flag(setting: &'static Setting) -> Arg {
             let numbers = RangedU64ValueParser::<u32>::new().range(u64::from(least)..=u64::from(most));
             ValueParser::from(numbers.try_map(|number| setting.number(number.into())))
         }
+        Values::Real(..) => {
+            let number =
+                |text: String| text.parse().map_or_else(|_| Err(setting.values.to_string()), |number| setting.real(number));
+            ValueParser::from(
+                StringValueParser::new().try_map(move |text| number(text).map_err(|expected| format!("expected {expected}"))),
+            )
+        }
         Values::Names(choices) => ValueParser::from(names(choices).try_map(|name| setting.name(&name))),
     };
     Arg::new(setting.name).long(setting.flag.trim_start_matches("--")).value_parser(parser)
@@ -96,6 +103,7 @@ mod tests {
     fn two_values(setting: &Setting) -> [String; 2] {
         match setting.values {
             Values::Whole(least, _) => [(least + 1).to_string(), least.to_string()],
+            Values::Real(least, _) => [(least + 0.5).to_string(), least.to_string()],
             Values::Names(names) => [names[1].name.to_owned(), names[0].name.to_owned()],
         }
     }

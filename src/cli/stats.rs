@@ -44,6 +44,9 @@ pub struct Stats {
     pub rays: u64,
     pub rays_per_second: f64,
     pub non_finite_samples: u64,
+    /// Samples that were brighter than `clamp` allows, and the share of the light at the film that this took; null where nothing is clamped.
+    pub clamped_samples: Option<u64>,
+    pub clamped_light: Option<f64>,
     pub peak_device_bytes: u64,
     /// Largest resident set of the process so far; null where the system does not say.
     pub peak_host_bytes: Option<u64>,
@@ -104,6 +107,8 @@ impl Stats {
             rays: report.rays,
             rays_per_second: per_second(report.rays),
             non_finite_samples: report.non_finite_samples,
+            clamped_samples: (scene.render.clamp > 0.0).then_some(report.clamped_samples),
+            clamped_light: None,
             peak_device_bytes: report.peak_device_bytes,
             peak_host_bytes: peak_host_bytes(),
             mean: [0.0; 3],

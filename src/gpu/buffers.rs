@@ -20,7 +20,9 @@ use crate::plan::{FilmStorage, MAX_SAMPLES_PER_PASS, Plan, StageMode, memory};
 /// Vertices that one submission can hold; longer paths take further submissions.
 pub const VERTICES_PER_SUBMISSION: u32 = 32;
 /// Bytes of the statistics; the list of a band's pixels follows them.
-pub const STATISTICS_BYTES: u64 = 16;
+pub const STATISTICS_BYTES: u64 = 4 * STATISTICS_WORDS as u64;
+/// Numbers that kernels count: see `shaders/stages/statistics.wgsl`.
+pub const STATISTICS_WORDS: usize = 8;
 /// Distance between the parameters of successive vertices: the largest alignment a device may ask for.
 const VERTEX_STRIDE: usize = 256;
 

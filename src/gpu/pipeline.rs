@@ -227,14 +227,14 @@ impl Pipeline {
 
     /// Paths waiting in the queue that `vertex` will read.
     fn living_paths(&self, vertex: u32) -> Result<u32, RenderError> {
-        let counts: [u32; 4] = self.read_words(Binding::Counts)?;
+        let counts = self.read_words::<4>(Binding::Counts)?;
         Ok(counts[((vertex - 1) % 2) as usize])
     }
 
-    /// The first four words of a buffer; zeros where the plan does not have it.
-    pub fn read_words(&self, binding: Binding) -> Result<[u32; 4], RenderError> {
-        let Some(source) = self.buffers.buffer(binding) else { return Ok([0; 4]) };
-        let bytes = self.device.read_start(source, 16)?;
-        Ok(bytemuck::pod_read_unaligned(&bytes[..16]))
+    /// The first words of a buffer; zeros where the plan does not have it.
+    pub fn read_words<const N: usize>(&self, binding: Binding) -> Result<[u32; N], RenderError> {
+        let Some(source) = self.buffers.buffer(binding) else { return Ok([0; N]) };
+        let bytes = self.device.read_start(source, 4 * N as u64)?;
+        Ok(std::array::from_fn(|word| bytemuck::pod_read_unaligned(&bytes[4 * word..][..4])))
     }
 }

@@ -5,7 +5,7 @@ use std::mem::ManuallyDrop;
 use std::time::Instant;
 
 use super::band::{BandProgress, Sweeps};
-use super::buffers::STATISTICS_BYTES;
+use super::buffers::{STATISTICS_BYTES, STATISTICS_WORDS};
 use super::device::{Device, OpeningDevice};
 use super::film::{self, Reached, deliver_band};
 use super::passes::{PassLimits, PassSizer};
@@ -159,14 +159,18 @@ impl GpuRenderer {
 
     /// What was counted since the batch began, `samples` of them in this band.
     pub(super) fn tally(&self, samples: u64, sweeps: &Sweeps<'_>) -> Result<Tally, RenderError> {
-        let [low, high, non_finite_samples, _] = self.pipeline.read_words(Binding::Statistics)?;
+        let [low, high, non_finite_samples, clamped_samples, units_low, units_high, ..] =
+            self.pipeline.read_words::<STATISTICS_WORDS>(Binding::Statistics)?;
+        let joined = |high: u32, low: u32| u64::from(high) << 32 | u64::from(low);
         let samples = sweeps.finished.get() + samples;
         // `prepare` counts the wavefront's rays to later vertices; those to the first are the paths themselves.
         let camera_rays = if self.pipeline.plan.stages == StageMode::Wavefront { samples - sweeps.before.samples } else { 0 };
         Ok(Tally {
-            rays: sweeps.before.rays + (u64::from(high) << 32 | u64::from(low)) + camera_rays,
+            rays: sweeps.before.rays + joined(high, low) + camera_rays,
             samples,
             non_finite_samples: sweeps.before.non_finite_samples + u64::from(non_finite_samples),
+            clamped_samples: sweeps.before.clamped_samples + u64::from(clamped_samples),
+            clamped_units: sweeps.before.clamped_units + joined(units_high, units_low),
         })
     }
 }
@@ -200,7 +204,7 @@ impl Renderer for GpuRenderer {
         sink: &mut dyn Sink,
     ) -> Result<RenderReport, RenderError> {
         let start = Instant::now();
-        self.pipeline.write(Binding::Statistics, &[0; 16]);
+        self.pipeline.write(Binding::Statistics, &[0; STATISTICS_BYTES as usize]);
         let request = batch.request;
         let width = self.size[0];
         let total = batch.total_samples(width);
@@ -239,6 +243,8 @@ impl Renderer for GpuRenderer {
             rays: tally.rays,
             samples: tally.samples,
             non_finite_samples: tally.non_finite_samples,
+            clamped_samples: tally.clamped_samples,
+            clamped_units: tally.clamped_units,
             peak_device_bytes: self.pipeline.buffers.bytes,
             build_seconds: self.pipeline.build_seconds,
             compile_seconds: self.pipeline.compile_seconds,

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::band::{BandProgress, Sweeps};
+use super::buffers::STATISTICS_BYTES;
 use super::film;
 use super::passes::Pass;
 use super::pipeline::Pipeline;
@@ -38,7 +39,7 @@ impl GpuRenderer {
         }
         if !probes.is_empty() {
             // What they counted, the sweeps count again.
-            self.pipeline.write(Binding::Statistics, &[0; 16]);
+            self.pipeline.write(Binding::Statistics, &[0; STATISTICS_BYTES as usize]);
         }
         Ok(None)
     }

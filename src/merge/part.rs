@@ -150,6 +150,7 @@ impl PartHeader {
             let text = entry(setting.header);
             let assignment = match setting.values {
                 Values::Whole(..) => text.parse().ok().and_then(|number| setting.number(number).ok()),
+                Values::Real(..) => text.parse().ok().and_then(|number| setting.real(number).ok()),
                 Values::Names(_) => setting.name(&text).ok(),
             };
             if let Some(assignment) = assignment {

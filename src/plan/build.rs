@@ -98,6 +98,8 @@ impl Plan {
         plan.switches = switches::choose(scene, packed, &plan);
         plan.switches.enable("TRACE", options.trace);
         plan.switches.enable("PIXEL_LIST", options.pixel_list && !options.trace);
+        let makes_samples = matches!(options.layer, None | Some(KernelLayer::Squares));
+        plan.switches.enable("CLAMP", scene.render.clamp > 0.0 && makes_samples);
         for switch in options.layer.map_or(&[][..], KernelLayer::switches) {
             plan.switches.enable(switch, true);
         }

@@ -71,6 +71,7 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
     let first_light = |kind: LightKind| packed.lights.iter().position(|light| light.is(kind)).unwrap_or(0) as u32;
     switches.constants.extend([
         ("BLADES", blades),
+        ("CLAMP_BITS", (render.clamp as f32).to_bits()),
         ("ENVIRONMENT_FIRST_DENSITY", map.first_density),
         ("ENVIRONMENT_FIRST_NODE", map.first_node),
         ("ENVIRONMENT_FIRST_TEXEL", map.first_texel),

@@ -7,6 +7,7 @@
 
 pub mod bsdf;
 pub mod camera;
+mod clamp;
 pub mod emission;
 mod film;
 pub mod integrator;

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::clamp::Clamp;
 use super::film::{BAND_ROWS, BandSums, BatchSamples, Group, PixelSum, are_even};
 use super::integrator::Integrator;
 use super::intersect::Ray;
@@ -68,6 +69,8 @@ struct Counts {
     samples: u64,
     rays: u64,
     non_finite: u64,
+    clamped: u64,
+    clamped_units: u64,
     /// Paths were given up.
     gave_up: Option<Ending>,
 }
@@ -80,6 +83,8 @@ impl Add for Counts {
             samples: self.samples + other.samples,
             rays: self.rays + other.rays,
             non_finite: self.non_finite + other.non_finite,
+            clamped: self.clamped + other.clamped,
+            clamped_units: self.clamped_units + other.clamped_units,
             gave_up: self.gave_up.or(other.gave_up),
         }
     }
@@ -134,20 +139,21 @@ impl ReferenceRenderer {
         let pixel = y.wrapping_mul(self.integrator.scene().film.size[0]).wrapping_add(x);
         let mut watched = Watched { rays: 0, stopping: &batch.stopping, gave_up: None };
         let (mut samples, mut traced, mut non_finite) = (0, 0_u64, 0);
+        let mut clamp = Clamp::new(self.integrator.scene().render.clamp, self.layer);
         let camera = self.integrator.view_axis();
         for point in points {
             let sampler = PathSampler::new(sampling, pixel, point);
             let mut radiance = DVec3::ZERO;
             if let Some(layer) = self.layer {
                 let mut visitor = LayerVisitor::new(layer, camera, &mut watched);
-                let found = self.integrator.radiance(x, y, &sampler, &mut visitor);
+                let found = clamp.darken(self.integrator.radiance(x, y, &sampler, &mut visitor));
                 let Some(value) = visitor.value(found) else {
                     traced += 1;
                     continue;
                 };
                 radiance += value;
             } else {
-                radiance += self.integrator.radiance(x, y, &sampler, &mut watched);
+                radiance += clamp.darken(self.integrator.radiance(x, y, &sampler, &mut watched));
             }
             if watched.gave_up.is_some() {
                 break;
@@ -162,7 +168,8 @@ impl ReferenceRenderer {
             }
         }
         sum.samples += samples;
-        Counts { samples: traced, rays: watched.rays, non_finite, gave_up: watched.gave_up }
+        let (clamped, clamped_units) = (clamp.samples, clamp.units());
+        Counts { samples: traced, rays: watched.rays, non_finite, clamped, clamped_units, gave_up: watched.gave_up }
     }
 
     /// One pass over a band: the samples `range` of the request, but for its first pixels, which have them.
@@ -298,6 +305,8 @@ impl Progress<'_> {
     fn add(&mut self, tally: Counts) {
         self.report.rays += tally.rays;
         self.report.non_finite_samples += tally.non_finite;
+        self.report.clamped_samples += tally.clamped;
+        self.report.clamped_units += tally.clamped_units;
         self.report.samples += tally.samples;
         self.observer.progress(self.report.samples, self.total);
     }
@@ -308,6 +317,8 @@ impl Progress<'_> {
             rays: self.report.rays - without.rays,
             samples: self.report.samples - without.samples,
             non_finite_samples: self.report.non_finite_samples - without.non_finite,
+            clamped_samples: self.report.clamped_samples - without.clamped,
+            clamped_units: self.report.clamped_units - without.clamped_units,
         }
     }
 }
@@ -354,6 +365,8 @@ impl Renderer for ReferenceRenderer {
             rays: before.rays,
             samples: before.samples,
             non_finite_samples: before.non_finite_samples,
+            clamped_samples: before.clamped_samples,
+            clamped_units: before.clamped_units,
             ..RenderReport::default()
         };
         let mut progress = Progress { observer, total: batch.total_samples(width), report };

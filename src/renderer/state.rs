@@ -22,6 +22,11 @@ pub struct BatchState {
     pub tally: Tally,
 }
 
+/// Parts of the radiance that the setting `clamp` allows, in which luminance is counted that it takes.
+pub const CLAMP_UNITS: f64 = 1024.0;
+/// The most luminance that is counted of one pixel in one pass, in these parts.
+pub const MOST_CLAMP_UNITS: f64 = 4e9;
+
 /// What was counted since the batch began.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Tally {
@@ -29,6 +34,10 @@ pub struct Tally {
     /// Finished samples, over all pixels.
     pub samples: u64,
     pub non_finite_samples: u64,
+    /// Samples that were brighter than the setting `clamp` allows.
+    pub clamped_samples: u64,
+    /// The luminance that was taken from them, in [`CLAMP_UNITS`] of the radiance that is allowed.
+    pub clamped_units: u64,
 }
 
 /// Sums over the samples of each pixel, row by row.

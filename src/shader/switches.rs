@@ -134,6 +134,10 @@ const LAYERS: &[&str] = &[
     "LAYER_SQUARES",
 ];
 
+/// Layers that are made of something other than the picture's samples.
+const CLAMPED_BY_NONE: &[&str] =
+    &["LAYER_ALBEDO", "LAYER_DEPTH", "LAYER_DIRECT", "LAYER_EMISSION", "LAYER_INDIRECT", "LAYER_NORMAL", "LAYER_POSITION"];
+
 /// The table, in alphabetical order.
 pub static SWITCHES: LazyLock<Vec<Switch>> = LazyLock::new(|| {
     let mut rows = [&[OF_FEATURES, LOBES, LIGHTS], SHAPES].concat().concat();
@@ -157,6 +161,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("COLOR1"),
     switch("DELTA_LIGHTS").one_of(DELTA),
     switch("DIGITAL_SHIFT").requires(&["SEQUENCE"]),
+    switch("CLAMP").excludes(CLAMPED_BY_NONE),
     switch("EMISSION"),
     switch("ENVIRONMENT"),
     switch("ENVIRONMENT_LIGHT").requires(&["ENVIRONMENT_SAMPLED"]),

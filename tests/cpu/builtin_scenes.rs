@@ -12,8 +12,9 @@ use gpt::scene::Scene;
 use gpt::shader::switches::SWITCHES;
 
 /// Switches that depend on the device or on what a render is asked for, whatever the scene.
-const OF_DEVICES: [&str; 24] = [
+const OF_DEVICES: [&str; 25] = [
     "ATTRIBUTE_CHUNKS",
+    "CLAMP",
     "FILM_TEXTURE",
     "LAYER_ALBEDO",
     "LAYER_DEPTH",

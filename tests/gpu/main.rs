@@ -9,6 +9,7 @@ mod statistics;
 mod agreement;
 mod checkpoints;
 mod chunks;
+mod clamp;
 mod closed_forms;
 mod film;
 mod layers;

@@ -148,7 +148,7 @@ pub fn render_with(scene: &Scene, options: &PlanOptions) -> Option<Vec<f64>> {
 
 /// The whole picture as one band, and what the render counted.
 pub fn render_band(scene: &Scene, options: &PlanOptions) -> Option<(Band, RenderReport)> {
-    let device = if options.asks_for_ray_queries() { &RAY_QUERY_DEVICE } else { &DEVICE };
+    let device: &Option<Device> = if options.asks_for_ray_queries() { &RAY_QUERY_DEVICE } else { &DEVICE };
     Some(render_band_on(device.as_ref()?, scene, options))
 }
 

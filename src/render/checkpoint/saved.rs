@@ -72,7 +72,7 @@ struct BatchHeader {
     done: u32,
     sweep: u32,
     reached: u32,
-    tally: [u64; 3],
+    tally: [u64; 5],
     pixels: usize,
     is_single: bool,
 }
@@ -80,7 +80,7 @@ struct BatchHeader {
 #[derive(Serialize, Deserialize)]
 struct StepsHeader {
     place: Place,
-    tally: [u64; 3],
+    tally: [u64; 5],
     pixels: usize,
     rows: usize,
     streams: Vec<usize>,
@@ -98,12 +98,13 @@ pub enum Refusal {
     Other(String),
 }
 
-fn numbers(tally: Tally) -> [u64; 3] {
-    [tally.rays, tally.samples, tally.non_finite_samples]
+fn numbers(tally: Tally) -> [u64; 5] {
+    let Tally { rays, samples, non_finite_samples, clamped_samples, clamped_units } = tally;
+    [rays, samples, non_finite_samples, clamped_samples, clamped_units]
 }
 
-fn tally([rays, samples, non_finite_samples]: [u64; 3]) -> Tally {
-    Tally { rays, samples, non_finite_samples }
+fn tally([rays, samples, non_finite_samples, clamped_samples, clamped_units]: [u64; 5]) -> Tally {
+    Tally { rays, samples, non_finite_samples, clamped_samples, clamped_units }
 }
 
 impl Saved {
@@ -230,10 +231,10 @@ mod tests {
         ];
         for film in films {
             let (done, reached) = if film.is_empty() { (0, 0) } else { (5, 3) };
-            let batch = BatchState { rows: 1..3, done, sweep: 2, reached, film: Arc::new(film), tally: tally([1, 2, 3]) };
+            let batch = BatchState { rows: 1..3, done, sweep: 2, reached, film: Arc::new(film), tally: tally([1, 2, 3, 4, 5]) };
             let steps = StepsState {
                 place: Place { stage: 1, interval: 2, next: 3, requests: 4, stream: 5 },
-                tally: tally([4, 5, 6]),
+                tally: tally([4, 5, 6, 7, 8]),
                 radiance: vec![[0.5; 4]; 6],
                 row_samples: vec![1.0, 2.0, 3.0],
                 streams: vec![vec![[1.0; 4]; 2], vec![[2.0; 4]; 2]],

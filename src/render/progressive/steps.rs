@@ -111,6 +111,8 @@ impl<'a> Work<'a> {
         self.report.rays = tally.rays;
         self.report.samples = tally.samples;
         self.report.non_finite_samples = tally.non_finite_samples;
+        self.report.clamped_samples = tally.clamped_samples;
+        self.report.clamped_units = tally.clamped_units;
         let doublings = if doublings.is_empty() { None } else { Some(Doublings::with_means(self.size, doublings)?) };
         let pixels = self.size[0] as usize * self.size[1] as usize;
         if doublings.is_some() && levels.len() != pixels {
@@ -271,7 +273,7 @@ impl<'a> Work<'a> {
         let total = u64::from(self.size[0]) * u64::from(self.size[1]) * goal.samples.len() as u64;
         let observer = Offset { observer: self.observer, before: self.report.samples, total: total.max(self.report.samples) };
         self.place.interval = doublings.as_ref().map_or(0, |(_, interval)| *interval);
-        let RenderReport { rays, samples, non_finite_samples, .. } = self.report;
+        let RenderReport { rays, samples, non_finite_samples, clamped_samples, clamped_units, .. } = self.report;
         let mut sink = StepBatch {
             checkpoint: self.checkpoint.as_deref_mut(),
             picture: &mut self.picture,
@@ -280,7 +282,7 @@ impl<'a> Work<'a> {
             doublings: doublings.as_mut().map(|(doublings, _)| &mut **doublings),
             levels: &self.levels,
             place: self.place,
-            tally: Tally { rays, samples, non_finite_samples },
+            tally: Tally { rays, samples, non_finite_samples, clamped_samples, clamped_units },
             selection: part.selection,
             share: part.share,
             part_of_mean,
@@ -317,6 +319,8 @@ fn add_report(sum: &mut RenderReport, batch: RenderReport) {
         rays: sum.rays + batch.rays,
         samples: sum.samples + batch.samples,
         non_finite_samples: sum.non_finite_samples + batch.non_finite_samples,
+        clamped_samples: sum.clamped_samples + batch.clamped_samples,
+        clamped_units: sum.clamped_units + batch.clamped_units,
         peak_device_bytes: sum.peak_device_bytes.max(batch.peak_device_bytes),
         ..batch
     };

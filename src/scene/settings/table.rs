@@ -9,7 +9,7 @@ use serde::{Serialize, Serializer};
 
 use super::kinds::{BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeuristic, PixelSampler, SamplerKind};
 use super::row::settings;
-use super::value::Values::{Names, Whole};
+use super::value::Values::{Names, Real, Whole};
 use super::value::{BadSetting, Field, MOST_SAMPLES, Value, Values};
 use crate::choice::Choice;
 
@@ -17,6 +17,9 @@ use crate::choice::Choice;
 pub const MOST_LIGHT_SAMPLES: u32 = 16;
 /// Most edges of a path whose surfaces take more than one: their points stand in a table that has to fit a uniform buffer.
 pub const MOST_LIGHT_SAMPLES_DEPTH: u32 = 3;
+
+/// Largest radiance that samples may be clamped to: it is an f32 in shaders.
+const LARGEST_CLAMP: f64 = 1e18;
 
 settings! {
     /// How radiance is estimated. The scene file sets the defaults, the command line overrides them.
@@ -118,6 +121,14 @@ settings! {
             header: "gpt:rouletteDepth",
             compared: true,
         }
+        /// Brightest channel that a sample may have: brighter ones are darkened to it, which takes out fireflies and with them light that is due; 0 = off.
+        clamp: f64 = 0.0 => {
+            values: Real(0.0, LARGEST_CLAMP),
+            flag: "--clamp",
+            placeholder: "RADIANCE",
+            header: "gpt:clamp",
+            compared: false,
+        }
         /// Key of every random number.
         seed: u32 = 0 => {
             values: Whole(0, u32::MAX),
@@ -173,6 +184,14 @@ impl Setting {
         self.values.number(number).map(|value| Assignment { setting: self, value })
     }
 
+    /// The setting with this number, which need not be whole.
+    ///
+    /// # Errors
+    /// What would be right, to follow "expected".
+    pub fn real(&'static self, number: f64) -> Result<Assignment, String> {
+        self.values.real(number).map(|value| Assignment { setting: self, value })
+    }
+
     /// The setting with the value of this name.
     ///
     /// # Errors
@@ -208,7 +227,7 @@ impl fmt::Display for Assignment {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.value {
             Value::Name(name) => out.write_str(name),
-            Value::Number(number) => write!(out, "{} {number}", self.setting.name),
+            Value::Number(_) | Value::Real(_) => write!(out, "{} {}", self.setting.name, self.value),
         }
     }
 }
@@ -292,6 +311,7 @@ mod tests {
         for row in SETTINGS {
             let values: Vec<Value> = match row.values {
                 Whole(least, most) => [least, least + 1, most].map(Value::Number).to_vec(),
+                Real(least, most) => [least, 0.5 * (least + most), most].map(Value::Real).to_vec(),
                 Names(names) => names.iter().map(|name| Value::Name(name.name)).collect(),
             };
             for value in values {

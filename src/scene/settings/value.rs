@@ -10,9 +10,10 @@ use crate::choice::{Choice, Named};
 pub const MOST_SAMPLES: u32 = i32::MAX as u32;
 
 /// A setting's value as people write it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Value {
     Number(u32),
+    Real(f64),
     Name(&'static str),
 }
 
@@ -21,6 +22,7 @@ impl fmt::Display for Value {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Number(number) => write!(out, "{number}"),
+            Self::Real(number) => write!(out, "{number}"),
             Self::Name(name) => out.write_str(name),
         }
     }
@@ -30,16 +32,19 @@ impl Serialize for Value {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::Number(number) => serializer.serialize_u32(*number),
+            Self::Real(number) => serializer.serialize_f64(*number),
             Self::Name(name) => serializer.serialize_str(name),
         }
     }
 }
 
 /// Which values a setting may have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Values {
     /// Whole numbers from the first to the second.
     Whole(u32, u32),
+    /// Numbers from the first to the second.
+    Real(f64, f64),
     Names(&'static [Named]),
 }
 
@@ -51,9 +56,21 @@ impl Values {
     pub fn number(self, number: i64) -> Result<Value, String> {
         match (self, u32::try_from(number)) {
             (Self::Whole(least, most), Ok(number)) if (least..=most).contains(&number) => Ok(Value::Number(number)),
+            (Self::Real(..), _) => self.real(number as f64),
             (Self::Whole(_, most), _) if most >= MOST_SAMPLES && number > i64::from(most) => {
                 Err(format!("a whole number of at most {most}"))
             }
+            _ => Err(self.to_string()),
+        }
+    }
+
+    /// The number, which need not be whole, as a value.
+    ///
+    /// # Errors
+    /// What would be right, to follow "expected".
+    pub fn real(self, number: f64) -> Result<Value, String> {
+        match self {
+            Self::Real(least, most) if (least..=most).contains(&number) => Ok(Value::Real(number)),
             _ => Err(self.to_string()),
         }
     }
@@ -65,7 +82,7 @@ impl Values {
     pub fn name(self, name: &str) -> Result<Value, String> {
         match self {
             Self::Names(names) => names.iter().find(|known| known.name == name).map(|known| Value::Name(known.name)),
-            Self::Whole(..) => None,
+            Self::Whole(..) | Self::Real(..) => None,
         }
         .ok_or_else(|| self.to_string())
     }
@@ -77,6 +94,7 @@ impl Values {
     pub fn check(self, value: Value) -> Result<(), String> {
         match value {
             Value::Number(number) => self.number(number.into()),
+            Value::Real(number) => self.real(number),
             Value::Name(name) => self.name(name),
         }
         .map(|_| ())
@@ -89,6 +107,8 @@ impl fmt::Display for Values {
         match self {
             Self::Whole(least, most) if *most >= MOST_SAMPLES => write!(out, "a whole number of at least {least}"),
             Self::Whole(least, most) => write!(out, "a whole number from {least} to {most}"),
+            Self::Real(least, most) if *most >= 1e9 => write!(out, "a number of at least {least}"),
+            Self::Real(least, most) => write!(out, "a number from {least} to {most}"),
             Self::Names(names) => {
                 let names: Vec<&str> = names.iter().map(|name| name.name).collect();
                 write!(out, "one of {}", names.join(", "))
@@ -123,7 +143,20 @@ impl Field for u32 {
     fn from_value(value: Value) -> Option<Self> {
         match value {
             Value::Number(number) => Some(number),
-            Value::Name(_) => None,
+            Value::Real(_) | Value::Name(_) => None,
+        }
+    }
+}
+
+impl Field for f64 {
+    fn to_value(self) -> Value {
+        Value::Real(self)
+    }
+
+    fn from_value(value: Value) -> Option<Self> {
+        match value {
+            Value::Real(number) => Some(number),
+            Value::Number(_) | Value::Name(_) => None,
         }
     }
 }
@@ -135,7 +168,7 @@ impl<T: Choice> Field for T {
 
     fn from_value(value: Value) -> Option<Self> {
         match value {
-            Value::Number(_) => None,
+            Value::Number(_) | Value::Real(_) => None,
             Value::Name(name) => T::from_name(name),
         }
     }
@@ -157,6 +190,16 @@ mod tests {
         assert_eq!(many.number(0), Err("a whole number of at least 1".to_owned()));
         assert_eq!(many.number(1 << 31), Err("a whole number of at most 2147483647".to_owned()));
         assert_eq!(few.name("three"), Err("a whole number from 1 to 16".to_owned()));
+    }
+
+    #[test]
+    fn numbers_need_not_be_whole_where_they_may_be_any() {
+        let some = Values::Real(0.0, 8.0);
+        assert_eq!((some.real(0.5), some.number(3)), (Ok(Value::Real(0.5)), Ok(Value::Real(3.0))));
+        for bad in [-0.5, 8.5, f64::NAN, f64::INFINITY] {
+            assert_eq!(some.real(bad), Err("a number from 0 to 8".to_owned()), "{bad}");
+        }
+        assert!(some.name("three").is_err() && Values::Whole(1, 16).real(2.0).is_err());
     }
 
     #[test]

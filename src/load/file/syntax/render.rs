@@ -81,16 +81,24 @@ impl Visitor<'_> for Written {
 
     fn visit_i64<E: Error>(self, number: i64) -> Result<Self::Value, E> {
         let wrong = match self.0.values {
-            Values::Whole(..) => E::invalid_value,
+            Values::Whole(..) | Values::Real(..) => E::invalid_value,
             Values::Names(_) => E::invalid_type,
         };
         self.0.number(number).map_err(|expected| wrong(Unexpected::Signed(number), &expected.as_str()))
     }
 
+    fn visit_f64<E: Error>(self, number: f64) -> Result<Self::Value, E> {
+        let wrong = match self.0.values {
+            Values::Real(..) => E::invalid_value,
+            Values::Whole(..) | Values::Names(_) => E::invalid_type,
+        };
+        self.0.real(number).map_err(|expected| wrong(Unexpected::Float(number), &expected.as_str()))
+    }
+
     fn visit_str<E: Error>(self, name: &str) -> Result<Self::Value, E> {
         self.0.name(name).map_err(|expected| match self.0.values {
             Values::Names(names) => E::custom(not_among("unknown variant", name, names.iter().map(|name| name.name))),
-            Values::Whole(..) => E::invalid_type(Unexpected::Str(name), &expected.as_str()),
+            Values::Whole(..) | Values::Real(..) => E::invalid_type(Unexpected::Str(name), &expected.as_str()),
         })
     }
 }
@@ -124,6 +132,9 @@ fn property(setting: &Setting) -> serde_json::Value {
     match setting.values {
         Values::Whole(least, most) => json!({
             "description": description, "type": "integer", "minimum": least, "maximum": most, "default": default,
+        }),
+        Values::Real(least, most) => json!({
+            "description": description, "type": "number", "minimum": least, "maximum": most, "default": default,
         }),
         Values::Names(names) => {
             let choices: Vec<serde_json::Value> =
