@@ -79,6 +79,9 @@ fn built_in_scenes_use_every_switch() {
     for layer in KernelLayer::ALL {
         anywhere.extend(compiled_in(&built_in[..1], &hardware, &PlanOptions { layer: Some(layer), ..PlanOptions::default() }));
     }
+    let mut clamped = built_in[0].clone();
+    clamped.render.clamp = 1.0;
+    anywhere.extend(compiled_in(&[clamped], &hardware, &PlanOptions::default()));
     let missing: Vec<_> = every.filter(|name| !anywhere.contains(name)).collect();
     assert!(missing.is_empty(), "no built-in scene uses {missing:?} on any of these devices");
 }
