@@ -37,6 +37,9 @@ class Scene:
     def prepare(self, folder, say):
         """The scene file to render, or None where its model is absent. An absent environment map is made."""
         path = ROOT / self.file
+        if not path.is_file():
+            say(f"{path.stem}: left out, {path} is not there; benches/scenes/make.py makes it")
+            return None
         text = path.read_text(encoding="utf-8")
         for line in text.splitlines():
             if not line.startswith("file"):
@@ -90,4 +93,8 @@ ALL = {
     "ogre-environment": Scene("benches/scenes/ogre-environment.toml", kind="model"),
     "bunny-area": Scene("benches/scenes/bunny-area.toml", kind="model"),
     "bunny-environment": Scene("benches/scenes/bunny-environment.toml", kind="model"),
+    "lamps": Scene("target/scenes/lamps.toml", kind="model"),
+    "interior": Scene("target/scenes/interior.toml", (256, 192), kind="model"),
+    "ajar": Scene("target/scenes/ajar.toml", (256, 192), kind="model"),
+    "sponza-like": Scene("target/scenes/sponza-like.toml", (256, 192), kind="model"),
 }
