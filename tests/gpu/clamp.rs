@@ -1,33 +1,21 @@
 //! Samples that are darkened to a brightest radiance, on both devices, and what is said of it.
 
 use crate::common::device::DEVICE;
+use crate::common::picture::render_and_count;
 use gpt::gpu::GpuRenderer;
 use gpt::load;
 use gpt::math::luminance;
 use gpt::plan::{PlanOptions, StageMode};
 use gpt::reference::ReferenceRenderer;
-use gpt::renderer::{RenderReport, RenderRequest, Renderer, Silent};
+use gpt::renderer::RenderReport;
 use gpt::scene::Scene;
-
-const SAMPLES: u32 = 8;
 
 fn scene(clamp: f64) -> Scene {
     let mut scene = load::load(Some("veach-mis")).expect("it is built in");
     scene.film.size = [48, 36];
+    scene.render.spp = 8;
     scene.render.clamp = clamp;
     scene
-}
-
-/// The mean radiance of each pixel, and what was counted.
-fn render(renderer: &mut dyn Renderer, scene: &Scene) -> (Vec<[f32; 3]>, RenderReport) {
-    let mut pixels = Vec::new();
-    let mut on_band = |band: gpt::Band| {
-        pixels.extend(band.mean);
-        Ok(())
-    };
-    let request = RenderRequest { rows: 0..scene.film.size[1], samples: 0..SAMPLES };
-    let report = renderer.render(&request, &Silent, &mut on_band).expect("it renders");
-    (pixels, report)
 }
 
 fn mean(pixels: &[[f32; 3]]) -> [f64; 3] {
@@ -39,10 +27,10 @@ fn mean(pixels: &[[f32; 3]]) -> [f64; 3] {
 fn what_clamping_takes_is_counted() {
     let limit = 3.0;
     let (scene, free) = (scene(limit), scene(0.0));
-    let (whole, untouched) = render(&mut ReferenceRenderer::new(&free).expect("it renders"), &free);
+    let (whole, untouched) = render_and_count(&mut ReferenceRenderer::new(&free).expect("it renders"), &free);
     assert_eq!((untouched.clamped_samples, untouched.clamped_units), (0, 0));
     let whole = luminance(mean(&whole).into());
-    let (reference, expected) = render(&mut ReferenceRenderer::new(&scene).expect("it renders"), &scene);
+    let (reference, expected) = render_and_count(&mut ReferenceRenderer::new(&scene).expect("it renders"), &scene);
     let check = |what: &str, pixels: &[[f32; 3]], report: &RenderReport| {
         assert!(pixels.as_flattened().iter().all(|channel| f64::from(*channel) <= limit * (1.0 + 1e-6)), "{what}");
         let left = luminance(mean(pixels).into());
@@ -56,7 +44,7 @@ fn what_clamping_takes_is_counted() {
     for stages in [StageMode::Fused, StageMode::Wavefront] {
         let options = PlanOptions { stages: Some(stages), ..PlanOptions::default() };
         let mut renderer = GpuRenderer::on(device, &scene, &options).expect("the scene fits");
-        let (pixels, report) = render(&mut renderer, &scene);
+        let (pixels, report) = render_and_count(&mut renderer, &scene);
         check(&format!("{stages:?}"), &pixels, &report);
         let far = |other: &[[f32; 3]]| {
             let is_far = |(a, b): (&f32, &f32)| (a - b).abs() > 1e-3 * (b + 0.01);
@@ -65,7 +53,7 @@ fn what_clamping_takes_is_counted() {
         assert!(far(&reference) <= 12, "{stages:?}: {} of {} channels differ", far(&reference), 3 * pixels.len());
         // The control: a clamp that is a tenth higher is another picture.
         let other = self::scene(1.1 * limit);
-        let (others, _) = render(&mut ReferenceRenderer::new(&other).expect("it renders"), &other);
+        let (others, _) = render_and_count(&mut ReferenceRenderer::new(&other).expect("it renders"), &other);
         assert!(far(&others) > 100);
     }
 }

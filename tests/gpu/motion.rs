@@ -1,13 +1,12 @@
 //! Motion blur: coverage over time in closed form, a shutter that stands still, what moving shapes sweep, and what is refused.
 
-use std::io;
 use std::path::Path;
 
 use crate::common::device::DEVICE;
+use crate::common::picture::render;
 use crate::statistics::random::SplitMix64;
 use glam::{DVec3, Vec3};
 use gpt::compare::{Moments, one_sample_t_test_beyond, sidak};
-use gpt::film::Band;
 use gpt::gpu::GpuRenderer;
 use gpt::load;
 use gpt::load::SceneError;
@@ -16,7 +15,6 @@ use gpt::packed::primitive::WorldPrimitive;
 use gpt::packed::shape::{Disk, PrimitiveGeometry, Quad, Sphere, Triangle};
 use gpt::plan::{PlanOptions, StageMode};
 use gpt::reference::ReferenceRenderer;
-use gpt::renderer::{RenderRequest, Renderer, Silent};
 use gpt::scene::{Motion, MotionStep, Scene, Shape, Transform, TransformStep};
 
 /// The picture by the reference, the fused kernel and the wavefront.
@@ -30,17 +28,6 @@ fn pictures(scene: &Scene) -> Vec<(&'static str, Vec<[f32; 3]>)> {
         }
     }
     pictures
-}
-
-fn render(renderer: &mut dyn Renderer, scene: &Scene) -> Vec<[f32; 3]> {
-    let mut pixels = Vec::new();
-    let request = RenderRequest { rows: 0..scene.film.size[1], samples: 0..scene.render.spp };
-    let mut on_band = |band: Band| -> io::Result<()> {
-        pixels.extend(band.mean);
-        Ok(())
-    };
-    renderer.render(&request, &Silent, &mut on_band).expect("rendering succeeds");
-    pixels
 }
 
 fn load(text: &str) -> Result<Scene, SceneError> {

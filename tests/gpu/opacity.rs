@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::common::device::DEVICE;
+use crate::common::picture::render;
 use gpt::compare::{Moments, hypothesis};
 use gpt::gpu::GpuRenderer;
 use gpt::load;
@@ -14,17 +15,6 @@ use gpt::verify;
 
 fn load(text: &str) -> Scene {
     load::load_toml_str(text, "opacity", Path::new(".")).unwrap_or_else(|error| panic!("{error}"))
-}
-
-fn render(renderer: &mut dyn Renderer, scene: &Scene) -> Vec<[f32; 3]> {
-    let mut pixels = Vec::new();
-    let request = RenderRequest { rows: 0..scene.film.size[1], samples: 0..scene.render.spp };
-    let report = renderer.render(&request, &Silent, &mut |band| {
-        pixels.extend(band.mean);
-        Ok(())
-    });
-    report.expect("it renders");
-    pixels
 }
 
 /// Every way in which kernels trace shadow rays.

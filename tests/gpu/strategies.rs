@@ -3,26 +3,15 @@
 use std::path::Path;
 
 use crate::common::device::DEVICE;
+use crate::common::picture::render;
 use gpt::gpu::GpuRenderer;
 use gpt::load;
 use gpt::plan::PlanOptions;
 use gpt::reference::ReferenceRenderer;
-use gpt::renderer::{RenderRequest, Renderer, Silent};
 use gpt::scene::{self, Aperture, ApertureShape, Projection, SamplerKind, Scene};
 
 fn load(text: &str) -> Scene {
     load::load_toml_str(text, "strategies", Path::new(".")).unwrap_or_else(|error| panic!("{error}"))
-}
-
-fn render(renderer: &mut dyn Renderer, scene: &Scene) -> Vec<[f32; 3]> {
-    let mut pixels = Vec::new();
-    let request = RenderRequest { rows: 0..scene.film.size[1], samples: 0..scene.render.spp };
-    let report = renderer.render(&request, &Silent, &mut |band| {
-        pixels.extend(band.mean);
-        Ok(())
-    });
-    report.expect("it renders");
-    pixels
 }
 
 fn render_on_cpu(scene: &Scene) -> Vec<[f32; 3]> {
