@@ -20,6 +20,8 @@ const RELATIONS: &[&str] = &[
     "is named `",
     "cannot have length 0",
     "looks at the point",
+    "diffuse + specular is at most",
+    "the motion leaves the range of numbers",
     "along the viewing direction",
     "expected a whole number",
     "has no area",
