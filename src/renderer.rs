@@ -11,8 +11,8 @@ use std::time::Instant;
 use crate::film::Band;
 use crate::math::luminance;
 use crate::packed::hierarchy::Traversal;
-use crate::plan::{Decision, PlanError};
-use crate::scene::InvalidScene;
+use crate::plan::{Decision, PlanError, PlanOptions};
+use crate::scene::{InvalidScene, Scene};
 use sink::Sink;
 use state::BatchState;
 
@@ -38,6 +38,15 @@ pub enum DeviceChoice {
 pub struct RenderRequest {
     pub rows: Range<u32>,
     pub samples: Range<u32>,
+}
+
+/// In what a frame of a scene differs from the one before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Change {
+    /// In where the camera stands and looks, and in nothing else.
+    Camera,
+    /// In where shapes are.
+    Shapes,
 }
 
 /// A request that is one of several for the same picture.
@@ -165,6 +174,18 @@ pub trait Renderer {
     /// The device as people call it; the same text as [`RenderReport::device`], known before the render because picture files
     /// carry it in their header.
     fn device(&self) -> &str;
+
+    /// Makes another frame of the scene ready in place of this one, on the same device and with the kernels that still fit. `options` are those
+    /// that the renderer was made with.
+    ///
+    /// # Errors
+    /// As for the first frame. There is no renderer any more then.
+    fn with_scene(
+        self: Box<Self>,
+        scene: &Scene,
+        options: &PlanOptions,
+        change: Change,
+    ) -> Result<Box<dyn Renderer>, RenderError>;
 
     /// Whether samples go over all of a film of this size together. If not, its bands are finished one after the other, for want of memory.
     fn holds_whole_film(&self) -> bool;

@@ -14,6 +14,7 @@ use gpt::scene::settings::MOST_SAMPLES;
 use super::bench::BenchArguments;
 use super::choice::by_name;
 use super::exit::Exit;
+use super::frames::FrameArguments;
 use super::machine_progress::ProgressFormat;
 use super::model_arguments::ModelArguments;
 use super::picture_arguments::{DisplayArguments, ExrArguments};
@@ -64,6 +65,7 @@ const RENDER_EXAMPLES: &str = "Examples:
   gpt render scene.toml --target-error 1e-3               as many samples as the error needs
   gpt render bunny.ply --up z --turn 30 --material gold --environment sky.exr
   gpt render model.obj --save-scene model.toml            a scene of a model, to go on with
+  gpt render scene.toml --frames 1-100 -o picture.####.exr  an animation, by the scene's keyframes
   gpt render scene.toml --exposure auto --tonemap filmic -o preview.jpg";
 
 #[derive(Debug, Args)]
@@ -90,6 +92,8 @@ pub struct RenderArguments {
     pub exr: ExrArguments,
     #[command(flatten, next_help_heading = "The picture")]
     pub estimate: EstimateArguments,
+    #[command(flatten, next_help_heading = "Frames")]
+    pub frames: FrameArguments,
     #[command(flatten, next_help_heading = "When it ends, and where samples go")]
     pub goal: GoalArguments,
     /// auto (discrete, integrated, then software GPU; the CPU integrator if there is none), gpu, cpu, or part of an adapter's name

@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use gpt::output::{Display, ExrOptions, OutputError, PartSpec, PictureFormat, PictureSpec, is_finished_picture};
 use gpt::render::checkpoint::{Checkpoint, DEFAULT_INTERVAL, path_beside};
+use gpt::scene::BulkDigest;
 use gpt::{RenderOptions, Renderer, Scene};
 
 use super::arguments::CheckpointArguments;
@@ -42,14 +43,18 @@ fn first_file(outputs: &[(PathBuf, PictureFormat)]) -> Option<&Path> {
 /// Whether every picture stands in its place, finished and of this render.
 pub fn all_are_finished(
     outputs: &[(PathBuf, PictureFormat)],
-    scene: &Scene,
+    (scene, bulk): (&Scene, Option<&BulkDigest>),
     options: &RenderOptions,
     (display, exr, part): (Display, ExrOptions, Option<PartSpec>),
 ) -> bool {
     if outputs.iter().any(|(path, _)| is_stdout(path) || !path.is_file()) {
         return false;
     }
-    let provenance = Some(Renderer::provenance_of(scene, options, ""));
+    let provenance = match bulk {
+        Some(bulk) => Renderer::provenance_with(bulk, scene, options, ""),
+        None => Renderer::provenance_of(scene, options, ""),
+    };
+    let provenance = Some(provenance);
     let [width, height] = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
     let spec = PictureSpec { width, height, display, exr, layers: Vec::new(), provenance, part };
     outputs.iter().all(|(path, format)| is_finished_picture(path, *format, &spec))

@@ -6,6 +6,8 @@ use std::time::{Duration, Instant};
 use clap::ValueEnum;
 use serde::Serialize;
 
+use super::progress::Span;
+
 /// Time between two lines.
 const INTERVAL: Duration = Duration::from_secs(1);
 
@@ -36,12 +38,22 @@ enum Event<'a> {
     Start {
         #[serde(flatten)]
         needs: Needs,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        frame: Option<u32>,
     },
     Progress {
         percent: f64,
         done: u64,
         total: u64,
         seconds_left: Option<f64>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        frame: Option<u32>,
+    },
+    /// One of several frames is over.
+    Frame {
+        frame: u32,
+        complete: bool,
+        outputs: &'a [String],
     },
     End {
         complete: bool,
@@ -54,17 +66,19 @@ enum Event<'a> {
 pub struct MachineProgress {
     format: ProgressFormat,
     last: Option<Instant>,
+    span: Option<Span>,
 }
 
 impl MachineProgress {
-    pub fn new(format: ProgressFormat) -> Self {
-        Self { format, last: None }
+    /// `span`: which of several frames it is; percentages are then of all of them.
+    pub fn new(format: ProgressFormat, span: Option<Span>) -> Self {
+        Self { format, last: None, span }
     }
 
     /// The render is about to begin.
     pub fn start(&self, needs: Needs) {
         let film = needs.film_bytes as f64 / f64::from(1 << 20);
-        self.say(&Event::Start { needs }, || match self.format {
+        self.say(&Event::Start { needs, frame: self.frame() }, || match self.format {
             ProgressFormat::Openjd => format!("openjd_status: preparing, {film:.1} MiB for the film"),
             _ => format!("preparing {}x{} pixels, {film:.1} MiB for the film", needs.width, needs.height),
         });
@@ -76,16 +90,30 @@ impl MachineProgress {
             return;
         }
         self.last = Some(Instant::now());
-        let percent = 100.0 * done as f64 / (total as f64).max(1.0);
-        let seconds_left = rate.map(|rate| total.saturating_sub(done) as f64 / rate);
-        self.say(&Event::Progress { percent, done, total, seconds_left }, || match self.format {
+        let share = done as f64 / (total as f64).max(1.0);
+        let (before, count) = self.span.map_or((0.0, 1.0), |span| (span.index as f64, span.count as f64));
+        let percent = 100.0 * (before + share) / count;
+        let frames_left = count - before - 1.0;
+        let seconds_left = rate.map(|rate| (total.saturating_sub(done) as f64 + frames_left * total as f64) / rate);
+        self.say(&Event::Progress { percent, done, total, seconds_left, frame: self.frame() }, || match self.format {
             ProgressFormat::Openjd => format!("openjd_progress: {percent:.1}"),
             _ => format!("{percent:.1} %, {done} of {total} samples"),
         });
     }
 
-    /// The render is over.
+    fn frame(&self) -> Option<u32> {
+        self.span.map(|span| span.frame)
+    }
+
+    /// The render is over, or one of several frames.
     pub fn end(&self, complete: bool, outputs: &[String]) {
+        if let Some(frame) = self.frame() {
+            let what = if complete { "done" } else { "broke off" };
+            return self.say(&Event::Frame { frame, complete, outputs }, || match self.format {
+                ProgressFormat::Openjd => format!("openjd_status: frame {frame} {what}"),
+                _ => format!("frame {frame} {what}: {}", outputs.join(", ")),
+            });
+        }
         self.say(&Event::End { complete, outputs }, || match (self.format, complete) {
             (ProgressFormat::Openjd, true) => "openjd_progress: 100.0\nopenjd_status: done".to_owned(),
             (ProgressFormat::Openjd, false) => "openjd_status: broke off".to_owned(),
@@ -113,8 +141,8 @@ mod tests {
     fn events_keep_their_keys() {
         let json = |event: &Event<'_>| serde_json::to_string(event).expect("JSON");
         let needs = Needs { width: 4, height: 3, film_bytes: 384 };
-        assert_eq!(json(&Event::Start { needs }), r#"{"event":"start","width":4,"height":3,"film_bytes":384}"#);
-        let progress = Event::Progress { percent: 25.0, done: 1, total: 4, seconds_left: None };
+        assert_eq!(json(&Event::Start { needs, frame: None }), r#"{"event":"start","width":4,"height":3,"film_bytes":384}"#);
+        let progress = Event::Progress { percent: 25.0, done: 1, total: 4, seconds_left: None, frame: None };
         assert_eq!(json(&progress), r#"{"event":"progress","percent":25.0,"done":1,"total":4,"seconds_left":null}"#);
         let outputs = ["a.exr".to_owned()];
         assert_eq!(

@@ -27,6 +27,17 @@ const NARROWEST_BAR: usize = 8;
 pub struct Progress {
     shown: Shown,
     machine: Option<Mutex<(MachineProgress, Pace)>>,
+    span: Option<Span>,
+}
+
+/// A frame as one of several.
+#[derive(Debug, Clone, Copy)]
+pub struct Span {
+    /// Its number in the scene's keyframes.
+    pub frame: u32,
+    /// Its place among those that are rendered, from 0.
+    pub index: usize,
+    pub count: usize,
 }
 
 /// What people see.
@@ -62,9 +73,17 @@ impl Pace {
 impl Progress {
     /// A bar where stderr is a terminal, else lines; nothing if `quiet`. The scene is being prepared until samples come.
     /// `format`: lines for other programs too.
-    pub fn new(quiet: bool, format: Option<ProgressFormat>) -> Self {
-        let machine = format.map(|format| Mutex::new((MachineProgress::new(format), Pace::default())));
-        Self { shown: Shown::new(quiet), machine }
+    /// `span`: which of several frames is rendered.
+    pub fn of_frame(quiet: bool, format: Option<ProgressFormat>, span: Option<Span>) -> Self {
+        let machine = format.map(|format| Mutex::new((MachineProgress::new(format, span), Pace::default())));
+        Self { shown: Shown::new(quiet), machine, span }
+    }
+
+    /// Says to other programs that the last of several frames is over.
+    pub fn end_of_all(format: Option<ProgressFormat>, complete: bool, outputs: &[String]) {
+        if let Some(format) = format {
+            MachineProgress::new(format, None).end(complete, outputs);
+        }
     }
 
     /// Says to other programs what the render is about to take.
@@ -110,14 +129,16 @@ impl Shown {
 }
 
 impl Shown {
-    fn progress(&self, done: u64, total: u64) {
+    fn progress(&self, done: u64, total: u64, span: Option<Span>) {
+        let of_frame = span.map_or_else(String::new, |Span { frame, index, count }| format!("frame {frame} ({} of {count}), ", index + 1));
         match self {
             Self::Hidden => {}
             Self::Bar(bar, pace) => {
                 let rate = lock(pace).rate(done);
                 bar.disable_steady_tick();
                 bar.set_style(style("{wide_msg}"));
-                bar.set_message(bar_line(done, total, rate, terminal::columns()));
+                let line = bar_line(done, total, rate, terminal::columns().saturating_sub(of_frame.len()));
+                bar.set_message(of_frame + &line);
             }
             Self::Lines(lines) => {
                 let mut lines = lock(lines);
@@ -125,7 +146,7 @@ impl Shown {
                 let rate = lines.pace.rate(done);
                 if lines.last.elapsed() >= LINE_INTERVAL {
                     lines.last = Instant::now();
-                    terminal::note(&line(done, total, rate));
+                    terminal::note(&(of_frame + &line(done, total, rate)));
                 }
             }
         }
@@ -134,7 +155,7 @@ impl Shown {
 
 impl Observer for Progress {
     fn progress(&self, done: u64, total: u64) {
-        self.shown.progress(done, total);
+        self.shown.progress(done, total, self.span);
         if let Some(machine) = &self.machine {
             let (machine, pace) = &mut *lock(machine);
             let rate = pace.rate(done);

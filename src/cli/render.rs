@@ -4,10 +4,9 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use gpt::load::{self, LoadOptions, SceneSource};
-use gpt::output::{AtomicFile, LayerChannel, PartSpec, PictureFormat, PictureSpec, Provenance, check_target};
+use gpt::output::{LayerChannel, PartSpec, PictureFormat, PictureSpec, Provenance, check_target};
 use gpt::plan::memory::FILM_BYTES;
 use gpt::plan::{DeviceLimits, PlanOptions};
-use gpt::render::choice::Choice;
 use gpt::render::layers::render_layers;
 use gpt::render::progressive::STREAMS;
 use gpt::renderer::{DeviceChoice, RenderError, RenderReport};
@@ -17,17 +16,25 @@ use gpt::{ErrorEstimate, Outcome, RenderOptions, Renderer, Scene, Stop};
 use super::arguments::RenderArguments;
 use super::checkpoint;
 use super::exit::{Exit, Failure};
+use super::frames::{Moment, named};
 use super::machine_progress::Needs;
 use super::pictures::{PictureSummary, Pictures, is_stdout, output_formats};
-use super::progress::Progress;
+use super::progress::{Progress, Span};
+use super::sequence::{Ready, Sequence, has_own_stats, tell_of_keyframes};
 use super::settings::EstimateArguments;
-use super::stats::Stats;
+use super::stats::{self, Stats};
 use super::{interrupt, settings, terminal};
 
 /// Renders a scene to its picture files. Everything that can be wrong without rendering is found before.
 pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let started = Instant::now();
-    let mut outputs = output_formats(&arguments.outputs, arguments.stats.as_deref())?;
+    let frames = &arguments.frames;
+    frames.check_names("-o", arguments.outputs.iter().map(PathBuf::as_path))?;
+    let first = |path: &Path| named(path, frames.first_number());
+    let first_outputs: Vec<PathBuf> = arguments.outputs.iter().map(|path| first(path)).collect();
+    let formats = output_formats(&first_outputs, arguments.stats.as_deref().map(first).as_deref())?;
+    let mut outputs: Vec<(PathBuf, PictureFormat)> =
+        arguments.outputs.iter().zip(formats).map(|(path, (_, format))| (path.clone(), format)).collect();
     let mut on_stdout = arguments.outputs.iter().map(PathBuf::as_path).chain(arguments.stats.as_deref());
     if arguments.progress.is_some() && on_stdout.any(is_stdout) {
         return Err(Failure::usage("--progress tells of progress on standard output, and -o - or --stats - write there"));
@@ -50,31 +57,72 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let scene = load(arguments)?;
     if outputs.is_empty() {
         for (ending, format) in [("exr", PictureFormat::Exr), ("png", PictureFormat::Png)] {
-            let default = PathBuf::from(format!("{}.{ending}", scene.name));
-            check_target(&default)?;
+            let number = frames.first_number().map_or("", |_| ".####");
+            let default = PathBuf::from(format!("{}{number}.{ending}", scene.name));
+            check_target(&first(&default))?;
             outputs.push((default, format));
         }
     }
-    check_inputs(&outputs, arguments)?;
     if let Some(path) = &arguments.save_scene {
         save_scene(&scene, path)?;
     }
     checkpoint::check(&arguments.checkpoint, &outputs)?;
+    let moments = frames.moments(&scene.animation)?;
+    if moments == [Moment::Rest] && !arguments.quiet {
+        tell_of_keyframes(&scene);
+    }
+    let load_seconds = started.elapsed().as_secs_f64();
+    let sequence =
+        Sequence { arguments, options: &options, scene: &scene, outputs: &outputs, moments: &moments, started, load_seconds };
+    sequence.render(choice)
+}
+
+/// One picture: the only one, or a frame of several.
+pub struct Frame<'a> {
+    pub arguments: &'a RenderArguments,
+    pub options: &'a RenderOptions,
+    pub scene: Scene,
+    pub outputs: &'a [(PathBuf, PictureFormat)],
+    pub moment: Moment,
+    /// When it began, and how long it took until the scene was there.
+    pub started: Instant,
+    pub load_seconds: f64,
+    /// Which of several it is.
+    pub span: Option<Span>,
+}
+
+/// What became of a frame.
+pub struct Done {
+    pub exit: Exit,
+    /// What the next frame begins with.
+    pub ready: Ready,
+    /// Those that no file of the frame's own holds. None: there are none, because it was finished before.
+    pub stats: Option<Stats>,
+}
+
+/// Renders a picture to its files.
+///
+/// # Errors
+/// What the device, the files and the arguments report.
+pub fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
+    let Frame { arguments, options, scene, outputs, moment, started, load_seconds, span } = frame;
+    check_inputs(outputs, arguments)?;
     let shown = (arguments.display.display(), arguments.exr.options(), part(arguments, scene.film.size));
     // What layers a finished picture has is not looked at.
     let may_be_finished = arguments.checkpoint.resume && arguments.exr.aov.is_empty();
-    if may_be_finished && checkpoint::all_are_finished(&outputs, &scene, &options, shown) {
+    if may_be_finished && checkpoint::all_are_finished(outputs, (&scene, ready.bulk_digest()), options, shown) {
         if !arguments.quiet {
-            terminal::note(&format!("{}: finished before, nothing is left to render", names(&outputs)));
+            terminal::note(&format!("{}: finished before, nothing is left to render", names(outputs)));
         }
-        return Ok(Exit::Done);
+        return Ok(Done { exit: Exit::Done, ready, stats: None });
     }
-    let load_seconds = started.elapsed().as_secs_f64();
 
-    let progress = Progress::new(arguments.quiet, arguments.progress);
-    let layers = layers(arguments, &options, &scene, (&outputs, &progress))?;
+    let progress = Progress::of_frame(arguments.quiet, arguments.progress, span);
+    let layers = layers(arguments, options, &scene, (outputs, &progress))?;
+    progress.start(needs(&scene, options));
+    let mut renderer = ready.renderer(&scene, options).inspect_err(|_| progress.clear())?;
     let Rendered { outcome, mut pictures, provenance, mut kept } =
-        render(arguments, (choice, &options), &scene, (&outputs, layers), (started, &progress))?;
+        render(arguments, (&mut renderer, span), (outputs, layers), (started, &progress))?;
     let broke_off = outcome.stop == Stop::Interrupted;
     if broke_off && kept.save() {
         pictures.give_up_beside_finished();
@@ -86,6 +134,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
 
     let report = outcome.report;
     let mut stats = Stats::new(&scene, &report);
+    stats.frame = moment.frame();
     stats.resumed(kept.resumed_samples);
     [stats.width, stats.height] = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
     stats.spp_done = summary.samples[0];
@@ -102,8 +151,10 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     stats.seconds.load = load_seconds;
     stats.seconds.write = summary.seconds_writing;
     stats.seconds.total = started.elapsed().as_secs_f64();
-    if let Some(path) = &arguments.stats {
-        write_stats(path, &stats)?;
+    if let (Some(path), Moment::Frame(number)) = (&arguments.stats, moment)
+        && has_own_stats(arguments, path)
+    {
+        stats::write(&named(path, Some(number)), &stats)?;
     }
     tell(&stats, &summary, arguments.quiet);
     kept.tell();
@@ -112,7 +163,8 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     if !summary.failures.is_empty() {
         return Err(Failure::Outputs(summary.failures));
     }
-    Ok(exit(&report, arguments.strict))
+    let exit = exit(&report, arguments.strict);
+    Ok(Done { exit, ready: Ready::Renderer(Box::new(renderer), Box::new(scene)), stats: Some(stats) })
 }
 
 /// Renders the layers that are asked for.
@@ -135,15 +187,6 @@ fn layers(
     let rendered = render_layers(scene, options, wanted, progress);
     progress.clear();
     rendered?.ok_or(Failure::Interrupted)
-}
-
-/// Writes the statistics to a file, or to standard output.
-fn write_stats(path: &Path, stats: &Stats) -> Result<(), Failure> {
-    if is_stdout(path) {
-        return terminal::answer_json(stats);
-    }
-    let json = serde_json::to_string_pretty(stats).map_err(|error| Failure::Other(error.to_string()))?;
-    Ok(AtomicFile::write(path, (json + "\n").as_bytes())?)
 }
 
 /// No output is one of the files that the scene was read from.
@@ -221,17 +264,14 @@ struct Rendered {
     kept: checkpoint::Kept,
 }
 
-/// Makes the scene ready on its device, and renders it.
+/// Renders what is ready on its device.
 fn render(
     arguments: &RenderArguments,
-    (choice, options): (Choice, &RenderOptions),
-    scene: &Scene,
+    (renderer, span): (&mut Renderer, Option<Span>),
     (outputs, layers): (&[(PathBuf, PictureFormat)], Vec<LayerChannel>),
     (started, progress): (Instant, &Progress),
 ) -> Result<Rendered, Failure> {
-    progress.start(needs(scene, options));
-    let mut renderer = Renderer::on(choice, scene, options).inspect_err(|_| progress.clear())?;
-    if let Some(notice) = renderer.notice() {
+    if let Some(notice) = renderer.notice().filter(|_| span.is_none_or(|span| span.index == 0)) {
         progress.clear();
         terminal::note(notice);
     }
@@ -240,7 +280,7 @@ fn render(
     let provenance = renderer.provenance().clone();
     let (display, exr) = (arguments.display.display(), arguments.exr.options());
     let spec = PictureSpec { width, height, display, exr, layers, provenance: Some(provenance.clone()), part };
-    let mut kept = checkpoint::Kept::begin(&arguments.checkpoint, &renderer, outputs, started, arguments.quiet)?;
+    let mut kept = checkpoint::Kept::begin(&arguments.checkpoint, renderer, outputs, started, arguments.quiet)?;
     let mut pictures = Pictures::create(outputs, &spec)?;
     let outcome = renderer.render_from(started, progress, kept.checkpoint.as_mut(), &mut |band| pictures.write_band(band));
     progress.clear();

@@ -1,16 +1,26 @@
 //! `--stats`: what a render did, as JSON for other programs.
 
+use std::path::Path;
+
+use gpt::output::AtomicFile;
 use gpt::packed::hierarchy::Traversal;
 use gpt::plan::Decision;
 use gpt::renderer::RenderReport;
 use gpt::scene::{RenderSettings, Scene};
 use serde::Serialize;
 
+use super::exit::Failure;
+use super::pictures::is_stdout;
+use super::terminal;
+
 /// The keys of the file. They stay as they are; new ones may be added.
 #[derive(Debug, Serialize)]
 pub struct Stats {
     pub scene: String,
     pub scene_hash: String,
+    /// The frame of the scene's keyframes, where one was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frame: Option<f64>,
     pub device: String,
     /// `bvh4` or `ray_query`; null where the device tests every primitive, and for the CPU reference.
     pub hierarchy: Option<&'static str>,
@@ -80,6 +90,7 @@ impl Stats {
         Self {
             scene: scene.name.clone(),
             scene_hash: String::new(),
+            frame: None,
             device: report.device.clone(),
             hierarchy: report.traversal.map(Traversal::key),
             decisions: report.decisions.clone(),
@@ -129,6 +140,18 @@ impl Stats {
             self.rays_per_second *= share;
         }
     }
+}
+
+/// Writes statistics to a file, or to standard output.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn write(path: &Path, stats: &impl Serialize) -> Result<(), Failure> {
+    if is_stdout(path) {
+        return terminal::answer_json(stats);
+    }
+    let json = serde_json::to_string_pretty(stats).map_err(|error| Failure::Other(error.to_string()))?;
+    Ok(AtomicFile::write(path, (json + "\n").as_bytes())?)
 }
 
 /// The kernel's high-water mark of this process's resident memory, in bytes (Linux).

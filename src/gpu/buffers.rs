@@ -54,7 +54,7 @@ impl Buffers {
             buffers.insert(number, device.device.create_buffer_init(&descriptor));
         };
         upload(Binding::Tables as u32, "tables", bytemuck::cast_slice(&tables), usage(plan.uniform_tables));
-        upload(Binding::View as u32, "view", bytemuck::bytes_of(&packed.view), BufferUsages::UNIFORM);
+        upload(Binding::View as u32, "view", bytemuck::bytes_of(&packed.view), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
         upload(Binding::Vertex as u32, "vertices", &vertex_parameters(1), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
         let compiled = |switch: &str| plan.switches.enabled.contains(switch);
         let arrays: [(_, &[u8], _, _); 3] = [

@@ -4,6 +4,7 @@ use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
+use super::kernels::CompiledKernels;
 use super::driver_thread::{DriverThread, Fate, OPENING_THREAD, keep_panics_quiet, message};
 use crate::plan::{DeviceLimits, PlanOptions};
 use crate::renderer::{DeviceChoice, RenderError};
@@ -17,6 +18,8 @@ pub struct Device {
     pub queue: wgpu::Queue,
     failure: Arc<Mutex<Option<Failure>>>,
     driver: Arc<DriverThread>,
+    /// The kernels that were compiled last, for the next frame of a scene.
+    pub(super) kernels: Arc<CompiledKernels>,
 }
 
 /// What a submission may take, where nothing else is said.
@@ -158,7 +161,8 @@ impl Device {
             _ => remember(&seen, Failure::Lost(message)),
         });
         let driver = Arc::new(DriverThread::start(options.device_timeout.unwrap_or(DEFAULT_TIMEOUT)));
-        Ok(Self { name: adapter.get_info().name, limits, device, queue, failure, driver })
+        let name = adapter.get_info().name;
+        Ok(Self { name, limits, device, queue, failure, driver, kernels: Arc::default() })
     }
 
     /// The first error since the device was opened.
@@ -193,7 +197,7 @@ impl Device {
     /// Keeps a lost device from being closed, which a driver that hangs never finishes.
     pub fn leave_if_lost(&self) {
         if self.is_lost() {
-            std::mem::forget((self.device.clone(), self.queue.clone()));
+            std::mem::forget((self.device.clone(), self.queue.clone(), self.kernels.clone()));
         }
     }
 

@@ -1,5 +1,7 @@
 //! Compute pipelines, their bindings read off the shaders by naga.
 
+use std::sync::{Arc, Mutex, PoisonError};
+
 use naga::{AddressSpace, StorageAccess, TypeInner};
 use rayon::prelude::*;
 
@@ -74,11 +76,34 @@ pub fn used_bindings(module: &naga::Module, info: &naga::valid::ModuleInfo, entr
 }
 
 /// A stage that is compiled and not bound to anything yet, so that the scene can be uploaded meanwhile.
+#[derive(Clone)]
 pub struct CompiledStage {
     stage: &'static Stage,
+    /// What it was compiled from.
+    source: Arc<str>,
+    is_checked: bool,
     used: Vec<UsedBinding>,
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
+}
+
+/// The stages that a device compiled last. A scene whose kernels have the same text, as the next frame of an animation mostly does, takes them.
+#[derive(Default)]
+pub struct CompiledKernels(Mutex<Vec<CompiledStage>>);
+
+impl CompiledKernels {
+    fn find(&self, stage: &'static Stage, source: &str, is_checked: bool) -> Option<CompiledStage> {
+        let stages = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_it = |compiled: &&CompiledStage| {
+            let same_stage = compiled.stage.file == stage.file && compiled.stage.entry == stage.entry;
+            same_stage && compiled.is_checked == is_checked && *compiled.source == *source
+        };
+        stages.iter().find(is_it).cloned()
+    }
+
+    fn keep(&self, compiled: &[CompiledStage]) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = compiled.to_vec();
+    }
 }
 
 /// Compiles the plan's stages, side by side.
@@ -87,13 +112,19 @@ pub struct CompiledStage {
 /// [`RenderError::Internal`] for a mistake in the shaders, with file and line.
 pub fn compile(device: &Device, plan: &Plan) -> Result<Vec<CompiledStage>, RenderError> {
     let stages: Vec<&'static Stage> = plan.pipeline().collect();
-    stages.into_par_iter().map(|stage| compile_stage(device, plan, stage)).collect()
+    let compiled: Vec<CompiledStage> =
+        stages.into_par_iter().map(|stage| compile_stage(device, plan, stage)).collect::<Result<_, _>>()?;
+    device.kernels.keep(&compiled);
+    Ok(compiled)
 }
 
 fn compile_stage(device: &Device, plan: &Plan, stage: &'static Stage) -> Result<CompiledStage, RenderError> {
     let Stage { file, entry, .. } = *stage;
     let internal = |error: ComposeError| RenderError::Internal(error.to_string());
     let composed = shader::compose(file, &plan.switches).map_err(internal)?;
+    if let Some(compiled) = device.kernels.find(stage, &composed.text, plan.checked_shaders) {
+        return Ok(compiled);
+    }
     let (module, info) = composed.validate().map_err(internal)?;
     let used = used_bindings(&module, &info, entry);
     let entries: Vec<wgpu::BindGroupLayoutEntry> = used
@@ -131,7 +162,7 @@ fn compile_stage(device: &Device, plan: &Plan, stage: &'static Stage) -> Result<
         cache: None,
     });
     device.check()?;
-    Ok(CompiledStage { stage, used, layout, pipeline })
+    Ok(CompiledStage { stage, source: composed.text.into(), is_checked: plan.checked_shaders, used, layout, pipeline })
 }
 
 /// Binds compiled stages to their buffers.
@@ -143,7 +174,7 @@ pub fn bind(device: &Device, stages: Vec<CompiledStage>, buffers: &Buffers) -> R
 }
 
 fn bind_stage(device: &Device, compiled: CompiledStage, buffers: &Buffers) -> Result<Kernel, RenderError> {
-    let CompiledStage { stage, used, layout, pipeline } = compiled;
+    let CompiledStage { stage, used, layout, pipeline, .. } = compiled;
     let Stage { file, entry, .. } = *stage;
     let mut bound = Vec::new();
     for used in &used {

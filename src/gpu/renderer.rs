@@ -4,6 +4,8 @@ use std::cell::Cell;
 use std::mem::ManuallyDrop;
 use std::time::Instant;
 
+use glam::DVec3;
+
 use super::band::{BandProgress, Sweeps};
 use super::buffers::{STATISTICS_BYTES, STATISTICS_WORDS};
 use super::device::{Device, OpeningDevice};
@@ -13,12 +15,14 @@ use super::pipeline::Pipeline;
 use super::profile::{self, Profile};
 use super::trace::{self, GpuPathTrace};
 use crate::film::Band;
+use crate::packed::environment::PackedEnvironment;
+use crate::packed::view::View;
 use crate::packed::{PackError, PackedScene};
 use crate::plan::bindings::Binding;
 use crate::plan::{Plan, PlanOptions, StageMode};
 use crate::renderer::sink::Sink;
 use crate::renderer::state::Tally;
-use crate::renderer::{Batch, DeviceChoice, Ending, Observer, RenderError, RenderReport, Renderer, Stopping};
+use crate::renderer::{Batch, Change, DeviceChoice, Ending, Observer, RenderError, RenderReport, Renderer, Stopping};
 use crate::sampling::Sampling;
 use crate::scene::{MaterialId, Scene};
 
@@ -31,6 +35,9 @@ pub struct GpuRenderer {
     /// Which of the scene's materials the packed ones are.
     scene_materials: Vec<MaterialId>,
     pub(super) sizer: PassSizer,
+    /// What a camera that moves is put together with.
+    center: DVec3,
+    environment: PackedEnvironment,
 }
 
 impl GpuRenderer {
@@ -76,8 +83,15 @@ impl GpuRenderer {
             light_samples_depth: plan.light_samples_depth,
             ..Sampling::from(&scene.render)
         };
-        let pipeline = ManuallyDrop::new(pipeline);
-        Ok(Self { pipeline, size: scene.film.size, sampling, scene_materials: packed.materials.scene_ids, sizer })
+        Ok(Self {
+            pipeline: ManuallyDrop::new(pipeline),
+            size: scene.film.size,
+            sampling,
+            scene_materials: packed.materials.scene_ids,
+            sizer,
+            center: scene.center(),
+            environment: packed.environment,
+        })
     }
 
     /// Plans, uploads and compiles; for a film in bands where the device has no memory for all of it.
@@ -187,6 +201,26 @@ impl Drop for GpuRenderer {
 impl Renderer for GpuRenderer {
     fn device(&self) -> &str {
         &self.pipeline.device.name
+    }
+
+    fn with_scene(
+        mut self: Box<Self>,
+        scene: &Scene,
+        options: &PlanOptions,
+        change: Change,
+    ) -> Result<Box<dyn Renderer>, RenderError> {
+        if change == Change::Camera && scene.center() == self.center {
+            let start = Instant::now();
+            let view = View::new(&scene.centered(), &self.environment);
+            self.pipeline.write(Binding::View, bytemuck::bytes_of(&view));
+            self.pipeline.compile_seconds = 0.0;
+            self.pipeline.build_seconds = start.elapsed().as_secs_f64();
+            return Ok(self);
+        }
+        let device = self.pipeline.device.clone();
+        // Its memory is free before the next scene's is taken.
+        drop(self);
+        Ok(Box::new(Self::on(&device, scene, options)?))
     }
 
     fn holds_whole_film(&self) -> bool {

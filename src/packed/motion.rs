@@ -54,7 +54,8 @@ impl PackedMotion {
     /// None: the shape rests.
     pub fn new(shape: &Shape, shutter: [f64; 2]) -> Option<Self> {
         let motion = shape.motion.as_ref()?;
-        let steps: Vec<PackedStep> = motion.steps.iter().map(|&step| PackedStep::new(step, shutter)).collect();
+        let shares = shutter.map(|time| motion.share(time));
+        let steps: Vec<PackedStep> = motion.steps.iter().map(|&step| PackedStep::new(step, shares)).collect();
         let origin = shape.origin();
         let (relative, _) = bend(&steps, 1.0);
         let times = (relative / (8.0 * DEVIATION)).sqrt().ceil().clamp(1.0, MOST_TIMES) as u32;
@@ -112,6 +113,9 @@ impl PackedStep {
             MotionStep::Rotate { axis, degrees } => {
                 let turns = degrees / 360.0;
                 Self::Rotate { axis: axis.normalize(), start: (turns * open).rem_euclid(1.0), change: turns * (close - open) }
+            }
+            MotionStep::Turned { axis, degrees } => {
+                Self::Rotate { axis: axis.normalize(), start: (degrees / 360.0).rem_euclid(1.0), change: 0.0 }
             }
         }
     }

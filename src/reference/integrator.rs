@@ -28,6 +28,8 @@ const LARGEST_SURVIVAL: f64 = 0.999;
 #[derive(Debug, Clone)]
 pub struct Integrator {
     scene: Scene,
+    /// What the scene was moved by.
+    center: DVec3,
     world: World,
     lights: Lights,
     camera: ProjectiveCamera,
@@ -63,13 +65,24 @@ impl Integrator {
     /// Takes positions relative to the scene's [center](Scene::center). Fails on what the reference cannot render.
     pub fn new(scene: &Scene) -> Result<Self, RenderError> {
         scene.validate()?;
+        let center = scene.center();
         let scene = &*scene.centered();
         let world = World::new(scene)?;
         let lights = Lights::new(scene, &world);
         let camera = ProjectiveCamera::new(&scene.camera, &scene.film);
         let moves = scene.shapes.iter().any(|shape| shape.motion.is_some());
         let lets_through = scene.materials_that(|material| matches!(material.kind, MaterialKind::Pass));
-        Ok(Self { scene: scene.clone(), world, lights, camera, moves, lets_through })
+        Ok(Self { scene: scene.clone(), center, world, lights, camera, moves, lets_through })
+    }
+
+    /// Looks at the scene as another frame's camera does; false where the scene is then to be moved elsewhere, and nothing has changed.
+    pub fn set_camera(&mut self, scene: &Scene) -> bool {
+        if scene.center() != self.center {
+            return false;
+        }
+        self.scene.camera = scene.centered().camera.clone();
+        self.camera = ProjectiveCamera::new(&self.scene.camera, &self.scene.film);
+        true
     }
 
     pub fn scene(&self) -> &Scene {

@@ -17,7 +17,8 @@ use crate::film::KernelLayer;
 use crate::math::luminance;
 use crate::renderer::sink::Sink;
 use crate::renderer::state::{MOST_SAMPLES_PER_SWEEP, Tally};
-use crate::renderer::{Batch, Ending, Observer, RenderError, RenderReport, RenderRequest, Renderer, Stopping};
+use crate::plan::PlanOptions;
+use crate::renderer::{Batch, Change, Ending, Observer, RenderError, RenderReport, RenderRequest, Renderer, Stopping};
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
 use crate::scene::Scene;
 
@@ -333,6 +334,22 @@ fn is_acceptable(radiance: DVec3) -> bool {
 impl Renderer for ReferenceRenderer {
     fn device(&self) -> &str {
         "CPU reference"
+    }
+
+    fn with_scene(
+        mut self: Box<Self>,
+        scene: &Scene,
+        _options: &PlanOptions,
+        change: Change,
+    ) -> Result<Box<dyn Renderer>, RenderError> {
+        let start = Instant::now();
+        if change == Change::Camera && self.integrator.set_camera(scene) {
+            self.build_seconds = start.elapsed().as_secs_f64();
+            return Ok(self);
+        }
+        let layer = self.layer;
+        drop(self);
+        Ok(Box::new(Self::of_layer(scene, layer)?))
     }
 
     fn holds_whole_film(&self) -> bool {

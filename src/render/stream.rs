@@ -11,8 +11,8 @@ use super::progressive::{self, Goal, Outcome};
 use crate::error::Error;
 use crate::film::Band;
 use crate::output::Provenance;
-use crate::renderer::{self, Observer, RenderError};
-use crate::scene::{self, Scene};
+use crate::renderer::{self, Change, Observer, RenderError};
+use crate::scene::{BulkDigest, Scene};
 
 /// A scene made ready on a device: packed, uploaded, its kernels compiled. It may be rendered any number of times.
 ///
@@ -35,6 +35,7 @@ pub struct Renderer {
     film: [u32; 2],
     size: [u32; 2],
     provenance: Provenance,
+    bulk: BulkDigest,
 }
 
 impl Renderer {
@@ -61,18 +62,45 @@ impl Renderer {
     #[doc(hidden)]
     pub fn on(choice: Choice, scene: &Scene, options: &RenderOptions) -> Result<Self, RenderError> {
         let ChosenRenderer { renderer, notice } = choice.renderer(scene, &options.plan_options())?;
-        let provenance = Self::provenance_of(scene, options, renderer.device());
+        let bulk = BulkDigest::of(scene);
+        let provenance = Self::provenance_with(&bulk, scene, options, renderer.device());
         let film = scene.film.size;
         let size = options.crop.map_or(film, |[_, _, width, height]| [width, height]);
-        Ok(Self { renderer, notice, options: options.clone(), film, size, provenance })
+        Ok(Self { renderer, notice, options: options.clone(), film, size, provenance, bulk })
+    }
+
+    /// Goes on to another frame of the scene, on the same device and with all that does not change. Both are [`Scene::at_frame`] of one scene, with
+    /// one size and the same settings.
+    ///
+    /// # Errors
+    /// As [`Renderer::new`]. There is no renderer any more then.
+    #[doc(hidden)]
+    pub fn at_frame(self, before: &Scene, scene: &Scene) -> Result<Self, RenderError> {
+        let Self { renderer, notice, options, film, size, bulk, .. } = self;
+        let change = if scene.shapes_stand_as_in(before) { Change::Camera } else { Change::Shapes };
+        let renderer = renderer.with_scene(scene, &options.plan_options(), change)?;
+        let provenance = Self::provenance_with(&bulk, scene, &options, renderer.device());
+        Ok(Self { renderer, notice, options, film, size, provenance, bulk })
+    }
+
+    /// A fingerprint of the scene's meshes and pictures, which all of its frames share.
+    #[doc(hidden)]
+    pub fn bulk_digest(&self) -> &BulkDigest {
+        &self.bulk
     }
 
     /// What the headers of pictures of the scene say that are rendered with these options on a device of this name.
     #[doc(hidden)]
     pub fn provenance_of(scene: &Scene, options: &RenderOptions, device: &str) -> Provenance {
+        Self::provenance_with(&BulkDigest::of(scene), scene, options, device)
+    }
+
+    /// The same, with what was hashed of the scene's meshes and pictures before.
+    #[doc(hidden)]
+    pub fn provenance_with(bulk: &BulkDigest, scene: &Scene, options: &RenderOptions, device: &str) -> Provenance {
         Provenance {
             scene: scene.name.clone(),
-            scene_hash: scene::digest(scene),
+            scene_hash: bulk.digest(scene),
             settings: scene.render.clone(),
             filter: scene.film.filter,
             first_sample: options.first_sample,

@@ -7,6 +7,7 @@ use glam::{Vec2, Vec3};
 use sha2::{Digest, Sha256};
 
 use super::image::ImageData;
+use super::light::Light;
 use super::model::Scene;
 use super::shape::{Geometry, Mesh};
 use super::texture::TextureKind;
@@ -14,24 +15,57 @@ use super::texture::TextureKind;
 /// SHA-256, in hexadecimal, of everything that decides what the scene looks like: shapes, materials, textures, lights and camera.
 /// Its name, the picture's size and the way of estimating are left out, since a picture's header states them by themselves.
 pub fn digest(scene: &Scene) -> String {
-    let mut hash = Sha256::new();
-    // Bulk data is hashed as bytes, since printing millions of numbers takes seconds; the rest by how it prints.
+    BulkDigest::of(scene).digest(scene)
+}
+
+/// A fingerprint in the making, of meshes and pictures alone: what frames of one scene have in common, and what takes time.
+#[derive(Clone)]
+pub struct BulkDigest(Sha256);
+
+impl BulkDigest {
+    /// Reads all meshes and pictures of a scene.
+    pub fn of(scene: &Scene) -> Self {
+        // Bulk data is hashed as bytes, since printing millions of numbers takes seconds; the rest by how it prints.
+        let mut hash = Sha256::new();
+        for shape in &scene.shapes {
+            if let Geometry::Mesh(mesh) = &shape.geometry {
+                hash_mesh(&mut hash, mesh);
+            }
+        }
+        for texture in &scene.textures {
+            if let TextureKind::Image(image) = &texture.kind {
+                hash_image(&mut hash, &image.image);
+            }
+        }
+        for image in scene.lights.iter().filter_map(Light::image) {
+            hash_image(&mut hash, image);
+        }
+        Self(hash)
+    }
+
+    /// The [`digest`] of a scene that has these meshes and pictures.
+    pub fn digest(&self, scene: &Scene) -> String {
+        finish(self.0.clone(), scene)
+    }
+}
+
+/// Adds everything but the contents of meshes and pictures.
+fn finish(mut hash: Sha256, scene: &Scene) -> String {
     let mut rest = scene.clone();
     for shape in &mut rest.shapes {
         shape.label.clear();
         if let Geometry::Mesh(mesh) = &mut shape.geometry {
-            hash_mesh(&mut hash, mesh);
             *mesh = Arc::default();
         }
     }
     for texture in &mut rest.textures {
         if let TextureKind::Image(image) = &mut texture.kind {
-            image.image = hash_image(&mut hash, &image.image);
+            image.image = emptied(&image.image);
         }
     }
     for light in &mut rest.lights {
         if let Some(image) = light.image_mut() {
-            *image = hash_image(&mut hash, image);
+            *image = emptied(image);
         }
     }
     let printed =
@@ -61,10 +95,13 @@ fn hash_mesh(hash: &mut Sha256, mesh: &Mesh) {
     hash.update([u8::from(mesh.smooth)]);
 }
 
-/// Hashes the texels and returns the image without them.
-fn hash_image(hash: &mut Sha256, image: &ImageData) -> Arc<ImageData> {
+fn hash_image(hash: &mut Sha256, image: &ImageData) {
     hash.update((image.texels.len() as u64).to_le_bytes());
     hash.update(image.texels.as_bytes());
+}
+
+/// The image without its texels.
+fn emptied(image: &ImageData) -> Arc<ImageData> {
     let ImageData { width, height, has_alpha, ref texels } = *image;
     Arc::new(ImageData { width, height, has_alpha, texels: texels.emptied() })
 }

@@ -46,6 +46,11 @@ trait SceneLight {
     fn image_mut(&mut self) -> Option<&mut Arc<ImageData>> {
         None
     }
+
+    /// The same to look at.
+    fn image(&self) -> Option<&ImageData> {
+        None
+    }
 }
 
 /// By what a light is weighed among all that are sampled.
@@ -150,6 +155,13 @@ impl SceneLight for Environment {
 
     fn image_mut(&mut self) -> Option<&mut Arc<ImageData>> {
         match &mut self.radiance {
+            EnvironmentRadiance::Map(image) => Some(image),
+            EnvironmentRadiance::Constant(_) => None,
+        }
+    }
+
+    fn image(&self) -> Option<&ImageData> {
+        match &self.radiance {
             EnvironmentRadiance::Map(image) => Some(image),
             EnvironmentRadiance::Constant(_) => None,
         }
@@ -377,5 +389,10 @@ impl Light {
     /// Its picture, if it has one.
     pub(super) fn image_mut(&mut self) -> Option<&mut Arc<ImageData>> {
         self.model_mut().image_mut()
+    }
+
+    /// The same to look at.
+    pub(super) fn image(&self) -> Option<&ImageData> {
+        self.model().image()
     }
 }

@@ -6,6 +6,7 @@
 //! Conventions: right-handed, +Y up by default, lengths in scene units, angles in degrees as written and in radians where a
 //! name says so, colours linear Rec.709 RGB, radiance in W·sr⁻¹·m⁻².
 
+pub mod animation;
 mod blend_tree;
 pub mod camera;
 mod check;
@@ -26,9 +27,10 @@ pub mod texture;
 pub mod transform;
 pub mod validate;
 
+pub use animation::Animation;
 pub use blend_tree::{MOST_LEAVES, check_blends};
 pub use camera::{Aperture, ApertureShape, Camera, Projection};
-pub use digest::digest;
+pub use digest::{BulkDigest, digest};
 pub use image::{Channel, ColorSpace, ImageData, Texels};
 pub use import_report::{ImportReport, ReportItem};
 pub use light::{

@@ -1,5 +1,8 @@
 //! The scene itself.
 
+use std::sync::Arc;
+
+use super::animation::Animation;
 use super::camera::Camera;
 use super::import_report::ImportReport;
 use super::light::Light;
@@ -35,6 +38,9 @@ pub struct Scene {
     /// What is not rendered exactly as an imported file says it.
     #[doc(hidden)]
     pub import_report: ImportReport,
+    /// What is elsewhere at another frame; see [`Scene::at_frame`].
+    #[doc(hidden)]
+    pub animation: Arc<Animation>,
     /// The files that meshes and pictures came from.
     #[doc(hidden)]
     pub sources: Sources,

@@ -3,19 +3,36 @@
 use glam::{DAffine3, DQuat, DVec3};
 
 /// Steps applied in this order after a shape's `transform`, along the world's axes and about the shape's own origin, that is where
-/// `transform` puts the shape's (0, 0, 0). Each is interpolated by itself, at rest at shutter time 0 and reached at time 1: a rotation
-/// turns evenly about its axis, which no blend of matrices does. Times beyond 0 and 1 extrapolate.
-#[derive(Debug, Clone, PartialEq, Default)]
+/// `transform` puts the shape's (0, 0, 0). Each is interpolated by itself, at rest at one shutter time and reached at another: a rotation
+/// turns evenly about its axis, which no blend of matrices does. Times beyond the two extrapolate.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
     pub steps: Vec<MotionStep>,
+    /// The shutter times of rest and of the steps as they are written: 0 and 1 in scene files.
+    pub rest: f64,
+    pub reached: f64,
 }
 
-/// One step as it is at shutter time 1.
+impl Default for Motion {
+    fn default() -> Self {
+        Self { steps: Vec::new(), rest: 0.0, reached: 1.0 }
+    }
+}
+
+/// One step as it is where it is reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum MotionStep {
     Scale(DVec3),
-    Rotate { axis: DVec3, degrees: f64 },
+    Rotate {
+        axis: DVec3,
+        degrees: f64,
+    },
     Translate(DVec3),
+    /// A turn that is the same at all times. Before and after a scale, it and its inverse turn the axes of the scale.
+    Turned {
+        axis: DVec3,
+        degrees: f64,
+    },
 }
 
 /// Smallest factor by which a moving shape may be scaled. Below, single precision loses the shape.
@@ -38,10 +55,13 @@ impl MotionStep {
                 DAffine3::from_quat(DQuat::from_axis_angle(axis.normalize(), degrees.to_radians() * time))
             }
             Self::Translate(offset) => DAffine3::from_translation(offset * time),
+            Self::Turned { axis, degrees } => {
+                DAffine3::from_quat(DQuat::from_axis_angle(axis.normalize(), degrees.to_radians()))
+            }
         }
     }
 
-    /// Whether the step can be followed over the whole shutter.
+    /// Whether the step can be followed over the whole shutter, whose times are 0 at rest and 1 where the step is reached.
     ///
     /// # Errors
     /// What is wrong, in words.
@@ -57,21 +77,33 @@ impl MotionStep {
             Self::Rotate { degrees, .. } if (degrees * (close - open)).abs() > 360.0 * MOST_TURNS => {
                 Err(format!("the shape turns more than {MOST_TURNS} times while the shutter is open"))
             }
-            Self::Rotate { .. } | Self::Translate(_) => Ok(()),
+            Self::Rotate { .. } | Self::Translate(_) | Self::Turned { .. } => Ok(()),
         }
     }
 }
 
 impl Motion {
-    /// The map from the world at time 0 to the world at `time` of what stands about `origin`.
+    /// The steps as scene files have them: at rest at shutter time 0, reached at time 1.
+    pub fn new(steps: Vec<MotionStep>) -> Self {
+        Self { steps, ..Self::default() }
+    }
+
+    /// A shutter time as the steps count it: 0 at rest, 1 where they are reached.
+    pub fn share(&self, time: f64) -> f64 {
+        if self.rest == 0.0 && self.reached == 1.0 { time } else { (time - self.rest) / (self.reached - self.rest) }
+    }
+
+    /// The map from the world at rest to the world at `time` of what stands about `origin`.
     pub fn at(&self, time: f64, origin: DVec3) -> DAffine3 {
+        let time = self.share(time);
         let to_origin = DAffine3::from_translation(-origin);
         let moved = self.steps.iter().fold(to_origin, |so_far, step| step.at(time) * so_far);
         DAffine3::from_translation(origin) * moved
     }
 
     /// A bound on the speed, in lengths per shutter time, of points that at rest are within `radius` of the origin.
-    pub fn greatest_speed(&self, radius: f64, [open, close]: [f64; 2]) -> f64 {
+    pub fn greatest_speed(&self, radius: f64, shutter: [f64; 2]) -> f64 {
+        let [open, close] = shutter.map(|time| self.share(time));
         let (mut farthest, mut speed) = (radius, 0.0);
         let latest = open.abs().max(close.abs());
         for step in &self.steps {
@@ -87,9 +119,10 @@ impl Motion {
                     speed += offset.length();
                     farthest += offset.length() * latest;
                 }
+                MotionStep::Turned { .. } => {}
             }
         }
-        speed
+        speed / (self.reached - self.rest)
     }
 }
 
@@ -98,7 +131,7 @@ mod tests {
     use super::*;
 
     fn motion(steps: &[MotionStep]) -> Motion {
-        Motion { steps: steps.to_vec() }
+        Motion::new(steps.to_vec())
     }
 
     /// A turn about the origin keeps lengths at all times; a blend of the matrices at rest and in the end does not.

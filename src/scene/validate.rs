@@ -43,7 +43,7 @@ impl Scene {
         let words = |bad: BadSetting| bad.to_string();
         of(|| "film".into(), self.film.check().map_err(words))?;
         of(|| "render settings".into(), self.render.check().map_err(words))?;
-        of(|| "camera".into(), camera(&self.camera))?;
+        of(|| "camera".into(), check_camera(&self.camera))?;
         for texture in &self.textures {
             of(|| format!("texture `{}`", texture.name), check_texture(texture))?;
         }
@@ -128,14 +128,7 @@ impl Scene {
     }
 
     fn check_shape(&self, shape: &Shape, textured: &[bool]) -> Check {
-        let map = shape.transform.to_affine();
-        let determinant = map.matrix3.determinant();
-        if determinant == 0.0 || !determinant.is_finite() || !map.translation.is_finite() {
-            return Err("the transform is singular".into());
-        }
-        if shape.geometry.is_round() && shape.transform.uniform_scale().is_none() {
-            return Err(shape.geometry.stays_round());
-        }
+        shape.check_place()?;
         shape.check_motion(self.camera.shutter).map_err(|(_, message)| message)?;
         shape.geometry.check()?;
         if shape.portal && shape.geometry.is_infinite() {
@@ -161,7 +154,8 @@ impl Scene {
     }
 }
 
-fn camera(camera: &Camera) -> Check {
+/// Whether pictures can be taken with the camera.
+pub(super) fn check_camera(camera: &Camera) -> Check {
     if !camera.frame().into_iter().all(DVec3::is_finite) || !camera.position.is_finite() {
         return Err("it looks at the point it stands at, or along `up`".into());
     }

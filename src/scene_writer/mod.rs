@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use crate::load::file::write_light;
 use crate::load::file::writer::{Names, SideFiles, Writer};
 use crate::output::{AtomicFile, OutputError};
-use crate::scene::Scene;
+use crate::scene::{Motion, Scene};
 use needed::Needed;
 
 /// Writes the scene as a TOML file, and in the folder `NAME.files` beside it the meshes and pictures that come from no file. All files that
@@ -24,6 +24,11 @@ use needed::Needed;
 /// # Errors
 /// Files that cannot be written, and what no scene file can say, in a sentence.
 pub fn save_scene(scene: &Scene, path: &Path) -> Result<Vec<PathBuf>, OutputError> {
+    let of_keyframes = |motion: &Motion| motion.rest != 0.0 || motion.reached != 1.0;
+    if !scene.animation.is_empty() || scene.shapes.iter().filter_map(|shape| shape.motion.as_ref()).any(of_keyframes) {
+        let what = "keyframes cannot be written; the file that the scene came from has them".to_owned();
+        return Err(OutputError::Encode { path: path.to_owned(), what });
+    }
     let (text, files) = scene_text(scene, path);
     let mut written = write_files(files)?;
     AtomicFile::write(path, text.as_bytes())?;

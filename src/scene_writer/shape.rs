@@ -43,7 +43,9 @@ fn transform_step(step: &TransformStep) -> String {
 fn motion_step(step: &MotionStep) -> String {
     match *step {
         MotionStep::Scale(factors) => format!("{{ scale = {} }}", vector(factors)),
-        MotionStep::Rotate { axis, degrees } => format!("{{ rotate = {}, degrees = {} }}", direction(axis), number(degrees)),
+        MotionStep::Rotate { axis, degrees } | MotionStep::Turned { axis, degrees } => {
+            format!("{{ rotate = {}, degrees = {} }}", direction(axis), number(degrees))
+        }
         MotionStep::Translate(offset) => format!("{{ translate = {} }}", vector(offset)),
     }
 }

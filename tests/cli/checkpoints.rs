@@ -77,7 +77,7 @@ fn a_render_that_is_killed_goes_on_bit_for_bit() {
 
 /// Waits until the file is there.
 #[cfg(unix)]
-fn wait_for(place: &Workplace, name: &str) {
+pub fn wait_for(place: &Workplace, name: &str) {
     let start = Instant::now();
     while !place.path(name).exists() {
         assert!(start.elapsed() < Duration::from_secs(60), "{name} never came");

@@ -9,6 +9,7 @@ mod documents;
 mod endings;
 mod farm;
 mod faults;
+mod frames;
 mod goals;
 mod imports;
 mod inputs;

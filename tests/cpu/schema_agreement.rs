@@ -15,6 +15,8 @@ use crate::statistics::random::SplitMix64;
 
 /// Parts of messages about names and relations. JSON has no whole numbers apart from others, so random files have no 1.0 in the place of a 1.
 const RELATIONS: &[&str] = &[
+    "there is no node named",
+    "keyframes stand in the order",
     "there is no texture named",
     "there is no material named",
     "is named `",

@@ -209,7 +209,7 @@ fn random_motion(random: &mut SplitMix64) -> Motion {
         1 => MotionStep::Rotate { axis: random_vector(random, 1.0), degrees: 720.0 * (random.uniform() - 0.5) },
         _ => MotionStep::Translate(random_vector(random, 3.0)),
     };
-    Motion { steps: (0..count).map(|_| step(random)).collect() }
+    Motion::new((0..count).map(|_| step(random)).collect())
 }
 
 /// A primitive of a random kind, and a function that gives points of it by two numbers in [0, 1].

@@ -178,6 +178,22 @@ impl Shape {
         self.motion.as_ref().map(|motion| motion.at(time, self.origin()))
     }
 
+    /// Whether it has a place: its transform leaves a volume, and what is round stays round.
+    ///
+    /// # Errors
+    /// What is wrong, in words.
+    pub fn check_place(&self) -> Result<(), String> {
+        let map = self.transform.to_affine();
+        let determinant = map.matrix3.determinant();
+        if determinant == 0.0 || !determinant.is_finite() || !map.translation.is_finite() {
+            return Err("the transform is singular".into());
+        }
+        if self.geometry.is_round() && self.transform.uniform_scale().is_none() {
+            return Err(self.geometry.stays_round());
+        }
+        Ok(())
+    }
+
     /// Whether renderers can follow the shape's motion while the shutter is open.
     ///
     /// # Errors
@@ -190,8 +206,9 @@ impl Shape {
         if self.portal {
             return Err((None, "a portal cannot move".to_owned()));
         }
+        let shares = shutter.map(|time| motion.share(time));
         for (index, step) in motion.steps.iter().enumerate() {
-            step.check(shutter).map_err(|message| (Some(index), message))?;
+            step.check(shares).map_err(|message| (Some(index), message))?;
             if let MotionStep::Scale(scale) = step
                 && self.geometry.is_round()
                 && scale.max_element() != scale.min_element()

@@ -217,7 +217,7 @@ fn each_mistake_is_named_with_its_part() {
             "rectangle: the transform is singular",
         ),
         (
-            |s| s.shapes[3].motion = Some(Motion { steps: vec![MotionStep::Scale(DVec3::ZERO)] }),
+            |s| s.shapes[3].motion = Some(Motion::new(vec![MotionStep::Scale(DVec3::ZERO)])),
             "rectangle: the scale shrinks the shape to nothing",
         ),
         (|s| s.shapes[4].geometry = Geometry::Box(Cuboid { min: DVec3::ONE, max: DVec3::ZERO }), "box: its numbers"),

@@ -23,6 +23,10 @@ pub fn resolve(document: Document<'_>, folder: &Path, file: SceneFile, access: A
     resolver.note(settings);
     let camera = resolver.camera(&file.camera);
     resolver.note(camera);
+    let animation = resolver.animation(&file);
+    if resolver.note(animation).is_none() {
+        return resolver.finish();
+    }
     // Where names are not clear, whatever names something would seem wrong.
     let textures = resolver.textures(&file.texture);
     if resolver.note(textures).is_none() {

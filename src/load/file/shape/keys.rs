@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::transform::TransformEntry;
 use crate::load::error::SceneError;
+use crate::load::file::animation::WrittenTrack;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::Located;
 use crate::load::file::writer::Writer;
@@ -30,6 +31,11 @@ macro_rules! shape_keys {
         #[derive(Debug, serde::Deserialize, schemars::JsonSchema)]
         #[serde(deny_unknown_fields, expecting = "a table")]
         #[schemars(rename = $name)]
+        #[schemars(extend("dependentSchemas" = {
+            "keyframes": { "not": { "required": ["motion"] } },
+            "node": { "not": { "required": ["motion"] } },
+            "interpolation": { "required": ["keyframes"] },
+        }))]
         $(#[$doc])*
         pub struct Keys {
             $($(#[$field_doc])* $field: $type,)*
@@ -45,6 +51,13 @@ macro_rules! shape_keys {
                 { "type": "array", "contains": { "type": "object", "required": ["matrix"] } },
             ] } }]))]
             motion: Option<$crate::load::file::value::Located<$crate::load::file::shape::transform::TransformEntry>>,
+            /// Where the shape stands at frames (`--frame`, `--frames`, `--time`), in place of `transform`, where it stands without one.
+            #[schemars(extend("minItems" = 1))]
+            keyframes: Option<$crate::load::file::value::Located<Vec<$crate::load::file::value::Located<$crate::load::file::animation::TransformKeyEntry>>>>,
+            /// How keyframes lead from one to the next; "linear" when left out.
+            interpolation: Option<$crate::load::file::value::Located<$crate::load::file::animation::InterpolationName>>,
+            /// A `[[node]]` that takes the shape along at frames.
+            node: Option<$crate::load::file::value::Located<String>>,
             /// Sample the directions through this shape for the environment's light as if the shape were a light: a window. Its
             /// material is of type `pass`; a surface that emits is sampled as a light in any case.
             #[serde(default)]
@@ -58,6 +71,12 @@ macro_rules! shape_keys {
                     transform: self.transform.as_ref(),
                     motion: self.motion.as_ref(),
                     portal: self.portal,
+                    track: $crate::load::file::animation::WrittenTrack {
+                        keyframes: self.keyframes.as_ref(),
+                        interpolation: self.interpolation.as_ref(),
+                        node: self.node.as_ref(),
+                        has_motion: self.motion.is_some(),
+                    },
                 }
             }
         }
@@ -71,6 +90,7 @@ pub struct CommonKeys<'a> {
     pub transform: Option<&'a Located<TransformEntry>>,
     pub motion: Option<&'a Located<TransformEntry>>,
     pub portal: bool,
+    pub track: WrittenTrack<'a>,
 }
 
 /// A shape whose geometry is about to be resolved.

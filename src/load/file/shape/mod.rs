@@ -10,7 +10,7 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-pub use self::transform::TransformEntry;
+pub use self::transform::{ScaleEntry, TransformEntry};
 
 use self::keys::{CommonKeys, ShapeKeys, Written};
 use self::mesh_file::Replaced;
@@ -75,8 +75,11 @@ impl Resolver<'_> {
     pub(super) fn shapes(&mut self, written: &[Located<ShapeEntry>]) {
         for (index, entry) in written.iter().enumerate() {
             let shape = self.checked_shape(index, entry);
-            let shape = self.note(shape);
-            self.scene.shapes.extend(shape);
+            if let Some(shape) = self.note(shape) {
+                let track = self.shape_track(entry.value.common().track, &shape);
+                self.note(track);
+                self.scene.shapes.push(shape);
+            }
         }
     }
 

@@ -112,7 +112,7 @@ impl Resolver<'_> {
             }
             TransformEntry::Single(step) => vec![self.motion_step(&written.span, step)?],
         };
-        Ok((!steps.is_empty()).then_some(Motion { steps }))
+        Ok((!steps.is_empty()).then_some(Motion::new(steps)))
     }
 
     fn motion_step(&self, span: &Range<usize>, written: &StepEntry) -> Result<MotionStep, SceneError> {

@@ -15,6 +15,7 @@ use serde::Deserialize;
 pub use render::RenderTable;
 pub use texture::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 
+use super::animation::{AnimationTable, CameraKeyEntry, InterpolationName, NodeEntry};
 use super::import::ImportEntry;
 use super::light::LightEntry;
 use super::material::MaterialEntry;
@@ -32,6 +33,9 @@ pub struct SceneFile {
     #[serde(default)]
     pub render: RenderTable,
     pub camera: CameraTable,
+    pub animation: Option<AnimationTable>,
+    #[serde(default)]
+    pub node: Vec<Located<NodeEntry>>,
     #[serde(default)]
     pub texture: Vec<TextureEntry>,
     #[serde(default)]
@@ -54,6 +58,9 @@ pub struct PartOfFile {
     film: Option<FilmTable>,
     render: Option<RenderTable>,
     camera: Option<CameraTable>,
+    animation: Option<AnimationTable>,
+    #[serde(default)]
+    node: Vec<Located<NodeEntry>>,
     #[serde(default)]
     pub texture: Vec<TextureEntry>,
     #[serde(default)]
@@ -98,7 +105,7 @@ pub struct FilterKeys {
 /// Where the picture is taken from.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
-#[schemars(extend("dependentRequired" = { "aperture": ["focus_distance"] }, "allOf" = [{ "oneOf": [
+#[schemars(extend("dependentRequired" = { "aperture": ["focus_distance"], "interpolation": ["keyframes"] }, "allOf" = [{ "oneOf": [
     { "required": ["vfov"], "not": { "required": ["height"] }, "properties": { "projection": { "const": "perspective" } } },
     { "required": ["height", "projection"], "not": { "required": ["vfov"] }, "properties": { "projection": { "const": "orthographic" } } },
 ] }]))]
@@ -118,8 +125,16 @@ pub struct CameraTable {
     pub aperture: Option<Located<ApertureEntry>>,
     /// Distance along the viewing direction of the plane in focus; needed with an aperture.
     pub focus_distance: Option<Checked<Positive>>,
-    /// Times at which the shutter opens and closes, [0, 1] when left out.
+    /// Times at which the shutter opens and closes, [0, 1] when left out. Where there are keyframes they count in frames from the frame itself: 1 is
+    /// the next frame.
     pub shutter: Option<Located<Exactly<Number, 2>>>,
+    /// The camera at frames (`--frame`, `--frames`, `--time`); without one it is what the other keys say.
+    #[schemars(extend("minItems" = 1))]
+    pub keyframes: Option<Located<Vec<Located<CameraKeyEntry>>>>,
+    /// How keyframes lead from one to the next; "linear" when left out.
+    pub interpolation: Option<Located<InterpolationName>>,
+    /// A `[[node]]` that takes the camera along at frames.
+    pub node: Option<Located<String>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]

@@ -122,9 +122,11 @@ fn everything() -> Scene {
     scene.materials[5].normal_map = Some(2);
     scene.materials[3].two_sided = false;
     scene.materials[12].two_sided = false;
-    let turning = Motion {
-        steps: vec![MotionStep::Rotate { axis: DVec3::Y, degrees: 40.0 }, MotionStep::Translate(DVec3::X), MotionStep::Scale(b)],
-    };
+    let turning = Motion::new(vec![
+        MotionStep::Rotate { axis: DVec3::Y, degrees: 40.0 },
+        MotionStep::Translate(DVec3::X),
+        MotionStep::Scale(b),
+    ]);
     let ball = |x: f64| Geometry::Sphere(Sphere { center: DVec3::new(x, 4.0, 0.0), radius: 1.0 });
     let sheet = |z: f64| Geometry::Rectangle(Rectangle { corner: DVec3::new(0.0, 0.0, z), edge_u: DVec3::X, edge_v: DVec3::Y });
     let disk = Geometry::Disk(Disk { center: DVec3::new(0.0, 8.0, 0.0), normal: DVec3::Y, radius: 1.0 });

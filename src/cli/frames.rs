@@ -1,0 +1,215 @@
+//! `--frame`, `--frames` and `--time`: which frames, and what their files are called.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use gpt::scene::Animation;
+
+use super::exit::Failure;
+use super::pictures::is_stdout;
+
+/// Most frames of one render.
+const MOST_FRAMES: usize = 1_000_000;
+/// Largest number of a frame.
+const LAST_FRAME: u32 = 100_000_000;
+/// What stands for a frame's number in the name of a file; as many of them as the number has digits at least.
+const PLACE: char = '#';
+
+/// Which frames of the scene's keyframes are rendered.
+#[derive(Debug, Default, Args)]
+pub struct FrameArguments {
+    /// Render frame N of the scene's keyframes; #### in the names of files stands for N
+    #[arg(long, value_name = "N", value_parser = parse_frame)]
+    pub frame: Option<u32>,
+    /// Render several frames, such as 1-100, 1-100x5 (every fifth) or 1,5,20-30, each to files of its own: #### in their names stands for its number
+    #[arg(long, value_name = "FRAMES", value_parser = FrameList::parse, conflicts_with = "frame")]
+    pub frames: Option<FrameList>,
+    /// Render the moment so many seconds after frame 0
+    #[arg(long, value_name = "SECONDS", value_parser = parse_time, allow_negative_numbers = true, conflicts_with_all = ["frame", "frames"])]
+    pub time: Option<f64>,
+}
+
+/// Numbers of frames in the order in which they are rendered, each once.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FrameList(pub Vec<u32>);
+
+/// What is rendered of a scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Moment {
+    /// The scene as it is without a frame.
+    Rest,
+    Frame(u32),
+    /// A frame that has no number.
+    Between(f64),
+}
+
+impl Moment {
+    /// The frame, where there is one.
+    pub fn frame(self) -> Option<f64> {
+        match self {
+            Self::Rest => None,
+            Self::Frame(number) => Some(f64::from(number)),
+            Self::Between(frame) => Some(frame),
+        }
+    }
+}
+
+impl FrameArguments {
+    /// Whether several frames may be asked for, so that each needs files of its own.
+    pub fn is_sequence(&self) -> bool {
+        self.frames.is_some()
+    }
+
+    /// What is to be rendered of a scene with these keyframes.
+    ///
+    /// # Errors
+    /// A usage error where there are none.
+    pub fn moments(&self, animation: &Animation) -> Result<Vec<Moment>, Failure> {
+        let moments = match (self.frame, &self.frames, self.time) {
+            (Some(frame), ..) => vec![Moment::Frame(frame)],
+            (_, Some(FrameList(frames)), _) => frames.iter().map(|&frame| Moment::Frame(frame)).collect(),
+            (_, _, Some(time)) => vec![Moment::Between(time * animation.frames_per_second)],
+            (None, None, None) => return Ok(vec![Moment::Rest]),
+        };
+        if animation.is_empty() {
+            let flag = if self.frame.is_some() { "--frame" } else if self.frames.is_some() { "--frames" } else { "--time" };
+            return Err(Failure::Usage {
+                message: format!("{flag}: the scene has no keyframes, so all of its frames would be the same"),
+                help: Some("`keyframes` of [camera], of a [[shape]] or of a [[node]] move things; see docs/animation.md".to_owned()),
+            });
+        }
+        Ok(moments)
+    }
+
+    /// The first number for the names of files, before the scene is read.
+    pub fn first_number(&self) -> Option<u32> {
+        self.frame.or_else(|| self.frames.as_ref().and_then(|FrameList(frames)| frames.first().copied()))
+    }
+
+    /// Whether the files of all frames have names of their own.
+    ///
+    /// # Errors
+    /// A usage error that names the first file that has not.
+    pub fn check_names<'p>(&self, flag: &str, mut paths: impl Iterator<Item = &'p Path>) -> Result<(), Failure> {
+        if !self.is_sequence() {
+            return Ok(());
+        }
+        if let Some(path) = paths.find(|path| is_stdout(path) || !has_place(path)) {
+            return Err(Failure::Usage {
+                message: format!("{flag} {}: several frames would be written to one file", path.display()),
+                help: Some("#### in the file's name stands for the number of the frame, as in picture.####.exr".to_owned()),
+            });
+        }
+        Ok(())
+    }
+}
+
+/// Whether a file's name has a place for the number of a frame.
+pub fn has_place(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| name.to_string_lossy().contains(PLACE))
+}
+
+/// A path with the number of the frame in the last run of `#` of its file's name, with as many digits at least; as it is without a number.
+pub fn named(path: &Path, number: Option<u32>) -> PathBuf {
+    let (Some(number), Some(name)) = (number, path.file_name()) else { return path.to_owned() };
+    let name = name.to_string_lossy();
+    let Some(last) = name.rfind(PLACE) else { return path.to_owned() };
+    let first = name[..=last].trim_end_matches(PLACE).len();
+    let digits = last + 1 - first;
+    path.with_file_name(format!("{}{number:0digits$}{}", &name[..first], &name[last + 1..]))
+}
+
+impl FrameList {
+    /// `1-100`, `1-100x5`, `1,5,20-30`.
+    fn parse(text: &str) -> Result<Self, String> {
+        let mut frames: Vec<u32> = Vec::new();
+        let mut seen = std::collections::HashSet::new();
+        for part in text.split(',') {
+            let (range, step) = match part.split_once(['x', 'X']) {
+                Some((range, step)) => (range, parse_step(step)?),
+                None => (part, 1),
+            };
+            let (first, last) = match range.split_once('-') {
+                Some((first, last)) => (parse_frame(first)?, parse_frame(last)?),
+                None if step == 1 => (parse_frame(range)?, parse_frame(range)?),
+                None => return Err(format!("`{part}`: a step belongs to a range, as in 1-100x5")),
+            };
+            if last < first {
+                return Err(format!("`{part}`: the range ends before it begins"));
+            }
+            if ((last - first) / step) as usize + frames.len() >= MOST_FRAMES {
+                return Err(format!("these are more than {MOST_FRAMES} frames"));
+            }
+            frames.extend((first..=last).step_by(step as usize).filter(|frame| seen.insert(*frame)));
+        }
+        Ok(Self(frames))
+    }
+
+    /// As few words as say the same: runs with one step between them.
+    pub fn words(frames: &[u32]) -> String {
+        let mut parts: Vec<String> = Vec::new();
+        let mut rest = frames;
+        while let Some((&first, after)) = rest.split_first() {
+            let step = after.first().and_then(|next| next.checked_sub(first)).filter(|step| *step > 0);
+            let run = step.map_or(1, |step| {
+                rest.windows(2).take_while(|pair| pair[1].checked_sub(pair[0]) == Some(step)).count() + 1
+            });
+            let (run, last) = if run < 3 { (1, first) } else { (run, rest[run - 1]) };
+            parts.push(match step {
+                _ if run == 1 => first.to_string(),
+                Some(step) if step > 1 => format!("{first}-{last}x{step}"),
+                _ => format!("{first}-{last}"),
+            });
+            rest = &rest[run..];
+        }
+        parts.join(",")
+    }
+}
+
+fn parse_frame(text: &str) -> Result<u32, String> {
+    let frame = text.trim().parse().ok().filter(|frame| *frame <= LAST_FRAME);
+    frame.ok_or_else(|| format!("`{text}` is no frame: expected a whole number from 0 to {LAST_FRAME}"))
+}
+
+fn parse_step(text: &str) -> Result<u32, String> {
+    let step = text.trim().parse().ok().filter(|step| *step > 0);
+    step.ok_or_else(|| format!("`{text}` is no step: expected a whole number above 0"))
+}
+
+fn parse_time(text: &str) -> Result<f64, String> {
+    let time = text.parse().ok().filter(|time: &f64| time.abs() <= 1e9);
+    time.ok_or_else(|| "expected a number of seconds".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_of_frames_are_read_and_said() {
+        let list = |text: &str| FrameList::parse(text).map(|FrameList(frames)| frames);
+        assert_eq!(list("3"), Ok(vec![3]));
+        assert_eq!(list("1-4"), Ok(vec![1, 2, 3, 4]));
+        assert_eq!(list("1-10x4, 0, 5-6,5"), Ok(vec![1, 5, 9, 0, 6]));
+        for bad in ["", "a", "1-", "-1", "5-1", "1x2", "1-9x0", "1--2", "1.5", "0-99999999", "1,,2"] {
+            assert!(list(bad).is_err(), "{bad}");
+        }
+        for words in ["3", "1-4", "1-9x4", "1,2", "7,1-3", "10-30x10,31,33", "0-2,10-12"] {
+            let frames = list(words).expect("it is a list");
+            assert_eq!(list(&FrameList::words(&frames)), Ok(frames), "{words}");
+        }
+        assert_eq!(FrameList::words(&[1, 2, 3, 4, 10, 20, 30]), "1-4,10-30x10");
+    }
+
+    #[test]
+    fn numbers_stand_in_the_last_run_of_places() {
+        let name = |path: &str, number| named(Path::new(path), number).display().to_string();
+        assert_eq!(name("a/picture.####.exr", Some(7)), "a/picture.0007.exr");
+        assert_eq!(name("#1/p-##.exr", Some(123)), "#1/p-123.exr");
+        assert_eq!(name("c#-##-#.png", Some(5)), "c#-##-5.png");
+        assert_eq!(name("é####.exr", Some(5)), "é0005.exr");
+        assert_eq!(name("plain.exr", Some(5)), "plain.exr");
+        assert_eq!(name("as#is.exr", None), "as#is.exr");
+        assert!(has_place(Path::new("a/b#.exr")) && !has_place(Path::new("a#/b.exr")));
+    }
+}

@@ -1,0 +1,317 @@
+//! `[animation]`, `[[node]]` and keyframes: what is elsewhere at another frame.
+
+use std::collections::HashMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::resolver::Resolver;
+use super::shape::{ScaleEntry, TransformEntry};
+use super::syntax::{CameraTable, ProjectionName, SceneFile};
+use super::value::{Checked, FieldOfView, Located, Number, Positive, Vector, vector};
+use crate::load::error::SceneError;
+use crate::scene::animation::{
+    Animation, CameraTrack, FRAMES_PER_SECOND, Interpolation, Key, Node, ShapeTrack, TransformTrack, Turn,
+};
+use crate::scene::{Shape, Transform};
+
+/// How frames and seconds belong together.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+#[schemars(rename = "Animation")]
+pub struct AnimationTable {
+    /// Frames in a second: frame n is n / fps seconds after the start. 24 when left out.
+    pub fps: Option<Checked<Positive>>,
+}
+
+/// How keyframes lead from one to the next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "Interpolation")]
+pub enum InterpolationName {
+    /// Evenly.
+    Linear,
+    /// With a speed that does not jump, from rest to rest, and never beyond the keys' values.
+    Smooth,
+    /// By jumps: what a key states holds until the next.
+    Step,
+}
+
+impl From<InterpolationName> for Interpolation {
+    fn from(name: InterpolationName) -> Self {
+        match name {
+            InterpolationName::Linear => Self::Linear,
+            InterpolationName::Smooth => Self::Smooth,
+            InterpolationName::Step => Self::Step,
+        }
+    }
+}
+
+/// A transform at a frame: what is scaled first, then turned, then moved. A part that it does not state goes through the keyframes that do.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table such as { frame = 10, translate = [0, 1, 0] }")]
+#[schemars(rename = "TransformKeyframe")]
+#[schemars(extend("oneOf" = [{ "required": ["frame"] }, { "required": ["time"] }],
+    "anyOf" = [{ "required": ["scale"] }, { "required": ["rotate"] }, { "required": ["translate"] }],
+    "dependentRequired" = { "degrees": ["rotate"], "rotate": ["degrees"] }))]
+pub struct TransformKeyEntry {
+    /// Number of the frame, not necessarily a whole one; or `time`.
+    frame: Option<Number>,
+    /// Seconds after the start.
+    time: Option<Number>,
+    /// One factor or one per axis; not 0.
+    scale: Option<Located<ScaleEntry>>,
+    /// The axis of a rotation by `degrees`. Between keyframes about the same axis the angle goes evenly, also beyond a whole turn; between different
+    /// axes the rotation takes the shortest way.
+    rotate: Option<Located<Vector>>,
+    /// Counter-clockwise seen from the axis' tip.
+    degrees: Option<Located<Number>>,
+    translate: Option<Vector>,
+}
+
+/// The camera at a frame. What it does not state goes through the keyframes that do, or stays as `[camera]` has it.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table such as { frame = 10, position = [0, 1, 5] }")]
+#[schemars(rename = "CameraKeyframe")]
+#[schemars(extend("oneOf" = [{ "required": ["frame"] }, { "required": ["time"] }]))]
+pub struct CameraKeyEntry {
+    /// Number of the frame, not necessarily a whole one; or `time`.
+    frame: Option<Number>,
+    /// Seconds after the start.
+    time: Option<Number>,
+    position: Option<Vector>,
+    look_at: Option<Vector>,
+    up: Option<Vector>,
+    /// Of a perspective camera.
+    vfov: Option<Located<Checked<FieldOfView>>>,
+    /// Of an orthographic camera.
+    height: Option<Located<Checked<Positive>>>,
+    focus_distance: Option<Checked<Positive>>,
+}
+
+/// A frame of reference that takes along the shapes and the camera that name it.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+#[schemars(rename = "Node", extend("dependentRequired" = { "interpolation": ["keyframes"] }))]
+pub struct NodeEntry {
+    pub name: Located<String>,
+    /// The node that takes this one along.
+    parent: Option<Located<String>>,
+    /// Where it stands in its parent without a frame: what names it is moved by the change from there.
+    transform: Option<Located<TransformEntry>>,
+    /// Where it stands in its parent at frames, in place of `transform`.
+    #[schemars(extend("minItems" = 1))]
+    keyframes: Option<Located<Vec<Located<TransformKeyEntry>>>>,
+    /// How keyframes lead from one to the next; "linear" when left out.
+    interpolation: Option<Located<InterpolationName>>,
+}
+
+/// What of a shape says where it is at frames.
+#[derive(Clone, Copy)]
+pub struct WrittenTrack<'a> {
+    pub keyframes: Option<&'a Located<Vec<Located<TransformKeyEntry>>>>,
+    pub interpolation: Option<&'a Located<InterpolationName>>,
+    pub node: Option<&'a Located<String>>,
+    /// The shape's own motion is written.
+    pub has_motion: bool,
+}
+
+impl Resolver<'_> {
+    /// `[animation]`, `[[node]]`, and the keyframes of the camera, which has been read.
+    pub(super) fn animation(&mut self, file: &SceneFile) -> Result<(), SceneError> {
+        let fps = file.animation.as_ref().and_then(|table| table.fps).map_or(FRAMES_PER_SECOND, |fps| fps.0);
+        let mut animation = Animation { frames_per_second: fps, ..Animation::default() };
+        self.node_names = self.register("node", file.node.iter().map(|node| &node.value.name))?;
+        for node in &file.node {
+            let node = self.node(&node.value, fps);
+            animation.nodes.extend(self.note(node));
+        }
+        self.check_parents(file, &animation.nodes)?;
+        let camera = self.camera_track(&file.camera, fps)?;
+        animation.camera = camera;
+        self.scene.animation = Arc::new(animation);
+        Ok(())
+    }
+
+    fn node(&self, written: &NodeEntry, fps: f64) -> Result<Node, SceneError> {
+        let parent = written.parent.as_ref().map(|name| self.look_up(&self.node_names, name, "node")).transpose()?;
+        let rest = written.transform.as_ref().map_or(Ok(Transform::default()), |transform| self.transform(transform))?;
+        let track = self.transform_track(written.keyframes.as_ref(), written.interpolation.as_ref(), fps)?;
+        Ok(Node { name: written.name.value.clone(), parent, rest: rest.to_affine(), track })
+    }
+
+    /// No node is within itself.
+    fn check_parents(&self, file: &SceneFile, nodes: &[Node]) -> Result<(), SceneError> {
+        // Nodes with mistakes are not there.
+        if nodes.len() < file.node.len() {
+            return Ok(());
+        }
+        // Of each node, whether the chain of its parents is known to end.
+        let mut ends = vec![false; nodes.len()];
+        for start in 0..nodes.len() {
+            let (mut chain, mut next) = (Vec::new(), Some(start));
+            while let Some(index) = next.filter(|&index| !ends[index]) {
+                if chain.contains(&index) {
+                    let name = &file.node[index].value.name;
+                    return Err(self.error(&name.span, format!("the node `{}` contains itself", name.value)));
+                }
+                chain.push(index);
+                next = nodes[index].parent;
+            }
+            chain.into_iter().for_each(|index| ends[index] = true);
+        }
+        Ok(())
+    }
+
+    fn transform_track(
+        &self,
+        keyframes: Option<&Located<Vec<Located<TransformKeyEntry>>>>,
+        interpolation: Option<&Located<InterpolationName>>,
+        fps: f64,
+    ) -> Result<Option<TransformTrack>, SceneError> {
+        let Some(keyframes) = keyframes else {
+            return self.without_keyframes(interpolation).map(|()| None);
+        };
+        let frames = self.frames(keyframes, fps, |key| (key.frame, key.time))?;
+        let interpolation = interpolation.map_or(Interpolation::default(), |name| name.value.into());
+        let mut track = TransformTrack::default();
+        (track.scale.interpolation, track.rotation.interpolation) = (interpolation, interpolation);
+        track.translation.interpolation = interpolation;
+        for (entry, frame) in keyframes.value.iter().zip(frames) {
+            let TransformKeyEntry { scale, rotate, degrees, translate, .. } = &entry.value;
+            if scale.is_none() && rotate.is_none() && degrees.is_none() && translate.is_none() {
+                let message = "a keyframe of a transform states `scale`, `rotate` with `degrees`, or `translate`";
+                return Err(self.error(&entry.span, message));
+            }
+            if let Some(scale) = scale {
+                if scale.value.0.abs().min_element() == 0.0 {
+                    return Err(self.error(&scale.span, "a scale of 0 flattens the shape"));
+                }
+                track.scale.keys.push(Key { frame, value: scale.value.0 });
+            }
+            match (rotate, degrees) {
+                (Some(axis), Some(degrees)) => {
+                    let value = Turn { axis: self.direction(axis)?, degrees: degrees.value.0 };
+                    track.rotation.keys.push(Key { frame, value });
+                }
+                (Some(_), None) => return Err(self.error(&entry.span, "`rotate` needs the key `degrees`")),
+                (None, Some(degrees)) => {
+                    return Err(self.error(&degrees.span, "`degrees` belongs to `rotate`, which is missing"));
+                }
+                (None, None) => {}
+            }
+            track.translation.keys.extend(translate.map(|offset| Key { frame, value: vector(offset) }));
+        }
+        Ok(Some(track))
+    }
+
+    /// `interpolation` says how keyframes lead from one to the next.
+    fn without_keyframes(&self, interpolation: Option<&Located<InterpolationName>>) -> Result<(), SceneError> {
+        let refuse = |written: &Located<_>| Err(self.error(&written.span, "`interpolation` belongs to `keyframes`, of which there are none"));
+        interpolation.map_or(Ok(()), refuse)
+    }
+
+    /// The frames of keyframes, each later than the one before.
+    fn frames<T>(
+        &self,
+        keyframes: &Located<Vec<Located<T>>>,
+        fps: f64,
+        times: impl Fn(&T) -> (Option<Number>, Option<Number>),
+    ) -> Result<Vec<f64>, SceneError> {
+        if keyframes.value.is_empty() {
+            return Err(self.error(&keyframes.span, "a list of keyframes has at least one"));
+        }
+        let mut frames: Vec<f64> = Vec::with_capacity(keyframes.value.len());
+        for entry in &keyframes.value {
+            let frame = match times(&entry.value) {
+                (Some(frame), None) => frame.0,
+                (None, Some(time)) => time.0 * fps,
+                (None, None) => return Err(self.error(&entry.span, "a keyframe states its `frame`, or its `time` in seconds")),
+                (Some(_), Some(_)) => {
+                    return Err(self.error(&entry.span, "a keyframe states either its `frame` or its `time`, and this has both"));
+                }
+            };
+            if let Some(last) = frames.last().filter(|last| **last >= frame) {
+                let message = format!("keyframes stand in the order of their frames, and this one, {frame}, follows {last}");
+                return Err(self.error(&entry.span, message));
+            }
+            frames.push(frame);
+        }
+        Ok(frames)
+    }
+
+    fn camera_track(&self, written: &CameraTable, fps: f64) -> Result<Option<CameraTrack>, SceneError> {
+        let node = written.node.as_ref().map(|name| self.look_up(&self.node_names, name, "node")).transpose()?;
+        let interpolation = written.interpolation.as_ref();
+        let Some(keyframes) = written.keyframes.as_ref() else {
+            self.without_keyframes(interpolation)?;
+            return Ok(node.map(|node| CameraTrack { node: Some(node), ..CameraTrack::default() }));
+        };
+        let frames = self.frames(keyframes, fps, |key| (key.frame, key.time))?;
+        let interpolation = interpolation.map_or(Interpolation::default(), |name| name.value.into());
+        let is_perspective = written.projection.as_ref().is_none_or(|name| name.value == ProjectionName::Perspective);
+        let mut track = CameraTrack { node, ..CameraTrack::default() };
+        for (entry, frame) in keyframes.value.iter().zip(frames) {
+            let CameraKeyEntry { position, look_at, up, vfov, height, focus_distance, .. } = &entry.value;
+            for (curve, value) in [(&mut track.position, position), (&mut track.look_at, look_at), (&mut track.up, up)] {
+                curve.keys.extend(value.map(|value| Key { frame, value: vector(value) }));
+            }
+            let misplaced = |span: &Range<usize>, key: &str, kind: &str| {
+                Err(self.error(span, format!("`{key}` belongs to projection = \"{kind}\"")))
+            };
+            match (vfov, height) {
+                (Some(vfov), _) if !is_perspective => return misplaced(&vfov.span, "vfov", "perspective"),
+                (_, Some(height)) if is_perspective => return misplaced(&height.span, "height", "orthographic"),
+                _ => {}
+            }
+            let opening = vfov.as_ref().map(|vfov| vfov.value.0).or(height.as_ref().map(|height| height.value.0));
+            track.opening.keys.extend(opening.map(|value| Key { frame, value }));
+            track.focus_distance.keys.extend(focus_distance.map(|value| Key { frame, value: value.0 }));
+        }
+        for curve in [&mut track.position, &mut track.look_at, &mut track.up] {
+            curve.interpolation = interpolation;
+        }
+        (track.opening.interpolation, track.focus_distance.interpolation) = (interpolation, interpolation);
+        Ok(Some(track))
+    }
+
+    /// Notes where the next shape of the scene is at frames.
+    pub(super) fn shape_track(&mut self, written: WrittenTrack<'_>, shape: &Shape) -> Result<(), SceneError> {
+        let WrittenTrack { keyframes, interpolation, node, has_motion } = written;
+        let fps = self.scene.animation.frames_per_second;
+        let track = self.transform_track(keyframes, interpolation, fps)?;
+        let node_id = node.map(|name| self.look_up(&self.node_names, name, "node")).transpose()?;
+        if track.is_none() && node_id.is_none() {
+            return Ok(());
+        }
+        // One of the two is written.
+        let span = keyframes.map(|keys| &keys.span).or(node.map(|name| &name.span)).cloned().unwrap_or_default();
+        if has_motion {
+            return Err(self
+                .error(&span, "a shape has either a `motion` or keyframes")
+                .with_help("keyframes say by themselves how the shape moves while the shutter is open"));
+        }
+        if shape.geometry.is_infinite() {
+            return Err(self.error(&span, "an infinite plane cannot move; use a large rectangle"));
+        }
+        if shape.portal {
+            return Err(self.error(&span, "a portal cannot move"));
+        }
+        if shape.geometry.is_round()
+            && let (Some(track), Some(keyframes)) = (&track, keyframes)
+            && let Some(at) = track.scale.keys.iter().position(|key| key.value.max_element() != key.value.min_element())
+        {
+            // The keys of the scale are those entries that state one.
+            let entry = keyframes.value.iter().filter(|entry| entry.value.scale.is_some()).nth(at);
+            return Err(self.error(entry.map_or(&keyframes.span, |entry| &entry.span), shape.geometry.stays_round()));
+        }
+        let shape_track = ShapeTrack { shape: self.scene.shapes.len(), track, node: node_id, rest: shape.transform.clone() };
+        Arc::make_mut(&mut self.scene.animation).shapes.push(shape_track);
+        Ok(())
+    }
+}
+
+/// Names of nodes with their places.
+pub type NodeNames = HashMap<String, usize>;

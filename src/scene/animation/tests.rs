@@ -1,0 +1,82 @@
+use std::path::Path;
+
+use glam::{DVec3, Vec3};
+
+use super::*;
+use crate::load::load_toml_str;
+use crate::scene::Projection;
+
+fn scene(more: &str) -> Scene {
+    let text = format!(
+        "[animation]\nfps = 5\n[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvfov = 40\nshutter = [0, 0.5]\n{more}\n\
+         [[light]]\ntype = \"environment\"\nradiance = 1\n"
+    );
+    load_toml_str(&text, "scene", Path::new("")).expect("the scene is valid")
+}
+
+const MESH: &str = "[[material]]\nname = \"a\"\ntype = \"diffuse\"\nreflectance = 0.5\n[[shape]]\ntype = \"mesh\"\nmaterial = \"a\"\n\
+    positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nfaces = [[0, 1, 2]]\n";
+
+/// The corners at a shutter time of a frame.
+fn corners(scene: &Scene, frame: f64, time: f64) -> Vec<Vec3> {
+    let scene = scene.at_frame(frame).expect("it can be rendered");
+    let shape = &scene.shapes[0];
+    let along = shape.moved_by(time).unwrap_or(DAffine3::IDENTITY);
+    shape.world_positions().into_iter().map(|corner| along.transform_point3(corner.as_dvec3()).as_vec3()).collect()
+}
+
+fn is_at(found: &[Vec3], expected: [[f32; 3]; 3]) -> bool {
+    found.iter().zip(expected).all(|(found, expected)| (*found - Vec3::from(expected)).length() < 1e-5)
+}
+
+#[test]
+fn a_scene_without_keyframes_has_no_animation() {
+    let scene = scene(MESH);
+    assert!(scene.animation.is_empty() && scene.animation.shapes.is_empty());
+    assert_eq!(scene.at_frame(7.0).expect("it is the same").camera, scene.camera);
+}
+
+/// By hand: half way there the shape is turned by 45 degrees, and while the shutter is open it goes on with the same speed.
+#[test]
+fn shapes_stand_where_their_keyframes_put_them_and_move_on_while_the_shutter_is_open() {
+    let keys = "keyframes = [{ frame = 0, translate = [0, 0, 0], rotate = [0, 0, 1], degrees = 0 }, \
+                { time = 2, translate = [10, 0, 0], rotate = [0, 0, 1], degrees = 90 }]";
+    let scene = scene(&format!("{MESH}transform = [{{ translate = [7, 7, 7] }}]\n{keys}\n"));
+    assert_eq!(scene.animation.frames(), Some([0.0, 10.0]));
+    assert!(is_at(&scene.shapes[0].world_positions(), [[7.0, 7.0, 7.0], [8.0, 7.0, 7.0], [7.0, 8.0, 7.0]]));
+    let h = std::f32::consts::FRAC_1_SQRT_2;
+    assert!(is_at(&corners(&scene, 5.0, 0.0), [[5.0, 0.0, 0.0], [5.0 + h, h, 0.0], [5.0 - h, h, 0.0]]));
+    let (sin, cos) = 49.5_f32.to_radians().sin_cos();
+    let closing = [[5.5, 0.0, 0.0], [5.5 + cos, sin, 0.0], [5.5 - sin, cos, 0.0]];
+    assert!(is_at(&corners(&scene, 5.0, 0.5), closing), "{:?}", corners(&scene, 5.0, 0.5));
+    // The control: at another time it is elsewhere.
+    assert!(!is_at(&corners(&scene, 5.0, 0.4), closing));
+    assert!(scene.at_frame(99.0).expect("it rests").shapes[0].motion.is_none());
+}
+
+/// A node within a node, each turned by a quarter: what they take along is turned by half a turn about the outer one, after the inner one moved it.
+#[test]
+fn nodes_take_along_what_names_them_and_each_other() {
+    let nodes = "[[node]]\nname = \"outer\"\nkeyframes = [{ frame = 0, rotate = [0, 0, 1], degrees = 0 }, { frame = 10, rotate = [0, 0, 1], degrees = 90 }]\n\
+        [[node]]\nname = \"inner\"\nparent = \"outer\"\ntransform = [{ translate = [2, 0, 0] }]\n\
+        keyframes = [{ frame = 0, translate = [2, 0, 0] }, { frame = 10, translate = [4, 0, 0] }]\n";
+    let scene = scene(&format!("node = \"outer\"\n{nodes}{MESH}node = \"inner\"\n"));
+    assert!(is_at(&corners(&scene, 0.0, 0.0), [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]));
+    // The shape stands at the origin, which the inner node takes along by (2, 0, 0), and the outer one turns.
+    let found = corners(&scene, 10.0, 0.0);
+    assert!(is_at(&found, [[0.0, 2.0, 0.0], [0.0, 3.0, 0.0], [-1.0, 2.0, 0.0]]), "{found:?}");
+    let camera = scene.at_frame(10.0).expect("it can be rendered").camera;
+    assert!((camera.up - DVec3::NEG_X).length() < 1e-12 && (camera.position - DVec3::Z * 5.0).length() < 1e-12, "{camera:?}");
+}
+
+#[test]
+fn the_camera_goes_through_its_keyframes() {
+    let keys = "keyframes = [{ frame = 0, position = [0, 0, 5] }, { frame = 4, vfov = 20 }, { frame = 10, position = [10, 0, 5], vfov = 50 }]\n";
+    let scene = scene(&format!("{keys}{MESH}"));
+    let camera = scene.at_frame(7.0).expect("it can be rendered").camera;
+    assert_eq!((camera.position, camera.look_at), (DVec3::new(7.0, 0.0, 5.0), DVec3::ZERO));
+    assert_eq!(camera.projection, Projection::Perspective { vertical_fov_degrees: 35.0 });
+    let moved = scene.at_frame(7.0).expect("it can be rendered");
+    assert!(moved.shapes_stand_as_in(&scene));
+    assert_ne!(crate::scene::digest(&moved), crate::scene::digest(&scene));
+}

@@ -1,0 +1,95 @@
+//! What has keys: transforms in parts, nodes, shapes and the camera.
+
+use glam::{DAffine3, DQuat, DVec3};
+
+use super::curve::{Curve, Turn};
+use crate::scene::camera::{Camera, Projection};
+use crate::scene::transform::Transform;
+
+/// A transform in parts, each with keys of its own: first scaled, then turned, then moved. A part without keys does nothing.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct TransformTrack {
+    pub scale: Curve<DVec3>,
+    pub rotation: Curve<Turn>,
+    pub translation: Curve<DVec3>,
+}
+
+impl TransformTrack {
+    /// The map at a frame.
+    pub fn at(&self, frame: f64) -> DAffine3 {
+        DAffine3::from_scale_rotation_translation(
+            self.scale.at(frame).unwrap_or(DVec3::ONE),
+            self.rotation.at(frame).map_or(DQuat::IDENTITY, Turn::rotation),
+            self.translation.at(frame).unwrap_or(DVec3::ZERO),
+        )
+    }
+
+    /// The frames of all its keys.
+    pub fn frames(&self) -> impl Iterator<Item = f64> {
+        let vectors = [&self.scale, &self.translation].into_iter().flat_map(|curve| curve.keys.iter().map(|key| key.frame));
+        vectors.chain(self.rotation.keys.iter().map(|key| key.frame))
+    }
+}
+
+/// A frame of reference, perhaps within another, that takes along what names it.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Node {
+    pub name: String,
+    pub parent: Option<usize>,
+    /// Where it stands in its parent without a frame.
+    pub rest: DAffine3,
+    pub track: Option<TransformTrack>,
+}
+
+/// A shape that is elsewhere at another frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShapeTrack {
+    /// Index among the scene's shapes.
+    pub shape: usize,
+    /// Takes the place of the shape's transform.
+    pub track: Option<TransformTrack>,
+    /// The node that takes it along.
+    pub node: Option<usize>,
+    /// Where it stands without a frame.
+    pub rest: Transform,
+}
+
+/// What of the camera has keys. They take the place of what the camera is without a frame.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct CameraTrack {
+    pub position: Curve<DVec3>,
+    pub look_at: Curve<DVec3>,
+    pub up: Curve<DVec3>,
+    /// The vertical field of view in degrees, or the height of an orthographic camera's window.
+    pub opening: Curve<f64>,
+    pub focus_distance: Curve<f64>,
+    /// The node that takes it along.
+    pub node: Option<usize>,
+}
+
+impl CameraTrack {
+    /// The camera at a frame, before its node moves it.
+    pub fn at(&self, rest: &Camera, frame: f64) -> Camera {
+        let opening = |rest: f64| self.opening.at(frame).unwrap_or(rest);
+        Camera {
+            position: self.position.at(frame).unwrap_or(rest.position),
+            look_at: self.look_at.at(frame).unwrap_or(rest.look_at),
+            up: self.up.at(frame).unwrap_or(rest.up),
+            projection: match rest.projection {
+                Projection::Perspective { vertical_fov_degrees } => {
+                    Projection::Perspective { vertical_fov_degrees: opening(vertical_fov_degrees) }
+                }
+                Projection::Orthographic { height } => Projection::Orthographic { height: opening(height) },
+            },
+            focus_distance: self.focus_distance.at(frame).unwrap_or(rest.focus_distance),
+            ..rest.clone()
+        }
+    }
+
+    /// The frames of all its keys.
+    pub fn frames(&self) -> impl Iterator<Item = f64> {
+        let vectors = [&self.position, &self.look_at, &self.up].into_iter().flat_map(|curve| curve.keys.iter().map(|key| key.frame));
+        let numbers = [&self.opening, &self.focus_distance].into_iter().flat_map(|curve| curve.keys.iter().map(|key| key.frame));
+        vectors.chain(numbers)
+    }
+}
