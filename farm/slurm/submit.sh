@@ -8,7 +8,7 @@ chunks=$1 spp=$2 scene=$3 picture=$4
 shift 4
 # shellcheck disable=SC2086 # flags of sbatch are words
 array=$(sbatch --parsable --requeue --signal=B:TERM@60 --array="0-$((chunks - 1))" --job-name=gpt ${SBATCH:-} \
-    "$farm/slurm/chunk.sbatch" "$farm" "$chunks" "$spp" "$scene" "$picture" "$@")
+    "$farm/slurm/chunk.sbatch" "$farm" chunk.sh "$chunks" "$spp" "$scene" "$picture" "$@")
 # shellcheck disable=SC2086
 sbatch --parsable --dependency="afterok:${array%%;*}" --kill-on-invalid-dep=yes --job-name=gpt-merge ${SBATCH:-} \
     "$farm/slurm/merge.sbatch" "$farm" "$chunks" "$spp" "$picture"

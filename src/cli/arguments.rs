@@ -14,7 +14,7 @@ use gpt::scene::settings::MOST_SAMPLES;
 use super::bench::BenchArguments;
 use super::choice::by_name;
 use super::exit::Exit;
-use super::frames::FrameArguments;
+use super::frames::{FrameArguments, FrameList};
 use super::machine_progress::ProgressFormat;
 use super::model_arguments::ModelArguments;
 use super::picture_arguments::{DisplayArguments, ExrArguments};
@@ -196,7 +196,10 @@ pub struct PlanArguments {
     /// How many chunks
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub chunks: u32,
-    /// Picture that the merge writes [default: SCENE-name.exr]
+    /// Cut these frames of the scene's keyframes into chunks of whole frames, such as 1-100; #### in the picture's name stands for a frame's number
+    #[arg(long, value_name = "FRAMES", value_parser = FrameList::parse)]
+    pub frames: Option<FrameList>,
+    /// Picture that the merge writes [default: SCENE-name.exr, with --frames SCENE-name.####.exr]
     #[arg(short, long, value_name = "FILE.exr")]
     pub output: Option<PathBuf>,
     /// Width and height in pixels

@@ -14,10 +14,14 @@ use serde::Serialize;
 
 use super::arguments::CheckArguments;
 use super::exit::{Exit, Failure};
+use super::sequence::bad_frame;
 use super::terminal;
 
 /// Longer side in pixels of the picture by which the time is guessed.
 const PROBE_SIDE: u32 = 16;
+
+/// Most frames of a scene with keyframes that are looked at, but for one.
+const MOST_FRAMES: f64 = 500.0;
 
 /// What `--json` prints of a scene that can be read.
 #[derive(Serialize)]
@@ -96,6 +100,7 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
     for warning in &scene.warnings {
         terminal::warn(warning);
     }
+    check_frames(&scene)?;
     let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
     let options = arguments.traversal.options();
     let packed = PackedScene::for_traversal(&scene, options.packed_traversal()).map_err(does_not_fit)?;
@@ -135,6 +140,19 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
         terminal::answer(&format!("\nplan for {device}\n{plan}\n"))?;
     }
     Ok(exit)
+}
+
+/// Looks at the scene where its keyframes begin and end and at frames in between.
+fn check_frames(scene: &Scene) -> Result<(), Failure> {
+    let Some([first, last]) = scene.animation.frames() else { return Ok(()) };
+    let steps = (last - first).ceil().clamp(1.0, MOST_FRAMES);
+    let mut step = 0.0;
+    while step <= steps {
+        let frame = first + (last - first) * step / steps;
+        scene.at_frame(frame).map_err(|error| bad_frame(scene, &error))?;
+        step += 1.0;
+    }
+    Ok(())
 }
 
 /// What an import left, a line for each kind of thing; nothing where it is exact.

@@ -33,6 +33,16 @@ pub struct FrameArguments {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FrameList(pub Vec<u32>);
 
+/// A frame as one of several.
+#[derive(Debug, Clone, Copy)]
+pub struct Span {
+    /// Its number in the scene's keyframes.
+    pub frame: u32,
+    /// Its place among those that are rendered, from 0.
+    pub index: usize,
+    pub count: usize,
+}
+
 /// What is rendered of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Moment {
@@ -44,6 +54,14 @@ pub enum Moment {
 }
 
 impl Moment {
+    /// What stands for it in the names of files.
+    pub fn number(self) -> Option<u32> {
+        match self {
+            Self::Frame(number) => Some(number),
+            Self::Rest | Self::Between(_) => None,
+        }
+    }
+
     /// The frame, where there is one.
     pub fn frame(self) -> Option<f64> {
         match self {
@@ -72,10 +90,18 @@ impl FrameArguments {
             (None, None, None) => return Ok(vec![Moment::Rest]),
         };
         if animation.is_empty() {
-            let flag = if self.frame.is_some() { "--frame" } else if self.frames.is_some() { "--frames" } else { "--time" };
+            let flag = if self.frame.is_some() {
+                "--frame"
+            } else if self.frames.is_some() {
+                "--frames"
+            } else {
+                "--time"
+            };
             return Err(Failure::Usage {
                 message: format!("{flag}: the scene has no keyframes, so all of its frames would be the same"),
-                help: Some("`keyframes` of [camera], of a [[shape]] or of a [[node]] move things; see docs/animation.md".to_owned()),
+                help: Some(
+                    "`keyframes` of [camera], of a [[shape]] or of a [[node]] move things; see docs/animation.md".to_owned(),
+                ),
             });
         }
         Ok(moments)
@@ -121,7 +147,7 @@ pub fn named(path: &Path, number: Option<u32>) -> PathBuf {
 
 impl FrameList {
     /// `1-100`, `1-100x5`, `1,5,20-30`.
-    fn parse(text: &str) -> Result<Self, String> {
+    pub fn parse(text: &str) -> Result<Self, String> {
         let mut frames: Vec<u32> = Vec::new();
         let mut seen = std::collections::HashSet::new();
         for part in text.split(',') {
@@ -151,9 +177,8 @@ impl FrameList {
         let mut rest = frames;
         while let Some((&first, after)) = rest.split_first() {
             let step = after.first().and_then(|next| next.checked_sub(first)).filter(|step| *step > 0);
-            let run = step.map_or(1, |step| {
-                rest.windows(2).take_while(|pair| pair[1].checked_sub(pair[0]) == Some(step)).count() + 1
-            });
+            let run =
+                step.map_or(1, |step| rest.windows(2).take_while(|pair| pair[1].checked_sub(pair[0]) == Some(step)).count() + 1);
             let (run, last) = if run < 3 { (1, first) } else { (run, rest[run - 1]) };
             parts.push(match step {
                 _ if run == 1 => first.to_string(),

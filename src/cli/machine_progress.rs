@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use clap::ValueEnum;
 use serde::Serialize;
 
-use super::progress::Span;
+use super::frames::Span;
 
 /// Time between two lines.
 const INTERVAL: Duration = Duration::from_secs(1);

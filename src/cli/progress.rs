@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use gpt::renderer::Observer;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::frames::Span;
 use super::machine_progress::{MachineProgress, Needs, ProgressFormat};
 use super::{interrupt, terminal};
 
@@ -28,16 +29,6 @@ pub struct Progress {
     shown: Shown,
     machine: Option<Mutex<(MachineProgress, Pace)>>,
     span: Option<Span>,
-}
-
-/// A frame as one of several.
-#[derive(Debug, Clone, Copy)]
-pub struct Span {
-    /// Its number in the scene's keyframes.
-    pub frame: u32,
-    /// Its place among those that are rendered, from 0.
-    pub index: usize,
-    pub count: usize,
 }
 
 /// What people see.
@@ -130,7 +121,8 @@ impl Shown {
 
 impl Shown {
     fn progress(&self, done: u64, total: u64, span: Option<Span>) {
-        let of_frame = span.map_or_else(String::new, |Span { frame, index, count }| format!("frame {frame} ({} of {count}), ", index + 1));
+        let of_frame =
+            span.map_or_else(String::new, |Span { frame, index, count }| format!("frame {frame} ({} of {count}), ", index + 1));
         match self {
             Self::Hidden => {}
             Self::Bar(bar, pace) => {

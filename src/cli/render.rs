@@ -16,11 +16,11 @@ use gpt::{ErrorEstimate, Outcome, RenderOptions, Renderer, Scene, Stop};
 use super::arguments::RenderArguments;
 use super::checkpoint;
 use super::exit::{Exit, Failure};
-use super::frames::{Moment, named};
+use super::frames::{Moment, Span, named};
 use super::machine_progress::Needs;
 use super::pictures::{PictureSummary, Pictures, is_stdout, output_formats};
-use super::progress::{Progress, Span};
-use super::sequence::{Ready, Sequence, has_own_stats, tell_of_keyframes};
+use super::progress::Progress;
+use super::sequence::{Done, Frame, Ready, Sequence, has_own_stats, tell_of_keyframes};
 use super::settings::EstimateArguments;
 use super::stats::{self, Stats};
 use super::{interrupt, settings, terminal};
@@ -63,6 +63,8 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
             outputs.push((default, format));
         }
     }
+    let first_files: Vec<_> = outputs.iter().map(|(path, format)| (first(path), *format)).collect();
+    check_inputs(&first_files, arguments)?;
     if let Some(path) = &arguments.save_scene {
         save_scene(&scene, path)?;
     }
@@ -74,53 +76,30 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let load_seconds = started.elapsed().as_secs_f64();
     let sequence =
         Sequence { arguments, options: &options, scene: &scene, outputs: &outputs, moments: &moments, started, load_seconds };
-    sequence.render(choice)
-}
-
-/// One picture: the only one, or a frame of several.
-pub struct Frame<'a> {
-    pub arguments: &'a RenderArguments,
-    pub options: &'a RenderOptions,
-    pub scene: Scene,
-    pub outputs: &'a [(PathBuf, PictureFormat)],
-    pub moment: Moment,
-    /// When it began, and how long it took until the scene was there.
-    pub started: Instant,
-    pub load_seconds: f64,
-    /// Which of several it is.
-    pub span: Option<Span>,
-}
-
-/// What became of a frame.
-pub struct Done {
-    pub exit: Exit,
-    /// What the next frame begins with.
-    pub ready: Ready,
-    /// Those that no file of the frame's own holds. None: there are none, because it was finished before.
-    pub stats: Option<Stats>,
+    sequence.render(choice, &frame)
 }
 
 /// Renders a picture to its files.
 ///
 /// # Errors
 /// What the device, the files and the arguments report.
-pub fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
+fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     let Frame { arguments, options, scene, outputs, moment, started, load_seconds, span } = frame;
     check_inputs(outputs, arguments)?;
     let shown = (arguments.display.display(), arguments.exr.options(), part(arguments, scene.film.size));
     // What layers a finished picture has is not looked at.
     let may_be_finished = arguments.checkpoint.resume && arguments.exr.aov.is_empty();
-    if may_be_finished && checkpoint::all_are_finished(outputs, (&scene, ready.bulk_digest()), options, shown) {
+    if may_be_finished && checkpoint::all_are_finished(outputs, (scene, ready.bulk_digest()), options, shown) {
         if !arguments.quiet {
             terminal::note(&format!("{}: finished before, nothing is left to render", names(outputs)));
         }
-        return Ok(Done { exit: Exit::Done, ready, stats: None });
+        return Ok(Done::Before(ready));
     }
 
     let progress = Progress::of_frame(arguments.quiet, arguments.progress, span);
-    let layers = layers(arguments, options, &scene, (outputs, &progress))?;
-    progress.start(needs(&scene, options));
-    let mut renderer = ready.renderer(&scene, options).inspect_err(|_| progress.clear())?;
+    let layers = layers(arguments, options, scene, (outputs, &progress))?;
+    progress.start(needs(scene, options));
+    let mut renderer = ready.renderer(scene, options).inspect_err(|_| progress.clear())?;
     let Rendered { outcome, mut pictures, provenance, mut kept } =
         render(arguments, (&mut renderer, span), (outputs, layers), (started, &progress))?;
     let broke_off = outcome.stop == Stop::Interrupted;
@@ -133,7 +112,7 @@ pub fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     }
 
     let report = outcome.report;
-    let mut stats = Stats::new(&scene, &report);
+    let mut stats = Stats::new(scene, &report);
     stats.frame = moment.frame();
     stats.resumed(kept.resumed_samples);
     [stats.width, stats.height] = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
@@ -151,10 +130,8 @@ pub fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     stats.seconds.load = load_seconds;
     stats.seconds.write = summary.seconds_writing;
     stats.seconds.total = started.elapsed().as_secs_f64();
-    if let (Some(path), Moment::Frame(number)) = (&arguments.stats, moment)
-        && has_own_stats(arguments, path)
-    {
-        stats::write(&named(path, Some(number)), &stats)?;
+    if let Some(path) = arguments.stats.as_ref().filter(|path| has_own_stats(arguments, path)) {
+        stats::write(&named(path, moment.number()), &stats)?;
     }
     tell(&stats, &summary, arguments.quiet);
     kept.tell();
@@ -164,7 +141,7 @@ pub fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
         return Err(Failure::Outputs(summary.failures));
     }
     let exit = exit(&report, arguments.strict);
-    Ok(Done { exit, ready: Ready::Renderer(Box::new(renderer), Box::new(scene)), stats: Some(stats) })
+    Ok(Done::Now { exit, renderer: Box::new(renderer), stats: Box::new(stats) })
 }
 
 /// Renders the layers that are asked for.

@@ -1,5 +1,6 @@
 //! The frames of one render, one after the other: what does not change is made ready once.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -12,10 +13,9 @@ use gpt::{RenderOptions, Renderer, Scene};
 
 use super::arguments::RenderArguments;
 use super::exit::{Exit, Failure};
-use super::frames::{Moment, named};
+use super::frames::{Moment, Span, has_place, named};
 use super::pictures::is_stdout;
-use super::progress::{Progress, Span};
-use super::render::{self, Done, Frame};
+use super::progress::Progress;
 use super::stats::{self, Stats};
 use super::{interrupt, terminal};
 
@@ -48,6 +48,34 @@ impl Ready {
     }
 }
 
+/// One picture: the only one, or a frame of several.
+pub struct Frame<'a> {
+    pub arguments: &'a RenderArguments,
+    pub options: &'a RenderOptions,
+    pub scene: &'a Scene,
+    pub outputs: &'a [(PathBuf, PictureFormat)],
+    pub moment: Moment,
+    /// When it began, and how long it took until the scene was there.
+    pub started: Instant,
+    pub load_seconds: f64,
+    /// Which of several it is.
+    pub span: Option<Span>,
+}
+
+/// What became of a frame.
+pub enum Done {
+    /// It was finished before, and what was to render it is there still.
+    Before(Ready),
+    Now {
+        exit: Exit,
+        renderer: Box<Renderer>,
+        stats: Box<Stats>,
+    },
+}
+
+/// What renders a frame.
+type Render<'r> = &'r dyn Fn(Frame<'_>, Ready) -> Result<Done, Failure>;
+
 /// What all frames have in common.
 pub struct Sequence<'a> {
     pub arguments: &'a RenderArguments,
@@ -67,7 +95,7 @@ impl Sequence<'_> {
     ///
     /// # Errors
     /// What the first frame that fails reports.
-    pub fn render(&self, choice: Choice) -> Result<Exit, Failure> {
+    pub fn render(&self, choice: Choice, render: Render<'_>) -> Result<Exit, Failure> {
         let mut ready = Ready::Device(choice);
         let (mut worst, mut all_stats) = (Exit::Done, Vec::new());
         let several = self.arguments.frames.is_sequence();
@@ -76,15 +104,22 @@ impl Sequence<'_> {
                 worst = Exit::Interrupted;
                 break;
             }
-            let span = several.then(|| Span { frame: moment.frame().unwrap_or_default() as u32, index, count: self.moments.len() });
-            let done = self.frame((index, moment), ready, span)?;
-            all_stats.extend(done.stats);
-            if done.exit != Exit::Done {
-                worst = done.exit;
-            }
-            ready = done.ready;
-            if worst == Exit::Interrupted {
-                break;
+            let span =
+                several.then(|| Span { frame: moment.frame().unwrap_or_default() as u32, index, count: self.moments.len() });
+            let started = if index == 0 { self.started } else { Instant::now() };
+            let scene = self.scene_at(moment)?;
+            match self.frame((index, moment, started), &scene, ready, (span, render))? {
+                Done::Before(before) => ready = before,
+                Done::Now { exit, renderer, stats } => {
+                    all_stats.push(*stats);
+                    if exit != Exit::Done {
+                        worst = exit;
+                    }
+                    if worst == Exit::Interrupted || index + 1 == self.moments.len() {
+                        break;
+                    }
+                    ready = Ready::Renderer(renderer, Box::new(scene.into_owned()));
+                }
             }
         }
         self.write_stats(&all_stats)?;
@@ -95,16 +130,20 @@ impl Sequence<'_> {
         Ok(worst)
     }
 
-    fn frame(&self, (index, moment): (usize, Moment), ready: Ready, span: Option<Span>) -> Result<Done, Failure> {
-        let number = match moment {
-            Moment::Frame(number) => Some(number),
-            Moment::Rest | Moment::Between(_) => None,
-        };
-        let started = if index == 0 { self.started } else { Instant::now() };
-        let at_frame = |frame: f64| self.scene.at_frame(frame).map_err(|error| bad_frame(self.scene, &error));
-        let scene = moment.frame().map_or_else(|| Ok(self.scene.clone()), at_frame)?;
+    fn scene_at(&self, moment: Moment) -> Result<Cow<'_, Scene>, Failure> {
+        let at_frame = |frame: f64| self.scene.at_frame(frame).map(Cow::Owned).map_err(|error| bad_frame(self.scene, &error));
+        moment.frame().map_or(Ok(Cow::Borrowed(self.scene)), at_frame)
+    }
+
+    fn frame(
+        &self,
+        (index, moment, started): (usize, Moment, Instant),
+        scene: &Scene,
+        ready: Ready,
+        (span, render): (Option<Span>, Render<'_>),
+    ) -> Result<Done, Failure> {
         let outputs: Vec<(PathBuf, PictureFormat)> =
-            self.outputs.iter().map(|(path, format)| (named(path, number), *format)).collect();
+            self.outputs.iter().map(|(path, format)| (named(path, moment.number()), *format)).collect();
         let frame = Frame {
             arguments: self.arguments,
             options: self.options,
@@ -115,29 +154,23 @@ impl Sequence<'_> {
             load_seconds: if index == 0 { self.load_seconds } else { started.elapsed().as_secs_f64() },
             span,
         };
-        render::frame(frame, ready)
+        render(frame, ready)
     }
 
-    /// Writes the statistics of frames that share a file: of the only frame, an object, else a list.
+    /// Writes the statistics of frames that share a file, as a list.
     fn write_stats(&self, all: &[Stats]) -> Result<(), Failure> {
-        let Some(path) = self.arguments.stats.as_deref() else { return Ok(()) };
-        if has_own_stats(self.arguments, path) {
-            return Ok(());
-        }
-        match all {
-            _ if self.arguments.frames.is_sequence() => stats::write(path, &all),
-            [only] => stats::write(path, only),
-            _ => Ok(()),
-        }
+        let shared = self.arguments.stats.as_deref().filter(|path| !has_own_stats(self.arguments, path));
+        shared.map_or(Ok(()), |path| stats::write(path, &all))
     }
 }
 
-/// Whether each frame has a file of its own for its statistics.
+/// Whether a picture has a file of its own for its statistics: the only one, or each of several frames.
 pub fn has_own_stats(arguments: &RenderArguments, path: &Path) -> bool {
-    arguments.frames.first_number().is_some() && !is_stdout(path) && super::frames::has_place(path)
+    !arguments.frames.is_sequence() || (!is_stdout(path) && has_place(path))
 }
 
-fn bad_frame(scene: &Scene, error: &InvalidScene) -> Failure {
+/// A frame of the scene that cannot be rendered, as a mistake of its file.
+pub fn bad_frame(scene: &Scene, error: &InvalidScene) -> Failure {
     SceneError::in_file(&scene.name, error.to_string()).into()
 }
 

@@ -54,11 +54,11 @@ pub fn rounded(mean: [f64; 3]) -> ([f32; 3], [f32; 3]) {
     (nearest, std::array::from_fn(|channel| (mean[channel] - f64::from(nearest[channel])) as f32))
 }
 
-/// The variance of a pixel's mean, channel by channel, if its samples are independent; 0 of a single sample. Of the squares the film has those
-/// of luminance, so channels are taken to vary as it does, in proportion to their means.
+/// The unbiased variance of a pixel's samples, channel by channel; 0 of a single sample. That of their mean is smaller by their number, if they are
+/// independent. Of the squares the film has those of luminance, so channels are taken to vary as it does, in proportion to their means.
 pub fn variance(mean: [f64; 3], second_moment: f64, samples: f64) -> [f64; 3] {
     let luminance = luminance_of(mean);
-    let of_luminance = (second_moment - luminance * luminance).max(0.0) / (samples - 1.0);
+    let of_luminance = (second_moment - luminance * luminance).max(0.0) * samples / (samples - 1.0);
     let share = |channel: f64| if luminance > 0.0 { (channel / luminance).powi(2) } else { 1.0 };
     if samples > 1.0 { mean.map(|channel| of_luminance * share(channel)) } else { [0.0; 3] }
 }
@@ -69,7 +69,7 @@ pub fn second_moment(mean: [f64; 3], variance: [f64; 3], samples: f64) -> f64 {
     // The brightest channel has the most digits.
     let brightest = (0..3).max_by(|a, b| mean[*a].total_cmp(&mean[*b])).unwrap_or(0);
     let share = if mean[brightest] > 0.0 { (luminance / mean[brightest]).powi(2) } else { 1.0 };
-    luminance * luminance + variance[brightest] * share * (samples - 1.0).max(0.0)
+    luminance * luminance + variance[brightest] * share * (samples - 1.0).max(0.0) / samples.max(1.0)
 }
 
 fn luminance_of(mean: [f64; 3]) -> f64 {
@@ -110,8 +110,8 @@ mod tests {
                 "of one sample there is no variance"
             );
         }
-        // Grey samples 0 and 2: of their mean the variance is 1 / (2 - 1).
+        // Grey samples 0 and 2: their variance is (1 + 1) / (2 - 1).
         let grey = variance([1.0; 3], 2.0, 2.0);
-        assert!(grey.iter().all(|variance| (variance - 1.0).abs() < 1e-12), "{grey:?}");
+        assert!(grey.iter().all(|variance| (variance - 2.0).abs() < 1e-12), "{grey:?}");
     }
 }

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-use super::kernels::CompiledKernels;
+use super::compiled::CompiledKernels;
 use super::driver_thread::{DriverThread, Fate, OPENING_THREAD, keep_panics_quiet, message};
 use crate::plan::{DeviceLimits, PlanOptions};
 use crate::renderer::{DeviceChoice, RenderError};

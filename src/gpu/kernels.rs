@@ -1,11 +1,10 @@
 //! Compute pipelines, their bindings read off the shaders by naga.
 
-use std::sync::{Arc, Mutex, PoisonError};
-
 use naga::{AddressSpace, StorageAccess, TypeInner};
 use rayon::prelude::*;
 
 use super::buffers::Buffers;
+use super::compiled::{CompiledStage, UsedBinding};
 use super::device::Device;
 use crate::plan::Plan;
 use crate::plan::bindings::Binding;
@@ -29,13 +28,6 @@ impl Kernel {
         let offset = [super::buffers::vertex_offset(vertex_index)];
         pass.set_bind_group(0, &self.bind_group, if self.takes_vertex { &offset } else { &[] });
     }
-}
-
-/// A binding that an entry point uses.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct UsedBinding {
-    pub number: u32,
-    pub kind: wgpu::BindingType,
 }
 
 /// The bindings that `entry` uses, from the validated module, in order.
@@ -73,37 +65,6 @@ pub fn used_bindings(module: &naga::Module, info: &naga::valid::ModuleInfo, entr
         .collect();
     bindings.sort_by_key(|used| used.number);
     bindings
-}
-
-/// A stage that is compiled and not bound to anything yet, so that the scene can be uploaded meanwhile.
-#[derive(Clone)]
-pub struct CompiledStage {
-    stage: &'static Stage,
-    /// What it was compiled from.
-    source: Arc<str>,
-    is_checked: bool,
-    used: Vec<UsedBinding>,
-    layout: wgpu::BindGroupLayout,
-    pipeline: wgpu::ComputePipeline,
-}
-
-/// The stages that a device compiled last. A scene whose kernels have the same text, as the next frame of an animation mostly does, takes them.
-#[derive(Default)]
-pub struct CompiledKernels(Mutex<Vec<CompiledStage>>);
-
-impl CompiledKernels {
-    fn find(&self, stage: &'static Stage, source: &str, is_checked: bool) -> Option<CompiledStage> {
-        let stages = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let is_it = |compiled: &&CompiledStage| {
-            let same_stage = compiled.stage.file == stage.file && compiled.stage.entry == stage.entry;
-            same_stage && compiled.is_checked == is_checked && *compiled.source == *source
-        };
-        stages.iter().find(is_it).cloned()
-    }
-
-    fn keep(&self, compiled: &[CompiledStage]) {
-        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = compiled.to_vec();
-    }
 }
 
 /// Compiles the plan's stages, side by side.

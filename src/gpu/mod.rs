@@ -4,6 +4,7 @@ pub mod acceleration;
 pub mod adapters;
 mod band;
 pub mod buffers;
+mod compiled;
 pub mod device;
 mod driver_thread;
 mod film;

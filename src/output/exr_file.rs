@@ -25,7 +25,7 @@ const COMPRESSING_THREADS: usize = 4;
 /// Channels of every file, and the one of pixels that differ in their numbers of samples.
 const COLOURS: [&str; 3] = ["R", "G", "B"];
 const COUNT: &str = "SampleCount";
-/// Channels of a part, in alphabetical order: what rounding to a colour lost is its remainder, and variances are those of the means.
+/// Channels of a part, in alphabetical order: what rounding to a colour lost is its remainder, and variances are those of samples, as in layers.
 const PART: [&str; 10] =
     ["B", "G", "R", "Remainder.B", "Remainder.G", "Remainder.R", COUNT, "Variance.B", "Variance.G", "Variance.R"];
 /// Bytes before the header in every file: the magic number and the version.

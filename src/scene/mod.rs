@@ -11,6 +11,7 @@ mod blend_tree;
 pub mod camera;
 mod check;
 mod digest;
+mod frame;
 pub mod image;
 mod import_report;
 pub mod light;

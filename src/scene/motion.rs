@@ -55,9 +55,7 @@ impl MotionStep {
                 DAffine3::from_quat(DQuat::from_axis_angle(axis.normalize(), degrees.to_radians() * time))
             }
             Self::Translate(offset) => DAffine3::from_translation(offset * time),
-            Self::Turned { axis, degrees } => {
-                DAffine3::from_quat(DQuat::from_axis_angle(axis.normalize(), degrees.to_radians()))
-            }
+            Self::Turned { axis, degrees } => DAffine3::from_quat(DQuat::from_axis_angle(axis.normalize(), degrees.to_radians())),
         }
     }
 

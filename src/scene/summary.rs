@@ -26,6 +26,10 @@ pub struct SceneSummary {
     /// Over all meshes.
     pub triangles: usize,
     pub moving_shapes: usize,
+    /// The first and the last frame of all keyframes.
+    pub keyframes: Option<[f64; 2]>,
+    /// Shapes that keyframes move.
+    pub animated_shapes: usize,
     /// Shapes that send out light, meshes counted once.
     pub emitting_shapes: usize,
     pub materials: BTreeMap<&'static str, usize>,
@@ -48,6 +52,8 @@ impl SceneSummary {
             shapes: count(scene.shapes.iter().map(|shape| shape.geometry.kind_name())),
             triangles: scene.shapes.iter().map(triangles).sum(),
             moving_shapes: scene.shapes.iter().filter(|shape| shape.motion.is_some()).count(),
+            keyframes: scene.animation.frames(),
+            animated_shapes: scene.animation.shapes.len(),
             emitting_shapes: scene.shapes.iter().filter(|shape| shape.materials().any(emits)).count(),
             materials: count(scene.materials.iter().map(|material| material.kind.type_name())),
             lights: count(scene.lights.iter().map(Light::kind_name)),
@@ -69,6 +75,9 @@ impl fmt::Display for SceneSummary {
             "           {} triangles, {} emitting, {} moving",
             self.triangles, self.emitting_shapes, self.moving_shapes
         )?;
+        if let Some([first, last]) = self.keyframes {
+            writeln!(out, "keyframes  from frame {first} to frame {last}, of {} shapes", self.animated_shapes)?;
+        }
         writeln!(out, "materials  {}", list(&self.materials))?;
         writeln!(out, "lights     {}", list(&self.lights))?;
         writeln!(out, "textures   {}, {} texels", list(&self.textures), self.texels)

@@ -56,6 +56,84 @@ fn a_plan_is_what_its_commands_do() {
     place.expect(3, "plan none.toml --chunks 1");
 }
 
+/// A camera that moves, and the frames of it from one render.
+fn animation() -> Workplace {
+    let place = Workplace::new();
+    let keys = "vfov = 40\nkeyframes = [{ frame = 0, vfov = 40 }, { frame = 10, vfov = 20 }]";
+    fs::write(place.path("scene.toml"), scene().replace("vfov = 40", keys)).expect("the scene file");
+    place.expect(0, "render scene.toml -q --device cpu --frames 3-9 -o whole.#.exr");
+    place
+}
+
+/// All frames are those of one render.
+fn check_frames(place: &Workplace) {
+    for frame in 3..10 {
+        let read = |name: &str| fs::read(place.path(&format!("{name}.{frame}.exr"))).expect("the picture");
+        assert!(read("whole") == read("chunk"), "frame {frame}");
+    }
+    // The control: they are different pictures.
+    assert!(fs::read(place.path("whole.3.exr")).expect("a picture") != fs::read(place.path("chunk.4.exr")).expect("a picture"));
+}
+
+#[test]
+fn frames_are_planned_in_chunks() {
+    let place = animation();
+    let output = place.run("plan scene.toml --frames 3-9 --chunks 3 -o chunk.#.exr");
+    let plan: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let chunks = plan["chunks"].as_array().expect("a list");
+    let frames: Vec<&str> = chunks.iter().filter_map(|chunk| chunk["frames"].as_str()).collect();
+    assert_eq!(frames, ["3,4", "5,6", "7-9"]);
+    assert!(plan["merge"].is_null());
+    for chunk in chunks {
+        let words: Vec<&str> = chunk["command"].as_array().expect("words").iter().filter_map(Value::as_str).collect();
+        place.expect(0, &format!("{} --device cpu", words[1..].join(" ")));
+    }
+    check_frames(&place);
+    place.expect(2, "plan scene.toml --frames 3-9 --chunks 8");
+    place.expect(2, "plan scene.toml --frames 3-9 --chunks 2 -o chunk.exr");
+}
+
+/// The script that schedulers run, by itself.
+#[cfg(unix)]
+#[test]
+fn a_chunk_of_frames_is_rendered_by_its_script() {
+    let place = animation();
+    for index in 0..3 {
+        let mut command = Command::new("sh");
+        command.arg(farm().join("frames.sh")).args([&index.to_string(), "3", "3", "9", "scene.toml", "chunk.#.exr"]);
+        command.args(["--device", "cpu", "-q"]).env("GPT", env!("CARGO_BIN_EXE_gpt")).current_dir(place.path(""));
+        assert!(command.status().expect("a shell").success());
+    }
+    check_frames(&place);
+}
+
+#[cfg(unix)]
+#[test]
+fn open_job_description_renders_frames() {
+    if !are_installed(&["openjd"], "frames of Open Job Description") {
+        return;
+    }
+    let place = animation();
+    let mut command = Command::new("openjd");
+    command.arg("run").arg(farm().join("openjd/frames.yaml")).args(["--step", "Render"]);
+    for parameter in [
+        format!("Farm={}", farm().display()),
+        format!("Gpt={}", env!("CARGO_BIN_EXE_gpt")),
+        format!("Scene={}", place.path("scene.toml").display()),
+        format!("Picture={}", place.path("chunk.#.exr").display()),
+        "First=3".to_owned(),
+        "Last=9".to_owned(),
+        "LastChunk=1".to_owned(),
+    ] {
+        command.args(["-p", &parameter]);
+    }
+    let output = command.output().expect("openjd");
+    let said = format!("{}{}", text(&output.stdout), text(&output.stderr));
+    assert!(output.status.success() && said.contains("openjd_progress: 100.0"), "{said}");
+    // Whatever device there is renders them.
+    assert!((3..10).all(|frame| place.path(&format!("chunk.{frame}.exr")).is_file()));
+}
+
 /// With a chunk that is killed and one that is asked to stop on the way.
 #[cfg(target_os = "linux")]
 #[test]

@@ -40,6 +40,35 @@ fn parts_are_joined_to_the_picture_of_one_render() {
     }
 }
 
+/// The channel of an EXR file by this name.
+fn channel(place: &Workplace, name: &str, wanted: &str) -> Vec<f32> {
+    use exr::prelude::*;
+    let image = read_first_flat_layer_from_file(place.path(name)).expect("an EXR file");
+    let channel = image.layer_data.channel_data.list.iter().find(|channel| channel.name.eq(wanted)).expect("it is there");
+    channel.sample_data.values_as_f32().collect()
+}
+
+/// Variances mean the same in a part and in a layer: of samples, not of their mean. Of grey radiance they are equal.
+#[test]
+fn the_variances_of_parts_are_those_of_layers() {
+    let place = Workplace::new();
+    let grey = super::scene().replace("intensity = [40, 30, 20]", "intensity = 30");
+    fs::write(place.path("scene.toml"), grey).expect("the scene file");
+    for device in devices() {
+        let render = format!("render scene.toml -q --spp 40 --device {device}");
+        place.expect(0, &format!("{render} --aov variance -o layer.exr"));
+        place.expect(0, &format!("{render} --first-sample 0 -o part.exr"));
+        let [layer, part] = ["layer.exr", "part.exr"].map(|name| channel(&place, name, "Variance.G"));
+        let (mut differ_from_means, largest) = (0, layer.iter().copied().fold(0.0, f32::max));
+        for (layer, part) in layer.iter().zip(&part) {
+            assert!((layer - part).abs() <= 1e-3 * layer + 1e-5 * largest, "{device}: {layer} {part}");
+            // The control: those of the means are forty times less.
+            differ_from_means += u32::from((layer / 40.0 - part).abs() > 1e-3 * layer + 1e-5 * largest);
+        }
+        assert!(differ_from_means > 20, "{device}");
+    }
+}
+
 /// A region has the random numbers of the whole picture.
 #[test]
 fn a_region_is_the_same_pixels_of_the_whole_picture() {

@@ -3,12 +3,13 @@
 //! `document` reads the text into the types of `syntax`, which know every key and range; `resolve` looks up names and reads the
 //! files that are named. Each complains about the place where the mistake is written.
 
-mod animation;
 mod colour;
 mod document;
 mod import;
+mod keyframes;
 mod light;
 mod material;
+mod node;
 mod resolve;
 mod resolver;
 mod schema;

@@ -7,7 +7,6 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::animation::NodeNames;
 use super::colour::{Colour, Scalar, TextureReference};
 use super::document::Document;
 use super::value::{Located, Rule, Vector, vector};
@@ -57,7 +56,7 @@ pub struct Resolver<'a> {
     pub(super) scene: Scene,
     pub(super) texture_names: HashMap<String, TextureId>,
     pub(super) material_names: HashMap<String, MaterialId>,
-    pub(super) node_names: NodeNames,
+    pub(super) node_names: HashMap<String, usize>,
     pub(super) images: ImageCache,
     /// Per texture: an image whose colour space is written to be linear.
     pub(super) linear_textures: Vec<bool>,
@@ -79,7 +78,7 @@ impl<'a> Resolver<'a> {
             scene: Scene::default(),
             texture_names: HashMap::new(),
             material_names: HashMap::new(),
-            node_names: NodeNames::new(),
+            node_names: HashMap::new(),
             images: Default::default(),
             linear_textures: Vec::new(),
             mesh_files: HashMap::new(),

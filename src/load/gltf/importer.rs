@@ -75,10 +75,5 @@ impl Importer<'_> {
         if self.root.extensions_used.iter().any(|extension| extension == "KHR_materials_variants") {
             self.drop("KHR_materials_variants", "extensions", "the materials that primitives name themselves are taken");
         }
-        if !self.root.animations.is_empty() {
-            for index in 0..self.root.animations.len() {
-                self.drop("animation", &format!("animations[{index}]"), "everything is at rest");
-            }
-        }
     }
 }

@@ -100,6 +100,10 @@ objects! {
     Camera { name: Option<String>, perspective: Option<Perspective>, orthographic: Option<Orthographic>, }
     Perspective { yfov: f64, aspect_ratio: Option<f64>, }
     Orthographic { xmag: f64, ymag: f64, }
+    Animation { channels: Vec<Channel>, samplers: Vec<AnimationSampler>, }
+    Channel { sampler: usize, target: Target, }
+    Target { node: Option<usize>, path: String, }
+    AnimationSampler { input: usize, output: usize, interpolation: Option<String>, }
     Skin { joints: Vec<usize>, inverse_bind_matrices: Option<usize>, }
     /// KHR_lights_punctual
     Light {

@@ -3,6 +3,7 @@
 //! `json` is the file as it is written, `buffers` the numbers that it names. Meshes at rest become meshes of their own for each primitive, with
 //! the texture coordinates that the primitive's material wants. Texture coordinates run downward there and upward here.
 
+mod animation;
 mod buffers;
 mod importer;
 mod json;

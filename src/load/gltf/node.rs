@@ -1,5 +1,7 @@
 //! Nodes: what stands where.
 
+use std::collections::HashMap;
+
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3, DVec4};
 
 use super::importer::Importer;
@@ -16,26 +18,39 @@ const MOST_SHAPES: usize = 1 << 20;
 /// The longer side in pixels of a picture whose camera states how wide it is.
 const LONGER_SIDE: f64 = 512.0;
 
+/// Of nodes that are taken along, the name of the node of the scene file that takes them.
+pub type MovingNodes = HashMap<usize, String>;
+
 /// A node and where it stands.
 #[derive(Clone, Copy)]
-struct Placed {
-    node: usize,
+pub struct Placed {
+    pub node: usize,
     map: DAffine3,
 }
 
 impl Importer<'_> {
     pub fn scene(&mut self, camera: Option<&str>) -> Result<(), String> {
         let placed = self.placed_nodes()?;
-        self.choose_camera(&placed, camera)?;
+        let moving = self.animate(&placed)?;
+        self.choose_camera(&placed, camera, &moving)?;
         let mut world = vec![None; self.root.nodes.len()];
         placed.iter().for_each(|placed| world[placed.node] = Some(placed.map));
         for Placed { node: index, map } in placed {
             let of_node = |message: String| format!("nodes[{index}]: {message}");
             let node = &self.root.nodes[index];
+            let name = moving.get(&index);
             if let Some(mesh) = node.mesh {
+                self.report_skin(node, &moving, index);
                 for instance in self.instances(node).map_err(of_node)? {
+                    let first = self.scene.shapes.len();
                     self.mesh_node(node, mesh, map * instance, &world, index).map_err(of_node)?;
+                    if let Some(name) = name.filter(|_| node.skin.is_none()) {
+                        self.scene.shapes[first..].iter_mut().for_each(|shape| shape.keys.set("node", name.as_str()));
+                    }
                 }
+            }
+            if name.is_some() && node.extensions.contains_key("KHR_lights_punctual") {
+                self.drop("animation of a light", &format!("nodes[{index}]"), "it stands where it is at rest");
             }
             self.light(node, map, index).map_err(of_node)?;
         }
@@ -72,7 +87,15 @@ impl Importer<'_> {
         Ok(placed)
     }
 
-    fn choose_camera(&mut self, placed: &[Placed], wanted: Option<&str>) -> Result<(), String> {
+    /// Joints that move would bend the mesh anew for each frame.
+    fn report_skin(&mut self, node: &Node, moving: &MovingNodes, index: usize) {
+        let skin = node.skin.and_then(|skin| self.root.skins.get(skin));
+        if skin.is_some_and(|skin| skin.joints.iter().any(|joint| moving.contains_key(joint))) {
+            self.drop("animation of a skin", &format!("nodes[{index}]"), "the mesh is as it is at rest");
+        }
+    }
+
+    fn choose_camera(&mut self, placed: &[Placed], wanted: Option<&str>, moving: &MovingNodes) -> Result<(), String> {
         let name = |index: usize| -> Vec<String> {
             let node = &self.root.nodes[index];
             let camera = node.camera.and_then(|camera| self.root.cameras.get(camera));
@@ -90,10 +113,12 @@ impl Importer<'_> {
                 })?)
             }
         };
-        match chosen.copied() {
-            Some(placed) => self.camera(placed).map_err(|message| format!("nodes[{}]: {message}", placed.node)),
-            None => Ok(()),
+        let Some(placed) = chosen.copied() else { return Ok(()) };
+        self.camera(placed).map_err(|message| format!("nodes[{}]: {message}", placed.node))?;
+        if let (Some(camera), Some(name)) = (&mut self.scene.camera, moving.get(&placed.node)) {
+            camera.keys.set("node", name.as_str());
         }
+        Ok(())
     }
 
     fn camera(&mut self, Placed { node, map }: Placed) -> Result<(), String> {
@@ -230,7 +255,7 @@ impl Importer<'_> {
 }
 
 /// The map of a node about its parent.
-fn local(node: &Node) -> Result<DAffine3, String> {
+pub fn local(node: &Node) -> Result<DAffine3, String> {
     if let Some(matrix) = node.matrix {
         let matrix = DMat4::from_cols_array(&matrix);
         if (matrix.row(3) - DVec4::W).abs().max_element() > 1e-6 {
@@ -244,7 +269,7 @@ fn local(node: &Node) -> Result<DAffine3, String> {
 }
 
 /// A rotation of length 1; none where nothing is left of it. One without rotation stays exact.
-fn unit(rotation: DVec4) -> DQuat {
+pub fn unit(rotation: DVec4) -> DQuat {
     if rotation == DVec4::W { DQuat::IDENTITY } else { rotation.try_normalize().map_or(DQuat::IDENTITY, DQuat::from_vec4) }
 }
 

@@ -24,11 +24,14 @@ pub struct Description {
     pub materials: Vec<Entry>,
     pub shapes: Vec<Entry>,
     pub lights: Vec<Entry>,
+    /// What takes shapes and the camera along at frames.
+    pub nodes: Vec<Entry>,
     /// Meshes and pictures, by [`FileReference::Held`].
     pub held: Vec<(String, HeldContent)>,
     pub report: ImportReport,
     pub(super) material_names: Names,
     pub(super) texture_names: Names,
+    pub(super) node_names: Names,
 }
 
 /// Something that a file would hold.
@@ -153,6 +156,11 @@ impl Description {
     /// A name for a material that no other has, as near to the wanted one as can be.
     pub fn free_material_name(&mut self, wanted: &str) -> String {
         self.material_names.free(wanted)
+    }
+
+    /// The same for a node.
+    pub fn free_node_name(&mut self, wanted: &str) -> String {
+        self.node_names.free(wanted)
     }
 
     /// The same for a texture.

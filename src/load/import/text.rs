@@ -33,6 +33,7 @@ impl Text {
             self.entry("[camera]", camera, file_name);
         }
         let lists = [
+            ("[[node]]", &description.nodes),
             ("[[texture]]", &description.textures),
             ("[[material]]", &description.materials),
             ("[[shape]]", &description.shapes),

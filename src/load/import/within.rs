@@ -6,8 +6,8 @@ use super::description::{Description, Entry, HeldContent};
 use super::keys::{Keys, Value};
 use super::placed::{matrix_of, matrix_value};
 
-/// Keys whose values are names of materials or textures.
-const REFERENCES: [&str; 4] = ["material", "materials", "normal_map", "texture"];
+/// Keys whose values are names of materials, textures or nodes.
+const REFERENCES: [&str; 5] = ["material", "materials", "node", "normal_map", "texture"];
 
 /// Marks the name of a material of the scene around, which stays as it is.
 const OURS: char = '\u{1}';
@@ -23,6 +23,7 @@ impl Description {
                 shape.keys.0.retain(|(key, _)| *key != "transform");
             }
         }
+        self.place_nodes(map);
         let camera = self.camera.iter_mut();
         for entry in self.lights.iter_mut().chain(camera) {
             for (key, value) in &mut entry.keys.0 {
@@ -47,6 +48,17 @@ impl Description {
             let instead = "it stands upright as before";
             self.report.approximate("environment map of a scene that is turned over", place.unwrap_or_default(), instead);
         }
+    }
+
+    /// Puts the nodes into one that stands where all is moved to: what they take along is moved already.
+    fn place_nodes(&mut self, map: &DAffine3) {
+        let Some(matrix) = matrix_value(map).filter(|_| !self.nodes.is_empty()) else { return };
+        let name = self.free_node_name("(placed)");
+        for node in self.nodes.iter_mut().filter(|node| node.keys.get("parent").is_none()) {
+            node.keys.set("parent", name.as_str());
+        }
+        let keys = Keys::new().with("name", name).with("transform", matrix);
+        self.nodes.push(Entry { keys, ..Entry::default() });
     }
 
     /// A scene has one environment: keeps its own only where that is `open`, and says whether it still is.
@@ -93,6 +105,12 @@ impl Description {
         }
         for entry in self.materials.iter_mut().chain(&mut self.shapes) {
             rename(&mut entry.keys, &REFERENCES, &renamed);
+        }
+        for node in &mut self.nodes {
+            rename(&mut node.keys, &["name", "parent"], &renamed);
+        }
+        if let Some(camera) = &mut self.camera {
+            rename(&mut camera.keys, &["node"], &renamed);
         }
         for (index, (name, content)) in self.held.iter_mut().enumerate() {
             let ending = match content {

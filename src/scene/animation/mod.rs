@@ -1,25 +1,20 @@
 //! Scenes that are elsewhere at another frame.
 //!
-//! What of a scene has keys stands beside it: the scene itself is what it shows without a frame. [`Scene::at_frame`] gives another scene, which
-//! is all that renderers ever see. Frames are counted in one time: frame f is f / [`Animation::frames_per_second`] seconds after the start, and
+//! What of a scene has keys stands beside it: the scene itself is what it shows without a frame. `Scene::at_frame` gives another scene, which is
+//! all that renderers ever see. Frames are counted in one time: frame f is f / [`Animation::frames_per_second`] seconds after the start, and
 //! shutter time 1 of frame f is shutter time 0 of frame f + 1.
 
 mod curve;
 mod moving;
 mod track;
 
-use std::sync::Arc;
-
 use glam::DAffine3;
 
 pub use curve::{Curve, Interpolation, Key, Turn};
+pub use moving::motion_between;
 pub use track::{CameraTrack, Node, ShapeTrack, TransformTrack};
 
 use super::camera::Camera;
-use super::model::Scene;
-use super::shape::Shape;
-use super::transform::{Transform, TransformStep};
-use super::validate::{InvalidScene, check_camera};
 
 /// Frames in a second where nothing else is said.
 pub const FRAMES_PER_SECOND: f64 = 24.0;
@@ -56,11 +51,6 @@ impl Animation {
         })
     }
 
-    /// How many shapes have keys or a node that takes them along.
-    pub fn moving_shapes(&self) -> usize {
-        self.shapes.len()
-    }
-
     /// By how much a node takes things along from where they stand without a frame.
     fn taken_along(&self, node: Option<usize>, frame: f64) -> DAffine3 {
         let Some(node) = node else { return DAffine3::IDENTITY };
@@ -92,7 +82,7 @@ impl Animation {
     }
 
     /// The camera at a frame.
-    fn camera_at(&self, rest: &Camera, frame: f64) -> Camera {
+    pub fn camera_at(&self, rest: &Camera, frame: f64) -> Camera {
         let Some(track) = &self.camera else { return rest.clone() };
         let mut camera = track.at(rest, frame);
         if track.node.is_some_and(|node| self.moves(node)) {
@@ -107,53 +97,8 @@ impl Animation {
 
 impl ShapeTrack {
     /// From the shape's own space to the world.
-    fn at(&self, animation: &Animation, frame: f64) -> DAffine3 {
+    pub fn at(&self, animation: &Animation, frame: f64) -> DAffine3 {
         let own = self.track.as_ref().map_or_else(|| self.rest.to_affine(), |track| track.at(frame));
         animation.taken_along(self.node, frame) * own
     }
 }
-
-impl Scene {
-    /// The scene as it is at a frame, which need not be a whole number. Shapes whose keys move them while the shutter is open are blurred: they
-    /// are exactly where their keys put them as it opens and closes, and move evenly in between. The camera stands where it is at the frame itself. Meshes,
-    /// textures and whatever else does not change are shared.
-    ///
-    /// # Errors
-    /// What cannot be rendered there: a camera that looks at the point it stands at, a shape that is flattened.
-    pub fn at_frame(&self, frame: f64) -> Result<Self, InvalidScene> {
-        let animation = &self.animation;
-        let mut scene = self.clone();
-        scene.animation = Arc::default();
-        scene.camera = animation.camera_at(&self.camera, frame);
-        let of = |part: String, message: String| InvalidScene { part: format!("frame {frame}: {part}"), message };
-        check_camera(&scene.camera).map_err(|message| of("camera".to_owned(), message))?;
-        let shutter = scene.camera.shutter;
-        for track in &animation.shapes {
-            let shape = &mut scene.shapes[track.shape];
-            let at = |time: f64| track.at(animation, frame + time);
-            let (map, motion) = match moving::motion_between(&at, shutter) {
-                Ok(Some((map, motion))) => (map, Some(motion)),
-                Ok(None) => (at(shutter[0]), None),
-                Err(message) => return Err(of(shape.label.clone(), message.to_owned())),
-            };
-            shape.transform = Transform { steps: vec![TransformStep::Matrix(map)] };
-            shape.motion = motion;
-            let checked = shape.check_place().and_then(|()| shape.check_motion(shutter).map_err(|(_, message)| message));
-            checked.map_err(|message| of(shape.label.clone(), message))?;
-        }
-        Ok(scene)
-    }
-}
-
-impl Scene {
-    /// Whether all shapes stand and move as in another frame of the same scene.
-    pub fn shapes_stand_as_in(&self, other: &Self) -> bool {
-        let same = |(shape, other): (&Shape, &Shape)| shape.transform == other.transform && shape.motion == other.motion;
-        self.camera.shutter == other.camera.shutter
-            && self.shapes.len() == other.shapes.len()
-            && self.shapes.iter().zip(&other.shapes).all(same)
-    }
-}
-
-#[cfg(test)]
-mod tests;

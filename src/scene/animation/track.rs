@@ -88,7 +88,8 @@ impl CameraTrack {
 
     /// The frames of all its keys.
     pub fn frames(&self) -> impl Iterator<Item = f64> {
-        let vectors = [&self.position, &self.look_at, &self.up].into_iter().flat_map(|curve| curve.keys.iter().map(|key| key.frame));
+        let vectors =
+            [&self.position, &self.look_at, &self.up].into_iter().flat_map(|curve| curve.keys.iter().map(|key| key.frame));
         let numbers = [&self.opening, &self.focus_distance].into_iter().flat_map(|curve| curve.keys.iter().map(|key| key.frame));
         vectors.chain(numbers)
     }

@@ -1,5 +1,6 @@
 //! From what is written to what is meant: names looked up, files read, angles and directions checked.
 
+mod animation;
 mod camera;
 mod material;
 mod mtl;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::transform::TransformEntry;
 use crate::load::error::SceneError;
-use crate::load::file::animation::WrittenTrack;
+use crate::load::file::keyframes::WrittenTrack;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::Located;
 use crate::load::file::writer::Writer;
@@ -53,9 +53,9 @@ macro_rules! shape_keys {
             motion: Option<$crate::load::file::value::Located<$crate::load::file::shape::transform::TransformEntry>>,
             /// Where the shape stands at frames (`--frame`, `--frames`, `--time`), in place of `transform`, where it stands without one.
             #[schemars(extend("minItems" = 1))]
-            keyframes: Option<$crate::load::file::value::Located<Vec<$crate::load::file::value::Located<$crate::load::file::animation::TransformKeyEntry>>>>,
+            keyframes: Option<$crate::load::file::value::Located<Vec<$crate::load::file::value::Located<$crate::load::file::keyframes::TransformKeyEntry>>>>,
             /// How keyframes lead from one to the next; "linear" when left out.
-            interpolation: Option<$crate::load::file::value::Located<$crate::load::file::animation::InterpolationName>>,
+            interpolation: Option<$crate::load::file::value::Located<$crate::load::file::keyframes::InterpolationName>>,
             /// A `[[node]]` that takes the shape along at frames.
             node: Option<$crate::load::file::value::Located<String>>,
             /// Sample the directions through this shape for the environment's light as if the shape were a light: a window. Its
@@ -71,7 +71,7 @@ macro_rules! shape_keys {
                     transform: self.transform.as_ref(),
                     motion: self.motion.as_ref(),
                     portal: self.portal,
-                    track: $crate::load::file::animation::WrittenTrack {
+                    track: $crate::load::file::keyframes::WrittenTrack {
                         keyframes: self.keyframes.as_ref(),
                         interpolation: self.interpolation.as_ref(),
                         node: self.node.as_ref(),

@@ -10,7 +10,7 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-pub use self::transform::{ScaleEntry, TransformEntry};
+pub use self::transform::TransformEntry;
 
 use self::keys::{CommonKeys, ShapeKeys, Written};
 use self::mesh_file::Replaced;

@@ -11,9 +11,10 @@ use serde::de::{MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
 use crate::load::error::SceneError;
-use crate::load::file::colour::{Rgb, any_of};
+use crate::load::file::colour::any_of;
+use crate::load::file::keyframes::ScaleEntry;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Any, Exactly, Located, Number, Vector, vector};
+use crate::load::file::value::{Exactly, Located, Number, Vector, vector};
 use crate::scene::{Motion, MotionStep, Shape, Transform, TransformStep};
 
 /// Steps applied in their order, or one matrix.
@@ -41,10 +42,6 @@ pub struct StepEntry {
     pub matrix: Option<Located<Exactly<Number, 16>>>,
 }
 
-/// One factor or one per axis.
-#[derive(Debug)]
-pub struct ScaleEntry(pub DVec3);
-
 impl<'de> Deserialize<'de> for TransformEntry {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct StepsVisitor;
@@ -64,27 +61,12 @@ impl<'de> Deserialize<'de> for TransformEntry {
     }
 }
 
-impl<'de> Deserialize<'de> for ScaleEntry {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Rgb::<Any>::deserialize_as(deserializer, "one factor or one per axis").map(ScaleEntry)
-    }
-}
-
 impl JsonSchema for TransformEntry {
     fn schema_name() -> Cow<'static, str> {
         "Transform".into()
     }
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         any_of(vec![generator.subschema_for::<Vec<StepEntry>>(), generator.subschema_for::<StepEntry>()])
-    }
-}
-
-impl JsonSchema for ScaleEntry {
-    fn schema_name() -> Cow<'static, str> {
-        "Scale".into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        any_of(vec![generator.subschema_for::<Number>(), generator.subschema_for::<Vector>()])
     }
 }
 

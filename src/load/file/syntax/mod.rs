@@ -15,10 +15,11 @@ use serde::Deserialize;
 pub use render::RenderTable;
 pub use texture::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 
-use super::animation::{AnimationTable, CameraKeyEntry, InterpolationName, NodeEntry};
 use super::import::ImportEntry;
+use super::keyframes::{AnimationTable, CameraKeyEntry, InterpolationName};
 use super::light::LightEntry;
 use super::material::MaterialEntry;
+use super::node::NodeEntry;
 use super::shape::ShapeEntry;
 use super::value::{Checked, Exactly, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
 

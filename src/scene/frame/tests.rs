@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use glam::{DVec3, Vec3};
+use glam::{DAffine3, DVec3, Vec3};
 
 use super::*;
 use crate::load::load_toml_str;

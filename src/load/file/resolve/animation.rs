@@ -1,122 +1,18 @@
-//! `[animation]`, `[[node]]` and keyframes: what is elsewhere at another frame.
+//! `[animation]`, `[[node]]` and keyframes.
 
-use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-use schemars::JsonSchema;
-use serde::Deserialize;
-
-use super::resolver::Resolver;
-use super::shape::{ScaleEntry, TransformEntry};
-use super::syntax::{CameraTable, ProjectionName, SceneFile};
-use super::value::{Checked, FieldOfView, Located, Number, Positive, Vector, vector};
 use crate::load::error::SceneError;
+use crate::load::file::keyframes::{CameraKeyEntry, InterpolationName, TransformKeyEntry, WrittenTrack};
+use crate::load::file::node::NodeEntry;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::syntax::{CameraTable, ProjectionName, SceneFile};
+use crate::load::file::value::{Located, Number, vector};
 use crate::scene::animation::{
     Animation, CameraTrack, FRAMES_PER_SECOND, Interpolation, Key, Node, ShapeTrack, TransformTrack, Turn,
 };
 use crate::scene::{Shape, Transform};
-
-/// How frames and seconds belong together.
-#[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table")]
-#[schemars(rename = "Animation")]
-pub struct AnimationTable {
-    /// Frames in a second: frame n is n / fps seconds after the start. 24 when left out.
-    pub fps: Option<Checked<Positive>>,
-}
-
-/// How keyframes lead from one to the next.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-#[schemars(rename = "Interpolation")]
-pub enum InterpolationName {
-    /// Evenly.
-    Linear,
-    /// With a speed that does not jump, from rest to rest, and never beyond the keys' values.
-    Smooth,
-    /// By jumps: what a key states holds until the next.
-    Step,
-}
-
-impl From<InterpolationName> for Interpolation {
-    fn from(name: InterpolationName) -> Self {
-        match name {
-            InterpolationName::Linear => Self::Linear,
-            InterpolationName::Smooth => Self::Smooth,
-            InterpolationName::Step => Self::Step,
-        }
-    }
-}
-
-/// A transform at a frame: what is scaled first, then turned, then moved. A part that it does not state goes through the keyframes that do.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table such as { frame = 10, translate = [0, 1, 0] }")]
-#[schemars(rename = "TransformKeyframe")]
-#[schemars(extend("oneOf" = [{ "required": ["frame"] }, { "required": ["time"] }],
-    "anyOf" = [{ "required": ["scale"] }, { "required": ["rotate"] }, { "required": ["translate"] }],
-    "dependentRequired" = { "degrees": ["rotate"], "rotate": ["degrees"] }))]
-pub struct TransformKeyEntry {
-    /// Number of the frame, not necessarily a whole one; or `time`.
-    frame: Option<Number>,
-    /// Seconds after the start.
-    time: Option<Number>,
-    /// One factor or one per axis; not 0.
-    scale: Option<Located<ScaleEntry>>,
-    /// The axis of a rotation by `degrees`. Between keyframes about the same axis the angle goes evenly, also beyond a whole turn; between different
-    /// axes the rotation takes the shortest way.
-    rotate: Option<Located<Vector>>,
-    /// Counter-clockwise seen from the axis' tip.
-    degrees: Option<Located<Number>>,
-    translate: Option<Vector>,
-}
-
-/// The camera at a frame. What it does not state goes through the keyframes that do, or stays as `[camera]` has it.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table such as { frame = 10, position = [0, 1, 5] }")]
-#[schemars(rename = "CameraKeyframe")]
-#[schemars(extend("oneOf" = [{ "required": ["frame"] }, { "required": ["time"] }]))]
-pub struct CameraKeyEntry {
-    /// Number of the frame, not necessarily a whole one; or `time`.
-    frame: Option<Number>,
-    /// Seconds after the start.
-    time: Option<Number>,
-    position: Option<Vector>,
-    look_at: Option<Vector>,
-    up: Option<Vector>,
-    /// Of a perspective camera.
-    vfov: Option<Located<Checked<FieldOfView>>>,
-    /// Of an orthographic camera.
-    height: Option<Located<Checked<Positive>>>,
-    focus_distance: Option<Checked<Positive>>,
-}
-
-/// A frame of reference that takes along the shapes and the camera that name it.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table")]
-#[schemars(rename = "Node", extend("dependentRequired" = { "interpolation": ["keyframes"] }))]
-pub struct NodeEntry {
-    pub name: Located<String>,
-    /// The node that takes this one along.
-    parent: Option<Located<String>>,
-    /// Where it stands in its parent without a frame: what names it is moved by the change from there.
-    transform: Option<Located<TransformEntry>>,
-    /// Where it stands in its parent at frames, in place of `transform`.
-    #[schemars(extend("minItems" = 1))]
-    keyframes: Option<Located<Vec<Located<TransformKeyEntry>>>>,
-    /// How keyframes lead from one to the next; "linear" when left out.
-    interpolation: Option<Located<InterpolationName>>,
-}
-
-/// What of a shape says where it is at frames.
-#[derive(Clone, Copy)]
-pub struct WrittenTrack<'a> {
-    pub keyframes: Option<&'a Located<Vec<Located<TransformKeyEntry>>>>,
-    pub interpolation: Option<&'a Located<InterpolationName>>,
-    pub node: Option<&'a Located<String>>,
-    /// The shape's own motion is written.
-    pub has_motion: bool,
-}
 
 impl Resolver<'_> {
     /// `[animation]`, `[[node]]`, and the keyframes of the camera, which has been read.
@@ -209,7 +105,9 @@ impl Resolver<'_> {
 
     /// `interpolation` says how keyframes lead from one to the next.
     fn without_keyframes(&self, interpolation: Option<&Located<InterpolationName>>) -> Result<(), SceneError> {
-        let refuse = |written: &Located<_>| Err(self.error(&written.span, "`interpolation` belongs to `keyframes`, of which there are none"));
+        let refuse = |written: &Located<_>| {
+            Err(self.error(&written.span, "`interpolation` belongs to `keyframes`, of which there are none"))
+        };
         interpolation.map_or(Ok(()), refuse)
     }
 
@@ -278,7 +176,7 @@ impl Resolver<'_> {
     }
 
     /// Notes where the next shape of the scene is at frames.
-    pub(super) fn shape_track(&mut self, written: WrittenTrack<'_>, shape: &Shape) -> Result<(), SceneError> {
+    pub(in crate::load::file) fn shape_track(&mut self, written: WrittenTrack<'_>, shape: &Shape) -> Result<(), SceneError> {
         let WrittenTrack { keyframes, interpolation, node, has_motion } = written;
         let fps = self.scene.animation.frames_per_second;
         let track = self.transform_track(keyframes, interpolation, fps)?;
@@ -312,6 +210,3 @@ impl Resolver<'_> {
         Ok(())
     }
 }
-
-/// Names of nodes with their places.
-pub type NodeNames = HashMap<String, usize>;

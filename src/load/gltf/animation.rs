@@ -1,0 +1,265 @@
+//! Animations: channels of samplers become keyframes of nodes.
+//!
+//! A node that moves becomes a `[[node]]`, whose keyframes are in seconds; what stands between two of them and does not move becomes one of its own
+//! where it is no identity. What nodes take along stays where it is without a frame.
+
+use std::collections::{HashMap, HashSet};
+
+use glam::{DAffine3, DQuat, DVec3, DVec4};
+use serde::Deserialize;
+
+use super::importer::Importer;
+use super::json::{Animation, Channel};
+use super::node::{MovingNodes, Placed, local, unit};
+use crate::load::import::{Entry, Keys, Value, list, matrix_value};
+use crate::scene::animation::Turn;
+
+/// Most keyframes of a file.
+const MOST_KEYS: usize = 50_000;
+/// Straight pieces that a cubic between two keyframes becomes.
+const PIECES: usize = 8;
+/// Smallest scale: one of 0 leaves nothing of a shape.
+const SMALLEST_SCALE: f64 = 1e-5;
+
+/// A part of a transform, and how channels call it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+enum Part {
+    Scale,
+    Rotation,
+    Translation,
+}
+
+/// Values at times in seconds, each later than the one before.
+#[derive(Debug, Clone)]
+struct Track {
+    keys: Vec<(f64, DVec4)>,
+    is_step: bool,
+}
+
+/// By node, what moves of it.
+type Tracks = HashMap<usize, HashMap<Part, Track>>;
+
+impl Importer<'_> {
+    /// Makes nodes of what moves. Gives, for each node of the file, the name of the node that takes it along.
+    pub fn animate(&mut self, placed: &[Placed]) -> Result<MovingNodes, String> {
+        let mut tracks = self.tracks();
+        let keys = |tracks: &Tracks| tracks.values().flat_map(HashMap::values).map(|track| track.keys.len()).sum::<usize>();
+        let count = keys(&tracks);
+        if count > MOST_KEYS {
+            let instead = format!("it has {count} keyframes, of which at most {MOST_KEYS} are taken: everything is at rest");
+            self.drop("animation", "animations", &instead);
+            tracks.clear();
+        }
+        let mut parents: Vec<Option<usize>> = vec![None; self.root.nodes.len()];
+        for Placed { node, .. } in placed {
+            self.root.nodes[*node].children.iter().for_each(|&child| parents[child] = Some(*node));
+        }
+        let (mut taken_along, mut moving) = (MovingNodes::new(), HashSet::new());
+        // Parents come before their children.
+        for &Placed { node, .. } in placed {
+            let around = parents[node].and_then(|parent| taken_along.get(&parent)).cloned();
+            let name = match tracks.remove(&node) {
+                Some(tracks) => {
+                    let name = self.moving_node(node, &parents, (around, &moving), tracks)?;
+                    moving.insert(node);
+                    Some(name)
+                }
+                None => around,
+            };
+            taken_along.extend(name.map(|name| (node, name)));
+        }
+        Ok(taken_along)
+    }
+
+    /// Adds a node that moves, within those `around` it; its name.
+    fn moving_node(
+        &mut self,
+        index: usize,
+        parents: &[Option<usize>],
+        (around, moving): (Option<String>, &HashSet<usize>),
+        tracks: HashMap<Part, Track>,
+    ) -> Result<String, String> {
+        let node = &self.root.nodes[index];
+        let of_node = |message: String| format!("nodes[{index}]: {message}");
+        let rest = local(node).map_err(of_node)?;
+        // Up to the next node that moves.
+        let (mut between, mut next) = (DAffine3::IDENTITY, parents[index]);
+        while let Some(parent) = next.filter(|parent| !moving.contains(parent)) {
+            between = local(&self.root.nodes[parent]).map_err(of_node)? * between;
+            next = parents[parent];
+        }
+        let wanted = node.name.clone().unwrap_or_else(|| format!("node-{index}"));
+        let name = self.scene.free_node_name(&wanted);
+        let place = self.place(&format!("nodes[{index}]"));
+        let mut parent = around;
+        if let Some(matrix) = matrix_value(&between) {
+            let frame = self.scene.free_node_name(&format!("{wanted} (parent)"));
+            let keys = Keys::new().with("name", frame.as_str()).with_some("parent", parent.take()).with("transform", matrix);
+            self.scene.nodes.push(Entry { place: place.clone(), keys });
+            parent = Some(frame);
+        }
+        let (keyframes, is_step) = keyframes(&rest, tracks);
+        let keys = Keys::new()
+            .with("name", name.as_str())
+            .with_some("parent", parent)
+            .with_some("transform", matrix_value(&rest))
+            .with("keyframes", Value::List(keyframes))
+            .with_some("interpolation", is_step.then_some("step"));
+        self.scene.nodes.push(Entry { place, keys });
+        Ok(name)
+    }
+
+    /// What channels say of nodes. Where several animations move the same part of a node, the first counts.
+    fn tracks(&mut self) -> Tracks {
+        let mut tracks = Tracks::new();
+        for (index, value) in self.root.animations.iter().enumerate() {
+            let key = format!("animations[{index}]");
+            let animation = match Animation::deserialize(value) {
+                Ok(animation) => animation,
+                Err(error) => {
+                    self.drop("animation", &key, &format!("it cannot be read: {error}"));
+                    continue;
+                }
+            };
+            for channel in &animation.channels {
+                if let Err(reason) = self.channel(&animation, channel, &mut tracks, &key) {
+                    self.drop("channel of an animation", &key, &format!("it has no effect: {reason}"));
+                }
+            }
+        }
+        tracks
+    }
+
+    fn channel(&mut self, animation: &Animation, channel: &Channel, tracks: &mut Tracks, key: &str) -> Result<(), String> {
+        let Some(node) = channel.target.node else { return Err("it names no node".to_owned()) };
+        if node >= self.root.nodes.len() {
+            return Err(format!("there is no nodes[{node}]"));
+        }
+        let (part, kind) = match channel.target.path.as_str() {
+            "translation" => (Part::Translation, "VEC3"),
+            "rotation" => (Part::Rotation, "VEC4"),
+            "scale" => (Part::Scale, "VEC3"),
+            "weights" => return Err("morph targets stay as they are".to_owned()),
+            other => return Err(format!("it moves the property `{other}`")),
+        };
+        let sampler =
+            animation.samplers.get(channel.sampler).ok_or_else(|| format!("there is no samplers[{}]", channel.sampler))?;
+        let (times, _) = self.buffers.numbers(sampler.input, &["SCALAR"])?;
+        let (values, width) = self.buffers.numbers(sampler.output, &[kind])?;
+        let interpolation = sampler.interpolation.as_deref().unwrap_or("LINEAR");
+        let per_key = if interpolation == "CUBICSPLINE" { 3 } else { 1 };
+        if values.len() != times.len() * width * per_key {
+            return Err(format!("it has {} times and {} values", times.len(), values.len() / width));
+        }
+        let value = |index: usize| {
+            let of = |component: usize| if component < width { f64::from(values[index * width + component]) } else { 0.0 };
+            DVec4::new(of(0), of(1), of(2), of(3))
+        };
+        let is_finite = times.iter().chain(&values).all(|number| number.is_finite() && number.abs() < 1e18);
+        if !is_finite || times.windows(2).any(|pair| pair[0] >= pair[1]) || times.is_empty() {
+            return Err("its times do not go forward, or its numbers are out of range".to_owned());
+        }
+        let times = times.into_iter().map(f64::from);
+        let keys: Vec<(f64, DVec4)> = match interpolation {
+            "LINEAR" | "STEP" => times.enumerate().map(|(index, time)| (time, value(index))).collect(),
+            "CUBICSPLINE" => {
+                self.scene.report.approximate("cubic of an animation", self.place(key).to_string(), "straight pieces are taken");
+                cubic(&times.collect::<Vec<_>>(), &value)
+            }
+            other => return Err(format!("there is no interpolation {other}")),
+        };
+        let mut track = Track { keys: without_repeats(keys), is_step: interpolation == "STEP" };
+        if part == Part::Scale {
+            let nothing = |scale: f64| scale.abs() < SMALLEST_SCALE;
+            if track.keys.iter().any(|(_, scale)| scale.truncate().to_array().into_iter().any(nothing)) {
+                self.scene.report.approximate("scale of 0", self.place(key).to_string(), "what it hides is small");
+            }
+            let least = |scale: f64| if nothing(scale) { SMALLEST_SCALE.copysign(scale) } else { scale };
+            track.keys.iter_mut().for_each(|(_, scale)| *scale = DVec4::from_array(scale.to_array().map(least)));
+        }
+        let of_node = tracks.entry(node).or_default();
+        if of_node.contains_key(&part) {
+            return Err(format!("an earlier one moves nodes[{node}]"));
+        }
+        of_node.insert(part, track);
+        Ok(())
+    }
+}
+
+/// The cubics of a channel as straight pieces (glTF 2.0, appendix C).
+fn cubic(times: &[f64], value: &dyn Fn(usize) -> DVec4) -> Vec<(f64, DVec4)> {
+    let mut keys = Vec::new();
+    for (index, pair) in times.windows(2).enumerate() {
+        let width = pair[1] - pair[0];
+        let (a, leaving) = (value(3 * index + 1), value(3 * index + 2) * width);
+        let (arriving, b) = (value(3 * index + 3) * width, value(3 * index + 4));
+        for piece in 0..PIECES {
+            let t = piece as f64 / PIECES as f64;
+            let (t2, t3) = (t * t, t * t * t);
+            let at = a * (2.0 * t3 - 3.0 * t2 + 1.0)
+                + leaving * (t3 - 2.0 * t2 + t)
+                + b * (3.0 * t2 - 2.0 * t3)
+                + arriving * (t3 - t2);
+            keys.push((pair[0] + width * t, at));
+        }
+    }
+    keys.extend(times.last().map(|&last| (last, value(3 * (times.len() - 1) + 1))));
+    keys
+}
+
+/// Keys between two others of the same value say nothing.
+fn without_repeats(keys: Vec<(f64, DVec4)>) -> Vec<(f64, DVec4)> {
+    let says = |at: usize| at == 0 || at + 1 == keys.len() || keys[at - 1].1 != keys[at].1 || keys[at].1 != keys[at + 1].1;
+    (0..keys.len()).filter(|&at| says(at)).map(|at| keys[at]).collect()
+}
+
+/// Keyframes of a node that is at rest there, as a scene file has them, and whether they jump.
+fn keyframes(rest: &DAffine3, mut tracks: HashMap<Part, Track>) -> (Vec<Value>, bool) {
+    let is_step = tracks.values().all(|track| track.is_step);
+    if !is_step {
+        // Jumps among what moves evenly: the old value stays up to just before the next.
+        for track in tracks.values_mut().filter(|track| track.is_step) {
+            let held = track.keys.windows(2).flat_map(|pair| {
+                let just_before = pair[1].0 - (1e-3 * (pair[1].0 - pair[0].0)).min(1e-4);
+                [pair[0], (just_before, pair[0].1)]
+            });
+            let last = track.keys.last().copied();
+            track.keys = held.chain(last).filter(|(time, _)| time.is_finite()).collect();
+        }
+    }
+    let first = tracks.values().map(|track| track.keys[0].0).fold(f64::INFINITY, f64::min);
+    let (scale, rotation, translation) = rest.to_scale_rotation_translation();
+    let still = [
+        (Part::Scale, scale.extend(0.0), scale == DVec3::ONE),
+        (Part::Rotation, DVec4::from(rotation), rotation == DQuat::IDENTITY),
+        (Part::Translation, translation.extend(0.0), translation == DVec3::ZERO),
+    ];
+    for (part, value, is_nothing) in still {
+        if !is_nothing {
+            tracks.entry(part).or_insert_with(|| Track { keys: vec![(first, value)], is_step });
+        }
+    }
+    let mut times: Vec<f64> = tracks.values().flat_map(|track| track.keys.iter().map(|key| key.0)).collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    let keyframe = |time: f64| {
+        let at = |part: Part| {
+            let keys = &tracks.get(&part)?.keys;
+            keys.binary_search_by(|key| key.0.total_cmp(&time)).ok().map(|place| keys[place].1)
+        };
+        let mut keys = Keys::new().with("time", time);
+        if let Some(scale) = at(Part::Scale) {
+            keys.set("scale", list(scale.truncate().to_array()));
+        }
+        if let Some(rotation) = at(Part::Rotation) {
+            let turn = Turn::of(unit(rotation));
+            keys.set("rotate", turn.axis);
+            keys.set("degrees", turn.degrees);
+        }
+        if let Some(translation) = at(Part::Translation) {
+            keys.set("translate", translation.truncate());
+        }
+        Value::Table(keys)
+    };
+    (times.into_iter().map(keyframe).collect(), is_step)
+}

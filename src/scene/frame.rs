@@ -1,0 +1,54 @@
+//! A scene at another frame.
+
+use std::sync::Arc;
+
+use super::animation::motion_between;
+use super::model::Scene;
+use super::shape::Shape;
+use super::transform::{Transform, TransformStep};
+use super::validate::{InvalidScene, check_camera};
+
+impl Scene {
+    /// The scene as it is at a frame, which need not be a whole number. Shapes whose keys move them while the shutter is open are blurred: they
+    /// are exactly where their keys put them as it opens and closes, and move evenly in between. The camera stands where it is at the frame itself. Meshes,
+    /// textures and whatever else does not change are shared.
+    ///
+    /// # Errors
+    /// What cannot be rendered there: a camera that looks at the point it stands at, a shape that is flattened.
+    pub fn at_frame(&self, frame: f64) -> Result<Self, InvalidScene> {
+        let animation = &self.animation;
+        let mut scene = self.clone();
+        scene.animation = Arc::default();
+        scene.camera = animation.camera_at(&self.camera, frame);
+        let of = |part: String, message: String| InvalidScene { part: format!("frame {frame}: {part}"), message };
+        check_camera(&scene.camera).map_err(|message| of("camera".to_owned(), message))?;
+        let shutter = scene.camera.shutter;
+        for track in &animation.shapes {
+            let shape = &mut scene.shapes[track.shape];
+            let at = |time: f64| track.at(animation, frame + time);
+            let (map, motion) = match motion_between(&at, shutter) {
+                Ok(Some((map, motion))) => (map, Some(motion)),
+                Ok(None) => (at(shutter[0]), None),
+                Err(message) => return Err(of(shape.label.clone(), message.to_owned())),
+            };
+            shape.transform = Transform { steps: vec![TransformStep::Matrix(map)] };
+            shape.motion = motion;
+            let checked = shape.check_place().and_then(|()| shape.check_motion(shutter).map_err(|(_, message)| message));
+            checked.map_err(|message| of(shape.label.clone(), message))?;
+        }
+        Ok(scene)
+    }
+}
+
+impl Scene {
+    /// Whether all shapes stand and move as in another frame of the same scene.
+    pub fn shapes_stand_as_in(&self, other: &Self) -> bool {
+        let same = |(shape, other): (&Shape, &Shape)| shape.transform == other.transform && shape.motion == other.motion;
+        self.camera.shutter == other.camera.shutter
+            && self.shapes.len() == other.shapes.len()
+            && self.shapes.iter().zip(&other.shapes).all(same)
+    }
+}
+
+#[cfg(test)]
+mod tests;
