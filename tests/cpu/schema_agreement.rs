@@ -17,6 +17,7 @@ use crate::statistics::random::SplitMix64;
 const RELATIONS: &[&str] = &[
     "there is no node named",
     "keyframes stand in the order",
+    "cameras state",
     "there is no texture named",
     "there is no material named",
     "is named `",
@@ -73,6 +74,19 @@ vfov = 40
 aperture = { shape = "polygon", radius = 0.05, blades = 5, rotation = 10 }
 focus_distance = 6
 shutter = [0, 1]
+keyframes = [{ frame = 0, position = [0, 1, 6], focus_distance = 6 }, { time = 2, look_at = [0, 2, 0], up = [0, 1, 0], vfov = 30 }]
+interpolation = "smooth"
+node = "arm"
+[animation]
+fps = 25
+[[node]]
+name = "arm"
+transform = [{ translate = [0, 1, 0] }]
+keyframes = [{ frame = 1, rotate = [0, 1, 0], degrees = 0 }, { frame = 17, rotate = [0, 1, 0], degrees = 90, translate = [0, 2, 0] }]
+interpolation = "step"
+[[node]]
+name = "hand"
+parent = "arm"
 [[texture]]
 name = "checks"
 type = "checker"
@@ -143,6 +157,9 @@ type = "box"
 min = [2, 0, 0]
 max = [3, 1, 1]
 material = "plain"
+keyframes = [{ frame = 0, scale = 1 }, { frame = 0.5, scale = [1, 2, 1] }]
+interpolation = "linear"
+node = "hand"
 [[light]]
 type = "environment"
 radiance = 0.3

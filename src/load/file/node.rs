@@ -12,6 +12,7 @@ use super::value::Located;
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "Node", extend("dependentRequired" = { "interpolation": ["keyframes"] }))]
 pub struct NodeEntry {
+    #[schemars(extend("minLength" = 1))]
     pub name: Located<String>,
     /// The node that takes this one along.
     pub parent: Option<Located<String>>,

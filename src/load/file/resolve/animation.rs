@@ -46,10 +46,11 @@ impl Resolver<'_> {
         }
         // Of each node, whether the chain of its parents is known to end.
         let mut ends = vec![false; nodes.len()];
+        let mut walk = vec![usize::MAX; nodes.len()];
         for start in 0..nodes.len() {
             let (mut chain, mut next) = (Vec::new(), Some(start));
             while let Some(index) = next.filter(|&index| !ends[index]) {
-                if chain.contains(&index) {
+                if std::mem::replace(&mut walk[index], start) == start {
                     let name = &file.node[index].value.name;
                     return Err(self.error(&name.span, format!("the node `{}` contains itself", name.value)));
                 }
@@ -157,7 +158,7 @@ impl Resolver<'_> {
                 curve.keys.extend(value.map(|value| Key { frame, value: vector(value) }));
             }
             let misplaced = |span: &Range<usize>, key: &str, kind: &str| {
-                Err(self.error(span, format!("`{key}` belongs to projection = \"{kind}\"")))
+                Err(self.error(span, format!("only keyframes of {kind} cameras state `{key}`")))
             };
             match (vfov, height) {
                 (Some(vfov), _) if !is_perspective => return misplaced(&vfov.span, "vfov", "perspective"),

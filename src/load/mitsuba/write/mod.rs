@@ -96,6 +96,9 @@ impl Writer<'_> {
     }
 
     fn sensor(&mut self) {
+        if table(self.scene, "camera").is_some_and(|camera| camera.contains_key("keyframes") || camera.contains_key("node")) {
+            self.drop("keyframes", "camera", "the camera stands where it is without a frame");
+        }
         let film = table(self.scene, "film");
         let size = film.and_then(|film| numbers(film, "size")).unwrap_or(vec![512.0, 512.0]);
         let filter = film.and_then(|film| table(film, "filter"));
