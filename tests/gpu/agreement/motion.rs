@@ -190,7 +190,7 @@ fn another_motion_is_noticed() {
         let steps = &mut change.shapes.last_mut().expect("the scene has shapes").motion.as_mut().expect("the last moves").steps;
         match &mut steps[index] {
             MotionStep::Scale(factors) => *factors *= 1.01,
-            MotionStep::Rotate { degrees, .. } => *degrees *= 1.01,
+            MotionStep::Rotate { degrees, .. } | MotionStep::Turned { degrees, .. } => *degrees *= 1.01,
             MotionStep::Translate(offset) => *offset *= 1.03,
         }
     }
