@@ -126,8 +126,8 @@ pub use {
     render::verify::verify,
     renderer::{DeviceChoice, Observer, RenderReport, Silent},
     scene::{
-        BlendMode, Estimator, FilmSettings, Filter, FilterKind, HemisphereSampling, LightSampling, MisHeuristic, PixelSampler,
-        RenderSettings, SamplerKind, Scene,
+        BlendMode, Estimator, FilmSettings, Filter, FilterKind, HemisphereSampling, LightChoice, LightSampling, MisHeuristic,
+        PixelSampler, RenderSettings, SamplerKind, Scene,
     },
     verify::Verdict,
 };

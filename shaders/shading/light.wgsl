@@ -10,6 +10,12 @@
 #import shading/shape_point.wgsl
 #import shading/shapes.wgsl
 #import shading/surface.wgsl
+#if LIGHT_TREE
+#import shading/light_tree.wgsl
+#endif
+#if RECTANGLES_BY_SOLID_ANGLE
+#import shading/seen_rectangle.wgsl
+#endif
 #if SPHERE_LIGHTS
 #import shading/sphere_light.wgsl
 #endif
@@ -94,6 +100,17 @@ fn choose_light(bits: u32) -> u32 {
 #endif
 }
 
+#if RECTANGLES_BY_SOLID_ANGLE
+// The rectangle that a light is, seen from a point; its solid angle is 0 where points of the light are drawn by area.
+fn seen_rectangle_light(light: u32, kind_flags: u32, reference: vec3<f32>) -> SeenRectangle {
+    if (kind_flags & LIGHT_RECTANGLE) == 0u {
+        var by_area: SeenRectangle;
+        return by_area;
+    }
+    return see_rectangle(reference, light_word(light, 1u).xyz, light_word(light, 2u).xyz, light_word(light, 3u).xyz);
+}
+#endif
+
 #if AREA_LIGHTS
 // A point on a light, seen from `reference`: density by area turned into density by solid angle.
 fn area_light_sample(reference: vec3<f32>, point: ShapePoint, area: f32, error: f32, radiance: vec3<f32>, two_sided: bool, pmf: f32) -> LightSample {
@@ -113,7 +130,16 @@ fn area_light_sample(reference: vec3<f32>, point: ShapePoint, area: f32, error: 
 // Draws a point of a light that is a surface, evenly over its area.
 fn sample_area_light(light: u32, kind_flags: u32, reference: vec3<f32>, pmf: f32, u: f32, v: f32) -> LightSample {
     let l1 = light_word(light, 1u);
-    let point = sample_shape(kind_flags & 255u, l1.xyz, light_word(light, 2u).xyz, light_word(light, 3u).xyz, u, v);
+#if RECTANGLES_BY_SOLID_ANGLE
+    let seen = seen_rectangle_light(light, kind_flags, reference);
+    var place = vec2<f32>(u, v);
+    if seen.solid_angle > 0.0 {
+        place = rectangle_place(seen, u, v);
+    }
+#else
+    let place = vec2<f32>(u, v);
+#endif
+    let point = sample_shape(kind_flags & 255u, l1.xyz, light_word(light, 2u).xyz, light_word(light, 3u).xyz, place.x, place.y);
     var size = point.size;
 #if MOVING_LIGHTS
     size += moved_light_magnitude(light);
@@ -124,10 +150,23 @@ fn sample_area_light(light: u32, kind_flags: u32, reference: vec3<f32>, pmf: f32
     if (kind_flags & LIGHT_VARIES) != 0u {
         var light_sample = area_light_sample(reference, point, l1.w, error, vec3<f32>(1.0), two_sided, pmf);
         light_sample.radiance *= varying_radiance(light, point, -light_sample.wi);
+#if RECTANGLES_BY_SOLID_ANGLE
+        if seen.solid_angle > 0.0 {
+            light_sample.pdf_solid_angle = pmf / seen.solid_angle;
+        }
+#endif
         return light_sample;
     }
 #endif
+#if RECTANGLES_BY_SOLID_ANGLE
+    var light_sample = area_light_sample(reference, point, l1.w, error, light_word(light, 4u).xyz, two_sided, pmf);
+    if seen.solid_angle > 0.0 {
+        light_sample.pdf_solid_angle = pmf / seen.solid_angle;
+    }
+    return light_sample;
+#else
     return area_light_sample(reference, point, l1.w, error, light_word(light, 4u).xyz, two_sided, pmf);
+#endif
 }
 #endif
 
@@ -144,7 +183,15 @@ fn environment_pdf_solid_angle(ray: Ray) -> f32 {
 }
 
 fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
+#if LIGHT_TREE
+    let choice = choose_light_at(reference, bits.x);
+    let light = choice.light;
+    if choice.pmf == 0.0 {
+        return no_light();
+    }
+#else
     let light = choose_light(bits.x);
+#endif
     if is_forgotten(light) {
         return no_light();
     }
@@ -153,7 +200,11 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
     let l0 = light_word(light, 0u);
     let kind_flags = bitcast<u32>(l0.x);
     let kind = kind_flags & 255u;
+#if LIGHT_TREE
+    let pmf = choice.pmf;
+#else
     let pmf = l0.w;
+#endif
     switch kind {
 #if SPHERE_LIGHTS
         case KIND_SPHERE: {
@@ -209,7 +260,11 @@ fn light_pdf_solid_angle(ray: Ray, surface: Surface) -> f32 {
     if surface.light == NONE {
         return 0.0;
     }
+#if LIGHT_TREE
+    let pmf = local_light_pmf(surface.light, ray.origin);
+#else
     let pmf = light_word(surface.light, 0u).w;
+#endif
 #if SPHERE_LIGHTS
     if surface.area == 0.0 {
 #if SPHERE_LIGHTS_BY_POINT
@@ -221,6 +276,12 @@ fn light_pdf_solid_angle(ray: Ray, surface: Surface) -> f32 {
 #else
         return pmf * sphere_cone_pdf(ray.origin, surface.sphere.xyz, surface.sphere.w);
 #endif
+    }
+#endif
+#if RECTANGLES_BY_SOLID_ANGLE
+    let seen = seen_rectangle_light(surface.light, bitcast<u32>(light_word(surface.light, 0u).x), ray.origin);
+    if seen.solid_angle > 0.0 {
+        return pmf / seen.solid_angle;
     }
 #endif
     let to_light = surface.position - ray.origin;

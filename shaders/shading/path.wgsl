@@ -8,6 +8,9 @@
 #import shading/bsdf.wgsl
 #import shading/light.wgsl
 #import shading/light_sample.wgsl
+#if LIGHT_TREE
+#import shading/light_tree.wgsl
+#endif
 #import shading/mis.wgsl
 #import shading/outside.wgsl
 #import shading/planted.wgsl
@@ -170,6 +173,17 @@ fn shading_point(surface: Surface) -> vec3<f32> {
     return surface.position + surface.error * surface.facing_normal;
 }
 
+#if LIGHT_TREE
+// The light that was chosen, to be written down where paths are; else 0, because a tree is not walked twice for nothing.
+fn traced_light(surface: Surface, light_bits: u32) -> u32 {
+#if TRACE
+    return choose_light_at(shading_point(surface), light_bits).light;
+#else
+    return 0u;
+#endif
+}
+#endif
+
 // The shadow ray of one of the light samples that a surface takes, chosen by `light_bits`, given the surface's value towards it.
 fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, light_bits: u32, value: BsdfValue) -> ShadowRay {
     var origin = shading_point(surface);
@@ -190,7 +204,11 @@ fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, ligh
     } else {
         radiance = radiance / count;
     }
+#if LIGHT_TREE
+    trace_light(light.wi, pdf_light, radiance, weight, traced_light(surface, light_bits), value.pdf_solid_angle);
+#else
     trace_light(light.wi, pdf_light, radiance, weight, choose_light(light_bits), value.pdf_solid_angle);
+#endif
 #if LAYER_OF_LIGHT
     radiance = select(vec3<f32>(0.0), radiance, is_in_layer(depth + 1u));
 #endif

@@ -20,7 +20,7 @@ const FILES: [(&str, &[u8]); 9] = [
 ];
 
 /// Name and text of every built-in scene; the first is the default.
-const SCENES: [(&str, &str); 25] = [
+const SCENES: [(&str, &str); 26] = [
     ("cornell", include_str!("../../scenes/cornell.toml")),
     ("spheres", include_str!("../../scenes/spheres.toml")),
     ("veach-mis", include_str!("../../scenes/veach-mis.toml")),
@@ -39,6 +39,7 @@ const SCENES: [(&str, &str); 25] = [
     ("terrace", include_str!("../../scenes/terrace.toml")),
     ("crystal", include_str!("../../scenes/crystal.toml")),
     ("lanterns", include_str!("../../scenes/lanterns.toml")),
+    ("bazaar", include_str!("../../scenes/bazaar.toml")),
     ("arbour", include_str!("../../scenes/arbour.toml")),
     ("vitrine", include_str!("../../scenes/vitrine.toml")),
     ("model-town", include_str!("../../scenes/model-town.toml")),

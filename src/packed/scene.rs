@@ -13,6 +13,7 @@ use super::primitive::Primitive;
 use super::texture::PackedTextures;
 use super::view::View;
 use super::{light, tree, world};
+use crate::sampling::light_tree::LightNode;
 use crate::scene::Scene;
 
 /// A scene ready for upload.
@@ -25,6 +26,10 @@ pub struct PackedScene {
     pub materials: PackedMaterials,
     /// Lights that are sampled; empty where the estimator never asks.
     pub lights: Vec<PackedLight>,
+    /// How many of them stand inside the scene; those at infinity are numbered behind.
+    pub local_lights: usize,
+    /// The tree by which those inside the scene are chosen, the root first; empty where they are chosen by power.
+    pub light_nodes: Vec<LightNode>,
     pub textures: PackedTextures,
     pub environment: PackedEnvironment,
     /// How shapes move (`PackedMotion::words` of `packed::motion`).
@@ -55,7 +60,7 @@ impl PackedScene {
         let mut materials = PackedMaterials::new(scene, &world.materials())?;
         let mut textures = PackedTextures::new(scene, materials.textures_mut())?;
         let environment = light::environment(scene, &mut textures)?;
-        let mut lights = light::collect(scene, &mut world, &environment);
+        let light::SampledLights { mut lights, local_count, nodes } = light::collect(scene, &mut world, &environment);
         let places = materials.places(scene);
         world.primitives.iter_mut().for_each(|primitive| primitive.material = places[primitive.material] as usize);
         for light in lights.iter_mut().filter(|light| light.material != NONE) {
@@ -68,6 +73,8 @@ impl PackedScene {
             hierarchy,
             materials,
             lights,
+            local_lights: local_count,
+            light_nodes: nodes,
             textures,
             environment,
             motions: world.motion_words,

@@ -9,7 +9,8 @@ use super::model::Plan;
 use super::options::{PlanOptions, TraversalChoice};
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
-use crate::scene::{RenderSettings, Scene};
+use crate::sampling::light_tree;
+use crate::scene::{LightChoice, RenderSettings, Scene};
 
 const ASKED_FOR: &str = "asked for";
 /// Edges by which paths end, or Russian roulette may end them, where one kernel traces whole paths.
@@ -89,6 +90,10 @@ pub(super) fn explain(
     }
     let entries: Vec<&str> = plan.pipeline().map(|stage| stage.entry).collect();
     add("stages", entries.join(", "), stages);
+    if plan.samples_lights() && packed.local_lights > 1 {
+        let (choice, because) = light_choice(scene.render.light_choice, packed);
+        add("light choice", choice, because);
+    }
     if plan.light_samples > 1 {
         let surfaces = match plan.light_samples_depth {
             1 => "at the first surface".to_owned(),
@@ -124,6 +129,25 @@ pub(super) fn explain(
         add("film", format!("{film}, all {height} rows together"), because.into());
     }
     decisions
+}
+
+/// How next event estimation chooses among lights.
+fn light_choice(asked_for: LightChoice, packed: &PackedScene) -> (String, String) {
+    let count = packed.local_lights;
+    let by_tree = !packed.light_nodes.is_empty();
+    let choice = if by_tree { format!("by a tree over {count} lights") } else { "by power, in constant time".to_owned() };
+    let because = match asked_for {
+        LightChoice::Power => ASKED_FOR.to_owned(),
+        LightChoice::Tree if by_tree => ASKED_FOR.to_owned(),
+        LightChoice::Auto if by_tree => format!("{count} lights inside the scene, at least {}", light_tree::FEWEST_LIGHTS),
+        LightChoice::Auto if count < light_tree::FEWEST_LIGHTS => {
+            format!("{count} lights inside the scene, fewer than {}", light_tree::FEWEST_LIGHTS)
+        }
+        LightChoice::Auto | LightChoice::Tree => {
+            format!("{count} lights are too many for a tree, which takes {}", light_tree::MOST_LIGHTS)
+        }
+    };
+    (choice, because)
 }
 
 /// Which materials are packed, where some are not.

@@ -86,16 +86,19 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
         ("FIRST_BLEND_WEIGHT_WORD", tables.first_blend_weight),
         ("FIRST_FURTHER_WORD", tables.first_further),
         ("FIRST_PART_WORD", tables.first_part),
+        ("FIRST_LIGHT_NODE_WORD", tables.first_light_node),
         ("FIRST_LIGHT_WORD", tables.first_light),
         ("FIRST_MOTION_WORD", tables.first_motion),
         ("FIRST_PORTAL", first_light(LightKind::Portal)),
         ("FIRST_TEXTURE_WORD", tables.first_texture),
         ("LANES", plan.lanes.unwrap_or(1)),
         ("LIGHT_COUNT", packed.lights.len() as u32),
+        ("LIGHTS_AT_INFINITY", (packed.lights.len() - packed.local_lights) as u32),
         ("LIGHT_SAMPLES", plan.light_samples),
         ("LIGHT_SAMPLES_DEPTH", plan.light_samples_depth),
         // Depth 0 means no limit: an edge that is never reached.
         ("MAX_DEPTH", if render.max_depth == 0 { u32::MAX } else { render.max_depth }),
+        ("LOCAL_LIGHTS", packed.local_lights as u32),
         ("MAX_SAMPLES_PER_PASS", MAX_SAMPLES_PER_PASS),
         ("MOST_FURTHER", packed.materials.materials.iter().map(PackedMaterial::looked_up).max().unwrap_or(0).max(1)),
         ("PATH_CAPACITY", plan.path_capacity),
@@ -146,11 +149,13 @@ fn choose_lights(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
     switches.enable("LIGHTS", sampled);
     switches.enable("TRANSPARENT_SHADOWS", shadows_are_transparent(scene, packed));
     switches.enable("ONE_LIGHT", packed.lights.len() == 1);
+    switches.enable("LIGHT_TREE", sampled && !packed.light_nodes.is_empty());
     let has_surface = |sampling: SurfaceSampling| {
         let is_it = |light: &PackedLight| light.is_surface() && light.shape().is_some_and(|kind| kind.sampling() == sampling);
         packed.lights.iter().any(is_it)
     };
     switches.enable("AREA_LIGHTS", has_surface(SurfaceSampling::Area));
+    switches.enable("RECTANGLES_BY_SOLID_ANGLE", sampled && packed.lights.iter().any(PackedLight::is_drawn_by_solid_angle));
     let spheres = packed.lights.iter().any(|light| light.is_surface() && light.shape() == Some(PrimitiveKind::Sphere));
     switches.enable("SPHERE_LIGHTS_BY_POINT", spheres && render.light_sampling != LightSampling::Cone);
     switches.enable("SPHERE_LIGHTS_VISIBLE_HALF", spheres && render.light_sampling == LightSampling::Visible);

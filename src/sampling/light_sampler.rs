@@ -40,6 +40,16 @@ impl LightSampler {
         }
     }
 
+    /// How many lights inside the scene there are; they are numbered first.
+    pub fn local_count(&self) -> usize {
+        self.local.lights.len()
+    }
+
+    /// The probabilities of the lights at infinity alone; none where there are none.
+    pub fn table_at_infinity(&self) -> AliasTable {
+        AliasTable::new(&self.at_infinity.probabilities().collect::<Vec<f64>>())
+    }
+
     /// The probabilities of all lights. What lights at infinity send depends on how large the scene is taken to be: together they are as
     /// likely as all others.
     pub fn table(&self) -> AliasTable {

@@ -83,6 +83,9 @@ pub struct LightParameters {
     pub color: DVec3,
     /// Nothing of a light at infinity.
     pub position: DVec3,
+    /// The direction that it shines in, and the angles from there, in radians, up to which it is full and at which it ends. None: it
+    /// shines in all directions.
+    pub cone: Option<(DVec3, [f64; 2])>,
     /// What else its shader reads.
     pub vectors: [DVec3; 2],
 }
@@ -233,6 +236,7 @@ impl DeltaLight for PointLight {
             strength: LightStrength::Power(4.0 * PI * luminance(self.intensity)),
             color: self.intensity,
             position: self.position,
+            cone: None,
             vectors: [DVec3::ZERO; 2],
         }
     }
@@ -274,6 +278,7 @@ impl DeltaLight for SpotLight {
             strength: LightStrength::Power(PI * (outer + inner) * luminance(self.intensity)),
             color: self.intensity,
             position: self.position,
+            cone: Some((self.direction, [self.falloff_degrees, self.angle_degrees].map(f64::to_radians))),
             vectors: [self.direction, DVec3::new(outer, inner, 0.0)],
         }
     }
@@ -300,6 +305,7 @@ impl DeltaLight for DirectionalLight {
             strength: LightStrength::Irradiance(luminance(self.irradiance)),
             color: self.irradiance,
             position: DVec3::ZERO,
+            cone: None,
             vectors: [-self.direction, DVec3::ZERO],
         }
     }

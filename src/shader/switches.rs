@@ -194,6 +194,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("MORE_LOBES").requires(&["MIXTURE"]),
     // What moves stands in the hierarchy, by its attributes.
     switch("MOTION").requires(&["ATTRIBUTES", "BVH"]),
+    switch("LIGHT_TREE").requires(&["LIGHTS"]).excludes(&["ONE_LIGHT"]),
     switch("MOVING_LIGHTS").requires(&["MOTION"]),
     switch("NODE_CHUNKS").requires(&["BVH"]).excludes(&["UNIFORM_NODES"]),
     switch("NON_DELTA_TRANSMISSION"),
@@ -219,6 +220,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("PROCEDURAL_TEXTURES").requires(&["TEXTURES"]).one_of(&["CHECKERS", "PERLIN", "WORLEY"]),
     // Acceleration structures hold a scene at rest.
     switch("RAY_QUERY").one_of(HELD).excludes(&["MOTION"]),
+    // Among them are lights.
+    switch("RECTANGLES_BY_SOLID_ANGLE").requires(&["AREA_LIGHTS", "LIGHTS", "QUAD_LIGHTS"]),
     switch("ROUGHNESS"),
     switch("ROULETTE"),
     switch("SEPARABLE_MASKING"),

@@ -5,7 +5,7 @@ use gpt::film::Band;
 use gpt::load;
 use gpt::reference::ReferenceRenderer;
 use gpt::renderer::{RenderRequest, Renderer, Silent};
-use gpt::scene::{Estimator, LightSampling, Scene};
+use gpt::scene::{Estimator, LightChoice, LightSampling, Scene};
 
 const SIDE: u32 = 24;
 const REPLICATIONS: u32 = 12;
@@ -123,4 +123,39 @@ fn portals_change_no_picture() {
         named("portals, nee", by_lights),
         named("bsdf", by_bsdf),
     ]);
+}
+
+/// Lamps of several kinds and sides among walls, a point and a sky.
+const LAMPS: &str = "[[shape]]\ntype = \"rectangle\"\ncorner = [-1, 2, -1]\nedge_u = [1.5, 0, 0]\nedge_v = [0, 0, 1.5]\nmaterial = \"lamp\"\n\
+                     [[shape]]\ntype = \"sphere\"\ncenter = [1.6, 0.4, 0.7]\nradius = 0.15\nmaterial = \"lamp\"\n\
+                     [[shape]]\ntype = \"disk\"\ncenter = [0.4, 1.5, -1]\nnormal = [0.2, -1, 0.3]\nradius = 0.3\nmaterial = \"lamp\"\n\
+                     [[shape]]\ntype = \"mesh\"\npositions = [[-2, 0.5, 0], [-2, 1.5, 0], [-1.9, 0.5, 1]]\nfaces = [[0, 1, 2]]\n\
+                     material = \"lamp\"\n[[light]]\ntype = \"point\"\nposition = [-1.5, 0.6, 1.2]\nintensity = 0.4\n";
+
+#[test]
+fn a_tree_of_lights_changes_no_picture() {
+    let lamps = |light_choice, estimator| {
+        let mut scene = load(&[LAMPS, "[[light]]\ntype = \"sky\"\nzenith = 0.2\nhorizon = 0.1\nground = 0\n"]);
+        (scene.render.light_choice, scene.render.estimator) = (light_choice, estimator);
+        scene
+    };
+    let named = |name: &str, scene| (name.to_owned(), scene);
+    assert_all_agree(vec![
+        named("power", lamps(LightChoice::Power, Estimator::Mis)),
+        named("tree", lamps(LightChoice::Tree, Estimator::Mis)),
+        named("tree, nee", lamps(LightChoice::Tree, Estimator::Nee)),
+    ]);
+}
+
+#[test]
+fn rectangles_look_the_same_whatever_their_points_are_drawn_by() {
+    let panel = "[[shape]]\ntype = \"rectangle\"\ncorner = [-1.5, 1.7, -1]\nedge_u = [3, 0, 0]\nedge_v = [0, 0, 2]\nmaterial = \"lamp\"\n";
+    let ways = [LightSampling::Area, LightSampling::Cone].into_iter().flat_map(|strategy| {
+        [Estimator::Mis, Estimator::Nee].map(|estimator| {
+            let mut scene = load(&[panel]);
+            (scene.render.light_sampling, scene.render.estimator) = (strategy, estimator);
+            (format!("{strategy:?}, {estimator:?}"), scene)
+        })
+    });
+    assert_all_agree(ways.collect());
 }

@@ -7,7 +7,7 @@ use gpt::packed::hierarchy::Traversal;
 use gpt::plan::{
     DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanError, PlanOptions, RayQueryLimits, StageMode, TraversalChoice,
 };
-use gpt::scene::Scene;
+use gpt::scene::{LightChoice, Scene};
 use std::path::Path;
 
 fn plan(scene: &Scene, limits: &DeviceLimits) -> Result<Plan, PlanError> {
@@ -296,4 +296,22 @@ fn stages_are_what_was_asked_for() {
     assert_eq!(plan(&scene, StageMode::Fused, true).expect("it fits").stages, StageMode::Fused);
     let refused = plan(&scene, StageMode::Wavefront, true);
     assert!(refused.is_err_and(|error| error.to_string().contains("not by the wavefront")));
+}
+
+/// A tree of lights is made where there are many, or where it is asked for; other kernels hold nothing of it.
+#[test]
+fn many_lights_are_chosen_by_a_tree() {
+    for (name, choice, tree, reason) in [
+        ("bazaar", LightChoice::Auto, true, "at least 24"),
+        ("bazaar", LightChoice::Power, false, "asked for"),
+        ("stage", LightChoice::Auto, false, "fewer than 24"),
+        ("stage", LightChoice::Tree, true, "asked for"),
+    ] {
+        let mut scene = load::load(Some(name)).expect("it is built in");
+        scene.render.light_choice = choice;
+        let plan = plan(&scene, &DeviceLimits::default()).expect("it fits");
+        assert_eq!(plan.switches.enabled.contains("LIGHT_TREE"), tree, "{name}, {choice:?}");
+        let decision = plan.decisions.iter().find(|decision| decision.about == "light choice").expect("it is decided");
+        assert!(decision.because.contains(reason), "{name}, {choice:?}: {decision:?}");
+    }
 }

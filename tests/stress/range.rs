@@ -13,6 +13,7 @@ pub fn findings(effort: Effort) -> Vec<Finding> {
     let mut findings = Vec::new();
     findings.extend(judge("lights of radiance 1e-6 and 1e6 in one picture", &dim_and_bright(), &dim_and_bright()));
     findings.extend(tiny_far_lights());
+    findings.extend(rectangles(effort));
     findings.extend(judge("environment with a sun of 1e5 over a sky of 1", &sun(), &sun()));
     findings.extend(white_boxes(effort));
     findings.extend(densities(effort));
@@ -82,6 +83,37 @@ fn tiny_far_lights() -> Vec<Finding> {
             against_truth(format!("{name} of size 1e-4 at a distance of 1e4"), &scene, truth, 2e-6)
         })
         .collect()
+}
+
+/// A point of a floor under the middle of a rectangle light, from so near that it fills the sky to where its points are drawn by area
+/// because the solid angle is too small for single precision. In closed form: radiance = ρ · L · F, with
+/// F = 2/π · (x/√(1+x²) · atan(y/√(1+x²)) + y/√(1+y²) · atan(x/√(1+y²))), x and y half the sides over the height.
+fn rectangles(effort: Effort) -> Vec<Finding> {
+    let sizes = effort.pick(vec![1.0], vec![1e-4, 1.0, 1e4]);
+    let heights = effort.pick(vec![0.02, 1.0, 4.3, 1e3], vec![0.02, 0.1, 1.0, 4.0, 4.3, 30.0, 1e3, 1e6]);
+    let mut findings = Vec::new();
+    for (size, height) in sizes.iter().flat_map(|&size: &f64| heights.iter().map(move |&height| (size, height))) {
+        let [width, depth, above] = [1.5 * size, size, height * size];
+        let [x, y] = [0.5 * width / above, 0.5 * depth / above];
+        let part = |x: f64, y: f64| x / (1.0 + x * x).sqrt() * (y / (1.0 + x * x).sqrt()).atan();
+        let truth = 0.5 * 2.0 / std::f64::consts::PI * (part(x, y) + part(y, x));
+        let eye = 0.3 * above.min(size);
+        // A field of view so narrow that all pixels see the same point, which are replications of each other.
+        let scene = scene(&format!(
+            "[film]\nsize = [16, 16]\n[render]\nspp = 512\nmax_depth = 2\nestimator = \"nee\"\n\
+             [camera]\nposition = [{eye:e}, {eye:e}, 0]\nlook_at = [0, 0, 0]\nvfov = 0.001\n\
+             [[material]]\nname = \"floor\"\ntype = \"diffuse\"\nreflectance = 0.5\n\
+             [[material]]\nname = \"light\"\ntype = \"emissive\"\nradiance = 1\n\
+             [[shape]]\ntype = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"floor\"\n\
+             [[shape]]\ntype = \"rectangle\"\ncorner = [{:e}, {above:e}, {:e}]\nedge_u = [{width:e}, 0, 0]\nedge_v = [0, 0, {depth:e}]\n\
+             material = \"light\"\n",
+            -0.5 * width,
+            -0.5 * depth
+        ));
+        let case = format!("rectangle of size {size:e} at {height} times its size");
+        findings.extend(against_truth(case, &scene, truth, 1e-3));
+    }
+    findings
 }
 
 /// As a comparison with the reference, and the device's mean against a truth, to the relative `margin`.

@@ -7,12 +7,15 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
+use super::constants::NONE;
 use super::environment::PackedEnvironment;
 use super::error::PackError;
 use super::primitive::WorldPrimitive;
+use super::shape::SurfaceSampling;
 use super::texture::PackedTextures;
 use super::world::WorldGeometry;
-use crate::sampling::{LightGroup, LightSampler};
+use crate::sampling::light_tree::{self, Emitter, LightNode};
+use crate::sampling::{LightGroup, LightSampler, LightTree};
 use crate::scene::light::light_table;
 use crate::scene::{Estimator, Light, LightStrength, Scene};
 use record::PORTAL_SHIFT;
@@ -48,10 +51,20 @@ pub fn environment(scene: &Scene, textures: &mut PackedTextures) -> Result<Packe
     Ok(PackedEnvironment::of(parts.collect::<Result<Vec<_>, _>>()?.into_iter()))
 }
 
+/// What next event estimation chooses from.
+#[derive(Debug, Default)]
+pub struct SampledLights {
+    pub lights: Vec<PackedLight>,
+    /// How many of them stand inside the scene: the first.
+    pub local_count: usize,
+    /// Of the tree by which those are chosen; empty where they are chosen by power.
+    pub nodes: Vec<LightNode>,
+}
+
 /// All sampled lights; marks the primitives that are lights with their index. The order is that of the reference.
-pub fn collect(scene: &Scene, world: &mut WorldGeometry, environment: &PackedEnvironment) -> Vec<PackedLight> {
+pub fn collect(scene: &Scene, world: &mut WorldGeometry, environment: &PackedEnvironment) -> SampledLights {
     if scene.render.estimator == Estimator::Bsdf {
-        return Vec::new();
+        return SampledLights::default();
     }
     let (mut lights, mut sampler) = (Vec::new(), LightSampler::default());
     // Asked once a material, not once a triangle: a texture's mean looks at all of it, and a blend's at all of its parts.
@@ -61,7 +74,7 @@ pub fn collect(scene: &Scene, world: &mut WorldGeometry, environment: &PackedEnv
     for primitive in &mut world.primitives {
         let Some(emission) = &emissions[primitive.material] else { continue };
         let power = emission.power(primitive);
-        if let Some(light) = surface_light(primitive, emission).filter(|_| power > 0.0) {
+        if let Some(light) = surface_light(primitive, emission, scene.render.light_sampling).filter(|_| power > 0.0) {
             primitive.light = lights.len() as u32;
             lights.push(light);
             let group = LightGroup::Surface { shape: primitive.shape, material: primitive.material };
@@ -84,7 +97,35 @@ pub fn collect(scene: &Scene, world: &mut WorldGeometry, environment: &PackedEnv
         light.alias_threshold = table.threshold[index];
         light.pmf = table.pmf[index] as f32;
     }
-    lights
+    let local_count = sampler.local_count();
+    if !light_tree::is_by_tree(scene.render.light_choice, local_count) {
+        return SampledLights { lights, local_count, nodes: Vec::new() };
+    }
+    let of_surface = |primitive: &WorldPrimitive| Some(emitter(scene, primitive, emissions[primitive.material].as_ref()?));
+    let surfaces = world.primitives.iter().filter(|primitive| primitive.light != NONE).filter_map(of_surface);
+    let delta_lights = scene.lights.iter().filter_map(Light::delta).filter(|light| light.strength.is_positive());
+    let emitters: Vec<Emitter> = surfaces.chain(delta_lights.filter_map(|light| Emitter::delta(&light))).collect();
+    let LightTree { nodes, trails, at_infinity } = LightTree::new(&emitters, sampler.table_at_infinity());
+    for (light, trail) in lights.iter_mut().zip(trails) {
+        light.trail = trail;
+    }
+    for (index, light) in lights[local_count..].iter_mut().enumerate() {
+        light.alias = local_count as u32 + at_infinity.alias[index];
+        light.alias_threshold = at_infinity.threshold[index];
+    }
+    SampledLights { lights, local_count, nodes }
+}
+
+/// What the tree knows of an emitting surface.
+fn emitter(scene: &Scene, primitive: &WorldPrimitive, emission: &SurfaceEmission) -> Emitter {
+    let bounds = primitive.geometry.extent().unwrap_or_default();
+    let power = emission.power(primitive);
+    if primitive.moves() {
+        return Emitter::moving(&scene.shapes[primitive.shape], scene.camera.shutter, bounds, power);
+    }
+    let flat = primitive.kind().sampling() == SurfaceSampling::Area;
+    let normal = primitive.geometry.light().filter(|_| flat).map(|(_, [_, p1, p2])| p1.cross(p2).normalize_or_zero());
+    Emitter::surface(bounds, normal, emission.two_sided(), power)
 }
 
 /// The environment and the portals to it, each with a measure of the irradiance it makes.

@@ -4,6 +4,8 @@ use glam::DVec3;
 
 use crate::packed::constants::NONE;
 use crate::packed::shape::PrimitiveKind;
+use crate::sampling::light_tree::{self, LightNode};
+use crate::sampling::solid_angle as strategy;
 use crate::scene::LightParameters;
 use crate::scene::light::light_table;
 use crate::shader::shared::{Constant, Constants, shared_constants};
@@ -62,10 +64,21 @@ shared_constants!(flags {
     pub(in crate::packed) const LIGHT_TWO_SIDED: u32 = 256;
     /// The radiance is that of the whole material, seen from where the light goes.
     pub(in crate::packed) const LIGHT_VARIES: u32 = 512;
+    /// A rectangle whose points are drawn by solid angle where it is large enough.
+    pub(in crate::packed) const LIGHT_RECTANGLE: u32 = 2048;
+    /// The least solid angle of those, and the least distance of the point from the plane as a share of that of the farthest side.
+    const LEAST_RECTANGLE_SOLID_ANGLE: f32 = strategy::LEAST_SOLID_ANGLE as f32;
+    const LEAST_RECTANGLE_DISTANCE: f32 = strategy::LEAST_DISTANCE as f32;
     /// Its points move as its attributes say.
     pub(in crate::packed) const LIGHT_MOVES: u32 = 1024;
     /// Of a portal: where the kind of its shape stands.
     pub(in crate::packed) const PORTAL_SHIFT: u32 = 12;
+    /// Words of a node in the tree of lights.
+    pub const LIGHT_NODE_WORDS: u32 = (size_of::<LightNode>() / 16) as u32;
+    /// Flags of a link there, and what masks its number.
+    const LIGHT_LEAF: u32 = light_tree::LEAF;
+    const LIGHT_CLUSTER_TWO_SIDED: u32 = light_tree::TWO_SIDED;
+    const LIGHT_NUMBER_MASK: u32 = light_tree::NUMBER_MASK;
 });
 
 /// Kinds, flags and sizes, for WGSL.
@@ -89,7 +102,8 @@ pub struct PackedLight {
     pub size: f32,
     /// Edges from p0; for a disk, two perpendicular radii. Of a delta light, the vectors of its parameters.
     pub p1: [f32; 3],
-    pub padding: u32,
+    /// The light's trail in the tree of lights, where there is one.
+    pub trail: u32,
     pub p2: [f32; 3],
     pub attributes: u32,
     /// Radiance of a surface; of a delta light, intensity or irradiance.
@@ -109,7 +123,7 @@ impl PackedLight {
             p0: position.as_vec3().to_array(),
             size: 0.0,
             p1: [0.0; 3],
-            padding: 0,
+            trail: 0,
             p2: [0.0; 3],
             attributes: NONE,
             radiance: radiance.as_vec3().to_array(),
@@ -131,6 +145,10 @@ impl PackedLight {
     /// Its radiance is looked up in the whole material.
     pub fn varies(&self) -> bool {
         self.kind_and_flags & LIGHT_VARIES != 0
+    }
+
+    pub fn is_drawn_by_solid_angle(&self) -> bool {
+        self.kind_and_flags & LIGHT_RECTANGLE != 0
     }
 
     pub fn moves(&self) -> bool {

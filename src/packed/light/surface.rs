@@ -4,11 +4,13 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::record::{LIGHT_MOVES, LIGHT_TWO_SIDED, LIGHT_VARIES, PackedLight};
+use super::record::{LIGHT_MOVES, LIGHT_RECTANGLE, LIGHT_TWO_SIDED, LIGHT_VARIES, PackedLight};
 use crate::math::luminance;
 use crate::packed::material::{color_and_texture, mean_emission};
 use crate::packed::primitive::WorldPrimitive;
-use crate::scene::{ChannelInput, ColorInput, Scene};
+use crate::packed::shape::PrimitiveKind;
+use crate::sampling::solid_angle::is_rectangle;
+use crate::scene::{ChannelInput, ColorInput, LightSampling, Scene};
 
 /// What a surface of some material sends out.
 pub struct SurfaceEmission {
@@ -33,6 +35,10 @@ impl SurfaceEmission {
             varies: scene.materials[material].is_blend() || radiance.is_texture(),
             radiance,
         }
+    }
+
+    pub fn two_sided(&self) -> bool {
+        self.two_sided
     }
 
     /// Luminous power: π·A·L, twice that for two sides.
@@ -60,12 +66,16 @@ fn mean_color(scene: &Scene, input: &ColorInput) -> DVec3 {
 }
 
 /// The light that an emitting primitive is; None where it cannot be sampled.
-pub fn surface_light(primitive: &WorldPrimitive, emission: &SurfaceEmission) -> Option<PackedLight> {
+pub fn surface_light(primitive: &WorldPrimitive, emission: &SurfaceEmission, sampling: LightSampling) -> Option<PackedLight> {
     let (radiance, _) = color_and_texture(&emission.radiance);
     let (size, [p0, p1, p2]) = primitive.geometry.light()?;
     let flag = |set: bool, bit: u32| if set { bit } else { 0 };
-    let flags =
-        flag(emission.two_sided, LIGHT_TWO_SIDED) | flag(emission.varies, LIGHT_VARIES) | flag(primitive.moves(), LIGHT_MOVES);
+    let is_quad = primitive.kind() == PrimitiveKind::Quad && !primitive.moves();
+    let is_rectangle = is_quad && sampling == LightSampling::Cone && is_rectangle(p1, p2);
+    let flags = flag(emission.two_sided, LIGHT_TWO_SIDED)
+        | flag(emission.varies, LIGHT_VARIES)
+        | flag(is_rectangle, LIGHT_RECTANGLE)
+        | flag(primitive.moves(), LIGHT_MOVES);
     Some(PackedLight {
         kind_and_flags: primitive.kind() as u32 | flags,
         size: size as f32,

@@ -33,8 +33,12 @@ impl Element for Disk {
     }
 
     fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        self.extent().map(|[low, high]| outward(low, high))
+    }
+
+    fn extent(&self) -> Option<[DVec3; 2]> {
         let reach = (DVec3::ONE - self.normal * self.normal).max(DVec3::ZERO).map(f64::sqrt) * self.radius;
-        Some(outward(self.center - reach, self.center + reach))
+        Some([self.center - reach, self.center + reach])
     }
 
     fn area(&self) -> f64 {

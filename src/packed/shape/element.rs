@@ -10,6 +10,9 @@ pub trait Element: Copy {
     /// Bounds in f32, grown past rounding. None: it is infinite.
     fn bounds(&self) -> Option<(Vec3, Vec3)>;
 
+    /// Lower and upper corner of the box around it. None: it is infinite.
+    fn extent(&self) -> Option<[DVec3; 2]>;
+
     /// Surface area; infinite for a plane.
     fn area(&self) -> f64;
 

@@ -34,8 +34,12 @@ impl Element for Triangle {
     }
 
     fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        self.extent().map(|[low, high]| outward(low, high))
+    }
+
+    fn extent(&self) -> Option<[DVec3; 2]> {
         let [a, b, c] = self.0;
-        Some(outward(a.min(b).min(c).as_dvec3(), a.max(b).max(c).as_dvec3()))
+        Some([a.min(b).min(c).as_dvec3(), a.max(b).max(c).as_dvec3()])
     }
 
     fn area(&self) -> f64 {

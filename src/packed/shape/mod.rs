@@ -113,6 +113,13 @@ macro_rules! modules {
                 }
             }
 
+            /// Lower and upper corner of the box around it. None: it is infinite.
+            pub fn extent(&self) -> Option<[DVec3; 2]> {
+                match self {
+                    $($(Self::$primitive(primitive) => primitive.extent(),)?)*
+                }
+            }
+
             /// Surface area; infinite for a plane.
             pub fn area(&self) -> f64 {
                 match self {

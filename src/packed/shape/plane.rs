@@ -27,6 +27,10 @@ impl Element for Plane {
         None
     }
 
+    fn extent(&self) -> Option<[DVec3; 2]> {
+        None
+    }
+
     fn area(&self) -> f64 {
         f64::INFINITY
     }

@@ -49,12 +49,16 @@ impl Element for Quad {
     }
 
     fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        let overlap = (self.edge_u.abs() + self.edge_v.abs()) * (2.0 * f64::from(QUAD_OVERLAP));
+        self.extent().map(|[low, high]| outward(low - overlap, high + overlap))
+    }
+
+    fn extent(&self) -> Option<[DVec3; 2]> {
         let Self { corner, edge_u, edge_v } = *self;
         let zero = DVec3::ZERO;
         let low = edge_u.min(zero) + edge_v.min(zero);
         let high = edge_u.max(zero) + edge_v.max(zero);
-        let overlap = (edge_u.abs() + edge_v.abs()) * (2.0 * f64::from(QUAD_OVERLAP));
-        Some(outward(corner + low - overlap, corner + high + overlap))
+        Some([corner + low, corner + high])
     }
 
     fn area(&self) -> f64 {

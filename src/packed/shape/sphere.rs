@@ -32,7 +32,11 @@ impl Element for Sphere {
     }
 
     fn bounds(&self) -> Option<(Vec3, Vec3)> {
-        Some(outward(self.center - self.radius, self.center + self.radius))
+        self.extent().map(|[low, high]| outward(low, high))
+    }
+
+    fn extent(&self) -> Option<[DVec3; 2]> {
+        Some([self.center - self.radius, self.center + self.radius])
     }
 
     fn area(&self) -> f64 {

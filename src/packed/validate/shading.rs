@@ -3,11 +3,14 @@
 use super::Check;
 use crate::packed::blend_weight::{self, WeightKind};
 use crate::packed::constants::NONE;
-use crate::packed::light::record::{LIGHT_MOVES, LIGHT_TWO_SIDED, LIGHT_VARIES, LightKind, PORTAL_SHIFT, PackedLight};
+use crate::packed::light::record::{
+    LIGHT_MOVES, LIGHT_RECTANGLE, LIGHT_TWO_SIDED, LIGHT_VARIES, LightKind, PORTAL_SHIFT, PackedLight,
+};
 use crate::packed::material::{self, PackedMaterial};
 use crate::packed::scene::PackedScene;
 use crate::packed::shape::PrimitiveKind;
 use crate::packed::texture::{self, PackedTexture, PackedTextureKind, TexelFormat};
+use crate::sampling::light_tree;
 use crate::scene::LobeKind;
 use crate::scene::material::FORMS;
 use crate::scene::validate::MOST_OCTAVES;
@@ -134,6 +137,29 @@ impl PackedScene {
         if numbers_of(LightKind::Environment).count() > 1 {
             return Err("two lights are the environment".to_owned());
         }
+        self.check_light_tree()
+    }
+
+    /// Below each node stand nodes behind it alone, so every way down ends; it ends at a light inside the scene.
+    fn check_light_tree(&self) -> Check {
+        let local = self.local_lights;
+        let Some(at_infinity) = self.lights.get(local..) else {
+            return Err(format!("{local} of {} lights stand inside the scene", self.lights.len()));
+        };
+        for (number, node) in self.light_nodes.iter().enumerate() {
+            for cluster in &node.clusters {
+                let (is_leaf, child) = (cluster.link & light_tree::LEAF != 0, (cluster.link & light_tree::NUMBER_MASK) as usize);
+                let exists = if is_leaf { child < local } else { number < child && child < self.light_nodes.len() };
+                if !exists {
+                    return Err(format!("node {number} of the lights leads to {:#x}", cluster.link));
+                }
+            }
+        }
+        // The choice at infinity is made among those lights alone.
+        let leads_back = |light: &PackedLight| (light.alias as usize) < local;
+        if !self.light_nodes.is_empty() && at_infinity.iter().any(leads_back) {
+            return Err("a light at infinity stands for one inside the scene".to_owned());
+        }
         Ok(())
     }
 
@@ -141,7 +167,7 @@ impl PackedScene {
         let is_surface = light.is_surface();
         let has_area = |kind: u32| PrimitiveKind::of(kind).is_some_and(|kind| !kind.is_infinite());
         let (is_known, flags) = if is_surface {
-            (has_area(light.kind()), LIGHT_TWO_SIDED | LIGHT_VARIES | LIGHT_MOVES)
+            (has_area(light.kind()), LIGHT_TWO_SIDED | LIGHT_VARIES | LIGHT_MOVES | LIGHT_RECTANGLE)
         } else if light.is(LightKind::Portal) {
             (has_area(light.kind_and_flags >> PORTAL_SHIFT), u32::MAX << PORTAL_SHIFT)
         } else {

@@ -12,6 +12,7 @@ use crate::packed::material::{BLEND, PackedBlendPart, PackedMaterial, PackedPara
 use crate::packed::primitive::Primitive;
 use crate::packed::scene::PackedScene;
 use crate::packed::texture::{PackedTexture, PackedTextureKind};
+use crate::sampling::light_tree::{LightCluster, LightNode};
 
 /// An array of records.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,11 +25,12 @@ pub enum Array {
     BlendParts,
     Weights,
     Lights,
+    LightNodes,
     Textures,
 }
 
 impl Array {
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Primitives,
         Self::Attributes,
         Self::Nodes,
@@ -37,6 +39,7 @@ impl Array {
         Self::BlendParts,
         Self::Weights,
         Self::Lights,
+        Self::LightNodes,
         Self::Textures,
     ];
 
@@ -51,6 +54,7 @@ impl Array {
             Self::BlendParts => &BLEND_PART,
             Self::Weights => &WEIGHT,
             Self::Lights => &LIGHT,
+            Self::LightNodes => &LIGHT_NODE,
             Self::Textures => &TEXTURE,
         }
     }
@@ -66,6 +70,7 @@ impl Array {
             Self::BlendParts => size_of::<PackedBlendPart>(),
             Self::Weights => size_of::<PackedBlendWeight>(),
             Self::Lights => size_of::<PackedLight>(),
+            Self::LightNodes => size_of::<LightNode>(),
             Self::Textures => size_of::<PackedTexture>(),
         };
         bytes / 4
@@ -82,6 +87,7 @@ impl Array {
             Self::BlendParts => bytemuck::cast_slice(&scene.materials.parts),
             Self::Weights => bytemuck::cast_slice(&scene.materials.weights),
             Self::Lights => bytemuck::cast_slice(&scene.lights),
+            Self::LightNodes => bytemuck::cast_slice(&scene.light_nodes),
             Self::Textures => bytemuck::cast_slice(&scene.textures.textures),
         }
     }
@@ -160,6 +166,9 @@ const LIGHT: [(usize, Word); 4] = [
     (word!(PackedLight, attributes), Optional(Array::Attributes)),
     (word!(PackedLight, material), Optional(Array::Materials)),
 ];
+
+const LIGHT_NODE: [(usize, Word); 2] =
+    [(word!(LightCluster, link), Checked), (size_of::<LightCluster>() / 4 + word!(LightCluster, link), Checked)];
 
 const TEXTURE: [(usize, Word); 5] = [
     (word!(PackedTexture, kind_and_flags), Checked),

@@ -47,15 +47,27 @@ pub trait Element: Debug + Send + Sync {
         None
     }
 
+    /// A point as it is drawn for light that goes to `from`; unless it says otherwise, uniform over the area.
+    fn sample_seen(
+        &self,
+        _pose: Option<&Pose>,
+        _strategy: LightSampling,
+        _from: DVec3,
+        u1: f64,
+        u2: f64,
+    ) -> Option<(SurfacePoint, Local)> {
+        self.sample_area(u1, u2)
+    }
+
     /// Whether the element itself stands between `from` and a point of it.
     fn hides(&self, _from: DVec3, _point: &SurfacePoint) -> bool {
         false
     }
 
     /// A direction from `from` to a point of it. None where the point cannot be seen from there because the element itself is in the way.
-    /// `pose`: where it has moved to; `strategy`: how spheres are sampled.
+    /// `pose`: where it has moved to; `strategy`: how spheres and rectangles are sampled.
     fn sample(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3, u1: f64, u2: f64) -> Option<Direction> {
-        let (at_rest, local) = self.sample_area(u1, u2)?;
+        let (at_rest, local) = self.sample_seen(pose, strategy, from, u1, u2)?;
         let is_hidden = self.hides(pose.map_or(from, |pose| pose.place_at_rest(from)), &at_rest);
         if is_hidden { None } else { self.towards(pose, strategy, from, &at_rest, local) }
     }

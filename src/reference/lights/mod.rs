@@ -13,8 +13,9 @@ use glam::DVec3;
 
 use super::emission::{emitted, mean_exitance};
 use super::intersect::{Moment, Owner, PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
+use crate::sampling::light_tree::{self, Emitter};
 use crate::sampling::sampler::uniform;
-use crate::sampling::{AliasTable, LightGroup, LightSampler};
+use crate::sampling::{AliasTable, LightGroup, LightSampler, LightTree};
 use crate::scene::light::light_table;
 use crate::scene::{Estimator, Light, LightSampling, LightStrength, Scene};
 use delta::DeltaLight;
@@ -63,6 +64,8 @@ enum SampledLight {
 pub struct Lights {
     lights: Vec<SampledLight>,
     table: AliasTable,
+    /// Where it is made, lights are chosen by it. Those at infinity have the probabilities of the table all the same.
+    tree: Option<LightTree>,
     /// Index into `lights` by leaf-order index of the primitive.
     of_primitive: Vec<Option<u32>>,
     outside: Outside,
@@ -115,6 +118,8 @@ impl Lights {
             sampler.add(LightGroup::Alone, strength);
             lights.push(SampledLight::Delta(light));
         }
+        let is_by_tree = light_tree::is_by_tree(scene.render.light_choice, sampler.local_count());
+        let emitters = if is_by_tree { emitters(scene, world, &lights, &exitances) } else { Vec::new() };
         let outside = Outside::of(scene.lights.iter().filter_map(outside_light));
         let irradiance = PI * outside.mean_luminance();
         let mut environment_light = None;
@@ -135,7 +140,24 @@ impl Lights {
             }
         }
         let sphere_sampling = scene.render.light_sampling;
-        Self { lights, table: sampler.table(), of_primitive, outside, environment_light, first_portal, sphere_sampling }
+        let tree = is_by_tree.then(|| LightTree::new(&emitters, sampler.table_at_infinity()));
+        Self { lights, table: sampler.table(), tree, of_primitive, outside, environment_light, first_portal, sphere_sampling }
+    }
+
+    /// The light that 32 random bits choose at a point, and the probability of that.
+    fn choose(&self, point: DVec3, bits: u32) -> (usize, f64) {
+        match &self.tree {
+            Some(tree) => tree.choose(point, bits),
+            None => {
+                let light = self.table.choose(bits);
+                (light, self.table.pmf[light])
+            }
+        }
+    }
+
+    /// The probability with which a light inside the scene is chosen at a point.
+    fn probability(&self, point: DVec3, light: usize) -> f64 {
+        self.tree.as_ref().map_or(self.table.pmf[light], |tree| tree.probability(point, light))
     }
 
     pub fn is_empty(&self) -> bool {
@@ -156,8 +178,7 @@ impl Lights {
         choice: u32,
         [u, v]: [u32; 2],
     ) -> Option<LightSample> {
-        let light = self.table.choose(choice);
-        let probability = self.table.pmf[light];
+        let (light, probability) = self.choose(reference, choice);
         let (u1, u2) = (uniform(u), uniform(v));
         let sampled = &self.lights[light];
         let sample = |wi, distance, radiance, pdf, target| {
@@ -232,8 +253,29 @@ impl Lights {
         let Some(light) = self.of_primitive[place] else { return 0.0 };
         let pose = world.pose(place, moment);
         let pdf = world.primitive(place).element().pdf(pose, self.sphere_sampling, reference, &surface.point);
-        self.table.pmf[light as usize] * pdf
+        self.probability(reference, light as usize) * pdf
     }
+}
+
+/// What the tree knows of the lights inside the scene, in their order. `exitances` are those of the materials.
+fn emitters(scene: &Scene, world: &World, lights: &[SampledLight], exitances: &[f64]) -> Vec<Emitter> {
+    let two_sided = scene.materials_that(|material| material.emission.is_some_and(|emission| emission.two_sided));
+    let of_surface = |place: usize| {
+        let Owner { shape, material, .. } = world.owner(SurfaceId::Primitive(place));
+        let (element, shape) = (world.primitive(place).element(), &scene.shapes[shape]);
+        let (bounds, power) = (element.bounds().unwrap_or_default(), element.area() * exitances[material]);
+        if shape.motion.is_some() {
+            return Emitter::moving(shape, scene.camera.shutter, bounds, power);
+        }
+        let normal = element.sample_area(0.5, 0.5).map(|(point, _)| point.normal);
+        Emitter::surface(bounds, normal, two_sided[material], power)
+    };
+    let surfaces = lights.iter().filter_map(|light| match light {
+        SampledLight::Area(place) => Some(of_surface(*place)),
+        _ => None,
+    });
+    let delta_lights = scene.lights.iter().filter_map(Light::delta).filter(|light| light.strength.is_positive());
+    surfaces.chain(delta_lights.filter_map(|light| Emitter::delta(&light))).collect()
 }
 
 #[cfg(test)]

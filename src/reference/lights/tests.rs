@@ -50,6 +50,12 @@ fn rectangle() -> Geometry {
     Geometry::Rectangle(Rectangle { corner: DVec3::new(-1.0, 2.0, -0.5), edge_u, edge_v })
 }
 
+/// Perpendicular, so that it is drawn by solid angle.
+fn true_rectangle() -> Geometry {
+    let (edge_u, edge_v) = (DVec3::new(2.0, 0.5, 0.0), DVec3::new(0.25, -1.0, 1.5));
+    Geometry::Rectangle(Rectangle { corner: DVec3::new(-1.0, 2.0, -0.5), edge_u, edge_v })
+}
+
 fn triangle() -> Geometry {
     let positions = [[-1.0, 1.5, 0.0], [1.0, 2.0, 0.3], [0.0, 1.0, 1.0]].map(Vec3::from).to_vec();
     Geometry::Mesh(Arc::new(Mesh { positions, faces: vec![[0, 1, 2]], ..Mesh::default() }))
@@ -69,7 +75,7 @@ const STRATEGIES: [LightSampling; 3] = [LightSampling::Cone, LightSampling::Visi
 #[test]
 fn densities_of_light_samples_are_right() {
     for (geometry, strategy) in
-        [sphere(), rectangle(), triangle(), disk()].into_iter().flat_map(|g| STRATEGIES.map(|s| (g.clone(), s)))
+        [sphere(), rectangle(), true_rectangle(), triangle(), disk()].into_iter().flat_map(|g| STRATEGIES.map(|s| (g.clone(), s)))
     {
         let (mut scene, world) = glowing(vec![geometry.clone()]);
         scene.render.light_sampling = strategy;

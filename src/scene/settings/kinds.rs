@@ -43,14 +43,24 @@ choices! {
         Uniform = "uniform",
     }
 
-    /// How a point on a sphere light is drawn.
+    /// How a point on a sphere or a rectangle that is a light is drawn.
     pub enum LightSampling {
-        /// Uniform in the cone of directions that meet the sphere.
+        /// Uniform in the cone of directions that meet the sphere, and in those that meet a rectangle which is seen under a large angle.
         Cone = "cone",
-        /// Uniform over the half of the surface that faces the point.
+        /// Uniform over the half of a sphere that faces the point, and over rectangles.
         Visible = "visible",
         /// Uniform over the whole surface.
         Area = "area",
+    }
+
+    /// How next event estimation chooses among lights.
+    pub enum LightChoice {
+        /// By a tree where there are many lights, else by power.
+        Auto = "auto",
+        /// In constant time, by power wherever the light goes, and evenly over groups in three of ten choices.
+        Power = "power",
+        /// By a tree: near lights that face the point more often than others.
+        Tree = "tree",
     }
 
     /// What happens where a ray meets a blend of materials.

@@ -7,7 +7,9 @@ use std::fmt;
 
 use serde::{Serialize, Serializer};
 
-use super::kinds::{BlendMode, Estimator, HemisphereSampling, LightSampling, MisHeuristic, PixelSampler, SamplerKind};
+use super::kinds::{
+    BlendMode, Estimator, HemisphereSampling, LightChoice, LightSampling, MisHeuristic, PixelSampler, SamplerKind,
+};
 use super::row::settings;
 use super::value::Values::{Names, Real, Whole};
 use super::value::{BadSetting, Field, MOST_SAMPLES, Value, Values};
@@ -81,12 +83,20 @@ settings! {
             header: "gpt:hemisphere",
             compared: true,
         }
-        /// How a point on a sphere light is drawn.
+        /// How a point on a sphere or a rectangle that is a light is drawn.
         light_sampling: LightSampling = LightSampling::Cone => {
             values: Names(LightSampling::NAMES),
             flag: "--light-sampling",
             placeholder: "STRATEGY",
             header: "gpt:lightSampling",
+            compared: true,
+        }
+        /// How next event estimation chooses among lights.
+        light_choice: LightChoice = LightChoice::Auto => {
+            values: Names(LightChoice::NAMES),
+            flag: "--light-choice",
+            placeholder: "CHOICE",
+            header: "gpt:lightChoice",
             compared: true,
         }
         /// Light samples at the first surfaces of a path; later surfaces take one. Several pay where direct light is most of the noise.

@@ -5,7 +5,7 @@ use gpt::gpu::GpuRenderer;
 use gpt::load;
 use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
 use gpt::reference::ReferenceRenderer;
-use gpt::scene::{Estimator, Geometry, Light, LightSampling, Mesh, Scene, Shape};
+use gpt::scene::{Estimator, Geometry, Light, LightChoice, LightSampling, Mesh, Scene, Shape};
 use gpt::verify::{self, Verdict};
 
 use super::{DEVICE, assert_agrees, compare};
@@ -275,6 +275,73 @@ fn a_wide_panel_in_a_coordinate_plane_does_not_shade_itself() {
         // A panel in its own shadow loses whole light samples, of few paths: no test of means would see it.
         assert!(verdict.agrees && verdict.largest_difference < 0.01, "wide panel, {traversal:?}: {verdict:#?}");
     }
+}
+
+/// Lamps of every kind, one of them moving, with the sky and without it; few of them, where it is asked for; and all of a wavefront's stages.
+#[test]
+fn a_tree_of_lights_agrees() {
+    let mut bazaar = super::small("bazaar", 48, 8);
+    assert_agrees("bazaar", &bazaar, &by_wavefront());
+    bazaar.render.estimator = Estimator::Nee;
+    bazaar.lights.retain(|light| light.delta().is_some_and(|light| light.cone.is_some()));
+    bazaar.render.light_samples = 3;
+    bazaar.render.light_samples_depth = 2;
+    assert_agrees("bazaar, spots alone, nee", &bazaar, &PlanOptions::default());
+    let mut few = load(&[SPHERES, MAP, SPOT]);
+    few.render.light_choice = LightChoice::Tree;
+    assert_agrees("few lights in a tree", &few, &PlanOptions::default());
+    // The control: one device chooses by power.
+    let mut by_power = few.clone();
+    by_power.render.light_choice = LightChoice::Power;
+    let Some(verdict) = compare_unequal(&by_power, &few) else { return };
+    assert!(verdict.matching_share() < 0.97, "{verdict:#?}");
+}
+
+/// Rectangles above, beside, behind and through the ground, of one side and of two, textured and turned; one is a rhomboid.
+const RECTANGLES: &str = r#"
+[[texture]]
+name = "checks"
+type = "checker"
+a = [0.5, 0.2, 0.1]
+b = [0.1, 0.2, 0.6]
+scale = [5, 3]
+[[material]]
+name = "panel"
+type = "emissive"
+radiance = { texture = "checks" }
+two_sided = true
+[[shape]]
+type = "rectangle"
+corner = [-3, 3, -3]
+edge_u = [6, 0, 0]
+edge_v = [0, 0, 6]
+material = "both"
+[[shape]]
+type = "rectangle"
+corner = [2.2, -0.3, -1.5]
+edge_u = [0.6, 0, 2.4]
+edge_v = [-0.3, 2, 0.075]
+material = "panel"
+[[shape]]
+type = "rectangle"
+corner = [-2.5, 0.1, -2]
+edge_u = [2, 0, 0]
+edge_v = [0.9, 2, 0]
+material = "both"
+"#;
+
+#[test]
+fn rectangles_drawn_by_solid_angle_agree() {
+    let mut scene = load(&[RECTANGLES]);
+    for estimator in [Estimator::Mis, Estimator::Nee] {
+        scene.render.estimator = estimator;
+        assert_agrees(&format!("rectangles, {estimator:?}"), &scene, &PlanOptions::default());
+    }
+    assert_agrees("rectangles, wavefront", &scene, &by_wavefront());
+    let mut by_area = scene.clone();
+    by_area.render.light_sampling = LightSampling::Area;
+    let Some(verdict) = compare_unequal(&by_area, &scene) else { return };
+    assert!(verdict.matching_share() < 0.97, "{verdict:#?}");
 }
 
 /// The device renders `ours`, the reference `theirs`.

@@ -45,6 +45,9 @@ pub fn follow(scene: &PackedScene) -> Read<()> {
         Traversal::RayQuery => kernel.query()?,
     }
     kernel.lights()?;
+    if !scene.light_nodes.is_empty() {
+        kernel.light_tree()?;
+    }
     scene.environment.map.map_or(Ok(()), |map| kernel.map(&map))
 }
 
@@ -310,6 +313,28 @@ impl Kernel<'_> {
             }
         }
         Ok(())
+    }
+
+    /// shading/light_tree.wgsl: every way down, and the choice among lights at infinity.
+    fn light_tree(&self) -> Read<()> {
+        let mut to_visit = vec![0_u32];
+        while let Some(node) = to_visit.pop() {
+            for word in [1, 3] {
+                let at = self.tables.first_light_node.wrapping_add(node.wrapping_mul(4)).wrapping_add(word);
+                let link = self.table(at)?[3];
+                if link >> 31 == 0 {
+                    to_visit.push(link & 0x3fff_ffff);
+                } else if self.scene.lights.get((link & 0x3fff_ffff) as usize).is_none() {
+                    return Err(format!("light {}", link & 0x3fff_ffff));
+                }
+            }
+        }
+        let mut at_infinity = self.scene.local_lights as u32..self.scene.lights.len() as u32;
+        at_infinity.try_for_each(|entry| {
+            let alias = self.light_word(entry, 0)?[2];
+            // One inside the scene would be chosen with another probability than it is weighed by.
+            if (alias as usize) < self.scene.local_lights { Err(format!("light {alias} at infinity")) } else { Ok(()) }
+        })
     }
 
     /// shading/light/environment.wgsl: every node that some point of the square leads to, and every cell and texel.

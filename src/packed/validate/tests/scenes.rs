@@ -9,15 +9,19 @@ use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
 use crate::scene::{
     BlendWeight, Channel, ChannelInput, ColorInput, ColorSpace, ConductorFresnel, Cuboid, Disk, Emission, Environment,
-    EnvironmentRadiance, Geometry, ImageData, ImageTexture, Light, Masking, Material, MaterialKind, Mesh, MicrofacetDistribution,
-    Microfacets, Motion, MotionStep, Plane, PlasticInterface, Rectangle, Scene, Shape, Sphere, Texels, Texture, TextureFilter,
-    TextureKind, TextureWrap, Transform,
+    EnvironmentRadiance, Geometry, ImageData, ImageTexture, Light, LightChoice, Masking, Material, MaterialKind, Mesh,
+    MicrofacetDistribution, Microfacets, Motion, MotionStep, Plane, PlasticInterface, Rectangle, Scene, Shape, Sphere, Texels,
+    Texture, TextureFilter, TextureKind, TextureWrap, Transform,
 };
 
-/// By name: walked by kernels, and left to the device.
+/// By name: walked by kernels, and left to the device. Lights are chosen by a tree in the first.
 pub fn all() -> Vec<(&'static str, PackedScene)> {
-    let pack = |traversal| PackedScene::for_traversal(&everything(), traversal).expect("it is valid");
-    vec![("nodes", pack(Traversal::Bvh)), ("boxes", pack(Traversal::RayQuery))]
+    let pack = |traversal, light_choice| {
+        let mut scene = everything();
+        scene.render.light_choice = light_choice;
+        PackedScene::for_traversal(&scene, traversal).expect("it is valid")
+    };
+    vec![("nodes", pack(Traversal::Bvh, LightChoice::Tree)), ("boxes", pack(Traversal::RayQuery, LightChoice::Power))]
 }
 
 /// `side` × `side` squares, each of two triangles.

@@ -2,6 +2,7 @@
 
 mod placement;
 mod primitive;
+mod seen_rectangle;
 mod triangle;
 
 use crate::scene::Geometry;

@@ -1,0 +1,124 @@
+//! A tree over the lights inside a scene, by which next event estimation chooses the near ones that face a point more often than others
+//! (Conty Estévez and Kulla 2018; as in pbrt-v4).
+//!
+//! A node knows, of each of its two clusters of lights, a sphere around them, their power, and a cone around the directions that they emit
+//! in. From these follows how much light each can send to a point, and by that one of the two is chosen, until a single light is left. The
+//! tree is built once, from numbers that are rounded first, so that the device and the reference, which find them in different ways, have
+//! the same tree.
+//!
+//! 32 random bits choose a light as an arithmetic decoder does: a node splits its range of integers between its clusters, and the bits lie
+//! in one of the two parts. So all probabilities sum to one, few bits are lost on the way down, and devices that round differently choose
+//! another light only where the bits lie next to a border. `shaders/shading/light_tree.wgsl` is the device's half.
+
+mod build;
+mod cluster;
+mod cone;
+mod emitter;
+
+pub use cluster::{LEAF, LightCluster, LightNode, NUMBER_MASK, TWO_SIDED};
+pub use emitter::Emitter;
+
+use glam::DVec3;
+
+use super::alias::AliasTable;
+use crate::scene::LightChoice;
+
+/// Fewest lights inside a scene of which a tree is made unless it is asked for (measured in `docs/strategies.md`).
+pub const FEWEST_LIGHTS: usize = 24;
+/// Most of them: the tables of more would leave no room for anything else.
+pub const MOST_LIGHTS: usize = 1 << 19;
+/// All random bits but the last value, which would lie in no part.
+const WHOLE_RANGE: u32 = u32::MAX;
+
+/// Whether lights are chosen by a tree, of which so many stand inside the scene.
+pub fn is_by_tree(choice: LightChoice, local_lights: usize) -> bool {
+    match choice {
+        LightChoice::Auto => (FEWEST_LIGHTS..=MOST_LIGHTS).contains(&local_lights),
+        LightChoice::Power => false,
+        LightChoice::Tree => (2..=MOST_LIGHTS).contains(&local_lights),
+    }
+}
+
+/// How a light is chosen: by the tree among those inside the scene, which are numbered first; by irradiance among those at infinity,
+/// which make half of the choices where there are both.
+#[derive(Debug, Clone)]
+pub struct LightTree {
+    /// The root is the first; children stand behind their parents.
+    pub nodes: Vec<LightNode>,
+    /// Of each light inside the scene, which cluster leads to it: a bit for each node from the root on, lowest first.
+    pub trails: Vec<u32>,
+    /// Of the lights at infinity.
+    pub at_infinity: AliasTable,
+}
+
+impl LightTree {
+    /// Of two lights or more inside the scene, and what chooses among those at infinity, whose probabilities sum to one or are none.
+    pub fn new(emitters: &[Emitter], at_infinity: AliasTable) -> Self {
+        let (nodes, trails) = build::build(emitters);
+        Self { nodes, trails, at_infinity }
+    }
+
+    /// The share of the choices that goes to lights inside the scene.
+    pub fn local_share(&self) -> f64 {
+        if self.at_infinity.pmf.is_empty() { 1.0 } else { 0.5 }
+    }
+
+    /// The light that 32 random bits choose at a point, and the probability of that. The probability is 0 where no light is chosen.
+    pub fn choose(&self, point: DVec3, bits: u32) -> (usize, f64) {
+        if self.at_infinity.pmf.is_empty() {
+            return self.choose_local(point, bits);
+        }
+        let rest = bits << 1;
+        if bits >> 31 == 1 {
+            let light = self.at_infinity.choose(rest);
+            return (self.trails.len() + light, 0.5 * self.at_infinity.pmf[light]);
+        }
+        let (light, probability) = self.choose_local(point, rest);
+        (light, 0.5 * probability)
+    }
+
+    fn choose_local(&self, point: DVec3, bits: u32) -> (usize, f64) {
+        let (mut number, mut offset, mut range) = (0, bits.min(WHOLE_RANGE - 1), WHOLE_RANGE);
+        loop {
+            let node = &self.nodes[number as usize];
+            let first = node.first_part(point, range);
+            let second = offset >= first;
+            if second {
+                offset -= first;
+                range -= first;
+            } else {
+                range = first;
+            }
+            let link = node.clusters[usize::from(second)].link;
+            number = link & NUMBER_MASK;
+            if link & LEAF != 0 {
+                return (number as usize, share(range));
+            }
+        }
+    }
+
+    /// The probability with which [`LightTree::choose`] chooses a light inside the scene at a point.
+    pub fn probability(&self, point: DVec3, light: usize) -> f64 {
+        let (mut number, mut range, mut trail) = (0, WHOLE_RANGE, self.trails[light]);
+        loop {
+            let node = &self.nodes[number as usize];
+            let first = node.first_part(point, range);
+            let second = trail & 1 == 1;
+            range = if second { range - first } else { first };
+            trail >>= 1;
+            let link = node.clusters[usize::from(second)].link;
+            if link & LEAF != 0 {
+                return self.local_share() * share(range);
+            }
+            number = link & NUMBER_MASK;
+        }
+    }
+}
+
+/// What part of all random bits a range of them is.
+fn share(range: u32) -> f64 {
+    f64::from(range) / 4_294_967_296.0
+}
+
+#[cfg(test)]
+mod tests;
