@@ -73,6 +73,9 @@ mod black_body;
 pub mod choice;
 #[doc(hidden)]
 pub mod compare;
+#[cfg(feature = "denoise")]
+#[doc(hidden)]
+pub mod denoise;
 mod error;
 #[doc(hidden)]
 pub mod film;
@@ -89,6 +92,8 @@ pub mod merge;
 pub mod output;
 #[doc(hidden)]
 pub mod packed;
+#[doc(hidden)]
+pub mod picture_test;
 #[doc(hidden)]
 pub mod plan;
 #[doc(hidden)]

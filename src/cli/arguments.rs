@@ -13,15 +13,18 @@ use gpt::scene::settings::MOST_SAMPLES;
 
 use super::bench::BenchArguments;
 use super::choice::by_name;
+use super::denoise::DenoiseArguments;
 use super::exit::Exit;
 use super::frames::{FrameArguments, FrameList};
+use super::installing_arguments::{CompletionsArguments, ManArguments};
 use super::machine_progress::ProgressFormat;
 use super::model_arguments::ModelArguments;
 use super::picture_arguments::{DisplayArguments, ExrArguments};
 use super::setting_flags::SettingFlags;
 use super::settings::EstimateArguments;
+use super::test::TestArguments;
 use super::traversal::TraversalArguments;
-use super::values::{parse_device, parse_pixel, parse_size};
+use super::values::{parse_device, parse_pixel, parse_seconds, parse_size};
 
 /// A headless GPU path tracer that proves its pictures against a CPU reference.
 #[derive(Debug, Parser)]
@@ -40,8 +43,13 @@ pub enum Command {
     Plan(PlanArguments),
     /// Join parts of a picture that `gpt render` wrote with --first-sample or --crop
     Merge(MergeArguments),
+    /// Take the noise out of a picture by Open Image Denoise, into a second file, and say what that did to its energy
+    Denoise(DenoiseArguments),
     /// Measure how far two pictures are apart; exit code 7 if they differ
     Compare(CompareArguments),
+    /// Test whether scenes still render to their golden pictures, noise considered; exit code 7 if one does not
+    #[command(after_help = TEST_EXAMPLES)]
+    Test(TestArguments),
     /// Render on the GPU and by the CPU reference with the same random numbers; exit code 7 if they differ
     Verify(VerifyArguments),
     /// Measure run time against error, speed, and what features cost; writes JSON, CSV and a page to look at
@@ -56,6 +64,10 @@ pub enum Command {
     Scenes(ScenesArguments),
     /// List the graphics adapters, their limits, and which one `--device auto` takes
     Devices(DevicesArguments),
+    /// Print what a shell needs to complete commands, options and their values
+    Completions(CompletionsArguments),
+    /// Print the man page, or write one for each command
+    Man(ManArguments),
 }
 
 const RENDER_EXAMPLES: &str = "Examples:
@@ -67,6 +79,13 @@ const RENDER_EXAMPLES: &str = "Examples:
   gpt render model.obj --save-scene model.toml            a scene of a model, to go on with
   gpt render scene.toml --frames 1-100 -o picture.####.exr  an animation, by the scene's keyframes
   gpt render scene.toml --exposure auto --tonemap filmic -o preview.jpg";
+
+const TEST_EXAMPLES: &str = "Examples:
+  gpt test scenes --bless                                 makes scenes/golden/NAME.exr of each scenes/NAME.toml
+  gpt test scenes --junit test.xml --html test.html       tests them, in CI too
+  gpt test scenes cornell --change 5%                     one scene, and larger changes only
+  gpt test scenes --update                                accepts what differs
+  gpt test scenes --candidate-dir other                   pictures of another program, other/NAME.exr";
 
 #[derive(Debug, Args)]
 pub struct RenderArguments {
@@ -90,6 +109,9 @@ pub struct RenderArguments {
     pub display: DisplayArguments,
     #[command(flatten, next_help_heading = PICTURE_FILES)]
     pub exr: ExrArguments,
+    /// Denoise the pictures too, into NAME.denoised.exr and so on beside them, by Open Image Denoise
+    #[arg(long, help_heading = PICTURE_FILES, conflicts_with_all = ["first_sample", "crop"])]
+    pub denoise: bool,
     #[command(flatten, next_help_heading = "The picture")]
     pub estimate: EstimateArguments,
     #[command(flatten, next_help_heading = "Frames")]
@@ -248,6 +270,9 @@ pub struct CompareArguments {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+    /// Write a page that shows both pictures, where they differ, and how they look to the eye
+    #[arg(long, value_name = "FILE.html")]
+    pub html: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -348,12 +373,6 @@ pub struct DevicesArguments {
 fn parse_definition(text: &str) -> Result<(String, String), String> {
     let (key, value) = text.split_once('=').ok_or("expected KEY=VALUE")?;
     if key.is_empty() { Err("expected KEY=VALUE".to_owned()) } else { Ok((key.to_owned(), value.to_owned())) }
-}
-
-fn parse_seconds(text: &str) -> Result<Duration, String> {
-    let seconds = text.parse().ok().filter(|seconds: &f64| *seconds > 0.0);
-    let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-    duration.ok_or_else(|| "expected a number of seconds above 0".to_owned())
 }
 
 fn parse_target(text: &str) -> Result<f64, String> {

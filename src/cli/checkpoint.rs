@@ -56,7 +56,7 @@ pub fn all_are_finished(
     };
     let provenance = Some(provenance);
     let [width, height] = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
-    let spec = PictureSpec { width, height, display, exr, layers: Vec::new(), provenance, part };
+    let spec = PictureSpec { width, height, display, exr, provenance, part, ..PictureSpec::default() };
     outputs.iter().all(|(path, format)| is_finished_picture(path, *format, &spec))
 }
 

@@ -1,15 +1,23 @@
 //! `gpt compare`.
 
 use std::fmt::Write;
+use std::path::Path;
 
 use gpt::choice::Choice;
-use gpt::compare::{Comparison, Metric, compare};
-use gpt::output::{PictureKind, read_image};
+use gpt::compare::flip::{PIXELS_PER_DEGREE, flip};
+use gpt::compare::{Comparison, Metric, Picture, TileSettings, compare, compare_paired};
+use gpt::output::{AtomicFile, Channels, Image, PictureKind, read_image};
 use serde::Serialize;
 
 use super::arguments::CompareArguments;
+use super::bench::command;
+use super::denoise::{BIAS_KEY, DENOISER_KEY};
+use super::difference_page::{self, Section, Shown};
 use super::exit::{Exit, Failure};
 use super::terminal;
+
+/// Pixels along the side of the page's tiles.
+const PAGE_TILE: u32 = 8;
 
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
@@ -32,7 +40,11 @@ pub fn run(arguments: &CompareArguments) -> Result<Exit, Failure> {
     let comparison = compare(&picture, &reference)?;
     let warnings: Vec<String> = different_kinds(arguments).into_iter().collect();
     warnings.iter().for_each(|warning| terminal::warn(warning));
+    [&arguments.picture, &arguments.reference].into_iter().for_each(|path| tell_of_denoising(path));
     let equal = comparison.within(arguments.metric, tolerance);
+    if let Some(path) = &arguments.html {
+        AtomicFile::write(path, page(arguments, (&picture, &reference), &comparison, equal)?.as_bytes())?;
+    }
     if arguments.json {
         terminal::answer_json(&Verdict {
             equal,
@@ -45,6 +57,40 @@ pub fn run(arguments: &CompareArguments) -> Result<Exit, Failure> {
         terminal::answer(&text(&comparison, arguments.metric, equal))?;
     }
     Ok(if equal { Exit::Done } else { Exit::Difference })
+}
+
+/// The page that shows both, with the differences of tiles judged by what their pixels' differences scatter by.
+fn page(
+    arguments: &CompareArguments,
+    (picture, reference): (&Image, &Image),
+    comparison: &Comparison,
+    equal: bool,
+) -> Result<String, Failure> {
+    let pictures = [reference, picture].map(|image| Picture { width: image.width, pixels: &image.pixels });
+    let settings = TileSettings { tile: PAGE_TILE, ..TileSettings::default() };
+    let tiles = compare_paired(pictures[0], pictures[1], &settings).map_err(|error| Failure::BadScene(error.to_string()))?;
+    let map = flip(picture, reference, PIXELS_PER_DEGREE)?;
+    let metrics = Metric::VALUES.iter().map(|metric| format!("{} {:.6e}", metric.name(), comparison.value(*metric).all));
+    let section = Section {
+        title: format!("{} and {}", arguments.picture.display(), arguments.reference.display()),
+        verdict: if equal { "equal" } else { "different" }.to_owned(),
+        is_red: !equal,
+        facts: metrics.chain([format!("ꟻLIP {:.5}", map.mean())]).collect(),
+        findings: tiles.rejected().map(|finding| (finding.region, finding.to_string())).collect(),
+        commands: vec![command()],
+        shown: Some(Shown { labels: ["B", "A"], images: [reference, picture], tiles: &tiles, flip: &map }),
+    };
+    let method = "Tiles are judged by Student's t on the differences of their pixels, with a false alarm in a hundred pages.";
+    Ok(difference_page::page("gpt compare", &command(), method, &[section]))
+}
+
+/// Says of a picture that was denoised by what, and what that did to it.
+fn tell_of_denoising(path: &Path) {
+    let Ok(file) = Channels::read(path) else { return };
+    if let Some(denoiser) = file.attribute(DENOISER_KEY) {
+        let bias = file.attribute(BIAS_KEY).unwrap_or("its bias is not known");
+        terminal::note(&format!("{} was denoised by {denoiser}: {bias}", path.display()));
+    }
 }
 
 /// What to know of a comparison of a render with a preview.

@@ -26,7 +26,7 @@ pub enum Exit {
     DeviceLost = 5,
     /// Samples that are not finite, with `--strict`.
     NonFinite = 6,
-    /// `compare` or `verify` found a difference.
+    /// `compare`, `test` or `verify` found a difference.
     Difference = 7,
     /// What was rendered is saved.
     Interrupted = 130,
@@ -54,7 +54,7 @@ impl Exit {
             Self::Device => "there is no usable device, or the scene does not fit it",
             Self::DeviceLost => "the device was lost",
             Self::NonFinite => "samples were not finite, with --strict",
-            Self::Difference => "compare or verify found a difference",
+            Self::Difference => "compare, test or verify found a difference",
             Self::Interrupted => "interrupted; what was rendered is saved",
         }
     }

@@ -6,11 +6,15 @@ mod check;
 mod checkpoint;
 mod choice;
 mod compare;
+mod completions;
+mod denoise;
 mod devices;
+mod difference_page;
 mod exit;
 mod export;
 mod frames;
 mod import;
+mod installing_arguments;
 mod interrupt;
 mod machine_progress;
 mod merge;
@@ -22,13 +26,16 @@ mod progress;
 #[cfg(test)]
 mod reference_pages;
 mod render;
+mod render_summary;
 mod scene_error;
 mod scenes;
 mod sequence;
 mod setting_flags;
 mod settings;
+mod shell;
 mod stats;
 mod terminal;
+mod test;
 mod traversal;
 mod values;
 mod verify;
@@ -65,7 +72,9 @@ pub fn run() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Merge(arguments) => merge::run(&arguments),
+        Command::Denoise(arguments) => denoise::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Test(arguments) => test::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
@@ -73,6 +82,8 @@ pub fn run() -> ExitCode {
         Command::Import(arguments) => import::run(&arguments),
         Command::Scenes(arguments) => scenes::run(&arguments),
         Command::Devices(arguments) => devices::run(&arguments),
+        Command::Completions(arguments) => completions::completions(&arguments),
+        Command::Man(arguments) => completions::man(&arguments),
     };
     match outcome {
         Ok(exit) => exit.into(),

@@ -3,15 +3,18 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use gpt::denoise::library::Library;
+use gpt::film::Layer;
 use gpt::load::{self, LoadOptions, SceneSource};
-use gpt::output::{LayerChannel, PartSpec, PictureFormat, PictureSpec, Provenance, check_target};
+use gpt::output::{ExrCompression, LayerChannel, PartSpec, PictureFormat, PictureSpec, Provenance, check_target};
 use gpt::plan::memory::FILM_BYTES;
 use gpt::plan::{DeviceLimits, PlanOptions};
+use gpt::render::cryptomatte;
 use gpt::render::layers::render_layers;
 use gpt::render::progressive::STREAMS;
 use gpt::renderer::{DeviceChoice, RenderError, RenderReport};
 use gpt::scene_writer;
-use gpt::{ErrorEstimate, Outcome, RenderOptions, Renderer, Scene, Stop};
+use gpt::{Outcome, RenderOptions, Renderer, Scene, Stop};
 
 use super::arguments::RenderArguments;
 use super::checkpoint;
@@ -20,10 +23,11 @@ use super::frames::{Moment, Span, named};
 use super::machine_progress::Needs;
 use super::pictures::{PictureSummary, Pictures, is_stdout, output_formats};
 use super::progress::Progress;
+use super::render_summary::{tell, tell_of_error};
 use super::sequence::{Done, Frame, Ready, Sequence, has_own_stats, tell_of_keyframes};
 use super::settings::EstimateArguments;
 use super::stats::{self, Stats};
-use super::{interrupt, settings, terminal};
+use super::{denoise, interrupt, settings, terminal};
 
 /// Renders a scene to its picture files. Everything that can be wrong without rendering is found before.
 pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
@@ -38,6 +42,10 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let mut on_stdout = arguments.outputs.iter().map(PathBuf::as_path).chain(arguments.stats.as_deref());
     if arguments.progress.is_some() && on_stdout.any(is_stdout) {
         return Err(Failure::usage("--progress tells of progress on standard output, and -o - or --stats - write there"));
+    }
+    if arguments.denoise {
+        // Its absence is told before anything is rendered.
+        Library::open()?;
     }
     interrupt::install()?;
 
@@ -88,7 +96,7 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     check_inputs(outputs, arguments)?;
     let shown = (arguments.display.display(), arguments.exr.options(), part(arguments, scene.film.size));
     // What layers a finished picture has is not looked at.
-    let may_be_finished = arguments.checkpoint.resume && arguments.exr.aov.is_empty();
+    let may_be_finished = arguments.checkpoint.resume && wanted_layers(arguments, scene).is_empty();
     if may_be_finished && checkpoint::all_are_finished(outputs, (scene, ready.bulk_digest()), options, shown) {
         if !arguments.quiet {
             terminal::note(&format!("{}: finished before, nothing is left to render", names(outputs)));
@@ -98,10 +106,12 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
 
     let progress = Progress::of_frame(arguments.quiet, arguments.progress, span);
     let layers = layers(arguments, options, scene, (outputs, &progress))?;
+    let has_mattes = wanted_layers(arguments, scene).contains(&Layer::Cryptomatte);
+    let notes = if has_mattes { cryptomatte::notes(scene) } else { Vec::new() };
     progress.start(needs(scene, options));
     let mut renderer = ready.renderer(scene, options).inspect_err(|_| progress.clear())?;
     let Rendered { outcome, mut pictures, provenance, mut kept } =
-        render(arguments, (&mut renderer, span), (outputs, layers), (started, &progress))?;
+        render(arguments, (&mut renderer, span), (outputs, layers, notes), (started, &progress))?;
     let broke_off = outcome.stop == Stop::Interrupted;
     if broke_off && kept.save() {
         pictures.give_up_beside_finished();
@@ -140,26 +150,47 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     if !summary.failures.is_empty() {
         return Err(Failure::Outputs(summary.failures));
     }
+    if arguments.denoise && !broke_off {
+        denoise::denoise_render(&Library::open()?, outputs, arguments.display.display(), arguments.quiet)?;
+    }
     let exit = exit(&report, arguments.strict);
     Ok(Done::Now { exit, renderer: Box::new(renderer), stats: Box::new(stats) })
 }
 
-/// Renders the layers that are asked for.
+/// The layers that are asked for, by the command line or else by the scene, and those that denoising is helped by.
+fn wanted_layers(arguments: &RenderArguments, scene: &Scene) -> Vec<Layer> {
+    let asked = if arguments.exr.aov.is_empty() { &scene.layers } else { &arguments.exr.aov };
+    let helpful: &[Layer] = if arguments.denoise { &[Layer::Albedo, Layer::Normal] } else { &[] };
+    asked.iter().chain(helpful).copied().collect()
+}
+
+/// Renders the layers that are wanted.
 fn layers(
     arguments: &RenderArguments,
     options: &RenderOptions,
     scene: &Scene,
     (outputs, progress): (&[(PathBuf, PictureFormat)], &Progress),
 ) -> Result<Vec<LayerChannel>, Failure> {
-    let wanted = &arguments.exr.aov;
+    let wanted = &wanted_layers(arguments, scene);
     if wanted.is_empty() {
         return Ok(Vec::new());
     }
-    if part(arguments, scene.film.size).is_some() {
-        return Err(Failure::usage("--aov: layers belong to whole pictures, without --crop and --first-sample"));
-    }
+    let (flag, by_scene) = match (arguments.exr.aov.is_empty(), arguments.denoise) {
+        (false, _) => ("--aov", false),
+        (true, true) => ("--denoise", false),
+        // Files that hold no layers are no mistake of the command line.
+        (true, false) => ("[output] of the scene", true),
+    };
     if !outputs.iter().any(|(_, format)| *format == PictureFormat::Exr) {
-        return Err(Failure::usage("--aov: layers go into an .exr file, and -o names none"));
+        let no_file = || Failure::usage(format!("{flag}: layers go into an .exr file, and -o names none"));
+        return if by_scene { Ok(Vec::new()) } else { Err(no_file()) };
+    }
+    if part(arguments, scene.film.size).is_some() {
+        return Err(Failure::usage(format!("{flag}: layers belong to whole pictures, without --crop and --first-sample")));
+    }
+    if wanted.contains(&Layer::Cryptomatte) && arguments.exr.compression == ExrCompression::Pxr24 {
+        let why = "cryptomatte: --compression pxr24 drops bits of numbers, and identifiers need all of theirs";
+        return Err(Failure::usage(format!("{flag} {why}")));
     }
     let rendered = render_layers(scene, options, wanted, progress);
     progress.clear();
@@ -245,7 +276,7 @@ struct Rendered {
 fn render(
     arguments: &RenderArguments,
     (renderer, span): (&mut Renderer, Option<Span>),
-    (outputs, layers): (&[(PathBuf, PictureFormat)], Vec<LayerChannel>),
+    (outputs, layers, notes): (&[(PathBuf, PictureFormat)], Vec<LayerChannel>, Vec<(String, String)>),
     (started, progress): (Instant, &Progress),
 ) -> Result<Rendered, Failure> {
     if let Some(notice) = renderer.notice().filter(|_| span.is_none_or(|span| span.index == 0)) {
@@ -256,7 +287,7 @@ fn render(
     let part = part(arguments, renderer.film());
     let provenance = renderer.provenance().clone();
     let (display, exr) = (arguments.display.display(), arguments.exr.options());
-    let spec = PictureSpec { width, height, display, exr, layers, provenance: Some(provenance.clone()), part };
+    let spec = PictureSpec { width, height, display, exr, layers, notes, provenance: Some(provenance.clone()), part };
     let mut kept = checkpoint::Kept::begin(&arguments.checkpoint, renderer, outputs, started, arguments.quiet)?;
     let mut pictures = Pictures::create(outputs, &spec)?;
     let outcome = renderer.render_from(started, progress, kept.checkpoint.as_mut(), &mut |band| pictures.write_band(band));
@@ -314,67 +345,6 @@ fn stop_name(stop: Stop) -> &'static str {
         Stop::TargetError => "target_error",
         Stop::Interrupted => "interrupted",
     }
-}
-
-/// Whether the picture is as good as was asked for.
-fn tell_of_error(arguments: &RenderArguments, error: Option<ErrorEstimate>, stop: Stop) {
-    let (Some(target), Some(ErrorEstimate { mean, upper })) = (arguments.goal.target_error, error) else { return };
-    if stop != Stop::TargetError {
-        terminal::warn(&format!(
-            "the relative mean squared error of {target} was not reached: {mean:.3e} is expected, and it is below {upper:.3e} with \
-             95 % confidence"
-        ));
-    } else if !arguments.quiet {
-        terminal::note(&format!("relative mean squared error: {mean:.3e} expected, below {upper:.3e} with 95 % confidence"));
-    }
-}
-
-/// What a person should know when it is over.
-fn tell(stats: &Stats, summary: &PictureSummary, quiet: bool) {
-    if stats.non_finite_samples > 0 {
-        terminal::warn(&format!("{} samples were not finite and are left out of the picture", stats.non_finite_samples));
-    }
-    if let (Some(samples), Some(light), false) = (stats.clamped_samples, stats.clamped_light, quiet) {
-        terminal::note(&format!("--clamp darkened {samples} samples, which took {:.3} % of the light", 100.0 * light));
-    }
-    if summary.black && !stats.interrupted {
-        terminal::warn("every pixel is black: does the camera look at the scene, and does light reach what it sees?");
-    }
-    let broken_off = summary.places.iter().filter(|_| stats.interrupted);
-    for place in broken_off.filter(|place| place.file_stem().is_some_and(|stem| stem.to_string_lossy().contains(".incomplete"))) {
-        terminal::note(&format!("{} is written beside a finished picture, which stays as it is", place.display()));
-    }
-    if stats.interrupted && summary.places.is_empty() && summary.failures.is_empty() {
-        terminal::note("interrupted before anything was rendered; nothing is saved");
-    } else if !quiet && !summary.places.is_empty() {
-        terminal::note(&summary_line(stats, summary.samples));
-    }
-}
-
-/// What was rendered, and how fast: the rate is that of the time beside it.
-fn summary_line(stats: &Stats, [fewest, most]: [u32; 2]) -> String {
-    let done = match stats.adaptive {
-        true => stats.spp_done.to_string(),
-        false if fewest == most => fewest.to_string(),
-        false => format!("{fewest} to {most}"),
-    };
-    let of_wanted = |why: &str| format!(" of {} {why}", stats.settings.spp);
-    format!(
-        "{}: {}x{}, {done} spp{} in {:.2} s ({}), {:.2} s in all, on {}",
-        stats.outputs.join(", "),
-        stats.width,
-        stats.height,
-        match stats.stopped_by {
-            "interrupted" => of_wanted("when it was interrupted"),
-            "time_limit" => of_wanted("when time was up"),
-            "target_error" => of_wanted("when the error was reached"),
-            _ => String::new(),
-        },
-        stats.seconds.render,
-        terminal::with_unit(stats.samples_per_second, "sample/s"),
-        stats.seconds.total,
-        stats.device,
-    )
 }
 
 fn exit(report: &RenderReport, strict: bool) -> Exit {

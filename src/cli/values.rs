@@ -1,5 +1,7 @@
 //! Values that several commands read.
 
+use std::time::Duration;
+
 use gpt::renderer::DeviceChoice;
 use gpt::scene::settings::FilmSettings;
 
@@ -32,6 +34,12 @@ pub fn parse_region(text: &str) -> Result<[u32; 4], String> {
     let numbers = text.split(',').map(|part| part.trim().parse::<u32>()).collect::<Result<Vec<_>, _>>();
     let region: [u32; 4] = numbers.ok().and_then(|numbers| numbers.try_into().ok()).ok_or_else(expected)?;
     if region[2] == 0 || region[3] == 0 { Err(expected()) } else { Ok(region) }
+}
+
+pub fn parse_seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().filter(|seconds: &f64| *seconds > 0.0);
+    let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    duration.ok_or_else(|| "expected a number of seconds above 0".to_owned())
 }
 
 #[cfg(test)]

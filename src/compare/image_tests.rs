@@ -11,6 +11,8 @@
 //! - [`compare_replications`]: several renders of each picture, every one with a seed of its own. Welch's t on each tile's
 //!   means. Right for every sampler and every correlation between pixels, at the price of rendering k times; with few
 //!   replications t has heavy tails, so take at least 8 of each.
+//! - [`compare_measured`]: as the second, with variances of the pixels' means that were measured, each from few replications. Student's t,
+//!   with Satterthwaite's degrees of freedom over the pixels of a tile; a tile whose noise is that of one pixel has that pixel's few.
 //!
 //! All levels are corrected by Šidák: tiles and channels are one family, the channels of the whole picture another, and the two share α evenly.
 
@@ -44,7 +46,7 @@ impl Default for TileSettings {
 }
 
 /// A rectangle of pixels, counted from the top left.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub struct Region {
     pub x: u32,
     pub y: u32,
@@ -159,6 +161,39 @@ pub fn compare_independent(
     }))
 }
 
+/// Variances of the means of a picture's pixels, in the order of its pixels, and how many degrees of freedom each of them has.
+#[derive(Debug, Clone, Copy)]
+pub struct Scatter<'a> {
+    pub variances: Picture<'a>,
+    pub degrees_of_freedom: f64,
+}
+
+/// Compares two pictures made from independent random numbers. The variances of their pixels' differences are the sums of all `scatter`.
+pub fn compare_measured(
+    [first, second]: [Picture; 2],
+    scatter: &[Scatter],
+    settings: &TileSettings,
+) -> Result<ImageComparison, ComparisonError> {
+    let pictures: Vec<Picture> = [first, second].into_iter().chain(scatter.iter().map(|one| one.variances)).collect();
+    let layout = Layout::of(&pictures)?;
+    Ok(layout.judge(settings, |region, channel| {
+        let mean =
+            |picture: Picture| layout.pixels(region).map(|i| f64::from(picture.pixels[i][channel])).collect::<Moments>().mean();
+        let (mut variance, mut spread) = (0.0, 0.0);
+        for one in scatter {
+            for pixel in layout.pixels(region) {
+                let value = f64::from(one.variances.pixels[pixel][channel]);
+                variance += value;
+                spread += value * value / one.degrees_of_freedom;
+            }
+        }
+        // Satterthwaite 1946. Without any scatter the number of degrees is 0/0, and no test needs it.
+        let degrees_of_freedom = if spread == 0.0 { f64::INFINITY } else { variance * variance / spread };
+        let pixels = f64::from(region.width) * f64::from(region.height);
+        Estimate { first: mean(first), second: mean(second), standard_error: variance.sqrt() / pixels, degrees_of_freedom }
+    }))
+}
+
 /// Compares two sets of replications, each picture rendered with a seed of its own.
 pub fn compare_replications(
     first: &[Picture],
@@ -184,9 +219,9 @@ pub fn compare_replications(
 }
 
 /// The size that all pictures of a comparison have.
-struct Layout {
-    width: u32,
-    height: u32,
+pub(crate) struct Layout {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
 }
 
 impl Layout {
@@ -201,13 +236,13 @@ impl Layout {
     }
 
     /// Indices of a region's pixels.
-    fn pixels(&self, region: Region) -> impl Iterator<Item = usize> {
+    pub(crate) fn pixels(&self, region: Region) -> impl Iterator<Item = usize> {
         let (width, columns) = (self.width as usize, region.x as usize..(region.x + region.width) as usize);
         (region.y as usize..(region.y + region.height) as usize).flat_map(move |y| columns.clone().map(move |x| y * width + x))
     }
 
     /// Tiles of nearly equal size, each about `side` pixels wide and high.
-    fn tiles(&self, side: u32) -> Vec<Region> {
+    pub(crate) fn tiles(&self, side: u32) -> Vec<Region> {
         let cuts = |length: u32| {
             let parts = (length / side.max(1)).max(1);
             let edge = move |i: u32| (u64::from(length) * u64::from(i) / u64::from(parts)) as u32;

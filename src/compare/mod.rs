@@ -3,14 +3,19 @@
 //! - [`metrics`]: errors of one picture against another.
 //! - [`image_tests`]: tests with a stated level, tile by tile and as a whole.
 //! - [`hypothesis`]: Student's t, Welch's t, the z-test, and Šidák's correction for many tests at once.
+//! - [`flip`]: how different pictures look to the eye.
 //! - [`moments`]: mean and variance of a stream of numbers.
 
+pub mod flip;
 pub mod hypothesis;
 pub mod image_tests;
 pub mod metrics;
 pub mod moments;
 
 pub use hypothesis::{TestResult, one_sample_t_test, one_sample_t_test_beyond, paired_t_test, sidak, welch_t_test, z_test};
-pub use image_tests::{ImageComparison, Picture, TileSettings, compare_independent, compare_paired, compare_replications};
+pub use image_tests::{
+    Finding, ImageComparison, Picture, Region, Scatter, TileSettings, compare_independent, compare_measured, compare_paired,
+    compare_replications,
+};
 pub use metrics::{Comparison, Extreme, Metric, MetricValue, RELATIVE_EPSILON, SizeMismatch, compare, relative_weight};
 pub use moments::Moments;

@@ -27,6 +27,9 @@ choices! {
         Emission = "emission",
         /// Number of the shape and of the material at the pixel's centre, from 1; 0 where nothing is met: ObjectId, MaterialId.
         Ids = "ids",
+        /// Objects and materials with the share of the pixel that each covers, for compositing programs, after the Cryptomatte specification:
+        /// CryptoObject00 to 02, CryptoMaterial00 to 02.
+        Cryptomatte = "cryptomatte",
     }
 
     /// What kernels make in place of radiance.

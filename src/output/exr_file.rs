@@ -233,6 +233,9 @@ fn header(spec: &PictureSpec, samples: u32, completeness: Completeness, have_cou
     for (key, entry) in spec.header_entries(samples, completeness) {
         header.own_attributes.other.insert(Text::from(key), attribute(entry));
     }
+    for (key, text) in &spec.notes {
+        header.own_attributes.other.insert(header_text(key), AttributeValue::Text(header_text(text)));
+    }
     header.shared_attributes.chromaticities = Some(REC_709);
     if let Some(PartSpec { film, origin }) = spec.part {
         let [x, y] = origin.map(|place| i32::try_from(place).unwrap_or(i32::MAX));

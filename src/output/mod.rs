@@ -3,6 +3,7 @@
 //! Writers hold a few bands at a time, never the picture, so that memory does not grow with its size.
 
 mod atomic;
+mod channels;
 mod developed;
 mod display;
 mod error;
@@ -20,6 +21,7 @@ mod rows;
 mod spec;
 
 pub use atomic::{AtomicFile, check_target, follow_links, remove_unfinished};
+pub use channels::Channels;
 pub use display::{Developer, Display, Exposure, Meter, ToneCurve, srgb_byte};
 pub use error::OutputError;
 pub use exr_file::part_channels;

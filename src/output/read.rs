@@ -74,7 +74,7 @@ fn short_file(error: std::io::Error) -> std::io::Result<bool> {
     if error.kind() == std::io::ErrorKind::UnexpectedEof { Ok(false) } else { Err(error) }
 }
 
-fn open(path: &Path) -> Result<BufReader<File>, String> {
+pub(super) fn open(path: &Path) -> Result<BufReader<File>, String> {
     input::open(path).map(BufReader::new).map_err(|error| error.to_string())
 }
 
@@ -124,7 +124,7 @@ fn channel(layer: &Layer<AnyChannels<FlatSamples>>, name: &str) -> Option<usize>
     layer.channel_data.list.iter().position(|channel| channel.name.eq(name))
 }
 
-fn sample(samples: &FlatSamples, index: usize) -> f32 {
+pub(super) fn sample(samples: &FlatSamples, index: usize) -> f32 {
     match samples {
         FlatSamples::F16(values) => f16::to_f32(values[index]),
         FlatSamples::F32(values) => values[index],
@@ -164,7 +164,7 @@ fn read_other(path: &Path) -> Result<Image, String> {
     Ok(Image { width, height, pixels })
 }
 
-fn check_size(width: u64, height: u64) -> Result<(), String> {
+pub(super) fn check_size(width: u64, height: u64) -> Result<(), String> {
     if width > u64::from(MAX_SIDE) || height > u64::from(MAX_SIDE) || width * height > MAX_PIXELS {
         return Err(format!(
             "{width}x{height} pixels are more than the {MAX_SIDE} on a side or {MAX_PIXELS} in all that are read"

@@ -58,6 +58,8 @@ pub struct PictureSpec {
     pub exr: ExrOptions,
     /// Channels beside red, green and blue, of EXR files.
     pub layers: Vec<LayerChannel>,
+    /// Entries of the header of EXR files, beside those of the provenance.
+    pub notes: Vec<(String, String)>,
     /// None of a picture whose origin is not known.
     pub provenance: Option<Provenance>,
     /// Of a part that `gpt merge` joins with others: float files hold what that needs.

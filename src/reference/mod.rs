@@ -8,6 +8,7 @@
 pub mod bsdf;
 pub mod camera;
 mod clamp;
+mod coverage;
 pub mod emission;
 mod film;
 pub mod integrator;

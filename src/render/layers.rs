@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::cryptomatte;
 use super::options::RenderOptions;
 use super::stream::Renderer;
 use crate::film::{Band, KernelLayer, Layer};
@@ -26,7 +27,7 @@ fn kernel_layer(layer: Layer) -> Option<KernelLayer> {
         Layer::Direct => Some(KernelLayer::Direct),
         Layer::Indirect => Some(KernelLayer::Indirect),
         Layer::Emission => Some(KernelLayer::Emission),
-        Layer::Samples | Layer::Ids => None,
+        Layer::Samples | Layer::Ids | Layer::Cryptomatte => None,
     }
 }
 
@@ -43,6 +44,13 @@ pub fn render_layers(
     let mut pictures: BTreeMap<&'static str, Arc<LayerPicture>> = BTreeMap::new();
     let mut channels: Vec<LayerChannel> = Vec::new();
     for &layer in wanted {
+        if layer == Layer::Cryptomatte {
+            let Some(mattes) = cryptomatte::mattes(scene, observer)? else { return Ok(None) };
+            channels.extend(
+                mattes.into_iter().filter(|matte| channels.iter().all(|other| other.name != matte.name)).collect::<Vec<_>>(),
+            );
+            continue;
+        }
         let picture = match kernel_layer(layer) {
             Some(kernel) => match pictures.get(kernel.switches()[0]) {
                 Some(picture) => Some(picture.clone()),
@@ -91,7 +99,7 @@ fn channels_of(layer: Layer, picture: Option<&Arc<LayerPicture>>) -> Vec<LayerCh
             .enumerate()
             .map(|(place, name)| LayerChannel { name, source: LayerSource::Whole(picture.clone(), place) })
             .collect(),
-        Layer::Samples => Vec::new(),
+        Layer::Samples | Layer::Cryptomatte => Vec::new(),
     }
 }
 

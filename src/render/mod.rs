@@ -2,11 +2,12 @@
 //!
 //! - `scene`, [`options`], [`stream`], [`image`]: what users of the crate see.
 //! - [`checkpoint`]: states of a render in a file, from which another goes on.
-//! - [`choice`]: which device renders. [`layers`]: what is rendered beside the picture.
+//! - [`choice`]: which device renders. [`layers`]: what is rendered beside the picture. [`cryptomatte`]: mattes of objects and materials.
 //! - [`progressive`]: renders that end by a time or an error, and samples that follow the noise.
 
 pub mod checkpoint;
 pub mod choice;
+pub mod cryptomatte;
 pub mod image;
 pub mod layers;
 pub mod options;

@@ -11,6 +11,7 @@ use super::settings::{FilmSettings, RenderSettings};
 use super::shape::Shape;
 use super::sources::Sources;
 use super::texture::Texture;
+use crate::film::Layer;
 
 /// Everything a render needs: a camera, surfaces, materials, lights, and how light is estimated. It is read by [`Scene::load`] or
 /// [`Scene::from_toml`].
@@ -22,6 +23,9 @@ pub struct Scene {
     pub film: FilmSettings,
     /// How light is estimated, and by how many samples.
     pub render: RenderSettings,
+    /// Layers that are written beside the picture.
+    #[doc(hidden)]
+    pub layers: Vec<Layer>,
     #[doc(hidden)]
     pub camera: Camera,
     #[doc(hidden)]

@@ -1,4 +1,4 @@
-//! `[film]`, `[render]` and `[camera]`.
+//! `[film]`, `[render]`, `[output]` and `[camera]`.
 
 use std::fmt::Write;
 
@@ -8,12 +8,16 @@ use crate::choice::Choice;
 use crate::load::file::writer::{line, number, numbers, text, vector};
 use crate::scene::{Aperture, ApertureShape, Camera, FilmSettings, Filter, PixelSampler, Projection, RenderSettings, Scene};
 
-/// All three; of the settings, those that are not at their defaults.
+/// All four; of the settings, those that are not at their defaults.
 pub fn settings(scene: &Scene) -> String {
     let mut out = film(&scene.film);
     let written = render(&scene.render);
     if !written.is_empty() {
         let _ = write!(out, "\n[render]\n{written}");
+    }
+    if !scene.layers.is_empty() {
+        let names: Vec<String> = scene.layers.iter().map(|layer| text(layer.name())).collect();
+        let _ = write!(out, "\n[output]\n{}", line("aov", &format!("[{}]", names.join(", "))));
     }
     out + &camera(&scene.camera)
 }

@@ -27,7 +27,7 @@ fn round_trip(scene: &Scene) -> Scene {
 fn comes_back(scene: &Scene, what: &str) {
     let read = round_trip(scene);
     assert_eq!(digest(&read), digest(scene), "{what}");
-    assert_eq!((&read.film, &read.render), (&scene.film, &scene.render), "{what}");
+    assert_eq!((&read.film, &read.render, &read.layers), (&scene.film, &scene.render, &scene.layers), "{what}");
 }
 
 fn scene(tables: &str) -> Scene {
@@ -83,7 +83,7 @@ fn every_light_and_camera_comes_back() {
     ] {
         let text = format!(
             "[film]\nsize = [30, 20]\nfilter = {{ type = \"tent\", radius = 1.25 }}\n[render]\nspp = 7\nsampler = \"halton\"\n\
-                            pixel_sampler = \"sobol\"\nmax_depth = 3\n[camera]\n{camera}\n{LAMP}"
+                            pixel_sampler = \"sobol\"\nmax_depth = 3\n[output]\naov = [\"albedo\", \"depth\"]\n[camera]\n{camera}\n{LAMP}"
         );
         comes_back(&load_toml_str(&text, "test.toml", Path::new("")).unwrap(), camera);
     }

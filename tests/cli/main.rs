@@ -5,6 +5,8 @@ mod common;
 
 mod bench;
 mod checkpoints;
+mod continuous_integration;
+mod denoising;
 mod documents;
 mod endings;
 mod farm;
@@ -13,11 +15,14 @@ mod frames;
 mod goals;
 mod imports;
 mod inputs;
+mod installing;
+mod mattes;
 mod models;
 #[cfg(unix)]
 mod on_unix;
 mod outputs;
 mod parts;
+mod picture_tests;
 mod traversal;
 
 use std::fs;

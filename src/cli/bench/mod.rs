@@ -8,6 +8,7 @@ mod speed;
 
 use arguments::Bench;
 pub use arguments::BenchArguments;
+pub use output::{OnlyStops, command};
 
 use super::exit::{Exit, Failure};
 

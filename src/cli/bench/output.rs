@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use super::arguments::OutputArguments;
 use crate::cli::exit::Failure;
+use crate::cli::shell::quoted;
 use crate::cli::{interrupt, terminal};
 
 /// An observer that shows nothing, since renders are many and short, and passes on Ctrl-C.
@@ -65,10 +66,6 @@ impl Results {
 
 /// What was typed.
 pub fn command() -> String {
-    let quoted = |argument: String| {
-        let plain = !argument.is_empty() && argument.chars().all(|c| c.is_alphanumeric() || "-_./,=:".contains(c));
-        if plain { argument } else { format!("'{}'", argument.replace('\'', "'\\''")) }
-    };
-    let arguments = std::env::args_os().skip(1).map(|argument| quoted(argument.to_string_lossy().into_owned()));
+    let arguments = std::env::args_os().skip(1).map(|argument| quoted(&argument.to_string_lossy()));
     std::iter::once("gpt".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
 }

@@ -1,4 +1,4 @@
-//! `[film]` and `[render]`
+//! `[film]`, `[render]` and `[output]`
 
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
@@ -17,6 +17,7 @@ impl Resolver<'_> {
         for setting in &file.render.0 {
             setting.apply(&mut self.scene.render);
         }
+        self.scene.layers = file.output.aov.iter().map(|name| name.0).collect();
         self.scene.film.check().map_err(|bad| self.bad_setting("film", bad))?;
         self.scene.render.check().map_err(|bad| self.bad_setting("render", bad))
     }

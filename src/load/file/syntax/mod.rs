@@ -4,6 +4,7 @@
 //! enum through a buffer that forgets where things were written; instead [`super::document`] rewrites
 //! `{ type = "mirror", … }` to `{ mirror = { … } }` before reading, which serde reads directly.
 
+mod output;
 mod render;
 mod texture;
 
@@ -12,6 +13,7 @@ use std::num::NonZeroU32;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+pub use output::OutputTable;
 pub use render::RenderTable;
 pub use texture::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 
@@ -33,6 +35,8 @@ pub struct SceneFile {
     pub film: FilmTable,
     #[serde(default)]
     pub render: RenderTable,
+    #[serde(default)]
+    pub output: OutputTable,
     pub camera: CameraTable,
     pub animation: Option<AnimationTable>,
     #[serde(default)]
@@ -58,6 +62,7 @@ pub struct SceneFile {
 pub struct PartOfFile {
     film: Option<FilmTable>,
     render: Option<RenderTable>,
+    output: Option<OutputTable>,
     camera: Option<CameraTable>,
     animation: Option<AnimationTable>,
     #[serde(default)]

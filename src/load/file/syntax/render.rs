@@ -104,7 +104,7 @@ impl Visitor<'_> for Written {
 }
 
 /// A complaint in serde's words, which [`super::super::wording`] puts into a scene file's.
-fn not_among(what: &str, name: &str, known: impl Iterator<Item = &'static str>) -> String {
+pub(super) fn not_among(what: &str, name: &str, known: impl Iterator<Item = &'static str>) -> String {
     let known: Vec<String> = known.map(|known| format!("`{known}`")).collect();
     format!("{what} `{name}`, expected one of {}", known.join(", "))
 }

@@ -1,0 +1,147 @@
+//! `gpt denoise`, and `gpt render --denoise`.
+
+mod arguments;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use gpt::denoise::bias::Bias;
+use gpt::denoise::library::{Library, OidnError};
+use gpt::denoise::{Raw, denoise};
+use gpt::film::Band;
+use gpt::output::{Channels, Display, Image, OutputError, PictureFile, PictureFormat, PictureSpec, read_image};
+use serde::Serialize;
+
+pub use arguments::DenoiseArguments;
+
+use super::exit::{Exit, Failure};
+use super::pictures::{is_stdout, output_formats};
+use super::terminal;
+
+/// Keys of the header: what denoised a picture, and what that did to it.
+pub const DENOISER_KEY: &str = "gpt:denoiser";
+pub const BIAS_KEY: &str = "gpt:denoiserBias";
+
+/// What `--json` prints. Its keys stay as they are; new ones may be added.
+#[derive(Serialize)]
+struct Report<'a> {
+    denoiser: &'a str,
+    library: String,
+    layers: &'a str,
+    bias: &'a Bias,
+    outputs: Vec<String>,
+}
+
+/// Denoises a picture.
+pub fn run(arguments: &DenoiseArguments) -> Result<Exit, Failure> {
+    let outputs = output_formats(&arguments.outputs, None)?;
+    if let Some((path, _)) = outputs.iter().find(|(path, _)| is_same(path, &arguments.picture)) {
+        return Err(Failure::usage(format!("{} is the raw picture, and would be overwritten", path.display())));
+    }
+    let library = Library::open()?;
+    let done = denoise_file(&library, &arguments.picture, &outputs, arguments.display.display())?;
+    if arguments.json {
+        terminal::answer_json(&Report {
+            denoiser: &done.denoiser,
+            library: library.path().display().to_string(),
+            layers: done.layers,
+            bias: &done.bias,
+            outputs: outputs.iter().map(|(path, _)| path.display().to_string()).collect(),
+        })?;
+    } else {
+        terminal::note(&done.sentence(&outputs));
+    }
+    Ok(Exit::Done)
+}
+
+/// What denoising came to.
+struct Denoised {
+    denoiser: String,
+    layers: &'static str,
+    bias: Bias,
+}
+
+impl Denoised {
+    /// As people read it.
+    fn sentence(&self, outputs: &[(PathBuf, PictureFormat)]) -> String {
+        let files: Vec<String> = outputs.iter().map(|(path, _)| path.display().to_string()).collect();
+        format!("{}: by {}, layers: {}; {}", files.join(", "), self.denoiser, self.layers, self.bias)
+    }
+}
+
+/// Denoises a picture file, and writes what comes of it.
+///
+/// # Errors
+/// A file that cannot be read or written, and what the library says.
+fn denoise_file(
+    library: &Library,
+    picture: &Path,
+    outputs: &[(PathBuf, PictureFormat)],
+    display: Display,
+) -> Result<Denoised, Failure> {
+    let raw = Raw::of(read_image(picture)?, &Channels::read(picture)?);
+    let denoised = denoise(library, &raw)?;
+    let bias = Bias::of(&raw, &denoised).map_err(|error| Failure::BadScene(error.to_string()))?;
+    let denoiser = format!("Open Image Denoise {}", library.version()?);
+    let notes = vec![(DENOISER_KEY.to_owned(), denoiser.clone()), (BIAS_KEY.to_owned(), bias.to_string())];
+    for (path, format) in outputs {
+        write(&denoised, path, *format, (display, notes.clone()))?;
+    }
+    Ok(Denoised { denoiser, layers: raw.layers(), bias })
+}
+
+fn write(
+    image: &Image,
+    path: &Path,
+    format: PictureFormat,
+    (display, notes): (Display, Vec<(String, String)>),
+) -> Result<(), OutputError> {
+    let Image { width, height, ref pixels } = *image;
+    let mut file = PictureFile::create(path, format, &PictureSpec { width, height, display, notes, ..PictureSpec::default() })?;
+    let band = Band { width, rows: height, mean: pixels.clone(), ..Band::default() };
+    file.write_band(&Arc::new(band)).map_err(|source| OutputError::Write { path: path.to_owned(), source })?;
+    file.finish()
+}
+
+/// Denoises the pictures of a render that is over: from its EXR file, which has the layers, into one more of each format.
+///
+/// # Errors
+/// As [`denoise_file`].
+pub fn denoise_render(
+    library: &Library,
+    outputs: &[(PathBuf, PictureFormat)],
+    display: Display,
+    quiet: bool,
+) -> Result<(), Failure> {
+    let raw = outputs.iter().find(|(path, format)| *format == PictureFormat::Exr && !is_stdout(path));
+    let (raw, _) = raw.ok_or_else(|| Failure::usage("--denoise: the picture is read from an .exr file, and -o names none"))?;
+    let beside = beside(outputs);
+    let done = denoise_file(library, raw, &beside, display)?;
+    if !quiet {
+        terminal::note(&done.sentence(&beside));
+    }
+    Ok(())
+}
+
+/// The names of the denoised pictures beside those of a render: `name.denoised.exr` beside `name.exr`.
+fn beside(outputs: &[(PathBuf, PictureFormat)]) -> Vec<(PathBuf, PictureFormat)> {
+    let named = |path: &Path| {
+        let mut name = path.file_stem().unwrap_or_default().to_os_string();
+        name.push(".denoised.");
+        name.push(path.extension().unwrap_or_default());
+        path.with_file_name(name)
+    };
+    let files = outputs.iter().filter(|(path, _)| !is_stdout(path));
+    files.map(|(path, format)| (named(path), *format)).collect()
+}
+
+/// Whether two paths lead to one file that is there.
+fn is_same(a: &Path, b: &Path) -> bool {
+    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
+
+impl From<OidnError> for Failure {
+    fn from(error: OidnError) -> Self {
+        Self::Other(error.to_string())
+    }
+}

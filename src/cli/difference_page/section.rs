@@ -1,0 +1,28 @@
+//! What a page shows.
+
+use gpt::compare::flip::FlipMap;
+use gpt::compare::{ImageComparison, Region};
+use gpt::output::Image;
+
+/// What is shown of one pair of pictures.
+pub struct Section<'a> {
+    pub title: String,
+    pub verdict: String,
+    pub is_red: bool,
+    pub facts: Vec<String>,
+    /// Regions that differ, each with a sentence.
+    pub findings: Vec<(Region, String)>,
+    /// Commands that repeat it.
+    pub commands: Vec<String>,
+    /// None where there are no two pictures.
+    pub shown: Option<Shown<'a>>,
+}
+
+/// Two pictures of one size.
+pub struct Shown<'a> {
+    /// What they are called; the first is the one that the second is held against.
+    pub labels: [&'static str; 2],
+    pub images: [&'a Image; 2],
+    pub tiles: &'a ImageComparison,
+    pub flip: &'a FlipMap,
+}

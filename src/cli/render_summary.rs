@@ -1,0 +1,69 @@
+//! What is said when a render is over.
+
+use gpt::{ErrorEstimate, Stop};
+
+use super::arguments::RenderArguments;
+use super::pictures::PictureSummary;
+use super::stats::Stats;
+use super::terminal;
+
+/// Whether the picture is as good as was asked for.
+pub fn tell_of_error(arguments: &RenderArguments, error: Option<ErrorEstimate>, stop: Stop) {
+    let (Some(target), Some(ErrorEstimate { mean, upper })) = (arguments.goal.target_error, error) else { return };
+    if stop != Stop::TargetError {
+        terminal::warn(&format!(
+            "the relative mean squared error of {target} was not reached: {mean:.3e} is expected, and it is below {upper:.3e} with \
+             95 % confidence"
+        ));
+    } else if !arguments.quiet {
+        terminal::note(&format!("relative mean squared error: {mean:.3e} expected, below {upper:.3e} with 95 % confidence"));
+    }
+}
+
+/// What a person should know when it is over.
+pub fn tell(stats: &Stats, summary: &PictureSummary, quiet: bool) {
+    if stats.non_finite_samples > 0 {
+        terminal::warn(&format!("{} samples were not finite and are left out of the picture", stats.non_finite_samples));
+    }
+    if let (Some(samples), Some(light), false) = (stats.clamped_samples, stats.clamped_light, quiet) {
+        terminal::note(&format!("--clamp darkened {samples} samples, which took {:.3} % of the light", 100.0 * light));
+    }
+    if summary.black && !stats.interrupted {
+        terminal::warn("every pixel is black: does the camera look at the scene, and does light reach what it sees?");
+    }
+    let broken_off = summary.places.iter().filter(|_| stats.interrupted);
+    for place in broken_off.filter(|place| place.file_stem().is_some_and(|stem| stem.to_string_lossy().contains(".incomplete"))) {
+        terminal::note(&format!("{} is written beside a finished picture, which stays as it is", place.display()));
+    }
+    if stats.interrupted && summary.places.is_empty() && summary.failures.is_empty() {
+        terminal::note("interrupted before anything was rendered; nothing is saved");
+    } else if !quiet && !summary.places.is_empty() {
+        terminal::note(&summary_line(stats, summary.samples));
+    }
+}
+
+/// What was rendered, and how fast: the rate is that of the time beside it.
+fn summary_line(stats: &Stats, [fewest, most]: [u32; 2]) -> String {
+    let done = match stats.adaptive {
+        true => stats.spp_done.to_string(),
+        false if fewest == most => fewest.to_string(),
+        false => format!("{fewest} to {most}"),
+    };
+    let of_wanted = |why: &str| format!(" of {} {why}", stats.settings.spp);
+    format!(
+        "{}: {}x{}, {done} spp{} in {:.2} s ({}), {:.2} s in all, on {}",
+        stats.outputs.join(", "),
+        stats.width,
+        stats.height,
+        match stats.stopped_by {
+            "interrupted" => of_wanted("when it was interrupted"),
+            "time_limit" => of_wanted("when time was up"),
+            "target_error" => of_wanted("when the error was reached"),
+            _ => String::new(),
+        },
+        stats.seconds.render,
+        terminal::with_unit(stats.samples_per_second, "sample/s"),
+        stats.seconds.total,
+        stats.device,
+    )
+}

@@ -1,0 +1,86 @@
+//! JUnit XML, as CI services read it (the schema of Apache Ant's JUnit task).
+
+use std::fmt::Write;
+use std::path::Path;
+
+use super::report::{SceneReport, Verdict};
+
+/// The outcome of all scenes.
+pub fn xml(folder: &Path, reports: &[SceneReport], seconds: f64) -> String {
+    let count = |verdict: Verdict| reports.iter().filter(|report| report.verdict == verdict).count();
+    let counts = format!(
+        "tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{seconds:.3}\"",
+        reports.len(),
+        count(Verdict::Differs),
+        count(Verdict::Failed)
+    );
+    let suite = escaped(&folder.display().to_string());
+    let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    let _ = writeln!(xml, "<testsuites name=\"gpt test\" {counts}>");
+    let _ = writeln!(xml, "  <testsuite name=\"{suite}\" {counts}>");
+    for report in reports {
+        let name = escaped(&report.scene);
+        let _ = writeln!(xml, "    <testcase name=\"{name}\" classname=\"{suite}\" time=\"{:.3}\">", report.seconds);
+        let element = match report.verdict {
+            Verdict::Differs => Some("failure"),
+            Verdict::Failed => Some("error"),
+            Verdict::Agrees | Verdict::Made => None,
+        };
+        if let Some(element) = element {
+            let _ = writeln!(
+                xml,
+                "      <{element} message=\"{}\">{}</{element}>",
+                escaped(&headline(report)),
+                escaped(&details(report))
+            );
+        }
+        let _ = writeln!(xml, "      <system-out>{}</system-out>", escaped(&report.line()));
+        xml.push_str("    </testcase>\n");
+    }
+    xml.push_str("  </testsuite>\n</testsuites>\n");
+    xml
+}
+
+fn headline(report: &SceneReport) -> String {
+    let worst = report.worst().map(|worst| worst.sentence());
+    worst.or_else(|| report.message.clone()).unwrap_or_else(|| "the picture differs".to_owned())
+}
+
+/// Every difference, up to a screen of them, and the commands.
+fn details(report: &SceneReport) -> String {
+    const MOST: usize = 40;
+    let mut lines: Vec<String> = report.differences.iter().take(MOST).map(|difference| difference.sentence()).collect();
+    if report.differences.len() > MOST {
+        lines.push(format!("and {} more", report.differences.len() - MOST));
+    }
+    lines.extend(report.message.clone());
+    lines.extend(report.commands.iter().cloned());
+    lines.join("\n")
+}
+
+/// Text that may stand anywhere in XML; what may not is a replacement character.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\n' | '\t' => escaped.push(character),
+            control if control.is_control() || matches!(control, '\u{fffe}' | '\u{ffff}') => escaped.push('\u{fffd}'),
+            other => escaped.push(other),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_cannot_break_the_file() {
+        assert_eq!(escaped("a<b & \"c\"\u{1}>"), "a&lt;b &amp; &quot;c&quot;\u{fffd}&gt;");
+    }
+}

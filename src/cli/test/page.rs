@@ -1,0 +1,54 @@
+//! The page that shows what a test found.
+
+use super::arguments::TestArguments;
+use super::report::{SceneReport, Verdict};
+use crate::cli::bench::command;
+use crate::cli::difference_page::{self, Section, Shown};
+
+/// Scenes that differ first.
+pub fn page(arguments: &TestArguments, reports: &[SceneReport]) -> String {
+    let mut sorted: Vec<&SceneReport> = reports.iter().collect();
+    sorted.sort_by_key(|report| match report.verdict {
+        Verdict::Differs => 0,
+        Verdict::Failed => 1,
+        Verdict::Made | Verdict::Agrees => 2,
+    });
+    let sections: Vec<Section> = sorted.into_iter().map(section).collect();
+    let share = |share: f64| format!("{} %", 100.0 * share);
+    let method = format!(
+        "A change of {} of the energy of a tile of {}×{} pixels is found with a probability of {}; a run finds a difference where there is \
+         none with a probability of {} at most.",
+        share(arguments.change),
+        arguments.tile,
+        arguments.tile,
+        share(arguments.power),
+        share(arguments.false_alarms)
+    );
+    difference_page::page("gpt test", &command(), &method, &sections)
+}
+
+fn section(report: &SceneReport) -> Section<'_> {
+    let (verdict, is_red) = match report.verdict {
+        Verdict::Agrees => ("agrees", false),
+        Verdict::Differs => ("differs", true),
+        Verdict::Made => ("golden picture made", false),
+        Verdict::Failed => ("could not be tested", true),
+    };
+    let mut facts = report.facts();
+    facts.extend(report.device.clone());
+    facts.extend(report.message.clone());
+    Section {
+        title: report.scene.clone(),
+        verdict: verdict.to_owned(),
+        is_red,
+        facts,
+        findings: report.differences.iter().map(|difference| (difference.region, difference.sentence())).collect(),
+        commands: report.commands.clone(),
+        shown: report.pictures.as_ref().map(|pictures| Shown {
+            labels: ["golden", "now"],
+            images: [&pictures.golden, &pictures.now],
+            tiles: &pictures.tiles,
+            flip: &pictures.flip,
+        }),
+    }
+}

@@ -1,0 +1,142 @@
+//! What `action.yml`, `docs/ci.md` and the `Dockerfile` tell other systems to do, done as it stands there.
+
+use super::*;
+
+fn project() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn project_file(name: &str) -> String {
+    fs::read_to_string(project().join(name)).expect("a file of the project")
+}
+
+fn indent(line: &str) -> usize {
+    line.len() - line.trim_start().len()
+}
+
+/// The lines below a line, as far as they are farther in.
+fn block<'a>(lines: &[&'a str], at: usize) -> Vec<&'a str> {
+    let outer = indent(lines[at]);
+    lines[at + 1..].iter().copied().take_while(|line| line.trim().is_empty() || indent(line) > outer).collect()
+}
+
+/// The shell scripts of an action's steps, each with its environment.
+fn steps(action: &str, inputs: &[(&str, &str)]) -> Vec<(String, Vec<(String, String)>)> {
+    let lines: Vec<&str> = action.lines().collect();
+    let starts = (0..lines.len()).filter(|&at| lines[at].trim_start().starts_with("- name:"));
+    let filled = |text: &str| {
+        inputs.iter().fold(text.to_owned(), |text, (name, value)| text.replace(&format!("${{{{ inputs.{name} }}}}"), value))
+    };
+    let step = |at: usize| {
+        let lines: Vec<&str> = [lines[at]].into_iter().chain(block(&lines, at)).collect();
+        let run = lines.iter().position(|line| line.trim() == "run: |")?;
+        let script: Vec<&str> = block(&lines, run).into_iter().map(str::trim_start).collect();
+        let environment = lines.iter().position(|line| line.trim() == "env:").map_or_else(Vec::new, |env| block(&lines, env));
+        let pair = |line: &&str| line.trim().split_once(": ").map(|(name, value)| (name.to_owned(), filled(value)));
+        Some((script.join("\n"), environment.iter().filter_map(pair).collect()))
+    };
+    starts.filter_map(step).collect()
+}
+
+/// The commands of a list in the page's YAML.
+fn commands(page: &str, key: &str) -> Vec<String> {
+    let lines: Vec<&str> = page.lines().collect();
+    let at = lines.iter().position(|line| line.trim() == format!("{key}:")).expect("the list is there");
+    block(&lines, at).into_iter().filter_map(|line| line.trim().strip_prefix("- ").map(str::to_owned)).collect()
+}
+
+/// Runs a script as GitHub does, in the place, with `gpt` on the path.
+fn run(place: &Workplace, script: &str, environment: &[(String, String)]) -> Output {
+    let programs = Path::new(env!("CARGO_BIN_EXE_gpt")).parent().expect("a folder");
+    let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap_or_default());
+    Command::new("bash")
+        .args(["--noprofile", "--norc", "-eo", "pipefail", "-c", script])
+        .current_dir(place.0.path())
+        .env("PATH", path)
+        .env("GITHUB_ACTION_PATH", project())
+        .env("RUNNER_TEMP", place.0.path())
+        .envs(environment.iter().cloned())
+        .output()
+        .expect("bash starts")
+}
+
+/// A folder `tests/scenes` with a golden picture, made with the changes that the page looks for.
+fn blessed() -> Workplace {
+    let place = Workplace::new();
+    fs::create_dir_all(place.path("tests/scenes")).expect("a folder");
+    fs::write(place.path("tests/scenes/lit.toml"), scene()).expect("a scene");
+    place.expect(0, "test tests/scenes --bless --change 2% -q --device gpu");
+    place
+}
+
+fn spoil(place: &Workplace) {
+    fs::write(place.path("tests/scenes/lit.toml"), scene().replace("reflectance = 0.5", "reflectance = 0.55")).expect("a scene");
+}
+
+#[test]
+fn the_actions_steps_run_as_they_stand() {
+    if std::env::var("GPT_TEST_GPU").as_deref() == Ok("skip") {
+        return;
+    }
+    let place = blessed();
+    let inputs = [("directory", "tests/scenes"), ("arguments", "--change 2%"), ("report", "out")];
+    let steps = steps(&project_file("action.yml"), &inputs);
+    assert_eq!(steps.len(), 3, "{steps:?}");
+    for (script, environment) in &steps {
+        let output = run(&place, script, environment);
+        assert!(output.status.success(), "{script}\n{}{}", text(&output.stdout), text(&output.stderr));
+    }
+    assert!(place.path("out/report.html").is_file() && place.path("out/junit.xml").is_file());
+    // The control: what differs makes the step fail.
+    spoil(&place);
+    assert_eq!(run(&place, &steps[2].0, &steps[2].1).status.code(), Some(7));
+}
+
+#[test]
+fn the_pages_commands_run_as_they_stand() {
+    if std::env::var("GPT_TEST_GPU").as_deref() == Ok("skip") {
+        return;
+    }
+    let place = blessed();
+    let page = project_file("docs/ci.md");
+    let all: Vec<String> = ["before_script", "script"].into_iter().flat_map(|key| commands(&page, key)).collect();
+    assert_eq!(all.len(), 3, "{all:?}");
+    for command in &all {
+        let output = run(&place, command, &[]);
+        assert!(output.status.success(), "{command}\n{}{}", text(&output.stdout), text(&output.stderr));
+    }
+    assert!(place.path("report.html").is_file() && place.path("junit.xml").is_file());
+    spoil(&place);
+    assert_eq!(run(&place, &all[2], &[]).status.code(), Some(7));
+    assert!(
+        page.contains("directory:") && project_file("action.yml").contains("\n  directory:"),
+        "the inputs are those of the action"
+    );
+}
+
+/// Every file that is copied is there, and every stage that is copied from is one. (Docker itself is not at hand everywhere.)
+#[test]
+fn the_dockerfile_copies_what_is_there() {
+    let file = project_file("Dockerfile");
+    let joined = file.replace("\\\n", " ");
+    let words = |line: &str| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+    let mut stages = Vec::new();
+    for line in joined.lines().filter(|line| !line.starts_with('#') && !line.trim().is_empty()).map(words) {
+        match line[0].as_str() {
+            "FROM" => stages.extend(line.get(3).cloned()),
+            "COPY" => match line[1].strip_prefix("--from=") {
+                Some(stage) => assert!(stages.iter().any(|known| known == stage), "{line:?}"),
+                None => assert!(line[1..line.len() - 1].iter().all(|source| project().join(source).exists()), "{line:?}"),
+            },
+            "RUN" | "ENV" | "WORKDIR" | "ENTRYPOINT" => {}
+            other => panic!("there is no instruction {other}"),
+        }
+    }
+    assert_eq!(stages, ["build"]);
+    // What the program is compiled from is all there.
+    let copied =
+        |name: &str| joined.lines().any(|line| line.starts_with("COPY") && line.split_whitespace().any(|word| word == name));
+    assert!(
+        ["Cargo.toml", "Cargo.lock", "src", "shaders", "scenes", "tests", "benches", "examples"].iter().all(|name| copied(name))
+    );
+}

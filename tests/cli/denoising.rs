@@ -1,0 +1,89 @@
+//! `gpt denoise` and `gpt render --denoise`, with the real library where it is installed, and without it.
+
+use gpt::denoise::library::{Library, OidnError, VARIABLE};
+use gpt::output::Channels;
+
+use super::common::effort::announce;
+use super::*;
+
+/// Whether the library is there; else a line says what is left out.
+fn is_installed() -> bool {
+    match Library::open() {
+        Ok(_) => true,
+        Err(OidnError::Missing(_)) => {
+            announce(&format!("left out: denoising by Open Image Denoise, which is not installed ({VARIABLE} names it)"));
+            false
+        }
+        Err(error) => panic!("{error}"),
+    }
+}
+
+/// Relative to the picture: of the absolute one, the edges of the lamp are nearly all, and those a denoiser softens.
+fn error(a: &Image, b: &Image) -> f64 {
+    gpt::compare::compare(a, b).expect("one size").relmse.all
+}
+
+#[test]
+fn a_denoised_picture_is_nearer_the_truth_and_says_its_bias() {
+    if !is_installed() {
+        return;
+    }
+    let place = Workplace::new();
+    let cornell = "render cornell --device cpu --size 64x64 -q";
+    place.expect(0, &format!("{cornell} --spp 8 --aov albedo,normal,variance,samples -o raw.exr"));
+    place.expect(0, &format!("{cornell} --spp 256 --seed 7 -o truth.exr"));
+    let raw = fs::read(place.path("raw.exr")).expect("a picture");
+    let said = place.expect(0, "denoise raw.exr -o clean.exr -o clean.png");
+    assert!(said.contains("Open Image Denoise 2") && said.contains("albedo and normals") && said.contains("tiles"), "{said}");
+    assert_eq!(raw, fs::read(place.path("raw.exr")).expect("a picture"), "the raw picture stays");
+    let [raw, clean, truth] = ["raw.exr", "clean.exr", "truth.exr"].map(|name| place.image(name));
+    let (before, after) = (error(&raw, &truth), error(&clean, &truth));
+    assert!(after < 0.4 * before, "{before} before, {after} after");
+    let header = Channels::read(&place.path("clean.exr")).expect("a picture");
+    assert!(header.attribute("gpt:denoiser").is_some_and(|name| name.starts_with("Open Image Denoise")));
+    assert!(header.attribute("gpt:denoiserBias").is_some_and(|bias| bias.starts_with("energy ")));
+    let report: Value = serde_json::from_slice(&place.run("denoise raw.exr -o again.exr --json").stdout).expect("JSON");
+    assert_eq!((&report["bias"]["tiles"], &report["bias"]["noise_is_measured"]), (&Value::from(16), &Value::Bool(true)));
+    // Without layers it is done too, by the picture alone, and less well.
+    place.expect(0, &format!("{cornell} --spp 8 -o bare.exr"));
+    assert!(place.expect(0, "denoise bare.exr -o bare-clean.exr").contains("layers: none"));
+    let bare = error(&place.image("bare-clean.exr"), &truth);
+    assert!(bare < before && bare != after, "{bare} without layers");
+    assert!(place.expect(0, "compare clean.exr clean.exr").contains("clean.exr was denoised"));
+}
+
+#[test]
+fn a_render_is_denoised_beside_itself() {
+    if !is_installed() {
+        return;
+    }
+    let place = Workplace::new();
+    let said = place.expect(0, "render scene.toml --device cpu --denoise -o a.exr -o a.png");
+    assert!(said.contains("a.denoised.exr, a.denoised.png: by Open Image Denoise"), "{said}");
+    assert_eq!(place.files(), ["a.denoised.exr", "a.denoised.png", "a.exr", "a.png", "scene.toml"]);
+    assert_ne!(place.image("a.exr").pixels, place.image("a.denoised.exr").pixels);
+    place.expect(0, "render scene.toml --device cpu -q -o plain.exr");
+    assert_eq!(place.image("a.exr").pixels, place.image("plain.exr").pixels, "the raw picture is what it is without");
+    // The layers that were rendered are in the raw file.
+    assert!(Channels::read(&place.path("a.exr")).expect("a picture").channel("Albedo.R").is_some());
+}
+
+/// Its absence is found before anything is rendered.
+#[test]
+fn a_missing_library_is_named_with_how_to_get_it() {
+    let place = Workplace::new();
+    place.expect(0, "render scene.toml --device cpu -q -o a.exr");
+    for arguments in ["denoise a.exr -o b.exr", "render scene.toml --device cpu --spp 1000000 --denoise -o c.exr"] {
+        let output = place.command(arguments).env(VARIABLE, "/nowhere/at/all").output().expect("the program starts");
+        let stderr = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{stderr}");
+        assert!(stderr.contains("pip install pyoidn") && stderr.contains("/nowhere/at/all"), "{stderr}");
+    }
+    fs::write(place.path("libOpenImageDenoise.so.2"), "no library").expect("a file");
+    let output = place.command("denoise a.exr -o b.exr").env(VARIABLE, place.0.path()).output().expect("the program starts");
+    assert!(text(&output.stderr).contains("is not Open Image Denoise"), "{}", text(&output.stderr));
+    assert!(place.expect(2, "denoise a.exr -o a.exr").contains("would be overwritten"));
+    place.expect(3, "denoise missing.exr -o b.exr");
+    assert!(place.expect(2, "render scene.toml --device cpu --denoise -o a.png").contains(".exr"));
+    assert!(!place.path("b.exr").exists() && !place.path("c.exr").exists());
+}
