@@ -47,6 +47,15 @@ impl Renderer for Synthetic {
 
     fn set_samples_per_pixel(&mut self, _spp: u32) {}
 
+    fn with_scene(
+        self: Box<Self>,
+        _scene: &gpt::Scene,
+        _options: &gpt::plan::PlanOptions,
+        _change: gpt::renderer::Change,
+    ) -> Result<Box<dyn Renderer>, RenderError> {
+        Ok(self)
+    }
+
     fn render_into(
         &mut self,
         batch: &Batch<'_>,
