@@ -45,6 +45,7 @@ const MEASURED: &[(&str, MeasuredShare)] = &[
     ("terrace", MeasuredShare { matching: 175_657, paths: 176_128 }),
     ("crystal", MeasuredShare { matching: 157_268, paths: 157_696 }),
     ("lanterns", MeasuredShare { matching: 157_628, paths: 157_696 }),
+    ("bazaar", MeasuredShare { matching: 188_312, paths: 188_416 }),
     ("arbour", MeasuredShare { matching: 163_752, paths: 163_840 }),
     ("vitrine", MeasuredShare { matching: 175_226, paths: 176_128 }),
     ("model-town", MeasuredShare { matching: 196_519, paths: 196_608 }),
