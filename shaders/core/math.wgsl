@@ -1,4 +1,5 @@
 // Small mathematics that every kernel shares.
+#import core/layout.wgsl
 
 const PI: f32 = 3.14159265358979323846;
 const INVERSE_PI: f32 = 0.31830988618379067154;
@@ -93,4 +94,23 @@ struct Hit {
     primitive: u32,
     u: f32,
     v: f32,
+#if INSTANCES
+    // What the primitive is seen as part of, or NONE.
+    instance: u32,
+#endif
+}
+
+// A hit on a primitive of the world.
+fn world_hit(t: f32, primitive: u32, u: f32, v: f32) -> Hit {
+    return Hit(
+        t, primitive, u, v
+#if INSTANCES
+        , NONE
+#endif
+    );
+}
+
+// Nothing is met before t_max.
+fn no_hit(t_max: f32) -> Hit {
+    return world_hit(t_max, NONE, 0.0, 0.0);
 }

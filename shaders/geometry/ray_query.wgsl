@@ -38,7 +38,7 @@ fn hit_by_query(ray: PreparedRay, before: Hit, after: f32, flags: u32) -> Hit {
             // A shape's box is met. Triangles never come here.
             let candidate = rayQueryGetCandidateIntersection(&query);
             let shape = candidate.instance_custom_data + candidate.primitive_index;
-            var met = Hit(min(hit.t, t_max), NONE, 0.0, 0.0);
+            var met = no_hit(min(hit.t, t_max));
             intersect_stored(ray, shape, primitive_words(shape), &met);
             if met.primitive != NONE {
                 let nearest = rayQueryGetCommittedIntersection(&query);
@@ -62,7 +62,7 @@ fn hit_by_query(ray: PreparedRay, before: Hit, after: f32, flags: u32) -> Hit {
         let primitive = committed.instance_custom_data + committed.primitive_index;
         let words = primitive_words(primitive);
         let own = intersect_triangle(ray, INFINITY_DISTANCE, words.w0.xyz, words.w1.xyz, words.w2.xyz);
-        var found = Hit(own.x, primitive, own.y, own.z);
+        var found = world_hit(own.x, primitive, own.y, own.z);
         if own.x < 0.0 {
             let behind = min(own.y, own.z) >= 0.0 && own.y + own.z <= 1.0;
             let places = abs(ray.origin);
@@ -73,7 +73,7 @@ fn hit_by_query(ray: PreparedRay, before: Hit, after: f32, flags: u32) -> Hit {
                 continue;
             }
             // An edge that the device counts to this triangle, and our test to its neighbour.
-            found = Hit(committed.t, primitive, committed.barycentrics.x, committed.barycentrics.y);
+            found = world_hit(committed.t, primitive, committed.barycentrics.x, committed.barycentrics.y);
         }
         if found.t < hit.t {
             hit = found;
@@ -91,7 +91,7 @@ fn hit_by_query(ray: PreparedRay, before: Hit, after: f32, flags: u32) -> Hit {
 // The constants first: what they meet shortens the way through the structure.
 fn closest_hit(traced: Ray, t_max: f32) -> Hit {
     let ray = prepare_ray(traced);
-    var hit = Hit(t_max, NONE, 0.0, 0.0);
+    var hit = no_hit(t_max);
     closest_of_constants(ray, &hit);
     return hit_by_query(ray, hit, 0.0, RAY_FLAG_NONE);
 }
@@ -107,7 +107,7 @@ fn transmittance(traced: Ray, t_max: f32) -> f32 {
     var through = transmittance_of_constants(ray, t_max);
     var t_min = 0.0;
     while through > 0.0 {
-        let hit = hit_by_query(ray, Hit(t_max, NONE, 0.0, 0.0), t_min, RAY_FLAG_NONE);
+        let hit = hit_by_query(ray, no_hit(t_max), t_min, RAY_FLAG_NONE);
         if hit.primitive == NONE {
             break;
         }
@@ -116,7 +116,7 @@ fn transmittance(traced: Ray, t_max: f32) -> f32 {
     }
     return through;
 #else
-    let hit = hit_by_query(ray, Hit(t_max, NONE, 0.0, 0.0), 0.0, RAY_FLAG_TERMINATE_ON_FIRST_HIT);
+    let hit = hit_by_query(ray, no_hit(t_max), 0.0, RAY_FLAG_TERMINATE_ON_FIRST_HIT);
     return select(0.0, 1.0, hit.primitive == NONE);
 #endif
 }

@@ -1,4 +1,4 @@
-// The arrays of primitives, nodes and attributes, and how a record of each is loaded: from one binding, or, where the array is larger than
+// The arrays of primitives, nodes, attributes and instances, and how a record of each is loaded: from one binding, or, where the array is larger than
 // a binding may be, from the one of several that holds it (src/plan/chunks.rs writes those loads).
 #import core/layout.wgsl
 #export geometry/words.wgsl
@@ -70,6 +70,26 @@ fn node_word_at(first: u32, word: u32) -> vec4<u32> {
 fn attribute_words(index: u32) -> AttributeWords {
     let first = index * ATTRIBUTE_RECORD_WORDS;
     return AttributeWords(attributes[first], attributes[first + 1u], attributes[first + 2u], attributes[first + 3u]);
+}
+#endif
+#endif
+
+#if INSTANCES
+#if INSTANCE_CHUNKS
+#export geometry/instance_chunks.wgsl
+#else
+@group(0) @binding(BINDING_INSTANCES) var<storage, read> instances: array<vec4<f32>>;
+
+fn instance_words(index: u32) -> InstanceWords {
+    let first = index * INSTANCE_RECORD_WORDS;
+    return InstanceWords(
+        instances[first], instances[first + 1u], instances[first + 2u], instances[first + 3u], instances[first + 4u], instances[first + 5u]
+    );
+}
+
+// One of a record's words.
+fn instance_word(index: u32, word: u32) -> vec4<f32> {
+    return instances[index * INSTANCE_RECORD_WORDS + word];
 }
 #endif
 #endif

@@ -27,6 +27,9 @@ fn intersect_stored(ray: PreparedRay, index: u32, words: PrimitiveWords, hit: pt
     let found = intersect_held(ray, t_max, primitive_kind(p0.w), p0.xyz, p1.xyz, p2.xyz);
 #endif
     if found.x > 0.0 {
-        *hit = Hit(found.x, index, found.y, found.z);
+        *hit = world_hit(found.x, index, found.y, found.z);
+#if INSTANCES
+        (*hit).instance = ray.instance;
+#endif
     }
 }

@@ -2,6 +2,9 @@
 #import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/bvh4.wgsl
+#if INSTANCES
+#import geometry/instance.wgsl
+#endif
 #import geometry/prepared_ray.wgsl
 #import geometry/records.wgsl
 #import geometry/stored.wgsl
@@ -44,6 +47,10 @@ struct Traversal {
     limit: f32,
     transmittance: f32,
 #endif
+#if INSTANCES
+    // The ray in the world; `ray` may be in an instance.
+    world: Ray,
+#endif
 }
 
 // A direction whose components are never 0, for reciprocals that stay finite. The change is far below rounding.
@@ -55,9 +62,12 @@ fn safe_inverse(direction: vec3<f32>) -> vec3<f32> {
 
 fn begin_traversal(traced: Ray, t_max: f32) -> Traversal {
     return Traversal(
-        prepare_ray(traced), safe_inverse(traced.direction), Hit(t_max, NONE, 0.0, 0.0), pending_root()
+        prepare_ray(traced), safe_inverse(traced.direction), no_hit(t_max), pending_root()
 #if TRANSPARENT_SHADOWS
         , t_max, 1.0
+#endif
+#if INSTANCES
+        , traced
 #endif
     );
 }
@@ -73,10 +83,44 @@ fn is_finished(traversal: Traversal) -> bool {
     return !is_pending(traversal.pending);
 }
 
+#if INSTANCES
+// Goes on in the tree of an instance's group. What would have come next waits below the mark of the way back.
+fn enter_instance(traversal: ptr<function, Traversal>, stack: ptr<function, array<StackEntry, STACK_SIZE>>, instance: u32) {
+    let pending = (*traversal).pending;
+    var depth = pending.depth;
+    if pending.current != FINISHED {
+        (*stack)[depth] = pending.current;
+        depth++;
+    }
+    if pending.primitive != pending.primitive_end {
+        (*stack)[depth] = LEAF | ((pending.primitive_end - pending.primitive - 1u) << 24u) | pending.primitive;
+        depth++;
+    }
+    (*stack)[depth] = LEAVE_INSTANCE;
+    let words = instance_words(instance);
+    let ray = ray_in_instance((*traversal).world, words);
+    (*traversal).ray = prepare_ray_in_instance(ray, instance);
+    (*traversal).inverse_direction = safe_inverse(ray.direction);
+    (*traversal).pending = Pending(instance_root(words), depth + 1u, 0u, 0u);
+}
+
+fn leave_instance(traversal: ptr<function, Traversal>) {
+    (*traversal).ray = prepare_ray((*traversal).world);
+    (*traversal).inverse_direction = safe_inverse((*traversal).world.direction);
+}
+#endif
+
 // Tests one primitive.
-fn test_primitive(traversal: ptr<function, Traversal>, primitive: u32) {
+fn test_primitive(traversal: ptr<function, Traversal>, stack: ptr<function, array<StackEntry, STACK_SIZE>>, primitive: u32) {
+    let words = primitive_words(primitive);
+#if INSTANCES
+    if is_instance(words) {
+        enter_instance(traversal, stack, primitive_material(words.w0.w));
+        return;
+    }
+#endif
     var hit = (*traversal).hit;
-    intersect_stored((*traversal).ray, primitive, primitive_words(primitive), &hit);
+    intersect_stored((*traversal).ray, primitive, words, &hit);
     (*traversal).hit = hit;
 }
 
@@ -114,7 +158,15 @@ fn step_closest(traversal: ptr<function, Traversal>, stack: ptr<function, array<
         current = descend(current, traversal, stack);
         leads_nowhere = current == FINISHED;
     }
+#if INSTANCES
+    if current == LEAVE_INSTANCE && (*traversal).pending.primitive == (*traversal).pending.primitive_end {
+        leave_instance(traversal);
+        leads_nowhere = true;
+    }
+    let is_leaf = (current & LEAF) != 0u && current != FINISHED && current != LEAVE_INSTANCE;
+#else
     let is_leaf = (current & LEAF) != 0u && current != FINISHED;
+#endif
     if !leads_nowhere && is_leaf && (*traversal).pending.primitive == (*traversal).pending.primitive_end {
         (*traversal).pending.primitive = current & 0x00ffffffu;
         (*traversal).pending.primitive_end = (*traversal).pending.primitive + ((current >> 24u) & 3u) + 1u;
@@ -129,8 +181,9 @@ fn step_closest(traversal: ptr<function, Traversal>, stack: ptr<function, array<
     }
     (*traversal).pending.current = current;
     if (*traversal).pending.primitive != (*traversal).pending.primitive_end {
-        test_primitive(traversal, (*traversal).pending.primitive);
-        (*traversal).pending.primitive++;
+        let primitive = (*traversal).pending.primitive;
+        (*traversal).pending.primitive = primitive + 1u;
+        test_primitive(traversal, stack, primitive);
     }
 }
 
@@ -140,10 +193,14 @@ fn step_any(traversal: ptr<function, Traversal>, stack: ptr<function, array<Stac
     if (*traversal).hit.primitive != NONE {
 #if TRANSPARENT_SHADOWS
         // What lets light through is behind the ray then, which goes on to its end.
+#if INSTANCES
+        let ray = (*traversal).world;
+#else
         let ray = Ray((*traversal).ray.origin, (*traversal).ray.direction);
+#endif
         (*traversal).transmittance *= hit_transmittance(ray, (*traversal).hit, (*traversal).limit);
         if (*traversal).transmittance > 0.0 {
-            (*traversal).hit = Hit((*traversal).limit, NONE, 0.0, 0.0);
+            (*traversal).hit = no_hit((*traversal).limit);
             return;
         }
 #endif

@@ -5,7 +5,7 @@
 #import geometry/prepared_ray.wgsl
 
 fn closest_hit(traced: Ray, t_max: f32) -> Hit {
-    var hit = Hit(t_max, NONE, 0.0, 0.0);
+    var hit = no_hit(t_max);
     closest_of_constants(prepare_ray(traced), &hit);
     return hit;
 }

@@ -21,3 +21,14 @@ struct AttributeWords {
     w2: vec4<f32>,
     w3: vec4<f32>,
 }
+
+// A group in a place: (row of the inverse, root and whether it is mirrored), (row, material or NONE), (row, motion or NONE), then rows of the
+// linear part, each with a coordinate of the place; src/packed/instance.rs.
+struct InstanceWords {
+    w0: vec4<f32>,
+    w1: vec4<f32>,
+    w2: vec4<f32>,
+    w3: vec4<f32>,
+    w4: vec4<f32>,
+    w5: vec4<f32>,
+}

@@ -2,6 +2,9 @@
 #import core/layout.wgsl
 #import geometry/records.wgsl
 #import shading/shape_point.wgsl
+#if INSTANCES
+#import geometry/instance.wgsl
+#endif
 #if MOTION
 #import geometry/motion.wgsl
 #endif
@@ -50,3 +53,16 @@ fn edge_tangents(first: u32, edge_u: vec3<f32>, edge_v: vec3<f32>) -> Tangents {
     let orientation = sign(du.x * dv.y - du.y * dv.x);
     return Tangents((edge_u * dv.y - edge_v * du.y) * orientation, (edge_v * du.x - edge_u * dv.x) * orientation);
 }
+
+#if INSTANCES
+// The same of a primitive of an instance.
+fn interpolate_in_instance(placement: Placement, first: u32, weights: vec2<f32>) -> Attribute {
+    let words = attribute_words(first);
+    let w = 1.0 - weights.x - weights.y;
+    return Attribute(
+        w * placed_normal(placement, words.w0.xyz) + weights.x * placed_normal(placement, words.w1.xyz)
+            + weights.y * placed_normal(placement, words.w2.xyz),
+        w * vec2<f32>(words.w0.w, words.w1.w) + weights.x * vec2<f32>(words.w2.w, words.w3.x) + weights.y * words.w3.yz
+    );
+}
+#endif

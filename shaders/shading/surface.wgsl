@@ -4,6 +4,12 @@
 #import geometry/records.wgsl
 #import geometry/scene.wgsl
 #import shading/shapes.wgsl
+#if INSTANCES
+#import geometry/instance.wgsl
+#if ATTRIBUTES
+#import shading/attributes.wgsl
+#endif
+#endif
 #if MOTION
 #import geometry/placed.wgsl
 #endif
@@ -45,22 +51,57 @@ fn shading_normal_towards(interpolated: vec3<f32>, facing_normal: vec3<f32>, wo:
     return select(facing_normal, shading_normal, dot(shading_normal, wo) > 0.0);
 }
 
+// The material of what a ray met.
+fn hit_material(hit: Hit) -> u32 {
+#if INSTANCES
+    if hit.instance != NONE {
+        let replacement = bitcast<u32>(instance_word(hit.instance, 1u).w);
+        if replacement != NONE {
+            return replacement;
+        }
+    }
+#endif
+    return primitive_material(primitive_word(hit.primitive, 0u).w);
+}
+
 fn hit_surface(ray: Ray, hit: Hit) -> Surface {
 #if MOTION
     let placed = placed_primitive(primitive_words(hit.primitive));
-    let p0 = placed.p0;
-    let p1 = placed.p1;
-    let p2 = placed.p2;
+    let words = PrimitiveWords(placed.p0, placed.p1, placed.p2);
 #else
     let words = primitive_words(hit.primitive);
+#endif
+    let kind = primitive_kind(words.w0.w);
+    let wo = -ray.direction;
+#if INSTANCES
+    var p0 = words.w0;
+    var p1 = words.w1;
+    var p2 = words.w2;
+    var material = primitive_material(p0.w);
+    let placement = instance_placement(hit.instance);
+    var magnitude = vec3<f32>(0.0);
+    if placement.exists {
+        // Groups consist of triangles.
+        magnitude = placed_magnitude(placement, max(abs(p0.xyz), max(abs(p1.xyz), abs(p2.xyz))));
+        p0 = vec4<f32>(placed_point(placement, p0.xyz), p0.w);
+        p1 = vec4<f32>(placed_point(placement, p1.xyz), p1.w);
+        p2 = vec4<f32>(placed_point(placement, p2.xyz), p2.w);
+        if placement.material != NONE {
+            material = placement.material;
+        }
+    }
+    var point = shape_point(kind, ray, hit, p0.xyz, p1.xyz, p2.xyz);
+    if placement.mirrored {
+        // Fronts stay on the side on which they are in the group.
+        point.normal = -point.normal;
+    }
+#else
     let p0 = words.w0;
     let p1 = words.w1;
     let p2 = words.w2;
-#endif
-    let kind = primitive_kind(p0.w);
-    let wo = -ray.direction;
-
+    let material = primitive_material(p0.w);
     let point = shape_point(kind, ray, hit, p0.xyz, p1.xyz, p2.xyz);
+#endif
     let normal = point.normal;
     var size = point.size;
     var uv = point.uv;
@@ -78,24 +119,36 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
 #if ATTRIBUTES
     let first = bitcast<u32>(p2.w);
     if first != NONE {
+#if INSTANCES
+        var looked_up: Attribute;
+        if placement.exists {
+            looked_up = interpolate_in_instance(placement, first, uv);
+        } else {
+            looked_up = shape_attribute(kind, first, uv, normal);
+        }
+#else
         let looked_up = shape_attribute(kind, first, uv, normal);
+#endif
         uv = looked_up.uv;
         own_normal = looked_up.normal;
     }
 #endif
 #if NORMAL_MAPS
-    own_normal = mapped_normal(primitive_material(p0.w), kind, bitcast<u32>(p2.w), own_normal, point, uv);
+    own_normal = mapped_normal(material, kind, bitcast<u32>(p2.w), own_normal, point, uv);
 #endif
     let shading_normal = shading_normal_towards(own_normal, facing_normal, wo);
 #if MOTION
     size += placed.magnitude;
+#endif
+#if INSTANCES
+    size += magnitude;
 #endif
 #if ANISOTROPY
     let tangents = shape_tangents(kind, bitcast<u32>(p2.w), point);
 #endif
     return Surface(
         point.position, facing_normal, shading_normal, uv, front, POINT_ERROR * dot(abs(facing_normal), size) + point.error,
-        primitive_material(p0.w), bitcast<u32>(p1.w), point.area, sphere
+        material, bitcast<u32>(p1.w), point.area, sphere
 #if ANISOTROPY
         , tangents.along_u, tangents.along_v
 #endif

@@ -10,7 +10,7 @@
 
 // Of the primitive that a ray meets at `hit`, 0 where it is opaque. A sphere is met again on its far side, if that is nearer than `limit`.
 fn hit_transmittance(ray: Ray, hit: Hit, limit: f32) -> f32 {
-    let material = primitive_material(primitive_word(hit.primitive, 0u).w);
+    let material = hit_material(hit);
     var share = 0.0;
     if (bitcast<u32>(tables[material * MATERIAL_WORDS + 2u].w) & LETS_THROUGH) != 0u {
 #if BLENDS

@@ -41,7 +41,3 @@ fn extend(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups)
     }
 #endif
 }
-
-fn store_hit(slot: u32, hit: Hit) {
-    path_state[PLANE_HIT + slot] = vec4<f32>(hit.t, bitcast<f32>(hit.primitive), hit.u, hit.v);
-}

@@ -28,12 +28,11 @@ fn shade(
     var shading = no_shading();
     if id.x < atomicLoad(&counts[queue]) {
         slot = queues[queue * PATH_CAPACITY + id.x];
-        let h = path_state[PLANE_HIT + slot];
         var path = load_path(slot);
 #if MOTION
         set_path_time(path.pixel, path.sample_in_pass);
 #endif
-        shading = shade_vertex(&path, Hit(h.x, bitcast<u32>(h.y), h.z, h.w), vertex_parameters.vertex);
+        shading = shade_vertex(&path, load_hit(slot), vertex_parameters.vertex);
         if HAS_NULL_SURFACES || any(shading.radiance != vec3<f32>(0.0)) {
             let radiance = path_state[PLANE_RADIANCE + slot].xyz + shading.radiance;
             path_state[PLANE_RADIANCE + slot] = vec4<f32>(radiance, bitcast<f32>(path.null_vertices));

@@ -76,6 +76,30 @@ fn store_path(slot: u32, path: Path) {
 #endif
 }
 
+fn store_hit(slot: u32, hit: Hit) {
+#if INSTANCES
+    let in_instance = hit.instance != NONE;
+    let distance_or_instance = select(bitcast<u32>(hit.t), hit.instance, in_instance);
+    let primitive = select(hit.primitive, hit.primitive | HIT_IN_INSTANCE, in_instance);
+    path_state[PLANE_HIT + slot] = vec4<f32>(bitcast<f32>(distance_or_instance), bitcast<f32>(primitive), hit.u, hit.v);
+#else
+    path_state[PLANE_HIT + slot] = vec4<f32>(hit.t, bitcast<f32>(hit.primitive), hit.u, hit.v);
+#endif
+}
+
+// Of a hit in an instance, which is one on a triangle, without its distance.
+fn load_hit(slot: u32) -> Hit {
+    let h = path_state[PLANE_HIT + slot];
+    let primitive = bitcast<u32>(h.y);
+#if INSTANCES
+    let in_instance = primitive != NONE && (primitive & HIT_IN_INSTANCE) != 0u;
+    if in_instance {
+        return Hit(0.0, primitive & ~HIT_IN_INSTANCE, h.z, h.w, bitcast<u32>(h.x));
+    }
+#endif
+    return world_hit(h.x, primitive, h.z, h.w);
+}
+
 // Where in its planes shadow ray `number` stands of the path with this index in the queue.
 fn shadow_ray_index(index: u32, number: u32) -> u32 {
     return select(0u, number * SHADOW_PLANES, LIGHT_SAMPLES > 1u) + index;

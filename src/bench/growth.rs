@@ -17,6 +17,8 @@ choices! {
         Lights = "lights",
         /// 1 to 8 leaves of a blend, with --all to 64.
         Leaves = "leaves",
+        /// 100 to 10,000 instances of a tree of 10,000 triangles, with --all to a million.
+        Trees = "trees",
     }
 }
 
@@ -30,6 +32,7 @@ impl Growth {
             Self::Samples => "samples per pixel",
             Self::Lights => "lights",
             Self::Leaves => "leaves of a blend",
+            Self::Trees => "instances of a tree",
         }
     }
 
@@ -43,6 +46,7 @@ impl Growth {
             Self::Samples => (&[1, 4, 16, 64], &[256, 1024]),
             Self::Lights => (&[1, 10, 100, 1_000], &[10_000]),
             Self::Leaves => (&[1, 2, 4, 8], &[16, 32, 64]),
+            Self::Trees => (&[100, 1_000, 10_000], &[100_000, 1_000_000]),
         };
         if everything { [bounded, rest].concat() } else { bounded.to_vec() }
     }

@@ -4,10 +4,11 @@ use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;
 
-use glam::{Vec2, Vec3};
+use glam::{DAffine3, DQuat, DVec3, Vec2, Vec3};
 
 use crate::load::{SceneError, load_toml_str};
-use crate::scene::{ColorInput, Emission, Geometry, Material, MaterialKind, Mesh, Scene, Shape, Transform};
+use crate::sampling::hash::mix;
+use crate::scene::{ColorInput, Emission, Geometry, Group, Instances, Material, MaterialKind, Mesh, Scene, Shape, Transform};
 
 /// Camera, floor and a ball that several of the scenes share.
 const STAGE: &str = r#"
@@ -132,6 +133,111 @@ pub fn leaves(count: u32) -> Result<Scene, SceneError> {
     load_toml_str(&text, "leaves", Path::new(""))
 }
 
+/// Triangles of the tree of a [`forest`].
+pub const TREE_TRIANGLES: usize = 10_000;
+
+/// So many instances of one tree of [`TREE_TRIANGLES`] on rolling ground under a sky, each of a size and a turn of its own.
+///
+/// # Errors
+/// None that a test would not find.
+pub fn forest(trees: u32) -> Result<Scene, SceneError> {
+    let mut scene = load_toml_str(FOREST, "forest", Path::new(""))?;
+    let height = |x: f64, z: f64| 3.0 * (0.05 * x).sin() * (0.04 * z + 1.0).cos();
+    // As many to the unit of area whatever their number.
+    let side = 2.4 * f64::from(trees.max(1)).sqrt();
+    let ground = grid(200, 200, |u, v| {
+        let (x, z) = (1.1 * side * (f64::from(u) - 0.5), 1.1 * side * (0.5 - f64::from(v)));
+        DVec3::new(x, height(x, z), z).as_vec3()
+    });
+    scene.shapes.push(mesh_shape(Mesh { uvs: Vec::new(), ..ground }, 0));
+    scene.groups.push(Group { name: "tree".into(), shapes: vec![mesh_shape(tree(), 1)] });
+    let random = |number: u32, dimension: u32| f64::from(mix(number.wrapping_mul(8).wrapping_add(dimension))) / 4_294_967_296.0;
+    let columns = f64::from(trees.max(1)).sqrt().ceil() as u32;
+    let step = side / f64::from(columns);
+    let place = |number: u32| {
+        let at = |cell: u32, dimension: u32| (f64::from(cell) + 0.8 * random(number, dimension) + 0.1) * step - 0.5 * side;
+        let (x, z) = (at(number % columns, 0), at(number / columns, 1));
+        let (turn, size) = (std::f64::consts::TAU * random(number, 2), 0.7 + 0.6 * random(number, 3));
+        let scale = DVec3::new(size, size * (0.8 + 0.5 * random(number, 4)), size);
+        DAffine3::from_scale_rotation_translation(scale, DQuat::from_rotation_y(turn), DVec3::new(x, height(x, z) - 0.1, z))
+    };
+    let places: Vec<DAffine3> = (0..trees).map(place).collect();
+    scene.camera.position.y += height(scene.camera.position.x, scene.camera.position.z);
+    scene.instances.push(Instances {
+        label: "trees".into(),
+        group: 0,
+        places: Arc::new(places),
+        transform: Transform::default(),
+        material: None,
+        motion: None,
+    });
+    Ok(scene)
+}
+
+const FOREST: &str = r#"
+[render]
+max_depth = 5
+[camera]
+position = [0, 9, 26]
+look_at = [0, 2, -10]
+vfov = 45
+[[material]]
+name = "ground"
+type = "diffuse"
+reflectance = [0.22, 0.17, 0.09]
+[[material]]
+name = "needles"
+type = "diffuse"
+reflectance = [0.09, 0.19, 0.06]
+[[material]]
+name = "bark"
+type = "diffuse"
+reflectance = [0.2, 0.13, 0.08]
+[[light]]
+type = "sky"
+zenith = [0.35, 0.6, 1.4]
+horizon = [1.3, 1.25, 1.1]
+ground = [0.1, 0.1, 0.08]
+[[light]]
+type = "directional"
+direction = [-0.5, -0.7, -0.4]
+irradiance = [6, 5.2, 4]
+"#;
+
+/// A spruce: a trunk of eight sides, and needles on whorls of drooping branches.
+fn tree() -> Mesh {
+    const SIDES: u32 = 8;
+    const TRUNK_TRIANGLES: usize = 2 * SIDES as usize;
+    let mut mesh = Mesh::default();
+    for (height, radius) in [(0.0, 0.09), (4.0, 0.01)] {
+        for side in 0..SIDES {
+            let (sine, cosine) = (std::f64::consts::TAU * f64::from(side) / f64::from(SIDES)).sin_cos();
+            mesh.positions.push(DVec3::new(radius * cosine, height, radius * sine).as_vec3());
+        }
+    }
+    for side in 0..SIDES {
+        let next = (side + 1) % SIDES;
+        mesh.faces.extend([[side, side + SIDES, next], [next, side + SIDES, next + SIDES]]);
+    }
+    let random = |number: usize, dimension: u32| f64::from(mix((number as u32) * 4 + dimension)) / 4_294_967_296.0;
+    for needle in 0..TREE_TRIANGLES - TRUNK_TRIANGLES {
+        // Along one of fourteen branches of one of sixteen whorls.
+        let (whorl, branch, along) = ((needle % 16) as f64 / 16.0, (needle / 16 % 14) as f64, random(needle, 0).sqrt());
+        let reach = 1.1 * (1.0 - whorl) + 0.05;
+        let angle = std::f64::consts::TAU * (branch + 0.37 * whorl * 16.0) / 14.0;
+        let (outward, across) = (DVec3::new(angle.cos(), 0.0, angle.sin()), DVec3::new(-angle.sin(), 0.0, angle.cos()));
+        let root = DVec3::Y * (0.5 + 3.4 * whorl) + (outward - 0.45 * DVec3::Y * along) * (reach * along);
+        let side = if needle % 2 == 0 { 1.0 } else { -1.0 };
+        let tip =
+            root + (0.5 * outward + side * across) * (0.05 + 0.11 * random(needle, 1)) - DVec3::Y * (0.09 * random(needle, 2));
+        let first = mesh.positions.len() as u32;
+        mesh.positions.extend([root, tip, root + 0.035 * outward + 0.02 * DVec3::Y].map(|corner| corner.as_vec3()));
+        mesh.faces.push([first, first + 1, first + 2]);
+    }
+    mesh.face_materials = (0..mesh.faces.len()).map(|face| if face < TRUNK_TRIANGLES { 2 } else { 1 }).collect();
+    mesh
+}
+
 /// A room with two boxes and a lamp; a feature replaces one of its parts.
 #[derive(Debug, Clone)]
 pub struct Room {
@@ -250,6 +356,15 @@ mod tests {
 
     fn triangles(scene: &Scene) -> usize {
         scene.shapes.iter().map(|shape| if let Geometry::Mesh(mesh) = &shape.geometry { mesh.faces.len() } else { 0 }).sum()
+    }
+
+    #[test]
+    fn a_forest_stores_its_tree_once() {
+        let scene = forest(50).unwrap();
+        assert_eq!((scene.groups[0].triangles(), scene.instance_count()), (TREE_TRIANGLES, 50));
+        assert!(scene.validate().is_ok());
+        let mut mesh = tree();
+        assert_eq!(mesh.drop_degenerate_faces(), 0);
     }
 
     #[test]

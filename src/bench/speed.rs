@@ -50,6 +50,7 @@ impl SpeedOptions {
             Growth::Triangles => scenes::hills(size)?,
             Growth::Lights => scenes::panel(size)?,
             Growth::Leaves => scenes::leaves(size)?,
+            Growth::Trees => scenes::forest(size)?,
             Growth::Scenes | Growth::Resolution | Growth::Samples => own.clone(),
         };
         self.limit_depth(&mut scene);

@@ -11,7 +11,7 @@ use super::device::Device;
 use crate::packed::PackedScene;
 use crate::packed::texture::PackedTextures;
 use crate::plan::bindings::Binding;
-use crate::plan::chunks::{ATTRIBUTES, NODES, PRIMITIVES, TEXELS};
+use crate::plan::chunks::{ATTRIBUTES, INSTANCES, NODES, PRIMITIVES, TEXELS};
 use crate::plan::parameters::{PassParameters, VertexParameters};
 use crate::plan::path_state::{COUNTS, DISPATCH_SIZE_WORDS};
 use crate::plan::trace_record::TRACE_BYTES;
@@ -57,10 +57,11 @@ impl Buffers {
         upload(Binding::View as u32, "view", bytemuck::bytes_of(&packed.view), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
         upload(Binding::Vertex as u32, "vertices", &vertex_parameters(1), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
         let compiled = |switch: &str| plan.switches.enabled.contains(switch);
-        let arrays: [(_, &[u8], _, _); 3] = [
+        let arrays: [(_, &[u8], _, _); 4] = [
             (PRIMITIVES, bytemuck::cast_slice(&packed.primitives), usage(plan.uniform_primitives), true),
             (NODES, bytemuck::cast_slice(&packed.hierarchy.nodes), usage(plan.uniform_nodes), compiled("BVH")),
             (ATTRIBUTES, bytemuck::cast_slice(&packed.attributes), BufferUsages::STORAGE, compiled("ATTRIBUTES")),
+            (INSTANCES, bytemuck::cast_slice(&packed.instances), BufferUsages::STORAGE, compiled("INSTANCES")),
         ];
         for (array, bytes, usage, _) in arrays.into_iter().filter(|(.., is_read)| *is_read) {
             match plan.chunks.iter().find(|chunks| chunks.array == array) {

@@ -53,7 +53,7 @@ pub fn read(files: &Files, path: &Path, options: &LoadOptions) -> Result<Descrip
             ));
         }
     };
-    if description.shapes.is_empty() {
+    if description.shapes.is_empty() && description.instances.is_empty() {
         return Err(SceneError::in_file(name, "there is nothing to render in the scene: it has no surfaces"));
     }
     Ok(description)

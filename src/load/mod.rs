@@ -37,6 +37,7 @@ pub use error::SceneError;
 pub use excerpt::Excerpt;
 pub use file::{json_schema, load_toml_str};
 pub use image_file::read_image;
+pub(crate) use import::{place_rows, write_places};
 pub use import_file::{WrittenScene, as_scene_file};
 pub use mitsuba::WrittenMitsuba;
 pub use presets::preset_names;

@@ -60,6 +60,15 @@ impl Node {
             .collect()
     }
 
+    /// The node of a tree whose nodes and primitives stand behind so many others.
+    pub fn behind(self, nodes: u32, primitives: u32) -> Self {
+        Self {
+            first_child: self.first_child + nodes,
+            first_primitive_and_sizes: self.first_primitive_and_sizes + primitives,
+            ..self
+        }
+    }
+
     /// Kernels count children by their places and primitives by leaf sizes, whether or not the child before exists. So the first places
     /// are taken, and only leaves have sizes.
     pub fn is_well_formed(&self) -> bool {

@@ -30,6 +30,8 @@ pub struct Hierarchy {
     /// As the device reads them. Node 0 is the root; it has no children where there is nothing to bound. Children come after their parents.
     /// Empty with ray queries.
     pub nodes: Vec<bvh4::Node>,
+    /// Where the trees of groups begin among the nodes, one behind the other and behind the scene's own.
+    pub roots: Vec<u32>,
     /// With ray queries: boxes around what is no triangle, of which the device makes its own structure.
     pub boxes: Vec<ShapeBox>,
     /// Most entries that a traversal's stack can hold.
@@ -40,8 +42,8 @@ pub struct Hierarchy {
 
 impl Hierarchy {
     /// A hierarchy that kernels walk.
-    pub fn of_nodes(nodes: Vec<bvh4::Node>, primitive_count: u32) -> Self {
-        Self { stack_size: deepest_stack(&nodes), nodes, primitive_count, ..Self::default() }
+    pub fn of_nodes(nodes: Vec<bvh4::Node>, roots: Vec<u32>, primitive_count: u32) -> Self {
+        Self { stack_size: deepest_stack(&nodes, &roots), nodes, roots, primitive_count, ..Self::default() }
     }
 
     /// What a device builds a structure of its own from.
@@ -50,8 +52,12 @@ impl Hierarchy {
     }
 }
 
-/// Most entries that wait on a traversal's stack: all children of a node but the one taken, each an entry.
-pub(super) fn deepest_stack(nodes: &[bvh4::Node]) -> u32 {
+/// Entries that wait while a ray is in a group: what stands beside the instance, the rest of its leaf, and the mark of the way back.
+const ENTRIES_OF_INSTANCE: u32 = 3;
+
+/// Most entries that wait on a traversal's stack: all children of a node but the one taken, each an entry. Of the trees of groups, which begin at
+/// `roots`, a ray is in one at a time.
+pub(super) fn deepest_stack(nodes: &[bvh4::Node], roots: &[u32]) -> u32 {
     // One pass from the back sees every child before its parent.
     let mut need = vec![0_u32; nodes.len()];
     for index in (0..need.len()).rev() {
@@ -61,5 +67,6 @@ pub(super) fn deepest_stack(nodes: &[bvh4::Node]) -> u32 {
         let count = children.len() as u32;
         need[index] = count.max((count + deepest).saturating_sub(1));
     }
-    need.first().map_or(1, |need| (*need).max(1))
+    let of_groups = roots.iter().map(|&root| ENTRIES_OF_INSTANCE + need[root as usize].max(1)).max().unwrap_or(0);
+    need.first().map_or(1, |need| (*need).max(1)) + of_groups
 }

@@ -11,6 +11,7 @@ pub mod environment;
 mod error;
 pub mod grid;
 pub mod hierarchy;
+pub mod instance;
 pub mod light;
 pub mod material;
 pub mod motion;

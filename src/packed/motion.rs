@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3, Vec3};
 
 use super::primitive::WorldPrimitive;
 use crate::math::outward;
-use crate::scene::{MotionStep, Shape};
+use crate::scene::{Motion, MotionStep, Shape};
 use crate::shader::shared::shared_constants;
 
 shared_constants!(constants {
@@ -53,16 +53,19 @@ enum PackedStep {
 impl PackedMotion {
     /// None: the shape rests.
     pub fn new(shape: &Shape, shutter: [f64; 2]) -> Option<Self> {
-        let motion = shape.motion.as_ref()?;
+        shape.motion.as_ref().map(|motion| Self::about(motion, shape.origin(), shutter))
+    }
+
+    /// Of what stands about `origin`.
+    pub fn about(motion: &Motion, origin: DVec3, shutter: [f64; 2]) -> Self {
         let shares = shutter.map(|time| motion.share(time));
         let steps: Vec<PackedStep> = motion.steps.iter().map(|&step| PackedStep::new(step, shares)).collect();
-        let origin = shape.origin();
         let (relative, _) = bend(&steps, 1.0);
         let times = (relative / (8.0 * DEVIATION)).sqrt().ceil().clamp(1.0, MOST_TIMES) as u32;
         let [open, close] = shutter;
         let time = |index: u32| open + (close - open) * f64::from(index) / f64::from(times);
         let maps = (0..=times).map(|index| motion.at(time(index), origin)).collect();
-        Some(Self { origin, steps, maps })
+        Self { origin, steps, maps }
     }
 
     /// The rows of `motion` in `shaders/geometry/motion.wgsl`: origin and number of steps; then, of each step, its start and kind, and
@@ -83,23 +86,30 @@ impl PackedMotion {
     /// A box around all that the primitive sweeps while the shutter is open: the boxes at the sampled times, grown by how far a point
     /// can leave the straight line between two of them, h²/8 times the largest second derivative.
     pub fn swept(&self, primitive: &WorldPrimitive) -> Option<(Vec3, Vec3)> {
-        let (low, high) = primitive.bounds()?;
-        let (low, high) = (low.as_dvec3(), high.as_dvec3());
+        let double = |(low, high): (Vec3, Vec3)| [low.as_dvec3(), high.as_dvec3()];
+        // What is bounded at rest is so in motion.
+        let moved =
+            |map: &DAffine3| primitive.geometry.moved(map).bounds().map_or([DVec3::INFINITY, DVec3::NEG_INFINITY], double);
+        let (low, high) = self.swept_by(double(primitive.bounds()?), &moved);
+        Some(outward(low, high))
+    }
+
+    /// The same of anything, by its bounds at rest and where a map takes them.
+    pub fn swept_by(&self, [low, high]: [DVec3; 2], moved: &dyn Fn(&DAffine3) -> [DVec3; 2]) -> (DVec3, DVec3) {
         let radius = (low - self.origin).abs().max((high - self.origin).abs()).length();
         let (second, farthest) = bend(&self.steps, radius);
         let intervals = (self.maps.len() - 1) as f64;
         let mut swept = [DVec3::INFINITY, DVec3::NEG_INFINITY];
         for map in &self.maps {
-            let (low, high) = primitive.geometry.moved(map).bounds()?;
-            swept = [swept[0].min(low.as_dvec3()), swept[1].max(high.as_dvec3())];
+            let [low, high] = moved(map);
+            swept = [swept[0].min(low), swept[1].max(high)];
         }
         let deviation = second / (8.0 * intervals * intervals);
         let largest = swept[0].abs().max(swept[1].abs()).max_element() + self.origin.abs().max_element() + farthest;
         let margin = deviation + ROUNDING * largest;
         // Nothing leaves the sphere around the origin that the farthest point can reach.
         let reach = farthest + ROUNDING * largest;
-        let [low, high] = [(swept[0] - margin).max(self.origin - reach), (swept[1] + margin).min(self.origin + reach)];
-        Some(outward(low, high))
+        ((swept[0] - margin).max(self.origin - reach), (swept[1] + margin).min(self.origin + reach))
     }
 }
 

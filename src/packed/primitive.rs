@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use super::attributes::TriangleAttributes;
 use super::constants::NONE;
+use super::instance::KIND_INSTANCE;
 use super::shape::{PrimitiveGeometry, PrimitiveKind};
 use crate::shader::shared::shared_constants;
 
@@ -46,8 +47,8 @@ shared_constants!(constants {
     const PRIMITIVE_MOVES: u32 = 1 << 31;
 });
 
-/// The kind stands in three bits.
-const _: () = assert!(PrimitiveKind::ALL.len() <= 8);
+/// The kind stands in three bits, of which an instance has the last value.
+const _: () = assert!(PrimitiveKind::ALL.len() <= KIND_INSTANCE as usize);
 
 impl WorldPrimitive {
     pub fn new(geometry: PrimitiveGeometry, material: usize) -> Self {

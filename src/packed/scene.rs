@@ -7,6 +7,7 @@ use super::constants::NONE;
 use super::environment::PackedEnvironment;
 use super::error::PackError;
 use super::hierarchy::{Hierarchy, Traversal};
+use super::instance::PackedInstance;
 use super::light::PackedLight;
 use super::material::PackedMaterials;
 use super::primitive::Primitive;
@@ -34,6 +35,8 @@ pub struct PackedScene {
     pub environment: PackedEnvironment,
     /// How shapes move (`PackedMotion::words` of `packed::motion`).
     pub motions: Vec<[f32; 4]>,
+    /// Groups of meshes in their places. Leaves name them.
+    pub instances: Vec<PackedInstance>,
     pub view: View,
 }
 
@@ -62,13 +65,14 @@ impl PackedScene {
         let environment = light::environment(scene, &mut textures)?;
         let light::SampledLights { mut lights, local_count, nodes } = light::collect(scene, &mut world, &environment);
         let places = materials.places(scene);
-        world.primitives.iter_mut().for_each(|primitive| primitive.material = places[primitive.material] as usize);
+        world.replace_materials(|material| places[material] as usize);
         for light in lights.iter_mut().filter(|light| light.material != NONE) {
             light.material = places[light.material as usize];
         }
-        let (hierarchy, order) = tree::build(&world.primitives, &world.motions, traversal)?;
+        let (hierarchy, order) = tree::build(&world, traversal)?;
         let packed = Self {
-            primitives: order.par_iter().map(|&index| world.primitives[index].pack()).collect(),
+            primitives: order.par_iter().map(|slot| slot.pack(&world)).collect(),
+            instances: world.instances.par_iter().map(|instance| instance.pack(hierarchy.roots[instance.group])).collect(),
             attributes: world.attributes,
             hierarchy,
             materials,
@@ -91,6 +95,6 @@ impl PackedScene {
 
     /// Some primitive carries normals or texture coordinates.
     pub fn has_attributes(&self) -> bool {
-        self.primitives.iter().any(|primitive| primitive.attributes != NONE)
+        self.moves() || self.primitives.iter().any(|primitive| primitive.attributes != NONE)
     }
 }

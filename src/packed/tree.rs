@@ -1,14 +1,18 @@
 //! Builds the hierarchy over a scene's primitives.
 
+use glam::Vec3;
 use obvhs::bvh2::Bvh2;
 use obvhs::{BvhBuildParams, aabb::Aabb};
+use rayon::prelude::*;
 
+use super::bvh4::Node;
 use super::error::PackError;
+use super::grid::Box3;
 use super::hierarchy::{Hierarchy, Traversal};
-use super::motion::PackedMotion;
-use super::primitive::WorldPrimitive;
+use super::primitive::{Primitive, WorldPrimitive};
 use super::shape::PrimitiveKind;
-use super::{bvh4, ray_query};
+use super::world::WorldGeometry;
+use super::{bvh4, instance, ray_query};
 use crate::binary_tree;
 
 /// Leaves hold at most this many primitives: their size takes two bits.
@@ -33,14 +37,11 @@ const PARAMETERS: BvhBuildParams = BvhBuildParams::medium_build();
 ///
 /// # Errors
 /// [`PackError`] for more primitives or planes than can be held.
-pub fn build(
-    primitives: &[WorldPrimitive],
-    motions: &[PackedMotion],
-    traversal: Traversal,
-) -> Result<(Hierarchy, Vec<usize>), PackError> {
+pub fn build(world: &WorldGeometry, traversal: Traversal) -> Result<(Hierarchy, Vec<Slot>), PackError> {
+    let primitives = &world.primitives;
     let belongs = |primitive: &WorldPrimitive| primitive.kind() == PrimitiveKind::Triangle || primitive.moves();
     let others = primitives.iter().filter(|primitive| !belongs(primitive)).count();
-    let few_others = others <= MAX_OUTSIDE && others < primitives.len();
+    let few_others = others <= MAX_OUTSIDE && (others < primitives.len() || !world.instances.is_empty());
     let (inside, outside): (Vec<usize>, Vec<usize>) = (0..primitives.len()).partition(|&index| {
         let primitive = &primitives[index];
         belongs(primitive) || !(few_others || primitive.is_infinite())
@@ -48,37 +49,85 @@ pub fn build(
     if outside.len() > MAX_PLANES {
         return Err(PackError::TooManyPlanes { found: outside.len(), limit: MAX_PLANES });
     }
-    if inside.len() > MAX_PRIMITIVES {
-        return Err(PackError::TooManyPrimitives { found: inside.len(), limit: MAX_PRIMITIVES });
+    let in_groups: usize = world.groups.iter().map(|group| group.primitives.len()).sum();
+    let held = inside.len() + world.instances.len() + in_groups;
+    if held > MAX_PRIMITIVES {
+        return Err(PackError::TooManyPrimitives { found: held, limit: MAX_PRIMITIVES });
     }
-    let count = inside.len() as u32;
-    let (hierarchy, order) = match traversal {
-        Traversal::Bvh => {
-            let (nodes, order) = bvh4::build(&binary_tree(primitives, motions, &inside));
-            (Hierarchy::of_nodes(nodes, count), order)
-        }
+    let slot = |&index: &usize| Slot::Primitive(index as u32);
+    let (hierarchy, mut order) = match traversal {
+        Traversal::Bvh => of_two_levels(world, &inside),
+        Traversal::RayQuery if !world.instances.is_empty() => return Err(PackError::InstancesByRayQuery),
         Traversal::RayQuery => {
             let (boxes, order) = ray_query::build(primitives, &inside);
-            (Hierarchy::of_boxes(boxes, count), order)
+            (Hierarchy::of_boxes(boxes, held as u32), order.iter().map(|&place| slot(&inside[place])).collect())
         }
     };
-    Ok((hierarchy, order.into_iter().map(|index| inside[index]).chain(outside).collect()))
+    order.extend(outside.iter().map(slot));
+    Ok((hierarchy, order))
 }
 
-/// A binary tree over the primitives `inside`, leaves of which hold up to [`MAX_LEAF`].
-fn binary_tree(primitives: &[WorldPrimitive], motions: &[PackedMotion], inside: &[usize]) -> Bvh2 {
-    let boxes: Vec<Aabb> = inside
-        .iter()
-        .filter_map(|&index| {
-            let primitive = &primitives[index];
-            motions.get(primitive.motion as usize).map_or_else(|| primitive.bounds(), |motion| motion.swept(primitive))
+/// What stands in a place of the array of primitives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Slot {
+    /// By their indices in the world.
+    Primitive(u32),
+    Instance(u32),
+    /// Group, and primitive in it.
+    InGroup(u32, u32),
+}
+
+impl Slot {
+    pub fn pack(self, world: &WorldGeometry) -> Primitive {
+        match self {
+            Self::Primitive(index) => world.primitives[index as usize].pack(),
+            Self::Instance(index) => instance::leaf_record(index),
+            Self::InGroup(group, index) => world.groups[group as usize].primitives[index as usize].pack(),
+        }
+    }
+}
+
+/// A tree over the primitives `inside` and all instances, and behind it one for each group.
+fn of_two_levels(world: &WorldGeometry, inside: &[usize]) -> (Hierarchy, Vec<Slot>) {
+    let groups: Vec<(Vec<Node>, Vec<usize>)> = world
+        .groups
+        .par_iter()
+        .map(|group| {
+            bvh4::build(&binary_tree(&group.primitives.iter().filter_map(WorldPrimitive::bounds).collect::<Vec<_>>(), MAX_LEAF))
         })
-        .map(|(low, high)| Aabb::new(low.into(), high.into()))
         .collect();
+    let upper: Vec<Vec<Box3>> = groups.iter().map(|(nodes, _)| instance::upper_boxes(nodes, 0)).collect();
+    let of_primitive = |&index: &usize| {
+        let primitive = &world.primitives[index];
+        world.motions.get(primitive.motion as usize).map_or_else(|| primitive.bounds(), |motion| motion.swept(primitive))
+    };
+    let mut boxes: Vec<(Vec3, Vec3)> = inside.iter().filter_map(of_primitive).collect();
+    boxes.par_extend(world.instances.par_iter().map(|instance| instance.bounds(&upper[instance.group], &world.motions)));
+    // A ray is brought into the space of each instance of a leaf that it meets, so where they are many each has a box of its own.
+    let most = if world.instances.len() > inside.len() { 1 } else { MAX_LEAF };
+    let (mut nodes, leaves) = bvh4::build(&binary_tree(&boxes, most));
+    let slot = |place: usize| match inside.get(place) {
+        Some(&index) => Slot::Primitive(index as u32),
+        None => Slot::Instance((place - inside.len()) as u32),
+    };
+    let mut order: Vec<Slot> = leaves.into_iter().map(slot).collect();
+    let mut roots = Vec::with_capacity(groups.len());
+    for (group, (of_group, leaves)) in groups.into_iter().enumerate() {
+        let (first_node, first_primitive) = (nodes.len() as u32, order.len() as u32);
+        roots.push(first_node);
+        nodes.extend(of_group.into_iter().map(|node| node.behind(first_node, first_primitive)));
+        order.extend(leaves.into_iter().map(|index| Slot::InGroup(group as u32, index as u32)));
+    }
+    (Hierarchy::of_nodes(nodes, roots, order.len() as u32), order)
+}
+
+/// A binary tree over boxes, leaves of which hold up to `most`.
+fn binary_tree(boxes: &[(Vec3, Vec3)], most: u32) -> Bvh2 {
+    let boxes: Vec<Aabb> = boxes.iter().map(|&(low, high)| Aabb::new(low.into(), high.into())).collect();
     let few = boxes.len() <= REINSERT_MANY;
     let parameters = BvhBuildParams {
         reinsertion_batch_ratio: if few { 0.3 } else { PARAMETERS.reinsertion_batch_ratio },
-        max_prims_per_leaf: MAX_LEAF,
+        max_prims_per_leaf: most,
         collapse_traversal_cost: 1.0,
         ..PARAMETERS
     };

@@ -2,14 +2,15 @@
 
 use std::collections::BTreeSet;
 
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 use super::attributes::TriangleAttributes;
 use super::constants::NONE;
+use super::instance::{WorldGroup, WorldInstance};
 use super::motion::PackedMotion;
 use super::primitive::WorldPrimitive;
 use super::shape::{self, Placement};
-use crate::scene::{MaterialId, MaterialKind, Scene};
+use crate::scene::{MaterialId, MaterialKind, Scene, Shape};
 
 /// All primitives of a scene, and the attributes of those that have some.
 #[derive(Debug, Default)]
@@ -21,6 +22,9 @@ pub struct WorldGeometry {
     /// Of the shapes that move, and the same as the device reads them.
     pub motions: Vec<PackedMotion>,
     pub motion_words: Vec<[f32; 4]>,
+    /// Meshes that are stored once, and where they stand.
+    pub groups: Vec<WorldGroup>,
+    pub instances: Vec<WorldInstance>,
 }
 
 /// Surfaces made of `pass` are left out: to every ray they are not there.
@@ -39,13 +43,78 @@ pub fn collect(scene: &Scene) -> WorldGeometry {
             world.set_in_motion(first, motion);
         }
     }
+    world.add_instances(scene, &textured);
     world
 }
 
 impl WorldGeometry {
     /// What its surfaces are made of.
     pub fn materials(&self) -> BTreeSet<MaterialId> {
-        self.primitives.iter().map(|primitive| primitive.material).collect()
+        let of_groups = self.groups.iter().flat_map(|group| &group.primitives);
+        let of_primitives = self.primitives.iter().chain(of_groups).map(|primitive| primitive.material);
+        of_primitives.chain(self.instances.iter().filter_map(|instance| instance.material)).collect()
+    }
+
+    /// Gives all surfaces the material that stands for theirs.
+    pub fn replace_materials(&mut self, replacement: impl Fn(MaterialId) -> MaterialId) {
+        let of_groups = self.groups.iter_mut().flat_map(|group| &mut group.primitives);
+        self.primitives.iter_mut().chain(of_groups).for_each(|primitive| primitive.material = replacement(primitive.material));
+        self.instances.iter_mut().for_each(|instance| instance.material = instance.material.map(&replacement));
+    }
+
+    /// Groups that are named, and where they stand. What no ray meets is left out.
+    fn add_instances(&mut self, scene: &Scene, textured: &[bool]) {
+        // Which group of the world a group of the scene is; None of those without a place or a face.
+        let mut places: Vec<Option<usize>> = vec![None; scene.groups.len()];
+        for (index, group) in scene.groups.iter().enumerate() {
+            let entries = || scene.instances.iter().filter(|entry| entry.group == index && !entry.places.is_empty());
+            let visible = entries().any(|entry| scene.are_visible(entry));
+            // Texture coordinates are needed where any of the materials that stand for the group's own asks for them.
+            let replaced_by_textured = entries().filter_map(|entry| entry.material).any(|id| textured[id]);
+            let all = vec![true; textured.len()];
+            let textured = if replaced_by_textured { &all } else { textured };
+            let primitives = if visible { self.group(scene, &group.shapes, textured) } else { Vec::new() };
+            if !primitives.is_empty() {
+                places[index] = Some(self.groups.len());
+                self.groups.push(WorldGroup { primitives });
+            }
+        }
+        for entry in &scene.instances {
+            let Some(group) = places[entry.group].filter(|_| scene.are_visible(entry)) else { continue };
+            let [mut motion, mut motion_word] = [NONE; 2];
+            if let Some(steps) = &entry.motion {
+                let packed = PackedMotion::about(steps, DVec3::ZERO, scene.camera.shutter);
+                [motion, motion_word] = [self.motions.len() as u32, self.motion_words.len() as u32];
+                self.motion_words.extend(packed.words());
+                self.motions.push(packed);
+                if self.attributes.is_empty() {
+                    // Kernels that know motion know attributes.
+                    self.attributes.push(TriangleAttributes::new([Vec3::ZERO; 3], [Vec2::ZERO; 3]));
+                }
+            }
+            let material = entry.material;
+            self.instances.extend(entry.maps().map(|map| WorldInstance { group, map, material, motion, motion_word }));
+        }
+    }
+
+    /// The faces of a group, in its own space.
+    fn group(&mut self, scene: &Scene, shapes: &[Shape], textured: &[bool]) -> Vec<WorldPrimitive> {
+        let mut primitives = Vec::new();
+        for (index, shape) in shapes.iter().enumerate() {
+            shape::add(&Placement::new(shape, textured), &mut |geometry, attributes, face| {
+                let material = shape.face_material(face);
+                if matches!(scene.materials[material].kind, MaterialKind::Pass) {
+                    return;
+                }
+                let mut primitive = WorldPrimitive { shape: index, ..WorldPrimitive::new(geometry, material) };
+                if let Some(attributes) = attributes {
+                    primitive.attributes = self.attributes.len() as u32;
+                    self.attributes.push(attributes);
+                }
+                primitives.push(primitive);
+            });
+        }
+        primitives
     }
 
     fn add(&mut self, scene: &Scene, mut primitive: WorldPrimitive, attributes: Option<TriangleAttributes>) {

@@ -31,5 +31,6 @@ shared_kinds! {
         Acceleration = 17 as BINDING_ACCELERATION,
         /// [`super::trace_record`].
         Trace = 18 as BINDING_TRACE,
+        Instances = 19 as BINDING_INSTANCES,
     }
 }

@@ -151,6 +151,9 @@ fn count_memory(packed: &PackedScene, plan: &Plan, width: u32) -> Memory {
     if packed.has_attributes() {
         arrays.push((memory::ATTRIBUTES, memory::ATTRIBUTE_BYTES * packed.attributes.len() as u64));
     }
+    if !packed.instances.is_empty() {
+        arrays.push((memory::INSTANCES, size_of_val(&packed.instances[..]) as u64));
+    }
     if packed.textures.texel_words() > 0 {
         arrays.push((memory::TEXELS, packed.textures.texel_bytes()));
     }

@@ -11,6 +11,7 @@ use super::limits::DeviceLimits;
 use super::memory::{self, megabytes};
 use crate::packed::PackedScene;
 use crate::packed::bvh4::NODE_RECORD_WORDS;
+use crate::packed::instance::INSTANCE_RECORD_WORDS;
 use crate::packed::primitive::{ATTRIBUTE_RECORD_WORDS, PRIMITIVE_RECORD_WORDS};
 
 /// Chunks of an array at most: binding numbers stay below 1,000, which WebGPU allows.
@@ -77,6 +78,19 @@ pub const ATTRIBUTES: RecordArray = RecordArray {
     binding: Binding::Attributes as u32,
     switch: "ATTRIBUTE_CHUNKS",
     file: "geometry/attribute_chunks.wgsl",
+};
+
+pub const INSTANCES: RecordArray = RecordArray {
+    label: memory::INSTANCES,
+    name: "instances",
+    words_type: "InstanceWords",
+    word: "vec4<f32>",
+    words: INSTANCE_RECORD_WORDS,
+    load: "instance_words",
+    load_word: "instance_word",
+    binding: Binding::Instances as u32,
+    switch: "INSTANCE_CHUNKS",
+    file: "geometry/instance_chunks.wgsl",
 };
 
 /// Texels of images and maps, whose records are single numbers of 32 bits.
@@ -197,14 +211,15 @@ impl RecordArray {
         self.word == "u32"
     }
 
-    /// The first chunk stands where the whole array would; the others in a range that no other array has.
+    /// The first chunk stands where the whole array would; the others in a range that no other array has: the bindings of arrays differ in their
+    /// last digit.
     fn chunk_binding(&self, chunk: u32) -> u32 {
-        if chunk == 0 { self.binding } else { MAX_CHUNKS * self.binding + chunk }
+        if chunk == 0 { self.binding } else { MAX_CHUNKS * (self.binding % 10) + chunk }
     }
 }
 
 /// The arrays that stand in storage buffers and may be cut, in chunks of at most `limit` bytes: those of primitives and of the hierarchy's nodes
-/// where they do, of attributes where there are any, and of texels.
+/// where they do, of attributes and instances where there are any, and of texels.
 pub fn cut(packed: &PackedScene, stored_primitives: bool, stored_nodes: bool, limit: u64) -> Vec<Chunks> {
     let mut arrays = Vec::new();
     if stored_primitives {
@@ -215,6 +230,9 @@ pub fn cut(packed: &PackedScene, stored_primitives: bool, stored_nodes: bool, li
     }
     if packed.has_attributes() {
         arrays.push(Chunks::new(ATTRIBUTES, size_of_val(&packed.attributes[..]) as u64, limit));
+    }
+    if !packed.instances.is_empty() {
+        arrays.push(Chunks::new(INSTANCES, size_of_val(&packed.instances[..]) as u64, limit));
     }
     if packed.textures.texel_words() > 0 {
         arrays.push(Chunks::new(TEXELS, packed.textures.texel_bytes(), limit));

@@ -22,6 +22,7 @@ pub(super) fn geometry(packed: &PackedScene, options: &PlanOptions) -> (Geometry
     match options.traversal {
         // What moves is no constant.
         _ if packed.moves() => (GeometryPlacement::Hierarchy, "something moves, and is no constant".into()),
+        _ if !packed.instances.is_empty() => (GeometryPlacement::Hierarchy, "instances are no constants".into()),
         _ if packed.hierarchy.primitive_count == 0 => (GeometryPlacement::Unrolled, "a hierarchy would hold nothing".into()),
         TraversalChoice::Bvh | TraversalChoice::RayQuery => (GeometryPlacement::Hierarchy, ASKED_FOR.into()),
         TraversalChoice::Auto if count <= UNROLL_LIMIT => {
@@ -83,6 +84,10 @@ pub(super) fn explain(
     }
     for (name, uniform) in [(PRIMITIVES, plan.uniform_primitives), (TABLES, plan.uniform_tables)] {
         add(name, buffer_name(uniform).into(), size_in_uniform(plan.memory.bytes(name), limits));
+    }
+    if !packed.instances.is_empty() {
+        let (count, groups) = (packed.instances.len(), packed.hierarchy.roots.len());
+        add("instances", format!("{count} of {groups} groups, in a hierarchy of two levels"), "each group is stored once".into());
     }
     let cut: Vec<String> = plan.chunks.iter().filter(|array| !array.is_whole()).map(Chunks::to_string).collect();
     if !cut.is_empty() {

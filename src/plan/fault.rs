@@ -61,7 +61,7 @@ fn found_both_ways(light: &PackedLight) -> bool {
 /// The scattering material that most primitives have.
 fn most_used_material(packed: &PackedScene) -> Option<u32> {
     let mut uses = vec![0_u64; packed.materials.materials.len()];
-    for primitive in &packed.primitives {
+    for primitive in packed.primitives.iter().filter(|primitive| primitive.instance().is_none()) {
         let material = primitive.material() as usize;
         if packed.materials.materials[material].kind() != NO_LOBE {
             uses[material] += 1;

@@ -29,6 +29,7 @@ pub const ACCELERATION_BYTES: u64 = 128;
 pub const PRIMITIVES: &str = "primitives";
 pub const NODES: &str = "hierarchy";
 pub const ATTRIBUTES: &str = "normals and texture coordinates";
+pub const INSTANCES: &str = "instances";
 
 /// Images and maps.
 pub const TEXELS: &str = "texels";
@@ -65,7 +66,7 @@ impl Memory {
     pub fn check(&self, limits: &DeviceLimits) -> Result<(), PlanError> {
         let limit = limits.max_storage_binding.min(limits.max_buffer);
         // These are cut, or no storage bindings.
-        let cut = [PRIMITIVES, NODES, ATTRIBUTES, TEXELS, ESTIMATED_ACCELERATION, FILM_SUM, FILM_COMPENSATION];
+        let cut = [PRIMITIVES, NODES, ATTRIBUTES, INSTANCES, TEXELS, ESTIMATED_ACCELERATION, FILM_SUM, FILM_COMPENSATION];
         match self.arrays.iter().find(|(name, bytes)| *bytes > limit && !cut.contains(name)) {
             Some((name, bytes)) => Err(PlanError::DoesNotFit(format!(
                 "its {name} need {}, and the device can bind {} at once",

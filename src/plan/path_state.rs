@@ -9,6 +9,8 @@ shared_constants!(constants {
     pub const PATH_STATE_WORDS: u32 = 5;
     /// The same where shadow rays go through surfaces.
     pub const TRANSPARENT_PATH_STATE_WORDS: u32 = PATH_STATE_WORDS + 1;
+    /// Flag beside the primitive of a hit in an instance, which has the instance's number in place of the distance; primitives have 24 bits.
+    pub const HIT_IN_INSTANCE: u32 = 1 << 31;
     /// vec4s of a shadow ray.
     pub const SHADOW_RAY_WORDS: u32 = 3;
     /// Queues of paths: one is read while the other is filled.

@@ -50,6 +50,7 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
     switches.enable("PROCEDURAL_TEXTURES", procedural.into_iter().any(has_texture));
 
     switches.enable("MOTION", packed.moves());
+    switches.enable("INSTANCES", !packed.instances.is_empty());
 
     choose_materials(scene, packed, &mut switches);
 
@@ -128,7 +129,8 @@ fn choose_shapes(packed: &PackedScene, switches: &mut Switches) {
             switches.enable(kind.switch_of_lights(), is_sampled(kind));
         }
     }
-    let only_triangles = held.iter().all(|primitive| primitive.is(PrimitiveKind::Triangle));
+    let mut tested = held.iter().filter(|primitive| primitive.instance().is_none());
+    let only_triangles = tested.all(|primitive| primitive.is(PrimitiveKind::Triangle));
     switches.enable("ONLY_TRIANGLES_IN_HIERARCHY", !held.is_empty() && only_triangles);
 }
 

@@ -58,9 +58,9 @@ fn transmittance(next: &str) -> String {
     format!(
         "#import core/layout.wgsl\n#import shading/transmittance.wgsl\n\n\
          fn next_of_transparent_constants(ray: PreparedRay, after: Hit, t_max: f32) -> Hit {{\n    \
-         var next = Hit(t_max, NONE, 0.0, 0.0);\n{next}    return next;\n}}\n\n\
+         var next = no_hit(t_max);\n{next}    return next;\n}}\n\n\
          fn transmittance_of_constants(ray: PreparedRay, t_max: f32) -> f32 {{\n    \
-         var through = 1.0;\n    var hit = Hit(0.0, 0u, 0.0, 0.0);\n    \
+         var through = 1.0;\n    var hit = world_hit(0.0, 0u, 0.0, 0.0);\n    \
          loop {{\n        hit = next_of_transparent_constants(ray, hit, t_max);\n        \
          if hit.primitive == NONE {{\n            break;\n        }}\n        \
          through *= hit_transmittance(Ray(ray.origin, ray.direction), hit, t_max);\n        \

@@ -70,7 +70,8 @@ impl Integrator {
         let world = World::new(scene)?;
         let lights = Lights::new(scene, &world);
         let camera = ProjectiveCamera::new(&scene.camera, &scene.film);
-        let moves = scene.shapes.iter().any(|shape| shape.motion.is_some());
+        let instances_move = scene.instances.iter().any(|instances| instances.motion.is_some());
+        let moves = instances_move || scene.shapes.iter().any(|shape| shape.motion.is_some());
         let lets_through = scene.materials_that(|material| matches!(material.kind, MaterialKind::Pass));
         Ok(Self { scene: scene.clone(), center, world, lights, camera, moves, lets_through })
     }

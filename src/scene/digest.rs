@@ -52,7 +52,8 @@ impl BulkDigest {
 /// Adds everything but the contents of meshes and pictures.
 fn finish(mut hash: Sha256, scene: &Scene) -> String {
     let mut rest = scene.clone();
-    for shape in &mut rest.shapes {
+    let of_groups = rest.groups.iter_mut().flat_map(|group| &mut group.shapes);
+    for shape in rest.shapes.iter_mut().chain(of_groups) {
         shape.label.clear();
         if let Geometry::Mesh(mesh) = &mut shape.geometry {
             *mesh = Arc::default();
@@ -70,11 +71,30 @@ fn finish(mut hash: Sha256, scene: &Scene) -> String {
     }
     let printed =
         write!(HashWriter(&mut hash), "{:?}", (&rest.camera, &rest.textures, &rest.materials, &rest.shapes, &rest.lights));
+    hash_instances(&mut hash, &mut rest);
     debug_assert!(printed.is_ok(), "hashing cannot fail");
     hash.finalize().iter().fold(String::new(), |mut hexadecimal, byte| {
         let _ = write!(hexadecimal, "{byte:02x}");
         hexadecimal
     })
+}
+
+/// Hashes groups and instances, where there are any; the groups' meshes have been hashed.
+fn hash_instances(hash: &mut Sha256, scene: &mut Scene) {
+    for group in &scene.groups {
+        let printed = write!(HashWriter(hash), "{:?}", group.shapes);
+        debug_assert!(printed.is_ok(), "hashing cannot fail");
+    }
+    for instances in &mut scene.instances {
+        instances.label.clear();
+        let places = std::mem::take(&mut instances.places);
+        hash.update((places.len() as u64).to_le_bytes());
+        for place in places.iter() {
+            hash.update(place.to_cols_array().map(f64::to_le_bytes).as_flattened());
+        }
+        let printed = write!(HashWriter(hash), "{instances:?}");
+        debug_assert!(printed.is_ok(), "hashing cannot fail");
+    }
 }
 
 struct HashWriter<'a>(&'a mut Sha256);

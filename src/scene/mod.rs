@@ -14,6 +14,7 @@ mod digest;
 mod frame;
 pub mod image;
 mod import_report;
+mod instance;
 pub mod light;
 pub mod material;
 mod model;
@@ -34,6 +35,7 @@ pub use camera::{Aperture, ApertureShape, Camera, Projection};
 pub use digest::{BulkDigest, digest};
 pub use image::{Channel, ColorSpace, ImageData, Texels};
 pub use import_report::{ImportReport, ReportItem};
+pub use instance::{Group, Instances, is_singular};
 pub use light::{
     DirectionalLight, Environment, EnvironmentRadiance, Light, LightParameters, LightStrength, MapRows, OutsideParameters,
     PointLight, Sky, SpotLight,

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::animation::Animation;
 use super::camera::Camera;
 use super::import_report::ImportReport;
+use super::instance::{Group, Instances};
 use super::light::Light;
 use super::material::{Material, MaterialId, MaterialKind};
 use super::settings::{FilmSettings, RenderSettings};
@@ -34,6 +35,11 @@ pub struct Scene {
     pub materials: Vec<Material>,
     #[doc(hidden)]
     pub shapes: Vec<Shape>,
+    /// Meshes that are stored once, and where they stand.
+    #[doc(hidden)]
+    pub groups: Vec<Group>,
+    #[doc(hidden)]
+    pub instances: Vec<Instances>,
     /// Lights that are not surfaces. Surfaces emit through their material.
     #[doc(hidden)]
     pub lights: Vec<Light>,

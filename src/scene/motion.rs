@@ -40,7 +40,7 @@ pub const SMALLEST_SCALE: f64 = 1e-6;
 /// Most turns of one step while the shutter is open. Beyond, single precision loses the angle, and the eye lost it long before.
 pub const MOST_TURNS: f64 = 100.0;
 /// Largest number in the map of a motion. Bounding volumes square lengths in single precision.
-pub(super) const FARTHEST: f64 = 1e18;
+const FARTHEST: f64 = 1e18;
 
 impl MotionStep {
     /// The factors of a scale at a time.
@@ -89,6 +89,28 @@ impl Motion {
     /// A shutter time as the steps count it: 0 at rest, 1 where they are reached.
     pub fn share(&self, time: f64) -> f64 {
         if self.rest == 0.0 && self.reached == 1.0 { time } else { (time - self.rest) / (self.reached - self.rest) }
+    }
+
+    /// Whether all steps can be followed over the whole shutter, and lead to where numbers are finite.
+    ///
+    /// # Errors
+    /// What is wrong, in words, and in which step if it is a single one.
+    pub fn check(&self, shutter: [f64; 2]) -> Result<(), (Option<usize>, String)> {
+        let shares = shutter.map(|time| self.share(time));
+        for (index, step) in self.steps.iter().enumerate() {
+            step.check(shares).map_err(|message| (Some(index), message))?;
+        }
+        self.check_ends(shutter, DVec3::ZERO).map_err(|message| (None, message))
+    }
+
+    /// Whether numbers stay in their range where what stands about `origin` is moved as the shutter opens and closes.
+    pub(super) fn check_ends(&self, shutter: [f64; 2], origin: DVec3) -> Result<(), String> {
+        let ends = shutter.map(|time| self.at(time, origin));
+        let in_range = |map: &DAffine3| map.to_cols_array().iter().all(|number| number.abs() <= FARTHEST);
+        if ends.iter().all(|map| in_range(map) && map.matrix3.determinant().is_normal()) {
+            return Ok(());
+        }
+        Err("the motion leaves the range of numbers".to_owned())
     }
 
     /// The map from the world at rest to the world at `time` of what stands about `origin`.

@@ -8,6 +8,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
+use super::instance::Group;
 use super::model::Scene;
 use super::transform::TransformStep;
 
@@ -19,7 +20,11 @@ impl Scene {
     #[doc(hidden)]
     pub fn center(&self) -> DVec3 {
         let camera = self.camera.position;
-        let nearest = self.shapes.iter().map(|shape| shape.farthest_from(camera)).fold(f64::INFINITY, f64::min);
+        let of_shapes = self.shapes.iter().map(|shape| shape.farthest_from(camera));
+        let balls: Vec<_> = self.groups.iter().map(Group::ball).collect();
+        let of_instances =
+            self.instances.iter().filter_map(|entry| Some(entry.farthest_from((*balls.get(entry.group)?)?, camera)));
+        let nearest = of_shapes.chain(of_instances).fold(f64::INFINITY, f64::min);
         if nearest.is_finite() && camera.length() > FAR * nearest { camera } else { DVec3::ZERO }
     }
 
@@ -35,6 +40,9 @@ impl Scene {
         moved.camera.look_at -= center;
         for shape in &mut moved.shapes {
             shape.transform.steps.push(TransformStep::Translate(-center));
+        }
+        for instances in &mut moved.instances {
+            instances.transform.steps.push(TransformStep::Translate(-center));
         }
         for light in &mut moved.lights {
             light.translate(-center);

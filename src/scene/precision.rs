@@ -1,5 +1,6 @@
 //! What single precision holds of a scene, and what not: docs/stress.md measures it.
 
+use super::instance::Instances;
 use super::model::Scene;
 use super::shape::{Extent, Shape};
 
@@ -8,28 +9,35 @@ const LONGEST_EDGE_OF_QUAD: f64 = 1e6;
 /// Triangles, spheres and disks: extents from and up to which their normals are held.
 const SMALLEST: f64 = 1e-9;
 const LARGEST: f64 = 1e9;
+const EXTENT: &str = "its extent is";
 /// Shapes that are named one by one.
 const MOST_NAMED: usize = 3;
 
 impl Scene {
     /// Shapes that are larger or smaller than what graphics devices hold in single precision, in sentences.
     pub fn precision_warnings(&self) -> Vec<String> {
-        let found: Vec<(&Shape, &str, f64)> =
-            self.shapes.iter().filter_map(|shape| beyond(shape).map(|(what, length)| (shape, what, length))).collect();
+        let of_shapes = self.shapes.iter().filter_map(|shape| beyond(shape).map(|(what, length)| (&*shape.label, what, length)));
+        let of_instances = self.instances.iter().filter_map(|entry| Some((&*entry.label, EXTENT, self.extent_beyond(entry)?)));
+        let found: Vec<(&str, &str, f64)> = of_shapes.chain(of_instances).collect();
         let mut warnings: Vec<String> =
-            found.iter().take(MOST_NAMED).map(|(shape, what, length)| sentence(shape, what, *length)).collect();
+            found.iter().take(MOST_NAMED).map(|(label, what, length)| sentence(label, what, *length)).collect();
         if found.len() > MOST_NAMED {
             warnings.push(format!("{} more shapes are too large or too small for single precision", found.len() - MOST_NAMED));
         }
         warnings
     }
+
+    /// The extent of an instance that is too large or too small.
+    fn extent_beyond(&self, instances: &Instances) -> Option<f64> {
+        let extents = instances.extents(self.groups.get(instances.group)?.ball()?);
+        extents.into_iter().find(|extent| !(SMALLEST..=LARGEST).contains(extent) && !instances.places.is_empty())
+    }
 }
 
-fn sentence(shape: &Shape, what: &str, length: f64) -> String {
+fn sentence(label: &str, what: &str, length: f64) -> String {
     format!(
-        "{}: {what} {length:.1e} units, beyond what single precision holds (docs/stress.md): the picture may be wrong; choose a larger \
-         or smaller unit for the whole scene",
-        shape.label
+        "{label}: {what} {length:.1e} units, beyond what single precision holds (docs/stress.md): the picture may be wrong; choose a larger \
+         or smaller unit for the whole scene"
     )
 }
 
@@ -37,7 +45,7 @@ fn sentence(shape: &Shape, what: &str, length: f64) -> String {
 fn beyond(shape: &Shape) -> Option<(&'static str, f64)> {
     match shape.geometry.extent(&shape.transform.to_affine())? {
         Extent::LongestEdge(length) => (length > LONGEST_EDGE_OF_QUAD).then_some(("its longest edge is", length)),
-        Extent::Across(length) => (!(SMALLEST..=LARGEST).contains(&length)).then_some(("its extent is", length)),
+        Extent::Across(length) => (!(SMALLEST..=LARGEST).contains(&length)).then_some((EXTENT, length)),
     }
 }
 

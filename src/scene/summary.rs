@@ -5,6 +5,7 @@ use std::fmt::{self, Write};
 
 use serde::Serialize;
 
+use super::instance::Group;
 use super::light::Light;
 use super::material::MaterialId;
 use super::model::Scene;
@@ -30,6 +31,10 @@ pub struct SceneSummary {
     pub keyframes: Option<[f64; 2]>,
     /// Shapes that keyframes move.
     pub animated_shapes: usize,
+    /// Groups that are stored once, their triangles, and how often they stand in the scene in all.
+    pub groups: usize,
+    pub group_triangles: usize,
+    pub instances: usize,
     /// Shapes that send out light, meshes counted once.
     pub emitting_shapes: usize,
     pub materials: BTreeMap<&'static str, usize>,
@@ -54,6 +59,9 @@ impl SceneSummary {
             moving_shapes: scene.shapes.iter().filter(|shape| shape.motion.is_some()).count(),
             keyframes: scene.animation.frames(),
             animated_shapes: scene.animation.shapes.len(),
+            groups: scene.groups.len(),
+            group_triangles: scene.groups.iter().map(Group::triangles).sum(),
+            instances: scene.instance_count(),
             emitting_shapes: scene.shapes.iter().filter(|shape| shape.materials().any(emits)).count(),
             materials: count(scene.materials.iter().map(|material| material.kind.type_name())),
             lights: count(scene.lights.iter().map(Light::kind_name)),
@@ -77,6 +85,13 @@ impl fmt::Display for SceneSummary {
         )?;
         if let Some([first, last]) = self.keyframes {
             writeln!(out, "keyframes  from frame {first} to frame {last}, of {} shapes", self.animated_shapes)?;
+        }
+        if self.groups > 0 {
+            writeln!(
+                out,
+                "instances  {} of {} groups with {} triangles, each stored once",
+                self.instances, self.groups, self.group_triangles
+            )?;
         }
         writeln!(out, "materials  {}", list(&self.materials))?;
         writeln!(out, "lights     {}", list(&self.lights))?;

@@ -58,10 +58,22 @@ impl Scene {
         for shape in &self.shapes {
             of(|| shape.label.clone(), self.check_shape(shape, &textured))?;
         }
+        self.validate_instances(&textured)?;
         for (index, entry) in self.lights.iter().enumerate() {
             of(|| format!("light[{index}]"), entry.check())?;
         }
         of(|| "environment".into(), self.check_environments())
+    }
+
+    fn validate_instances(&self, textured: &[bool]) -> Result<(), InvalidScene> {
+        for group in &self.groups {
+            for shape in &group.shapes {
+                of(|| shape.label.clone(), self.check_shape(shape, textured))?;
+            }
+            of(|| format!("group `{}`", group.name), self.check_group(group))?;
+        }
+        let emits = self.materials_that(|material| material.emission.is_some());
+        self.instances.iter().try_for_each(|entry| of(|| entry.label.clone(), self.check_instances(entry, textured, &emits)))
     }
 
     fn check_material(&self, material: &Material) -> Check {

@@ -43,6 +43,7 @@ fn scene_text(scene: &Scene, path: &Path) -> (String, SideFiles) {
         scene,
         textures: Names::unique(scene.textures.iter().map(|texture| texture.name.as_str()), "texture"),
         materials: Names::unique(scene.materials.iter().map(|material| material.name.as_str()), "material"),
+        groups: Names::unique(scene.groups.iter().map(|group| group.name.as_str()), "group"),
         files: SideFiles::beside(path),
     };
     let mut text = settings::settings(scene);
@@ -53,7 +54,13 @@ fn scene_text(scene: &Scene, path: &Path) -> (String, SideFiles) {
         text.push_str(&material::material(id, &writer));
     }
     for shape in &scene.shapes {
-        text.push_str(&shape::shape(shape, &mut writer));
+        text.push_str(&shape::shape("[[shape]]", shape, &mut writer));
+    }
+    for (index, group) in scene.groups.iter().enumerate() {
+        text.push_str(&shape::group(index, group, &mut writer));
+    }
+    for instances in &scene.instances {
+        text.push_str(&shape::instances(instances, &mut writer));
     }
     for light in &scene.lights {
         let keys = write_light(light, &mut writer);

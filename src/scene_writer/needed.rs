@@ -13,7 +13,8 @@ impl Needed {
     pub fn of(scene: &Scene) -> Self {
         let mut brought = vec![false; scene.materials.len()];
         let mut wanted = vec![false; scene.materials.len()];
-        for shape in &scene.shapes {
+        scene.instances.iter().filter_map(|instances| instances.material).for_each(|id| mark(scene, &mut wanted, id));
+        for shape in scene.shapes.iter().chain(scene.groups.iter().flat_map(|group| &group.shapes)) {
             match brings_materials(scene, shape) {
                 Some(replaced) => shape.materials().for_each(|id| {
                     let stays = replaced.iter().any(|(_, name)| *name == scene.materials[id].name);

@@ -4,11 +4,16 @@ use glam::DAffine3;
 
 use crate::load::file::write_geometry;
 use crate::load::file::writer::{Writer, direction, line, number, numbers, vector};
-use crate::scene::{MotionStep, Shape, TransformStep};
+use crate::load::{place_rows, write_places};
+use crate::scene::{Group, Instances, MotionStep, Shape, TransformStep};
 
-pub fn shape(shape: &Shape, writer: &mut Writer<'_>) -> String {
+/// More places of instances lie in a file beside the scene file.
+const MOST_INLINE_PLACES: usize = 16;
+
+/// A shape under `[[shape]]` or `[[group.shape]]`.
+pub fn shape(heading: &str, shape: &Shape, writer: &mut Writer<'_>) -> String {
     let keys = write_geometry(shape, writer);
-    let mut out = format!("\n[[shape]]\ntype = \"{}\"\n{keys}", shape.geometry.kind_name());
+    let mut out = format!("\n{heading}\ntype = \"{}\"\n{keys}", shape.geometry.kind_name());
     if !shape.transform.steps.is_empty() {
         out += &line("transform", &steps(shape.transform.steps.iter().map(transform_step)));
     }
@@ -17,6 +22,39 @@ pub fn shape(shape: &Shape, writer: &mut Writer<'_>) -> String {
     }
     if shape.portal {
         out += &line("portal", "true");
+    }
+    out
+}
+
+/// `[[group]]` with its shapes.
+pub fn group(index: usize, group: &Group, writer: &mut Writer<'_>) -> String {
+    let name = writer.groups.quoted(index);
+    let shapes = group.shapes.iter().map(|of_group| shape("[[group.shape]]", of_group, writer));
+    format!("\n[[group]]\n{}{}", line("name", &name), shapes.collect::<String>())
+}
+
+/// `[[instance]]`
+pub fn instances(instances: &Instances, writer: &mut Writer<'_>) -> String {
+    let mut out = format!("\n[[instance]]\n{}", line("group", &writer.groups.quoted(instances.group)));
+    match &instances.places[..] {
+        [only] if *only == DAffine3::IDENTITY => {}
+        few if few.len() <= MOST_INLINE_PLACES => {
+            let rows: Vec<String> = few.iter().map(|place| numbers(&place_rows(place))).collect();
+            out += &line("places", &format!("[{}]", rows.join(", ")));
+        }
+        many => {
+            let name = format!("places-{}.f64", writer.files.len() + 1);
+            out += &line("file", &writer.files.add(&name, write_places(many)));
+        }
+    }
+    if !instances.transform.steps.is_empty() {
+        out += &line("transform", &steps(instances.transform.steps.iter().map(transform_step)));
+    }
+    if let Some(material) = instances.material {
+        out += &line("material", &writer.materials.quoted(material));
+    }
+    if let Some(motion) = &instances.motion {
+        out += &line("motion", &steps(motion.steps.iter().map(motion_step)));
     }
     out
 }

@@ -18,6 +18,7 @@ shader_files![
     "core/sampler.wgsl",
     "geometry/bvh4.wgsl",
     "geometry/closest.wgsl",
+    "geometry/instance.wgsl",
     "geometry/motion.wgsl",
     "geometry/placed.wgsl",
     "geometry/prepared_ray.wgsl",

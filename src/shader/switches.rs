@@ -175,6 +175,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("HEURISTIC_POWER"),
     switch("FURTHER_PARAMETERS"),
     switch("IMAGES").requires(&["TEXELS", "TEXTURES"]).one_of(TEXEL_FORMATS),
+    switch("INSTANCES").requires(&["BVH", "TRIANGLES_IN_HIERARCHY"]),
+    switch("INSTANCE_CHUNKS").requires(&["INSTANCES"]),
     // What a render makes in place of the picture.
     switch("LAYER_ALBEDO").requires(&["LAYER_OF_SURFACES"]).excludes(LAYERS),
     switch("LAYER_DEPTH").requires(&["LAYER_OF_FIRST_SURFACE"]).excludes(LAYERS),

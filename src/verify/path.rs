@@ -247,7 +247,7 @@ fn push_found(quantities: &mut Quantities, found: Option<FoundLight>) {
 fn reference_vertex(scene: &Scene, vertex: &PathVertex) -> Quantities {
     let mut quantities = vec![
         ("direction", vector(-vertex.wo)),
-        ("shape", Value::Text(scene.shapes[vertex.shape].label.clone())),
+        ("shape", Value::Text(scene.label_of(vertex.shape))),
         ("material", Value::Text(scene.materials[vertex.material].name.clone())),
         ("position", vector(vertex.position + scene.center())),
         ("throughput", vector(vertex.throughput)),

@@ -14,6 +14,7 @@ mod builtin_scenes;
 mod flip;
 mod hierarchy;
 mod imports;
+mod instances;
 mod light_strategies;
 mod models;
 mod picture_test;

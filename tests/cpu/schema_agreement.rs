@@ -52,6 +52,11 @@ const RELATIONS: &[&str] = &[
     "the shutter closes before it opens",
     "while the shutter is open",
     "on the way to shutter times",
+    "there is no group named",
+    "a group consists of meshes",
+    "a mesh of a group",
+    "instances give no light",
+    "flattens it",
 ];
 
 /// Every table with every key somewhere, and nothing that needs a file.

@@ -10,6 +10,9 @@
 #import core/math.wgsl
 #import geometry/bvh4.wgsl
 #import geometry/constants.wgsl
+#if INSTANCES
+#import geometry/instance.wgsl
+#endif
 #import geometry/prepared_ray.wgsl
 #import geometry/records.wgsl
 #import geometry/software/lanes.wgsl
@@ -34,6 +37,27 @@ fn shared_primitive(primitive: u32, exists: bool) -> PrimitiveWords {
         bitcast<vec4<f32>>(from_lane(bits, 0u)), bitcast<vec4<f32>>(from_lane(bits, 1u)), bitcast<vec4<f32>>(from_lane(bits, 2u))
     );
 }
+
+#if INSTANCES
+// An instance's six words, likewise.
+fn shared_instance(instance: u32) -> InstanceWords {
+    var first = vec4<f32>(0.0);
+    if lane < 4u {
+        first = instance_word(instance, lane);
+    }
+    var second = vec4<f32>(0.0);
+    if lane < 2u {
+        second = instance_word(instance, 4u + lane);
+    }
+    let bits = bitcast<vec4<u32>>(first);
+    let more_bits = bitcast<vec4<u32>>(second);
+    return InstanceWords(
+        bitcast<vec4<f32>>(from_lane(bits, 0u)), bitcast<vec4<f32>>(from_lane(bits, 1u)), bitcast<vec4<f32>>(from_lane(bits, 2u)),
+        bitcast<vec4<f32>>(from_lane(bits, 3u)), bitcast<vec4<f32>>(from_lane(more_bits, 0u)),
+        bitcast<vec4<f32>>(from_lane(more_bits, 1u))
+    );
+}
+#endif
 
 // A node, whose words begin at `first`, likewise.
 fn shared_node(first: u32) -> NodeWords {
@@ -62,9 +86,17 @@ fn descend_together(ray: PreparedRay, inverse_direction: vec3<f32>, t_max: f32, 
 // Goes through the hierarchy. With `any_hit`, each ray is done with its first hit that takes all of its light, and the packet when all are;
 // `through` then is the share of it that is left.
 fn traverse_together(
-    ray: PreparedRay, inverse_direction: vec3<f32>, first_hit: Hit, any_hit: bool, through: ptr<function, f32>
+    world_ray: PreparedRay, world_inverse: vec3<f32>, first_hit: Hit, any_hit: bool, through: ptr<function, f32>
 ) -> Hit {
     var hit = first_hit;
+#if INSTANCES
+    // In the space of the instance at hand, the same one for all lanes.
+    var ray = world_ray;
+    var inverse_direction = world_inverse;
+#else
+    let ray = world_ray;
+    let inverse_direction = world_inverse;
+#endif
     var stack = packet_at_root();
     // Software devices run what a branch leaves out, with all lanes masked; only loops end. So nodes have one, and primitives have one.
     loop {
@@ -77,7 +109,12 @@ fn traverse_together(
         var primitive = stack.current & 0x00ffffffu;
         var last = primitive + ((stack.current >> 24u) & 3u);
         loop {
+#if INSTANCES
+            let leaves = stack.current == LEAVE_INSTANCE;
+            let exists = stack.current != FINISHED && !leaves;
+#else
             let exists = stack.current != FINISHED;
+#endif
             let words = shared_primitive(primitive, exists);
             var candidate = hit;
             candidate.t = select(-1.0, hit.t, exists);
@@ -87,7 +124,7 @@ fn traverse_together(
             }
 #if TRANSPARENT_SHADOWS
             if any_hit && hit.primitive != NONE && hit.t > 0.0 {
-                *through *= hit_transmittance(Ray(ray.origin, ray.direction), hit, first_hit.t);
+                *through *= hit_transmittance(Ray(world_ray.origin, world_ray.direction), hit, first_hit.t);
                 if *through > 0.0 {
                     hit = first_hit;
                 }
@@ -96,10 +133,35 @@ fn traverse_together(
             if any_hit && hit.primitive != NONE {
                 hit.t = -1.0;
             }
+#if INSTANCES
+            let enters = exists && is_instance(words);
+            let rest_of_leaf = LEAF | ((last - primitive - 1u) << 24u) | (primitive + 1u);
+            let has_rest = primitive != last;
+            // A loop, because it ends where a branch would run with all lanes masked.
+            for (var entering = enters; entering; entering = false) {
+                let instance = primitive_material(words.w0.w);
+                let record = shared_instance(instance);
+                let local = ray_in_instance(Ray(world_ray.origin, world_ray.direction), record);
+                ray = prepare_ray_in_instance(local, instance);
+                inverse_direction = safe_inverse(local.direction);
+                let root = first_word_of_node(instance_root(record));
+                let entry = select(select(rest_of_leaf, LEAVE_INSTANCE, lane == 1u), root, lane == 0u);
+                go_on(&stack, root, entry, select(2u, 3u, has_rest));
+            }
+            for (var leaving = leaves; leaving; leaving = false) {
+                ray = world_ray;
+                inverse_direction = world_inverse;
+            }
+            let leaf_done = primitive == last || enters || leaves;
+            if !enters && leaf_done && (exists || leaves) {
+                pop(&stack);
+            }
+#else
             let leaf_done = primitive == last;
             if leaf_done && exists {
                 pop(&stack);
             }
+#endif
             if any_hit && !any_lane(hit.t > 0.0) {
                 stack.current = FINISHED;
             }
@@ -119,7 +181,7 @@ fn traverse_together(
 // As closest_hit, for all lanes.
 fn closest_hit_together(traced: Ray, t_max: f32) -> Hit {
     let ray = prepare_ray(traced);
-    var hit = Hit(t_max, NONE, 0.0, 0.0);
+    var hit = no_hit(t_max);
     closest_of_constants(ray, &hit);
     var through = 1.0;
     return traverse_together(ray, safe_inverse(traced.direction), hit, false, &through);
@@ -136,7 +198,7 @@ fn transmittance_together(traced: Ray, t_max: f32) -> f32 {
         blocked = through <= 0.0;
     }
 #endif
-    let hit = Hit(select(t_max, -1.0, blocked), select(NONE, 0u, blocked), 0.0, 0.0);
+    let hit = world_hit(select(t_max, -1.0, blocked), select(NONE, 0u, blocked), 0.0, 0.0);
     let found = traverse_together(ray, safe_inverse(traced.direction), hit, true, &through);
     return select(0.0, through, found.primitive == NONE);
 }

@@ -43,7 +43,7 @@ pub enum Bench {
     /// Samples and rays a second, time per stage, memory, and how they grow
     ///
     /// One table for the scenes as they are, and one for each thing that grows: triangles (hills under a sky), resolution and samples (of the
-    /// first scene), lights (of 10,000 triangles so many emit), leaves of a blend. Rows of a table take turns.
+    /// first scene), lights (of 10,000 triangles so many emit), leaves of a blend, instances of a tree. Rows of a table take turns.
     ///
     /// Writes report.html, speed.json and speed.csv into the output folder; a summary goes to stdout.
     #[command(after_help = "Examples:\n  \
@@ -78,7 +78,7 @@ pub struct SpeedArguments {
     /// What grows [default: everything, and the scenes as they are]
     #[arg(long, value_name = "WHAT,…", value_delimiter = ',', value_parser = by_name::<Growth>())]
     pub growth: Vec<Growth>,
-    /// The larger sizes too: up to ten million triangles, 4096x4096 pixels, 10,000 lights, 64 leaves. Takes minutes and gigabytes
+    /// The larger sizes too: up to ten million triangles, 4096x4096 pixels, 10,000 lights, 64 leaves, a million trees. Takes minutes and gigabytes
     #[arg(long)]
     pub all: bool,
     /// Picture size in pixels

@@ -10,8 +10,10 @@ use super::wording;
 use crate::load::error::SceneError;
 use crate::load::import::Origin;
 
-/// Keys at the top whose values are lists of tables.
+/// Keys at the top whose values are lists of tables of several types.
 const LISTS: [&str; 4] = ["texture", "material", "shape", "light"];
+/// Such keys whose tables are all of one type.
+const PLAIN_LISTS: [&str; 2] = ["group", "instance"];
 
 /// A scene file's text.
 #[derive(Clone, Copy)]
@@ -48,7 +50,8 @@ impl<'a> Document<'a> {
         let Ok(root) = self.parse() else { return first };
         let mut found = vec![first.clone()];
         for (key, value) in root.into_inner() {
-            let parts = match (LISTS.contains(&key.get_ref().as_ref()), value.get_ref()) {
+            let is_list = LISTS.iter().chain(&PLAIN_LISTS).any(|list| key.get_ref() == list);
+            let parts = match (is_list, value.get_ref()) {
                 (true, DeValue::Array(_)) => {
                     let span = value.span();
                     let DeValue::Array(entries) = value.into_inner() else { continue };
@@ -122,6 +125,15 @@ impl<'a> Document<'a> {
                     self.name_heuristic(weight)?;
                 }
                 self.name_variant(entry, "type")?;
+            }
+        }
+        if let Some(DeValue::Array(groups)) = root.get_mut("group").map(Spanned::get_mut) {
+            for group in groups.iter_mut() {
+                if let DeValue::Table(group) = group.get_mut()
+                    && let Some(DeValue::Array(shapes)) = group.get_mut("shape").map(Spanned::get_mut)
+                {
+                    shapes.iter_mut().try_for_each(|shape| self.name_variant(shape, "type"))?;
+                }
             }
         }
         for (table, key, tag) in [("film", "filter", "type"), ("camera", "aperture", "shape")] {

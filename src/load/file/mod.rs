@@ -6,6 +6,7 @@
 mod colour;
 mod document;
 mod import;
+mod instance;
 mod keyframes;
 mod light;
 mod material;

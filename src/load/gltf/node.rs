@@ -1,13 +1,14 @@
 //! Nodes: what stands where.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3, DVec4};
 
 use super::importer::Importer;
 use super::json::{Instances, Node, extension};
+use super::made::MadePrimitive;
 use super::primitive::Skinning;
-use crate::load::import::{Entry, Keys, camera_keys, matrix_value};
+use crate::load::import::{Entry, Keys, camera_keys, matrix_value, pays_as_instances};
 use crate::load::memory;
 use crate::load::printable::short_list;
 
@@ -35,11 +36,30 @@ impl Importer<'_> {
         self.choose_camera(&placed, camera, &moving)?;
         let mut world = vec![None; self.root.nodes.len()];
         placed.iter().for_each(|placed| world[placed.node] = Some(placed.map));
+        // Of each mesh that keeps its form: the nodes that show it, and where.
+        let mut copies: BTreeMap<usize, Vec<Placed>> = BTreeMap::new();
+        for &Placed { node: index, map } in &placed {
+            let node = &self.root.nodes[index];
+            // What moves by itself is a shape of its own.
+            let (Some(mesh), None, None, None) = (node.mesh, node.skin, &node.weights, moving.get(&index)) else { continue };
+            let maps = self.instances(node).map_err(|message| format!("nodes[{index}]: {message}"))?;
+            copies.entry(mesh).or_default().extend(maps.into_iter().map(|own| Placed { node: index, map: map * own }));
+        }
+        let mut stored_once = BTreeSet::new();
+        for (mesh, copies) in &copies {
+            if self.mesh_of_instances(*mesh, copies)? {
+                stored_once.insert(*mesh);
+            }
+        }
         for Placed { node: index, map } in placed {
             let of_node = |message: String| format!("nodes[{index}]: {message}");
             let node = &self.root.nodes[index];
             let name = moving.get(&index);
-            if let Some(mesh) = node.mesh {
+            let is_instanced = name.is_none()
+                && node.skin.is_none()
+                && node.weights.is_none()
+                && node.mesh.is_some_and(|mesh| stored_once.contains(&mesh));
+            if let Some(mesh) = node.mesh.filter(|_| !is_instanced) {
                 self.report_skin(node, &moving, index);
                 for instance in self.instances(node).map_err(of_node)? {
                     let first = self.scene.shapes.len();
@@ -55,6 +75,41 @@ impl Importer<'_> {
             self.light(node, map, index).map_err(of_node)?;
         }
         Ok(())
+    }
+
+    /// Stores a mesh once that stands in many places, unless it is small or gives light. Whether it did.
+    fn mesh_of_instances(&mut self, mesh: usize, copies: &[Placed]) -> Result<bool, String> {
+        let is_whole = |placed: &&Placed| {
+            let volume = placed.map.matrix3.determinant();
+            volume.is_normal() && !is_flat(placed.map.matrix3)
+        };
+        let first_node = copies.first().map_or(0, |placed| placed.node);
+        let place = self.place(&format!("nodes[{first_node}]"));
+        let Some(found) = self.root.meshes.get(mesh).filter(|_| copies.len() > 1) else { return Ok(false) };
+        let name = found.name.clone().unwrap_or_else(|| format!("mesh {mesh}"));
+        let (mut shapes, mut triangles) = (Vec::new(), 0);
+        for primitive in 0..found.primitives.len() {
+            let of_primitive =
+                |message: String| format!("nodes[{first_node}]: meshes[{mesh}].primitives[{primitive}]: {message}");
+            let Some(made) = self.primitive(mesh, primitive, None, None).map_err(of_primitive)? else { continue };
+            if self.scene.gives_light(&made.material) {
+                return Ok(false);
+            }
+            triangles += made.triangles;
+            shapes.push(Entry { place: place.clone(), keys: mesh_keys(made) });
+        }
+        if !pays_as_instances(copies.len(), triangles) {
+            return Ok(false);
+        }
+        for flat in copies.iter().filter(|placed| !is_whole(placed)) {
+            self.drop("mesh without extent", &format!("nodes[{}]", flat.node), "it is left out: its node scales it by 0");
+        }
+        let places: Vec<DAffine3> = copies.iter().filter(is_whole).map(|placed| placed.map).collect();
+        if !places.is_empty() {
+            self.triangles += triangles;
+            self.scene.add_instances(&name, &place, shapes, &places);
+        }
+        Ok(true)
     }
 
     /// The nodes of the scene from the roots on.
@@ -223,11 +278,7 @@ impl Importer<'_> {
                     available >> 20
                 ));
             }
-            let keys = Keys::of_type("mesh")
-                .with("file", made.file)
-                .with("smooth", made.smooth)
-                .with("material", made.material)
-                .with_some("transform", matrix_value(&map));
+            let keys = mesh_keys(made).with_some("transform", matrix_value(&map));
             let place = self.place(&format!("nodes[{index}]"));
             self.scene.shapes.push(Entry { place, keys });
         }
@@ -252,6 +303,10 @@ impl Importer<'_> {
         };
         found.joints.iter().enumerate().map(joint).collect::<Result<_, String>>().map(Skinning)
     }
+}
+
+fn mesh_keys(made: MadePrimitive) -> Keys {
+    Keys::of_type("mesh").with("file", made.file).with("smooth", made.smooth).with("material", made.material)
 }
 
 /// The map of a node about its parent.

@@ -4,10 +4,11 @@ use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 
-use super::keys::{FileReference, Keys, Value};
-use super::placed::matrix_of;
+use super::keys::{FileReference, Keys, Value, list};
+use super::place_file::{PLACE_NUMBERS, PlaceFormat, place_rows, write_places};
+use super::placed::{matrix_of, matrix_value};
 use crate::load::files::Files;
 use crate::scene::{ImportReport, Mesh};
 
@@ -23,12 +24,16 @@ pub struct Description {
     pub textures: Vec<Entry>,
     pub materials: Vec<Entry>,
     pub shapes: Vec<Entry>,
+    /// Meshes that are stored once, and where they stand.
+    pub groups: Vec<GroupOfShapes>,
+    pub instances: Vec<Entry>,
     pub lights: Vec<Entry>,
     /// What takes shapes and the camera along at frames.
     pub nodes: Vec<Entry>,
     /// Meshes and pictures, by [`FileReference::Held`].
     pub held: Vec<(String, HeldContent)>,
     pub report: ImportReport,
+    pub(super) group_names: Names,
     pub(super) material_names: Names,
     pub(super) texture_names: Names,
     pub(super) node_names: Names,
@@ -73,7 +78,66 @@ pub struct Entry {
     pub keys: Keys,
 }
 
+/// `[[group]]`
+#[derive(Debug, Clone, Default)]
+pub struct GroupOfShapes {
+    pub name: String,
+    pub place: Place,
+    /// `[[group.shape]]`
+    pub shapes: Vec<Entry>,
+}
+
+/// Places up to which an instance has them in the scene file itself.
+const MOST_WRITTEN_PLACES: usize = 16;
+/// Points of instances that are looked at one by one to frame a scene; of more, the corners of boxes.
+const MOST_POINTS: usize = 1 << 23;
+
 impl Description {
+    /// Adds shapes of meshes as a group that stands in all of these places.
+    pub fn add_instances(&mut self, name: &str, place: &Place, shapes: Vec<Entry>, places: &[DAffine3]) {
+        let name = self.group_names.free(name);
+        self.groups.push(GroupOfShapes { name: name.clone(), place: place.clone(), shapes });
+        let keys = Keys::new().with("group", name.as_str());
+        let keys = match places {
+            [only] => keys.with_some("transform", matrix_value(only)),
+            few if few.len() <= MOST_WRITTEN_PLACES => keys.with("places", list(few.iter().map(|map| list(place_rows(map))))),
+            many => {
+                let file = format!("{:04}-{}.f64", self.held.len(), file_name(&name));
+                let file = self.hold(file, HeldContent::Bytes(write_places(many).into()));
+                keys.with("file", file)
+            }
+        };
+        self.instances.push(Entry { place: place.clone(), keys });
+    }
+
+    /// Whether a material of this name gives light.
+    pub fn gives_light(&self, name: &str) -> bool {
+        let emits = |entry: &Entry| ["emission", "radiance"].iter().any(|key| entry.keys.get(key).is_some());
+        self.materials.iter().any(|entry| entry.keys.text("name") == Some(name) && emits(entry))
+    }
+
+    /// Where an instance stands.
+    fn places_of(&self, instance: &Entry) -> Vec<DAffine3> {
+        let all = instance.keys.get("transform").and_then(matrix_of).unwrap_or(DAffine3::IDENTITY);
+        let numbers: Vec<f64> = match (instance.keys.get("places"), instance.keys.get("file")) {
+            (Some(Value::List(places)), _) => {
+                let rows = places.iter().flat_map(|place| if let Value::List(row) = place { &row[..] } else { &[] });
+                rows.filter_map(|number| if let Value::Number(number) = number { Some(*number) } else { None }).collect()
+            }
+            (_, Some(Value::File(FileReference::Held(index)))) => match self.held.get(*index) {
+                Some((_, HeldContent::Bytes(bytes))) => PlaceFormat::Double.numbers(bytes).unwrap_or_default(),
+                _ => Vec::new(),
+            },
+            _ => return vec![all],
+        };
+        let (rows, _) = numbers.as_chunks::<PLACE_NUMBERS>();
+        let place = |row: &[f64; PLACE_NUMBERS]| {
+            let column = |index: usize| DVec3::new(row[index], row[4 + index], row[8 + index]);
+            DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) }
+        };
+        rows.iter().map(|row| all * place(row)).collect()
+    }
+
     /// Keeps a mesh that shapes then name.
     pub fn hold_mesh(&mut self, name: &str, mesh: Mesh) -> FileReference {
         let name = format!("{:04}-{}.ply", self.held.len(), file_name(name));
@@ -123,6 +187,7 @@ impl Description {
     /// A light, or a material of a shape that gives light.
     pub fn has_light(&self) -> bool {
         let gives_light = |entry: &Entry| ["emission", "radiance"].iter().any(|key| entry.keys.get(key).is_some());
+        // Instances give none.
         let lamps: HashSet<&str> =
             self.materials.iter().filter(|entry| gives_light(entry)).filter_map(|entry| entry.keys.text("name")).collect();
         let is_lamp = |shape: &Entry| shape.keys.text("material").is_some_and(|name| lamps.contains(name));
@@ -133,15 +198,30 @@ impl Description {
     pub fn points(&self) -> Vec<DVec3> {
         let mut points = Vec::new();
         for shape in &self.shapes {
-            let Some(Value::File(file)) = shape.keys.get("file") else { continue };
-            let Some(mesh) = self.mesh(file) else { continue };
-            let map = shape.keys.get("transform").and_then(matrix_of).unwrap_or(DAffine3::IDENTITY);
-            let mut used = vec![false; mesh.positions.len()];
-            mesh.faces.iter().flatten().for_each(|&index| used[index as usize] = true);
-            let placed = mesh.positions.iter().zip(used).filter(|(_, used)| *used);
-            points.extend(placed.map(|(position, _)| map.transform_point3(position.as_dvec3())));
+            points.extend(self.points_of_shape(shape));
+        }
+        for instance in &self.instances {
+            let group = self.groups.iter().find(|group| Some(group.name.as_str()) == instance.keys.text("group"));
+            let mut own: Vec<DVec3> =
+                group.iter().flat_map(|group| &group.shapes).flat_map(|shape| self.points_of_shape(shape)).collect();
+            let places = self.places_of(instance);
+            if own.len().saturating_mul(places.len()) > MOST_POINTS {
+                own = corners(&own);
+            }
+            points.extend(places.iter().flat_map(|place| own.iter().map(move |point| place.transform_point3(*point))));
         }
         points
+    }
+
+    /// The vertices of a mesh that faces use, as its transform places them.
+    fn points_of_shape(&self, shape: &Entry) -> Vec<DVec3> {
+        let Some(Value::File(file)) = shape.keys.get("file") else { return Vec::new() };
+        let Some(mesh) = self.mesh(file) else { return Vec::new() };
+        let map = shape.keys.get("transform").and_then(matrix_of).unwrap_or(DAffine3::IDENTITY);
+        let mut used = vec![false; mesh.positions.len()];
+        mesh.faces.iter().flatten().for_each(|&index| used[index as usize] = true);
+        let placed = mesh.positions.iter().zip(used).filter(|(_, used)| *used);
+        placed.map(|(position, _)| map.transform_point3(position.as_dvec3())).collect()
     }
 
     /// Adds a shape with a material of its own.
@@ -167,6 +247,14 @@ impl Description {
     pub fn free_texture_name(&mut self, wanted: &str) -> String {
         self.texture_names.free(wanted)
     }
+}
+
+/// Of the box around the points.
+fn corners(points: &[DVec3]) -> Vec<DVec3> {
+    let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let high = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let corner = |index: usize| DVec3::select(glam::BVec3::new(index & 1 != 0, index & 2 != 0, index & 4 != 0), high, low);
+    (0..8).map(corner).collect()
 }
 
 /// Names that are taken.

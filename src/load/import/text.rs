@@ -32,14 +32,26 @@ impl Text {
         if let Some(camera) = &description.camera {
             self.entry("[camera]", camera, file_name);
         }
-        let lists = [
+        let mut lists = |lists: &[(&str, &Vec<Entry>)]| {
+            for (heading, entries) in lists {
+                for entry in *entries {
+                    self.entry(heading, entry, file_name);
+                }
+            }
+        };
+        lists(&[
             ("[[node]]", &description.nodes),
             ("[[texture]]", &description.textures),
             ("[[material]]", &description.materials),
             ("[[shape]]", &description.shapes),
-            ("[[light]]", &description.lights),
-        ];
-        for (heading, entries) in lists {
+        ]);
+        for group in &description.groups {
+            self.table("[[group]]", &group.place, &Keys::new().with("name", group.name.as_str()), file_name);
+            for shape in &group.shapes {
+                self.entry("[[group.shape]]", shape, file_name);
+            }
+        }
+        for (heading, entries) in [("[[instance]]", &description.instances), ("[[light]]", &description.lights)] {
             for entry in entries {
                 self.entry(heading, entry, file_name);
             }

@@ -6,8 +6,8 @@ use super::description::{Description, Entry, HeldContent};
 use super::keys::{Keys, Value};
 use super::placed::{matrix_of, matrix_value};
 
-/// Keys whose values are names of materials, textures or nodes.
-const REFERENCES: [&str; 5] = ["material", "materials", "node", "normal_map", "texture"];
+/// Keys whose values are names of materials, textures, nodes or groups.
+const REFERENCES: [&str; 6] = ["group", "material", "materials", "node", "normal_map", "texture"];
 
 /// Marks the name of a material of the scene around, which stays as it is.
 const OURS: char = '\u{1}';
@@ -15,7 +15,7 @@ const OURS: char = '\u{1}';
 impl Description {
     /// Moves all of it.
     pub fn place(&mut self, map: &DAffine3) {
-        for shape in &mut self.shapes {
+        for shape in self.shapes.iter_mut().chain(&mut self.instances) {
             let own = shape.keys.get("transform").and_then(matrix_of).unwrap_or(DAffine3::IDENTITY);
             if let Some(matrix) = matrix_value(&(*map * own)) {
                 shape.keys.set("transform", matrix);
@@ -86,7 +86,8 @@ impl Description {
         let before = self.materials.len();
         self.materials.retain(|entry| entry.keys.text("name") != Some(theirs));
         let replaced = format!("{OURS}{ours}");
-        for entry in self.shapes.iter_mut().chain(&mut self.materials) {
+        let of_groups = self.groups.iter_mut().flat_map(|group| &mut group.shapes);
+        for entry in self.shapes.iter_mut().chain(of_groups).chain(&mut self.materials) {
             rename(&mut entry.keys, &["material", "materials"], &|name| {
                 if name == theirs { replaced.clone() } else { name.to_owned() }
             });
@@ -103,7 +104,9 @@ impl Description {
         for entry in self.textures.iter_mut().chain(&mut self.materials) {
             rename(&mut entry.keys, &["name"], &renamed);
         }
-        for entry in self.materials.iter_mut().chain(&mut self.shapes) {
+        self.groups.iter_mut().for_each(|group| group.name = renamed(&group.name));
+        let of_groups = self.groups.iter_mut().flat_map(|group| &mut group.shapes);
+        for entry in self.materials.iter_mut().chain(&mut self.shapes).chain(of_groups).chain(&mut self.instances) {
             rename(&mut entry.keys, &REFERENCES, &renamed);
         }
         for node in &mut self.nodes {

@@ -11,7 +11,7 @@ use super::input::{Input, Texels};
 use super::plugin::Plugin;
 use crate::load::error::SceneError;
 use crate::load::files::Files;
-use crate::load::import::{Description, FileReference, Keys, matrix_value};
+use crate::load::import::{Description, Entry, FileReference, Keys, matrix_value};
 use crate::scene::Mesh;
 
 /// A mesh of a file: the file, its format, and the bits of the mesh's number.
@@ -37,6 +37,19 @@ pub struct Converter<'a> {
     pub read_meshes: HashMap<MeshKey, Result<Mesh, SceneError>>,
     /// Of all shapes, copies counted.
     pub triangles: u64,
+    /// How often instances at the top name a group.
+    pub copies: HashMap<*const Plugin, usize>,
+    /// Groups that instances have named, and the order in which they did first.
+    pub groups: HashMap<*const Plugin, StoredGroup>,
+    pub group_order: Vec<*const Plugin>,
+}
+
+/// A group of shapes that instances name.
+pub struct StoredGroup {
+    pub plugin: Rc<Plugin>,
+    pub shapes: Vec<Entry>,
+    pub places: Vec<DAffine3>,
+    pub is_stored_once: bool,
 }
 
 impl Converter<'_> {

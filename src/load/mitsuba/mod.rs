@@ -63,6 +63,9 @@ pub fn load(files: &Files, path: &Path, options: &Options) -> Result<Description
         meshes: HashMap::new(),
         read_meshes: HashMap::new(),
         triangles: 0,
+        copies: HashMap::new(),
+        groups: HashMap::new(),
+        group_order: Vec::new(),
     };
     converter.scene(&root, options)?;
     converter.report_unused(&root);
@@ -84,6 +87,7 @@ impl Converter<'_> {
             self.sensor(sensor)?;
         }
         self.read_side_by_side(root);
+        self.count_copies(root);
         for child in &root.children {
             let plugin = &child.plugin;
             match plugin.kind.as_str() {
@@ -100,6 +104,7 @@ impl Converter<'_> {
                 _ => {}
             }
         }
+        self.finish_groups();
         Ok(())
     }
 

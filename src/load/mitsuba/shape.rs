@@ -4,11 +4,11 @@ use std::rc::Rc;
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::converter::Converter;
+use super::converter::{Converter, StoredGroup};
 use super::emitter;
 use super::plugin::Plugin;
 use crate::load::error::SceneError;
-use crate::load::import::{Entry, FileReference, Keys, cylinder, disk, grid_sphere, is_uniform, unit_cube};
+use crate::load::import::{Entry, FileReference, Keys, cylinder, disk, grid_sphere, is_uniform, pays_as_instances, unit_cube};
 use crate::load::memory;
 use crate::scene::Mesh;
 
@@ -43,13 +43,62 @@ impl Converter<'_> {
                 plugin.children_of("shape").into_iter().try_for_each(|shape| self.placed_shape(shape, around, depth + 1))
             }
             "instance" => {
-                let groups = plugin.children_of("shape");
+                let groups: Vec<Rc<Plugin>> = plugin.children_of("shape").into_iter().cloned().collect();
                 if groups.is_empty() {
                     return Err(plugin.error("an instance names a shapegroup by <ref>"));
                 }
-                groups.into_iter().try_for_each(|group| self.placed_shape(group, map, depth + 1))
+                if depth == 0
+                    && let [group] = &groups[..]
+                    && self.is_stored_once(group)?
+                {
+                    let place = self.world * map * self.world.inverse();
+                    let places = self.groups.get_mut(&Rc::as_ptr(group)).map(|group| &mut group.places);
+                    places.into_iter().for_each(|places| places.push(place));
+                    return Ok(());
+                }
+                groups.iter().into_iter().try_for_each(|group| self.placed_shape(group, map, depth + 1))
             }
             _ => self.surface(plugin, map),
+        }
+    }
+
+    /// Makes shapes of a group's meshes, once. Whether it is stored once: not where it is small, holds more than meshes, or gives light.
+    fn is_stored_once(&mut self, group: &Rc<Plugin>) -> Result<bool, SceneError> {
+        if let Some(known) = self.groups.get(&Rc::as_ptr(group)) {
+            return Ok(known.is_stored_once);
+        }
+        let copies = self.copies.get(&Rc::as_ptr(group)).copied().unwrap_or(1);
+        let (before, triangles) = (self.scene.shapes.len(), self.triangles);
+        self.placed_shape(group, DAffine3::IDENTITY, 1)?;
+        let shapes = self.scene.shapes.split_off(before);
+        let gives_light = |shape: &Entry| shape.keys.text("material").is_some_and(|name| self.scene.gives_light(name));
+        let only_meshes = shapes.iter().all(|shape| shape.keys.text("type") == Some("mesh") && !gives_light(shape));
+        let is_stored_once = only_meshes && !shapes.is_empty() && pays_as_instances(copies, self.triangles - triangles);
+        if !is_stored_once {
+            self.triangles = triangles;
+        }
+        let (plugin, places) = (group.clone(), Vec::new());
+        self.groups.insert(Rc::as_ptr(group), StoredGroup { plugin, shapes, places, is_stored_once });
+        self.group_order.push(Rc::as_ptr(group));
+        Ok(is_stored_once)
+    }
+
+    /// Adds the groups that are stored once, in the order in which they were met.
+    pub fn finish_groups(&mut self) {
+        for key in std::mem::take(&mut self.group_order) {
+            let Some(group) = self.groups.remove(&key).filter(|group| group.is_stored_once) else { continue };
+            let StoredGroup { plugin, shapes, places, .. } = group;
+            let name = if plugin.id.is_empty() { "group" } else { &plugin.id };
+            self.scene.add_instances(name, &plugin.place, shapes, &places);
+        }
+    }
+
+    /// How often instances at the top name each group.
+    pub fn count_copies(&mut self, root: &Rc<Plugin>) {
+        for instance in root.children_of("shape").into_iter().filter(|shape| shape.name == "instance") {
+            for group in instance.children.iter().filter(|child| child.plugin.kind == "shape") {
+                *self.copies.entry(Rc::as_ptr(&group.plugin)).or_default() += 1;
+            }
         }
     }
 

@@ -6,6 +6,7 @@ use super::{Check, MANY};
 use crate::packed::bvh4::Child;
 use crate::packed::constants::NONE;
 use crate::packed::hierarchy::{Traversal, deepest_stack};
+use crate::packed::instance::PackedInstance;
 use crate::packed::motion::KINDS_OF_STEPS;
 use crate::packed::primitive::Primitive;
 use crate::packed::scene::PackedScene;
@@ -30,6 +31,9 @@ impl PackedScene {
             word = end;
         }
         let is_wrong = |motion: u32| motion != NONE && is_first.get(motion as usize) != Some(&true);
+        if let Some(index) = self.instances.iter().position(|instance| is_wrong(instance.motion)) {
+            return Err(format!("instance {index} moves by {}", self.instances[index].motion));
+        }
         match self.attributes.iter().position(|attributes| is_wrong(attributes.motion)) {
             Some(index) => Err(format!("attributes {index} move by {}", self.attributes[index].motion)),
             None => Ok(()),
@@ -43,7 +47,20 @@ impl PackedScene {
         self.primitives.par_iter().enumerate().with_min_len(MANY).try_for_each(check)
     }
 
+    /// Each begins at the root of a group's tree.
+    pub(super) fn check_instances(&self) -> Check {
+        let is_root = |instance: &PackedInstance| self.hierarchy.roots.binary_search(&instance.root()).is_ok();
+        match self.instances.iter().position(|instance| !is_root(instance)) {
+            Some(index) => Err(format!("instance {index} begins at node {}, no root", self.instances[index].root())),
+            None => Ok(()),
+        }
+    }
+
     fn check_primitive(&self, primitive: &Primitive) -> Check {
+        if let Some(instance) = primitive.instance().filter(|_| !primitive.moves()) {
+            let exists = (instance as usize) < self.instances.len();
+            return if exists { Ok(()) } else { Err(format!("is instance {instance}, which is missing")) };
+        }
         if primitive.material() as usize >= self.materials.materials.len() {
             return Err(format!("has material {}", primitive.material()));
         }
@@ -78,8 +95,11 @@ impl PackedScene {
         {
             return Err(format!("primitive {index} has no bounds, and is in the hierarchy"));
         }
+        if let Some(index) = self.primitives[held.len()..].iter().position(|primitive| primitive.instance().is_some()) {
+            return Err(format!("primitive {} is an instance, and not in the hierarchy", held.len() + index));
+        }
         match self.hierarchy.traversal {
-            Traversal::Bvh => self.check_nodes(held.len()),
+            Traversal::Bvh => self.check_nodes(held),
             Traversal::RayQuery => self.check_boxes(held),
         }
     }
@@ -98,22 +118,32 @@ impl PackedScene {
         Ok(())
     }
 
-    /// Every node but the root is the child of one before it, every primitive is in one leaf, and the stack holds what waits.
-    fn check_nodes(&self, primitive_count: usize) -> Check {
-        let nodes = &self.hierarchy.nodes;
+    /// Every node but the roots is the child of one before it in its tree, every primitive is in one leaf, instances are in the scene's own tree,
+    /// and the stack holds what waits.
+    fn check_nodes(&self, held: &[Primitive]) -> Check {
+        let (nodes, roots) = (&self.hierarchy.nodes, &self.hierarchy.roots);
         if nodes.is_empty() {
             return Err("there is no root".to_owned());
         }
+        let in_order = roots.windows(2).all(|pair| pair[0] < pair[1]);
+        if !in_order || roots.first() == Some(&0) || roots.last().is_some_and(|&root| root as usize >= nodes.len()) {
+            return Err("the roots of groups are no nodes, or out of order".to_owned());
+        }
         let mut has_parent = vec![false; nodes.len()];
-        let mut is_held = vec![false; primitive_count];
+        roots.iter().for_each(|&root| has_parent[root as usize] = true);
+        let mut is_held = vec![false; held.len()];
+        // The tree at hand: that of the scene, then those of groups.
+        let mut tree = 0;
         for (index, node) in nodes.iter().enumerate() {
+            tree += usize::from(roots.get(tree).is_some_and(|&root| root as usize == index));
+            let end = roots.get(tree).map_or(nodes.len(), |&root| root as usize);
             if !node.is_well_formed() {
                 return Err(format!("node {index} has children between which none is, or sizes of what are no leaves"));
             }
             for child in node.children() {
                 match child {
                     Child::Inner(inner) => match has_parent.get_mut(inner) {
-                        Some(seen) if inner > index && !*seen => *seen = true,
+                        Some(seen) if inner > index && inner < end && !*seen => *seen = true,
                         _ => {
                             return Err(format!("node {index} has the child {inner}, which is missing, before it, or another's"));
                         }
@@ -123,6 +153,9 @@ impl PackedScene {
                             match is_held.get_mut(primitive as usize) {
                                 Some(held) if !*held => *held = true,
                                 _ => return Err(format!("node {index} holds primitive {primitive}, missing or held twice")),
+                            }
+                            if tree > 0 && held[primitive as usize].instance().is_some() {
+                                return Err(format!("node {index} of a group holds an instance, primitive {primitive}"));
                             }
                         }
                     }
@@ -135,7 +168,7 @@ impl PackedScene {
         if let Some(missing) = is_held.iter().position(|held| !held) {
             return Err(format!("primitive {missing} is in no leaf"));
         }
-        let needed = deepest_stack(nodes);
+        let needed = deepest_stack(nodes, roots);
         if self.hierarchy.stack_size != needed {
             return Err(format!("the stack has {} entries, and {needed} wait", self.hierarchy.stack_size));
         }

@@ -35,6 +35,7 @@ impl PackedScene {
         self.check_lengths()?;
         Array::ALL.into_iter().try_for_each(|array| self.check_indices(array))?;
         self.check_motions()?;
+        self.check_instances()?;
         self.check_primitives()?;
         self.check_hierarchy()?;
         self.check_materials()?;
@@ -53,6 +54,7 @@ impl PackedScene {
         let lengths = [
             ("primitives", 3 * self.primitives.len()),
             ("attributes", 4 * self.attributes.len()),
+            ("instances", 6 * self.instances.len()),
             ("nodes", 3 * self.hierarchy.nodes.len()),
             ("tables", tables + self.motions.len()),
             ("texels", self.textures.texel_words()),

@@ -7,6 +7,7 @@ use std::mem::offset_of;
 use crate::packed::attributes::TriangleAttributes;
 use crate::packed::blend_weight::PackedBlendWeight;
 use crate::packed::bvh4::Node;
+use crate::packed::instance::PackedInstance;
 use crate::packed::light::PackedLight;
 use crate::packed::material::{BLEND, PackedBlendPart, PackedMaterial, PackedParameter};
 use crate::packed::primitive::Primitive;
@@ -20,6 +21,7 @@ pub enum Array {
     Primitives,
     Attributes,
     Nodes,
+    Instances,
     Materials,
     Parameters,
     BlendParts,
@@ -34,6 +36,7 @@ impl Array {
         Self::Primitives,
         Self::Attributes,
         Self::Nodes,
+        Self::Instances,
         Self::Materials,
         Self::Parameters,
         Self::BlendParts,
@@ -49,6 +52,7 @@ impl Array {
             Self::Primitives => &PRIMITIVE,
             Self::Attributes => &ATTRIBUTES,
             Self::Nodes => &NODE,
+            Self::Instances => &INSTANCE,
             Self::Materials => &MATERIAL,
             Self::Parameters => &PARAMETER,
             Self::BlendParts => &BLEND_PART,
@@ -65,6 +69,7 @@ impl Array {
             Self::Primitives => size_of::<Primitive>(),
             Self::Attributes => size_of::<TriangleAttributes>(),
             Self::Nodes => size_of::<Node>(),
+            Self::Instances => size_of::<PackedInstance>(),
             Self::Materials => size_of::<PackedMaterial>(),
             Self::Parameters => size_of::<PackedParameter>(),
             Self::BlendParts => size_of::<PackedBlendPart>(),
@@ -82,6 +87,7 @@ impl Array {
             Self::Primitives => bytemuck::cast_slice(&scene.primitives),
             Self::Attributes => bytemuck::cast_slice(&scene.attributes),
             Self::Nodes => bytemuck::cast_slice(&scene.hierarchy.nodes),
+            Self::Instances => bytemuck::cast_slice(&scene.instances),
             Self::Materials => bytemuck::cast_slice(&scene.materials.materials),
             Self::Parameters => bytemuck::cast_slice(&scene.materials.further),
             Self::BlendParts => bytemuck::cast_slice(&scene.materials.parts),
@@ -132,6 +138,12 @@ const NODE: [(usize, Word); 3] = [
     (word!(Node, exponents_and_flags), Checked),
     (word!(Node, first_child), CheckedIn(has_inner_children)),
     (word!(Node, first_primitive_and_sizes), Checked),
+];
+
+const INSTANCE: [(usize, Word); 3] = [
+    (word!(PackedInstance, root_and_flags), Checked),
+    (word!(PackedInstance, material), Optional(Array::Materials)),
+    (word!(PackedInstance, motion), Checked),
 ];
 
 const MATERIAL: [(usize, Word); 11] = [

@@ -2,6 +2,8 @@
 
 mod element;
 mod hierarchy;
+mod instances;
+mod mesh_data;
 mod normal_map;
 mod pose;
 mod ray;

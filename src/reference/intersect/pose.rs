@@ -8,7 +8,7 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::normal_map::Tangents;
 use super::ray::{Ray, SurfacePoint};
-use crate::scene::{Scene, Shape};
+use crate::scene::{Motion, Scene, Shape};
 
 /// Times at which a shape is looked at to find what it sweeps.
 const SWEEP_TIMES: u32 = 32;
@@ -29,11 +29,16 @@ pub struct Pose {
 pub struct Moment {
     /// By shape; empty where nothing moves.
     poses: Vec<Option<Pose>>,
+    time: f64,
 }
 
 impl Moment {
     pub fn new(scene: &Scene, time: f64) -> Self {
-        Self { poses: scene.shapes.iter().map(|shape| shape.moved_by(time).map(Pose::new)).collect() }
+        Self { poses: scene.shapes.iter().map(|shape| shape.moved_by(time).map(Pose::new)).collect(), time }
+    }
+
+    pub fn time(&self) -> f64 {
+        self.time
     }
 
     /// None: the shape rests.
@@ -104,9 +109,12 @@ impl Pose {
 
 /// A box around everything that a shape's part inside the box `[min, max]` sweeps while the shutter is open. Its corners are followed
 /// from one time to the next; in between, none moves farther from the nearer time's place than the greatest speed takes it.
-pub fn swept(shape: &Shape, [min, max]: [DVec3; 2], [open, close]: [f64; 2]) -> [DVec3; 2] {
-    let Some(motion) = &shape.motion else { return [min, max] };
-    let origin = shape.origin();
+pub fn swept(shape: &Shape, bounds: [DVec3; 2], shutter: [f64; 2]) -> [DVec3; 2] {
+    shape.motion.as_ref().map_or(bounds, |motion| swept_by(motion, shape.origin(), bounds, shutter))
+}
+
+/// The same of whatever moves about `origin`.
+pub fn swept_by(motion: &Motion, origin: DVec3, [min, max]: [DVec3; 2], [open, close]: [f64; 2]) -> [DVec3; 2] {
     let corner = |index: usize| DVec3::select(glam::BVec3::new(index & 1 != 0, index & 2 != 0, index & 4 != 0), max, min);
     let radius = (0..8).map(|index| (corner(index) - origin).length()).fold(0.0, f64::max);
     let step = (close - open) / f64::from(SWEEP_TIMES);

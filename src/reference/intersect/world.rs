@@ -1,22 +1,28 @@
 //! The scene's surfaces in world space.
 
-use std::sync::Arc;
+use glam::{DVec2, DVec3};
 
-use glam::{DVec2, DVec3, Vec3};
-
+use super::element::Element;
 use super::hierarchy::{Hierarchy, PreparedRay};
+use super::instances::{Instances, PlacedTriangle};
+use super::mesh_data::MeshData;
 use super::normal_map::{NormalMaps, Tangents};
 use super::pose::{self, Moment, Pose};
 use super::ray::{Local, Ray, SurfacePoint};
-use super::shape::{self, Placement, Primitive, Triangle};
+use super::shape::{self, Placement, Primitive};
 use crate::renderer::RenderError;
-use crate::scene::{Geometry, Material, MaterialId, MaterialKind, Mesh, Scene, Shape};
+use crate::scene::{Material, MaterialId, MaterialKind, Scene, Shape};
 
 /// Which of the world's surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SurfaceId {
     /// Place in the hierarchy's leaf order.
     Primitive(usize),
+    /// Places in the leaf orders of all instances, and of the group.
+    Instanced {
+        instance: usize,
+        triangle: usize,
+    },
     Infinite(usize),
 }
 
@@ -61,22 +67,13 @@ pub struct World {
     scene_order: Vec<usize>,
     /// What has no bounds.
     infinite: Vec<(Primitive, Owner)>,
-    shapes: Vec<ShapeData>,
+    instances: Instances,
+    shapes: Vec<MeshData>,
     normal_maps: NormalMaps,
     /// By material: it or a part of it depends on the directions of texture coordinates.
     anisotropic: Vec<bool>,
     /// Windows that directions to the environment are sampled through; rays do not meet them.
     portals: Vec<Primitive>,
-}
-
-/// What shading needs of a shape besides its primitives.
-#[derive(Debug, Clone, Default)]
-struct ShapeData {
-    /// World-space vertex normals of a smooth mesh, else empty.
-    normals: Vec<Vec3>,
-    mesh: Option<Arc<Mesh>>,
-    /// Faces of a mesh, counter-clockwise seen from the front in the world.
-    faces: Vec<[u32; 3]>,
 }
 
 impl World {
@@ -91,9 +88,11 @@ impl World {
             pose::swept(&scene.shapes[owner.shape], bounds, scene.camera.shutter)
         };
         let boxes: Vec<[DVec3; 2]> = collected.primitives.iter().map(swept).collect();
-        let reach = boxes.iter().flatten().fold(0.0, |reach: f64, corner| reach.max(corner.abs().max_element()));
+        let (instances, boxes_of_instances) = Instances::new(scene);
+        let all_boxes = || boxes.iter().chain(&boxes_of_instances).flatten();
+        let reach = all_boxes().fold(0.0, |reach: f64, corner| reach.max(corner.abs().max_element()));
         // The hierarchy's builder squares lengths in f32.
-        if !boxes.iter().flatten().all(|corner| corner.is_finite()) || reach > 1e18 {
+        if !all_boxes().all(|corner| corner.is_finite()) || reach > 1e18 {
             return Err(RenderError::Internal("a shape lies farther than 1e18 from the origin".into()));
         }
         let (hierarchy, leaf_order) = Hierarchy::build(&boxes);
@@ -106,7 +105,7 @@ impl World {
         let Collected { infinite, shapes, portals, .. } = collected;
         let normal_maps = NormalMaps::new(scene);
         let anisotropic = scene.materials_that(Material::is_anisotropic);
-        Ok(Self { hierarchy, primitives, owners, scene_order, infinite, shapes, normal_maps, anisotropic, portals })
+        Ok(Self { hierarchy, primitives, owners, scene_order, infinite, instances, shapes, normal_maps, anisotropic, portals })
     }
 
     /// Leaf-order places of all primitives, in the order of the scene file; planes are not among them.
@@ -126,6 +125,7 @@ impl World {
     pub fn owner(&self, id: SurfaceId) -> Owner {
         match id {
             SurfaceId::Primitive(place) => self.owners[place],
+            SurfaceId::Instanced { instance, triangle } => self.instances.owner(instance, triangle),
             SurfaceId::Infinite(index) => self.infinite[index].1,
         }
     }
@@ -153,12 +153,17 @@ impl World {
                 closest = Some(Hit { surface: SurfaceId::Infinite(index), distance, local });
             }
         }
-        self.hierarchy.traverse(&prepared, limit, |place, limit| match self.intersect(place, &prepared, limit, moment) {
+        self.hierarchy.traverse(&prepared, limit, |place, before| match self.intersect(place, &prepared, before, moment) {
             Some((distance, local)) => {
                 closest = Some(Hit { surface: SurfaceId::Primitive(place), distance, local });
+                limit = distance;
                 distance
             }
-            None => limit,
+            None => before,
+        });
+        self.instances.traverse(&prepared, limit, moment, |surface, distance, local, _| {
+            closest = Some(Hit { surface, distance, local });
+            distance
         });
         closest
     }
@@ -183,7 +188,7 @@ impl World {
             }
             let near = self.surface(&ray, &Hit { surface, distance, local }, moment);
             product *= share(&near);
-            // What is round is met again on its far side.
+            // What is round is met again on its far side; instances are of triangles.
             let within = Ray { origin: near.point.leave_towards(ray.direction), direction: ray.direction };
             if let SurfaceId::Primitive(place) = surface
                 && let Some((distance, local)) = self.intersect(place, &PreparedRay::new(within), limit - distance, moment)
@@ -199,15 +204,27 @@ impl World {
                 return 0.0;
             }
         }
+        let mut blocked = false;
         self.hierarchy.traverse(&prepared, limit, |place, limit| {
             if Some(place) != target
                 && let Some((distance, local)) = self.intersect(place, &prepared, limit, moment)
                 && !meet(SurfaceId::Primitive(place), distance, local)
             {
+                blocked = true;
                 return -1.0;
             }
             limit
         });
+        if !blocked {
+            self.instances.traverse(
+                &prepared,
+                limit,
+                moment,
+                |surface, distance, local, limit| {
+                    if meet(surface, distance, local) { limit } else { -1.0 }
+                },
+            );
+        }
         product
     }
 
@@ -222,6 +239,14 @@ impl World {
                     Some(pose) => pose.point(&primitive.point(&pose.ray_to_rest(ray), hit.distance, hit.local)),
                 };
                 self.surface_at(place, point, hit.local, moment)
+            }
+            SurfaceId::Instanced { instance, triangle } => {
+                let PlacedTriangle { triangle, mesh, face, pose } = self.instances.triangle(instance, triangle, moment);
+                let at_rest = triangle.point(&pose.ray_to_rest(ray), hit.distance, hit.local);
+                let point = pose.point(&at_rest);
+                let looks = mesh.interpolate(face, hit.local, point.normal, Some(&pose));
+                let tangents = || mesh.tangents(face, triangle).map(|tangents| pose.tangents(tangents));
+                self.shaded((hit.surface, owner), point, looks, tangents)
             }
             SurfaceId::Infinite(index) => {
                 let point = self.infinite[index].0.element().point(ray, hit.distance, hit.local);
@@ -247,40 +272,20 @@ impl World {
             };
             at_rest.map(|tangents| pose.map_or(tangents, |pose| pose.tangents(tangents)))
         };
-        let shading_normal = self.normal_maps.bend(owner.material, normal, uv, tangents);
-        let tangents = if self.anisotropic[owner.material] { tangents() } else { None };
-        Surface { id: SurfaceId::Primitive(place), owner, point, shading_normal, uv, tangents }
+        self.shaded((SurfaceId::Primitive(place), owner), point, (normal, uv), tangents)
     }
-}
 
-impl ShapeData {
-    /// Directions of the texture coordinates on a face of a mesh.
-    fn tangents(&self, face: usize, triangle: &Triangle) -> Option<Tangents> {
-        let uvs = &self.mesh.as_ref()?.uvs;
-        let [a, b, c] = self.faces[face].map(|corner| uvs.get(corner as usize).map(|uv| uv.as_dvec2()));
-        Tangents::of_triangle(triangle.corners.map(|corner| corner.as_dvec3()), [a?, b?, c?])
-    }
-    /// Normal and texture coordinates on a face of a mesh.
-    fn interpolate(&self, face: usize, local: Local, geometric_normal: DVec3, pose: Option<&Pose>) -> (DVec3, DVec2) {
-        let Some(mesh) = &self.mesh else { return (geometric_normal, DVec2::ZERO) };
-        let [a, b, c] = self.faces[face].map(|corner| corner as usize);
-        let weights = [1.0 - local.x - local.y, local.x, local.y];
-        let normal = if self.normals.is_empty() {
-            geometric_normal
-        } else {
-            // Moved one by one, as those of a shape at rest are transformed.
-            let corners = [a, b, c].map(|corner| {
-                let at_rest = self.normals[corner].as_dvec3();
-                pose.map_or(at_rest, |pose| pose.normal(at_rest))
-            });
-            let sum = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
-            sum.try_normalize().unwrap_or(geometric_normal)
-        };
-        if mesh.uvs.is_empty() {
-            return (normal, DVec2::ZERO);
-        }
-        let corners = [a, b, c].map(|corner| mesh.uvs[corner].as_dvec2());
-        (normal, corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2])
+    /// A surface with its own normal and texture coordinates, as its material bends it.
+    fn shaded(
+        &self,
+        (id, owner): (SurfaceId, Owner),
+        point: SurfacePoint,
+        (normal, uv): (DVec3, DVec2),
+        tangents: impl Fn() -> Option<Tangents>,
+    ) -> Surface {
+        let shading_normal = self.normal_maps.bend(owner.material, normal, uv, &tangents);
+        let tangents = if self.anisotropic[owner.material] { tangents() } else { None };
+        Surface { id, owner, point, shading_normal, uv, tangents }
     }
 }
 
@@ -289,7 +294,7 @@ impl ShapeData {
 struct Collected {
     primitives: Vec<(Primitive, Owner)>,
     infinite: Vec<(Primitive, Owner)>,
-    shapes: Vec<ShapeData>,
+    shapes: Vec<MeshData>,
     portals: Vec<Primitive>,
 }
 
@@ -307,13 +312,6 @@ impl Collected {
                 self.portals.push(primitive);
             }
         }
-        self.shapes.push(match &shape.geometry {
-            Geometry::Mesh(mesh) => ShapeData {
-                normals: if mesh.smooth { shape.world_normals() } else { Vec::new() },
-                mesh: Some(mesh.clone()),
-                faces: shape.world_faces(),
-            },
-            _ => ShapeData::default(),
-        });
+        self.shapes.push(MeshData::new(shape));
     }
 }

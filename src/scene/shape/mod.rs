@@ -8,7 +8,7 @@ use glam::{DAffine3, DVec3, Vec3};
 
 use super::check::Check;
 use super::material::MaterialId;
-use super::motion::{FARTHEST, Motion, MotionStep};
+use super::motion::{Motion, MotionStep};
 use super::transform::Transform;
 pub(super) use model::Extent;
 use model::ShapeModel;
@@ -216,11 +216,6 @@ impl Shape {
                 return Err((Some(index), self.geometry.stays_round()));
             }
         }
-        let ends = shutter.map(|time| motion.at(time, self.origin()));
-        let in_range = |map: &DAffine3| map.to_cols_array().iter().all(|number| number.abs() <= FARTHEST);
-        if ends.iter().all(|map| in_range(map) && map.matrix3.determinant().is_normal()) {
-            return Ok(());
-        }
-        Err((None, "the motion leaves the range of numbers".to_owned()))
+        motion.check_ends(shutter, self.origin()).map_err(|message| (None, message))
     }
 }

@@ -38,6 +38,10 @@ pub fn resolve(document: Document<'_>, folder: &Path, file: SceneFile, access: A
         return resolver.finish();
     }
     resolver.shapes(&file.shape);
+    let groups = resolver.groups(&file.group);
+    if let Some(groups) = resolver.note(groups) {
+        resolver.instances(&file.instance, &groups);
+    }
     resolver.lights(&file.light);
     resolver.finish()
 }

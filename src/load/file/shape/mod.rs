@@ -71,6 +71,14 @@ pub fn examples() -> impl Iterator<Item = (&'static str, String)> {
 /// Faces of all portals of a scene.
 const MOST_PORTAL_FACES: usize = 256;
 
+impl ShapeEntry {
+    /// Keyframes move it, or a node does.
+    pub(in crate::load::file) fn is_animated(&self) -> bool {
+        let track = self.common().track;
+        track.keyframes.is_some() || track.node.is_some()
+    }
+}
+
 impl Resolver<'_> {
     pub(super) fn shapes(&mut self, written: &[Located<ShapeEntry>]) {
         for (index, entry) in written.iter().enumerate() {
@@ -83,7 +91,11 @@ impl Resolver<'_> {
         }
     }
 
-    fn checked_shape(&mut self, index: usize, entry: &Located<ShapeEntry>) -> Result<Shape, SceneError> {
+    pub(in crate::load::file) fn checked_shape(
+        &mut self,
+        index: usize,
+        entry: &Located<ShapeEntry>,
+    ) -> Result<Shape, SceneError> {
         let shape = self.shape(index, entry)?;
         self.check_uvs(entry, &shape)?;
         if shape.portal {

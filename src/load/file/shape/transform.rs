@@ -15,7 +15,7 @@ use crate::load::file::colour::any_of;
 use crate::load::file::keyframes::ScaleEntry;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Exactly, Located, Number, Vector, vector};
-use crate::scene::{Motion, MotionStep, Shape, Transform, TransformStep};
+use crate::scene::{Motion, MotionStep, Shape, Transform, TransformStep, is_singular};
 
 /// Steps applied in their order, or one matrix.
 #[derive(Debug)]
@@ -87,7 +87,7 @@ impl Resolver<'_> {
     }
 
     /// None where nothing is written in the list: the shape rests.
-    pub(super) fn motion(&self, written: &Located<TransformEntry>) -> Result<Option<Motion>, SceneError> {
+    pub(in crate::load::file) fn motion(&self, written: &Located<TransformEntry>) -> Result<Option<Motion>, SceneError> {
         let steps: Vec<MotionStep> = match &written.value {
             TransformEntry::Steps(steps) => {
                 steps.iter().map(|step| self.motion_step(&step.span, &step.value)).collect::<Result<_, _>>()?
@@ -160,10 +160,4 @@ impl Resolver<'_> {
         let column = |index: usize| DVec3::new(rows[index], rows[4 + index], rows[8 + index]);
         Ok(DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) })
     }
-}
-
-/// The columns are so nearly dependent that nothing of the volume is left.
-fn is_singular(matrix: DMat3) -> bool {
-    let lengths = matrix.x_axis.length() * matrix.y_axis.length() * matrix.z_axis.length();
-    matrix.determinant().abs() <= 1e-12 * lengths
 }

@@ -18,6 +18,7 @@ pub use render::RenderTable;
 pub use texture::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 
 use super::import::ImportEntry;
+use super::instance::{GroupEntry, InstanceEntry};
 use super::keyframes::{AnimationTable, CameraKeyEntry, InterpolationName};
 use super::light::LightEntry;
 use super::material::MaterialEntry;
@@ -48,6 +49,10 @@ pub struct SceneFile {
     #[serde(default)]
     pub shape: Vec<Located<ShapeEntry>>,
     #[serde(default)]
+    pub group: Vec<GroupEntry>,
+    #[serde(default)]
+    pub instance: Vec<Located<InstanceEntry>>,
+    #[serde(default)]
     pub light: Vec<Located<LightEntry>>,
     /// Read before the rest, which then has what is imported.
     #[serde(default)]
@@ -73,6 +78,10 @@ pub struct PartOfFile {
     pub material: Vec<MaterialEntry>,
     #[serde(default)]
     shape: Vec<Located<ShapeEntry>>,
+    #[serde(default)]
+    group: Vec<GroupEntry>,
+    #[serde(default)]
+    instance: Vec<Located<InstanceEntry>>,
     #[serde(default)]
     light: Vec<Located<LightEntry>>,
     #[serde(default)]

@@ -23,6 +23,7 @@ pub struct Writer<'s> {
     /// Names by which textures and materials are written: each is there once.
     pub textures: Names,
     pub materials: Names,
+    pub groups: Names,
     pub files: SideFiles,
 }
 

@@ -68,6 +68,12 @@ impl Writer<'_> {
         for (index, shape) in entries(self.scene, "shape").iter().enumerate() {
             self.shape(index, shape)?;
         }
+        for (index, group) in entries(self.scene, "group").into_iter().enumerate() {
+            self.group(index, group)?;
+        }
+        for (index, instances) in entries(self.scene, "instance").into_iter().enumerate() {
+            self.instances(index, instances)?;
+        }
         for (index, light) in entries(self.scene, "light").iter().enumerate() {
             self.light(index, light)?;
         }

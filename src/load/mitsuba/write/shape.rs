@@ -4,9 +4,10 @@ use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use toml::{Table, Value};
 
 use super::xml::{Element, matrix};
-use super::{Writer, as_number, flag, number, numbers, text, vector};
+use super::{Writer, as_number, entries, flag, number, numbers, text, vector};
 use crate::load::error::SceneError;
-use crate::load::import::write_ply;
+use crate::load::files::MOST_MODEL_BYTES;
+use crate::load::import::{PLACE_NUMBERS, PlaceFormat, write_ply};
 use crate::scene::Mesh;
 
 /// Half the side of the rectangle that stands for an infinite plane.
@@ -14,19 +15,76 @@ const PLANE: f64 = 1e4;
 
 impl Writer<'_> {
     pub fn shape(&mut self, index: usize, shape: &Table) -> Result<(), SceneError> {
-        let place = format!("shape[{index}]");
+        if let Some(element) = self.shape_element(&format!("shape[{index}]"), shape)? {
+            self.xml.push(element);
+        }
+        Ok(())
+    }
+
+    /// `[[group]]` as a shape group, and the instances that name it.
+    pub fn group(&mut self, index: usize, group: &Table) -> Result<(), SceneError> {
+        let name = text(group, "name").unwrap_or_default();
+        let mut element = Element::new("shape", "shapegroup").id(&group_id(name));
+        for (number, shape) in entries(group, "shape").into_iter().enumerate() {
+            if let Some(shape) = self.shape_element(&format!("group[{index}].shape[{number}]"), shape)? {
+                element = element.with(shape);
+            }
+        }
+        self.xml.push(element);
+        Ok(())
+    }
+
+    /// `[[instance]]`, an instance for each place.
+    pub fn instances(&mut self, index: usize, instances: &Table) -> Result<(), SceneError> {
+        let place = format!("instance[{index}]");
+        if instances.contains_key("motion") {
+            self.drop("motion", &place, "the instances rest");
+        }
+        if instances.contains_key("material") {
+            self.drop("material of instances", &place, "they have the group's own");
+        }
+        let all = instances.get("transform").map_or(DAffine3::IDENTITY, transform);
+        let group = group_id(text(instances, "group").unwrap_or_default());
+        for own in self.places(instances)? {
+            let element = Element::new("shape", "instance").transform("to_world", &matrix(&(all * own)));
+            self.xml.push(element.reference(&group));
+        }
+        Ok(())
+    }
+
+    fn places(&self, instances: &Table) -> Result<Vec<DAffine3>, SceneError> {
+        let numbers: Vec<f64> = match (instances.get("places").and_then(Value::as_array), text(instances, "file")) {
+            (Some(places), _) => places.iter().filter_map(Value::as_array).flatten().filter_map(as_number).collect(),
+            (None, Some(file)) => {
+                let path = self.folder.join(file);
+                let fail = |message: String| SceneError::in_file(self.name, format!("{file}: {message}"));
+                let bytes = self.files.read(&path, MOST_MODEL_BYTES).map_err(|error| fail(error.to_string()))?;
+                let format = PlaceFormat::of(&path).ok_or_else(|| fail("it is no file of places".to_owned()))?;
+                format.numbers(&bytes).map_err(fail)?
+            }
+            (None, None) => return Ok(vec![DAffine3::IDENTITY]),
+        };
+        let (rows, _) = numbers.as_chunks::<PLACE_NUMBERS>();
+        let affine = |row: &[f64; PLACE_NUMBERS]| {
+            let column = |index: usize| DVec3::new(row[index], row[4 + index], row[8 + index]);
+            DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) }
+        };
+        Ok(rows.iter().map(affine).collect())
+    }
+
+    fn shape_element(&mut self, place: &str, shape: &Table) -> Result<Option<Element>, SceneError> {
         if shape.contains_key("motion") {
-            self.drop("motion", &place, "the shape rests");
+            self.drop("motion", place, "the shape rests");
         }
         if shape.contains_key("keyframes") || shape.contains_key("node") {
             self.drop("keyframes", &place, "the shape stands where it is without a frame");
         }
         if flag(shape, "portal") == Some(true) {
-            self.drop("portal", &place, "its directions are not sampled by themselves");
+            self.drop("portal", place, "its directions are not sampled by themselves");
         }
         let around = shape.get("transform").map_or(DAffine3::IDENTITY, transform);
         let (element, own) = match text(shape, "type").unwrap_or_default() {
-            "mesh" => (self.mesh(index, shape, &place)?, DAffine3::IDENTITY),
+            "mesh" => (self.mesh(shape, place)?, DAffine3::IDENTITY),
             "sphere" => {
                 let element = Element::new("shape", "sphere").point("center", vector(shape, "center").unwrap_or_default());
                 (element.float("radius", number(shape, "radius").unwrap_or(1.0)), DAffine3::IDENTITY)
@@ -48,14 +106,14 @@ impl Writer<'_> {
                 (Element::new("shape", "cube"), map)
             }
             "plane" => {
-                self.approximate("shape `plane`", &place, "a rectangle of 20,000 units is taken");
+                self.approximate("shape `plane`", place, "a rectangle of 20,000 units is taken");
                 let normal = vector(shape, "normal").unwrap_or(DVec3::Y).normalize_or(DVec3::Y);
                 let (u, v) = normal.any_orthonormal_pair();
                 (Element::new("shape", "rectangle"), frame(u * PLANE, v * PLANE, vector(shape, "point").unwrap_or_default()))
             }
             other => {
-                self.drop(&format!("shape `{other}`"), &place, "it is left out");
-                return Ok(());
+                self.drop(&format!("shape `{other}`"), place, "it is left out");
+                return Ok(None);
             }
         };
         let map = around * own;
@@ -63,21 +121,20 @@ impl Writer<'_> {
         let element = match text(shape, "material") {
             Some(name) => {
                 let element = element.reference(name);
-                match self.emission(name, &place) {
+                match self.emission(name, place) {
                     Some(emitter) => element.with(emitter),
                     None => element,
                 }
             }
             None => {
-                self.drop("materials of a mesh file", &place, "the shape is a diffuse grey");
+                self.drop("materials of a mesh file", place, "the shape is a diffuse grey");
                 element
             }
         };
-        self.xml.push(element);
-        Ok(())
+        Ok(Some(element))
     }
 
-    fn mesh(&mut self, index: usize, shape: &Table, place: &str) -> Result<Element, SceneError> {
+    fn mesh(&mut self, shape: &Table, place: &str) -> Result<Element, SceneError> {
         let smooth = flag(shape, "smooth");
         let Some(file) = text(shape, "file") else {
             let mut mesh = inline(shape);
@@ -85,7 +142,7 @@ impl Writer<'_> {
             if mesh.smooth && mesh.normals.is_empty() {
                 mesh.compute_smooth_normals();
             }
-            let name = self.beside_file(&format!("shape-{index}.ply"), write_ply(&mesh));
+            let name = self.beside_file(&format!("{}.ply", file_of(place)), write_ply(&mesh));
             return Ok(Element::new("shape", "ply").string("filename", &name).boolean("face_normals", !mesh.smooth));
         };
         let lower = file.to_ascii_lowercase();
@@ -102,6 +159,16 @@ impl Writer<'_> {
         let element = if kind == "obj" { element.boolean("flip_tex_coords", false) } else { element };
         Ok(if smooth == Some(false) { element.boolean("face_normals", true) } else { element })
     }
+}
+
+/// No material has this name.
+fn group_id(name: &str) -> String {
+    format!("group {name}")
+}
+
+/// The name of a shape's file: `shape-3`, `group-0-shape-3`.
+fn file_of(place: &str) -> String {
+    place.replace(['[', '.'], "-").replace(']', "")
 }
 
 fn inline(shape: &Table) -> Mesh {

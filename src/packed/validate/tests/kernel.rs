@@ -80,19 +80,27 @@ impl Kernel<'_> {
 
     /// geometry/unrolled.wgsl: primitives that stand outside of the hierarchy, or all of them.
     fn constants(&self) -> Read<()> {
-        (0..self.scene.primitives.len() as u32).try_for_each(|index| self.primitive(index))
+        (0..self.scene.primitives.len() as u32).try_for_each(|index| self.primitive(index).map(drop))
     }
 
     /// geometry/traversal.wgsl and bvh4.wgsl, with every child met, so that as many wait as can.
     fn traverse(&self) -> Read<()> {
         const LEAF: u32 = 1 << 31;
         let nodes: &[[u32; 12]] = bytemuck::cast_slice(&self.scene.hierarchy.nodes);
-        let mut to_visit = vec![(0_u32, 0_u32)];
-        while let Some((entry, depth)) = to_visit.pop() {
+        let mut to_visit = vec![(0_u32, 0_u32, false)];
+        while let Some((entry, depth, in_group)) = to_visit.pop() {
             self.step()?;
             if entry & LEAF != 0 {
                 let first = entry & 0x00ff_ffff;
-                (first..=first + (entry >> 24 & 3)).try_for_each(|primitive| self.primitive(primitive))?;
+                for primitive in first..=first + (entry >> 24 & 3) {
+                    if let Some(root) = self.primitive(primitive)? {
+                        // What waits beside it, the rest of the leaf, and the mark of the way back.
+                        to_visit.push((root, depth + 3, true));
+                        if in_group {
+                            return Err("an instance within an instance".to_owned());
+                        }
+                    }
+                }
                 continue;
             }
             let node = nodes.get(entry as usize).ok_or_else(|| format!("node {entry}"))?;
@@ -113,7 +121,7 @@ impl Kernel<'_> {
                 };
                 start += if inner { 0 } else { size + 1 };
                 if exists >> child & 1 == 1 {
-                    to_visit.push((entry, depth + count - 1));
+                    to_visit.push((entry, depth + count - 1, in_group));
                 }
             }
         }
@@ -122,15 +130,18 @@ impl Kernel<'_> {
 
     /// geometry/ray_query.wgsl: a device names triangles and boxes by their number.
     fn query(&self) -> Read<()> {
-        (0..self.scene.hierarchy.primitive_count).try_for_each(|index| self.primitive(index))
+        (0..self.scene.hierarchy.primitive_count).try_for_each(|index| self.primitive(index).map(drop))
     }
 
-    /// shading/surface.wgsl
-    fn primitive(&self, index: u32) -> Read<()> {
+    /// shading/surface.wgsl. The root of the group where it is an instance.
+    fn primitive(&self, index: u32) -> Read<Option<u32>> {
         self.step()?;
         let words: &[[u32; 12]] = bytemuck::cast_slice(&self.scene.primitives);
         let words = words.get(index as usize).ok_or_else(|| format!("primitive {index}"))?;
         let [kind_and_material, light, attributes] = [words[3], words[7], words[11]];
+        if kind_and_material >> 28 & 7 == 7 && !self.scene.instances.is_empty() {
+            return self.instance(kind_and_material & 0x0fff_ffff).map(Some);
+        }
         if kind_and_material >> 31 == 1 {
             let motion = self.attribute(attributes)?;
             self.motion(motion)?;
@@ -141,7 +152,21 @@ impl Kernel<'_> {
         if light != NONE && !self.scene.lights.is_empty() {
             self.light_word(light, 0)?;
         }
-        self.material(kind_and_material & 0x0fff_ffff)
+        self.material(kind_and_material & 0x0fff_ffff).map(|()| None)
+    }
+
+    /// geometry/instance.wgsl
+    fn instance(&self, index: u32) -> Read<u32> {
+        let words: &[[u32; 24]] = bytemuck::cast_slice(&self.scene.instances);
+        let words = words.get(index as usize).ok_or_else(|| format!("instance {index}"))?;
+        let [root, material, motion] = [words[3] & 0x7fff_ffff, words[7], words[11]];
+        if material != NONE {
+            self.material(material)?;
+        }
+        if motion != NONE && self.scene.moves() {
+            self.motion(motion)?;
+        }
+        Ok(root)
     }
 
     /// The first word of a motion.

@@ -20,6 +20,7 @@ fn words_mut(scene: &mut PackedScene, array: Array) -> &mut [u32] {
         Array::Primitives => bytemuck::cast_slice_mut(&mut scene.primitives),
         Array::Attributes => bytemuck::cast_slice_mut(&mut scene.attributes),
         Array::Nodes => bytemuck::cast_slice_mut(&mut scene.hierarchy.nodes),
+        Array::Instances => bytemuck::cast_slice_mut(&mut scene.instances),
         Array::Materials => bytemuck::cast_slice_mut(&mut scene.materials.materials),
         Array::Parameters => bytemuck::cast_slice_mut(&mut scene.materials.further),
         Array::BlendParts => bytemuck::cast_slice_mut(&mut scene.materials.parts),
@@ -225,11 +226,13 @@ fn cut_last<T>(array: &mut Vec<T>) {
 
 #[test]
 fn arrays_cut_short_are_refused_where_something_names_their_end() {
-    let cuts: [fn(&mut PackedScene); 13] = [
+    let cuts: [fn(&mut PackedScene); 15] = [
         |scene| scene.primitives.truncate(1),
         |scene| cut_last(&mut scene.attributes),
         |scene| cut_last(&mut scene.hierarchy.nodes),
         |scene| cut_last(&mut scene.hierarchy.boxes),
+        |scene| cut_last(&mut scene.hierarchy.roots),
+        |scene| cut_last(&mut scene.instances),
         |scene| cut_last(&mut scene.materials.materials),
         |scene| cut_last(&mut scene.materials.further),
         |scene| cut_last(&mut scene.materials.parts),

@@ -2,26 +2,28 @@
 
 use std::sync::Arc;
 
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DAffine3, DQuat, DVec3, Vec2, Vec3};
 
 use crate::load::file::delta_light_examples;
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
 use crate::scene::{
     BlendWeight, Channel, ChannelInput, ColorInput, ColorSpace, ConductorFresnel, Cuboid, Disk, Emission, Environment,
-    EnvironmentRadiance, Geometry, ImageData, ImageTexture, Light, LightChoice, Masking, Material, MaterialKind, Mesh,
+    EnvironmentRadiance, Geometry, Group, ImageData, ImageTexture, Instances, Light, LightChoice, Masking, Material, MaterialKind, Mesh,
     MicrofacetDistribution, Microfacets, Motion, MotionStep, Plane, PlasticInterface, Rectangle, Scene, Shape, Sphere, Texels,
     Texture, TextureFilter, TextureKind, TextureWrap, Transform,
 };
 
 /// By name: walked by kernels, and left to the device. Lights are chosen by a tree in the first.
 pub fn all() -> Vec<(&'static str, PackedScene)> {
-    let pack = |traversal, light_choice| {
-        let mut scene = everything();
+    let pack = |mut scene: Scene, traversal, light_choice| {
         scene.render.light_choice = light_choice;
         PackedScene::for_traversal(&scene, traversal).expect("it is valid")
     };
-    vec![("nodes", pack(Traversal::Bvh, LightChoice::Tree)), ("boxes", pack(Traversal::RayQuery, LightChoice::Power))]
+    let mut with = everything();
+    add_instances(&mut with);
+    let nodes = pack(with, Traversal::Bvh, LightChoice::Tree);
+    vec![("nodes", nodes), ("boxes", pack(everything(), Traversal::RayQuery, LightChoice::Power))]
 }
 
 /// `side` × `side` squares, each of two triangles.
@@ -70,6 +72,22 @@ fn image(width: u32, height: u32) -> Arc<ImageData> {
         _ => Texels::Float((0..count).map(|index| [0.1 * index as f32, 0.5, 0.2]).collect()),
     };
     Arc::new(ImageData { width, height, texels, has_alpha: false })
+}
+
+/// Two groups, of which one moves and has a material of its own.
+fn add_instances(scene: &mut Scene) {
+    for side in [1, 2] {
+        let shape = shape(Geometry::Mesh(Arc::new(mesh(side, &[]))), 1);
+        scene.groups.push(Group { name: "group".into(), shapes: vec![shape] });
+    }
+    let sink = Motion::new(vec![MotionStep::Translate(DVec3::NEG_Y)]);
+    for (group, material, motion) in [(0, None, None), (1, Some(0), Some(sink))] {
+        let places =
+            [1.0, -2.0].map(|x| DAffine3::from_scale_rotation_translation(DVec3::new(x, 1.0, 1.0), DQuat::IDENTITY, DVec3::Y));
+        let transform = Transform::default();
+        let places = Arc::new(places.to_vec());
+        scene.instances.push(Instances { label: "instance".into(), group, places, transform, material, motion });
+    }
 }
 
 /// Every kind of primitive, material, texture and light; shapes that move, a blend of blends of which one emits, a map and portals.

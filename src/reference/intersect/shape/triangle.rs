@@ -44,8 +44,7 @@ impl Element for Triangle {
     }
 
     fn bounds(&self) -> Option<[DVec3; 2]> {
-        let [a, b, c] = self.corners;
-        Some([a.min(b).min(c).as_dvec3(), a.max(b).max(c).as_dvec3()])
+        Some(self.corner_bounds())
     }
 
     fn sample_area(&self, u1: f64, u2: f64) -> Option<(SurfacePoint, Local)> {
@@ -55,6 +54,12 @@ impl Element for Triangle {
 }
 
 impl Triangle {
+    /// Lower and upper corner of the box around its corners.
+    pub fn corner_bounds(&self) -> [DVec3; 2] {
+        let [a, b, c] = self.corners;
+        [a.min(b).min(c).as_dvec3(), a.max(b).max(c).as_dvec3()]
+    }
+
     fn at(&self, local: Local) -> SurfacePoint {
         let [a, b, c] = self.corners.map(|corner| corner.as_dvec3());
         let position = a + (b - a) * local.x + (c - a) * local.y;

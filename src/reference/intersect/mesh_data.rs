@@ -1,0 +1,62 @@
+//! What shading looks up of meshes.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3, Vec3};
+
+use super::normal_map::Tangents;
+use super::pose::Pose;
+use super::ray::Local;
+use super::shape::Triangle;
+use crate::scene::{Geometry, Mesh, Shape};
+
+/// What shading needs of a shape besides its primitives; nothing where it is no mesh.
+#[derive(Debug, Clone, Default)]
+pub struct MeshData {
+    /// World-space vertex normals of a smooth mesh, else empty.
+    normals: Vec<Vec3>,
+    mesh: Option<Arc<Mesh>>,
+    /// Faces of a mesh, counter-clockwise seen from the front in the world.
+    faces: Vec<[u32; 3]>,
+}
+
+impl MeshData {
+    pub fn new(shape: &Shape) -> Self {
+        let Geometry::Mesh(mesh) = &shape.geometry else { return Self::default() };
+        Self {
+            normals: if mesh.smooth { shape.world_normals() } else { Vec::new() },
+            mesh: Some(mesh.clone()),
+            faces: shape.world_faces(),
+        }
+    }
+
+    /// Directions of the texture coordinates on a face of a mesh.
+    pub fn tangents(&self, face: usize, triangle: &Triangle) -> Option<Tangents> {
+        let uvs = &self.mesh.as_ref()?.uvs;
+        let [a, b, c] = self.faces[face].map(|corner| uvs.get(corner as usize).map(|uv| uv.as_dvec2()));
+        Tangents::of_triangle(triangle.corners.map(|corner| corner.as_dvec3()), [a?, b?, c?])
+    }
+
+    /// Normal and texture coordinates on a face of a mesh.
+    pub fn interpolate(&self, face: usize, local: Local, geometric_normal: DVec3, pose: Option<&Pose>) -> (DVec3, DVec2) {
+        let Some(mesh) = &self.mesh else { return (geometric_normal, DVec2::ZERO) };
+        let [a, b, c] = self.faces[face].map(|corner| corner as usize);
+        let weights = [1.0 - local.x - local.y, local.x, local.y];
+        let normal = if self.normals.is_empty() {
+            geometric_normal
+        } else {
+            // Moved one by one, as those of a shape at rest are transformed.
+            let corners = [a, b, c].map(|corner| {
+                let at_rest = self.normals[corner].as_dvec3();
+                pose.map_or(at_rest, |pose| pose.normal(at_rest))
+            });
+            let sum = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
+            sum.try_normalize().unwrap_or(geometric_normal)
+        };
+        if mesh.uvs.is_empty() {
+            return (normal, DVec2::ZERO);
+        }
+        let corners = [a, b, c].map(|corner| mesh.uvs[corner].as_dvec2());
+        (normal, corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2])
+    }
+}

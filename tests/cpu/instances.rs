@@ -1,0 +1,195 @@
+//! Groups and instances in scene files: what they mean, what is refused, and what they take.
+
+use std::path::Path;
+
+use glam::DVec3;
+use gpt::bench::scenes::{self, TREE_TRIANGLES};
+use gpt::load::{self, SceneError};
+use gpt::packed::PackedScene;
+use gpt::packed::hierarchy::Traversal;
+use gpt::plan::{DeviceLimits, Plan, PlanOptions};
+use gpt::scene::{Scene, SceneSummary};
+
+use crate::common::files::Folder;
+
+const GOOD: &str = r#"
+[camera]
+position = [0, 1, 6]
+look_at = [0, 1, 0]
+vfov = 40
+[[texture]]
+name = "checks"
+type = "checker"
+a = 0.2
+b = 0.8
+[[material]]
+name = "white"
+type = "diffuse"
+reflectance = 0.5
+[[material]]
+name = "checked"
+type = "diffuse"
+reflectance = { texture = "checks" }
+[[material]]
+name = "lamp"
+type = "emissive"
+radiance = 5
+[[group]]
+name = "tree"
+[[group.shape]]
+type = "mesh"
+positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+faces = [[0, 1, 2]]
+material = "white"
+[[instance]]
+group = "tree"
+places = [[1, 0, 0, 4, 0, 1, 0, 5, 0, 0, 1, 6], [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]]
+transform = [{ scale = 2 }]
+[[light]]
+type = "environment"
+radiance = 1
+"#;
+
+fn read(text: &str) -> Result<Scene, SceneError> {
+    load::load_toml_str(text, "test.toml", Path::new(""))
+}
+
+fn complaint(from: &str, to: &str) -> String {
+    assert!(GOOD.contains(from), "{from}");
+    let error = read(&GOOD.replacen(from, to, 1)).err().unwrap_or_else(|| panic!("no complaint about {to}"));
+    format!("{error} [{}]", error.help_text().unwrap_or_default())
+}
+
+#[test]
+fn places_come_before_the_transform() {
+    let scene = read(GOOD).expect("it is right");
+    let corners: Vec<DVec3> = scene.instances[0].maps().map(|map| map.transform_point3(DVec3::X)).collect();
+    assert_eq!(corners, [DVec3::new(10.0, 10.0, 12.0), DVec3::new(-2.0, 0.0, 0.0)]);
+    let summary = SceneSummary::of(&scene);
+    assert_eq!((summary.groups, summary.group_triangles, summary.instances), (1, 1, 2));
+    assert!(summary.to_string().contains("2 of 1 groups with 1 triangles"));
+    let unseen = read(&GOOD.replace("group = \"tree\"\nplaces", "group = \"other\"\nplaces").replace(
+        "[[instance]]",
+        "[[group]]\nname = \"other\"\n[[group.shape]]\ntype = \"mesh\"\npositions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nfaces = [[0, 1, 2]]\nmaterial = \"white\"\n[[instance]]",
+    ));
+    assert!(
+        unseen.expect("it is right").warnings.iter().any(|warning| warning.contains("no [[instance]] names the group `tree`"))
+    );
+}
+
+#[test]
+fn mistakes_are_named_with_their_place() {
+    let rows = [
+        (
+            "group = \"tree\"",
+            "group = \"three\"",
+            "test.toml:31:9: instance[0].group: there is no group named `three` [did you mean `tree`",
+        ),
+        ("group = \"tree\"\n", "", "missing"),
+        ("places = [[1, 0, 0, 4,", "places = [[1, 0, 0,", "array"),
+        ("places = [[1, 0, 0, 4,", "places = [[1e19, 0, 0, 4,", "expected a number of magnitude at most 1e18"),
+        ("[-1, 0, 0, 0, 0, 1,", "[0, 0, 0, 0, 0, 1,", "number 1, counted from 0, flattens it"),
+        ("transform = [{ scale = 2 }]", "transform = [{ scale = 0 }]", "flattens the shape"),
+        ("transform = [{ scale = 2 }]", "material = \"lamp\"", "instances give no light"),
+        ("transform = [{ scale = 2 }]", "material = \"checked\"", "needs uv coordinates"),
+        ("transform = [{ scale = 2 }]", "material = \"gold\"", "there is no material named `gold`"),
+        ("transform = [{ scale = 2 }]", "file = \"a.f32\"", "either `places` or `file`"),
+        ("transform = [{ scale = 2 }]", "motion = [{ scale = -1 }]", "shrinks"),
+        ("transform = [{ scale = 2 }]", "portal = true", "unknown key `portal`"),
+        ("material = \"white\"\n[[instance", "material = \"lamp\"\n[[instance", "instances give no light"),
+        (
+            "material = \"white\"\n[[instance",
+            "material = \"white\"\nmotion = [{ scale = 2 }]\n[[instance",
+            "a mesh of a group has no motion",
+        ),
+        ("faces = [[0, 1, 2]]", "faces = [[0, 1, 3]]", "group[0].shape[0].faces[0]: the face uses position 3"),
+        (
+            "type = \"mesh\"\npositions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nfaces = [[0, 1, 2]]",
+            "type = \"sphere\"\ncenter = 0\nradius = 1",
+            "center",
+        ),
+        (
+            "type = \"mesh\"\npositions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nfaces = [[0, 1, 2]]",
+            "type = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1",
+            "a group consists of meshes, and this is a sphere",
+        ),
+        (
+            "[[group]]\nname = \"tree\"",
+            "[[group]]\nname = \"tree\"\nshape = []\n[[group]]\nname = \"tree\"",
+            "a second group is named `tree`",
+        ),
+        (
+            "[[group]]\nname = \"tree\"",
+            "[[group]]\nname = \"bush\"\nshape = []\n[[group]]\nname = \"tree\"",
+            "the group `bush` has no shapes",
+        ),
+    ];
+    for (from, to, expected) in rows {
+        let found = complaint(from, to);
+        assert!(found.contains(expected), "{to}: {found}");
+    }
+}
+
+#[test]
+fn files_of_places_are_read_and_mistakes_in_them_named() {
+    let row = [1.0_f32, 0.0, 0.0, 4.0, 0.0, 1.0, 0.0, 5.0, 0.0, 0.0, 1.0, 6.0];
+    let single: Vec<u8> = row.iter().flat_map(|number| number.to_le_bytes()).collect();
+    let double: Vec<u8> = row.iter().flat_map(|&number| f64::from(number).to_le_bytes()).collect();
+    let mut not_finite = single.clone();
+    not_finite[..4].copy_from_slice(&f32::NAN.to_le_bytes());
+    let folder = Folder::new(&[
+        ("a.f32", &single),
+        ("a.f64", &double),
+        ("a.csv", b"1,0,0,4,0,1,0,5,0,0,1,6\n"),
+        ("short.f32", &single[..47]),
+        ("none.f32", b""),
+        ("nan.f32", &not_finite),
+        ("words.txt", b"1 0 0 one\n"),
+        ("a.bin", &single),
+    ]);
+    let read = |file: &str| {
+        let places = GOOD.find("places = ").expect("it has some");
+        let end = places + GOOD[places..].find('\n').expect("a line ends");
+        let text = format!("{}file = \"{file}\"{}", &GOOD[..places], &GOOD[end..]);
+        std::fs::write(folder.path("scene.toml"), text).expect("it can be written");
+        load::load(folder.path("scene.toml").to_str())
+    };
+    for file in ["a.f32", "a.f64", "a.csv"] {
+        let scene = read(file).expect("it is right");
+        assert_eq!(scene.instances[0].places[0].translation, DVec3::new(4.0, 5.0, 6.0), "{file}");
+    }
+    for (file, expected) in [
+        ("short.f32", "no multiple of that"),
+        ("none.f32", "it holds no places"),
+        ("nan.f32", "found NaN in place 0"),
+        ("words.txt", "line 1: `one` is no number"),
+        ("a.bin", "a file of places ends in .f32, .f64, .csv or .txt"),
+        ("missing.f32", "there is no file"),
+    ] {
+        let error = read(file).err().unwrap_or_else(|| panic!("no complaint about {file}"));
+        assert!(error.to_string().contains(expected), "{file}: {error}");
+    }
+}
+
+/// A tree is stored once however often it stands: 96 bytes for an instance, 48 for its leaf, and its share of the nodes.
+#[test]
+fn memory_grows_by_instances_and_not_by_triangles() {
+    let bytes = |trees: u32| {
+        let scene = scenes::forest(trees).expect("it is right");
+        let packed = PackedScene::new(&scene).expect("it packs");
+        let plan = Plan::new(&scene, &packed, &DeviceLimits::default(), &PlanOptions::default()).expect("it fits");
+        assert_eq!(packed.instances.len(), trees as usize);
+        ["primitives", "hierarchy", "instances"].map(|array| plan.memory.bytes(array)).iter().sum::<u64>()
+    };
+    let (few, many) = (bytes(10), bytes(2_010));
+    let each = (many - few) as f64 / 2_000.0;
+    assert!((96.0 + 48.0..220.0).contains(&each), "{each} bytes for an instance");
+    // The control: a tree by itself takes thousands of times as much.
+    assert!(few > 48 * TREE_TRIANGLES as u64);
+}
+
+#[test]
+fn ray_queries_are_refused_with_what_to_do() {
+    let error = PackedScene::for_traversal(&read(GOOD).expect("it is right"), Traversal::RayQuery).err().expect("it is refused");
+    assert!(error.to_string().contains("without `--traversal ray-query` it renders all the same"), "{error}");
+}
