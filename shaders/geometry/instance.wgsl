@@ -16,6 +16,11 @@ fn is_instance(words: PrimitiveWords) -> bool {
     return primitive_kind(words.w0.w) == KIND_INSTANCE;
 }
 
+// Of a primitive's record that stands for one.
+fn instance_number(words: PrimitiveWords) -> u32 {
+    return primitive_material(words.w0.w);
+}
+
 // The node at which its group's tree begins.
 fn instance_root(words: InstanceWords) -> u32 {
     return bitcast<u32>(words.w0.w) & ~INSTANCE_IS_MIRRORED;
@@ -58,6 +63,10 @@ struct Placement {
     // In place of the group's own, or NONE.
     material: u32,
     words: InstanceWords,
+#if MOTION
+    // About the place; none where it rests.
+    motion: Motion,
+#endif
 }
 
 fn instance_placement(instance: u32) -> Placement {
@@ -68,6 +77,13 @@ fn instance_placement(instance: u32) -> Placement {
         placement.words = instance_words(instance);
         placement.mirrored = (bitcast<u32>(placement.words.w0.w) & INSTANCE_IS_MIRRORED) != 0u;
         placement.material = bitcast<u32>(placement.words.w1.w);
+#if MOTION
+        placement.motion.linear = mat3x3<f32>(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
+        let moving = bitcast<u32>(placement.words.w2.w);
+        if moving != NONE {
+            placement.motion = motion_at_path_time(moving);
+        }
+#endif
     }
     return placement;
 }
@@ -76,13 +92,10 @@ fn placed_point(placement: Placement, p: vec3<f32>) -> vec3<f32> {
     let words = placement.words;
     let turned = p * mat3x3<f32>(words.w3.xyz, words.w4.xyz, words.w5.xyz);
 #if MOTION
-    let moving = bitcast<u32>(words.w2.w);
-    if moving != NONE {
-        let motion = motion_at_path_time(moving);
-        return (motion.linear * turned + motion.place) + instance_place(words);
-    }
-#endif
+    return (placement.motion.linear * turned + placement.motion.place) + instance_place(words);
+#else
     return turned + instance_place(words);
+#endif
 }
 
 // The sum of the magnitudes that rounding of placed points is relative to, of a ray's way to the group's space and back as well.
@@ -93,12 +106,10 @@ fn placed_magnitude(placement: Placement, size: vec3<f32>) -> vec3<f32> {
     let there = size * forward;
     let magnitude = there + (there * back) * forward;
 #if MOTION
-    let moving = bitcast<u32>(words.w2.w);
-    if moving != NONE {
-        return moved_magnitude(motion_at_path_time(moving), magnitude) + abs(instance_place(words));
-    }
-#endif
+    return moved_magnitude(placement.motion, magnitude) + abs(instance_place(words));
+#else
     return magnitude + abs(instance_place(words));
+#endif
 }
 
 // By the inverse transpose, of length 1, on the side of the surface on which it is in the group; 0 stays 0: no normal.
@@ -109,10 +120,8 @@ fn placed_normal(placement: Placement, n: vec3<f32>) -> vec3<f32> {
     let words = placement.words;
     let turned = mat3x3<f32>(words.w0.xyz, words.w1.xyz, words.w2.xyz) * n;
 #if MOTION
-    let moving = bitcast<u32>(words.w2.w);
-    if moving != NONE {
-        return normalize(moved_normal(motion_at_path_time(moving), turned));
-    }
-#endif
+    return normalize(moved_normal(placement.motion, turned));
+#else
     return normalize(turned);
+#endif
 }

@@ -115,7 +115,7 @@ fn test_primitive(traversal: ptr<function, Traversal>, stack: ptr<function, arra
     let words = primitive_words(primitive);
 #if INSTANCES
     if is_instance(words) {
-        enter_instance(traversal, stack, primitive_material(words.w0.w));
+        enter_instance(traversal, stack, instance_number(words));
         return;
     }
 #endif

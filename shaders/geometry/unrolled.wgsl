@@ -1,5 +1,4 @@
 // Closest hit and occlusion without any hierarchy: every primitive is a constant of the code.
-#import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/constants.wgsl
 #import geometry/prepared_ray.wgsl

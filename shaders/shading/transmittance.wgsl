@@ -1,7 +1,6 @@
 // What a surface lets through of the light that a shadow ray brings: the weight of its null parts. src/reference/emission.rs looks weights up alike.
 #import core/layout.wgsl
 #import core/math.wgsl
-#import geometry/records.wgsl
 #import geometry/scene.wgsl
 #import shading/surface.wgsl
 #if BLENDS

@@ -1,6 +1,5 @@
 // Evaluates the vertices found: emission, next event estimation, the next direction, Russian roulette.
 #import core/layout.wgsl
-#import core/math.wgsl
 #import core/parameters.wgsl
 #if MOTION
 #import geometry/motion.wgsl

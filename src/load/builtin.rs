@@ -42,6 +42,7 @@ const SCENES: [(&str, &str); 26] = [
     ("bazaar", include_str!("../../scenes/bazaar.toml")),
     ("arbour", include_str!("../../scenes/arbour.toml")),
     ("vitrine", include_str!("../../scenes/vitrine.toml")),
+    ("grove", include_str!("../../scenes/grove.toml")),
     ("model-town", include_str!("../../scenes/model-town.toml")),
     ("furnace-lambert", include_str!("../../scenes/furnace-lambert.toml")),
     ("furnace-box", include_str!("../../scenes/furnace-box.toml")),

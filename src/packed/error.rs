@@ -7,10 +7,6 @@ pub enum PackError {
     TooManyPrimitives { found: usize, limit: usize },
     #[error("the scene has {found} infinite planes; {limit} are possible")]
     TooManyPlanes { found: usize, limit: usize },
-    #[error(
-        "the scene has instances, and acceleration structures hold none of this program's; without `--traversal ray-query` it renders all the same"
-    )]
-    InstancesByRayQuery,
     #[error("the scene's textures take {} MiB, and kernels can number {} MiB", words >> 18, u32::MAX >> 18)]
     TooManyTexels { words: usize },
     #[error("the blend `{material}` and those before it have more than {limit} weights along their branches")]

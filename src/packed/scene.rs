@@ -72,7 +72,12 @@ impl PackedScene {
         let (hierarchy, order) = tree::build(&world, traversal)?;
         let packed = Self {
             primitives: order.par_iter().map(|slot| slot.pack(&world)).collect(),
-            instances: world.instances.par_iter().map(|instance| instance.pack(hierarchy.roots[instance.group])).collect(),
+            // Without nodes there are no roots; the plan refuses such a scene.
+            instances: world
+                .instances
+                .par_iter()
+                .map(|instance| instance.pack(hierarchy.roots.get(instance.group).copied().unwrap_or(NONE)))
+                .collect(),
             attributes: world.attributes,
             hierarchy,
             materials,

@@ -57,10 +57,9 @@ pub fn build(world: &WorldGeometry, traversal: Traversal) -> Result<(Hierarchy, 
     let slot = |&index: &usize| Slot::Primitive(index as u32);
     let (hierarchy, mut order) = match traversal {
         Traversal::Bvh => of_two_levels(world, &inside),
-        Traversal::RayQuery if !world.instances.is_empty() => return Err(PackError::InstancesByRayQuery),
         Traversal::RayQuery => {
             let (boxes, order) = ray_query::build(primitives, &inside);
-            (Hierarchy::of_boxes(boxes, held as u32), order.iter().map(|&place| slot(&inside[place])).collect())
+            (Hierarchy::of_boxes(boxes, inside.len() as u32), order.iter().map(|&place| slot(&inside[place])).collect())
         }
     };
     order.extend(outside.iter().map(slot));

@@ -16,6 +16,9 @@ pub(super) fn check(packed: &PackedScene, limits: &DeviceLimits) -> Result<(), P
     if packed.moves() {
         return refuse("its shapes move, and acceleration structures hold a scene at rest".to_owned());
     }
+    if !packed.instances.is_empty() {
+        return refuse("it has instances, which this program keeps in a hierarchy of its own".to_owned());
+    }
     let held = u64::from(packed.hierarchy.primitive_count);
     let boxes = packed.hierarchy.boxes.len() as u64;
     let triangles = held - boxes;

@@ -16,6 +16,7 @@ const OF_DEVICES: [&str; 25] = [
     "ATTRIBUTE_CHUNKS",
     "CLAMP",
     "FILM_TEXTURE",
+    "INSTANCE_CHUNKS",
     "LAYER_ALBEDO",
     "LAYER_DEPTH",
     "LAYER_DIRECT",
@@ -65,6 +66,7 @@ fn built_in_scenes_use_every_switch() {
     let with_subgroups = DeviceLimits { subgroups: true, ..hardware.clone() };
     let with_ray_queries = DeviceLimits { ray_queries: Some(RayQueryLimits { max_primitives: 1 << 24 }), ..hardware.clone() };
     let small_bindings = DeviceLimits { max_array: 64 << 10, max_storage_buffers: 100, ..hardware.clone() };
+    let tiny_bindings = DeviceLimits { max_array: 8 << 10, ..small_bindings.clone() };
     let by_query = PlanOptions { traversal: TraversalChoice::RayQuery, ..PlanOptions::default() };
     let of_some_pixels = PlanOptions { pixel_list: true, ..PlanOptions::default() };
     let mut anywhere = scenes;
@@ -73,6 +75,7 @@ fn built_in_scenes_use_every_switch() {
         (with_subgroups, of_some_pixels),
         (with_ray_queries, by_query),
         (small_bindings, PlanOptions::default()),
+        (tiny_bindings, PlanOptions::default()),
     ] {
         anywhere.extend(compiled_in(&built_in, &limits, &options));
     }

@@ -7,10 +7,10 @@ use gpt::bench::scenes::{self, TREE_TRIANGLES};
 use gpt::load::{self, SceneError};
 use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
-use gpt::plan::{DeviceLimits, Plan, PlanOptions};
+use gpt::plan::{DeviceLimits, Plan, PlanOptions, RayQueryLimits, TraversalChoice};
 use gpt::scene::{Scene, SceneSummary};
 
-use crate::common::files::Folder;
+use crate::common::files::folder_with;
 
 const GOOD: &str = r#"
 [camera]
@@ -137,7 +137,7 @@ fn files_of_places_are_read_and_mistakes_in_them_named() {
     let double: Vec<u8> = row.iter().flat_map(|&number| f64::from(number).to_le_bytes()).collect();
     let mut not_finite = single.clone();
     not_finite[..4].copy_from_slice(&f32::NAN.to_le_bytes());
-    let folder = Folder::new(&[
+    let folder = folder_with(&[
         ("a.f32", &single),
         ("a.f64", &double),
         ("a.csv", b"1,0,0,4,0,1,0,5,0,0,1,6\n"),
@@ -151,8 +151,8 @@ fn files_of_places_are_read_and_mistakes_in_them_named() {
         let places = GOOD.find("places = ").expect("it has some");
         let end = places + GOOD[places..].find('\n').expect("a line ends");
         let text = format!("{}file = \"{file}\"{}", &GOOD[..places], &GOOD[end..]);
-        std::fs::write(folder.path("scene.toml"), text).expect("it can be written");
-        load::load(folder.path("scene.toml").to_str())
+        std::fs::write(folder.path().join("scene.toml"), text).expect("it can be written");
+        load::load(folder.path().join("scene.toml").to_str())
     };
     for file in ["a.f32", "a.f64", "a.csv"] {
         let scene = read(file).expect("it is right");
@@ -190,6 +190,10 @@ fn memory_grows_by_instances_and_not_by_triangles() {
 
 #[test]
 fn ray_queries_are_refused_with_what_to_do() {
-    let error = PackedScene::for_traversal(&read(GOOD).expect("it is right"), Traversal::RayQuery).err().expect("it is refused");
+    let scene = read(GOOD).expect("it is right");
+    let packed = PackedScene::for_traversal(&scene, Traversal::RayQuery).expect("it packs");
+    let limits = DeviceLimits { ray_queries: Some(RayQueryLimits { max_primitives: 1 << 24 }), ..DeviceLimits::default() };
+    let options = PlanOptions { traversal: TraversalChoice::RayQuery, ..PlanOptions::default() };
+    let error = Plan::new(&scene, &packed, &limits, &options).expect_err("it is refused");
     assert!(error.to_string().contains("without `--traversal ray-query` it renders all the same"), "{error}");
 }

@@ -119,6 +119,10 @@ type = "diffuse"
 reflectance = { texture = "checks", factor = [0.5, 1, 0.25] }
 emission = { kelvin = 3000, factor = 0.5 }
 [[material]]
+name = "grey"
+type = "diffuse"
+reflectance = 0.5
+[[material]]
 name = "lamp"
 type = "emissive"
 radiance = "#ffccaa"
@@ -165,6 +169,21 @@ material = "plain"
 keyframes = [{ frame = 0, scale = 1 }, { frame = 0.5, scale = [1, 2, 1] }]
 interpolation = "linear"
 node = "hand"
+[[group]]
+name = "tree"
+[[group.shape]]
+type = "mesh"
+positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+faces = [[0, 1, 2]]
+uvs = [[0, 0], [1, 0], [0, 1]]
+material = "grey"
+transform = [{ scale = 0.5 }]
+[[instance]]
+group = "tree"
+places = [[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0], [-1, 0, 0, 2, 0, 1, 0, 0, 0, 0, 1, 0]]
+transform = [{ translate = [0, 1, 0] }]
+material = "grey"
+motion = [{ rotate = [0, 1, 0], degrees = 20 }]
 [[light]]
 type = "environment"
 radiance = 0.3

@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use gpt::plan::chunks::{ATTRIBUTES, Chunks, NODES, PRIMITIVES, TEXELS};
+use gpt::plan::chunks::{ATTRIBUTES, Chunks, INSTANCES, NODES, PRIMITIVES, TEXELS};
 use gpt::shader::sources;
 
 /// A file as far as names go.
@@ -113,7 +113,7 @@ type Files = BTreeMap<String, Names>;
 /// The embedded files, and those that plans write.
 fn all_files() -> Files {
     let mut texts: BTreeMap<String, String> = sources::files().map(|(name, text)| (name.to_owned(), text.to_owned())).collect();
-    for array in [PRIMITIVES, NODES, ATTRIBUTES, TEXELS] {
+    for array in [PRIMITIVES, NODES, ATTRIBUTES, INSTANCES, TEXELS] {
         let chunks = Chunks::new(array, 2500 * array.record_bytes(), 1000 * array.record_bytes());
         texts.insert(array.file.to_owned(), chunks.wgsl());
     }

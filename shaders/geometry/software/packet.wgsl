@@ -139,7 +139,7 @@ fn traverse_together(
             let has_rest = primitive != last;
             // A loop, because it ends where a branch would run with all lanes masked.
             for (var entering = enters; entering; entering = false) {
-                let instance = primitive_material(words.w0.w);
+                let instance = instance_number(words);
                 let record = shared_instance(instance);
                 let local = ray_in_instance(Ray(world_ray.origin, world_ray.direction), record);
                 ray = prepare_ray_in_instance(local, instance);

@@ -49,6 +49,10 @@ impl PackedScene {
 
     /// Each begins at the root of a group's tree.
     pub(super) fn check_instances(&self) -> Check {
+        if self.hierarchy.traversal == Traversal::RayQuery {
+            // No kernel reads them.
+            return Ok(());
+        }
         let is_root = |instance: &PackedInstance| self.hierarchy.roots.binary_search(&instance.root()).is_ok();
         match self.instances.iter().position(|instance| !is_root(instance)) {
             Some(index) => Err(format!("instance {index} begins at node {}, no root", self.instances[index].root())),

@@ -1,6 +1,7 @@
 //! Meshes that are stored once and stand in many places: the device against the reference, and both against the same scene with copies.
 
 use std::fmt::Write as _;
+use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
@@ -12,6 +13,9 @@ use super::strategies::compare_unequal;
 use super::{assert_agrees, assert_agrees_on};
 use crate::common::device::{DEVICE, with_limits};
 use crate::common::pixel_bits::pixel_bits;
+
+/// The folder of the built-in scenes, whose textures are used here too.
+const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
 
 /// A floor under a lamp and a sky; groups and instances are added.
 const STAGE: &str = r#"
@@ -33,10 +37,9 @@ b = [0.1, 0.3, 0.8]
 scale = [8, 6]
 [[texture]]
 name = "bumps"
-type = "checker"
-a = [0.7, 0.5, 0.8]
-b = [0.4, 0.6, 0.85]
-scale = [9, 5]
+type = "image"
+file = "textures/hammered.png"
+color_space = "linear"
 [[material]]
 name = "white"
 type = "diffuse"
@@ -127,7 +130,7 @@ fn ball(side: usize) -> String {
 /// Lines that follow the stage.
 fn stage(lines: &str) -> Scene {
     let text = format!("{STAGE}{lines}");
-    load::load_toml_str(&text, "instances.toml", std::path::Path::new("")).unwrap_or_else(|error| panic!("{error}\n{text}"))
+    load::load_toml_str(&text, "instances.toml", Path::new(SCENES)).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
 /// A smooth ball of a material, and a flat fin of another.
