@@ -88,27 +88,36 @@ fn instance_placement(instance: u32) -> Placement {
     return placement;
 }
 
-fn placed_point(placement: Placement, p: vec3<f32>) -> vec3<f32> {
+fn placed_vector(placement: Placement, v: vec3<f32>) -> vec3<f32> {
     let words = placement.words;
-    let turned = p * mat3x3<f32>(words.w3.xyz, words.w4.xyz, words.w5.xyz);
+    let turned = v * mat3x3<f32>(words.w3.xyz, words.w4.xyz, words.w5.xyz);
 #if MOTION
-    return (placement.motion.linear * turned + placement.motion.place) + instance_place(words);
+    return placement.motion.linear * turned;
 #else
-    return turned + instance_place(words);
+    return turned;
 #endif
 }
 
-// The sum of the magnitudes that rounding of placed points is relative to, of a ray's way to the group's space and back as well.
+fn placed_point(placement: Placement, p: vec3<f32>) -> vec3<f32> {
+#if MOTION
+    return (placed_vector(placement, p) + placement.motion.place) + instance_place(placement.words);
+#else
+    return placed_vector(placement, p) + instance_place(placement.words);
+#endif
+}
+
+// What rounding of placed points is relative to beside their own magnitudes, of a ray's way to the group's space and back as well. The place adds
+// nothing: both ways go by the same one. Some 4 rounding errors come together on either way, and POINT_ERROR stands for 16.
 fn placed_magnitude(placement: Placement, size: vec3<f32>) -> vec3<f32> {
     let words = placement.words;
     let forward = mat3x3<f32>(abs(words.w3.xyz), abs(words.w4.xyz), abs(words.w5.xyz));
     let back = mat3x3<f32>(abs(words.w0.xyz), abs(words.w1.xyz), abs(words.w2.xyz));
     let there = size * forward;
-    let magnitude = there + (there * back) * forward;
+    let magnitude = 0.5 * (there + (there * back) * forward);
 #if MOTION
-    return moved_magnitude(placement.motion, magnitude) + abs(instance_place(words));
+    return moved_magnitude(placement.motion, magnitude);
 #else
-    return magnitude + abs(instance_place(words));
+    return magnitude;
 #endif
 }
 

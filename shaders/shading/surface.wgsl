@@ -6,6 +6,8 @@
 #import shading/shapes.wgsl
 #if INSTANCES
 #import geometry/instance.wgsl
+#import shading/shape/triangle.wgsl
+#import shading/shape_point.wgsl
 #if ATTRIBUTES
 #import shading/attributes.wgsl
 #endif
@@ -74,26 +76,27 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
     let kind = primitive_kind(words.w0.w);
     let wo = -ray.direction;
 #if INSTANCES
-    var p0 = words.w0;
-    var p1 = words.w1;
-    var p2 = words.w2;
+    let p0 = words.w0;
+    let p1 = words.w1;
+    let p2 = words.w2;
     var material = primitive_material(p0.w);
     let placement = instance_placement(hit.instance);
     var magnitude = vec3<f32>(0.0);
+    var point: ShapePoint;
     if placement.exists {
-        // Groups consist of triangles.
+        // Groups consist of triangles. Their edges are placed by themselves: the difference of placed vertices has lost digits.
         magnitude = placed_magnitude(placement, max(abs(p0.xyz), max(abs(p1.xyz), abs(p2.xyz))));
-        p0 = vec4<f32>(placed_point(placement, p0.xyz), p0.w);
-        p1 = vec4<f32>(placed_point(placement, p1.xyz), p1.w);
-        p2 = vec4<f32>(placed_point(placement, p2.xyz), p2.w);
+        let edge_u = placed_vector(placement, p1.xyz - p0.xyz);
+        point = triangle_point_by_edges(hit, placed_point(placement, p0.xyz), edge_u, placed_vector(placement, p2.xyz - p0.xyz));
+        if placement.mirrored {
+            // Fronts stay on the side on which they are in the group.
+            point.normal = -point.normal;
+        }
         if placement.material != NONE {
             material = placement.material;
         }
-    }
-    var point = shape_point(kind, ray, hit, p0.xyz, p1.xyz, p2.xyz);
-    if placement.mirrored {
-        // Fronts stay on the side on which they are in the group.
-        point.normal = -point.normal;
+    } else {
+        point = shape_point(kind, ray, hit, p0.xyz, p1.xyz, p2.xyz);
     }
 #else
     let p0 = words.w0;

@@ -11,9 +11,11 @@ fn triangle_error(edge_u: vec3<f32>, edge_v: vec3<f32>) -> f32 {
 }
 
 fn triangle_point(ray: Ray, hit: Hit, p0: vec3<f32>, p1: vec3<f32>, p2: vec3<f32>) -> ShapePoint {
-    let edge_u = p1 - p0;
-    let edge_v = p2 - p0;
-    return flat_point(p0, edge_u, edge_v, vec2<f32>(hit.u, hit.v), 0.5, triangle_error(edge_u, edge_v));
+    return triangle_point_by_edges(hit, p0, p1 - p0, p2 - p0);
+}
+
+fn triangle_point_by_edges(hit: Hit, vertex: vec3<f32>, edge_u: vec3<f32>, edge_v: vec3<f32>) -> ShapePoint {
+    return flat_point(vertex, edge_u, edge_v, vec2<f32>(hit.u, hit.v), 0.5, triangle_error(edge_u, edge_v));
 }
 
 fn sample_triangle(vertex: vec3<f32>, edge_u: vec3<f32>, edge_v: vec3<f32>, u: f32, v: f32) -> ShapePoint {

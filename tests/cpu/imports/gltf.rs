@@ -205,6 +205,26 @@ fn copies_of_instances_stand_where_they_say() {
     assert_eq!(places, [glam::DVec3::X, glam::DVec3::Y * 2.0, glam::DVec3::Z * 3.0]);
 }
 
+/// Many copies of a mesh, by an extension and by nodes, are stored once; a mesh that gives light is not.
+#[test]
+fn meshes_that_stand_in_many_places_become_instances() {
+    let mut file = File::new();
+    let places: Vec<f32> = (0..1002).flat_map(|index| [index as f32, 0.0, 0.5]).collect();
+    let translations = file.add("VEC3", &places);
+    file.root["nodes"][0]["extensions"] = json!({ "EXT_mesh_gpu_instancing": { "attributes": { "TRANSLATION": translations } } });
+    let nodes = file.root["nodes"].as_array_mut().expect("a list");
+    nodes.push(json!({ "mesh": 0, "scale": [-2.0, 1.0, 1.0] }));
+    file.root["scenes"][0]["nodes"] = json!([0, 1, 2, 3]);
+    let scene = file.read();
+    assert_eq!((scene.shapes.len(), scene.groups.len(), scene.instance_count()), (0, 1, 1003));
+    let maps: Vec<glam::DAffine3> = scene.instances[0].maps().collect();
+    assert_eq!(maps[7].translation, glam::DVec3::new(7.0, 0.0, 0.5));
+    assert_eq!(maps[1002].matrix3.determinant(), -2.0);
+    file.root["materials"][0]["emissiveFactor"] = json!([1.0, 1.0, 1.0]);
+    let lamps = file.read();
+    assert_eq!((lamps.shapes.len(), lamps.instance_count()), (1003, 0));
+}
+
 #[test]
 fn strips_indices_and_sparse_values_are_read() {
     let mut file = File::new();

@@ -156,6 +156,38 @@ fn shapes_and_lights_stand_where_they_are_put() {
     assert!(matches!(&scene.lights[3], Light::Environment(e) if matches!(e.radiance, EnvironmentRadiance::Constant(_))));
 }
 
+/// A group of meshes is stored once where that saves enough, and stands where copies would stand.
+#[test]
+fn groups_of_meshes_become_instances() {
+    let scene_of = |count: usize, more: &str| {
+        let instances: String = (0..count)
+            .map(|index| {
+                format!(
+                    r#"<shape type="instance"><ref id="group"/><transform name="to_world"><scale x="2"/><translate y="{index}"/></transform></shape>"#
+                )
+            })
+            .collect();
+        let own = r#"<transform name="to_world"><translate x="3"/></transform>"#;
+        read(&format!(r#"<shape type="shapegroup" id="group"><shape type="cylinder">{own}</shape>{more}</shape>{instances}"#))
+    };
+    let (many, few) = (scene_of(6, ""), scene_of(2, ""));
+    assert_eq!((many.groups.len(), many.instance_count(), few.groups.len()), (1, 6, 0));
+    assert_eq!(many.groups[0].name, "group");
+    let placed = |scene: &gpt::scene::Scene, number: usize| {
+        let map = scene.instances[0].maps().nth(number).expect("it is there") * scene.groups[0].shapes[0].transform.to_affine();
+        map.transform_point3(glam::DVec3::X)
+    };
+    let before = few.shapes.len() - 2;
+    for number in 0..2 {
+        let copy = few.shapes[before + number].transform.to_affine().transform_point3(glam::DVec3::X);
+        assert!((placed(&many, number) - copy).length() < 1e-12, "{copy}");
+    }
+    // What is no mesh, or gives light, is copied.
+    for more in [r#"<shape type="sphere"/>"#, r#"<shape type="cylinder"><emitter type="area"/></shape>"#] {
+        assert_eq!(scene_of(6, more).groups.len(), 0, "{more}");
+    }
+}
+
 /// The direction from which a map's texel comes, before and after the scene is turned so that the map stands upright.
 #[test]
 fn environment_maps_that_lie_turn_the_scene() {

@@ -182,7 +182,6 @@ fn instances_agree_path_by_path() {
     ];
     for (index, (name, lines)) in cases.iter().enumerate() {
         assert_agrees(name, &stage(lines), &ways()[index % 2]);
-        assert_agrees(&format!("{name}, the other way"), &stage(lines), &ways()[1 - index % 2]);
     }
 }
 
