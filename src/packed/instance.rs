@@ -6,7 +6,7 @@ use super::bvh4::{Child, Node};
 use super::constants::NONE;
 use super::grid::Box3;
 use super::motion::PackedMotion;
-use super::primitive::{Primitive, WorldPrimitive};
+use super::primitive::{KIND_INSTANCE, Primitive, WorldPrimitive};
 use crate::math::outward;
 use crate::scene::MaterialId;
 use crate::shader::shared::shared_constants;
@@ -17,8 +17,6 @@ const ROUNDING: f64 = 4e-6;
 shared_constants!(constants {
     /// Words of an instance's record.
     pub const INSTANCE_RECORD_WORDS: u32 = (size_of::<PackedInstance>() / 16) as u32;
-    /// What stands in a primitive's record for its kind where it is an instance, the number of which stands in place of the material.
-    pub const KIND_INSTANCE: u32 = 7;
     /// Flag beside the root of an instance that turns left hands into right hands.
     pub(super) const INSTANCE_IS_MIRRORED: u32 = 1 << 31;
 });
@@ -133,13 +131,6 @@ pub fn leaf_record(instance: u32) -> Primitive {
         light: NONE,
         p2: [0.0; 3],
         attributes: NONE,
-    }
-}
-
-impl Primitive {
-    /// The number of the instance that it stands for.
-    pub fn instance(&self) -> Option<u32> {
-        (self.kind() == KIND_INSTANCE).then(|| self.material())
     }
 }
 

@@ -4,7 +4,6 @@ use glam::Vec3;
 
 use super::attributes::TriangleAttributes;
 use super::constants::NONE;
-use super::instance::KIND_INSTANCE;
 use super::shape::{PrimitiveGeometry, PrimitiveKind};
 use crate::shader::shared::shared_constants;
 
@@ -43,6 +42,8 @@ shared_constants!(constants {
     pub const PRIMITIVE_RECORD_WORDS: u32 = (size_of::<Primitive>() / 16) as u32;
     /// Words of the record of a triangle's attributes.
     pub const ATTRIBUTE_RECORD_WORDS: u32 = (size_of::<TriangleAttributes>() / 16) as u32;
+    /// What stands in the place of the kind of an instance, whose number stands in place of the material.
+    pub(super) const KIND_INSTANCE: u32 = 7;
     /// Flag beside the kind of a primitive that moves.
     const PRIMITIVE_MOVES: u32 = 1 << 31;
 });
@@ -100,5 +101,10 @@ impl Primitive {
 
     pub fn material(&self) -> u32 {
         self.kind_and_material & 0x0fff_ffff
+    }
+
+    /// The number of the instance that it stands for.
+    pub fn instance(&self) -> Option<u32> {
+        (self.kind() == KIND_INSTANCE).then(|| self.material())
     }
 }

@@ -4,9 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::check::Check;
-use super::material::{MaterialId, MaterialKind};
-use super::model::Scene;
+use super::material::MaterialId;
 use super::motion::Motion;
 use super::shape::{Geometry, Shape};
 use super::transform::Transform;
@@ -95,78 +93,10 @@ pub fn is_singular(matrix: DMat3) -> bool {
     !(volume.is_normal() && volume > 1e-12 * lengths)
 }
 
-impl Scene {
-    /// How many instances there are, over all entries.
-    pub fn instance_count(&self) -> usize {
-        self.instances.iter().map(|instances| instances.places.len()).sum()
-    }
-
-    /// How reports call the shape of this number, behind which instances are counted.
-    pub fn label_of(&self, number: usize) -> String {
-        if let Some(shape) = self.shapes.get(number) {
-            return shape.label.clone();
-        }
-        let mut left = number - self.shapes.len();
-        for entry in &self.instances {
-            match left.checked_sub(entry.places.len()) {
-                None if entry.places.len() == 1 => return entry.label.clone(),
-                None => return format!("{} number {left}", entry.label),
-                Some(further) => left = further,
-            }
-        }
-        format!("instance {left} beyond the last")
-    }
-
-    /// What is wrong with a group, whose shapes have been checked by themselves.
-    pub(super) fn check_group(&self, group: &Group) -> Check {
-        if group.shapes.iter().any(|shape| !matches!(shape.geometry, Geometry::Mesh(_))) {
-            return Err("a group consists of meshes; other shapes stand in the scene by themselves".into());
-        }
-        if group.shapes.iter().any(|shape| shape.motion.is_some() || shape.portal) {
-            return Err("a mesh of a group neither moves by itself nor is a portal; its instances can move".into());
-        }
-        Ok(())
-    }
-
-    /// What is wrong with instances of a group, in words. `textured` and `emits` are of each material.
-    pub(crate) fn check_instances(&self, instances: &Instances, textured: &[bool], emits: &[bool]) -> Check {
-        let Some(group) = self.groups.get(instances.group) else { return Err(format!("there is no group {}", instances.group)) };
-        if let Some(place) = instances.maps().position(|map| !map.is_finite() || is_singular(map.matrix3)) {
-            return Err(format!("the transform of number {place}, counted from 0, flattens it or leaves the range of numbers"));
-        }
-        let lamp = match instances.material {
-            Some(material) if material >= self.materials.len() => return Err(format!("there is no material {material}")),
-            Some(material) => emits[material].then_some(material),
-            None => group.shapes.iter().flat_map(Shape::materials).find(|&id| emits[id]),
-        };
-        if let Some(lamp) = lamp {
-            let name = &self.materials[lamp].name;
-            return Err(format!("the material `{name}` emits, and instances give no light: write lamps as shapes"));
-        }
-        let lacks_uv = || group.shapes.iter().find_map(|shape| shape.geometry.lacks_uv());
-        if let Some(material) = instances.material
-            && textured[material]
-            && let Some(lacking) = lacks_uv()
-        {
-            let (name, group) = (&self.materials[material].name, &group.name);
-            return Err(format!(
-                "the material `{name}` uses a texture, which needs uv coordinates, and of a mesh of `{group}`: {lacking}"
-            ));
-        }
-        // The motion does not depend on where an instance stands, but for what it turns about.
-        instances.motion.as_ref().map_or(Ok(()), |motion| motion.check(self.camera.shutter)).map_err(|(_, message)| message)
-    }
-
-    /// No ray meets instances that are made of nothing.
-    pub(crate) fn are_visible(&self, instances: &Instances) -> bool {
-        !instances.material.is_some_and(|id| matches!(self.materials[id].kind, MaterialKind::Pass))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Mesh, TransformStep};
+    use crate::scene::TransformStep;
 
     fn instances(places: Vec<DAffine3>) -> Instances {
         Instances {
@@ -197,37 +127,5 @@ mod tests {
             assert!(is_singular(DMat3::from_diagonal(flat)), "{flat}");
         }
         assert!(is_singular(DMat3::from_cols(DVec3::X, DVec3::Y, DVec3::X + DVec3::Y)));
-    }
-
-    #[test]
-    fn what_cannot_be_an_instance_is_named() {
-        let mesh =
-            Mesh { positions: vec![glam::Vec3::ZERO, glam::Vec3::X, glam::Vec3::Y], faces: vec![[0, 1, 2]], ..Mesh::default() };
-        let shape = Shape {
-            label: "shape".into(),
-            geometry: Geometry::Mesh(Arc::new(mesh)),
-            material: 0,
-            transform: Transform::default(),
-            motion: None,
-            portal: false,
-        };
-        let material = crate::scene::Material {
-            name: "lamp".into(),
-            kind: MaterialKind::Emissive,
-            normal_map: None,
-            emission: None,
-            two_sided: true,
-        };
-        let scene = Scene {
-            materials: vec![material],
-            groups: vec![Group { name: "tree".into(), shapes: vec![shape] }],
-            ..Scene::default()
-        };
-        let check = |instances: &Instances, emits| scene.check_instances(instances, &[false], &[emits]).err().unwrap_or_default();
-        assert_eq!(check(&instances(vec![DAffine3::IDENTITY]), false), "");
-        assert!(check(&instances(vec![DAffine3::IDENTITY]), true).contains("give no light"));
-        assert!(check(&instances(vec![DAffine3::IDENTITY, DAffine3::ZERO]), false).contains("number 1"));
-        assert!(check(&Instances { group: 1, ..instances(vec![]) }, false).contains("no group 1"));
-        assert!(check(&Instances { material: Some(7), ..instances(vec![]) }, false).contains("no material 7"));
     }
 }

@@ -19,6 +19,7 @@ pub mod light;
 pub mod material;
 mod model;
 pub mod motion;
+mod placed_groups;
 mod placement;
 mod precision;
 pub mod settings;

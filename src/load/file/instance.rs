@@ -24,6 +24,7 @@ pub struct GroupEntry {
     /// What instances call it.
     name: Located<String>,
     /// Its meshes, each a `[[group.shape]]` of type `mesh` in the group's own space.
+    #[schemars(extend("minItems" = 1))]
     shape: Vec<Located<ShapeEntry>>,
 }
 
@@ -46,6 +47,10 @@ pub struct InstanceEntry {
     material: Option<Located<String>>,
     /// Steps of `scale`, `rotate` and `translate` reached at shutter time 1, along the world's axes and about where each instance has the
     /// group's (0, 0, 0).
+    #[schemars(extend("allOf" = [{ "not": { "anyOf": [
+        { "type": "object", "required": ["matrix"] },
+        { "type": "array", "contains": { "type": "object", "required": ["matrix"] } },
+    ] } }]))]
     motion: Option<Located<TransformEntry>>,
 }
 
@@ -142,7 +147,7 @@ impl Resolver<'_> {
 }
 
 fn in_range(path: &Path, numbers: &[f64]) -> Result<(), SceneError> {
-    match numbers.iter().position(|number| !(number.abs() <= LARGEST)) {
+    match numbers.iter().position(|number| number.is_nan() || number.abs() > LARGEST) {
         None => Ok(()),
         Some(at) => {
             let (place, number) = (at / PLACE_NUMBERS, numbers[at]);

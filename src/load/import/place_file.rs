@@ -89,7 +89,7 @@ fn of_lines(bytes: &[u8]) -> Result<Vec<f64>, String> {
 
 /// The places as a file in double precision, which comes back bit for bit.
 pub fn write_places(places: &[DAffine3]) -> Vec<u8> {
-    places.iter().flat_map(|place| place_rows(place)).flat_map(f64::to_le_bytes).collect()
+    places.iter().flat_map(place_rows).flat_map(f64::to_le_bytes).collect()
 }
 
 /// The numbers of a place, row by row.

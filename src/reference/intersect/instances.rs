@@ -4,10 +4,10 @@ use glam::{DAffine3, DVec3};
 
 use super::hierarchy::{Hierarchy, PreparedRay};
 use super::mesh_data::MeshData;
+use super::owner::{Owner, SurfaceId};
 use super::pose::{self, Moment, Pose};
 use super::ray::Local;
 use super::shape::{self, Placement, Primitive, Triangle};
-use super::world::{Owner, SurfaceId};
 use crate::scene::{Instances as Entry, MaterialId, MaterialKind, Motion, Scene, Shape};
 
 /// All instances of a scene.

@@ -5,6 +5,7 @@ mod hierarchy;
 mod instances;
 mod mesh_data;
 mod normal_map;
+mod owner;
 mod pose;
 mod ray;
 mod shape;
@@ -12,10 +13,11 @@ mod world;
 
 pub use hierarchy::PreparedRay;
 pub use normal_map::Tangents;
+pub use owner::{Owner, SurfaceId};
 pub use pose::{Moment, Pose};
 pub use ray::{Ray, SurfacePoint};
 pub use shape::Primitive;
-pub use world::{Owner, Surface, SurfaceId, World};
+pub use world::{Surface, World};
 
 #[cfg(test)]
 mod tests;

@@ -7,34 +7,12 @@ use super::hierarchy::{Hierarchy, PreparedRay};
 use super::instances::{Instances, PlacedTriangle};
 use super::mesh_data::MeshData;
 use super::normal_map::{NormalMaps, Tangents};
+use super::owner::{Owner, SurfaceId};
 use super::pose::{self, Moment, Pose};
 use super::ray::{Local, Ray, SurfacePoint};
 use super::shape::{self, Placement, Primitive};
 use crate::renderer::RenderError;
 use crate::scene::{Material, MaterialId, MaterialKind, Scene, Shape};
-
-/// Which of the world's surfaces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SurfaceId {
-    /// Place in the hierarchy's leaf order.
-    Primitive(usize),
-    /// Places in the leaf orders of all instances, and of the group.
-    Instanced {
-        instance: usize,
-        triangle: usize,
-    },
-    Infinite(usize),
-}
-
-/// Where a primitive comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Owner {
-    /// Index into the scene's shapes.
-    pub shape: usize,
-    /// Face of a mesh, face of a box (−x +x −y +y −z +z); 0 for shapes of one primitive.
-    pub part: usize,
-    pub material: MaterialId,
-}
 
 /// A ray's closest crossing.
 #[derive(Debug, Clone, Copy)]
