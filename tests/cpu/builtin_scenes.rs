@@ -12,7 +12,7 @@ use gpt::scene::Scene;
 use gpt::shader::switches::SWITCHES;
 
 /// Switches that depend on the device or on what a render is asked for, whatever the scene.
-const OF_DEVICES: [&str; 25] = [
+const OF_DEVICES: [&str; 26] = [
     "ATTRIBUTE_CHUNKS",
     "CLAMP",
     "FILM_TEXTURE",
