@@ -32,7 +32,7 @@ pub enum Array {
 }
 
 impl Array {
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Primitives,
         Self::Attributes,
         Self::Nodes,

@@ -9,9 +9,9 @@ use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
 use crate::scene::{
     BlendWeight, Channel, ChannelInput, ColorInput, ColorSpace, ConductorFresnel, Cuboid, Disk, Emission, Environment,
-    EnvironmentRadiance, Geometry, Group, ImageData, ImageTexture, Instances, Light, LightChoice, Masking, Material, MaterialKind, Mesh,
-    MicrofacetDistribution, Microfacets, Motion, MotionStep, Plane, PlasticInterface, Rectangle, Scene, Shape, Sphere, Texels,
-    Texture, TextureFilter, TextureKind, TextureWrap, Transform,
+    EnvironmentRadiance, Geometry, Group, ImageData, ImageTexture, Instances, Light, LightChoice, Masking, Material,
+    MaterialKind, Mesh, MicrofacetDistribution, Microfacets, Motion, MotionStep, Plane, PlasticInterface, Rectangle, Scene,
+    Shape, Sphere, Texels, Texture, TextureFilter, TextureKind, TextureWrap, Transform,
 };
 
 /// By name: walked by kernels, and left to the device. Lights are chosen by a tree in the first.
