@@ -246,6 +246,13 @@ pub fn cut(packed: &PackedScene, stored_primitives: bool, stored_nodes: bool, li
 /// [`PlanError::DoesNotFit`] naming the largest array that is cut, where a stage would need more buffers than the device allows.
 pub fn check(arrays: &[Chunks], others: u32, limit: u64, limits: &DeviceLimits) -> Result<(), PlanError> {
     let needed = arrays.iter().fold(others + OTHER_BUFFERS, |sum, array| sum.saturating_add(array.count));
+    let has_instances = arrays.iter().any(|array| array.array == INSTANCES);
+    if has_instances && needed > limits.max_storage_buffers && arrays.iter().all(Chunks::is_whole) {
+        return Err(PlanError::DoesNotFit(format!(
+            "with its instances a stage would need up to {needed} storage buffers, and can have {}",
+            limits.max_storage_buffers
+        )));
+    }
     let cut = arrays.iter().filter(|array| !array.is_whole());
     match cut.max_by_key(|array| array.bytes) {
         Some(array) if needed > limits.max_storage_buffers || array.count > MAX_CHUNKS => Err(PlanError::DoesNotFit(format!(

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use gpt::gpu::kernels::used_bindings;
 use gpt::packed::PackedScene;
 use gpt::plan::bindings::Binding;
-use gpt::plan::chunks::{ATTRIBUTES, Chunks, NODES, PRIMITIVES, RecordArray, TEXELS};
+use gpt::plan::chunks::{ATTRIBUTES, Chunks, INSTANCES, NODES, PRIMITIVES, RecordArray, TEXELS};
 use gpt::plan::stages::{STAGES, Stage, When};
 use gpt::plan::{DeviceLimits, Plan, PlanOptions, generated, layout};
 use gpt::shader::switches::{SWITCHES, close, contradiction};
@@ -29,7 +29,7 @@ fn shippable(wanted: &BTreeSet<&'static str>) -> Switches {
     // Three chunks, the last of half the size.
     let chunks =
         |array: RecordArray| (array.file, Chunks::new(array, 2500 * array.record_bytes(), 1000 * array.record_bytes()).wgsl());
-    let cut = [PRIMITIVES, NODES, ATTRIBUTES, TEXELS].into_iter().map(chunks);
+    let cut = [PRIMITIVES, NODES, ATTRIBUTES, INSTANCES, TEXELS].into_iter().map(chunks);
     Switches {
         enabled: close(wanted),
         constants: CONSTANTS.iter().map(|name| (*name, 7)).collect(),
@@ -232,8 +232,8 @@ fn no_stage_needs_more_storage_buffers_than_webgpu_promises() {
     for absent in ["ONLY_TRIANGLES_IN_HIERARCHY", "UNIFORM_PRIMITIVES", "UNIFORM_TABLES", "FILM_TEXTURE"] {
         wanted.remove(absent);
     }
-    // Scenes too large for that are refused where a device has no more.
-    for absent in ["PRIMITIVE_CHUNKS", "NODE_CHUNKS", "ATTRIBUTE_CHUNKS", "TEXEL_CHUNKS"] {
+    // Scenes too large for that, and instances beside everything else, are refused where a device has no more.
+    for absent in ["PRIMITIVE_CHUNKS", "NODE_CHUNKS", "ATTRIBUTE_CHUNKS", "TEXEL_CHUNKS", "INSTANCES", "INSTANCE_CHUNKS"] {
         wanted.remove(absent);
     }
     for Stage { file, entry, .. } in STAGES {
