@@ -157,6 +157,10 @@ fn slurm_renders_a_picture_in_chunks() {
         .output()
         .expect("a shell");
     let said = format!("{}{}", text(&output.stdout), text(&output.stderr));
+    if output.status.code() == Some(77) && std::env::var("GPT_TEST").as_deref() != Ok("all") {
+        announce(&format!("left out: a job array on Slurm, because its daemons do not run here:\n{said}"));
+        return;
+    }
     assert!(output.status.success(), "{said}");
     assert!(said.contains("sent SIGKILL") && said.contains("sent SIGTERM"), "{said}");
     check(&place, "picture.exr", &format!("{flags} --spp 8000"));

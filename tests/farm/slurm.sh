@@ -46,6 +46,14 @@ for node in node1 node2; do
 done
 trap 'scancel -u "$user" 2>/dev/null || true; kill $daemons 2>/dev/null || true' EXIT
 
+# Where daemons cannot run at all, as in some containers, status 77 says so.
+tries=0
+until [ "$(sinfo -h -o %T 2> "$folder/sinfo.err")" = idle ]; do
+    tries=$((tries + 1))
+    [ "$tries" -lt 60 ] || { cat "$folder/sinfo.err" "$folder"/*.out "$folder"/*.log >&2; exit 77; }
+    sleep 1
+done
+
 tries=0
 until SBATCH="--output=$folder/job-%j.out --open-mode=append" sh "$farm/slurm/submit.sh" "$chunks" "$spp" "$scene" "$picture" "$@" 2> "$folder/submit.err"; do
     tries=$((tries + 1))
