@@ -42,7 +42,7 @@ fn pack(criterion: &mut Criterion) {
         });
         let geometry = world::collect(&scene);
         group.bench_with_input(BenchmarkId::new("hierarchy", triangles), &geometry, |bencher, geometry| {
-            bencher.iter(|| tree::build(&geometry, Traversal::Bvh));
+            bencher.iter(|| tree::build(geometry, Traversal::Bvh));
         });
     }
     group.finish();

@@ -272,11 +272,14 @@ struct Rendered {
     kept: checkpoint::Kept,
 }
 
+/// Entries of a picture's header that say what its layers hold.
+type Notes = Vec<(String, String)>;
+
 /// Renders what is ready on its device.
 fn render(
     arguments: &RenderArguments,
     (renderer, span): (&mut Renderer, Option<Span>),
-    (outputs, layers, notes): (&[(PathBuf, PictureFormat)], Vec<LayerChannel>, Vec<(String, String)>),
+    (outputs, layers, notes): (&[(PathBuf, PictureFormat)], Vec<LayerChannel>, Notes),
     (started, progress): (Instant, &Progress),
 ) -> Result<Rendered, Failure> {
     if let Some(notice) = renderer.notice().filter(|_| span.is_none_or(|span| span.index == 0)) {

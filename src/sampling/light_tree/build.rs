@@ -158,9 +158,12 @@ fn bucket_of(leaf: &Leaf, axis: usize, [low, high]: [i64; 2]) -> usize {
     place as usize
 }
 
-/// The axis, the bucket at which the second cluster begins, and what the buckets lie between. None: all centers lie in one place.
-fn cheapest_cut(leaves: &[Leaf]) -> Option<(usize, usize, [i64; 2])> {
-    let mut best: Option<(f64, (usize, usize, [i64; 2]))> = None;
+/// An axis, the bucket at which the second cluster begins, and what the buckets lie between.
+type Cut = (usize, usize, [i64; 2]);
+
+/// None: all centers lie in one place.
+fn cheapest_cut(leaves: &[Leaf]) -> Option<Cut> {
+    let mut best: Option<(f64, Cut)> = None;
     let (mut low, mut high) = (I64Vec3::MAX, I64Vec3::MIN);
     for leaf in leaves {
         (low, high) = (low.min(leaf.cluster.doubled_center()), high.max(leaf.cluster.doubled_center()));

@@ -77,7 +77,7 @@ impl Writer<'_> {
             self.drop("motion", place, "the shape rests");
         }
         if shape.contains_key("keyframes") || shape.contains_key("node") {
-            self.drop("keyframes", &place, "the shape stands where it is without a frame");
+            self.drop("keyframes", place, "the shape stands where it is without a frame");
         }
         if flag(shape, "portal") == Some(true) {
             self.drop("portal", place, "its directions are not sampled by themselves");
