@@ -17,7 +17,7 @@ pub const INSIDE_OUT: &str = "is turned inside out while the shutter is open";
 /// None: it rests.
 ///
 /// # Errors
-/// [`INSIDE_OUT`].
+/// `INSIDE_OUT`.
 pub fn motion_between(at: &dyn Fn(f64) -> DAffine3, [open, close]: [f64; 2]) -> Result<Option<(DAffine3, Motion)>, &'static str> {
     let time = |index: u32| open + (close - open) * f64::from(index) / f64::from(STRETCHES);
     let maps: Vec<DAffine3> = (0..=STRETCHES).map(|index| at(time(index))).collect();
