@@ -1,4 +1,4 @@
-//! What rays of the camera meet first, beyond surfaces that let them through.
+//! What rays of the camera meet first, and what beyond surfaces that let them through, each with the share of the ray that it stops.
 
 use glam::DVec3;
 
@@ -8,26 +8,32 @@ use super::trace::PathVisitor;
 
 /// Watches a path up to the surface that scatters it.
 #[derive(Default)]
-pub struct FirstOwner {
-    /// Of the surface that was met last.
-    pub owner: Option<Owner>,
+pub struct FirstOwners {
+    /// Of each surface that was met, and the share of the ray that ends there, on average over the choices that the path made.
+    pub shares: Vec<(Owner, f64)>,
     reached: bool,
 }
 
-impl PathVisitor for FirstOwner {
-    fn surface(&mut self, _depth: u32, surface: &Surface, _wo: DVec3, _throughput: DVec3) {
-        self.owner = Some(surface.owner);
+/// Throughput of null surfaces is grey but for coloured ones, whose channels count alike.
+fn mean(throughput: DVec3) -> f64 {
+    throughput.element_sum() / 3.0
+}
+
+impl PathVisitor for FirstOwners {
+    fn surface(&mut self, _depth: u32, surface: &Surface, _wo: DVec3, throughput: DVec3) {
+        self.shares.push((surface.owner, mean(throughput)));
     }
 
     fn scattered(&mut self, sample: &BsdfSample) {
         self.reached = !sample.is_null;
+        // What goes on does not end here. A ray goes on more or less often than it is let through, and its weight makes up for that, so the
+        // share is right on average: it is not the number of rays that end.
+        if let (true, Some((_, share))) = (sample.is_null, self.shares.last_mut()) {
+            *share -= *share * mean(sample.weight);
+        }
     }
 
     fn gives_up(&mut self, _vertices: u32) -> bool {
         self.reached
-    }
-
-    fn escaped(&mut self, _radiance: DVec3, _weight: f64, _contribution: DVec3) {
-        self.owner = None;
     }
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::clamp::Clamp;
-use super::coverage::FirstOwner;
+use super::coverage::FirstOwners;
 use super::film::{BAND_ROWS, BandSums, BatchSamples, Group, PixelSum, are_even};
 use super::integrator::Integrator;
 use super::intersect::Ray;
@@ -110,17 +110,17 @@ impl ReferenceRenderer {
         self.integrator.owner_at_centre(x, y).map_or([0; 2], |owner| [owner.shape as u32 + 1, owner.material as u32 + 1])
     }
 
-    /// Shape and material, by their numbers in the scene, that each of a pixel's samples meets first, of those that meet something. Null
-    /// surfaces let them through. The scene is that of a layer of first surfaces ([`super::layer::layer_scene`]).
-    pub fn owners(&self, x: u32, y: u32, points: &[SequencePoint]) -> Vec<[usize; 2]> {
+    /// Shape and material, by their numbers in the scene, of what stops a pixel's samples, with the share of a sample that each stops. Null
+    /// surfaces let a part through. The scene is that of a layer of first surfaces ([`super::layer::layer_scene`]).
+    pub fn owners(&self, x: u32, y: u32, points: &[SequencePoint]) -> Vec<([usize; 2], f64)> {
         let Scene { film, render, .. } = self.integrator.scene();
         let (sampling, pixel) = (Sampling::from(render), y.wrapping_mul(film.size[0]).wrapping_add(x));
-        let owner = |point| {
-            let mut first = FirstOwner::default();
+        let owners = |point| {
+            let mut first = FirstOwners::default();
             self.integrator.radiance(x, y, &PathSampler::new(&sampling, pixel, point), &mut first);
-            first.owner.map(|owner| [owner.shape, owner.material])
+            first.shares.into_iter().map(|(owner, share)| ([owner.shape, owner.material], share))
         };
-        points.iter().filter_map(owner).collect()
+        points.iter().flat_map(owners).collect()
     }
 
     /// What one sample of one pixel sees, as it is before the film refuses what is not finite.

@@ -108,8 +108,8 @@ pub fn mattes(scene: &Scene, observer: &dyn Observer) -> Result<Option<Vec<Layer
                 let owners = (0..width).map(|x| reference.owners(x, y, &points));
                 let (mut of_objects, mut of_materials) = (Vec::new(), Vec::new());
                 for owners in owners {
-                    of_objects.push(ranked(owners.iter().map(|owner| names[0].id(owner[0])), samples));
-                    of_materials.push(ranked(owners.iter().map(|owner| names[1].id(owner[1])), samples));
+                    of_objects.push(ranked(owners.iter().map(|(owner, share)| (names[0].id(owner[0]), *share)), samples));
+                    of_materials.push(ranked(owners.iter().map(|(owner, share)| (names[1].id(owner[1]), *share)), samples));
                 }
                 [of_objects, of_materials]
             })
