@@ -63,7 +63,8 @@ fn quadratic_work_is_noticed() {
         let sum = (0..size * size).fold(0_usize, |sum, number| black_box(sum.wrapping_mul(31) ^ number));
         black_box(sum);
     };
-    assert!(excess(6000, slow).is_some());
+    // A busy machine blurs one measurement now and then.
+    assert!((0..4).any(|_| excess(6000, slow).is_some()));
     let greedy = |size: usize| (0..size).for_each(|_| drop(black_box(vec![0_u8; size * 10])));
     assert!(excess(1000, greedy).is_some());
 }

@@ -295,6 +295,8 @@ fn it_takes_time_in_proportion_to_the_scene() {
     };
     // The least of several, so that whatever else runs does not count.
     let least = |length: usize| (0..5).map(|_| seconds(length)).fold(f64::INFINITY, f64::min);
-    let [short, long] = [4_000, 32_000].map(least);
-    assert!(long < 32.0 * short + 0.01, "{short} s for 4,000 blends and {long} s for 32,000");
+    // A busy machine lengthens one measurement now and then, and quadratic work all of them.
+    let too_long = || Some([4_000, 32_000].map(least)).filter(|[short, long]| *long >= 32.0 * short + 0.01);
+    let seconds: Vec<_> = (0..4).map_while(|_| too_long()).collect();
+    assert!(seconds.len() < 4, "for 4,000 and 32,000 blends: {seconds:?}");
 }

@@ -266,6 +266,8 @@ fn checks_take_time_in_proportion_to_the_scene() {
         };
         (0..12).map(|_| time()).fold(f64::INFINITY, f64::min)
     };
-    let [small, large] = [60, 180].map(least);
-    assert!(large < 3.0 * 9.0 * small + 0.02, "{small} s for 7,200 triangles, {large} s for 64,800");
+    // A busy machine lengthens one measurement now and then, and quadratic work all of them.
+    let too_long = || Some([60, 180].map(least)).filter(|[small, large]| *large >= 3.0 * 9.0 * small + 0.02);
+    let seconds: Vec<_> = (0..4).map_while(|_| too_long()).collect();
+    assert!(seconds.len() < 4, "for 7,200 and 64,800 triangles: {seconds:?}");
 }
