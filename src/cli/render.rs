@@ -44,6 +44,9 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
         return Err(Failure::usage("--progress tells of progress on standard output, and -o - or --stats - write there"));
     }
     if arguments.denoise {
+        if !outputs.is_empty() {
+            denoise::raw_output(&outputs)?;
+        }
         // Its absence is told before anything is rendered.
         Library::open()?;
     }

@@ -38,8 +38,9 @@ pub fn run(arguments: &DenoiseArguments) -> Result<Exit, Failure> {
     if let Some((path, _)) = outputs.iter().find(|(path, _)| is_same(path, &arguments.picture)) {
         return Err(Failure::usage(format!("{} is the raw picture, and would be overwritten", path.display())));
     }
+    let raw = read_raw(&arguments.picture)?;
     let library = Library::open()?;
-    let done = denoise_file(&library, &arguments.picture, &outputs, arguments.display.display())?;
+    let done = denoise_into(&library, &raw, &outputs, arguments.display.display())?;
     if arguments.json {
         terminal::answer_json(&Report {
             denoiser: &done.denoiser,
@@ -69,19 +70,23 @@ impl Denoised {
     }
 }
 
-/// Denoises a picture file, and writes what comes of it.
+/// A picture with the layers that help to denoise it.
+fn read_raw(picture: &Path) -> Result<Raw, Failure> {
+    Ok(Raw::of(read_image(picture)?, &Channels::read(picture)?))
+}
+
+/// Denoises a picture, and writes what comes of it.
 ///
 /// # Errors
-/// A file that cannot be read or written, and what the library says.
-fn denoise_file(
+/// A file that cannot be written, and what the library says.
+fn denoise_into(
     library: &Library,
-    picture: &Path,
+    raw: &Raw,
     outputs: &[(PathBuf, PictureFormat)],
     display: Display,
 ) -> Result<Denoised, Failure> {
-    let raw = Raw::of(read_image(picture)?, &Channels::read(picture)?);
-    let denoised = denoise(library, &raw)?;
-    let bias = Bias::of(&raw, &denoised).map_err(|error| Failure::BadScene(error.to_string()))?;
+    let denoised = denoise(library, raw)?;
+    let bias = Bias::of(raw, &denoised).map_err(|error| Failure::BadScene(error.to_string()))?;
     let denoiser = format!("Open Image Denoise {}", library.version()?);
     let notes = vec![(DENOISER_KEY.to_owned(), denoiser.clone()), (BIAS_KEY.to_owned(), bias.to_string())];
     for (path, format) in outputs {
@@ -103,20 +108,29 @@ fn write(
     file.finish()
 }
 
+/// The file of a render that denoising reads.
+///
+/// # Errors
+/// Where there is none.
+pub fn raw_output(outputs: &[(PathBuf, PictureFormat)]) -> Result<&Path, Failure> {
+    let raw = outputs.iter().find(|(path, format)| *format == PictureFormat::Exr && !is_stdout(path));
+    let missing = || Failure::usage("--denoise: the picture is read from an .exr file, and -o names none");
+    raw.map(|(path, _)| path.as_path()).ok_or_else(missing)
+}
+
 /// Denoises the pictures of a render that is over: from its EXR file, which has the layers, into one more of each format.
 ///
 /// # Errors
-/// As [`denoise_file`].
+/// A file that cannot be read, and as [`denoise_into`].
 pub fn denoise_render(
     library: &Library,
     outputs: &[(PathBuf, PictureFormat)],
     display: Display,
     quiet: bool,
 ) -> Result<(), Failure> {
-    let raw = outputs.iter().find(|(path, format)| *format == PictureFormat::Exr && !is_stdout(path));
-    let (raw, _) = raw.ok_or_else(|| Failure::usage("--denoise: the picture is read from an .exr file, and -o names none"))?;
+    let raw = raw_output(outputs)?;
     let beside = beside(outputs);
-    let done = denoise_file(library, raw, &beside, display)?;
+    let done = denoise_into(library, &read_raw(raw)?, &beside, display)?;
     if !quiet {
         terminal::note(&done.sentence(&beside));
     }
