@@ -3,11 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use exr::meta::MetaData;
 use exr::meta::attribute::AttributeValue;
 use exr::prelude::{ReadChannels, ReadLayers};
 
-use super::read::{ReadError, check_size, open, sample};
+use super::read::{ReadError, open_exr, sample};
 
 /// The first part of an EXR file.
 #[derive(Debug, Clone, Default)]
@@ -30,17 +29,13 @@ impl Channels {
     }
 
     fn read_or_say(path: &Path) -> Result<Self, String> {
-        let meta = MetaData::read_from_buffered(open(path)?, false).map_err(|error| error.to_string())?;
-        for header in &meta.headers {
-            check_size(header.layer_size.width() as u64, header.layer_size.height() as u64)?;
-        }
         let image = exr::prelude::read()
             .no_deep_data()
             .largest_resolution_level()
             .all_channels()
             .first_valid_layer()
             .all_attributes()
-            .from_buffered(open(path)?)
+            .from_buffered(open_exr(path)?)
             .map_err(|error| error.to_string())?;
         let layer = image.layer_data;
         let (width, height) = (layer.size.width(), layer.size.height());

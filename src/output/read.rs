@@ -74,22 +74,27 @@ fn short_file(error: std::io::Error) -> std::io::Result<bool> {
     if error.kind() == std::io::ErrorKind::UnexpectedEof { Ok(false) } else { Err(error) }
 }
 
-pub(super) fn open(path: &Path) -> Result<BufReader<File>, String> {
+fn open(path: &Path) -> Result<BufReader<File>, String> {
     input::open(path).map(BufReader::new).map_err(|error| error.to_string())
 }
 
-fn read_exr(path: &Path) -> Result<Image, String> {
+/// Opens an OpenEXR file whose layers are no larger than pictures may be: its headers say so before anything is decoded.
+pub(super) fn open_exr(path: &Path) -> Result<BufReader<File>, String> {
     let meta = MetaData::read_from_buffered(open(path)?, false).map_err(|error| error.to_string())?;
     for header in &meta.headers {
         check_size(header.layer_size.width() as u64, header.layer_size.height() as u64)?;
     }
+    open(path)
+}
+
+fn read_exr(path: &Path) -> Result<Image, String> {
     let image = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
         .all_channels()
         .all_layers()
         .all_attributes()
-        .from_buffered(open(path)?)
+        .from_buffered(open_exr(path)?)
         .map_err(|error| error.to_string())?;
     let (layer, channels) = find_colour(&image.layer_data).ok_or("it has no channels R, G and B")?;
     let [red, green, blue] = channels.map(|index| &layer.channel_data.list[index].sample_data);
@@ -164,7 +169,7 @@ fn read_other(path: &Path) -> Result<Image, String> {
     Ok(Image { width, height, pixels })
 }
 
-pub(super) fn check_size(width: u64, height: u64) -> Result<(), String> {
+fn check_size(width: u64, height: u64) -> Result<(), String> {
     if width > u64::from(MAX_SIDE) || height > u64::from(MAX_SIDE) || width * height > MAX_PIXELS {
         return Err(format!(
             "{width}x{height} pixels are more than the {MAX_SIDE} on a side or {MAX_PIXELS} in all that are read"

@@ -38,41 +38,20 @@ struct Kind {
     names: fn(&Scene) -> Names,
 }
 
+/// The channels of three layers of two ranks each.
+macro_rules! channels {
+    ($($layer:literal)*) => { [$(concat!($layer, ".R"), concat!($layer, ".G"), concat!($layer, ".B"), concat!($layer, ".A"),)*] };
+}
+
 const KINDS: [Kind; 2] = [
     Kind {
         name: "CryptoObject",
-        channels: [
-            "CryptoObject00.R",
-            "CryptoObject00.G",
-            "CryptoObject00.B",
-            "CryptoObject00.A",
-            "CryptoObject01.R",
-            "CryptoObject01.G",
-            "CryptoObject01.B",
-            "CryptoObject01.A",
-            "CryptoObject02.R",
-            "CryptoObject02.G",
-            "CryptoObject02.B",
-            "CryptoObject02.A",
-        ],
+        channels: channels!("CryptoObject00" "CryptoObject01" "CryptoObject02"),
         names: |scene| Names::of(scene.shapes.iter().map(|shape| shape.label.as_str())),
     },
     Kind {
         name: "CryptoMaterial",
-        channels: [
-            "CryptoMaterial00.R",
-            "CryptoMaterial00.G",
-            "CryptoMaterial00.B",
-            "CryptoMaterial00.A",
-            "CryptoMaterial01.R",
-            "CryptoMaterial01.G",
-            "CryptoMaterial01.B",
-            "CryptoMaterial01.A",
-            "CryptoMaterial02.R",
-            "CryptoMaterial02.G",
-            "CryptoMaterial02.B",
-            "CryptoMaterial02.A",
-        ],
+        channels: channels!("CryptoMaterial00" "CryptoMaterial01" "CryptoMaterial02"),
         names: |scene| Names::of(scene.materials.iter().map(|material| material.name.as_str())),
     },
 ];

@@ -23,7 +23,7 @@ use glam::DVec3;
 use super::alias::AliasTable;
 use crate::scene::LightChoice;
 
-/// Fewest lights inside a scene of which a tree is made unless it is asked for (measured in `docs/strategies.md`).
+/// Fewest lights inside a scene of which a tree is made unless it is asked for: a guess, not a measurement.
 pub const FEWEST_LIGHTS: usize = 24;
 /// Most of them: the tables of more would leave no room for anything else.
 pub const MOST_LIGHTS: usize = 1 << 19;
