@@ -124,18 +124,18 @@ class Contestant:
             raise PeerError(f"{self.process.key} made pixels that are not finite")
         self.samples.setdefault(found["spp"], []).append(found)
 
-    def rungs(self, known):
+    def levels(self, known):
         made = []
         for spp, found in sorted(self.samples.items()):
             pictures = np.stack([each["picture"] for each in found]).astype(np.float64)
             seconds = np.array([each["seconds"] for each in found])
             own = self.process.key == "gpt"
-            made.append(convergence.Rung(spp, seconds, convergence.relative_errors(pictures, known.picture) if own else known.errors(pictures)))
+            made.append(convergence.Level(spp, seconds, convergence.relative_errors(pictures, known.picture) if own else known.errors(pictures)))
         return made
 
-    def cpu_seconds(self, rungs):
-        """Processor seconds of every rung, without those of a render of one sample per pixel."""
-        return [np.maximum([each["cpu"] - self.idle_cpu for each in self.samples[rung.spp]], 1e-3) for rung in rungs]
+    def cpu_seconds(self, levels):
+        """Processor seconds of every level, without those of a render of one sample per pixel."""
+        return [np.maximum([each["cpu"] - self.idle_cpu for each in self.samples[level.spp]], 1e-3) for level in levels]
 
     def replications(self):
         """One picture a seed, all its sample counts together."""
@@ -208,23 +208,23 @@ def agreements(scene, path, options, ready):
 def evaluate(scene, ready, judgements):
     replications = {key: contestant.replications() for key, contestant in ready.items()}
     known = convergence.reference(replications["gpt"])
-    rungs = {key: contestant.rungs(known) for key, contestant in ready.items()}
+    levels = {key: contestant.levels(known) for key, contestant in ready.items()}
     result = {"size": list(scene.size), "left_out": scene.without, "renderers": {}, "pairs": {}}
     for key, contestant in ready.items():
         result["renderers"][key] = {
             "setting": contestant.setting,
             "costs_of_settings": contestant.costs,
             "start_up_seconds": contestant.start_up,
-            "slope": convergence.slope(rungs[key]),
-            "rungs": [{"spp": rung.spp, "seconds": rung.seconds.tolist(), "relmse": rung.errors.tolist()} for rung in rungs[key]],
+            "slope": convergence.slope(levels[key]),
+            "levels": [{"spp": level.spp, "seconds": level.seconds.tolist(), "relmse": level.errors.tolist()} for level in levels[key]],
         }
         if key == "gpt":
             continue
         offset, reason = scene.allowed.get(key, DEFAULT_ALLOWED)
         judgement = judgements[key]
-        ratio = convergence.ratio(rungs["gpt"], rungs[key])
-        cpu = [convergence.time_to(rungs[each], ratio.error, ready[each].cpu_seconds(rungs[each])) for each in (key, "gpt")]
-        whole = [np.median(convergence.time_to(rungs[each], ratio.error)) + ready[each].start_up for each in (key, "gpt")]
+        ratio = convergence.ratio(levels["gpt"], levels[key])
+        cpu = [convergence.time_to(levels[each], ratio.error, ready[each].cpu_seconds(levels[each])) for each in (key, "gpt")]
+        whole = [np.median(convergence.time_to(levels[each], ratio.error)) + ready[each].start_up for each in (key, "gpt")]
         result["pairs"][key] = {
             "agreement": asdict(judgement),
             "allowed_difference": offset,

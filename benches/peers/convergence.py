@@ -43,7 +43,7 @@ def reference(pictures):
 
 
 @dataclass
-class Rung:
+class Level:
     """One sample count, rendered once a seed."""
 
     spp: float
@@ -51,25 +51,25 @@ class Rung:
     errors: np.ndarray
 
 
-def slope(rungs):
+def slope(levels):
     """Of the logarithm of the error against that of the time."""
-    if len(rungs) < 2:
+    if len(levels) < 2:
         return -1.0
-    times = np.log([np.median(rung.seconds) for rung in rungs])
-    errors = np.log([rung.errors.mean() for rung in rungs])
+    times = np.log([np.median(level.seconds) for level in levels])
+    errors = np.log([level.errors.mean() for level in levels])
     return float(np.clip(np.polyfit(times, errors, 1)[0], *SLOPES))
 
 
-def middle_error(rungs):
-    """The geometric mean of the rungs' errors."""
-    return float(np.exp(np.mean([np.log(rung.errors.mean()) for rung in rungs])))
+def middle_error(levels):
+    """The geometric mean of the levels' errors."""
+    return float(np.exp(np.mean([np.log(level.errors.mean()) for level in levels])))
 
 
-def time_to(rungs, error, seconds=None):
-    """Seconds to reach the error, one number a seed: each rung carried along the fitted slope, then their geometric mean."""
-    own = slope(rungs)
-    seconds = [rung.seconds for rung in rungs] if seconds is None else seconds
-    logs = [np.log(time) + np.log(error / rung.errors) / own for time, rung in zip(seconds, rungs)]
+def time_to(levels, error, seconds=None):
+    """Seconds to reach the error, one number a seed: each level carried along the fitted slope, then their geometric mean."""
+    own = slope(levels)
+    seconds = [level.seconds for level in levels] if seconds is None else seconds
+    logs = [np.log(time) + np.log(error / level.errors) / own for time, level in zip(seconds, levels)]
     return np.exp(np.mean(logs, axis=0))
 
 

@@ -63,7 +63,7 @@ def details(report):
     ]
     for name, found in report["scenes"].items():
         for key, own in found["renderers"].items():
-            last, pair = own["rungs"][-1], found["pairs"].get(key)
+            last, pair = own["levels"][-1], found["pairs"].get(key)
             cells = [name, TITLES[key], own["setting"], f"{last['spp']:g}", f"{np.median(last['seconds']):.2f}", f"{np.mean(last['relmse']):.2e}"]
             cells += [f"{own['slope']:.2f}", f"{own['start_up_seconds']:.2f}"]
             cells += ["", "", ""] if pair is None else [f"{pair['ratio_with_start_up']:.2f}", f"{pair['cpu_ratio']:.2f}", agreement(pair)]

@@ -5,18 +5,18 @@ import unittest
 import numpy as np
 
 from agreement import judge
-from convergence import Rung, ratio, reference, relative_errors, slope, time_to
+from convergence import Level, ratio, reference, relative_errors, slope, time_to
 
 
 def pictures(spp, seeds, generator, sigma=0.3, mean=0.5):
     return mean + sigma / np.sqrt(spp) * generator.standard_normal((seeds, 64, 64, 3))
 
 
-def rungs(seconds_per_sample, generator, sigma=0.3, noise=0.02):
+def levels(seconds_per_sample, generator, sigma=0.3, noise=0.02):
     made = []
     for spp in (16, 32, 64):
         seconds = spp * seconds_per_sample * np.exp(noise * generator.standard_normal(5))
-        made.append(Rung(spp, seconds, relative_errors(pictures(spp, 5, generator, sigma), np.full((64, 64, 3), 0.5))))
+        made.append(Level(spp, seconds, relative_errors(pictures(spp, 5, generator, sigma), np.full((64, 64, 3), 0.5))))
     return made
 
 
@@ -39,19 +39,19 @@ class Statistics(unittest.TestCase):
         self.assertAlmostEqual(known.errors(np.zeros((3, 64, 64, 3))).mean(), 0.25 / 0.26, delta=0.01)
 
     def test_slope_of_random_points(self):
-        self.assertAlmostEqual(slope(rungs(0.01, self.generator)), -1.0, delta=0.05)
+        self.assertAlmostEqual(slope(levels(0.01, self.generator)), -1.0, delta=0.05)
 
     def test_ratio_to_itself_is_one_and_a_tenth_of_slowness_is_seen(self):
-        ours, same, slower = (rungs(cost, self.generator, noise=0.01) for cost in (0.01, 0.01, 0.011))
+        ours, same, slower = (levels(cost, self.generator, noise=0.01) for cost in (0.01, 0.01, 0.011))
         self.assertAlmostEqual(ratio(ours, same).median, 1.0, delta=0.04)
         self.assertAlmostEqual(ratio(ours, slower).median, 1.1, delta=0.04)
 
     def test_noise_costs_its_square(self):
-        ours, noisier = rungs(0.01, self.generator), rungs(0.01, self.generator, sigma=0.6)
+        ours, noisier = levels(0.01, self.generator), levels(0.01, self.generator, sigma=0.6)
         self.assertAlmostEqual(ratio(ours, noisier).median, 4.0, delta=0.3)
 
     def test_time_to_an_error_beyond_the_ladder(self):
-        made = rungs(0.01, self.generator)
+        made = levels(0.01, self.generator)
         self.assertAlmostEqual(np.median(time_to(made, made[-1].errors.mean() / 4)) / (64 * 0.01 * 4), 1.0, delta=0.1)
 
     def test_agreement_and_its_negative_control(self):

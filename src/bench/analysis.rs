@@ -1,23 +1,23 @@
-//! What the pictures of a ladder say: errors with intervals, slopes, floors, and what one setting is worth against another.
+//! What the pictures of a schedule say: errors with intervals, slopes, floors, and what one setting is worth against another.
 
 use serde::Serialize;
 
 use super::interval::{Interval, Ratio, Spread};
-use super::ladder::{Ladder, Observation, Observations, by_brightness, no_weight};
 use super::reference::Reference;
+use super::schedule::{Observation, Observations, SampleSchedule, by_brightness, no_weight};
 use crate::compare::Metric;
 use crate::compare::z_test;
 
 /// A floor is reported where chance would show one as high in fewer than one measurement of so many.
 const FLOOR_LEVEL: f64 = 1e-3;
-/// Rungs whose error is less than this many times the reference's own say too little to be fitted.
+/// Levels whose error is less than this many times the reference's own say too little to be fitted.
 const ABOVE_THE_REFERENCE: f64 = 3.0;
 /// The two errors that are reported.
 pub const METRICS: [Metric; 2] = [Metric::Mse, Metric::RelMse];
 
 /// One number of samples.
 #[derive(Debug, Clone, Serialize)]
-pub struct Rung {
+pub struct Level {
     pub spp: u32,
     /// The reference's own error is taken off.
     pub mse: Interval,
@@ -30,11 +30,11 @@ pub struct Rung {
 #[derive(Debug, Clone, Serialize)]
 pub struct Trend {
     pub metric: Metric,
-    /// Of log error over log samples, a floor taken off: −1 for independent samples. None where fewer than two rungs stand clear of the
+    /// Of log error over log samples, a floor taken off: −1 for independent samples. None where fewer than two levels stand clear of the
     /// reference's error.
     pub slope: Option<Interval>,
-    /// Rungs that the slope was fitted to.
-    pub fitted_rungs: usize,
+    /// Levels that the slope was fitted to.
+    pub fitted_levels: usize,
     pub floor: Floor,
 }
 
@@ -43,7 +43,7 @@ pub struct Trend {
 pub struct Floor {
     /// Squared bias; may be negative by chance.
     pub squared_bias: Interval,
-    /// Its share of the last rung's error.
+    /// Its share of the last level's error.
     pub share_of_last_error: f64,
     /// The setting does not converge to the reference.
     pub flagged: bool,
@@ -54,7 +54,7 @@ pub struct Floor {
 /// Everything about one setting.
 #[derive(Debug, Clone, Serialize)]
 pub struct Curve {
-    pub rungs: Vec<Rung>,
+    pub levels: Vec<Level>,
     pub trends: Vec<Trend>,
     pub non_finite_samples: u64,
 }
@@ -72,11 +72,11 @@ pub struct RatioAt {
 #[derive(Debug, Clone, Serialize)]
 pub struct Comparison {
     pub metric: Metric,
-    /// At the last rung.
+    /// At the last level.
     pub time_at_equal_samples: Ratio,
-    /// At the last rung.
+    /// At the last level.
     pub error_at_equal_samples: Ratio,
-    /// Of 1 / (error × time), at the last rung.
+    /// Of 1 / (error × time), at the last level.
     pub efficiency: Ratio,
     /// None where the curves share no time.
     pub error_at_equal_time: Option<RatioAt>,
@@ -103,34 +103,40 @@ fn own_error(metric: Metric, reference: &Reference) -> (f64, f64) {
 }
 
 /// Errors, times, slopes and floors of one setting.
-pub fn curve(observations: &Observations, reference: &Reference, ladder: &Ladder) -> Curve {
-    let rungs = ladder.rungs.iter().zip(&observations.by_rung).map(|(&spp, seen)| {
+pub fn curve(observations: &Observations, reference: &Reference, schedule: &SampleSchedule) -> Curve {
+    let levels = schedule.levels.iter().zip(&observations.by_level).map(|(&spp, seen)| {
         let error = |metric: Metric| {
             let values: Vec<f64> = seen.iter().map(|one| corrected(one, metric, reference)).collect();
             Interval::of_mean(&values).shifted(0.0, own_error(metric, reference).1)
         };
         let seconds: Vec<f64> = seen.iter().map(|one| one.seconds).collect();
-        Rung { spp, mse: error(Metric::Mse), relmse: error(Metric::RelMse), seconds: Spread::of(&seconds) }
+        Level { spp, mse: error(Metric::Mse), relmse: error(Metric::RelMse), seconds: Spread::of(&seconds) }
     });
-    let rungs: Vec<Rung> = rungs.collect();
-    let trends = METRICS.map(|metric| trend(observations, reference, ladder, &rungs, metric)).to_vec();
-    Curve { rungs, trends, non_finite_samples: observations.non_finite_samples }
+    let levels: Vec<Level> = levels.collect();
+    let trends = METRICS.map(|metric| trend(observations, reference, schedule, &levels, metric)).to_vec();
+    Curve { levels, trends, non_finite_samples: observations.non_finite_samples }
 }
 
-impl Rung {
+impl Level {
     /// The error by a metric.
     pub fn error(&self, metric: Metric) -> Interval {
         if metric == Metric::RelMse { self.relmse } else { self.mse }
     }
 }
 
-fn trend(observations: &Observations, reference: &Reference, ladder: &Ladder, rungs: &[Rung], metric: Metric) -> Trend {
-    let floor = floor(observations, reference, rungs, metric);
+fn trend(
+    observations: &Observations,
+    reference: &Reference,
+    schedule: &SampleSchedule,
+    levels: &[Level],
+    metric: Metric,
+) -> Trend {
+    let floor = floor(observations, reference, levels, metric);
     let below = if floor.flagged { floor.squared_bias.estimate } else { 0.0 };
     let own = own_error(metric, reference).0;
-    let clear: Vec<usize> = (0..rungs.len())
-        .filter(|&rung| {
-            let error = rungs[rung].error(metric).estimate - below;
+    let clear: Vec<usize> = (0..levels.len())
+        .filter(|&level| {
+            let error = levels[level].error(metric).estimate - below;
             // A floor that is most of the error leaves too little to be fitted as well.
             error > ABOVE_THE_REFERENCE * own && error > 0.25 * below
         })
@@ -139,20 +145,20 @@ fn trend(observations: &Observations, reference: &Reference, ladder: &Ladder, ru
         .filter_map(|replication| {
             let points: Vec<(f64, f64)> = clear
                 .iter()
-                .map(|&rung| {
-                    let error = corrected(&observations.by_rung[rung][replication], metric, reference) - below;
-                    (f64::from(ladder.rungs[rung]).ln(), error.ln())
+                .map(|&level| {
+                    let error = corrected(&observations.by_level[level][replication], metric, reference) - below;
+                    (f64::from(schedule.levels[level]).ln(), error.ln())
                 })
                 .collect();
             least_squares_slope(&points)
         })
         .collect();
     let slope = (slopes.len() > 1).then(|| Interval::of_mean(&slopes));
-    Trend { metric, slope, fitted_rungs: clear.len(), floor }
+    Trend { metric, slope, fitted_levels: clear.len(), floor }
 }
 
-/// Tests whether the last rung's pictures scatter around the reference or around something else.
-fn floor(observations: &Observations, reference: &Reference, rungs: &[Rung], metric: Metric) -> Floor {
+/// Tests whether the last level's pictures scatter around the reference or around something else.
+fn floor(observations: &Observations, reference: &Reference, levels: &[Level], metric: Metric) -> Floor {
     let (excess, standard_error) = match metric {
         Metric::RelMse => observations.squared_bias(reference, by_brightness),
         _ => observations.squared_bias(reference, no_weight),
@@ -161,7 +167,7 @@ fn floor(observations: &Observations, reference: &Reference, rungs: &[Rung], met
     let bias = excess - own;
     let standard_error = standard_error.hypot(own_standard_error);
     let half = 1.96 * standard_error;
-    let last = rungs.last().map_or(f64::NAN, |rung| rung.error(metric).estimate);
+    let last = levels.last().map_or(f64::NAN, |level| level.error(metric).estimate);
     Floor {
         squared_bias: Interval { estimate: bias, low: bias - half, high: bias + half, confidence: super::interval::CONFIDENCE },
         share_of_last_error: bias / last,
@@ -184,21 +190,21 @@ fn least_squares_slope(points: &[(f64, f64)]) -> Option<f64> {
 /// What `setting` is worth against `baseline`.
 pub fn compare_settings(setting: &Observations, baseline: &Observations, reference: &Reference, metric: Metric) -> Comparison {
     let replications = setting.replications().min(baseline.replications());
-    let last = setting.by_rung.len().saturating_sub(1);
+    let last = setting.by_level.len().saturating_sub(1);
     let at_last = |of: &dyn Fn(&Observation) -> f64| {
-        let pair = |replication: usize| (of(&setting.by_rung[last][replication]), of(&baseline.by_rung[last][replication]));
+        let pair = |replication: usize| (of(&setting.by_level[last][replication]), of(&baseline.by_level[last][replication]));
         Ratio::of_pairs((0..replications).map(pair))
     };
     let error = |one: &Observation| corrected(one, metric, reference);
     let points = |observations: &Observations, replication: usize| -> Vec<(f64, f64)> {
-        observations.by_rung.iter().map(|rung| (rung[replication].seconds, error(&rung[replication]))).collect()
+        observations.by_level.iter().map(|level| (level[replication].seconds, error(&level[replication]))).collect()
     };
     let swapped = |points: Vec<(f64, f64)>| points.into_iter().map(|(x, y)| (y, x)).collect::<Vec<_>>();
     let time_curves = |replication| [points(setting, replication), points(baseline, replication)];
     let error_curves = |replication| time_curves(replication).map(swapped);
     let most_time =
-        [setting, baseline].map(|one| Spread::of(&one.by_rung[last].iter().map(|o| o.seconds).collect::<Vec<_>>()).median);
-    let least_error = [setting, baseline].map(|one| Spread::of(&one.by_rung[last].iter().map(error).collect::<Vec<_>>()).median);
+        [setting, baseline].map(|one| Spread::of(&one.by_level[last].iter().map(|o| o.seconds).collect::<Vec<_>>()).median);
+    let least_error = [setting, baseline].map(|one| Spread::of(&one.by_level[last].iter().map(error).collect::<Vec<_>>()).median);
     Comparison {
         metric,
         time_at_equal_samples: at_last(&|one| one.seconds),

@@ -6,8 +6,8 @@ use serde::Serialize;
 
 use super::analysis::{self, Comparison, Curve, METRICS, interpolate};
 use super::interval::Spread;
-use super::ladder::{Ladder, Observations, climb};
 use super::reference::{OwnError, Reference, Store};
+use super::schedule::{Observations, SampleSchedule, observe_schedule};
 use super::setting::{Axes, Variant};
 use super::subject::{BenchError, Devices, SceneSubject, Subject};
 use crate::compare::compare;
@@ -19,7 +19,7 @@ use crate::scene::{self, Scene};
 #[derive(Debug, Clone)]
 pub struct ConvergenceOptions {
     pub axes: Axes,
-    pub ladder: Ladder,
+    pub schedule: SampleSchedule,
     /// None: made, or found among those made before.
     pub reference: Option<PathBuf>,
     /// Samples per pixel of a reference that is made.
@@ -41,7 +41,7 @@ pub struct SceneConvergence {
     pub reference: ReferenceSummary,
     /// The first is the baseline of all comparisons.
     pub settings: Vec<SettingConvergence>,
-    /// Seconds for which the pictures were made; the shortest of the settings' last rungs.
+    /// Seconds for which the pictures were made; the shortest of the settings' last levels.
     pub equal_time: f64,
     /// The measurement was stopped before all replications were done.
     pub interrupted: bool,
@@ -111,12 +111,12 @@ pub fn measure(
         subjects.push(Box::new(SceneSubject { renderer, size: scene.film.size, observer }));
     }
     let mut step = |what: &str| say(&format!("{}: {what}", scene.name));
-    let (observations, interrupted) = climb(&mut subjects, &reference, &options.ladder, &mut step)?;
+    let (observations, interrupted) = observe_schedule(&mut subjects, &reference, &options.schedule, &mut step)?;
 
     let equal_time = equal_time(&observations);
     let mut results = Vec::new();
     for (index, (setting, seen)) in settings.iter().zip(&observations).enumerate() {
-        let curve = analysis::curve(seen, &reference, &options.ladder);
+        let curve = analysis::curve(seen, &reference, &options.schedule);
         let compare = |metric| analysis::compare_settings(seen, &observations[0], &reference, metric);
         let against_first = if index == 0 { Vec::new() } else { METRICS.map(compare).to_vec() };
         let shown =
@@ -185,10 +185,10 @@ fn reference(
     Ok(reference)
 }
 
-/// The shortest of the settings' last rungs.
+/// The shortest of the settings' last levels.
 fn equal_time(observations: &[Observations]) -> f64 {
     let last = |seen: &Observations| {
-        let seconds: Vec<f64> = seen.by_rung.last().into_iter().flatten().map(|one| one.seconds).collect();
+        let seconds: Vec<f64> = seen.by_level.last().into_iter().flatten().map(|one| one.seconds).collect();
         Spread::of(&seconds).median
     };
     observations.iter().map(last).fold(f64::INFINITY, f64::min)
@@ -202,10 +202,10 @@ fn picture_at(
     reference: &Reference,
     options: &ConvergenceOptions,
 ) -> Result<Option<EqualTimePicture>, BenchError> {
-    let points: Vec<(f64, f64)> = curve.rungs.iter().map(|rung| (rung.seconds.median, f64::from(rung.spp))).collect();
+    let points: Vec<(f64, f64)> = curve.levels.iter().map(|level| (level.seconds.median, f64::from(level.spp))).collect();
     let Some(spp) = interpolate(&points, seconds) else { return Ok(None) };
-    let spp = (spp.round() as u32).clamp(1, 2 * options.ladder.rungs.last().copied().unwrap_or(1));
-    let run = match subject.render(options.ladder.seed_of(0, 63, 1), spp) {
+    let spp = (spp.round() as u32).clamp(1, 2 * options.schedule.levels.last().copied().unwrap_or(1));
+    let run = match subject.render(options.schedule.seed_of(0, 63, 1), spp) {
         Err(BenchError::Interrupted) => return Ok(None),
         outcome => outcome?,
     };

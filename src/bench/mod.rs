@@ -3,7 +3,7 @@
 //! - [`setting`]: which settings are compared.
 //! - [`subject`]: what renders and tells the time; tests put in estimators of known variance, bias and speed.
 //! - [`mod@reference`]: what errors are measured against, with its own error.
-//! - [`ladder`]: pictures of rising numbers of samples, over and over, settings in turn.
+//! - [`schedule`]: pictures of rising numbers of samples, over and over, settings in turn.
 //! - [`analysis`]: errors with intervals, slopes, floors, ratios at equal time and at equal error.
 //! - [`convergence`]: all of it for one scene.
 //! - [`speed`], [`growth`]: samples and rays a second, where the time goes, how it grows.
@@ -17,11 +17,11 @@ pub mod convergence;
 pub mod features;
 pub mod growth;
 pub mod interval;
-pub mod ladder;
 pub mod machine;
 pub mod reference;
 pub mod report;
 pub mod scenes;
+pub mod schedule;
 pub mod setting;
 pub mod speed;
 pub mod subject;

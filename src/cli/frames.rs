@@ -45,7 +45,7 @@ pub struct Span {
 
 /// What is rendered of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Moment {
+pub enum FrameTime {
     /// The scene as it is without a frame.
     Rest,
     Frame(u32),
@@ -53,7 +53,7 @@ pub enum Moment {
     Between(f64),
 }
 
-impl Moment {
+impl FrameTime {
     /// What stands for it in the names of files.
     pub fn number(self) -> Option<u32> {
         match self {
@@ -82,12 +82,12 @@ impl FrameArguments {
     ///
     /// # Errors
     /// A usage error where there are none.
-    pub fn moments(&self, animation: &Animation) -> Result<Vec<Moment>, Failure> {
-        let moments = match (self.frame, &self.frames, self.time) {
-            (Some(frame), ..) => vec![Moment::Frame(frame)],
-            (_, Some(FrameList(frames)), _) => frames.iter().map(|&frame| Moment::Frame(frame)).collect(),
-            (_, _, Some(time)) => vec![Moment::Between(time * animation.frames_per_second)],
-            (None, None, None) => return Ok(vec![Moment::Rest]),
+    pub fn times(&self, animation: &Animation) -> Result<Vec<FrameTime>, Failure> {
+        let times = match (self.frame, &self.frames, self.time) {
+            (Some(frame), ..) => vec![FrameTime::Frame(frame)],
+            (_, Some(FrameList(frames)), _) => frames.iter().map(|&frame| FrameTime::Frame(frame)).collect(),
+            (_, _, Some(time)) => vec![FrameTime::Between(time * animation.frames_per_second)],
+            (None, None, None) => return Ok(vec![FrameTime::Rest]),
         };
         if animation.is_empty() {
             let flag = if self.frame.is_some() {
@@ -104,7 +104,7 @@ impl FrameArguments {
                 ),
             });
         }
-        Ok(moments)
+        Ok(times)
     }
 
     /// The first number for the names of files, before the scene is read.

@@ -91,7 +91,7 @@ fn plan_frames(arguments: &PlanArguments, scene: &Scene, frames: &FrameList) -> 
         )));
     }
     let wanted = FrameArguments { frames: Some(frames.clone()), ..FrameArguments::default() };
-    wanted.moments(&scene.animation)?;
+    wanted.times(&scene.animation)?;
     let output = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.####.exr", scene.name)));
     wanted.check_names("-o", std::iter::once(output.as_path()))?;
     let first = scene.at_frame(f64::from(numbers[0])).map_err(|error| bad_frame(scene, &error))?;

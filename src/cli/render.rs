@@ -19,7 +19,7 @@ use gpt::{Outcome, RenderOptions, Renderer, Scene, Stop};
 use super::arguments::RenderArguments;
 use super::checkpoint;
 use super::exit::{Exit, Failure};
-use super::frames::{Moment, Span, named};
+use super::frames::{FrameTime, Span, named};
 use super::machine_progress::Needs;
 use super::pictures::{PictureSummary, Pictures, is_stdout, output_formats};
 use super::progress::Progress;
@@ -80,13 +80,13 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
         save_scene(&scene, path)?;
     }
     checkpoint::check(&arguments.checkpoint, &outputs)?;
-    let moments = frames.moments(&scene.animation)?;
-    if moments == [Moment::Rest] && !arguments.quiet {
+    let times = frames.times(&scene.animation)?;
+    if times == [FrameTime::Rest] && !arguments.quiet {
         tell_of_keyframes(&scene);
     }
     let load_seconds = started.elapsed().as_secs_f64();
     let sequence =
-        Sequence { arguments, options: &options, scene: &scene, outputs: &outputs, moments: &moments, started, load_seconds };
+        Sequence { arguments, options: &options, scene: &scene, outputs: &outputs, times: &times, started, load_seconds };
     sequence.render(choice, &frame)
 }
 
@@ -95,7 +95,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
 /// # Errors
 /// What the device, the files and the arguments report.
 fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
-    let Frame { arguments, options, scene, outputs, moment, started, load_seconds, span } = frame;
+    let Frame { arguments, options, scene, outputs, time, started, load_seconds, span } = frame;
     check_inputs(outputs, arguments)?;
     let shown = (arguments.display.display(), arguments.exr.options(), part(arguments, scene.film.size));
     // What layers a finished picture has is not looked at.
@@ -126,7 +126,7 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
 
     let report = outcome.report;
     let mut stats = Stats::new(scene, &report);
-    stats.frame = moment.frame();
+    stats.frame = time.frame();
     stats.resumed(kept.resumed_samples);
     [stats.width, stats.height] = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
     stats.spp_done = summary.samples[0];
@@ -144,7 +144,7 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     stats.seconds.write = summary.seconds_writing;
     stats.seconds.total = started.elapsed().as_secs_f64();
     if let Some(path) = arguments.stats.as_ref().filter(|path| has_own_stats(arguments, path)) {
-        stats::write(&named(path, moment.number()), &stats)?;
+        stats::write(&named(path, time.number()), &stats)?;
     }
     tell(&stats, &summary, arguments.quiet);
     kept.tell();

@@ -13,7 +13,7 @@ use gpt::{RenderOptions, Renderer, Scene};
 
 use super::arguments::RenderArguments;
 use super::exit::{Exit, Failure};
-use super::frames::{Moment, Span, has_place, named};
+use super::frames::{FrameTime, Span, has_place, named};
 use super::pictures::is_stdout;
 use super::progress::Progress;
 use super::stats::{self, Stats};
@@ -54,7 +54,7 @@ pub struct Frame<'a> {
     pub options: &'a RenderOptions,
     pub scene: &'a Scene,
     pub outputs: &'a [(PathBuf, PictureFormat)],
-    pub moment: Moment,
+    pub time: FrameTime,
     /// When it began, and how long it took until the scene was there.
     pub started: Instant,
     pub load_seconds: f64,
@@ -84,7 +84,7 @@ pub struct Sequence<'a> {
     pub scene: &'a Scene,
     /// Names of files in which the number of the frame is missing.
     pub outputs: &'a [(PathBuf, PictureFormat)],
-    pub moments: &'a [Moment],
+    pub times: &'a [FrameTime],
     /// When the program began, and how long it took to read the scene.
     pub started: Instant,
     pub load_seconds: f64,
@@ -99,23 +99,22 @@ impl Sequence<'_> {
         let mut ready = Ready::Device(choice);
         let (mut worst, mut all_stats) = (Exit::Done, Vec::new());
         let several = self.arguments.frames.is_sequence();
-        for (index, &moment) in self.moments.iter().enumerate() {
+        for (index, &time) in self.times.iter().enumerate() {
             if index > 0 && interrupt::requested() {
                 worst = Exit::Interrupted;
                 break;
             }
-            let span =
-                several.then(|| Span { frame: moment.frame().unwrap_or_default() as u32, index, count: self.moments.len() });
+            let span = several.then(|| Span { frame: time.frame().unwrap_or_default() as u32, index, count: self.times.len() });
             let started = if index == 0 { self.started } else { Instant::now() };
-            let scene = self.scene_at(moment)?;
-            match self.frame((index, moment, started), &scene, ready, (span, render))? {
+            let scene = self.scene_at(time)?;
+            match self.frame((index, time, started), &scene, ready, (span, render))? {
                 Done::Before(before) => ready = before,
                 Done::Now { exit, renderer, stats } => {
                     all_stats.push(*stats);
                     if exit != Exit::Done {
                         worst = exit;
                     }
-                    if worst == Exit::Interrupted || index + 1 == self.moments.len() {
+                    if worst == Exit::Interrupted || index + 1 == self.times.len() {
                         break;
                     }
                     ready = Ready::Renderer(renderer, Box::new(scene.into_owned()));
@@ -130,26 +129,26 @@ impl Sequence<'_> {
         Ok(worst)
     }
 
-    fn scene_at(&self, moment: Moment) -> Result<Cow<'_, Scene>, Failure> {
+    fn scene_at(&self, time: FrameTime) -> Result<Cow<'_, Scene>, Failure> {
         let at_frame = |frame: f64| self.scene.at_frame(frame).map(Cow::Owned).map_err(|error| bad_frame(self.scene, &error));
-        moment.frame().map_or(Ok(Cow::Borrowed(self.scene)), at_frame)
+        time.frame().map_or(Ok(Cow::Borrowed(self.scene)), at_frame)
     }
 
     fn frame(
         &self,
-        (index, moment, started): (usize, Moment, Instant),
+        (index, time, started): (usize, FrameTime, Instant),
         scene: &Scene,
         ready: Ready,
         (span, render): (Option<Span>, Render<'_>),
     ) -> Result<Done, Failure> {
         let outputs: Vec<(PathBuf, PictureFormat)> =
-            self.outputs.iter().map(|(path, format)| (named(path, moment.number()), *format)).collect();
+            self.outputs.iter().map(|(path, format)| (named(path, time.number()), *format)).collect();
         let frame = Frame {
             arguments: self.arguments,
             options: self.options,
             scene,
             outputs: &outputs,
-            moment,
+            time,
             started,
             load_seconds: if index == 0 { self.load_seconds } else { started.elapsed().as_secs_f64() },
             span,

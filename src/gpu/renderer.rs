@@ -46,7 +46,7 @@ impl GpuRenderer {
     /// # Errors
     /// [`RenderError::NoDevice`], or [`RenderError::DoesNotFit`] where the scene is too large for the device.
     pub fn new(scene: &Scene, choice: &DeviceChoice, options: &PlanOptions) -> Result<Self, RenderError> {
-        Self::once_open(OpeningDevice::begin(choice, options), scene, options)
+        Self::from_opening_device(OpeningDevice::begin(choice, options), scene, options)
     }
 
     /// As [`GpuRenderer::new`], on a device that is already open.
@@ -54,14 +54,14 @@ impl GpuRenderer {
     /// # Errors
     /// [`RenderError::DoesNotFit`] where the scene is too large for the device.
     pub fn on(device: &Device, scene: &Scene, options: &PlanOptions) -> Result<Self, RenderError> {
-        Self::once_open(OpeningDevice::is_open(device), scene, options)
+        Self::from_opening_device(OpeningDevice::is_open(device), scene, options)
     }
 
     /// As [`GpuRenderer::new`], on a device that opens while the scene is packed.
     ///
     /// # Errors
     /// As [`GpuRenderer::new`].
-    pub fn once_open(opening: OpeningDevice, scene: &Scene, options: &PlanOptions) -> Result<Self, RenderError> {
+    pub fn from_opening_device(opening: OpeningDevice, scene: &Scene, options: &PlanOptions) -> Result<Self, RenderError> {
         let start = Instant::now();
         let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
         let pack = |()| PackedScene::for_traversal(scene, options.packed_traversal()).map_err(does_not_fit);

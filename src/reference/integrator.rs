@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 use super::bsdf::{Bsdf, BsdfSample, Density};
 use super::camera::ProjectiveCamera;
 use super::emission::{emitted, null_weight};
-use super::intersect::{Moment, Owner, Ray, Surface, World};
+use super::intersect::{Owner, PathTime, Ray, Surface, World};
 use super::lights::{LightSample, Lights};
 use super::mis;
 use super::trace::{LightConnection, PathVisitor};
@@ -43,7 +43,7 @@ pub struct Integrator {
 struct Path {
     ray: Ray,
     /// When it sees the scene.
-    moment: Moment,
+    time: PathTime,
     /// Product of f·|cosθ| / density over the surfaces so far, roulette included.
     throughput: DVec3,
     /// What the path has found.
@@ -99,9 +99,9 @@ impl Integrator {
     /// What the ray through the middle of a pixel and of the lens meets when the shutter opens.
     pub fn owner_at_centre(&self, x: u32, y: u32) -> Option<Owner> {
         let ray = self.camera.ray(f64::from(x) + 0.5, f64::from(y) + 0.5, DVec2::ZERO);
-        let moment = if self.moves { Moment::new(&self.scene, self.scene.camera.shutter[0]) } else { Moment::default() };
-        let hit = self.world.closest(ray, &moment)?;
-        Some(self.world.surface(&ray, &hit, &moment).owner)
+        let time = if self.moves { PathTime::new(&self.scene, self.scene.camera.shutter[0]) } else { PathTime::default() };
+        let hit = self.world.closest(ray, &time)?;
+        Some(self.world.surface(&ray, &hit, &time).owner)
     }
 
     /// Changes what stratified random numbers depend on; nothing that was built from the scene does.
@@ -116,7 +116,7 @@ impl Integrator {
         let mut path = Path {
             lit_from: ray.origin,
             ray,
-            moment: self.moment(sampler),
+            time: self.path_time(sampler),
             throughput: DVec3::ONE,
             radiance: DVec3::ZERO,
             eta_scale: 1.0,
@@ -129,22 +129,22 @@ impl Integrator {
     }
 
     /// Uniform over the time for which the shutter is open.
-    fn moment(&self, sampler: &PathSampler) -> Moment {
+    fn path_time(&self, sampler: &PathSampler) -> PathTime {
         if !self.moves {
-            return Moment::default();
+            return PathTime::default();
         }
         let [open, close] = self.scene.camera.shutter;
-        Moment::new(&self.scene, open + (close - open) * sampler.uniform(Dimension::camera(CameraDimension::Time)))
+        PathTime::new(&self.scene, open + (close - open) * sampler.uniform(Dimension::camera(CameraDimension::Time)))
     }
 
     /// Follows the path's ray to the next surface, adds the light found there, and chooses the next ray. False where the path ends.
     fn extend<V: PathVisitor>(&self, path: &mut Path, sampler: &PathSampler, visitor: &mut V) -> bool {
         visitor.ray(&path.ray);
-        let Some(hit) = self.world.closest(path.ray, &path.moment) else {
+        let Some(hit) = self.world.closest(path.ray, &path.time) else {
             self.add_environment(path, visitor);
             return false;
         };
-        let mut surface = self.world.surface(&path.ray, &hit, &path.moment);
+        let mut surface = self.world.surface(&path.ray, &hit, &path.time);
         visitor.round_surface(&mut surface);
         let wo = -path.ray.direction;
         visitor.surface(path.depth, &surface, wo, path.throughput);
@@ -207,7 +207,7 @@ impl Integrator {
         if radiance == DVec3::ZERO {
             return;
         }
-        let weight = self.weight_of_found(path, || self.lights.pdf((&self.world, &path.moment), path.lit_from, surface));
+        let weight = self.weight_of_found(path, || self.lights.pdf((&self.world, &path.time), path.lit_from, surface));
         let contribution = path.throughput * radiance * weight;
         path.radiance += contribution;
         visitor.emission(radiance, weight, contribution);
@@ -243,7 +243,7 @@ impl Integrator {
         let [choice, u, v] = bits();
         let [u, v] = [u, v].map(|bits| visitor.round_bits(bits));
         let reference = surface.point.leave_towards(bsdf.view.wo);
-        let Some(light) = self.lights.sample(&self.scene, (&self.world, &path.moment), reference, choice, [u, v]) else { return };
+        let Some(light) = self.lights.sample(&self.scene, (&self.world, &path.time), reference, choice, [u, v]) else { return };
         // Several samples are as dense together as one of as many times its density.
         let mut light = LightSample { pdf: light.pdf * f64::from(settings.light_samples_at(path.depth)), ..light };
         if V::ROUNDS {
@@ -265,7 +265,7 @@ impl Integrator {
         visitor.ray(&ray);
         let share = |surface: &Surface| null_weight(&self.scene, surface, -light.wi);
         let lets_through = |material: MaterialId| self.lets_through[material];
-        let transmittance = self.world.transmittance(ray, light.distance, light.target, &path.moment, lets_through, share);
+        let transmittance = self.world.transmittance(ray, light.distance, light.target, &path.time, lets_through, share);
         let unshadowed = path.throughput * scattering.value * light.radiance * (weight / light.pdf);
         let contribution = unshadowed * transmittance;
         path.radiance += contribution;

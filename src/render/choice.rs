@@ -40,7 +40,7 @@ impl Choice {
         let Some(opening) = self.opening else {
             return Ok(ChosenRenderer { renderer: on_the_cpu(scene, options)?, notice: None });
         };
-        match GpuRenderer::once_open(opening, scene, options) {
+        match GpuRenderer::from_opening_device(opening, scene, options) {
             Err(RenderError::NoDevice(why)) if self.choice == DeviceChoice::Auto && !options.asks_for_ray_queries() => {
                 Ok(ChosenRenderer { renderer: on_the_cpu(scene, options)?, notice: Some(no_adapter_notice(&why)) })
             }

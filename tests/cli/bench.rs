@@ -43,7 +43,7 @@ fn json(folder: &TempDir, name: &str) -> Value {
 fn convergence_leaves_numbers_rows_and_a_page_that_asks_for_nothing() {
     let folder = workplace();
     let arguments =
-        "convergence scene.toml --device cpu --sampler halton,independent --spp 8 --rungs 3 --replications 6 --output out";
+        "convergence scene.toml --device cpu --sampler halton,independent --spp 8 --levels 3 --replications 6 --output out";
     let [stdout, stderr] = expect(&folder, 0, arguments);
     assert!(stdout.contains("independent") && stdout.contains("slope"), "{stdout}");
     assert!(stderr.contains("rendering the reference"), "{stderr}");
@@ -51,7 +51,7 @@ fn convergence_leaves_numbers_rows_and_a_page_that_asks_for_nothing() {
     let results = json(&folder, "out/convergence.json");
     let scene = &results["scenes"][0];
     assert_eq!(scene["settings"].as_array().map(Vec::len), Some(2));
-    let last = &scene["settings"][1]["rungs"][2];
+    let last = &scene["settings"][1]["levels"][2];
     assert_eq!(last["spp"], 8);
     assert!(last["mse"]["low"].as_f64() <= last["mse"]["estimate"].as_f64());
     assert!(scene["settings"][1]["against_first"][0]["efficiency"]["verdict"].is_string());
@@ -80,7 +80,7 @@ fn a_reference_that_is_given_is_used_and_must_fit() {
     };
     assert!(gpt("render scene.toml --device cpu --spp 64 -q -o right.exr").success());
     assert!(gpt("render scene.toml --device cpu --spp 1 --size 8x8 -q -o wrong.exr").success());
-    let common = "convergence scene.toml --device cpu --spp 4 --rungs 2 --replications 2 --reference";
+    let common = "convergence scene.toml --device cpu --spp 4 --levels 2 --replications 2 --reference";
     let [_, stderr] = expect(&folder, 0, &format!("{common} right.exr"));
     assert!(!stderr.contains("rendering the reference"), "{stderr}");
     let results = json(&folder, "gpt-bench/convergence/convergence.json");

@@ -2,13 +2,13 @@ use approx::assert_relative_eq;
 
 use super::*;
 use crate::bench::interval::Verdict;
-use crate::bench::ladder::climb;
+use crate::bench::schedule::observe_schedule;
 use crate::bench::subject::Subject;
 use crate::bench::synthetic::Synthetic;
 use crate::statistics::random::SplitMix64;
 
 /// A measurement of synthetic settings; the reference has the own error of so many samples, or none.
-fn measure(settings: Vec<Synthetic>, reference_spp: Option<u32>, ladder: &Ladder) -> (Vec<Observations>, Reference) {
+fn measure(settings: Vec<Synthetic>, reference_spp: Option<u32>, schedule: &SampleSchedule) -> (Vec<Observations>, Reference) {
     let sigma = settings[0].sigma;
     let mut truth = Synthetic { sigma, ..Synthetic::default() };
     let reference = match reference_spp {
@@ -16,31 +16,31 @@ fn measure(settings: Vec<Synthetic>, reference_spp: Option<u32>, ladder: &Ladder
         None => Reference { image: truth.converged(), own_error: Some(Default::default()), spp: None, origin: String::new() },
     };
     let mut subjects: Vec<Box<dyn Subject>> = settings.into_iter().map(|one| Box::new(one) as Box<dyn Subject>).collect();
-    let (observations, interrupted) = climb(&mut subjects, &reference, ladder, &mut |_| {}).unwrap();
+    let (observations, interrupted) = observe_schedule(&mut subjects, &reference, schedule, &mut |_| {}).unwrap();
     assert!(!interrupted);
     (observations, reference)
 }
 
-fn ladder(seed: u32) -> Ladder {
-    Ladder::doubling(64, 5, 7, seed)
+fn schedule(seed: u32) -> SampleSchedule {
+    SampleSchedule::doubling(64, 5, 7, seed)
 }
 
 /// σ²/n comes out with the stated confidence, though the reference is noisy itself; 1.1 σ²/n, the control, does not.
 #[test]
 fn a_known_variance_is_reported() {
-    let (measurements, rungs) = (40, 5);
+    let (measurements, levels) = (40, 5);
     let mut held = [0.0, 0.0];
     for seed in 0..measurements {
         let setting = Synthetic { sigma: 0.2, ..Synthetic::default() };
-        let (observations, reference) = measure(vec![setting], Some(256), &ladder(seed));
-        for rung in curve(&observations[0], &reference, &ladder(seed)).rungs {
-            let truth = 0.04 / f64::from(rung.spp);
-            held[0] += f64::from(u8::from(rung.mse.contains(truth)));
-            held[1] += f64::from(u8::from(rung.mse.contains(1.1 * truth)));
+        let (observations, reference) = measure(vec![setting], Some(256), &schedule(seed));
+        for level in curve(&observations[0], &reference, &schedule(seed)).levels {
+            let truth = 0.04 / f64::from(level.spp);
+            held[0] += f64::from(u8::from(level.mse.contains(truth)));
+            held[1] += f64::from(u8::from(level.mse.contains(1.1 * truth)));
         }
     }
     // The reference's parts have the same seeds each time, so its small error is shared: a loose binomial bound, 4.5 deviations.
-    let share = held[0] / f64::from(measurements * rungs);
+    let share = held[0] / f64::from(measurements * levels);
     assert!((share - 0.95).abs() < 4.5 * (0.95 * 0.05 / 200.0_f64).sqrt(), "{share} of the intervals hold the truth");
     assert!(held[1] / 200.0 < 0.2, "{} of the intervals hold 10 % too much", held[1]);
 }
@@ -49,11 +49,11 @@ fn a_known_variance_is_reported() {
 fn independent_samples_have_slope_minus_one_and_no_floor() {
     let mut flagged = 0;
     for seed in 0..20 {
-        let (observations, reference) = measure(vec![Synthetic::default()], Some(1024), &ladder(seed));
-        let curve = curve(&observations[0], &reference, &ladder(seed));
+        let (observations, reference) = measure(vec![Synthetic::default()], Some(1024), &schedule(seed));
+        let curve = curve(&observations[0], &reference, &schedule(seed));
         for trend in &curve.trends {
             let slope = trend.slope.unwrap();
-            assert_eq!(trend.fitted_rungs, 5);
+            assert_eq!(trend.fitted_levels, 5);
             // Three times the interval: 40 of them are looked at.
             let half = 1.5 * (slope.high - slope.low);
             assert!((slope.estimate + 1.0).abs() < half.max(1e-3), "{slope:?}");
@@ -64,14 +64,14 @@ fn independent_samples_have_slope_minus_one_and_no_floor() {
     assert_eq!(flagged, 0, "floors where there is none");
 }
 
-/// A bias of a fifth of the last rung's deviation is a twenty-fifth of its squared error: seen, sized and flagged, and the slope above it is
+/// A bias of a fifth of the last level's deviation is a twenty-fifth of its squared error: seen, sized and flagged, and the slope above it is
 /// still −1.
 #[test]
 fn a_bias_is_a_floor_and_is_flagged() {
     for bias in [0.005, 0.05] {
         let setting = Synthetic { sigma: 0.2, bias, ..Synthetic::default() };
-        let (observations, reference) = measure(vec![setting], Some(2048), &ladder(3));
-        let curve = curve(&observations[0], &reference, &ladder(3));
+        let (observations, reference) = measure(vec![setting], Some(2048), &schedule(3));
+        let curve = curve(&observations[0], &reference, &schedule(3));
         let trend = &curve.trends[0];
         assert!(trend.floor.flagged, "{:?}", trend.floor);
         assert!(trend.floor.squared_bias.contains(bias * bias), "{:?} for {bias}", trend.floor);
@@ -81,18 +81,18 @@ fn a_bias_is_a_floor_and_is_flagged() {
     }
     // The large bias keeps eight times the samples from dividing the error by eight: (σ²/64 + b²) / (σ²/8 + b²) = 0.42.
     let setting = Synthetic { sigma: 0.2, bias: 0.05, ..Synthetic::default() };
-    let (observations, reference) = measure(vec![setting], Some(2048), &ladder(3));
-    let rungs = curve(&observations[0], &reference, &ladder(3)).rungs;
-    assert_relative_eq!(rungs[4].mse.estimate / rungs[1].mse.estimate, 0.4167, max_relative = 0.03);
+    let (observations, reference) = measure(vec![setting], Some(2048), &schedule(3));
+    let levels = curve(&observations[0], &reference, &schedule(3)).levels;
+    assert_relative_eq!(levels[4].mse.estimate / levels[1].mse.estimate, 0.4167, max_relative = 0.03);
 }
 
 /// A reference with an error that is taken for none shows as a floor, and says that it may be the reference's.
 #[test]
 fn an_unknown_reference_error_is_not_taken_for_bias_alone() {
-    let (observations, mut reference) = measure(vec![Synthetic::default()], Some(64), &ladder(1));
-    assert!(!curve(&observations[0], &reference, &ladder(1)).trends[0].floor.flagged);
+    let (observations, mut reference) = measure(vec![Synthetic::default()], Some(64), &schedule(1));
+    assert!(!curve(&observations[0], &reference, &schedule(1)).trends[0].floor.flagged);
     reference.own_error = None;
-    let floor = curve(&observations[0], &reference, &ladder(1)).trends[0].floor;
+    let floor = curve(&observations[0], &reference, &schedule(1)).trends[0].floor;
     assert!(floor.flagged && floor.may_be_the_references, "{floor:?}");
 }
 
@@ -113,8 +113,8 @@ fn pair(slowdown: f64, sigma: f64, clock: u64) -> Vec<Synthetic> {
 #[test]
 fn a_slowdown_of_ten_per_cent_is_seen() {
     for seed in 0..10 {
-        let ladder = Ladder { replications: 15, ..ladder(seed) };
-        let (observations, reference) = measure(pair(1.1, 0.2, seed.into()), None, &ladder);
+        let schedule = SampleSchedule { replications: 15, ..schedule(seed) };
+        let (observations, reference) = measure(pair(1.1, 0.2, seed.into()), None, &schedule);
         let comparison = compare_settings(&observations[1], &observations[0], &reference, Metric::Mse);
         let time = comparison.time_at_equal_samples;
         assert_eq!(time.verdict, Verdict::More, "{time:?}");
@@ -135,7 +135,7 @@ fn a_setting_against_itself_is_inside_the_noise() {
     let mut confidence = 0.0;
     let measurements = 40;
     for seed in 0..measurements {
-        let (observations, reference) = measure(pair(1.0, 0.2, u64::from(seed) * 7 + 3), None, &ladder(seed));
+        let (observations, reference) = measure(pair(1.0, 0.2, u64::from(seed) * 7 + 3), None, &schedule(seed));
         let comparison = compare_settings(&observations[1], &observations[0], &reference, Metric::Mse);
         for (count, ratio) in seen_apart.iter_mut().zip([comparison.time_at_equal_samples, comparison.efficiency]) {
             *count += u32::from(ratio.verdict != Verdict::InsideTheNoise);
@@ -152,7 +152,7 @@ fn a_setting_against_itself_is_inside_the_noise() {
 /// A setting with half the variance that takes 1.5 times as long is worth 4/3 of the other.
 #[test]
 fn less_noise_for_more_time_is_weighed() {
-    let (observations, reference) = measure(pair(1.5, 0.2 * 0.5_f64.sqrt(), 9), None, &ladder(2));
+    let (observations, reference) = measure(pair(1.5, 0.2 * 0.5_f64.sqrt(), 9), None, &schedule(2));
     let comparison = compare_settings(&observations[1], &observations[0], &reference, Metric::Mse);
     assert_relative_eq!(comparison.error_at_equal_samples.interval.estimate, 0.5, max_relative = 0.03);
     assert_relative_eq!(comparison.efficiency.interval.estimate, 4.0 / 3.0, max_relative = 0.06);

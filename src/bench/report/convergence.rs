@@ -26,13 +26,13 @@ pub fn convergence_csv(scenes: &[SceneConvergence]) -> Result<Vec<u8>, BenchErro
     let mut rows = Vec::new();
     for scene in scenes {
         for setting in &scene.settings {
-            for (rung, seen) in setting.curve.rungs.iter().zip(&setting.observations.by_rung) {
+            for (level, seen) in setting.curve.levels.iter().zip(&setting.observations.by_level) {
                 for (replication, one) in seen.iter().enumerate() {
                     rows.push(vec![
                         scene.scene.clone(),
                         setting.setting.clone(),
                         setting.device.clone(),
-                        rung.spp.to_string(),
+                        level.spp.to_string(),
                         replication.to_string(),
                         one.mse.to_string(),
                         one.relmse.to_string(),
@@ -57,7 +57,7 @@ pub fn convergence_text(scene: &SceneConvergence) -> String {
         scene.reference.own_error.map_or_else(|| "unknown".to_owned(), |own| number(own.relmse)),
     );
     for setting in &scene.settings {
-        let Some(last) = setting.curve.rungs.last() else { continue };
+        let Some(last) = setting.curve.levels.last() else { continue };
         let _ = write!(
             text,
             "  {:<28} {} spp: relMSE {} (±{}) in {} s",
@@ -88,7 +88,7 @@ pub fn convergence_text(scene: &SceneConvergence) -> String {
 fn floor_sentence(floor: &Floor) -> String {
     let cause = if floor.may_be_the_references { "this setting's bias or the reference's own error" } else { "bias" };
     format!(
-        "it does not converge to the reference: {} of squared error stays ({cause}), {} % of the last rung's error",
+        "it does not converge to the reference: {} of squared error stays ({cause}), {} % of the last level's error",
         number(floor.squared_bias.estimate),
         number(100.0 * floor.share_of_last_error)
     )
@@ -133,8 +133,8 @@ fn section(index: usize, scene: &SceneConvergence) -> Result<Markup, BenchError>
                 div { (chart(scene, metric, false)?) }
             }
         }
-        h3 { "At the last rung" }
-        (last_rungs(scene))
+        h3 { "At the last level" }
+        (last_levels(scene))
         @for setting in &scene.settings {
             @for trend in setting.curve.trends.iter().filter(|trend| trend.floor.flagged) {
                 p class="flag" { (setting.setting) ", " (metric_name(trend.metric)) ": " (floor_sentence(&trend.floor)) "." }
@@ -173,11 +173,11 @@ fn chart(scene: &SceneConvergence, metric: Metric, over_time: bool) -> Result<Ma
             number,
             points: setting
                 .curve
-                .rungs
+                .levels
                 .iter()
-                .map(|rung| {
-                    let error = rung.error(metric);
-                    let x = if over_time { rung.seconds.median } else { f64::from(rung.spp) };
+                .map(|level| {
+                    let error = level.error(metric);
+                    let x = if over_time { level.seconds.median } else { f64::from(level.spp) };
                     Point { x, y: error.estimate, low: error.low, high: error.high }
                 })
                 .collect(),
@@ -192,11 +192,11 @@ fn trend(setting: &SettingConvergence, metric: Metric) -> Option<&Trend> {
     setting.curve.trends.iter().find(|trend| trend.metric == metric)
 }
 
-fn last_rungs(scene: &SceneConvergence) -> Markup {
+fn last_levels(scene: &SceneConvergence) -> Markup {
     let rows: Vec<Vec<Markup>> = scene
         .settings
         .iter()
-        .filter_map(|setting| Some((setting, setting.curve.rungs.last()?)))
+        .filter_map(|setting| Some((setting, setting.curve.levels.last()?)))
         .map(|(setting, last)| {
             let slope = |metric| match trend(setting, metric).and_then(|trend| trend.slope) {
                 Some(slope) => interval(&slope),

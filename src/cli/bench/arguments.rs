@@ -36,7 +36,7 @@ pub enum Bench {
         gpt bench convergence --sampler halton,halton        the measurement against itself\n\n\
         How it is measured: an error is the mean over the replications, with Student's 95 % interval; the reference's own error, known from the scatter of \
         its 8 independent parts, is taken off. The slope is fitted to log error over log samples, replication by replication. What is left of the \
-        last rung's squared error when its variance is taken away is bias; where chance would show as much less than once in 1000 times, it is \
+        last level's squared error when its variance is taken away is bias; where chance would show as much less than once in 1000 times, it is \
         flagged as a floor. Ratios are medians over the replications, pair by pair, with the distribution-free interval of a median; one that holds \
         1 is inside the noise. Fewer than 6 replications decide nothing.")]
     Convergence(Box<ConvergenceArguments>),
@@ -132,13 +132,13 @@ pub struct ConvergenceArguments {
     pub scenes: Vec<String>,
     #[command(flatten)]
     pub axes: AxisArguments,
-    /// Most samples per pixel; the ladder doubles up to it
+    /// Most samples per pixel; the schedule doubles up to it
     #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
     pub spp: u32,
-    /// Rungs of the ladder: with 5 and --spp 256 they are 16, 32, 64, 128, 256
+    /// Levels of the schedule: with 5 and --spp 256 they are 16, 32, 64, 128, 256
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u32).range(1..=20))]
-    pub rungs: u32,
-    /// Independent pictures of each rung; 6 are needed for a verdict
+    pub levels: u32,
+    /// Independent pictures of each level; 6 are needed for a verdict
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(2..=1000))]
     pub replications: u32,
     /// Picture size in pixels [default: the scene's, shrunk to 128 pixels along the longer side]

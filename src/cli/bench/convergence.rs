@@ -1,10 +1,10 @@
 //! `gpt bench convergence`.
 
 use gpt::bench::convergence::{ConvergenceOptions, SceneConvergence, measure};
-use gpt::bench::ladder::Ladder;
 use gpt::bench::machine::Machine;
 use gpt::bench::reference::Store;
 use gpt::bench::report::{convergence_csv, convergence_page, convergence_text};
+use gpt::bench::schedule::SampleSchedule;
 use gpt::bench::setting::Axes;
 use gpt::bench::subject::{BenchError, Devices};
 use gpt::load;
@@ -41,7 +41,7 @@ pub fn run(arguments: &ConvergenceArguments) -> Result<Exit, Failure> {
     interrupt::install()?;
     let options = ConvergenceOptions {
         axes,
-        ladder: Ladder::doubling(arguments.spp, arguments.rungs, arguments.replications, arguments.seed),
+        schedule: SampleSchedule::doubling(arguments.spp, arguments.levels, arguments.replications, arguments.seed),
         reference: arguments.reference.clone(),
         reference_spp: arguments.reference_spp.unwrap_or(arguments.spp.saturating_mul(16)),
         store: arguments.references.clone().unwrap_or_else(Store::default_folder),

@@ -5,7 +5,7 @@ use glam::{DAffine3, DVec3};
 use super::hierarchy::{Hierarchy, PreparedRay};
 use super::mesh_data::MeshData;
 use super::owner::{Owner, SurfaceId};
-use super::pose::{self, Moment, Pose};
+use super::pose::{self, PathTime, Pose};
 use super::ray::Local;
 use super::shape::{self, Placement, Primitive, Triangle};
 use crate::scene::{Instances as Entry, MaterialId, MaterialKind, Motion, Scene, Shape};
@@ -100,13 +100,13 @@ impl Instances {
         &self,
         ray: &PreparedRay,
         limit: f64,
-        moment: &Moment,
+        time: &PathTime,
         mut visit: impl FnMut(SurfaceId, f64, Local, f64) -> f64,
     ) {
         self.hierarchy.traverse(ray, limit, |instance, limit| {
             let placed = &self.placed[instance];
             let group = &self.groups[placed.group];
-            let local = PreparedRay::new(self.pose(placed, moment).ray_to_rest(&ray.ray));
+            let local = PreparedRay::new(self.pose(placed, time).ray_to_rest(&ray.ray));
             let mut remaining = limit;
             group.hierarchy.traverse(&local, limit, |triangle, limit| {
                 remaining = match Primitive::Triangle(group.triangles[triangle]).intersect(&local, limit) {
@@ -126,7 +126,7 @@ impl Instances {
         Owner { shape: self.shapes + placed.number, part: triangle, material: placed.material.unwrap_or(own.material) }
     }
 
-    pub fn triangle(&self, instance: usize, triangle: usize, moment: &Moment) -> PlacedTriangle<'_> {
+    pub fn triangle(&self, instance: usize, triangle: usize, time: &PathTime) -> PlacedTriangle<'_> {
         let placed = &self.placed[instance];
         let group = &self.groups[placed.group];
         let owner = group.owners[triangle];
@@ -134,14 +134,14 @@ impl Instances {
             triangle: &group.triangles[triangle],
             mesh: &group.meshes[owner.shape],
             face: owner.part,
-            pose: self.pose(placed, moment),
+            pose: self.pose(placed, time),
         }
     }
 
-    fn pose(&self, placed: &Placed, moment: &Moment) -> Pose {
+    fn pose(&self, placed: &Placed, time: &PathTime) -> Pose {
         match placed.motion {
             None => placed.at_rest,
-            Some(motion) => Pose::new(self.motions[motion].at(moment.time(), placed.map.translation) * placed.map),
+            Some(motion) => Pose::new(self.motions[motion].at(time.value(), placed.map.translation) * placed.map),
         }
     }
 }

@@ -14,7 +14,7 @@ mod world;
 pub use hierarchy::PreparedRay;
 pub use normal_map::Tangents;
 pub use owner::{Owner, SurfaceId};
-pub use pose::{Moment, Pose};
+pub use pose::{PathTime, Pose};
 pub use ray::{Ray, SurfacePoint};
 pub use shape::Primitive;
 pub use world::{Surface, World};

@@ -1,4 +1,4 @@
-//! Where moving shapes are at one moment.
+//! Where moving shapes are at one time.
 //!
 //! A moving primitive is met in its rest space, where it is at shutter time 0: the ray is taken there by the inverse of the shape's
 //! motion, and what it meets is brought back. The ray's direction keeps the length that the inverse gives it, so distances along it are
@@ -26,18 +26,18 @@ pub struct Pose {
 
 /// All that depends on the time at which a path sees the scene. A still scene has nothing of it.
 #[derive(Debug, Clone, Default)]
-pub struct Moment {
+pub struct PathTime {
     /// By shape; empty where nothing moves.
     poses: Vec<Option<Pose>>,
     time: f64,
 }
 
-impl Moment {
+impl PathTime {
     pub fn new(scene: &Scene, time: f64) -> Self {
         Self { poses: scene.shapes.iter().map(|shape| shape.moved_by(time).map(Pose::new)).collect(), time }
     }
 
-    pub fn time(&self) -> f64 {
+    pub fn value(&self) -> f64 {
         self.time
     }
 

@@ -80,11 +80,11 @@ fn the_hierarchy_finds_what_a_search_over_everything_finds() {
                 (nearest, limit) = (Some(place), distance);
             }
         }
-        let found = world.closest(ray, &Moment::default());
+        let found = world.closest(ray, &PathTime::default());
         assert_eq!(found.map(|hit| hit.surface), nearest.map(SurfaceId::Primitive));
         assert_eq!(found.map_or(f64::INFINITY, |hit| hit.distance), limit);
         hits += usize::from(nearest.is_some());
-        let transmittance = |limit| world.transmittance(ray, limit, None, &Moment::default(), |_| false, |_| 1.0);
+        let transmittance = |limit| world.transmittance(ray, limit, None, &PathTime::default(), |_| false, |_| 1.0);
         assert_eq!(transmittance(f64::INFINITY), if nearest.is_some() { 0.0 } else { 1.0 });
         assert_eq!(transmittance(limit), 1.0);
     }
@@ -103,10 +103,10 @@ fn meshes_are_watertight() {
             let target = a.lerp(b, f64::from(step) / 8.0);
             let origin = random_point(&mut random, 0.9);
             let ray = Ray { origin, direction: (target - origin).normalize() };
-            assert!(world.closest(ray, &Moment::default()).is_some(), "{origin} to {target}");
+            assert!(world.closest(ray, &PathTime::default()).is_some(), "{origin} to {target}");
             // Along an axis, with zeros in the direction.
             let axis = Ray { origin: DVec3::new(target.x, 0.0, target.z) * 0.999, direction: DVec3::Y };
-            assert!(world.closest(axis, &Moment::default()).is_some(), "{axis:?}");
+            assert!(world.closest(axis, &PathTime::default()).is_some(), "{axis:?}");
         }
     }
 }
@@ -125,7 +125,7 @@ fn boxes_have_no_gaps() {
         let (x, y) = (if random.uniform() < 0.5 { 100.0 } else { 101.0 }, if random.uniform() < 0.5 { -7.0 } else { -5.5 });
         let target = to_world.transform_point3(DVec3::new(x, y, 3.0 + 0.3 * random.uniform()));
         let origin = to_world.transform_point3(DVec3::new(100.2 + 0.5 * random.uniform(), -6.0, 3.1));
-        assert!(world.closest(Ray { origin, direction: (target - origin).normalize() }, &Moment::default()).is_some());
+        assert!(world.closest(Ray { origin, direction: (target - origin).normalize() }, &PathTime::default()).is_some());
     }
 }
 
@@ -145,8 +145,8 @@ fn rays_leave_surfaces_cleanly() {
                 let target = offset + random_point(&mut random, 0.2 * size);
                 let origin = target + random_direction(&mut random) * (5.0 * size);
                 let ray = Ray { origin, direction: (target - origin).normalize() };
-                let hit = world.closest(ray, &Moment::default()).expect("the ray is aimed at the inside");
-                let point = world.surface(&ray, &hit, &Moment::default()).point;
+                let hit = world.closest(ray, &PathTime::default()).expect("the ray is aimed at the inside");
+                let point = world.surface(&ray, &hit, &PathTime::default()).point;
                 let mut direction = random_direction(&mut random);
                 if random.uniform() < 0.3 {
                     // Grazing.
@@ -154,7 +154,7 @@ fn rays_leave_surfaces_cleanly() {
                 }
                 let outward = direction.dot(point.normal) > 0.0;
                 let start = point.leave_towards(direction);
-                let again = world.closest(Ray { origin: start, direction }, &Moment::default());
+                let again = world.closest(Ray { origin: start, direction }, &PathTime::default());
                 assert_eq!(again.is_some(), !outward, "{point:?} {direction}");
                 if let Some(again) = again {
                     // The chord of a sphere is as long as the direction is steep; faces of a mesh end at edges.
@@ -180,8 +180,8 @@ fn front_stays_in_front_under_reflections() {
             let world = world(vec![(geometry.clone(), steps)]);
             for _ in 0..200 {
                 let ray = Ray { origin: DVec3::ZERO, direction: random_direction(&mut random) };
-                let hit = world.closest(ray, &Moment::default()).expect("the shape is closed");
-                assert!(world.surface(&ray, &hit, &Moment::default()).point.normal.dot(ray.direction) > 0.0, "{geometry:?}");
+                let hit = world.closest(ray, &PathTime::default()).expect("the shape is closed");
+                assert!(world.surface(&ray, &hit, &PathTime::default()).point.normal.dot(ray.direction) > 0.0, "{geometry:?}");
             }
         }
     }
@@ -193,7 +193,7 @@ fn front_stays_in_front_under_reflections() {
         let world = world(vec![(geometry, mirror.clone())]);
         let ray = Ray { origin: DVec3::new(0.3, 0.2, 4.0), direction: -DVec3::Z };
         let surface =
-            world.surface(&ray, &world.closest(ray, &Moment::default()).expect("the shape is in front"), &Moment::default());
+            world.surface(&ray, &world.closest(ray, &PathTime::default()).expect("the shape is in front"), &PathTime::default());
         assert!((surface.point.normal - DVec3::Z).length() < 1e-12);
     }
 }
@@ -212,7 +212,7 @@ fn attributes_are_interpolated_where_the_ray_hits() {
         for _ in 0..500 {
             let ray = Ray { origin: DVec3::ZERO, direction: random_direction(&mut random) };
             let surface =
-                world.surface(&ray, &world.closest(ray, &Moment::default()).expect("the mesh is closed"), &Moment::default());
+                world.surface(&ray, &world.closest(ray, &PathTime::default()).expect("the mesh is closed"), &PathTime::default());
             let position = surface.point.position;
             assert!((surface.shading_normal - position.normalize()).length() < 1e-2);
             assert!((surface.uv - DVec2::new(factor * position.x, position.y)).length() < 1e-5);
@@ -231,8 +231,8 @@ fn parallelograms_know_their_coordinates() {
         let ray = Ray { origin, direction: (target - origin).normalize() };
         let surface = world.surface(
             &ray,
-            &world.closest(ray, &Moment::default()).expect("the ray is aimed at the rectangle"),
-            &Moment::default(),
+            &world.closest(ray, &PathTime::default()).expect("the ray is aimed at the rectangle"),
+            &PathTime::default(),
         );
         assert!((surface.uv - DVec2::new(0.25, 0.75)).length() < 1e-12, "{}", surface.uv);
         assert!((surface.point.position - target).length() < 1e-12);
@@ -245,8 +245,8 @@ fn degenerate_triangles_and_rays_are_never_hit() {
     let mesh = Mesh { positions: corners.to_vec(), faces: vec![[0, 1, 2], [1, 1, 1]], ..Mesh::default() };
     let world = world(vec![(Geometry::Mesh(Arc::new(mesh)), vec![])]);
     for direction in [DVec3::Z, DVec3::X, DVec3::NAN] {
-        assert!(world.closest(Ray { origin: DVec3::new(0.5, 0.0, -1.0), direction }, &Moment::default()).is_none());
+        assert!(world.closest(Ray { origin: DVec3::new(0.5, 0.0, -1.0), direction }, &PathTime::default()).is_none());
     }
     let empty = super::World::new(&Scene::default()).expect("an empty scene is a scene");
-    assert!(empty.closest(Ray { origin: DVec3::ZERO, direction: DVec3::Z }, &Moment::default()).is_none());
+    assert!(empty.closest(Ray { origin: DVec3::ZERO, direction: DVec3::Z }, &PathTime::default()).is_none());
 }

@@ -8,7 +8,7 @@ use super::instances::{Instances, PlacedTriangle};
 use super::mesh_data::MeshData;
 use super::normal_map::{NormalMaps, Tangents};
 use super::owner::{Owner, SurfaceId};
-use super::pose::{self, Moment, Pose};
+use super::pose::{self, PathTime, Pose};
 use super::ray::{Local, Ray, SurfacePoint};
 use super::shape::{self, Placement, Primitive};
 use crate::renderer::RenderError;
@@ -109,19 +109,19 @@ impl World {
     }
 
     /// None: the primitive rests.
-    pub fn pose<'a>(&self, place: usize, moment: &'a Moment) -> Option<&'a Pose> {
-        moment.pose(self.owners[place].shape)
+    pub fn pose<'a>(&self, place: usize, time: &'a PathTime) -> Option<&'a Pose> {
+        time.pose(self.owners[place].shape)
     }
 
-    fn intersect(&self, place: usize, ray: &PreparedRay, limit: f64, moment: &Moment) -> Option<(f64, Local)> {
-        match self.pose(place, moment) {
+    fn intersect(&self, place: usize, ray: &PreparedRay, limit: f64, time: &PathTime) -> Option<(f64, Local)> {
+        match self.pose(place, time) {
             None => self.primitives[place].intersect(ray, limit),
             Some(pose) => self.primitives[place].intersect(&PreparedRay::new(pose.ray_to_rest(&ray.ray)), limit),
         }
     }
 
     /// The first surface the ray meets.
-    pub fn closest(&self, ray: Ray, moment: &Moment) -> Option<Hit> {
+    pub fn closest(&self, ray: Ray, time: &PathTime) -> Option<Hit> {
         let prepared = PreparedRay::new(ray);
         let mut closest = None;
         let mut limit = f64::INFINITY;
@@ -131,7 +131,7 @@ impl World {
                 closest = Some(Hit { surface: SurfaceId::Infinite(index), distance, local });
             }
         }
-        self.hierarchy.traverse(&prepared, limit, |place, before| match self.intersect(place, &prepared, before, moment) {
+        self.hierarchy.traverse(&prepared, limit, |place, before| match self.intersect(place, &prepared, before, time) {
             Some((distance, local)) => {
                 closest = Some(Hit { surface: SurfaceId::Primitive(place), distance, local });
                 limit = distance;
@@ -139,7 +139,7 @@ impl World {
             }
             None => before,
         });
-        self.instances.traverse(&prepared, limit, moment, |surface, distance, local, _| {
+        self.instances.traverse(&prepared, limit, time, |surface, distance, local, _| {
             closest = Some(Hit { surface, distance, local });
             distance
         });
@@ -153,7 +153,7 @@ impl World {
         ray: Ray,
         limit: f64,
         target: Option<usize>,
-        moment: &Moment,
+        time: &PathTime,
         lets_through: impl Fn(MaterialId) -> bool,
         share: impl Fn(&Surface) -> f64,
     ) -> f64 {
@@ -164,14 +164,14 @@ impl World {
                 product = 0.0;
                 return false;
             }
-            let near = self.surface(&ray, &Hit { surface, distance, local }, moment);
+            let near = self.surface(&ray, &Hit { surface, distance, local }, time);
             product *= share(&near);
             // What is round is met again on its far side; instances are of triangles.
             let within = Ray { origin: near.point.leave_towards(ray.direction), direction: ray.direction };
             if let SurfaceId::Primitive(place) = surface
-                && let Some((distance, local)) = self.intersect(place, &PreparedRay::new(within), limit - distance, moment)
+                && let Some((distance, local)) = self.intersect(place, &PreparedRay::new(within), limit - distance, time)
             {
-                product *= share(&self.surface(&within, &Hit { surface, distance, local }, moment));
+                product *= share(&self.surface(&within, &Hit { surface, distance, local }, time));
             }
             product > 0.0
         };
@@ -185,7 +185,7 @@ impl World {
         let mut blocked = false;
         self.hierarchy.traverse(&prepared, limit, |place, limit| {
             if Some(place) != target
-                && let Some((distance, local)) = self.intersect(place, &prepared, limit, moment)
+                && let Some((distance, local)) = self.intersect(place, &prepared, limit, time)
                 && !meet(SurfaceId::Primitive(place), distance, local)
             {
                 blocked = true;
@@ -197,7 +197,7 @@ impl World {
             self.instances.traverse(
                 &prepared,
                 limit,
-                moment,
+                time,
                 |surface, distance, local, limit| {
                     if meet(surface, distance, local) { limit } else { -1.0 }
                 },
@@ -207,19 +207,19 @@ impl World {
     }
 
     /// The surface at a hit of `ray`.
-    pub fn surface(&self, ray: &Ray, hit: &Hit, moment: &Moment) -> Surface {
+    pub fn surface(&self, ray: &Ray, hit: &Hit, time: &PathTime) -> Surface {
         let owner = self.owner(hit.surface);
         match hit.surface {
             SurfaceId::Primitive(place) => {
                 let primitive = self.primitives[place].element();
-                let point = match self.pose(place, moment) {
+                let point = match self.pose(place, time) {
                     None => primitive.point(ray, hit.distance, hit.local),
                     Some(pose) => pose.point(&primitive.point(&pose.ray_to_rest(ray), hit.distance, hit.local)),
                 };
-                self.surface_at(place, point, hit.local, moment)
+                self.surface_at(place, point, hit.local, time)
             }
             SurfaceId::Instanced { instance, triangle } => {
-                let PlacedTriangle { triangle, mesh, face, pose } = self.instances.triangle(instance, triangle, moment);
+                let PlacedTriangle { triangle, mesh, face, pose } = self.instances.triangle(instance, triangle, time);
                 let at_rest = triangle.point(&pose.ray_to_rest(ray), hit.distance, hit.local);
                 let point = pose.point(&at_rest);
                 let looks = mesh.interpolate(face, hit.local, point.normal, Some(&pose));
@@ -234,10 +234,10 @@ impl World {
     }
 
     /// The surface at a point of a primitive that is already known.
-    pub fn surface_at(&self, place: usize, point: SurfacePoint, local: Local, moment: &Moment) -> Surface {
+    pub fn surface_at(&self, place: usize, point: SurfacePoint, local: Local, time: &PathTime) -> Surface {
         let owner = self.owners[place];
         let shape = &self.shapes[owner.shape];
-        let pose = self.pose(place, moment);
+        let pose = self.pose(place, time);
         let at_rest = pose.map_or(point.normal, |pose| pose.normal_to_rest(point.normal));
         let (normal, uv) = match &self.primitives[place] {
             Primitive::Triangle(_) => shape.interpolate(owner.part, local, point.normal, pose),

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::emission::{emitted, mean_exitance};
-use super::intersect::{Moment, Owner, PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
+use super::intersect::{Owner, PathTime, PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
 use crate::sampling::light_tree::{self, Emitter};
 use crate::sampling::sampler::uniform;
 use crate::sampling::{AliasTable, LightGroup, LightSampler, LightTree};
@@ -173,7 +173,7 @@ impl Lights {
     pub fn sample(
         &self,
         scene: &Scene,
-        (world, moment): (&World, &Moment),
+        (world, time): (&World, &PathTime),
         reference: DVec3,
         choice: u32,
         [u, v]: [u32; 2],
@@ -194,14 +194,9 @@ impl Lights {
         };
         match *sampled {
             SampledLight::Area(place) => {
-                let direction = world.primitive(place).element().sample(
-                    world.pose(place, moment),
-                    self.sphere_sampling,
-                    reference,
-                    u1,
-                    u2,
-                )?;
-                let surface = world.surface_at(place, direction.point, direction.local, moment);
+                let direction =
+                    world.primitive(place).element().sample(world.pose(place, time), self.sphere_sampling, reference, u1, u2)?;
+                let surface = world.surface_at(place, direction.point, direction.local, time);
                 let radiance = emitted(scene, &surface, -direction.wi);
                 let distance = direction.distance * (1.0 - SHADOW_MARGIN);
                 let pdf = direction.pdf_solid_angle;
@@ -248,10 +243,10 @@ impl Lights {
     }
 
     /// Density, per steradian, with which [`Lights::sample`] finds the point `surface` from `reference`; 0 where it cannot.
-    pub fn pdf(&self, (world, moment): (&World, &Moment), reference: DVec3, surface: &Surface) -> f64 {
+    pub fn pdf(&self, (world, time): (&World, &PathTime), reference: DVec3, surface: &Surface) -> f64 {
         let SurfaceId::Primitive(place) = surface.id else { return 0.0 };
         let Some(light) = self.of_primitive[place] else { return 0.0 };
-        let pose = world.pose(place, moment);
+        let pose = world.pose(place, time);
         let pdf = world.primitive(place).element().pdf(pose, self.sphere_sampling, reference, &surface.point);
         self.probability(reference, light as usize) * pdf
     }

@@ -99,9 +99,9 @@ fn densities_of_light_samples_are_right() {
                     "{geometry:?} {strategy:?} from {reference}: {pdf} and {by_map}"
                 );
                 let ray = Ray { origin: reference, direction: wi };
-                let hit = world.closest(ray, &Moment::default()).expect("a sampled direction meets the light");
-                let surface = world.surface(&ray, &hit, &Moment::default());
-                let found = lights.pdf((&world, &Moment::default()), reference, &surface);
+                let hit = world.closest(ray, &PathTime::default()).expect("a sampled direction meets the light");
+                let surface = world.surface(&ray, &hit, &PathTime::default());
+                let found = lights.pdf((&world, &PathTime::default()), reference, &surface);
                 assert!(
                     (found / (pdf * of_area) - 1.0).abs() < 1e-6,
                     "{geometry:?} {strategy:?} from {reference}: {found} and {pdf}"
@@ -135,8 +135,8 @@ fn directions_to_spheres_follow_their_density() {
         let density = |wi: DVec3| {
             let ray = Ray { origin: reference, direction: wi.normalize() };
             let pmf = lights.table.pmf[0];
-            world.closest(ray, &Moment::default()).map_or(0.0, |hit| {
-                lights.pdf((&world, &Moment::default()), reference, &world.surface(&ray, &hit, &Moment::default())) / pmf
+            world.closest(ray, &PathTime::default()).map_or(0.0, |hit| {
+                lights.pdf((&world, &PathTime::default()), reference, &world.surface(&ray, &hit, &PathTime::default())) / pmf
             })
         };
         let report = test_directional_sampler(&bins, 300_000, seed, sample, density);
@@ -175,7 +175,7 @@ fn directions_to_the_environment_and_through_portals_follow_their_density() {
         let bits = |u: f64| (u * 4_294_967_296.0) as u32;
         let sample = |u: [f64; 3]| {
             let [choice, u, v] = u.map(bits);
-            let drawn = lights.sample(&scene, (&world, &Moment::default()), reference, choice, [u, v])?;
+            let drawn = lights.sample(&scene, (&world, &PathTime::default()), reference, choice, [u, v])?;
             assert!((drawn.pdf / lights.environment_pdf(&world, reference, drawn.wi) - 1.0).abs() < 1e-6);
             Some(drawn.wi)
         };
@@ -237,7 +237,7 @@ fn the_back_of_a_one_sided_light_is_dark() {
     let count = |scene: &Scene, reference: DVec3| {
         let lights = Lights::new(scene, &world);
         (0..64_u32)
-            .filter(|&i| lights.sample(scene, (&world, &Moment::default()), reference, 0, [i << 26, 1 << 31]).is_some())
+            .filter(|&i| lights.sample(scene, (&world, &PathTime::default()), reference, 0, [i << 26, 1 << 31]).is_some())
             .count()
     };
     // edge_u × edge_v points down.

@@ -1,7 +1,7 @@
 //! How blends become lobes, and how one of them is chosen.
 
 use super::*;
-use crate::reference::intersect::{Moment, Ray, World};
+use crate::reference::intersect::{PathTime, Ray, World};
 use crate::scene::{BlendMode, BlendWeight, Emission, Geometry, Material, MaterialKind, Rectangle, Shape, Transform};
 
 /// A scene of one rectangle in the plane z = 0, front up, made of the last material.
@@ -23,7 +23,7 @@ fn scene(kinds: Vec<MaterialKind>, mode: BlendMode) -> Scene {
 pub(super) fn surface(scene: &Scene) -> Surface {
     let world = World::new(scene).expect("the scene is sound");
     let ray = Ray { origin: DVec3::Z, direction: -DVec3::Z };
-    world.surface(&ray, &world.closest(ray, &Moment::default()).expect("the rectangle is there"), &Moment::default())
+    world.surface(&ray, &world.closest(ray, &PathTime::default()).expect("the rectangle is there"), &PathTime::default())
 }
 
 fn bsdf(scene: &Scene, u_blend: f64) -> Bsdf {
