@@ -9,6 +9,7 @@ use crate::scene::MisHeuristic;
 /// The weight of a sample that was drawn with density `pdf`, where the other strategy has `other_pdf` (same measure).
 ///
 /// 0 where the sample's own density is 0 (it cannot have been drawn), 1 where it is infinite.
+#[inline]
 pub fn weight(heuristic: MisHeuristic, pdf: f64, other_pdf: f64) -> f64 {
     match heuristic {
         MisHeuristic::Power => power(pdf, other_pdf),

@@ -27,6 +27,7 @@ impl<'a> PathSampler<'a> {
     }
 
     /// 32 uniform bits.
+    #[inline]
     pub fn bits(&self, dimension: Dimension) -> u32 {
         let Dimension(d) = dimension;
         let Some(kind) = self.sampling.sampler_of(dimension) else { return CENTRE_BITS };
@@ -39,30 +40,35 @@ impl<'a> PathSampler<'a> {
 
     /// The bits of light sample `number` at vertex `vertex`, which a ray of this depth met: those of the light's choice, then of the point
     /// on it.
+    #[inline]
     pub fn light_bits(&self, vertex: u32, depth: u32, number: u32) -> [u32; 3] {
         use super::dimension::VertexDimension::{LightChoice, LightU, LightV};
-        let dimensions = [LightChoice, LightU, LightV].map(|name| Dimension::vertex(vertex, name));
+        let dimensions =
+            [Dimension::vertex(vertex, LightChoice), Dimension::vertex(vertex, LightU), Dimension::vertex(vertex, LightV)];
         if number == 0 {
-            return dimensions.map(|dimension| self.bits(dimension));
+            return [self.bits(dimensions[0]), self.bits(dimensions[1]), self.bits(dimensions[2])];
         }
         let shared = self.point.more_lights.get(((depth - 1) * (self.sampling.light_samples - 1) + number - 1) as usize);
-        std::array::from_fn(|axis| {
+        let bits = |axis: usize| {
             let Dimension(d) = dimensions[axis];
             match (self.sampling.path.decorrelation(), shared) {
                 (Decorrelation::Rotation, Some(shared)) => shared[axis].wrapping_add(dimension_bits(self.pixel_key, d)),
                 (Decorrelation::DigitalShift, Some(shared)) => shared[axis] ^ dimension_bits(self.pixel_key, d),
                 _ => dimension_bits(self.path_key, HASHED_LIGHTS.wrapping_add(64 * (vertex + 1) + 4 * number + axis as u32)),
             }
-        })
+        };
+        [bits(0), bits(1), bits(2)]
     }
 
     /// Uniform in [0, 1): a multiple of 2⁻²⁴, exact in f32 as well.
+    #[inline]
     pub fn uniform(&self, dimension: Dimension) -> f64 {
         uniform(self.bits(dimension))
     }
 }
 
 /// The upper 24 of 32 bits as a number of [0, 1).
+#[inline]
 pub fn uniform(bits: u32) -> f64 {
     f64::from(bits >> 8) / 16_777_216.0
 }

@@ -112,6 +112,7 @@ pub trait Element: Debug + Send + Sync {
 }
 
 /// Uniform over an area: dA·cosθ / d² is the solid angle of dA.
+#[inline]
 pub fn area_to_solid_angle(area: f64, from: DVec3, point: &SurfacePoint) -> f64 {
     let to_point = point.position - from;
     let squared = to_point.length_squared();

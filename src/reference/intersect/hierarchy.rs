@@ -32,6 +32,7 @@ impl PreparedRay {
     }
 
     /// A point in the coordinates in which the ray starts at the origin and runs along the last axis.
+    #[inline]
     pub fn shear(&self, point: DVec3) -> DVec3 {
         let p = point - self.ray.origin;
         let [first, second, last] = self.axes;
@@ -122,6 +123,7 @@ impl Hierarchy {
     }
 
     /// The child the ray enters first; the other one, if it is entered too, has to wait.
+    #[inline]
     fn descend(&self, node: &Node, ray: &PreparedRay, limit: f64, waiting: &mut Stack) -> Option<&Node> {
         let (left, right) = (&self.nodes[node.first as usize], &self.nodes[node.first as usize + 1]);
         match (ray.enter(left, limit), ray.enter(right, limit)) {
@@ -149,6 +151,7 @@ struct Stack {
 }
 
 impl Stack {
+    #[inline]
     fn push(&mut self, node: u32, entry: f64) {
         let item = (node, (entry as f32).next_down());
         match self.fixed.get_mut(self.length) {
@@ -160,6 +163,7 @@ impl Stack {
         }
     }
 
+    #[inline]
     fn pop(&mut self) -> Option<(u32, f32)> {
         if let Some(item) = self.overflow.pop() {
             return Some(item);

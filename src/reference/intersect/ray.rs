@@ -10,11 +10,13 @@ pub struct Ray {
 }
 
 impl Ray {
+    #[inline]
     pub fn at(&self, distance: f64) -> DVec3 {
         self.origin + self.direction * distance
     }
 
     /// Distance to the plane through `point`, in (0, limit).
+    #[inline]
     pub fn distance_to_plane(&self, point: DVec3, normal: DVec3, limit: f64) -> Option<f64> {
         let distance = (point - self.origin).dot(normal) / self.direction.dot(normal);
         // A ray in the plane gives 0/0 or an infinity, which fails the comparisons.

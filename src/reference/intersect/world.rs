@@ -91,6 +91,7 @@ impl World {
         &self.scene_order
     }
 
+    #[inline]
     pub fn primitive(&self, place: usize) -> &Primitive {
         &self.primitives[place]
     }
@@ -100,6 +101,7 @@ impl World {
         &self.portals
     }
 
+    #[inline]
     pub fn owner(&self, id: SurfaceId) -> Owner {
         match id {
             SurfaceId::Primitive(place) => self.owners[place],
@@ -109,10 +111,12 @@ impl World {
     }
 
     /// None: the primitive rests.
+    #[inline]
     pub fn pose<'a>(&self, place: usize, time: &'a PathTime) -> Option<&'a Pose> {
         time.pose(self.owners[place].shape)
     }
 
+    #[inline]
     fn intersect(&self, place: usize, ray: &PreparedRay, limit: f64, time: &PathTime) -> Option<(f64, Local)> {
         match self.pose(place, time) {
             None => self.primitives[place].intersect(ray, limit),

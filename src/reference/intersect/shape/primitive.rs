@@ -27,6 +27,7 @@ impl Primitive {
     }
 
     /// Distance and local coordinates of the closest crossing in (0, limit).
+    #[inline]
     pub fn intersect(&self, ray: &PreparedRay, limit: f64) -> Option<(f64, Local)> {
         match self {
             Self::Triangle(triangle) => triangle.intersect(ray, limit),

@@ -36,6 +36,7 @@ pub struct Quad {
 }
 
 impl Element for Quad {
+    #[inline]
     fn intersect(&self, ray: &PreparedRay, limit: f64) -> Option<(f64, Local)> {
         let distance = ray.ray.distance_to_plane(self.corner, self.normal, limit)?;
         let offset = ray.ray.at(distance) - self.corner;
@@ -44,6 +45,7 @@ impl Element for Quad {
         inside.all().then_some((distance, local))
     }
 
+    #[inline]
     fn point(&self, _: &Ray, _: f64, local: Local) -> SurfacePoint {
         self.at(local)
     }
@@ -132,6 +134,7 @@ impl Quad {
         })
     }
 
+    #[inline]
     fn at(&self, local: Local) -> SurfacePoint {
         let position = self.corner + self.edge_u * local.x + self.edge_v * local.y;
         let magnitude = (self.corner.abs() + self.edge_u.abs() + self.edge_v.abs()).max_element();
