@@ -40,7 +40,7 @@ fn half_floats(bits: vec3<u32>) -> vec3<f32> {
 // A colour; or a grey, where one channel counts. Whatever the format, what it leads to is loaded at the end by the same code: drivers copy
 // what is called to wherever it is called.
 fn texel(image: Image, x: i32, y: i32) -> vec3<f32> {
-    let place = u32(y * image.size.x + x);
+    let index = u32(y * image.size.x + x);
     // Which of a texel's values: red, green, blue or alpha.
     var numbers = vec3<u32>(0u, 1u, 2u);
 #if TEXTURE_CHANNELS
@@ -54,23 +54,23 @@ fn texel(image: Image, x: i32, y: i32) -> vec3<f32> {
     switch (image.flags >> FORMAT_SHIFT) & 3u {
 #if TEXELS_IN_BYTES
         case TEXELS_OF_BYTES: {
-            let codes = (vec3<u32>(texel_word(image.first + place)) >> (8u * numbers)) & vec3<u32>(255u);
+            let codes = (vec3<u32>(texel_word(image.first + index)) >> (8u * numbers)) & vec3<u32>(255u);
             words = image.first_value + codes;
         }
 #endif
 #if TEXELS_IN_SHORTS
         case TEXELS_OF_SHORTS: {
-            words = image.first_value + texel_halves(image, place, numbers);
+            words = image.first_value + texel_halves(image, index, numbers);
         }
 #endif
 #if TEXELS_IN_HALF_FLOATS
         case TEXELS_OF_HALF_FLOATS: {
-            return half_floats(texel_halves(image, place, numbers));
+            return half_floats(texel_halves(image, index, numbers));
         }
 #endif
 #if TEXELS_IN_FLOATS
         case TEXELS_OF_FLOATS: {
-            words = image.first + select(3u, 4u, (image.flags & FLOAT_ALPHA) != 0u) * place + numbers;
+            words = image.first + select(3u, 4u, (image.flags & FLOAT_ALPHA) != 0u) * index + numbers;
         }
 #endif
         default: {}
@@ -88,8 +88,8 @@ fn texel(image: Image, x: i32, y: i32) -> vec3<f32> {
 }
 
 // Of a texel of two words, halves by their numbers.
-fn texel_halves(image: Image, place: u32, numbers: vec3<u32>) -> vec3<u32> {
-    let first = image.first + 2u * place;
+fn texel_halves(image: Image, index: u32, numbers: vec3<u32>) -> vec3<u32> {
+    let first = image.first + 2u * index;
     let both = select(vec3<u32>(texel_word(first)), vec3<u32>(texel_word(first + 1u)), numbers > vec3<u32>(1u));
     return (both >> (16u * (numbers & vec3<u32>(1u)))) & vec3<u32>(0xffffu);
 }

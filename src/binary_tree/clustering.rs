@@ -23,7 +23,7 @@ const FEW: usize = 8;
 /// A tree with a box in each leaf, and whether many boxes fitted equally well. The first `quick_rounds` look at the next neighbours alone.
 pub fn cluster(boxes: &[Aabb], quick_rounds: usize) -> (Bvh2, bool) {
     let mut nodes: Vec<Bvh2Node> =
-        in_morton_order(boxes).into_iter().map(|place| Bvh2Node::new(boxes[place as usize], 1, place)).collect();
+        in_morton_order(boxes).into_iter().map(|index| Bvh2Node::new(boxes[index as usize], 1, index)).collect();
     let mut tree = vec![Bvh2Node::default(); 2 * boxes.len() - 1];
     let mut free = tree.len();
     let mut rounds = 0;
@@ -55,13 +55,13 @@ fn in_morton_order(boxes: &[Aabb]) -> Vec<u32> {
     let offset = -all.min.as_dvec3() * scale;
     let code = |bounds: &Aabb| morton_encode_u64_unorm(bounds.center().as_dvec3() * scale + offset);
     let mut codes: Vec<(u64, u32)> =
-        boxes.par_iter().zip(0..boxes.len() as u32).map(|(bounds, place)| (code(bounds), place)).collect();
+        boxes.par_iter().zip(0..boxes.len() as u32).map(|(bounds, index)| (code(bounds), index)).collect();
     codes.par_sort_unstable_by_key(|(code, _)| *code);
     for crowd in codes.chunk_by_mut(|a, b| a.0 == b.0).filter(|crowd| crowd.len() > FEW) {
-        let size = |place: u32| boxes[place as usize].half_area();
+        let size = |index: u32| boxes[index as usize].half_area();
         crowd.sort_by(|(_, a), (_, b)| size(*a).total_cmp(&size(*b)).then(a.cmp(b)));
     }
-    codes.into_iter().map(|(_, place)| place).collect()
+    codes.into_iter().map(|(_, index)| index).collect()
 }
 
 fn cost(a: &Bvh2Node, b: &Bvh2Node) -> f32 {

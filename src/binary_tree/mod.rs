@@ -11,7 +11,7 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::leaf_collapser::collapse;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 
-/// Builds a tree over finite boxes. Its leaves hold places of boxes by way of `primitive_indices`.
+/// Builds a tree over finite boxes. Its leaves hold indices of boxes by way of `primitive_indices`.
 pub fn build(boxes: &[Aabb], parameters: &BvhBuildParams) -> Bvh2 {
     if boxes.is_empty() {
         return Bvh2::default();
@@ -52,9 +52,9 @@ mod tests {
             let first = node.first_index as usize;
             let inside = |inner: &Aabb| inner.min.cmpge(node.aabb().min).all() && inner.max.cmple(node.aabb().max).all();
             if node.is_leaf() {
-                for &place in &tree.primitive_indices[first..first + node.prim_count as usize] {
-                    assert!(!std::mem::replace(&mut seen[place as usize], true), "box {place} stands twice");
-                    assert!(inside(&boxes[place as usize]));
+                for &index in &tree.primitive_indices[first..first + node.prim_count as usize] {
+                    assert!(!std::mem::replace(&mut seen[index as usize], true), "box {index} stands twice");
+                    assert!(inside(&boxes[index as usize]));
                 }
             } else {
                 assert!(inside(tree.nodes[first].aabb()) && inside(tree.nodes[first + 1].aabb()));
@@ -70,10 +70,10 @@ mod tests {
         let copies = vec![around(Vec3A::ONE, 1.0); count];
         let concentric: Vec<Aabb> = (1..=count).map(|radius| around(Vec3A::ZERO, radius as f32)).collect();
         let nested: Vec<Aabb> = (1..=count).map(|radius| around(Vec3A::X * radius as f32, radius as f32)).collect();
-        let row: Vec<Aabb> = (0..count).map(|place| around(Vec3A::X * place as f32, 0.4)).collect();
+        let row: Vec<Aabb> = (0..count).map(|index| around(Vec3A::X * index as f32, 0.4)).collect();
         let pairs_in_a_row: Vec<Aabb> = row.iter().flat_map(|bounds| [*bounds; 2]).collect();
         let mut among_others = copies.clone();
-        among_others.extend((0..count).map(|place| around(Vec3A::new(place as f32, (place * 7 % 101) as f32, 0.0), 0.3)));
+        among_others.extend((0..count).map(|index| around(Vec3A::new(index as f32, (index * 7 % 101) as f32, 0.0), 0.3)));
         for (name, boxes) in [
             ("copies", copies),
             ("concentric", concentric),
@@ -96,9 +96,9 @@ mod tests {
             }
         }
         for count in [1, 2, 3, 500, 9000_u32] {
-            let fraction = |place: u32, factor: u32| (place.wrapping_mul(factor) % 10_007) as f32 / 100.0;
+            let fraction = |index: u32, factor: u32| (index.wrapping_mul(factor) % 10_007) as f32 / 100.0;
             let boxes: Vec<Aabb> = (0..count)
-                .map(|place| around(Vec3A::new(fraction(place, 7919), fraction(place, 104_729), fraction(place, 1_299_709)), 0.4))
+                .map(|index| around(Vec3A::new(fraction(index, 7919), fraction(index, 104_729), fraction(index, 1_299_709)), 0.4))
                 .collect();
             let bounds: Vec<Bounds> = boxes.iter().map(|bounds| Bounds(*bounds)).collect();
             let ours = build(&boxes, &parameters());

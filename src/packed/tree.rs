@@ -59,7 +59,7 @@ pub fn build(world: &WorldGeometry, traversal: Traversal) -> Result<(Hierarchy, 
         Traversal::Bvh => of_two_levels(world, &inside),
         Traversal::RayQuery => {
             let (boxes, order) = ray_query::build(primitives, &inside);
-            (Hierarchy::of_boxes(boxes, inside.len() as u32), order.iter().map(|&place| slot(&inside[place])).collect())
+            (Hierarchy::of_boxes(boxes, inside.len() as u32), order.iter().map(|&index| slot(&inside[index])).collect())
         }
     };
     order.extend(outside.iter().map(slot));
@@ -105,9 +105,9 @@ fn of_two_levels(world: &WorldGeometry, inside: &[usize]) -> (Hierarchy, Vec<Slo
     // A ray is brought into the space of each instance of a leaf that it meets, so where they are many each has a box of its own.
     let most = if world.instances.len() > inside.len() { 1 } else { MAX_LEAF };
     let (mut nodes, leaves) = bvh4::build(&binary_tree(&boxes, most));
-    let slot = |place: usize| match inside.get(place) {
+    let slot = |index: usize| match inside.get(index) {
         Some(&index) => Slot::Primitive(index as u32),
-        None => Slot::Instance((place - inside.len()) as u32),
+        None => Slot::Instance((index - inside.len()) as u32),
     };
     let mut order: Vec<Slot> = leaves.into_iter().map(slot).collect();
     let mut roots = Vec::with_capacity(groups.len());

@@ -20,9 +20,9 @@ fn kernel(radius: i32, value: impl Fn(f64) -> f64) -> Kernel {
 /// Convolves a plane with `across` along rows and `down` along columns; pixels beyond the border are those at it.
 fn separable(plane: &[f64], width: usize, across: &Kernel, down: &Kernel) -> Vec<f64> {
     let height = plane.len() / width.max(1);
-    let pass = |length: usize, kernel: &Kernel, value: &dyn Fn(usize) -> f64, place: usize| -> f64 {
+    let pass = |length: usize, kernel: &Kernel, value: &dyn Fn(usize) -> f64, index: usize| -> f64 {
         let radius = kernel.len() / 2;
-        let at = |tap: usize| value((place + tap).saturating_sub(radius).min(length - 1));
+        let at = |tap: usize| value((index + tap).saturating_sub(radius).min(length - 1));
         kernel.iter().enumerate().map(|(tap, weight)| weight * at(tap)).sum()
     };
     let rows: Vec<f64> =

@@ -69,15 +69,15 @@ fn the_hierarchy_finds_what_a_search_over_everything_finds() {
         shapes.push((Geometry::Box(Cuboid { min: center.yzx(), max: center.yzx() + 0.4 }), vec![]));
     }
     let world = world(shapes);
-    let count = world.places_in_scene_order().len();
+    let count = world.indices_in_scene_order().len();
     let mut hits = 0;
     for _ in 0..20_000 {
         let ray = Ray { origin: random_point(&mut random, 12.0), direction: random_direction(&mut random) };
         let prepared = PreparedRay::new(ray);
         let (mut nearest, mut limit) = (None, f64::INFINITY);
-        for place in 0..count {
-            if let Some((distance, _)) = world.primitive(place).intersect(&prepared, limit) {
-                (nearest, limit) = (Some(place), distance);
+        for index in 0..count {
+            if let Some((distance, _)) = world.primitive(index).intersect(&prepared, limit) {
+                (nearest, limit) = (Some(index), distance);
             }
         }
         let found = world.closest(ray, &PathTime::default());

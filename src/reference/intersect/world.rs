@@ -41,7 +41,7 @@ pub struct World {
     hierarchy: Hierarchy,
     primitives: Vec<Primitive>,
     owners: Vec<Owner>,
-    /// Leaf-order places of the primitives, in the order of the scene file.
+    /// Leaf-order indices of the primitives, in the order of the scene file.
     scene_order: Vec<usize>,
     /// What has no bounds.
     infinite: Vec<(Primitive, Owner)>,
@@ -75,8 +75,8 @@ impl World {
         }
         let (hierarchy, leaf_order) = Hierarchy::build(&boxes);
         let mut scene_order = vec![0; leaf_order.len()];
-        for (place, &original) in leaf_order.iter().enumerate() {
-            scene_order[original as usize] = place;
+        for (index, &original) in leaf_order.iter().enumerate() {
+            scene_order[original as usize] = index;
         }
         let in_leaf_order = |original: &u32| collected.primitives[*original as usize].clone();
         let (primitives, owners) = leaf_order.iter().map(in_leaf_order).unzip();
@@ -86,14 +86,14 @@ impl World {
         Ok(Self { hierarchy, primitives, owners, scene_order, infinite, instances, shapes, normal_maps, anisotropic, portals })
     }
 
-    /// Leaf-order places of all primitives, in the order of the scene file; planes are not among them.
-    pub fn places_in_scene_order(&self) -> &[usize] {
+    /// Leaf-order indices of all primitives, in the order of the scene file; planes are not among them.
+    pub fn indices_in_scene_order(&self) -> &[usize] {
         &self.scene_order
     }
 
     #[inline]
-    pub fn primitive(&self, place: usize) -> &Primitive {
-        &self.primitives[place]
+    pub fn primitive(&self, index: usize) -> &Primitive {
+        &self.primitives[index]
     }
 
     /// Portals, in the order of the scene file.
@@ -104,7 +104,7 @@ impl World {
     #[inline]
     pub fn owner(&self, id: SurfaceId) -> Owner {
         match id {
-            SurfaceId::Primitive(place) => self.owners[place],
+            SurfaceId::Primitive(index) => self.owners[index],
             SurfaceId::Instanced { instance, triangle } => self.instances.owner(instance, triangle),
             SurfaceId::Infinite(index) => self.infinite[index].1,
         }
@@ -112,15 +112,15 @@ impl World {
 
     /// None: the primitive rests.
     #[inline]
-    pub fn pose<'a>(&self, place: usize, time: &'a PathTime) -> Option<&'a Pose> {
-        time.pose(self.owners[place].shape)
+    pub fn pose<'a>(&self, index: usize, time: &'a PathTime) -> Option<&'a Pose> {
+        time.pose(self.owners[index].shape)
     }
 
     #[inline]
-    fn intersect(&self, place: usize, ray: &PreparedRay, limit: f64, time: &PathTime) -> Option<(f64, Local)> {
-        match self.pose(place, time) {
-            None => self.primitives[place].intersect(ray, limit),
-            Some(pose) => self.primitives[place].intersect(&PreparedRay::new(pose.ray_to_rest(&ray.ray)), limit),
+    fn intersect(&self, index: usize, ray: &PreparedRay, limit: f64, time: &PathTime) -> Option<(f64, Local)> {
+        match self.pose(index, time) {
+            None => self.primitives[index].intersect(ray, limit),
+            Some(pose) => self.primitives[index].intersect(&PreparedRay::new(pose.ray_to_rest(&ray.ray)), limit),
         }
     }
 
@@ -135,9 +135,9 @@ impl World {
                 closest = Some(Hit { surface: SurfaceId::Infinite(index), distance, local });
             }
         }
-        self.hierarchy.traverse(&prepared, limit, |place, before| match self.intersect(place, &prepared, before, time) {
+        self.hierarchy.traverse(&prepared, limit, |index, before| match self.intersect(index, &prepared, before, time) {
             Some((distance, local)) => {
-                closest = Some(Hit { surface: SurfaceId::Primitive(place), distance, local });
+                closest = Some(Hit { surface: SurfaceId::Primitive(index), distance, local });
                 limit = distance;
                 distance
             }
@@ -151,7 +151,7 @@ impl World {
     }
 
     /// The share of light that comes through all that the ray meets but `target` before `limit`: the product of what each surface lets through,
-    /// `share`, of those whose materials let any through. `target` is the place of the primitive the ray ends on.
+    /// `share`, of those whose materials let any through. `target` is the index of the primitive the ray ends on.
     pub fn transmittance(
         &self,
         ray: Ray,
@@ -172,8 +172,8 @@ impl World {
             product *= share(&near);
             // What is round is met again on its far side; instances are of triangles.
             let within = Ray { origin: near.point.leave_towards(ray.direction), direction: ray.direction };
-            if let SurfaceId::Primitive(place) = surface
-                && let Some((distance, local)) = self.intersect(place, &PreparedRay::new(within), limit - distance, time)
+            if let SurfaceId::Primitive(index) = surface
+                && let Some((distance, local)) = self.intersect(index, &PreparedRay::new(within), limit - distance, time)
             {
                 product *= share(&self.surface(&within, &Hit { surface, distance, local }, time));
             }
@@ -187,10 +187,10 @@ impl World {
             }
         }
         let mut blocked = false;
-        self.hierarchy.traverse(&prepared, limit, |place, limit| {
-            if Some(place) != target
-                && let Some((distance, local)) = self.intersect(place, &prepared, limit, time)
-                && !meet(SurfaceId::Primitive(place), distance, local)
+        self.hierarchy.traverse(&prepared, limit, |index, limit| {
+            if Some(index) != target
+                && let Some((distance, local)) = self.intersect(index, &prepared, limit, time)
+                && !meet(SurfaceId::Primitive(index), distance, local)
             {
                 blocked = true;
                 return -1.0;
@@ -214,13 +214,13 @@ impl World {
     pub fn surface(&self, ray: &Ray, hit: &Hit, time: &PathTime) -> Surface {
         let owner = self.owner(hit.surface);
         match hit.surface {
-            SurfaceId::Primitive(place) => {
-                let primitive = self.primitives[place].element();
-                let point = match self.pose(place, time) {
+            SurfaceId::Primitive(index) => {
+                let primitive = self.primitives[index].element();
+                let point = match self.pose(index, time) {
                     None => primitive.point(ray, hit.distance, hit.local),
                     Some(pose) => pose.point(&primitive.point(&pose.ray_to_rest(ray), hit.distance, hit.local)),
                 };
-                self.surface_at(place, point, hit.local, time)
+                self.surface_at(index, point, hit.local, time)
             }
             SurfaceId::Instanced { instance, triangle } => {
                 let PlacedTriangle { triangle, mesh, face, pose } = self.instances.triangle(instance, triangle, time);
@@ -238,23 +238,23 @@ impl World {
     }
 
     /// The surface at a point of a primitive that is already known.
-    pub fn surface_at(&self, place: usize, point: SurfacePoint, local: Local, time: &PathTime) -> Surface {
-        let owner = self.owners[place];
+    pub fn surface_at(&self, index: usize, point: SurfacePoint, local: Local, time: &PathTime) -> Surface {
+        let owner = self.owners[index];
         let shape = &self.shapes[owner.shape];
-        let pose = self.pose(place, time);
+        let pose = self.pose(index, time);
         let at_rest = pose.map_or(point.normal, |pose| pose.normal_to_rest(point.normal));
-        let (normal, uv) = match &self.primitives[place] {
+        let (normal, uv) = match &self.primitives[index] {
             Primitive::Triangle(_) => shape.interpolate(owner.part, local, point.normal, pose),
             Primitive::Other(element) => (point.normal, element.uv(local, at_rest)),
         };
         let tangents = || {
-            let at_rest = match &self.primitives[place] {
+            let at_rest = match &self.primitives[index] {
                 Primitive::Triangle(triangle) => shape.tangents(owner.part, triangle),
                 Primitive::Other(element) => element.tangents(local, at_rest),
             };
             at_rest.map(|tangents| pose.map_or(tangents, |pose| pose.tangents(tangents)))
         };
-        self.shaded((SurfaceId::Primitive(place), owner), point, (normal, uv), tangents)
+        self.shaded((SurfaceId::Primitive(index), owner), point, (normal, uv), tangents)
     }
 
     /// A surface with its own normal and texture coordinates, as its material bends it.

@@ -97,16 +97,16 @@ pub struct LightSample {
 impl Lights {
     pub fn new(scene: &Scene, world: &World) -> Self {
         let (mut lights, mut sampler) = (Vec::new(), LightSampler::default());
-        let mut of_primitive = vec![None; world.places_in_scene_order().len()];
+        let mut of_primitive = vec![None; world.indices_in_scene_order().len()];
         // Once a material, not once a primitive: a texture's mean looks at all of it.
         let emits = scene.materials_that(|material| material.emission.is_some());
         let exitances: Vec<f64> = (0..emits.len()).map(|id| if emits[id] { mean_exitance(scene, id) } else { 0.0 }).collect();
-        for &place in world.places_in_scene_order() {
-            let Owner { shape, material, .. } = world.owner(SurfaceId::Primitive(place));
-            let power = world.primitive(place).area() * exitances[material];
+        for &index in world.indices_in_scene_order() {
+            let Owner { shape, material, .. } = world.owner(SurfaceId::Primitive(index));
+            let power = world.primitive(index).area() * exitances[material];
             if power > 0.0 {
-                of_primitive[place] = Some(lights.len() as u32);
-                lights.push(SampledLight::Area(place));
+                of_primitive[index] = Some(lights.len() as u32);
+                lights.push(SampledLight::Area(index));
                 sampler.add(LightGroup::Surface { shape, material }, LightStrength::Power(power));
             }
         }
@@ -193,15 +193,15 @@ impl Lights {
             })
         };
         match *sampled {
-            SampledLight::Area(place) => {
+            SampledLight::Area(index) => {
                 let direction =
-                    world.primitive(place).element().sample(world.pose(place, time), self.sphere_sampling, reference, u1, u2)?;
-                let surface = world.surface_at(place, direction.point, direction.local, time);
+                    world.primitive(index).element().sample(world.pose(index, time), self.sphere_sampling, reference, u1, u2)?;
+                let surface = world.surface_at(index, direction.point, direction.local, time);
                 let radiance = emitted(scene, &surface, -direction.wi);
                 let distance = direction.distance * (1.0 - SHADOW_MARGIN);
                 let pdf = direction.pdf_solid_angle;
                 let usable = pdf > 0.0 && pdf.is_finite();
-                if usable { sample(direction.wi, distance, radiance, probability * pdf, Some(place)) } else { None }
+                if usable { sample(direction.wi, distance, radiance, probability * pdf, Some(index)) } else { None }
             }
             SampledLight::Delta(ref light) => {
                 let arriving = light.arriving(reference)?;
@@ -244,10 +244,10 @@ impl Lights {
 
     /// Density, per steradian, with which [`Lights::sample`] finds the point `surface` from `reference`; 0 where it cannot.
     pub fn pdf(&self, (world, time): (&World, &PathTime), reference: DVec3, surface: &Surface) -> f64 {
-        let SurfaceId::Primitive(place) = surface.id else { return 0.0 };
-        let Some(light) = self.of_primitive[place] else { return 0.0 };
-        let pose = world.pose(place, time);
-        let pdf = world.primitive(place).element().pdf(pose, self.sphere_sampling, reference, &surface.point);
+        let SurfaceId::Primitive(index) = surface.id else { return 0.0 };
+        let Some(light) = self.of_primitive[index] else { return 0.0 };
+        let pose = world.pose(index, time);
+        let pdf = world.primitive(index).element().pdf(pose, self.sphere_sampling, reference, &surface.point);
         self.probability(reference, light as usize) * pdf
     }
 }
@@ -255,9 +255,9 @@ impl Lights {
 /// What the tree knows of the lights inside the scene, in their order. `exitances` are those of the materials.
 fn emitters(scene: &Scene, world: &World, lights: &[SampledLight], exitances: &[f64]) -> Vec<Emitter> {
     let two_sided = scene.materials_that(|material| material.emission.is_some_and(|emission| emission.two_sided));
-    let of_surface = |place: usize| {
-        let Owner { shape, material, .. } = world.owner(SurfaceId::Primitive(place));
-        let (element, shape) = (world.primitive(place).element(), &scene.shapes[shape]);
+    let of_surface = |index: usize| {
+        let Owner { shape, material, .. } = world.owner(SurfaceId::Primitive(index));
+        let (element, shape) = (world.primitive(index).element(), &scene.shapes[shape]);
         let (bounds, power) = (element.bounds().unwrap_or_default(), element.area() * exitances[material]);
         if shape.motion.is_some() {
             return Emitter::moving(shape, scene.camera.shutter, bounds, power);
@@ -266,7 +266,7 @@ fn emitters(scene: &Scene, world: &World, lights: &[SampledLight], exitances: &[
         Emitter::surface(bounds, normal, two_sided[material], power)
     };
     let surfaces = lights.iter().filter_map(|light| match light {
-        SampledLight::Area(place) => Some(of_surface(*place)),
+        SampledLight::Area(index) => Some(of_surface(*index)),
         _ => None,
     });
     let delta_lights = scene.lights.iter().filter_map(Light::delta).filter(|light| light.strength.is_positive());
