@@ -28,6 +28,7 @@ macro_rules! shape_table {
             Rectangle(Rectangle) rectangle "rectangle" => Quad quad QUAD Area Edges,
             Disk(Disk) disk "disk" => Disk disk DISK Area None,
             Box(Cuboid) cuboid "box",
+            Cylinder(Cylinder) cylinder "cylinder" => Cylinder cylinder CYLINDER Area Edges,
             Plane(Plane) plane "plane" => Plane plane PLANE Infinite None,
         }
     };
@@ -63,6 +64,7 @@ macro_rules! geometries {
 shape_table!(geometries);
 
 pub use cuboid::Cuboid;
+pub use cylinder::Cylinder;
 pub use disk::Disk;
 pub use mesh::Mesh;
 pub use plane::Plane;

@@ -1,0 +1,63 @@
+// A ray against the wall of a cylinder: (t or -1, 0, height between the ends). The points of its record are one end, the axis to the other,
+// and a radius from the axis to where u is 0.
+#import core/layout.wgsl
+#import geometry/prepared_ray.wgsl
+#if MOTION
+#import geometry/motion.wgsl
+#endif
+
+// Where a ray's line crosses the wall: nearer and farther t and height, as on the wall's whole line; `met` where there are crossings.
+struct CylinderCrossings {
+    met: bool,
+    near: vec2<f32>,
+    far: vec2<f32>,
+}
+
+// Across the axis the wall is a circle. Roots are taken relative to the point of closest approach, and the one that would cancel is found
+// from the product of both, as a sphere's.
+fn cylinder_crossings(ray: PreparedRay, start: vec3<f32>, axis: vec3<f32>, radial: vec3<f32>) -> CylinderCrossings {
+    let per_height = axis / dot(axis, axis);
+    let to_start = start - ray.origin;
+    let rise = dot(per_height, ray.direction);
+    let below = dot(per_height, to_start);
+    let direction = ray.direction - rise * axis;
+    let to_axis = to_start - below * axis;
+    let slope2 = dot(direction, direction);
+    let radius2 = dot(radial, radial);
+    let nothing = vec2<f32>(-1.0);
+    if slope2 == 0.0 {
+        return CylinderCrossings(false, nothing, nothing);
+    }
+    let along = dot(to_axis, direction) / slope2;
+    let across = to_axis - along * direction;
+    let discriminant = (radius2 - dot(across, across)) / slope2;
+    if discriminant < 0.0 {
+        return CylinderCrossings(false, nothing, nothing);
+    }
+    let half_chord = sqrt(discriminant);
+    let outside = (dot(to_axis, to_axis) - radius2) / slope2;
+    let far_root = along + select(-half_chord, half_chord, along >= 0.0);
+    let other_root = select(0.0, outside / far_root, far_root != 0.0);
+    let near = min(far_root, other_root);
+    let far = max(far_root, other_root);
+    return CylinderCrossings(true, vec2<f32>(near, near * rise - below), vec2<f32>(far, far * rise - below));
+}
+
+// Whether a crossing lies ahead and between the ends, which overlap what they meet as quads do.
+fn is_on_cylinder(crossing: vec2<f32>) -> bool {
+    return crossing.x > 0.0 && crossing.y >= -QUAD_OVERLAP && crossing.y <= 1.0 + QUAD_OVERLAP;
+}
+
+fn intersect_cylinder(ray: PreparedRay, t_max: f32, start: vec3<f32>, axis: vec3<f32>, radial: vec3<f32>) -> vec3<f32> {
+    let crossings = cylinder_crossings(ray, start, axis, radial);
+    let crossing = select(crossings.far, crossings.near, is_on_cylinder(crossings.near));
+    let met = crossings.met && is_on_cylinder(crossing) && crossing.x < t_max;
+    return vec3<f32>(select(-1.0, crossing.x, met), 0.0, crossing.y);
+}
+
+#if MOTION
+fn move_cylinder(motion: Motion, start: vec3<f32>, axis: vec3<f32>, radial: vec3<f32>) -> MovedPoints {
+    let size = abs(start) + abs(axis) + length(radial);
+    return MovedPoints(moved_point(motion, start), motion.linear * axis, motion.linear * radial, size);
+}
+#endif

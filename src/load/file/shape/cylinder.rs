@@ -1,0 +1,34 @@
+//! `type = "cylinder"`
+
+use super::keys::{ShapeKeys, Written, shape_keys};
+use crate::load::error::SceneError;
+use crate::load::file::resolver::Resolver;
+use crate::load::file::value::{Checked, Located, Positive, Vector, vector};
+use crate::scene::Cylinder;
+
+shape_keys! {
+    /// The wall of a tube without caps, the normal outward. u goes round the axis, from the side of −z, or of +x where the axis runs along z;
+    /// v goes from 0 at `from` to 1 at `to`.
+    "CylinderShape" {
+        /// One end of the axis.
+        from: Vector,
+        /// The other end.
+        to: Located<Vector>,
+        radius: Checked<Positive>,
+    }
+}
+
+impl ShapeKeys for Keys {
+    type Shape = Cylinder;
+
+    const EXAMPLES: &'static [&'static str] =
+        &["from = [0.1, -0.8, 0]\nto = [-0.2, 0.7, 0.3]\nradius = 0.6", "from = [0, 0, -0.5]\nto = [0, 0, 0.4]\nradius = 0.9"];
+
+    fn resolve(&self, resolver: &mut Resolver<'_>, _: &mut Written<'_>) -> Result<Cylinder, SceneError> {
+        let (from, to) = (vector(self.from), vector(self.to.value));
+        if (to - from).length() == 0.0 {
+            return Err(resolver.error(&self.to.span, "the cylinder has no length: `from` and `to` are the same point"));
+        }
+        Ok(Cylinder { from, to, radius: self.radius.0 })
+    }
+}
