@@ -167,8 +167,21 @@ impl Converter<'_> {
                     return Err(plugin.error("the cylinder has no length or no radius"));
                 };
                 let (x, y) = along.any_orthonormal_pair();
+                if is_uniform(&map) && !flip {
+                    let tube = Keys::of_type("cylinder").with("radius", radius);
+                    if !textured {
+                        return Ok(Some((tube.with("from", p0).with("to", p1), map)));
+                    }
+                    // Texture coordinates go round from x towards y there, and from x away from y here.
+                    let own = DAffine3 { matrix3: DMat3::from_cols(x, -y, along), translation: p0 };
+                    return Ok(Some((tube.with("from", DVec3::ZERO).with("to", DVec3::Z * axis.length()), map * own)));
+                }
+                self.approximate(
+                    plugin,
+                    "shape `cylinder` scaled unevenly or turned inside out",
+                    "256 triangles with interpolated normals",
+                );
                 let own = DAffine3 { matrix3: DMat3::from_cols(x * radius, y * radius, axis), translation: p0 };
-                self.approximate(plugin, "shape `cylinder`", "256 triangles with interpolated normals");
                 self.made_mesh(plugin, key("cylinder"), flip, map * own, cylinder)?
             }
             "obj" | "ply" | "serialized" => return self.mesh_shape(plugin, map, textured, flip),

@@ -11,7 +11,6 @@ use super::constants::NONE;
 use super::environment::PackedEnvironment;
 use super::error::PackError;
 use super::primitive::WorldPrimitive;
-use super::shape::SurfaceSampling;
 use super::texture::PackedTextures;
 use super::world::WorldGeometry;
 use crate::sampling::light_tree::{self, Emitter, LightNode};
@@ -123,9 +122,7 @@ fn emitter(scene: &Scene, primitive: &WorldPrimitive, emission: &SurfaceEmission
     if primitive.moves() {
         return Emitter::moving(&scene.shapes[primitive.shape], scene.camera.shutter, bounds, power);
     }
-    let flat = primitive.kind().sampling() == SurfaceSampling::Area;
-    let normal = primitive.geometry.light().filter(|_| flat).map(|(_, [_, p1, p2])| p1.cross(p2).normalize_or_zero());
-    Emitter::surface(bounds, normal, emission.two_sided(), power)
+    Emitter::surface(bounds, primitive.geometry.light_normal(), emission.two_sided(), power)
 }
 
 /// The environment and the portals to it, each with a measure of the irradiance it makes.

@@ -47,11 +47,15 @@ impl Element for Cylinder {
 
     /// A circle reaches r·√(1 − a²) along an axis whose cosine with the cylinder's is a (Quilez). Ends overlap what they meet as quads do.
     fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        let overlap = self.axis.abs() * (2.0 * f64::from(QUAD_OVERLAP));
+        self.extent().map(|[low, high]| outward(low - overlap, high + overlap))
+    }
+
+    fn extent(&self) -> Option<[DVec3; 2]> {
         let along = self.axis.normalize();
         let reach = (DVec3::ONE - along * along).max(DVec3::ZERO).map(f64::sqrt) * self.radial.length();
         let to = self.from + self.axis;
-        let margin = reach + self.axis.abs() * (2.0 * f64::from(QUAD_OVERLAP));
-        Some(outward(self.from.min(to) - margin, self.from.max(to) + margin))
+        Some([self.from.min(to) - reach, self.from.max(to) + reach])
     }
 
     fn area(&self) -> f64 {
@@ -66,5 +70,9 @@ impl Element for Cylinder {
     /// One end, the axis, and a radius.
     fn light(&self) -> Option<(f64, [DVec3; 3])> {
         Some((self.area(), [self.from, self.axis, self.radial]))
+    }
+
+    fn light_normal(&self) -> Option<DVec3> {
+        None
     }
 }

@@ -21,4 +21,9 @@ pub trait Element: Copy {
 
     /// As a light: its area, or 0 of what is not sampled by area; and three points. None: no density covers it evenly.
     fn light(&self) -> Option<(f64, [DVec3; 3])>;
+
+    /// As a light: its normal. None: it is not flat.
+    fn light_normal(&self) -> Option<DVec3> {
+        self.light().map(|(_, [_, edge_u, edge_v])| edge_u.cross(edge_v).normalize_or_zero())
+    }
 }

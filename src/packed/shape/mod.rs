@@ -140,6 +140,13 @@ macro_rules! modules {
                     $($(Self::$primitive(primitive) => primitive.light(),)?)*
                 }
             }
+
+            /// As a light: its normal. None: it is not flat.
+            pub fn light_normal(&self) -> Option<DVec3> {
+                match self {
+                    $($(Self::$primitive(primitive) => primitive.light_normal(),)?)*
+                }
+            }
         }
 
         $($(

@@ -52,4 +52,8 @@ impl Element for Sphere {
     fn light(&self) -> Option<(f64, [DVec3; 3])> {
         Some((self.radius, [self.center, DVec3::ZERO, DVec3::ZERO]))
     }
+
+    fn light_normal(&self) -> Option<DVec3> {
+        None
+    }
 }

@@ -47,6 +47,11 @@ pub trait Element: Debug + Send + Sync {
         None
     }
 
+    /// Its normal. None: it is not flat, or infinite.
+    fn normal(&self) -> Option<DVec3> {
+        self.sample_area(0.5, 0.5).map(|(point, _)| point.normal)
+    }
+
     /// A point as it is drawn for light that goes to `from`; unless it says otherwise, uniform over the area.
     fn sample_seen(
         &self,

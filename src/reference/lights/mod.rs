@@ -262,8 +262,7 @@ fn emitters(scene: &Scene, world: &World, lights: &[SampledLight], exitances: &[
         if shape.motion.is_some() {
             return Emitter::moving(shape, scene.camera.shutter, bounds, power);
         }
-        let normal = element.sample_area(0.5, 0.5).map(|(point, _)| point.normal);
-        Emitter::surface(bounds, normal, two_sided[material], power)
+        Emitter::surface(bounds, element.normal(), two_sided[material], power)
     };
     let surfaces = lights.iter().filter_map(|light| match light {
         SampledLight::Area(index) => Some(of_surface(*index)),

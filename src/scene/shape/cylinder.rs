@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::model::{ShapeModel, possible};
+use super::model::{Extent, ShapeModel, possible};
 use crate::scene::check::{Check, is_positive};
 
 /// The wall of a tube between two points, without caps; normal outward. v grows from 0 at `from` to 1 at `to`, and u about the axis: in turns
@@ -33,6 +33,12 @@ impl ShapeModel for Cylinder {
         let [from, to] = [self.from, self.to].map(|end| map.transform_point3(end).distance(point));
         let radius = self.radius * map.matrix3.determinant().abs().cbrt();
         (from.max(to).powi(2) + radius.powi(2)).sqrt() + radius
+    }
+
+    fn extent(&self, map: &DAffine3) -> Option<Extent> {
+        let length = map.transform_vector3(self.to - self.from).length();
+        let width = 2.0 * map.transform_vector3(self.first_direction() * self.radius).length();
+        Some(Extent::Across(length.hypot(width)))
     }
 
     fn is_round(&self) -> bool {

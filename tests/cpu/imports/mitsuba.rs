@@ -76,6 +76,7 @@ fn a_scene_and_its_likeness_make_the_same_picture() {
 #[test]
 fn what_is_written_makes_the_same_picture() {
     let more = r#"<shape type="cylinder"><float name="radius" value="0.3"/><ref id="red"/></shape>
+      <shape type="cylinder"><boolean name="flip_normals" value="true"/><float name="radius" value="1.1"/><ref id="red"/></shape>
       <shape type="obj"><string name="filename" value="a.obj"/><bsdf type="diffuse"><texture type="bitmap" name="reflectance">
         <string name="filename" value="a.png"/></texture></bsdf></shape>"#;
     let object = "v -1 -1 0\nv 1 -1 0.3\nv 0 1 0\nv 1 1 1\nvt 0 0\nvt 1 0.1\nvt 0.3 1\nf 1/1 2/2 3/3\nf 2/2 4/1 3/3\n";
@@ -85,6 +86,40 @@ fn what_is_written_makes_the_same_picture() {
         .expect("a picture");
     let scene = folder.valid("a.xml");
     assert_eq!(picture(&scene), picture(&folder.written("a.xml")));
+}
+
+/// Texture coordinates of a cylinder go round as there: as on the triangles that stand for one that is scaled unevenly.
+#[test]
+fn cylinders_keep_their_texture_coordinates() {
+    let tube = |steps: &str, u: f64| {
+        let more = format!(
+            r#"<shape type="cylinder"><point name="p0" value="0.3 -0.9 0.4"/><point name="p1" value="-0.2 1 0.9"/><float name="radius" value="0.8"/>
+              <transform name="to_world">{steps}<rotate x="1" y="2" angle="50"/></transform>
+              <bsdf type="diffuse"><texture type="bitmap" name="reflectance"><string name="filename" value="a.png"/>
+                <transform name="to_uv"><scale x="{u}"/></transform></texture></bsdf></shape>"#
+        );
+        let folder = Folder::new(&[("a.xml", with(&more).as_bytes())]);
+        let gradient = |x: u32, y: u32| image::Rgb([x as u8 * 30, y as u8 * 60, 255 - x as u8 * 30]);
+        image::RgbImage::from_fn(8, 4, gradient).save(folder.path("a.png")).expect("a picture");
+        let scene = folder.valid("a.xml");
+        let is_mesh = matches!(scene.shapes.last().expect("it is there").geometry, Geometry::Mesh(_));
+        (is_mesh, picture(&scene))
+    };
+    let difference = |a: &[[u32; 3]], b: &[[u32; 3]]| {
+        let numbers = |picture: &[[u32; 3]]| picture.iter().flatten().map(|bits| f32::from_bits(*bits)).collect::<Vec<_>>();
+        let [a, b] = [a, b].map(numbers);
+        let sum: f32 = a.iter().sum();
+        a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum::<f32>() / sum
+    };
+    for steps in ["", r#"<scale x="-1.2" y="1.2" z="1.2"/>"#] {
+        let (exact, mesh) = (tube(steps, 1.0), tube(&format!(r#"<scale z="1.00001"/>{steps}"#), 1.0));
+        assert_eq!((exact.0, mesh.0), (false, true));
+        let off = difference(&exact.1, &mesh.1);
+        assert!(off < 0.01, "{steps}: {off}");
+        // The control: coordinates that go round the other way.
+        let other = difference(&exact.1, &tube(steps, -1.0).1);
+        assert!(other > 0.1, "{steps}: {other}");
+    }
 }
 
 #[test]
@@ -168,7 +203,9 @@ fn groups_of_meshes_become_instances() {
             })
             .collect();
         let own = r#"<transform name="to_world"><translate x="3"/></transform>"#;
-        read(&format!(r#"<shape type="shapegroup" id="group"><shape type="cylinder">{own}</shape>{more}</shape>{instances}"#))
+        // Turned inside out, it is a mesh.
+        let flipped = r#"<boolean name="flip_normals" value="true"/>"#;
+        read(&format!(r#"<shape type="shapegroup" id="group"><shape type="cylinder">{flipped}{own}</shape>{more}</shape>{instances}"#))
     };
     let (many, few) = (scene_of(6, ""), scene_of(2, ""));
     assert_eq!((many.groups.len(), many.instance_count(), few.groups.len()), (1, 6, 0));
@@ -183,7 +220,7 @@ fn groups_of_meshes_become_instances() {
         assert!((placed(&many, number) - copy).length() < 1e-12, "{copy}");
     }
     // What is no mesh, or gives light, is copied.
-    for more in [r#"<shape type="sphere"/>"#, r#"<shape type="cylinder"><emitter type="area"/></shape>"#] {
+    for more in [r#"<shape type="sphere"/>"#, r#"<shape type="cube"><boolean name="flip_normals" value="true"/><emitter type="area"/></shape>"#] {
         assert_eq!(scene_of(6, more).groups.len(), 0, "{more}");
     }
 }

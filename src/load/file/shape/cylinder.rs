@@ -4,11 +4,13 @@ use super::keys::{ShapeKeys, Written, shape_keys};
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Located, Positive, Vector, vector};
-use crate::scene::Cylinder;
+use crate::load::file::writer::{self, Writer, line, number};
+use crate::scene::{Cylinder, Shape};
 
 shape_keys! {
     /// The wall of a tube without caps, the normal outward. u goes round the axis, from the side of −z, or of +x where the axis runs along z;
     /// v goes from 0 at `from` to 1 at `to`.
+    #[schemars(extend("allOf" = [{ "required": ["material"] }]))]
     "CylinderShape" {
         /// One end of the axis.
         from: Vector,
@@ -30,5 +32,15 @@ impl ShapeKeys for Keys {
             return Err(resolver.error(&self.to.span, "the cylinder has no length: `from` and `to` are the same point"));
         }
         Ok(Cylinder { from, to, radius: self.radius.0 })
+    }
+
+    fn write(cylinder: &Cylinder, shape: &Shape, writer: &mut Writer<'_>) -> String {
+        [
+            line("from", &writer::vector(cylinder.from)),
+            line("to", &writer::vector(cylinder.to)),
+            line("radius", &number(cylinder.radius)),
+            writer.material_of(shape),
+        ]
+        .concat()
     }
 }

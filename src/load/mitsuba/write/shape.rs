@@ -105,6 +105,11 @@ impl Writer<'_> {
                 let map = DAffine3::from_translation(0.5 * (min + max)) * DAffine3::from_scale(0.5 * (max - min));
                 (Element::new("shape", "cube"), map)
             }
+            "cylinder" => {
+                let end = |key: &str| vector(shape, key).unwrap_or_default();
+                let element = Element::new("shape", "cylinder").point("p0", end("from")).point("p1", end("to"));
+                (element.float("radius", number(shape, "radius").unwrap_or(1.0)), DAffine3::IDENTITY)
+            }
             "plane" => {
                 self.approximate("shape `plane`", place, "a rectangle of 20,000 units is taken");
                 let normal = vector(shape, "normal").unwrap_or(DVec3::Y).normalize_or(DVec3::Y);

@@ -81,6 +81,10 @@ impl Element for Cylinder {
         Some((self.at(self.first * cosine + quarter * sine, u2), Local::new(0.0, u2)))
     }
 
+    fn normal(&self) -> Option<DVec3> {
+        None
+    }
+
     /// Of the two crossings of the line through both points, one is the point itself, at 1. Their product tells the other, which is in the
     /// way if it lies between and on the wall. Where the line all but touches the wall, the two are closer than shadow rays come to what they
     /// go to: those end before a light by the error of its points in single precision, and the point counts as seen.
@@ -286,7 +290,7 @@ mod tests {
     fn a_cylinder_without_length_is_refused() {
         let mut wrong = scene::Scene::default();
         let kind = scene::MaterialKind::Emissive;
-        wrong.materials.push(Material { name: "glow".into(), kind, normal_map: None, emission: None });
+        wrong.materials.push(Material { name: "glow".into(), kind, normal_map: None, emission: None, two_sided: true });
         let tube = |to| scene::Cylinder { from: DVec3::ZERO, to, radius: 1.0 };
         for (geometry, is_right) in [(tube(DVec3::Y), true), (tube(DVec3::ZERO), false)] {
             wrong.shapes = vec![Shape {
