@@ -20,7 +20,7 @@ const FILES: [(&str, &[u8]); 9] = [
 ];
 
 /// Name and text of every built-in scene; the first is the default.
-const SCENES: [(&str, &str); 27] = [
+const SCENES: [(&str, &str); 28] = [
     ("cornell", include_str!("../../scenes/cornell.toml")),
     ("spheres", include_str!("../../scenes/spheres.toml")),
     ("veach-mis", include_str!("../../scenes/veach-mis.toml")),
@@ -42,6 +42,7 @@ const SCENES: [(&str, &str); 27] = [
     ("bazaar", include_str!("../../scenes/bazaar.toml")),
     ("arbour", include_str!("../../scenes/arbour.toml")),
     ("vitrine", include_str!("../../scenes/vitrine.toml")),
+    ("wardrobe", include_str!("../../scenes/wardrobe.toml")),
     ("grove", include_str!("../../scenes/grove.toml")),
     ("model-town", include_str!("../../scenes/model-town.toml")),
     ("furnace-lambert", include_str!("../../scenes/furnace-lambert.toml")),
