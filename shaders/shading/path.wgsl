@@ -17,6 +17,9 @@
 #import shading/scattering.wgsl
 #import shading/surface.wgsl
 #import shading/trace.wgsl
+#if ATTENUATION
+#import shading/volume.wgsl
+#endif
 #if LAYER_OF_LIGHT
 #import shading/layer.wgsl
 #endif
@@ -39,6 +42,10 @@ struct Path {
 #if TRANSPARENT_SHADOWS
     // Where the ray began that went on through the null surfaces last met: light was sampled from there.
     lit_from: vec3<f32>,
+#endif
+#if ATTENUATION
+    // Of what the ray goes through.
+    extinction: vec3<f32>,
 #endif
 }
 
@@ -76,6 +83,9 @@ fn new_path(ray: Ray, pixel: u32, sample_in_pass: u32) -> Path {
         ray, vec3<f32>(1.0), -1.0, 1.0, pixel, sample_in_pass, 0u
 #if TRANSPARENT_SHADOWS
         , ray.origin
+#endif
+#if ATTENUATION
+        , vec3<f32>(0.0)
 #endif
     );
 }
@@ -191,6 +201,9 @@ fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, ligh
         origin = offset_origin(surface, light.wi);
     }
     var radiance = path.throughput * value.value * light.radiance * planted_factor(surface.material);
+#if ATTENUATION
+    radiance *= volume_transmittance(extinction_towards(surface, light.wi, path.extinction), light.distance);
+#endif
     let count = f32(light_samples_at(depth));
     // Several samples are as dense together as one of as many times its density.
     let pdf_light = count * light.pdf_solid_angle;
@@ -228,7 +241,7 @@ fn further_shadow_ray(lit: LitVertex, number: u32) -> ShadowRay {
 // Follows a path whose ray met `hit`, its vertex number `vertex`, to the surface that the layer is of: replaces `path`, or returns the layer's
 // value as what was found.
 fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
-    let incoming = *path;
+    var incoming = *path;
     let wo = -incoming.ray.direction;
     var shading = no_shading();
     trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
@@ -237,6 +250,9 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
         return shading;
     }
     let surface = hit_surface(incoming.ray, hit);
+#if ATTENUATION
+    incoming.throughput *= volume_transmittance(incoming.extinction, distance(surface.position, incoming.ray.origin));
+#endif
     trace_surface(surface.position, surface.shading_normal, surface.material);
     var drawn = no_sample();
     if depth_at(incoming, vertex) < MAX_DEPTH {
@@ -256,6 +272,11 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     (*path).ray = Ray(offset_origin(surface, drawn.wi), drawn.wi);
     (*path).throughput = incoming.throughput * drawn.weight;
     (*path).pdf_solid_angle = drawn.pdf_solid_angle;
+#if ATTENUATION
+    if !drawn.is_null {
+        (*path).extinction = extinction_towards(surface, drawn.wi, incoming.extinction);
+    }
+#endif
     if drawn.is_null {
         (*path).null_vertices++;
     }
@@ -264,16 +285,24 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
 #else
 // Extends a path whose ray met `hit`, its vertex number `vertex`: replaces `path`, returns what was found.
 fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
-    let incoming = *path;
+    var incoming = *path;
     let depth = depth_at(incoming, vertex);
     let wo = -incoming.ray.direction;
     var shading = no_shading();
-    trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
     if hit.primitive == NONE {
+#if ATTENUATION
+        incoming.throughput *= volume_transmittance(incoming.extinction, INFINITY_DISTANCE);
+#endif
+        trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
         shading.radiance = escaped_radiance(incoming, depth);
         return shading;
     }
     let surface = hit_surface(incoming.ray, hit);
+#if ATTENUATION
+    // A hit in an instance may come without its distance.
+    incoming.throughput *= volume_transmittance(incoming.extinction, distance(surface.position, incoming.ray.origin));
+#endif
+    trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
     trace_surface(surface.position, surface.shading_normal, surface.material);
     shading.radiance = emitted_radiance(incoming, surface, depth);
 
@@ -327,6 +356,12 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     (*path).lit_from = select((*path).ray.origin, incoming.lit_from, drawn.is_null);
 #else
     (*path).pdf_solid_angle = drawn.pdf_solid_angle;
+#endif
+#if ATTENUATION
+    // Nothing lies behind a surface that is not there.
+    if !drawn.is_null {
+        (*path).extinction = extinction_towards(surface, drawn.wi, incoming.extinction);
+    }
 #endif
     (*path).eta_scale = eta_scale;
     (*path).null_vertices += select(0u, 1u, drawn.is_null);

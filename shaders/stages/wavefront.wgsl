@@ -9,7 +9,8 @@
 
 // Planes of PATH_CAPACITY vec4 each:
 //   ray origin and pixel within the pass (within the band where pixels are listed) | sample in the pass << 24; ray direction and its density; throughput and eta scale;
-//   radiance and null vertices; hit; where shadow rays go through surfaces, the point that light was last sampled from
+//   radiance and null vertices; hit; where shadow rays go through surfaces, the point that light was last sampled from; where volumes take
+//   light, the extinction of the one that the ray goes through
 @group(0) @binding(BINDING_PATH_STATE) var<storage, read_write> path_state: array<vec4<f32>>;
 // The queue of paths with shadow rays: for each of LIGHT_SAMPLES rays, three planes of PATH_CAPACITY vec4: origin and distance; direction and
 // path slot; radiance and, where paths have several and of the first, how many the path has.
@@ -26,6 +27,13 @@ const PLANE_RADIANCE: u32 = 3u * PATH_CAPACITY;
 const PLANE_HIT: u32 = 4u * PATH_CAPACITY;
 #if TRANSPARENT_SHADOWS
 const PLANE_LIT_FROM: u32 = PATH_STATE_WORDS * PATH_CAPACITY;
+#endif
+#if ATTENUATION
+#if TRANSPARENT_SHADOWS
+const PLANE_EXTINCTION: u32 = PLANE_LIT_FROM + PATH_CAPACITY;
+#else
+const PLANE_EXTINCTION: u32 = PATH_STATE_WORDS * PATH_CAPACITY;
+#endif
 #endif
 
 const SHADOW_ORIGIN: u32 = 0u;
@@ -62,6 +70,9 @@ fn load_path(slot: u32) -> Path {
 #if TRANSPARENT_SHADOWS
         , path_state[PLANE_LIT_FROM + slot].xyz
 #endif
+#if ATTENUATION
+        , path_state[PLANE_EXTINCTION + slot].xyz
+#endif
     );
 }
 
@@ -73,6 +84,9 @@ fn store_path(slot: u32, path: Path) {
     path_state[PLANE_THROUGHPUT + slot] = vec4<f32>(path.throughput, path.eta_scale);
 #if TRANSPARENT_SHADOWS
     path_state[PLANE_LIT_FROM + slot] = vec4<f32>(path.lit_from, 0.0);
+#endif
+#if ATTENUATION
+    path_state[PLANE_EXTINCTION + slot] = vec4<f32>(path.extinction, 0.0);
 #endif
 }
 

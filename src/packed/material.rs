@@ -10,8 +10,8 @@ use super::blend_weight::{PackedBlendWeight, constant_weight};
 use super::constants::NONE;
 use super::error::PackError;
 use super::texture::mention;
-use crate::scene::material;
-use crate::scene::{BlendMode, Channel, ChannelInput, ColorInput, LobeKind, Material, MaterialId, MaterialKind, Scene};
+use crate::scene::material::{self, AlbedoTable};
+use crate::scene::{BlendMode, Channel, ChannelInput, ColorInput, LobeKind, Masking, Material, MaterialId, MaterialKind, Scene};
 use crate::shader::shared::{Constant, Constants, shared_constants};
 
 /// Above a packed material's kind stands its lobe's form.
@@ -32,6 +32,14 @@ shared_constants!(flags {
     const ACROSS_IS_SQUARED: u32 = material::SQUARED_ACROSS << FORM_SHIFT;
     const ANISOTROPIC: u32 = material::ANISOTROPIC << FORM_SHIFT;
     const THIN_WALL: u32 = material::THIN_WALL << FORM_SHIFT;
+    const COMPENSATED: u32 = material::COMPENSATED << FORM_SHIFT;
+    /// Rows of a table of albedos, by roughness, and its columns, by cosine.
+    const ALBEDO_ROWS: u32 = material::ALBEDO_ROWS as u32;
+    const ALBEDO_COLUMNS: u32 = material::ALBEDO_COLUMNS as u32;
+    const SHEEN_KNEE: f32 = material::SHEEN_KNEE as f32;
+    const SMALLEST_SHEEN_ALPHA: f32 = material::SMALLEST_SHEEN_ALPHA as f32;
+    /// Where a volume's extinction stands among the further parameters of its material.
+    const EXTINCTION_PARAMETER: u32 = material::EXTINCTION_PARAMETER as u32;
     /// Nearer to 1 an index of refraction bends no light.
     const SMALLEST_BEND: f32 = material::SMALLEST_BEND as f32;
     /// Angles in the table of what a rough plastic's surface lets through.
@@ -44,6 +52,8 @@ shared_constants!(flags {
     pub(super) const LETS_THROUGH: u32 = 8;
     /// The back scatters nothing.
     pub(super) const FRONT_ONLY: u32 = 16;
+    /// What it encloses takes light.
+    pub(super) const ENCLOSES_VOLUME: u32 = 32;
     /// Flag beside the number of a part's factors: its back scatters nothing.
     pub(super) const PART_FRONT_ONLY: u32 = 1 << 31;
     /// Above the first of a material's further parameters stands how many are looked up.
@@ -62,7 +72,7 @@ pub fn constants() -> Constants {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct PackedMaterial {
-    /// [`LobeParameters::color0`](crate::scene::LobeParameters).
+    /// [`LobeParameters::color0`](crate::scene::LobeParameters). Of a blend, the extinction of what it encloses.
     pub color0: [f32; 3],
     /// The kind in eight bits, above them the lobe's form.
     pub kind_and_form: u32,
@@ -111,6 +121,29 @@ pub struct PackedBlendPart {
     pub constant_factor: f32,
 }
 
+/// Entries that a table of albedos takes.
+const ALBEDO_ENTRIES: usize = (material::ALBEDO_ROWS * material::ALBEDO_COLUMNS).div_ceil(3);
+
+/// The first entries of tables of albedos among further parameters; None: no material looks it up.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct AlbedoPlaces {
+    /// Of microfacets with separable masking.
+    pub separable: Option<usize>,
+    /// Of microfacets with height-correlated masking.
+    pub height_correlated: Option<usize>,
+    pub sheen: Option<usize>,
+}
+
+impl AlbedoPlaces {
+    /// Those that a material looks up are there, within so many entries.
+    pub(super) fn serve(&self, material: &PackedMaterial, length: usize) -> bool {
+        let is_there = |place: Option<usize>| place.is_some_and(|first| first + ALBEDO_ENTRIES <= length);
+        let facets = if material.has_form(material::SEPARABLE_MASKING) { self.separable } else { self.height_correlated };
+        let serves = |form: u32, place: Option<usize>| !material.has_form(form) || is_there(place);
+        serves(material::COMPENSATED, facets) && serves(material::SHEEN, self.sheen)
+    }
+}
+
 /// The materials that a scene's surfaces are made of. Others that the scene names are left out: kernels have the code of what stands here.
 #[derive(Debug, Clone, Default)]
 pub struct PackedMaterials {
@@ -119,6 +152,8 @@ pub struct PackedMaterials {
     pub scene_ids: Vec<MaterialId>,
     /// What lobes have beyond the parameters that most have, in runs.
     pub further: Vec<PackedParameter>,
+    /// Where tables of albedos stand among those.
+    pub albedos: AlbedoPlaces,
     pub parts: Vec<PackedBlendPart>,
     pub weights: Vec<PackedBlendWeight>,
 }
@@ -166,7 +201,31 @@ impl PackedMaterials {
             packed.scene_ids.push(id);
         }
         packed.add_parts(scene);
+        packed.add_albedos();
         Ok(packed)
+    }
+
+    /// Adds the tables of albedos that some material looks up.
+    fn add_albedos(&mut self) {
+        let has = |form: u32, masks: u32| {
+            let wanted = |material: &&PackedMaterial| material.has_form(form);
+            let masked = |material: &PackedMaterial| material.has_form(material::SEPARABLE_MASKING) == (masks != 0);
+            self.materials.iter().filter(wanted).any(masked)
+        };
+        let compensated = |masks: u32| has(material::COMPENSATED, masks);
+        let separable = compensated(material::SEPARABLE_MASKING).then(|| AlbedoTable::of_facets(Masking::Separable));
+        let height_correlated = compensated(0).then(|| AlbedoTable::of_facets(Masking::HeightCorrelated));
+        let sheen = self.materials.iter().any(|material| material.has_form(material::SHEEN)).then(AlbedoTable::of_sheen);
+        let [separable, height_correlated, sheen] = [separable, height_correlated, sheen].map(|table| {
+            let first = self.further.len();
+            let shares: Vec<f32> = table?.shares().collect();
+            self.further.extend(shares.chunks(3).map(|shares| {
+                let at = |place: usize| shares.get(place).copied().unwrap_or(0.0);
+                PackedParameter { color: [at(0), at(1), at(2)], texture: NONE }
+            }));
+            Some(first)
+        });
+        self.albedos = AlbedoPlaces { separable, height_correlated, sheen };
     }
 
     /// Adds the parts of blends that no surface is made of alone; blends then name their places instead of the scene's numbers.
@@ -249,6 +308,10 @@ impl PackedMaterials {
         }
         if plain.iter().any(|part| matches!(scene.materials[part.material].kind, MaterialKind::Pass)) {
             packed.emission_flags |= LETS_THROUGH;
+        }
+        if let Some(attenuation) = scene.volume_behind(id) {
+            packed.emission_flags |= ENCLOSES_VOLUME;
+            packed.color0 = attenuation.extinction().as_vec3().to_array();
         }
         packed.color1 = [self.parts.len(), plain.len(), emitting_blends.len()].map(|number| f32::from_bits(number as u32));
         for part in plain.into_iter().chain(emitting_blends) {
@@ -364,6 +427,7 @@ impl PackedMaterial {
             emission_flags: if radiance == black { 0 } else { EMITS }
                 | if two_sided { EMITS_TWO_SIDED } else { 0 }
                 | if kind == LobeKind::Null as u32 { LETS_THROUGH } else { 0 }
+                | if lobe.is_some_and(|lobe| lobe.form & material::ATTENUATES != 0) { ENCLOSES_VOLUME } else { 0 }
                 | if material.two_sided { 0 } else { FRONT_ONLY },
             color0_texture,
             emission_texture,

@@ -6,12 +6,13 @@ use super::limits::DeviceLimits;
 use super::memory::{self, Memory};
 use super::model::Plan;
 use super::options::PlanOptions;
-use super::path_state::{WORKGROUP, path_state_bytes};
+use super::path_state::{PathMemory, WORKGROUP};
 use super::{chunks, decisions, generated, ray_query, switches, unroll};
 use crate::film::KernelLayer;
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
 use crate::scene::Scene;
+use crate::scene::material::ATTENUATES;
 use crate::shader::Switches;
 use crate::shader::switches::contradiction;
 
@@ -37,7 +38,11 @@ impl Plan {
         }
         let (geometry, why_geometry) = decisions::geometry(packed, options);
         let light_samples = if switches::samples_lights(scene, packed) { scene.render.light_samples } else { 1 };
-        let state_bytes = path_state_bytes(switches::shadows_are_transparent(scene, packed));
+        let remembered = PathMemory {
+            lit_from: switches::shadows_are_transparent(scene, packed),
+            extinction: packed.materials.materials.iter().any(|material| material.has_form(ATTENUATES)),
+        };
+        let state_bytes = remembered.bytes();
         let (stages, why_stages) = decisions::stages(geometry, &scene.render, limits, options);
         // On software devices the arithmetic of a step through a hierarchy costs the same for one lane as for all, so the lanes of a subgroup
         // go through it as one packet, whose stack lies in registers, an entry a lane (shaders/geometry/software/packet.wgsl). Geometry that is code is

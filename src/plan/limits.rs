@@ -2,7 +2,7 @@
 
 use super::choices::{FILM_BYTES, FilmStorage};
 use super::error::PlanError;
-use super::path_state::path_state_bytes;
+use super::path_state::PathMemory;
 
 /// Bytes that the queue of shadow rays takes at most: five million of them keep any device busy.
 const MOST_SHADOW_RAY_BYTES: u64 = 256 << 20;
@@ -86,7 +86,7 @@ impl DeviceLimits {
         let max_array = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
         let max_workgroups = limits.max_compute_workgroups_per_dimension;
         let wanted_paths: u64 = if software { 1 << 18 } else { 1 << 20 };
-        let most_paths = (max_array / path_state_bytes(true)).min(u64::from(max_workgroups) * 64);
+        let most_paths = (max_array / PathMemory::MOST.bytes()).min(u64::from(max_workgroups) * 64);
         Self {
             max_storage_binding: limits.max_storage_buffer_binding_size,
             max_uniform_binding: limits.max_uniform_buffer_binding_size.min(64 << 10) as u32,

@@ -6,7 +6,7 @@ use super::choices::{FilmStorage, GeometryPlacement, StageMode};
 use super::chunks::Chunks;
 use super::decision::Decision;
 use super::memory::{Memory, SHADOW_RAY_BYTES};
-use super::path_state::path_state_bytes;
+use super::path_state::PathMemory;
 use crate::packed::hierarchy::Traversal;
 use crate::sampling::dimension::SEQUENCE_DIMENSIONS;
 use crate::shader::Switches;
@@ -69,7 +69,8 @@ impl Plan {
 
     /// Bytes of the state of a path in flight.
     pub fn path_state_bytes(&self) -> u64 {
-        path_state_bytes(self.switches.enabled.contains("TRANSPARENT_SHADOWS"))
+        let has = |switch: &str| self.switches.enabled.contains(switch);
+        PathMemory { lit_from: has("TRANSPARENT_SHADOWS"), extinction: has("ATTENUATION") }.bytes()
     }
 
     /// How rays find what stands in the hierarchy, where there is one.

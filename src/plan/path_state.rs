@@ -7,8 +7,6 @@ shared_constants!(constants {
     pub const WORKGROUP: u32 = 64;
     /// vec4s of a path's state: `shaders/stages/wavefront.wgsl` says what they hold.
     pub const PATH_STATE_WORDS: u32 = 5;
-    /// The same where shadow rays go through surfaces.
-    pub const TRANSPARENT_PATH_STATE_WORDS: u32 = PATH_STATE_WORDS + 1;
     /// Flag beside the primitive of a hit in an instance, which has the instance's number in place of the distance; primitives have 24 bits.
     pub const HIT_IN_INSTANCE: u32 = 1 << 31;
     /// vec4s of a shadow ray.
@@ -27,8 +25,21 @@ shared_constants!(constants {
     pub const DISPATCH_SIZE_WORDS: u32 = 9;
 });
 
-/// Bytes of state per path: ray, throughput, radiance, hit (`shaders/stages/wavefront.wgsl`), and where `shadows_are_transparent` the point
-/// that light was last sampled from.
-pub fn path_state_bytes(shadows_are_transparent: bool) -> u64 {
-    16 * u64::from(if shadows_are_transparent { TRANSPARENT_PATH_STATE_WORDS } else { PATH_STATE_WORDS })
+/// What paths in flight remember beside what all do (`shaders/stages/wavefront.wgsl`).
+#[derive(Debug, Clone, Copy, Default)]
+pub struct PathMemory {
+    /// Shadow rays go through surfaces: the point that light was last sampled from.
+    pub lit_from: bool,
+    /// Volumes take light: the extinction of the one that the ray goes through.
+    pub extinction: bool,
+}
+
+impl PathMemory {
+    /// As much as any scene asks for.
+    pub const MOST: Self = Self { lit_from: true, extinction: true };
+
+    /// Bytes of state per path: ray, throughput, radiance, hit, and what this says.
+    pub fn bytes(self) -> u64 {
+        16 * u64::from(PATH_STATE_WORDS + u32::from(self.lit_from) + u32::from(self.extinction))
+    }
 }

@@ -68,10 +68,15 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
     switches.enable("SUBGROUP_QUEUES", plan.subgroup_queues);
 
     let tables = packed.tables();
+    let albedos = packed.materials.albedos;
+    let albedo_word = |place: Option<usize>| tables.first_further + place.unwrap_or(0) as u32;
     let map = packed.environment.map.unwrap_or_default();
     let first_light = |kind: LightKind| packed.lights.iter().position(|light| light.is(kind)).unwrap_or(0) as u32;
     switches.constants.extend([
         ("BLADES", blades),
+        ("CORRELATED_ALBEDO_WORD", albedo_word(albedos.height_correlated)),
+        ("SEPARABLE_ALBEDO_WORD", albedo_word(albedos.separable)),
+        ("SHEEN_ALBEDO_WORD", albedo_word(albedos.sheen)),
         ("CLAMP_BITS", (render.clamp as f32).to_bits()),
         ("ENVIRONMENT_FIRST_DENSITY", map.first_density),
         ("ENVIRONMENT_FIRST_NODE", map.first_node),
@@ -237,6 +242,10 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     switches.enable("SEPARABLE_MASKING", materials.iter().any(|material| material.has_form(SEPARABLE_MASKING)));
     let transmits = |material: &PackedMaterial| material.has_form(material::TRANSMITS);
     switches.enable("PRINCIPLED_TRANSMISSION", materials.iter().any(transmits));
+    let has_form = |form: u32| materials.iter().any(|material| material.has_form(form));
+    switches.enable("COMPENSATION", has_form(material::COMPENSATED));
+    switches.enable("SHEEN", has_form(material::SHEEN));
+    switches.enable("ATTENUATION", has_form(material::ATTENUATES));
     switches.enable("ANISOTROPY", materials.iter().any(|material| material.has_form(ANISOTROPIC)));
     switches.enable("ONE_SIDED", materials.iter().any(PackedMaterial::is_front_only) || packed.materials.has_front_only_parts());
     switches.enable("VARYING_LIGHTS", samples_lights(scene, packed) && packed.lights.iter().any(PackedLight::varies));

@@ -15,6 +15,7 @@ use super::intersect::{Owner, PathTime, Ray, Surface, World};
 use super::lights::{LightSample, Lights};
 use super::mis;
 use super::trace::{LightConnection, PathVisitor};
+use super::volume::{Volumes, transmittance};
 use crate::renderer::RenderError;
 use crate::sampling::{CameraDimension, Dimension, PathSampler, VertexDimension};
 use crate::scene::{Estimator, MaterialId, MaterialKind, Scene};
@@ -37,6 +38,7 @@ pub struct Integrator {
     moves: bool,
     /// Of each material: some light goes straight through it.
     lets_through: Vec<bool>,
+    volumes: Volumes,
 }
 
 /// A path under construction.
@@ -55,6 +57,8 @@ struct Path {
     /// go on through null surfaces as the path does, so both are weighed against each other by the densities that they have there.
     previous: Density,
     lit_from: DVec3,
+    /// Of what the ray goes through.
+    extinction: DVec3,
     /// Edges of the path up to the end of the ray: the camera's has 1.
     depth: u32,
     /// Number of the next vertex, from 0: each has random numbers of its own. Null surfaces end no edge, else it would be depth − 1.
@@ -73,7 +77,8 @@ impl Integrator {
         let instances_move = scene.instances.iter().any(|instances| instances.motion.is_some());
         let moves = instances_move || scene.shapes.iter().any(|shape| shape.motion.is_some());
         let lets_through = scene.materials_that(|material| matches!(material.kind, MaterialKind::Pass));
-        Ok(Self { scene: scene.clone(), center, world, lights, camera, moves, lets_through })
+        let volumes = Volumes::new(scene);
+        Ok(Self { scene: scene.clone(), center, world, lights, camera, moves, lets_through, volumes })
     }
 
     /// Looks at the scene as another frame's camera does; false where the scene is then to be moved elsewhere, and nothing has changed.
@@ -121,6 +126,7 @@ impl Integrator {
             radiance: DVec3::ZERO,
             eta_scale: 1.0,
             previous: Density::Delta,
+            extinction: DVec3::ZERO,
             depth: 1,
             vertex: 0,
         };
@@ -141,12 +147,14 @@ impl Integrator {
     fn extend<V: PathVisitor>(&self, path: &mut Path, sampler: &PathSampler, visitor: &mut V) -> bool {
         visitor.ray(&path.ray);
         let Some(hit) = self.world.closest(path.ray, &path.time) else {
+            path.throughput *= transmittance(path.extinction, f64::INFINITY);
             self.add_environment(path, visitor);
             return false;
         };
         let mut surface = self.world.surface(&path.ray, &hit, &path.time);
         visitor.round_surface(&mut surface);
         let wo = -path.ray.direction;
+        path.throughput *= transmittance(path.extinction, surface.point.position.distance(path.ray.origin));
         visitor.surface(path.depth, &surface, wo, path.throughput);
         self.add_emission(path, &surface, wo, visitor);
         // At the greatest depth the ray goes on through null surfaces alone, and only blends have those: plain `pass` surfaces are not in the world.
@@ -183,6 +191,7 @@ impl Integrator {
         if is_null {
             return true;
         }
+        path.extinction = self.volumes.extinction_towards(&surface, bsdf.view.front, wi, path.extinction);
         path.previous = density;
         path.lit_from = path.ray.origin;
         let u_roulette = visitor.round_number(random(VertexDimension::Roulette));
@@ -265,11 +274,12 @@ impl Integrator {
         visitor.ray(&ray);
         let share = |surface: &Surface| null_weight(&self.scene, surface, -light.wi);
         let lets_through = |material: MaterialId| self.lets_through[material];
-        let transmittance = self.world.transmittance(ray, light.distance, light.target, &path.time, lets_through, share);
+        let unstopped = self.world.transmittance(ray, light.distance, light.target, &path.time, lets_through, share);
         let unshadowed = path.throughput * scattering.value * light.radiance * (weight / light.pdf);
-        let contribution = unshadowed * transmittance;
+        let extinction = self.volumes.extinction_towards(surface, bsdf.view.front, light.wi, path.extinction);
+        let contribution = unshadowed * unstopped * transmittance(extinction, light.distance);
         path.radiance += contribution;
-        visitor.light(&LightConnection { light, bsdf_pdf: scattering.pdf, weight, visible: transmittance > 0.0, contribution });
+        visitor.light(&LightConnection { light, bsdf_pdf: scattering.pdf, weight, visible: unstopped > 0.0, contribution });
     }
 
     /// A sample of a light, its direction and length rounded. What comes from outside the scene depends on the direction alone.

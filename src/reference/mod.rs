@@ -20,6 +20,7 @@ mod renderer;
 pub mod rounding;
 pub mod texture;
 pub mod trace;
+mod volume;
 pub mod warp;
 
 pub use integrator::Integrator;

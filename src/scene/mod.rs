@@ -42,8 +42,8 @@ pub use light::{
     PointLight, Sky, SpotLight,
 };
 pub use material::{
-    BlendWeight, ConductorFresnel, Emission, LobeKind, LobeParameters, LobeSupport, Masking, Material, MaterialId, MaterialKind,
-    MicrofacetDistribution, Microfacets, PlasticInterface, Principled,
+    Attenuation, BlendWeight, ConductorFresnel, Emission, LobeKind, LobeParameters, LobeSupport, Masking, Material, MaterialId,
+    MaterialKind, MicrofacetDistribution, Microfacets, PlasticInterface, Principled,
 };
 pub use model::Scene;
 pub use motion::{Motion, MotionStep};

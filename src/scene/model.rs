@@ -7,7 +7,7 @@ use super::camera::Camera;
 use super::import_report::ImportReport;
 use super::instance::{Group, Instances};
 use super::light::Light;
-use super::material::{Material, MaterialId, MaterialKind};
+use super::material::{Attenuation, Material, MaterialId, MaterialKind};
 use super::settings::{FilmSettings, RenderSettings};
 use super::shape::Shape;
 use super::sources::Sources;
@@ -86,6 +86,23 @@ impl Scene {
             }
         }
         found
+    }
+
+    /// What takes light behind a surface of this material; of a blend, that of the first part that encloses something.
+    #[doc(hidden)]
+    pub fn volume_behind(&self, material: MaterialId) -> Option<Attenuation> {
+        let mut seen = vec![false; self.materials.len()];
+        let mut to_visit = vec![material];
+        while let Some(id) = to_visit.pop() {
+            match &self.materials[id].kind {
+                MaterialKind::Principled(principled) if principled.attenuation.is_some() => return principled.attenuation,
+                MaterialKind::Blend { materials: [first, second], .. } if !std::mem::replace(&mut seen[id], true) => {
+                    to_visit.extend([*second, *first]);
+                }
+                _ => {}
+            }
+        }
+        None
     }
 
     /// The material emits, by itself or through a part of it.

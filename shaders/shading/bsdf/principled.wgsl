@@ -1,6 +1,6 @@
 // The material of glTF 2.0's Appendix B with its extensions; src/reference/bsdf/principled.rs has the model. color0 is the base colour,
 // color1 the specular colour; the further parameters are metallic, specular, transmission, clearcoat, its roughness, the anisotropy and its
-// rotation, 1 plus its cosine and sine.
+// rotation, 1 plus its cosine and sine, and where there are more, an extinction, and the colour and the roughness of the sheen.
 #import core/layout.wgsl
 #import core/math.wgsl
 #import shading/dielectric.wgsl
@@ -11,10 +11,18 @@
 #import shading/scattering.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
+#if COMPENSATION
+#import shading/albedo.wgsl
+#endif
+#if SHEEN
+#import shading/sheen.wgsl
+#endif
 
 // Largest share of the base's samples that the reflection takes, and least share of those of a reflection that there is.
 const MOST_REFLECTED: f32 = 0.95;
 const LEAST_REFLECTED: f32 = 0.02;
+// About what white fibres reflect of all light.
+const SHEEN_WEIGHT: f32 = 0.1;
 
 struct Principled {
     base: vec3<f32>,
@@ -30,6 +38,9 @@ struct Principled {
     thin: bool,
     // Of the index of refraction beyond over that on wo's side; 1 where no light comes from within.
     eta: f32,
+#if SHEEN
+    sheen: Sheen,
+#endif
 }
 
 struct PrincipledShares {
@@ -63,6 +74,9 @@ fn principled_of(lobe: Lobe, front: bool) -> Principled {
     if p.transmission > 0.0 && !p.thin {
         p.eta = select(1.0 / lobe.ior, lobe.ior, front);
     }
+#endif
+#if SHEEN
+    p.sheen = Sheen(principled_parameter(lobe, 8u), principled_parameter(lobe, 9u).x);
 #endif
     p.coat = principled_parameter(lobe, 3u).x;
     let coat_roughness = principled_parameter(lobe, 4u).x;
@@ -123,16 +137,55 @@ fn principled_split(p: Principled, cosine: f32) -> PrincipledSplit {
     return PrincipledSplit(reflected, (1.0 - p.metallic) * (1.0 - max_component(dielectric)));
 }
 
+#if COMPENSATION
+// What microfacets send to each other leaves as what they reflect once does: 1 + F0 (1 - E) / E, E the share of light that white ones reflect.
+fn principled_compensation(p: Principled, cosine: f32) -> vec3<f32> {
+    if (p.facets.flags & COMPENSATED) == 0u || p.eta != 1.0 {
+        return vec3<f32>(1.0);
+    }
+#if ANISOTROPY
+    let alpha = min(p.facets.alpha, p.facets.alpha_v);
+#else
+    let alpha = p.facets.alpha;
+#endif
+    let table = select(CORRELATED_ALBEDO_WORD, SEPARABLE_ALBEDO_WORD, (p.facets.flags & SEPARABLE_MASKS) != 0u);
+    let root = sqrt(alpha);
+    let once = tabulated_albedo(table, cosine, root, root);
+    return 1.0 + mix(p.specular * p.normal_incidence, p.base, p.metallic) * ((1.0 - once) / once);
+}
+#endif
+
+// Light comes from within what the surface encloses.
+fn principled_is_within(p: Principled, surface: Surface) -> bool {
+    return !surface.front && p.transmission > 0.0 && !p.thin;
+}
+
+#if SHEEN
+// What fibres leave to what lies below.
+fn principled_below_sheen(p: Principled, cosine_o: f32, cosine_i: f32) -> f32 {
+    return 1.0 - max(sheen_taken(p.sheen, cosine_o), sheen_taken(p.sheen, cosine_i));
+}
+#endif
+
 fn principled_shares(p: Principled, surface: Surface, wo: vec3<f32>) -> PrincipledShares {
     let cosine = clamp(dot(wo, surface.shading_normal), 0.0, 1.0);
     // The coat lies on the outside.
-    let coat = select(p.coat * schlick(cosine, vec3<f32>(0.04)).x, 0.0, !surface.front && p.transmission > 0.0 && !p.thin);
+    let coat = select(p.coat * schlick(cosine, vec3<f32>(0.04)).x, 0.0, principled_is_within(p, surface));
     let split = principled_split(p, cosine);
     let possible = select(max(p.metallic, (1.0 - p.metallic) * p.specular), 1.0, p.eta < 1.0);
-    let reflection = max(max_component(split.reflected), LEAST_REFLECTED * possible);
+    var reflection = max(max_component(split.reflected), LEAST_REFLECTED * possible);
     let base = max(split.passed, (1.0 - p.metallic) * (1.0 - MOST_REFLECTED)) * max_component(p.base);
-    let diffuse = base * (1.0 - p.transmission);
-    let transmission = base * p.transmission;
+    var diffuse = base * (1.0 - p.transmission);
+    var transmission = base * p.transmission;
+#if SHEEN
+    // The fibres stand on the outside, and are sampled as the diffuse base is.
+    if !principled_is_within(p, surface) {
+        let taken = sheen_taken(p.sheen, cosine);
+        reflection *= 1.0 - taken;
+        diffuse = diffuse * (1.0 - taken) + taken;
+        transmission *= 1.0 - taken;
+    }
+#endif
     let sum = max(coat + (1.0 - coat) * (reflection + diffuse + transmission), 1.0e-30);
     return PrincipledShares(
         1.0 - coat, coat / sum, (1.0 - coat) * reflection / sum, (1.0 - coat) * diffuse / sum, (1.0 - coat) * transmission / sum
@@ -142,6 +195,11 @@ fn principled_shares(p: Principled, surface: Surface, wo: vec3<f32>) -> Principl
 fn principled_is_non_delta(lobe: Lobe) -> bool {
     let p = principled_of(lobe, true);
     let diffuse = (1.0 - p.metallic) * (1.0 - p.transmission) * max_component(p.base);
+#if SHEEN
+    if max_component(p.sheen.color) > 0.0 {
+        return true;
+    }
+#endif
     return !facets_are_smooth(p.facets) || diffuse > 0.0 || (p.coat > 0.0 && !facets_are_smooth(p.coat_facets));
 }
 
@@ -150,7 +208,12 @@ fn principled_sampling_weight(lobe: Lobe) -> f32 {
     p.eta = 1.0;
     let split = principled_split(p, 1.0);
     let coat = 0.04 * p.coat;
-    return coat + (1.0 - coat) * max_component(split.reflected + p.base * split.passed);
+    let weight = coat + (1.0 - coat) * max_component(split.reflected + p.base * split.passed);
+#if SHEEN
+    return weight + SHEEN_WEIGHT * max_component(p.sheen.color);
+#else
+    return weight;
+#endif
 }
 
 // D G2 / (4 cosθo), and the density of the reflected direction.
@@ -178,9 +241,18 @@ fn principled_value(
         var pdf = shares.diffuse * hemisphere_pdf(i.z);
         if !facets_are_smooth(p.facets) {
             let mirror = principled_mirror(p.facets, o, i, m);
+#if COMPENSATION
+            value += split.reflected * principled_compensation(p, o.z) * mirror.x;
+#else
             value += split.reflected * mirror.x;
+#endif
             pdf += shares.reflection * mirror.y;
         }
+#if SHEEN
+        if !principled_is_within(p, surface) && max_component(p.sheen.color) > 0.0 {
+            value = value * principled_below_sheen(p, o.z, i.z) + sheen_value(p.sheen, o, i);
+        }
+#endif
         value *= shares.below_coat;
         if shares.coat > 0.0 && !facets_are_smooth(p.coat_facets) {
             let coat_mirror = principled_mirror(p.coat_facets, o, i, m);
@@ -213,7 +285,10 @@ fn principled_value(
             let shadowing = facet_shadowing(p.facets, lambda_o, facet_lambda(p.facets, i));
             terms = vec2<f32>(density * shadowing / (p.eta * p.eta), density / (1.0 + lambda_o));
         }
-        let passed = principled_split(p, cosine).passed;
+        var passed = principled_split(p, cosine).passed;
+#if SHEEN
+        passed *= principled_below_sheen(p, o.z, -i.z);
+#endif
         return BsdfValue(p.base * (shares.below_coat * passed * p.transmission * terms.x), shares.transmission * terms.y);
     }
 #endif
@@ -244,6 +319,11 @@ fn sample_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u
         let split = principled_split(p, cosine);
         if is_reflection {
             weight = split.reflected * (shares.below_coat / shares.reflection);
+#if SHEEN
+            if !principled_is_within(p, surface) {
+                weight *= principled_below_sheen(p, cosine, cosine);
+            }
+#endif
         } else if transmits {
             if split.passed <= 0.0 {
                 return no_sample();
@@ -253,6 +333,9 @@ fn sample_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u
                 wi = refracted(surface.shading_normal, wo, p.eta);
             }
             weight = p.base * (shares.below_coat * split.passed * p.transmission / (shares.transmission * eta_scale));
+#if SHEEN
+            weight *= principled_below_sheen(p, cosine, abs(dot(wi, surface.shading_normal)));
+#endif
         }
         if transmits == (dot(wi, surface.facing_normal) > 0.0) {
             return no_sample();

@@ -94,6 +94,7 @@ impl Surface<'_, '_> {
         const TRANSMISSION: &str = "KHR_materials_transmission";
         const CLEARCOAT: &str = "KHR_materials_clearcoat";
         const ANISOTROPY: &str = "KHR_materials_anisotropy";
+        const SHEEN: &str = "KHR_materials_sheen";
         let pbr = self.material.pbr_metallic_roughness.clone();
         let map = match &pbr.metallic_roughness_texture {
             Some(info) => self.texture_name(info, "metallic and roughness")?,
@@ -106,8 +107,9 @@ impl Surface<'_, '_> {
         let specular = self.factor(SPECULAR, "specularFactor", 1.0, "specularTexture", "a")?;
         let transmission = self.factor(TRANSMISSION, "transmissionFactor", 0.0, "transmissionTexture", "r")?;
         let clearcoat = self.factor(CLEARCOAT, "clearcoatFactor", 0.0, "clearcoatTexture", "r")?;
+        let sheen = self.tint(SHEEN, "sheenColorFactor", [DVec3::ZERO, DVec3::ONE], "sheenColorTexture")?;
         let [none, one] = [0.0, 1.0].map(Value::Number);
-        if metallic == none && transmission == none && specular == none && clearcoat == none {
+        if [&metallic, &transmission, &specular, &clearcoat, &sheen].into_iter().all(|share| *share == none) {
             return Ok(Keys::of_type("diffuse").with("reflectance", base));
         }
         let ior = self.number("KHR_materials_ior", "ior", IOR);
@@ -117,7 +119,7 @@ impl Surface<'_, '_> {
         if specular != one {
             keys.set("specular", specular);
         }
-        let tint = self.specular_colour(SPECULAR)?;
+        let tint = self.tint(SPECULAR, "specularColorFactor", [DVec3::ONE, DVec3::MAX], "specularColorTexture")?;
         if tint != one {
             keys.set("specular_color", tint);
         }
@@ -126,7 +128,14 @@ impl Surface<'_, '_> {
             // What has no volume is a wall without thickness.
             if self.number("KHR_materials_volume", "thicknessFactor", 0.0) == 0.0 {
                 keys.set("thin", true);
+            } else {
+                self.attenuation(&mut keys);
             }
+        }
+        if sheen != none {
+            let roughness = self.factor(SHEEN, "sheenRoughnessFactor", 0.0, "sheenRoughnessTexture", "a")?;
+            keys.set("sheen_color", sheen);
+            keys.set("sheen_roughness", roughness);
         }
         if clearcoat != none {
             let roughness = self.factor(CLEARCOAT, "clearcoatRoughnessFactor", 0.0, "clearcoatRoughnessTexture", "g")?;
@@ -161,15 +170,31 @@ impl Surface<'_, '_> {
         }
     }
 
-    fn specular_colour(&mut self, of: &str) -> Result<Value, String> {
-        let written = self.material.extensions.get(of).and_then(|object| object.get("specularColorFactor"));
-        let channels: Option<Vec<f64>> =
-            written.and_then(|list| list.as_array()?.iter().map(serde_json::Value::as_f64).collect());
-        let factor = channels.and_then(|channels| <[f64; 3]>::try_from(channels).ok()).map_or(DVec3::ONE, DVec3::from);
-        let factor = factor.max(DVec3::ZERO);
-        match self.texture_of(of, "specularColorTexture")? {
-            Some(info) => self.texture(&info, false, factor, "specular colour"),
-            None => Ok(constant(factor)),
+    /// A colour of an extension, times its texture; `limits` are what it is where it is not written, and the most that it can be.
+    fn tint(&mut self, of: &str, key: &str, limits: [DVec3; 2], texture: &str) -> Result<Value, String> {
+        let [default, most] = limits;
+        let factor = self.colour(of, key).unwrap_or(default).clamp(DVec3::ZERO, most);
+        match self.texture_of(of, texture)? {
+            Some(info) if factor != DVec3::ZERO => self.texture(&info, false, factor, texture),
+            _ => Ok(constant(factor)),
+        }
+    }
+
+    /// Three numbers of an extension.
+    fn colour(&self, of: &str, key: &str) -> Option<DVec3> {
+        let list = self.material.extensions.get(of)?.get(key)?.as_array()?;
+        let channels: Option<Vec<f64>> = list.iter().map(serde_json::Value::as_f64).collect();
+        <[f64; 3]>::try_from(channels?).ok().map(DVec3::from)
+    }
+
+    /// What takes light within a volume. Without a distance, or white, nothing does.
+    fn attenuation(&mut self, keys: &mut Keys) {
+        const VOLUME: &str = "KHR_materials_volume";
+        let distance = self.number(VOLUME, "attenuationDistance", f64::INFINITY);
+        let colour = self.colour(VOLUME, "attenuationColor").unwrap_or(DVec3::ONE).clamp(DVec3::ZERO, DVec3::ONE);
+        if distance.is_finite() && distance > 0.0 && colour != DVec3::ONE {
+            keys.set("attenuation_color", constant(colour));
+            keys.set("attenuation_distance", distance);
         }
     }
 
@@ -244,15 +269,14 @@ impl Surface<'_, '_> {
 
     /// Names what of known extensions has no effect.
     fn report_extensions(&mut self) {
-        const PARTS: [(&str, &str); 5] = [
-            ("KHR_materials_sheen", "there is no sheen"),
+        const PARTS: [(&str, &str); 4] = [
             ("KHR_materials_iridescence", "there is no thin film"),
             ("KHR_materials_dispersion", "all colours are bent alike"),
             ("KHR_materials_diffuse_transmission", "light does not come through"),
             ("KHR_materials_pbrSpecularGlossiness", "the metallic-roughness parameters count"),
         ];
         let parts_of = [
-            ("KHR_materials_volume", "attenuationDistance", "what is inside takes no light"),
+            ("KHR_materials_volume", "thicknessTexture", "thickness is that of the shape"),
             ("KHR_materials_clearcoat", "clearcoatNormalTexture", "the coat lies as the surface does"),
             ("KHR_materials_anisotropy", "anisotropyTexture", "the factors alone count"),
         ];

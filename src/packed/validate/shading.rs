@@ -12,7 +12,7 @@ use crate::packed::shape::PrimitiveKind;
 use crate::packed::texture::{self, PackedTexture, PackedTextureKind, TexelFormat};
 use crate::sampling::light_tree;
 use crate::scene::LobeKind;
-use crate::scene::material::FORMS;
+use crate::scene::material::{ATTENUATES, FORMS};
 use crate::scene::validate::MOST_OCTAVES;
 
 /// Most texels along a side of an image: kernels compute with twice as many in signed numbers.
@@ -55,17 +55,22 @@ impl PackedScene {
             return Err(format!("is of kind {:#x}", material.kind_and_form));
         }
         let own_flags = material::EMITS | material::EMITS_TWO_SIDED | material::LETS_THROUGH | material::FRONT_ONLY;
-        let known_flags = own_flags | if is_blend { material::PARTS_EMIT } else { 0 };
+        let of_blends = material::PARTS_EMIT | material::ENCLOSES_VOLUME;
+        let volume = if material.has_form(ATTENUATES) { material::ENCLOSES_VOLUME } else { 0 };
+        let known_flags = own_flags | if is_blend { of_blends } else { volume };
         if material.emission_flags & !known_flags != 0 {
             return Err(format!("has the flags {:#x}", material.emission_flags));
         }
         let lobe = LobeKind::ALL.get(material.kind() as usize);
-        let [count, to_look_up] = lobe.map_or([0, 0], |lobe| lobe.further_counts());
+        let [count, to_look_up] = lobe.map_or([0, 0], |lobe| lobe.further_counts(material.kind_and_form >> material::FORM_SHIFT));
         let [first, looked_up] = [material.further & ((1 << material::FURTHER_SHIFT) - 1), material.looked_up()];
         let has_all = looked_up as usize == to_look_up && is_within(first, count as u32, self.materials.further.len());
         let has_none = material.further == 0 && !lobe.is_some_and(|lobe| lobe.needs_further());
         if !has_none && !has_all {
             return Err(format!("has further parameters from {first} on, of which {looked_up} are looked up"));
+        }
+        if !self.materials.albedos.serve(material, self.materials.further.len()) {
+            return Err("looks up a table of albedos that is not there".to_owned());
         }
         if is_blend {
             let parts = &self.materials.parts;

@@ -13,6 +13,7 @@ mod lookup;
 mod microfacet;
 mod mixture;
 mod scatter;
+mod sheen;
 mod view;
 
 /// A module a lobe.

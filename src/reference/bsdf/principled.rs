@@ -1,4 +1,5 @@
-//! The material of glTF 2.0's Appendix B, with its extensions for indices of refraction, specular, transmission, clearcoat and anisotropy.
+//! The material of glTF 2.0's Appendix B, with its extensions for indices of refraction, specular, transmission, clearcoat, sheen and
+//! anisotropy.
 
 use std::f64::consts::FRAC_1_PI;
 
@@ -9,15 +10,18 @@ use super::hemisphere::{hemisphere_pdf, sample_hemisphere};
 use super::lookup::Lookup;
 use super::microfacet::Facets;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
+use super::sheen::Sheen;
 use super::view::View;
 use crate::math::Frame;
-use crate::scene::material::{DELTA_ALPHA, SMALLEST_BEND};
+use crate::scene::material::{AlbedoTable, DELTA_ALPHA, SMALLEST_BEND};
 use crate::scene::{MaterialKind, MicrofacetDistribution};
 
 /// Largest share of the base's samples that the surface's reflection takes: facets that are turned away from the normal let more through.
 const MOST_REFLECTED: f64 = 0.95;
 /// Least share of samples of a reflection that there is: other facets reflect more than one along the normal.
 const LEAST_REFLECTED: f64 = 0.02;
+/// About what white fibres reflect of all light.
+const SHEEN_WEIGHT: f64 = 0.1;
 
 /// With h the half vector, s = (1 − |wo·h|)⁵, D and G those of GGX, and M = D·G/(4·cosθo·cosθi):
 ///
@@ -25,12 +29,14 @@ const LEAST_REFLECTED: f64 = 0.02;
 /// metal       M · (c + (1 − c)·s)                            c: base colour
 /// dielectric  w·F·M + (1 − w·max F) · ((1 − t)·c/π + t·c·T)   F = f + (1 − f)·s, f = min(((η − 1)/(η + 1))²·k, 1)
 /// surface     metallic · metal + (1 − metallic) · dielectric
-/// material    coat·Fc·Mc + (1 − coat·Fc) · surface            Fc = 0.04 + 0.96·(1 − cosθo)⁵
+/// sheen       fibres + (1 − max E) · surface                  the fibres and what they take: `Sheen`
+/// material    coat·Fc·Mc + (1 − coat·Fc) · sheen              Fc = 0.04 + 0.96·(1 − cosθo)⁵
 /// ```
 ///
 /// w and k are the specular factor and colour, t is the transmission. T is the microfacets' transmission: of a thin wall M mirrored in the
 /// surface, else Walter's refraction. Its h is that of the facet which bends wi to wo; |wo·h| is taken on the side of air, and where a facet
-/// reflects totally F is 1.
+/// reflects totally F is 1. With compensation, M is multiplied by 1 + F0·(1 − E)/E, E the share of light that white microfacets reflect seen at
+/// θo, F0 what is reflected along the normal (Turquin 2019): light that one microfacet sends to another then leaves as what is reflected once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Principled {
     pub base: DVec3,
@@ -45,6 +51,8 @@ pub struct Principled {
     pub coat_facets: Facets,
     /// From the tangent towards the bitangent, in radians.
     pub rotation: f64,
+    pub sheen: Sheen,
+    pub compensates: bool,
 }
 
 /// The ways in which light is scattered, and the probability of sampling each.
@@ -97,10 +105,31 @@ impl Principled {
         if self.transmission > 0.0 && !self.is_thin() { self.eta(view) } else { 1.0 }
     }
 
+    /// Light comes from within what the surface encloses.
+    fn is_within(&self, view: &View) -> bool {
+        !view.front && self.transmission > 0.0 && !self.is_thin()
+    }
+
     /// The coat lies on the outside.
     fn coat_reflectance(&self, view: &View, cosine: f64) -> f64 {
-        let is_within = !view.front && self.transmission > 0.0 && !self.is_thin();
-        if is_within { 0.0 } else { self.coat * schlick_reflectance(cosine, DVec3::splat(0.04)).x }
+        if self.is_within(view) { 0.0 } else { self.coat * schlick_reflectance(cosine, DVec3::splat(0.04)).x }
+    }
+
+    /// What fibres leave to what lies below.
+    fn below_sheen(&self, cosine_o: f64, cosine_i: f64) -> f64 {
+        1.0 - self.sheen.taken(cosine_o).max(self.sheen.taken(cosine_i))
+    }
+
+    /// By how much more is reflected for what microfacets send to each other; nothing where light comes from within or goes there.
+    fn compensation(&self, view: &View, cosine: f64) -> DVec3 {
+        if !self.compensates || self.eta_of_reflection(view) != 1.0 {
+            return DVec3::ONE;
+        }
+        let alpha = self.facets.alpha.min_element();
+        let once = AlbedoTable::of_facets(self.facets.masking).at(cosine, alpha.sqrt());
+        let normal_incidence = (normal_incidence_reflectance(self.ior) * self.specular_color).min(DVec3::ONE);
+        let reflected = self.base * self.metallic + normal_incidence * (self.specular * (1.0 - self.metallic));
+        DVec3::ONE + reflected * ((1.0 - once) / once)
     }
 
     fn shares(&self, view: &View) -> Shares {
@@ -109,9 +138,11 @@ impl Principled {
         let coat = self.coat_reflectance(view, cosine);
         let Split { reflected, passed } = self.split(cosine, eta);
         let possible = if eta < 1.0 { 1.0 } else { self.metallic.max((1.0 - self.metallic) * self.specular) };
-        let reflection = reflected.max_element().max(LEAST_REFLECTED * possible);
-        let base = passed.max((1.0 - self.metallic) * (1.0 - MOST_REFLECTED)) * self.base.max_element();
-        let [diffuse, transmission] = [base * (1.0 - self.transmission), base * self.transmission];
+        // The fibres stand on the outside, and are sampled as the diffuse base is.
+        let taken = if self.is_within(view) { 0.0 } else { self.sheen.taken(cosine) };
+        let reflection = reflected.max_element().max(LEAST_REFLECTED * possible) * (1.0 - taken);
+        let base = passed.max((1.0 - self.metallic) * (1.0 - MOST_REFLECTED)) * self.base.max_element() * (1.0 - taken);
+        let [diffuse, transmission] = [base * (1.0 - self.transmission) + taken, base * self.transmission];
         let sum = coat + (1.0 - coat) * (reflection + diffuse + transmission);
         let of = |share: f64| if sum > 0.0 { share / sum } else { 0.0 };
         Shares {
@@ -142,8 +173,11 @@ impl Principled {
         let mut pdf = shares.diffuse * hemisphere_pdf(view, local.z);
         if !self.facets.are_smooth() {
             let (shadowed, density) = Self::mirror_terms(&self.facets, wo, local, m);
-            value += reflected * shadowed;
+            value += reflected * self.compensation(view, wo.z) * shadowed;
             pdf += shares.reflection * density;
+        }
+        if !self.sheen.is_none() && !self.is_within(view) {
+            value = value * self.below_sheen(wo.z, local.z) + self.sheen.value(wo, local);
         }
         value *= shares.below_coat;
         if !self.coat_facets.are_smooth() && shares.coat > 0.0 {
@@ -178,7 +212,7 @@ impl Principled {
             let shadowed = common * self.facets.shadowing_masking(wo, local);
             (shadowed, common * self.facets.masking(wo) * eta * eta, cos_o, eta)
         };
-        let passed = self.split(cosine, eta).passed;
+        let passed = self.split(cosine, eta).passed * self.below_sheen(wo.z, -local.z);
         let value = self.base * (shares.below_coat * passed * self.transmission * shadowed);
         Some(Evaluation { value, pdf: shares.transmission * density })
     }
@@ -189,12 +223,13 @@ impl Principled {
         if reflects {
             let wi = view.mirrored();
             let reflected = self.split(cosine, self.eta_of_reflection(view)).reflected;
-            let weight = reflected * (shares.below_coat / shares.reflection);
+            let below_sheen = if self.is_within(view) { 1.0 } else { self.below_sheen(cosine, cosine) };
+            let weight = reflected * (shares.below_coat * below_sheen / shares.reflection);
             return view.reflects(wi).then_some(BsdfSample { weight, ..BsdfSample::reflected(wi, Density::Delta) });
         }
         let eta = if self.is_thin() { 1.0 } else { self.eta(view) };
         let wi = if self.is_thin() { -view.wo } else { refract(view.wo, view.normal(), eta)? };
-        let passed = self.split(cosine, eta).passed;
+        let passed = self.split(cosine, eta).passed * self.below_sheen(cosine, wi.dot(view.normal()).abs());
         let weight = self.base * (shares.below_coat * passed * self.transmission / (shares.transmission * eta * eta));
         let is_possible = self.is_thin() || view.transmits(wi);
         (is_possible && passed > 0.0).then_some(BsdfSample { wi, weight, density: Density::Delta, eta, is_null: false })
@@ -249,6 +284,8 @@ impl Scatter for Principled {
             facets,
             coat_facets: isotropic(lookup.scalar(&written.clearcoat_roughness).powi(2)),
             rotation: written.anisotropy_rotation_degrees.to_radians(),
+            sheen: Sheen { color: lookup.color(&written.sheen_color), roughness: lookup.scalar(&written.sheen_roughness) },
+            compensates: written.energy_compensation,
         })
     }
 
@@ -256,12 +293,12 @@ impl Scatter for Principled {
     fn sampling_weight(&self) -> f64 {
         let Split { reflected, passed } = self.split(1.0, 1.0);
         let coat = 0.04 * self.coat;
-        coat + (1.0 - coat) * (reflected + self.base * passed).max_element()
+        coat + (1.0 - coat) * (reflected + self.base * passed).max_element() + SHEEN_WEIGHT * self.sheen.color.max_element()
     }
 
     fn is_delta(&self) -> bool {
         let diffuse = (1.0 - self.metallic) * (1.0 - self.transmission) * self.base.max_element();
-        self.facets.are_smooth() && diffuse == 0.0 && (self.coat == 0.0 || self.coat_facets.are_smooth())
+        self.facets.are_smooth() && diffuse == 0.0 && self.sheen.is_none() && (self.coat == 0.0 || self.coat_facets.are_smooth())
     }
 
     fn evaluate(&self, view: &View, wi: DVec3) -> Evaluation {

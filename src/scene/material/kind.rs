@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::blend_weight::BlendWeight;
 use super::microfacets::{Masking, MicrofacetDistribution, Microfacets};
 use super::plastic::{PlasticInterface, TRANSMITTANCE_NODES};
+use super::principled::Principled;
 use crate::scene::texture::ColorInput;
 
 /// Index into [`crate::scene::Scene::materials`].
@@ -72,31 +73,6 @@ pub enum MaterialKind {
     Pass,
 }
 
-/// The parameters of glTF 2.0's metallic-roughness material and of its extensions. Scalars are the first channel of their colour.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Principled {
-    pub base_color: ColorInput,
-    pub metallic: ColorInput,
-    /// Its square is the width of the microfacets.
-    pub roughness: ColorInput,
-    /// Of the dielectric, inside over outside.
-    pub ior: f64,
-    /// Factor of what the dielectric reflects, and its colour along the normal.
-    pub specular: ColorInput,
-    pub specular_color: ColorInput,
-    /// Share of the dielectric's base that lets light through instead of scattering it back.
-    pub transmission: ColorInput,
-    /// What lets light through is a wall without thickness, which does not bend it.
-    pub thin: bool,
-    pub clearcoat: ColorInput,
-    pub clearcoat_roughness: ColorInput,
-    /// How much wider microfacets are along the direction of the anisotropy, by the square; None: not at all.
-    pub anisotropy: Option<ColorInput>,
-    /// Of that direction, from the one in which texture coordinate u grows towards that of v.
-    pub anisotropy_rotation_degrees: f64,
-    pub masking: Masking,
-}
-
 #[derive(Debug, Clone)]
 pub enum ConductorFresnel {
     /// Complex index of refraction eta + ik, per RGB channel.
@@ -122,7 +98,7 @@ pub struct LobeParameters {
     ///
     /// - of a conductor, and of rough glass, thin or not, the width across the tangent, and a factor of what is reflected;
     /// - of the principled lobe, metallic, specular, transmission, clearcoat, its roughness, anisotropy, and 1 plus the cosine and the sine of
-    ///   its rotation;
+    ///   its rotation; and where it has a form that needs more, the extinction of what it encloses, and the colour and the roughness of its sheen;
     /// - of plastic, the share of light from within that the surface sends back;
     /// - of rough plastic, the same, and then what the surface lets through, three angles an entry.
     pub further: Vec<ColorInput>,
@@ -146,9 +122,24 @@ pub const ANISOTROPIC: u32 = 32;
 pub const THIN_WALL: u32 = 64;
 /// The lobe lets light through.
 pub const TRANSMITS: u32 = 128;
+/// Light that microfacets send to each other is not lost.
+pub const COMPENSATED: u32 = 256;
+/// Fibres stand on the surface.
+pub const SHEEN: u32 = 512;
+/// What the surface encloses takes light.
+pub const ATTENUATES: u32 = 1024;
 /// All of these.
-pub const FORMS: u32 =
-    COMPLEX_FRESNEL | BECKMANN | SEPARABLE_MASKING | NONLINEAR | SQUARED_ACROSS | ANISOTROPIC | THIN_WALL | TRANSMITS;
+pub const FORMS: u32 = COMPLEX_FRESNEL
+    | BECKMANN
+    | SEPARABLE_MASKING
+    | NONLINEAR
+    | SQUARED_ACROSS
+    | ANISOTROPIC
+    | THIN_WALL
+    | TRANSMITS
+    | COMPENSATED
+    | SHEEN
+    | ATTENUATES;
 
 /// Entries that the transmittance of rough plastic takes.
 const TRANSMITTANCE_ENTRIES: usize = TRANSMITTANCE_NODES.div_ceil(3);
@@ -255,6 +246,14 @@ impl MaterialKind {
     }
 }
 
+/// Where the extinction of what it encloses stands among the further parameters of the principled lobe.
+pub const EXTINCTION_PARAMETER: usize = 7;
+
+/// How many further parameters the principled lobe has.
+fn further_of_principled(form: u32) -> usize {
+    if form & (SHEEN | ATTENUATES) == 0 { EXTINCTION_PARAMETER } else { EXTINCTION_PARAMETER + 3 }
+}
+
 impl Principled {
     fn lobe(&self) -> LobeParameters {
         let zero = ColorInput::grey(0.0);
@@ -262,8 +261,12 @@ impl Principled {
         let form = if self.masking == Masking::Separable { SEPARABLE_MASKING } else { 0 }
             | if self.anisotropy.is_some() { ANISOTROPIC } else { 0 }
             | if self.thin { THIN_WALL } else { 0 }
-            | if self.transmission == zero { 0 } else { TRANSMITS };
-        let further = vec![
+            | if self.transmission == zero { 0 } else { TRANSMITS }
+            | if self.energy_compensation { COMPENSATED } else { 0 }
+            | if self.sheen_color == zero { 0 } else { SHEEN }
+            | if self.attenuation.is_some() { ATTENUATES } else { 0 };
+        let extinction = self.attenuation.map_or(DVec3::ZERO, |attenuation| attenuation.extinction());
+        let mut further = vec![
             self.metallic,
             self.specular,
             self.transmission,
@@ -271,7 +274,11 @@ impl Principled {
             self.clearcoat_roughness,
             self.anisotropy.unwrap_or(zero),
             ColorInput::Constant(DVec3::new(1.0 + turned.cos(), 1.0 + turned.sin(), 0.0)),
+            ColorInput::Constant(extinction),
+            self.sheen_color,
+            self.sheen_roughness,
         ];
+        further.truncate(further_of_principled(form));
         LobeParameters {
             form,
             color1: Some(self.specular_color),
@@ -299,12 +306,13 @@ pub enum LobeSupport {
 }
 
 impl LobeKind {
-    /// How many [further parameters](LobeParameters::further) the lobe has where it has some, and how many of them are looked up.
-    pub(crate) fn further_counts(self) -> [usize; 2] {
+    /// How many [further parameters](LobeParameters::further) the lobe has in this [form](LobeParameters::form) where it has some, and how many
+    /// of them are looked up.
+    pub(crate) fn further_counts(self, form: u32) -> [usize; 2] {
         match self {
             Self::Conductor | Self::RoughGlass | Self::RoughThinGlass => [2, 2],
             Self::Plastic => [1, 1],
-            Self::Principled => [7, 7],
+            Self::Principled => [further_of_principled(form); 2],
             Self::RoughPlastic => [1 + TRANSMITTANCE_ENTRIES, 1],
             _ => [0, 0],
         }

@@ -1,18 +1,23 @@
 //! What surfaces are made of.
 
+mod albedo;
 mod blend_weight;
 mod kind;
 mod microfacets;
 mod plastic;
+mod principled;
 
+pub use albedo::{ALBEDO_COLUMNS, ALBEDO_ROWS, AlbedoTable, SHEEN_KNEE, SMALLEST_SHEEN_ALPHA, sheen_distribution, sheen_lambda};
 pub use blend_weight::BlendWeight;
 pub(crate) use kind::material_table;
 pub use kind::{
-    ANISOTROPIC, BECKMANN, COMPLEX_FRESNEL, ConductorFresnel, FORMS, LobeKind, LobeParameters, LobeSupport, MaterialId,
-    MaterialKind, NONLINEAR, Principled, SEPARABLE_MASKING, SMALLEST_BEND, SQUARED_ACROSS, THIN_WALL, TRANSMITS,
+    ANISOTROPIC, ATTENUATES, BECKMANN, COMPENSATED, COMPLEX_FRESNEL, ConductorFresnel, EXTINCTION_PARAMETER, FORMS, LobeKind,
+    LobeParameters, LobeSupport, MaterialId, MaterialKind, NONLINEAR, SEPARABLE_MASKING, SHEEN, SMALLEST_BEND, SQUARED_ACROSS,
+    THIN_WALL, TRANSMITS,
 };
 pub use microfacets::{DELTA_ALPHA, Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};
 pub use plastic::{PlasticInterface, TRANSMITTANCE_NODES, diffuse_reflectance};
+pub use principled::{Attenuation, Principled};
 
 use super::texture::{ColorInput, TextureId};
 

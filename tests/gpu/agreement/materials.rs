@@ -138,6 +138,11 @@ const LOBES: &[(&str, &str)] = &[
         "textured principled",
         "type = \"principled\"\nbase_color = { texture = \"checks\" }\nmetallic = { texture = \"clouds\" }\nroughness = { texture = \"cells\" }",
     ),
+    (
+        "textured sheen",
+        "type = \"principled\"\nmetallic = 0\nroughness = 0.5\nsheen_color = { texture = \"checks\" }\nsheen_roughness = { texture = \"clouds\" }",
+    ),
+    ("textured and compensated", "type = \"principled\"\nroughness = { texture = \"clouds\" }\nenergy_compensation = true"),
     ("normal map", "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\""),
     ("normal map of a mirror", "type = \"mirror\"\nnormal_map = \"bumps\""),
     ("textured exponent", "type = \"glossy\"\nreflectance = 0.8\nexponent = { texture = \"cells\" }"),
@@ -217,6 +222,8 @@ fn every_kind_of_blend_agrees_in_every_way_to_run() {
                 + &inner("p", "type = \"plastic\"\nreflectance = 0.6")
                 + &inner("q", "type = \"principled\"\nroughness = 0.5\nmetallic = 0.5"),
         ),
+        ("volume in a blend", blend("red", "v", facing) + &inner("v", AMBER)),
+        ("volume with holes", blend("v", "gone", half) + &inner("v", AMBER)),
         ("pass", blend("red", "gone", half)),
         (
             "pass through a mask",
@@ -235,6 +242,31 @@ fn every_kind_of_blend_agrees_in_every_way_to_run() {
             assert_agrees(&format!("{name}, {mode:?}"), &scene, way);
         }
     }
+}
+
+const AMBER: &str = "type = \"principled\"\nmetallic = 0\nroughness = 0.3\ntransmission = 1\nattenuation_color = [0.9, 0.5, 0.1]\nattenuation_distance = 0.6";
+
+/// Light and what it shines on, both within a volume.
+#[test]
+fn a_light_within_a_volume_agrees() {
+    let within = |material: &str| {
+        stage(&format!(
+            "{material}\n[[shape]]\ntype = \"box\"\nmin = [-1.8, -0.9, 0.8]\nmax = [1.8, 0.5, 1.9]\nmaterial = \"m\"\n\
+             [[shape]]\ntype = \"sphere\"\ncenter = [-0.9, -0.2, 1.3]\nradius = 0.3\nmaterial = \"glow\"\n\
+             [[shape]]\ntype = \"sphere\"\ncenter = [0.8, -0.3, 1.3]\nradius = 0.4\nmaterial = \"white\""
+        ))
+    };
+    let wavefront = PlanOptions { stages: Some(StageMode::Wavefront), ..PlanOptions::default() };
+    for (name, options) in [("amber", &PlanOptions::default()), ("amber, wavefront", &wavefront)] {
+        assert_agrees(name, &within(AMBER), options);
+    }
+    // A volume a hundredth thicker is noticed.
+    let (scene, off) = (within(AMBER), within(&AMBER.replace("distance = 0.6", "distance = 0.594")));
+    let Some(device) = DEVICE.as_ref() else { return };
+    let mut gpu = gpt::gpu::GpuRenderer::on(device, &off, &PlanOptions::default()).expect("the scene fits");
+    let mut cpu = gpt::reference::ReferenceRenderer::new(&scene).expect("the scene is supported");
+    let verdict = gpt::verify::compare(&scene, &mut gpu, &mut cpu, None).expect("both render");
+    assert!(!verdict.agrees, "{verdict:#?}");
 }
 
 /// Passing through a surface is no edge: what lies behind is seen even by paths of one edge.

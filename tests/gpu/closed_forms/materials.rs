@@ -17,6 +17,7 @@ pub fn all() -> Vec<Case> {
     furnaces_of_blends(&mut cases);
     veils(&mut cases);
     blended_lights(&mut cases);
+    volumes(&mut cases);
     cases
 }
 
@@ -86,23 +87,17 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
     let facets = Microfacets::ggx(ColorInput::grey(1.0));
     let rough_plate = MaterialKind::RoughGlass { ior: 1.5, facets, reflectance: one, transmittance: one, thin: true };
     let principled = |base: DVec3, metallic: f64, roughness: f64, transmission: f64| {
-        let (zero, grey) = (ColorInput::grey(0.0), ColorInput::grey);
-        MaterialKind::Principled(Box::new(Principled {
-            base_color: constant(base),
-            metallic: grey(metallic),
-            roughness: grey(roughness),
-            ior: 1.5,
-            specular: one,
-            specular_color: one,
-            transmission: grey(transmission),
-            thin: true,
-            clearcoat: zero,
-            clearcoat_roughness: zero,
-            anisotropy: None,
-            anisotropy_rotation_degrees: 0.0,
-            masking: Masking::Separable,
-        }))
+        MaterialKind::Principled(Box::new(plain_principled(base, metallic, roughness, transmission)))
     };
+    let compensated = MaterialKind::Principled(Box::new(Principled {
+        energy_compensation: true,
+        ..plain_principled(DVec3::ONE, 1.0, 1.0, 0.0)
+    }));
+    let fibres = MaterialKind::Principled(Box::new(Principled {
+        sheen_color: constant(a),
+        sheen_roughness: one,
+        ..plain_principled(DVec3::ZERO, 1.0, 0.0, 0.0)
+    }));
     let kinds = [
         ("glossy", MaterialKind::Glossy { reflectance: constant(a), exponent }, a),
         ("phong", MaterialKind::Phong { diffuse: constant(a), specular: constant(b), exponent }, a + b),
@@ -127,6 +122,9 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
         // Of light that meets one microfacet alone, what is not reflected goes through.
         ("rough thin glass of alpha 1", rough_plate, DVec3::splat(1.0 - std::f64::consts::LN_2)),
         ("principled white metal", principled(DVec3::ONE, 1.0, 1.0, 0.0), DVec3::splat(1.0 - std::f64::consts::LN_2)),
+        // Nothing is lost.
+        ("principled compensated white metal", compensated, DVec3::ONE),
+        ("principled fibres on black", fibres, a * reflected_by_fibres()),
         ("principled smooth dielectric", principled(a, 0.0, 0.0, 0.0), 0.04 + a * (1.0 - reflected_by_half_vectors())),
         ("principled thin wall", principled(a, 0.0, 0.0, 1.0), 0.04 + 0.96 * a),
         // 4 % are reflected; the rest is spread over a cone ior² times as large.
@@ -138,6 +136,57 @@ fn at_normal_incidence(cases: &mut Vec<Case>) {
         floor_at_spot(&mut scene, material);
         push(cases, name, &scene, expected, &ALL);
     }
+}
+
+/// Thin where it lets light through, without extensions.
+fn plain_principled(base: DVec3, metallic: f64, roughness: f64, transmission: f64) -> Principled {
+    let (zero, one, grey) = (ColorInput::grey(0.0), ColorInput::grey(1.0), ColorInput::grey);
+    Principled {
+        base_color: ColorInput::Constant(base),
+        metallic: grey(metallic),
+        roughness: grey(roughness),
+        ior: 1.5,
+        specular: one,
+        specular_color: one,
+        transmission: grey(transmission),
+        thin: true,
+        attenuation: None,
+        clearcoat: zero,
+        clearcoat_roughness: zero,
+        sheen_color: zero,
+        sheen_roughness: zero,
+        anisotropy: None,
+        anisotropy_rotation_degrees: 0.0,
+        masking: Masking::Separable,
+        energy_compensation: false,
+    }
+}
+
+/// A block seen along the normal of its front: light comes in and out as often as its boundaries reflect it, and a colour is left of it each
+/// time that it goes from one to the other.
+fn volumes(cases: &mut Vec<Case>) {
+    let color = DVec3::new(0.9, 0.4, 0.1);
+    for (name, ior, boundary) in [("block of air", 1.0, 0.0), ("block of glass", 1.5, 0.04)] {
+        let mut scene = spot(64, 0.0);
+        scene.render.max_depth = 40;
+        let attenuation = Some(Attenuation { color: color.map(f64::sqrt), distance: 0.25 });
+        let kind = Principled { ior, thin: false, attenuation, ..plain_principled(DVec3::ONE, 0.0, 0.0, 1.0) };
+        let material = material(&mut scene, MaterialKind::Principled(Box::new(kind)), None);
+        shape(&mut scene, Geometry::Box(Cuboid { min: DVec3::new(-9.0, -0.5, -9.0), max: DVec3::new(9.0, 0.0, 9.0) }), material);
+        let expected = boundary + (1.0 - boundary) * (1.0 - boundary) * color / (DVec3::ONE - boundary * color);
+        push(cases, name, &scene, expected, &ALL);
+    }
+}
+
+/// ∫ D/(4·(1 + Λ(1) + Λ(μ))) dω of light along the normal, by the distribution and the fits of Estevez and Kulla (2017) for the width 1.
+fn reflected_by_fibres() -> f64 {
+    let fit = |x: f64| 21.5473 / (1.0 + 3.82987 * x.powf(0.19823)) - 1.97760 * x - 4.32054;
+    let lambda = |x: f64| if x < 0.5 { fit(x).exp() } else { (2.0 * fit(0.5) - fit(1.0 - x)).exp() };
+    let count = 100_000;
+    let at = |step: u32| (f64::from(step) + 0.5) / f64::from(count);
+    // The half vector's sine has the square (1 − μ)/2.
+    let share = |cosine: f64| 3.0 * ((1.0 - cosine) / 2.0).sqrt() / (4.0 * (1.0 + lambda(1.0) + lambda(cosine)));
+    (0..count).map(|step| share(at(step))).sum::<f64>() / f64::from(count)
 }
 
 /// ∫ F(cos θ/2) cosθ/π dω with Schlick's F from 0.04 on: of light along the normal, what the half vectors take from a diffuse base.

@@ -1,18 +1,32 @@
 //! `type = "principled"`
 
+use std::ops::Range;
+
+use glam::DVec3;
+
 use super::keys::{MaterialKeys, ior_or_default, material_keys};
 use super::roughness::MaskingEntry;
 use crate::load::error::SceneError;
-use crate::load::file::colour::{Colour, Scalar};
+use crate::load::file::colour::{Colour, Rgb, Scalar};
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, NonNegative, Number};
-use crate::load::file::writer::{Writer, flag, line, number};
-use crate::scene::{ColorInput, Masking, MaterialKind, Principled};
+use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, NonNegative, Number, Positive};
+use crate::load::file::writer::{self, Writer, flag, line, number};
+use crate::scene::{Attenuation, ColorInput, Masking, MaterialKind, Principled};
 
 material_keys! {
     /// The metallic-roughness material of glTF 2.0 (Appendix B) with its extensions for the index of refraction, specular, transmission,
-    /// clearcoat and anisotropy.
-    #[schemars(extend("allOf" = [{ "dependentRequired": { "anisotropy_rotation": ["anisotropy"], "thin": ["transmission"], "clearcoat_roughness": ["clearcoat"] } }]))]
+    /// volume, clearcoat, sheen and anisotropy.
+    #[schemars(extend("allOf" = [
+        { "dependentRequired": {
+            "anisotropy_rotation": ["anisotropy"],
+            "thin": ["transmission"],
+            "clearcoat_roughness": ["clearcoat"],
+            "sheen_roughness": ["sheen_color"],
+            "attenuation_color": ["attenuation_distance", "transmission"],
+            "attenuation_distance": ["attenuation_color"],
+        } },
+        { "not": { "required": ["attenuation_color", "thin"], "properties": { "thin": { "const": true } } } },
+    ]))]
     {
         /// 1 when left out.
         base_color: Option<Colour<Fraction>>,
@@ -30,16 +44,26 @@ material_keys! {
         transmission: Option<Scalar<Fraction>>,
         /// Light goes through a wall without thickness, which does not bend it.
         thin: Option<Located<bool>>,
+        /// What is left of light that has gone `attenuation_distance` far within what the surface encloses.
+        attenuation_color: Option<Located<Rgb<Fraction>>>,
+        /// In units of the world.
+        attenuation_distance: Option<Located<Checked<Positive>>>,
         /// 0 when left out.
         clearcoat: Option<Scalar<Fraction>>,
         /// 0 when left out.
         clearcoat_roughness: Option<Located<Scalar<Fraction>>>,
+        /// Colour of fibres that stand on the surface, as on cloth; 0 when left out.
+        sheen_color: Option<Colour<Fraction>>,
+        /// 0 when left out.
+        sheen_roughness: Option<Located<Scalar<Fraction>>>,
         /// 0 when left out.
         anisotropy: Option<Scalar<Fraction>>,
         /// Degrees, from the direction in which texture coordinate u grows towards that of v.
         anisotropy_rotation: Option<Located<Number>>,
         /// "separable" when left out.
         masking: Option<MaskingEntry>,
+        /// Light that microfacets send to each other is not lost, as it is in glTF; false when left out.
+        energy_compensation: Option<bool>,
     }
 }
 
@@ -53,6 +77,11 @@ impl MaterialKeys for Keys {
         "base_color = [0.9, 0.6, 0.3]\nmetallic = 0.8\nroughness = 0.4\nanisotropy = 0.7\nanisotropy_rotation = 30",
         "base_color = [0.4, 0.8, 0.9]\nmetallic = 0\nroughness = 0\ntransmission = 1",
         "base_color = [0.3, 0.2, 0.25]\nmetallic = 0\nroughness = 0\nclearcoat = 1",
+        "base_color = [0.3, 0.05, 0.1]\nmetallic = 0\nroughness = 0.8\nsheen_color = [0.9, 0.6, 0.7]\nsheen_roughness = 0.4",
+        "base_color = [0.9, 0.8, 0.7]\nmetallic = 0.5\nroughness = 0\nior = 1.4\ntransmission = 0.6\nclearcoat = 0.5\nclearcoat_roughness = 0.3\nsheen_color = [0.2, 0.6, 0.5]\nsheen_roughness = 0.7",
+        "base_color = [0.9, 0.6, 0.3]\nroughness = 0.8\nenergy_compensation = true",
+        "base_color = [0.5, 0.9, 0.6]\nmetallic = 0.4\nroughness = 0.9\nanisotropy = 0.3\nmasking = \"height_correlated\"\nenergy_compensation = true\nsheen_color = 0.5\nsheen_roughness = 1",
+        "base_color = [0.9, 0.9, 1]\nmetallic = 0\nroughness = 0.2\nior = 1.3\ntransmission = 1\nattenuation_color = [0.9, 0.4, 0.1]\nattenuation_distance = 0.5",
     ];
 
     fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
@@ -62,6 +91,9 @@ impl MaterialKeys for Keys {
         };
         let anisotropy = self.anisotropy.as_ref().map(|written| resolver.scalar(written)).transpose()?;
         let clearcoat_roughness = self.clearcoat_roughness.as_ref().map(|written| resolver.scalar(&written.value)).transpose()?;
+        let sheen_roughness = self.sheen_roughness.as_ref().map(|written| resolver.scalar(&written.value)).transpose()?;
+        let sheen_color = self.sheen_color.as_ref().map(|written| resolver.colour(written)).transpose()?;
+        let attenuation = self.attenuation_color.as_ref().zip(self.attenuation_distance.as_ref());
         Ok(MaterialKind::Principled(Box::new(Principled {
             base_color: resolver.colour_or_white(&self.base_color)?,
             metallic: scalar(&self.metallic, 1.0)?,
@@ -71,11 +103,17 @@ impl MaterialKeys for Keys {
             specular_color: resolver.colour_or_white(&self.specular_color)?,
             transmission: scalar(&self.transmission, 0.0)?,
             thin: self.thin.as_ref().is_some_and(|thin| thin.value),
+            attenuation: attenuation
+                .map(|(color, distance)| Attenuation { color: color.value.0, distance: distance.value.0 })
+                .filter(|attenuation| attenuation.color != DVec3::ONE),
             clearcoat: scalar(&self.clearcoat, 0.0)?,
             clearcoat_roughness: clearcoat_roughness.unwrap_or(ColorInput::grey(0.0)),
+            sheen_color: sheen_color.unwrap_or(ColorInput::grey(0.0)),
+            sheen_roughness: sheen_roughness.unwrap_or(ColorInput::grey(0.0)),
             anisotropy: anisotropy.filter(|strength| *strength != ColorInput::grey(0.0)),
             anisotropy_rotation_degrees: self.anisotropy_rotation.as_ref().map_or(0.0, |degrees| degrees.value.0),
             masking: self.masking.map_or(Masking::Separable, Masking::from),
+            energy_compensation: self.energy_compensation.unwrap_or(false),
         })))
     }
 
@@ -91,6 +129,14 @@ impl MaterialKeys for Keys {
             + &flag("thin", principled.thin)
             + &writer.input("clearcoat", &principled.clearcoat)
             + &writer.input("clearcoat_roughness", &principled.clearcoat_roughness);
+        if let Some(Attenuation { color, distance }) = principled.attenuation {
+            out += &line("attenuation_color", &writer::colour(color));
+            out += &line("attenuation_distance", &number(distance));
+        }
+        if principled.sheen_color != ColorInput::grey(0.0) {
+            out += &writer.input("sheen_color", &principled.sheen_color);
+            out += &writer.input("sheen_roughness", &principled.sheen_roughness);
+        }
         if let Some(anisotropy) = &principled.anisotropy {
             out += &writer.input("anisotropy", anisotropy);
             out += &line("anisotropy_rotation", &number(principled.anisotropy_rotation_degrees));
@@ -98,21 +144,37 @@ impl MaterialKeys for Keys {
         if principled.masking == Masking::HeightCorrelated {
             out += &line("masking", "\"height_correlated\"");
         }
-        out
+        out + &flag("energy_compensation", principled.energy_compensation)
     }
 }
 
 impl Keys {
     /// Nothing that is written goes without an effect.
     fn check_unused(&self, resolver: &Resolver<'_>) -> Result<(), SceneError> {
-        let needs = |span: &std::ops::Range<usize>, name: &str, needed: &str| {
-            Err(resolver.error(span, format!("`{name}` needs the key `{needed}`")))
-        };
-        match (&self.anisotropy_rotation, &self.thin, &self.clearcoat_roughness) {
-            (Some(rotation), ..) if self.anisotropy.is_none() => needs(&rotation.span, "anisotropy_rotation", "anisotropy"),
-            (_, Some(thin), _) if self.transmission.is_none() => needs(&thin.span, "thin", "transmission"),
-            (.., Some(roughness)) if self.clearcoat.is_none() => needs(&roughness.span, "clearcoat_roughness", "clearcoat"),
-            _ => Ok(()),
+        if let (Some(attenuation), Some(thin)) = (&self.attenuation_color, &self.thin)
+            && thin.value
+        {
+            return Err(resolver.error(&attenuation.span, "a `thin` wall encloses nothing that could take light"));
+        }
+        let rows = [
+            (span(&self.anisotropy_rotation), "anisotropy_rotation", self.anisotropy.is_some(), "anisotropy"),
+            (span(&self.thin), "thin", self.transmission.is_some(), "transmission"),
+            (span(&self.clearcoat_roughness), "clearcoat_roughness", self.clearcoat.is_some(), "clearcoat"),
+            (span(&self.sheen_roughness), "sheen_roughness", self.sheen_color.is_some(), "sheen_color"),
+            (span(&self.attenuation_color), "attenuation_color", self.transmission.is_some(), "transmission"),
+            (span(&self.attenuation_color), "attenuation_color", self.attenuation_distance.is_some(), "attenuation_distance"),
+            (span(&self.attenuation_distance), "attenuation_distance", self.attenuation_color.is_some(), "attenuation_color"),
+        ];
+        let missing =
+            rows.into_iter().find_map(|(span, name, is_there, needed)| Some((span.filter(|_| !is_there)?, name, needed)));
+        match missing {
+            Some((span, name, needed)) => Err(resolver.error(&span, format!("`{name}` needs the key `{needed}`"))),
+            None => Ok(()),
         }
     }
+}
+
+/// Where a key stands that is written.
+fn span<T>(written: &Option<Located<T>>) -> Option<Range<usize>> {
+    written.as_ref().map(|written| written.span.clone())
 }

@@ -1,0 +1,64 @@
+//! Volumes that take light and scatter none, behind the surfaces that enclose them.
+
+use glam::DVec3;
+
+use super::intersect::Surface;
+use crate::scene::Scene;
+
+/// Farther nothing goes: where light leaves the scene its distance is infinite.
+const FARTHEST: f64 = 1e20;
+
+/// What takes light behind surfaces.
+#[derive(Debug, Clone)]
+pub struct Volumes {
+    /// The extinction behind a surface of each material; None: such a surface encloses nothing. Empty: none does.
+    behind: Vec<Option<DVec3>>,
+}
+
+impl Volumes {
+    pub fn new(scene: &Scene) -> Self {
+        let of_material = |id| scene.volume_behind(id).map(|attenuation| attenuation.extinction());
+        let mut behind: Vec<_> = (0..scene.materials.len()).map(of_material).collect();
+        if behind.iter().all(Option::is_none) {
+            behind.clear();
+        }
+        Self { behind }
+    }
+
+    /// Extinction on the side of a surface that `toward` points to, given that on wo's side.
+    pub fn extinction_towards(&self, surface: &Surface, front: bool, toward: DVec3, here: DVec3) -> DVec3 {
+        let Some(&Some(extinction)) = self.behind.get(surface.owner.material) else { return here };
+        let leads_to_front = toward.dot(surface.point.normal) > 0.0;
+        if leads_to_front == front {
+            here
+        } else if front {
+            extinction
+        } else {
+            DVec3::ZERO
+        }
+    }
+}
+
+/// Beer and Lambert's law: the share of light that is left after a distance.
+pub fn transmittance(extinction: DVec3, distance: f64) -> DVec3 {
+    if extinction == DVec3::ZERO {
+        return DVec3::ONE;
+    }
+    (extinction * -distance.min(FARTHEST)).exp()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Attenuation;
+
+    #[test]
+    fn light_is_left_as_the_colour_says() {
+        let amber = Attenuation { color: DVec3::new(1.0, 0.5, 0.0), distance: 2.0 };
+        let left = transmittance(amber.extinction(), 2.0);
+        assert!((left - DVec3::new(1.0, 0.5, 1e-6)).length() < 1e-12, "{left}");
+        let twice = transmittance(amber.extinction(), 4.0);
+        assert!((twice - left * left).length() < 1e-12, "{twice}");
+        assert_eq!(transmittance(amber.extinction(), f64::INFINITY), DVec3::X);
+    }
+}

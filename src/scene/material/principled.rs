@@ -1,0 +1,58 @@
+//! The material of glTF 2.0's Appendix B.
+
+use glam::DVec3;
+
+use super::microfacets::Masking;
+use crate::scene::texture::ColorInput;
+
+/// The parameters of glTF 2.0's metallic-roughness material and of its extensions. Scalars are the first channel of their colour.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Principled {
+    pub base_color: ColorInput,
+    pub metallic: ColorInput,
+    /// Its square is the width of the microfacets.
+    pub roughness: ColorInput,
+    /// Of the dielectric, inside over outside.
+    pub ior: f64,
+    /// Factor of what the dielectric reflects, and its colour along the normal.
+    pub specular: ColorInput,
+    pub specular_color: ColorInput,
+    /// Share of the dielectric's base that lets light through instead of scattering it back.
+    pub transmission: ColorInput,
+    /// What lets light through is a wall without thickness, which does not bend it.
+    pub thin: bool,
+    /// What takes light behind the surface; None: nothing does.
+    pub attenuation: Option<Attenuation>,
+    pub clearcoat: ColorInput,
+    pub clearcoat_roughness: ColorInput,
+    /// Colour of the fibres that stand on the surface, and the root of the width of their distribution.
+    pub sheen_color: ColorInput,
+    pub sheen_roughness: ColorInput,
+    /// How much wider microfacets are along the direction of the anisotropy, by the square; None: not at all.
+    pub anisotropy: Option<ColorInput>,
+    /// Of that direction, from the one in which texture coordinate u grows towards that of v.
+    pub anisotropy_rotation_degrees: f64,
+    pub masking: Masking,
+    /// Light that microfacets send to each other is not lost.
+    pub energy_compensation: bool,
+}
+
+/// A volume that takes light and scatters none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Attenuation {
+    /// Share of light that is left after the distance.
+    pub color: DVec3,
+    pub distance: f64,
+}
+
+/// Darker colours of a volume are taken for this.
+const SMALLEST_ATTENUATION_COLOR: f64 = 1e-6;
+
+impl Attenuation {
+    /// Beer and Lambert's: light is left as exp(−extinction · distance).
+    pub fn extinction(&self) -> DVec3 {
+        let left = self.color.clamp(DVec3::splat(SMALLEST_ATTENUATION_COLOR), DVec3::ONE);
+        // Not −0.
+        (left.map(f64::ln) / -self.distance).abs()
+    }
+}
