@@ -205,7 +205,9 @@ fn groups_of_meshes_become_instances() {
         let own = r#"<transform name="to_world"><translate x="3"/></transform>"#;
         // Turned inside out, it is a mesh.
         let flipped = r#"<boolean name="flip_normals" value="true"/>"#;
-        read(&format!(r#"<shape type="shapegroup" id="group"><shape type="cylinder">{flipped}{own}</shape>{more}</shape>{instances}"#))
+        read(&format!(
+            r#"<shape type="shapegroup" id="group"><shape type="cylinder">{flipped}{own}</shape>{more}</shape>{instances}"#
+        ))
     };
     let (many, few) = (scene_of(6, ""), scene_of(2, ""));
     assert_eq!((many.groups.len(), many.instance_count(), few.groups.len()), (1, 6, 0));
@@ -220,7 +222,10 @@ fn groups_of_meshes_become_instances() {
         assert!((placed(&many, number) - copy).length() < 1e-12, "{copy}");
     }
     // What is no mesh, or gives light, is copied.
-    for more in [r#"<shape type="sphere"/>"#, r#"<shape type="cube"><boolean name="flip_normals" value="true"/><emitter type="area"/></shape>"#] {
+    for more in [
+        r#"<shape type="sphere"/>"#,
+        r#"<shape type="cube"><boolean name="flip_normals" value="true"/><emitter type="area"/></shape>"#,
+    ] {
         assert_eq!(scene_of(6, more).groups.len(), 0, "{more}");
     }
 }
