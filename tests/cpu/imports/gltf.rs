@@ -1,8 +1,9 @@
 //! glTF in both forms.
 
 use base64::Engine as _;
+use glam::DVec3;
 use gpt::load::LoadOptions;
-use gpt::scene::{Geometry, Light, MaterialKind, Mesh, Projection, Scene};
+use gpt::scene::{Attenuation, ColorInput, Geometry, Light, MaterialKind, Mesh, Projection, Scene};
 use serde_json::{Value, json};
 
 use super::{Folder, picture, refusal, report};
@@ -390,6 +391,32 @@ fn textures_are_turned_with_their_coordinates() {
     assert!(matches!(scene.materials[0].kind, MaterialKind::Diffuse { .. }));
     let folder = Folder::new(&[("a.gltf", &file.text())]);
     assert_eq!(super::picture(&folder.valid("a.gltf")), super::picture(&folder.written("a.gltf")));
+}
+
+/// KHR_materials_sheen and KHR_materials_volume, whose defaults have no effect.
+#[test]
+fn sheen_and_volumes_are_read() {
+    let material = |sheen: Value, volume: Value| {
+        let mut file = File::new();
+        file.root["materials"][0]["extensions"] = json!({ "KHR_materials_transmission": { "transmissionFactor": 1.0 }, "KHR_materials_sheen": sheen, "KHR_materials_volume": volume });
+        file.root["extensionsUsed"] =
+            json!(["KHR_lights_punctual", "KHR_materials_transmission", "KHR_materials_sheen", "KHR_materials_volume"]);
+        let folder = Folder::new(&[("a.gltf", &file.text())]);
+        let scene = folder.valid("a.gltf");
+        assert!(!report(&scene).contains("sheen") && !report(&scene).contains("volume"), "{}", report(&scene));
+        assert_eq!(picture(&folder.written("a.gltf")), picture(&scene));
+        let MaterialKind::Principled(principled) = &scene.materials[0].kind else { panic!("{:?}", scene.materials[0]) };
+        (**principled).clone()
+    };
+    let written = material(
+        json!({ "sheenColorFactor": [0.5, 0.25, 1.5], "sheenRoughnessFactor": 0.75 }),
+        json!({ "thicknessFactor": 1.0, "attenuationColor": [1.0, 0.5, 0.0], "attenuationDistance": 2.5 }),
+    );
+    assert_eq!(written.sheen_color, ColorInput::Constant(DVec3::new(0.5, 0.25, 1.0)));
+    assert_eq!(written.sheen_roughness, ColorInput::grey(0.75));
+    assert_eq!(written.attenuation, Some(Attenuation { color: DVec3::new(1.0, 0.5, 0.0), distance: 2.5 }));
+    let plain = material(json!({}), json!({ "thicknessFactor": 1.0, "attenuationColor": [0.5, 0.5, 0.5] }));
+    assert_eq!((plain.sheen_color, plain.attenuation, plain.thin), (ColorInput::grey(0.0), None, false));
 }
 
 #[test]

@@ -48,14 +48,22 @@ fn inside() -> Camera {
 /// Closed Lambert surface of albedo ρ that emits Le = 1 everywhere: 1/(1−ρ); direct light alone: 1 + ρ.
 fn furnaces(cases: &mut Vec<Case>) {
     let unit_box = Geometry::Box(Cuboid { min: -DVec3::ONE, max: DVec3::ONE });
-    let rooms = [("sphere", sphere(DVec3::ZERO, 1.0)), ("box", unit_box), ("mesh", cube_mesh())];
+    let tube = Geometry::Cylinder(Cylinder { from: DVec3::NEG_Y, to: DVec3::Y, radius: 1.0 });
+    // They reach beyond the tube, so that no light gets out where they meet it.
+    let lid = |center: DVec3| Geometry::Disk(Disk { center, normal: DVec3::Y, radius: 1.01 });
+    let rooms = [
+        ("sphere", vec![sphere(DVec3::ZERO, 1.0)]),
+        ("box", vec![unit_box]),
+        ("mesh", vec![cube_mesh()]),
+        ("tube", vec![tube, lid(DVec3::NEG_Y), lid(DVec3::Y)]),
+    ];
     for (name, room) in rooms {
         for albedo in [0.5, 0.8] {
             let mut scene = scene(64, inside());
             // Roulette adds noise and waits, lest it hide 1 %: the longer, the brighter the walls.
             scene.render.roulette_depth = if albedo > 0.5 { 24 } else { 9 };
             let walls = glowing(&mut scene, albedo, 1.0);
-            shape(&mut scene, room.clone(), walls);
+            room.iter().for_each(|part| shape(&mut scene, part.clone(), walls));
             // Where emitting walls meet at an edge, light sampling alone has infinite variance.
             let estimators = if name == "sphere" { &ALL[..] } else { &[Estimator::Mis, Estimator::Bsdf] };
             push(cases, &format!("furnace {name}, albedo {albedo}"), &scene, DVec3::splat(1.0 / (1.0 - albedo)), estimators);
