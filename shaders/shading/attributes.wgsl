@@ -66,3 +66,15 @@ fn interpolate_in_instance(placement: Placement, first: u32, weights: vec2<f32>)
     );
 }
 #endif
+
+#if BUMP_MAPS
+// The area that the edges span in texture coordinates; of what spans none, 1.
+fn attribute_uv_area(first: u32) -> f32 {
+    let words = attribute_words(first);
+    let uv0 = vec2<f32>(words.w0.w, words.w1.w);
+    let du = vec2<f32>(words.w2.w, words.w3.x) - uv0;
+    let dv = words.w3.yz - uv0;
+    let area = abs(du.x * dv.y - du.y * dv.x);
+    return select(area, 1.0, area == 0.0);
+}
+#endif

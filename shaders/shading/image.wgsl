@@ -1,5 +1,8 @@
 // Images, looked up by uv. Their texels are kept as they came from the file (src/scene/image.rs), and turned into linear colours here.
 #import core/layout.wgsl
+#if TEXTURES_OF_TRIANGLES
+#import core/math.wgsl
+#endif
 #import geometry/texels.wgsl
 
 struct Image {
@@ -108,13 +111,32 @@ fn image_color(image: Image, st: vec2<f32>) -> vec3<f32> {
     var left = vec3<f32>(0.0);
     var upper = vec3<f32>(0.0);
     var row = vec3<f32>(0.0);
+#if TEXTURES_OF_TRIANGLES
+    let is_triangle = (image.flags & TEXTURE_TRIANGLES) != 0u;
+    var first = vec3<f32>(0.0);
+    // Of the corners: beyond the triangle the plane ends at their colours.
+    var low = vec3<f32>(INFINITY_DISTANCE);
+    var high = vec3<f32>(-INFINITY_DISTANCE);
+#endif
     for (var number = 0; number < count; number++) {
         let x = wrapped_texel(i32(corner.x) + (number & 1), size.x, wrap);
         let y = wrapped_texel(i32(corner.y) + (number >> 1u), size.y, wrap);
         let color = texel(image, x, y);
         row = mix(left, color, blend.x);
+#if TEXTURES_OF_TRIANGLES
+        // Below, colours change as above: the plane through three corners.
+        first = select(first, color, number == 0);
+        low = select(low, min(low, color), number < 3);
+        high = select(high, max(high, color), number < 3);
+        row = select(row, left + upper - first, is_triangle && number == 3);
+#endif
         upper = select(upper, row, number == 1);
         left = color;
     }
-    return select(mix(upper, row, blend.y), left, is_nearest);
+    let between = mix(upper, row, blend.y);
+#if TEXTURES_OF_TRIANGLES
+    return select(select(between, clamp(between, low, high), is_triangle), left, is_nearest);
+#else
+    return select(between, left, is_nearest);
+#endif
 }

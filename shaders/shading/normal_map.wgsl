@@ -5,6 +5,37 @@
 #import shading/shape_point.wgsl
 #import shading/shapes.wgsl
 #import shading/texture.wgsl
+#if BUMP_MAPS
+#if ATTRIBUTES
+#import shading/attributes.wgsl
+#endif
+#endif
+
+#if BUMP_MAPS
+// The normal of the surface that is lifted along `normal` by a texture's height (Blinn 1978). `along_u` and `along_v` are how its points move
+// with the texture coordinates.
+fn bumped_normal(texture: u32, normal: vec3<f32>, geometric: vec3<f32>, along_u: vec3<f32>, along_v: vec3<f32>, uv: vec2<f32>) -> vec3<f32> {
+    let slope = texture_word(texture, 2u).w * texture_gradient(texture, uv);
+    let lifted_u = along_u + normal * (slope.x - dot(normal, along_u));
+    let lifted_v = along_v + normal * (slope.y - dot(normal, along_v));
+    let bumped = cross(lifted_u, lifted_v);
+    if !(dot(bumped, bumped) > 0.0) {
+        return normal;
+    }
+    let unit = normalize(bumped);
+    return select(unit, -unit, dot(unit, geometric) < 0.0);
+}
+
+// The area of the triangle's or quad's edges in texture coordinates, of which tangents have the sign alone.
+fn edge_area(first: u32) -> f32 {
+#if ATTRIBUTES
+    if first != NONE {
+        return attribute_uv_area(first);
+    }
+#endif
+    return 1.0;
+}
+#endif
 
 // The shading normal as the material's map bends it; as it is where there is no map or no tangent. `shading` is 0 where it is the
 // geometric one, and may be of any length.
@@ -18,6 +49,12 @@ fn mapped_normal(material: u32, kind: u32, first: u32, shading: vec3<f32>, point
         normal = normalize(shading);
     }
     let tangents = shape_tangents(kind, first, point);
+#if BUMP_MAPS
+    if (bitcast<u32>(texture_word(texture, 0u).x) & TEXTURE_HEIGHTS) != 0u {
+        let per_uv = 1.0 / edge_area(first);
+        return bumped_normal(texture, normal, point.normal, tangents.along_u * per_uv, tangents.along_v * per_uv, uv);
+    }
+#endif
     let along = tangents.along_u - normal * dot(normal, tangents.along_u);
     if dot(along, along) == 0.0 {
         return shading;
@@ -25,6 +62,9 @@ fn mapped_normal(material: u32, kind: u32, first: u32, shading: vec3<f32>, point
     let tangent = normalize(along);
     let across = cross(normal, tangent);
     let bitangent = select(-across, across, dot(across, tangents.along_v) >= 0.0);
-    let local = texture_color(texture, uv) * 2.0 - 1.0;
+    var local = texture_color(texture, uv) * 2.0 - 1.0;
+#if NORMAL_SCALES
+    local = vec3<f32>(local.xy * texture_word(texture, 2u).w, local.z);
+#endif
     return tangent * local.x + bitangent * local.y + normal * local.z;
 }

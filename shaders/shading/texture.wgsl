@@ -1,5 +1,6 @@
 // Colours looked up by uv.
 #import core/layout.wgsl
+#import core/math.wgsl
 #import geometry/scene.wgsl
 #if IMAGES
 #import shading/image.wgsl
@@ -18,17 +19,25 @@ fn texture_word(texture: u32, word: u32) -> vec4<f32> {
     return tables[FIRST_TEXTURE_WORD + texture * TEXTURE_WORDS + word];
 }
 
-// `texture` counts from the scene's first texture.
-fn texture_color(texture: u32, uv: vec2<f32>) -> vec3<f32> {
-    let t0 = bitcast<vec4<u32>>(texture_word(texture, 0u));
+// Where in itself a texture is looked up.
+fn texture_place(texture: u32, uv: vec2<f32>) -> vec2<f32> {
     let t1 = texture_word(texture, 1u);
 #if TEXTURE_ROTATION
     let turn = texture_word(texture, 4u).xy;
     let scaled = uv * t1.xy;
-    let st = vec2<f32>(scaled.x * turn.x - scaled.y * turn.y, scaled.x * turn.y + scaled.y * turn.x) + t1.zw;
+    return vec2<f32>(scaled.x * turn.x - scaled.y * turn.y, scaled.x * turn.y + scaled.y * turn.x) + t1.zw;
 #else
-    let st = uv * t1.xy + t1.zw;
+    return uv * t1.xy + t1.zw;
 #endif
+}
+
+// `texture` counts from the scene's first texture.
+fn texture_color(texture: u32, uv: vec2<f32>) -> vec3<f32> {
+    return texture_color_at(texture, texture_place(texture, uv));
+}
+
+fn texture_color_at(texture: u32, st: vec2<f32>) -> vec3<f32> {
+    let t0 = bitcast<vec4<u32>>(texture_word(texture, 0u));
     var share = 0.0;
     switch t0.x & 255u {
 #if IMAGES
@@ -60,3 +69,41 @@ fn texture_color(texture: u32, uv: vec2<f32>) -> vec3<f32> {
     return vec3<f32>(share);
 #endif
 }
+
+#if BUMP_MAPS
+// How a texture's luminance changes along u and v. Of an image it is that of the bilinear interpolation between the four texels around; of other
+// textures a difference over a small step. src/reference/texture/gradient.rs is the same in f64.
+fn texture_gradient(texture: u32, uv: vec2<f32>) -> vec2<f32> {
+    let st = texture_place(texture, uv);
+    let t0 = bitcast<vec4<u32>>(texture_word(texture, 0u));
+    var low = st - GRADIENT_STEP;
+    var high = st + GRADIENT_STEP;
+    if (t0.x & 255u) == TEXTURE_IMAGE {
+        // From the middles of texels to the next ones; rows run down.
+        let size = vec2<f32>(vec2<i32>(t0.zw));
+        let corner = floor(vec2<f32>(st.x, 1.0 - st.y) * size - 0.5);
+        low = (corner + 0.5) / size;
+        high = (corner + 1.5) / size;
+        low.y = 1.0 - low.y;
+        high.y = 1.0 - high.y;
+    }
+    // The code of a look-up stands there once.
+    var heights = vec4<f32>(0.0);
+    for (var number = 0; number < 4; number++) {
+        var at = st;
+        at.x = select(at.x, select(low.x, high.x, number == 1), number < 2);
+        at.y = select(select(low.y, high.y, number == 3), at.y, number < 2);
+        heights[number] = luminance(texture_color_at(texture, at));
+    }
+    let slope = (heights.yw - heights.xz) / (high - low);
+    let scale = texture_word(texture, 1u).xy;
+#if TEXTURE_ROTATION
+    let turn = texture_word(texture, 4u).xy;
+    return scale * vec2<f32>(turn.x * slope.x + turn.y * slope.y, turn.x * slope.y - turn.y * slope.x);
+#else
+    return scale * slope;
+#endif
+}
+
+const GRADIENT_STEP: f32 = 0.0009765625;
+#endif

@@ -337,7 +337,7 @@ pub struct CheckArguments {
 
 #[derive(Debug, Args)]
 pub struct ImportArguments {
-    /// A glTF .gltf or .glb, or a Mitsuba .xml
+    /// A glTF .gltf or .glb, a Mitsuba .xml, or a model, .obj or .ply
     pub scene: PathBuf,
     /// Scene file to write; what the scene embeds goes into a folder beside it
     #[arg(short, long, value_name = "SCENE.toml")]

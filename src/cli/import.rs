@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
-use gpt::load::{self, SceneError};
+use gpt::load::{self, SceneError, SceneSource};
 use gpt::output::{AtomicFile, check_target};
+use gpt::scene_writer;
 
 use super::arguments::ImportArguments;
 use super::exit::{Exit, Failure};
 use super::terminal;
 
-/// Writes a scene of another program as a scene file, with the meshes and pictures that it embeds beside it.
+/// Writes a scene of another program, or a model, as a scene file, with the meshes and pictures that it embeds beside it.
 pub fn run(arguments: &ImportArguments) -> Result<Exit, Failure> {
     let target = arguments.output.clone();
     check_target(&target)?;
@@ -17,6 +18,12 @@ pub fn run(arguments: &ImportArguments) -> Result<Exit, Failure> {
         return Err(Failure::usage(format!("{} does not end in .toml, as a scene file does", target.display())));
     }
     let options = arguments.access.options(arguments.strict);
+    if let Ok(SceneSource::Model(_)) = SceneSource::parse(Some(arguments.scene.as_os_str())) {
+        // The scene that `gpt render` makes of a model: framed, with a ground and a lamp.
+        let scene = load::load_with(Some(arguments.scene.as_os_str()), &options)?;
+        scene_writer::save_scene(&scene, &target)?;
+        return Ok(Exit::Done);
+    }
     let written = load::as_scene_file(Path::new(&arguments.scene), &target, &options)?;
     if let Some(summary) = written.report.summary() {
         if arguments.strict {

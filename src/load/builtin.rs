@@ -44,6 +44,7 @@ const SCENES: [(&str, &str); 28] = [
     ("vitrine", include_str!("../../scenes/vitrine.toml")),
     ("wardrobe", include_str!("../../scenes/wardrobe.toml")),
     ("grove", include_str!("../../scenes/grove.toml")),
+    ("theatre", include_str!("../../scenes/theatre.toml")),
     ("model-town", include_str!("../../scenes/model-town.toml")),
     ("furnace-lambert", include_str!("../../scenes/furnace-lambert.toml")),
     ("furnace-box", include_str!("../../scenes/furnace-box.toml")),

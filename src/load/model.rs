@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use glam::Vec3;
+
 use crate::scene::Mesh;
 
 /// Coordinates of models are within this.
@@ -34,10 +36,23 @@ pub struct ModelFile {
     pub materials: Vec<MtlMaterial>,
     /// A number of each face that stands for a material, of formats whose faces have such numbers and one part.
     pub face_groups: Option<Vec<u32>>,
+    /// Numbers of vertices and faces, where they were asked for, of formats that have one part.
+    pub attributes: Vec<MeshAttribute>,
     /// What could not be taken as written, in sentences.
     pub warnings: Vec<String>,
     /// What is missing and has something else in its place, in words that follow the file's name.
     pub substitutes: Vec<String>,
+}
+
+/// Numbers of a mesh beside positions, normals and texture coordinates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshAttribute {
+    /// As `color`.
+    pub name: String,
+    /// One for each face; else one for each vertex.
+    pub of_faces: bool,
+    /// Linear; what has one channel is grey.
+    pub values: Vec<Vec3>,
 }
 
 #[derive(Debug)]

@@ -61,9 +61,12 @@ impl PackedScene {
         }
         let mut world = world::collect(scene);
         let mut materials = PackedMaterials::new(scene, &world.materials())?;
-        let mut textures = PackedTextures::new(scene, materials.textures_mut())?;
+        let mut thrown_textures = light::thrown_textures(scene);
+        let of_lights = thrown_textures.iter_mut().filter(|mention| **mention != NONE);
+        let mut textures = PackedTextures::new(scene, materials.textures_mut().chain(of_lights))?;
         let environment = light::environment(scene, &mut textures)?;
-        let light::SampledLights { mut lights, local_count, nodes } = light::collect(scene, &mut world, &environment);
+        let light::SampledLights { mut lights, local_count, nodes } =
+            light::collect(scene, &mut world, &environment, &thrown_textures);
         let places = materials.places(scene);
         world.replace_materials(|material| places[material] as usize);
         for light in lights.iter_mut().filter(|light| light.material != NONE) {

@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::error::PackError;
 use crate::scene::image::Code;
 use crate::scene::{
-    Channel, ImageData, ImageTexture, Scene, Texels, Texture, TextureFilter, TextureId, TextureKind, TextureWrap,
+    Channel, ImageData, ImageTexture, Relief, Scene, Texels, Texture, TextureFilter, TextureId, TextureKind, TextureWrap,
 };
 use crate::shader::shared::{Constants, shared_constants, shared_kinds};
 
@@ -38,6 +38,10 @@ shared_constants!(flags {
     pub const TEXTURE_WORDS: u32 = (size_of::<PackedTexture>() / 16) as u32;
     /// Flag beside the kind of an image: texels are not interpolated.
     const TEXTURE_NEAREST: u32 = 1 << 10;
+    /// Likewise: each block of 2 × 2 texels is a triangle.
+    const TEXTURE_TRIANGLES: u32 = 1 << 17;
+    /// Of any kind: a normal map that is this texture holds heights.
+    pub(super) const TEXTURE_HEIGHTS: u32 = 1 << 18;
     /// Where the way of wrapping stands.
     pub(super) const WRAP_SHIFT: u32 = 8;
     /// Where an image's format stands, and the flag of floating-point texels that have alpha.
@@ -48,7 +52,8 @@ shared_constants!(flags {
 });
 
 /// Of an image, beside its kind.
-pub(super) const IMAGE_FLAGS: u32 = TEXTURE_NEAREST | 3 << WRAP_SHIFT | 3 << FORMAT_SHIFT | FLOAT_ALPHA | 7 << CHANNEL_SHIFT;
+pub(super) const IMAGE_FLAGS: u32 =
+    TEXTURE_NEAREST | TEXTURE_TRIANGLES | 3 << WRAP_SHIFT | 3 << FORMAT_SHIFT | FLOAT_ALPHA | 7 << CHANNEL_SHIFT;
 
 /// Kinds, flags and sizes, for WGSL.
 pub fn constants() -> Constants {
@@ -60,7 +65,7 @@ pub fn constants() -> Constants {
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct PackedTexture {
     /// Kind in bits 0 to 7; of an image, bits 8 and 9: 0 repeat, 1 clamp, 2 mirror, bit 10: nearest, bits 11 and 12: its [`TexelFormat`],
-    /// bit 13: floating-point texels have alpha, and from bit 14 on the channel.
+    /// bit 13: floating-point texels have alpha, from bit 14 on the channel, and bit 17: triangles.
     pub kind_and_flags: u32,
     /// Of an image: index of its first word in the texels. Of noise: its seed.
     pub first_texel_or_seed: u32,
@@ -69,6 +74,7 @@ pub struct PackedTexture {
     pub height: u32,
     pub scale: [f32; 2],
     pub offset: [f32; 2],
+    /// Colour a, and what a normal map that is this texture is multiplied by.
     pub a: [f32; 4],
     pub b: [f32; 4],
     /// Of the rotation, before the offset and after the scale.
@@ -164,6 +170,21 @@ impl PackedTextures {
         self.of_images().any(|texture| texture.channel() != 0)
     }
 
+    /// Some image holds triangles.
+    pub fn has_triangles(&self) -> bool {
+        self.of_images().any(|texture| texture.kind_and_flags & TEXTURE_TRIANGLES != 0)
+    }
+
+    /// Some texture holds heights for a bump map.
+    pub fn has_heights(&self) -> bool {
+        self.textures.iter().any(|texture| texture.kind_and_flags & TEXTURE_HEIGHTS != 0)
+    }
+
+    /// Some normal map is made stronger or weaker.
+    pub fn has_scaled_normals(&self) -> bool {
+        self.textures.iter().any(|texture| texture.kind_and_flags & TEXTURE_HEIGHTS == 0 && texture.a[3] != 1.0)
+    }
+
     /// Some texture is turned.
     pub fn is_rotated(&self) -> bool {
         self.textures.iter().any(|texture| texture.cosine_sine != [1.0, 0.0])
@@ -207,7 +228,13 @@ impl Packing {
             },
         };
         let axis = texture.transform.rotation().x_axis;
+        let (heights, scale) = match texture.relief {
+            Relief::Normals(scale) => (false, scale),
+            Relief::Heights(scale) => (true, scale),
+        };
         self.packed.textures.push(PackedTexture {
+            kind_and_flags: packed.kind_and_flags | if heights { TEXTURE_HEIGHTS } else { 0 },
+            a: [packed.a[0], packed.a[1], packed.a[2], scale as f32],
             offset: texture.transform.offset.map(|x| x as f32),
             cosine_sine: axis.as_vec2().to_array(),
             ..packed
@@ -221,7 +248,11 @@ impl Packing {
             TextureWrap::Clamp => 1,
             TextureWrap::Mirror => 2,
         };
-        let nearest = if image.filter == TextureFilter::Nearest { TEXTURE_NEAREST } else { 0 };
+        let filter = match image.filter {
+            TextureFilter::Bilinear => 0,
+            TextureFilter::Nearest => TEXTURE_NEAREST,
+            TextureFilter::Triangle => TEXTURE_TRIANGLES,
+        };
         let data = &image.image;
         let (format, alpha) = match data.texels {
             Texels::Bytes { .. } => (TexelFormat::Bytes, 0),
@@ -239,7 +270,7 @@ impl Packing {
         Ok(PackedTexture {
             kind_and_flags: PackedTextureKind::Image as u32
                 | wrap << WRAP_SHIFT
-                | nearest
+                | filter
                 | (format as u32) << FORMAT_SHIFT
                 | alpha
                 | channel.map_or(0, number_of) << CHANNEL_SHIFT,

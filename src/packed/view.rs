@@ -39,10 +39,11 @@ impl View {
             Projection::Orthographic { height } => (0.5 * height, 0.0),
         };
         let half_width = half_height * width / height;
+        let shift = right * (2.0 * half_width * camera.shift[0]) + up * (2.0 * half_height * camera.shift[1]);
         let radius = camera.aperture.map_or(0.0, |aperture| aperture.radius);
         Self {
             position: extend(camera.position, 0.0),
-            corner: extend(up * half_height - right * half_width - backward * distance, 0.0),
+            corner: extend(up * half_height - right * half_width - backward * distance + shift, 0.0),
             step_x: extend(right * (2.0 * half_width / width), 0.0),
             step_y: extend(up * (-2.0 * half_height / height), 0.0),
             forward: extend(-backward, scene.film.filter.radius),

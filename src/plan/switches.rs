@@ -42,6 +42,7 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
         switches.enable(switch, packed.textures.has_format(format));
     }
     switches.enable("TEXTURE_CHANNELS", packed.textures.has_channels());
+    switches.enable("TEXTURES_OF_TRIANGLES", packed.textures.has_triangles());
     switches.enable("TEXTURE_ROTATION", packed.textures.is_rotated());
     switches.enable("CHECKERS", has_texture(PackedTextureKind::Checker));
     switches.enable("PERLIN", has_texture(PackedTextureKind::Perlin));
@@ -170,6 +171,8 @@ fn choose_lights(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
     for &kind in LightKind::DELTA {
         switches.enable(kind.number_name(), has(kind));
     }
+    switches.enable("LIGHT_TEXTURES", packed.lights.iter().any(PackedLight::throws_texture));
+    switches.enable("SPOT_FALLOFFS", packed.lights.iter().any(|light| light.is(LightKind::Spot) && light.form() != 0));
     let environment = !packed.environment.is_black();
     switches.enable("ENVIRONMENT", environment);
     if let Some(switch) = packed.environment.switch.filter(|_| environment) {
@@ -235,6 +238,9 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     switches.enable("MIXTURE", blends && mixture);
     switches.enable("MORE_LOBES", blends && mixture && more_lobes);
     switches.enable("PICK", blends && !mixture);
+    let has_maps = packed.materials.materials.iter().any(|material| material.normal_map != NONE);
+    switches.enable("BUMP_MAPS", has_maps && packed.textures.has_heights());
+    switches.enable("NORMAL_SCALES", has_maps && packed.textures.has_scaled_normals());
     switches.enable("NORMAL_MAPS", packed.materials.materials.iter().any(|material| material.normal_map != NONE));
     switches.enable("EMISSION", materials.iter().any(PackedMaterial::emits));
     switches.enable("FURTHER_PARAMETERS", materials.iter().any(|material| material.looked_up() > 0));

@@ -18,6 +18,8 @@ pub struct ProjectiveCamera {
     orthographic: bool,
     /// Half the window's width and height, at distance 1 if it is perspective.
     half_extent: DVec2,
+    /// To the right and up, in windows.
+    shift: DVec2,
     size: DVec2,
     filter: FilterSampler,
     aperture: Option<Aperture>,
@@ -40,6 +42,7 @@ impl ProjectiveCamera {
             backward,
             orthographic,
             half_extent: DVec2::new(half_height * size.x / size.y, half_height),
+            shift: DVec2::from(camera.shift),
             size,
             filter: FilterSampler::new(film.filter),
             aperture: camera.aperture,
@@ -63,8 +66,8 @@ impl ProjectiveCamera {
     /// The ray through a film position in pixels: x to the right, y down, (0, 0) the picture's upper left corner. `lens` is where it
     /// starts, to the right and up from the middle of the lens. All rays of a film position meet in the plane in focus.
     pub fn ray(&self, film_x: f64, film_y: f64, lens: DVec2) -> Ray {
-        let x = (2.0 * film_x / self.size.x - 1.0) * self.half_extent.x;
-        let y = (1.0 - 2.0 * film_y / self.size.y) * self.half_extent.y;
+        let x = (2.0 * (film_x / self.size.x + self.shift.x) - 1.0) * self.half_extent.x;
+        let y = (1.0 - 2.0 * (film_y / self.size.y - self.shift.y)) * self.half_extent.y;
         let window = self.right * x + self.up * y;
         let (middle, direction) =
             if self.orthographic { (self.position + window, -self.backward) } else { (self.position, window - self.backward) };

@@ -9,6 +9,9 @@ pub struct Camera {
     pub look_at: DVec3,
     pub up: DVec3,
     pub projection: Projection,
+    /// How far the window lies to the right of the camera's axis and above it, in its own widths and heights: rays stay parallel to what they
+    /// were, so that upright edges stay upright.
+    pub shift: [f64; 2],
     /// None: a pinhole.
     pub aperture: Option<Aperture>,
     /// Distance along the viewing direction of the plane in focus; used with an aperture.
@@ -24,6 +27,7 @@ impl Default for Camera {
             look_at: DVec3::ZERO,
             up: DVec3::Y,
             projection: Projection::Perspective { vertical_fov_degrees: 40.0 },
+            shift: [0.0; 2],
             aperture: None,
             focus_distance: 1.0,
             shutter: [0.0, 1.0],

@@ -1,13 +1,20 @@
 //! Lights that are not surfaces, and the table of them.
 
+mod model;
+mod thrown;
+
 use std::f64::consts::PI;
 use std::sync::Arc;
 
 use glam::{DVec3, DVec4};
 
-use super::check::{Check, image, is_amount, is_direction};
+use super::check::{Check, image, is_direction};
 use super::image::ImageData;
+use super::texture::TextureId;
 use crate::math::luminance;
+use model::{DeltaLight, SceneLight, amounts, placed};
+pub use model::{LightParameters, LightStrength};
+pub use thrown::{FALLOFF_LINEAR, FALLOFF_SQUARE, FalloffCurve, Projector, SpotLight, ThrownPicture, picture_turn};
 
 /// The table of lights: a row for each that is not a surface. From these rows every layer makes its list of modules and what chooses among
 /// them, so a light is a row here, its parameters below, and a file of its module's name wherever it is represented: `load/file/light`
@@ -27,68 +34,13 @@ macro_rules! light_table {
             delta {
                 Point(PointLight) point POINT_LIGHT,
                 Spot(SpotLight) spot SPOT_LIGHT,
+                Projector(Projector) projector PROJECTOR_LIGHT,
                 Directional(DirectionalLight) directional DIRECTIONAL_LIGHT,
             }
         }
     };
 }
 pub(crate) use light_table;
-
-/// What a scene needs to know of a light, whatever its kind.
-trait SceneLight {
-    /// What is wrong with it, in words.
-    fn check(&self) -> Check;
-
-    /// Moves it by an offset, with all of the scene.
-    fn translate(&mut self, _offset: DVec3) {}
-
-    /// Its picture, if it has one.
-    fn image_mut(&mut self) -> Option<&mut Arc<ImageData>> {
-        None
-    }
-
-    /// The same to look at.
-    fn image(&self) -> Option<&ImageData> {
-        None
-    }
-}
-
-/// By what a light is weighed among all that are sampled.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum LightStrength {
-    /// Luminous power, of a light inside the scene.
-    Power(f64),
-    /// The irradiance that a light at infinity could make.
-    Irradiance(f64),
-}
-
-impl LightStrength {
-    /// The light gives any.
-    pub fn is_positive(self) -> bool {
-        let (Self::Power(strength) | Self::Irradiance(strength)) = self;
-        strength > 0.0
-    }
-}
-
-/// A light to which one direction leads from each point.
-trait DeltaLight {
-    fn parameters(&self) -> LightParameters;
-}
-
-/// What samplers and shaders know of a delta light, in the slots that the device's tables have for it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LightParameters {
-    pub strength: LightStrength,
-    /// Radiant intensity, or the irradiance of a light at infinity.
-    pub color: DVec3,
-    /// Nothing of a light at infinity.
-    pub position: DVec3,
-    /// The direction that it shines in, and the angles from there, in radians, up to which it is full and at which it ends. None: it
-    /// shines in all directions.
-    pub cone: Option<(DVec3, [f64; 2])>,
-    /// What else its shader reads.
-    pub vectors: [DVec3; 2],
-}
 
 /// Light from outside the scene.
 trait OutsideLight {
@@ -232,55 +184,7 @@ impl SceneLight for PointLight {
 
 impl DeltaLight for PointLight {
     fn parameters(&self) -> LightParameters {
-        LightParameters {
-            strength: LightStrength::Power(4.0 * PI * luminance(self.intensity)),
-            color: self.intensity,
-            position: self.position,
-            cone: None,
-            vectors: [DVec3::ZERO; 2],
-        }
-    }
-}
-
-/// A point light cut to a cone: full `intensity` inside `falloff_degrees` of the axis, none past `angle_degrees`, between them
-/// the smooth step t²(3 − 2t) in the cosine.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SpotLight {
-    pub position: DVec3,
-    pub direction: DVec3,
-    pub intensity: DVec3,
-    pub angle_degrees: f64,
-    pub falloff_degrees: f64,
-}
-
-impl SceneLight for SpotLight {
-    fn check(&self) -> Check {
-        placed(self.position.is_finite() && is_direction(self.direction))?;
-        let (falloff, angle) = (self.falloff_degrees, self.angle_degrees);
-        if !(0.0 <= falloff && falloff <= angle && angle <= 180.0) {
-            return Err(format!("its light falls off from {falloff} to {angle} degrees"));
-        }
-        amounts(&[self.intensity])
-    }
-
-    fn translate(&mut self, offset: DVec3) {
-        self.position += offset;
-    }
-}
-
-/// Vectors: the axis; 1 − cosine of the angle at which the light ends, and of the one up to which it is full. Written that way, narrow cones
-/// keep their precision. The smooth step between the angles has the mean ½ over the solid angle.
-impl DeltaLight for SpotLight {
-    fn parameters(&self) -> LightParameters {
-        let [outer, inner] =
-            [self.angle_degrees, self.falloff_degrees].map(|angle| 2.0 * (0.5 * angle).to_radians().sin().powi(2));
-        LightParameters {
-            strength: LightStrength::Power(PI * (outer + inner) * luminance(self.intensity)),
-            color: self.intensity,
-            position: self.position,
-            cone: Some((self.direction, [self.falloff_degrees, self.angle_degrees].map(f64::to_radians))),
-            vectors: [self.direction, DVec3::new(outer, inner, 0.0)],
-        }
+        LightParameters::new(LightStrength::Power(4.0 * PI * luminance(self.intensity)), self.intensity, self.position)
     }
 }
 
@@ -302,11 +206,8 @@ impl SceneLight for DirectionalLight {
 impl DeltaLight for DirectionalLight {
     fn parameters(&self) -> LightParameters {
         LightParameters {
-            strength: LightStrength::Irradiance(luminance(self.irradiance)),
-            color: self.irradiance,
-            position: DVec3::ZERO,
-            cone: None,
             vectors: [-self.direction, DVec3::ZERO],
+            ..LightParameters::new(LightStrength::Irradiance(luminance(self.irradiance)), self.irradiance, DVec3::ZERO)
         }
     }
 }
@@ -372,15 +273,6 @@ macro_rules! lights {
 }
 light_table!(lights);
 
-fn amounts(lights: &[DVec3]) -> Check {
-    let possible = lights.iter().copied().all(is_amount);
-    if possible { Ok(()) } else { Err("its light must be finite and not negative".to_owned()) }
-}
-
-fn placed(possible: bool) -> Check {
-    if possible { Ok(()) } else { Err("its position must be finite and its direction of length 1".to_owned()) }
-}
-
 impl Light {
     /// What is wrong with it, in words.
     pub(super) fn check(&self) -> Check {
@@ -395,6 +287,11 @@ impl Light {
     /// Its picture, if it has one.
     pub(super) fn image_mut(&mut self) -> Option<&mut Arc<ImageData>> {
         self.model_mut().image_mut()
+    }
+
+    /// The texture that it throws, if it does.
+    pub fn texture(&self) -> Option<TextureId> {
+        self.model().texture()
     }
 
     /// The same to look at.

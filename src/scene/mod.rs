@@ -38,8 +38,8 @@ pub use image::{Channel, ColorSpace, ImageData, Texels};
 pub use import_report::{ImportReport, ReportItem};
 pub use instance::{Group, Instances, is_singular};
 pub use light::{
-    DirectionalLight, Environment, EnvironmentRadiance, Light, LightParameters, LightStrength, MapRows, OutsideParameters,
-    PointLight, Sky, SpotLight,
+    DirectionalLight, Environment, EnvironmentRadiance, FalloffCurve, Light, LightParameters, LightStrength, MapRows,
+    OutsideParameters, PointLight, Projector, Sky, SpotLight, ThrownPicture,
 };
 pub use material::{
     Attenuation, BlendWeight, ConductorFresnel, Emission, LobeKind, LobeParameters, LobeSupport, Masking, Material, MaterialId,
@@ -55,7 +55,7 @@ pub use shape::*;
 pub use sources::{ImageSource, MeshSource, Sources};
 pub use summary::SceneSummary;
 pub use texture::{
-    ChannelInput, ColorInput, ImageTexture, Texture, TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,
+    ChannelInput, ColorInput, ImageTexture, Relief, Texture, TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,
 };
 pub use transform::{Transform, TransformStep};
 pub use validate::InvalidScene;

@@ -87,12 +87,28 @@ pub struct Texture {
     pub name: String,
     pub kind: TextureKind,
     pub transform: UvTransform,
+    pub relief: Relief,
+}
+
+/// How a texture bends the normals of materials that have it for their normal map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Relief {
+    /// It holds directions, of which red and green are multiplied by this.
+    Normals(f64),
+    /// It holds heights along the normal, in units of this length.
+    Heights(f64),
+}
+
+impl Default for Relief {
+    fn default() -> Self {
+        Self::Normals(1.0)
+    }
 }
 
 impl Texture {
     /// One that lies as the surface's texture coordinates do.
     pub fn new(name: impl Into<String>, kind: TextureKind) -> Self {
-        Self { name: name.into(), kind, transform: UvTransform::default() }
+        Self { name: name.into(), kind, transform: UvTransform::default(), relief: Relief::default() }
     }
 
     /// Where in itself the texture is looked up for texture coordinates that its kind has scaled.
@@ -219,4 +235,6 @@ pub enum TextureWrap {
 pub enum TextureFilter {
     Bilinear,
     Nearest,
+    /// Of each block of 2 × 2 texels, the plane through the upper left, upper right and lower left ones: colours of a triangle's corners.
+    Triangle,
 }

@@ -12,8 +12,8 @@ use super::light::{Environment, EnvironmentRadiance, Light};
 use super::material::{BlendWeight, Material, MaterialId, MaterialKind};
 use super::model::Scene;
 use super::settings::BadSetting;
-use super::shape::Shape;
-use super::texture::{ChannelInput, ColorInput, Texture, TextureId, TextureKind, UvTransform};
+use super::shape::{Geometry, Shape};
+use super::texture::{ChannelInput, ColorInput, Relief, Texture, TextureId, TextureKind, UvTransform};
 
 /// Most octaves of Perlin noise: further ones are finer than the numbers that they are computed in.
 pub const MOST_OCTAVES: u32 = 16;
@@ -60,7 +60,8 @@ impl Scene {
         }
         self.validate_instances(&textured)?;
         for (index, entry) in self.lights.iter().enumerate() {
-            of(|| format!("light[{index}]"), entry.check())?;
+            let thrown = entry.texture().map_or(Ok(()), |texture| self.texture_exists(texture));
+            of(|| format!("light[{index}]"), thrown.and(entry.check()))?;
         }
         of(|| "environment".into(), self.check_environments())
     }
@@ -139,6 +140,11 @@ impl Scene {
         if id < self.materials.len() { Ok(()) } else { Err(format!("there is no material {id}")) }
     }
 
+    fn has_bump_map(&self, id: MaterialId) -> bool {
+        let map = self.materials[id].normal_map.and_then(|id| self.textures.get(id));
+        map.is_some_and(|map| matches!(map.relief, Relief::Heights(_)))
+    }
+
     fn check_shape(&self, shape: &Shape, textured: &[bool]) -> Check {
         shape.check_place()?;
         shape.check_motion(self.camera.shutter).map_err(|(_, message)| message)?;
@@ -150,6 +156,12 @@ impl Scene {
         shape.materials().try_for_each(|id| self.material_exists(id))?;
         if shape.geometry.lacks_uv().is_some() && shape.materials().any(|id| textured[id]) {
             return Err("a textured material needs texture coordinates".into());
+        }
+        let has_edges = matches!(shape.geometry, Geometry::Mesh(_) | Geometry::Rectangle(_) | Geometry::Box(_));
+        if !has_edges && shape.materials().any(|id| self.has_bump_map(id)) {
+            return Err(
+                "a bump map is for meshes, rectangles and boxes, whose texture coordinates have directions everywhere".into()
+            );
         }
         Ok(())
     }
@@ -190,6 +202,9 @@ pub(super) fn check_camera(camera: &Camera) -> Check {
             return Err(format!("an aperture has {} to {} blades, not {blades}", BLADES.start(), BLADES.end()));
         }
     }
+    if !camera.shift.into_iter().all(f64::is_finite) {
+        return Err("its shift must be finite".into());
+    }
     let [open, close] = camera.shutter;
     if !(open.is_finite() && close.is_finite() && open <= close) {
         return Err("the shutter closes before it opens".into());
@@ -198,6 +213,10 @@ pub(super) fn check_camera(camera: &Camera) -> Check {
 }
 
 fn check_texture(texture: &Texture) -> Check {
+    let (Relief::Normals(scale) | Relief::Heights(scale)) = texture.relief;
+    if !scale.is_finite() {
+        return Err("its relief must be finite".into());
+    }
     let UvTransform { rotation_degrees, offset } = texture.transform;
     if !rotation_degrees.is_finite() || !offset.into_iter().all(f64::is_finite) {
         return Err("its rotation and its offset must be finite".into());

@@ -1,8 +1,8 @@
 //! `[[material]]`
 
 use crate::load::file::write_kind;
-use crate::load::file::writer::{Writer, line};
-use crate::scene::{Emission, MaterialId, MaterialKind};
+use crate::load::file::writer::{Writer, line, number};
+use crate::scene::{Emission, MaterialId, MaterialKind, Relief};
 
 pub fn material(id: MaterialId, writer: &Writer<'_>) -> String {
     let material = &writer.scene.materials[id];
@@ -10,7 +10,12 @@ pub fn material(id: MaterialId, writer: &Writer<'_>) -> String {
     let mut out = format!("\n[[material]]\nname = {}\ntype = \"{type_name}\"\n", writer.materials.quoted(id));
     out += &write_kind(&material.kind, writer);
     if let Some(texture) = material.normal_map {
-        out += &line("normal_map", &writer.textures.quoted(texture));
+        let name = writer.textures.quoted(texture);
+        out += &match writer.scene.textures[texture].relief {
+            Relief::Normals(1.0) => line("normal_map", &name),
+            Relief::Normals(scale) => line("normal_map", &name) + &line("normal_scale", &number(scale)),
+            Relief::Heights(scale) => line("bump_map", &name) + &line("bump_scale", &number(scale)),
+        };
     }
     let emits = matches!(material.kind, MaterialKind::Emissive);
     match material.emission {

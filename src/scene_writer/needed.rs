@@ -1,7 +1,7 @@
 //! Which textures and materials a scene file has to define.
 
 use crate::load::file::writer::named_file;
-use crate::scene::{BlendWeight, ColorInput, Geometry, Material, MaterialId, MaterialKind, Scene, Shape, TextureId};
+use crate::scene::{BlendWeight, ColorInput, Geometry, Light, Material, MaterialId, MaterialKind, Scene, Shape, TextureId};
 
 /// All but those that only models bring along whose files are named.
 pub struct Needed {
@@ -30,6 +30,7 @@ impl Needed {
             let used = if *written { &mut of_written } else { &mut of_others };
             textures_of(material).into_iter().for_each(|id| used[id] = true);
         }
+        scene.lights.iter().filter_map(Light::texture).for_each(|id| of_written[id] = true);
         let textures = of_written.iter().zip(&of_others).map(|(written, other)| *written || !other).collect();
         Self { textures, materials }
     }

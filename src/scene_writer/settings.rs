@@ -60,6 +60,9 @@ fn camera(camera: &Camera) -> String {
             out += &line("height", &number(height));
         }
     }
+    if camera.shift != [0.0; 2] {
+        out += &line("shift", &numbers(&camera.shift));
+    }
     if let Some(aperture) = &camera.aperture {
         out += &line("aperture", &opening(aperture));
     }

@@ -47,6 +47,7 @@ fn image_texture(texture: &ImageTexture, writer: &mut Writer<'_>) -> String {
     out += match texture.filter {
         TextureFilter::Bilinear => "",
         TextureFilter::Nearest => "filter = \"nearest\"\n",
+        TextureFilter::Triangle => "filter = \"triangle\"\n",
     };
     out + &pair("scale", texture.scale, 1.0)
 }

@@ -71,6 +71,7 @@ shader_files![
     "shading/transmittance.wgsl",
     "shading/image.wgsl",
     "shading/texture.wgsl",
+    "shading/thrown_picture.wgsl",
     "shading/trace.wgsl",
     "shading/volume.wgsl",
     "stages/accumulate.wgsl",

@@ -156,6 +156,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("ATTRIBUTE_CHUNKS").requires(&["ATTRIBUTES"]),
     switch("BECKMANN"),
     switch("BLENDS").one_of(&["MIXTURE", "PICK"]),
+    // Some normal map holds heights.
+    switch("BUMP_MAPS").requires(&["NORMAL_MAPS"]),
     // Kernels walk nodes.
     switch("BVH").one_of(HELD).excludes(&["RAY_QUERY"]),
     switch("CHECKERS").requires(&["PROCEDURAL_TEXTURES"]),
@@ -193,6 +195,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("LAYER_SQUARES").excludes(LAYERS),
     switch("LENS"),
     switch("LIGHTS").one_of(LIGHT_KINDS),
+    // Some delta light throws a texture.
+    switch("LIGHT_TEXTURES").requires(&["DELTA_LIGHTS", "TEXTURES"]),
     switch("MIXTURE").requires(&["BLENDS"]).excludes(&["PICK"]),
     // A mixture has lobes besides the diffuse one.
     switch("MORE_LOBES").requires(&["MIXTURE"]),
@@ -203,6 +207,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("NODE_CHUNKS").requires(&["BVH"]).excludes(&["UNIFORM_NODES"]),
     switch("NON_DELTA_TRANSMISSION"),
     switch("NORMAL_MAPS").requires(&["TEXTURES"]),
+    switch("NORMAL_SCALES").requires(&["NORMAL_MAPS"]),
     switch("ONE_LIGHT"),
     switch("ONE_SIDED"),
     switch("ONLY_TRIANGLES_IN_HIERARCHY").requires(&["TRIANGLES_IN_HIERARCHY"]).excludes(HELD_BESIDE_TRIANGLES),
@@ -233,6 +238,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("SHEEN").requires(&["FURTHER_PARAMETERS", "PRINCIPLED"]),
     switch("SPHERE_LIGHTS_BY_POINT").requires(&["SPHERE_LIGHTS"]),
     switch("SPHERE_LIGHTS_VISIBLE_HALF").requires(&["SPHERE_LIGHTS_BY_POINT"]),
+    // The intensity of some spot light falls otherwise than by the smooth step.
+    switch("SPOT_FALLOFFS").requires(&["SPOT_LIGHT"]),
     switch("SPREAD"),
     switch("SUBGROUP_QUEUES"),
     switch("TEXELS"),
@@ -242,6 +249,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("TEXELS_IN_SHORTS").requires(&["IMAGES"]),
     switch("TEXEL_CHUNKS").requires(&["TEXELS"]),
     switch("TEXTURES"),
+    // The texels of some image are triangles' corners.
+    switch("TEXTURES_OF_TRIANGLES").requires(&["IMAGES"]),
     // One channel counts of some image.
     switch("TEXTURE_CHANNELS").requires(&["IMAGES"]),
     switch("TEXTURE_ROTATION").requires(&["TEXTURES"]),

@@ -31,6 +31,19 @@ fn what_is_written_renders_the_same_picture() {
     place.expect(7, "compare a.exr c.exr");
 }
 
+/// A model becomes the scene file of what `gpt render` shows of it.
+#[test]
+fn models_are_imported_as_they_are_framed() {
+    let place = Workplace::new();
+    place.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0.3\nf 1 2 3\n");
+    place.expect(0, "import m.obj -o written.toml");
+    place.expect(0, "render written.toml --size 12x9 --spp 2 --device cpu --quiet -o b.exr");
+    place.expect(0, "render m.obj --size 12x9 --spp 2 --device cpu --quiet -o a.exr");
+    place.expect(0, "compare a.exr b.exr");
+    place.expect(0, "render m.obj --size 12x9 --spp 2 --seed 9 --device cpu --quiet -o c.exr");
+    place.expect(7, "compare a.exr c.exr");
+}
+
 #[test]
 fn check_lists_what_is_not_exact_and_strict_refuses_it() {
     let place = place();

@@ -38,13 +38,8 @@ impl Importer<'_> {
                 if !(outer > 0.0 && outer <= 90.0 && (0.0..=outer).contains(&inner)) {
                     return Err(format!("{NAME}.lights[{number}]: its cone goes from {inner} to {outer} degrees"));
                 }
-                if inner < outer {
-                    let place = self.place(&key).to_string();
-                    let instead = "it is a smooth step of the cosine, not its square";
-                    self.scene.report.approximate("falloff of a spot light", place, instead);
-                }
                 let keys = Keys::of_type("spot").with("position", map.translation).with("direction", direction);
-                keys.with("intensity", colour).with("angle", outer).with("falloff", inner)
+                keys.with("intensity", colour).with("angle", outer).with("falloff", inner).with("curve", "square")
             }
             other => return Err(format!("{NAME}.lights[{number}]: there is no light of type `{other}`")),
         };

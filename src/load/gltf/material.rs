@@ -33,8 +33,26 @@ impl Importer<'_> {
         Ok(made)
     }
 
+    /// The material once more, its base colour multiplied by a texture of vertex colours.
+    pub fn painted_material(&mut self, index: Option<usize>, texture: &str) -> Result<MadeMaterial, String> {
+        let material = index.and_then(|index| self.root.materials.get(index)).cloned().unwrap_or_default();
+        let name = material.name.clone().unwrap_or_else(|| "painted".to_owned());
+        let place = index.map_or_else(String::new, |index| format!("materials[{index}]"));
+        self.make_painted_material(&material, &name, place, Some(texture))
+    }
+
     fn make_material(&mut self, material: &Material, name: &str, place: String) -> Result<MadeMaterial, String> {
-        let mut surface = Surface { importer: self, material, place, coordinates: None };
+        self.make_painted_material(material, name, place, None)
+    }
+
+    fn make_painted_material(
+        &mut self,
+        material: &Material,
+        name: &str,
+        place: String,
+        paint: Option<&str>,
+    ) -> Result<MadeMaterial, String> {
+        let mut surface = Surface { importer: self, material, place, coordinates: None, paint };
         let keys = surface.keys()?;
         let coordinates = surface.coordinates;
         let place = surface.place;
@@ -52,6 +70,8 @@ struct Surface<'s, 'i> {
     material: &'s Material,
     place: String,
     coordinates: Option<Coordinates>,
+    /// A texture that multiplies the base colour.
+    paint: Option<&'s str>,
 }
 
 impl Surface<'_, '_> {
@@ -74,7 +94,13 @@ impl Surface<'_, '_> {
         let colour = DVec3::new(factor[0], factor[1], factor[2]).clamp(DVec3::ZERO, DVec3::ONE);
         let base = match &pbr.base_color_texture {
             Some(info) => self.texture(info, false, colour, "base colour")?,
-            None => constant(colour),
+            None => match self.paint {
+                Some(texture) => {
+                    let factor = (colour != DVec3::ONE).then(|| constant(colour));
+                    Value::Table(Keys::new().with("texture", texture).with_some("factor", factor))
+                }
+                None => constant(colour),
+            },
         };
         self.report_extensions();
         let mut keys = if self.material.extensions.contains_key("KHR_materials_unlit") {
@@ -227,7 +253,8 @@ impl Surface<'_, '_> {
             }
         };
         // The whole surface has the light and the normals of its opaque part.
-        let (on_whole, of_part): (Vec<_>, Vec<_>) = keys.0.into_iter().partition(|(key, _)| ["normal_map"].contains(key));
+        let (on_whole, of_part): (Vec<_>, Vec<_>) =
+            keys.0.into_iter().partition(|(key, _)| ["normal_map", "normal_scale"].contains(key));
         let mut mixed = self.mixed(Keys(of_part), Keys::of_type("pass"), share, "surface");
         mixed.0.extend(on_whole);
         Ok(mixed)
@@ -235,13 +262,13 @@ impl Surface<'_, '_> {
 
     fn normal_map(&mut self, keys: &mut Keys) -> Result<(), String> {
         let Some(info) = self.material.normal_texture.clone() else { return Ok(()) };
-        if info.scale.is_some_and(|scale| scale != 1.0) {
-            self.approximate("scale of a normalTexture", "1 is taken");
-        }
         if let Value::Table(texture) = self.texture(&info, true, DVec3::ONE, "normal")?
             && let Some(name) = texture.text("texture")
         {
             keys.set("normal_map", name);
+            if let Some(scale) = info.scale.filter(|scale| *scale != 1.0) {
+                keys.set("normal_scale", scale);
+            }
         }
         Ok(())
     }

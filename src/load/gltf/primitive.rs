@@ -6,7 +6,8 @@ use serde_json::{Map, Value};
 use super::importer::Importer;
 use super::json::Primitive;
 use super::made::{Coordinates, MadePrimitive};
-use crate::load::model::FARTHEST;
+use crate::load::import::{Blocks, Entry, Keys};
+use crate::load::model::{FARTHEST, MeshAttribute};
 use crate::scene::Mesh;
 
 /// Of each joint, the map from the mesh's space to the world.
@@ -37,14 +38,24 @@ impl Importer<'_> {
         if primitive.extensions.contains_key("KHR_draco_mesh_compression") && !primitive.attributes.contains_key("POSITION") {
             return Err(format!("its data are packed by Draco, which is not read: `{}` unpacks them", super::DRACO_COMMAND));
         }
-        let material = self.material(primitive.material)?;
+        let mut material = self.material(primitive.material)?;
         let weights = weights.unwrap_or(&of.weights);
         let Some(mut built) = self.geometry(&primitive, mode, skinning, weights, &key)? else { return Ok(None) };
+        let colours = self.colours(&primitive, material.coordinates.is_some(), built.positions.len(), &key)?;
         self.coordinates(&primitive, material.coordinates, &mut built, &key)?;
         built.drop_degenerate_faces();
         if built.faces.is_empty() {
             self.drop("primitive without a face that has area", &key, "it is left out");
             return Ok(None);
+        }
+        if let Some(colours) = colours {
+            let blocks = Blocks::of(&mut built);
+            let name = self.scene.free_texture_name(&format!("{key}.COLOR_0"));
+            let made = blocks.texture(&colours, &mut self.scene).ok_or("COLOR_0 makes no picture")?;
+            let mut keys = Keys::new().with("name", name.as_str());
+            keys.0.extend(made.0);
+            self.scene.textures.push(Entry { place: self.place(&key), keys });
+            material = self.painted_material(primitive.material, &name)?;
         }
         built.smooth = !built.normals.is_empty();
         let triangles = built.faces.len() as u64;
@@ -97,9 +108,6 @@ impl Importer<'_> {
         if let Some(index) = indices.iter().find(|index| **index as usize >= count) {
             return Err(format!("a face uses vertex {index}, but there are only {count} (counted from 0)"));
         }
-        if primitive.attributes.contains_key("COLOR_0") {
-            self.drop("COLOR_0", key, "the material's colour alone counts");
-        }
         let faces = triangles(&indices, mode);
         // A normal of no length says nothing; then all faces are flat.
         let mut units = Vec::with_capacity(normals.len());
@@ -113,6 +121,37 @@ impl Importer<'_> {
         let mut mesh = Mesh { positions, normals: units, faces, ..Mesh::default() };
         complete_normals(&mut mesh);
         Ok(Some(mesh))
+    }
+
+    /// The vertices' colours, which multiply the base colour of materials without textures.
+    fn colours(
+        &mut self,
+        primitive: &Primitive,
+        has_textures: bool,
+        count: usize,
+        key: &str,
+    ) -> Result<Option<MeshAttribute>, String> {
+        let Some(accessor) = accessor(&primitive.attributes, "COLOR_0")? else { return Ok(None) };
+        let (numbers, channels) = self.buffers.numbers(accessor, &["VEC3", "VEC4"])?;
+        let value = |number: f32| if number.is_finite() { number.clamp(0.0, 1.0) } else { 0.0 };
+        let values: Vec<Vec3> = numbers
+            .chunks_exact(channels)
+            .map(|colour| Vec3::new(value(colour[0]), value(colour[1]), value(colour[2])))
+            .collect();
+        if values.len() != count {
+            return Err(format!("there are {} COLOR_0 for {count} positions", values.len()));
+        }
+        if values.iter().all(|colour| *colour == Vec3::ONE) {
+            return Ok(None);
+        }
+        if has_textures {
+            self.drop("COLOR_0 of a material with textures", key, "the textures alone count");
+            return Ok(None);
+        }
+        if channels == 4 && numbers.chunks_exact(4).any(|colour| colour[3] < 1.0) {
+            self.drop("alpha of COLOR_0", key, "the material's alone counts");
+        }
+        Ok(Some(MeshAttribute { name: "color".to_owned(), of_faces: false, values }))
     }
 
     /// Texture coordinates as the material wants them. v runs upward here.

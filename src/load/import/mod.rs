@@ -3,6 +3,7 @@
 //! An importer turns a file into a [`Description`]: a scene file of ours in the making, with the meshes and pictures that have no file of
 //! their own. It is read like any scene file, so what an import shows is what the written scene file shows, bit for bit.
 
+mod attribute;
 mod description;
 mod keys;
 mod mesh;
@@ -13,6 +14,7 @@ mod text;
 mod within;
 
 pub use crate::scene::ImportReport;
+pub use attribute::Blocks;
 pub use description::{Description, Entry, HeldContent, Place};
 pub use keys::{FileReference, Keys, Value, list};
 pub use mesh::{cylinder, disk, grid_sphere, smooth_by_index, unit_cube};

@@ -24,14 +24,19 @@ pub struct Converter<'a> {
     pub scene: Description,
     /// What all of the scene is turned by, so that its environment stands upright.
     pub world: DAffine3,
-    /// By the plugin, and whether it is within one that has two sides.
-    pub materials: HashMap<(*const Plugin, bool), usize>,
+    /// By the plugin, whether it is within one that has two sides, and the mesh whose attributes it looks up.
+    pub materials: HashMap<(*const Plugin, bool, Option<usize>), usize>,
     pub both_sides: bool,
     /// Materials that give light, by their keys.
     pub lamps: HashMap<String, String>,
     /// That of shapes without a BSDF.
     pub default_material: Option<usize>,
-    pub textures: HashMap<(*const Plugin, bool, Texels), Input>,
+    pub textures: HashMap<(*const Plugin, bool, Texels, Option<usize>), Input>,
+    /// The attributes of the mesh whose material is being made, where it looks any up: by their names as `vertex_color`, and a number of
+    /// the mesh.
+    pub attributes: Option<(usize, Rc<HashMap<String, Input>>)>,
+    /// Those of every mesh that was read with them, by its key.
+    pub attributes_of_meshes: HashMap<String, (usize, Rc<HashMap<String, Input>>)>,
     pub meshes: HashMap<String, FileReference>,
     /// Files of meshes as they stand.
     pub read_meshes: HashMap<MeshKey, Result<Mesh, SceneError>>,

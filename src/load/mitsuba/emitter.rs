@@ -3,13 +3,14 @@
 use std::f64::consts::PI;
 use std::rc::Rc;
 
-use glam::DVec3;
+use glam::{DAffine2, DMat2, DVec2, DVec3};
 
 use super::converter::Converter;
 use super::input::Input;
 use super::plugin::Plugin;
-use crate::load::error::SceneError;
-use crate::load::import::{Entry, FileReference, Keys, world_direction};
+use crate::load::error::{SceneError, show};
+use crate::load::image_file::Pictures;
+use crate::load::import::{Entry, FileReference, Keys, Value, world_direction};
 
 impl Converter<'_> {
     pub fn emitter(&mut self, plugin: &Rc<Plugin>) -> Result<(), SceneError> {
@@ -27,6 +28,7 @@ impl Converter<'_> {
                     .with("intensity", intensity.value())
             }
             "spot" => self.spot(plugin)?,
+            "projector" => self.projector(plugin)?,
             "directional" => {
                 let direction = match plugin.vector("direction")? {
                     Some(direction) => direction,
@@ -41,7 +43,7 @@ impl Converter<'_> {
                 Keys::of_type("environment").with("radiance", radiance.value())
             }
             "envmap" => self.environment_map(plugin)?,
-            "sky" | "sunsky" | "sun" | "directionalarea" | "collimated" | "projector" | "area" | "perspective" => {
+            "sky" | "sunsky" | "sun" | "directionalarea" | "collimated" | "area" | "perspective" => {
                 return self.emitter_without_likeness(plugin);
             }
             other => {
@@ -104,31 +106,83 @@ impl Converter<'_> {
             .ok_or_else(|| plugin.error(format!("the direction of {} has no length", plugin.title())))
     }
 
-    /// Mitsuba's light falls in proportion to the angle, ours as a smooth step of its cosine.
-    fn spot(&mut self, plugin: &Plugin) -> Result<Keys, SceneError> {
+    /// A colour of light that may be a texture, which is looked up in the plane across a light's direction: `flips` say whether its u and its
+    /// v run to the left and down there.
+    fn thrown(&mut self, plugin: &Plugin, name: &str, flips: [bool; 2]) -> Result<Input, SceneError> {
+        let [x, y] = flips.map(|flipped| if flipped { (-1.0, 1.0) } else { (1.0, 0.0) });
+        let map = DAffine2 { matrix2: DMat2::from_diagonal(DVec2::new(x.0, y.0)), translation: DVec2::new(x.1, y.1) };
+        let input = self.light_texture(plugin, name, map)?;
+        match input.constant() {
+            Some(colour) if colour.min_element() < 0.0 => Err(plugin.error(format!("`{name}` is below 0"))),
+            _ => Ok(input),
+        }
+    }
+
+    /// The axis of a light, where its pictures' upper edge is, and whether `to_world` mirrors.
+    fn aim(&self, plugin: &Plugin) -> Result<(Keys, DVec3, bool), SceneError> {
         let map = plugin.transform("to_world")?;
+        let keys = Keys::new()
+            .with("position", self.world.transform_point3(map.translation))
+            .with("direction", self.direction(plugin, map.matrix3.z_axis)?);
+        let up = self.direction(plugin, map.matrix3.y_axis)?;
+        Ok((keys, up, map.matrix3.determinant() < 0.0))
+    }
+
+    /// Its texture covers the square around the cone; u grows to the left of it.
+    fn spot(&mut self, plugin: &Plugin) -> Result<Keys, SceneError> {
         let cutoff = plugin.number_or("cutoff_angle", 20.0)?;
         let beam = plugin.number_or("beam_width", 0.75 * cutoff)?;
         if !(cutoff > 0.0 && cutoff <= 90.0 && beam >= 0.0) {
             return Err(plugin.error(format!("`cutoff_angle` is above 0 and at most 90 degrees, not {cutoff}")));
         }
-        if beam < cutoff {
-            self.approximate(
-                plugin,
-                "falloff of a spot light",
-                "it is smooth in the cosine of the angle, not straight in the angle",
-            );
-        }
-        let intensity = self.constant(plugin, "intensity")?;
+        let (aim, up, mirrors) = self.aim(plugin)?;
+        let mut intensity = self.constant(plugin, "intensity")?;
+        let mut keys = Keys::of_type("spot");
+        keys.0.extend(aim.0);
         if plugin.child("texture").is_some() {
-            self.drop(plugin, "texture of emitter `spot`", "1 is taken for it");
+            match self.thrown(plugin, "texture", [!mirrors, false])? {
+                Input::Constant(colour) => intensity = Input::Constant(intensity.constant().unwrap_or(DVec3::ONE) * colour),
+                Input::Texture(name, factor) => {
+                    intensity = Input::Constant(intensity.constant().unwrap_or(DVec3::ONE) * factor);
+                    keys.set("texture", name);
+                    keys.set("up", up);
+                }
+            }
         }
-        Ok(Keys::of_type("spot")
-            .with("position", self.world.transform_point3(map.translation))
-            .with("direction", self.direction(plugin, map.matrix3.z_axis)?)
-            .with("intensity", intensity.value())
-            .with("angle", cutoff)
-            .with("falloff", beam.min(cutoff)))
+        let keys = keys.with("intensity", intensity.value()).with("angle", cutoff).with("falloff", beam.min(cutoff));
+        Ok(if beam < cutoff { keys.with("curve", "linear") } else { keys })
+    }
+
+    /// Mitsuba's `irradiance` is π times as much. Its picture stands upright for what looks along with the light.
+    fn projector(&mut self, plugin: &Plugin) -> Result<Keys, SceneError> {
+        let scale = PI * plugin.number_or("scale", 1.0)?;
+        let (aim, up, mirrors) = self.aim(plugin)?;
+        let irradiance = self.thrown(plugin, "irradiance", [mirrors, true])?;
+        let aspect = self.aspect_of(plugin, &irradiance)?;
+        let half_width = self.half_width(plugin, aspect)?;
+        let mut keys = Keys::of_type("projector");
+        keys.0.extend(aim.0);
+        keys.set("up", up);
+        keys.set("vfov", 2.0 * (half_width / aspect).atan().to_degrees());
+        keys.set("aspect", aspect);
+        match irradiance {
+            Input::Constant(colour) => keys.set("irradiance", Input::Constant(colour * scale).value()),
+            Input::Texture(name, factor) => {
+                keys.set("irradiance", Input::Constant(factor * scale).value());
+                keys.set("texture", name);
+            }
+        }
+        Ok(keys)
+    }
+
+    /// Width over height of a texture's picture; 1 of what has none.
+    fn aspect_of(&self, plugin: &Plugin, input: &Input) -> Result<f64, SceneError> {
+        let Input::Texture(name, _) = input else { return Ok(1.0) };
+        let entry = self.scene.textures.iter().find(|entry| entry.keys.text("name") == Some(name));
+        let Some(Value::File(FileReference::Disk(path))) = entry.and_then(|entry| entry.keys.get("file")) else { return Ok(1.0) };
+        let picture = Pictures::new(self.files.clone()).read(path, None);
+        let picture = picture.map_err(|reason| plugin.error(format!("{}: {reason}", show(path))))?;
+        Ok(f64::from(picture.image.width) / f64::from(picture.image.height))
     }
 
     fn environment_map(&mut self, plugin: &Plugin) -> Result<Keys, SceneError> {

@@ -1,6 +1,7 @@
 //! Shapes from files: OBJ, PLY and Mitsuba's own.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
+use std::path::Path;
 use std::rc::Rc;
 
 use glam::{DAffine3, Vec2, Vec3};
@@ -9,10 +10,10 @@ use rayon::prelude::*;
 use super::converter::{Converter, MeshKey};
 use super::plugin::{Plugin, PropertyValue};
 use super::serialized;
-use super::shape::turn_inside_out;
+use super::shape::{Looks, turn_inside_out};
 use crate::load::error::{SceneError, show};
 use crate::load::files::Files;
-use crate::load::import::{Keys, smooth_by_index};
+use crate::load::import::{Blocks, Keys, smooth_by_index};
 use crate::load::{obj, ply};
 use crate::scene::Mesh;
 
@@ -21,9 +22,9 @@ impl Converter<'_> {
         &mut self,
         plugin: &Rc<Plugin>,
         map: DAffine3,
-        textured: bool,
-        flip: bool,
+        looks: Looks,
     ) -> Result<Option<(Keys, DAffine3)>, SceneError> {
+        let Looks { textured, flip, attributes, .. } = looks;
         plugin.without_effect(&[
             "max_smooth_angle",
             "collapse",
@@ -43,8 +44,9 @@ impl Converter<'_> {
         if plugin.has("max_smooth_angle") {
             self.approximate(plugin, "`max_smooth_angle`", "normals are as the file has them, or smooth everywhere");
         }
-        let key = format!("{} {index} {flat} {flip} {turn_uv} {textured} {}", path.display(), plugin.name);
+        let key = format!("{} {index} {flat} {flip} {turn_uv} {textured} {attributes} {}", path.display(), plugin.name);
         if let Some(file) = self.meshes.get(&key).cloned() {
+            self.attributes = self.attributes_of_meshes.get(&key).cloned();
             return self.mesh_keys(plugin, file, map).map(Some);
         }
         let file: MeshKey = (path.clone(), plugin.name.clone(), index.to_bits());
@@ -71,6 +73,9 @@ impl Converter<'_> {
         if turn_uv {
             mesh.uvs.iter_mut().for_each(|uv| uv.y = 1.0 - uv.y);
         }
+        if attributes {
+            self.take_attributes(plugin, &path, &key, &mut mesh)?;
+        }
         if textured && mesh.uvs.is_empty() {
             self.approximate(plugin, "texture on a mesh without texture coordinates", "the texture at (0, 0) is everywhere");
             mesh.uvs = vec![Vec2::ZERO; mesh.positions.len()];
@@ -82,6 +87,30 @@ impl Converter<'_> {
         let file = self.scene.hold_mesh(&name, mesh);
         self.meshes.insert(key, file.clone());
         self.mesh_keys(plugin, file, map).map(Some)
+    }
+
+    /// Makes pictures of the numbers that the vertices and faces of a PLY file have, and texture coordinates that lead there.
+    fn take_attributes(&mut self, plugin: &Plugin, path: &Path, key: &str, mesh: &mut Mesh) -> Result<(), SceneError> {
+        let mut inputs = HashMap::new();
+        if plugin.name == "ply" {
+            let model = ply::load_with_attributes(self.files, path)?;
+            // The same faces, unless another plugin of this file left some out.
+            let faces = model.parts.iter().map(|part| part.mesh.faces.len()).sum::<usize>();
+            if faces == mesh.faces.len() && !model.attributes.is_empty() {
+                let blocks = Blocks::of(mesh);
+                for attribute in &model.attributes {
+                    let name = format!("{}_{}", if attribute.of_faces { "face" } else { "vertex" }, attribute.name);
+                    let made = blocks.texture(attribute, &mut self.scene);
+                    let made = made.ok_or_else(|| plugin.error(format!("the attribute `{name}` makes no picture")))?;
+                    inputs.insert(name.clone(), self.add_texture(plugin, &name, made));
+                }
+            }
+        }
+        let number = self.attributes_of_meshes.len();
+        let made = (number, Rc::new(inputs));
+        self.attributes_of_meshes.insert(key.to_owned(), made.clone());
+        self.attributes = Some(made);
+        Ok(())
     }
 
     /// Reads all files that shapes name, on all cores. What cannot be read is told when its shape is made.

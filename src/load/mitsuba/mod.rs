@@ -60,6 +60,8 @@ pub fn load(files: &Files, path: &Path, options: &Options) -> Result<Description
         lamps: HashMap::new(),
         default_material: None,
         textures: HashMap::new(),
+        attributes: None,
+        attributes_of_meshes: HashMap::new(),
         meshes: HashMap::new(),
         read_meshes: HashMap::new(),
         triangles: 0,

@@ -123,12 +123,12 @@ impl Converter<'_> {
                 let height = 2.0 * to_world.matrix3.x_axis.length() * film.size[1] / film.size[0] * film.crop[1] / film.size[1];
                 keys.set("projection", "orthographic");
                 keys.set("height", height);
-                self.report_crop(plugin, &film);
+                self.shift(plugin, &film, &mut keys);
             }
             "perspective" | "thinlens" | "perspective_rdist" | "thinlens_rdist" => {
                 let vertical = self.field_of_view(plugin, &film)?;
                 keys.set("vfov", vertical);
-                self.report_crop(plugin, &film);
+                self.shift(plugin, &film, &mut keys);
                 if plugin.name.starts_with("thinlens") {
                     let radius = plugin.number("aperture_radius")?;
                     let radius = radius.ok_or_else(|| plugin.error("a thin lens needs `aperture_radius`"))?;
@@ -146,8 +146,19 @@ impl Converter<'_> {
     /// Vertical angle of what the cropped film shows.
     fn field_of_view(&mut self, plugin: &Rc<Plugin>, film: &Film) -> Result<f64, SceneError> {
         let aspect = film.size[0] / film.size[1];
-        // Half the film's width and height at distance 1.
-        let half_width = match (plugin.number("fov")?, plugin.value("focal_length")) {
+        let half_width = self.half_width(plugin, aspect)?;
+        let axis = plugin.text("fov_axis")?.unwrap_or("x");
+        let is_vertical = axis == "y" || aspect == 1.0 && axis != "diagonal";
+        if let Some(fov) = plugin.number("fov")?.filter(|_| is_vertical && film.crop == film.size) {
+            return Ok(fov);
+        }
+        let half_height = half_width / aspect * film.crop[1] / film.size[1];
+        Ok(2.0 * half_height.atan().to_degrees())
+    }
+
+    /// Half the width, at distance 1, of a picture of this aspect whose field of view a plugin states.
+    pub fn half_width(&self, plugin: &Plugin, aspect: f64) -> Result<f64, SceneError> {
+        Ok(match (plugin.number("fov")?, plugin.value("focal_length")) {
             (Some(fov), _) => {
                 let half = (0.5 * fov).to_radians().tan();
                 if !(half > 0.0 && half.is_finite() && fov < 180.0) {
@@ -175,28 +186,22 @@ impl Converter<'_> {
                 let half_diagonal = 0.5 * 36.0_f64.hypot(24.0) / millimetres;
                 half_diagonal * aspect / (1.0 + aspect * aspect).sqrt()
             }
-        };
-        let axis = plugin.text("fov_axis")?.unwrap_or("x");
-        let is_vertical = axis == "y" || aspect == 1.0 && axis != "diagonal";
-        if let Some(fov) = plugin.number("fov")?.filter(|_| is_vertical && film.crop == film.size) {
-            return Ok(fov);
-        }
-        let half_height = half_width / aspect * film.crop[1] / film.size[1];
-        Ok(2.0 * half_height.atan().to_degrees())
+        })
     }
 
-    /// Pictures whose middle is not on the camera's axis.
-    fn report_crop(&mut self, plugin: &Rc<Plugin>, film: &Film) {
-        let middle = [0, 1].map(|side| (film.offset[side] + 0.5 * film.crop[side]) / film.size[side]);
-        if middle.iter().any(|middle| (middle - 0.5).abs() > 1e-9) {
-            self.drop(plugin, "crop away from the film's middle", "the middle of the film is rendered, in the size of the crop");
-        }
-        let shifted = ["principal_point_offset_x", "principal_point_offset_y"];
-        if shifted
-            .iter()
-            .any(|name| matches!(plugin.value(name), Some(super::plugin::PropertyValue::Number(number)) if *number != 0.0))
-        {
-            self.drop(plugin, "principal point off the middle", "the middle of the film is looked at");
+    /// Pictures whose middle is not on the camera's axis: a crop off the film's middle, or the film moved aside.
+    fn shift(&mut self, plugin: &Rc<Plugin>, film: &Film, keys: &mut Keys) {
+        let names = ["principal_point_offset_x", "principal_point_offset_y"];
+        let shift = [0, 1].map(|side| {
+            let beside = film.offset[side] + 0.5 * film.crop[side] - 0.5 * film.size[side];
+            let principal = match plugin.value(names[side]) {
+                Some(super::plugin::PropertyValue::Number(number)) => *number,
+                _ => 0.0,
+            };
+            (beside + principal * film.size[side]) / film.crop[side]
+        });
+        if shift.iter().any(|shift| shift.abs() > 1e-12) {
+            keys.set("shift", [shift[0], -shift[1]]);
         }
     }
 

@@ -108,8 +108,22 @@ impl Converter<'_> {
         let light = light.map(|light| emitter::area_radiance(self, &light)).transpose()?.flatten();
         let textured = bsdf.as_ref().is_some_and(uses_texture) || matches!(light, Some(super::input::Input::Texture(..)));
         let flip = plugin.flag("flip_normals", false)?;
-        let Some((keys, map)) = self.geometry(plugin, map, textured, flip)? else { return Ok(()) };
-        let material = self.surface_material(plugin, bsdf.as_ref(), light)?;
+        let looks_up_attributes =
+            bsdf.as_ref().is_some_and(|bsdf| has_texture(bsdf, &|texture| texture.name == "mesh_attribute"));
+        if looks_up_attributes && bsdf.as_ref().is_some_and(|bsdf| has_texture(bsdf, &|texture| texture.name == "bitmap")) {
+            self.drop(plugin, "texture beside an attribute of a mesh", "its texture coordinates are those of the attribute");
+        }
+        let Some((keys, map)) = self.geometry(
+            plugin,
+            map,
+            Looks { textured, flip, attributes: looks_up_attributes, bumped: bsdf.as_ref().is_some_and(is_bumped) },
+        )?
+        else {
+            return Ok(());
+        };
+        let material = self.surface_material(plugin, bsdf.as_ref(), light);
+        self.attributes = None;
+        let material = material?;
         let keys = self.placed(&map, keys.with("material", material));
         if self.scene.shapes.len() >= MOST_SHAPES {
             return Err(plugin.error(format!("the scene has more than {MOST_SHAPES} shapes, instances counted")));
@@ -119,16 +133,11 @@ impl Converter<'_> {
     }
 
     /// Keys of the geometry and the transform that is left; None where there is nothing to render.
-    fn geometry(
-        &mut self,
-        plugin: &Rc<Plugin>,
-        map: DAffine3,
-        textured: bool,
-        flip: bool,
-    ) -> Result<Option<(Keys, DAffine3)>, SceneError> {
+    fn geometry(&mut self, plugin: &Rc<Plugin>, map: DAffine3, looks: Looks) -> Result<Option<(Keys, DAffine3)>, SceneError> {
+        let Looks { textured, flip, .. } = looks;
         let key = |name: &str| format!("({name}) {flip}");
         Ok(Some(match plugin.name.as_str() {
-            "sphere" => self.sphere(plugin, map, textured, flip)?,
+            "sphere" => self.sphere(plugin, map, looks)?,
             "rectangle" => {
                 let (u, v) = (DVec3::new(2.0, 0.0, 0.0), DVec3::new(0.0, 2.0, 0.0));
                 if flip {
@@ -184,7 +193,7 @@ impl Converter<'_> {
                 let own = DAffine3 { matrix3: DMat3::from_cols(x * radius, y * radius, axis), translation: p0 };
                 self.made_mesh(plugin, key("cylinder"), flip, map * own, cylinder)?
             }
-            "obj" | "ply" | "serialized" => return self.mesh_shape(plugin, map, textured, flip),
+            "obj" | "ply" | "serialized" => return self.mesh_shape(plugin, map, looks),
             "hair" | "linecurve" | "bsplinecurve" | "heightfield" | "sdfgrid" | "ellipsoids" | "ellipsoidsmesh"
             | "deformable" => {
                 for property in &plugin.properties {
@@ -202,13 +211,14 @@ impl Converter<'_> {
         }))
     }
 
-    fn sphere(&mut self, plugin: &Rc<Plugin>, map: DAffine3, textured: bool, flip: bool) -> Result<(Keys, DAffine3), SceneError> {
+    fn sphere(&mut self, plugin: &Rc<Plugin>, map: DAffine3, looks: Looks) -> Result<(Keys, DAffine3), SceneError> {
+        let Looks { textured, flip, bumped, .. } = looks;
         let center = plugin.vector("center")?.unwrap_or(DVec3::ZERO);
         let radius = plugin.number_or("radius", 1.0)?;
         if radius.is_nan() || radius <= 0.0 {
             return Err(plugin.error(format!("the radius of a sphere is above 0, not {radius}")));
         }
-        if is_uniform(&map) && !flip {
+        if is_uniform(&map) && !flip && !bumped {
             if !textured {
                 return Ok((Keys::of_type("sphere").with("center", center).with("radius", radius), map));
             }
@@ -219,7 +229,7 @@ impl Converter<'_> {
         }
         self.approximate(
             plugin,
-            "shape `sphere` scaled unevenly or turned inside out",
+            "shape `sphere` scaled unevenly, turned inside out or with a bump map",
             "16,000 triangles with interpolated normals",
         );
         let own = DAffine3::from_translation(center) * DAffine3::from_scale(DVec3::splat(radius));
@@ -274,6 +284,18 @@ impl Converter<'_> {
     }
 }
 
+/// What a shape's geometry is wanted for.
+#[derive(Debug, Clone, Copy)]
+pub struct Looks {
+    /// A texture is looked up on it.
+    pub textured: bool,
+    pub flip: bool,
+    /// Numbers of its vertices or faces are.
+    pub attributes: bool,
+    /// Heights are: what has no edges becomes triangles.
+    pub bumped: bool,
+}
+
 fn rectangle(corner: DVec3, edge_u: DVec3, edge_v: DVec3) -> Keys {
     Keys::of_type("rectangle").with("corner", corner).with("edge_u", edge_u).with("edge_v", edge_v)
 }
@@ -282,6 +304,16 @@ fn rectangle(corner: DVec3, edge_u: DVec3, edge_v: DVec3) -> Keys {
 pub fn turn_inside_out(mesh: &mut Mesh) {
     mesh.faces.iter_mut().for_each(|face| face.swap(1, 2));
     mesh.normals.iter_mut().for_each(|normal| *normal = -*normal);
+}
+
+/// The plugin or one within it is a bump map.
+fn is_bumped(plugin: &Rc<Plugin>) -> bool {
+    ["bumpmap", "bump"].contains(&plugin.name.as_str()) || plugin.children.iter().any(|child| is_bumped(&child.plugin))
+}
+
+/// The plugin or one within it is such a texture.
+fn has_texture(plugin: &Rc<Plugin>, is_it: &dyn Fn(&Plugin) -> bool) -> bool {
+    plugin.kind == "texture" && is_it(plugin) || plugin.children.iter().any(|child| has_texture(&child.plugin, is_it))
 }
 
 /// The plugin or one within it looks up a texture.

@@ -57,7 +57,7 @@ impl Converter<'_> {
     /// What a texture, or a plugin of a spectrum, gives.
     pub fn texture(&mut self, plugin: &Rc<Plugin>, role: Role, texels: Texels) -> Result<Input, SceneError> {
         plugin.visited.set(true);
-        let key = (Rc::as_ptr(plugin), role == Role::Light, texels);
+        let key = (Rc::as_ptr(plugin), role == Role::Light, texels, self.attributes.as_ref().map(|(mesh, _)| *mesh));
         if let Some(known) = self.textures.get(&key) {
             return Ok(known.clone());
         }
@@ -68,8 +68,18 @@ impl Converter<'_> {
 
     fn new_texture(&mut self, plugin: &Rc<Plugin>, role: Role, texels: Texels) -> Result<Input, SceneError> {
         match plugin.name.as_str() {
-            "bitmap" => self.bitmap(plugin, texels),
-            "checkerboard" => self.checkerboard(plugin, role),
+            "bitmap" => self.bitmap(plugin, texels, DAffine2::IDENTITY),
+            "checkerboard" => self.checkerboard(plugin, role, DAffine2::IDENTITY),
+            "mesh_attribute" => {
+                let name = plugin.text("name")?.ok_or_else(|| plugin.error("a mesh attribute needs the string `name`"))?;
+                let known = self.attributes.as_ref().and_then(|(_, attributes)| attributes.get(name).cloned());
+                let Some(input) = known else {
+                    let what = format!("attribute `{name}` of a mesh that has none of this name");
+                    self.drop(plugin, &what, "a grey of 0.5 is taken");
+                    return Ok(Input::grey(0.5));
+                };
+                self.scaled(plugin, input)
+            }
             "rgb" | "srgb" | "uniform" | "srgb_d65" | "rawconstant" => {
                 let name = if plugin.has("value") { "value" } else { "color" };
                 let colour = self.input(plugin, name, role, texels, 1.0)?;
@@ -108,7 +118,18 @@ impl Converter<'_> {
         })
     }
 
-    fn bitmap(&mut self, plugin: &Rc<Plugin>, texels: Texels) -> Result<Input, SceneError> {
+    /// A colour of light that may be a texture, whose texture coordinates this map gives.
+    pub fn light_texture(&mut self, plugin: &Plugin, name: &str, map: DAffine2) -> Result<Input, SceneError> {
+        let Some(texture) = plugin.child(name).cloned() else { return self.light_colour(plugin, name, 1.0) };
+        texture.visited.set(true);
+        match texture.name.as_str() {
+            "bitmap" => self.bitmap(&texture, Texels::Colours, map),
+            "checkerboard" => self.checkerboard(&texture, Role::Light, map),
+            _ => self.texture(&texture, Role::Light, Texels::Colours),
+        }
+    }
+
+    fn bitmap(&mut self, plugin: &Rc<Plugin>, texels: Texels, before: DAffine2) -> Result<Input, SceneError> {
         if plugin.first_of("texture").is_some() || plugin.has("data") || plugin.has("bitmap") {
             return Err(plugin.error("a bitmap is read from a file here, and this one names none"));
         }
@@ -150,7 +171,7 @@ impl Converter<'_> {
         }
         // v runs downward: 1 − v is looked up.
         let down = DAffine2 { matrix2: DMat2::from_diagonal(DVec2::new(1.0, -1.0)), translation: DVec2::Y };
-        let keys = self.placed_texture(plugin, keys, down * uv_map(plugin)?);
+        let keys = self.placed_texture(plugin, keys, down * uv_map(plugin)? * before);
         let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         Ok(self.add_texture(plugin, &stem, keys))
     }
@@ -177,7 +198,7 @@ impl Converter<'_> {
         keys
     }
 
-    fn checkerboard(&mut self, plugin: &Rc<Plugin>, role: Role) -> Result<Input, SceneError> {
+    fn checkerboard(&mut self, plugin: &Rc<Plugin>, role: Role, before: DAffine2) -> Result<Input, SceneError> {
         let mut colours = [DVec3::ZERO; 2];
         for (colour, (name, default)) in colours.iter_mut().zip([("color0", 0.4), ("color1", 0.2)]) {
             let input = self.input(plugin, name, role, Texels::Colours, default)?;
@@ -187,7 +208,7 @@ impl Converter<'_> {
             });
         }
         // Two squares along each unit.
-        let map = DAffine2::from_scale(DVec2::splat(2.0)) * uv_map(plugin)?;
+        let map = DAffine2::from_scale(DVec2::splat(2.0)) * uv_map(plugin)? * before;
         let keys = Keys::of_type("checker")
             .with("a", Input::Constant(colours[0]).value())
             .with("b", Input::Constant(colours[1]).value());
@@ -195,7 +216,7 @@ impl Converter<'_> {
         Ok(self.add_texture(plugin, "checkerboard", keys))
     }
 
-    fn add_texture(&mut self, plugin: &Plugin, otherwise: &str, keys: Keys) -> Input {
+    pub fn add_texture(&mut self, plugin: &Plugin, otherwise: &str, keys: Keys) -> Input {
         let wanted = if plugin.id.is_empty() { otherwise } else { &plugin.id };
         let name = self.scene.free_texture_name(wanted);
         let mut named = Keys::new().with("name", name.as_str());

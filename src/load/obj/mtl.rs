@@ -35,7 +35,32 @@ pub struct TextureMap {
 }
 
 /// Keys that have an effect here. All others are named.
-const HONOURED: [&str; 12] = ["newmtl", "Kd", "Ks", "Ke", "Ns", "Ni", "d", "Tr", "Tf", "illum", "map_Kd", "map_Ke"];
+const HONOURED: [&str; 24] = [
+    "newmtl",
+    "Kd",
+    "Ks",
+    "Ke",
+    "Ns",
+    "Ni",
+    "d",
+    "Tr",
+    "Tf",
+    "illum",
+    "map_Kd",
+    "map_Ke",
+    "Pr",
+    "Pm",
+    "Pc",
+    "Pcr",
+    "aniso",
+    "anisor",
+    "map_Pr",
+    "map_Pm",
+    "map_Pc",
+    "map_Pcr",
+    "map_aniso",
+    "norm",
+];
 
 impl Libraries {
     /// Reads what stands after each `mtllib`: one name, which may contain blanks, or several.

@@ -13,15 +13,17 @@ const V: [&str; 4] = ["v", "t", "texture_v", "texture_t"];
 /// Names of a face's or a strip's corners.
 const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
-/// What a vertex says.
+/// What a vertex says; with `REST` all of it.
 #[derive(Debug, Default)]
-pub struct Vertex {
+pub struct Vertex<const REST: bool> {
     pub position: [f32; 3],
     pub normal: [f32; 3],
     pub uv: [f32; 2],
+    /// Numbers of other names, in their order.
+    pub rest: Vec<f32>,
 }
 
-impl Vertex {
+impl<const REST: bool> Vertex<REST> {
     fn set(&mut self, name: &str, value: f32) -> PropertyAccessResult {
         let slot = match name {
             "x" => &mut self.position[0],
@@ -32,6 +34,10 @@ impl Vertex {
             "nz" => &mut self.normal[2],
             _ if U.contains(&name) => &mut self.uv[0],
             _ if V.contains(&name) => &mut self.uv[1],
+            _ if REST => {
+                self.rest.push(value);
+                return PropertyAccessResult::Set;
+            }
             _ => return PropertyAccessResult::Ignored,
         };
         *slot = value;
@@ -39,12 +45,25 @@ impl Vertex {
     }
 }
 
-impl PropertyAccess for Vertex {
+/// A number of a property that is none of a mesh's own; integers without sign stand for shares of 1. Lists give 0.
+fn number(property: &Property) -> f32 {
+    match property {
+        Property::UChar(code) => f32::from(*code) / 255.0,
+        Property::UShort(code) => f32::from(*code) / 65_535.0,
+        other => other.to_f32_lossy().unwrap_or_default(),
+    }
+}
+
+impl<const REST: bool> PropertyAccess for Vertex<REST> {
     fn new() -> Self {
         Self::default()
     }
 
     fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
+        if REST && !vertex_names().contains(&name) {
+            self.rest.push(number(&property));
+            return PropertyAccessResult::Set;
+        }
         property.to_f32_lossy().map_or(PropertyAccessResult::Ignored, |value| self.set(name, value))
     }
 
@@ -56,16 +75,18 @@ impl PropertyAccess for Vertex {
 /// Names of the number that a face has in place of a material.
 const GROUPS: [&str; 2] = ["material_index", "material_indices"];
 
-/// A polygon or a strip of triangles.
+/// A polygon or a strip of triangles; with `REST` all that it says.
 #[derive(Debug, Default)]
-pub struct Corners {
+pub struct Corners<const REST: bool> {
     /// Indices of vertices.
     pub corners: Vec<u32>,
     /// What stands for its material.
     pub group: u32,
+    /// Numbers of other names, in their order.
+    pub rest: Vec<f32>,
 }
 
-impl PropertyAccess for Corners {
+impl<const REST: bool> PropertyAccess for Corners<REST> {
     fn new() -> Self {
         Self::default()
     }
@@ -84,6 +105,10 @@ impl PropertyAccess for Corners {
             return PropertyAccessResult::Set;
         }
         if !CORNERS.contains(&name) {
+            if REST {
+                self.rest.push(number(&property));
+                return PropertyAccessResult::Set;
+            }
             return PropertyAccessResult::Ignored;
         }
         let of_signed = |index: i64| u32::try_from(index).unwrap_or(NO_VERTEX);
@@ -139,6 +164,26 @@ impl Declared<'_> {
     /// Its faces have numbers in place of materials.
     pub fn has_groups(&self) -> bool {
         GROUPS.iter().any(|name| self.is_scalar(name))
+    }
+
+    /// The attributes that its properties of other names are, in their order: a name, and where its channels, one or three, stand among them.
+    pub fn attributes(&self, used: &[&str]) -> Vec<(String, Vec<usize>)> {
+        let mut attributes: Vec<(String, Vec<usize>)> = Vec::new();
+        let rest = self.0.properties.iter().filter(|(name, _)| !used.contains(&name.as_str()));
+        for (place, (name, property)) in rest.enumerate() {
+            if !matches!(property.data_type, PropertyType::Scalar(_)) {
+                continue;
+            }
+            let name = match name.as_str() {
+                "r" | "g" | "b" | "red" | "green" | "blue" => "color",
+                name => name.rsplit_once('_').filter(|(_, channel)| channel.len() == 1).map_or(name, |(name, _)| name),
+            };
+            match attributes.iter_mut().find(|(known, _)| known == name) {
+                Some((_, places)) => places.push(place),
+                None => attributes.push((name.to_owned(), vec![place])),
+            }
+        }
+        attributes
     }
 
     /// Names of its properties that nothing is made of.

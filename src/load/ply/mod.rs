@@ -15,7 +15,7 @@ use ply_rs_bw::ply::{ElementDef, Header, PropertyAccess};
 
 use crate::load::error::{SceneError, show};
 use crate::load::files::{Files, MOST_MODEL_BYTES};
-use crate::load::model::{FARTHEST, ModelFile, Part};
+use crate::load::model::{FARTHEST, MeshAttribute, ModelFile, Part};
 use crate::load::polygon::triangulate;
 use crate::load::printable::short_list;
 use crate::scene::Mesh;
@@ -26,11 +26,24 @@ const CHUNK: usize = 1 << 14;
 
 /// Reads a PLY file. Its faces have no materials of their own.
 pub fn load(files: &Files, path: &Path) -> Result<ModelFile, SceneError> {
+    open::<false>(files, path)
+}
+
+/// The same with what vertices and faces have beside what makes a mesh: colours and other numbers.
+pub fn load_with_attributes(files: &Files, path: &Path) -> Result<ModelFile, SceneError> {
+    open::<true>(files, path)
+}
+
+fn open<const REST: bool>(files: &Files, path: &Path) -> Result<ModelFile, SceneError> {
     let name = show(path);
     let cannot_be_read = |error: std::io::Error| SceneError::in_file(&name, format!("cannot be read: {error}"));
     let mut file = files.open(path).map_err(cannot_be_read)?;
     let packed = file.fill_buf().map_err(cannot_be_read)?.starts_with(&[0x1f, 0x8b]);
-    if packed { read(&name, BufReader::new(MultiGzDecoder::new(file).take(MOST_MODEL_BYTES))) } else { read(&name, file) }
+    if packed {
+        read::<REST>(&name, BufReader::new(MultiGzDecoder::new(file).take(MOST_MODEL_BYTES)))
+    } else {
+        read::<REST>(&name, file)
+    }
 }
 
 /// What is read so far.
@@ -43,16 +56,17 @@ struct Model {
     /// What stands for the material of each face, where the file says so.
     groups: Option<Vec<u32>>,
     strips: Vec<u32>,
+    attributes: Vec<MeshAttribute>,
     without_effect: Vec<String>,
 }
 
-fn read(name: &str, source: impl BufRead) -> Result<ModelFile, SceneError> {
+fn read<const REST: bool>(name: &str, source: impl BufRead) -> Result<ModelFile, SceneError> {
     let refused = |error: ParseError| SceneError::in_file(name, in_one_line(&error));
     let mut reader = Reader::new(source);
     let header = Parser::<Ignored>::new().read_header(&mut reader).map_err(refused)?;
     let mut model = Model::default();
     for element in header.elements.values() {
-        model.element(element, &header, &mut reader).map_err(|error| match error {
+        model.element::<REST>(element, &header, &mut reader).map_err(|error| match error {
             Refusal::Parse(error) => refused(error),
             Refusal::Content(why) => SceneError::in_file(name, why),
         })?;
@@ -72,21 +86,31 @@ impl From<ParseError> for Refusal {
 }
 
 impl Model {
-    fn element(&mut self, element: &ElementDef, header: &Header, reader: &mut Reader<impl BufRead>) -> Result<(), Refusal> {
+    fn element<const REST: bool>(
+        &mut self,
+        element: &ElementDef,
+        header: &Header,
+        reader: &mut Reader<impl BufRead>,
+    ) -> Result<(), Refusal> {
         if element.properties.is_empty() {
             // Nothing of it stands in the file.
             return Ok(());
         }
         let declared = Declared(element);
         match element.name.as_str() {
-            "vertex" => self.vertices(&declared, header, reader),
+            "vertex" => self.vertices::<REST>(&declared, header, reader),
             "face" | "tristrips" if declared.has_corners() => {
-                self.without_effect.extend(declared.without_effect(&elements::corner_names()));
+                let known = elements::corner_names();
                 let strips = element.name == "tristrips";
+                let keeps_rest = REST && !strips;
+                if !keeps_rest {
+                    self.without_effect.extend(declared.without_effect(&known));
+                }
+                let mut rest = Rest::new(if keeps_rest { declared.attributes(&known) } else { Vec::new() });
                 if declared.has_groups() && !strips {
                     self.groups = Some(Vec::new());
                 }
-                in_chunks(element, header, reader, |Corners { corners, group }| {
+                in_chunks(element, header, reader, |Corners::<REST> { corners, group, rest: numbers }| {
                     if strips {
                         self.strips.extend(corners);
                         self.strips.push(NO_VERTEX);
@@ -94,9 +118,12 @@ impl Model {
                         self.corners.extend(corners);
                         self.ends.push(self.corners.len());
                         self.groups.iter_mut().for_each(|groups| groups.push(group));
+                        rest.push(&numbers);
                     }
                     Ok(())
-                })
+                })?;
+                self.attributes.extend(rest.attributes(true));
+                Ok(())
             }
             _ => {
                 self.without_effect.push(format!("the element {}", element.name));
@@ -105,14 +132,23 @@ impl Model {
         }
     }
 
-    fn vertices(&mut self, declared: &Declared, header: &Header, reader: &mut Reader<impl BufRead>) -> Result<(), Refusal> {
+    fn vertices<const REST: bool>(
+        &mut self,
+        declared: &Declared,
+        header: &Header,
+        reader: &mut Reader<impl BufRead>,
+    ) -> Result<(), Refusal> {
         if !declared.has_positions() {
             return Err(Refusal::Content("its vertices have no numbers x, y and z".to_owned()));
         }
-        self.without_effect.extend(declared.without_effect(&elements::vertex_names()));
+        let known = elements::vertex_names();
+        if !REST {
+            self.without_effect.extend(declared.without_effect(&known));
+        }
+        let mut rest = Rest::new(if REST { declared.attributes(&known) } else { Vec::new() });
         let (has_normals, has_uvs) = (declared.has_normals(), declared.has_uvs());
         let mut mesh = Mesh::default();
-        in_chunks(declared.0, header, reader, |vertex: Vertex| {
+        in_chunks(declared.0, header, reader, |vertex: Vertex<REST>| {
             let index = mesh.positions.len();
             let position = Vec3::from(vertex.position);
             if !position.is_finite() || position.abs().max_element() > FARTHEST {
@@ -129,8 +165,10 @@ impl Model {
                 }
                 mesh.uvs.push(uv);
             }
+            rest.push(&vertex.rest);
             Ok(())
         })?;
+        self.attributes.extend(rest.attributes(false));
         self.vertices = Some(mesh);
         Ok(())
     }
@@ -154,12 +192,14 @@ impl Model {
         }
         let mut crossing = 0;
         let mut start = 0;
-        let mut groups = Vec::new();
+        // The number of the polygon that each triangle is of.
+        let numbered = self.groups.is_some() || self.attributes.iter().any(|attribute| attribute.of_faces);
+        let mut polygons = Vec::new();
         for (face, end) in self.ends.into_iter().enumerate() {
             crossing += usize::from(add_polygon(&mut mesh, &self.corners[start..end]));
             start = end;
-            if let Some(of_faces) = &self.groups {
-                groups.resize(mesh.faces.len(), of_faces[face]);
+            if numbered {
+                polygons.resize(mesh.faces.len(), face);
             }
         }
         for strip in self.strips.split(|&index| index == NO_VERTEX) {
@@ -174,19 +214,55 @@ impl Model {
             warnings.push(format!("{name}: {crossing} polygons cross themselves; they are filled as far as that can be"));
         }
         // Triangles of strips have no number.
-        groups.resize(if groups.is_empty() { 0 } else { mesh.faces.len() }, NO_VERTEX);
+        polygons.resize(if polygons.is_empty() { 0 } else { mesh.faces.len() }, usize::MAX);
         // They go with the faces that are dropped, as materials do.
-        mesh.face_materials = groups.into_iter().map(|group| group as usize).collect();
+        mesh.face_materials = polygons;
         let dropped = mesh.drop_degenerate_faces();
-        let groups = std::mem::take(&mut mesh.face_materials);
+        let polygons = std::mem::take(&mut mesh.face_materials);
         if mesh.faces.is_empty() {
             return Err("there is nothing to render in the model: none of its faces has an area".to_owned());
         }
         if dropped > 0 {
             warnings.push(format!("{name}: {dropped} triangles without area were left out"));
         }
-        let face_groups = (!groups.is_empty()).then(|| groups.into_iter().map(|group| group as u32).collect());
-        Ok(ModelFile { parts: vec![Part { mesh, material: None }], face_groups, warnings, ..ModelFile::default() })
+        let group = |of_faces: Vec<u32>| polygons.iter().map(|&face| of_faces.get(face).copied().unwrap_or(NO_VERTEX)).collect();
+        let face_groups = self.groups.filter(|_| !polygons.is_empty()).map(group);
+        let mut attributes = self.attributes;
+        for attribute in attributes.iter_mut().filter(|attribute| attribute.of_faces) {
+            let of_polygons = std::mem::take(&mut attribute.values);
+            attribute.values = polygons.iter().map(|&face| of_polygons.get(face).copied().unwrap_or_default()).collect();
+        }
+        Ok(ModelFile { parts: vec![Part { mesh, material: None }], face_groups, attributes, warnings, ..ModelFile::default() })
+    }
+}
+
+/// Numbers of an element beside those that make a mesh.
+struct Rest {
+    /// Names, and where the channels stand.
+    declared: Vec<(String, Vec<usize>)>,
+    values: Vec<Vec<Vec3>>,
+}
+
+impl Rest {
+    /// What has neither one channel nor three, nor four of which the last is no colour, is left out.
+    fn new(mut declared: Vec<(String, Vec<usize>)>) -> Self {
+        declared.retain(|(_, places)| matches!(places.len(), 1 | 3 | 4));
+        Self { values: vec![Vec::new(); declared.len()], declared }
+    }
+
+    fn push(&mut self, numbers: &[f32]) {
+        for ((_, places), values) in self.declared.iter().zip(&mut self.values) {
+            let channel = |number: usize| {
+                let place = places.get(number).or(places.first());
+                place.and_then(|&place| numbers.get(place)).copied().filter(|number| number.is_finite()).unwrap_or_default()
+            };
+            values.push(Vec3::new(channel(0), channel(1), channel(2)));
+        }
+    }
+
+    fn attributes(self, of_faces: bool) -> impl Iterator<Item = MeshAttribute> {
+        let named = self.declared.into_iter().zip(self.values);
+        named.map(move |((name, _), values)| MeshAttribute { name, of_faces, values })
     }
 }
 

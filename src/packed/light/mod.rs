@@ -11,7 +11,7 @@ use super::constants::NONE;
 use super::environment::PackedEnvironment;
 use super::error::PackError;
 use super::primitive::WorldPrimitive;
-use super::texture::PackedTextures;
+use super::texture::{self, PackedTextures};
 use super::world::WorldGeometry;
 use crate::sampling::light_tree::{self, Emitter, LightNode};
 use crate::sampling::{LightGroup, LightSampler, LightTree};
@@ -34,9 +34,9 @@ macro_rules! delta_kinds {
 }
 light_table!(delta_kinds);
 
-fn delta_light(light: &Light) -> Option<(PackedLight, LightStrength)> {
+fn delta_light(light: &Light, texture: u32) -> Option<(PackedLight, LightStrength)> {
     let parameters = light.delta()?;
-    let packed = PackedLight::delta(delta_kind(light)?, &parameters);
+    let packed = PackedLight::delta(delta_kind(light)?, &parameters, texture);
     parameters.strength.is_positive().then_some((packed, parameters.strength))
 }
 
@@ -60,8 +60,19 @@ pub struct SampledLights {
     pub nodes: Vec<LightNode>,
 }
 
-/// All sampled lights; marks the primitives that are lights with their index. The order is that of the reference.
-pub fn collect(scene: &Scene, world: &mut WorldGeometry, environment: &PackedEnvironment) -> SampledLights {
+/// The textures that the scene's lights throw, as they are [mentioned](texture::mention); NONE where a light throws none.
+pub fn thrown_textures(scene: &Scene) -> Vec<u32> {
+    let mention = |light: &Light| light.texture().map_or(NONE, |texture| texture::mention(texture, None));
+    scene.lights.iter().map(mention).collect()
+}
+
+/// All sampled lights, with the places of the textures that the scene's lights throw; marks the primitives that are lights with their index. The order is that of the reference.
+pub fn collect(
+    scene: &Scene,
+    world: &mut WorldGeometry,
+    environment: &PackedEnvironment,
+    thrown_textures: &[u32],
+) -> SampledLights {
     if scene.render.estimator == Estimator::Bsdf {
         return SampledLights::default();
     }
@@ -81,7 +92,8 @@ pub fn collect(scene: &Scene, world: &mut WorldGeometry, environment: &PackedEnv
         }
     }
     let is_local = |(_, strength): &(PackedLight, LightStrength)| matches!(strength, LightStrength::Power(_));
-    let (local, at_infinity): (Vec<_>, Vec<_>) = scene.lights.iter().filter_map(delta_light).partition(is_local);
+    let delta_lights = scene.lights.iter().zip(thrown_textures).filter_map(|(light, &texture)| delta_light(light, texture));
+    let (local, at_infinity): (Vec<_>, Vec<_>) = delta_lights.partition(is_local);
     for (light, strength) in local.into_iter().chain(at_infinity) {
         lights.push(light);
         sampler.add(LightGroup::Alone, strength);

@@ -71,6 +71,11 @@ shared_constants!(flags {
     const LEAST_RECTANGLE_DISTANCE: f32 = strategy::LEAST_DISTANCE as f32;
     /// Its points move as its attributes say.
     pub(in crate::packed) const LIGHT_MOVES: u32 = 1024;
+    /// Of a delta light: where the number of its form stands.
+    pub(in crate::packed) const LIGHT_FORM_SHIFT: u32 = 16;
+    /// Of a spot light: how its intensity falls off between its angles.
+    const SPOT_FALLOFF_SQUARE: u32 = crate::scene::light::FALLOFF_SQUARE;
+    const SPOT_FALLOFF_LINEAR: u32 = crate::scene::light::FALLOFF_LINEAR;
     /// Of a portal: where the kind of its shape stands.
     pub(in crate::packed) const PORTAL_SHIFT: u32 = 12;
     /// Words of a node in the tree of lights.
@@ -80,6 +85,9 @@ shared_constants!(flags {
     const LIGHT_CLUSTER_TWO_SIDED: u32 = light_tree::TWO_SIDED;
     const LIGHT_NUMBER_MASK: u32 = light_tree::NUMBER_MASK;
 });
+
+/// The largest number of a delta light's form.
+pub(in crate::packed) const LIGHT_FORMS: u32 = 3;
 
 /// Kinds, flags and sizes, for WGSL.
 pub fn constants() -> Constants {
@@ -105,6 +113,7 @@ pub struct PackedLight {
     /// The light's trail in the tree of lights, where there is one.
     pub trail: u32,
     pub p2: [f32; 3],
+    /// Of a delta light: the texture that it throws, or NONE.
     pub attributes: u32,
     /// Radiance of a surface; of a delta light, intensity or irradiance.
     pub radiance: [f32; 3],
@@ -136,10 +145,22 @@ impl PackedLight {
         Self { kind_and_flags: self.kind_and_flags | kind as u32, ..self }
     }
 
-    /// A delta light.
-    pub(super) fn delta(kind: LightKind, parameters: &LightParameters) -> Self {
+    /// A delta light that throws this texture, if any.
+    pub(super) fn delta(kind: LightKind, parameters: &LightParameters, texture: u32) -> Self {
         let [p1, p2] = parameters.vectors.map(|vector| vector.as_vec3().to_array());
-        Self { p1, p2, ..Self::at(parameters.position, parameters.color) }.of_kind(kind)
+        let (kind_and_flags, size) = (parameters.form << LIGHT_FORM_SHIFT, parameters.number as f32);
+        let plain = Self::at(parameters.position, parameters.color);
+        Self { kind_and_flags, size, p1, p2, attributes: texture, ..plain }.of_kind(kind)
+    }
+
+    /// Of a delta light: the number of its form.
+    pub fn form(&self) -> u32 {
+        if self.is_delta() { self.kind_and_flags >> LIGHT_FORM_SHIFT & LIGHT_FORMS } else { 0 }
+    }
+
+    /// Of a delta light: it throws a texture.
+    pub fn throws_texture(&self) -> bool {
+        self.is_delta() && self.attributes != NONE
     }
 
     /// Its radiance is looked up in the whole material.

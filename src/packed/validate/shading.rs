@@ -4,7 +4,8 @@ use super::Check;
 use crate::packed::blend_weight::{self, WeightKind};
 use crate::packed::constants::NONE;
 use crate::packed::light::record::{
-    LIGHT_MOVES, LIGHT_RECTANGLE, LIGHT_TWO_SIDED, LIGHT_VARIES, LightKind, PORTAL_SHIFT, PackedLight,
+    LIGHT_FORM_SHIFT, LIGHT_FORMS, LIGHT_MOVES, LIGHT_RECTANGLE, LIGHT_TWO_SIDED, LIGHT_VARIES, LightKind, PORTAL_SHIFT,
+    PackedLight,
 };
 use crate::packed::material::{self, PackedMaterial};
 use crate::packed::scene::PackedScene;
@@ -103,6 +104,7 @@ impl PackedScene {
         let is = |kind: PackedTextureKind| texture.kind() == kind as u32;
         let flags = if is(PackedTextureKind::Image) { texture::IMAGE_FLAGS } else { 0 };
         let wrap = kind_and_flags >> texture::WRAP_SHIFT & 3;
+        let flags = flags | texture::TEXTURE_HEIGHTS;
         let is_known = texture.kind() <= PackedTextureKind::Worley as u32 && kind_and_flags & !(255 | flags) == 0;
         if !is_known || wrap > 2 || texture.channel() > 4 {
             return Err(format!("is of kind {kind_and_flags:#x}"));
@@ -175,6 +177,8 @@ impl PackedScene {
             (has_area(light.kind()), LIGHT_TWO_SIDED | LIGHT_VARIES | LIGHT_MOVES | LIGHT_RECTANGLE)
         } else if light.is(LightKind::Portal) {
             (has_area(light.kind_and_flags >> PORTAL_SHIFT), u32::MAX << PORTAL_SHIFT)
+        } else if light.is_delta() {
+            (true, LIGHT_FORMS << LIGHT_FORM_SHIFT)
         } else {
             (LightKind::all().any(|kind| light.is(kind)), 0)
         };
@@ -184,6 +188,10 @@ impl PackedScene {
         let shines_from_outside = [LightKind::Portal, LightKind::Environment].into_iter().any(|kind| light.is(kind));
         if shines_from_outside && self.environment.is_black() {
             return Err("is the environment, and there is none".to_owned());
+        }
+        let named = if light.is_delta() { self.textures.textures.len() } else { self.attributes.len() };
+        if light.attributes != NONE && light.attributes as usize >= named {
+            return Err(format!("has attributes or a texture {} of {named}", light.attributes));
         }
         if is_surface && light.material == NONE {
             return Err("is a surface without a material".to_owned());

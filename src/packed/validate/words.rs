@@ -175,7 +175,8 @@ const WEIGHT: [(usize, Word); 2] =
 const LIGHT: [(usize, Word); 4] = [
     (word!(PackedLight, kind_and_flags), Checked),
     (word!(PackedLight, alias), Index(Array::Lights)),
-    (word!(PackedLight, attributes), Optional(Array::Attributes)),
+    // Of a delta light a texture, of others attributes.
+    (word!(PackedLight, attributes), Checked),
     (word!(PackedLight, material), Optional(Array::Materials)),
 ];
 

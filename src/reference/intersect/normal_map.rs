@@ -6,13 +6,15 @@
 use glam::{DVec2, DVec3};
 
 use crate::reference::texture;
-use crate::scene::{MaterialId, Scene, Texture, TextureId};
+use crate::scene::{MaterialId, Relief, Scene, Texture, TextureId};
 
 /// The directions in which u and v grow, not of unit length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tangents {
     pub along_u: DVec3,
     pub along_v: DVec3,
+    /// What both are to be divided by to be how far points move with u and v.
+    pub uv_area: f64,
 }
 
 impl Tangents {
@@ -25,17 +27,32 @@ impl Tangents {
         (determinant != 0.0).then(|| Self {
             along_u: (edge_b * uv_c.y - edge_c * uv_b.y) * sign,
             along_v: (edge_c * uv_b.x - edge_b * uv_c.x) * sign,
+            uv_area: determinant.abs(),
         })
+    }
+
+    /// Of directions alone.
+    pub fn along(along_u: DVec3, along_v: DVec3) -> Self {
+        Self { along_u, along_v, uv_area: 1.0 }
+    }
+
+    /// The normal of the surface that is lifted along `normal` by a height that changes so with u and v (Blinn 1978, "Simulation of wrinkled
+    /// surfaces").
+    fn lifted(&self, normal: DVec3, geometric_normal: DVec3, slope: DVec2) -> Option<DVec3> {
+        let lift = |along: DVec3, slope: f64| along + normal * (slope - normal.dot(along));
+        let [along_u, along_v] = [self.along_u, self.along_v].map(|along| along / self.uv_area);
+        let bumped = lift(along_u, slope.x).cross(lift(along_v, slope.y)).try_normalize()?;
+        Some(if bumped.dot(geometric_normal) < 0.0 { -bumped } else { bumped })
     }
 
     /// The direction that a texel stands for about `normal`, the shading normal on the front side. The tangent is made perpendicular
     /// to the normal, the bitangent to both.
-    fn direction(&self, normal: DVec3, texel: DVec3) -> Option<DVec3> {
+    fn direction(&self, normal: DVec3, texel: DVec3, scale: f64) -> Option<DVec3> {
         let tangent = (self.along_u - normal * normal.dot(self.along_u)).try_normalize()?;
         let across = normal.cross(tangent);
         let bitangent = across * across.dot(self.along_v).signum();
         let local = texel * 2.0 - 1.0;
-        (tangent * local.x + bitangent * local.y + normal * local.z).try_normalize()
+        (scale * (tangent * local.x + bitangent * local.y) + normal * local.z).try_normalize()
     }
 }
 
@@ -55,10 +72,25 @@ impl NormalMaps {
     }
 
     /// The shading normal as the material's map bends it; as it is where there is no map or no tangent.
-    pub fn bend(&self, material: MaterialId, normal: DVec3, uv: DVec2, tangents: impl FnOnce() -> Option<Tangents>) -> DVec3 {
+    pub fn bend(
+        &self,
+        material: MaterialId,
+        [normal, geometric_normal]: [DVec3; 2],
+        uv: DVec2,
+        tangents: impl FnOnce() -> Option<Tangents>,
+    ) -> DVec3 {
         let Some(texture) = self.of_material[material] else { return normal };
-        let texel = texture::look_up(&self.textures, texture, uv);
-        tangents().and_then(|tangents| tangents.direction(normal, texel)).unwrap_or(normal)
+        let Some(tangents) = tangents() else { return normal };
+        let bent = match self.textures[texture].relief {
+            Relief::Normals(scale) => {
+                let texel = texture::look_up(&self.textures, texture, uv);
+                tangents.direction(normal, texel, scale)
+            }
+            Relief::Heights(scale) => {
+                tangents.lifted(normal, geometric_normal, scale * texture::gradient::gradient(&self.textures, texture, uv))
+            }
+        };
+        bent.unwrap_or(normal)
     }
 }
 
@@ -68,9 +100,9 @@ mod tests {
 
     #[test]
     fn a_flat_texel_leaves_the_normal() {
-        let tangents = Tangents { along_u: DVec3::new(2.0, 0.5, 0.0), along_v: DVec3::new(-0.3, 1.0, 0.4) };
+        let tangents = Tangents::along(DVec3::new(2.0, 0.5, 0.0), DVec3::new(-0.3, 1.0, 0.4));
         let normal = DVec3::new(0.1, -0.2, 1.0).normalize();
-        let bent = tangents.direction(normal, DVec3::new(0.5, 0.5, 1.0)).expect("there is a tangent");
+        let bent = tangents.direction(normal, DVec3::new(0.5, 0.5, 1.0), 1.0).expect("there is a tangent");
         assert!((bent - normal).length() < 1e-15);
     }
 
@@ -78,12 +110,24 @@ mod tests {
     fn red_bends_towards_u_and_green_towards_v() {
         // v grows upward for one, downward for the other: a mirrored mapping.
         for along_v in [DVec3::Y, -DVec3::Y] {
-            let tangents = Tangents { along_u: DVec3::X * 3.0, along_v };
-            let bent = |r, g| tangents.direction(DVec3::Z, DVec3::new(r, g, 1.0)).expect("there is a tangent");
+            let tangents = Tangents::along(DVec3::X * 3.0, along_v);
+            let bent = |r, g| tangents.direction(DVec3::Z, DVec3::new(r, g, 1.0), 1.0).expect("there is a tangent");
             assert!((bent(1.0, 0.5) - DVec3::new(1.0, 0.0, 1.0).normalize()).length() < 1e-15);
             assert!((bent(0.5, 1.0) - (DVec3::Z + along_v).normalize()).length() < 1e-15);
         }
-        assert_eq!(Tangents { along_u: DVec3::Z, along_v: DVec3::Y }.direction(DVec3::Z, DVec3::ONE), None);
+        assert_eq!(Tangents::along(DVec3::Z, DVec3::Y).direction(DVec3::Z, DVec3::ONE, 1.0), None);
+    }
+
+    /// A plane that is lifted by a slope of its own in u and v, whichever way v runs.
+    #[test]
+    fn heights_tilt_the_surface() {
+        for along_v in [DVec3::Y * 4.0, DVec3::NEG_Y * 4.0] {
+            let tangents = Tangents { along_u: DVec3::X * 2.0, along_v, uv_area: 2.0 };
+            let lifted = tangents.lifted(DVec3::Z, DVec3::Z, DVec2::new(0.5, -1.0)).expect("it has a normal");
+            // Along x by 1 the height grows by 0.5, along v's direction by 2 it falls by 1.
+            let expected = DVec3::new(-0.5, 0.5 * along_v.y.signum(), 1.0).normalize();
+            assert!((lifted - expected).length() < 1e-15, "{lifted} {expected}");
+        }
     }
 
     /// Directions found by moving along the mapping itself.
@@ -92,7 +136,7 @@ mod tests {
         let corners = [DVec3::new(1.0, 0.2, 0.0), DVec3::new(3.0, 1.0, 0.5), DVec3::new(0.5, 2.0, 1.5)];
         for uvs in [[[0.1, 0.2], [0.9, 0.3], [0.4, 0.8]], [[0.1, 0.2], [0.4, 0.8], [0.9, 0.3]]] {
             let uvs = uvs.map(DVec2::from);
-            let Tangents { along_u, along_v } = Tangents::of_triangle(corners, uvs).expect("the uvs span an area");
+            let Tangents { along_u, along_v, uv_area } = Tangents::of_triangle(corners, uvs).expect("the uvs span an area");
             // A step from the first corner by (s, t) of the edges changes uv by this; both directions step along one axis alone.
             let change = |direction: DVec3| {
                 let (edge_b, edge_c) = (corners[1] - corners[0], corners[2] - corners[0]);
@@ -102,6 +146,7 @@ mod tests {
             };
             assert!(change(along_u).x > 0.0 && change(along_u).y.abs() < 1e-12);
             assert!(change(along_v).y > 0.0 && change(along_v).x.abs() < 1e-12);
+            assert!((change(along_u / uv_area).x - 1.0).abs() < 1e-12 && (change(along_v / uv_area).y - 1.0).abs() < 1e-12);
         }
         assert_eq!(Tangents::of_triangle(corners, [DVec2::ZERO, DVec2::ONE, DVec2::ONE * 2.0]), None);
     }

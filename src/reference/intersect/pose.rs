@@ -75,7 +75,7 @@ impl Pose {
 
     pub fn tangents(&self, at_rest: Tangents) -> Tangents {
         let linear = self.to_world.matrix3;
-        Tangents { along_u: linear * at_rest.along_u, along_v: linear * at_rest.along_v }
+        Tangents { along_u: linear * at_rest.along_u, along_v: linear * at_rest.along_v, ..at_rest }
     }
 
     pub fn point(&self, at_rest: &SurfacePoint) -> SurfacePoint {

@@ -265,7 +265,7 @@ impl World {
         (normal, uv): (DVec3, DVec2),
         tangents: impl Fn() -> Option<Tangents>,
     ) -> Surface {
-        let shading_normal = self.normal_maps.bend(owner.material, normal, uv, &tangents);
+        let shading_normal = self.normal_maps.bend(owner.material, [normal, point.normal], uv, &tangents);
         let tangents = if self.anisotropic[owner.material] { tangents() } else { None };
         Surface { id, owner, point, shading_normal, uv, tangents }
     }

@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::delta::{Arriving, DeltaLight};
-use crate::scene::DirectionalLight;
+use crate::scene::{DirectionalLight, Scene};
 
-pub fn new(light: &DirectionalLight) -> DirectionalLight {
+pub fn new(light: &DirectionalLight, _: &Scene) -> DirectionalLight {
     *light
 }
 

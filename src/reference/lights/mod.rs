@@ -5,6 +5,7 @@
 
 mod delta;
 mod outside;
+mod thrown_picture;
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -38,10 +39,10 @@ macro_rules! modules {
             }
         }
 
-        fn delta_light(light: &Light) -> Option<Arc<dyn DeltaLight>> {
+        fn delta_light(scene: &Scene, light: &Light) -> Option<Arc<dyn DeltaLight>> {
             match light {
                 $(Light::$environment(_) => None,)*
-                $(Light::$delta(light) => Some(Arc::new($delta_module::new(light))),)*
+                $(Light::$delta(light) => Some(Arc::new($delta_module::new(light, scene))),)*
             }
         }
     };
@@ -110,7 +111,7 @@ impl Lights {
                 sampler.add(LightGroup::Surface { shape, material }, LightStrength::Power(power));
             }
         }
-        let with_strength = |light| Some((delta_light(light)?, light.delta()?.strength));
+        let with_strength = |light| Some((delta_light(scene, light)?, light.delta()?.strength));
         let delta_lights = scene.lights.iter().filter_map(with_strength).filter(|(_, strength)| strength.is_positive());
         let (local, at_infinity): (Vec<_>, Vec<_>) =
             delta_lights.partition(|(_, strength)| matches!(strength, LightStrength::Power(_)));

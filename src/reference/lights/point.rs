@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::delta::{Arriving, DeltaLight};
-use crate::scene::PointLight;
+use crate::scene::{PointLight, Scene};
 
-pub fn new(light: &PointLight) -> PointLight {
+pub fn new(light: &PointLight, _: &Scene) -> PointLight {
     *light
 }
 

@@ -191,7 +191,7 @@ fn directions_to_the_environment_and_through_portals_follow_their_density() {
 #[test]
 fn delta_lights_are_as_strong_as_what_arrives_from_them() {
     for (name, light) in delta_light_examples() {
-        let (light, parameters) = delta_light(&light).zip(light.delta()).expect("it is a delta light");
+        let (light, parameters) = delta_light(&Scene::default(), &light).zip(light.delta()).expect("it is a delta light");
         let arriving = |point: DVec3| light.arriving(point).map_or(0.0, |arriving| luminance(arriving.irradiance));
         let (found, expected) = match parameters.strength {
             LightStrength::Irradiance(irradiance) => (arriving(DVec3::ZERO), irradiance),
@@ -255,7 +255,15 @@ fn lights_at_infinity_share_half_of_the_choices() {
     let (mut scene, world) = glowing(vec![]);
     let (position, direction) = (DVec3::Y, -DVec3::Y);
     let intensity = DVec3::splat(3.0);
-    scene.lights.push(Light::Spot(SpotLight { position, direction, intensity, angle_degrees: 60.0, falloff_degrees: 60.0 }));
+    scene.lights.push(Light::Spot(SpotLight {
+        position,
+        direction,
+        intensity,
+        angle_degrees: 60.0,
+        falloff_degrees: 60.0,
+        curve: Default::default(),
+        picture: None,
+    }));
     scene.lights.push(Light::Directional(DirectionalLight { direction, irradiance: DVec3::splat(PI) }));
     let [zenith, horizon, ground] = [DVec3::ONE; 3];
     scene.lights.push(Light::Sky(Sky { zenith, horizon, ground }));

@@ -19,6 +19,15 @@ pub fn sample(texture: &ImageTexture, uv: DVec2) -> [f64; 4] {
             };
             row(0.0).lerp(row(1.0), fraction.y).to_array()
         }
+        TextureFilter::Triangle => {
+            let low = (position - 0.5).floor();
+            let fraction = position - 0.5 - low;
+            let corner = |x: f64, y: f64| texel(image, texture.wrap, low + DVec2::new(x, y));
+            let [first, second, third] = [corner(0.0, 0.0), corner(1.0, 0.0), corner(0.0, 1.0)];
+            let along = (second - first) * fraction.x + (third - first) * fraction.y;
+            // Beyond the triangle the plane ends at the corners' colours.
+            (first + along).clamp(first.min(second).min(third), first.max(second).max(third)).to_array()
+        }
     }
 }
 

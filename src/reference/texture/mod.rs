@@ -9,6 +9,7 @@
 //! | disk, plane, mesh without uvs | none: a textured material on them is refused   |        |
 
 mod checker;
+pub mod gradient;
 mod image;
 mod lattice;
 mod perlin;

@@ -31,7 +31,15 @@ fn emitters(count: u32) -> Vec<Emitter> {
             _ => {
                 let [intensity, direction] = [DVec3::splat(power), direction(index + 777)];
                 let (falloff_degrees, angle_degrees) = [(0.0, 90.0), (30.0, 30.0), (170.0, 180.0)][index as usize % 3];
-                let spot = SpotLight { position: at, direction, intensity, angle_degrees, falloff_degrees };
+                let spot = SpotLight {
+                    position: at,
+                    direction,
+                    intensity,
+                    angle_degrees,
+                    falloff_degrees,
+                    curve: Default::default(),
+                    picture: None,
+                };
                 Emitter::delta(&parameters(Light::Spot(spot))).expect("it is inside the scene")
             }
         }

@@ -7,8 +7,8 @@ use crate::reference::ReferenceRenderer;
 use crate::renderer::RenderError;
 use crate::scene::{
     Aperture, ConductorFresnel, Cuboid, DirectionalLight, Disk, Emission, Geometry, ImageData, ImageTexture, Mesh, Microfacets,
-    Motion, MotionStep, Plane, PointLight, Rectangle, Sphere, SpotLight, Texture, TextureFilter, TextureWrap, Transform,
-    TransformStep,
+    Motion, MotionStep, Plane, PointLight, Rectangle, Sphere, SpotLight, Texture, TextureFilter, TextureWrap, ThrownPicture,
+    Transform, TransformStep,
 };
 
 fn material(name: &str, kind: MaterialKind) -> Material {
@@ -76,8 +76,15 @@ fn scene() -> Scene {
     ] {
         scene.shapes.push(shape(label, geometry, material));
     }
-    let spot =
-        Light::Spot(SpotLight { position: b, direction: DVec3::Y, intensity: b, angle_degrees: 30.0, falloff_degrees: 20.0 });
+    let spot = Light::Spot(SpotLight {
+        position: b,
+        direction: DVec3::Y,
+        intensity: b,
+        angle_degrees: 30.0,
+        falloff_degrees: 20.0,
+        curve: Default::default(),
+        picture: None,
+    });
     let map = Environment { radiance: EnvironmentRadiance::Map(pixels(4, 2)), rotation_degrees: 0.0, rows: Default::default() };
     scene.lights = vec![
         Light::Point(PointLight { position: b, intensity: b }),
@@ -240,9 +247,25 @@ fn each_mistake_is_named_with_its_part() {
                     intensity,
                     angle_degrees: 10.0,
                     falloff_degrees: 20.0,
+                    curve: Default::default(),
+                    picture: None,
                 });
             },
             "light[1]: its light falls off from 20 to 10 degrees",
+        ),
+        (
+            |s| {
+                let Light::Spot(spot) = &mut s.lights[1] else { panic!("it is a spot light") };
+                spot.picture = Some(ThrownPicture { texture: 99, up: DVec3::X });
+            },
+            "light[1]: there is no texture 99",
+        ),
+        (
+            |s| {
+                let Light::Spot(spot) = &mut s.lights[1] else { panic!("it is a spot light") };
+                spot.picture = Some(ThrownPicture { texture: 0, up: DVec3::Y });
+            },
+            "light[1]: its position must be",
         ),
         (
             |s| s.lights[2] = Light::Directional(DirectionalLight { direction: DVec3::ONE, irradiance: DVec3::ONE }),

@@ -78,6 +78,12 @@ impl File {
         accessors.len() - 1
     }
 
+    /// Gives the first primitive's three vertices colours.
+    pub fn paint(&mut self) {
+        let colours = self.add("VEC3", &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.5, 1.0]);
+        self.root["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(colours);
+    }
+
     /// As JSON with the data in it.
     pub fn text(&self) -> Vec<u8> {
         let mut root = self.root.clone();
@@ -485,4 +491,22 @@ fn malformed_files_are_refused_in_a_sentence() {
     for text in ["", "{}", "[]", "null", "{\"asset\":{}}", &"[".repeat(100_000)] {
         refusal(Folder::new(&[("a.gltf", text.as_bytes())]).load("a.gltf"));
     }
+}
+
+/// The base colour of a painted primitive is a texture of its own, that a scene file says as well.
+#[test]
+fn vertex_colours_become_a_texture() {
+    let mut file = File::new();
+    assert!(file.read().textures.is_empty());
+    file.paint();
+    let folder = Folder::new(&[("a.gltf", &file.text())]);
+    let scene = folder.valid("a.gltf");
+    assert_eq!(scene.textures.len(), 1);
+    let painted = &scene.materials[scene.shapes[0].material];
+    assert!(painted.kind.lobe().is_some_and(|lobe| lobe.color0.texture() == Some(0)), "{painted:?}");
+    let gpt::scene::TextureKind::Image(image) = &scene.textures[0].kind else { panic!("no image") };
+    let texels: Vec<_> = image.image.texels.colors().take(3).map(|texel| texel.to_array()).collect();
+    assert_eq!(texels, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.5, 1.0]]);
+    assert_eq!(picture(&folder.written("a.gltf")), picture(&scene));
+    assert!(!report(&scene).contains("COLOR_0"));
 }

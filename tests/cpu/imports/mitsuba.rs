@@ -284,14 +284,14 @@ fn old_names_parameters_and_includes_are_understood() {
 fn nothing_is_left_out_silently() {
     let scene = read(
         r#"<shape type="sphere"><float name="foo" value="1"/><bsdf type="diffuse"/><medium type="homogeneous" name="interior"/></shape>
-        <shape type="hair"/><emitter type="projector"/><medium type="homogeneous"/>"#,
+        <shape type="hair"/><emitter type="collimated"/><medium type="homogeneous"/>"#,
     );
     let report = report(&scene);
     for said in [
         "shape `sphere`: `foo` x1",
         "medium `homogeneous` in shape",
         "shape `hair`",
-        "emitter `projector`",
+        "emitter `collimated`",
         "medium `homogeneous` in scene",
     ] {
         assert!(report.contains(said), "{said}:\n{report}");
@@ -342,4 +342,95 @@ fn what_is_wrong_is_told_with_its_line() {
     }
     let billion = "<!DOCTYPE lolz [<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;\">]><scene>&b;</scene>";
     assert!(refusal(Folder::new(&[("a.xml", billion.as_bytes())]).load("a.xml")).contains("XML"));
+}
+
+/// Two triangles with colours of their vertices and numbers of their faces.
+pub const PAINTED: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n\
+    property uchar green\nproperty uchar blue\nelement face 2\nproperty list uchar int vertex_indices\nproperty float weight_0\nend_header\n\
+    -1 -1 0 255 0 0\n1 -1 0 0 255 0\n1 1 0 0 0 255\n-1 1 0 255 255 0\n3 0 1 2 0.25\n3 0 2 3 0.75\n";
+
+/// Attributes of a mesh are what they are at its vertices and on its faces.
+#[test]
+fn mesh_attributes_are_textures() {
+    let scene = |attribute: &str, weight: bool| {
+        let texture = |name: &str| {
+            format!(r#"<texture name="{name}" type="mesh_attribute"><string name="name" value="{attribute}"/></texture>"#)
+        };
+        let bsdf = if weight {
+            format!(r#"<bsdf type="blendbsdf">{}<bsdf type="diffuse"/><bsdf type="null"/></bsdf>"#, texture("weight"))
+        } else {
+            format!(r#"<bsdf type="diffuse">{}</bsdf>"#, texture("reflectance"))
+        };
+        with(&format!(r#"<shape type="ply"><string name="filename" value="b.ply"/>{bsdf}</shape>"#))
+    };
+    let read = |attribute: &str, weight: bool| {
+        let xml = scene(attribute, weight);
+        let folder = Folder::new(&[("a.xml", xml.as_bytes()), ("b.ply", PAINTED.as_bytes())]);
+        let scene = folder.valid("a.xml");
+        assert_eq!(picture(&folder.written("a.xml")), picture(&scene), "{attribute}");
+        scene
+    };
+    let texels = |scene: &gpt::scene::Scene, name: &str| {
+        let texture = scene.textures.iter().find(|texture| texture.name == name).expect("it is there");
+        let gpt::scene::TextureKind::Image(image) = &texture.kind else { panic!("no image") };
+        image.image.texels.colors().map(|texel| texel.to_array()).collect::<Vec<_>>()
+    };
+    let painted = read("vertex_color", false);
+    assert_eq!(report(&painted), "");
+    // The first triangle's block is 2 × 2 texels in rows of 4.
+    let colours = texels(&painted, "vertex_color");
+    assert_eq!([colours[0], colours[1], colours[4]], [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+    assert_eq!([colours[2], colours[3], colours[6]], [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 0.0]]);
+    let weighed = read("face_weight", true);
+    let weights = texels(&weighed, "face_weight");
+    assert_eq!([weights[0], weights[5], weights[2], weights[7]], [[0.25; 3], [0.25; 3], [0.75; 3], [0.75; 3]]);
+    // What is not there is told.
+    assert!(report(&read("vertex_nothing", false)).contains("attribute `vertex_nothing`"));
+}
+
+/// A crop off the film's middle, and a film moved aside, look where they do in the whole picture.
+#[test]
+fn crops_and_principal_points_shift_the_picture() {
+    let read = |film: &str, sensor: &str| {
+        let film = format!(r#"<integer name="width" value="40"/><integer name="height" value="30"/>{film}"#);
+        let text = SCENE.replace(r#"<integer name="width" value="40"/><integer name="height" value="30"/>"#, &film);
+        let text = text.replace(r#"<float name="fov" value="40"/>"#, &format!(r#"<float name="fov" value="40"/>{sensor}"#));
+        let folder = Folder::new(&[("a.xml", text.replace("MORE", "").as_bytes())]);
+        let scene = folder.valid("a.xml");
+        assert_eq!(report(&scene), "");
+        assert_eq!(folder.written("a.xml").camera, scene.camera);
+        scene.camera
+    };
+    let crop = r#"<integer name="crop_width" value="10"/><integer name="crop_height" value="10"/><integer name="crop_offset_x" value="25"/>
+        <integer name="crop_offset_y" value="0"/>"#;
+    // The crop's middle is 10 pixels to the right of the film's and 10 above it.
+    assert_eq!(read(crop, "").shift, [1.0, 1.0]);
+    assert_eq!(read("", r#"<float name="principal_point_offset_x" value="0.25"/>"#).shift, [0.25, -0.0]);
+    assert_eq!(read("", "").shift, [0.0, 0.0]);
+}
+
+/// Bump maps, and textures that lights throw, are read without a word; the picture is that of the scene file written from it.
+#[test]
+fn bumps_and_thrown_pictures_are_exact() {
+    let xml = with(
+        r#"<shape type="rectangle"><bsdf type="bumpmap"><texture type="checkerboard"/><float name="scale" value="0.1"/>
+          <bsdf type="diffuse"/></bsdf></shape>
+        <emitter type="spot"><texture name="texture" type="checkerboard"/><transform name="to_world">
+          <lookat origin="0 0 3" target="0 0 0" up="0 1 0"/></transform></emitter>
+        <emitter type="projector"><texture name="irradiance" type="checkerboard"/><float name="fov" value="30"/>
+          <float name="scale" value="2"/><transform name="to_world"><lookat origin="0 0 3" target="0 0 0" up="0 1 0"/></transform></emitter>"#,
+    );
+    let folder = Folder::new(&[("a.xml", xml.as_bytes())]);
+    let scene = folder.valid("a.xml");
+    assert_eq!(report(&scene), "");
+    let Light::Spot(spot) = &scene.lights[1] else { panic!("no spot") };
+    assert!(spot.picture.is_some() && spot.curve == gpt::scene::FalloffCurve::Linear);
+    let Light::Projector(projector) = &scene.lights[2] else { panic!("no projector") };
+    assert!(
+        (projector.vertical_fov_degrees - 30.0).abs() < 1e-9
+            && (projector.irradiance.x - 2.0 * std::f64::consts::PI).abs() < 1e-12
+    );
+    let bumpy = scene.materials.iter().filter_map(|material| material.normal_map).next().expect("a map");
+    assert_eq!(scene.textures[bumpy].relief, gpt::scene::Relief::Heights(0.1));
+    assert_eq!(picture(&folder.written("a.xml")), picture(&scene));
 }

@@ -1,12 +1,16 @@
-//! Files with bytes changed at random are read or refused; nothing panics and nothing hangs. `GPT_FUZZ=100000` makes that many of each kind.
+//! Files with bytes changed at random are read or refused; nothing panics and nothing hangs. The long form (`scripts/test --all`) makes 100,000 of
+//! each kind, and `GPT_FUZZ=N` makes N.
 
 use std::panic::catch_unwind;
 use std::time::{Duration, Instant};
 
 use super::Folder;
 use super::gltf::File;
+use super::mitsuba::PAINTED;
+use crate::common::effort::in_full;
 
 const NORMALLY: usize = 150;
+const IN_FULL: usize = 100_000;
 
 /// Xorshift (Marsaglia 2003).
 struct Random(u64);
@@ -43,8 +47,10 @@ fn damage(bytes: &mut Vec<u8>, random: &mut Random) {
     }
 }
 
-fn try_many(name: &str, whole: &[u8], others: &[(&str, &[u8])]) {
-    let count = std::env::var("GPT_FUZZ").ok().and_then(|text| text.parse().ok()).unwrap_or(NORMALLY);
+/// Damages the file `name` and loads `scene`, which is that file or names it.
+fn try_many(name: &str, whole: &[u8], others: &[(&str, &[u8])], scene: &str) {
+    let normally = if in_full("most damaged files") { IN_FULL } else { NORMALLY };
+    let count = std::env::var("GPT_FUZZ").ok().and_then(|text| text.parse().ok()).unwrap_or(normally);
     let folder = Folder::new(others);
     let mut random = Random(0x9e37_79b9_7f4a_7c15);
     let (mut read, mut slowest) = (0, Duration::ZERO);
@@ -55,7 +61,7 @@ fn try_many(name: &str, whole: &[u8], others: &[(&str, &[u8])]) {
         }
         std::fs::write(folder.path(name), &bytes).expect("it is written");
         let start = Instant::now();
-        let result = catch_unwind(|| folder.load(&name.replace("b.serialized", "a.xml")).map(|_| ()));
+        let result = catch_unwind(|| folder.load(scene).map(|_| ()));
         slowest = slowest.max(start.elapsed());
         match result {
             Ok(Ok(())) => read += 1,
@@ -74,12 +80,14 @@ fn try_many(name: &str, whole: &[u8], others: &[(&str, &[u8])]) {
 
 #[test]
 fn damaged_gltf() {
-    try_many("a.gltf", &File::new().text(), &[]);
+    let mut file = File::new();
+    file.paint();
+    try_many("a.gltf", &file.text(), &[], "a.gltf");
 }
 
 #[test]
 fn damaged_binary_gltf() {
-    try_many("a.glb", &File::new().binary(), &[]);
+    try_many("a.glb", &File::new().binary(), &[], "a.glb");
 }
 
 #[test]
@@ -90,6 +98,26 @@ fn damaged_mitsuba_scenes() {
         <bsdf type="mask" id="m"><float name="opacity" value="0.5"/><bsdf type="roughconductor"><string name="material" value="W"/></bsdf></bsdf>
         <shape type="sphere"><float name="radius" value="$r"/><ref id="m"/></shape>
         <shape type="cylinder"><bsdf type="plastic"><spectrum name="diffuse_reflectance" value="400:0.1, 600:0.5"/></bsdf></shape>
-        <emitter type="spot"/></scene>"#;
-    try_many("a.xml", scene.as_bytes(), &[]);
+        <bsdf type="bumpmap" id="bumps"><texture type="checkerboard"/><float name="scale" value="0.1"/><bsdf type="diffuse"/></bsdf>
+        <shape type="rectangle"><ref id="bumps"/></shape>
+        <emitter type="spot"><texture name="texture" type="checkerboard"/></emitter>
+        <emitter type="projector"><texture name="irradiance" type="checkerboard"/><float name="fov" value="30"/></emitter></scene>"#;
+    try_many("a.xml", scene.as_bytes(), &[], "a.xml");
+}
+
+const PAINTED_SCENE: &str = r#"<scene version="3.0.0"><shape type="ply"><string name="filename" value="b.ply"/><bsdf type="diffuse">
+    <texture name="reflectance" type="mesh_attribute"><string name="name" value="vertex_color"/></texture></bsdf></shape></scene>"#;
+
+#[test]
+fn damaged_ply_models() {
+    try_many("b.ply", PAINTED.as_bytes(), &[("a.xml", PAINTED_SCENE.as_bytes())], "a.xml");
+}
+
+#[test]
+fn damaged_models_and_their_materials() {
+    let model = "mtllib b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\nusemtl m\nf 1/1/1 2/2/1 3/1/1\n";
+    let materials =
+        "newmtl m\nKd 0.5 0.4 0.3\nPr 0.4\nPm 0.7\nPc 0.2\nPcr 0.1\naniso 0.5\nanisor 0.2\nNi 1.4\nd 0.9\nillum 2\nKe 1 0 0\n";
+    try_many("a.obj", model.as_bytes(), &[("b.mtl", materials.as_bytes())], "a.obj");
+    try_many("b.mtl", materials.as_bytes(), &[("a.obj", model.as_bytes())], "a.obj");
 }

@@ -92,6 +92,35 @@ angle = 35
 falloff = 10
 "#;
 
+/// A texture as a spot light throws it, and as a projector does.
+const THROWN: &str = r#"
+[[texture]]
+name = "slide"
+type = "checker"
+a = [0.9, 0.2, 0.1]
+b = [0.1, 0.9, 0.8]
+scale = [5, 4]
+rotation = 20
+[[light]]
+type = "spot"
+position = [1, 3, 2]
+direction = [-0.5, -1, -0.6]
+intensity = [20, 18, 15]
+angle = 35
+falloff = 10
+curve = "linear"
+texture = "slide"
+up = [0.3, 0.4, 1]
+[[light]]
+type = "projector"
+position = [-2, 3, 1]
+direction = [0.6, -1, -0.2]
+irradiance = [3, 4, 5]
+vfov = 40
+aspect = 1.7
+texture = "slide"
+"#;
+
 const SKY: &str = r#"
 [[light]]
 type = "sky"
@@ -192,7 +221,11 @@ fn every_light_that_is_no_surface_agrees() {
         .filter(|(_, light)| load(&[light]).lights.iter().all(|light| light.delta().is_some()))
         .map(|(_, light)| light.as_str())
         .collect();
-    let more = [("extreme map", EXTREME_MAP.to_owned()), ("all with a map", delta + MAP + SPHERES)];
+    let more = [
+        ("extreme map", EXTREME_MAP.to_owned()),
+        ("all with a map", delta + MAP + SPHERES),
+        ("thrown pictures", THROWN.to_owned()),
+    ];
     for (name, lights) in examples.into_iter().chain(more) {
         let mut scene = load(&[&lights]);
         assert_agrees(name, &scene, &PlanOptions::default());
@@ -345,7 +378,7 @@ fn rectangles_drawn_by_solid_angle_agree() {
 }
 
 /// The device renders `ours`, the reference `theirs`.
-fn compare_unequal(ours: &Scene, theirs: &Scene) -> Option<Verdict> {
+pub fn compare_unequal(ours: &Scene, theirs: &Scene) -> Option<Verdict> {
     let device = DEVICE.as_ref()?;
     let mut gpu = GpuRenderer::on(device, ours, &PlanOptions::default()).expect("the scene fits");
     let mut cpu = ReferenceRenderer::new(theirs).expect("the scene is supported");
@@ -365,6 +398,14 @@ fn other_lights_are_noticed() {
         }
     }
     cases.push((wider, spot));
+    let thrown = load(&[THROWN]);
+    let mut aside = thrown.clone();
+    for light in &mut aside.lights {
+        if let Light::Projector(projector) = light {
+            projector.up.x += 0.2;
+        }
+    }
+    cases.push((aside, thrown));
     let map = load(&[MAP]);
     let mut turned = map.clone();
     for light in &mut turned.lights {

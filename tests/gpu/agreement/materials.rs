@@ -2,10 +2,12 @@
 
 use std::sync::LazyLock;
 
+use glam::DVec3;
 use gpt::load;
 use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
-use gpt::scene::{BlendMode, Estimator, Scene};
+use gpt::scene::{BlendMode, Estimator, Geometry, Rectangle, Relief, Scene};
 
+use super::lights::compare_unequal;
 use super::{DEVICE, assert_agrees, compare};
 
 /// A sphere and a smooth, textured tetrahedron of the material `m` on a floor, under a lamp, a point light and an environment.
@@ -292,4 +294,43 @@ fn a_weight_off_by_a_hundredth_is_noticed() {
     let verdict = gpt::verify::compare(&scene, &mut gpu, &mut cpu, None).expect("both render");
     assert!(!verdict.agrees, "{verdict:#?}");
     assert!(compare(&scene, &PlanOptions::default()).is_some_and(|verdict| verdict.agrees));
+}
+
+/// Bumps where the other tests have a sphere, which has no edges: a rectangle.
+fn with_edges(material: &str) -> Scene {
+    let mut scene = stage(material);
+    let bumpy = scene.shapes.iter_mut().filter(|shape| matches!(shape.geometry, Geometry::Sphere(_)));
+    for shape in bumpy {
+        let (corner, edge_u, edge_v) = (DVec3::new(-2.1, -0.8, 0.3), DVec3::new(1.8, 0.1, 0.0), DVec3::new(0.1, 2.0, -0.6));
+        shape.geometry = Geometry::Rectangle(Rectangle { corner, edge_u, edge_v });
+    }
+    scene
+}
+
+#[test]
+fn maps_of_heights_and_scaled_normals_agree() {
+    for (name, material) in [
+        ("heights of a picture", "type = \"diffuse\"\nreflectance = 0.7\nbump_map = \"bumps\"\nbump_scale = 0.3"),
+        (
+            "heights of noise",
+            "type = \"conductor\"\npreset = \"gold\"\nroughness = 0.4\nbump_map = \"clouds\"\nbump_scale = 0.05",
+        ),
+        ("strong normals", "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 2.5"),
+    ] {
+        assert_agrees(name, &with_edges(material), &PlanOptions::default());
+    }
+}
+
+/// The control: a tenth more height is noticed.
+#[test]
+fn other_heights_are_noticed() {
+    let theirs = with_edges("type = \"diffuse\"\nreflectance = 0.7\nbump_map = \"bumps\"\nbump_scale = 0.3");
+    let mut ours = theirs.clone();
+    for texture in &mut ours.textures {
+        if let Relief::Heights(scale) = &mut texture.relief {
+            *scale *= 1.1;
+        }
+    }
+    let Some(verdict) = compare_unequal(&ours, &theirs) else { return };
+    assert!(!verdict.agrees, "{verdict:#?}");
 }

@@ -54,15 +54,56 @@ fn from_points_and_afar(cases: &mut Vec<Case>) {
     let axis = DVec3::new(-(50_f64.to_radians().sin()), -(50_f64.to_radians().cos()), 0.0);
     let cosine = |degrees: f64| degrees.to_radians().cos();
     let t = (cosine(20.0) - cosine(35.0)) / (cosine(10.0) - cosine(35.0));
-    for (name, angle_degrees, falloff_degrees, share) in
-        [("inside", 45.0, 25.0, 1.0), ("in between", 35.0, 10.0, t * t * (3.0 - 2.0 * t))]
-    {
+    for (name, angle_degrees, falloff_degrees, curve, share) in [
+        ("inside", 45.0, 25.0, FalloffCurve::Smooth, 1.0),
+        ("in between", 35.0, 10.0, FalloffCurve::Smooth, t * t * (3.0 - 2.0 * t)),
+        ("in between, square", 35.0, 10.0, FalloffCurve::Square, t * t),
+        ("in between, linear", 35.0, 10.0, FalloffCurve::Linear, 0.6),
+    ] {
         let mut scene = over_a_floor(4);
         let position = to_light * 2.0;
-        let spot = SpotLight { position, direction: axis, intensity, angle_degrees, falloff_degrees };
+        let spot = SpotLight { position, direction: axis, intensity, angle_degrees, falloff_degrees, curve, picture: None };
         scene.lights.push(Light::Spot(spot));
         let expected = intensity * share * cosine(30.0) / 4.0 * ALBEDO / PI;
         push(cases, &format!("spot light, {name}"), &scene, expected, &WITH_LIGHT_SAMPLING);
+    }
+    // The floor's point is 20 degrees off the axis, to the right or to the left as the light is turned: in the picture 0.5 ± tan 20° / 2 tan 40°.
+    let place = 0.5 * 20_f64.to_radians().tan() / 40_f64.to_radians().tan();
+    for (side, up) in [(-1.0, DVec3::Z), (1.0, DVec3::NEG_Z)] {
+        let mut scene = over_a_floor(4);
+        // A ramp from red at the left to green at the right; texels of two columns in the middle interpolate it exactly.
+        let ramp = Texels::Float(vec![[1.0, 0.0, 0.5], [0.0, 1.0, 0.5]]);
+        let image = Arc::new(ImageData { width: 2, height: 1, texels: ramp, has_alpha: false });
+        let (wrap, filter) = (TextureWrap::Clamp, TextureFilter::Bilinear);
+        scene.textures.push(Texture::new("ramp", TextureKind::Image(ImageTexture { image, wrap, filter, scale: [0.5, 1.0] })));
+        scene.textures[0].transform.offset = [0.25, 0.0];
+        let u = 0.5 + side * place;
+        let texel = DVec3::new(1.0 - u, u, 0.5);
+        let position = to_light * 2.0;
+        let picture = Some(ThrownPicture { texture: 0, up });
+        let (angle_degrees, falloff_degrees, curve) = (40.0, 40.0, FalloffCurve::Linear);
+        scene.lights.push(Light::Spot(SpotLight {
+            position,
+            direction: axis,
+            intensity,
+            angle_degrees,
+            falloff_degrees,
+            curve,
+            picture,
+        }));
+        let expected = texel * intensity * cosine(30.0) / 4.0 * ALBEDO / PI;
+        push(cases, &format!("picture of a spot light, {side}"), &scene, expected, &WITH_LIGHT_SAMPLING);
+        scene.lights = vec![Light::Projector(Projector {
+            position,
+            direction: axis,
+            up,
+            irradiance: intensity,
+            vertical_fov_degrees: 50.0,
+            aspect: 40_f64.to_radians().tan() / 25_f64.to_radians().tan(),
+            texture: Some(0),
+        })];
+        let expected = texel * intensity / cosine(20.0).powi(3) * cosine(30.0) / 4.0 * ALBEDO / PI;
+        push(cases, &format!("projector, {side}"), &scene, expected, &WITH_LIGHT_SAMPLING);
     }
     let mut scene = over_a_floor(4);
     scene.lights.push(Light::Directional(DirectionalLight { direction: -to_light, irradiance: intensity }));

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use glam::DVec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -11,10 +12,9 @@ use crate::load::file::colour::Rgb;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, HalfAngle, Located, NonNegative, Vector, vector};
 use crate::load::file::writer::{self, Writer, colour, direction, line, number};
-use crate::scene::SpotLight;
+use crate::scene::{FalloffCurve, SpotLight, ThrownPicture};
 
-/// A point light cut to a cone. Between the angles `falloff` and `angle` the intensity falls as t²(3 − 2t), where t goes from 1 to 0 in
-/// proportion to the cosine of the angle.
+/// A point light cut to a cone. Between the angles `falloff` and `angle` the intensity falls as `curve` says.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "SpotLight")]
@@ -27,13 +27,34 @@ pub struct Keys {
     angle: Checked<HalfAngle>,
     /// Degrees from the axis up to which the intensity is full; `angle` when left out.
     falloff: Option<Located<Checked<NonNegative>>>,
+    /// How it falls between them; "smooth" when left out.
+    curve: Option<CurveName>,
+    /// A `[[texture]]`'s name, which multiplies the intensity: it fills the square around the cone. Then `angle` is below 90.
+    texture: Option<Located<String>>,
+    /// With `texture`: where its upper edge is, seen from the light; [0, 1, 0] when left out.
+    up: Option<Located<Vector>>,
+}
+
+/// How a spot light's intensity falls between its angles.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum CurveName {
+    /// t²(3 − 2t), where t goes from 1 to 0 in proportion to the cosine of the angle.
+    Smooth,
+    /// t², as glTF recommends.
+    Square,
+    /// In proportion to the angle, as in Mitsuba.
+    Linear,
 }
 
 impl LightKeys for Keys {
     type Light = SpotLight;
 
-    const EXAMPLES: &'static [&'static str] =
-        &["position = [1, 3, 2]\ndirection = [-0.5, -1, -0.6]\nintensity = [20, 18, 15]\nangle = 35\nfalloff = 10"];
+    const EXAMPLES: &'static [&'static str] = &[
+        "position = [1, 3, 2]\ndirection = [-0.5, -1, -0.6]\nintensity = [20, 18, 15]\nangle = 35\nfalloff = 10",
+        "position = [1, 3, 2]\ndirection = [-0.5, -1, -0.6]\nintensity = 15\nangle = 35\nfalloff = 10\ncurve = \"square\"",
+        "position = [1, 3, 2]\ndirection = [-0.5, -1, -0.6]\nintensity = 15\nangle = 35\nfalloff = 10\ncurve = \"linear\"",
+    ];
 
     fn resolve(&self, resolver: &mut Resolver<'_>, _: &Range<usize>) -> Result<SpotLight, SceneError> {
         let angle = self.angle.0;
@@ -43,23 +64,70 @@ impl LightKeys for Keys {
         {
             return Err(resolver.error(&written.span, format!("`falloff` is at most `angle`, {angle} degrees")));
         }
+        let picture = self.picture(resolver)?;
         Ok(SpotLight {
             position: vector(self.position),
             direction: resolver.direction(&self.direction)?,
             intensity: self.intensity.0,
             angle_degrees: angle,
             falloff_degrees: falloff,
+            curve: match self.curve {
+                None | Some(CurveName::Smooth) => FalloffCurve::Smooth,
+                Some(CurveName::Square) => FalloffCurve::Square,
+                Some(CurveName::Linear) => FalloffCurve::Linear,
+            },
+            picture,
         })
     }
 
-    fn write(light: &SpotLight, _: &mut Writer<'_>) -> String {
+    fn write(light: &SpotLight, writer: &mut Writer<'_>) -> String {
         [
             line("position", &writer::vector(light.position)),
             line("direction", &direction(light.direction)),
             line("intensity", &colour(light.intensity)),
             line("angle", &number(light.angle_degrees)),
             line("falloff", &number(light.falloff_degrees)),
+            match light.curve {
+                FalloffCurve::Smooth => String::new(),
+                FalloffCurve::Square => line("curve", "\"square\""),
+                FalloffCurve::Linear => line("curve", "\"linear\""),
+            },
+            light.picture.map_or(String::new(), |picture| {
+                line("texture", &writer.textures.quoted(picture.texture)) + &line("up", &writer::vector(picture.up))
+            }),
         ]
         .concat()
     }
+}
+
+impl Keys {
+    fn picture(&self, resolver: &mut Resolver<'_>) -> Result<Option<ThrownPicture>, SceneError> {
+        let Some(name) = &self.texture else {
+            return match &self.up {
+                Some(up) => Err(resolver.error(&up.span, "`up` belongs to `texture`, which this light has not")),
+                None => Ok(None),
+            };
+        };
+        if self.angle.0 >= 90.0 {
+            return Err(resolver.error(&name.span, "the texture of a spot light fills a cone with an `angle` below 90 degrees"));
+        }
+        let texture = resolver.texture_id(name)?;
+        let up = up_across(resolver, &self.direction, self.up.as_ref())?;
+        Ok(Some(ThrownPicture { texture, up }))
+    }
+}
+
+/// Which way is up in a picture that a light throws along `direction`.
+pub fn up_across(
+    resolver: &Resolver<'_>,
+    direction: &Located<Vector>,
+    up: Option<&Located<Vector>>,
+) -> Result<DVec3, SceneError> {
+    let written = up.map_or(DVec3::Y, |up| vector(up.value));
+    let along = resolver.direction(direction)?;
+    if written.try_normalize().is_some_and(|up| along.cross(up).length() > 1e-6) {
+        return Ok(written);
+    }
+    let span = up.map_or(&direction.span, |up| &up.span);
+    Err(resolver.error(span, "`up` is zero or lies along `direction`, so which way is up is not known"))
 }

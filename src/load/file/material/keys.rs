@@ -4,7 +4,7 @@ use super::opacity::Opacity;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Colour;
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{Checked, IndexOfRefraction, Located, NonNegative};
+use crate::load::file::value::{Checked, IndexOfRefraction, Located, NonNegative, Number};
 use crate::load::file::writer::Writer;
 use crate::scene::{ColorInput, Emission, MaterialKind};
 
@@ -63,6 +63,9 @@ pub fn only_for_reflecting(emission: &Located<Colour<NonNegative>>, resolver: &R
 pub struct CommonKeys<'a> {
     pub name: &'a Located<String>,
     pub normal_map: Option<&'a Located<String>>,
+    pub normal_scale: Option<&'a Located<Number>>,
+    pub bump_map: Option<&'a Located<String>>,
+    pub bump_scale: Option<&'a Located<Number>>,
     pub emission: Option<&'a Located<Colour<NonNegative>>>,
     pub emission_two_sided: Option<&'a Located<bool>>,
     pub opacity: Option<&'a Located<Opacity>>,
@@ -88,6 +91,12 @@ macro_rules! material_keys {
             $($(#[$field_doc])* $field: $type,)*
             /// A texture of tangent-space normals whose color_space is "linear".
             normal_map: Option<$crate::load::file::value::Located<String>>,
+            /// With `normal_map`: multiplies its red and green, after they are taken from 0 to 1 to -1 to 1; 1 when left out.
+            normal_scale: Option<$crate::load::file::value::Located<$crate::load::file::value::Number>>,
+            /// In place of a normal map: a texture of heights whose color_space is "linear". Meshes, rectangles and boxes can have one.
+            bump_map: Option<$crate::load::file::value::Located<String>>,
+            /// With `bump_map`: the height that 1 stands for, in scene units along the normal; 1 when left out.
+            bump_scale: Option<$crate::load::file::value::Located<$crate::load::file::value::Number>>,
             /// Radiance the surface sends out by itself, besides what it reflects.
             emission: Option<$crate::load::file::value::Located<
                 $crate::load::file::colour::Colour<$crate::load::file::value::NonNegative>,
@@ -104,6 +113,9 @@ macro_rules! material_keys {
                 $crate::load::file::material::keys::CommonKeys {
                     name: &self.name,
                     normal_map: self.normal_map.as_ref(),
+                    normal_scale: self.normal_scale.as_ref(),
+                    bump_map: self.bump_map.as_ref(),
+                    bump_scale: self.bump_scale.as_ref(),
                     emission: self.emission.as_ref(),
                     emission_two_sided: self.emission_two_sided.as_ref(),
                     opacity: self.opacity.as_ref(),

@@ -34,6 +34,7 @@ impl Resolver<'_> {
             look_at,
             up,
             projection: self.projection(written)?,
+            shift: written.shift.map_or([0.0; 2], |shift| shift.map(|part| part.0)),
             aperture,
             focus_distance: written.focus_distance.map_or((look_at - position).length(), |distance| distance.0),
             shutter,

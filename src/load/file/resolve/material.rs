@@ -4,13 +4,13 @@ use crate::load::error::SceneError;
 use crate::load::file::material::MaterialEntry;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::Located;
-use crate::scene::{BlendWeight, Material, MaterialKind, TextureId, check_blends};
+use crate::scene::{BlendWeight, Material, MaterialKind, Relief, Texture, TextureId, TextureKind, check_blends};
 
 impl Resolver<'_> {
     pub(super) fn materials(&mut self, written: &[MaterialEntry]) -> Result<(), SceneError> {
         self.material_names = self.register("material", written.iter().map(|entry| entry.common().name))?;
         for entry in written {
-            let material = self.material(entry);
+            let material = self.material(entry).and_then(|material| self.with_relief(material, entry));
             let name = || entry.common().name.value.clone();
             // Something has to stand in its place, or others would have none.
             let kind = MaterialKind::Pass;
@@ -103,5 +103,42 @@ impl Resolver<'_> {
         }
         let message = format!("a normal map holds directions, not colours: `{}` needs color_space = \"linear\"", name.value);
         Err(self.error(&name.span, message))
+    }
+
+    /// The material with a normal map that is scaled, or with a bump map: the same texture once more, which says how it bends normals.
+    fn with_relief(&mut self, mut material: Material, entry: &MaterialEntry) -> Result<Material, SceneError> {
+        let common = entry.common();
+        for (key, scale, map) in
+            [("normal_scale", common.normal_scale, common.normal_map), ("bump_scale", common.bump_scale, common.bump_map)]
+        {
+            if let (Some(scale), None) = (scale, map) {
+                let message = format!("`{key}` belongs to `{}`, which is not there", key.replace("scale", "map"));
+                return Err(self.error(&scale.span, message));
+            }
+        }
+        let relief = match (common.bump_map, material.normal_map, common.normal_scale) {
+            (Some(bump), Some(_), _) => {
+                return Err(self.error(&bump.span, "a material has a normal map or a bump map, not both"));
+            }
+            (Some(bump), None, _) => {
+                let id = self.texture_id(bump)?;
+                let is_image = matches!(self.scene.textures[id].kind, TextureKind::Image(_));
+                if is_image && !self.linear_textures[id] {
+                    let name = &bump.value;
+                    let message = format!("a bump map holds heights, not colours: `{name}` needs color_space = \"linear\"");
+                    return Err(self.error(&bump.span, message));
+                }
+                Some((id, Relief::Heights(common.bump_scale.map_or(1.0, |scale| scale.value.0))))
+            }
+            (None, Some(id), Some(scale)) => Some((id, Relief::Normals(scale.value.0))),
+            (None, ..) => None,
+        };
+        if let Some((id, relief)) = relief {
+            let linear = self.linear_textures[id];
+            self.scene.textures.push(Texture { relief, ..self.scene.textures[id].clone() });
+            self.linear_textures.push(linear);
+            material.normal_map = Some(self.scene.textures.len() - 1);
+        }
+        Ok(material)
     }
 }

@@ -4,6 +4,7 @@ mod animation;
 mod camera;
 mod material;
 mod mtl;
+mod mtl_principled;
 mod settings;
 mod texture;
 

@@ -14,14 +14,15 @@ use std::path::Path;
 
 use glam::DVec3;
 
+use super::mtl_principled::is_principled;
 use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::Resolver;
 use crate::load::formats;
 use crate::load::model::MtlMaterial;
 use crate::load::obj::TextureMap;
 use crate::scene::{
-    BlendWeight, ColorInput, Emission, ImageTexture, Material, MaterialId, MaterialKind, Texture, TextureFilter, TextureId,
-    TextureKind, TextureWrap, UvTransform,
+    BlendWeight, ColorInput, ColorSpace, Emission, ImageTexture, Material, MaterialId, MaterialKind, Principled, Relief, Texture,
+    TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,
 };
 
 /// Stands for what is missing. No material looks so by chance.
@@ -56,10 +57,16 @@ impl Resolver<'_> {
         let opacity = self.opacity(written)?;
         let kind = self.mtl_kind(written, opacity)?;
         let emission = self.mtl_emission(written)?;
-        let see_through = matches!(kind, MaterialKind::Glass { .. } | MaterialKind::Pass);
-        let material = Material { name: written.material.name.clone(), kind, normal_map: None, emission, two_sided: true };
+        let transmits = |principled: &Principled| principled.transmission != ColorInput::grey(0.0);
+        let see_through = matches!(&kind, MaterialKind::Glass { .. } | MaterialKind::Pass)
+            || matches!(&kind, MaterialKind::Principled(principled) if transmits(principled));
+        let normal_map = self.mtl_normal_map(written)?;
+        let whole = opacity >= 1.0 || see_through;
+        // A blend's normals are its own, not those of a part.
+        let own_map = normal_map.filter(|_| whole);
+        let material = Material { name: written.material.name.clone(), kind, normal_map: own_map, emission, two_sided: true };
         let id = self.add(material);
-        if opacity >= 1.0 || see_through {
+        if whole {
             return Ok(id);
         }
         let name = &written.material.name;
@@ -74,7 +81,7 @@ impl Resolver<'_> {
         Ok(self.add(Material {
             name: format!("{name} (d = {opacity})"),
             kind: MaterialKind::Blend { materials: [id, pass], weight },
-            normal_map: None,
+            normal_map,
             emission: None,
             two_sided: true,
         }))
@@ -90,6 +97,9 @@ impl Resolver<'_> {
         let specular = colour(material.specular).unwrap_or(DVec3::ZERO);
         let illumination = material.illumination_model.unwrap_or(2);
         let ior = f64::from(material.optical_density.unwrap_or(1.0));
+        if is_principled(written) && opacity > 0.0 {
+            return self.mtl_principled(written, opacity);
+        }
         if matches!(illumination, 4 | 6 | 7) || (opacity > 0.0 && opacity < 1.0 && (ior - 1.0).abs() > 1e-3) {
             return self.mtl_glass(written, ior);
         }
@@ -154,11 +164,11 @@ impl Resolver<'_> {
         })
     }
 
-    fn mtl_diffuse(&mut self, written: &MtlMaterial) -> Result<ColorInput, SceneError> {
+    pub(super) fn mtl_diffuse(&mut self, written: &MtlMaterial) -> Result<ColorInput, SceneError> {
         let tint = colour(written.material.diffuse);
         let tint = tint.map(|tint| self.at_most_one(written, "Kd", tint));
         match written.material.diffuse_texture.clone() {
-            Some(map) => self.mtl_texture(written, "map_Kd", &map, tint),
+            Some(map) => self.mtl_texture(written, "map_Kd", &map, tint, None),
             None => Ok(tint.map_or(ColorInput::grey(0.8), ColorInput::Constant)),
         }
     }
@@ -167,7 +177,7 @@ impl Resolver<'_> {
         let factor = colour(written.material.emissive);
         let radiance = match (written.material.unknown_param.get("map_Ke").cloned(), factor) {
             (_, Some(factor)) if factor.max_element() == 0.0 => return Ok(None),
-            (Some(map), factor) => self.mtl_texture(written, "map_Ke", &map, factor)?,
+            (Some(map), factor) => self.mtl_texture(written, "map_Ke", &map, factor, None)?,
             (None, Some(factor)) => ColorInput::Constant(factor),
             (None, None) => return Ok(None),
         };
@@ -175,12 +185,13 @@ impl Resolver<'_> {
     }
 
     /// Magenta stands for a picture that cannot be read.
-    fn mtl_texture(
+    pub(super) fn mtl_texture(
         &mut self,
         written: &MtlMaterial,
         key: &str,
         map: &str,
         tint: Option<DVec3>,
+        space: Option<ColorSpace>,
     ) -> Result<ColorInput, SceneError> {
         let of_material = |message: String| format!("the material `{}`: {key}: {message}", written.material.name);
         let folder = written.file.parent().unwrap_or(Path::new(""));
@@ -190,7 +201,7 @@ impl Resolver<'_> {
         if found.is_some_and(|found| found.is_substitute) {
             self.warn(written, &of_material(format!("there is no {}; {} is taken", map.file, show(&path))));
         }
-        let image = match self.picture(&path, None) {
+        let image = match self.picture(&path, space) {
             Ok((image, _)) => image,
             Err(reason) => {
                 let advice = formats::unread_picture(&path).map_or_else(String::new, |advice| format!(" ({advice})"));
@@ -213,8 +224,9 @@ impl Resolver<'_> {
                 scale: map.scale,
             }),
             transform: UvTransform { offset: map.offset, ..UvTransform::default() },
+            relief: Relief::default(),
         });
-        self.linear_textures.push(false);
+        self.linear_textures.push(space == Some(ColorSpace::Linear));
         Ok(match tint {
             Some(tint) if tint != DVec3::ONE => ColorInput::ScaledTexture(texture, tint),
             _ => ColorInput::Texture(texture),
@@ -241,7 +253,7 @@ impl Resolver<'_> {
         colour.min(DVec3::ONE)
     }
 
-    fn warn(&mut self, written: &MtlMaterial, what: &str) {
+    pub(super) fn warn(&mut self, written: &MtlMaterial, what: &str) {
         self.scene.warnings.push(format!("{}: {what}", show(&written.file)));
     }
 }

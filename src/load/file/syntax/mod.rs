@@ -136,6 +136,9 @@ pub struct CameraTable {
     pub projection: Option<Located<ProjectionName>>,
     /// Height of the window in scene units; with `projection = "orthographic"`.
     pub height: Option<Located<Checked<Positive>>>,
+    /// How far the picture's middle lies to the right of the camera's axis and above it, in widths and heights of the picture; [0, 0] when left
+    /// out.
+    pub shift: Option<Exactly<Number, 2>>,
     /// The lens opening; a pinhole when left out.
     pub aperture: Option<Located<ApertureEntry>>,
     /// Distance along the viewing direction of the plane in focus; needed with an aperture.

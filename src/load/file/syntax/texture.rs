@@ -61,6 +61,9 @@ pub enum WrapEntry {
 pub enum TextureFilterEntry {
     Bilinear,
     Nearest,
+    /// Each block of 2 × 2 texels holds the colours of a triangle's corners (upper left, upper right, lower left), which are interpolated as over
+    /// the triangle: vertex colours.
+    Triangle,
 }
 
 /// Two colours in squares.

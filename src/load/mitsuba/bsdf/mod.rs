@@ -11,7 +11,7 @@ mod wrapped;
 
 use std::rc::Rc;
 
-use self::keyed::{Keyed, Parts};
+use self::keyed::{Keyed, Parts, without_relief};
 use super::converter::Converter;
 use super::input::Input;
 use super::plugin::Plugin;
@@ -75,7 +75,7 @@ impl Converter<'_> {
 
     /// The material of a BSDF, made once.
     fn bsdf(&mut self, plugin: &Rc<Plugin>, depth: usize) -> Result<usize, SceneError> {
-        let key = (Rc::as_ptr(plugin), self.both_sides);
+        let key = (Rc::as_ptr(plugin), self.both_sides, self.attributes.as_ref().map(|(mesh, _)| *mesh));
         if let Some(made) = self.materials.get(&key) {
             return Ok(*made);
         }
@@ -147,27 +147,20 @@ impl Converter<'_> {
         let mut maps = Vec::new();
         for part in &within {
             let made = self.bsdf(part, depth + 1)?;
-            let keys = self.scene.materials[made].keys.clone();
-            let map = keys.get("normal_map").cloned();
-            parts.names.push(match &map {
-                None => Value::Text(self.name_of(made)),
-                Some(_) => {
-                    let name = format!("{}, as it lies", keys.text("name").unwrap_or_default());
-                    self.extra(
-                        part,
-                        &name,
-                        Keys(keys.0.into_iter().filter(|(key, _)| !["name", "normal_map"].contains(key)).collect()),
-                    )
-                }
+            let (relief, others) = without_relief(self.scene.materials[made].keys.clone());
+            let name = self.name_of(made);
+            parts.names.push(match relief.is_empty() {
+                true => Value::Text(name),
+                false => self.extra(part, &format!("{name}, as it lies"), others),
             });
-            maps.push(map);
+            maps.push(relief);
         }
         match &maps[..] {
-            [first, rest @ ..] if rest.iter().all(|map| map == first) => parts.normal_map = first.clone(),
+            [first, rest @ ..] if rest.iter().all(|map| map == first) => parts.relief = first.clone(),
             _ => {}
         }
-        if parts.normal_map.is_none() && maps.iter().any(Option::is_some) {
-            self.drop(plugin, "normal map of one part of a blend", "the part lies as the surface does");
+        if parts.relief.is_empty() && maps.iter().any(|map| !map.is_empty()) {
+            self.drop(plugin, "map of normals or heights of one part of a blend", "the part lies as the surface does");
         }
         Ok(parts)
     }

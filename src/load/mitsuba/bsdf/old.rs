@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::dielectric::relative_ior;
-use super::keyed::Keyed;
+use super::keyed::{Keyed, with_relief};
 use crate::load::error::SceneError;
 use crate::load::import::Keys;
 use crate::load::mitsuba::converter::Converter;
@@ -38,11 +38,6 @@ pub fn coating(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> 
     converter.approximate(plugin, &what, "a mirror over what is below, blended by Fresnel's equations");
     let coat = converter.extra(plugin, "coat", Keys::of_type("mirror").with("reflectance", specular.value()));
     let weight = Keys::of_type("fresnel").with("ior", ior).with("exact", true);
-    Ok((
-        Keys::of_type("blend")
-            .with("materials", vec![base, coat])
-            .with("weight", weight)
-            .with_some("normal_map", parts.normal_map),
-        false,
-    ))
+    let keys = Keys::of_type("blend").with("materials", vec![base, coat]).with("weight", weight);
+    Ok((with_relief(keys, parts.relief), false))
 }

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use glam::DVec3;
 
-use super::keyed::{Keyed, Parts};
+use super::keyed::{Keyed, Parts, with_relief};
 use super::principled::{blended, weight};
 use crate::load::error::SceneError;
 use crate::load::import::{Keys, Value};
@@ -36,14 +36,21 @@ pub fn mask(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Res
     let parts = converter.parts(plugin, depth)?;
     let Some(part) = parts.names.into_iter().next() else { return Err(plugin.error("a mask needs a bsdf within")) };
     let behind = converter.extra(plugin, "what is behind", Keys::of_type("pass"));
-    Ok((blended(part, behind, &opacity).with_some("normal_map", parts.normal_map), false))
+    Ok((with_relief(blended(part, behind, &opacity), parts.relief), false))
 }
 
 pub fn bump_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
-    plugin.without_effect(&["scale"]);
-    plugin.first_of("texture");
-    converter.drop(plugin, "bsdf `bumpmap`", "the surface is smooth");
-    converter.within(plugin, depth)
+    let scale = plugin.number_or("scale", 1.0)?;
+    let map = plugin.first_of("texture").cloned().ok_or_else(|| plugin.error("a bump map needs a texture within"))?;
+    let (keys, two_sided) = converter.within(plugin, depth)?;
+    if keys.get("normal_map").is_some() || keys.get("bump_map").is_some() {
+        converter.drop(plugin, "bump map around another map of normals", "the inner map counts");
+        return Ok((keys, two_sided));
+    }
+    Ok(match converter.texture(&map, Role::Surface, Texels::Numbers)? {
+        Input::Texture(name, factor) => (keys.with("bump_map", name).with("bump_scale", scale * factor.x), two_sided),
+        Input::Constant(_) => (keys, two_sided),
+    })
 }
 
 pub fn normal_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
@@ -61,7 +68,7 @@ pub fn blend(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Re
     let share = converter.scalar(plugin, "weight", 0.5)?;
     let parts = converter.parts(plugin, depth)?;
     match &parts.names[..] {
-        [first, second] => Ok((blended(second.clone(), first.clone(), &share).with_some("normal_map", parts.normal_map), false)),
+        [first, second] => Ok((with_relief(blended(second.clone(), first.clone(), &share), parts.relief), false)),
         others => Err(plugin.error(format!("a blend has two bsdfs within, and this one {}", others.len()))),
     }
 }
@@ -70,7 +77,7 @@ pub fn blend(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Re
 pub fn mixture(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
     let text = plugin.text("weights")?.ok_or_else(|| plugin.error("a mixture needs the string `weights`"))?;
     let weights = crate::load::mitsuba::transform::numbers(&plugin.place, text)?;
-    let Parts { names, normal_map } = converter.parts(plugin, depth)?;
+    let Parts { names, relief } = converter.parts(plugin, depth)?;
     let sum: f64 = weights.iter().sum();
     if weights.len() != names.len() || names.is_empty() || weights.iter().any(|weight| *weight < 0.0) || sum > 1.0 + 1e-6 {
         return Err(plugin.error("a mixture has a weight from 0 to 1 for each bsdf within, at most 1 in all"));
@@ -93,7 +100,7 @@ pub fn mixture(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> 
         keys = Some(made);
     }
     match keys {
-        Some(keys) => Ok((keys.with_some("normal_map", normal_map), false)),
+        Some(keys) => Ok((with_relief(keys, relief), false)),
         None => converter.within(plugin, depth),
     }
 }

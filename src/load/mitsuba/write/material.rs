@@ -24,6 +24,17 @@ impl Writer<'_> {
             }
             None => bsdf,
         };
+        if number(material, "normal_scale").is_some_and(|scale| scale != 1.0) {
+            self.drop("normal_scale", &place, "the map is as strong as it is");
+        }
+        let bsdf = match text(material, "bump_map") {
+            Some(texture) => {
+                let map = self.texture(texture, "bump", true)?;
+                let scale = number(material, "bump_scale").unwrap_or(1.0);
+                Element::new("bsdf", "bumpmap").float("scale", scale).with(map).with(bsdf)
+            }
+            None => bsdf,
+        };
         let one_sided = flag(material, "two_sided") == Some(false) && kind != "emissive";
         // A blend of see-through parts cannot be two-sided there.
         let bsdf = if is_transparent || one_sided || self.lets_light_through(material, 0) {

@@ -6,6 +6,7 @@ use std::collections::HashSet;
 
 use crate::packed::environment::PackedMap;
 use crate::packed::hierarchy::Traversal;
+use crate::packed::light::LightKind;
 use crate::packed::material::BLEND;
 use crate::packed::tables::Tables;
 use crate::packed::{NONE, PackedScene};
@@ -325,6 +326,13 @@ impl Kernel<'_> {
             for light in [entry, alias] {
                 let flags = self.light_word(light, 0)?[0];
                 let [attributes, material] = [self.light_word(light, 3)?[3], self.light_word(light, 4)?[3]];
+                // What a delta light throws.
+                if LightKind::DELTA.iter().any(|&kind| kind as u32 == flags & 255) {
+                    let texture = self.light_word(light, 3)?[3];
+                    if texture != NONE {
+                        self.texture(texture)?;
+                    }
+                }
                 if flags & 1024 != 0 {
                     let motion = self.attribute(attributes)?;
                     self.motion(motion)?;

@@ -11,7 +11,7 @@ use crate::scene::{
     BlendWeight, Channel, ChannelInput, ColorInput, ColorSpace, ConductorFresnel, Cuboid, Disk, Emission, Environment,
     EnvironmentRadiance, Geometry, Group, ImageData, ImageTexture, Instances, Light, LightChoice, Masking, Material,
     MaterialKind, Mesh, MicrofacetDistribution, Microfacets, Motion, MotionStep, Plane, PlasticInterface, Rectangle, Scene,
-    Shape, Sphere, Texels, Texture, TextureFilter, TextureKind, TextureWrap, Transform,
+    Shape, Sphere, Texels, Texture, TextureFilter, TextureKind, TextureWrap, ThrownPicture, Transform,
 };
 
 /// By name: walked by kernels, and left to the device. Lights are chosen by a tree in the first.
@@ -174,6 +174,13 @@ fn everything() -> Scene {
     scene.shapes[7].material = last;
     scene.shapes[8].material = last;
     scene.lights = delta_light_examples().into_iter().map(|(_, light)| light).collect();
+    for light in &mut scene.lights {
+        match light {
+            Light::Spot(spot) => spot.picture = Some(ThrownPicture { texture: 1, up: DVec3::X }),
+            Light::Projector(projector) => projector.texture = Some(4),
+            _ => {}
+        }
+    }
     let radiance = EnvironmentRadiance::Map(image(5, 3));
     scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees: 30.0, rows: Default::default() }));
     scene

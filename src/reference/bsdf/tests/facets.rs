@@ -76,7 +76,7 @@ fn anisotropy_turns_with_the_tangent() {
             white_metal_of(Facets { alpha: DVec2::new(u, v), distribution, anisotropic, ..Facets::ggx(0.0) })
         };
         let along = |tangent: DVec3| {
-            let tangents = crate::reference::intersect::Tangents { along_u: tangent, along_v: tangent };
+            let tangents = crate::reference::intersect::Tangents::along(tangent, tangent);
             View::new(wo, DVec3::Z, DVec3::Z).with_tangents(Some(tangents))
         };
         let mut differs = 0;
@@ -99,7 +99,7 @@ fn anisotropy_turns_with_the_tangent() {
 #[test]
 fn the_narrow_direction_is_the_tangent() {
     let facets = Facets { alpha: DVec2::new(0.05, 0.5), anisotropic: true, ..Facets::ggx(0.0) };
-    let tangents = crate::reference::intersect::Tangents { along_u: DVec3::X, along_v: DVec3::Y };
+    let tangents = crate::reference::intersect::Tangents::along(DVec3::X, DVec3::Y);
     let view = View::new(DVec3::Z, DVec3::Z, DVec3::Z).with_tangents(Some(tangents));
     let lobe = white_metal_of(facets);
     let value = |phi: f64| lobe.evaluate(&view, at_degrees(20.0, phi)).value.x;

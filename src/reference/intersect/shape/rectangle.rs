@@ -66,7 +66,7 @@ impl Element for Quad {
     }
 
     fn tangents(&self, _: Local, _: DVec3) -> Option<Tangents> {
-        Some(Tangents { along_u: if self.reversed { -self.edge_u } else { self.edge_u }, along_v: self.edge_v })
+        Some(Tangents::along(if self.reversed { -self.edge_u } else { self.edge_u }, self.edge_v))
     }
 
     fn sample_area(&self, u1: f64, u2: f64) -> Option<(SurfacePoint, Local)> {

@@ -53,8 +53,7 @@ impl Element for Sphere {
 
     fn tangents(&self, _: Local, normal: DVec3) -> Option<Tangents> {
         let to_world = self.to_local.inverse();
-        tangents(self.own_direction(normal))
-            .map(|own| Tangents { along_u: to_world * own.along_u, along_v: to_world * own.along_v })
+        tangents(self.own_direction(normal)).map(|own| Tangents::along(to_world * own.along_u, to_world * own.along_v))
     }
 
     fn sample(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3, u1: f64, u2: f64) -> Option<Direction> {
@@ -178,8 +177,7 @@ fn uv(direction: DVec3) -> DVec2 {
 fn tangents(direction: DVec3) -> Option<Tangents> {
     let DVec3 { x, y, z } = direction;
     let radius = x.hypot(z);
-    (radius > 0.0)
-        .then(|| Tangents { along_u: DVec3::new(-z, 0.0, x), along_v: DVec3::new(-y * x / radius, radius, -y * z / radius) })
+    (radius > 0.0).then(|| Tangents::along(DVec3::new(-z, 0.0, x), DVec3::new(-y * x / radius, radius, -y * z / radius)))
 }
 
 /// 1 − cosθ from sin²θ, without cancellation.
@@ -206,7 +204,7 @@ mod tests {
     #[test]
     fn tangents_follow_the_coordinates() {
         for direction in [DVec3::new(0.3, 0.5, -0.8), DVec3::new(-0.6, -0.7, 0.1)].map(DVec3::normalize) {
-            let Tangents { along_u, along_v } = tangents(direction).expect("this is no pole");
+            let Tangents { along_u, along_v, .. } = tangents(direction).expect("this is no pole");
             let change = |along: DVec3| {
                 let uv = |w: DVec3| super::uv(w.normalize());
                 (uv(direction + along * 1e-6) - uv(direction - along * 1e-6)) / 2e-6

@@ -1,0 +1,90 @@
+//! What every light gives the layers that it goes through.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::scene::check::{Check, is_amount};
+use crate::scene::image::ImageData;
+use crate::scene::texture::TextureId;
+
+/// What a scene needs to know of a light, whatever its kind.
+pub trait SceneLight {
+    /// What is wrong with it, in words.
+    fn check(&self) -> Check;
+
+    /// Moves it by an offset, with all of the scene.
+    fn translate(&mut self, _offset: DVec3) {}
+
+    /// Its picture, if it has one.
+    fn image_mut(&mut self) -> Option<&mut Arc<ImageData>> {
+        None
+    }
+
+    /// The same to look at.
+    fn image(&self) -> Option<&ImageData> {
+        None
+    }
+
+    /// The texture that it throws, if it does.
+    fn texture(&self) -> Option<TextureId> {
+        None
+    }
+}
+
+/// By what a light is weighed among all that are sampled.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LightStrength {
+    /// Luminous power, of a light inside the scene.
+    Power(f64),
+    /// The irradiance that a light at infinity could make.
+    Irradiance(f64),
+}
+
+impl LightStrength {
+    /// The light gives any.
+    pub fn is_positive(self) -> bool {
+        let (Self::Power(strength) | Self::Irradiance(strength)) = self;
+        strength > 0.0
+    }
+}
+
+/// A light to which one direction leads from each point.
+pub trait DeltaLight {
+    fn parameters(&self) -> LightParameters;
+}
+
+/// What samplers and shaders know of a delta light, in the slots that the device's tables have for it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LightParameters {
+    pub strength: LightStrength,
+    /// Radiant intensity, or the irradiance of a light at infinity.
+    pub color: DVec3,
+    /// Nothing of a light at infinity.
+    pub position: DVec3,
+    /// The direction that it shines in, and the angles from there, in radians, up to which it is full and at which it ends. None: it
+    /// shines in all directions.
+    pub cone: Option<(DVec3, [f64; 2])>,
+    /// What else its shader reads.
+    pub vectors: [DVec3; 2],
+    /// One number more.
+    pub number: f64,
+    /// Which of the forms of its kind it has, from 0 to 3.
+    pub form: u32,
+}
+
+impl LightParameters {
+    /// Of the only form of its kind, shining in all directions, with nothing else to read.
+    pub fn new(strength: LightStrength, color: DVec3, position: DVec3) -> Self {
+        Self { strength, color, position, cone: None, vectors: [DVec3::ZERO; 2], number: 0.0, form: 0 }
+    }
+}
+
+pub fn amounts(lights: &[DVec3]) -> Check {
+    let possible = lights.iter().copied().all(is_amount);
+    if possible { Ok(()) } else { Err("its light must be finite and not negative".to_owned()) }
+}
+
+pub fn placed(possible: bool) -> Check {
+    if possible { Ok(()) } else { Err("its position must be finite and its direction of length 1".to_owned()) }
+}

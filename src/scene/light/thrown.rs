@@ -1,0 +1,183 @@
+//! Lights from one point that shine into a part of the directions: cones and pictures.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::model::{DeltaLight, LightParameters, LightStrength, SceneLight, amounts, placed};
+use crate::math::{Frame, luminance};
+use crate::scene::check::{Check, is_direction};
+use crate::scene::texture::TextureId;
+
+/// A point light cut to a cone: full `intensity` inside `falloff_degrees` of the axis, none past `angle_degrees`, between them as its curve
+/// says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpotLight {
+    pub position: DVec3,
+    pub direction: DVec3,
+    pub intensity: DVec3,
+    pub angle_degrees: f64,
+    pub falloff_degrees: f64,
+    pub curve: FalloffCurve,
+    /// What multiplies the intensity: a picture that fills the square around the cone.
+    pub picture: Option<ThrownPicture>,
+}
+
+/// How the intensity of a spot light falls from 1 to 0 between its two angles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum FalloffCurve {
+    /// t²(3 − 2t), t in proportion to the cosine.
+    #[default]
+    Smooth,
+    /// t², t in proportion to the cosine, as in glTF.
+    Square,
+    /// In proportion to the angle, as in Mitsuba.
+    Linear,
+}
+
+/// A texture that a light throws.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ThrownPicture {
+    pub texture: TextureId,
+    /// Where the texture's v grows to, as far as it is across the light's direction; u grows to the right, as seen from the light.
+    pub up: DVec3,
+}
+
+/// The turn of a picture's frame about the axis of a light, against [`Frame::around`] of that axis: cosine and sine. `x` to the right and `y` up
+/// are x = c·a + s·b and y = s·a − c·b of coordinates a and b along that frame's tangent and bitangent.
+pub fn picture_turn(direction: DVec3, up: DVec3) -> [f64; 2] {
+    let frame = Frame::around(direction);
+    let right = direction.cross(up).normalize_or(frame.tangent);
+    [right.dot(frame.tangent), right.dot(frame.bitangent)]
+}
+
+/// A texture's v grows somewhere across this direction.
+fn has_up(direction: DVec3, up: DVec3) -> bool {
+    up.is_finite() && direction.cross(up).length() > 1e-6 * up.length()
+}
+
+impl SpotLight {
+    /// The integral of the linear falloff over the cosine of the angle.
+    fn linear_share(&self) -> f64 {
+        let [outer, inner] = [self.angle_degrees, self.falloff_degrees].map(f64::to_radians);
+        if outer > inner { 1.0 - (outer.sin() - inner.sin()) / (outer - inner) } else { 1.0 - outer.cos() }
+    }
+}
+
+impl SceneLight for SpotLight {
+    fn check(&self) -> Check {
+        placed(self.position.is_finite() && is_direction(self.direction))?;
+        let (falloff, angle) = (self.falloff_degrees, self.angle_degrees);
+        if !(0.0 <= falloff && falloff <= angle && angle <= 180.0) {
+            return Err(format!("its light falls off from {falloff} to {angle} degrees"));
+        }
+        if let Some(picture) = &self.picture {
+            placed(has_up(self.direction, picture.up))?;
+            if !(angle > 0.0 && angle < 90.0) {
+                return Err(format!("its picture fills a cone of {angle} degrees"));
+            }
+        }
+        amounts(&[self.intensity])
+    }
+
+    fn translate(&mut self, offset: DVec3) {
+        self.position += offset;
+    }
+
+    fn texture(&self) -> Option<TextureId> {
+        self.picture.map(|picture| picture.texture)
+    }
+}
+
+/// Forms of a spot light, for shaders: those of [`FalloffCurve`].
+pub const FALLOFF_SQUARE: u32 = 1;
+/// Its angles are whole turns.
+pub const FALLOFF_LINEAR: u32 = 2;
+
+/// Vectors: the axis; then 1 − cosine of the angle at which the light ends, and of the one up to which it is full. Written that way, narrow cones
+/// keep their precision. A linear falloff has the angles themselves, in whole turns. Last, and as the number, the turn of the picture. The
+/// smooth step between the angles has the mean ½ over the solid angle, the square ⅓.
+impl DeltaLight for SpotLight {
+    fn parameters(&self) -> LightParameters {
+        let solid = |angle: f64| 2.0 * (0.5 * angle).to_radians().sin().powi(2);
+        let [outer, inner] = [self.angle_degrees, self.falloff_degrees].map(solid);
+        let (form, power) = match self.curve {
+            FalloffCurve::Smooth => (0, PI * (outer + inner)),
+            FalloffCurve::Square => (FALLOFF_SQUARE, 2.0 * PI * (inner + (outer - inner) / 3.0)),
+            FalloffCurve::Linear => (FALLOFF_LINEAR, 2.0 * PI * self.linear_share()),
+        };
+        let limits = if self.curve == FalloffCurve::Linear {
+            [self.angle_degrees / 360.0, self.falloff_degrees / 360.0]
+        } else {
+            [outer, inner]
+        };
+        let [cosine, sine] = self.picture.map_or([1.0, 0.0], |picture| picture_turn(self.direction, picture.up));
+        LightParameters {
+            cone: Some((self.direction, [self.falloff_degrees, self.angle_degrees].map(f64::to_radians))),
+            vectors: [self.direction, DVec3::new(limits[0], limits[1], cosine)],
+            number: sine,
+            form,
+            ..LightParameters::new(LightStrength::Power(power * luminance(self.intensity)), self.intensity, self.position)
+        }
+    }
+}
+
+/// A light from one point that throws a rectangular picture: on a plane across its direction at distance 1, which faces it, the picture makes
+/// `irradiance` times the texture's colour.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Projector {
+    pub position: DVec3,
+    pub direction: DVec3,
+    /// Where the picture's upper edge is, as far as that is across the direction.
+    pub up: DVec3,
+    pub irradiance: DVec3,
+    /// Of the whole picture.
+    pub vertical_fov_degrees: f64,
+    /// Width of the picture over its height.
+    pub aspect: f64,
+    /// None: all of the picture is white.
+    pub texture: Option<TextureId>,
+}
+
+impl Projector {
+    /// Half the picture's width and height at distance 1.
+    pub fn half_extent(&self) -> [f64; 2] {
+        let half_height = (0.5 * self.vertical_fov_degrees).to_radians().tan();
+        [half_height * self.aspect, half_height]
+    }
+}
+
+impl SceneLight for Projector {
+    fn check(&self) -> Check {
+        placed(self.position.is_finite() && is_direction(self.direction) && has_up(self.direction, self.up))?;
+        let fov = self.vertical_fov_degrees;
+        if !(fov > 0.0 && fov < 180.0 && self.aspect.is_finite() && self.aspect > 0.0) {
+            return Err(format!("its picture is {fov} degrees high and {} times as wide", self.aspect));
+        }
+        amounts(&[self.irradiance])
+    }
+
+    fn translate(&mut self, offset: DVec3) {
+        self.position += offset;
+    }
+
+    fn texture(&self) -> Option<TextureId> {
+        self.texture
+    }
+}
+
+/// Vectors: the axis; then half of 1 over half the width and half the height of the picture at distance 1, and, with the number, the turn of the
+/// picture. The power of the picture is its area at distance 1 times the irradiance.
+impl DeltaLight for Projector {
+    fn parameters(&self) -> LightParameters {
+        let [half_width, half_height] = self.half_extent();
+        let [cosine, sine] = picture_turn(self.direction, self.up);
+        let power = 4.0 * half_width * half_height * luminance(self.irradiance);
+        LightParameters {
+            cone: Some((self.direction, [half_width.hypot(half_height).atan(); 2])),
+            vectors: [self.direction, DVec3::new(0.5 / half_width, 0.5 / half_height, cosine)],
+            number: sine,
+            ..LightParameters::new(LightStrength::Power(power), self.irradiance, self.position)
+        }
+    }
+}
