@@ -3,6 +3,9 @@
 #if TEXTURES_OF_TRIANGLES
 #import core/math.wgsl
 #endif
+#if BUMP_MAPS
+#import core/math.wgsl
+#endif
 #import geometry/texels.wgsl
 
 struct Image {
@@ -140,3 +143,27 @@ fn image_color(image: Image, st: vec2<f32>) -> vec3<f32> {
     return select(between, left, is_nearest);
 #endif
 }
+
+#if BUMP_MAPS
+// How the luminance changes there: of the bilinear interpolation between the four texels around, or of the plane of a triangle.
+fn image_gradient(image: Image, st: vec2<f32>) -> vec2<f32> {
+    let size = vec2<f32>(image.size);
+    let position = vec2<f32>(st.x, 1.0 - st.y) * size;
+    let corner = floor(position - 0.5);
+    var blend = position - 0.5 - corner;
+#if TEXTURES_OF_TRIANGLES
+    blend = select(blend, vec2<f32>(0.0), (image.flags & TEXTURE_TRIANGLES) != 0u);
+#endif
+    let wrap = (image.flags >> WRAP_SHIFT) & 3u;
+    // Upper left, upper right, lower left and lower right.
+    var heights = vec4<f32>(0.0);
+    for (var number = 0; number < 4; number++) {
+        let x = wrapped_texel(i32(corner.x) + (number & 1), image.size.x, wrap);
+        let y = wrapped_texel(i32(corner.y) + (number >> 1u), image.size.y, wrap);
+        heights[number] = luminance(texel(image, x, y));
+    }
+    let across = heights.yw - heights.xz;
+    let down = heights.zw - heights.xy;
+    return size * vec2<f32>(mix(across.x, across.y, blend.y), -mix(down.x, down.y, blend.x));
+}
+#endif

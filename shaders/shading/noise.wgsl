@@ -44,6 +44,40 @@ fn perlin_noise(position: vec2<f32>, octaves: u32, seed: u32) -> f32 {
     }
     return 1.41421356 * sum / max(total, 1.0e-30);
 }
+
+#if BUMP_MAPS
+// One of eight unit gradients.
+fn lattice_gradient(cell: vec2<i32>, seed: u32) -> vec2<f32> {
+    return vec2<f32>(gradient_dot(cell, seed, vec2<f32>(1.0, 0.0)), gradient_dot(cell, seed, vec2<f32>(0.0, 1.0)));
+}
+
+// How that noise changes with the position. Each octave adds as much as the first: it is half as high and twice as fine as the one before.
+fn perlin_gradient(position: vec2<f32>, octaves: u32, seed: u32) -> vec2<f32> {
+    var p = position;
+    var amplitude = 1.0;
+    var sum = vec2<f32>(0.0);
+    var total = 0.0;
+    for (var octave = 0u; octave < octaves; octave++) {
+        let corner = floor(p);
+        let f = p - corner;
+        let cell = vec2<i32>(corner);
+        let fade = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+        let fade_slope = 30.0 * f * f * (1.0 - f) * (1.0 - f);
+        for (var corner_index = 0; corner_index < 4; corner_index++) {
+            let step = vec2<i32>(corner_index & 1, corner_index >> 1u);
+            let is_far = step == vec2<i32>(1);
+            let share = select(1.0 - fade, fade, is_far);
+            let share_slope = select(-fade_slope, fade_slope, is_far);
+            let gradient = lattice_gradient(cell + step, seed);
+            sum += share.x * share.y * gradient + dot(gradient, f - vec2<f32>(step)) * share_slope * share.yx;
+        }
+        total += amplitude;
+        amplitude *= 0.5;
+        p *= 2.0;
+    }
+    return 1.41421356 * sum / max(total, 1.0e-30);
+}
+#endif
 #endif
 
 #if WORLEY
@@ -63,4 +97,28 @@ fn worley_noise(position: vec2<f32>, seed: u32) -> f32 {
     }
     return sqrt(nearest2);
 }
+
+#if BUMP_MAPS
+// How that distance changes with the position: away from the nearest feature point.
+fn worley_gradient(position: vec2<f32>, seed: u32) -> vec2<f32> {
+    let corner = floor(position);
+    let f = position - corner;
+    let cell = vec2<i32>(corner);
+    var nearest2 = 1.0;
+    var nearest = vec2<f32>(0.0);
+    for (var y = -1; y <= 1; y++) {
+        for (var x = -1; x <= 1; x++) {
+            let h = lattice_hash(cell + vec2<i32>(x, y), seed);
+            let feature = vec2<f32>(f32(h >> 16u), f32(h & 0xffffu)) / 65536.0;
+            let offset = vec2<f32>(f32(x), f32(y)) + feature - f;
+            let distance2 = dot(offset, offset);
+            if distance2 < nearest2 {
+                nearest2 = distance2;
+                nearest = offset;
+            }
+        }
+    }
+    return -nearest / sqrt(max(nearest2, 1.0e-30));
+}
+#endif
 #endif

@@ -71,31 +71,35 @@ fn texture_color_at(texture: u32, st: vec2<f32>) -> vec3<f32> {
 }
 
 #if BUMP_MAPS
-// How a texture's luminance changes along u and v. Of an image it is that of the bilinear interpolation between the four texels around; of other
-// textures a difference over a small step. src/reference/texture/gradient.rs is the same in f64.
+// How a texture's luminance changes along u and v. A checker changes in steps alone, and bends no normals.
+// src/reference/texture/gradient.rs is the same in f64.
 fn texture_gradient(texture: u32, uv: vec2<f32>) -> vec2<f32> {
     let st = texture_place(texture, uv);
     let t0 = bitcast<vec4<u32>>(texture_word(texture, 0u));
-    var low = st - GRADIENT_STEP;
-    var high = st + GRADIENT_STEP;
-    if (t0.x & 255u) == TEXTURE_IMAGE {
-        // From the middles of texels to the next ones; rows run down.
-        let size = vec2<f32>(vec2<i32>(t0.zw));
-        let corner = floor(vec2<f32>(st.x, 1.0 - st.y) * size - 0.5);
-        low = (corner + 0.5) / size;
-        high = (corner + 1.5) / size;
-        low.y = 1.0 - low.y;
-        high.y = 1.0 - high.y;
+    var slope = vec2<f32>(0.0);
+    switch t0.x & 255u {
+#if IMAGES
+        case TEXTURE_IMAGE: {
+            return turned_back(texture, image_gradient(Image(t0.x, t0.y, vec2<i32>(t0.zw), bitcast<u32>(texture_word(texture, 4u).z)), st));
+        }
+#endif
+#if PERLIN
+        case TEXTURE_PERLIN: {
+            slope = 0.5 * perlin_gradient(st, t0.z, t0.y);
+        }
+#endif
+#if WORLEY
+        case TEXTURE_WORLEY: {
+            slope = worley_gradient(st, t0.y);
+        }
+#endif
+        default: {}
     }
-    // The code of a look-up stands there once.
-    var heights = vec4<f32>(0.0);
-    for (var number = 0; number < 4; number++) {
-        var at = st;
-        at.x = select(at.x, select(low.x, high.x, number == 1), number < 2);
-        at.y = select(select(low.y, high.y, number == 3), at.y, number < 2);
-        heights[number] = luminance(texture_color_at(texture, at));
-    }
-    let slope = (heights.yw - heights.xz) / (high - low);
+    return turned_back(texture, (luminance(texture_word(texture, 3u).xyz) - luminance(texture_word(texture, 2u).xyz)) * slope);
+}
+
+// How what changes so in the texture itself changes along u and v.
+fn turned_back(texture: u32, slope: vec2<f32>) -> vec2<f32> {
     let scale = texture_word(texture, 1u).xy;
 #if TEXTURE_ROTATION
     let turn = texture_word(texture, 4u).xy;
@@ -104,6 +108,4 @@ fn texture_gradient(texture: u32, uv: vec2<f32>) -> vec2<f32> {
     return scale * slope;
 #endif
 }
-
-const GRADIENT_STEP: f32 = 0.0009765625;
 #endif

@@ -217,6 +217,9 @@ fn check_texture(texture: &Texture) -> Check {
     if !scale.is_finite() {
         return Err("its relief must be finite".into());
     }
+    if let (Relief::Heights(_), TextureKind::Checker { .. }) = (texture.relief, &texture.kind) {
+        return Err("a checker rises in steps: it has no slopes, by which a bump map bends normals".into());
+    }
     let UvTransform { rotation_degrees, offset } = texture.transform;
     if !rotation_degrees.is_finite() || !offset.into_iter().all(f64::is_finite) {
         return Err("its rotation and its offset must be finite".into());

@@ -70,6 +70,11 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
         ("vfov = 40", "", "test.toml:8:11: camera.look_at: the camera needs the key `vfov`"),
         ("radius = 1", "", "test.toml:14:1: shape[0]: the key `radius` is missing"),
         ("spp = 1", "spp = 1\nspp = 2", "test.toml:6:1: duplicate key `spp`"),
+        (
+            "reflectance = 0.5",
+            "reflectance = 0.5\nbump_map = \"c\"\n[[texture]]\nname = \"c\"\ntype = \"checker\"\na = 0\nb = 1",
+            "test.toml:14:12: material[0].bump_map: the checker `c` rises in steps, and has no slopes for a bump map: take an image or noise",
+        ),
         // Wrong types.
         (
             "spp = 1",

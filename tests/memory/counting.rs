@@ -69,6 +69,11 @@ impl Peak {
     pub fn bytes(&self) -> usize {
         MOST.load(Ordering::Relaxed).saturating_sub(self.before)
     }
+
+    /// Those that are still in use.
+    pub fn bytes_now(&self) -> usize {
+        IN_USE.load(Ordering::Relaxed).saturating_sub(self.before)
+    }
 }
 
 #[test]

@@ -7,5 +7,8 @@ mod random;
 
 mod counting;
 mod growth;
+mod hostile;
 mod hostile_files;
+mod hostile_imports;
 mod large_pictures;
+mod many_files;

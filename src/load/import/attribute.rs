@@ -83,7 +83,8 @@ mod tests {
         let place = Vec2::new(uv.x * width as f32, (1.0 - uv.y) * height as f32) - 0.5;
         let low = (place + 1e-3).floor();
         let texel = |x: usize, y: usize| {
-            let [red, green, blue, _] = image.texels.get((low.y as usize + y).min(height - 1) * width + (low.x as usize + x).min(width - 1));
+            let [red, green, blue, _] =
+                image.texels.get((low.y as usize + y).min(height - 1) * width + (low.x as usize + x).min(width - 1));
             Vec3::new(red, green, blue)
         };
         let (first, part) = (texel(0, 0), place - low);

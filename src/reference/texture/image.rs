@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec4};
 
+use crate::math::luminance;
 use crate::scene::{ImageData, ImageTexture, TextureFilter, TextureWrap};
 
 /// Red, green, blue and alpha at `uv`. Texel centres are at half-integers; v points up, rows run down.
@@ -29,6 +30,21 @@ pub fn sample(texture: &ImageTexture, uv: DVec2) -> [f64; 4] {
             (first + along).clamp(first.min(second).min(third), first.max(second).max(third)).to_array()
         }
     }
+}
+
+/// How the luminance at `uv` changes with it: of the bilinear interpolation between the four texels around, or of the plane of a triangle.
+pub fn luminance_gradient(texture: &ImageTexture, uv: DVec2) -> DVec2 {
+    let image = &*texture.image;
+    let size = DVec2::new(f64::from(image.width), f64::from(image.height));
+    let position = DVec2::new(uv.x, 1.0 - uv.y) * size;
+    let low = (position - 0.5).floor();
+    let is_triangle = texture.filter == TextureFilter::Triangle;
+    let fraction = if is_triangle { DVec2::ZERO } else { position - 0.5 - low };
+    let height = |x: f64, y: f64| luminance(texel(image, texture.wrap, low + DVec2::new(x, y)).truncate());
+    let [h00, h10, h01, h11] = [height(0.0, 0.0), height(1.0, 0.0), height(0.0, 1.0), height(1.0, 1.0)];
+    let right = (h10 - h00) + fraction.y * ((h11 - h01) - (h10 - h00));
+    let down = (h01 - h00) + fraction.x * ((h11 - h10) - (h01 - h00));
+    DVec2::new(right, -down) * size
 }
 
 fn texel(image: &ImageData, wrap: TextureWrap, position: DVec2) -> DVec4 {

@@ -38,6 +38,35 @@ pub fn share(point: DVec2, octaves: u32, seed: u32) -> f64 {
     (0.5 * (sum / amplitudes + 1.0)).clamp(0.0, 1.0)
 }
 
+/// How [`share`] changes with the place. Each octave adds as much as the first: it is half as high and twice as fine as the one before.
+pub fn gradient(point: DVec2, octaves: u32, seed: u32) -> DVec2 {
+    let (mut sum, mut amplitudes, mut amplitude, mut frequency) = (DVec2::ZERO, 0.0, 1.0, 1.0);
+    for _ in 0..octaves.clamp(1, MOST_OCTAVES) {
+        sum += noise_gradient(point * frequency, seed);
+        amplitudes += amplitude;
+        amplitude *= 0.5;
+        frequency *= 2.0;
+    }
+    0.5 * sum / amplitudes
+}
+
+/// How [`noise`] changes with the place: the gradients at the corners, interpolated, and what the change of the weights makes of the
+/// differences between the corners.
+fn noise_gradient(point: DVec2, seed: u32) -> DVec2 {
+    let ([x, y], place) = cell_of(point);
+    let corner = |right: i64, up: i64| {
+        let bits = lattice_bits(x.wrapping_add(right), y.wrapping_add(up), seed);
+        let gradient = GRADIENTS[(bits >> 29) as usize];
+        (gradient, gradient.dot(place - DVec2::new(right as f64, up as f64)))
+    };
+    let [(g00, h00), (g10, h10), (g01, h01), (g11, h11)] = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
+    let weight = DVec2::new(fade(place.x), fade(place.y));
+    let gradients = g00.lerp(g10, weight.x).lerp(g01.lerp(g11, weight.x), weight.y);
+    let differences =
+        DVec2::new((h10 - h00) + weight.y * ((h11 - h01) - (h10 - h00)), (h01 - h00) + weight.x * ((h11 - h10) - (h01 - h00)));
+    SQRT_2 * (gradients + DVec2::new(fade_slope(place.x), fade_slope(place.y)) * differences)
+}
+
 /// In [−1, 1]; 0 at the lattice points.
 fn noise(point: DVec2, seed: u32) -> f64 {
     let ([x, y], place) = cell_of(point);
@@ -57,6 +86,11 @@ fn noise(point: DVec2, seed: u32) -> f64 {
 /// 6t⁵ − 15t⁴ + 10t³: from 0 to 1, first and second derivative 0 at both ends.
 fn fade(t: f64) -> f64 {
     t * t * t * (t * (t * 6.0 - 15.0) + 10.0)
+}
+
+/// The derivative of [`fade`]: 30t²(1 − t)².
+fn fade_slope(t: f64) -> f64 {
+    30.0 * (t * (1.0 - t)).powi(2)
 }
 
 #[cfg(test)]

@@ -9,14 +9,25 @@ use super::lattice::{cell_of, lattice_bits};
 /// Every lattice cell has one: at x = upper half of [`lattice_bits`] / 2¹⁶ and y = lower half / 2¹⁶ from the cell's corner. Points
 /// outside the 3 × 3 cells around the looked-up one are farther than 1.
 pub fn share(point: DVec2, seed: u32) -> f64 {
+    nearest(point, seed).map_or(1.0, DVec2::length)
+}
+
+/// How [`share`] changes with the place: away from the nearest feature point.
+pub fn gradient(point: DVec2, seed: u32) -> DVec2 {
+    nearest(point, seed).map_or(DVec2::ZERO, |offset| -offset.normalize_or_zero())
+}
+
+/// From the point to the nearest feature point, where that is closer than 1.
+fn nearest(point: DVec2, seed: u32) -> Option<DVec2> {
     let ([x, y], place) = cell_of(point);
-    let squared_distance = |right: i64, up: i64| {
+    let offset = |right: i64, up: i64| {
         let bits = lattice_bits(x.wrapping_add(right), y.wrapping_add(up), seed);
         let feature = DVec2::new(f64::from(bits >> 16), f64::from(bits & 0xffff)) / 65_536.0;
-        (DVec2::new(right as f64, up as f64) + feature - place).length_squared()
+        DVec2::new(right as f64, up as f64) + feature - place
     };
     let cells = (-1..=1).flat_map(|up| (-1..=1).map(move |right| (right, up)));
-    cells.map(|(right, up)| squared_distance(right, up)).fold(1.0, f64::min).sqrt()
+    let offsets = cells.map(|(right, up)| offset(right, up)).filter(|offset| offset.length_squared() < 1.0);
+    offsets.min_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))
 }
 
 #[cfg(test)]

@@ -345,7 +345,7 @@ fn what_is_wrong_is_told_with_its_line() {
 }
 
 /// Two triangles with colours of their vertices and numbers of their faces.
-pub const PAINTED: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n\
+const PAINTED: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n\
     property uchar green\nproperty uchar blue\nelement face 2\nproperty list uchar int vertex_indices\nproperty float weight_0\nend_header\n\
     -1 -1 0 255 0 0\n1 -1 0 0 255 0\n1 1 0 0 0 255\n-1 1 0 255 255 0\n3 0 1 2 0.25\n3 0 2 3 0.75\n";
 
@@ -409,18 +409,21 @@ fn crops_and_principal_points_shift_the_picture() {
     assert_eq!(read("", "").shift, [0.0, 0.0]);
 }
 
+/// A picture of heights.
+const HAMMERED: &[u8] = include_bytes!("../../../scenes/textures/hammered.png");
+
 /// Bump maps, and textures that lights throw, are read without a word; the picture is that of the scene file written from it.
 #[test]
 fn bumps_and_thrown_pictures_are_exact() {
     let xml = with(
-        r#"<shape type="rectangle"><bsdf type="bumpmap"><texture type="checkerboard"/><float name="scale" value="0.1"/>
+        r#"<shape type="rectangle"><bsdf type="bumpmap"><texture type="bitmap"><string name="filename" value="h.png"/></texture><float name="scale" value="0.1"/>
           <bsdf type="diffuse"/></bsdf></shape>
         <emitter type="spot"><texture name="texture" type="checkerboard"/><transform name="to_world">
           <lookat origin="0 0 3" target="0 0 0" up="0 1 0"/></transform></emitter>
         <emitter type="projector"><texture name="irradiance" type="checkerboard"/><float name="fov" value="30"/>
           <float name="scale" value="2"/><transform name="to_world"><lookat origin="0 0 3" target="0 0 0" up="0 1 0"/></transform></emitter>"#,
     );
-    let folder = Folder::new(&[("a.xml", xml.as_bytes())]);
+    let folder = Folder::new(&[("a.xml", xml.as_bytes()), ("h.png", HAMMERED)]);
     let scene = folder.valid("a.xml");
     assert_eq!(report(&scene), "");
     let Light::Spot(spot) = &scene.lights[1] else { panic!("no spot") };
@@ -433,4 +436,12 @@ fn bumps_and_thrown_pictures_are_exact() {
     let bumpy = scene.materials.iter().filter_map(|material| material.normal_map).next().expect("a map");
     assert_eq!(scene.textures[bumpy].relief, gpt::scene::Relief::Heights(0.1));
     assert_eq!(picture(&folder.written("a.xml")), picture(&scene));
+}
+
+#[test]
+fn bumps_without_slopes_are_reported() {
+    let scene = read(
+        r#"<shape type="rectangle"><bsdf type="bumpmap"><texture type="checkerboard"/><bsdf type="diffuse"/></bsdf></shape>"#,
+    );
+    assert_eq!(report(&scene), "texture `checkerboard` as a bump map x1: it has steps and no slopes, and bends no normals\n");
 }

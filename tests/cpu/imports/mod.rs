@@ -2,7 +2,6 @@
 
 mod gltf;
 mod mitsuba;
-mod random_faults;
 mod within;
 
 use std::ffi::OsStr;

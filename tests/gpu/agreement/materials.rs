@@ -92,11 +92,15 @@ material = "m"
 "#;
 
 /// By name. A scene gets those it uses: each adds to what the device has to compile.
-const TEXTURES: [(&str, &str); 4] = [
+const TEXTURES: [(&str, &str); 5] = [
     ("checks", "[[texture]]\nname = \"checks\"\ntype = \"checker\"\na = [0.9, 0.2, 0.1]\nb = [0.1, 0.3, 0.8]\nscale = [6, 4]\n"),
     ("clouds", "[[texture]]\nname = \"clouds\"\ntype = \"perlin\"\nscale = 5\noctaves = 4\na = 0\nb = 1\nseed = 3\n"),
     ("cells", "[[texture]]\nname = \"cells\"\ntype = \"worley\"\nscale = 7\na = [1, 0.9, 0.2]\nb = [0, 0.1, 0.4]\nseed = 5\n"),
     ("bumps", "[[texture]]\nname = \"bumps\"\ntype = \"image\"\nfile = \"bumps.png\"\ncolor_space = \"linear\"\n"),
+    (
+        "facets",
+        "[[texture]]\nname = \"facets\"\ntype = \"image\"\nfile = \"bumps.png\"\ncolor_space = \"linear\"\nfilter = \"triangle\"\n",
+    ),
 ];
 
 fn stage(material: &str) -> Scene {
@@ -315,6 +319,8 @@ fn maps_of_heights_and_scaled_normals_agree() {
             "heights of noise",
             "type = \"conductor\"\npreset = \"gold\"\nroughness = 0.4\nbump_map = \"clouds\"\nbump_scale = 0.05",
         ),
+        ("heights of cells", "type = \"diffuse\"\nreflectance = 0.7\nbump_map = \"cells\"\nbump_scale = 0.1"),
+        ("heights of triangles", "type = \"diffuse\"\nreflectance = 0.7\nbump_map = \"facets\"\nbump_scale = 0.3"),
         ("strong normals", "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 2.5"),
     ] {
         assert_agrees(name, &with_edges(material), &PlanOptions::default());

@@ -93,7 +93,7 @@ macro_rules! material_keys {
             normal_map: Option<$crate::load::file::value::Located<String>>,
             /// With `normal_map`: multiplies its red and green, after they are taken from 0 to 1 to -1 to 1; 1 when left out.
             normal_scale: Option<$crate::load::file::value::Located<$crate::load::file::value::Number>>,
-            /// In place of a normal map: a texture of heights whose color_space is "linear". Meshes, rectangles and boxes can have one.
+            /// In place of a normal map: a texture of heights, of noise or an image whose color_space is "linear". Meshes, rectangles and boxes can have one.
             bump_map: Option<$crate::load::file::value::Located<String>>,
             /// With `bump_map`: the height that 1 stands for, in scene units along the normal; 1 when left out.
             bump_scale: Option<$crate::load::file::value::Located<$crate::load::file::value::Number>>,

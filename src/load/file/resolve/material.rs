@@ -123,8 +123,13 @@ impl Resolver<'_> {
             (Some(bump), None, _) => {
                 let id = self.texture_id(bump)?;
                 let is_image = matches!(self.scene.textures[id].kind, TextureKind::Image(_));
+                let name = &bump.value;
+                if let TextureKind::Checker { .. } = self.scene.textures[id].kind {
+                    let message =
+                        format!("the checker `{name}` rises in steps, and has no slopes for a bump map: take an image or noise");
+                    return Err(self.error(&bump.span, message));
+                }
                 if is_image && !self.linear_textures[id] {
-                    let name = &bump.value;
                     let message = format!("a bump map holds heights, not colours: `{name}` needs color_space = \"linear\"");
                     return Err(self.error(&bump.span, message));
                 }

@@ -47,6 +47,11 @@ pub fn bump_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) ->
         converter.drop(plugin, "bump map around another map of normals", "the inner map counts");
         return Ok((keys, two_sided));
     }
+    if map.name == "checkerboard" {
+        map.visited.set(true);
+        converter.drop(&map, "texture `checkerboard` as a bump map", "it has steps and no slopes, and bends no normals");
+        return Ok((keys, two_sided));
+    }
     Ok(match converter.texture(&map, Role::Surface, Texels::Numbers)? {
         Input::Texture(name, factor) => (keys.with("bump_map", name).with("bump_scale", scale * factor.x), two_sided),
         Input::Constant(_) => (keys, two_sided),

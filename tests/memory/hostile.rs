@@ -1,0 +1,119 @@
+//! Damage to files, and what bounds their readers keep.
+
+use std::time::{Duration, Instant};
+
+use crate::common::effort::announce;
+use crate::counting::{Peak, take_turn};
+use crate::random::SplitMix64;
+
+/// Most memory for a text of a few thousand bytes.
+pub const MOST_FOR_TEXTS: usize = 64 << 20;
+
+/// What became of the files of one kind.
+pub struct Tally {
+    kind: &'static str,
+    most_memory: usize,
+    longest: Duration,
+    /// The longest time and the most memory that a file took.
+    extremes: (Duration, usize),
+    accepted: usize,
+    refused: usize,
+}
+
+impl Tally {
+    pub fn new(kind: &'static str, most_memory: usize) -> Self {
+        // A file of a few thousand bytes is answered within this time, on a busy machine and with 16,384² texels to fill.
+        let longest = Duration::from_secs(60);
+        Self { kind, most_memory, longest, extremes: (Duration::ZERO, 0), accepted: 0, refused: 0 }
+    }
+
+    /// The positive control: a file that is refused for another reason would hide what the damage does.
+    pub fn undamaged(&mut self, bytes: &[u8], read: impl Fn(&[u8]) -> bool) {
+        assert_eq!(self.bounded(bytes, read), Ok(true), "{}: the undamaged file is refused", self.kind);
+    }
+
+    /// Reads a damaged file, and fails where that panics or takes too long or too much memory. Leaves the file that did it.
+    pub fn damaged(&mut self, bytes: &[u8], read: impl Fn(&[u8]) -> bool) {
+        match self.bounded(bytes, read) {
+            Ok(true) => self.accepted += 1,
+            Ok(false) => self.refused += 1,
+            Err(complaint) => {
+                let evidence = std::env::temp_dir().join(format!("gpt-hostile-{}", self.kind.replace(' ', "-")));
+                let kept = std::fs::write(&evidence, bytes).is_ok();
+                panic!("{}: {complaint}; the file is kept ({kept}): {}", self.kind, evidence.display());
+            }
+        }
+    }
+
+    /// Whether the file was accepted; an error where reading it broke a bound.
+    fn bounded(&mut self, bytes: &[u8], read: impl Fn(&[u8]) -> bool) -> Result<bool, String> {
+        let peak = Peak::from_now();
+        let start = Instant::now();
+        let ended = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| read(bytes)));
+        let (took, used) = (start.elapsed(), peak.bytes());
+        self.extremes = (self.extremes.0.max(took), self.extremes.1.max(used));
+        let accepted = ended.map_err(|_| "it panics".to_owned())?;
+        if took > self.longest || used > self.most_memory {
+            return Err(format!("it takes {took:?} and {used} bytes"));
+        }
+        Ok(accepted)
+    }
+
+    /// Damage that is never noticed, or always fatal, would exercise half of a reader.
+    pub fn judge(&self) {
+        let (Self { kind, accepted, refused, .. }, (took, used)) = (self, self.extremes);
+        let mebibytes = used as f64 / f64::from(1 << 20);
+        announce(&format!("{kind}: {accepted} accepted, {refused} refused, at most {took:.1?} and {mebibytes:.1} MiB"));
+        assert!(*accepted > 0 && *refused > 0, "{kind}: {accepted} accepted, {refused} refused");
+    }
+}
+
+/// The negative controls: what panics, takes too long or allocates more than its bound is noticed.
+#[test]
+fn readers_that_break_a_bound_are_noticed() {
+    let _turn = take_turn();
+    let mut tally = Tally::new("control", 1 << 20);
+    let greedy = |_: &[u8]| std::hint::black_box(vec![1_u8; 4 << 20]).len() > 1;
+    assert!(tally.bounded(&[], greedy).is_err());
+    let quiet = std::panic::take_hook();
+    std::panic::set_hook(Box::new(|_| {}));
+    let panics = tally.bounded(&[], |_| panic!("as a reader would"));
+    std::panic::set_hook(quiet);
+    assert!(panics.is_err());
+    assert_eq!(tally.bounded(&[], |_| false), Ok(false));
+    tally.longest = Duration::ZERO;
+    assert!(tally.bounded(&[], |_| true).is_err());
+}
+
+/// Some bytes or words replaced, cut out, or doubled.
+pub fn damaged(whole: &[u8], random: &mut SplitMix64, text: bool) -> Vec<u8> {
+    const WORDS: [&str; 14] =
+        ["-1", "nan", "inf", "1e308", "0", "[", "]]", "\"", "=", "99999999999", "-9223372036854775809", "\n", "\u{0}", "/"];
+    let mut bytes = whole.to_vec();
+    let below = |count: usize, random: &mut SplitMix64| (random.uniform() * count as f64) as usize;
+    for _ in 0..1 + below(6, random) {
+        if bytes.is_empty() {
+            break;
+        }
+        // Headers say how large a picture is: half of the damage goes there.
+        let reach = if !text && random.uniform() < 0.5 { bytes.len().min(64) } else { bytes.len() };
+        let start = below(reach, random);
+        let end = (start + below(12, random)).min(bytes.len());
+        let piece: Vec<u8> = match below(6, random) {
+            0 if text => WORDS[below(WORDS.len(), random)].bytes().collect(),
+            0 | 1 => vec![[0, 1, 0x7f, 0x80, 0xff][below(5, random)]; end - start],
+            2 => bytes[start..end].repeat(2),
+            3 => Vec::new(),
+            4 if !bytes.is_empty() => {
+                bytes[start] ^= 1 << below(8, random);
+                continue;
+            }
+            _ => (start..end).map(|_| random.next_u64() as u8).collect(),
+        };
+        bytes.splice(start..end, piece);
+    }
+    if random.uniform() < 0.1 {
+        bytes.truncate(below(bytes.len() + 1, random));
+    }
+    bytes
+}
