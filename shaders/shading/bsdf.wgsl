@@ -1,4 +1,7 @@
 // What a surface does to light, whatever its material is made of: load, evaluate, sample.
+#if NORMAL_SHADOWING
+#import shading/normal_shadowing.wgsl
+#endif
 #import shading/scattering.wgsl
 #import shading/surface.wgsl
 #if BLENDS
@@ -84,6 +87,18 @@ struct Scattering {
     drawn: BsdfSample,
 }
 
+// With the shadow that the surface throws on a bent normal.
+fn shadowed(scattering: Scattering, surface: Surface, light_wi: vec3<f32>) -> Scattering {
+#if NORMAL_SHADOWING
+    var found = scattering;
+    found.towards_light.value *= normal_shadowing(surface.unbent_normal, surface.shading_normal, light_wi);
+    found.drawn.weight *= normal_shadowing(surface.unbent_normal, surface.shading_normal, found.drawn.wi);
+    return found;
+#else
+    return scattering;
+#endif
+}
+
 #if MORE_LOBES
 // The surface is evaluated towards the light and along the drawn direction by the same code, one after the other: drivers that copy what
 // is called to wherever it is called have half of it to compile.
@@ -104,7 +119,7 @@ fn scatter(
             }
         }
     }
-    return Scattering(light_value, mixed_sample(draw, draw_value));
+    return shadowed(Scattering(light_value, mixed_sample(draw, draw_value)), surface, light_wi);
 }
 #else
 fn scatter(
@@ -114,6 +129,6 @@ fn scatter(
     if samples_light {
         light_value = evaluate_bsdf(bsdf, surface, wo, light_wi);
     }
-    return Scattering(light_value, sample_bsdf(bsdf, surface, wo, choice, u, v));
+    return shadowed(Scattering(light_value, sample_bsdf(bsdf, surface, wo, choice, u, v)), surface, light_wi);
 }
 #endif

@@ -20,6 +20,10 @@ fn gradient_dot(cell: vec2<i32>, seed: u32, offset: vec2<f32>) -> f32 {
     return select(along, -along, first);
 }
 
+fn perlin_fade(f: vec2<f32>) -> vec2<f32> {
+    return f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+}
+
 // Improved noise (Perlin 2002) in [-1, 1]: the sum of `octaves`, each half as high and twice as fine as the one before.
 fn perlin_noise(position: vec2<f32>, octaves: u32, seed: u32) -> f32 {
     var p = position;
@@ -30,7 +34,7 @@ fn perlin_noise(position: vec2<f32>, octaves: u32, seed: u32) -> f32 {
         let corner = floor(p);
         let f = p - corner;
         let cell = vec2<i32>(corner);
-        let fade = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+        let fade = perlin_fade(f);
         var noise = 0.0;
         for (var corner_index = 0; corner_index < 4; corner_index++) {
             let step = vec2<i32>(corner_index & 1, corner_index >> 1u);
@@ -61,7 +65,7 @@ fn perlin_gradient(position: vec2<f32>, octaves: u32, seed: u32) -> vec2<f32> {
         let corner = floor(p);
         let f = p - corner;
         let cell = vec2<i32>(corner);
-        let fade = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+        let fade = perlin_fade(f);
         let fade_slope = 30.0 * f * f * (1.0 - f) * (1.0 - f);
         for (var corner_index = 0; corner_index < 4; corner_index++) {
             let step = vec2<i32>(corner_index & 1, corner_index >> 1u);

@@ -12,6 +12,9 @@
 #import shading/light_tree.wgsl
 #endif
 #import shading/mis.wgsl
+#if NORMAL_SHADOWING
+#import shading/normal_shadowing.wgsl
+#endif
 #import shading/outside.wgsl
 #import shading/planted.wgsl
 #import shading/scattering.wgsl
@@ -233,7 +236,10 @@ fn further_shadow_ray(lit: LitVertex, number: u32) -> ShadowRay {
     let depth = depth_at(lit.path, lit.vertex);
     let light_bits = further_light_bits(lit.path.pixel, lit.path.sample_in_pass, lit.vertex, depth, number);
     let light = sample_light(shading_point(lit.surface), light_bits);
-    let value = evaluate_bsdf(lit.bsdf, lit.surface, -lit.path.ray.direction, light.wi);
+    var value = evaluate_bsdf(lit.bsdf, lit.surface, -lit.path.ray.direction, light.wi);
+#if NORMAL_SHADOWING
+    value.value *= normal_shadowing(lit.surface.unbent_normal, lit.surface.shading_normal, light.wi);
+#endif
     return shadow_ray(lit.path, lit.surface, depth, light, light_bits.x, value);
 }
 

@@ -18,6 +18,9 @@
 #if NORMAL_MAPS
 #import shading/normal_map.wgsl
 #endif
+#if NORMAL_SHADOWING
+#import shading/normal_shadowing.wgsl
+#endif
 
 struct Surface {
     position: vec3<f32>,
@@ -40,6 +43,10 @@ struct Surface {
     // The directions in which texture coordinates grow, of any length; 0 where there are none.
     along_u: vec3<f32>,
     along_v: vec3<f32>,
+#endif
+#if NORMAL_SHADOWING
+    // The shading normal before a map bent it, where it shadows the bent one; else 0.
+    unbent_normal: vec3<f32>,
 #endif
 }
 
@@ -136,6 +143,12 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
         own_normal = looked_up.normal;
     }
 #endif
+#if NORMAL_SHADOWING
+    var unbent_normal = vec3<f32>(0.0);
+    if shadows_bent_normals(material) {
+        unbent_normal = shading_normal_towards(own_normal, facing_normal, wo);
+    }
+#endif
 #if NORMAL_MAPS
     own_normal = mapped_normal(material, kind, bitcast<u32>(p2.w), own_normal, point, uv);
 #endif
@@ -154,6 +167,9 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
         material, bitcast<u32>(p1.w), point.area, sphere
 #if ANISOTROPY
         , tangents.along_u, tangents.along_v
+#endif
+#if NORMAL_SHADOWING
+        , unbent_normal
 #endif
     );
 }

@@ -169,6 +169,9 @@ pub struct AccessArguments {
     /// Look through this camera of an imported file that has several
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,
+    /// Show this variant of the materials of a glTF that has several
+    #[arg(long, value_name = "NAME")]
+    pub variant: Option<String>,
 }
 
 impl AccessArguments {
@@ -179,6 +182,7 @@ impl AccessArguments {
             strict,
             definitions: self.definitions.clone(),
             camera: self.camera.clone(),
+            variant: self.variant.clone(),
             ..LoadOptions::default()
         }
     }

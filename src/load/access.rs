@@ -17,6 +17,8 @@ pub struct LoadOptions {
     pub definitions: Vec<(String, String)>,
     /// The camera of an imported file that has several, by its name.
     pub camera: Option<String>,
+    /// The variant of a glTF's materials that is shown, by its name (`KHR_materials_variants`). None: what primitives name themselves.
+    pub variant: Option<String>,
     /// How a model is shown that comes without camera and light. Of scene files, only its environment counts.
     pub view: ModelView,
 }

@@ -42,10 +42,14 @@ pub fn read(files: &Files, path: &Path, options: &LoadOptions) -> Result<Descrip
     let name = show(path);
     let description = match ImportFormat::of(path) {
         Some(ImportFormat::Mitsuba) => {
+            if let Some(variant) = &options.variant {
+                let message = format!("there is no variant `{variant}`: a scene of Mitsuba has no variants of materials");
+                return Err(SceneError::in_file(name, message));
+            }
             let options = mitsuba::Options { definitions: options.definitions.clone(), camera: options.camera.clone() };
             mitsuba::load(files, path, &options)?
         }
-        Some(ImportFormat::Gltf) => gltf::load(files, path, options.camera.as_deref())?,
+        Some(ImportFormat::Gltf) => gltf::load(files, path, options.camera.as_deref(), options.variant.as_deref())?,
         None => {
             return Err(SceneError::in_file(
                 name,

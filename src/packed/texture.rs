@@ -42,6 +42,8 @@ shared_constants!(flags {
     const TEXTURE_TRIANGLES: u32 = 1 << 17;
     /// Of any kind: a normal map that is this texture holds heights.
     pub(super) const TEXTURE_HEIGHTS: u32 = 1 << 18;
+    /// Of any kind: what the normals that it bends reflect is shadowed by the surface.
+    pub(super) const TEXTURE_SHADOWS: u32 = 1 << 19;
     /// Where the way of wrapping stands.
     pub(super) const WRAP_SHIFT: u32 = 8;
     /// Where an image's format stands, and the flag of floating-point texels that have alpha.
@@ -180,6 +182,11 @@ impl PackedTextures {
         self.textures.iter().any(|texture| texture.kind_and_flags & TEXTURE_HEIGHTS != 0)
     }
 
+    /// Some map shadows the normals that it bends.
+    pub fn has_shadowed_normals(&self) -> bool {
+        self.textures.iter().any(|texture| texture.kind_and_flags & TEXTURE_SHADOWS != 0)
+    }
+
     /// Some normal map is made stronger or weaker.
     pub fn has_scaled_normals(&self) -> bool {
         self.textures.iter().any(|texture| texture.kind_and_flags & TEXTURE_HEIGHTS == 0 && texture.a[3] != 1.0)
@@ -233,7 +240,9 @@ impl Packing {
             Relief::Heights(scale) => (true, scale),
         };
         self.packed.textures.push(PackedTexture {
-            kind_and_flags: packed.kind_and_flags | if heights { TEXTURE_HEIGHTS } else { 0 },
+            kind_and_flags: packed.kind_and_flags
+                | if heights { TEXTURE_HEIGHTS } else { 0 }
+                | if texture.shadows_bent_normals { TEXTURE_SHADOWS } else { 0 },
             a: [packed.a[0], packed.a[1], packed.a[2], scale as f32],
             offset: texture.transform.offset.map(|x| x as f32),
             cosine_sine: axis.as_vec2().to_array(),

@@ -240,6 +240,7 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     switches.enable("PICK", blends && !mixture);
     let has_maps = packed.materials.materials.iter().any(|material| material.normal_map != NONE);
     switches.enable("BUMP_MAPS", has_maps && packed.textures.has_heights());
+    switches.enable("NORMAL_SHADOWING", has_maps && packed.textures.has_shadowed_normals());
     switches.enable("NORMAL_SCALES", has_maps && packed.textures.has_scaled_normals());
     switches.enable("NORMAL_MAPS", packed.materials.materials.iter().any(|material| material.normal_map != NONE));
     switches.enable("EMISSION", materials.iter().any(PackedMaterial::emits));

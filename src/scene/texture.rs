@@ -88,6 +88,9 @@ pub struct Texture {
     pub kind: TextureKind,
     pub transform: UvTransform,
     pub relief: Relief,
+    /// Light that reaches the normals that it bends fades where the surface itself would hide it (Estevez, Lecocq and Stein 2019, "A
+    /// microfacet-based shadowing function to solve the bump terminator problem").
+    pub shadows_bent_normals: bool,
 }
 
 /// How a texture bends the normals of materials that have it for their normal map.
@@ -108,7 +111,13 @@ impl Default for Relief {
 impl Texture {
     /// One that lies as the surface's texture coordinates do.
     pub fn new(name: impl Into<String>, kind: TextureKind) -> Self {
-        Self { name: name.into(), kind, transform: UvTransform::default(), relief: Relief::default() }
+        Self {
+            name: name.into(),
+            kind,
+            transform: UvTransform::default(),
+            relief: Relief::default(),
+            shadows_bent_normals: false,
+        }
     }
 
     /// Where in itself the texture is looked up for texture coordinates that its kind has scaled.

@@ -16,6 +16,9 @@ pub fn material(id: MaterialId, writer: &Writer<'_>) -> String {
             Relief::Normals(scale) => line("normal_map", &name) + &line("normal_scale", &number(scale)),
             Relief::Heights(scale) => line("bump_map", &name) + &line("bump_scale", &number(scale)),
         };
+        if writer.scene.textures[texture].shadows_bent_normals {
+            out += "normal_shadowing = true\n";
+        }
     }
     let emits = matches!(material.kind, MaterialKind::Emissive);
     match material.emission {

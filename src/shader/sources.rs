@@ -56,6 +56,7 @@ shader_files![
     "shading/mixture.wgsl",
     "shading/noise.wgsl",
     "shading/normal_map.wgsl",
+    "shading/normal_shadowing.wgsl",
     "shading/path.wgsl",
     "shading/planted.wgsl",
     "shading/plastic.wgsl",

@@ -208,6 +208,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("NON_DELTA_TRANSMISSION"),
     switch("NORMAL_MAPS").requires(&["TEXTURES"]),
     switch("NORMAL_SCALES").requires(&["NORMAL_MAPS"]),
+    switch("NORMAL_SHADOWING").requires(&["NORMAL_MAPS"]),
     switch("ONE_LIGHT"),
     switch("ONE_SIDED"),
     switch("ONLY_TRIANGLES_IN_HIERARCHY").requires(&["TRIANGLES_IN_HIERARCHY"]).excludes(HELD_BESIDE_TRIANGLES),

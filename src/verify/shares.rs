@@ -47,6 +47,7 @@ const MEASURED: &[(&str, MeasuredShare)] = &[
     ("lanterns", MeasuredShare { matching: 157_628, paths: 157_696 }),
     ("bazaar", MeasuredShare { matching: 188_312, paths: 188_416 }),
     ("arbour", MeasuredShare { matching: 163_752, paths: 163_840 }),
+    ("theatre", MeasuredShare { matching: 145_652, paths: 147_456 }),
     ("grove", MeasuredShare { matching: 163_684, paths: 163_840 }),
     ("vitrine", MeasuredShare { matching: 175_226, paths: 176_128 }),
     ("model-town", MeasuredShare { matching: 196_519, paths: 196_608 }),

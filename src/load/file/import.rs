@@ -30,6 +30,8 @@ pub struct ImportEntry {
     file: Located<String>,
     /// The name of the file's camera that stands for `[camera]`; the first one where neither is written.
     camera: Option<Located<String>>,
+    /// The name of the variant of a glTF's materials that is shown.
+    variant: Option<Located<String>>,
     /// Steps applied in this order to all of it, or a matrix.
     transform: Option<Located<TransformEntry>>,
     /// The imported file's materials, by their names, that materials of this file take the place of.
@@ -124,6 +126,7 @@ fn read(
     let options = LoadOptions {
         definitions: entry.define.iter().map(|(key, value)| (key.clone(), value.clone())).collect(),
         camera: entry.camera.as_ref().map(|camera| camera.value.clone()),
+        variant: entry.variant.as_ref().map(|variant| variant.value.clone()),
         ..LoadOptions::default()
     };
     import_file::read(&access.files, &path, &options)

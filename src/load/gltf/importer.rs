@@ -8,6 +8,7 @@ use super::json::Root;
 use super::made::{MadeMaterial, MadePrimitive};
 use crate::load::files::Files;
 use crate::load::import::{Description, FileReference, Place};
+use crate::load::printable::short_list;
 
 /// Extensions that are read; what of them is not exact is in the report.
 pub const KNOWN: [&str; 24] = [
@@ -53,6 +54,8 @@ pub struct Importer<'a> {
     pub meshes: HashMap<(usize, usize), MadePrimitive>,
     /// Of all shapes, copies counted.
     pub triangles: u64,
+    /// The variant of materials that is shown.
+    pub variant: Option<usize>,
 }
 
 impl Importer<'_> {
@@ -72,8 +75,11 @@ impl Importer<'_> {
                 self.drop(extension.as_str(), "extensionsUsed", "it has no effect");
             }
         }
-        if self.root.extensions_used.iter().any(|extension| extension == "KHR_materials_variants") {
-            self.drop("KHR_materials_variants", "extensions", "the materials that primitives name themselves are taken");
+        let names = super::variant::names(self.root);
+        if self.variant.is_none() && !names.is_empty() {
+            let instead =
+                format!("the materials that primitives name themselves are taken; --variant chooses {}", short_list(&names));
+            self.drop("KHR_materials_variants", "extensions", &instead);
         }
     }
 }

@@ -14,6 +14,7 @@ mod meshopt;
 mod node;
 mod picture;
 mod primitive;
+mod variant;
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -30,8 +31,8 @@ const BASIS_COMMAND: &str = "npx @gltf-transform/cli ktxdecompress IN.glb OUT.gl
 /// What undoes Draco's compression.
 const DRACO_COMMAND: &str = "npx @gltf-transform/cli copy IN.glb OUT.glb";
 
-/// Reads a file. `camera` is the name of a camera or of its node; the first one where none is named.
-pub fn load(files: &Files, path: &Path, camera: Option<&str>) -> Result<Description, SceneError> {
+/// Reads a file. `camera` is the name of a camera or of its node, the first one where none is named; `variant` that of a variant of materials.
+pub fn load(files: &Files, path: &Path, camera: Option<&str>, variant: Option<&str>) -> Result<Description, SceneError> {
     let name = show(path);
     let refuse = |message: String| SceneError::in_file(&name, message);
     let bytes = files.read(path, MOST_MODEL_BYTES).map_err(|error| refuse(format!("cannot be read: {error}")))?;
@@ -57,6 +58,7 @@ pub fn load(files: &Files, path: &Path, camera: Option<&str>) -> Result<Descript
         pictures: HashMap::new(),
         meshes: HashMap::new(),
         triangles: 0,
+        variant: variant::chosen(&root, variant).map_err(refuse)?,
     };
     importer.report_extensions();
     importer.scene(camera).map_err(refuse)?;

@@ -38,7 +38,8 @@ impl Importer<'_> {
         if primitive.extensions.contains_key("KHR_draco_mesh_compression") && !primitive.attributes.contains_key("POSITION") {
             return Err(format!("its data are packed by Draco, which is not read: `{}` unpacks them", super::DRACO_COMMAND));
         }
-        let mut material = self.material(primitive.material)?;
+        let named = self.material_of(&primitive);
+        let mut material = self.material(named)?;
         let weights = weights.unwrap_or(&of.weights);
         let Some(mut built) = self.geometry(&primitive, mode, skinning, weights, &key)? else { return Ok(None) };
         let colours = self.colours(&primitive, material.coordinates.is_some(), built.positions.len(), &key)?;
@@ -55,7 +56,7 @@ impl Importer<'_> {
             let mut keys = Keys::new().with("name", name.as_str());
             keys.0.extend(made.0);
             self.scene.textures.push(Entry { place: self.place(&key), keys });
-            material = self.painted_material(primitive.material, &name)?;
+            material = self.painted_material(named, &name)?;
         }
         built.smooth = !built.normals.is_empty();
         let triangles = built.faces.len() as u64;

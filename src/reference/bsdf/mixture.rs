@@ -68,6 +68,7 @@ impl Bsdf {
     /// `u_blend` picks the material where one is picked.
     pub fn new(scene: &Scene, surface: &Surface, wo: DVec3, u_blend: f64) -> Self {
         let view = View::new(wo, surface.point.normal, surface.shading_normal)
+            .with_unbent_normal(surface.unbent_normal)
             .with_hemisphere(scene.render.hemisphere)
             .with_tangents(surface.tangents);
         let lookup = Lookup::new(scene, surface, &view);
@@ -108,6 +109,7 @@ impl Bsdf {
             sum.value += value * weighted.weight;
             sum.pdf += pdf * weighted.probability;
         }
+        sum.value *= self.view.shadowing(wi);
         sum
     }
 
@@ -115,11 +117,14 @@ impl Bsdf {
     pub fn sample(&self, u_lobe: f64, u1: f64, u2: f64) -> Option<BsdfSample> {
         let (chosen, u_own) = self.choose(u_lobe)?;
         let sample = chosen.lobe.sample(&self.view, u_own, u1, u2)?;
+        let shadowing = self.view.shadowing(sample.wi);
         if self.lobes.others.is_empty() {
-            return Some(BsdfSample { weight: sample.weight * chosen.weight, ..sample });
+            return Some(BsdfSample { weight: sample.weight * (chosen.weight * shadowing), ..sample });
         }
         match sample.density {
-            Density::Delta => Some(BsdfSample { weight: sample.weight * (chosen.weight / chosen.probability), ..sample }),
+            Density::Delta => {
+                Some(BsdfSample { weight: sample.weight * (chosen.weight / chosen.probability * shadowing), ..sample })
+            }
             Density::SolidAngle(_) => {
                 let Evaluation { value, pdf } = self.evaluate(sample.wi);
                 (pdf > 0.0).then(|| BsdfSample { weight: value / pdf, density: Density::SolidAngle(pdf), ..sample })

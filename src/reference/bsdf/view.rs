@@ -6,6 +6,13 @@ use crate::math::Frame;
 use crate::reference::intersect::Tangents;
 use crate::scene::HemisphereSampling;
 
+/// A shading normal on the side of the geometric one.
+fn towards(wo: DVec3, geometric_normal: DVec3, shading_normal: DVec3) -> DVec3 {
+    let normal = if shading_normal.dot(geometric_normal) < 0.0 { -shading_normal } else { shading_normal };
+    // Near silhouettes an interpolated normal may turn away from the viewer; the true one does not.
+    if normal.dot(wo) <= 0.0 { geometric_normal } else { normal }
+}
+
 /// A surface as seen from wo, both normals on wo's side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
@@ -19,18 +26,32 @@ pub struct View {
     pub hemisphere: HemisphereSampling,
     /// The directions in which texture coordinates grow, where they do.
     pub tangents: Option<Tangents>,
+    /// The shading normal before a map bent it, where it shadows the bent one.
+    unbent_normal: Option<DVec3>,
 }
 
 impl View {
     pub fn new(wo: DVec3, front_normal: DVec3, shading_normal: DVec3) -> Self {
         let front = wo.dot(front_normal) > 0.0;
         let geometric_normal = if front { front_normal } else { -front_normal };
-        let mut normal = if shading_normal.dot(geometric_normal) < 0.0 { -shading_normal } else { shading_normal };
-        if normal.dot(wo) <= 0.0 {
-            // Near silhouettes an interpolated normal may turn away from the viewer; the true one does not.
-            normal = geometric_normal;
-        }
-        Self { wo, front, geometric_normal, frame: Frame::around(normal), hemisphere: HemisphereSampling::Cosine, tangents: None }
+        let normal = towards(wo, geometric_normal, shading_normal);
+        let (hemisphere, frame) = (HemisphereSampling::Cosine, Frame::around(normal));
+        Self { wo, front, geometric_normal, frame, hemisphere, tangents: None, unbent_normal: None }
+    }
+
+    pub fn with_unbent_normal(self, unbent_normal: Option<DVec3>) -> Self {
+        Self { unbent_normal: unbent_normal.map(|normal| towards(self.wo, self.geometric_normal, normal)), ..self }
+    }
+
+    /// What is left of light between wo and `wi` where a map bent the normal (Estevez, Lecocq and Stein 2019): 1 where none did.
+    pub fn shadowing(&self, wi: DVec3) -> f64 {
+        let Some(unbent) = self.unbent_normal else { return 1.0 };
+        let squared_tangent = |direction: DVec3| {
+            let squared_cosine = unbent.dot(direction).powi(2).clamp(1e-12, 1.0);
+            (1.0 - squared_cosine) / squared_cosine
+        };
+        let alpha2 = (0.125 * squared_tangent(self.normal())).min(1.0);
+        2.0 / (1.0 + (1.0 + alpha2 * squared_tangent(wi)).sqrt())
     }
 
     pub fn with_hemisphere(self, hemisphere: HemisphereSampling) -> Self {
@@ -77,5 +98,24 @@ impl View {
     pub(super) fn mirrored(&self) -> DVec3 {
         let normal = self.normal();
         (normal * (2.0 * self.wo.dot(normal)) - self.wo).normalize()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By hand: a normal bent by 45 degrees has the width ⅛ of its squared tangent.
+    #[test]
+    fn bent_normals_are_shadowed_by_the_surface() {
+        let diagonal = DVec3::new(1.0, 0.0, 1.0).normalize();
+        let view = View::new(DVec3::Z, DVec3::Z, diagonal).with_unbent_normal(Some(DVec3::Z));
+        let at = |squared_tangent: f64| 2.0 / (1.0 + (1.0 + 0.125 * squared_tangent).sqrt());
+        let wi = DVec3::new(0.0, 2.0, 1.0).normalize();
+        assert!((view.shadowing(wi) - at(4.0)).abs() < 1e-12 && (view.shadowing(DVec3::Z) - 1.0).abs() < 1e-12);
+        assert!((view.shadowing(wi) - at(3.0)).abs() > 1e-3);
+        // Nothing where nothing is bent, or where the surface throws no shadow.
+        assert_eq!(View::new(DVec3::Z, DVec3::Z, DVec3::Z).with_unbent_normal(Some(DVec3::Z)).shadowing(wi), 1.0);
+        assert_eq!(View::new(DVec3::Z, DVec3::Z, diagonal).shadowing(wi), 1.0);
     }
 }

@@ -71,6 +71,11 @@ impl NormalMaps {
         Self { textures: if any { scene.textures.clone() } else { Vec::new() }, of_material }
     }
 
+    /// What the normals that the material's map bends reflect is shadowed by the surface.
+    pub fn shadows(&self, material: MaterialId) -> bool {
+        self.of_material[material].is_some_and(|texture| self.textures[texture].shadows_bent_normals)
+    }
+
     /// The shading normal as the material's map bends it; as it is where there is no map or no tangent.
     pub fn bend(
         &self,

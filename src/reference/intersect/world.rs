@@ -30,6 +30,8 @@ pub struct Surface {
     pub point: SurfacePoint,
     /// Interpolated over the faces of smooth meshes, else the geometric normal; then bent by the material's normal map.
     pub shading_normal: DVec3,
+    /// The normal before that, where it shadows the bent one.
+    pub unbent_normal: Option<DVec3>,
     pub uv: DVec2,
     /// The directions in which texture coordinates grow, where the material depends on them and there are some.
     pub tangents: Option<Tangents>,
@@ -232,7 +234,15 @@ impl World {
             }
             SurfaceId::Infinite(index) => {
                 let point = self.infinite[index].0.element().point(ray, hit.distance, hit.local);
-                Surface { id: hit.surface, owner, point, shading_normal: point.normal, uv: DVec2::ZERO, tangents: None }
+                Surface {
+                    id: hit.surface,
+                    owner,
+                    point,
+                    shading_normal: point.normal,
+                    unbent_normal: None,
+                    uv: DVec2::ZERO,
+                    tangents: None,
+                }
             }
         }
     }
@@ -267,7 +277,8 @@ impl World {
     ) -> Surface {
         let shading_normal = self.normal_maps.bend(owner.material, [normal, point.normal], uv, &tangents);
         let tangents = if self.anisotropic[owner.material] { tangents() } else { None };
-        Surface { id, owner, point, shading_normal, uv, tangents }
+        let unbent_normal = self.normal_maps.shadows(owner.material).then_some(normal);
+        Surface { id, owner, point, shading_normal, unbent_normal, uv, tangents }
     }
 }
 

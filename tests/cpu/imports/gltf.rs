@@ -510,3 +510,31 @@ fn vertex_colours_become_a_texture() {
     assert_eq!(picture(&folder.written("a.gltf")), picture(&scene));
     assert!(!report(&scene).contains("COLOR_0"));
 }
+
+/// One of several materials is chosen by its variant's name; an unknown name is told with those that there are.
+#[test]
+fn variants_of_materials_are_chosen_by_name() {
+    let mut file = File::new();
+    let mut green = file.root["materials"][0].clone();
+    green["pbrMetallicRoughness"]["baseColorFactor"] = json!([0.1, 0.8, 0.2, 1.0]);
+    file.root["materials"].as_array_mut().expect("a list").push(green);
+    file.root["extensionsUsed"].as_array_mut().expect("a list").push(json!("KHR_materials_variants"));
+    file.root["extensions"]["KHR_materials_variants"] = json!({ "variants": [{ "name": "worn" }, { "name": "new" }] });
+    file.root["meshes"][0]["primitives"][0]["extensions"] =
+        json!({ "KHR_materials_variants": { "mappings": [{ "material": 1, "variants": [1] }] } });
+    let folder = Folder::new(&[("a.gltf", &file.text())]);
+    let of =
+        |variant: &str| folder.load_as("a.gltf", &LoadOptions { variant: Some(variant.to_owned()), ..LoadOptions::default() });
+    let red_of = |scene: Scene| match scene.materials[scene.shapes[0].material].kind {
+        MaterialKind::Diffuse { reflectance: gpt::scene::ColorInput::Constant(colour) } => colour.x,
+        ref other => panic!("{other:?}"),
+    };
+    assert_eq!(of("new").map(red_of).ok(), Some(0.1));
+    // What a variant says nothing of stays as it is.
+    assert_eq!(of("worn").map(red_of).ok(), Some(0.7));
+    let plain = folder.valid("a.gltf");
+    assert!(report(&plain).contains("--variant chooses worn, new"), "{}", report(&plain));
+    assert_eq!(red_of(plain), 0.7);
+    let message = refusal(of("old"));
+    assert!(message.contains("old") && message.contains("worn") && message.contains("new"), "{message}");
+}

@@ -438,6 +438,27 @@ fn bumps_and_thrown_pictures_are_exact() {
     assert_eq!(picture(&folder.written("a.xml")), picture(&scene));
 }
 
+/// As there, unless the scene says otherwise; the picture is that of the scene file written from it.
+#[test]
+fn bent_normals_are_shadowed() {
+    let map = |more: &str| {
+        with(&format!(
+            r#"<shape type="rectangle"><bsdf type="normalmap"><texture name="normalmap" type="bitmap"><boolean name="raw" value="true"/>
+            <string name="filename" value="h.png"/></texture>{more}<bsdf type="diffuse"/></bsdf></shape>"#
+        ))
+    };
+    let pictures = [("", true), (r#"<boolean name="use_shadowing_function" value="false"/>"#, false)].map(|(more, expected)| {
+        let folder = Folder::new(&[("a.xml", map(more).as_bytes()), ("h.png", HAMMERED)]);
+        let scene = folder.valid("a.xml");
+        let bent = scene.materials.iter().find_map(|material| material.normal_map).expect("a map");
+        assert_eq!((scene.textures[bent].shadows_bent_normals, report(&scene).as_str()), (expected, ""));
+        let drawn = picture(&scene);
+        assert_eq!(picture(&folder.written("a.xml")), drawn);
+        drawn
+    });
+    assert_ne!(pictures[0], pictures[1]);
+}
+
 #[test]
 fn bumps_without_slopes_are_reported() {
     let scene = read(

@@ -321,10 +321,25 @@ fn maps_of_heights_and_scaled_normals_agree() {
         ),
         ("heights of cells", "type = \"diffuse\"\nreflectance = 0.7\nbump_map = \"cells\"\nbump_scale = 0.1"),
         ("heights of triangles", "type = \"diffuse\"\nreflectance = 0.7\nbump_map = \"facets\"\nbump_scale = 0.3"),
+        (
+            "shadowed normals",
+            "type = \"conductor\"\npreset = \"gold\"\nroughness = 0.5\nnormal_map = \"bumps\"\nnormal_scale = 1.5\nnormal_shadowing = true",
+        ),
         ("strong normals", "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 2.5"),
     ] {
         assert_agrees(name, &with_edges(material), &PlanOptions::default());
     }
+}
+
+/// The control: without the shadow of the surface, the picture is another one.
+#[test]
+fn missing_shadows_of_bent_normals_are_noticed() {
+    let theirs =
+        with_edges("type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 1.5\nnormal_shadowing = true");
+    let mut ours = theirs.clone();
+    ours.textures.iter_mut().for_each(|texture| texture.shadows_bent_normals = false);
+    let Some(verdict) = compare_unequal(&ours, &theirs) else { return };
+    assert!(!verdict.agrees, "{verdict:#?}");
 }
 
 /// The control: a tenth more height is noticed.

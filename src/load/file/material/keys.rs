@@ -66,6 +66,7 @@ pub struct CommonKeys<'a> {
     pub normal_scale: Option<&'a Located<Number>>,
     pub bump_map: Option<&'a Located<String>>,
     pub bump_scale: Option<&'a Located<Number>>,
+    pub normal_shadowing: Option<&'a Located<bool>>,
     pub emission: Option<&'a Located<Colour<NonNegative>>>,
     pub emission_two_sided: Option<&'a Located<bool>>,
     pub opacity: Option<&'a Located<Opacity>>,
@@ -97,6 +98,8 @@ macro_rules! material_keys {
             bump_map: Option<$crate::load::file::value::Located<String>>,
             /// With `bump_map`: the height that 1 stands for, in scene units along the normal; 1 when left out.
             bump_scale: Option<$crate::load::file::value::Located<$crate::load::file::value::Number>>,
+            /// With `normal_map` or `bump_map`: light fades that the surface itself would hide from a normal that is bent towards it.
+            normal_shadowing: Option<$crate::load::file::value::Located<bool>>,
             /// Radiance the surface sends out by itself, besides what it reflects.
             emission: Option<$crate::load::file::value::Located<
                 $crate::load::file::colour::Colour<$crate::load::file::value::NonNegative>,
@@ -116,6 +119,7 @@ macro_rules! material_keys {
                     normal_scale: self.normal_scale.as_ref(),
                     bump_map: self.bump_map.as_ref(),
                     bump_scale: self.bump_scale.as_ref(),
+                    normal_shadowing: self.normal_shadowing.as_ref(),
                     emission: self.emission.as_ref(),
                     emission_two_sided: self.emission_two_sided.as_ref(),
                     opacity: self.opacity.as_ref(),

@@ -116,6 +116,12 @@ impl Resolver<'_> {
                 return Err(self.error(&scale.span, message));
             }
         }
+        let shadowing = common.normal_shadowing;
+        if let (Some(shadowing), None, None) = (shadowing, common.normal_map, common.bump_map) {
+            let message = "`normal_shadowing` belongs to `normal_map` or `bump_map`, of which there is none";
+            return Err(self.error(&shadowing.span, message));
+        }
+        let is_shadowed = shadowing.is_some_and(|shadowing| shadowing.value);
         let relief = match (common.bump_map, material.normal_map, common.normal_scale) {
             (Some(bump), Some(_), _) => {
                 return Err(self.error(&bump.span, "a material has a normal map or a bump map, not both"));
@@ -136,11 +142,12 @@ impl Resolver<'_> {
                 Some((id, Relief::Heights(common.bump_scale.map_or(1.0, |scale| scale.value.0))))
             }
             (None, Some(id), Some(scale)) => Some((id, Relief::Normals(scale.value.0))),
+            (None, Some(id), None) if is_shadowed => Some((id, Relief::Normals(1.0))),
             (None, ..) => None,
         };
         if let Some((id, relief)) = relief {
             let linear = self.linear_textures[id];
-            self.scene.textures.push(Texture { relief, ..self.scene.textures[id].clone() });
+            self.scene.textures.push(Texture { relief, shadows_bent_normals: is_shadowed, ..self.scene.textures[id].clone() });
             self.linear_textures.push(linear);
             material.normal_map = Some(self.scene.textures.len() - 1);
         }

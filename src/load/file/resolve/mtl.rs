@@ -225,6 +225,7 @@ impl Resolver<'_> {
             }),
             transform: UvTransform { offset: map.offset, ..UvTransform::default() },
             relief: Relief::default(),
+            shadows_bent_normals: false,
         });
         self.linear_textures.push(space == Some(ColorSpace::Linear));
         Ok(match tint {

@@ -15,7 +15,7 @@ use crate::load::file::value::{Checked, Exactly, Located, Number, Positive};
 use crate::load::formats;
 use crate::scene::validate::MOST_OCTAVES;
 use crate::scene::{
-    ColorSpace, ImageData, ImageSource, ImageTexture, Relief, Texture, TextureFilter, TextureKind, TextureWrap, UvTransform,
+    ColorSpace, ImageData, ImageSource, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap, UvTransform,
 };
 
 impl Resolver<'_> {
@@ -33,7 +33,7 @@ impl Resolver<'_> {
                 rotation_degrees: rotation.map_or(0.0, |rotation| rotation.0),
                 offset: offset.map_or([0.0; 2], |offset| offset.map(|shift| shift.0)),
             };
-            self.scene.textures.push(Texture { name: entry.name().value.clone(), kind, transform, relief: Relief::default() });
+            self.scene.textures.push(Texture { transform, ..Texture::new(entry.name().value.clone(), kind) });
         }
         Ok(())
     }

@@ -53,9 +53,19 @@ pub fn bump_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) ->
         return Ok((keys, two_sided));
     }
     Ok(match converter.texture(&map, Role::Surface, Texels::Numbers)? {
-        Input::Texture(name, factor) => (keys.with("bump_map", name).with("bump_scale", scale * factor.x), two_sided),
+        Input::Texture(name, factor) => {
+            let keys = keys.with("bump_map", name).with("bump_scale", scale * factor.x);
+            (shadowed(plugin, keys)?, two_sided)
+        }
         Input::Constant(_) => (keys, two_sided),
     })
+}
+
+/// As a map there shadows the normals that it bends, unless it says otherwise.
+fn shadowed(plugin: &Plugin, keys: Keys) -> Result<Keys, SceneError> {
+    plugin.without_effect(&["flip_invalid_normals"]);
+    let is_shadowed = plugin.flag("use_shadowing_function", true)?;
+    Ok(if is_shadowed { keys.with("normal_shadowing", true) } else { keys })
 }
 
 pub fn normal_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
@@ -63,7 +73,7 @@ pub fn normal_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) 
     let map = map.ok_or_else(|| plugin.error("a normal map needs a texture within"))?;
     let (keys, two_sided) = converter.within(plugin, depth)?;
     Ok(match converter.texture(&map, Role::Surface, Texels::Numbers)? {
-        Input::Texture(name, _) => (keys.with("normal_map", name), two_sided),
+        Input::Texture(name, _) => (shadowed(plugin, keys.with("normal_map", name))?, two_sided),
         Input::Constant(_) => (keys, two_sided),
     })
 }

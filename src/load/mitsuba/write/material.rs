@@ -17,10 +17,11 @@ impl Writer<'_> {
         let bsdf = self.bsdf(material, &place)?;
         let kind = text(material, "type").unwrap_or_default();
         let is_transparent = ["glass", "rough_glass", "pass"].contains(&kind);
+        let is_shadowed = flag(material, "normal_shadowing") == Some(true);
         let bsdf = match text(material, "normal_map") {
             Some(texture) => {
                 let map = self.texture(texture, "normalmap", true)?;
-                Element::new("bsdf", "normalmap").with(map).with(bsdf)
+                Element::new("bsdf", "normalmap").boolean("use_shadowing_function", is_shadowed).with(map).with(bsdf)
             }
             None => bsdf,
         };
@@ -31,7 +32,8 @@ impl Writer<'_> {
             Some(texture) => {
                 let map = self.texture(texture, "bump", true)?;
                 let scale = number(material, "bump_scale").unwrap_or(1.0);
-                Element::new("bsdf", "bumpmap").float("scale", scale).with(map).with(bsdf)
+                let element = Element::new("bsdf", "bumpmap").float("scale", scale);
+                element.boolean("use_shadowing_function", is_shadowed).with(map).with(bsdf)
             }
             None => bsdf,
         };
