@@ -57,11 +57,12 @@ fn lattice_gradient(cell: vec2<i32>, seed: u32) -> vec2<f32> {
 
 // How that noise changes with the position. Each octave adds as much as the first: it is half as high and twice as fine as the one before.
 fn perlin_gradient(position: vec2<f32>, octaves: u32, seed: u32) -> vec2<f32> {
-    var p = position;
+    var frequency = 1.0;
     var amplitude = 1.0;
     var sum = vec2<f32>(0.0);
     var total = 0.0;
     for (var octave = 0u; octave < octaves; octave++) {
+        let p = position * frequency;
         let corner = floor(p);
         let f = p - corner;
         let cell = vec2<i32>(corner);
@@ -77,7 +78,7 @@ fn perlin_gradient(position: vec2<f32>, octaves: u32, seed: u32) -> vec2<f32> {
         }
         total += amplitude;
         amplitude *= 0.5;
-        p *= 2.0;
+        frequency += frequency;
     }
     return 1.41421356 * sum / max(total, 1.0e-30);
 }
@@ -85,6 +86,11 @@ fn perlin_gradient(position: vec2<f32>, octaves: u32, seed: u32) -> vec2<f32> {
 #endif
 
 #if WORLEY
+// A cell's feature point, from its corner.
+fn feature_point(h: u32) -> vec2<f32> {
+    return vec2<f32>(f32(h >> 16u), f32(h & 0xffffu)) / 65536.0;
+}
+
 // Distance to the nearest feature point, one per cell (Worley 1996), at most 1.
 fn worley_noise(position: vec2<f32>, seed: u32) -> f32 {
     let corner = floor(position);
@@ -94,7 +100,7 @@ fn worley_noise(position: vec2<f32>, seed: u32) -> f32 {
     for (var y = -1; y <= 1; y++) {
         for (var x = -1; x <= 1; x++) {
             let h = lattice_hash(cell + vec2<i32>(x, y), seed);
-            let feature = vec2<f32>(f32(h >> 16u), f32(h & 0xffffu)) / 65536.0;
+            let feature = feature_point(h);
             let offset = vec2<f32>(f32(x), f32(y)) + feature - f;
             nearest2 = min(nearest2, dot(offset, offset));
         }
@@ -113,7 +119,7 @@ fn worley_gradient(position: vec2<f32>, seed: u32) -> vec2<f32> {
     for (var y = -1; y <= 1; y++) {
         for (var x = -1; x <= 1; x++) {
             let h = lattice_hash(cell + vec2<i32>(x, y), seed);
-            let feature = vec2<f32>(f32(h >> 16u), f32(h & 0xffffu)) / 65536.0;
+            let feature = feature_point(h);
             let offset = vec2<f32>(f32(x), f32(y)) + feature - f;
             let distance2 = dot(offset, offset);
             if distance2 < nearest2 {
