@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
 use gpt::compare::Metric;
+use gpt::film::Layer;
 use gpt::load::LoadOptions;
 use gpt::plan::Fault;
 use gpt::renderer::DeviceChoice;
@@ -231,6 +232,9 @@ pub struct PlanArguments {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
+    /// Layers that the picture has beside it, as `gpt render --aov` renders them
+    #[arg(long, value_name = "LAYER,…", value_delimiter = ',', value_parser = by_name::<Layer>())]
+    pub aov: Vec<Layer>,
     #[command(flatten)]
     pub settings: SettingFlags,
 }
@@ -252,6 +256,9 @@ pub struct MergeArguments {
     /// Say how many more parts it would take to bring the relative mean squared error below X
     #[arg(long, value_name = "X", value_parser = parse_target)]
     pub target_error: Option<f64>,
+    /// Denoise the picture as well, by Open Image Denoise, into NAME.denoised.exr and so on; parts of `gpt render --denoise` have what helps it
+    #[arg(long)]
+    pub denoise: bool,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

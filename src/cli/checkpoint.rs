@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use gpt::output::{Display, ExrOptions, OutputError, PartSpec, PictureFormat, PictureSpec, is_finished_picture};
-use gpt::render::checkpoint::{Checkpoint, DEFAULT_INTERVAL, path_beside};
+use gpt::film::KernelLayer;
+use gpt::output::{OutputError, PictureFormat, PictureSpec, is_finished_picture};
+use gpt::render::checkpoint::{Checkpoint, DEFAULT_INTERVAL, Identity, path_beside, path_of_layer, remove_state};
 use gpt::scene::BulkDigest;
 use gpt::{RenderOptions, Renderer, Scene};
 
@@ -40,12 +41,12 @@ fn first_file(outputs: &[(PathBuf, PictureFormat)]) -> Option<&Path> {
     outputs.iter().map(|(path, _)| path.as_path()).find(|path| !is_stdout(path))
 }
 
-/// Whether every picture stands in its place, finished and of this render.
+/// Whether every picture stands in its place, finished and of this render. `shown`: what is known of the files beside the render.
 pub fn all_are_finished(
     outputs: &[(PathBuf, PictureFormat)],
     (scene, bulk): (&Scene, Option<&BulkDigest>),
     options: &RenderOptions,
-    (display, exr, part): (Display, ExrOptions, Option<PartSpec>),
+    shown: &PictureSpec,
 ) -> bool {
     if outputs.iter().any(|(path, _)| is_stdout(path) || !path.is_file()) {
         return false;
@@ -56,8 +57,66 @@ pub fn all_are_finished(
     };
     let provenance = Some(provenance);
     let [width, height] = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
-    let spec = PictureSpec { width, height, display, exr, provenance, part, ..PictureSpec::default() };
+    let spec = PictureSpec { width, height, provenance, ..shown.clone() };
     outputs.iter().all(|(path, format)| is_finished_picture(path, *format, &spec))
+}
+
+/// The picture beside which states stand, where they are asked for.
+fn kept_picture<'o>(arguments: &CheckpointArguments, outputs: &'o [(PathBuf, PictureFormat)]) -> Option<&'o Path> {
+    first_file(outputs).filter(|_| arguments.checkpoint.is_some() || arguments.resume)
+}
+
+/// Looks for the state of this identity that the render goes on from, and how many samples it has, over all pixels.
+fn begin(
+    (path, identity): (PathBuf, Identity),
+    arguments: &CheckpointArguments,
+    renderer: &Renderer,
+    started: Instant,
+    quiet: bool,
+) -> Result<(Checkpoint, u64), Failure> {
+    let interval = arguments.checkpoint.unwrap_or(DEFAULT_INTERVAL);
+    let mut checkpoint = Checkpoint::new(path, identity, renderer.device(), interval, started)?;
+    let place = checkpoint.path().display().to_string();
+    if !arguments.resume {
+        if checkpoint.path().exists() {
+            terminal::note(&format!(
+                "{place} is the state of an earlier render and will be replaced; --resume would go on from it"
+            ));
+        }
+        return Ok((checkpoint, 0));
+    }
+    let Some((device, samples)) = checkpoint.find(renderer.film())? else { return Ok((checkpoint, 0)) };
+    if device != renderer.device() {
+        let ours = renderer.device();
+        terminal::note(&format!("{place} was rendered on {device}, and {ours} goes on: the picture has the rounding of both"));
+    }
+    if !quiet {
+        terminal::note(&format!("going on from {place}, {}", terminal::with_unit(samples as f64, "samples")));
+    }
+    Ok((checkpoint, samples))
+}
+
+/// The checkpoint of a layer, if there shall be one.
+///
+/// # Errors
+/// As [`Kept::begin`].
+pub fn of_layer(
+    arguments: &CheckpointArguments,
+    (renderer, layer): (&Renderer, KernelLayer),
+    outputs: &[(PathBuf, PictureFormat)],
+    started: Instant,
+    quiet: bool,
+) -> Result<Option<Checkpoint>, Failure> {
+    let Some(picture) = kept_picture(arguments, outputs) else { return Ok(None) };
+    let state = (path_of_layer(picture, layer), renderer.identity().of_layer(layer));
+    Ok(Some(begin(state, arguments, renderer, started, quiet)?.0))
+}
+
+/// Removes the states of layers: the picture with them is in its place.
+pub fn remove_of_layers(arguments: &CheckpointArguments, outputs: &[(PathBuf, PictureFormat)]) {
+    if let Some(picture) = kept_picture(arguments, outputs) {
+        KernelLayer::ALL.into_iter().for_each(|layer| remove_state(&path_of_layer(picture, layer)));
+    }
 }
 
 impl Kept {
@@ -73,32 +132,10 @@ impl Kept {
         quiet: bool,
     ) -> Result<Self, Failure> {
         let mut kept = Self { checkpoint: None, resumed_samples: 0, saved: None };
-        let Some(picture) = first_file(outputs).filter(|_| arguments.checkpoint.is_some() || arguments.resume) else {
-            return Ok(kept);
-        };
-        let path = path_beside(picture);
-        let interval = arguments.checkpoint.unwrap_or(DEFAULT_INTERVAL);
-        let mut checkpoint = Checkpoint::new(path, renderer.identity(), renderer.device(), interval, started)?;
-        let place = checkpoint.path().display().to_string();
-        if !arguments.resume {
-            if checkpoint.path().exists() {
-                terminal::note(&format!(
-                    "{place} is the state of an earlier render and will be replaced; --resume would go on from it"
-                ));
-            }
-        } else if let Some((device, samples)) = checkpoint.find(renderer.film())? {
-            kept.resumed_samples = samples;
-            if device != renderer.device() {
-                let ours = renderer.device();
-                terminal::note(&format!(
-                    "{place} was rendered on {device}, and {ours} goes on: the picture has the rounding of both"
-                ));
-            }
-            if !quiet {
-                terminal::note(&format!("going on from {place}, {}", terminal::with_unit(samples as f64, "samples")));
-            }
+        if let Some(picture) = kept_picture(arguments, outputs) {
+            let found = begin((path_beside(picture), renderer.identity()), arguments, renderer, started, quiet)?;
+            (kept.checkpoint, kept.resumed_samples) = (Some(found.0), found.1);
         }
-        kept.checkpoint = Some(checkpoint);
         Ok(kept)
     }
 

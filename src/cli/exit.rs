@@ -1,5 +1,6 @@
 //! Exit codes and the errors that lead to them.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use gpt::bench::subject::BenchError;
@@ -103,6 +104,8 @@ pub enum Failure {
     Checkpoint(#[from] CheckpointError),
     #[error("interrupted before anything could be said; nothing is saved")]
     Interrupted,
+    #[error("interrupted; {} has the state, and --resume goes on from it", .0.display())]
+    InterruptedWithState(PathBuf),
     #[error("{0}")]
     Other(String),
 }
@@ -150,7 +153,7 @@ impl From<&Failure> for Exit {
             Failure::Render(RenderError::DeviceLost(_)) => Self::DeviceLost,
             Failure::Render(RenderError::Internal(_) | RenderError::Output(_)) => Self::OtherFailure,
             Failure::Output(_) | Failure::Outputs(_) | Failure::Other(_) => Self::OtherFailure,
-            Failure::Interrupted => Self::Interrupted,
+            Failure::Interrupted | Failure::InterruptedWithState(_) => Self::Interrupted,
         }
     }
 }

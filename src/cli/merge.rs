@@ -2,14 +2,16 @@
 
 use std::path::Path;
 
+use gpt::denoise::library::Library;
 use gpt::merge::{MergeError, Merged, PartHeader, merge};
-use gpt::output::PictureSpec;
+use gpt::output::{PictureFormat, PictureSpec};
+use gpt::renderer::RenderError;
 use serde::Serialize;
 
 use super::arguments::MergeArguments;
 use super::exit::{Exit, Failure};
 use super::pictures::{Pictures, output_formats};
-use super::terminal;
+use super::{denoise, terminal};
 
 /// What was joined, for other programs. Its keys stay as they are; new ones may be added.
 #[derive(Serialize)]
@@ -38,11 +40,26 @@ pub fn run(arguments: &MergeArguments) -> Result<Exit, Failure> {
     if let Some((path, _)) = outputs.iter().find(|(path, _)| is_part(path)) {
         return Err(Failure::usage(format!("{} is one of the parts, and would be overwritten", path.display())));
     }
+    if arguments.denoise {
+        denoise::raw_output(&outputs)?;
+        // Its absence is told before anything is read.
+        Library::open()?;
+    }
     let parts = arguments.parts.iter().map(|path| PartHeader::read(path)).collect::<Result<Vec<_>, _>>()?;
     let count = parts.len();
     let merged = merge(parts, arguments.spp, arguments.partial)?;
     let [width, height] = merged.size;
-    let spec = PictureSpec { width, height, provenance: Some(merged.provenance.clone()), ..PictureSpec::default() };
+    let has_file_of_layers = outputs.iter().any(|(_, format)| *format == PictureFormat::Exr);
+    let layers = if has_file_of_layers { merged.layer_channels().map_err(RenderError::Output)? } else { Vec::new() };
+    let spec = PictureSpec {
+        width,
+        height,
+        layers,
+        layer_names: merged.layers.clone(),
+        notes: merged.notes.clone(),
+        provenance: Some(merged.provenance.clone()),
+        ..PictureSpec::default()
+    };
     let mut pictures = Pictures::create(&outputs, &spec)?;
     for band in merged.bands() {
         if pictures.write_band(band).is_err() {
@@ -56,7 +73,13 @@ pub fn run(arguments: &MergeArguments) -> Result<Exit, Failure> {
     } else {
         tell(&report, &merged);
     }
-    if summary.failures.is_empty() { Ok(Exit::Done) } else { Err(Failure::Outputs(summary.failures)) }
+    if !summary.failures.is_empty() {
+        return Err(Failure::Outputs(summary.failures));
+    }
+    if arguments.denoise {
+        denoise::denoise_render(&Library::open()?, &outputs, spec.display, arguments.json)?;
+    }
+    Ok(Exit::Done)
 }
 
 /// Whether two paths lead to one file that is there.

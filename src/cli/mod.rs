@@ -16,6 +16,7 @@ mod frames;
 mod import;
 mod installing_arguments;
 mod interrupt;
+mod layers;
 mod machine_progress;
 mod merge;
 mod model_arguments;

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use gpt::Scene;
+use gpt::film::Layer;
 use gpt::load;
 use gpt::merge::chunks;
 use gpt::render::options::PARTS_OF_STRATA;
@@ -12,6 +13,7 @@ use super::arguments::PlanArguments;
 use super::check::{device_memory, guess_time};
 use super::exit::{Exit, Failure};
 use super::frames::{FrameArguments, FrameList};
+use super::layers::MATTES_OF_PARTS;
 use super::sequence::bad_frame;
 use super::{settings, terminal};
 
@@ -133,6 +135,9 @@ fn render_command(arguments: &PlanArguments) -> Vec<String> {
     for assignment in arguments.settings.0.iter().filter(|assignment| assignment.setting().name != "spp") {
         command.extend([assignment.setting().flag.into(), assignment.value().to_string()]);
     }
+    if !arguments.aov.is_empty() {
+        command.extend(["--aov".into(), Layer::list(&arguments.aov)]);
+    }
     if let Some(root) = &arguments.access.assets_root {
         command.extend(["--assets-root".into(), root.display().to_string()]);
     }
@@ -150,6 +155,10 @@ fn plan_samples(arguments: &PlanArguments, scene: &Scene) -> Result<Exit, Failur
     }
     if arguments.chunks > 1 && scene.render.uses_strata() {
         return Err(Failure::usage(format!("--chunks {}: {PARTS_OF_STRATA}", arguments.chunks)));
+    }
+    let layers = if arguments.aov.is_empty() { &scene.layers } else { &arguments.aov };
+    if layers.contains(&Layer::Cryptomatte) {
+        return Err(Failure::usage(format!("--chunks with the layer cryptomatte: {MATTES_OF_PARTS}")));
     }
     let (device, device_bytes) = device_memory(scene)?;
     let seconds = guess_time(scene)?;

@@ -4,13 +4,10 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use gpt::denoise::library::Library;
-use gpt::film::Layer;
 use gpt::load::{self, LoadOptions, SceneSource};
-use gpt::output::{ExrCompression, LayerChannel, PartSpec, PictureFormat, PictureSpec, Provenance, check_target};
+use gpt::output::{PartSpec, PictureFormat, PictureSpec, Provenance, check_target};
 use gpt::plan::memory::FILM_BYTES;
 use gpt::plan::{DeviceLimits, PlanOptions};
-use gpt::render::cryptomatte;
-use gpt::render::layers::render_layers;
 use gpt::render::progressive::STREAMS;
 use gpt::renderer::{DeviceChoice, RenderError, RenderReport};
 use gpt::scene_writer;
@@ -20,14 +17,14 @@ use super::arguments::RenderArguments;
 use super::checkpoint;
 use super::exit::{Exit, Failure};
 use super::frames::{FrameTime, Span, named};
+use super::layers::Layers;
 use super::machine_progress::Needs;
 use super::pictures::{PictureSummary, Pictures, is_stdout, output_formats};
 use super::progress::Progress;
 use super::render_summary::{tell, tell_of_error};
 use super::sequence::{Done, Frame, Ready, Sequence, has_own_stats, tell_of_keyframes};
-use super::settings::EstimateArguments;
 use super::stats::{self, Stats};
-use super::{denoise, interrupt, settings, terminal};
+use super::{denoise, interrupt, layers, settings, terminal};
 
 /// Renders a scene to its picture files. Everything that can be wrong without rendering is found before.
 pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
@@ -47,8 +44,10 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
         if !outputs.is_empty() {
             denoise::raw_output(&outputs)?;
         }
-        // Its absence is told before anything is rendered.
-        Library::open()?;
+        // Its absence is told before anything is rendered. Parts are denoised once they are joined.
+        if !arguments.estimate.is_part() {
+            Library::open()?;
+        }
     }
     interrupt::install()?;
 
@@ -97,10 +96,15 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
 fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     let Frame { arguments, options, scene, outputs, time, started, load_seconds, span } = frame;
     check_inputs(outputs, arguments)?;
-    let shown = (arguments.display.display(), arguments.exr.options(), part(arguments, scene.film.size));
-    // What layers a finished picture has is not looked at.
-    let may_be_finished = arguments.checkpoint.resume && wanted_layers(arguments, scene).is_empty();
-    if may_be_finished && checkpoint::all_are_finished(outputs, (scene, ready.bulk_digest()), options, shown) {
+    let wanted = layers::of_files(arguments, scene, outputs)?;
+    let shown = PictureSpec {
+        display: arguments.display.display(),
+        exr: arguments.exr.options(),
+        part: part(arguments, scene.film.size),
+        layer_names: wanted.clone(),
+        ..PictureSpec::default()
+    };
+    if arguments.checkpoint.resume && checkpoint::all_are_finished(outputs, (scene, ready.bulk_digest()), options, &shown) {
         if !arguments.quiet {
             terminal::note(&format!("{}: finished before, nothing is left to render", names(outputs)));
         }
@@ -108,13 +112,11 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     }
 
     let progress = Progress::of_frame(arguments.quiet, arguments.progress, span);
-    let layers = layers(arguments, options, scene, (outputs, &progress))?;
-    let has_mattes = wanted_layers(arguments, scene).contains(&Layer::Cryptomatte);
-    let notes = if has_mattes { cryptomatte::notes(scene) } else { Vec::new() };
+    let layers = layers::render(arguments, options, (scene, wanted), outputs, (started, &progress))?;
     progress.start(needs(scene, options));
     let mut renderer = ready.renderer(scene, options).inspect_err(|_| progress.clear())?;
     let Rendered { outcome, mut pictures, provenance, mut kept } =
-        render(arguments, (&mut renderer, span), (outputs, layers, notes), (started, &progress))?;
+        render(arguments, (&mut renderer, span), (outputs, layers), (started, &progress))?;
     let broke_off = outcome.stop == Stop::Interrupted;
     if broke_off && kept.save() {
         pictures.give_up_beside_finished();
@@ -122,6 +124,7 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     let summary = pictures.finish(broke_off);
     if !broke_off && summary.failures.is_empty() {
         kept.remove();
+        checkpoint::remove_of_layers(&arguments.checkpoint, outputs);
     }
 
     let report = outcome.report;
@@ -153,51 +156,13 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     if !summary.failures.is_empty() {
         return Err(Failure::Outputs(summary.failures));
     }
-    if arguments.denoise && !broke_off {
+    if arguments.denoise && arguments.estimate.is_part() && !arguments.quiet {
+        terminal::note("--denoise: the part has what denoising needs; `gpt merge --denoise` denoises the whole picture");
+    } else if arguments.denoise && !broke_off && !arguments.estimate.is_part() {
         denoise::denoise_render(&Library::open()?, outputs, arguments.display.display(), arguments.quiet)?;
     }
     let exit = exit(&report, arguments.strict);
     Ok(Done::Now { exit, renderer: Box::new(renderer), stats: Box::new(stats) })
-}
-
-/// The layers that are asked for, by the command line or else by the scene, and those that denoising is helped by.
-fn wanted_layers(arguments: &RenderArguments, scene: &Scene) -> Vec<Layer> {
-    let asked = if arguments.exr.aov.is_empty() { &scene.layers } else { &arguments.exr.aov };
-    let helpful: &[Layer] = if arguments.denoise { &[Layer::Albedo, Layer::Normal] } else { &[] };
-    asked.iter().chain(helpful).copied().collect()
-}
-
-/// Renders the layers that are wanted.
-fn layers(
-    arguments: &RenderArguments,
-    options: &RenderOptions,
-    scene: &Scene,
-    (outputs, progress): (&[(PathBuf, PictureFormat)], &Progress),
-) -> Result<Vec<LayerChannel>, Failure> {
-    let wanted = &wanted_layers(arguments, scene);
-    if wanted.is_empty() {
-        return Ok(Vec::new());
-    }
-    let (flag, by_scene) = match (arguments.exr.aov.is_empty(), arguments.denoise) {
-        (false, _) => ("--aov", false),
-        (true, true) => ("--denoise", false),
-        // Files that hold no layers are no mistake of the command line.
-        (true, false) => ("[output] of the scene", true),
-    };
-    if !outputs.iter().any(|(_, format)| *format == PictureFormat::Exr) {
-        let no_file = || Failure::usage(format!("{flag}: layers go into an .exr file, and -o names none"));
-        return if by_scene { Ok(Vec::new()) } else { Err(no_file()) };
-    }
-    if part(arguments, scene.film.size).is_some() {
-        return Err(Failure::usage(format!("{flag}: layers belong to whole pictures, without --crop and --first-sample")));
-    }
-    if wanted.contains(&Layer::Cryptomatte) && arguments.exr.compression == ExrCompression::Pxr24 {
-        let why = "cryptomatte: --compression pxr24 drops bits of numbers, and identifiers need all of theirs";
-        return Err(Failure::usage(format!("{flag} {why}")));
-    }
-    let rendered = render_layers(scene, options, wanted, progress);
-    progress.clear();
-    rendered?.ok_or(Failure::Interrupted)
 }
 
 /// No output is one of the files that the scene was read from.
@@ -275,14 +240,11 @@ struct Rendered {
     kept: checkpoint::Kept,
 }
 
-/// Entries of a picture's header that say what its layers hold.
-type Notes = Vec<(String, String)>;
-
 /// Renders what is ready on its device.
 fn render(
     arguments: &RenderArguments,
     (renderer, span): (&mut Renderer, Option<Span>),
-    (outputs, layers, notes): (&[(PathBuf, PictureFormat)], Vec<LayerChannel>, Notes),
+    (outputs, layers): (&[(PathBuf, PictureFormat)], Layers),
     (started, progress): (Instant, &Progress),
 ) -> Result<Rendered, Failure> {
     if let Some(notice) = renderer.notice().filter(|_| span.is_none_or(|span| span.index == 0)) {
@@ -293,7 +255,8 @@ fn render(
     let part = part(arguments, renderer.film());
     let provenance = renderer.provenance().clone();
     let (display, exr) = (arguments.display.display(), arguments.exr.options());
-    let spec = PictureSpec { width, height, display, exr, layers, notes, provenance: Some(provenance.clone()), part };
+    let spec = PictureSpec { width, height, display, exr, provenance: Some(provenance.clone()), part, ..PictureSpec::default() };
+    let spec = layers.in_picture(spec);
     let mut kept = checkpoint::Kept::begin(&arguments.checkpoint, renderer, outputs, started, arguments.quiet)?;
     let mut pictures = Pictures::create(outputs, &spec)?;
     let outcome = renderer.render_from(started, progress, kept.checkpoint.as_mut(), &mut |band| pictures.write_band(band));
@@ -327,9 +290,8 @@ fn render(
 
 /// Where the picture stands in the whole, if it is a part of one.
 fn part(arguments: &RenderArguments, film: [u32; 2]) -> Option<PartSpec> {
-    let EstimateArguments { first_sample, crop, .. } = &arguments.estimate;
-    let origin = crop.map_or([0, 0], |[x, y, ..]| [x, y]);
-    (first_sample.is_some() || crop.is_some()).then_some(PartSpec { film, origin })
+    let origin = arguments.estimate.crop.map_or([0, 0], |[x, y, ..]| [x, y]);
+    arguments.estimate.is_part().then_some(PartSpec { film, origin })
 }
 
 /// Saves what there is of a picture whose render failed, and says where.

@@ -25,6 +25,13 @@ pub struct EstimateArguments {
     pub settings: SettingFlags,
 }
 
+impl EstimateArguments {
+    /// Whether the render is a part of a picture, which is joined with others.
+    pub fn is_part(&self) -> bool {
+        self.first_sample.is_some() || self.crop.is_some()
+    }
+}
+
 /// Overrides what was given.
 ///
 /// # Errors

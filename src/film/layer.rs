@@ -1,6 +1,6 @@
 //! What a render can give beside the picture.
 
-use crate::choice::choices;
+use crate::choice::{Choice, choices};
 
 choices! {
     /// A layer, as people ask for it: one channel or more of an EXR file.
@@ -53,7 +53,69 @@ choices! {
     }
 }
 
+/// Channels of a part of a picture in which a kernel's layer stands, so that parts can be joined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PartChannels {
+    /// Means, and what rounding to them lost; one to three of each.
+    pub values: &'static [&'static str],
+    pub remainders: &'static [&'static str],
+    /// How many samples the means are over.
+    pub count: &'static str,
+}
+
+macro_rules! part_channels {
+    ($layer:literal: $($value:literal)*) => {
+        PartChannels {
+            values: &[$($value),*],
+            remainders: &[$(concat!("Remainder.", $value)),*],
+            count: concat!("SampleCount.", $layer),
+        }
+    };
+}
+
+impl Layer {
+    /// What has to be rendered for it; None: nothing beside the picture, or not by samples.
+    pub fn kernel(self) -> Option<KernelLayer> {
+        match self {
+            Self::Albedo => Some(KernelLayer::Albedo),
+            Self::Normal => Some(KernelLayer::Normal),
+            Self::Position => Some(KernelLayer::Position),
+            Self::Depth | Self::Alpha => Some(KernelLayer::Depth),
+            Self::Variance => Some(KernelLayer::Squares),
+            Self::Direct => Some(KernelLayer::Direct),
+            Self::Indirect => Some(KernelLayer::Indirect),
+            Self::Emission => Some(KernelLayer::Emission),
+            Self::Samples | Self::Ids | Self::Cryptomatte => None,
+        }
+    }
+
+    /// Layers as headers of files have them: each once, in the order of their table.
+    pub fn list(layers: &[Self]) -> String {
+        let names: Vec<&str> = Self::ALL.into_iter().filter(|layer| layers.contains(layer)).map(Choice::name).collect();
+        names.join(",")
+    }
+
+    /// The layers of such a list; None where it names something else.
+    pub fn from_list(list: &str) -> Option<Vec<Self>> {
+        list.split(',').filter(|name| !name.is_empty()).map(Self::from_name).collect()
+    }
+}
+
 impl KernelLayer {
+    /// Where it stands in parts.
+    pub fn part_channels(self) -> PartChannels {
+        match self {
+            Self::Albedo => part_channels!("Albedo": "Albedo.R" "Albedo.G" "Albedo.B"),
+            Self::Normal => part_channels!("N": "N.X" "N.Y" "N.Z"),
+            Self::Position => part_channels!("P": "P.X" "P.Y" "P.Z"),
+            Self::Depth => part_channels!("Z": "Z"),
+            Self::Squares => part_channels!("Square": "Square.R" "Square.G" "Square.B"),
+            Self::Direct => part_channels!("Direct": "Direct.R" "Direct.G" "Direct.B"),
+            Self::Indirect => part_channels!("Indirect": "Indirect.R" "Indirect.G" "Indirect.B"),
+            Self::Emission => part_channels!("Emission": "Emission.R" "Emission.G" "Emission.B"),
+        }
+    }
+
     /// Of what paths meet, not of the light that they find. Its means are over the samples that met something.
     pub fn is_of_surfaces(self) -> bool {
         matches!(self, Self::Albedo | Self::Normal | Self::Position | Self::Depth)
@@ -86,5 +148,34 @@ impl KernelLayer {
             Self::Indirect => &["LAYER_INDIRECT", "LAYER_OF_LIGHT"],
             Self::Emission => &["LAYER_EMISSION", "LAYER_OF_LIGHT"],
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_of_layers_come_back() {
+        let layers = [Layer::Depth, Layer::Albedo, Layer::Depth];
+        assert_eq!(Layer::list(&layers), "albedo,depth");
+        assert_eq!(Layer::from_list("albedo,depth"), Some(vec![Layer::Albedo, Layer::Depth]));
+        assert_eq!(Layer::from_list(""), Some(Vec::new()));
+        assert_eq!(Layer::from_list("albedo,gloss"), None);
+    }
+
+    /// No channel of a part is two things.
+    #[test]
+    fn channels_of_parts_have_names_of_their_own() {
+        let mut names: Vec<&str> = KernelLayer::ALL
+            .map(KernelLayer::part_channels)
+            .iter()
+            .flat_map(|channels| channels.values.iter().chain(channels.remainders).copied().chain([channels.count]))
+            .chain(crate::output::part_channels())
+            .collect();
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), count);
     }
 }

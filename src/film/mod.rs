@@ -2,7 +2,7 @@
 
 mod layer;
 
-pub use layer::{KernelLayer, Layer};
+pub use layer::{KernelLayer, Layer, PartChannels};
 
 use crate::math::luminance;
 

@@ -7,6 +7,7 @@
 mod chunks;
 mod cover;
 mod error;
+mod layers;
 mod part;
 mod sum;
 

@@ -10,7 +10,9 @@ use exr::meta::attribute::AttributeValue;
 use exr::prelude::{ReadChannels, ReadLayers};
 
 use crate::choice::Choice;
-use crate::output::{CROP_KEY, Provenance, part_channels};
+use crate::film::{KernelLayer, Layer, PartChannels};
+use crate::output::{CROP_KEY, LAYERS_KEY, Provenance, part_channels};
+use crate::render::cryptomatte;
 use crate::scene::settings::{SETTINGS, Values};
 use crate::scene::{Filter, FilterKind, RenderSettings};
 
@@ -43,12 +45,24 @@ pub struct PartHeader {
     pub region: [u32; 4],
     /// Absolute indices.
     pub samples: Range<u32>,
+    /// What it has beside the picture, each once.
+    pub layers: Vec<Layer>,
     entries: BTreeMap<String, String>,
 }
 
 /// The pixels of a part, row by row, channel by channel.
 pub struct PartPixels {
     channels: Vec<Vec<f32>>,
+    /// In the order of [`PartHeader::kernels`] and of [`PartHeader::fixed_channels`].
+    pub kernels: Vec<KernelChannels>,
+    pub fixed: Vec<Vec<f32>>,
+}
+
+/// The channels of a layer: means, what rounding to them lost, and how many samples they are over.
+pub struct KernelChannels {
+    means: Vec<Vec<f32>>,
+    remainders: Vec<Vec<f32>>,
+    counts: Vec<f32>,
 }
 
 /// What a pixel of a part has.
@@ -103,14 +117,34 @@ impl PartHeader {
             && y.checked_add(region[3]).is_some_and(|end| end <= film[1]);
         let end = first.checked_add(samples).filter(|_| fits);
         let end = end.ok_or_else(|| failure("its header contradicts itself".to_owned()))?;
-        Ok(Self { path: path.to_owned(), film, region, samples: first..end, entries })
+        let layers = Layer::from_list(entries.get(LAYERS_KEY).map_or("", String::as_str))
+            .ok_or_else(|| failure("its header names layers that this version does not know".to_owned()))?;
+        Ok(Self { path: path.to_owned(), film, region, samples: first..end, layers, entries })
     }
 
     /// A part that stands in no file.
     #[cfg(test)]
     pub fn for_tests(film: [u32; 2], region: [u32; 4], samples: Range<u32>) -> Self {
         let path = PathBuf::from(format!("{region:?}-{samples:?}.exr"));
-        Self { path, film, region, samples, entries: BTreeMap::new() }
+        Self { path, film, region, samples, layers: Vec::new(), entries: BTreeMap::new() }
+    }
+
+    /// The layers that were rendered for it, each once.
+    pub fn kernels(&self) -> impl Iterator<Item = KernelLayer> {
+        KernelLayer::ALL.into_iter().filter(|kernel| self.layers.iter().any(|layer| layer.kernel() == Some(*kernel)))
+    }
+
+    /// Channels that are the same whatever the samples.
+    pub fn fixed_channels(&self) -> impl Iterator<Item = &'static str> {
+        let ids = self.layers.contains(&Layer::Ids).then_some(["ObjectId", "MaterialId"]);
+        let mattes = self.layers.contains(&Layer::Cryptomatte).then(cryptomatte::channel_names);
+        ids.into_iter().flatten().chain(mattes.into_iter().flatten())
+    }
+
+    /// What the header says of mattes.
+    pub fn notes(&self) -> Vec<(String, String)> {
+        let notes = self.entries.iter().filter(|(key, _)| key.starts_with("cryptomatte/"));
+        notes.map(|(key, text)| (key.clone(), text.clone())).collect()
     }
 
     /// Whether the other is a part of the same picture.
@@ -131,6 +165,7 @@ impl PartHeader {
                     "gpt:sceneHash" => "their scenes differ".to_owned(),
                     "gpt:scene" => continue,
                     "gpt:version" => format!("gpt {a} and gpt {b} made them"),
+                    LAYERS_KEY => format!("the layers of one are {a}, and of the other {b}"),
                     _ => {
                         let setting = SETTINGS.iter().find(|setting| setting.header == key);
                         let name = setting.map_or(key.trim_start_matches("gpt:"), |setting| setting.flag);
@@ -190,16 +225,38 @@ impl PartHeader {
             .from_file(&self.path)
             .map_err(|error| failure(error.to_string()))?;
         let AnyChannels { list } = image.layer_data.channel_data;
-        let channel = |name: &str| {
-            let found = list.iter().find(|channel| channel.name.eq(name));
-            match found.map(|channel| &channel.sample_data) {
-                Some(FlatSamples::F32(values)) if values.len() == self.region[2] as usize * self.region[3] as usize => {
-                    Ok(values.clone())
-                }
-                _ => Err(failure(format!("its channel {name} is not as this program writes it"))),
-            }
+        let mut found: BTreeMap<String, FlatSamples> =
+            list.into_iter().map(|channel| (channel.name.to_string(), channel.sample_data)).collect();
+        let pixels = self.region[2] as usize * self.region[3] as usize;
+        let mut channel = |name: &str| match found.remove(name) {
+            Some(FlatSamples::F32(values)) if values.len() == pixels => Ok(values),
+            // Numbers of shapes and materials.
+            Some(FlatSamples::U32(values)) if values.len() == pixels => Ok(values.iter().map(|value| *value as f32).collect()),
+            _ => Err(failure(format!("its channel {name} is not as this program writes it"))),
         };
-        Ok(PartPixels { channels: part_channels().map(channel).collect::<Result<_, _>>()? })
+        let mut of_kernel = |kernel: KernelLayer| {
+            let PartChannels { values, remainders, count } = kernel.part_channels();
+            Ok(KernelChannels {
+                means: values.iter().map(|name| channel(name)).collect::<Result<_, _>>()?,
+                remainders: remainders.iter().map(|name| channel(name)).collect::<Result<_, _>>()?,
+                counts: channel(count)?,
+            })
+        };
+        let kernels = self.kernels().map(&mut of_kernel).collect::<Result<_, MergeError>>()?;
+        let channels = part_channels().map(&mut channel).collect::<Result<_, _>>()?;
+        let fixed = self.fixed_channels().map(&mut channel).collect::<Result<_, _>>()?;
+        Ok(PartPixels { channels, kernels, fixed })
+    }
+}
+
+impl KernelChannels {
+    /// A pixel's means, and how many samples they are over.
+    pub fn at(&self, pixel: usize) -> ([f64; 3], f64) {
+        let mut means = [0.0; 3];
+        for (mean, (nearest, rest)) in means.iter_mut().zip(self.means.iter().zip(&self.remainders)) {
+            *mean = f64::from(nearest[pixel]) + f64::from(rest[pixel]);
+        }
+        (means, f64::from(self.counts[pixel]))
     }
 }
 

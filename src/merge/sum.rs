@@ -1,12 +1,14 @@
 //! The sum of parts.
 
+use std::io;
 use std::ops::Range;
 
 use super::cover::{Missing, check_overlap, missing};
 use super::error::PartsError;
+use super::layers::LayerSums;
 use super::part::{MergeError, PartHeader};
-use crate::film::Band;
-use crate::output::Provenance;
+use crate::film::{Band, Layer};
+use crate::output::{LayerChannel, Provenance};
 use crate::render::progressive::error::ErrorEstimate;
 
 /// Rows of a band.
@@ -24,7 +26,11 @@ pub struct Merged {
     /// Samples per pixel of the longest part, and of the whole picture.
     pub longest: u32,
     pub samples: Range<u32>,
+    /// What the parts have beside the picture, and what the header says of it.
+    pub layers: Vec<Layer>,
+    pub notes: Vec<(String, String)>,
     pixels: Vec<Pixel>,
+    layer_sums: LayerSums,
 }
 
 /// Sums over the samples of a pixel.
@@ -66,6 +72,7 @@ pub fn merge(mut parts: Vec<PartHeader>, wanted: Option<u32>, partial: bool) -> 
     }
     let [width, height] = first.film.map(|side| side as usize);
     let mut pixels = vec![Pixel::default(); width * height];
+    let mut layer_sums = LayerSums::new(first, width * height);
     let mut error = PartsError::new((width * height) as u64, parts.len());
     for part in &parts {
         let of_part = part.pixels()?;
@@ -85,6 +92,7 @@ pub fn merge(mut parts: Vec<PartHeader>, wanted: Option<u32>, partial: bool) -> 
                 (found.mean.map(|mean| mean as f32), found.count as f32)
             };
             error.add(place as u64, value, columns);
+            layer_sums.add(&of_part, (row * columns, place), columns);
         }
     }
     let mut devices: Vec<&str> = parts.iter().map(PartHeader::device).collect();
@@ -97,7 +105,10 @@ pub fn merge(mut parts: Vec<PartHeader>, wanted: Option<u32>, partial: bool) -> 
         error: error.estimate(),
         longest: parts.iter().map(|part| part.samples.len() as u32).max().unwrap_or(1),
         samples,
+        layers: first.layers.clone(),
+        notes: first.notes(),
         pixels,
+        layer_sums,
     })
 }
 
@@ -108,6 +119,14 @@ impl Merged {
         let have = self.samples.len() as f64;
         let more = have * (error.upper / target - 1.0);
         Some((more.max(0.0) / f64::from(self.longest)).ceil() as u64)
+    }
+
+    /// The channels of its layers.
+    ///
+    /// # Errors
+    /// What temporary files do.
+    pub fn layer_channels(&self) -> io::Result<Vec<LayerChannel>> {
+        self.layer_sums.channels(self.size, |pixel| self.pixels[pixel].count)
     }
 
     /// The picture from the top.

@@ -23,7 +23,7 @@ pub(super) fn developed_rows(
     if spec.display.exposure != Exposure::Auto {
         let developer = Developer::new(&spec.display, &Meter::default());
         for _ in 0..spec.height {
-            develop(rows.next_row().map_err(abandoned)?.0, &developer)?;
+            develop(rows.next_row().map_err(abandoned)?.mean, &developer)?;
         }
         return rows.wait_for_finish().map_err(abandoned);
     }
@@ -31,7 +31,7 @@ pub(super) fn developed_rows(
     let mut meter = Meter::default();
     let mut waiting = BufWriter::new(tempfile::tempfile().map_err(in_words)?);
     for _ in 0..spec.height {
-        let row = rows.next_row().map_err(abandoned)?.0;
+        let row = rows.next_row().map_err(abandoned)?.mean;
         meter.add(row);
         waiting.write_all(bytemuck::cast_slice(row)).map_err(in_words)?;
     }

@@ -15,10 +15,10 @@ use exr::meta::{BlockDescription, Headers, MetaData};
 use exr::prelude::{Compression, Vec2, f16};
 
 use super::layers::{LayerChannel, LayerPicture, LayerSource, sample_variance};
-use super::provenance;
-use super::rows::{Completeness, Counts, PartRow, Rows};
+use super::provenance::{self, LAYERS_KEY};
+use super::rows::{Completeness, Row, Rows};
 use super::spec::{ExrCompression, PartSpec, PictureSpec};
-use crate::film::variance;
+use crate::film::{Layer, variance};
 
 /// Blocks compressed at once. Each takes 32 rows of memory, so more would be felt at 8K.
 const COMPRESSING_THREADS: usize = 4;
@@ -83,26 +83,32 @@ struct Channel {
 enum Content {
     /// Red, green or blue.
     Colour(usize),
+    /// One of the channels of a part, by its place in their list.
+    Part(usize),
     Layer(LayerSource),
 }
 
 /// All channels in the alphabetical order of their names, in which they lie one after another in a scan line. `have_counts`: the file says how
-/// many samples each pixel has. Empty for a part, which has channels of its own.
+/// many samples each pixel has.
 fn channels(spec: &PictureSpec, have_counts: bool) -> Vec<Channel> {
-    if spec.part.is_some() {
-        return Vec::new();
-    }
     let colour = if spec.exr.half { SampleType::F16 } else { SampleType::F32 };
-    let of_colour = |(place, name)| Channel { name, sample_type: colour, content: Content::Colour(place) };
+    let is_layer = |name: &str| spec.layers.iter().any(|layer| layer.name == name);
     let of_layer = |LayerChannel { name, source }: LayerChannel| Channel {
         name,
         sample_type: if matches!(source, LayerSource::Whole(..)) { SampleType::U32 } else { SampleType::F32 },
         content: Content::Layer(source),
     };
-    let mut channels: Vec<Channel> = COLOURS.into_iter().enumerate().map(of_colour).collect();
-    let count = LayerChannel { name: COUNT, source: LayerSource::Count };
-    let is_asked_for = spec.layers.iter().any(|layer| layer.name == COUNT);
-    channels.extend(spec.layers.iter().cloned().chain((have_counts && !is_asked_for).then_some(count)).map(of_layer));
+    let mut channels: Vec<Channel> = if spec.part.is_some() {
+        let of_part = |(place, name)| Channel { name, sample_type: SampleType::F32, content: Content::Part(place) };
+        // Variances that are rendered say more than those that are taken from luminance.
+        PART.into_iter().enumerate().filter(|(_, name)| !is_layer(name)).map(of_part).collect()
+    } else {
+        let of_colour = |(place, name)| Channel { name, sample_type: colour, content: Content::Colour(place) };
+        let count = LayerChannel { name: COUNT, source: LayerSource::Count };
+        let counts = (have_counts && !is_layer(COUNT)).then_some(count).map(of_layer);
+        COLOURS.into_iter().enumerate().map(of_colour).chain(counts).collect()
+    };
+    channels.extend(spec.layers.iter().cloned().map(of_layer));
     channels.sort_unstable_by_key(|channel| channel.name);
     channels
 }
@@ -114,20 +120,16 @@ fn for_each_block(
     mut write: impl FnMut(usize, UncompressedBlock) -> UnitResult,
 ) -> UnitResult {
     let bytes_per_pixel = meta.headers[0].channels.bytes_per_pixel;
+    let is_part = channels.iter().any(|channel| matches!(channel.content, Content::Part(_)));
     for (index_in_file, index) in meta.enumerate_ordered_header_block_indices() {
         let mut data = Vec::with_capacity(index.pixel_size.area() * bytes_per_pixel);
         let first_row = index.pixel_position.y();
         for row in 0..index.pixel_size.height() {
-            // Parts have channels of their own.
-            if channels.is_empty() {
-                let row = rows.next_part_row().map_err(|_| Error::Aborted)?;
-                pack_part_row(&row, &mut data);
-                continue;
-            }
-            let (pixels, counts) = rows.next_row().map_err(|_| Error::Aborted)?;
             let layers = layer_rows(channels, (first_row + row) as u32)?;
+            let row = rows.next_row().map_err(|_| Error::Aborted)?;
+            let of_part = if is_part { part_values(&row) } else { Vec::new() };
             for channel in channels {
-                pack(channel, pixels, &counts, &layers, &mut data);
+                pack(channel, &row, (&layers, &of_part), &mut data);
             }
         }
         write(index_in_file, UncompressedBlock { index, data })?;
@@ -149,20 +151,21 @@ fn layer_rows(channels: &[Channel], row: u32) -> Result<BTreeMap<usize, Vec<[f32
     Ok(rows)
 }
 
-/// Appends a row of a channel.
+/// Appends a row of a channel. Of a part, there are also the values of its own channels, pixel by pixel.
 fn pack(
     channel: &Channel,
-    pixels: &[[f32; 3]],
-    counts: &Counts<'_>,
-    layers: &BTreeMap<usize, Vec<[f32; 3]>>,
+    row: &Row<'_>,
+    (layers, of_part): (&BTreeMap<usize, Vec<[f32; 3]>>, &[[f32; PART.len()]]),
     data: &mut Vec<u8>,
 ) {
     let layer = |picture: &Arc<LayerPicture>| layers[&(Arc::as_ptr(picture) as usize)].iter();
+    let (pixels, counts) = (row.mean, &row.counts);
     match &channel.content {
         Content::Colour(place) if channel.sample_type == SampleType::F16 => {
             data.extend(pixels.iter().flat_map(|pixel| to_half(pixel[*place]).to_ne_bytes()));
         }
         Content::Colour(place) => data.extend(pixels.iter().flat_map(|pixel| pixel[*place].to_ne_bytes())),
+        Content::Part(place) => data.extend(of_part.iter().flat_map(|values| values[*place].to_ne_bytes())),
         Content::Layer(LayerSource::Count) => {
             data.extend((0..pixels.len()).flat_map(|pixel| (counts.of(pixel) as f32).to_ne_bytes()));
         }
@@ -188,8 +191,8 @@ fn to_half(value: f32) -> f16 {
     f16::from_f32(if value.is_nan() { value } else { value.clamp(-largest, largest) })
 }
 
-/// Adds a row of a part, channel after channel.
-fn pack_part_row(row: &PartRow<'_>, data: &mut Vec<u8>) {
+/// What the channels of a part hold of a row, pixel by pixel.
+fn part_values(row: &Row<'_>) -> Vec<[f32; PART.len()]> {
     let values = |pixel: usize| {
         let mean = row.mean[pixel];
         let remainder = row.remainder.get(pixel).copied().unwrap_or_default();
@@ -200,10 +203,7 @@ fn pack_part_row(row: &PartRow<'_>, data: &mut Vec<u8>) {
         let [[r, g, b], [rest_r, rest_g, rest_b], [var_r, var_g, var_b]] = [mean, remainder, variance];
         [b, g, r, rest_b, rest_g, rest_r, count as f32, var_b, var_g, var_r]
     };
-    let pixels: Vec<[f32; PART.len()]> = (0..row.mean.len()).map(values).collect();
-    for channel in 0..PART.len() {
-        data.extend(pixels.iter().flat_map(|pixel| pixel[channel].to_ne_bytes()));
-    }
+    (0..row.mean.len()).map(values).collect()
 }
 
 /// Channels of a part, in alphabetical order.
@@ -213,12 +213,10 @@ pub fn part_channels() -> impl Iterator<Item = &'static str> {
 
 /// `have_counts`: the file says how many samples each pixel has, in a channel of its own.
 fn header(spec: &PictureSpec, samples: u32, completeness: Completeness, have_counts: bool) -> Header {
-    let of_part = PART.map(|name| ChannelDescription::new(name, SampleType::F32, false));
     let describe = |channel: &Channel| ChannelDescription::new(channel.name, channel.sample_type, false);
-    let usual = channels(spec, have_counts);
-    let channels: Vec<_> = if usual.is_empty() { of_part.to_vec() } else { usual.iter().map(describe).collect() };
+    let channels = channels(spec, have_counts).iter().map(describe).collect();
     let size = Vec2(spec.width as usize, spec.height as usize);
-    let mut header = Header::new(Text::from("gpt"), size, channels.into_iter().collect()).with_encoding(
+    let mut header = Header::new(Text::from("gpt"), size, channels).with_encoding(
         match spec.exr.compression {
             // Of a part, nothing may be lost.
             ExrCompression::Pxr24 if spec.part.is_some() => Compression::ZIP16,
@@ -233,6 +231,7 @@ fn header(spec: &PictureSpec, samples: u32, completeness: Completeness, have_cou
     for (key, entry) in spec.header_entries(samples, completeness) {
         header.own_attributes.other.insert(Text::from(key), attribute(entry));
     }
+    header.own_attributes.other.extend(layers_entry(spec).map(|(key, value)| (Text::from(key), value)));
     for (key, text) in &spec.notes {
         header.own_attributes.other.insert(header_text(key), AttributeValue::Text(header_text(text)));
     }
@@ -254,6 +253,12 @@ fn compression(choice: ExrCompression) -> Compression {
         ExrCompression::Piz => Compression::PIZ,
         ExrCompression::Pxr24 => Compression::PXR24,
     }
+}
+
+/// Which layers a file has, where it has any.
+pub(super) fn layers_entry(spec: &PictureSpec) -> Option<(&'static str, AttributeValue)> {
+    let list = || AttributeValue::Text(Text::from(Layer::list(&spec.layer_names).as_str()));
+    (!spec.layer_names.is_empty()).then(|| (LAYERS_KEY, list()))
 }
 
 /// An entry as the header has it.

@@ -49,11 +49,9 @@ fn exr_agrees(path: &Path, spec: &PictureSpec) -> bool {
         return false;
     }
     let found: Vec<(&Text, &AttributeValue)> = header.own_attributes.other.iter().collect();
-    let entries: Vec<_> = decisive(spec).collect();
-    let has = |(key, entry): &(&str, Entry)| {
-        let wanted = exr_file::attribute(entry.clone());
-        found.iter().any(|(name, value)| name.eq(key) && **value == wanted)
-    };
+    let decisive = decisive(spec).map(|(key, entry)| (key, exr_file::attribute(entry)));
+    let entries: Vec<_> = decisive.chain(exr_file::layers_entry(spec)).collect();
+    let has = |(key, wanted): &(&str, AttributeValue)| found.iter().any(|(name, value)| name.eq(key) && *value == wanted);
     let is_known = |name: &Text| INCIDENTAL.iter().any(|key| name.eq(key)) || entries.iter().any(|(key, _)| name.eq(key));
     // An entry that this render has not, such as an error to reach, decides something too.
     entries.iter().all(has) && found.iter().all(|(name, _)| !name.to_string().starts_with("gpt:") || is_known(name))

@@ -23,7 +23,7 @@ pub(super) fn write(mut writer: impl Write, mut rows: Rows, spec: &PictureSpec) 
     writer.write_all(header.as_bytes()).map_err(in_words)?;
     let by_channel = (SHORTEST_ROW..=LONGEST_ROW).contains(&width);
     for _ in 0..height {
-        let pixels: Vec<[u8; 4]> = rows.next_row().map_err(abandoned)?.0.iter().map(|&pixel| rgbe(pixel)).collect();
+        let pixels: Vec<[u8; 4]> = rows.next_row().map_err(abandoned)?.mean.iter().map(|&pixel| rgbe(pixel)).collect();
         if !by_channel {
             writer.write_all(pixels.as_flattened()).map_err(in_words)?;
             continue;

@@ -4,6 +4,8 @@ use std::fs::File;
 use std::io::{Read, Result, Seek, SeekFrom, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use crate::film::{KernelLayer, Layer};
+
 /// Three numbers a pixel, row by row.
 #[derive(Debug)]
 pub struct LayerPicture {
@@ -76,6 +78,48 @@ impl LayerSource {
         match self {
             Self::Component(picture, _) | Self::Whole(picture, _) | Self::Variance(picture, _) => Some(picture),
             Self::Count => None,
+        }
+    }
+}
+
+impl LayerChannel {
+    /// The channels of a layer whose numbers a picture holds; where none does, the number of samples is meant.
+    pub fn of(layer: Layer, picture: Option<&Arc<LayerPicture>>) -> Vec<Self> {
+        let Some(picture) = picture else { return vec![Self { name: "SampleCount", source: LayerSource::Count }] };
+        let of_picture = |names: &[&'static str], source: &dyn Fn(usize) -> LayerSource| -> Vec<Self> {
+            names.iter().enumerate().map(|(place, name)| Self { name, source: source(place) }).collect()
+        };
+        match layer {
+            // Beside the depth stands how many of the samples met a surface.
+            Layer::Alpha => vec![Self { name: "A", source: LayerSource::Component(picture.clone(), 1) }],
+            Layer::Variance => of_picture(&["Variance.R", "Variance.G", "Variance.B"], &|place| {
+                LayerSource::Variance(picture.clone(), place)
+            }),
+            Layer::Ids => of_picture(&["ObjectId", "MaterialId"], &|place| LayerSource::Whole(picture.clone(), place)),
+            _ => layer.kernel().map_or_else(Vec::new, |kernel| {
+                of_picture(kernel.part_channels().values, &|place| LayerSource::Component(picture.clone(), place))
+            }),
+        }
+    }
+
+    /// What a part has besides, so that it can be joined with others: means, what rounding to them lost, and how many samples they are over.
+    pub fn of_part(kernel: KernelLayer, [means, remainders, counts]: [&Arc<LayerPicture>; 3]) -> Vec<Self> {
+        let channels = kernel.part_channels();
+        let of_picture = |names: &[&'static str], picture: &Arc<LayerPicture>| -> Vec<Self> {
+            let source = |place| LayerSource::Component(picture.clone(), place);
+            names.iter().enumerate().map(|(place, name)| Self { name, source: source(place) }).collect()
+        };
+        let means = of_picture(channels.values, means);
+        let others = of_picture(channels.remainders, remainders).into_iter().chain(of_picture(&[channels.count], counts));
+        means.into_iter().chain(others).collect()
+    }
+
+    /// Adds those whose names are not there yet: a layer may be asked for twice.
+    pub fn add_new(channels: &mut Vec<Self>, new: Vec<Self>) {
+        for channel in new {
+            if channels.iter().all(|other| other.name != channel.name) {
+                channels.push(channel);
+            }
         }
     }
 }

@@ -29,6 +29,6 @@ pub use finished::is_finished_picture;
 pub use format::{PICTURE_ENDINGS, PictureFormat};
 pub use layers::{LayerChannel, LayerPicture, LayerSource};
 pub use picture::{PictureFile, STDOUT};
-pub use provenance::{CROP_KEY, Provenance};
+pub use provenance::{CROP_KEY, LAYERS_KEY, Provenance};
 pub use read::{Image, PictureKind, ReadError, read_image};
 pub use spec::{ExrCompression, ExrOptions, PartSpec, PictureSpec};

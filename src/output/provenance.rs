@@ -36,6 +36,9 @@ pub(super) const COMPLETE_KEY: &str = "gpt:complete";
 /// Key of the region of the whole picture that a part shows: first column and row, width and height.
 pub const CROP_KEY: &str = "gpt:crop";
 
+/// Key of the layers that an EXR file has beside the picture, as they were asked for.
+pub const LAYERS_KEY: &str = "gpt:layers";
+
 /// Key of 1 where the render was interrupted or its device lost, else 0: a time limit, say, leaves a finished picture.
 pub(super) const BROKEN_OFF_KEY: &str = "gpt:brokenOff";
 

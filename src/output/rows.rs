@@ -47,8 +47,8 @@ impl Counts<'_> {
     }
 }
 
-/// A row of a part; what is not known is empty.
-pub(super) struct PartRow<'a> {
+/// A row; what is not known is empty.
+pub(super) struct Row<'a> {
     pub(super) mean: &'a [[f32; 3]],
     pub(super) counts: Counts<'a>,
     pub(super) remainder: &'a [[f32; 3]],
@@ -77,36 +77,20 @@ impl Rows {
         Ok(self.band.counts.is_some())
     }
 
-    /// The next row's pixels, and how many samples each has.
-    pub(super) fn next_row(&mut self) -> Result<(&[[f32; 3]], Counts<'_>), Abandoned> {
+    /// The next row.
+    pub(super) fn next_row(&mut self) -> Result<Row<'_>, Abandoned> {
         let row = self.next_row;
         self.next_row += 1;
         self.reach(row)?;
         if row < self.band.first_row || row >= self.band.first_row + self.band.rows {
             self.fewest_samples = 0;
-            return Ok((&self.blank, Counts::Even(0)));
+            return Ok(Row { mean: &self.blank, counts: Counts::Even(0), remainder: &[], second_moment: &[] });
         }
         self.fewest_samples = self.fewest_samples.min(self.band.samples);
         let width = self.blank.len();
         let start = (row - self.band.first_row) as usize * width;
-        let counts = match &self.band.counts {
-            Some(counts) => Counts::Each(&counts[start..start + width]),
-            None => Counts::Even(self.band.samples),
-        };
-        Ok((&self.band.mean[start..start + width], counts))
-    }
-
-    /// As [`Rows::next_row`], with what a part needs.
-    pub(super) fn next_part_row(&mut self) -> Result<PartRow<'_>, Abandoned> {
-        let row = self.next_row;
-        self.next_row()?;
-        if row < self.band.first_row || row >= self.band.first_row + self.band.rows {
-            return Ok(PartRow { mean: &self.blank, counts: Counts::Even(0), remainder: &[], second_moment: &[] });
-        }
-        let width = self.blank.len();
-        let start = (row - self.band.first_row) as usize * width;
         let Band { mean, counts, remainder, second_moment, samples, .. } = &*self.band;
-        Ok(PartRow {
+        Ok(Row {
             mean: &mean[start..start + width],
             counts: match counts {
                 Some(counts) => Counts::Each(&counts[start..start + width]),
@@ -167,11 +151,11 @@ mod tests {
             sender.send(message).unwrap();
         }
         let mut rows = Rows::new(receiver, 2);
-        let firsts: Vec<f32> = (0..4).map(|_| rows.next_row().unwrap().0[0][0]).collect();
+        let firsts: Vec<f32> = (0..4).map(|_| rows.next_row().unwrap().mean[0][0]).collect();
         assert_eq!(firsts, [0.0, 2.0, 4.0, 0.0], "the fourth row was never rendered");
         assert_eq!(rows.fewest_samples(), 0);
-        assert_eq!(rows.next_row().unwrap().0, [[8.0; 3], [9.0; 3]]);
-        assert_eq!(rows.next_row().unwrap().0, [[0.0; 3]; 2]);
+        assert_eq!(rows.next_row().unwrap().mean, [[8.0; 3], [9.0; 3]]);
+        assert_eq!(rows.next_row().unwrap().mean, [[0.0; 3]; 2]);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use super::layers::LayerChannel;
 use super::provenance::{CROP_KEY, Entry, Provenance};
 use super::rows::Completeness;
 use crate::choice::choices;
+use crate::film::Layer;
 
 /// How OpenEXR files hold the picture.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -58,6 +59,8 @@ pub struct PictureSpec {
     pub exr: ExrOptions,
     /// Channels beside red, green and blue, of EXR files.
     pub layers: Vec<LayerChannel>,
+    /// The layers to which they belong, where their file's header shall name them.
+    pub layer_names: Vec<Layer>,
     /// Entries of the header of EXR files, beside those of the provenance.
     pub notes: Vec<(String, String)>,
     /// None of a picture whose origin is not known.

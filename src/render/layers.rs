@@ -1,149 +1,141 @@
 //! Renders layers: each is a render of its own, of the same samples as the picture, by kernels that make it in place of radiance. So the kernels
 //! of a picture without layers are what they are, and the film, its sums and its passes are the same for all.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Instant;
 
+use glam::DVec3;
+
+use super::checkpoint::Checkpoint;
 use super::cryptomatte;
 use super::options::RenderOptions;
 use super::stream::Renderer;
 use crate::film::{Band, KernelLayer, Layer};
-use crate::output::{LayerChannel, LayerPicture, LayerSource};
+use crate::output::{LayerChannel, LayerPicture};
 use crate::plan::PlanOptions;
 use crate::reference::ReferenceRenderer;
 use crate::reference::layer::layer_scene;
 use crate::renderer::{Observer, RenderError};
 use crate::scene::Scene;
 
-/// What has to be rendered for a layer; None: nothing besides the picture, or not by samples.
-fn kernel_layer(layer: Layer) -> Option<KernelLayer> {
-    match layer {
-        Layer::Albedo => Some(KernelLayer::Albedo),
-        Layer::Normal => Some(KernelLayer::Normal),
-        Layer::Position => Some(KernelLayer::Position),
-        Layer::Depth | Layer::Alpha => Some(KernelLayer::Depth),
-        Layer::Variance => Some(KernelLayer::Squares),
-        Layer::Direct => Some(KernelLayer::Direct),
-        Layer::Indirect => Some(KernelLayer::Indirect),
-        Layer::Emission => Some(KernelLayer::Emission),
-        Layer::Samples | Layer::Ids | Layer::Cryptomatte => None,
-    }
+/// Gives the checkpoint of a layer that is about to be rendered, if it shall have one.
+pub type LayerCheckpoints<'a, E> = &'a mut dyn FnMut(&Renderer, KernelLayer) -> Result<Option<Checkpoint>, E>;
+
+/// What a layer came to: means, what rounding to them lost, and how many samples they are over. Only parts need the last two.
+struct Rendered {
+    kernel: KernelLayer,
+    means: Arc<LayerPicture>,
+    of_part: Option<[Arc<LayerPicture>; 2]>,
 }
 
-/// Renders the layers that are wanted of a scene, with the options of its picture; their channels. None where the observer stopped it.
+/// Renders the layers that are wanted of a scene, with the options of its picture, or of the region of it that they name; their channels. With
+/// `of_part`, there are also those that joining parts needs. None where the observer stopped it; `checkpoint` then has how far it came.
 ///
 /// # Errors
-/// What the device reports, and what temporary files do.
-pub fn render_layers(
+/// What the device reports, what temporary files do, and what `checkpoint` says.
+pub fn render_layers<E: From<RenderError>>(
     scene: &Scene,
     options: &RenderOptions,
-    wanted: &[Layer],
+    (wanted, of_part): (&[Layer], bool),
     observer: &dyn Observer,
-) -> Result<Option<Vec<LayerChannel>>, RenderError> {
-    let mut pictures: BTreeMap<&'static str, Arc<LayerPicture>> = BTreeMap::new();
+    checkpoint: LayerCheckpoints<'_, E>,
+) -> Result<Option<Vec<LayerChannel>>, E> {
+    let region = options.crop.unwrap_or([0, 0, scene.film.size[0], scene.film.size[1]]);
+    let mut rendered: Vec<Rendered> = Vec::new();
     let mut channels: Vec<LayerChannel> = Vec::new();
     for &layer in wanted {
         if layer == Layer::Cryptomatte {
-            let Some(mattes) = cryptomatte::mattes(scene, observer)? else { return Ok(None) };
-            channels.extend(
-                mattes.into_iter().filter(|matte| channels.iter().all(|other| other.name != matte.name)).collect::<Vec<_>>(),
-            );
+            let Some(mattes) = cryptomatte::mattes(scene, region, observer)? else { return Ok(None) };
+            LayerChannel::add_new(&mut channels, mattes);
             continue;
         }
-        let picture = match kernel_layer(layer) {
-            Some(kernel) => match pictures.get(kernel.switches()[0]) {
-                Some(picture) => Some(picture.clone()),
-                None => {
-                    let Some(picture) = render_layer(scene, options, kernel, observer)? else { return Ok(None) };
-                    pictures.insert(kernel.switches()[0], picture.clone());
-                    Some(picture)
-                }
-            },
-            None if layer == Layer::Ids => Some(ids(scene)?),
-            None => None,
+        let Some(kernel) = layer.kernel() else {
+            let picture = if layer == Layer::Ids { Some(ids(scene, region).map_err(E::from)?) } else { None };
+            LayerChannel::add_new(&mut channels, LayerChannel::of(layer, picture.as_ref()));
+            continue;
         };
-        for channel in channels_of(layer, picture.as_ref()) {
-            // A layer may be asked for twice.
-            if channels.iter().all(|other| other.name != channel.name) {
-                channels.push(channel);
+        let index = match rendered.iter().position(|one| one.kernel == kernel) {
+            Some(index) => index,
+            None => {
+                let Some(one) = render_layer(scene, options, (kernel, of_part), observer, checkpoint)? else { return Ok(None) };
+                rendered.push(one);
+                rendered.len() - 1
             }
+        };
+        let Rendered { means, of_part, .. } = &rendered[index];
+        LayerChannel::add_new(&mut channels, LayerChannel::of(layer, Some(means)));
+        if let Some([remainders, counts]) = of_part {
+            LayerChannel::add_new(&mut channels, LayerChannel::of_part(kernel, [means, remainders, counts]));
         }
     }
     Ok(Some(channels))
 }
 
-fn channels_of(layer: Layer, picture: Option<&Arc<LayerPicture>>) -> Vec<LayerChannel> {
-    let Some(picture) = picture else { return vec![LayerChannel { name: "SampleCount", source: LayerSource::Count }] };
-    let components = |names: &[&'static str]| -> Vec<LayerChannel> {
-        let source = |place| LayerSource::Component(picture.clone(), place);
-        names.iter().enumerate().map(|(place, name)| LayerChannel { name, source: source(place) }).collect()
-    };
-    match layer {
-        Layer::Albedo => components(&["Albedo.R", "Albedo.G", "Albedo.B"]),
-        Layer::Normal => components(&["N.X", "N.Y", "N.Z"]),
-        Layer::Position => components(&["P.X", "P.Y", "P.Z"]),
-        Layer::Direct => components(&["Direct.R", "Direct.G", "Direct.B"]),
-        Layer::Indirect => components(&["Indirect.R", "Indirect.G", "Indirect.B"]),
-        Layer::Emission => components(&["Emission.R", "Emission.G", "Emission.B"]),
-        Layer::Depth => components(&["Z"]),
-        // Beside the depth stands how many of the samples met a surface.
-        Layer::Alpha => vec![LayerChannel { name: "A", source: LayerSource::Component(picture.clone(), 1) }],
-        Layer::Variance => ["Variance.R", "Variance.G", "Variance.B"]
-            .into_iter()
-            .enumerate()
-            .map(|(place, name)| LayerChannel { name, source: LayerSource::Variance(picture.clone(), place) })
-            .collect(),
-        Layer::Ids => ["ObjectId", "MaterialId"]
-            .into_iter()
-            .enumerate()
-            .map(|(place, name)| LayerChannel { name, source: LayerSource::Whole(picture.clone(), place) })
-            .collect(),
-        Layer::Samples | Layer::Cryptomatte => Vec::new(),
-    }
-}
-
-fn render_layer(
+fn render_layer<E: From<RenderError>>(
     scene: &Scene,
     options: &RenderOptions,
-    layer: KernelLayer,
+    (layer, of_part): (KernelLayer, bool),
     observer: &dyn Observer,
-) -> Result<Option<Arc<LayerPicture>>, RenderError> {
+    checkpoint: LayerCheckpoints<'_, E>,
+) -> Result<Option<Rendered>, E> {
     let plan = PlanOptions { layer: Some(layer), ..options.plan.clone() };
     let of_layer = RenderOptions { plan, time_limit: None, target_error: None, adaptive: false, ..options.clone() };
-    let center = if layer == KernelLayer::Position { scene.center() } else { glam::DVec3::ZERO };
+    let center = if layer == KernelLayer::Position { scene.center() } else { DVec3::ZERO };
     let scene = layer_scene(scene, layer);
     let mut renderer = Renderer::on(Renderer::begin(&of_layer), &scene, &of_layer)?;
-    let picture = Arc::new(LayerPicture::new(scene.film.size)?);
+    let picture = || LayerPicture::new(renderer.size()).map(Arc::new).map_err(RenderError::from);
+    let means = picture()?;
+    let others = if of_part { Some([picture()?, picture()?]) } else { None };
     let samples = scene.render.spp;
-    let outcome = renderer.render_from(Instant::now(), observer, None, &mut |band: Band| {
+    let mut kept = checkpoint(&renderer, layer)?;
+    let outcome = renderer.render_from(Instant::now(), observer, kept.as_mut(), &mut |band: Band| {
         let count = |pixel: usize| band.counts.as_ref().map_or(band.samples, |counts| counts[pixel]);
+        // Positions were relative to it.
+        let moved = |pixel: usize| if count(pixel) > 0 { center } else { DVec3::ZERO };
         let values: Vec<[f32; 3]> = band
             .mean
             .iter()
             .enumerate()
             .map(|(pixel, &mean)| match layer {
                 KernelLayer::Depth => [mean[0], count(pixel) as f32 / samples as f32, 0.0],
-                // Positions were relative to it.
-                KernelLayer::Position if count(pixel) > 0 => {
-                    (center + glam::DVec3::from_array(mean.map(f64::from))).as_vec3().to_array()
-                }
+                KernelLayer::Position => (moved(pixel) + wide(mean)).as_vec3().to_array(),
                 _ => mean,
             })
             .collect();
-        picture.write_rows(band.first_row, &values)
+        means.write_rows(band.first_row, &values)?;
+        let Some([remainders, counts]) = &others else { return Ok(()) };
+        let rests: Vec<[f32; 3]> = values
+            .iter()
+            .zip(&band.mean)
+            .enumerate()
+            .map(|(pixel, (&value, &mean))| {
+                let rest = band.remainder.get(pixel).copied().unwrap_or_default();
+                match layer {
+                    KernelLayer::Position => (moved(pixel) + wide(mean) + wide(rest) - wide(value)).as_vec3().to_array(),
+                    _ => rest,
+                }
+            })
+            .collect();
+        remainders.write_rows(band.first_row, &rests)?;
+        let of_pixels: Vec<[f32; 3]> = (0..band.mean.len()).map(|pixel| [count(pixel) as f32, 0.0, 0.0]).collect();
+        counts.write_rows(band.first_row, &of_pixels)
     })?;
-    Ok((!outcome.report.interrupted).then_some(picture))
+    Ok((!outcome.report.interrupted).then_some(Rendered { kernel: layer, means, of_part: others }))
+}
+
+fn wide(values: [f32; 3]) -> DVec3 {
+    DVec3::from_array(values.map(f64::from))
 }
 
 /// What is met at the pixels' centres. Numbers cannot be averaged; one ray a pixel is soon traced by the CPU.
-fn ids(scene: &Scene) -> Result<Arc<LayerPicture>, RenderError> {
+fn ids(scene: &Scene, [left, top, width, height]: [u32; 4]) -> Result<Arc<LayerPicture>, RenderError> {
     let reference = ReferenceRenderer::new(scene)?;
-    let [width, height] = scene.film.size;
     let picture = LayerPicture::new([width, height])?;
     for y in 0..height {
-        let row: Vec<[f32; 3]> =
-            (0..width).map(|x| reference.ids(x, y)).map(|[object, material]| [object as f32, material as f32, 0.0]).collect();
+        let row: Vec<[f32; 3]> = (0..width)
+            .map(|x| reference.ids(left + x, top + y))
+            .map(|[object, material]| [object as f32, material as f32, 0.0])
+            .collect();
         picture.write_rows(y, &row)?;
     }
     Ok(Arc::new(picture))

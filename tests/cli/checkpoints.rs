@@ -6,6 +6,9 @@ use std::time::{Duration, Instant};
 use super::common::effort::in_full;
 use super::*;
 
+/// A render whose layers take as long as its picture.
+const LAYERS: &str = "--spp 300 --aov albedo,depth,alpha,indirect";
+
 /// A number that is different each time and the same in each run of the tests.
 struct Numbers(u32);
 
@@ -69,7 +72,7 @@ fn a_render_that_is_killed_goes_on_bit_for_bit() {
     let kills = if in_full("200 kills of each kind of render") { 200 } else { 6 };
     let place = Workplace::new();
     for device in devices() {
-        for goal in ["--spp 1500", "--spp 700 --adaptive", "--spp 900 --target-error 1e-12", "--spp 600 --time-limit 100000"] {
+        for goal in ["--spp 1500", "--spp 700 --adaptive", "--spp 900 --target-error 1e-12", "--spp 600 --time-limit 100000", LAYERS] {
             kill_and_resume(&place, kills, &format!("--device {device} --size 96x64 {goal}"));
         }
     }

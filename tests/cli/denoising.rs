@@ -68,6 +68,34 @@ fn a_render_is_denoised_beside_itself() {
     assert!(Channels::read(&place.path("a.exr")).expect("a picture").channel("Albedo.R").is_some());
 }
 
+/// Parts are denoised once they are joined, by what the whole picture's own denoising is helped by.
+#[test]
+fn parts_are_denoised_once_they_are_joined() {
+    let place = Workplace::new();
+    let render = "render scene.toml --device cpu --denoise";
+    for (name, first) in [("a", 0), ("b", 4)] {
+        let said = place.expect(0, &format!("{render} --spp 4 --first-sample {first} -o {name}.exr"));
+        assert!(said.contains("gpt merge --denoise"), "{said}");
+    }
+    assert_eq!(place.files(), ["a.exr", "b.exr", "scene.toml"]);
+    let output = place.command("merge a.exr b.exr --denoise -o x.exr").env(VARIABLE, "/nowhere").output().expect("it starts");
+    assert_eq!((output.status.code(), place.path("x.exr").exists()), (Some(1), false), "{}", text(&output.stderr));
+    if !is_installed() {
+        return;
+    }
+    let said = place.expect(0, "merge a.exr b.exr --denoise -o x.exr");
+    assert!(said.contains("x.denoised.exr: by Open Image Denoise") && said.contains("albedo and normals"), "{said}");
+    place.expect(0, &format!("{render} --spp 8 -q -o whole.exr"));
+    let near = |a: &str, b: &str| {
+        let (a, b) = (place.image(a), place.image(b));
+        a.pixels.iter().flatten().zip(b.pixels.iter().flatten()).all(|(a, b)| (a - b).abs() <= 1e-3 * (1.0 + b.abs()))
+    };
+    assert!(near("x.denoised.exr", "whole.denoised.exr"));
+    // The control: fewer samples are denoised to something else.
+    place.expect(0, "merge a.exr --denoise -o y.exr");
+    assert!(!near("y.denoised.exr", "whole.denoised.exr"));
+}
+
 /// Its absence is found before anything is rendered.
 #[test]
 fn a_missing_library_is_named_with_how_to_get_it() {

@@ -21,6 +21,7 @@ mod models;
 #[cfg(unix)]
 mod on_unix;
 mod outputs;
+mod part_layers;
 mod parts;
 mod picture_tests;
 mod traversal;

@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::choice::Choice;
+use crate::film::KernelLayer;
 use crate::output::Provenance;
 
 /// Number of the files' layout.
@@ -45,6 +47,13 @@ impl Identity {
         // Flags that decide this come first, for they say more.
         entries.push((WAY.to_owned(), if is_one_batch { "in one go" } else { "in steps" }.to_owned()));
         Self(entries)
+    }
+
+    /// Of one of its layers.
+    #[must_use]
+    pub fn of_layer(mut self, layer: KernelLayer) -> Self {
+        self.0.push(("--aov".to_owned(), layer.name().to_owned()));
+        self
     }
 
     /// The first thing in which `theirs` differs.

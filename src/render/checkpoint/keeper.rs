@@ -9,7 +9,8 @@ use std::time::{Duration, Instant};
 use super::identity::Identity;
 use super::rows::{self, RowsFile};
 use super::saved::{Refusal, Saved, StepsState};
-use crate::film::Band;
+use crate::choice::Choice;
+use crate::film::{Band, KernelLayer};
 use crate::output::{OutputError, check_target};
 use crate::renderer::state::BatchState;
 
@@ -32,6 +33,20 @@ pub fn path_beside(picture: &Path) -> PathBuf {
     let mut name = picture.file_name().unwrap_or_default().to_os_string();
     name.push(ENDING);
     picture.with_file_name(name)
+}
+
+/// Where the state of one of its layers stands.
+pub fn path_of_layer(picture: &Path, layer: KernelLayer) -> PathBuf {
+    let mut name = path_beside(picture).into_os_string();
+    name.push(format!("-{}", layer.name()));
+    name.into()
+}
+
+/// Removes a state, if there is one.
+pub fn remove_state(path: &Path) {
+    // Nothing is left to be done about a file that cannot be removed.
+    let _ = fs::remove_file(path);
+    rows::remove_all(path);
 }
 
 /// The state of one render on its way to a file.
@@ -202,9 +217,7 @@ impl Checkpoint {
     pub fn remove(mut self) {
         self.wait();
         self.rows = None;
-        // Nothing is left to be done about a file that cannot be removed.
-        let _ = fs::remove_file(&self.path);
-        rows::remove_all(&self.path);
+        remove_state(&self.path);
     }
 }
 

@@ -61,12 +61,26 @@ pub fn notes(scene: &Scene) -> Vec<(String, String)> {
     KINDS.iter().flat_map(|kind| (kind.names)(scene).notes(kind.name)).collect()
 }
 
-/// The mattes of objects and materials. None where the observer stopped it.
+/// The channels of mattes.
+pub fn channel_names() -> impl Iterator<Item = &'static str> {
+    KINDS.into_iter().flat_map(|kind| kind.channels)
+}
+
+/// The channels of mattes whose numbers these pictures hold, three channels each.
+pub fn channels(pictures: &[Arc<LayerPicture>]) -> Vec<LayerChannel> {
+    let source = |place: usize| LayerSource::Component(pictures[place / IN_PICTURE].clone(), place % IN_PICTURE);
+    channel_names().enumerate().map(|(place, name)| LayerChannel { name, source: source(place) }).collect()
+}
+
+/// The mattes of objects and materials in a region of the picture: first column and row, width and height. None where the observer stopped it.
 ///
 /// # Errors
 /// A scene that is not valid, and what temporary files do.
-pub fn mattes(scene: &Scene, observer: &dyn Observer) -> Result<Option<Vec<LayerChannel>>, RenderError> {
-    let [width, height] = scene.film.size;
+pub fn mattes(
+    scene: &Scene,
+    [left, top, width, height]: [u32; 4],
+    observer: &dyn Observer,
+) -> Result<Option<Vec<LayerChannel>>, RenderError> {
     let names = KINDS.each_ref().map(|kind| (kind.names)(scene));
     let first = layer_scene(scene, KernelLayer::Position);
     let reference = ReferenceRenderer::new(&first)?;
@@ -84,7 +98,7 @@ pub fn mattes(scene: &Scene, observer: &dyn Observer) -> Result<Option<Vec<Layer
         let rows: Vec<[Vec<[f32; 2 * RANKS]>; 2]> = (start..(start + ROWS).min(height))
             .into_par_iter()
             .map(|y| {
-                let owners = (0..width).map(|x| reference.owners(x, y, &points));
+                let owners = (0..width).map(|x| reference.owners(left + x, top + y, &points));
                 let (mut of_objects, mut of_materials) = (Vec::new(), Vec::new());
                 for owners in owners {
                     of_objects.push(ranked(owners.iter().map(|(owner, share)| (names[0].id(owner[0]), *share)), samples));
@@ -100,13 +114,7 @@ pub fn mattes(scene: &Scene, observer: &dyn Observer) -> Result<Option<Vec<Layer
         }
         observer.progress(u64::from((start + ROWS).min(height)), total);
     }
-    let channels = KINDS.iter().zip(&pictures).flat_map(|(kind, pictures)| {
-        kind.channels.iter().enumerate().map(|(place, name)| {
-            let source = LayerSource::Component(pictures[place / IN_PICTURE].clone(), place % IN_PICTURE);
-            LayerChannel { name, source }
-        })
-    });
-    Ok(Some(channels.collect()))
+    Ok(Some(channels(&pictures.concat())))
 }
 
 fn pictures(size: [u32; 2]) -> io::Result<Vec<Arc<LayerPicture>>> {
