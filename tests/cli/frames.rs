@@ -52,10 +52,15 @@ fn scene(camera: &str, ball: &str, block: &str) -> String {
     SCENE.replace("CAMERA", camera).replace("BALL", ball).replace("BLOCK", block)
 }
 
-/// A folder with the scene in which only the camera moves, and the one in which shapes do too.
+/// The scene in which only the camera moves.
+pub fn moving_camera() -> String {
+    scene(CAMERA, "", "")
+}
+
+/// A folder with that scene, and the one in which shapes do too.
 fn place() -> Workplace {
     let place = Workplace::new();
-    fs::write(place.path("camera.toml"), scene(CAMERA, "", "")).expect("the scene file");
+    fs::write(place.path("camera.toml"), moving_camera()).expect("the scene file");
     fs::write(place.path("shapes.toml"), scene(CAMERA, BALL, "node = \"table\"")).expect("the scene file");
     place
 }
