@@ -1,6 +1,7 @@
 //! Files that are read: regular ones, of bounded size.
 //!
-//! A pipe, a device or a socket may never end, or never begin. Each is refused before it is opened.
+//! A pipe, a device or a socket may never end, or never begin. Each is refused before it is opened. A file whose file system is gone ends in an
+//! error ([`crate::patience`]).
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -8,33 +9,74 @@ use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// Opens a regular file.
+use crate::patience::{self, PatientFile};
+
+/// A regular file that is being read.
+pub type InputFile = PatientFile<File>;
+
+/// Opens a regular file, which from now on is one that the program must not write.
 ///
 /// # Errors
-/// As [`File::open`], and where the path leads to anything else, which the error names.
-pub fn open(path: &Path) -> io::Result<File> {
-    let kind = fs::metadata(path)?.file_type();
-    if !kind.is_file() {
-        return Err(io::Error::new(ErrorKind::InvalidInput, format!("it is {}, not a regular file", name(kind))));
-    }
-    let file = File::open(path)?;
+/// As [`File::open`], where the path leads to anything else, which the error names, and where its file system does not answer.
+pub fn open(path: &Path) -> io::Result<InputFile> {
+    let file = open_own(path)?;
     remember(path);
     Ok(file)
+}
+
+/// Opens a regular file that the program may write as well.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_own(path: &Path) -> io::Result<InputFile> {
+    let path = path.to_owned();
+    let (file, length) = patience::within(move || {
+        let kind = fs::metadata(&path)?.file_type();
+        if !kind.is_file() {
+            return Err(io::Error::new(ErrorKind::InvalidInput, format!("it is {}, not a regular file", name(kind))));
+        }
+        let file = File::open(&path)?;
+        let length = file.metadata()?.len();
+        Ok((file, length))
+    })?;
+    Ok(PatientFile::new(file, length))
+}
+
+/// Whether there is a regular file. One whose file system does not answer counts: whoever opens it learns why it cannot be read.
+pub fn is_file(path: &Path) -> bool {
+    let path = path.to_owned();
+    patience::within(move || Ok(path.is_file())).unwrap_or(true)
+}
+
+/// Whether there is anything of this name; as [`is_file`].
+pub fn exists(path: &Path) -> bool {
+    let path = path.to_owned();
+    patience::within(move || Ok(path.exists())).unwrap_or(true)
+}
+
+/// The path with links followed.
+///
+/// # Errors
+/// As [`fs::canonicalize`], and where its file system does not answer.
+pub fn canonical(path: &Path) -> io::Result<PathBuf> {
+    let path = path.to_owned();
+    patience::within(move || fs::canonicalize(path))
 }
 
 /// Files that were opened so far, links followed. What a program reads it must not write.
 static OPENED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
 fn remember(path: &Path) {
-    if let Ok(real) = fs::canonicalize(path) {
+    if let Ok(real) = canonical(path) {
         OPENED.lock().unwrap_or_else(PoisonError::into_inner).insert(real);
     }
 }
 
 /// Whether this file was opened by [`open`], by whatever name.
 pub fn was_opened(path: &Path) -> bool {
+    let real = canonical(path);
     let opened = OPENED.lock().unwrap_or_else(PoisonError::into_inner);
-    fs::canonicalize(path).is_ok_and(|real| opened.contains(&real))
+    real.is_ok_and(|real| opened.contains(&real))
 }
 
 /// Reads a regular file of at most `most` bytes.
@@ -43,7 +85,7 @@ pub fn was_opened(path: &Path) -> bool {
 /// As [`open`], for a larger file, and where memory does not suffice.
 pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let file = open(path)?;
-    let length = file.metadata()?.len();
+    let length = file.length();
     if length > most {
         return Err(too_large(most));
     }

@@ -93,6 +93,8 @@ pub mod output;
 #[doc(hidden)]
 pub mod packed;
 #[doc(hidden)]
+pub mod patience;
+#[doc(hidden)]
 pub mod picture_test;
 #[doc(hidden)]
 pub mod plan;

@@ -8,6 +8,7 @@ use clap::{Args, Parser, Subcommand};
 use gpt::compare::Metric;
 use gpt::film::Layer;
 use gpt::load::LoadOptions;
+use gpt::patience;
 use gpt::plan::Fault;
 use gpt::renderer::DeviceChoice;
 use gpt::scene::settings::MOST_SAMPLES;
@@ -173,11 +174,15 @@ pub struct AccessArguments {
     /// Show this variant of the materials of a glTF that has several
     #[arg(long, value_name = "NAME")]
     pub variant: Option<String>,
+    /// Give up files whose file system does not answer for so long, when they are read and when they are written
+    #[arg(long, value_name = "SECONDS", default_value = "120", value_parser = parse_seconds, help_heading = SCENE)]
+    pub file_timeout: Duration,
 }
 
 impl AccessArguments {
-    /// What reading a scene may do.
+    /// What reading a scene may do. From now on, files are waited for as long as that is asked for.
     pub fn options(&self, strict: bool) -> LoadOptions {
+        patience::set_limit(self.file_timeout);
         LoadOptions {
             assets_root: self.assets_root.clone(),
             strict,

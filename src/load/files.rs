@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::fs;
-use std::io::{self, BufRead, BufReader, Cursor, ErrorKind, Seek};
+use std::io::{self, BufRead, Cursor, ErrorKind, Seek};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
@@ -53,7 +53,7 @@ impl Files {
     /// # Errors
     /// A folder that is not there.
     pub fn within(root: &Path) -> Result<Self, SceneError> {
-        let real = fs::canonicalize(root).and_then(|real| {
+        let real = input::canonical(root).and_then(|real| {
             if real.is_dir() { Ok(real) } else { Err(io::Error::new(ErrorKind::NotADirectory, "it is no folder")) }
         });
         match real {
@@ -79,12 +79,12 @@ impl Files {
 
     /// Whether there is anything of this name, on disk or in the program.
     pub fn exists(&self, path: &Path) -> bool {
-        self.held.meshes.contains_key(path) || self.is_file(path) || path.exists()
+        self.held.meshes.contains_key(path) || self.is_file(path) || input::exists(path)
     }
 
     /// Whether there is such a regular file, on disk or in the program.
     pub fn is_file(&self, path: &Path) -> bool {
-        self.held.bytes.contains_key(path) || embedded(path).is_some() || path.is_file()
+        self.held.bytes.contains_key(path) || embedded(path).is_some() || input::is_file(path)
     }
 
     /// Reads a file of at most `most` bytes.
@@ -104,13 +104,13 @@ impl Files {
         }
         match embedded(path) {
             Some(content) => Ok(Box::new(Cursor::new(content))),
-            None => Ok(Box::new(BufReader::new(input::open(self.allowed(path)?)?))),
+            None => Ok(Box::new(input::open(self.allowed(path)?)?)),
         }
     }
 
     fn allowed<'p>(&self, path: &'p Path) -> io::Result<&'p Path> {
         let Some(root) = &self.root else { return Ok(path) };
-        if fs::canonicalize(path)?.starts_with(root) {
+        if input::canonical(path)?.starts_with(root) {
             return Ok(path);
         }
         let message = format!("it lies outside of {}, which --assets-root allows", show(root));
@@ -132,7 +132,7 @@ impl Files {
         }
         let beside = relative.file_name().map(Path::new);
         let elsewhere = in_any_case(folder, relative).or_else(|| in_any_case(folder, beside?));
-        elsewhere.filter(|path| path.is_file()).map(|path| Found { path, is_substitute: true })
+        elsewhere.filter(|path| input::is_file(path)).map(|path| Found { path, is_substitute: true })
     }
 }
 
@@ -145,7 +145,7 @@ fn in_any_case(folder: &Path, relative: &Path) -> Option<PathBuf> {
             continue;
         };
         let exact = path.join(name);
-        if exact.exists() {
+        if input::exists(&exact) {
             path = exact;
             continue;
         }

@@ -11,6 +11,7 @@ use exr::prelude::{ReadChannels, ReadLayers};
 
 use crate::choice::Choice;
 use crate::film::{KernelLayer, Layer, PartChannels};
+use crate::input;
 use crate::output::{CROP_KEY, LAYERS_KEY, Provenance, part_channels};
 use crate::render::cryptomatte;
 use crate::scene::settings::{SETTINGS, Values};
@@ -81,10 +82,8 @@ impl PartHeader {
     /// A file that is no part, or whose render broke off.
     pub fn read(path: &Path) -> Result<Self, MergeError> {
         let failure = |what: String| MergeError::Part { path: path.to_owned(), what };
-        if let Err(error) = std::fs::metadata(path) {
-            return Err(failure(error.to_string()));
-        }
-        let meta = MetaData::read_from_file(path, false).map_err(|error| failure(format!("it is no EXR picture: {error}")))?;
+        let file = input::open_own(path).map_err(|error| failure(error.to_string()))?;
+        let meta = MetaData::read_from_buffered(file, false).map_err(|error| failure(format!("it is no EXR picture: {error}")))?;
         let header = meta.headers.first().ok_or_else(|| failure("it is no EXR picture".to_owned()))?;
         let has = |name: &str| header.channels.list.iter().any(|channel| channel.name.eq(name));
         if !part_channels().all(has) {
@@ -216,13 +215,14 @@ impl PartHeader {
     /// A file that is damaged.
     pub fn pixels(&self) -> Result<PartPixels, MergeError> {
         let failure = |what: String| MergeError::Part { path: self.path.clone(), what };
+        let file = input::open_own(&self.path).map_err(|error| failure(error.to_string()))?;
         let image = exr::prelude::read()
             .no_deep_data()
             .largest_resolution_level()
             .all_channels()
             .first_valid_layer()
             .all_attributes()
-            .from_file(&self.path)
+            .from_buffered(file)
             .map_err(|error| failure(error.to_string()))?;
         let AnyChannels { list } = image.layer_data.channel_data;
         let mut found: BTreeMap<String, FlatSamples> =

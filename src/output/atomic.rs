@@ -12,6 +12,7 @@ use std::sync::{Mutex, PoisonError};
 use tempfile::{Builder, NamedTempFile};
 
 use super::error::OutputError;
+use crate::patience;
 
 const PREFIX: &str = ".gpt-";
 const SUFFIX: &str = ".part";
@@ -40,9 +41,13 @@ impl AtomicFile {
     pub fn create(path: &Path) -> Result<Self, OutputError> {
         check_target(path)?;
         let failure = |source| OutputError::Write { path: path.to_owned(), source };
-        let target = follow_links(path).map_err(failure)?;
-        remove_left_over(folder_of(&target));
-        let temporary = temporary_beside(&target).map_err(failure)?;
+        let named = path.to_owned();
+        let begun = patience::within(move || {
+            let target = follow_links(&named)?;
+            remove_left_over(folder_of(&target));
+            Ok((temporary_beside(&target)?, target))
+        });
+        let (temporary, target) = begun.map_err(failure)?;
         let temporary_path = temporary.path().to_owned();
         unfinished().push(temporary_path.clone());
         Ok(Self { temporary: Some(temporary), temporary_path, named: path.to_owned(), target })
@@ -79,9 +84,11 @@ impl AtomicFile {
     /// As [`AtomicFile::commit`].
     pub fn commit_as(mut self, target: &Path) -> Result<(), OutputError> {
         let temporary = self.temporary.take().ok_or_else(|| self.failure(io::Error::other("the file is closed")))?;
-        temporary.as_file().sync_all().map_err(|source| self.failure(source))?;
-        temporary.persist(target).map_err(|error| self.failure(error.error))?;
-        flush_folder(folder_of(target)).map_err(|source| self.failure(source))
+        let handle = temporary.as_file().try_clone().map_err(|source| self.failure(source))?;
+        patience::within(move || handle.sync_all()).map_err(|source| self.failure(source))?;
+        let (place, folder) = (target.to_owned(), folder_of(target).to_owned());
+        let renamed = patience::within(move || temporary.persist(&place).map(drop).map_err(|error| error.error));
+        renamed.and_then(|()| patience::within(move || flush_folder(&folder))).map_err(|source| self.failure(source))
     }
 
     /// Writes `bytes` as the whole file at `path`.
@@ -90,7 +97,8 @@ impl AtomicFile {
     /// As [`AtomicFile::create`] and [`AtomicFile::commit`].
     pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
         let file = Self::create(path)?;
-        file.handle()?.write_all(bytes).map_err(|source| file.failure(source))?;
+        let (mut handle, bytes) = (file.handle()?, bytes.to_vec());
+        patience::within(move || handle.write_all(&bytes)).map_err(|source| file.failure(source))?;
         file.commit()
     }
 
@@ -101,6 +109,10 @@ impl AtomicFile {
 
 impl Drop for AtomicFile {
     fn drop(&mut self) {
+        if let Some(temporary) = self.temporary.take() {
+            // Where its file system is gone, the file stays there.
+            let _ = patience::within(move || temporary.close());
+        }
         unfinished().retain(|path| *path != self.temporary_path);
     }
 }
@@ -111,6 +123,12 @@ impl Drop for AtomicFile {
 /// # Errors
 /// [`OutputError::NoFolder`] and [`OutputError::BadTarget`].
 pub fn check_target(path: &Path) -> Result<(), OutputError> {
+    let asked = path.to_owned();
+    let checked = patience::within(move || Ok(check_now(&asked)));
+    checked.unwrap_or_else(|source| Err(OutputError::Write { path: path.to_owned(), source }))
+}
+
+fn check_now(path: &Path) -> Result<(), OutputError> {
     let target = follow_links(path).map_err(|source| OutputError::Write { path: path.to_owned(), source })?;
     let folder = folder_of(&target);
     if !folder.is_dir() {

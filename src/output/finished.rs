@@ -1,7 +1,6 @@
 //! Whether a file is a finished picture of a certain render.
 
-use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::Read;
 use std::path::Path;
 
 use exr::meta::MetaData;
@@ -15,6 +14,7 @@ use super::read::{Image, read_image};
 use super::rows::Completeness;
 use super::spec::PictureSpec;
 use super::{exr_file, hdr_file, jpeg_file, png_file};
+use crate::input;
 
 /// Entries of headers that do not decide what a picture shows.
 const INCIDENTAL: [&str; 5] = ["gpt:version", "gpt:scene", "gpt:device", SAMPLES_KEY, COMPLETE_KEY];
@@ -26,7 +26,7 @@ const LONGEST_START: u64 = 70_000;
 /// device does not matter.
 pub fn is_finished_picture(path: &Path, format: PictureFormat, spec: &PictureSpec) -> bool {
     let has_size = |image: Image| (image.width, image.height) == (spec.width, spec.height);
-    path.is_file()
+    input::is_file(path)
         && is_finished(path)
         && match format {
             PictureFormat::Exr => exr_agrees(path, spec),
@@ -43,7 +43,7 @@ fn decisive(spec: &PictureSpec) -> impl Iterator<Item = (&'static str, Entry)> {
 }
 
 fn exr_agrees(path: &Path, spec: &PictureSpec) -> bool {
-    let Ok(meta) = MetaData::read_from_file(path, false) else { return false };
+    let Some(meta) = input::open_own(path).ok().and_then(|file| MetaData::read_from_buffered(file, false).ok()) else { return false };
     let Some(header) = meta.headers.first() else { return false };
     if header.channels.list.iter().any(|channel| channel.name.eq("Remainder.R")) != spec.part.is_some() {
         return false;
@@ -58,8 +58,8 @@ fn exr_agrees(path: &Path, spec: &PictureSpec) -> bool {
 }
 
 fn png_agrees(path: &Path, spec: &PictureSpec) -> bool {
-    let Ok(file) = File::open(path) else { return false };
-    let Ok(reader) = png::Decoder::new(BufReader::new(file)).read_info() else { return false };
+    let Ok(file) = input::open_own(path) else { return false };
+    let Ok(reader) = png::Decoder::new(file).read_info() else { return false };
     let mut texts = reader.info().utf8_text.iter().filter(|text| text.keyword == png_file::KEYWORD);
     let Some(Ok(found)) = texts.next().map(|text| text.get_text()) else { return false };
     is_of(&found, spec)
@@ -77,7 +77,7 @@ fn is_of(found: &str, spec: &PictureSpec) -> bool {
 /// Of files that have that line near their beginning: a comment of a JPEG, or an entry of a Radiance header.
 fn text_agrees(path: &Path, format: PictureFormat, spec: &PictureSpec) -> bool {
     let mut start = Vec::new();
-    let Ok(file) = File::open(path) else { return false };
+    let Ok(file) = input::open_own(path) else { return false };
     if file.take(LONGEST_START).read_to_end(&mut start).is_err() {
         return false;
     }

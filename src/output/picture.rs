@@ -2,7 +2,7 @@
 
 use std::ffi::OsStr;
 use std::fs::File;
-use std::io::{BufWriter, Error, Read, Seek, SeekFrom, Write};
+use std::io::{BufWriter, Error, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{SyncSender, sync_channel};
@@ -19,6 +19,8 @@ use super::rows::{Completeness, Message, Rows};
 use super::spec::PictureSpec;
 use super::{exr_file, hdr_file, jpeg_file, png_file};
 use crate::film::Band;
+use crate::input;
+use crate::patience::{self, Watched};
 
 /// Bands that wait for the encoder; with the one it works on and the one being rendered, this bounds the memory.
 const WAITING_BANDS: usize = 1;
@@ -38,6 +40,9 @@ pub struct PictureFile {
     rows_taken: u32,
     spec: PictureSpec,
 }
+
+/// The encoder ended before it was told to.
+struct Gone;
 
 /// Where a picture goes.
 enum Place {
@@ -62,7 +67,7 @@ impl PictureFile {
             Place::File(file) => file.handle()?,
             Place::Stdout(file) => file.try_clone().map_err(failure)?,
         };
-        let writer = BufWriter::with_capacity(1 << 18, handle);
+        let writer = BufWriter::with_capacity(1 << 18, Watched(handle));
         let (messages, receiver) = sync_channel(WAITING_BANDS);
         let rows = Rows::new(receiver, spec.width);
         let encoder_spec = spec.clone();
@@ -88,6 +93,8 @@ impl PictureFile {
     ///
     /// # Errors
     /// A band of another width, one that overlaps an earlier one, or an encoder that gave up, with what it said.
+    ///
+    /// A file system that does not answer ends the file as well.
     pub fn write_band(&mut self, band: &Arc<Band>) -> Result<(), Error> {
         let pixels = u64::from(band.width) * u64::from(band.rows);
         let end = band.first_row.checked_add(band.rows);
@@ -96,8 +103,7 @@ impl PictureFile {
             return Err(Error::other(format!("the band at row {} does not fit the picture", band.first_row)));
         }
         self.rows_taken = band.first_row + band.rows;
-        let sent = self.messages.send(Message::Band(band.clone()));
-        sent.map_err(|_| {
+        self.send(Message::Band(band.clone()))?.map_err(|Gone| {
             Error::other(self.join_encoder().err().unwrap_or_else(|| self.encode_error("the encoder stopped early")))
         })
     }
@@ -142,15 +148,34 @@ impl PictureFile {
     }
 
     fn encode_rest(&mut self, completeness: Completeness) -> Result<(), OutputError> {
+        let sent = self.send(Message::Finish(completeness));
         // An encoder that is gone has an error to tell, which joining it brings.
-        let _ = self.messages.send(Message::Finish(completeness));
+        let _ = sent.map_err(|source| self.write_error(source))?;
         self.join_encoder()
+    }
+
+    /// Hands something to the encoder. The error is that of a file that does not answer, which is given up.
+    fn send(&mut self, message: Message) -> Result<Result<(), Gone>, Error> {
+        let Some(encoder) = &self.encoder else { return Ok(Err(Gone)) };
+        match patience::send(&self.messages, message, encoder) {
+            Ok(()) => Ok(Ok(())),
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(Err(Gone)),
+            Err(error) => {
+                self.encoder = None;
+                Err(error)
+            }
+        }
+    }
+
+    fn write_error(&self, source: Error) -> OutputError {
+        OutputError::Write { path: self.path().to_owned(), source }
     }
 
     /// Waits for the encoder, which must be about to end, and tells how it went.
     fn join_encoder(&mut self) -> Result<(), OutputError> {
         let encoder = self.encoder.take().ok_or_else(|| self.encode_error("writing failed before"))?;
-        let encoded = encoder.join().unwrap_or_else(|_| Err("the encoder panicked".to_owned()));
+        let joined = patience::join(encoder).map_err(|source| self.write_error(source))?;
+        let encoded = joined.unwrap_or_else(|_| Err("the encoder panicked".to_owned()));
         encoded.map_err(|what| self.encode_error(&what))
     }
 
@@ -188,7 +213,7 @@ fn beside_finished(target: &Path) -> PathBuf {
 /// Whether what stands there is to be kept: anything but a picture that says that its render broke off.
 pub(super) fn is_finished(path: &Path) -> bool {
     let note = BROKEN_OFF_KEY;
-    if let Ok(meta) = MetaData::read_from_file(path, false) {
+    if let Ok(Ok(meta)) = input::open_own(path).map(|file| MetaData::read_from_buffered(file, false)) {
         return meta
             .headers
             .iter()
@@ -196,7 +221,7 @@ pub(super) fn is_finished(path: &Path) -> bool {
     }
     // A preview has its note right before its end.
     let mut end = Vec::new();
-    let read = File::open(path).and_then(|mut file| {
+    let read = input::open_own(path).and_then(|mut file| {
         let length = file.seek(SeekFrom::End(0))?;
         file.seek(SeekFrom::Start(length.saturating_sub(BYTES_OF_NOTE)))?;
         file.read_to_end(&mut end)

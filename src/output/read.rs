@@ -1,7 +1,6 @@
 //! Pictures read back, from this program and from others.
 
-use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use exr::image::{AnyChannels, FlatSamples, Layer};
@@ -9,7 +8,7 @@ use exr::meta::MetaData;
 use exr::prelude::{ReadChannels, ReadLayers, f16};
 use image::{ImageFormat, ImageReader};
 
-use crate::input;
+use crate::input::{self, InputFile};
 use crate::math::srgb_to_linear;
 use crate::scene::settings::{MAX_PIXELS, MAX_SIDE};
 
@@ -74,12 +73,12 @@ fn short_file(error: std::io::Error) -> std::io::Result<bool> {
     if error.kind() == std::io::ErrorKind::UnexpectedEof { Ok(false) } else { Err(error) }
 }
 
-fn open(path: &Path) -> Result<BufReader<File>, String> {
-    input::open(path).map(BufReader::new).map_err(|error| error.to_string())
+fn open(path: &Path) -> Result<InputFile, String> {
+    input::open(path).map_err(|error| error.to_string())
 }
 
 /// Opens an OpenEXR file whose layers are no larger than pictures may be: its headers say so before anything is decoded.
-pub(super) fn open_exr(path: &Path) -> Result<BufReader<File>, String> {
+pub fn open_exr(path: &Path) -> Result<InputFile, String> {
     let meta = MetaData::read_from_buffered(open(path)?, false).map_err(|error| error.to_string())?;
     for header in &meta.headers {
         check_size(header.layer_size.width() as u64, header.layer_size.height() as u64)?;
@@ -137,7 +136,7 @@ pub(super) fn sample(samples: &FlatSamples, index: usize) -> f32 {
     }
 }
 
-fn guess(path: &Path) -> Result<ImageReader<BufReader<File>>, String> {
+fn guess(path: &Path) -> Result<ImageReader<InputFile>, String> {
     let mut reader = ImageReader::new(open(path)?);
     // The ending says what a file without a signature is, as TGA files are.
     if let Ok(format) = ImageFormat::from_path(path) {

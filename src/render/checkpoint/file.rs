@@ -1,6 +1,5 @@
 //! The file of a checkpoint: a header in JSON, arrays of numbers, and a digest of both.
 
-use std::fs::File;
 use std::io::{self, BufWriter, Read, Write};
 use std::path::Path;
 
@@ -9,7 +8,9 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
+use crate::input::{self, InputFile};
 use crate::output::{AtomicFile, OutputError};
+use crate::patience::Watched;
 
 const MAGIC: &[u8; 16] = b"gpt checkpoint\n\0";
 const DIGEST_BYTES: usize = 32;
@@ -32,7 +33,7 @@ pub fn write<H: Serialize>(path: &Path, content: &H, arrays: &[&[u8]]) -> Result
     let header = Header { content, arrays: arrays.iter().map(|array| array.len() as u64).collect() };
     let header = serde_json::to_vec(&header).map_err(|error| failure(error.into()))?;
     let file = AtomicFile::create(path)?;
-    let mut writer = Hashing { hash: Sha256::new(), inner: BufWriter::with_capacity(1 << 18, file.handle()?) };
+    let mut writer = Hashing { hash: Sha256::new(), inner: BufWriter::with_capacity(1 << 18, Watched(file.handle()?)) };
     let written = (|| {
         writer.write_all(MAGIC)?;
         writer.write_all(&(header.len() as u64).to_le_bytes())?;
@@ -74,12 +75,12 @@ pub const DAMAGED: &str = "it is damaged";
 /// # Errors
 /// A file that cannot be read, or that is not what was written, in words.
 pub fn read<H: DeserializeOwned>(path: &Path) -> Result<Option<Content<H>>, String> {
-    let mut file = match File::open(path) {
+    let mut file = match input::open_own(path) {
         Ok(file) => file,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(error.to_string()),
     };
-    let length = file.metadata().map_err(|error| error.to_string())?.len();
+    let length = file.length();
     let mut hash = Sha256::new();
     let mut take = |bytes: u64| {
         // No more is made room for than the file has.
@@ -117,7 +118,7 @@ pub fn read<H: DeserializeOwned>(path: &Path) -> Result<Option<Content<H>>, Stri
     Ok(Some(Content { header: content, arrays: arrays.into_iter() }))
 }
 
-fn file_goes_on(file: &mut File) -> bool {
+fn file_goes_on(file: &mut InputFile) -> bool {
     file.read(&mut [0]).map_or(true, |bytes| bytes > 0)
 }
 

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use crate::film::Band;
+use crate::patience;
 
 /// Between the checkpoint's name and what tells its files of rows apart.
 const INFIX: &str = "-rows-";
@@ -60,14 +61,16 @@ impl RowsFile {
         bytes.extend_from_slice(bytemuck::cast_slice(&band.mean));
         bytes.extend_from_slice(bytemuck::cast_slice(&band.remainder));
         bytes.extend_from_slice(bytemuck::cast_slice(&band.second_moment));
-        self.file.write_all(&bytes)?;
-        self.bytes += bytes.len() as u64;
+        let (mut file, length) = (self.file.try_clone()?, bytes.len() as u64);
+        patience::within(move || file.write_all(&bytes))?;
+        self.bytes += length;
         Ok(())
     }
 
     /// Its name, and its length once all of it is sure to stay.
     pub fn flushed(&self) -> io::Result<(String, u64)> {
-        self.file.sync_data()?;
+        let file = self.file.try_clone()?;
+        patience::within(move || file.sync_data())?;
         Ok((self.name.clone(), self.bytes))
     }
 
