@@ -3,6 +3,7 @@
 //! A temporary file is locked as long as its process lives. One that is not is left from a process that was killed, and the next that writes
 //! into the folder removes it.
 
+use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -202,8 +203,14 @@ fn temporary_beside(target: &Path) -> io::Result<NamedTempFile> {
     }
 }
 
-/// Removes temporary files that nobody has open any more. What cannot be removed stays.
+/// Folders that were looked through. A folder of very many parts takes time to list, and a killed process leaves nothing more there.
+static LOOKED_THROUGH: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// Removes temporary files that nobody has open any more, once in a process. What cannot be removed stays.
 fn remove_left_over(folder: &Path) {
+    if !LOOKED_THROUGH.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.to_owned()) {
+        return;
+    }
     let is_ours = |name: &OsStr| name.to_str().is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX));
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.flatten().filter(|entry| is_ours(&entry.file_name())) {

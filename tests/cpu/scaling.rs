@@ -3,11 +3,13 @@
 
 use std::collections::BinaryHeap;
 use std::sync::Arc;
+use std::time::Instant;
 
 use crate::common::effort::{announce, in_full};
 use gpt::merge::{PartHeader, chunks, merge};
 use gpt::output::{PartSpec, PictureFile, PictureFormat, PictureSpec};
 use gpt::{DeviceChoice, RenderOptions, Renderer, Silent};
+use rayon::prelude::*;
 
 /// Hours, and events an hour.
 #[derive(Clone, Copy)]
@@ -118,8 +120,10 @@ fn nothing_is_lost_between_many_parts() {
         renderer.render(&Silent, &mut on_band).expect("it renders");
         (bands, renderer.provenance().clone())
     };
-    let mut random = Random(3);
-    let mut parts: Vec<(u32, PartHeader)> = chunks(samples, count)
+    let begun = Instant::now();
+    let ranges: Vec<_> = chunks(samples, count).collect();
+    let mut parts: Vec<(u32, PartHeader)> = ranges
+        .into_par_iter()
         .enumerate()
         .map(|(index, range)| {
             let (bands, provenance) = render(range.start, range.len() as u32);
@@ -131,12 +135,15 @@ fn nothing_is_lost_between_many_parts() {
                 file.write_band(&Arc::new(band)).expect("it is written");
             }
             file.finish().expect("it is in its place");
-            ((random.next() * 1e9) as u32, PartHeader::read(&path).expect("a part"))
+            (gpt::sampling::hash::mix(index as u32), PartHeader::read(&path).expect("a part"))
         })
         .collect();
     parts.sort_by_key(|(when, _)| *when);
     let parts: Vec<PartHeader> = parts.into_iter().map(|(_, part)| part).collect();
+    let rendered = begun.elapsed().as_secs_f64();
     let merged = merge(parts.clone(), Some(samples), false).expect("they belong together");
+    let merging = begun.elapsed().as_secs_f64() - rendered;
+    announce(&format!("{count} parts: written in {rendered:.1} s, joined in {merging:.1} s"));
     let (whole, _) = render(0, samples);
     let found: Vec<[f32; 3]> = merged.bands().flat_map(|band| band.mean).collect();
     let pairs = found.iter().flatten().zip(whole[0].mean.iter().flatten());
