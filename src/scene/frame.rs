@@ -36,17 +36,24 @@ impl Scene {
             let checked = shape.check_place().and_then(|()| shape.check_motion(shutter).map_err(|(_, message)| message));
             checked.map_err(|message| of(shape.label.clone(), message))?;
         }
+        for track in &animation.lights {
+            let light = &mut scene.lights[track.light];
+            light.set(&track.taken_along(animation, frame));
+            light.check().map_err(|message| of(format!("light[{}] ({})", track.light, light.kind_name()), message))?;
+        }
         Ok(scene)
     }
 }
 
 impl Scene {
-    /// Whether all shapes stand and move as in another frame of the same scene.
+    /// Whether all shapes stand and move, and all lights shine, as in another frame of the same scene.
     pub fn shapes_stand_as_in(&self, other: &Self) -> bool {
         let same = |(shape, other): (&Shape, &Shape)| shape.transform == other.transform && shape.motion == other.motion;
         self.camera.shutter == other.camera.shutter
             && self.shapes.len() == other.shapes.len()
             && self.shapes.iter().zip(&other.shapes).all(same)
+            && self.lights.len() == other.lights.len()
+            && self.lights.iter().zip(&other.lights).all(|(light, other)| light.shines_as(other))
     }
 }
 

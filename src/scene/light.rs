@@ -10,6 +10,7 @@ use glam::{DVec3, DVec4};
 
 use super::check::{Check, image, is_direction};
 use super::image::ImageData;
+use super::light_at::LightAt;
 use super::texture::TextureId;
 use crate::math::luminance;
 use model::{DeltaLight, SceneLight, amounts, placed};
@@ -100,6 +101,13 @@ pub enum EnvironmentRadiance {
 }
 
 impl SceneLight for Environment {
+    fn set(&mut self, at: &LightAt) {
+        if let (EnvironmentRadiance::Constant(radiance), Some(strength)) = (&mut self.radiance, at.strength) {
+            *radiance = strength;
+        }
+        self.rotation_degrees = at.rotation_degrees.unwrap_or(self.rotation_degrees);
+    }
+
     fn check(&self) -> Check {
         placed(self.rotation_degrees.is_finite())?;
         match &self.radiance {
@@ -180,6 +188,11 @@ impl SceneLight for PointLight {
     fn translate(&mut self, offset: DVec3) {
         self.position += offset;
     }
+
+    fn set(&mut self, at: &LightAt) {
+        at.place(&mut self.position);
+        self.intensity = at.strength.unwrap_or(self.intensity);
+    }
 }
 
 impl DeltaLight for PointLight {
@@ -199,6 +212,11 @@ impl SceneLight for DirectionalLight {
     fn check(&self) -> Check {
         placed(is_direction(self.direction))?;
         amounts(&[self.irradiance])
+    }
+
+    fn set(&mut self, at: &LightAt) {
+        at.turn(&mut self.direction);
+        self.irradiance = at.strength.unwrap_or(self.irradiance);
     }
 }
 
@@ -277,6 +295,27 @@ impl Light {
     /// What is wrong with it, in words.
     pub(super) fn check(&self) -> Check {
         self.model().check()
+    }
+
+    /// Makes it what it is at a frame.
+    pub(super) fn set(&mut self, at: &LightAt) {
+        self.model_mut().set(at);
+    }
+
+    /// Whether it gives the light that another does.
+    pub(super) fn shines_as(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Environment(a), Self::Environment(b)) => {
+                let same_radiance = match (&a.radiance, &b.radiance) {
+                    (EnvironmentRadiance::Constant(a), EnvironmentRadiance::Constant(b)) => a == b,
+                    (EnvironmentRadiance::Map(a), EnvironmentRadiance::Map(b)) => Arc::ptr_eq(a, b),
+                    _ => false,
+                };
+                same_radiance && a.rotation_degrees == b.rotation_degrees && a.rows == b.rows
+            }
+            (Self::Sky(a), Self::Sky(b)) => a == b,
+            _ => self.delta().is_some() && self.delta() == other.delta() && self.texture() == other.texture(),
+        }
     }
 
     /// Moves it by an offset, with all of the scene.

@@ -16,6 +16,7 @@ pub mod image;
 mod import_report;
 mod instance;
 pub mod light;
+mod light_at;
 pub mod material;
 mod model;
 pub mod motion;

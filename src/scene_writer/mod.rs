@@ -3,6 +3,7 @@
 //! Meshes and pictures that came from files are named, those that did not lie in files beside the scene file. Reading it again gives a scene
 //! that renders the same picture, bit for bit.
 
+mod animation;
 mod material;
 mod needed;
 mod settings;
@@ -25,8 +26,8 @@ use needed::Needed;
 /// Files that cannot be written, and what no scene file can say, in a sentence.
 pub fn save_scene(scene: &Scene, path: &Path) -> Result<Vec<PathBuf>, OutputError> {
     let of_keyframes = |motion: &Motion| motion.rest != 0.0 || motion.reached != 1.0;
-    if !scene.animation.is_empty() || scene.shapes.iter().filter_map(|shape| shape.motion.as_ref()).any(of_keyframes) {
-        let what = "keyframes cannot be written; the file that the scene came from has them".to_owned();
+    if scene.shapes.iter().filter_map(|shape| shape.motion.as_ref()).any(of_keyframes) {
+        let what = "a frame of keyframes cannot be written; the scene that has them can".to_owned();
         return Err(OutputError::Encode { path: path.to_owned(), what });
     }
     let (text, files) = scene_text(scene, path);
@@ -39,22 +40,30 @@ pub fn save_scene(scene: &Scene, path: &Path) -> Result<Vec<PathBuf>, OutputErro
 /// The text of the scene file that would lie at `path`.
 fn scene_text(scene: &Scene, path: &Path) -> (String, SideFiles) {
     let needed = Needed::of(scene);
+    let animation = &scene.animation;
     let mut writer = Writer {
         scene,
         textures: Names::unique(scene.textures.iter().map(|texture| texture.name.as_str()), "texture"),
         materials: Names::unique(scene.materials.iter().map(|material| material.name.as_str()), "material"),
         groups: Names::unique(scene.groups.iter().map(|group| group.name.as_str()), "group"),
+        nodes: Names::unique(animation.nodes.iter().map(|node| node.name.as_str()), "node"),
         files: SideFiles::beside(path),
     };
     let mut text = settings::settings(scene);
+    // The camera's table is the last.
+    let of_camera = animation.camera.as_ref();
+    text += &of_camera.map_or_else(String::new, |track| animation::camera(track, scene.camera.projection, &writer.nodes));
+    text += &animation::animation(animation, &writer.nodes);
     for id in needed.textures() {
         text.push_str(&texture::texture(id, &mut writer));
     }
     for id in needed.materials() {
         text.push_str(&material::material(id, &writer));
     }
-    for shape in &scene.shapes {
+    for (index, shape) in scene.shapes.iter().enumerate() {
         text.push_str(&shape::shape("[[shape]]", shape, &mut writer));
+        let tracks = animation.shapes.iter().filter(|track| track.shape == index);
+        tracks.for_each(|track| text.push_str(&animation::shape(track, &writer.nodes)));
     }
     for (index, group) in scene.groups.iter().enumerate() {
         text.push_str(&shape::group(index, group, &mut writer));
@@ -62,9 +71,11 @@ fn scene_text(scene: &Scene, path: &Path) -> (String, SideFiles) {
     for instances in &scene.instances {
         text.push_str(&shape::instances(instances, &mut writer));
     }
-    for light in &scene.lights {
+    for (index, light) in scene.lights.iter().enumerate() {
         let keys = write_light(light, &mut writer);
         text.push_str(&format!("\n[[light]]\ntype = \"{}\"\n{keys}", light.kind_name()));
+        let tracks = animation.lights.iter().filter(|track| track.light == index);
+        tracks.for_each(|track| text.push_str(&animation::light(track, light, &writer.nodes)));
     }
     (text, writer.files)
 }

@@ -59,11 +59,13 @@ pub fn instances(instances: &Instances, writer: &mut Writer<'_>) -> String {
     out
 }
 
-fn steps(written: impl Iterator<Item = String>) -> String {
+/// A list of steps.
+pub fn steps(written: impl Iterator<Item = String>) -> String {
     format!("[{}]", written.collect::<Vec<_>>().join(", "))
 }
 
-fn transform_step(step: &TransformStep) -> String {
+/// A step of a transform.
+pub fn transform_step(step: &TransformStep) -> String {
     match *step {
         TransformStep::Scale(factors) => format!("{{ scale = {} }}", vector(factors)),
         TransformStep::Rotate { axis, degrees } => {

@@ -157,3 +157,33 @@ fn a_models_file_is_named_and_its_materials_can_be_replaced() {
         assert!(error.contains(message) && error.contains("shape[0]"), "{error}");
     }
 }
+
+/// Keyframes of everything that has some, with nodes within nodes.
+#[test]
+fn keyframes_come_back() {
+    let tables = "[animation]\nfps = 12.5\n\
+        [camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvfov = 40\nshutter = [0, 0.5]\nnode = \"rig\"\ninterpolation = \"smooth\"\n\
+        keyframes = [{ frame = 0, position = [0, 0, 5] }, { time = 0.8, position = [0.1, 0, 4], vfov = 30, focus_distance = 3 }]\n\
+        [[node]]\nname = \"rig\"\ntransform = [{ translate = [0.1, 0, 0] }, { rotate = [1, 2, 3], degrees = 10 }]\n\
+        keyframes = [{ frame = 0, rotate = [1, 2, 3], degrees = 10 }, { frame = 10, rotate = [1, 2, 3], degrees = 20, scale = 1.1 }]\n\
+        [[node]]\nname = \"a \\\"node\\\"\"\nparent = \"rig\"\n\
+        [[material]]\nname = \"grey\"\ntype = \"diffuse\"\nreflectance = 0.5\n\
+        [[shape]]\ntype = \"sphere\"\ncenter = [0, 0, 0]\nradius = 0.8\nmaterial = \"grey\"\ntransform = [{ scale = 0.9 }]\n\
+        node = \"a \\\"node\\\"\"\ninterpolation = \"step\"\n\
+        keyframes = [{ frame = 0, translate = [0, 0.1, 0] }, { frame = 4, translate = [0, 1, 0], scale = 0.5 }]\n\
+        [[light]]\ntype = \"spot\"\nposition = [0, 3, 0]\ndirection = [0.1, -1, 0]\nintensity = 9\nangle = 50\nnode = \"rig\"\n\
+        keyframes = [{ frame = 0, direction = [0.1, -1, 0.3] }, { frame = 9, position = [1, 3, 0], intensity = [1, 2, 3] }]\n\
+        [[light]]\ntype = \"environment\"\nradiance = 0.5\nscale = 3\n\
+        keyframes = [{ frame = 0, radiance = 0.1 }, { frame = 9, rotate = 20 }]\n";
+    let scene = load_toml_str(tables, "test.toml", Path::new("")).unwrap();
+    let read = round_trip(&scene);
+    assert_eq!(read.animation, scene.animation);
+    let at = |scene: &Scene, frame: f64| digest(&scene.at_frame(frame).unwrap());
+    for frame in [0.0, 3.5, 20.0] {
+        assert_eq!(at(&read, frame), at(&scene, frame), "{frame}");
+    }
+    // The control: frames differ.
+    assert_ne!(at(&read, 3.5), at(&read, 20.0));
+    // What a frame is alone, no file says.
+    assert!(save_scene(&scene.at_frame(2.0).unwrap(), Path::new("frame.toml")).is_err());
+}

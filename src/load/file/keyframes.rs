@@ -7,7 +7,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Deserializer};
 
 use super::colour::{Rgb, any_of};
-use super::value::{Any, Checked, FieldOfView, Located, Number, Positive, Vector};
+use super::value::{Any, Checked, FieldOfView, Located, NonNegative, Number, Positive, Vector, vector};
 use crate::scene::animation::Interpolation;
 
 /// One factor or one per axis.
@@ -111,4 +111,143 @@ pub struct WrittenTrack<'a> {
     pub node: Option<&'a Located<String>>,
     /// The shape's own motion is written.
     pub has_motion: bool,
+}
+
+/// What a keyframe of a light states.
+pub struct LightKey<'a> {
+    pub frame: Option<Number>,
+    pub time: Option<Number>,
+    pub position: Option<DVec3>,
+    pub direction: Option<&'a Located<Vector>>,
+    /// Intensity, irradiance or radiance.
+    pub strength: Option<DVec3>,
+    /// Of an environment.
+    pub rotation_degrees: Option<f64>,
+}
+
+/// A keyframe of a light of some type.
+pub trait LightKeyEntry {
+    /// What it may state, in words.
+    const STATES: &'static str;
+
+    /// What it states.
+    fn key(&self) -> LightKey<'_>;
+}
+
+/// What of a light says what it is at frames.
+#[derive(Clone, Copy)]
+pub struct WrittenLightTrack<'a, K> {
+    pub keyframes: Option<&'a Located<Vec<Located<K>>>>,
+    pub interpolation: Option<&'a Located<InterpolationName>>,
+    pub node: Option<&'a Located<String>>,
+}
+
+/// A point light at a frame. What it does not state goes through the keyframes that do, or stays as the light has it.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table such as { frame = 10, position = [0, 1, 5] }")]
+#[schemars(rename = "PointLightKeyframe")]
+#[schemars(extend("oneOf" = [{ "required": ["frame"] }, { "required": ["time"] }],
+    "anyOf" = [{ "required": ["position"] }, { "required": ["intensity"] }]))]
+pub struct PointKeyEntry {
+    /// Number of the frame, not necessarily a whole one; or `time`.
+    pub frame: Option<Number>,
+    /// Seconds after the start.
+    pub time: Option<Number>,
+    pub position: Option<Vector>,
+    pub intensity: Option<Rgb<NonNegative>>,
+}
+
+/// A spot light at a frame. What it does not state goes through the keyframes that do, or stays as the light has it.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table such as { frame = 10, direction = [0, -1, 0] }")]
+#[schemars(rename = "SpotLightKeyframe")]
+#[schemars(extend("oneOf" = [{ "required": ["frame"] }, { "required": ["time"] }],
+    "anyOf" = [{ "required": ["position"] }, { "required": ["direction"] }, { "required": ["intensity"] }]))]
+pub struct SpotKeyEntry {
+    /// Number of the frame, not necessarily a whole one; or `time`.
+    pub frame: Option<Number>,
+    /// Seconds after the start.
+    pub time: Option<Number>,
+    pub position: Option<Vector>,
+    pub direction: Option<Located<Vector>>,
+    pub intensity: Option<Rgb<NonNegative>>,
+}
+
+/// A directional light at a frame. What it does not state goes through the keyframes that do, or stays as the light has it.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table such as { frame = 10, direction = [0, -1, 0] }")]
+#[schemars(rename = "DirectionalLightKeyframe")]
+#[schemars(extend("oneOf" = [{ "required": ["frame"] }, { "required": ["time"] }],
+    "anyOf" = [{ "required": ["direction"] }, { "required": ["irradiance"] }]))]
+pub struct DirectionalKeyEntry {
+    /// Number of the frame, not necessarily a whole one; or `time`.
+    pub frame: Option<Number>,
+    /// Seconds after the start.
+    pub time: Option<Number>,
+    pub direction: Option<Located<Vector>>,
+    pub irradiance: Option<Rgb<NonNegative>>,
+}
+
+/// An environment at a frame. What it does not state goes through the keyframes that do, or stays as the light has it.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table such as { frame = 10, rotate = 90 }")]
+#[schemars(rename = "EnvironmentKeyframe")]
+#[schemars(extend("oneOf" = [{ "required": ["frame"] }, { "required": ["time"] }],
+    "anyOf" = [{ "required": ["radiance"] }, { "required": ["rotate"] }]))]
+pub struct EnvironmentKeyEntry {
+    /// Number of the frame, not necessarily a whole one; or `time`.
+    pub frame: Option<Number>,
+    /// Seconds after the start.
+    pub time: Option<Number>,
+    /// Of an environment with `radiance`, whose `scale` it is multiplied by.
+    pub radiance: Option<Located<Rgb<NonNegative>>>,
+    /// Degrees about +Y.
+    pub rotate: Option<Number>,
+}
+
+impl LightKey<'_> {
+    /// One that states nothing yet.
+    fn at(frame: Option<Number>, time: Option<Number>) -> Self {
+        Self { frame, time, position: None, direction: None, strength: None, rotation_degrees: None }
+    }
+}
+
+fn rgb(written: Option<&Rgb<NonNegative>>) -> Option<DVec3> {
+    written.map(|colour| colour.0)
+}
+
+impl LightKeyEntry for PointKeyEntry {
+    const STATES: &'static str = "`position` or `intensity`";
+
+    fn key(&self) -> LightKey<'_> {
+        let position = self.position.map(vector);
+        LightKey { position, strength: rgb(self.intensity.as_ref()), ..LightKey::at(self.frame, self.time) }
+    }
+}
+
+impl LightKeyEntry for SpotKeyEntry {
+    const STATES: &'static str = "`position`, `direction` or `intensity`";
+
+    fn key(&self) -> LightKey<'_> {
+        let (position, direction) = (self.position.map(vector), self.direction.as_ref());
+        LightKey { position, direction, strength: rgb(self.intensity.as_ref()), ..LightKey::at(self.frame, self.time) }
+    }
+}
+
+impl LightKeyEntry for DirectionalKeyEntry {
+    const STATES: &'static str = "`direction` or `irradiance`";
+
+    fn key(&self) -> LightKey<'_> {
+        let direction = self.direction.as_ref();
+        LightKey { direction, strength: rgb(self.irradiance.as_ref()), ..LightKey::at(self.frame, self.time) }
+    }
+}
+
+impl LightKeyEntry for EnvironmentKeyEntry {
+    const STATES: &'static str = "`radiance` or `rotate`";
+
+    fn key(&self) -> LightKey<'_> {
+        let strength = rgb(self.radiance.as_ref().map(|radiance| &radiance.value));
+        LightKey { strength, rotation_degrees: self.rotate.map(|degrees| degrees.0), ..LightKey::at(self.frame, self.time) }
+    }
 }

@@ -12,9 +12,10 @@ use glam::DAffine3;
 
 pub use curve::{Curve, Interpolation, Key, Turn};
 pub use moving::motion_between;
-pub use track::{CameraTrack, Node, ShapeTrack, TransformTrack};
+pub use track::{CameraTrack, LightTrack, Node, ShapeTrack, TransformTrack};
 
 use super::camera::Camera;
+use super::light_at::LightAt;
 
 /// Frames in a second where nothing else is said.
 pub const FRAMES_PER_SECOND: f64 = 24.0;
@@ -26,11 +27,12 @@ pub struct Animation {
     pub nodes: Vec<Node>,
     pub shapes: Vec<ShapeTrack>,
     pub camera: Option<CameraTrack>,
+    pub lights: Vec<LightTrack>,
 }
 
 impl Default for Animation {
     fn default() -> Self {
-        Self { frames_per_second: FRAMES_PER_SECOND, nodes: Vec::new(), shapes: Vec::new(), camera: None }
+        Self { frames_per_second: FRAMES_PER_SECOND, nodes: Vec::new(), shapes: Vec::new(), camera: None, lights: Vec::new() }
     }
 }
 
@@ -45,6 +47,7 @@ impl Animation {
         let nodes = self.nodes.iter().filter_map(|node| node.track.as_ref());
         let tracks = nodes.chain(self.shapes.iter().filter_map(|shape| shape.track.as_ref()));
         let frames = tracks.flat_map(TransformTrack::frames).chain(self.camera.iter().flat_map(CameraTrack::frames));
+        let frames = frames.chain(self.lights.iter().flat_map(LightTrack::frames));
         frames.fold(None, |ends, frame| {
             let [first, last] = ends.unwrap_or([frame; 2]);
             Some([f64::min(first, frame), f64::max(last, frame)])
@@ -92,6 +95,13 @@ impl Animation {
             camera.up = along.transform_vector3(camera.up);
         }
         camera
+    }
+}
+
+impl LightTrack {
+    /// What it says at a frame, and how its node moves the light.
+    pub fn taken_along(&self, animation: &Animation, frame: f64) -> LightAt {
+        LightAt { along: animation.taken_along(self.node, frame), ..self.at(frame) }
     }
 }
 

@@ -4,6 +4,7 @@ use glam::{DAffine3, DQuat, DVec3};
 
 use super::curve::{Curve, Turn};
 use crate::scene::camera::{Camera, Projection};
+use crate::scene::light_at::LightAt;
 use crate::scene::transform::Transform;
 
 /// A transform in parts, each with keys of its own: first scaled, then turned, then moved. A part without keys does nothing.
@@ -65,6 +66,43 @@ pub struct CameraTrack {
     pub focus_distance: Curve<f64>,
     /// The node that takes it along.
     pub node: Option<usize>,
+}
+
+/// What of a light has keys. They take the place of what the light is without a frame.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct LightTrack {
+    /// Index among the scene's lights.
+    pub light: usize,
+    pub position: Curve<DVec3>,
+    /// Of length 1 at the keys, and made so in between.
+    pub direction: Curve<DVec3>,
+    /// Intensity, irradiance or radiance.
+    pub strength: Curve<DVec3>,
+    /// Of an environment, in degrees.
+    pub rotation: Curve<f64>,
+    /// The node that takes it along.
+    pub node: Option<usize>,
+}
+
+impl LightTrack {
+    /// What its keys say at a frame, before its node moves it.
+    pub fn at(&self, frame: f64) -> LightAt {
+        LightAt {
+            position: self.position.at(frame),
+            // Opposite directions have none halfway, which whoever looks at the light finds.
+            direction: self.direction.at(frame).map(DVec3::normalize_or_zero),
+            strength: self.strength.at(frame),
+            rotation_degrees: self.rotation.at(frame),
+            along: DAffine3::IDENTITY,
+        }
+    }
+
+    /// The frames of all its keys.
+    pub fn frames(&self) -> impl Iterator<Item = f64> {
+        let vectors = [&self.position, &self.direction, &self.strength];
+        let vectors = vectors.into_iter().flat_map(|curve| curve.keys.iter().map(|key| key.frame));
+        vectors.chain(self.rotation.keys.iter().map(|key| key.frame))
+    }
 }
 
 impl CameraTrack {

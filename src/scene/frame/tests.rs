@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3, Vec3};
 
 use super::*;
 use crate::load::load_toml_str;
-use crate::scene::Projection;
+use crate::scene::{EnvironmentRadiance, Light, Projection};
 
 fn scene(more: &str) -> Scene {
     let text = format!(
@@ -79,4 +79,49 @@ fn the_camera_goes_through_its_keyframes() {
     let moved = scene.at_frame(7.0).expect("it can be rendered");
     assert!(moved.shapes_stand_as_in(&scene));
     assert_ne!(crate::scene::digest(&moved), crate::scene::digest(&scene));
+}
+
+/// A scene whose lights have keyframes, and a node that takes two of them along.
+fn lit() -> Scene {
+    let text = "animation.fps = 10\n\
+        camera = { position = [0, 0, 5], look_at = [0, 0, 0], vfov = 40, shutter = [0, 0] }\n\
+        node = [{ name = \"turn\", keyframes = [{ frame = 0, rotate = [0, 1, 0], degrees = 0 }, { frame = 10, rotate = [0, 1, 0], degrees = 90 }] }]\n\
+        [[light]]\ntype = \"point\"\nposition = [1, 0, 0]\nintensity = 2\n\
+        keyframes = [{ frame = 0, position = [1, 0, 0] }, { time = 1, position = [3, 2, 0], intensity = [0, 4, 8] }]\n\
+        [[light]]\ntype = \"spot\"\nposition = [1, 0, 0]\ndirection = [1, 0, 0]\nintensity = 2\nangle = 30\nnode = \"turn\"\n\
+        [[light]]\ntype = \"directional\"\ndirection = [0, -1, 0]\nirradiance = 1\ninterpolation = \"smooth\"\n\
+        keyframes = [{ frame = 0, direction = [0, -2, 0], irradiance = 1 }, { frame = 10, direction = [0, 0, -1], irradiance = 3 }]\n\
+        [[light]]\ntype = \"environment\"\nradiance = 0.5\nscale = 2\nkeyframes = [{ frame = 0, radiance = 1, rotate = 0 }, { frame = 10, radiance = 2, rotate = 50 }]\n";
+    load_toml_str(text, "lit", Path::new("")).expect("the scene is valid")
+}
+
+/// Where lights are and how bright, halfway between two keys and at the last.
+#[test]
+fn lights_go_through_their_keys_and_are_taken_along() {
+    let scene = lit();
+    assert_eq!(scene.animation.frames(), Some([0.0, 10.0]));
+    let near = |a: DVec3, b: [f64; 3]| (a - DVec3::from_array(b)).length() < 1e-12;
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    for (frame, place, axis, sun, shine) in [
+        (5.0, [2.0, 1.0, 0.0], [half, 0.0, -half], [0.0, -half, -half], 2.0),
+        (10.0, [3.0, 2.0, 0.0], [0.0, 0.0, -1.0], [0.0, 0.0, -1.0], 3.0),
+    ] {
+        let at = scene.at_frame(frame).expect("it can be rendered");
+        let [Light::Point(point), Light::Spot(spot), Light::Directional(directional), Light::Environment(environment)] =
+            &at.lights[..]
+        else {
+            panic!("{:?}", at.lights)
+        };
+        assert!(near(point.position, place) && near(point.intensity, [0.0, 4.0, 8.0]), "{point:?}");
+        assert!(near(spot.position, axis) && near(spot.direction, axis), "{spot:?}");
+        assert!(near(directional.direction, sun) && near(directional.irradiance, [shine; 3]), "{directional:?}");
+        assert_eq!(environment.rotation_degrees, 5.0 * frame);
+        let EnvironmentRadiance::Constant(radiance) = environment.radiance else { panic!("it has no map") };
+        assert!(near(radiance, [2.0 + 0.2 * frame; 3]), "{radiance}");
+        // The control: without a frame they are what stands beside the keys.
+        assert!(!at.shapes_stand_as_in(&scene), "the lights shine otherwise");
+    }
+    let rest = scene.lights[0].delta().expect("a point light");
+    assert_eq!((rest.position, rest.color), (DVec3::X, DVec3::splat(2.0)));
+    assert!(scene.at_frame(3.0).expect("a frame").shapes_stand_as_in(&scene.at_frame(3.0).expect("a frame")));
 }

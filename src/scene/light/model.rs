@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use crate::scene::check::{Check, is_amount};
 use crate::scene::image::ImageData;
+use crate::scene::light_at::LightAt;
 use crate::scene::texture::TextureId;
 
 /// What a scene needs to know of a light, whatever its kind.
@@ -15,6 +16,9 @@ pub trait SceneLight {
 
     /// Moves it by an offset, with all of the scene.
     fn translate(&mut self, _offset: DVec3) {}
+
+    /// Makes it what it is at a frame, as far as that says something of it.
+    fn set(&mut self, _at: &LightAt) {}
 
     /// Its picture, if it has one.
     fn image_mut(&mut self) -> Option<&mut Arc<ImageData>> {

@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::model::{DeltaLight, LightParameters, LightStrength, SceneLight, amounts, placed};
 use crate::math::{Frame, luminance};
 use crate::scene::check::{Check, is_direction};
+use crate::scene::light_at::LightAt;
 use crate::scene::texture::TextureId;
 
 /// A point light cut to a cone: full `intensity` inside `falloff_degrees` of the axis, none past `angle_degrees`, between them as its curve
@@ -84,6 +85,15 @@ impl SceneLight for SpotLight {
         self.position += offset;
     }
 
+    fn set(&mut self, at: &LightAt) {
+        at.place(&mut self.position);
+        at.turn(&mut self.direction);
+        self.intensity = at.strength.unwrap_or(self.intensity);
+        if let Some(picture) = &mut self.picture {
+            at.take_along(&mut picture.up);
+        }
+    }
+
     fn texture(&self) -> Option<TextureId> {
         self.picture.map(|picture| picture.texture)
     }
@@ -159,6 +169,13 @@ impl SceneLight for Projector {
 
     fn translate(&mut self, offset: DVec3) {
         self.position += offset;
+    }
+
+    fn set(&mut self, at: &LightAt) {
+        at.place(&mut self.position);
+        at.turn(&mut self.direction);
+        at.take_along(&mut self.up);
+        self.irradiance = at.strength.unwrap_or(self.irradiance);
     }
 
     fn texture(&self) -> Option<TextureId> {

@@ -8,19 +8,28 @@ use serde::Deserialize;
 use super::keys::LightKeys;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
+use crate::load::file::keyframes::{DirectionalKeyEntry, InterpolationName, WrittenLightTrack};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Located, NonNegative, Vector};
 use crate::load::file::writer::{Writer, colour, direction, line};
+use crate::scene::animation::LightTrack;
 use crate::scene::DirectionalLight;
 
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
-#[schemars(rename = "DirectionalLight")]
+#[schemars(rename = "DirectionalLight", extend("dependentRequired" = { "interpolation": ["keyframes"] }))]
 pub struct Keys {
     /// The way the light travels.
     direction: Located<Vector>,
     /// On a surface that faces the light, W·m⁻².
     irradiance: Rgb<NonNegative>,
+    /// What it is at frames (`--frame`, `--frames`, `--time`); without one it is what the other keys say.
+    #[schemars(extend("minItems" = 1))]
+    keyframes: Option<Located<Vec<Located<DirectionalKeyEntry>>>>,
+    /// How keyframes lead from one to the next; "linear" when left out.
+    interpolation: Option<Located<InterpolationName>>,
+    /// A `[[node]]` that takes the light along at frames.
+    node: Option<Located<String>>,
 }
 
 impl LightKeys for Keys {
@@ -30,6 +39,14 @@ impl LightKeys for Keys {
 
     fn resolve(&self, resolver: &mut Resolver<'_>, _: &Range<usize>) -> Result<DirectionalLight, SceneError> {
         Ok(DirectionalLight { direction: resolver.direction(&self.direction)?, irradiance: self.irradiance.0 })
+    }
+
+    fn track(&self, resolver: &Resolver<'_>) -> Result<Option<LightTrack>, SceneError> {
+        resolver.light_track(WrittenLightTrack {
+            keyframes: self.keyframes.as_ref(),
+            interpolation: self.interpolation.as_ref(),
+            node: self.node.as_ref(),
+        })
     }
 
     fn write(light: &DirectionalLight, _: &mut Writer<'_>) -> String {

@@ -9,16 +9,18 @@ use serde::Deserialize;
 use super::keys::LightKeys;
 use crate::load::error::{SceneError, show};
 use crate::load::file::colour::Rgb;
+use crate::load::file::keyframes::{EnvironmentKeyEntry, InterpolationName, WrittenLightTrack};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, LARGEST, Located, NonNegative, Number};
 use crate::load::file::writer::{Writer, colour, line, number};
+use crate::scene::animation::LightTrack;
 use crate::scene::{Environment, EnvironmentRadiance, ImageData, ImageSource, MapRows};
 
 /// Radiance from outside the scene: either `radiance` or `file`.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 #[schemars(rename = "EnvironmentLight")]
-#[schemars(extend("allOf" = [{ "oneOf": [{ "required": ["radiance"] }, { "required": ["file"] }] }]))]
+#[schemars(extend("allOf" = [{ "oneOf": [{ "required": ["radiance"] }, { "required": ["file"] }] }], "dependentRequired" = { "interpolation": ["keyframes"] }))]
 pub struct Keys {
     /// The same radiance from everywhere.
     radiance: Option<Located<Rgb<NonNegative>>>,
@@ -30,6 +32,11 @@ pub struct Keys {
     rotate: Option<Number>,
     /// Where the first and the last row of the map lie: half a row from the poles when left out.
     rows: Option<Rows>,
+    /// What it is at frames (`--frame`, `--frames`, `--time`); without one it is what the other keys say.
+    #[schemars(extend("minItems" = 1))]
+    keyframes: Option<Located<Vec<Located<EnvironmentKeyEntry>>>>,
+    /// How keyframes lead from one to the next; "linear" when left out.
+    interpolation: Option<Located<InterpolationName>>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
@@ -62,6 +69,19 @@ impl LightKeys for Keys {
             Some(Rows::Inside) | None => MapRows::Inside,
         };
         Ok(Environment { radiance, rotation_degrees: self.rotate.map_or(0.0, |rotate| rotate.0), rows })
+    }
+
+    fn track(&self, resolver: &Resolver<'_>) -> Result<Option<LightTrack>, SceneError> {
+        let keyframes = self.keyframes.as_ref();
+        let mut of_keys = keyframes.iter().flat_map(|keys| &keys.value).filter_map(|entry| entry.value.radiance.as_ref());
+        if let Some(radiance) = of_keys.next().filter(|_| self.radiance.is_none()) {
+            return Err(resolver.error(&radiance.span, "only keyframes of an environment with `radiance` state `radiance`"));
+        }
+        let interpolation = self.interpolation.as_ref();
+        let mut track = resolver.light_track(WrittenLightTrack { keyframes, interpolation, node: None })?;
+        let scale = self.scale.as_ref().map_or(1.0, |scale| scale.value.0);
+        track.iter_mut().flat_map(|track| &mut track.strength.keys).for_each(|key| key.value *= scale);
+        Ok(track)
     }
 
     fn write(environment: &Environment, writer: &mut Writer<'_>) -> String {

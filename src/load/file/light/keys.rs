@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::writer::Writer;
+use crate::scene::animation::LightTrack;
 
 /// What a light's keys mean.
 pub trait LightKeys {
@@ -16,6 +17,11 @@ pub trait LightKeys {
 
     /// The light; `span` is its whole table.
     fn resolve(&self, resolver: &mut Resolver<'_>, span: &Range<usize>) -> Result<Self::Light, SceneError>;
+
+    /// What it is at frames, of a light that is to be the scene's next one; None where that is always the same.
+    fn track(&self, _: &Resolver<'_>) -> Result<Option<LightTrack>, SceneError> {
+        Ok(None)
+    }
 
     /// The keys that say a light, a line each.
     fn write(light: &Self::Light, writer: &mut Writer<'_>) -> String;

@@ -2,6 +2,8 @@
 
 mod keys;
 
+use std::sync::Arc;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -11,6 +13,7 @@ use super::value::Located;
 use super::writer::Writer;
 use crate::load::error::SceneError;
 use crate::scene::Light;
+use crate::scene::animation::LightTrack;
 use crate::scene::light::light_table;
 
 /// The entries of a scene file, by the rows of the table of lights.
@@ -33,6 +36,14 @@ macro_rules! entries {
             fn resolve(&self, resolver: &mut Resolver<'_>) -> Result<Light, SceneError> {
                 match &self.value {
                     $($(LightEntry::$variant(keys) => keys.resolve(resolver, &self.span).map(Light::$variant),)*)*
+                }
+            }
+        }
+
+        impl LightEntry {
+            fn track(&self, resolver: &Resolver<'_>) -> Result<Option<LightTrack>, SceneError> {
+                match self {
+                    $($(LightEntry::$variant(keys) => keys.track(resolver),)*)*
                 }
             }
         }
@@ -62,6 +73,9 @@ impl Resolver<'_> {
                 }
                 Ok(light)
             });
+            let track = entry.value.track(self);
+            let track = self.note(track).flatten();
+            Arc::make_mut(&mut self.scene.animation).lights.extend(track);
             let light = self.note(light);
             self.scene.lights.extend(light);
         }

@@ -8,18 +8,27 @@ use serde::Deserialize;
 use super::keys::LightKeys;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
+use crate::load::file::keyframes::{PointKeyEntry, InterpolationName, WrittenLightTrack};
 use crate::load::file::resolver::Resolver;
-use crate::load::file::value::{NonNegative, Vector, vector};
+use crate::load::file::value::{Located, NonNegative, Vector, vector};
 use crate::load::file::writer::{self, Writer, colour, line};
+use crate::scene::animation::LightTrack;
 use crate::scene::PointLight;
 
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
-#[schemars(rename = "PointLight")]
+#[schemars(rename = "PointLight", extend("dependentRequired" = { "interpolation": ["keyframes"] }))]
 pub struct Keys {
     position: Vector,
     /// W·sr⁻¹
     intensity: Rgb<NonNegative>,
+    /// What it is at frames (`--frame`, `--frames`, `--time`); without one it is what the other keys say.
+    #[schemars(extend("minItems" = 1))]
+    keyframes: Option<Located<Vec<Located<PointKeyEntry>>>>,
+    /// How keyframes lead from one to the next; "linear" when left out.
+    interpolation: Option<Located<InterpolationName>>,
+    /// A `[[node]]` that takes the light along at frames.
+    node: Option<Located<String>>,
 }
 
 impl LightKeys for Keys {
@@ -29,6 +38,14 @@ impl LightKeys for Keys {
 
     fn resolve(&self, _: &mut Resolver<'_>, _: &Range<usize>) -> Result<PointLight, SceneError> {
         Ok(PointLight { position: vector(self.position), intensity: self.intensity.0 })
+    }
+
+    fn track(&self, resolver: &Resolver<'_>) -> Result<Option<LightTrack>, SceneError> {
+        resolver.light_track(WrittenLightTrack {
+            keyframes: self.keyframes.as_ref(),
+            interpolation: self.interpolation.as_ref(),
+            node: self.node.as_ref(),
+        })
     }
 
     fn write(light: &PointLight, _: &mut Writer<'_>) -> String {

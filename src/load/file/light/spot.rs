@@ -9,15 +9,17 @@ use serde::Deserialize;
 use super::keys::LightKeys;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
+use crate::load::file::keyframes::{SpotKeyEntry, InterpolationName, WrittenLightTrack};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, HalfAngle, Located, NonNegative, Vector, vector};
 use crate::load::file::writer::{self, Writer, colour, direction, line, number};
+use crate::scene::animation::LightTrack;
 use crate::scene::{FalloffCurve, SpotLight, ThrownPicture};
 
 /// A point light cut to a cone. Between the angles `falloff` and `angle` the intensity falls as `curve` says.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
-#[schemars(rename = "SpotLight")]
+#[schemars(rename = "SpotLight", extend("dependentRequired" = { "interpolation": ["keyframes"] }))]
 pub struct Keys {
     position: Vector,
     direction: Located<Vector>,
@@ -33,6 +35,13 @@ pub struct Keys {
     texture: Option<Located<String>>,
     /// With `texture`: where its upper edge is, seen from the light; [0, 1, 0] when left out.
     up: Option<Located<Vector>>,
+    /// What it is at frames (`--frame`, `--frames`, `--time`); without one it is what the other keys say.
+    #[schemars(extend("minItems" = 1))]
+    keyframes: Option<Located<Vec<Located<SpotKeyEntry>>>>,
+    /// How keyframes lead from one to the next; "linear" when left out.
+    interpolation: Option<Located<InterpolationName>>,
+    /// A `[[node]]` that takes the light along at frames.
+    node: Option<Located<String>>,
 }
 
 /// How a spot light's intensity falls between its angles.
@@ -77,6 +86,14 @@ impl LightKeys for Keys {
                 Some(CurveName::Linear) => FalloffCurve::Linear,
             },
             picture,
+        })
+    }
+
+    fn track(&self, resolver: &Resolver<'_>) -> Result<Option<LightTrack>, SceneError> {
+        resolver.light_track(WrittenLightTrack {
+            keyframes: self.keyframes.as_ref(),
+            interpolation: self.interpolation.as_ref(),
+            node: self.node.as_ref(),
         })
     }
 

@@ -4,13 +4,15 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::load::error::SceneError;
-use crate::load::file::keyframes::{CameraKeyEntry, InterpolationName, TransformKeyEntry, WrittenTrack};
+use crate::load::file::keyframes::{
+    CameraKeyEntry, InterpolationName, LightKey, LightKeyEntry, TransformKeyEntry, WrittenLightTrack, WrittenTrack,
+};
 use crate::load::file::node::NodeEntry;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::syntax::{CameraTable, ProjectionName, SceneFile};
 use crate::load::file::value::{Located, Number, vector};
 use crate::scene::animation::{
-    Animation, CameraTrack, FRAMES_PER_SECOND, Interpolation, Key, Node, ShapeTrack, TransformTrack, Turn,
+    Animation, CameraTrack, FRAMES_PER_SECOND, Interpolation, Key, LightTrack, Node, ShapeTrack, TransformTrack, Turn,
 };
 use crate::scene::{Shape, Transform};
 
@@ -173,6 +175,39 @@ impl Resolver<'_> {
             curve.interpolation = interpolation;
         }
         (track.opening.interpolation, track.focus_distance.interpolation) = (interpolation, interpolation);
+        Ok(Some(track))
+    }
+
+    /// What a light is at frames, which is the next one of the scene.
+    pub(in crate::load::file) fn light_track<K: LightKeyEntry>(
+        &self,
+        written: WrittenLightTrack<'_, K>,
+    ) -> Result<Option<LightTrack>, SceneError> {
+        let WrittenLightTrack { keyframes, interpolation, node } = written;
+        let node = node.map(|name| self.look_up(&self.node_names, name, "node")).transpose()?;
+        let mut track = LightTrack { light: self.scene.lights.len(), node, ..LightTrack::default() };
+        let Some(keyframes) = keyframes else {
+            self.without_keyframes(interpolation)?;
+            return Ok(node.map(|_| track));
+        };
+        let times = |entry: &K| (entry.key().frame, entry.key().time);
+        let frames = self.frames(keyframes, self.scene.animation.frames_per_second, times)?;
+        let interpolation = interpolation.map_or(Interpolation::default(), |name| name.value.into());
+        for curve in [&mut track.position, &mut track.direction, &mut track.strength] {
+            curve.interpolation = interpolation;
+        }
+        track.rotation.interpolation = interpolation;
+        for (entry, frame) in keyframes.value.iter().zip(frames) {
+            let LightKey { position, direction, strength, rotation_degrees, .. } = entry.value.key();
+            if position.is_none() && direction.is_none() && strength.is_none() && rotation_degrees.is_none() {
+                return Err(self.error(&entry.span, format!("a keyframe of this light states {}", K::STATES)));
+            }
+            let direction = direction.map(|direction| self.direction(direction)).transpose()?;
+            track.position.keys.extend(position.map(|value| Key { frame, value }));
+            track.direction.keys.extend(direction.map(|value| Key { frame, value }));
+            track.strength.keys.extend(strength.map(|value| Key { frame, value }));
+            track.rotation.keys.extend(rotation_degrees.map(|value| Key { frame, value }));
+        }
         Ok(Some(track))
     }
 

@@ -24,6 +24,7 @@ pub struct Writer<'s> {
     pub textures: Names,
     pub materials: Names,
     pub groups: Names,
+    pub nodes: Names,
     pub files: SideFiles,
 }
 

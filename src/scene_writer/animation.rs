@@ -1,0 +1,115 @@
+//! `[animation]`, `[[node]]`, and the keyframes of whatever has some.
+
+use glam::{DAffine3, DVec3};
+
+use super::shape::{steps, transform_step};
+use crate::load::file::writer::{Names, colour, direction, line, number, text, vector};
+use crate::scene::animation::{CameraTrack, Curve, FRAMES_PER_SECOND, Interpolation, LightTrack, Node, ShapeTrack, TransformTrack};
+use crate::scene::{Animation, Light, Projection, TransformStep};
+
+/// A value that keyframes state under a key, by the frames at which they do.
+struct Written {
+    key: &'static str,
+    at: Vec<(f64, String)>,
+}
+
+impl Written {
+    fn of<T>(key: &'static str, curve: &Curve<T>, value: impl Fn(&T) -> String) -> Self {
+        Self { key, at: curve.keys.iter().map(|key| (key.frame, value(&key.value))).collect() }
+    }
+}
+
+/// `[animation]` and the nodes.
+pub fn animation(animation: &Animation, nodes: &Names) -> String {
+    let mut out = String::new();
+    if animation.frames_per_second != FRAMES_PER_SECOND {
+        out += &format!("\n[animation]\n{}", line("fps", &number(animation.frames_per_second)));
+    }
+    for (index, node) in animation.nodes.iter().enumerate() {
+        out += &format!("\n[[node]]\n{}", line("name", &nodes.quoted(index)));
+        out += &node_keys(node, nodes);
+    }
+    out
+}
+
+fn node_keys(node: &Node, nodes: &Names) -> String {
+    let mut out = taken_along("parent", node.parent, nodes);
+    if node.rest != DAffine3::IDENTITY {
+        out += &line("transform", &steps(std::iter::once(transform_step(&TransformStep::Matrix(node.rest)))));
+    }
+    out + &node.track.as_ref().map_or_else(String::new, transform)
+}
+
+/// The keys of a shape that say where it is at frames.
+pub fn shape(track: &ShapeTrack, nodes: &Names) -> String {
+    taken_along("node", track.node, nodes) + &track.track.as_ref().map_or_else(String::new, transform)
+}
+
+/// Those of the camera.
+pub fn camera(track: &CameraTrack, projection: Projection, nodes: &Names) -> String {
+    let opening = match projection {
+        Projection::Perspective { .. } => "vfov",
+        Projection::Orthographic { .. } => "height",
+    };
+    let place = |key, curve: &Curve<DVec3>| Written::of(key, curve, |value| vector(*value));
+    let written = vec![
+        place("position", &track.position),
+        place("look_at", &track.look_at),
+        place("up", &track.up),
+        Written::of(opening, &track.opening, |value| number(*value)),
+        Written::of("focus_distance", &track.focus_distance, |value| number(*value)),
+    ];
+    taken_along("node", track.node, nodes) + &keyframes(&written, track.position.interpolation)
+}
+
+/// Those of a light.
+pub fn light(track: &LightTrack, light: &Light, nodes: &Names) -> String {
+    let strength = match light {
+        Light::Point(_) | Light::Spot(_) => "intensity",
+        Light::Directional(_) => "irradiance",
+        Light::Environment(_) | Light::Sky(_) => "radiance",
+    };
+    let written = vec![
+        Written::of("position", &track.position, |value| vector(*value)),
+        Written::of("direction", &track.direction, |value| direction(*value)),
+        Written::of(strength, &track.strength, |value| colour(*value)),
+        Written::of("rotate", &track.rotation, |value| number(*value)),
+    ];
+    taken_along("node", track.node, nodes) + &keyframes(&written, track.position.interpolation)
+}
+
+fn taken_along(key: &str, node: Option<usize>, nodes: &Names) -> String {
+    node.map_or_else(String::new, |node| line(key, &nodes.quoted(node)))
+}
+
+fn transform(track: &TransformTrack) -> String {
+    let written = vec![
+        Written::of("scale", &track.scale, |value| vector(*value)),
+        Written::of("rotate", &track.rotation, |turn| direction(turn.axis)),
+        Written::of("degrees", &track.rotation, |turn| number(turn.degrees)),
+        Written::of("translate", &track.translation, |value| vector(*value)),
+    ];
+    keyframes(&written, track.scale.interpolation)
+}
+
+/// A table for each frame at which something is stated.
+fn keyframes(written: &[Written], interpolation: Interpolation) -> String {
+    let mut frames: Vec<f64> = written.iter().flat_map(|written| written.at.iter().map(|(frame, _)| *frame)).collect();
+    frames.sort_by(f64::total_cmp);
+    frames.dedup();
+    if frames.is_empty() {
+        return String::new();
+    }
+    let table = |frame: &f64| {
+        let stated = written.iter().flat_map(|written| written.at.iter().map(|(at, value)| (written.key, at, value)));
+        let values = stated.filter(|(_, at, _)| *at == frame).map(|(key, _, value)| format!(", {key} = {value}"));
+        format!("{{ frame = {}{} }}", number(*frame), values.collect::<String>())
+    };
+    let tables: Vec<String> = frames.iter().map(table).collect();
+    let name = match interpolation {
+        Interpolation::Linear => String::new(),
+        Interpolation::Smooth => line("interpolation", &text("smooth")),
+        Interpolation::Step => line("interpolation", &text("step")),
+    };
+    line("keyframes", &format!("[{}]", tables.join(", "))) + &name
+}
