@@ -5,7 +5,8 @@ use std::time::Instant;
 use gpt::gpu::select_adapter;
 use gpt::load::{self, SceneError, printable};
 use gpt::packed::{PackError, PackedScene};
-use gpt::plan::{Decision, DeviceLimits, Plan, PlanOptions};
+use gpt::plan::host::{HostNeeds, host_memory};
+use gpt::plan::{Decision, DeviceLimits, Memory, Plan, PlanOptions};
 use gpt::reference::ReferenceRenderer;
 use gpt::renderer::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
 use gpt::scene::{ImportReport, ReportItem, Scene, SceneSummary};
@@ -37,6 +38,9 @@ struct Report<'a> {
     /// The device that the plan is for.
     device: &'a str,
     device_bytes: u64,
+    /// The host's memory for a render on that device, within a factor of two, and on the CPU.
+    host_bytes: u64,
+    cpu_host_bytes: u64,
     /// That the CPU would take for the picture, by a few samples.
     cpu_seconds: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -109,6 +113,7 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
     let summary = SceneSummary::of(&scene);
     let exit = if arguments.strict && !scene.import_report.is_empty() { Exit::Input } else { Exit::Done };
     let cpu_seconds = guess_time(&scene)?;
+    let host = host_needs(&scene, false);
     if arguments.json {
         let compiled_in = plan.switches.enabled.iter().copied().collect();
         terminal::answer_json(&Report {
@@ -119,6 +124,8 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
             summary: &summary,
             device: &device,
             device_bytes: plan.memory.total(),
+            host_bytes: host.total(),
+            cpu_host_bytes: host_needs(&scene, true).total(),
             cpu_seconds,
             plan: arguments.plan.then(|| PlanReport { decisions: &plan.decisions, compiled_in }),
         })?;
@@ -131,7 +138,7 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
     };
     let time = in_words(cpu_seconds);
     let answer = format!(
-        "valid{warnings}\n{summary}memory     {} on {device}\ntime       {time} on the CPU, by a few samples; a graphics card takes a fraction\n",
+        "valid{warnings}\n{summary}memory     {} on {device}\nhost       {host}, by estimate\ntime       {time} on the CPU, by a few samples; a graphics card takes a fraction\n",
         plan.memory
     );
     terminal::answer(&answer)?;
@@ -169,6 +176,12 @@ fn listed(report: &ImportReport) -> String {
         }
     }
     printable(&text)
+}
+
+/// The host's memory for a render of the whole picture.
+pub fn host_needs(scene: &Scene, on_cpu: bool) -> Memory {
+    let pixels = scene.film.size.map(u64::from).iter().product();
+    host_memory(scene, &HostNeeds { pixels, on_cpu, ..HostNeeds::default() })
 }
 
 /// The device that `--device auto` takes, and what it needs of its memory for the scene.

@@ -28,13 +28,19 @@ pub struct Kept {
 /// # Errors
 /// A usage error.
 pub fn check(arguments: &CheckpointArguments, outputs: &[(PathBuf, PictureFormat)]) -> Result<(), Failure> {
-    let is_asked_for = arguments.checkpoint.is_some() || arguments.resume;
-    if is_asked_for && first_file(outputs).is_none() {
+    if arguments.is_asked_for() && first_file(outputs).is_none() {
         return Err(Failure::usage(
             "--checkpoint and --resume keep their state beside a picture file, and standard output is none: add -o FILE",
         ));
     }
     Ok(())
+}
+
+impl CheckpointArguments {
+    /// Whether states are kept.
+    pub fn is_asked_for(&self) -> bool {
+        self.checkpoint.is_some() || self.resume
+    }
 }
 
 fn first_file(outputs: &[(PathBuf, PictureFormat)]) -> Option<&Path> {
@@ -63,7 +69,7 @@ pub fn all_are_finished(
 
 /// The picture beside which states stand, where they are asked for.
 fn kept_picture<'o>(arguments: &CheckpointArguments, outputs: &'o [(PathBuf, PictureFormat)]) -> Option<&'o Path> {
-    first_file(outputs).filter(|_| arguments.checkpoint.is_some() || arguments.resume)
+    first_file(outputs).filter(|_| arguments.is_asked_for())
 }
 
 /// Looks for the state of this identity that the render goes on from, and how many samples it has, over all pixels.

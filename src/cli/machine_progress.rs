@@ -30,6 +30,8 @@ pub struct Needs {
     pub height: u32,
     /// The film on the device, and what the host holds of it at a time.
     pub film_bytes: u64,
+    /// The host's memory for all of the render, by estimate.
+    pub host_bytes: u64,
 }
 
 #[derive(Serialize)]
@@ -77,10 +79,13 @@ impl MachineProgress {
 
     /// The render is about to begin.
     pub fn start(&self, needs: Needs) {
-        let film = needs.film_bytes as f64 / f64::from(1 << 20);
+        let [film, host] = [needs.film_bytes, needs.host_bytes].map(|bytes| bytes as f64 / f64::from(1 << 20));
         self.say(&Event::Start { needs, frame: self.frame() }, || match self.format {
-            ProgressFormat::Openjd => format!("openjd_status: preparing, {film:.1} MiB for the film"),
-            _ => format!("preparing {}x{} pixels, {film:.1} MiB for the film", needs.width, needs.height),
+            ProgressFormat::Openjd => format!("openjd_status: preparing, {film:.1} MiB for the film, about {host:.0} MiB in all"),
+            _ => {
+                let [width, height] = [needs.width, needs.height];
+                format!("preparing {width}x{height} pixels, {film:.1} MiB for the film, about {host:.0} MiB in all")
+            }
         });
     }
 
@@ -140,8 +145,9 @@ mod tests {
     #[test]
     fn events_keep_their_keys() {
         let json = |event: &Event<'_>| serde_json::to_string(event).expect("JSON");
-        let needs = Needs { width: 4, height: 3, film_bytes: 384 };
-        assert_eq!(json(&Event::Start { needs, frame: None }), r#"{"event":"start","width":4,"height":3,"film_bytes":384}"#);
+        let needs = Needs { width: 4, height: 3, film_bytes: 384, host_bytes: 9 };
+        let start = r#"{"event":"start","width":4,"height":3,"film_bytes":384,"host_bytes":9}"#;
+        assert_eq!(json(&Event::Start { needs, frame: None }), start);
         let progress = Event::Progress { percent: 25.0, done: 1, total: 4, seconds_left: None, frame: None };
         assert_eq!(json(&progress), r#"{"event":"progress","percent":25.0,"done":1,"total":4,"seconds_left":null}"#);
         let outputs = ["a.exr".to_owned()];

@@ -6,6 +6,7 @@ use gpt::Scene;
 use gpt::film::Layer;
 use gpt::load;
 use gpt::merge::chunks;
+use gpt::plan::host::{HostNeeds, host_memory};
 use gpt::render::options::PARTS_OF_STRATA;
 use serde::Serialize;
 
@@ -46,7 +47,7 @@ struct Chunk {
     /// The same for a shell.
     shell: String,
     device_bytes: u64,
-    /// What the host holds of the film at most, and of a checkpoint.
+    /// The host's memory with a state, within a factor of two.
     host_bytes: u64,
     /// That the CPU would take, by a few samples; a graphics card takes a fraction.
     cpu_seconds: f64,
@@ -68,8 +69,8 @@ struct ExitCodes {
     give_up: [u8; 3],
 }
 
-/// Bytes a pixel: of the state of a render, and of the sums of a merge.
-const STATE_BYTES: u64 = 36;
+/// Bytes of a merge: of the program, and of each pixel's sums and one part.
+const MERGE_PROGRAM_BYTES: u64 = 32 << 20;
 const MERGE_BYTES: u64 = 40 + 40;
 
 /// Prints the chunks of a job as JSON.
@@ -100,6 +101,7 @@ fn plan_frames(arguments: &PlanArguments, scene: &Scene, frames: &FrameList) -> 
     let (device, device_bytes) = device_memory(&first)?;
     let seconds = guess_time(&first)?;
     let [width, height] = scene.film.size;
+    let host_bytes = host_bytes(scene);
     let spp = scene.render.spp;
     let output = output.display().to_string();
     let cut = chunks(count, arguments.chunks).enumerate().map(|(index, range)| {
@@ -116,7 +118,7 @@ fn plan_frames(arguments: &PlanArguments, scene: &Scene, frames: &FrameList) -> 
             shell: shell(&command),
             command,
             device_bytes,
-            host_bytes: u64::from(width) * u64::from(height) * STATE_BYTES,
+            host_bytes,
             cpu_seconds: seconds * range.len() as f64,
         }
     });
@@ -124,6 +126,12 @@ fn plan_frames(arguments: &PlanArguments, scene: &Scene, frames: &FrameList) -> 
     let scene = scene.name.clone();
     terminal::answer_json(&Job { scene, width, height, spp, device, chunks, merge: None, exit_codes: ExitCodes::default() })?;
     Ok(Exit::Done)
+}
+
+/// What a chunk's render takes of the host's memory.
+fn host_bytes(scene: &Scene) -> u64 {
+    let pixels = scene.film.size.map(u64::from).iter().product();
+    host_memory(scene, &HostNeeds { pixels, checkpoint: true, ..HostNeeds::default() }).total()
 }
 
 /// The words with which every chunk's command begins: the scene, and what is set for it.
@@ -163,6 +171,7 @@ fn plan_samples(arguments: &PlanArguments, scene: &Scene) -> Result<Exit, Failur
     let (device, device_bytes) = device_memory(scene)?;
     let seconds = guess_time(scene)?;
     let pixels = scene.film.size.map(u64::from).iter().product::<u64>();
+    let host_bytes = host_bytes(scene);
     let output = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.exr", scene.name)));
     let digits = (arguments.chunks - 1).to_string().len();
     let part = |index: u32| {
@@ -186,7 +195,7 @@ fn plan_samples(arguments: &PlanArguments, scene: &Scene) -> Result<Exit, Failur
                 shell: shell(&command),
                 command,
                 device_bytes,
-                host_bytes: pixels * STATE_BYTES,
+                host_bytes,
                 cpu_seconds: seconds * f64::from(count) / f64::from(spp),
             }
         })
@@ -195,7 +204,7 @@ fn plan_samples(arguments: &PlanArguments, scene: &Scene) -> Result<Exit, Failur
     let mut command: Vec<String> = vec!["gpt".into(), "merge".into()];
     command.extend(cut.iter().map(|chunk| chunk.output.clone()));
     command.extend(["--spp".into(), spp.to_string(), "-o".into(), output.clone()]);
-    let merge = Merge { output, shell: shell(&command), command, host_bytes: pixels * MERGE_BYTES };
+    let merge = Merge { output, shell: shell(&command), command, host_bytes: MERGE_PROGRAM_BYTES + pixels * MERGE_BYTES };
     let [width, height] = scene.film.size;
     let (scene, exit_codes) = (scene.name.clone(), ExitCodes::default());
     terminal::answer_json(&Job { scene, width, height, spp, device, chunks: cut, merge: Some(merge), exit_codes })?;

@@ -6,6 +6,7 @@ use std::time::Instant;
 use gpt::denoise::library::Library;
 use gpt::load::{self, LoadOptions, SceneSource};
 use gpt::output::{PartSpec, PictureFormat, PictureSpec, Provenance, check_target};
+use gpt::plan::host::{HostNeeds, host_memory};
 use gpt::plan::memory::FILM_BYTES;
 use gpt::plan::{DeviceLimits, PlanOptions};
 use gpt::render::progressive::STREAMS;
@@ -113,7 +114,8 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
 
     let progress = Progress::of_frame(arguments.quiet, arguments.progress, span);
     let layers = layers::render(arguments, options, (scene, wanted), outputs, (started, &progress))?;
-    progress.start(needs(scene, options));
+    let needs = needs(arguments, scene, options);
+    progress.start(needs);
     let mut renderer = ready.renderer(scene, options).inspect_err(|_| progress.clear())?;
     let Rendered { outcome, mut pictures, provenance, mut kept } =
         render(arguments, (&mut renderer, span), (outputs, layers), (started, &progress))?;
@@ -132,6 +134,7 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     stats.frame = time.frame();
     stats.resumed(kept.resumed_samples);
     [stats.width, stats.height] = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
+    stats.expected_host_bytes = needs.host_bytes;
     stats.spp_done = summary.samples[0];
     stats.stopped_by = stop_name(outcome.stop);
     stats.adaptive = arguments.goal.adaptive;
@@ -175,12 +178,19 @@ fn check_inputs(outputs: &[(PathBuf, PictureFormat)], arguments: &RenderArgument
     }
 }
 
-/// What is told before it is taken: 32 bytes a pixel of the rows that the film has at a time.
-fn needs(scene: &Scene, options: &RenderOptions) -> Needs {
+/// What is told before it is taken: 32 bytes a pixel of the rows that the film has at a time, and all that the host needs.
+fn needs(arguments: &RenderArguments, scene: &Scene, options: &RenderOptions) -> Needs {
     let [width, height] = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
     let film = scene.film.size.map(u64::from).iter().product::<u64>();
     let film_bytes = film.min(DeviceLimits::default().film_pixels) * FILM_BYTES;
-    Needs { width, height, film_bytes }
+    let of_host = HostNeeds {
+        pixels: u64::from(width) * u64::from(height),
+        on_cpu: options.device == DeviceChoice::Cpu,
+        adaptive: options.adaptive,
+        target_error: options.target_error.is_some(),
+        checkpoint: arguments.checkpoint.is_asked_for(),
+    };
+    Needs { width, height, film_bytes, host_bytes: host_memory(scene, &of_host).total() }
 }
 
 /// The pictures by name, for messages.

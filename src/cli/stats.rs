@@ -60,6 +60,8 @@ pub struct Stats {
     pub peak_device_bytes: u64,
     /// Largest resident set of the process so far; null where the system does not say.
     pub peak_host_bytes: Option<u64>,
+    /// What was expected of it before: the peak is within a factor of two.
+    pub expected_host_bytes: u64,
     /// Mean radiance of the picture.
     pub mean: [f64; 3],
     pub interrupted: bool,
@@ -122,6 +124,7 @@ impl Stats {
             clamped_light: None,
             peak_device_bytes: report.peak_device_bytes,
             peak_host_bytes: peak_host_bytes(),
+            expected_host_bytes: 0,
             mean: [0.0; 3],
             interrupted: report.interrupted,
             outputs: Vec::new(),

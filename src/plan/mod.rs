@@ -12,6 +12,7 @@ mod decisions;
 mod error;
 pub mod fault;
 pub mod generated;
+pub mod host;
 pub mod layout;
 pub mod lights;
 pub mod limits;

@@ -334,7 +334,7 @@ impl Light {
     }
 
     /// The same to look at.
-    pub(super) fn image(&self) -> Option<&ImageData> {
+    pub fn image(&self) -> Option<&ImageData> {
         self.model().image()
     }
 }

@@ -17,6 +17,7 @@ mod imports;
 mod inputs;
 mod installing;
 mod mattes;
+mod memory_stated;
 mod models;
 #[cfg(unix)]
 mod on_unix;
