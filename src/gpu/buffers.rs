@@ -1,5 +1,6 @@
 //! Every buffer and texture of a render, by binding number.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -57,9 +58,13 @@ impl Buffers {
         upload(Binding::View as u32, "view", bytemuck::bytes_of(&packed.view), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
         upload(Binding::Vertex as u32, "vertices", &vertex_parameters(1), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
         let compiled = |switch: &str| plan.switches.enabled.contains(switch);
+        let mut nodes: Cow<'_, [u8]> = Cow::Borrowed(bytemuck::cast_slice(&packed.hierarchy.nodes));
+        if plan.uniform_nodes {
+            nodes.to_mut().resize(packed.hierarchy.uniform_node_bytes(), 0);
+        }
         let arrays: [(_, &[u8], _, _); 4] = [
             (PRIMITIVES, bytemuck::cast_slice(&packed.primitives), usage(plan.uniform_primitives), true),
-            (NODES, bytemuck::cast_slice(&packed.hierarchy.nodes), usage(plan.uniform_nodes), compiled("BVH")),
+            (NODES, &nodes, usage(plan.uniform_nodes), compiled("BVH")),
             (ATTRIBUTES, bytemuck::cast_slice(&packed.attributes), BufferUsages::STORAGE, compiled("ATTRIBUTES")),
             (INSTANCES, bytemuck::cast_slice(&packed.instances), BufferUsages::STORAGE, compiled("INSTANCES")),
         ];

@@ -46,6 +46,11 @@ impl Hierarchy {
         Self { stack_size: deepest_stack(&nodes, &roots), nodes, roots, primitive_count, ..Self::default() }
     }
 
+    /// Bytes of the nodes where kernels say how many there are: more than are used, so that hierarchies of about one size have the same kernels.
+    pub fn uniform_node_bytes(&self) -> usize {
+        size_of_val(&self.nodes[..]).next_power_of_two()
+    }
+
     /// What a device builds a structure of its own from.
     pub fn of_boxes(boxes: Vec<ShapeBox>, primitive_count: u32) -> Self {
         Self { traversal: Traversal::RayQuery, boxes, stack_size: 1, primitive_count, ..Self::default() }

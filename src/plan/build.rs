@@ -68,7 +68,7 @@ impl Plan {
         let uniform_primitives = fits_uniform(size_of_val(&packed.primitives[..]));
         let uniform_tables = 16 * tables.len() as u64 <= uniform_limit;
         // Real GPUs serialise divergent reads of uniform buffers; software ones read them faster than storage.
-        let uniform_nodes = limits.software && !ray_queries && fits_uniform(size_of_val(&packed.hierarchy.nodes[..]));
+        let uniform_nodes = limits.software && !ray_queries && fits_uniform(packed.hierarchy.uniform_node_bytes());
         let band_rows = limits.band_rows(scene.film.size, film, options.pixel_list);
         let mut plan = Self {
             geometry,
@@ -151,7 +151,9 @@ fn count_memory(packed: &PackedScene, plan: &Plan, width: u32) -> Memory {
         arrays.push((memory::ESTIMATED_ACCELERATION, memory::ACCELERATION_BYTES * u64::from(packed.hierarchy.primitive_count)));
     }
     if plan.has_nodes() {
-        arrays.push((memory::NODES, size_of_val(&packed.hierarchy.nodes[..]) as u64));
+        let nodes = &packed.hierarchy;
+        let bytes = if plan.uniform_nodes { nodes.uniform_node_bytes() } else { size_of_val(&nodes.nodes[..]) };
+        arrays.push((memory::NODES, bytes as u64));
     }
     if packed.has_attributes() {
         arrays.push((memory::ATTRIBUTES, memory::ATTRIBUTE_BYTES * packed.attributes.len() as u64));

@@ -17,6 +17,9 @@ use crate::scene::{
 };
 use crate::shader::Switches;
 
+/// Stacks of a lane have a multiple of so many entries.
+const STACK_STEP: u32 = 8;
+
 pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
     let mut switches = Switches::default();
     let render = &scene.render;
@@ -117,8 +120,9 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
         ("SEQUENCE_BLOCKS", SEQUENCE_BLOCKS),
         ("SEQUENCE_POINTS", plan.sequence_stride() * MAX_SAMPLES_PER_PASS),
         ("SEQUENCE_STRIDE", plan.sequence_stride()),
-        ("STACK_SIZE", packed.hierarchy.stack_size),
-        ("NODE_WORDS", (size_of_val(&packed.hierarchy.nodes[..]) / 16) as u32),
+        // Both are rounded up, so that frames whose hierarchies differ a little have the same kernels. Packets keep an entry a lane.
+        ("STACK_SIZE", packed.hierarchy.stack_size.next_multiple_of(plan.lanes.unwrap_or(STACK_STEP))),
+        ("NODE_WORDS", if plan.uniform_nodes { (packed.hierarchy.uniform_node_bytes() / 16) as u32 } else { 0 }),
         ("TABLE_WORDS", (tables.words.len() as u32).max(1)),
     ]);
     switches

@@ -1,5 +1,6 @@
 //! Plans: what fits a device, and what is refused with sizes named. No device is needed.
 
+use glam::DVec3;
 use gpt::load;
 use gpt::packed::PackedScene;
 use gpt::packed::bvh4::Child;
@@ -7,7 +8,9 @@ use gpt::packed::hierarchy::Traversal;
 use gpt::plan::{
     DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanError, PlanOptions, RayQueryLimits, StageMode, TraversalChoice,
 };
-use gpt::scene::{LightChoice, Scene};
+use gpt::scene::{LightChoice, Scene, TransformStep};
+use gpt::shader::compose;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 fn plan(scene: &Scene, limits: &DeviceLimits) -> Result<Plan, PlanError> {
@@ -176,6 +179,29 @@ fn the_stack_covers_the_deepest_way() {
             }));
         }
         assert_eq!(deepest, hierarchy.stack_size, "{side}");
+    }
+}
+
+/// Frames whose hierarchies differ a little have the same kernels, so that nothing is compiled between them.
+#[test]
+fn hierarchies_of_about_one_size_have_the_same_kernels() {
+    let kernels = |scene: &Scene, limits: &DeviceLimits| -> Vec<String> {
+        let plan = plan(scene, limits).expect("it fits");
+        plan.pipeline().map(|stage| compose(stage.file, &plan.switches).expect("it composes").text).collect()
+    };
+    let software = DeviceLimits { software: true, ..DeviceLimits::default() };
+    for limits in [DeviceLimits::default(), software] {
+        let (mut trees, mut texts) = (BTreeSet::new(), BTreeSet::new());
+        for height in [0.1, 1.0, 3.0, 9.0, 30.0] {
+            let mut scene = grid(20);
+            scene.shapes[0].transform.steps.push(TransformStep::Scale(DVec3::new(1.0, height, 1.0)));
+            let hierarchy = packed(&scene).hierarchy;
+            trees.insert((hierarchy.nodes.len(), hierarchy.stack_size));
+            texts.insert(kernels(&scene, &limits));
+        }
+        assert!(trees.len() > 1 && texts.len() == 1, "{} kernels of {trees:?}", texts.len());
+        // The control: more triangles are other kernels.
+        assert!(!texts.contains(&kernels(&grid(21), &limits)));
     }
 }
 
