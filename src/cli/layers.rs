@@ -45,11 +45,7 @@ pub fn wanted(arguments: &RenderArguments, scene: &Scene) -> Vec<Layer> {
 ///
 /// # Errors
 /// A usage error where files or parts cannot have them.
-pub fn of_files(
-    arguments: &RenderArguments,
-    scene: &Scene,
-    outputs: &[(PathBuf, PictureFormat)],
-) -> Result<Vec<Layer>, Failure> {
+pub fn of_files(arguments: &RenderArguments, scene: &Scene, outputs: &[(PathBuf, PictureFormat)]) -> Result<Vec<Layer>, Failure> {
     let wanted = wanted(arguments, scene);
     if wanted.is_empty() {
         return Ok(wanted);

@@ -83,7 +83,8 @@ impl PartHeader {
     pub fn read(path: &Path) -> Result<Self, MergeError> {
         let failure = |what: String| MergeError::Part { path: path.to_owned(), what };
         let file = input::open_own(path).map_err(|error| failure(error.to_string()))?;
-        let meta = MetaData::read_from_buffered(file, false).map_err(|error| failure(format!("it is no EXR picture: {error}")))?;
+        let meta =
+            MetaData::read_from_buffered(file, false).map_err(|error| failure(format!("it is no EXR picture: {error}")))?;
         let header = meta.headers.first().ok_or_else(|| failure("it is no EXR picture".to_owned()))?;
         let has = |name: &str| header.channels.list.iter().any(|channel| channel.name.eq(name));
         if !part_channels().all(has) {

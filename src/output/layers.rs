@@ -92,9 +92,9 @@ impl LayerChannel {
         match layer {
             // Beside the depth stands how many of the samples met a surface.
             Layer::Alpha => vec![Self { name: "A", source: LayerSource::Component(picture.clone(), 1) }],
-            Layer::Variance => of_picture(&["Variance.R", "Variance.G", "Variance.B"], &|place| {
-                LayerSource::Variance(picture.clone(), place)
-            }),
+            Layer::Variance => {
+                of_picture(&["Variance.R", "Variance.G", "Variance.B"], &|place| LayerSource::Variance(picture.clone(), place))
+            }
             Layer::Ids => of_picture(&["ObjectId", "MaterialId"], &|place| LayerSource::Whole(picture.clone(), place)),
             _ => layer.kernel().map_or_else(Vec::new, |kernel| {
                 of_picture(kernel.part_channels().values, &|place| LayerSource::Component(picture.clone(), place))

@@ -4,7 +4,9 @@ use glam::{DAffine3, DVec3};
 
 use super::shape::{steps, transform_step};
 use crate::load::file::writer::{Names, colour, direction, line, number, text, vector};
-use crate::scene::animation::{CameraTrack, Curve, FRAMES_PER_SECOND, Interpolation, LightTrack, Node, ShapeTrack, TransformTrack};
+use crate::scene::animation::{
+    CameraTrack, Curve, FRAMES_PER_SECOND, Interpolation, LightTrack, Node, ShapeTrack, TransformTrack,
+};
 use crate::scene::{Animation, Light, Projection, TransformStep};
 
 /// A value that keyframes state under a key, by the frames at which they do.

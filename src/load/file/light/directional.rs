@@ -12,8 +12,8 @@ use crate::load::file::keyframes::{DirectionalKeyEntry, InterpolationName, Writt
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Located, NonNegative, Vector};
 use crate::load::file::writer::{Writer, colour, direction, line};
-use crate::scene::animation::LightTrack;
 use crate::scene::DirectionalLight;
+use crate::scene::animation::LightTrack;
 
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]

@@ -8,12 +8,12 @@ use serde::Deserialize;
 use super::keys::LightKeys;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
-use crate::load::file::keyframes::{PointKeyEntry, InterpolationName, WrittenLightTrack};
+use crate::load::file::keyframes::{InterpolationName, PointKeyEntry, WrittenLightTrack};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Located, NonNegative, Vector, vector};
 use crate::load::file::writer::{self, Writer, colour, line};
-use crate::scene::animation::LightTrack;
 use crate::scene::PointLight;
+use crate::scene::animation::LightTrack;
 
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]

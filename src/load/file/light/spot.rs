@@ -9,7 +9,7 @@ use serde::Deserialize;
 use super::keys::LightKeys;
 use crate::load::error::SceneError;
 use crate::load::file::colour::Rgb;
-use crate::load::file::keyframes::{SpotKeyEntry, InterpolationName, WrittenLightTrack};
+use crate::load::file::keyframes::{InterpolationName, SpotKeyEntry, WrittenLightTrack};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, HalfAngle, Located, NonNegative, Vector, vector};
 use crate::load::file::writer::{self, Writer, colour, direction, line, number};
