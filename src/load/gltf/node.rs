@@ -69,10 +69,11 @@ impl Importer<'_> {
                     }
                 }
             }
-            if name.is_some() && node.extensions.contains_key("KHR_lights_punctual") {
-                self.drop("animation of a light", &format!("nodes[{index}]"), "it stands where it is at rest");
-            }
+            let first = self.scene.lights.len();
             self.light(node, map, index).map_err(of_node)?;
+            if let Some(name) = name {
+                self.scene.lights[first..].iter_mut().for_each(|light| light.keys.set("node", name.as_str()));
+            }
         }
         Ok(())
     }

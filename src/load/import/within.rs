@@ -112,8 +112,8 @@ impl Description {
         for node in &mut self.nodes {
             rename(&mut node.keys, &["name", "parent"], &renamed);
         }
-        if let Some(camera) = &mut self.camera {
-            rename(&mut camera.keys, &["node"], &renamed);
+        for entry in self.camera.iter_mut().chain(&mut self.lights) {
+            rename(&mut entry.keys, &["node"], &renamed);
         }
         for (index, (name, content)) in self.held.iter_mut().enumerate() {
             let ending = match content {

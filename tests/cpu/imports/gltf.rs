@@ -344,7 +344,12 @@ fn animations_become_keyframes() {
         let corners = |scene: &Scene| scene.shapes[0].world_positions();
         assert_eq!((corners(&scene), &scene.camera), (corners(&rest), &rest.camera));
         assert_eq!(report(&scene).contains("straight pieces"), interpolation == "CUBICSPLINE");
-        assert!(report(&scene).contains("animation of a light x1: it stands where it is at rest"), "{}", report(&scene));
+        // The body takes the light along.
+        let light = |scene: &Scene| scene.lights[0].delta().expect("a light with a place").position;
+        assert!(!report(&scene).contains("animation of a light"), "{}", report(&scene));
+        assert!((light(&scene) - glam::DVec3::new(1.0, 7.0, 3.0)).length() < 1e-5, "{}", light(&scene));
+        let at_three = scene.at_frame(72.0).expect("it can be rendered");
+        assert!((light(&at_three) - glam::DVec3::new(11.0, 7.0, 3.0)).length() < 1e-5, "{}", light(&at_three));
         // The corner (-1, -1, 0) is turned by 0, 45 and 90 degrees about the shoulder's place, which the body moves.
         let near = |found: glam::Vec3, expected: [f32; 3]| {
             assert!((found - glam::Vec3::from(expected)).length() < 1e-4, "{interpolation} {found}")
