@@ -111,8 +111,8 @@ pub struct RenderArguments {
     pub display: DisplayArguments,
     #[command(flatten, next_help_heading = PICTURE_FILES)]
     pub exr: ExrArguments,
-    /// Denoise the pictures too, into NAME.denoised.exr and so on beside them, by Open Image Denoise
-    #[arg(long, help_heading = PICTURE_FILES, conflicts_with_all = ["first_sample", "crop"])]
+    /// Denoise the pictures too, into NAME.denoised.exr and so on beside them, by Open Image Denoise; parts (--first-sample, --crop) get the layers that `gpt merge --denoise` needs
+    #[arg(long, help_heading = PICTURE_FILES)]
     pub denoise: bool,
     #[command(flatten, next_help_heading = "The picture")]
     pub estimate: EstimateArguments,

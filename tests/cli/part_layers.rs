@@ -102,7 +102,10 @@ fn layers_of_parts_are_joined_to_those_of_one_render() {
     let covered = |file: &Channels, pixel: usize| file.channel("A").expect("it is there")[pixel] == 1.0;
     let depth = |file: &Channels, pixel: usize| file.channel("Z").expect("it is there")[pixel];
     let near = |pixel: usize| (depth(&partial, pixel) / depth(&whole, pixel) - 1.0).abs() < 0.2;
-    assert!((0..24 * 16).filter(|pixel| covered(&whole, *pixel)).all(|pixel| covered(&partial, pixel) && near(pixel)));
+    let pixels: Vec<usize> = (0..24 * 16).filter(|pixel| covered(&whole, *pixel)).collect();
+    assert!(pixels.len() > 100 && pixels.iter().all(|pixel| covered(&partial, *pixel)));
+    // At silhouettes, a few samples see now this and now that.
+    assert!(pixels.iter().filter(|pixel| near(**pixel)).count() * 10 > pixels.len() * 9);
 }
 
 #[test]
