@@ -149,6 +149,7 @@ impl<W: Seek> Seek for Watched<W> {
 }
 
 /// A file that is read by a thread of its own, chunk by chunk as it is asked for.
+#[derive(Debug)]
 pub struct PatientFile<R> {
     reader: Reader<R>,
     limit: Duration,
@@ -159,6 +160,7 @@ pub struct PatientFile<R> {
     next: usize,
 }
 
+#[derive(Debug)]
 enum Reader<R> {
     /// Asked for the chunk at an offset.
     Thread(SyncSender<u64>, Receiver<io::Result<Vec<u8>>>),
