@@ -20,7 +20,7 @@ const FILES: [(&str, &[u8]); 9] = [
 ];
 
 /// Name and text of every built-in scene; the first is the default.
-const SCENES: [(&str, &str); 28] = [
+const SCENES: [(&str, &str); 29] = [
     ("cornell", include_str!("../../scenes/cornell.toml")),
     ("spheres", include_str!("../../scenes/spheres.toml")),
     ("veach-mis", include_str!("../../scenes/veach-mis.toml")),

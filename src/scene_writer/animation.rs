@@ -68,7 +68,7 @@ pub fn camera(track: &CameraTrack, projection: Projection, nodes: &Names) -> Str
 pub fn light(track: &LightTrack, light: &Light, nodes: &Names) -> String {
     let strength = match light {
         Light::Point(_) | Light::Spot(_) => "intensity",
-        Light::Directional(_) => "irradiance",
+        Light::Directional(_) | Light::Projector(_) => "irradiance",
         Light::Environment(_) | Light::Sky(_) => "radiance",
     };
     let written = vec![

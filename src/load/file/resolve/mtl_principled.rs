@@ -34,6 +34,10 @@ impl Resolver<'_> {
             // Blender writes what lets light through by `d` and an illumination model of glass.
             transmission: ColorInput::grey(if opacity < 1.0 && is_glass(written) { 1.0 - opacity } else { 0.0 }),
             thin: false,
+            attenuation: None,
+            sheen_color: ColorInput::grey(0.0),
+            sheen_roughness: ColorInput::grey(0.0),
+            energy_compensation: false,
             clearcoat: self.mtl_scalar(written, "Pc", 0.0)?,
             clearcoat_roughness: self.mtl_scalar(written, "Pcr", 0.0)?,
             anisotropy: Some(anisotropy).filter(|strength| *strength != ColorInput::grey(0.0)),

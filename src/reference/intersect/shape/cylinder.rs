@@ -71,7 +71,7 @@ impl Element for Cylinder {
 
     fn tangents(&self, _: Local, normal: DVec3) -> Option<Tangents> {
         let along_u = self.second * normal.dot(self.first) - self.first * normal.dot(self.second);
-        Some(Tangents { along_u, along_v: self.axis })
+        Some(Tangents::along(along_u, self.axis))
     }
 
     fn sample_area(&self, u1: f64, u2: f64) -> Option<(SurfacePoint, Local)> {
@@ -216,7 +216,7 @@ mod tests {
             let other = reflected.element().uv(local, mirrored.transform_vector3(point.normal));
             assert!((uv - other).length() < 1e-12, "{uv} {other}");
             for (element, normal) in [(&plain, point.normal), (&reflected, mirrored.transform_vector3(point.normal))] {
-                let Tangents { along_u, along_v } = element.element().tangents(local, normal).expect("it has tangents");
+                let Tangents { along_u, along_v, .. } = element.element().tangents(local, normal).expect("it has tangents");
                 let moved = element.element().uv(local, (normal + along_u * 1e-6).normalize());
                 assert!(
                     moved.x > uv.x && (along_u.dot(normal)).abs() < 1e-12 && along_v.dot(normal).abs() < 1e-12,
