@@ -120,6 +120,11 @@ impl Texture {
         }
     }
 
+    /// A normal map that is this texture bends normals as it is.
+    pub fn bends_plainly(&self) -> bool {
+        self.relief == Relief::default() && !self.shadows_bent_normals
+    }
+
     /// Where in itself the texture is looked up for texture coordinates that its kind has scaled.
     pub fn placed(&self, scaled: DVec2) -> DVec2 {
         self.transform.rotation() * scaled + DVec2::from(self.transform.offset)

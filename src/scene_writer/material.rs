@@ -1,5 +1,6 @@
 //! `[[material]]`
 
+use super::needed::named_texture;
 use crate::load::file::write_kind;
 use crate::load::file::writer::{Writer, line, number};
 use crate::scene::{Emission, MaterialId, MaterialKind, Relief};
@@ -10,7 +11,7 @@ pub fn material(id: MaterialId, writer: &Writer<'_>) -> String {
     let mut out = format!("\n[[material]]\nname = {}\ntype = \"{type_name}\"\n", writer.materials.quoted(id));
     out += &write_kind(&material.kind, writer);
     if let Some(texture) = material.normal_map {
-        let name = writer.textures.quoted(texture);
+        let name = writer.textures.quoted(named_texture(writer.scene, texture));
         out += &match writer.scene.textures[texture].relief {
             Relief::Normals(1.0) => line("normal_map", &name),
             Relief::Normals(scale) => line("normal_map", &name) + &line("normal_scale", &number(scale)),

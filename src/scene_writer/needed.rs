@@ -1,7 +1,9 @@
 //! Which textures and materials a scene file has to define.
 
 use crate::load::file::writer::named_file;
-use crate::scene::{BlendWeight, ColorInput, Geometry, Light, Material, MaterialId, MaterialKind, Scene, Shape, TextureId};
+use crate::scene::{
+    BlendWeight, ColorInput, Geometry, Light, Material, MaterialId, MaterialKind, Scene, Shape, Texture, TextureId,
+};
 
 /// All but those that only models bring along whose files are named.
 pub struct Needed {
@@ -28,10 +30,12 @@ impl Needed {
         let mut of_others = vec![false; scene.textures.len()];
         for (material, written) in scene.materials.iter().zip(&materials) {
             let used = if *written { &mut of_written } else { &mut of_others };
-            textures_of(material).into_iter().for_each(|id| used[id] = true);
+            textures_of(material).into_iter().for_each(|id| used[named_texture(scene, id)] = true);
         }
         scene.lights.iter().filter_map(Light::texture).for_each(|id| of_written[id] = true);
-        let textures = of_written.iter().zip(&of_others).map(|(written, other)| *written || !other).collect();
+        let is_own = |id: TextureId| named_texture(scene, id) == id;
+        let used = of_written.iter().zip(&of_others).map(|(written, other)| *written || !other);
+        let textures = used.enumerate().map(|(id, used)| used && is_own(id)).collect();
         Self { textures, materials }
     }
 
@@ -42,6 +46,19 @@ impl Needed {
     pub fn materials(&self) -> impl Iterator<Item = MaterialId> + '_ {
         marked(&self.materials)
     }
+}
+
+/// The texture that a scene file names for this one: what bends normals in a way of its own is another's copy.
+pub fn named_texture(scene: &Scene, id: TextureId) -> TextureId {
+    let texture = &scene.textures[id];
+    if texture.bends_plainly() {
+        return id;
+    }
+    let is_original = |other: &Texture| {
+        let of_kind = std::mem::discriminant(&other.kind) == std::mem::discriminant(&texture.kind);
+        other.bends_plainly() && of_kind && (&other.name, other.transform) == (&texture.name, texture.transform)
+    };
+    scene.textures[..id].iter().position(is_original).unwrap_or(id)
 }
 
 fn marked(marks: &[bool]) -> impl Iterator<Item = usize> + '_ {

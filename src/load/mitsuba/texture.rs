@@ -69,7 +69,7 @@ impl Converter<'_> {
     fn new_texture(&mut self, plugin: &Rc<Plugin>, role: Role, texels: Texels) -> Result<Input, SceneError> {
         match plugin.name.as_str() {
             "bitmap" => self.bitmap(plugin, texels, DAffine2::IDENTITY),
-            "checkerboard" => self.checkerboard(plugin, role, DAffine2::IDENTITY),
+            "checkerboard" => self.checkerboard(plugin, role, texels, DAffine2::IDENTITY),
             "mesh_attribute" => {
                 let name = plugin.text("name")?.ok_or_else(|| plugin.error("a mesh attribute needs the string `name`"))?;
                 let known = self.attributes.as_ref().and_then(|(_, attributes)| attributes.get(name).cloned());
@@ -124,7 +124,7 @@ impl Converter<'_> {
         texture.visited.set(true);
         match texture.name.as_str() {
             "bitmap" => self.bitmap(&texture, Texels::Colours, map),
-            "checkerboard" => self.checkerboard(&texture, Role::Light, map),
+            "checkerboard" => self.checkerboard(&texture, Role::Light, Texels::Colours, map),
             _ => self.texture(&texture, Role::Light, Texels::Colours),
         }
     }
@@ -198,7 +198,7 @@ impl Converter<'_> {
         keys
     }
 
-    fn checkerboard(&mut self, plugin: &Rc<Plugin>, role: Role, before: DAffine2) -> Result<Input, SceneError> {
+    fn checkerboard(&mut self, plugin: &Rc<Plugin>, role: Role, texels: Texels, before: DAffine2) -> Result<Input, SceneError> {
         let mut colours = [DVec3::ZERO; 2];
         for (colour, (name, default)) in colours.iter_mut().zip([("color0", 0.4), ("color1", 0.2)]) {
             let input = self.input(plugin, name, role, Texels::Colours, default)?;
@@ -206,6 +206,10 @@ impl Converter<'_> {
                 self.drop(plugin, "texture within a checkerboard", "a grey is taken");
                 DVec3::splat(default)
             });
+        }
+        // Mitsuba's checkerboard of numbers (`eval_1`) has the fields of its checkerboard of colours (`eval`) the other way round.
+        if texels == Texels::Numbers {
+            colours.swap(0, 1);
         }
         // Two squares along each unit.
         let map = DAffine2::from_scale(DVec2::splat(2.0)) * uv_map(plugin)? * before;

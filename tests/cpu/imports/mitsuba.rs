@@ -1,7 +1,7 @@
 //! Mitsuba's XML.
 
 use gpt::load::LoadOptions;
-use gpt::scene::{EnvironmentRadiance, Geometry, Light, MaterialKind, Projection};
+use gpt::scene::{EnvironmentRadiance, Geometry, Light, MaterialKind, Projection, TextureKind};
 
 use super::{Folder, picture, refusal, report};
 
@@ -436,6 +436,24 @@ fn bumps_and_thrown_pictures_are_exact() {
     let bumpy = scene.materials.iter().filter_map(|material| material.normal_map).next().expect("a map");
     assert_eq!(scene.textures[bumpy].relief, gpt::scene::Relief::Heights(0.1));
     assert_eq!(picture(&folder.written("a.xml")), picture(&scene));
+}
+
+/// Where both coordinates are below a half, a checkerboard of colours shows its first one and a checkerboard of numbers its second.
+#[test]
+fn checkerboards_of_numbers_are_the_other_way_round() {
+    let board = |name: &str| {
+        format!(
+            r#"<texture name="{name}" type="checkerboard"><float name="color0" value="0.1"/><float name="color1" value="0.7"/></texture>"#
+        )
+    };
+    for (bsdf, first) in [
+        (format!(r#"<bsdf type="diffuse">{}</bsdf>"#, board("reflectance")), 0.1),
+        (format!(r#"<bsdf type="roughconductor">{}</bsdf>"#, board("alpha")), 0.7),
+    ] {
+        let scene = read(&format!(r#"<shape type="rectangle">{bsdf}</shape>"#));
+        let TextureKind::Checker { a, .. } = scene.textures[0].kind else { panic!("no checker") };
+        assert_eq!(a.x, first, "{bsdf}");
+    }
 }
 
 /// As there, unless the scene says otherwise; the picture is that of the scene file written from it.
