@@ -199,9 +199,17 @@ fn traced_light(surface: Surface, light_bits: u32) -> u32 {
 
 // The shadow ray of one of the light samples that a surface takes, chosen by `light_bits`, given the surface's value towards it.
 fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, light_bits: u32, value: BsdfValue) -> ShadowRay {
-    var origin = shading_point(surface);
+    let sampled_from = shading_point(surface);
+    var ray = Ray(sampled_from, light.wi);
+    var ray_length = light.distance;
     if HAS_NON_DELTA_TRANSMISSION {
-        origin = offset_origin(surface, light.wi);
+        ray.origin = offset_origin(surface, light.wi);
+        // On the far side the ray begins elsewhere than where light was sampled from, and ends where it would have ended.
+        if dot(light.wi, surface.facing_normal) < 0.0 && light.distance < INFINITY_DISTANCE {
+            let way = sampled_from + light.distance * light.wi - ray.origin;
+            ray_length = length(way);
+            ray.direction = way / ray_length;
+        }
     }
     var radiance = path.throughput * value.value * light.radiance * planted_factor(surface.material);
 #if ATTENUATION
@@ -228,7 +236,7 @@ fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, ligh
 #if LAYER_OF_LIGHT
     radiance = select(vec3<f32>(0.0), radiance, is_in_layer(depth + 1u));
 #endif
-    return ShadowRay(Ray(origin, light.wi), light.distance, radiance);
+    return ShadowRay(ray, ray_length, radiance);
 }
 
 // The shadow ray of light sample `number`, not the first, of a vertex that takes more.

@@ -49,6 +49,7 @@ const MEASURED: &[(&str, MeasuredShare)] = &[
     ("arbour", MeasuredShare { matching: 163_752, paths: 163_840 }),
     ("theatre", MeasuredShare { matching: 145_652, paths: 147_456 }),
     ("grove", MeasuredShare { matching: 163_684, paths: 163_840 }),
+    ("wardrobe", MeasuredShare { matching: 175_075, paths: 176_128 }),
     ("vitrine", MeasuredShare { matching: 175_226, paths: 176_128 }),
     ("model-town", MeasuredShare { matching: 196_519, paths: 196_608 }),
     ("furnace-lambert", MeasuredShare { matching: 65_536, paths: 65_536 }),
