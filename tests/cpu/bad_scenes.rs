@@ -59,7 +59,7 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
         (
             "type = \"sphere\"",
             "",
-            "test.toml:14:1: shape[0]: the key `type` is missing [valid choices: mesh, sphere, rectangle, disk, box, plane]",
+            "test.toml:14:1: shape[0]: the key `type` is missing [valid choices: mesh, sphere, rectangle, disk, box, cylinder, plane]",
         ),
         (
             "material = \"grey\"",
