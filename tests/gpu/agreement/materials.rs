@@ -250,7 +250,7 @@ fn every_kind_of_blend_agrees_in_every_way_to_run() {
     }
 }
 
-const AMBER: &str = "type = \"principled\"\nmetallic = 0\nroughness = 0.3\ntransmission = 1\nattenuation_color = [0.9, 0.5, 0.1]\nattenuation_distance = 0.6";
+const AMBER: &str = "type = \"principled\"\nmetallic = 0\nroughness = 0.5\ntransmission = 1\nattenuation_color = [0.9, 0.5, 0.1]\nattenuation_distance = 0.6";
 
 /// Light and what it shines on, both within a volume.
 #[test]
