@@ -94,8 +94,9 @@ fn cylinders_keep_their_texture_coordinates() {
     let tube = |steps: &str, is_reversed: bool| {
         let more = format!(
             r#"<shape type="cylinder"><point name="p0" value="0.3 -0.9 0.4"/><point name="p1" value="-0.2 1 0.9"/><float name="radius" value="0.8"/>
-              <transform name="to_world">{steps}<rotate x="1" y="2" angle="50"/></transform>
-              <bsdf type="diffuse"><texture type="bitmap" name="reflectance"><string name="filename" value="a.png"/></texture></bsdf></shape>"#
+              <transform name="to_world">{steps}<rotate x="1" y="2" angle="15"/></transform>
+              <bsdf type="twosided"><bsdf type="diffuse"><texture type="bitmap" name="reflectance"><string name="filename" value="a.png"/></texture>
+              </bsdf></bsdf></shape>"#
         );
         let folder = Folder::new(&[("a.xml", with(&more).as_bytes())]);
         let gradient = |x: u32, y: u32| {
