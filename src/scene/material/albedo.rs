@@ -115,7 +115,9 @@ fn facet_albedo(cosine: f64, roughness: f64, masking: Masking) -> f64 {
     let upward = DVec3::new(-seen.z, 0.0, seen.x);
     let share = 0.5 * (1.0 + seen.z);
     let mut sum = 0.0;
-    for u in midpoints(FACETS[0]) {
+    for s in midpoints(FACETS[0]) {
+        // By the root of the share above: the few that are steepest lose most light.
+        let (u, weight) = (1.0 - s * s, 2.0 * s);
         for v in midpoints(FACETS[1]) {
             // One half: the other is its mirror image.
             let (sine, across) = (PI * v - FRAC_PI_2).sin_cos();
@@ -125,7 +127,7 @@ fn facet_albedo(cosine: f64, roughness: f64, masking: Masking) -> f64 {
             let m = DVec3::new(alpha * normal.x, alpha * normal.y, normal.z.max(1e-9)).normalize();
             let leaving = 2.0 * wo.dot(m) * m.z - cosine;
             if leaving > 0.0 {
-                sum += masking.shadowing(lambda_o, lambda(leaving.min(1.0))) * (1.0 + lambda_o);
+                sum += weight * masking.shadowing(lambda_o, lambda(leaving.min(1.0))) * (1.0 + lambda_o);
             }
         }
     }
