@@ -99,21 +99,27 @@ pub fn damaged(whole: &[u8], random: &mut SplitMix64, text: bool) -> Vec<u8> {
         let reach = if !text && random.uniform() < 0.5 { bytes.len().min(64) } else { bytes.len() };
         let start = below(reach, random);
         let end = (start + below(12, random)).min(bytes.len());
-        let piece: Vec<u8> = match below(6, random) {
+        let piece: Vec<u8> = match below(5, random) {
             0 if text => WORDS[below(WORDS.len(), random)].bytes().collect(),
             0 | 1 => vec![[0, 1, 0x7f, 0x80, 0xff][below(5, random)]; end - start],
             2 => bytes[start..end].repeat(2),
             3 => Vec::new(),
-            4 if !bytes.is_empty() => {
-                bytes[start] ^= 1 << below(8, random);
-                continue;
-            }
             _ => (start..end).map(|_| random.next_u64() as u8).collect(),
         };
         bytes.splice(start..end, piece);
     }
     if random.uniform() < 0.1 {
         bytes.truncate(below(bytes.len() + 1, random));
+    }
+    bytes
+}
+
+/// One or two bits turned over, anywhere.
+pub fn with_bits_turned(whole: &[u8], random: &mut SplitMix64) -> Vec<u8> {
+    let mut bytes = whole.to_vec();
+    for _ in 0..1 + random.next_u64() % 2 {
+        let place = random.next_u64() as usize % bytes.len();
+        bytes[place] ^= 1 << (random.next_u64() % 8);
     }
     bytes
 }

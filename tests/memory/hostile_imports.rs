@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use crate::common::effort::in_full;
 use crate::common::files::{folder_with, png_bytes};
 use crate::counting::take_turn;
-use crate::hostile::{MOST_FOR_TEXTS, Tally, damaged};
+use crate::hostile::{MOST_FOR_TEXTS, Tally, damaged, with_bits_turned};
 use crate::random::SplitMix64;
 use gpt::load;
 
@@ -31,8 +31,13 @@ fn damage(kind: &'static str, name: &str, whole: &[u8], others: &[(&str, &[u8])]
     let mut tally = Tally::new(kind, MOST_FOR_TEXTS);
     let mut random = SplitMix64::new(7);
     tally.undamaged(&pack(whole), read);
-    for _ in 0..count {
-        tally.damaged(&pack(&damaged(whole, &mut random, is_text)), read);
+    for round in 0..count {
+        // By turns: bits that leave the file as it is but for a number, and pieces that move what follows.
+        let bytes = match round % 2 {
+            0 => with_bits_turned(whole, &mut random),
+            _ => damaged(whole, &mut random, is_text),
+        };
+        tally.damaged(&pack(&bytes), read);
     }
     tally.judge();
 }
