@@ -72,6 +72,13 @@ fn has_non_delta_lobe(bsdf: Bsdf) -> bool {
     return lobe_is_non_delta(bsdf.lobe);
 }
 
+#if GUIDE
+// The probability of lobes that scatter in all directions, whose samples a guide may replace.
+fn guided_probability(bsdf: Bsdf) -> f32 {
+    return select(0.0, 1.0, lobe_is_broad(bsdf.lobe));
+}
+#endif
+
 fn evaluate_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
     return evaluate_lobe(bsdf.lobe, surface, wo, wi);
 }

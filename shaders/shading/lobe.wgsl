@@ -136,6 +136,14 @@ fn own_emission(material: u32, front: bool, uv: vec2<f32>) -> vec3<f32> {
 #endif
 }
 
+#if GUIDE
+// It scatters in all directions above the surface, mostly evenly.
+fn lobe_is_broad(lobe: Lobe) -> bool {
+    let kind = lobe_kind(lobe);
+    return kind == DIFFUSE || kind == PLASTIC || kind == ROUGH_PLASTIC;
+}
+#endif
+
 fn lobe_kind(lobe: Lobe) -> u32 {
     return lobe.kind & 255u;
 }

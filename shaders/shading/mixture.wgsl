@@ -20,6 +20,10 @@ struct Bsdf {
 #if MORE_LOBES
     // There are lobes besides the diffuse one.
     more_lobes: bool,
+#if GUIDE
+    // The part of `total` that lobes have which scatter in all directions, beside the diffuse one.
+    broad: f32,
+#endif
 #endif
 }
 
@@ -62,6 +66,9 @@ fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
         if weighted.share > 0.0 {
             bsdf.total += weighted.share;
             bsdf.more_lobes = true;
+#if GUIDE
+            bsdf.broad += select(0.0, weighted.share, lobe_is_broad(weighted.lobe));
+#endif
             bsdf.non_delta_lobe = bsdf.non_delta_lobe || lobe_is_non_delta(weighted.lobe);
         }
 #endif
@@ -75,6 +82,20 @@ fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
 fn has_non_delta_lobe(bsdf: Bsdf) -> bool {
     return bsdf.non_delta_lobe;
 }
+
+#if GUIDE
+// The probability of lobes that scatter in all directions, whose samples a guide may replace.
+fn guided_probability(bsdf: Bsdf) -> f32 {
+    if bsdf.total <= 0.0 {
+        return 0.0;
+    }
+#if MORE_LOBES
+    return (max_component(bsdf.diffuse) + bsdf.broad) / bsdf.total;
+#else
+    return 1.0;
+#endif
+}
+#endif
 
 // Σ wⱼ fⱼ |cos| and Σ Pⱼ pdfⱼ over the non-delta lobes: what next event estimation and sampling agree on.
 fn evaluate_bsdf(bsdf: Bsdf, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {

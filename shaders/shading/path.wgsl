@@ -23,6 +23,10 @@
 #if ATTENUATION
 #import shading/volume.wgsl
 #endif
+#if GUIDE
+#import shading/guide.wgsl
+#import shading/guided.wgsl
+#endif
 #if LAYER_OF_LIGHT
 #import shading/layer.wgsl
 #endif
@@ -66,6 +70,9 @@ struct LitVertex {
     vertex: u32,
     surface: Surface,
     bsdf: Bsdf,
+#if GUIDE
+    guide: GuideCell,
+#endif
 }
 
 // What comes of a vertex.
@@ -244,7 +251,11 @@ fn further_shadow_ray(lit: LitVertex, number: u32) -> ShadowRay {
     let depth = depth_at(lit.path, lit.vertex);
     let light_bits = further_light_bits(lit.path.pixel, lit.path.sample_in_pass, lit.vertex, depth, number);
     let light = sample_light(shading_point(lit.surface), light_bits);
+#if GUIDE
+    var value = evaluate_guided(lit.guide, lit.bsdf, lit.surface, -lit.path.ray.direction, light.wi);
+#else
     var value = evaluate_bsdf(lit.bsdf, lit.surface, -lit.path.ray.direction, light.wi);
+#endif
 #if NORMAL_SHADOWING
     value.value *= normal_shadowing(lit.surface.unbent_normal, lit.surface.shading_normal, light.wi);
 #endif
@@ -333,13 +344,24 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     if samples_light {
         light = sample_light(shading_point(surface), random);
     }
+#if GUIDE
+    let cell = guide_at(surface, guided_probability(bsdf));
+    let scattering = scatter_guided(
+        cell, bsdf, surface, wo, samples_light, light.wi, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)
+    );
+#else
     let scattering = scatter(
         bsdf, surface, wo, samples_light, light.wi, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)
     );
+#endif
     if samples_light {
         shading.light_samples = light_samples_at(depth);
         shading.shadow = shadow_ray(incoming, surface, depth, light, random.x, scattering.towards_light);
+#if GUIDE
+        shading.lit = LitVertex(incoming, vertex, surface, bsdf, cell);
+#else
         shading.lit = LitVertex(incoming, vertex, surface, bsdf);
+#endif
     }
 
     let drawn = scattering.drawn;

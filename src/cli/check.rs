@@ -2,14 +2,14 @@
 
 use std::time::Instant;
 
-use gpt::gpu::select_adapter;
+use gpt::gpu::{learn_guide, select_adapter};
 use gpt::load::{self, SceneError, printable};
 use gpt::packed::{PackError, PackedScene};
 use gpt::plan::host::{HostNeeds, host_memory};
 use gpt::plan::{Decision, DeviceLimits, Memory, Plan, PlanOptions};
 use gpt::reference::ReferenceRenderer;
 use gpt::renderer::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
-use gpt::scene::{ImportReport, ReportItem, Scene, SceneSummary};
+use gpt::scene::{Guiding, ImportReport, ReportItem, Scene, SceneSummary};
 use gpt::verify;
 use serde::Serialize;
 
@@ -107,7 +107,8 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
     check_frames(&scene)?;
     let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
     let options = arguments.traversal.options();
-    let packed = PackedScene::for_traversal(&scene, options.packed_traversal()).map_err(does_not_fit)?;
+    let mut packed = PackedScene::for_traversal(&scene, options.packed_traversal()).map_err(does_not_fit)?;
+    learn_guide(&scene, &mut packed)?;
     let (device, limits) = usual_device();
     let plan = Plan::new(&scene, &packed, &limits, &options).map_err(RenderError::from)?;
     let summary = SceneSummary::of(&scene);
@@ -188,7 +189,8 @@ pub fn host_needs(scene: &Scene, on_cpu: bool) -> Memory {
 pub fn device_memory(scene: &Scene) -> Result<(String, u64), Failure> {
     let options = PlanOptions::default();
     let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
-    let packed = PackedScene::for_traversal(scene, options.packed_traversal()).map_err(does_not_fit)?;
+    let mut packed = PackedScene::for_traversal(scene, options.packed_traversal()).map_err(does_not_fit)?;
+    learn_guide(scene, &mut packed)?;
     let (device, limits) = usual_device();
     let plan = Plan::new(scene, &packed, &limits, &options).map_err(RenderError::from)?;
     Ok((device, plan.memory.total()))
@@ -207,6 +209,7 @@ pub fn guess_time(scene: &Scene) -> Result<f64, Failure> {
     let mut small = scene.clone();
     verify::shrink(&mut small, PROBE_SIDE);
     small.render.spp = 1;
+    small.render.guiding = Guiding::Off;
     let mut renderer = ReferenceRenderer::new(&small)?;
     let pixels = |scene: &Scene| scene.film.size.map(f64::from).iter().product::<f64>();
     let start = Instant::now();

@@ -74,6 +74,9 @@ impl Buffers {
                 None => upload(array.binding, array.name, bytes, usage),
             }
         }
+        if compiled("GUIDE") {
+            upload(Binding::Guide as u32, memory::GUIDE, bytemuck::cast_slice(&packed.guide), BufferUsages::STORAGE);
+        }
         if let Some(chunks) = plan.chunks.iter().find(|chunks| chunks.array == TEXELS) {
             for (number, range) in chunks.bindings() {
                 buffers.insert(number, upload_texels(device, &packed.textures, range));

@@ -19,4 +19,4 @@ pub mod trace;
 
 pub use adapters::{AdapterSummary, list_devices, select_adapter};
 pub use device::{Device, OpeningDevice};
-pub use renderer::GpuRenderer;
+pub use renderer::{GpuRenderer, learn_guide};

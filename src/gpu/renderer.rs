@@ -20,11 +20,23 @@ use crate::packed::view::View;
 use crate::packed::{PackError, PackedScene};
 use crate::plan::bindings::Binding;
 use crate::plan::{Plan, PlanOptions, StageMode};
+use crate::reference::training;
 use crate::renderer::sink::Sink;
 use crate::renderer::state::Tally;
 use crate::renderer::{Batch, Change, DeviceChoice, Ending, Observer, RenderError, RenderReport, Renderer, Stopping};
 use crate::sampling::Sampling;
 use crate::scene::{MaterialId, Scene};
+
+/// Adds the guide to a packed scene, where the scene's settings want one and it pays; the CPU traces some paths for it.
+///
+/// # Errors
+/// What the reference cannot render.
+pub fn learn_guide(scene: &Scene, packed: &mut PackedScene) -> Result<(), RenderError> {
+    let learned = training::learn_for_device(scene)?;
+    packed.guide = learned.words().to_vec();
+    packed.guiding = learned.because;
+    Ok(())
+}
 
 /// A scene uploaded, its kernels compiled.
 pub struct GpuRenderer {
@@ -38,6 +50,8 @@ pub struct GpuRenderer {
     /// What a camera that moves is put together with.
     center: DVec3,
     environment: PackedEnvironment,
+    /// Paths are guided, or it was found that this does not pay.
+    is_trained: bool,
 }
 
 impl GpuRenderer {
@@ -68,7 +82,8 @@ impl GpuRenderer {
         let packed = scene.validate().map_err(RenderError::from).and_then(pack);
         // Where there is no device, that is what is told, whatever the scene: it may then go to the CPU.
         let device = opening.wait()?;
-        let packed = packed?;
+        let mut packed = packed?;
+        learn_guide(scene, &mut packed)?;
         let pipeline = Self::pipeline(device, scene, &packed, options, start)?;
         let plan = &pipeline.plan;
         let sizer = PassSizer::new(PassLimits {
@@ -91,6 +106,7 @@ impl GpuRenderer {
             sizer,
             center: scene.center(),
             environment: packed.environment,
+            is_trained: packed.guiding.is_some(),
         })
     }
 
@@ -209,7 +225,8 @@ impl Renderer for GpuRenderer {
         options: &PlanOptions,
         change: Change,
     ) -> Result<Box<dyn Renderer>, RenderError> {
-        if change == Change::Camera && scene.center() == self.center {
+        // Where light is to be looked for depends on what the camera sees.
+        if change == Change::Camera && !self.is_trained && scene.center() == self.center {
             let start = Instant::now();
             let view = View::new(&scene.centered(), &self.environment);
             self.pipeline.write(Binding::View, bytemuck::bytes_of(&view));

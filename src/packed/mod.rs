@@ -10,6 +10,7 @@ mod constants;
 pub mod environment;
 mod error;
 pub mod grid;
+pub mod guide;
 pub mod hierarchy;
 pub mod instance;
 pub mod light;

@@ -38,6 +38,10 @@ pub struct PackedScene {
     /// Groups of meshes in their places. Leaves name them.
     pub instances: Vec<PackedInstance>,
     pub view: View,
+    /// From where light arrives, as a table ([`crate::sampling::guide`]); empty until that is learned, and where paths are not guided.
+    pub guide: Vec<u32>,
+    /// What was decided about guiding paths and why; None where nobody asked for it.
+    pub guiding: Option<String>,
 }
 
 impl PackedScene {
@@ -91,6 +95,8 @@ impl PackedScene {
             environment,
             motions: world.motion_words,
             view: View::new(scene, &environment),
+            guide: Vec::new(),
+            guiding: None,
         };
         packed.validate()?;
         Ok(packed)

@@ -32,5 +32,7 @@ shared_kinds! {
         /// [`super::trace_record`].
         Trace = 18 as BINDING_TRACE,
         Instances = 19 as BINDING_INSTANCES,
+        /// [`crate::sampling::guide`].
+        Guide = 20 as BINDING_GUIDE,
     }
 }

@@ -98,8 +98,9 @@ impl Plan {
             decisions: Vec::new(),
         };
         plan.chunks = chunks::cut(packed, !uniform_primitives, plan.has_nodes() && !uniform_nodes, limits.max_array);
-        let other_arrays = u32::from(!uniform_tables);
-        chunks::check(&plan.chunks, other_arrays, limits.max_array, limits)?;
+        let guided = !packed.guide.is_empty();
+        let other_arrays = u32::from(!uniform_tables) + u32::from(guided);
+        chunks::check(&plan.chunks, other_arrays, guided, limits.max_array, limits)?;
         plan.switches = switches::choose(scene, packed, &plan);
         plan.switches.enable("TRACE", options.trace);
         plan.switches.enable("PIXEL_LIST", options.pixel_list && !options.trace);
@@ -160,6 +161,9 @@ fn count_memory(packed: &PackedScene, plan: &Plan, width: u32) -> Memory {
     }
     if !packed.instances.is_empty() {
         arrays.push((memory::INSTANCES, size_of_val(&packed.instances[..]) as u64));
+    }
+    if !packed.guide.is_empty() {
+        arrays.push((memory::GUIDE, size_of_val(&packed.guide[..]) as u64));
     }
     if packed.textures.texel_words() > 0 {
         arrays.push((memory::TEXELS, packed.textures.texel_bytes()));

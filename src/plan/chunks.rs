@@ -240,16 +240,18 @@ pub fn cut(packed: &PackedScene, stored_primitives: bool, stored_nodes: bool, li
     arrays
 }
 
-/// Refuses what cannot be bound even in chunks of at most `limit` bytes. `others` counts the scene's further storage buffers.
+/// Refuses what cannot be bound even in chunks of at most `limit` bytes. `others` counts the scene's further storage buffers, with that of a guide
+/// where paths are `guided`.
 ///
 /// # Errors
 /// [`PlanError::DoesNotFit`] naming the largest array that is cut, where a stage would need more buffers than the device allows.
-pub fn check(arrays: &[Chunks], others: u32, limit: u64, limits: &DeviceLimits) -> Result<(), PlanError> {
+pub fn check(arrays: &[Chunks], others: u32, guided: bool, limit: u64, limits: &DeviceLimits) -> Result<(), PlanError> {
     let needed = arrays.iter().fold(others + OTHER_BUFFERS, |sum, array| sum.saturating_add(array.count));
     let has_instances = arrays.iter().any(|array| array.array == INSTANCES);
-    if has_instances && needed > limits.max_storage_buffers && arrays.iter().all(Chunks::is_whole) {
+    if (has_instances || guided) && needed > limits.max_storage_buffers && arrays.iter().all(Chunks::is_whole) {
+        let what = if guided { "a guide (`guiding`)" } else { "its instances" };
         return Err(PlanError::DoesNotFit(format!(
-            "with its instances a stage would need up to {needed} storage buffers, and can have {}",
+            "with {what} a stage would need up to {needed} storage buffers, and can have {}",
             limits.max_storage_buffers
         )));
     }

@@ -11,3 +11,11 @@ pub struct Decision {
     /// The facts of scene and device that led to it.
     pub because: String,
 }
+
+impl Decision {
+    /// How directions are drawn.
+    pub fn about_directions(guided: bool, because: &str) -> Self {
+        let choice = if guided { "by BSDFs, and by a guide to where light comes from" } else { "by BSDFs alone" };
+        Self { about: "directions", choice: choice.to_owned(), because: because.to_owned() }
+    }
+}

@@ -110,6 +110,8 @@ pub(super) fn explain(
         let because = "nothing else is asked for; under maps, several lower the error in less time: docs/strategies.md".into();
         add("light samples", "1".into(), because);
     }
+    decisions.extend(packed.guiding.as_ref().map(|because| Decision::about_directions(!packed.guide.is_empty(), because)));
+    let mut add = |about, choice: String, because: String| decisions.push(Decision { about, choice, because });
     if let Some(lanes) = plan.lanes {
         let because = "on a software device all lanes pay for the way that one of them takes".into();
         add("lanes", format!("{lanes} samples of one pixel side by side, their rays in packets"), because);

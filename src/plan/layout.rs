@@ -4,7 +4,7 @@
 use super::bindings::Binding;
 use super::parameters::{PassParameters, VertexParameters};
 use super::{path_state, trace_record};
-use crate::packed::{NONE, View, blend_weight, bvh4, instance, light, material, motion, primitive, shape, texture};
+use crate::packed::{NONE, View, blend_weight, bvh4, guide, instance, light, material, motion, primitive, shape, texture};
 use crate::shader::shared::{Constant, Constants, SharedStruct, declare_constant};
 
 /// Name under which kernels import it.
@@ -20,6 +20,7 @@ pub fn constants() -> Constants {
         shape::constants(),
         primitive::constants(),
         bvh4::constants(),
+        guide::constants(),
         instance::constants(),
         motion::constants(),
         material::constants(),

@@ -31,6 +31,9 @@ pub const NODES: &str = "hierarchy";
 pub const ATTRIBUTES: &str = "normals and texture coordinates";
 pub const INSTANCES: &str = "instances";
 
+/// From where light arrives.
+pub const GUIDE: &str = "guide";
+
 /// Images and maps.
 pub const TEXELS: &str = "texels";
 

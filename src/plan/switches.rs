@@ -54,6 +54,7 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
     switches.enable("PROCEDURAL_TEXTURES", procedural.into_iter().any(has_texture));
 
     switches.enable("MOTION", packed.moves());
+    switches.enable("GUIDE", !packed.guide.is_empty());
     switches.enable("INSTANCES", !packed.instances.is_empty());
 
     choose_materials(scene, packed, &mut switches);

@@ -6,18 +6,21 @@
 //! is the path's throughput. Emission that both samples can find is shared out by multiple importance sampling, see
 //! [`super::mis`].
 
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3};
 
 use super::bsdf::{Bsdf, BsdfSample, Density};
 use super::camera::ProjectiveCamera;
 use super::emission::{emitted, null_weight};
+use super::guided::GuidedBsdf;
 use super::intersect::{Owner, PathTime, Ray, Surface, World};
 use super::lights::{LightSample, Lights};
 use super::mis;
 use super::trace::{LightConnection, PathVisitor};
 use super::volume::{Volumes, transmittance};
 use crate::renderer::RenderError;
-use crate::sampling::{CameraDimension, Dimension, PathSampler, VertexDimension};
+use crate::sampling::{CameraDimension, Dimension, Guide, PathSampler, VertexDimension};
 use crate::scene::{Estimator, MaterialId, MaterialKind, Scene};
 
 /// Edges from which on Russian roulette always has a chance to end the path, whatever its throughput.
@@ -39,6 +42,8 @@ pub struct Integrator {
     /// Of each material: some light goes straight through it.
     lets_through: Vec<bool>,
     volumes: Volumes,
+    /// From where light arrives, where that was learned.
+    guide: Option<Arc<Guide>>,
 }
 
 /// A path under construction.
@@ -78,7 +83,16 @@ impl Integrator {
         let moves = instances_move || scene.shapes.iter().any(|shape| shape.motion.is_some());
         let lets_through = scene.materials_that(|material| matches!(material.kind, MaterialKind::Pass));
         let volumes = Volumes::new(scene);
-        Ok(Self { scene: scene.clone(), center, world, lights, camera, moves, lets_through, volumes })
+        Ok(Self { scene: scene.clone(), center, world, lights, camera, moves, lets_through, volumes, guide: None })
+    }
+
+    /// Draws directions by a guide as well, or by none.
+    pub fn set_guide(&mut self, guide: Option<Arc<Guide>>) {
+        self.guide = guide;
+    }
+
+    pub fn guide(&self) -> Option<&Guide> {
+        self.guide.as_deref()
     }
 
     /// Looks at the scene as another frame's camera does; false where the scene is then to be moved elsewhere, and nothing has changed.
@@ -166,17 +180,18 @@ impl Integrator {
         let random = |dimension| sampler.uniform(Dimension::vertex(vertex, dimension));
         let bsdf = Bsdf::new(&self.scene, &surface, wo, visitor.round_number(random(VertexDimension::Blend)));
         visitor.view(&bsdf.view);
+        let guided = GuidedBsdf::new(self.guide(), &surface, &bsdf);
         if !is_last {
             let depth = path.depth;
             for number in 0..self.scene.render.light_samples_at(depth) {
-                self.add_direct_light(path, &surface, &bsdf, || sampler.light_bits(vertex, depth, number), visitor);
+                self.add_direct_light(path, &surface, (&bsdf, &guided), || sampler.light_bits(vertex, depth, number), visitor);
             }
         }
         let [u1, u2] = [VertexDimension::BsdfU, VertexDimension::BsdfV].map(|number| visitor.round_number(random(number)));
         let u_lobe = visitor.round_number(random(VertexDimension::Lobe));
-        let Some(mut scattered) = bsdf.sample(u_lobe, u1, u2) else { return false };
+        let Some(mut scattered) = guided.sample(u_lobe, u1, u2) else { return false };
         if V::ROUNDS {
-            round_sample(&mut scattered, &bsdf, visitor);
+            round_sample(&mut scattered, &guided, visitor);
         }
         if is_last && !scattered.is_null {
             return false;
@@ -241,7 +256,7 @@ impl Integrator {
         &self,
         path: &mut Path,
         surface: &Surface,
-        bsdf: &Bsdf,
+        (bsdf, guided): (&Bsdf, &GuidedBsdf),
         bits: impl Fn() -> [u32; 3],
         visitor: &mut V,
     ) {
@@ -258,7 +273,7 @@ impl Integrator {
         if V::ROUNDS {
             self.round_light(&mut light, visitor);
         }
-        let scattering = bsdf.evaluate(light.wi);
+        let scattering = guided.evaluate(light.wi);
         if scattering.value == DVec3::ZERO {
             return;
         }
@@ -309,7 +324,7 @@ impl Integrator {
 }
 
 /// A sampled direction, rounded, with the density that belongs to it. Of a narrow lobe that changes much faster than the direction.
-fn round_sample<V: PathVisitor>(sample: &mut BsdfSample, bsdf: &Bsdf, visitor: &mut V) {
+fn round_sample<V: PathVisitor>(sample: &mut BsdfSample, bsdf: &GuidedBsdf, visitor: &mut V) {
     let exact = bsdf.evaluate(sample.wi).pdf;
     visitor.round_direction(&mut sample.wi);
     let rounded = bsdf.evaluate(sample.wi).pdf;

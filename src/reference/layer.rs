@@ -8,7 +8,7 @@ use super::bsdf::{BsdfSample, Density, View};
 use super::intersect::{Ray, Surface};
 use super::trace::{LightConnection, PathVisitor};
 use crate::film::KernelLayer;
-use crate::scene::{Estimator, Scene};
+use crate::scene::{Estimator, Guiding, Scene};
 
 /// Edges of a path at most that a layer of surfaces follows through mirrors and glass.
 const MOST_EDGES: u32 = 64;
@@ -22,6 +22,7 @@ pub fn layer_scene(scene: &Scene, layer: KernelLayer) -> Cow<'_, Scene> {
     scene.render.estimator = Estimator::Bsdf;
     scene.render.max_depth = MOST_EDGES;
     scene.render.roulette_depth = 0;
+    scene.render.guiding = Guiding::Off;
     Cow::Owned(scene)
 }
 

@@ -11,6 +11,7 @@ mod clamp;
 mod coverage;
 pub mod emission;
 mod film;
+mod guided;
 pub mod integrator;
 pub mod intersect;
 pub mod layer;
@@ -20,6 +21,7 @@ mod renderer;
 pub mod rounding;
 pub mod texture;
 pub mod trace;
+pub mod training;
 mod volume;
 pub mod warp;
 

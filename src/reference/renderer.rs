@@ -14,9 +14,10 @@ use super::intersect::Ray;
 use super::layer::LayerVisitor;
 use super::rounding::Rounding;
 use super::trace::{PathTrace, PathVisitor, RayCounter};
+use super::training;
 use crate::film::KernelLayer;
 use crate::math::luminance;
-use crate::plan::PlanOptions;
+use crate::plan::{Decision, PlanOptions};
 use crate::renderer::sink::Sink;
 use crate::renderer::state::{MOST_SAMPLES_PER_SWEEP, Tally};
 use crate::renderer::{Batch, Change, Ending, Observer, RenderError, RenderReport, RenderRequest, Renderer, Stopping};
@@ -39,6 +40,8 @@ pub struct ReferenceRenderer {
     integrator: Integrator,
     /// What is made in place of the picture.
     layer: Option<KernelLayer>,
+    /// Whether paths are guided, and why, where that was asked for.
+    guiding: Option<String>,
     build_seconds: f64,
     /// Passes done and how long they took, to size the next.
     timed_samples: f64,
@@ -101,8 +104,16 @@ impl ReferenceRenderer {
     /// As [`ReferenceRenderer::new`], to make a layer in place of the picture, of a scene that is [made ready](super::layer::layer_scene) for it.
     pub fn of_layer(scene: &Scene, layer: Option<KernelLayer>) -> Result<Self, RenderError> {
         let start = Instant::now();
-        let integrator = Integrator::new(scene)?;
-        Ok(Self { integrator, layer, build_seconds: start.elapsed().as_secs_f64(), timed_samples: 0.0, timed_seconds: 0.0 })
+        let mut integrator = Integrator::new(scene)?;
+        let guiding = training::train(&mut integrator).because;
+        Ok(Self {
+            integrator,
+            layer,
+            guiding,
+            build_seconds: start.elapsed().as_secs_f64(),
+            timed_samples: 0.0,
+            timed_seconds: 0.0,
+        })
     }
 
     /// What is met at a pixel's centre at the shutter's opening: the number of the shape and of its material, from 1.
@@ -357,7 +368,8 @@ impl Renderer for ReferenceRenderer {
         change: Change,
     ) -> Result<Box<dyn Renderer>, RenderError> {
         let start = Instant::now();
-        if change == Change::Camera && self.integrator.set_camera(scene) {
+        // Where light is to be looked for depends on what the camera sees.
+        if change == Change::Camera && self.guiding.is_none() && self.integrator.set_camera(scene) {
             self.build_seconds = start.elapsed().as_secs_f64();
             return Ok(self);
         }
@@ -398,6 +410,11 @@ impl Renderer for ReferenceRenderer {
             non_finite_samples: before.non_finite_samples,
             clamped_samples: before.clamped_samples,
             clamped_units: before.clamped_units,
+            decisions: self
+                .guiding
+                .iter()
+                .map(|because| Decision::about_directions(self.integrator.guide().is_some(), because))
+                .collect(),
             ..RenderReport::default()
         };
         let mut progress = Progress { observer, total: batch.total_samples(width), report };

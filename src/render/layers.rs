@@ -16,7 +16,7 @@ use crate::plan::PlanOptions;
 use crate::reference::ReferenceRenderer;
 use crate::reference::layer::layer_scene;
 use crate::renderer::{Observer, RenderError};
-use crate::scene::Scene;
+use crate::scene::{Guiding, Scene};
 
 /// Gives the checkpoint of a layer that is about to be rendered, if it shall have one.
 pub type LayerCheckpoints<'a, E> = &'a mut dyn FnMut(&Renderer, KernelLayer) -> Result<Option<Checkpoint>, E>;
@@ -129,7 +129,10 @@ fn wide(values: [f32; 3]) -> DVec3 {
 
 /// What is met at the pixels' centres. Numbers cannot be averaged; one ray a pixel is soon traced by the CPU.
 fn ids(scene: &Scene, [left, top, width, height]: [u32; 4]) -> Result<Arc<LayerPicture>, RenderError> {
-    let reference = ReferenceRenderer::new(scene)?;
+    // The rays through the pixels' centres need no guide.
+    let mut unguided = scene.clone();
+    unguided.render.guiding = Guiding::Off;
+    let reference = ReferenceRenderer::new(&unguided)?;
     let picture = LayerPicture::new([width, height])?;
     for y in 0..height {
         let row: Vec<[f32; 3]> = (0..width)

@@ -44,6 +44,8 @@ shader_files![
     "shading/cosine_power.wgsl",
     "shading/environment_sample.wgsl",
     "shading/fresnel.wgsl",
+    "shading/guide.wgsl",
+    "shading/guided.wgsl",
     "shading/hemisphere.wgsl",
     "shading/layer.wgsl",
     "shading/light.wgsl",

@@ -176,6 +176,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("FILTER"),
     switch("FILTER_BOX").requires(&["FILTER"]).excludes(&["FILTER_CURVE"]),
     switch("FILTER_CURVE").requires(&["FILTER"]),
+    // Layers of surfaces follow mirrors and glass alone.
+    switch("GUIDE").excludes(&["LAYER_OF_SURFACES"]),
     switch("HEURISTIC_POWER"),
     switch("FURTHER_PARAMETERS"),
     switch("IMAGES").requires(&["TEXELS", "TEXTURES"]).one_of(TEXEL_FORMATS),

@@ -232,8 +232,9 @@ fn no_stage_needs_more_storage_buffers_than_webgpu_promises() {
     for absent in ["ONLY_TRIANGLES_IN_HIERARCHY", "UNIFORM_PRIMITIVES", "UNIFORM_TABLES", "FILM_TEXTURE"] {
         wanted.remove(absent);
     }
-    // Scenes too large for that, and instances beside everything else, are refused where a device has no more.
-    for absent in ["PRIMITIVE_CHUNKS", "NODE_CHUNKS", "ATTRIBUTE_CHUNKS", "TEXEL_CHUNKS", "INSTANCES", "INSTANCE_CHUNKS"] {
+    // Scenes too large for that, and instances or a guide beside everything else, are refused where a device has no more.
+    for absent in ["PRIMITIVE_CHUNKS", "NODE_CHUNKS", "ATTRIBUTE_CHUNKS", "TEXEL_CHUNKS", "INSTANCES", "INSTANCE_CHUNKS", "GUIDE"]
+    {
         wanted.remove(absent);
     }
     for Stage { file, entry, .. } in STAGES {

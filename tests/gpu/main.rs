@@ -12,6 +12,7 @@ mod chunks;
 mod clamp;
 mod closed_forms;
 mod film;
+mod guiding;
 mod layers;
 mod motion;
 mod opacity;

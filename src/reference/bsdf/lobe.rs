@@ -22,6 +22,13 @@ macro_rules! lobes {
             }
         }
 
+        impl Lobe {
+            /// It scatters in all directions above the surface, mostly evenly.
+            pub fn is_broad(&self) -> bool {
+                matches!(self, Self::Diffuse(_) | Self::Plastic(_) | Self::RoughPlastic(_))
+            }
+        }
+
         impl Scatter for Lobe {
             fn of(kind: &MaterialKind, lookup: &Lookup) -> Option<Self> {
                 $($(if let Some(lobe) = Scatter::of(kind, lookup) {

@@ -101,6 +101,11 @@ impl Bsdf {
         self.lobes.iter().any(|weighted| !weighted.lobe.is_delta())
     }
 
+    /// The probability of lobes that scatter in all directions, whose samples a guide may replace.
+    pub fn guided_probability(&self) -> f64 {
+        self.lobes.iter().filter(|weighted| weighted.lobe.is_broad()).map(|weighted| weighted.probability).sum()
+    }
+
     /// The non-delta lobes' f·|cosθi| and density.
     pub fn evaluate(&self, wi: DVec3) -> Evaluation {
         let mut sum = Evaluation::default();

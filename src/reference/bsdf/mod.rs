@@ -24,7 +24,7 @@ crate::scene::material::material_table!(lobe_modules);
 
 pub use lookup::Lookup;
 pub use mixture::Bsdf;
-pub use scatter::{BsdfSample, Density};
+pub use scatter::{BsdfSample, Density, Evaluation};
 pub use view::View;
 
 #[cfg(test)]

@@ -85,7 +85,7 @@ impl View {
     }
 
     /// Whether light from `wi` can be reflected to wo: on the same side, by the true and by the interpolated surface.
-    pub(super) fn reflects(&self, wi: DVec3) -> bool {
+    pub fn reflects(&self, wi: DVec3) -> bool {
         wi.dot(self.geometric_normal) > 0.0 && wi.dot(self.normal()) > 0.0
     }
 

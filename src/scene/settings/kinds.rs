@@ -63,6 +63,14 @@ choices! {
         Tree = "tree",
     }
 
+    /// Whether paths are guided to where light was found to come from.
+    pub enum Guiding {
+        /// Never.
+        Off = "off",
+        /// On surfaces that scatter diffusely.
+        On = "on",
+    }
+
     /// What happens where a ray meets a blend of materials.
     pub enum BlendMode {
         /// Every lobe of a blend is evaluated, one is sampled.

@@ -7,6 +7,8 @@ mod table;
 mod value;
 
 pub use film::{FilmSettings, Filter, FilterKind, LARGEST_FILTER_RADIUS, MAX_PIXELS, MAX_SIDE, SMALLEST_FILTER_RADIUS};
-pub use kinds::{BlendMode, Estimator, HemisphereSampling, LightChoice, LightSampling, MisHeuristic, PixelSampler, SamplerKind};
+pub use kinds::{
+    BlendMode, Estimator, Guiding, HemisphereSampling, LightChoice, LightSampling, MisHeuristic, PixelSampler, SamplerKind,
+};
 pub use table::{Assignment, MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH, RenderSettings, SETTINGS, Setting};
 pub use value::{BadSetting, MOST_SAMPLES, Value, Values};

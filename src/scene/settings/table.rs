@@ -8,7 +8,7 @@ use std::fmt;
 use serde::{Serialize, Serializer};
 
 use super::kinds::{
-    BlendMode, Estimator, HemisphereSampling, LightChoice, LightSampling, MisHeuristic, PixelSampler, SamplerKind,
+    BlendMode, Estimator, Guiding, HemisphereSampling, LightChoice, LightSampling, MisHeuristic, PixelSampler, SamplerKind,
 };
 use super::row::settings;
 use super::value::Values::{Names, Real, Whole};
@@ -113,6 +113,14 @@ settings! {
             flag: "--light-samples-depth",
             placeholder: "EDGES",
             header: "gpt:lightSamplesDepth",
+            compared: true,
+        }
+        /// Whether directions are also drawn by a guide, which a hundred thousand paths learn before the first sample.
+        guiding: Guiding = Guiding::Off => {
+            values: Names(Guiding::NAMES),
+            flag: "--guiding",
+            placeholder: "GUIDING",
+            header: "gpt:guiding",
             compared: true,
         }
         /// What happens where a ray meets a blend of materials.

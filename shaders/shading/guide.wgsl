@@ -1,0 +1,116 @@
+// From where light arrives at surfaces. src/sampling/guide/table.rs is the same in f64, and says what the table holds.
+#import core/layout.wgsl
+#import core/math.wgsl
+#import core/sampler.wgsl
+#import shading/sides.wgsl
+#import shading/surface.wgsl
+
+@group(0) @binding(BINDING_GUIDE) var<storage, read> guide: array<u32>;
+
+// The part of the guide that holds at one surface.
+struct GuideCell {
+    // Share of the directions that it draws; 0 where there is no guide.
+    share: f32,
+    // Where its bins stand.
+    first: u32,
+    axis: vec3<f32>,
+}
+
+// Twice the axis along which a normal is longest, and one more where it points down that axis.
+fn normal_facing(normal: vec3<f32>) -> u32 {
+    let weighed = abs(normal) * vec3<f32>(1.0, FACING_WEIGHT_Y, FACING_WEIGHT_Z);
+    if weighed.x >= weighed.y && weighed.x >= weighed.z {
+        return select(0u, 1u, normal.x < 0.0);
+    }
+    if weighed.y >= weighed.z {
+        return select(2u, 3u, normal.y < 0.0);
+    }
+    return select(4u, 5u, normal.z < 0.0);
+}
+
+// A direction from its place on an octahedron, a byte each.
+fn guide_axis(packed_axis: u32) -> vec3<f32> {
+    let bytes = vec2<i32>(i32(packed_axis << 24u) >> 24u, i32(packed_axis << 16u) >> 24u);
+    let place = vec2<f32>(bytes) * GUIDE_AXIS_STEP;
+    let z = 1.0 - abs(place.x) - abs(place.y);
+    let over_edge = (1.0 - abs(place.yx)) * select(vec2<f32>(1.0), vec2<f32>(-1.0), place < vec2<f32>(0.0));
+    return normalize(vec3<f32>(select(over_edge, place, z >= 0.0), z));
+}
+
+// What is known of a surface whose lobes that scatter in all directions are sampled with this probability.
+fn guide_at(surface: Surface, probability: f32) -> GuideCell {
+    var cell: GuideCell;
+    let origin = bitcast<vec3<f32>>(vec3<u32>(guide[0], guide[1], guide[2]));
+    let grid = vec3<u32>(guide[4], guide[5], guide[6]);
+    let place = (surface.position - origin) * bitcast<f32>(guide[3]);
+    let inside = all(place >= vec3<f32>(0.0)) && all(place < vec3<f32>(grid));
+    if probability <= 0.0 || !inside {
+        return cell;
+    }
+    let at = min(vec3<u32>(place), grid - 1u);
+    let index = ((normal_facing(surface.shading_normal) * grid.z + at.z) * grid.y + at.y) * grid.x + at.x;
+    let number = guide[GUIDE_HEADER_WORDS + index];
+    if number == 0u {
+        return cell;
+    }
+    let first = guide[7] + (number - 1u) * GUIDE_CELL_WORDS;
+    cell.axis = guide_axis(guide[first]);
+    cell.share = GUIDED_SHARE * probability;
+    cell.first = first + 1u;
+    return cell;
+}
+
+// Draws a direction.
+fn guided_direction(cell: GuideCell, u: f32, v: f32) -> vec3<f32> {
+    let u_bits = u32(u * 16777216.0);
+    let v_bits = u32(v * 16777216.0) << 8u;
+    // The row, and where in it, by bisection.
+    var row = 0u;
+    var first = 0u;
+    var end = 65536u;
+    for (var stride = GUIDE_ROWS / 2u; stride > 0u; stride >>= 1u) {
+        let start = guide[cell.first + (row + stride) * GUIDE_COLUMNS] & 0xffffu;
+        let is_past = u_bits >= (start << 8u);
+        row = select(row, row + stride, is_past);
+        first = select(first, start, is_past);
+        end = select(start, end, is_past);
+    }
+    let in_row = f32(u_bits - (first << 8u)) / f32((end - first) << 8u);
+    // The column, by what part of the row's share the second number means.
+    let row_share = end - first;
+    let chosen = first + multiply_high(v_bits, row_share);
+    let rest = f32(v_bits * row_share) * 2.3283064365386963e-10;
+    let row_at = cell.first + row * GUIDE_COLUMNS;
+    var column = 0u;
+    for (var stride = GUIDE_COLUMNS / 2u; stride > 0u; stride >>= 1u) {
+        let start = guide[row_at + column + stride] & 0xffffu;
+        let is_past = chosen >= start;
+        column = select(column, column + stride, is_past);
+        first = select(first, start, is_past);
+        end = select(start, end, is_past);
+    }
+    let in_column = (f32(chosen - first) + rest) / f32(end - first);
+    let squared_sine = (f32(row) + in_row) * (1.0 / f32(GUIDE_ROWS));
+    let turns = (f32(column) + in_column) * (1.0 / f32(GUIDE_COLUMNS));
+    let circle = sin_cos_turns(turns);
+    let sine = sqrt(squared_sine);
+    let local = vec3<f32>(sine * circle.y, sine * circle.x, sqrt(max(0.0, 1.0 - squared_sine)));
+    return frame_to_world(frame_from_normal(cell.axis), local);
+}
+
+// Density with which the guide draws a direction, per steradian; it brings nothing below the surface.
+fn guide_pdf(cell: GuideCell, surface: Surface, wi: vec3<f32>) -> f32 {
+    let frame = frame_from_normal(cell.axis);
+    let x = dot(wi, frame.tangent);
+    let y = dot(wi, frame.bitangent);
+    let cosine = dot(wi, frame.normal);
+    if cosine <= 0.0 || !on_wo_side(surface, wi) {
+        return 0.0;
+    }
+    let signed_turns = atan2_turns(y, x);
+    let turns = select(signed_turns, signed_turns + 1.0, signed_turns < 0.0);
+    let row = min(u32((x * x + y * y) * f32(GUIDE_ROWS)), GUIDE_ROWS - 1u);
+    let column = min(u32(turns * f32(GUIDE_COLUMNS)), GUIDE_COLUMNS - 1u);
+    let share = guide[cell.first + row * GUIDE_COLUMNS + column] >> 16u;
+    return f32(share) * (f32(GUIDE_ROWS * GUIDE_COLUMNS) / 65536.0) * cosine * INVERSE_PI;
+}

@@ -1,0 +1,15 @@
+//! What kernels know of the table that guides paths ([`crate::sampling::guide`]).
+
+use crate::sampling::guide::table;
+use crate::shader::shared::shared_constants;
+
+shared_constants!(constants {
+    const GUIDE_ROWS: u32 = table::GUIDE_ROWS;
+    const GUIDE_COLUMNS: u32 = table::GUIDE_COLUMNS;
+    const GUIDE_CELL_WORDS: u32 = table::GUIDE_CELL_WORDS;
+    const GUIDE_HEADER_WORDS: u32 = table::GUIDE_HEADER_WORDS;
+    const GUIDED_SHARE: f32 = table::GUIDED_SHARE;
+    const FACING_WEIGHT_Y: f32 = table::FACING_WEIGHT_Y;
+    const FACING_WEIGHT_Z: f32 = table::FACING_WEIGHT_Z;
+    const GUIDE_AXIS_STEP: f32 = table::GUIDE_AXIS_STEP;
+});

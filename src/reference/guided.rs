@@ -1,0 +1,69 @@
+//! Scattering by a surface's BSDF and by a guide together.
+//!
+//! Of the directions, a share g is drawn by the guide and the rest by the BSDF. Whichever drew it, a direction that other lobes than delta
+//! lobes can have counts f·|cosθ| over the density of both together, g·p_guide + (1 − g)·p_bsdf, and light sampling is weighed against the
+//! same sum. A sample of a delta lobe counts 1/(1 − g) times as much, as the guide leaves it to the BSDF. Directions of the guide that lead
+//! below the surface bring nothing.
+
+use glam::DVec3;
+
+use super::bsdf::{Bsdf, BsdfSample, Density, Evaluation};
+use super::intersect::Surface;
+use crate::sampling::Guide;
+use crate::sampling::guide::GuideCell;
+use crate::sampling::guide::table::GUIDED_SHARE;
+
+/// The largest number that is left where one chose the BSDF: random numbers are multiples of 2⁻²⁴ below 1.
+const LARGEST_NUMBER: f64 = 1.0 - 1.0 / 16_777_216.0;
+
+/// A surface's BSDF, and the guide where it takes part.
+#[derive(Debug, Clone, Copy)]
+pub struct GuidedBsdf<'a> {
+    bsdf: &'a Bsdf,
+    /// With the share of directions that it draws.
+    guide: Option<(GuideCell<'a>, f64)>,
+}
+
+impl<'a> GuidedBsdf<'a> {
+    pub fn new(guide: Option<&'a Guide>, surface: &Surface, bsdf: &'a Bsdf) -> Self {
+        let share = guide.map_or(0.0, |_| f64::from(GUIDED_SHARE) * bsdf.guided_probability());
+        let cell = guide.filter(|_| share > 0.0).and_then(|guide| guide.cell(surface.point.position, bsdf.view.normal()));
+        Self { bsdf, guide: cell.map(|cell| (cell, share)) }
+    }
+
+    /// The non-delta lobes' f·|cosθi|, and the density with which wi is drawn.
+    pub fn evaluate(&self, wi: DVec3) -> Evaluation {
+        let alone = self.bsdf.evaluate(wi);
+        Evaluation { pdf: self.pdf(wi, alone.pdf), ..alone }
+    }
+
+    /// The density of a direction that the BSDF alone draws with density `of_bsdf`.
+    fn pdf(&self, wi: DVec3, of_bsdf: f64) -> f64 {
+        let Some((cell, share)) = &self.guide else { return of_bsdf };
+        let of_guide = if self.bsdf.view.reflects(wi) { cell.pdf(wi) } else { 0.0 };
+        (1.0 - share) * of_bsdf + share * of_guide
+    }
+
+    /// Draws wi: `u_lobe` chooses between the guide and the BSDF's lobes, `u1` and `u2` the direction. None where nothing is scattered.
+    pub fn sample(&self, u_lobe: f64, u1: f64, u2: f64) -> Option<BsdfSample> {
+        let Some((cell, share)) = &self.guide else { return self.bsdf.sample(u_lobe, u1, u2) };
+        if u_lobe < *share {
+            let wi = cell.sample(u1, u2);
+            if !self.bsdf.view.reflects(wi) {
+                return None;
+            }
+            let Evaluation { value, pdf } = self.evaluate(wi);
+            let sample = BsdfSample { wi, weight: value / pdf, density: Density::SolidAngle(pdf), eta: 1.0, is_null: false };
+            return (pdf > 0.0 && value != DVec3::ZERO).then_some(sample);
+        }
+        let left = ((u_lobe - share) / (1.0 - share)).clamp(0.0, LARGEST_NUMBER);
+        let sample = self.bsdf.sample(left, u1, u2)?;
+        match sample.density {
+            Density::Delta => Some(BsdfSample { weight: sample.weight / (1.0 - share), ..sample }),
+            Density::SolidAngle(alone) => {
+                let pdf = self.pdf(sample.wi, alone);
+                Some(BsdfSample { weight: sample.weight * (alone / pdf), density: Density::SolidAngle(pdf), ..sample })
+            }
+        }
+    }
+}

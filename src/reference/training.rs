@@ -1,0 +1,221 @@
+//! Learning where light comes from, before the first sample of the picture.
+//!
+//! Training paths have random numbers of their own, so the picture's samples do not depend on them and are unbiased whatever was learned.
+//! They are traced in rounds, each twice as large as the one before and guided by what that one found, because light that is hard to find is
+//! found sooner so. The last two rounds make the guide. Their number is fixed and their results are put together in order, so the guide
+//! depends on the scene and its settings alone: every device, every part of a picture and every render that goes on has the same.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::bsdf::{BsdfSample, Density, View};
+use super::integrator::Integrator;
+use super::intersect::Surface;
+use super::trace::{LightConnection, PathVisitor};
+use crate::sampling::guide::{Arrival, Guide, learn};
+use crate::sampling::hash::mix;
+use crate::sampling::{PathSampler, Sampling, SequencePoint};
+use crate::scene::{Guiding, PixelSampler, SamplerKind, Scene};
+
+/// Rounds, each of twice as many paths as the one before.
+const ROUNDS: u32 = 5;
+/// Paths of the last round, which has about twice as many as the picture has pixels.
+const FEWEST_PATHS: u32 = 1 << 12;
+const MOST_PATHS: u32 = 1 << 17;
+/// Paths that one task traces.
+const PATHS_AT_ONCE: u32 = 256;
+/// Vertices after which a training path is given up.
+const MOST_VERTICES: u32 = 64;
+
+/// What came of training.
+#[derive(Debug, Clone, Default)]
+pub struct Learned {
+    /// None where paths are not guided.
+    pub guide: Option<Arc<Guide>>,
+    /// What was decided and why, where guiding was asked for.
+    pub because: Option<String>,
+}
+
+impl Learned {
+    /// The table that kernels read; empty where paths are not guided.
+    pub fn words(&self) -> &[u32] {
+        self.guide.as_ref().map_or(&[], |guide| guide.words())
+    }
+}
+
+/// Learns a guide for the scene of an integrator, and leaves it there, if the scene's settings want one.
+pub fn train(integrator: &mut Integrator) -> Learned {
+    if integrator.scene().render.guiding == Guiding::Off {
+        return Learned::default();
+    }
+    if !can_gain(integrator.scene()) {
+        return Learned { guide: None, because: Some("paths have no bounce that light depends on".to_owned()) };
+    }
+    let (guide, paths) = learned(integrator);
+    integrator.set_guide(guide.clone());
+    let Some(found) = &guide else {
+        return Learned { guide, because: Some(format!("{paths} paths found no light")) };
+    };
+    let because = format!("asked for; {} cells of {paths} paths", found.cells());
+    Learned { guide, because: Some(because) }
+}
+
+/// As [`train`], for a device that renders the scene instead.
+///
+/// # Errors
+/// What the reference cannot render.
+pub fn learn_for_device(scene: &Scene) -> Result<Learned, crate::renderer::RenderError> {
+    if scene.render.guiding == Guiding::Off {
+        return Ok(Learned::default());
+    }
+    Ok(train(&mut Integrator::new(scene)?))
+}
+
+/// Paths of one edge scatter nowhere.
+fn can_gain(scene: &Scene) -> bool {
+    scene.render.max_depth != 1
+}
+
+/// Paths of each round.
+fn rounds([width, height]: [u32; 2]) -> impl Iterator<Item = u32> {
+    let pixels = width.saturating_mul(height).saturating_mul(2).clamp(FEWEST_PATHS, MOST_PATHS);
+    let last = pixels.next_power_of_two();
+    (0..ROUNDS).rev().map(move |round| last >> round)
+}
+
+/// All rounds: the guide, and the number of paths that it is made of.
+fn learned(integrator: &mut Integrator) -> (Option<Arc<Guide>>, u32) {
+    let mut guide = None;
+    let mut first = 0;
+    let mut before: (Vec<Arrival>, u32) = Default::default();
+    let mut used = 0;
+    for count in rounds(integrator.scene().film.size) {
+        let (mut arrivals, earlier) = std::mem::take(&mut before);
+        let found = arrivals_of(integrator, first, count);
+        arrivals.extend_from_slice(&found);
+        used = earlier + count;
+        guide = learn(&arrivals).map(Arc::new);
+        integrator.set_guide(guide.clone());
+        before = (found, count);
+        first += count;
+    }
+    (guide, used)
+}
+
+/// The random numbers of training: others than those of the picture, whatever its seed.
+fn training_numbers(scene: &Scene) -> Sampling {
+    let seed = mix(mix(scene.render.seed.wrapping_add(0x6775_6964)));
+    Sampling { path: SamplerKind::Independent, pixel: PixelSampler::SameAsPath, seed, ..Sampling::from(&scene.render) }
+}
+
+/// A pixel for each path: spread evenly over the film, whatever their number (Roberts's R2 sequence, in integers).
+fn pixel_of(path: u32, [width, height]: [u32; 2]) -> [u32; 2] {
+    let scaled = |number: u32, size: u32| (u64::from(number) * u64::from(size) >> 32) as u32;
+    [scaled(path.wrapping_mul(3_242_174_889), width), scaled(path.wrapping_mul(2_447_445_414), height)]
+}
+
+/// Follows a path.
+fn follow<V: PathVisitor>(integrator: &Integrator, sampling: &Sampling, [x, y]: [u32; 2], sample: u32, visitor: &mut V) -> DVec3 {
+    let pixel = y.wrapping_mul(integrator.scene().film.size[0]).wrapping_add(x);
+    let point = SequencePoint::new(sampling, sample);
+    integrator.radiance(x, y, &PathSampler::new(sampling, pixel, &point), visitor)
+}
+
+/// The light that arrives along a round of training paths, in their order.
+fn arrivals_of(integrator: &Integrator, first: u32, count: u32) -> Vec<Arrival> {
+    let sampling = training_numbers(integrator.scene());
+    let size = integrator.scene().film.size;
+    let tasks: Vec<u32> = (first..first + count).step_by(PATHS_AT_ONCE as usize).collect();
+    let of_task = |&start: &u32| {
+        let mut trainee = Trainee::default();
+        for path in start..start + PATHS_AT_ONCE {
+            trainee.begin();
+            follow(integrator, &sampling, pixel_of(path, size), path, &mut trainee);
+            trainee.end();
+        }
+        trainee.arrivals
+    };
+    tasks.par_iter().map(of_task).collect::<Vec<_>>().concat()
+}
+
+/// A direction in which a path went on, before it is known what arrives along it.
+struct Departure {
+    arrival: Arrival,
+    /// The path's throughput behind it, and the radiance found before, both as sums over the channels.
+    throughput: f64,
+    radiance: f64,
+}
+
+/// Watches training paths.
+#[derive(Default)]
+struct Trainee {
+    arrivals: Vec<Arrival>,
+    departures: Vec<Departure>,
+    /// Of the path so far, as a sum over the channels.
+    radiance: f64,
+    position: DVec3,
+    normal: DVec3,
+    throughput: DVec3,
+}
+
+impl Trainee {
+    fn begin(&mut self) {
+        self.radiance = 0.0;
+    }
+
+    /// Light that was found behind a departure, over the throughput up to there, is an estimate of the radiance that arrives.
+    fn end(&mut self) {
+        let radiance = self.radiance;
+        for departure in self.departures.drain(..) {
+            let arrived = (radiance - departure.radiance) / departure.throughput;
+            // The square counts.
+            if (arrived * arrived).is_finite() {
+                self.arrivals.push(Arrival { radiance: arrived.max(0.0), ..departure.arrival });
+            }
+        }
+    }
+
+    fn found(&mut self, contribution: DVec3) {
+        self.radiance += contribution.element_sum();
+    }
+}
+
+impl PathVisitor for Trainee {
+    fn surface(&mut self, _depth: u32, surface: &Surface, _wo: DVec3, throughput: DVec3) {
+        self.position = surface.point.position;
+        self.throughput = throughput;
+    }
+
+    fn emission(&mut self, _radiance: DVec3, _weight: f64, contribution: DVec3) {
+        self.found(contribution);
+    }
+
+    fn view(&mut self, view: &View) {
+        self.normal = view.normal();
+    }
+
+    fn light(&mut self, connection: &LightConnection) {
+        self.found(connection.contribution);
+    }
+
+    fn scattered(&mut self, sample: &BsdfSample) {
+        let throughput = (self.throughput * sample.weight).element_sum();
+        if let Density::SolidAngle(pdf) = sample.density
+            && throughput > 0.0
+            && sample.wi.dot(self.normal) > 0.0
+        {
+            let arrival = Arrival { position: self.position, normal: self.normal, wi: sample.wi, radiance: 0.0, pdf };
+            self.departures.push(Departure { arrival, throughput, radiance: self.radiance });
+        }
+    }
+
+    fn gives_up(&mut self, vertices: u32) -> bool {
+        vertices >= MOST_VERTICES
+    }
+
+    fn escaped(&mut self, _radiance: DVec3, _weight: f64, contribution: DVec3) {
+        self.found(contribution);
+    }
+}

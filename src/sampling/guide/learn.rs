@@ -1,0 +1,220 @@
+//! How a guide is learned from light that arrived along training paths.
+
+use glam::DVec3;
+
+use super::table::{
+    BINS, CELL_WORDS, GUIDE_COLUMNS, GUIDE_HEADER_WORDS, GUIDE_ROWS, Guide, WHOLE, bin, facing, packed_axis, unpacked_axis,
+};
+use crate::math::Frame;
+
+/// Boxes of the grid at most, for each of six facings.
+const MOST_BOXES: usize = 1 << 16;
+/// Cells that there are about at most; four times as many where arrivals are spread badly.
+const MOST_CELLS: usize = 8192;
+/// Arrivals of a cell at least, and from which on it is cut in two.
+const FEWEST_ARRIVALS: usize = 64;
+const MOST_ARRIVALS: usize = 320;
+/// Share of the arrivals that lie outside the grid along each axis on either side: far ones would make its boxes too large.
+const OUTLIERS: f64 = 0.002;
+/// The even share of a histogram that was made of so many arrivals is a half.
+const DOUBT: f64 = 16.0;
+/// Least even share of a histogram.
+const LEAST_EVEN_SHARE: f64 = 0.03;
+/// What a bin gives to each of its four neighbours: light moves a little from one end of a cell to the other.
+const SPILL: f64 = 0.04;
+
+/// Light that arrived at a point of a surface by one direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Arrival {
+    pub position: DVec3,
+    /// On the side from where the point was seen.
+    pub normal: DVec3,
+    pub wi: DVec3,
+    /// An estimate of the radiance, light left out that light sampling finds.
+    pub radiance: f64,
+    /// Density with which the direction was drawn, per steradian.
+    pub pdf: f64,
+}
+
+/// Boxes of one facing, a range along each axis.
+type Region = [[u32; 2]; 3];
+
+/// Puts a guide together.
+struct Builder<'a> {
+    arrivals: &'a [Arrival],
+    origin: DVec3,
+    inverse: f64,
+    counts: [u32; 3],
+    /// The cells' numbers, by facing and box.
+    index: Vec<u32>,
+    cells: Vec<u32>,
+    most_arrivals: usize,
+}
+
+/// Learns a guide; the same of the same arrivals in the same order. None where there are too few.
+pub fn learn(arrivals: &[Arrival]) -> Option<Guide> {
+    if arrivals.len() < FEWEST_ARRIVALS {
+        return None;
+    }
+    let [low, high] = bounds(arrivals);
+    let size = high - low;
+    // Flat scenes have some depth all the same; and no wall stands on the border between two boxes by a round number.
+    let extent = (size.max(DVec3::splat(size.max_element() * 1e-3)) * 1.017).max(DVec3::splat(1e-6));
+    let origin = (low - extent * 0.00731).as_vec3().as_dvec3();
+    let mut side = (extent.element_product() / MOST_BOXES as f64).cbrt();
+    let counts = loop {
+        let counts = (extent / side).ceil().max(DVec3::ONE);
+        if counts.element_product() <= MOST_BOXES as f64 {
+            break counts.to_array().map(|count| count as u32);
+        }
+        side *= 1.03;
+    };
+    let inverse = f64::from((1.0 / side) as f32);
+    let boxes = counts.iter().product::<u32>() as usize;
+    let mut builder = Builder {
+        arrivals,
+        origin,
+        inverse,
+        counts,
+        index: vec![0; 6 * boxes],
+        cells: Vec::new(),
+        most_arrivals: MOST_ARRIVALS.max(2 * arrivals.len() / MOST_CELLS),
+    };
+    let mut of_facings: [Vec<u32>; 6] = Default::default();
+    for (number, arrival) in arrivals.iter().enumerate() {
+        if builder.place(arrival.position).is_some() {
+            of_facings[facing(arrival.normal) as usize].push(number as u32);
+        }
+    }
+    for (facing, mut members) in of_facings.into_iter().enumerate() {
+        builder.divide(facing as u32, counts.map(|count| [0, count]), &mut members);
+    }
+    (!builder.cells.is_empty()).then(|| builder.finish())
+}
+
+/// The box around all arrivals but a few.
+fn bounds(arrivals: &[Arrival]) -> [DVec3; 2] {
+    let mut corners = [DVec3::ZERO; 2];
+    let left_out = (OUTLIERS * arrivals.len() as f64) as usize;
+    for axis in 0..3 {
+        let mut places: Vec<f64> = arrivals.iter().map(|arrival| arrival.position[axis]).collect();
+        places.sort_unstable_by(f64::total_cmp);
+        corners[0][axis] = places[left_out];
+        corners[1][axis] = places[places.len() - 1 - left_out];
+    }
+    corners
+}
+
+impl Builder<'_> {
+    /// The box that a point is in.
+    fn place(&self, position: DVec3) -> Option<[u32; 3]> {
+        let place = (position - self.origin) * self.inverse;
+        let inside = |axis: usize| place[axis] >= 0.0 && place[axis] < f64::from(self.counts[axis]);
+        (0..3).all(inside).then(|| place.to_array().map(|place| place as u32))
+    }
+
+    /// Cuts a region in two for as long as both halves have enough arrivals, and makes cells of what is left.
+    fn divide(&mut self, facing: u32, region: Region, members: &mut [u32]) {
+        if members.len() < FEWEST_ARRIVALS {
+            return;
+        }
+        let mut axes = [0, 1, 2];
+        axes.sort_by_key(|&axis| std::cmp::Reverse(region[axis][1] - region[axis][0]));
+        for axis in axes.into_iter().filter(|_| members.len() > self.most_arrivals) {
+            let [first, end] = region[axis];
+            if end - first < 2 {
+                continue;
+            }
+            let middle = first + (end - first) / 2;
+            let is_before = |number: u32| {
+                let place = self.place(self.arrivals[number as usize].position);
+                place.is_some_and(|place| place[axis] < middle)
+            };
+            let (before, behind): (Vec<u32>, Vec<u32>) = members.iter().partition(|number| is_before(**number));
+            let is_enough = |part: &[u32]| part.is_empty() || part.len() >= self.most_arrivals / 8;
+            if is_enough(&before) && is_enough(&behind) {
+                for (range, mut part) in [([first, middle], before), ([middle, end], behind)] {
+                    let mut half = region;
+                    half[axis] = range;
+                    self.divide(facing, half, &mut part);
+                }
+                return;
+            }
+        }
+        self.add_cell(facing, region, members);
+    }
+
+    fn add_cell(&mut self, facing: u32, region: Region, members: &[u32]) {
+        let arrivals = || members.iter().map(|&number| &self.arrivals[number as usize]);
+        let normal: DVec3 = arrivals().map(|arrival| arrival.normal).sum();
+        let Some(normal) = normal.try_normalize() else { return };
+        let axis = packed_axis(normal);
+        let frame = Frame::around(unpacked_axis(axis));
+        // A direction is worth drawing in proportion to the root of what its squared radiance is on average: that covers what the rest of the
+        // path will scatter as well (Rath et al. 2020).
+        let mut squares = [0.0; BINS];
+        for arrival in arrivals() {
+            let (local, cosine) = (frame.to_local(arrival.wi), arrival.wi.dot(arrival.normal));
+            if local.z > 0.0 && cosine > 0.0 {
+                let (row, column) = bin(local);
+                squares[(row * GUIDE_COLUMNS + column) as usize] += arrival.radiance * arrival.radiance * cosine / arrival.pdf;
+            }
+        }
+        let worths = spilled(&squares.map(f64::sqrt));
+        let total: f64 = worths.iter().sum();
+        if total <= 0.0 || !total.is_finite() {
+            return;
+        }
+        let even = (DOUBT / (DOUBT + members.len() as f64)).max(LEAST_EVEN_SHARE);
+        let shares = worths.map(|worth| (1.0 - even) * worth / total + even / BINS as f64);
+        self.cells.extend(packed_cell(axis, &shares));
+        let number = (self.cells.len() / CELL_WORDS) as u32;
+        let [width, height, depth] = self.counts;
+        let [xs, ys, zs] = region;
+        for z in zs[0]..zs[1] {
+            for y in ys[0]..ys[1] {
+                let row = ((facing * depth + z) * height + y) * width;
+                self.index[(row + xs[0]) as usize..(row + xs[1]) as usize].fill(number);
+            }
+        }
+    }
+
+    fn finish(self) -> Guide {
+        let first = GUIDE_HEADER_WORDS + self.index.len() as u32;
+        let mut words = self.origin.as_vec3().to_array().map(f32::to_bits).to_vec();
+        words.push((self.inverse as f32).to_bits());
+        words.extend(self.counts);
+        words.push(first);
+        words.extend(self.index);
+        words.extend(self.cells);
+        Guide { words }
+    }
+}
+
+/// Every bin with a little of its neighbours.
+fn spilled(bins: &[f64; BINS]) -> [f64; BINS] {
+    let [rows, columns] = [GUIDE_ROWS as usize, GUIDE_COLUMNS as usize];
+    std::array::from_fn(|index| {
+        let (row, column) = (index / columns, index % columns);
+        let at = |row: usize, column: usize| bins[row * columns + column];
+        let sides = [at(row, (column + 1) % columns), at(row, (column + columns - 1) % columns)];
+        // Across the axis, and at the horizon, a bin is its own neighbour.
+        let rest = [at(row.saturating_sub(1), column), at((row + 1).min(rows - 1), column)];
+        (1.0 - 4.0 * SPILL) * bins[index] + SPILL * (sides[0] + sides[1] + rest[0] + rest[1])
+    })
+}
+
+/// A cell's words: the shares, which sum to one, in 65536ths, none of them 0.
+fn packed_cell(axis: u32, shares: &[f64; BINS]) -> [u32; CELL_WORDS] {
+    let free = f64::from(WHOLE - BINS as u32);
+    let mut words = [axis; CELL_WORDS];
+    let (mut before, mut start) = (0.0, 0);
+    for (index, share) in shares.iter().enumerate() {
+        before += share;
+        let is_last = index + 1 == BINS;
+        let end = if is_last { WHOLE } else { index as u32 + 1 + (f64::min(before, 1.0) * free).round() as u32 };
+        words[1 + index] = start | (end - start) << 16;
+        start = end;
+    }
+    words
+}
