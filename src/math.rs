@@ -93,6 +93,30 @@ impl Frame {
     }
 }
 
+/// Directions as places on the octahedron |x| + |y| + |z| = 1, the lower half of which is folded outward around the upper one; shaders find them
+/// in `core/octahedron.wgsl`.
+pub mod octahedron {
+    use glam::DVec3;
+
+    /// The place of a direction, in [−1, 1] × [−1, 1].
+    pub fn place_of(direction: DVec3) -> [f64; 2] {
+        let on = direction / (direction.x.abs() + direction.y.abs() + direction.z.abs());
+        if on.z >= 0.0 { [on.x, on.y] } else { [over_edge(on.x, on.y), over_edge(on.y, on.x)] }
+    }
+
+    /// The direction at a place, of length 1.
+    pub fn direction_at([x, y]: [f64; 2]) -> DVec3 {
+        let z = 1.0 - x.abs() - y.abs();
+        let [x, y] = if z >= 0.0 { [x, y] } else { [over_edge(x, y), over_edge(y, x)] };
+        DVec3::new(x, y, z).normalize()
+    }
+
+    /// A coordinate on the other side of an edge of the square.
+    fn over_edge(x: f64, y: f64) -> f64 {
+        (1.0 - y.abs()).copysign(x)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,6 +1,7 @@
 // From where light arrives at surfaces. src/sampling/guide/table.rs is the same in f64, and says what the table holds.
 #import core/layout.wgsl
 #import core/math.wgsl
+#import core/octahedron.wgsl
 #import core/sampler.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
@@ -28,13 +29,10 @@ fn normal_facing(normal: vec3<f32>) -> u32 {
     return select(4u, 5u, normal.z < 0.0);
 }
 
-// A direction from its place on an octahedron, a byte each.
+// A direction from its place on an octahedron, a byte a coordinate.
 fn guide_axis(packed_axis: u32) -> vec3<f32> {
     let bytes = vec2<i32>(i32(packed_axis << 24u) >> 24u, i32(packed_axis << 16u) >> 24u);
-    let place = vec2<f32>(bytes) * GUIDE_AXIS_STEP;
-    let z = 1.0 - abs(place.x) - abs(place.y);
-    let over_edge = (1.0 - abs(place.yx)) * select(vec2<f32>(1.0), vec2<f32>(-1.0), place < vec2<f32>(0.0));
-    return normalize(vec3<f32>(select(over_edge, place, z >= 0.0), z));
+    return octahedron_direction(vec2<f32>(bytes) * GUIDE_AXIS_STEP);
 }
 
 // What is known of a surface whose lobes that scatter in all directions are sampled with this probability.

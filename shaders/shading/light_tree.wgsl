@@ -1,5 +1,6 @@
 // The choice of a light by a tree (Conty Estévez and Kulla 2018). src/sampling/light_tree does the same, and says how.
 #import core/layout.wgsl
+#import core/octahedron.wgsl
 #import core/sampler.wgsl
 #import geometry/scene.wgsl
 
@@ -25,14 +26,6 @@ fn cluster_numbers(halves: u32) -> vec2<f32> {
     return vec2<f32>(f32(i32(halves << 16u) >> 16u), f32(i32(halves) >> 16u)) * CLUSTER_STEP;
 }
 
-// A direction from its place on an octahedron, the lower half of which is folded outward around the upper one.
-fn cluster_axis(halves: u32) -> vec3<f32> {
-    let place = cluster_numbers(halves);
-    let z = 1.0 - abs(place.x) - abs(place.y);
-    let over_edge = (1.0 - abs(place.yx)) * select(vec2<f32>(-1.0), vec2<f32>(1.0), place >= vec2<f32>(0.0));
-    return normalize(vec3<f32>(select(over_edge, place, z >= 0.0), z));
-}
-
 // What a cluster can send to a point: its power times the largest cosine at its lights, 0 where nothing arrives; and the squared distance.
 fn cluster_seen(sphere: vec4<f32>, words: vec4<u32>, point: vec3<f32>) -> vec2<f32> {
     let power = bitcast<f32>(words.x);
@@ -43,7 +36,7 @@ fn cluster_seen(sphere: vec4<f32>, words: vec4<u32>, point: vec3<f32>) -> vec2<f
         return vec2<f32>(power, squared_radius);
     }
     let distance = sqrt(squared);
-    let axis = cluster_axis(words.y);
+    let axis = octahedron_direction(cluster_numbers(words.y));
     let cone = cluster_numbers(words.z);
     let signed_along = dot(axis, away) / distance;
     let aside = length(cross(axis, away)) / distance;

@@ -14,6 +14,7 @@ macro_rules! shader_files {
 shader_files![
     "core/camera.wgsl",
     "core/math.wgsl",
+    "core/octahedron.wgsl",
     "core/parameters.wgsl",
     "core/sampler.wgsl",
     "geometry/bvh4.wgsl",

@@ -6,6 +6,7 @@ use serde_json::{Map, Value};
 use super::importer::Importer;
 use super::json::Primitive;
 use super::made::{Coordinates, MadePrimitive};
+use super::variant;
 use crate::load::import::{Blocks, Entry, Keys};
 use crate::load::model::{FARTHEST, MeshAttribute};
 use crate::scene::Mesh;
@@ -38,7 +39,7 @@ impl Importer<'_> {
         if primitive.extensions.contains_key("KHR_draco_mesh_compression") && !primitive.attributes.contains_key("POSITION") {
             return Err(format!("its data are packed by Draco, which is not read: `{}` unpacks them", super::DRACO_COMMAND));
         }
-        let named = self.material_of(&primitive);
+        let named = variant::material_of(self.variant, &primitive);
         let mut material = self.material(named)?;
         let weights = weights.unwrap_or(&of.weights);
         let Some(mut built) = self.geometry(&primitive, mode, skinning, weights, &key)? else { return Ok(None) };

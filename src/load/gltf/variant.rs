@@ -2,7 +2,6 @@
 
 use serde_json::Value;
 
-use super::importer::Importer;
 use super::json::{Primitive, Root};
 use crate::load::printable::short_list;
 
@@ -26,18 +25,16 @@ pub fn chosen(root: &Root, wanted: Option<&str>) -> Result<Option<usize>, String
     })
 }
 
-impl Importer<'_> {
-    /// The material of a primitive in the variant that is shown.
-    pub fn material_of(&self, primitive: &Primitive) -> Option<usize> {
-        let of_variant = || {
-            let shown = self.variant? as u64;
-            let mappings = primitive.extensions.get(NAME)?.get("mappings")?.as_array()?;
-            let is_of_it = |mapping: &&Value| {
-                let variants = mapping.get("variants").and_then(Value::as_array);
-                variants.into_iter().flatten().any(|variant| variant.as_u64() == Some(shown))
-            };
-            Some(mappings.iter().find(is_of_it)?.get("material")?.as_u64()? as usize)
+/// The material of a primitive where variant number `shown` is, if any is.
+pub fn material_of(shown: Option<usize>, primitive: &Primitive) -> Option<usize> {
+    let of_variant = || {
+        let shown = shown? as u64;
+        let mappings = primitive.extensions.get(NAME)?.get("mappings")?.as_array()?;
+        let is_of_it = |mapping: &&Value| {
+            let variants = mapping.get("variants").and_then(Value::as_array);
+            variants.into_iter().flatten().any(|variant| variant.as_u64() == Some(shown))
         };
-        of_variant().or(primitive.material)
-    }
+        Some(mappings.iter().find(is_of_it)?.get("material")?.as_u64()? as usize)
+    };
+    of_variant().or(primitive.material)
 }

@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use crate::math::Frame;
+use crate::math::{Frame, octahedron};
 
 /// Bins of a histogram: rows by the squared sine of the angle with the axis, columns around it.
 pub const GUIDE_ROWS: u32 = 8;
@@ -165,23 +165,14 @@ pub(super) fn bin(local: DVec3) -> (u32, u32) {
     ((row as u32).min(GUIDE_ROWS - 1), (column as u32).min(GUIDE_COLUMNS - 1))
 }
 
-/// A direction by its place on an octahedron, the lower half of which is folded outward around the upper one, a byte each.
+/// A direction by its place on an octahedron, a byte a coordinate.
 pub(super) fn packed_axis(axis: DVec3) -> u32 {
-    let flat = axis / axis.abs().element_sum();
-    let sign = |number: f64| if number < 0.0 { -1.0 } else { 1.0 };
-    let [x, y] = match flat.z >= 0.0 {
-        true => [flat.x, flat.y],
-        false => [(1.0 - flat.y.abs()) * sign(flat.x), (1.0 - flat.x.abs()) * sign(flat.y)],
-    };
     let byte = |number: f64| u32::from((number / f64::from(GUIDE_AXIS_STEP)).round() as i8 as u8);
+    let [x, y] = octahedron::place_of(axis);
     byte(x) | byte(y) << 8
 }
 
 pub(super) fn unpacked_axis(packed: u32) -> DVec3 {
     let number = |byte: u32| f64::from(byte as u8 as i8) * f64::from(GUIDE_AXIS_STEP);
-    let (x, y) = (number(packed), number(packed >> 8));
-    let z = 1.0 - x.abs() - y.abs();
-    let sign = |number: f64| if number < 0.0 { -1.0 } else { 1.0 };
-    let [x, y] = if z >= 0.0 { [x, y] } else { [(1.0 - y.abs()) * sign(x), (1.0 - x.abs()) * sign(y)] };
-    DVec3::new(x, y, z).normalize()
+    octahedron::direction_at([number(packed), number(packed >> 8)])
 }

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::cone::Cone;
+use crate::math::octahedron;
 
 /// Flags of a link; the rest of it is the number of a node, or of a light.
 pub const LEAF: u32 = 1 << 31;
@@ -58,7 +59,7 @@ impl LightCluster {
             center: center.as_vec3().to_array(),
             radius: radius as f32,
             power: power.max(f64::from(f32::MIN_POSITIVE)) as f32,
-            axis: halves(unfolded(cone.axis).map(|x| (x * STEPS).round())),
+            axis: halves(octahedron::place_of(cone.axis).map(|x| (x * STEPS).round())),
             cosines: halves([lower(cone.spread), lower(cone.reach)]),
             link: link | flags,
         }
@@ -73,7 +74,7 @@ impl LightCluster {
             return Seen { power, squared_distance: squared_radius };
         }
         let distance = squared.sqrt();
-        let axis = folded(numbers(self.axis));
+        let axis = octahedron::direction_at(numbers(self.axis));
         let [spread, reach] = numbers(self.cosines);
         let along = axis.dot(away) / distance;
         let aside = axis.cross(away).length() / distance;
@@ -119,23 +120,6 @@ fn numbers(halves: u32) -> [f64; 2] {
     [halves as u16, (halves >> 16) as u16].map(|half| f64::from(half as i16) / STEPS)
 }
 
-/// A direction on the octahedron |x| + |y| + |z| = 1, the lower half of which is folded outward around the upper one.
-fn unfolded(direction: DVec3) -> [f64; 2] {
-    let on = direction / (direction.x.abs() + direction.y.abs() + direction.z.abs());
-    if on.z >= 0.0 { [on.x, on.y] } else { [over_edge(on.x, on.y), over_edge(on.y, on.x)] }
-}
-
-fn folded([x, y]: [f64; 2]) -> DVec3 {
-    let z = 1.0 - x.abs() - y.abs();
-    let [x, y] = if z >= 0.0 { [x, y] } else { [over_edge(x, y), over_edge(y, x)] };
-    DVec3::new(x, y, z).normalize()
-}
-
-/// A coordinate on the other side of an edge of the square.
-fn over_edge(x: f64, y: f64) -> f64 {
-    (1.0 - y.abs()).copysign(x)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -148,7 +132,7 @@ mod tests {
             let axis = DVec3::new(x, y, z).normalize();
             let cone = Cone { axis, spread: 0.0, reach: 1.6, two_sided: true };
             let cluster = LightCluster::new(DVec3::ONE, 2.0, 0.5, cone, 7);
-            assert!(folded(numbers(cluster.axis)).distance(axis) < 2e-4, "{axis}");
+            assert!(octahedron::direction_at(numbers(cluster.axis)).distance(axis) < 2e-4, "{axis}");
             let [spread, reach] = numbers(cluster.cosines);
             assert!(spread == 1.0 && reach <= 1.6_f64.cos() && reach > 1.6_f64.cos() - 1e-4);
             assert_eq!(cluster.link, 7 | TWO_SIDED);
