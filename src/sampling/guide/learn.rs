@@ -94,15 +94,14 @@ pub fn learn(arrivals: &[Arrival]) -> Option<Guide> {
 
 /// The box around all arrivals but a few.
 fn bounds(arrivals: &[Arrival]) -> [DVec3; 2] {
-    let mut corners = [DVec3::ZERO; 2];
     let left_out = (OUTLIERS * arrivals.len() as f64) as usize;
-    for axis in 0..3 {
+    let along = |axis: usize| {
         let mut places: Vec<f64> = arrivals.iter().map(|arrival| arrival.position[axis]).collect();
         places.sort_unstable_by(f64::total_cmp);
-        corners[0][axis] = places[left_out];
-        corners[1][axis] = places[places.len() - 1 - left_out];
-    }
-    corners
+        [places[left_out], places[places.len() - 1 - left_out]]
+    };
+    let [x, y, z] = [along(0), along(1), along(2)];
+    [DVec3::new(x[0], y[0], z[0]), DVec3::new(x[1], y[1], z[1])]
 }
 
 impl Builder<'_> {
