@@ -3,11 +3,12 @@
 //! A pipe, a device or a socket may never end, or never begin. Each is refused before it is opened. A file whose file system is gone ends in an
 //! error ([`crate::patience`]).
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::SystemTime;
 
 use crate::patience::{self, PatientFile};
 
@@ -19,9 +20,19 @@ pub type InputFile = PatientFile<File>;
 /// # Errors
 /// As [`File::open`], where the path leads to anything else, which the error names, and where its file system does not answer.
 pub fn open(path: &Path) -> io::Result<InputFile> {
-    let file = open_own(path)?;
-    remember(path);
-    Ok(file)
+    let before = stamp_now(path);
+    match open_own(path) {
+        Ok(file) => {
+            remember(path, before.or(Some(Stamp::default())));
+            Ok(file)
+        }
+        Err(error) => {
+            if error.kind() == ErrorKind::NotFound {
+                remember(path, None);
+            }
+            Err(error)
+        }
+    }
 }
 
 /// Opens a regular file that the program may write as well.
@@ -63,20 +74,63 @@ pub fn canonical(path: &Path) -> io::Result<PathBuf> {
     patience::within(move || fs::canonicalize(path))
 }
 
-/// Files that were opened so far, links followed. What a program reads it must not write.
-static OPENED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+/// What tells one content of a file from another: when it was written, its length, and on Unix which file it is.
+type Stamp = (Option<SystemTime>, u64, u64);
 
-fn remember(path: &Path) {
-    if let Ok(real) = canonical(path) {
-        OPENED.lock().unwrap_or_else(PoisonError::into_inner).insert(real);
+fn stamp(metadata: &fs::Metadata) -> Stamp {
+    #[cfg(unix)]
+    let file = std::os::unix::fs::MetadataExt::ino(metadata);
+    #[cfg(not(unix))]
+    let file = 0;
+    (metadata.modified().ok(), metadata.len(), file)
+}
+
+/// Of a file that is there.
+fn stamp_now(path: &Path) -> Option<Stamp> {
+    let path = path.to_owned();
+    patience::within(move || fs::metadata(path)).ok().map(|metadata| stamp(&metadata))
+}
+
+/// Files that were opened so far, links followed, each as it was then. What a program reads it must not write. Of those that were not there, None.
+static OPENED: Mutex<BTreeMap<PathBuf, Option<Stamp>>> = Mutex::new(BTreeMap::new());
+
+fn opened() -> MutexGuard<'static, BTreeMap<PathBuf, Option<Stamp>>> {
+    OPENED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn remember(path: &Path, stamp: Option<Stamp>) {
+    // What is not there has no real path; it has one once it is.
+    if let Ok(real) = canonical(path).or_else(|_| std::path::absolute(path)) {
+        opened().insert(real, stamp);
     }
 }
 
 /// Whether this file was opened by [`open`], by whatever name.
 pub fn was_opened(path: &Path) -> bool {
     let real = canonical(path);
-    let opened = OPENED.lock().unwrap_or_else(PoisonError::into_inner);
-    real.is_ok_and(|real| opened.contains(&real))
+    real.is_ok_and(|real| matches!(opened().get(&real), Some(Some(_))))
+}
+
+/// Files that are not what they were when they were opened, or when they were last [accepted](accept_changes). None where their file system does
+/// not answer.
+pub fn changed() -> Vec<PathBuf> {
+    let files = opened().clone();
+    let now = |path: &Path| fs::metadata(path).ok().map(|metadata| stamp(&metadata));
+    let look = move || Ok(files.into_iter().filter(|(path, before)| now(path) != *before).map(|(path, _)| path).collect());
+    patience::within(look).unwrap_or_default()
+}
+
+/// Takes all files for what they are now.
+pub fn accept_changes() {
+    let files = opened().clone();
+    for (path, before) in files {
+        // A file that was read stays one that must not be written, though it may be gone for a moment. Whatever was missing and is still wanted
+        // will be looked for again.
+        match before {
+            Some(_) => opened().insert(path.clone(), Some(stamp_now(&path).unwrap_or_default())),
+            None => opened().remove(&path),
+        };
+    }
 }
 
 /// Reads a regular file of at most `most` bytes.
@@ -138,6 +192,28 @@ mod tests {
         assert_eq!(read_to_end(io::repeat(1), 0, 1 << 20).unwrap_err().kind(), ErrorKind::FileTooLarge);
         assert_eq!(read(folder.path(), 100).unwrap_err().to_string(), "it is a folder, not a regular file");
         assert_eq!(read(&folder.path().join("absent"), 100).unwrap_err().kind(), ErrorKind::NotFound);
+    }
+
+    #[test]
+    fn files_that_change_are_noticed_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let [path, missing] = ["file", "missing"].map(|name| fs::canonicalize(folder.path()).unwrap().join(name));
+        let seen = |path: &Path| changed().iter().any(|changed| changed == path);
+        fs::write(&path, "one").unwrap();
+        assert!(read(&path, 100).is_ok() && read(&missing, 100).is_err());
+        assert!(!seen(&path) && !seen(&missing));
+        fs::write(&path, "three").unwrap();
+        fs::write(&missing, "here").unwrap();
+        assert!(seen(&path) && seen(&missing));
+        assert!(was_opened(&path) && !was_opened(&missing));
+        accept_changes();
+        assert!(!seen(&path) && !seen(&missing) && was_opened(&path));
+        fs::remove_file(&path).unwrap();
+        assert!(seen(&path));
+        accept_changes();
+        // It is written anew; until then there is nothing to see.
+        fs::write(&path, "four").unwrap();
+        assert!(seen(&path) && was_opened(&path));
     }
 
     #[cfg(unix)]

@@ -1,16 +1,20 @@
 //! One scene, several settings: how the error falls with samples and with time.
 
 use std::path::PathBuf;
+use std::rc::Rc;
 
 use serde::Serialize;
 
 use super::analysis::{self, Comparison, Curve, METRICS, interpolate};
+use super::denoised::DenoisedSubject;
 use super::interval::Spread;
 use super::reference::{OwnError, Reference, Store};
 use super::schedule::{Observations, SampleSchedule, observe_schedule};
 use super::setting::{Axes, Variant};
 use super::subject::{BenchError, Devices, SceneSubject, Subject};
 use crate::compare::compare;
+use crate::denoise::library::Library;
+use crate::film::KernelLayer;
 use crate::output::Image;
 use crate::renderer::Observer;
 use crate::scene::{self, Scene};
@@ -99,6 +103,8 @@ pub fn measure(
     say: &mut dyn FnMut(&str),
 ) -> Result<SceneConvergence, BenchError> {
     let settings = options.axes.variants(&scene.render);
+    // Its absence is told before anything is rendered.
+    let library = if options.axes.denoise.contains(&true) { Some(Rc::new(Library::open()?)) } else { None };
     let reference = reference(scene, &settings[0], options, devices, observer, say)?;
     let mut names = Vec::new();
     let mut subjects: Vec<Box<dyn Subject + '_>> = Vec::new();
@@ -106,9 +112,20 @@ pub fn measure(
         let mut scene = scene.clone();
         scene.render = setting.render.clone();
         say(&format!("{}: preparing {}", scene.name, setting.name));
-        let renderer = devices.prepare(&scene, &setting.device)?;
-        names.push(renderer.device().to_owned());
-        subjects.push(Box::new(SceneSubject { renderer, size: scene.film.size, observer }));
+        let size = scene.film.size;
+        let mut subject = |layer: Option<KernelLayer>| {
+            let renderer = devices.prepare_layer(&scene, &setting.device, layer);
+            renderer.map(|renderer| SceneSubject { renderer, size, observer })
+        };
+        let picture = subject(None)?;
+        names.push(picture.renderer.device().to_owned());
+        subjects.push(match &library {
+            Some(library) if setting.denoise => {
+                let [albedo, normal] = [subject(Some(KernelLayer::Albedo))?, subject(Some(KernelLayer::Normal))?];
+                Box::new(DenoisedSubject { picture, albedo, normal, library: library.clone() })
+            }
+            _ => Box::new(picture),
+        });
     }
     let mut step = |what: &str| say(&format!("{}: {what}", scene.name));
     let (observations, interrupted) = observe_schedule(&mut subjects, &reference, &options.schedule, &mut step)?;

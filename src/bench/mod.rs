@@ -14,6 +14,7 @@
 
 pub mod analysis;
 pub mod convergence;
+mod denoised;
 pub mod features;
 pub mod growth;
 pub mod interval;

@@ -11,6 +11,8 @@ pub struct Axes {
     pub devices: Vec<DeviceChoice>,
     /// A list for each setting that is tried.
     pub settings: Vec<Vec<Assignment>>,
+    /// Whether pictures are denoised; empty: they are not.
+    pub denoise: Vec<bool>,
 }
 
 /// One way to render a scene.
@@ -20,6 +22,8 @@ pub struct Variant {
     pub name: String,
     pub device: DeviceChoice,
     pub render: RenderSettings,
+    /// Pictures are denoised.
+    pub denoise: bool,
 }
 
 impl Axes {
@@ -30,7 +34,7 @@ impl Axes {
             setting.device = value.clone();
             device_name(value)
         };
-        let mut settings = vec![Variant { name: String::new(), device: DeviceChoice::Auto, render: own.clone() }];
+        let mut settings = vec![Variant { name: String::new(), device: DeviceChoice::Auto, render: own.clone(), denoise: false }];
         settings = multiply(settings, &self.devices, device);
         for values in &self.settings {
             settings = multiply(settings, values, |setting, value| {
@@ -38,6 +42,10 @@ impl Axes {
                 value.to_string()
             });
         }
+        settings = multiply(settings, &self.denoise, |setting, &denoise| {
+            setting.denoise = denoise;
+            if denoise { "denoised" } else { "raw" }.to_owned()
+        });
         name_apart(&mut settings, own);
         settings
     }
@@ -75,9 +83,9 @@ fn multiply<T>(settings: Vec<Variant>, values: &[T], set: impl Fn(&mut Variant, 
 /// Names that occur twice get a number, and a setting without alternatives is called by sampler and estimator.
 fn name_apart(settings: &mut [Variant], own: &RenderSettings) {
     for setting in settings.iter_mut().filter(|setting| setting.name.is_empty()) {
-        let render = &setting.render;
+        let (render, denoised) = (&setting.render, if setting.denoise { ", denoised" } else { "" });
         let own = if render == own { " (the scene's own)" } else { "" };
-        setting.name = format!("{}, {}{own}", render.sampler.name(), render.estimator.name());
+        setting.name = format!("{}, {}{denoised}{own}", render.sampler.name(), render.estimator.name());
     }
     let plain: Vec<String> = settings.iter().map(|setting| setting.name.clone()).collect();
     for (index, setting) in settings.iter_mut().enumerate() {
@@ -109,6 +117,7 @@ mod tests {
                 names("estimator", &["mis", "nee"]),
                 Vec::new(),
             ],
+            denoise: Vec::new(),
         };
         let settings = axes.variants(&RenderSettings::default());
         let names: Vec<&str> = settings.iter().map(|setting| setting.name.as_str()).collect();
@@ -126,6 +135,15 @@ mod tests {
         let settings = Axes { settings: vec![counts.to_vec()], ..Axes::default() }.variants(&RenderSettings::default());
         let told: Vec<_> = settings.iter().map(|setting| (setting.name.as_str(), setting.render.light_samples)).collect();
         assert_eq!(told, [("light_samples 1", 1), ("light_samples 4", 4)]);
+    }
+
+    #[test]
+    fn raw_pictures_are_compared_with_denoised_ones() {
+        let samplers = names("sampler", &["halton", "sobol"]);
+        let axes = Axes { settings: vec![samplers], denoise: vec![false, true], ..Axes::default() };
+        let settings = axes.variants(&RenderSettings::default());
+        let told: Vec<_> = settings.iter().map(|setting| (setting.name.as_str(), setting.denoise)).collect();
+        assert_eq!(told, [("halton, raw", false), ("halton, denoised", true), ("sobol, raw", false), ("sobol, denoised", true)]);
     }
 
     #[test]

@@ -1,11 +1,16 @@
 //! What is measured: something that renders a picture with a seed and a number of samples, and says how long it took.
 
+use std::borrow::Cow;
+
 use crate::compare::SizeMismatch;
+use crate::denoise::library::OidnError;
+use crate::film::KernelLayer;
 use crate::gpu::{Device, GpuRenderer};
 use crate::load::SceneError;
 use crate::output::{Image, OutputError, ReadError};
 use crate::plan::PlanOptions;
 use crate::reference::ReferenceRenderer;
+use crate::reference::layer::layer_scene;
 use crate::renderer::{Batch, DeviceChoice, Observer, RenderError, RenderRequest, Renderer};
 use crate::scene::Scene;
 
@@ -22,6 +27,8 @@ pub enum BenchError {
     Output(#[from] OutputError),
     #[error(transparent)]
     Scene(#[from] SceneError),
+    #[error(transparent)]
+    Denoiser(#[from] OidnError),
     /// Nothing can be measured against it; the message is a sentence for the user.
     #[error("{0}")]
     UnsuitableReference(String),
@@ -97,9 +104,23 @@ impl Devices {
     /// # Errors
     /// No such device, or a scene that does not fit it.
     pub fn prepare(&mut self, scene: &Scene, choice: &DeviceChoice) -> Result<Box<dyn Renderer>, RenderError> {
+        self.prepare_layer(scene, choice, None)
+    }
+
+    /// As [`Devices::prepare`], for a layer in the place of the picture.
+    ///
+    /// # Errors
+    /// As [`Devices::prepare`].
+    pub fn prepare_layer(
+        &mut self,
+        scene: &Scene,
+        choice: &DeviceChoice,
+        layer: Option<KernelLayer>,
+    ) -> Result<Box<dyn Renderer>, RenderError> {
+        let scene = &*layer.map_or(Cow::Borrowed(scene), |layer| layer_scene(scene, layer));
         Ok(match self.get(choice)? {
-            Some(device) => Box::new(GpuRenderer::on(&device, scene, &PlanOptions::default())?),
-            None => Box::new(ReferenceRenderer::new(scene)?),
+            Some(device) => Box::new(GpuRenderer::on(&device, scene, &PlanOptions { layer, ..PlanOptions::default() })?),
+            None => Box::new(ReferenceRenderer::of_layer(scene, layer)?),
         })
     }
 

@@ -27,6 +27,7 @@ use super::settings::EstimateArguments;
 use super::test::TestArguments;
 use super::traversal::TraversalArguments;
 use super::values::{parse_device, parse_pixel, parse_seconds, parse_size};
+use super::view::ViewArguments;
 
 /// A headless GPU path tracer that proves its pictures against a CPU reference.
 #[derive(Debug, Parser)]
@@ -80,6 +81,7 @@ const RENDER_EXAMPLES: &str = "Examples:
   gpt render bunny.ply --up z --turn 30 --material gold --environment sky.exr
   gpt render model.obj --save-scene model.toml            a scene of a model, to go on with
   gpt render scene.toml --frames 1-100 -o picture.####.exr  an animation, by the scene's keyframes
+  gpt render scene.toml --view --watch                    in the browser, and again whenever a file changes
   gpt render scene.toml --exposure auto --tonemap filmic -o preview.jpg";
 
 const TEST_EXAMPLES: &str = "Examples:
@@ -133,6 +135,8 @@ pub struct RenderArguments {
     pub checkpoint: CheckpointArguments,
     #[command(flatten, next_help_heading = DEVICE)]
     pub traversal: TraversalArguments,
+    #[command(flatten, next_help_heading = "While it goes on")]
+    pub live: ViewArguments,
     /// Write what the render did and how long it took as JSON; - is standard output
     #[arg(long, value_name = "FILE.json", help_heading = REPORT)]
     pub stats: Option<PathBuf>,

@@ -78,7 +78,7 @@ fn page(
         facts: metrics.chain([format!("ꟻLIP {:.5}", map.mean())]).collect(),
         findings: tiles.rejected().map(|finding| (finding.region, finding.to_string())).collect(),
         commands: vec![command()],
-        shown: Some(Shown { labels: ["B", "A"], images: [reference, picture], tiles: &tiles, flip: &map }),
+        shown: Some(Shown { labels: ["reference", "picture"], images: [reference, picture], tiles: &tiles, flip: &map }),
     };
     let method = "Tiles are judged by Student's t on the differences of their pixels, with a false alarm in a hundred pages.";
     Ok(difference_page::page("gpt compare", &command(), method, &[section]))

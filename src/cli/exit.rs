@@ -131,6 +131,7 @@ impl From<BenchError> for Failure {
             BenchError::Sizes(error) => Self::Sizes(error),
             BenchError::Output(error) => Self::Output(error),
             BenchError::Scene(error) => error.into(),
+            BenchError::Denoiser(error) => error.into(),
             BenchError::UnsuitableReference(message) => Self::BadScene(message),
             BenchError::Internal(message) => Self::Other(message),
             BenchError::Interrupted => Self::Interrupted,

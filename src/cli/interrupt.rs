@@ -6,6 +6,8 @@ use super::exit::{Exit, Failure};
 use super::terminal;
 
 static STOP: AtomicBool = AtomicBool::new(false);
+/// Nothing is left to be saved.
+static OVER: AtomicBool = AtomicBool::new(false);
 
 /// Takes over the signals by which a person or a system asks the program to end (on Unix SIGINT, SIGTERM, SIGHUP and SIGXCPU; not SIGHUP where
 /// it is ignored, as `nohup` has it). Those that end it at once remove temporary files before.
@@ -21,11 +23,19 @@ pub fn requested() -> bool {
     STOP.load(Ordering::SeqCst)
 }
 
+/// What was rendered is saved; the program waits for its end alone.
+pub fn render_is_over() {
+    OVER.store(true, Ordering::SeqCst);
+}
+
 /// The first time asks to stop, the second time stops.
 fn ask_to_stop(why: &str) {
     if STOP.swap(true, Ordering::SeqCst) {
         gpt::output::remove_unfinished();
         std::process::exit(Exit::Interrupted as i32);
+    }
+    if OVER.load(Ordering::SeqCst) {
+        return;
     }
     terminal::note(&format!("{why}; what is rendered will be saved (once more to quit at once)"));
 }

@@ -13,6 +13,7 @@ use super::arguments::RenderArguments;
 use super::checkpoint;
 use super::exit::Failure;
 use super::progress::Progress;
+use super::view::Watching;
 
 /// Why mattes are not rendered in parts.
 pub const MATTES_OF_PARTS: &str = "a file keeps the six largest shares of a pixel, so parts of its samples would not add up to the whole picture's; \
@@ -28,6 +29,11 @@ pub struct Layers {
 }
 
 impl Layers {
+    /// What they come to.
+    pub fn channels(&self) -> &[LayerChannel] {
+        &self.channels
+    }
+
     /// The picture with them.
     pub fn in_picture(self, spec: PictureSpec) -> PictureSpec {
         PictureSpec { layers: self.channels, layer_names: self.names, notes: self.notes, ..spec }
@@ -81,14 +87,14 @@ pub fn render(
     options: &RenderOptions,
     (scene, wanted): (&Scene, Vec<Layer>),
     outputs: &[(PathBuf, PictureFormat)],
-    (started, progress): (Instant, &Progress),
+    (started, progress, watching): (Instant, &Progress, &Watching<'_>),
 ) -> Result<Layers, Failure> {
     if wanted.is_empty() {
         return Ok(Layers::default());
     }
     let of_part = arguments.estimate.is_part();
     let mut last = None;
-    let rendered = render_layers(scene, options, (&wanted, of_part), progress, &mut |renderer, layer| {
+    let rendered = render_layers(scene, options, (&wanted, of_part), watching, &mut |renderer, layer| {
         progress.clear();
         let kept = checkpoint::of_layer(&arguments.checkpoint, (renderer, layer), outputs, started, arguments.quiet)?;
         last = kept.as_ref().map(|checkpoint| checkpoint.path().to_owned());

@@ -40,6 +40,8 @@ mod test;
 mod traversal;
 mod values;
 mod verify;
+mod view;
+mod watch;
 
 use std::process::ExitCode;
 

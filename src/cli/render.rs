@@ -25,7 +25,8 @@ use super::progress::Progress;
 use super::render_summary::{tell, tell_of_error};
 use super::sequence::{Done, Frame, Ready, Sequence, has_own_stats, tell_of_keyframes};
 use super::stats::{self, Stats};
-use super::{denoise, interrupt, layers, settings, terminal};
+use super::view::{Live, Phase, Watching};
+use super::{denoise, interrupt, layers, settings, terminal, watch};
 
 /// Renders a scene to its picture files. Everything that can be wrong without rendering is found before.
 pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
@@ -35,7 +36,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let first = |path: &Path| named(path, frames.first_number());
     let first_outputs: Vec<PathBuf> = arguments.outputs.iter().map(|path| first(path)).collect();
     let formats = output_formats(&first_outputs, arguments.stats.as_deref().map(first).as_deref())?;
-    let mut outputs: Vec<(PathBuf, PictureFormat)> =
+    let outputs: Vec<(PathBuf, PictureFormat)> =
         arguments.outputs.iter().zip(formats).map(|(path, (_, format))| (path.clone(), format)).collect();
     let mut on_stdout = arguments.outputs.iter().map(PathBuf::as_path).chain(arguments.stats.as_deref());
     if arguments.progress.is_some() && on_stdout.any(is_stdout) {
@@ -63,9 +64,36 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
         plan: PlanOptions { device_timeout: Some(arguments.device_timeout), ..arguments.traversal.options_on(&device)? },
         ..RenderOptions::default()
     };
+    watch::check(arguments)?;
     // The device opens while the scene is read.
-    let choice = Renderer::begin(&options);
+    let ready = Ready::Device(Renderer::begin(&options));
+    let live = Live::start(&arguments.live, &arguments.display.display())?;
+    if arguments.live.watch {
+        return watch::run(arguments, &options, &outputs, ready, live, started);
+    }
+    let exit = scene(arguments, &options, &outputs, &mut Some(ready), &live, started)?;
+    live.close(exit != Exit::Interrupted);
+    Ok(exit)
+}
+
+/// Reads the scene and renders it. What is ready when it begins stays so where the scene is wrong; without it a device is opened. What rendered the
+/// scene is then ready for another one.
+///
+/// # Errors
+/// What the scene, the device, the files and the arguments report.
+pub fn scene(
+    arguments: &RenderArguments,
+    options: &RenderOptions,
+    named_outputs: &[(PathBuf, PictureFormat)],
+    ready: &mut Option<Ready>,
+    live: &Live,
+    started: Instant,
+) -> Result<Exit, Failure> {
+    let frames = &arguments.frames;
+    let first = |path: &Path| named(path, frames.first_number());
     let scene = load(arguments)?;
+    live.begin(&scene.name);
+    let mut outputs = named_outputs.to_vec();
     if outputs.is_empty() {
         for (ending, format) in [("exr", PictureFormat::Exr), ("png", PictureFormat::Png)] {
             let number = frames.first_number().map_or("", |_| ".####");
@@ -85,9 +113,11 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
         tell_of_keyframes(&scene);
     }
     let load_seconds = started.elapsed().as_secs_f64();
-    let sequence =
-        Sequence { arguments, options: &options, scene: &scene, outputs: &outputs, times: &times, started, load_seconds };
-    sequence.render(choice, &frame)
+    let sequence = Sequence { arguments, options, scene: &scene, outputs: &outputs, times: &times, started, load_seconds, live };
+    let begun = ready.take().unwrap_or_else(|| Ready::Device(Renderer::begin(options)));
+    let (exit, left) = sequence.render(begun, &frame)?;
+    *ready = left.map(Ready::for_another_scene);
+    Ok(exit)
 }
 
 /// Renders a picture to its files.
@@ -95,7 +125,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
 /// # Errors
 /// What the device, the files and the arguments report.
 fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
-    let Frame { arguments, options, scene, outputs, time, started, load_seconds, span } = frame;
+    let Frame { arguments, options, scene, outputs, time, started, load_seconds, span, live } = frame;
     check_inputs(outputs, arguments)?;
     let wanted = layers::of_files(arguments, scene, outputs)?;
     let shown = PictureSpec {
@@ -113,13 +143,23 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     }
 
     let progress = Progress::of_frame(arguments.quiet, arguments.progress, span);
-    let layers = layers::render(arguments, options, (scene, wanted), outputs, (started, &progress))?;
+    let size = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
+    let watching = live.watching(&progress, size[1]);
+    let layers = match layers::render(arguments, options, (scene, wanted), outputs, (started, &progress, &watching.without_rows())) {
+        Err(Failure::Interrupted) if live.restarts() => return Ok(Done::Outdated(None)),
+        layers => layers?,
+    };
+    live.layers(layers.channels(), size);
     let needs = needs(arguments, scene, options);
     progress.start(needs);
     let mut renderer = ready.renderer(scene, options).inspect_err(|_| progress.clear())?;
+    live.on_device(renderer.device());
     let Rendered { outcome, mut pictures, provenance, mut kept } =
-        render(arguments, (&mut renderer, span), (outputs, layers), (started, &progress))?;
+        render(arguments, (&mut renderer, span), (outputs, layers), (started, &progress, &watching))?;
     let broke_off = outcome.stop == Stop::Interrupted;
+    if broke_off && live.restarts() {
+        return Ok(Done::Outdated(Some(Box::new(renderer))));
+    }
     if broke_off && kept.save() {
         pictures.give_up_beside_finished();
     }
@@ -164,6 +204,7 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     } else if arguments.denoise && !broke_off && !arguments.estimate.is_part() {
         denoise::denoise_render(&Library::open()?, outputs, arguments.display.display(), arguments.quiet)?;
     }
+    live.end(if broke_off { Phase::Stopped } else { Phase::Finished }, "", &stats.outputs);
     let exit = exit(&report, arguments.strict);
     Ok(Done::Now { exit, renderer: Box::new(renderer), stats: Box::new(stats) })
 }
@@ -255,7 +296,7 @@ fn render(
     arguments: &RenderArguments,
     (renderer, span): (&mut Renderer, Option<Span>),
     (outputs, layers): (&[(PathBuf, PictureFormat)], Layers),
-    (started, progress): (Instant, &Progress),
+    (started, progress, watching): (Instant, &Progress, &Watching<'_>),
 ) -> Result<Rendered, Failure> {
     if let Some(notice) = renderer.notice().filter(|_| span.is_none_or(|span| span.index == 0)) {
         progress.clear();
@@ -269,7 +310,10 @@ fn render(
     let spec = layers.in_picture(spec);
     let mut kept = checkpoint::Kept::begin(&arguments.checkpoint, renderer, outputs, started, arguments.quiet)?;
     let mut pictures = Pictures::create(outputs, &spec)?;
-    let outcome = renderer.render_from(started, progress, kept.checkpoint.as_mut(), &mut |band| pictures.write_band(band));
+    let outcome = renderer.render_from(started, watching, kept.checkpoint.as_mut(), &mut |band| {
+        watching.band(&band);
+        pictures.write_band(band)
+    });
     progress.clear();
     match outcome {
         // The files themselves say more than that none could take any more.

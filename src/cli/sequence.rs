@@ -17,6 +17,7 @@ use super::frames::{FrameTime, Span, has_place, named};
 use super::pictures::is_stdout;
 use super::progress::Progress;
 use super::stats::{self, Stats};
+use super::view::Live;
 use super::{interrupt, terminal};
 
 /// What a frame begins with.
@@ -25,6 +26,8 @@ pub enum Ready {
     Device(Choice),
     /// A later one: the renderer of the frame before, and that frame.
     Renderer(Box<Renderer>, Box<Scene>),
+    /// The renderer of another scene, and that scene.
+    Other(Box<Renderer>, Box<Scene>),
 }
 
 impl Ready {
@@ -36,13 +39,22 @@ impl Ready {
         match self {
             Self::Device(choice) => Renderer::on(choice, scene, options),
             Self::Renderer(renderer, before) => renderer.at_frame(&before, scene),
+            Self::Other(renderer, before) => renderer.with_scene(&before, scene),
+        }
+    }
+
+    /// What is ready for a frame of this scene, for another scene.
+    pub fn for_another_scene(self) -> Self {
+        match self {
+            Self::Renderer(renderer, before) => Self::Other(renderer, before),
+            ready => ready,
         }
     }
 
     /// What was hashed for an earlier frame.
     pub fn bulk_digest(&self) -> Option<&BulkDigest> {
         match self {
-            Self::Device(_) => None,
+            Self::Device(_) | Self::Other(..) => None,
             Self::Renderer(renderer, _) => Some(renderer.bulk_digest()),
         }
     }
@@ -60,12 +72,16 @@ pub struct Frame<'a> {
     pub load_seconds: f64,
     /// Which of several it is.
     pub span: Option<Span>,
+    /// Where it is shown meanwhile.
+    pub live: &'a Live,
 }
 
 /// What became of a frame.
 pub enum Done {
     /// It was finished before, and what was to render it is there still.
     Before(Ready),
+    /// A file of the scene changed meanwhile; the renderer is there still, if it was made.
+    Outdated(Option<Box<Renderer>>),
     Now {
         exit: Exit,
         renderer: Box<Renderer>,
@@ -88,15 +104,16 @@ pub struct Sequence<'a> {
     /// When the program began, and how long it took to read the scene.
     pub started: Instant,
     pub load_seconds: f64,
+    /// Where it is shown meanwhile.
+    pub live: &'a Live,
 }
 
 impl Sequence<'_> {
-    /// Renders all frames. The first that breaks off or fails is the last.
+    /// Renders all frames. The first that breaks off or fails is the last. What rendered it may render another scene.
     ///
     /// # Errors
     /// What the first frame that fails reports.
-    pub fn render(&self, choice: Choice, render: Render<'_>) -> Result<Exit, Failure> {
-        let mut ready = Ready::Device(choice);
+    pub fn render(&self, mut ready: Ready, render: Render<'_>) -> Result<(Exit, Option<Ready>), Failure> {
         let (mut worst, mut all_stats) = (Exit::Done, Vec::new());
         let several = self.arguments.frames.is_sequence();
         for (index, &time) in self.times.iter().enumerate() {
@@ -109,15 +126,19 @@ impl Sequence<'_> {
             let scene = self.scene_at(time)?;
             match self.frame((index, time, started), &scene, ready, (span, render))? {
                 Done::Before(before) => ready = before,
+                Done::Outdated(renderer) => {
+                    let ready = renderer.map(|renderer| Ready::Renderer(renderer, Box::new(scene.into_owned())));
+                    return Ok((Exit::Interrupted, ready));
+                }
                 Done::Now { exit, renderer, stats } => {
                     all_stats.push(*stats);
+                    ready = Ready::Renderer(renderer, Box::new(scene.into_owned()));
                     if exit != Exit::Done {
                         worst = exit;
                     }
-                    if worst == Exit::Interrupted || index + 1 == self.times.len() {
+                    if worst == Exit::Interrupted {
                         break;
                     }
-                    ready = Ready::Renderer(renderer, Box::new(scene.into_owned()));
                 }
             }
         }
@@ -126,7 +147,7 @@ impl Sequence<'_> {
             let names: Vec<String> = self.outputs.iter().map(|(path, _)| path.display().to_string()).collect();
             Progress::end_of_all(self.arguments.progress, worst == Exit::Done, &names);
         }
-        Ok(worst)
+        Ok((worst, Some(ready)))
     }
 
     fn scene_at(&self, time: FrameTime) -> Result<Cow<'_, Scene>, Failure> {
@@ -152,6 +173,7 @@ impl Sequence<'_> {
             started,
             load_seconds: if index == 0 { self.load_seconds } else { started.elapsed().as_secs_f64() },
             span,
+            live: self.live,
         };
         render(frame, ready)
     }

@@ -49,3 +49,13 @@ pub use view::{ModelView, Up};
 pub fn was_read(path: &std::path::Path) -> bool {
     crate::input::was_opened(path)
 }
+
+/// Files of the scenes that this process read that have changed since, or since [`accept_changes`].
+pub fn changed_files() -> Vec<std::path::PathBuf> {
+    crate::input::changed()
+}
+
+/// Takes the files of scenes for what they are now.
+pub fn accept_changes() {
+    crate::input::accept_changes();
+}

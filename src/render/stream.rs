@@ -83,6 +83,30 @@ impl Renderer {
         Ok(Self { renderer, notice, options, film, size, provenance, bulk })
     }
 
+    /// Goes on to another scene, on the same device and with the kernels whose text is the same. `before`: the scene that it had; where they
+    /// differ in their cameras alone, all else stays. Options are those that it was made with, applied to the scene.
+    ///
+    /// # Errors
+    /// As [`Renderer::new`]. There is no renderer any more then.
+    #[doc(hidden)]
+    pub fn with_scene(self, before: &Scene, scene: &Scene) -> Result<Self, RenderError> {
+        let Self { renderer, notice, options, film, provenance: earlier, .. } = self;
+        let bulk = BulkDigest::of(scene);
+        let as_before = Scene { camera: before.camera.clone(), ..scene.clone() };
+        let same_settings = earlier.settings == scene.render && earlier.filter == scene.film.filter && film == scene.film.size;
+        let is_camera = same_settings
+            && bulk.digest(&as_before) == earlier.scene_hash
+            && scene.shapes_stand_as_in(before)
+            && scene.camera.aperture == before.camera.aperture
+            && std::mem::discriminant(&scene.camera.projection) == std::mem::discriminant(&before.camera.projection);
+        let change = if is_camera { Change::Camera } else { Change::Shapes };
+        let renderer = renderer.with_scene(scene, &options.plan_options(), change)?;
+        let provenance = Self::provenance_with(&bulk, scene, &options, renderer.device());
+        let film = scene.film.size;
+        let size = options.crop.map_or(film, |[_, _, width, height]| [width, height]);
+        Ok(Self { renderer, notice, options, film, size, provenance, bulk })
+    }
+
     /// A fingerprint of the scene's meshes and pictures, which all of its frames share.
     #[doc(hidden)]
     pub fn bulk_digest(&self) -> &BulkDigest {

@@ -1,11 +1,29 @@
 //! Whoever watches a render.
 
+use crate::film::Band;
+
 /// Is told how far a render is, and says whether it should go on. Called from the rendering thread, several times a second.
 pub trait Observer: Sync {
     /// `done` of `total` samples (pixels × spp) are finished.
     fn progress(&self, done: u64, total: u64);
     /// True: stop soon, deliver what is done.
     fn stop_requested(&self) -> bool;
+
+    /// Whether [`Observer::rows_so_far`] shall be called now. Asked after each pass, so the answer must be quick.
+    fn wants_rows(&self) -> bool {
+        false
+    }
+
+    /// Rows as they are now; the render goes on with them when this returns. Pixels without samples are counted in [`Band::counts`].
+    fn rows_so_far(&self, rows: Band) {
+        drop(rows);
+    }
+
+    /// The relative mean squared error that the picture has now: what is expected, and what it is below with 95 % confidence. Known of renders
+    /// with an error to reach.
+    fn error_so_far(&self, expected: f64, upper: f64) {
+        let _ = (expected, upper);
+    }
 }
 
 /// An observer that shows nothing and never stops.

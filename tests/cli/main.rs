@@ -27,6 +27,7 @@ mod parts;
 mod picture_tests;
 mod traversal;
 mod verify;
+mod view;
 
 use std::fs;
 use std::path::Path;

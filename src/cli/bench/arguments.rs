@@ -33,6 +33,7 @@ pub enum Bench {
         gpt bench convergence cornell veach-mis --sampler halton,sobol,independent\n  \
         gpt bench convergence veach-mis --estimator mis,nee,bsdf --spp 1024 --size 384x256\n  \
         gpt bench convergence scene.toml --device gpu,cpu --reference converged.exr\n  \
+        gpt bench convergence --denoise no,yes                  what denoising buys, and where it stops\n  \
         gpt bench convergence --sampler halton,halton        the measurement against itself\n\n\
         How it is measured: an error is the mean over the replications, with Student's 95 % interval; the reference's own error, known from the scatter of \
         its 8 independent parts, is taken off. The slope is fitted to log error over log samples, replication by replication. What is left of the \
@@ -172,11 +173,14 @@ pub struct AxisArguments {
     device: Vec<DeviceChoice>,
     #[command(flatten)]
     settings: SettingAxes,
+    /// Whether pictures are denoised, by Open Image Denoise with albedo and normals; what that takes counts, and what stays of the error is a floor
+    #[arg(long, value_name = "NO|YES,…", value_delimiter = ',', value_parser = clap::builder::BoolishValueParser::new())]
+    denoise: Vec<bool>,
 }
 
 impl From<&AxisArguments> for Axes {
     fn from(arguments: &AxisArguments) -> Self {
-        Self { devices: arguments.device.clone(), settings: arguments.settings.0.clone() }
+        Self { devices: arguments.device.clone(), settings: arguments.settings.0.clone(), denoise: arguments.denoise.clone() }
     }
 }
 

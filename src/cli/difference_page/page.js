@@ -34,8 +34,9 @@ function start(viewer) {
   }
 
   function scale() {
-    const room = viewer.querySelector(".scroller").clientWidth;
-    const fit = width > room ? room / width : Math.max(1, Math.min(4, Math.floor(room / width)));
+    // Small pictures are shown by whole numbers of pixels.
+    const room = viewer.clientWidth - 2;
+    const fit = width > room ? room / width : Math.max(1, Math.floor(Math.min(room, 640) / width));
     const factor = fit * 2 ** zoom.value;
     canvas.style.width = `${width * factor}px`;
     canvas.style.height = `${height * factor}px`;
@@ -56,7 +57,7 @@ function start(viewer) {
     const values = (plane) => [0, 1, 2].map((c) => plane[3 * pixel + c].toPrecision(4).padStart(10)).join(" ");
     readout.textContent =
       `pixel ${x},${y}   z ${scores[pixel].toFixed(2)}   ꟻLIP ${(eye[pixel] / 255).toFixed(3)}\n` +
-      data.labels.map((label, index) => `${label.padEnd(8)}${values(index ? b : a)}`).join("\n");
+      data.labels.map((label, index) => `${label.padEnd(10)}${values(index ? b : a)}`).join("\n");
   }
 
   function show(x, y, w, h) {

@@ -98,10 +98,18 @@ impl Difference {
         let change =
             if self.golden == 0.0 { String::new() } else { format!(" ({:+.2} %)", 100.0 * (self.now / self.golden - 1.0)) };
         format!(
-            "{width}x{height} pixels at {x},{y}, {}: {:.5} instead of {:.5}{change}, p = {:.1e}",
-            self.channel, self.now, self.golden, self.p_value
+            "{width}x{height} pixels at {x},{y}, {}: {:.5} instead of {:.5}{change}, {}",
+            self.channel,
+            self.now,
+            self.golden,
+            probability(self.p_value)
         )
     }
+}
+
+/// A p-value in words; the smallest are beyond what can be computed.
+fn probability(p_value: f64) -> String {
+    if p_value < 1e-100 { "p < 1e-100".to_owned() } else { format!("p = {p_value:.1e}") }
 }
 
 impl SceneReport {

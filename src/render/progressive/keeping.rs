@@ -5,6 +5,7 @@ use std::io;
 use super::doublings::Doublings;
 use super::error::ErrorEstimator;
 use super::picture::Picture;
+use super::watching::Watch;
 use crate::film::Band;
 use crate::render::checkpoint::Checkpoint;
 use crate::render::checkpoint::saved::{Place, StepsState};
@@ -44,6 +45,7 @@ impl Sink for WholeBatch<'_> {
 /// Of one batch of a render in steps: bands are added to what earlier batches brought.
 pub struct StepBatch<'a> {
     pub checkpoint: Option<&'a mut Checkpoint>,
+    pub watch: Watch<'a>,
     pub picture: &'a mut Picture,
     pub estimator: Option<&'a mut ErrorEstimator>,
     pub error: Option<(f64, f64)>,
@@ -75,10 +77,17 @@ impl Sink for StepBatch<'_> {
     }
 
     fn wants_state(&self) -> bool {
-        self.checkpoint.as_ref().is_some_and(|checkpoint| checkpoint.is_due())
+        self.watch.observer.wants_rows() || self.checkpoint.as_ref().is_some_and(|checkpoint| checkpoint.is_due())
     }
 
     fn state(&mut self, state: BatchState) -> io::Result<()> {
+        if self.watch.observer.wants_rows() {
+            self.watch.show(&state, Some(self.picture));
+            // Where the render breaks off, a state comes unasked, and is kept.
+            if self.checkpoint.as_ref().is_none_or(|checkpoint| !checkpoint.is_due()) && !self.watch.observer.stop_requested() {
+                return Ok(());
+            }
+        }
         let steps = StepsState {
             place: self.place,
             tally: self.tally,

@@ -18,6 +18,7 @@ mod keeping;
 pub mod picture;
 pub mod schedule;
 mod steps;
+mod watching;
 
 use std::io;
 use std::time::Instant;
@@ -29,6 +30,7 @@ use goal::stop_of;
 pub use goal::{Goal, Outcome, STREAMS, Stop};
 use keeping::WholeBatch;
 use steps::Work;
+use watching::{Watch, Watched};
 
 /// Renders the whole film of `size` and hands it over as bands from the top. `Band::samples` of an adaptive picture are the samples per
 /// pixel that were spent on average.
@@ -80,7 +82,12 @@ pub fn render_kept(
             resume: resume.as_ref(),
             ..Batch::of(&request)
         };
-        return render_sweeps(renderer, &batch, observer, checkpoint, on_band);
+        return render_sweeps(
+            renderer,
+            Watch { observer, batch: &batch, width: size[0], region: goal.region },
+            checkpoint,
+            on_band,
+        );
     }
     let start = Instant::now();
     let mut work = Work::new(renderer, size, seed, goal, observer);
@@ -101,17 +108,20 @@ pub fn render_kept(
 /// limit would have given, as far as it goes.
 fn render_sweeps(
     renderer: &mut dyn Renderer,
-    batch: &Batch<'_>,
-    observer: &dyn Observer,
+    watch: Watch<'_>,
     checkpoint: Option<&mut Checkpoint>,
-    on_band: &mut dyn FnMut(Band) -> io::Result<()>,
+    mut on_band: &mut dyn FnMut(Band) -> io::Result<()>,
 ) -> Result<Outcome, RenderError> {
+    let Watch { batch, observer, .. } = watch;
     // A device that holds the whole film goes on in bands where one that does not began.
     let goes_on_in_bands = batch.resume.is_some_and(|state| state.rows != batch.request.rows);
     let in_bands = goes_on_in_bands || !renderer.holds_whole_film();
     let report = match checkpoint {
-        None => renderer.render_batch(batch, observer, on_band)?,
-        Some(checkpoint) => renderer.render_into(batch, observer, &mut WholeBatch { checkpoint, on_band, in_bands })?,
+        None => renderer.render_into(batch, observer, &mut Watched::new(&mut on_band, watch))?,
+        Some(checkpoint) => {
+            let mut kept = WholeBatch { checkpoint, on_band, in_bands };
+            renderer.render_into(batch, observer, &mut Watched::new(&mut kept, watch))?
+        }
     };
     let stop = stop_of(&report).unwrap_or(Stop::Samples);
     Ok(Outcome { report, stop, error: None })

@@ -11,6 +11,7 @@ use super::goal::{Goal, Outcome, STREAMS, Stop, stop_of};
 use super::keeping::StepBatch;
 use super::picture::Picture;
 use super::schedule::{self, Clock, Stage, stages};
+use super::watching::Watch;
 use crate::film::Band;
 use crate::render::checkpoint::Checkpoint;
 use crate::render::checkpoint::saved::{Place, Saved, StepsState};
@@ -276,6 +277,7 @@ impl<'a> Work<'a> {
         let RenderReport { rays, samples, non_finite_samples, clamped_samples, clamped_units, .. } = self.report;
         let mut sink = StepBatch {
             checkpoint: self.checkpoint.as_deref_mut(),
+            watch: Watch { observer: &observer, batch: &batch, width: self.size[0], region: None },
             picture: &mut self.picture,
             estimator: self.estimator.as_mut(),
             error: self.error.map(|error| (error.mean, error.upper)),
@@ -290,6 +292,15 @@ impl<'a> Work<'a> {
         let report = self.renderer.render_into(&batch, &observer, &mut sink)?;
         let ended = stop_of(&report);
         add_report(&mut self.report, report);
+        if self.observer.wants_rows() {
+            let mut bands = Vec::new();
+            // Collecting them cannot fail.
+            let _ = self.picture.deliver(&mut |band| {
+                bands.push(band);
+                Ok(())
+            });
+            bands.into_iter().for_each(|band| self.observer.rows_so_far(band));
+        }
         Ok(ended)
     }
 
@@ -309,6 +320,7 @@ impl<'a> Work<'a> {
         let (Some(estimator), Some(target)) = (&mut self.estimator, self.goal.target_error) else { return false };
         let estimate = estimator.look();
         self.error = Some(estimate);
+        self.observer.error_so_far(estimate.mean, estimate.upper);
         estimate.upper <= target
     }
 }
@@ -340,5 +352,13 @@ impl Observer for Offset<'_> {
 
     fn stop_requested(&self) -> bool {
         self.observer.stop_requested()
+    }
+
+    fn wants_rows(&self) -> bool {
+        self.observer.wants_rows()
+    }
+
+    fn rows_so_far(&self, rows: Band) {
+        self.observer.rows_so_far(rows);
     }
 }

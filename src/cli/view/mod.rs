@@ -1,0 +1,225 @@
+//! A render shown while it goes on: on a page in the browser (`--view`), in tev (`--display`), and again whenever a file changes (`--watch`).
+//!
+//! The render puts what it has on a [`board`] and goes on. Threads of the server and of tev read it there.
+
+mod arguments;
+mod board;
+mod browser;
+mod layers;
+mod request;
+mod server;
+mod tev;
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use gpt::Observer;
+use gpt::film::Band;
+use gpt::load;
+use gpt::output::{Display, LayerChannel};
+
+pub use arguments::ViewArguments;
+use board::Board;
+pub use board::Phase;
+use server::Server;
+
+use super::exit::Failure;
+use super::progress::Progress;
+use super::{interrupt, terminal};
+
+/// Time between two looks at the files of the scene, and between two at Ctrl-C.
+const LOOK_INTERVAL: Duration = Duration::from_millis(100);
+/// A program that writes a file is given so long to end it.
+const SETTLING: Duration = Duration::from_millis(40);
+
+/// Where a render is shown; nowhere, if nobody asked for it.
+pub struct Live {
+    board: Option<Arc<Board>>,
+    url: Option<String>,
+    tev: Option<tev::Sender>,
+    /// A file of the scene has changed.
+    changed: Option<Arc<AtomicBool>>,
+}
+
+impl Live {
+    /// Opens what is asked for, and says where.
+    ///
+    /// # Errors
+    /// No server, or no tev at that address.
+    pub fn start(arguments: &ViewArguments, display: &Display) -> Result<Self, Failure> {
+        let mut live = Self { board: None, url: None, tev: None, changed: None };
+        if !arguments.view && arguments.tev.is_none() {
+            return Ok(live);
+        }
+        let board = Arc::new(Board::new(display));
+        if let Some(address) = &arguments.tev {
+            let refused = |error| Failure::Other(format!("--display {address}: {error}; is tev running there?"));
+            live.tev = Some(tev::start(address, board.clone()).map_err(refused)?);
+        }
+        if arguments.view {
+            let failed = |error| Failure::Other(format!("--view: the page cannot be served: {error}"));
+            let server = Server::start(board.clone()).map_err(failed)?;
+            terminal::note(&format!("the picture is shown at {}", server.url));
+            browser::open(&server.url);
+            live.url = Some(server.url);
+        }
+        if arguments.watch {
+            let changed = Arc::new(AtomicBool::new(false));
+            let flag = changed.clone();
+            let watch = move || watch_files(&flag);
+            thread::Builder::new()
+                .name("watch".to_owned())
+                .spawn(watch)
+                .map_err(|error| Failure::Other(format!("--watch: {error}")))?;
+            live.changed = Some(changed);
+        }
+        live.board = Some(board);
+        Ok(live)
+    }
+
+    /// A scene of this name is about to be rendered.
+    pub fn begin(&self, scene: &str) {
+        if let Some(board) = &self.board {
+            board.begin(scene);
+        }
+    }
+
+    /// Files are from now on what they are now; changes from now on count.
+    pub fn accept_changes(&self) {
+        if let Some(changed) = &self.changed {
+            changed.store(false, Ordering::SeqCst);
+            load::accept_changes();
+        }
+    }
+
+    /// Whether the render is to begin again.
+    pub fn restarts(&self) -> bool {
+        self.changed.as_ref().is_some_and(|changed| changed.load(Ordering::SeqCst)) && !interrupt::requested()
+    }
+
+    /// It is rendered on this device.
+    pub fn on_device(&self, device: &str) {
+        if let Some(board) = &self.board {
+            board.on_device(device);
+        }
+    }
+
+    /// Layers beside the picture are there.
+    pub fn layers(&self, channels: &[LayerChannel], size: [u32; 2]) {
+        if let Some(board) = &self.board {
+            board.layers(layers::layer_images(channels, size));
+        }
+    }
+
+    /// The render is over.
+    pub fn end(&self, phase: Phase, message: &str, files: &[String]) {
+        if let Some(board) = &self.board {
+            board.end(phase, message, files);
+        }
+    }
+
+    /// Waits until a file changes, or until Ctrl-C.
+    pub fn wait_for_change(&self) {
+        while !interrupt::requested() && !self.restarts() {
+            thread::sleep(LOOK_INTERVAL);
+        }
+    }
+
+    /// Lets the page stand until Ctrl-C, if there is one, and tev have the last picture.
+    pub fn close(self, is_over: bool) {
+        if let Some(board) = &self.board {
+            if let (Some(url), true) = (&self.url, is_over) {
+                interrupt::render_is_over();
+                terminal::note(&format!("{url} stays until Ctrl-C"));
+                while !interrupt::requested() {
+                    thread::sleep(LOOK_INTERVAL);
+                }
+            }
+            board.close();
+        }
+        if let Some(tev) = self.tev {
+            tev.join();
+        }
+    }
+
+    /// Watches a render of so many rows, whose progress people see there.
+    pub fn watching<'a>(&'a self, progress: &'a Progress, height: u32) -> Watching<'a> {
+        Watching { live: self, progress, height, shows_rows: true, asked: Mutex::new(None) }
+    }
+}
+
+/// Looks at the files of the scene until the program ends.
+fn watch_files(changed: &AtomicBool) {
+    loop {
+        thread::sleep(LOOK_INTERVAL);
+        if !changed.load(Ordering::SeqCst) && !load::changed_files().is_empty() {
+            thread::sleep(SETTLING);
+            changed.store(true, Ordering::SeqCst);
+        }
+    }
+}
+
+/// Tells people, the page and tev how far a render is.
+pub struct Watching<'a> {
+    live: &'a Live,
+    progress: &'a Progress,
+    height: u32,
+    shows_rows: bool,
+    /// When rows were asked for last.
+    asked: Mutex<Option<Instant>>,
+}
+
+impl Watching<'_> {
+    /// As it is, but for the rows: of a layer, they are none of the picture.
+    pub fn without_rows(&self) -> Self {
+        Self { shows_rows: false, asked: Mutex::new(None), ..*self }
+    }
+
+    /// Finished rows.
+    pub fn band(&self, band: &Band) {
+        if let Some(board) = &self.live.board {
+            board.rows(band.clone(), self.height, Instant::now());
+        }
+    }
+
+    fn asked(&self) -> std::sync::MutexGuard<'_, Option<Instant>> {
+        self.asked.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Observer for Watching<'_> {
+    fn progress(&self, done: u64, total: u64) {
+        self.progress.progress(done, total);
+        if let Some(board) = &self.live.board {
+            let phase = if self.shows_rows { Phase::Rendering } else { Phase::Layers };
+            board.progress(phase, done, total);
+        }
+    }
+
+    fn stop_requested(&self) -> bool {
+        self.progress.stop_requested() || self.live.restarts()
+    }
+
+    fn wants_rows(&self) -> bool {
+        let wants = self.shows_rows && self.live.board.as_ref().is_some_and(|board| board.wants_picture());
+        if wants {
+            self.asked().get_or_insert_with(Instant::now);
+        }
+        wants
+    }
+
+    fn rows_so_far(&self, rows: Band) {
+        let asked = self.asked().take().unwrap_or_else(Instant::now);
+        if let Some(board) = &self.live.board {
+            board.rows(rows, self.height, asked);
+        }
+    }
+
+    fn error_so_far(&self, expected: f64, upper: f64) {
+        if let Some(board) = &self.live.board {
+            board.error(expected, upper);
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Requests by HTTP, as far as a page of our own makes them, and who may make them.
+
+use std::io::{self, BufRead, BufReader, ErrorKind, Read, Write};
+
+/// Longest request that is read; browsers send about a kilobyte.
+const MOST_BYTES: u64 = 16 << 10;
+
+/// What is asked for.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Request {
+    pub method: String,
+    /// Without the query.
+    pub path: String,
+    pub query: String,
+    pub host: Option<String>,
+}
+
+impl Request {
+    /// Reads a request up to the end of its head; what follows is not looked at.
+    ///
+    /// # Errors
+    /// `InvalidData` for what is no request or too long; what the connection reports.
+    pub fn read(connection: impl Read) -> io::Result<Self> {
+        let mut lines = BufReader::new(connection.take(MOST_BYTES));
+        let first = line(&mut lines)?;
+        let mut words = first.split(' ');
+        let (Some(method), Some(target), Some(version), None) = (words.next(), words.next(), words.next(), words.next()) else {
+            return Err(invalid());
+        };
+        if !version.starts_with("HTTP/1.") || !target.starts_with('/') {
+            return Err(invalid());
+        }
+        let (path, query) = target.split_once('?').unwrap_or((target, ""));
+        let mut request = Self { method: method.to_owned(), path: path.to_owned(), query: query.to_owned(), host: None };
+        loop {
+            let header = line(&mut lines)?;
+            if header.is_empty() {
+                return Ok(request);
+            }
+            let (name, value) = header.split_once(':').ok_or_else(invalid)?;
+            if name.eq_ignore_ascii_case("host") {
+                // Two of them are none: proxies have been led astray by that.
+                if request.host.replace(value.trim().to_owned()).is_some() {
+                    return Err(invalid());
+                }
+            }
+        }
+    }
+
+    /// A value of the query; ours need no escapes.
+    pub fn parameter(&self, name: &str) -> Option<&str> {
+        self.query.split('&').filter_map(|pair| pair.split_once('=')).find(|(key, _)| *key == name).map(|(_, value)| value)
+    }
+}
+
+fn line(lines: &mut impl BufRead) -> io::Result<String> {
+    let mut line = String::new();
+    lines.read_line(&mut line)?;
+    let Some(line) = line.strip_suffix('\n') else { return Err(invalid()) };
+    Ok(line.strip_suffix('\r').unwrap_or(line).to_owned())
+}
+
+fn invalid() -> io::Error {
+    io::Error::new(ErrorKind::InvalidData, "it is no request")
+}
+
+/// Who may ask: who knows the secret, and came by an address of this machine. A page of another origin whose name was made to lead here asks by
+/// that name.
+pub struct Door {
+    secret: String,
+    hosts: [String; 2],
+}
+
+impl Door {
+    pub fn new(secret: String, port: u16) -> Self {
+        Self { secret, hosts: ["127.0.0.1", "localhost"].map(|host| format!("{host}:{port}")) }
+    }
+
+    /// What of the page is asked for: the path behind the secret. None: nothing may be answered.
+    pub fn admit<'r>(&self, request: &'r Request) -> Option<&'r str> {
+        let host = request.host.as_deref()?;
+        if !self.hosts.iter().any(|known| known.eq_ignore_ascii_case(host)) {
+            return None;
+        }
+        let (secret, rest) = request.path.strip_prefix('/')?.split_once('/')?;
+        same(secret.as_bytes(), self.secret.as_bytes()).then_some(rest)
+    }
+}
+
+/// Whether they are equal, in a time that does not tell where they differ.
+fn same(a: &[u8], b: &[u8]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).fold(0, |differences, (a, b)| differences | (a ^ b)) == 0
+}
+
+/// Sends an answer and what every answer says: it stays on this machine, in no cache and in no other page.
+///
+/// # Errors
+/// What the connection reports.
+pub fn answer(mut connection: impl Write, status: &str, kind: &str, body: &[u8], with_body: bool) -> io::Result<()> {
+    let head = format!(
+        "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nConnection: close\r\nCache-Control: no-store\r\n\
+         X-Content-Type-Options: nosniff\r\nX-Frame-Options: DENY\r\nReferrer-Policy: no-referrer\r\n\
+         Cross-Origin-Resource-Policy: same-origin\r\nContent-Security-Policy: default-src 'none'; connect-src 'self'; \
+         img-src data: blob:; script-src 'unsafe-inline'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\r\n\r\n",
+        body.len()
+    );
+    connection.write_all(head.as_bytes())?;
+    if with_body {
+        connection.write_all(body)?;
+    }
+    connection.flush()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Option<Request> {
+        Request::read(text.as_bytes()).ok()
+    }
+
+    #[test]
+    fn requests_are_read_and_nonsense_is_refused() {
+        let request = read("GET /a/b?x=1&y=2 HTTP/1.1\r\nUser-Agent: x\r\nhost: localhost:80\r\n\r\nrest").expect("a request");
+        assert_eq!((request.path.as_str(), request.parameter("y"), request.parameter("z")), ("/a/b", Some("2"), None));
+        assert_eq!(request.host.as_deref(), Some("localhost:80"));
+        let endless = format!("GET / HTTP/1.1\r\n{}", "a: b\r\n".repeat(10_000));
+        for bad in [
+            "",
+            "GET /",
+            "GET / HTTP/1.1\r\n",
+            "GET http://a/ HTTP/1.1\r\n\r\n",
+            "GET / x HTTP/1.1\r\n\r\n",
+            "GET / SPDY/9\r\n\r\n",
+            "GET / HTTP/1.1\r\nno colon\r\n\r\n",
+            "GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n",
+            &endless,
+        ] {
+            assert_eq!(read(bad), None, "{bad:.40}");
+        }
+        assert!(Request::read([0xff, 0xfe, b'\n'].as_slice()).is_err());
+    }
+
+    #[test]
+    fn the_door_opens_to_the_secret_by_this_machines_name() {
+        let door = Door::new("secret".to_owned(), 80);
+        let ask = |path: &str, host: Option<&str>| {
+            let request =
+                Request { method: "GET".into(), path: path.into(), query: String::new(), host: host.map(str::to_owned) };
+            door.admit(&request).map(str::to_owned)
+        };
+        assert_eq!(ask("/secret/", Some("127.0.0.1:80")).as_deref(), Some(""));
+        assert_eq!(ask("/secret/state", Some("LOCALHOST:80")).as_deref(), Some("state"));
+        for (path, host) in [
+            ("/", Some("localhost:80")),
+            ("/secret", Some("localhost:80")),
+            ("/Secret/", Some("localhost:80")),
+            ("/secre/", Some("localhost:80")),
+            ("/secrets/", Some("localhost:80")),
+            ("//secret/", Some("localhost:80")),
+            ("/secret/", None),
+            ("/secret/", Some("localhost")),
+            ("/secret/", Some("localhost:81")),
+            ("/secret/", Some("evil.example:80")),
+            ("/secret/", Some("localhost:80.evil.example")),
+        ] {
+            assert_eq!(ask(path, host), None, "{path} {host:?}");
+        }
+    }
+}

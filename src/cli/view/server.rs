@@ -1,0 +1,228 @@
+//! The page's server: on this machine's own address alone, each request in a thread of its own, so that neither a slow browser nor a render waits for
+//! the other.
+
+use std::hash::{BuildHasher, RandomState};
+use std::io;
+use std::net::{Ipv4Addr, TcpListener, TcpStream};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use gpt::film::Band;
+use gpt::output::{PictureFile, PictureFormat, PictureSpec};
+use serde::Serialize;
+
+use super::board::{Board, Picture, Status, View};
+use super::request::{Door, Request, answer};
+
+/// The page, all in one file.
+const PAGE: &str = concat!(
+    include_str!("page/head.html"),
+    "<style>\n",
+    include_str!("page/page.css"),
+    "</style>\n",
+    include_str!("page/body.html"),
+    "<script>\n",
+    include_str!("page/display.js"),
+    include_str!("page/page.js"),
+    "</script>\n"
+);
+
+/// Longest time that a browser may take to send a request, or to take a part of an answer.
+const PATIENCE: Duration = Duration::from_secs(10);
+/// Longest time that a request for news waits for some.
+const LONGEST_WAIT: Duration = Duration::from_secs(8);
+/// Requests that are answered at a time.
+const MOST_REQUESTS: usize = 32;
+
+/// A server that is running; it ends with the program.
+pub struct Server {
+    pub url: String,
+}
+
+impl Server {
+    /// Begins to answer, at a port that the system chooses.
+    ///
+    /// # Errors
+    /// No port, or no thread.
+    pub fn start(board: Arc<Board>) -> io::Result<Self> {
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
+        let port = listener.local_addr()?.port();
+        let secret = secret();
+        let url = format!("http://127.0.0.1:{port}/{secret}/");
+        let door = Arc::new(Door::new(secret, port));
+        thread::Builder::new().name("view".to_owned()).spawn(move || serve(&listener, &door, &board))?;
+        Ok(Self { url })
+    }
+}
+
+/// 128 bits that nobody can guess.
+fn secret() -> String {
+    // The standard library keys its hash tables by 128 bits of the system's randomness, and their hash tells nothing of the key.
+    let keyed = RandomState::new();
+    (0..2_u8).map(|half| format!("{:016x}", keyed.hash_one(half))).collect()
+}
+
+fn serve(listener: &TcpListener, door: &Arc<Door>, board: &Arc<Board>) {
+    let open = Arc::new(AtomicUsize::new(0));
+    loop {
+        let Ok((connection, _)) = listener.accept() else {
+            // Out of file handles, say: some will come back.
+            thread::sleep(Duration::from_millis(50));
+            continue;
+        };
+        if open.fetch_add(1, Ordering::SeqCst) >= MOST_REQUESTS {
+            open.fetch_sub(1, Ordering::SeqCst);
+            continue;
+        }
+        let counted = Counted(open.clone());
+        let (door, board) = (door.clone(), board.clone());
+        // Without a thread the connection is closed, and the browser asks again. A browser that goes away is no failure.
+        let _ = thread::Builder::new().name("view request".to_owned()).spawn(move || {
+            let _ = converse(&connection, &door, &board);
+            drop(counted);
+        });
+    }
+}
+
+/// A request under way.
+struct Counted(Arc<AtomicUsize>);
+
+impl Drop for Counted {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::SeqCst);
+    }
+}
+
+/// Ends a read at a time, however slowly bytes come.
+struct Until<'a>(&'a TcpStream, Instant);
+
+impl io::Read for Until<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let left = self.1.saturating_duration_since(Instant::now());
+        if left.is_zero() {
+            return Err(io::ErrorKind::TimedOut.into());
+        }
+        self.0.set_read_timeout(Some(left))?;
+        self.0.read(buffer)
+    }
+}
+
+fn converse(connection: &TcpStream, door: &Door, board: &Board) -> io::Result<()> {
+    connection.set_nodelay(true)?;
+    connection.set_write_timeout(Some(PATIENCE))?;
+    let request = match Request::read(Until(connection, Instant::now() + PATIENCE)) {
+        Ok(request) => request,
+        Err(error) if error.kind() == io::ErrorKind::InvalidData => {
+            return answer(connection, "400 Bad Request", TEXT, b"This is no request.\n", true);
+        }
+        Err(error) => return Err(error),
+    };
+    let with_body = request.method != "HEAD";
+    let Some(path) = door.admit(&request) else {
+        let words = b"The address that gpt printed has a secret in it, and this one has not.\n";
+        return answer(connection, "403 Forbidden", TEXT, words, with_body);
+    };
+    if request.method != "GET" && request.method != "HEAD" {
+        return answer(connection, "405 Method Not Allowed", TEXT, b"There is only something to get.\n", true);
+    }
+    match path {
+        "" => answer(connection, "200 OK", "text/html; charset=utf-8", PAGE.as_bytes(), with_body),
+        "state" => {
+            let after = request.parameter("after").and_then(|after| after.parse().ok()).unwrap_or(0);
+            let view = board.view_after(after, if after > 0 { LONGEST_WAIT } else { Duration::ZERO }, true);
+            let body = serde_json::to_vec(&State::of(&view))?;
+            answer(connection, "200 OK", "application/json", &body, with_body)
+        }
+        "picture" => {
+            let view = board.view_after(0, Duration::ZERO, true);
+            match pixels(&view, request.parameter("layer")) {
+                Some(body) => answer(connection, "200 OK", "application/octet-stream", &body?, with_body),
+                None => answer(connection, "404 Not Found", TEXT, b"There is no such layer.\n", with_body),
+            }
+        }
+        "picture.exr" => {
+            let view = board.view_after(0, Duration::ZERO, true);
+            if view.picture.mean.is_empty() {
+                return answer(connection, "404 Not Found", TEXT, b"There is no picture yet.\n", with_body);
+            }
+            answer(connection, "200 OK", "image/x-exr", &exr(&view.picture)?, with_body)
+        }
+        _ => answer(connection, "404 Not Found", TEXT, b"There is no such page.\n", with_body),
+    }
+}
+
+const TEXT: &str = "text/plain; charset=utf-8";
+
+/// What the page is told.
+#[derive(Serialize)]
+struct State<'a> {
+    version: u64,
+    #[serde(flatten)]
+    status: &'a Status,
+    /// Number, width and height of the picture.
+    picture: u64,
+    width: u32,
+    height: u32,
+    /// Fewest and most samples of a pixel.
+    samples: [u32; 2],
+    /// The relative mean squared error, were all samples independent.
+    noise: Option<f64>,
+    layers: Vec<&'a str>,
+}
+
+impl<'a> State<'a> {
+    fn of(view: &'a View) -> Self {
+        let picture = &view.picture;
+        Self {
+            version: view.version,
+            status: &view.status,
+            picture: picture.number,
+            width: picture.width,
+            height: picture.height,
+            samples: picture.sample_range(),
+            noise: picture.expected_error(),
+            layers: view.layers.iter().map(|layer| layer.name.as_str()).collect(),
+        }
+    }
+}
+
+/// Width, height and number of the picture as 32-bit integers, then five numbers of single precision a pixel, all little-endian: red, green, blue,
+/// samples, and the standard error of the luminance. Of a layer, its three numbers in the place of red, green and blue. None: no such layer.
+fn pixels(view: &View, layer: Option<&str>) -> Option<io::Result<Vec<u8>>> {
+    let picture = &view.picture;
+    let write = |[width, height]: [u32; 2], values: &[[f32; 3]]| {
+        let mut bytes = Vec::with_capacity(12 + values.len() * 20);
+        for number in [width, height, picture.number as u32] {
+            bytes.extend(number.to_le_bytes());
+        }
+        let is_of_picture = values.len() == picture.mean.len();
+        let mut errors = picture.standard_errors();
+        for (pixel, value) in values.iter().enumerate() {
+            let samples = if is_of_picture { picture.samples[pixel] } else { 0 };
+            let [r, g, b] = *value;
+            let error = errors.next().unwrap_or(f32::NAN);
+            [r, g, b, samples as f32, error].iter().for_each(|value| bytes.extend(value.to_le_bytes()));
+        }
+        bytes
+    };
+    let Some(name) = layer else { return Some(Ok(write([picture.width, picture.height], &picture.mean))) };
+    let layer = view.layers.iter().find(|layer| layer.name == name)?;
+    Some(layer.pixels().map(|values| write([layer.width, layer.height], &values)))
+}
+
+/// The picture as a file.
+fn exr(picture: &Picture) -> io::Result<Vec<u8>> {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("picture.exr");
+    let failed = |error: gpt::output::OutputError| io::Error::other(error.to_string());
+    let spec = PictureSpec { width: picture.width, height: picture.height, ..PictureSpec::default() };
+    let mut file = PictureFile::create(&path, PictureFormat::Exr, &spec).map_err(failed)?;
+    let [samples, most] = picture.sample_range();
+    let counts = (samples != most).then(|| picture.samples.clone());
+    let (width, rows) = (picture.width, picture.height);
+    file.write_band(&Arc::new(Band { width, rows, samples, counts, mean: picture.mean.clone(), ..Band::default() }))?;
+    file.finish().map_err(failed)?;
+    std::fs::read(&path)
+}

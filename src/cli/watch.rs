@@ -1,0 +1,73 @@
+//! `gpt render --watch`: again and again, on a device that stays open.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use gpt::RenderOptions;
+use gpt::load::SceneSource;
+use gpt::output::PictureFormat;
+
+use super::arguments::RenderArguments;
+use super::exit::{Exit, Failure};
+use super::pictures::is_stdout;
+use super::sequence::Ready;
+use super::view::{Live, Phase};
+use super::{interrupt, render, terminal};
+
+/// Where a scene is to be watched there is a file that can change.
+///
+/// # Errors
+/// A usage error.
+pub fn check(arguments: &RenderArguments) -> Result<(), Failure> {
+    if !arguments.live.watch {
+        return Ok(());
+    }
+    if arguments.outputs.iter().any(|path| is_stdout(path)) {
+        return Err(Failure::usage("--watch renders again and again, and -o - can be written once"));
+    }
+    match SceneSource::parse(arguments.scene.as_deref())? {
+        SceneSource::BuiltIn(name) => Err(Failure::Usage {
+            message: format!("--watch: {name} is a built-in scene, which does not change"),
+            help: Some(format!("gpt scenes {name} > {name}.toml makes a file of it")),
+        }),
+        SceneSource::StandardInput => Err(Failure::usage("--watch: what came on standard input does not change")),
+        SceneSource::File(_) | SceneSource::Model(_) | SceneSource::Import(_) => Ok(()),
+    }
+}
+
+/// Renders the scene, and again whenever it changes, until Ctrl-C.
+///
+/// # Errors
+/// What keeps the first render from beginning, but for mistakes in the scene, which can be mended.
+pub fn run(
+    arguments: &RenderArguments,
+    options: &RenderOptions,
+    outputs: &[(PathBuf, PictureFormat)],
+    ready: Ready,
+    live: Live,
+    mut started: Instant,
+) -> Result<Exit, Failure> {
+    let mut ready = Some(ready);
+    let mut last = Exit::Done;
+    let mut is_first = true;
+    while !interrupt::requested() {
+        live.accept_changes();
+        match render::scene(arguments, options, outputs, &mut ready, &live, started) {
+            Ok(exit) => last = exit,
+            Err(failure) => {
+                let exit = Exit::from(&failure);
+                if is_first && exit != Exit::Input {
+                    return Err(failure);
+                }
+                live.end(Phase::Failed, &failure.to_string(), &[]);
+                terminal::print_error(failure.into());
+                last = exit;
+            }
+        }
+        is_first = false;
+        live.wait_for_change();
+        started = Instant::now();
+    }
+    live.close(false);
+    Ok(last)
+}
