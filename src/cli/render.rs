@@ -145,10 +145,11 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     let progress = Progress::of_frame(arguments.quiet, arguments.progress, span);
     let size = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
     let watching = live.watching(&progress, size[1]);
-    let layers = match layers::render(arguments, options, (scene, wanted), outputs, (started, &progress, &watching.without_rows())) {
-        Err(Failure::Interrupted) if live.restarts() => return Ok(Done::Outdated(None)),
-        layers => layers?,
-    };
+    let layers =
+        match layers::render(arguments, options, (scene, wanted), outputs, (started, &progress, &watching.without_rows())) {
+            Err(Failure::Interrupted) if live.restarts() => return Ok(Done::Outdated(None)),
+            layers => layers?,
+        };
     live.layers(layers.channels(), size);
     let needs = needs(arguments, scene, options);
     progress.start(needs);
