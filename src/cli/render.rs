@@ -69,7 +69,9 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let ready = Ready::Device(Renderer::begin(&options));
     let live = Live::start(&arguments.live, &arguments.display.display())?;
     if arguments.live.watch {
-        return watch::run(arguments, &options, &outputs, ready, live, started);
+        let again =
+            |ready: &mut Option<Ready>, live: &Live, started: Instant| scene(arguments, &options, &outputs, ready, live, started);
+        return watch::run(ready, live, started, &again);
     }
     let exit = scene(arguments, &options, &outputs, &mut Some(ready), &live, started)?;
     live.close(exit != Exit::Interrupted);
@@ -81,7 +83,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
 ///
 /// # Errors
 /// What the scene, the device, the files and the arguments report.
-pub fn scene(
+fn scene(
     arguments: &RenderArguments,
     options: &RenderOptions,
     named_outputs: &[(PathBuf, PictureFormat)],

@@ -1,18 +1,15 @@
 //! `gpt render --watch`: again and again, on a device that stays open.
 
-use std::path::PathBuf;
 use std::time::Instant;
 
-use gpt::RenderOptions;
 use gpt::load::SceneSource;
-use gpt::output::PictureFormat;
 
 use super::arguments::RenderArguments;
 use super::exit::{Exit, Failure};
 use super::pictures::is_stdout;
 use super::sequence::Ready;
 use super::view::{Live, Phase};
-use super::{interrupt, render, terminal};
+use super::{interrupt, terminal};
 
 /// Where a scene is to be watched there is a file that can change.
 ///
@@ -35,24 +32,23 @@ pub fn check(arguments: &RenderArguments) -> Result<(), Failure> {
     }
 }
 
-/// Renders the scene, and again whenever it changes, until Ctrl-C.
+/// Renders the scene, and again whenever it changes, until Ctrl-C. `render` takes what is ready, leaves it ready for another scene, and is told when
+/// it began.
 ///
 /// # Errors
 /// What keeps the first render from beginning, but for mistakes in the scene, which can be mended.
 pub fn run(
-    arguments: &RenderArguments,
-    options: &RenderOptions,
-    outputs: &[(PathBuf, PictureFormat)],
     ready: Ready,
     live: Live,
     mut started: Instant,
+    render: &dyn Fn(&mut Option<Ready>, &Live, Instant) -> Result<Exit, Failure>,
 ) -> Result<Exit, Failure> {
     let mut ready = Some(ready);
     let mut last = Exit::Done;
     let mut is_first = true;
     while !interrupt::requested() {
         live.accept_changes();
-        match render::scene(arguments, options, outputs, &mut ready, &live, started) {
+        match render(&mut ready, &live, started) {
             Ok(exit) => last = exit,
             Err(failure) => {
                 let exit = Exit::from(&failure);
