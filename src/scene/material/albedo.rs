@@ -191,10 +191,10 @@ mod tests {
         let separable: Share = |cosine, roughness| facet_albedo(cosine, roughness, Masking::Separable);
         let height_correlated: Share = |cosine, roughness| facet_albedo(cosine, roughness, Masking::HeightCorrelated);
         for (table, share, most) in [
-            (AlbedoTable::of_facets(Masking::Separable), separable, 1e-3),
-            (AlbedoTable::of_facets(Masking::HeightCorrelated), height_correlated, 1e-3),
-            // Narrow fibres shine suddenly.
-            (AlbedoTable::of_sheen(), sheen_albedo, 5e-3),
+            (AlbedoTable::of_facets(Masking::Separable), separable, 2e-3),
+            (AlbedoTable::of_facets(Masking::HeightCorrelated), height_correlated, 2e-3),
+            // Fibres shine suddenly within a degree of the horizon.
+            (AlbedoTable::of_sheen(), sheen_albedo, 2.5e-2),
         ] {
             let mut worst = 0.0_f64;
             for (index, roughness) in midpoints(24).enumerate() {
