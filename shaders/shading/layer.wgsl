@@ -1,14 +1,19 @@
 // Layers of light: which light the layer holds that a render makes in place of the picture. src/reference/layer.rs is the same.
 
-// Whether light that reaches the camera over so many edges belongs to the layer.
-fn is_in_layer(edges: u32) -> bool {
+// Light that reaches the camera over so many edges, as far as the layer holds it: all of it where the picture itself is made.
+fn in_layer(radiance: vec3<f32>, edges: u32) -> vec3<f32> {
+#if LAYER_OF_LIGHT
 #if LAYER_EMISSION
-    return edges == 1u;
+    let is_held = edges == 1u;
 #endif
 #if LAYER_DIRECT
-    return edges == 2u;
+    let is_held = edges == 2u;
 #endif
 #if LAYER_INDIRECT
-    return edges > 2u;
+    let is_held = edges > 2u;
+#endif
+    return select(vec3<f32>(0.0), radiance, is_held);
+#else
+    return radiance;
 #endif
 }

@@ -287,3 +287,16 @@ fn light_pdf_solid_angle(ray: Ray, surface: Surface) -> f32 {
     let to_light = surface.position - ray.origin;
     return pmf * dot(to_light, to_light) / (abs(dot(ray.direction, surface.facing_normal)) * surface.area);
 }
+
+// The light that these bits chose at a point, to be written down where paths are. Elsewhere a tree is not walked twice for nothing: 0.
+fn traced_light(point: vec3<f32>, light_bits: u32) -> u32 {
+#if !LIGHT_TREE
+    return choose_light(light_bits);
+#else
+#if TRACE
+    return choose_light_at(point, light_bits).light;
+#else
+    return 0u;
+#endif
+#endif
+}

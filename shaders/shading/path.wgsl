@@ -6,134 +6,20 @@
 #import core/math.wgsl
 #import core/sampler.wgsl
 #import shading/bsdf.wgsl
+#import shading/layer.wgsl
 #import shading/light.wgsl
 #import shading/light_sample.wgsl
-#if LIGHT_TREE
-#import shading/light_tree.wgsl
-#endif
 #import shading/mis.wgsl
-#if NORMAL_SHADOWING
-#import shading/normal_shadowing.wgsl
-#endif
 #import shading/outside.wgsl
+#export shading/path_record.wgsl
 #import shading/planted.wgsl
+#import shading/scatterer.wgsl
 #import shading/scattering.wgsl
 #import shading/surface.wgsl
 #import shading/trace.wgsl
-#if ATTENUATION
-#import shading/volume.wgsl
-#endif
-#if GUIDE
-#import shading/guide.wgsl
-#import shading/guided.wgsl
-#endif
-#if LAYER_OF_LIGHT
-#import shading/layer.wgsl
-#endif
 #if LAYER_OF_SURFACES
-#import shading/surface_layer.wgsl
+#export shading/surface_layer.wgsl
 #endif
-
-struct Path {
-    ray: Ray,
-    throughput: vec3<f32>,
-    // Density of the ray's direction by solid angle; negative after the camera or a delta lobe.
-    pdf_solid_angle: f32,
-    // Product of the squared index ratios of all refractions so far; Russian roulette looks past them.
-    eta_scale: f32,
-    // Pixel over the whole film, and the sample's index within the pass.
-    pixel: u32,
-    sample_in_pass: u32,
-    // Vertices at null surfaces so far.
-    null_vertices: u32,
-#if TRANSPARENT_SHADOWS
-    // Where the ray began that went on through the null surfaces last met: light was sampled from there.
-    lit_from: vec3<f32>,
-#endif
-#if ATTENUATION
-    // Of what the ray goes through.
-    extinction: vec3<f32>,
-#endif
-}
-
-struct ShadowRay {
-    ray: Ray,
-    distance: f32,
-    // What the path gains if nothing is in the way; all 0: there is no shadow ray.
-    radiance: vec3<f32>,
-}
-
-// What light samples of a vertex start from.
-struct LitVertex {
-    // As it arrived there.
-    path: Path,
-    vertex: u32,
-    surface: Surface,
-    bsdf: Bsdf,
-#if GUIDE
-    guide: GuideCell,
-#endif
-}
-
-// What comes of a vertex.
-struct Shading {
-    // The path goes on along its new ray.
-    alive: bool,
-    // Radiance found at this vertex, already times throughput and weight.
-    radiance: vec3<f32>,
-    // How many light samples are taken here; the first one's shadow ray; what further_shadow_ray makes the others of.
-    light_samples: u32,
-    shadow: ShadowRay,
-    lit: LitVertex,
-}
-
-// A path on its first edge.
-fn new_path(ray: Ray, pixel: u32, sample_in_pass: u32) -> Path {
-    return Path(
-        ray, vec3<f32>(1.0), -1.0, 1.0, pixel, sample_in_pass, 0u
-#if TRANSPARENT_SHADOWS
-        , ray.origin
-#endif
-#if ATTENUATION
-        , vec3<f32>(0.0)
-#endif
-    );
-}
-
-// The path's ray from where light was last sampled: shadow rays from there meet the same surfaces as the path, and go on through null ones
-// as it does. So what both find is shared out by the densities that they have there.
-fn ray_from_lit_vertex(path: Path) -> Ray {
-#if TRANSPARENT_SHADOWS
-    return Ray(path.lit_from, path.ray.direction);
-#else
-    return path.ray;
-#endif
-}
-
-fn no_shadow_ray() -> ShadowRay {
-    return ShadowRay(Ray(vec3<f32>(0.0), vec3<f32>(0.0, 0.0, 1.0)), 0.0, vec3<f32>(0.0));
-}
-
-// Whether the path may gain anything from it.
-fn is_needed(shadow: ShadowRay) -> bool {
-    return any(shadow.radiance != vec3<f32>(0.0));
-}
-
-fn no_shading() -> Shading {
-    var shading: Shading;
-    shading.shadow = no_shadow_ray();
-    return shading;
-}
-
-// Depth of the path's ray that ends at this vertex.
-fn depth_at(path: Path, vertex: u32) -> u32 {
-    return vertex - select(0u, path.null_vertices, HAS_NULL_SURFACES);
-}
-
-// How many light samples a surface takes that a ray of this depth met.
-fn light_samples_at(depth: u32) -> u32 {
-    return select(1u, LIGHT_SAMPLES, depth >= 1u && depth <= LIGHT_SAMPLES_DEPTH);
-}
 
 // Weight of emission met by a ray of the given density, where all light samples together have density `pdf_light`.
 fn emission_weight(pdf_solid_angle: f32, pdf_light: f32) -> f32 {
@@ -160,10 +46,7 @@ fn escaped_radiance(path: Path, depth: u32) -> vec3<f32> {
         radiance *= weight;
     }
     trace_found(radiance, weight);
-#if LAYER_OF_LIGHT
-    radiance = select(vec3<f32>(0.0), radiance, is_in_layer(depth));
-#endif
-    return radiance;
+    return in_layer(radiance, depth);
 }
 
 // Radiance that a path gains from the emission of a surface that its ray, of this depth, met.
@@ -180,9 +63,7 @@ fn emitted_radiance(path: Path, surface: Surface, depth: u32) -> vec3<f32> {
             }
             radiance = path.throughput * emitted * weight;
             trace_found(radiance, weight);
-#if LAYER_OF_LIGHT
-            radiance = select(vec3<f32>(0.0), radiance, is_in_layer(depth));
-#endif
+            radiance = in_layer(radiance, depth);
         }
     }
     return radiance;
@@ -192,17 +73,6 @@ fn emitted_radiance(path: Path, surface: Surface, depth: u32) -> vec3<f32> {
 fn shading_point(surface: Surface) -> vec3<f32> {
     return surface.position + surface.error * surface.facing_normal;
 }
-
-#if LIGHT_TREE
-// The light that was chosen, to be written down where paths are; else 0, because a tree is not walked twice for nothing.
-fn traced_light(surface: Surface, light_bits: u32) -> u32 {
-#if TRACE
-    return choose_light_at(shading_point(surface), light_bits).light;
-#else
-    return 0u;
-#endif
-}
-#endif
 
 // The shadow ray of one of the light samples that a surface takes, chosen by `light_bits`, given the surface's value towards it.
 fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, light_bits: u32, value: BsdfValue) -> ShadowRay {
@@ -219,9 +89,7 @@ fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, ligh
         }
     }
     var radiance = path.throughput * value.value * light.radiance * planted_factor(surface.material);
-#if ATTENUATION
-    radiance *= volume_transmittance(extinction_towards(surface, light.wi, path.extinction), light.distance);
-#endif
+    radiance *= volume_share(path, surface, light.wi, light.distance);
     let count = f32(light_samples_at(depth));
     // Several samples are as dense together as one of as many times its density.
     let pdf_light = count * light.pdf_solid_angle;
@@ -235,15 +103,8 @@ fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, ligh
     } else {
         radiance = radiance / count;
     }
-#if LIGHT_TREE
-    trace_light(light.wi, pdf_light, radiance, weight, traced_light(surface, light_bits), value.pdf_solid_angle);
-#else
-    trace_light(light.wi, pdf_light, radiance, weight, choose_light(light_bits), value.pdf_solid_angle);
-#endif
-#if LAYER_OF_LIGHT
-    radiance = select(vec3<f32>(0.0), radiance, is_in_layer(depth + 1u));
-#endif
-    return ShadowRay(ray, ray_length, radiance);
+    trace_light(light.wi, pdf_light, radiance, weight, traced_light(sampled_from, light_bits), value.pdf_solid_angle);
+    return ShadowRay(ray, ray_length, in_layer(radiance, depth + 1u));
 }
 
 // The shadow ray of light sample `number`, not the first, of a vertex that takes more.
@@ -251,63 +112,11 @@ fn further_shadow_ray(lit: LitVertex, number: u32) -> ShadowRay {
     let depth = depth_at(lit.path, lit.vertex);
     let light_bits = further_light_bits(lit.path.pixel, lit.path.sample_in_pass, lit.vertex, depth, number);
     let light = sample_light(shading_point(lit.surface), light_bits);
-#if GUIDE
-    var value = evaluate_guided(lit.guide, lit.bsdf, lit.surface, -lit.path.ray.direction, light.wi);
-#else
-    var value = evaluate_bsdf(lit.bsdf, lit.surface, -lit.path.ray.direction, light.wi);
-#endif
-#if NORMAL_SHADOWING
-    value.value *= normal_shadowing(lit.surface.unbent_normal, lit.surface.shading_normal, light.wi);
-#endif
+    let value = evaluate_scatterer(lit.scatterer, lit.surface, -lit.path.ray.direction, light.wi);
     return shadow_ray(lit.path, lit.surface, depth, light, light_bits.x, value);
 }
 
-#if LAYER_OF_SURFACES
-// Follows a path whose ray met `hit`, its vertex number `vertex`, to the surface that the layer is of: replaces `path`, or returns the layer's
-// value as what was found.
-fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
-    var incoming = *path;
-    let wo = -incoming.ray.direction;
-    var shading = no_shading();
-    trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
-    if hit.primitive == NONE {
-        shading.radiance = vec3<f32>(NOTHING_MET);
-        return shading;
-    }
-    let surface = hit_surface(incoming.ray, hit);
-#if ATTENUATION
-    incoming.throughput *= volume_transmittance(incoming.extinction, distance(surface.position, incoming.ray.origin));
-#endif
-    trace_surface(surface.position, surface.shading_normal, surface.material);
-    var drawn = no_sample();
-    if depth_at(incoming, vertex) < MAX_DEPTH {
-        let random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex);
-        let more_random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex + 1u);
-        let bsdf = load_bsdf(surface, wo, uniform_float(more_random.w));
-        let scattering = scatter(
-            bsdf, surface, wo, false, wo, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)
-        );
-        drawn = scattering.drawn;
-    }
-    if !is_followed(drawn) {
-        shading.radiance = surface_value(incoming.throughput, surface, drawn);
-        return shading;
-    }
-    shading.alive = true;
-    (*path).ray = Ray(offset_origin(surface, drawn.wi), drawn.wi);
-    (*path).throughput = incoming.throughput * drawn.weight;
-    (*path).pdf_solid_angle = drawn.pdf_solid_angle;
-#if ATTENUATION
-    if !drawn.is_null {
-        (*path).extinction = extinction_towards(surface, drawn.wi, incoming.extinction);
-    }
-#endif
-    if drawn.is_null {
-        (*path).null_vertices++;
-    }
-    return shading;
-}
-#else
+#if !LAYER_OF_SURFACES
 // Extends a path whose ray met `hit`, its vertex number `vertex`: replaces `path`, returns what was found.
 fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     var incoming = *path;
@@ -315,18 +124,14 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     let wo = -incoming.ray.direction;
     var shading = no_shading();
     if hit.primitive == NONE {
-#if ATTENUATION
-        incoming.throughput *= volume_transmittance(incoming.extinction, INFINITY_DISTANCE);
-#endif
+        incoming.throughput = arriving_throughput(incoming, INFINITY_DISTANCE);
         trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
         shading.radiance = escaped_radiance(incoming, depth);
         return shading;
     }
     let surface = hit_surface(incoming.ray, hit);
-#if ATTENUATION
     // A hit in an instance may come without its distance.
-    incoming.throughput *= volume_transmittance(incoming.extinction, distance(surface.position, incoming.ray.origin));
-#endif
+    incoming.throughput = arriving_throughput(incoming, distance(surface.position, incoming.ray.origin));
     trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
     trace_surface(surface.position, surface.shading_normal, surface.material);
     shading.radiance = emitted_radiance(incoming, surface, depth);
@@ -338,30 +143,19 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     }
     let random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex);
     let more_random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex + 1u);
-    let bsdf = load_bsdf(surface, wo, uniform_float(more_random.w));
-    let samples_light = HAS_LIGHTS && has_non_delta_lobe(bsdf) && !last_edge;
+    let scatterer = load_scatterer(surface, wo, uniform_float(more_random.w));
+    let samples_light = HAS_LIGHTS && has_non_delta_lobe(scatterer.bsdf) && !last_edge;
     var light = no_light();
     if samples_light {
         light = sample_light(shading_point(surface), random);
     }
-#if GUIDE
-    let cell = guide_at(surface, guided_probability(bsdf));
-    let scattering = scatter_guided(
-        cell, bsdf, surface, wo, samples_light, light.wi, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)
+    let scattering = scatter_by(
+        scatterer, surface, wo, samples_light, light.wi, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)
     );
-#else
-    let scattering = scatter(
-        bsdf, surface, wo, samples_light, light.wi, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)
-    );
-#endif
     if samples_light {
         shading.light_samples = light_samples_at(depth);
         shading.shadow = shadow_ray(incoming, surface, depth, light, random.x, scattering.towards_light);
-#if GUIDE
-        shading.lit = LitVertex(incoming, vertex, surface, bsdf, cell);
-#else
-        shading.lit = LitVertex(incoming, vertex, surface, bsdf);
-#endif
+        shading.lit = LitVertex(incoming, vertex, surface, scatterer);
     }
 
     let drawn = scattering.drawn;
@@ -372,11 +166,10 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     if max_component(throughput) <= 0.0 {
         return shading;
     }
-    let eta_scale = incoming.eta_scale * drawn.eta_scale;
     trace_sample(drawn.wi, drawn.pdf_solid_angle, drawn.weight, drawn.eta_scale, drawn.is_null);
     if HAS_ROULETTE && depth >= ROULETTE_DEPTH && !drawn.is_null {
         // Past depth 64 even a lossless path ends some day.
-        let survival = min(max_component(throughput) * eta_scale, select(1.0, 0.999, depth >= 64u));
+        let survival = min(max_component(throughput) * (incoming.eta_scale * drawn.eta_scale), select(1.0, 0.999, depth >= 64u));
         trace_roulette(survival);
         if uniform_float(more_random.z) >= survival {
             return shading;
@@ -384,23 +177,7 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
         throughput /= survival;
     }
     shading.alive = true;
-    (*path).ray = Ray(offset_origin(surface, drawn.wi), drawn.wi);
-    (*path).throughput = throughput;
-#if TRANSPARENT_SHADOWS
-    // Through a null surface goes the ray that was drawn before.
-    (*path).pdf_solid_angle = select(drawn.pdf_solid_angle, incoming.pdf_solid_angle, drawn.is_null);
-    (*path).lit_from = select((*path).ray.origin, incoming.lit_from, drawn.is_null);
-#else
-    (*path).pdf_solid_angle = drawn.pdf_solid_angle;
-#endif
-#if ATTENUATION
-    // Nothing lies behind a surface that is not there.
-    if !drawn.is_null {
-        (*path).extinction = extinction_towards(surface, drawn.wi, incoming.extinction);
-    }
-#endif
-    (*path).eta_scale = eta_scale;
-    (*path).null_vertices += select(0u, 1u, drawn.is_null);
+    *path = extended_path(incoming, surface, drawn, throughput);
     return shading;
 }
 #endif

@@ -2,8 +2,12 @@
 // or refract it as a mirror does. src/reference/layer.rs is the same in f64.
 #import core/math.wgsl
 #import core/parameters.wgsl
+#import core/sampler.wgsl
+#import shading/path_record.wgsl
+#import shading/scatterer.wgsl
 #import shading/scattering.wgsl
 #import shading/surface.wgsl
+#import shading/trace.wgsl
 
 // Stands for the value where nothing is met. Its square is not finite: the film counts no such sample.
 const NOTHING_MET: f32 = 3.0e38;
@@ -32,4 +36,37 @@ fn surface_value(throughput: vec3<f32>, surface: Surface, drawn: BsdfSample) -> 
 #if LAYER_DEPTH
     return vec3<f32>(dot(surface.position - view.position.xyz, view.forward.xyz));
 #endif
+}
+
+// Follows a path whose ray met `hit`, its vertex number `vertex`, to the surface that the layer is of: replaces `path`, or returns the layer's
+// value as what was found.
+fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
+    var incoming = *path;
+    let wo = -incoming.ray.direction;
+    var shading = no_shading();
+    trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
+    if hit.primitive == NONE {
+        shading.radiance = vec3<f32>(NOTHING_MET);
+        return shading;
+    }
+    let surface = hit_surface(incoming.ray, hit);
+    incoming.throughput = arriving_throughput(incoming, distance(surface.position, incoming.ray.origin));
+    trace_surface(surface.position, surface.shading_normal, surface.material);
+    var drawn = no_sample();
+    if depth_at(incoming, vertex) < MAX_DEPTH {
+        let random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex);
+        let more_random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex + 1u);
+        let scatterer = load_scatterer(surface, wo, uniform_float(more_random.w));
+        let scattering = scatter_by(
+            scatterer, surface, wo, false, wo, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)
+        );
+        drawn = scattering.drawn;
+    }
+    if !is_followed(drawn) {
+        shading.radiance = surface_value(incoming.throughput, surface, drawn);
+        return shading;
+    }
+    shading.alive = true;
+    *path = extended_path(incoming, surface, drawn, incoming.throughput * drawn.weight);
+    return shading;
 }
