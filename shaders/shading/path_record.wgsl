@@ -1,7 +1,5 @@
 // A path on its way, and what comes of one of its vertices.
-#import core/layout.wgsl
 #import core/math.wgsl
-#import shading/bsdf.wgsl
 #import shading/scatterer.wgsl
 #import shading/scattering.wgsl
 #import shading/surface.wgsl

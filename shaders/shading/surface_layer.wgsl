@@ -1,5 +1,6 @@
 // Layers of surfaces: what a render reports in place of radiance, of the first surface that a path meets, or of the first that does not reflect
 // or refract it as a mirror does. src/reference/layer.rs is the same in f64.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import core/parameters.wgsl
 #import core/sampler.wgsl

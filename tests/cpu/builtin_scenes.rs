@@ -8,6 +8,7 @@ use gpt::load;
 use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
 use gpt::plan::{DeviceLimits, Plan, PlanOptions, RayQueryLimits, TraversalChoice};
+use gpt::reference::training::learn_for_device;
 use gpt::scene::Scene;
 use gpt::shader::switches::SWITCHES;
 
@@ -45,7 +46,8 @@ const OF_DEVICES: [&str; 26] = [
 fn compiled_in(scenes: &[Scene], limits: &DeviceLimits, options: &PlanOptions) -> BTreeSet<&'static str> {
     let traversal = if options.asks_for_ray_queries() { Traversal::RayQuery } else { Traversal::Bvh };
     let of_scene = |scene: &Scene| {
-        let packed = PackedScene::for_traversal(scene, traversal).expect("it packs");
+        let mut packed = PackedScene::for_traversal(scene, traversal).expect("it packs");
+        packed.guide = learn_for_device(scene).expect("the reference renders it").words().to_vec();
         // Ray queries do not see what moves.
         Plan::new(scene, &packed, limits, options).map_or_else(|_| BTreeSet::new(), |plan| plan.switches.enabled)
     };
