@@ -32,17 +32,15 @@ pub fn check(arguments: &RenderArguments) -> Result<(), Failure> {
     }
 }
 
+/// Renders once: with what is ready, for the view, since a time.
+type Rendering<'a> = dyn Fn(&mut Option<Ready>, &Live, Instant) -> Result<Exit, Failure> + 'a;
+
 /// Renders the scene, and again whenever it changes, until Ctrl-C. `render` takes what is ready, leaves it ready for another scene, and is told when
 /// it began.
 ///
 /// # Errors
 /// What keeps the first render from beginning, but for mistakes in the scene, which can be mended.
-pub fn run(
-    ready: Ready,
-    live: Live,
-    mut started: Instant,
-    render: &dyn Fn(&mut Option<Ready>, &Live, Instant) -> Result<Exit, Failure>,
-) -> Result<Exit, Failure> {
+pub fn run(ready: Ready, live: Live, mut started: Instant, render: &Rendering<'_>) -> Result<Exit, Failure> {
     let mut ready = Some(ready);
     let mut last = Exit::Done;
     let mut is_first = true;

@@ -151,13 +151,11 @@ fn layer_rows(channels: &[Channel], row: u32) -> Result<BTreeMap<usize, Vec<[f32
     Ok(rows)
 }
 
+/// Of a row: the layers' values by the address of their picture, and those of a part's own channels.
+type LayerRows<'a> = (&'a BTreeMap<usize, Vec<[f32; 3]>>, &'a [[f32; PART.len()]]);
+
 /// Appends a row of a channel. Of a part, there are also the values of its own channels, pixel by pixel.
-fn pack(
-    channel: &Channel,
-    row: &Row<'_>,
-    (layers, of_part): (&BTreeMap<usize, Vec<[f32; 3]>>, &[[f32; PART.len()]]),
-    data: &mut Vec<u8>,
-) {
+fn pack(channel: &Channel, row: &Row<'_>, (layers, of_part): LayerRows<'_>, data: &mut Vec<u8>) {
     let layer = |picture: &Arc<LayerPicture>| layers[&(Arc::as_ptr(picture) as usize)].iter();
     let (pixels, counts) = (row.mean, &row.counts);
     match &channel.content {

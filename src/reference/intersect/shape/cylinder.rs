@@ -131,8 +131,8 @@ impl Cylinder {
         let b = -origin.dot(direction);
         let nearest = origin + direction * (b / a);
         let discriminant = a * (self.radius * self.radius - nearest.length_squared());
-        // Along the axis there is no crossing: 0/0 fails the comparison.
-        if !(discriminant >= 0.0) {
+        // Along the axis there is no crossing, and 0/0.
+        if discriminant.is_nan() || discriminant < 0.0 {
             return [None, None];
         }
         let c = origin.length_squared() - self.radius * self.radius;
