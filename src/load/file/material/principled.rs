@@ -78,7 +78,7 @@ impl MaterialKeys for Keys {
         "base_color = [0.4, 0.8, 0.9]\nmetallic = 0\nroughness = 0\ntransmission = 1",
         "base_color = [0.3, 0.2, 0.25]\nmetallic = 0\nroughness = 0\nclearcoat = 1",
         "base_color = [0.3, 0.05, 0.1]\nmetallic = 0\nroughness = 0.8\nsheen_color = [0.9, 0.6, 0.7]\nsheen_roughness = 0.4",
-        "base_color = [0.9, 0.8, 0.7]\nmetallic = 0.2\nroughness = 0\nior = 1.1\ntransmission = 0.4\nclearcoat = 0.5\nclearcoat_roughness = 0.3\nsheen_color = [0.2, 0.6, 0.5]\nsheen_roughness = 0.7",
+        "base_color = [0.6, 0.5, 0.4]\nmetallic = 0.2\nroughness = 0\nior = 1.1\ntransmission = 1\nclearcoat = 0.5\nclearcoat_roughness = 0.3\nsheen_color = [0.2, 0.6, 0.5]\nsheen_roughness = 0.7",
         "base_color = [0.9, 0.6, 0.3]\nroughness = 0.8\nenergy_compensation = true",
         "base_color = [0.5, 0.9, 0.6]\nmetallic = 0.4\nroughness = 0.9\nanisotropy = 0.3\nmasking = \"height_correlated\"\nenergy_compensation = true\nsheen_color = 0.5\nsheen_roughness = 1",
         "base_color = [0.9, 0.9, 1]\nmetallic = 0\nroughness = 0.2\nior = 1.3\ntransmission = 1\nattenuation_color = [0.9, 0.4, 0.1]\nattenuation_distance = 0.5",

@@ -23,8 +23,7 @@ shape_keys! {
 impl ShapeKeys for Keys {
     type Shape = Cylinder;
 
-    const EXAMPLES: &'static [&'static str] =
-        &["from = [0.1, -0.8, 0]\nto = [-0.2, 0.7, 0.3]\nradius = 0.6", "from = [0, 0, -0.5]\nto = [0, 0, 0.4]\nradius = 0.9"];
+    const EXAMPLES: &'static [&'static str] = &["from = [0.1, -0.8, 0]\nto = [-0.2, 0.7, 0.3]\nradius = 0.6"];
 
     fn resolve(&self, resolver: &mut Resolver<'_>, _: &mut Written<'_>) -> Result<Cylinder, SceneError> {
         let (from, to) = (vector(self.from), vector(self.to.value));
