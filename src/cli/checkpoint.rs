@@ -125,6 +125,14 @@ pub fn remove_of_layers(arguments: &CheckpointArguments, outputs: &[(PathBuf, Pi
     }
 }
 
+/// Removes the states of a render that was killed after its picture was in place.
+pub fn remove_beside_finished(arguments: &CheckpointArguments, outputs: &[(PathBuf, PictureFormat)]) {
+    if let Some(picture) = kept_picture(arguments, outputs) {
+        remove_state(&path_beside(picture));
+    }
+    remove_of_layers(arguments, outputs);
+}
+
 impl Kept {
     /// Looks for the state that the render goes on from.
     ///

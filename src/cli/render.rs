@@ -138,6 +138,7 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
         ..PictureSpec::default()
     };
     if arguments.checkpoint.resume && checkpoint::all_are_finished(outputs, (scene, ready.bulk_digest()), options, &shown) {
+        checkpoint::remove_beside_finished(&arguments.checkpoint, outputs);
         if !arguments.quiet {
             terminal::note(&format!("{}: finished before, nothing is left to render", names(outputs)));
         }

@@ -11,7 +11,9 @@ use super::constants::NONE;
 use super::error::PackError;
 use super::texture::mention;
 use crate::scene::material::{self, AlbedoTable};
-use crate::scene::{BlendMode, Channel, ChannelInput, ColorInput, LobeKind, Masking, Material, MaterialId, MaterialKind, Scene};
+use crate::scene::{
+    Attenuation, BlendMode, Channel, ChannelInput, ColorInput, LobeKind, Masking, Material, MaterialId, MaterialKind, Scene,
+};
 use crate::shader::shared::{Constant, Constants, shared_constants};
 
 /// Above a packed material's kind stands its lobe's form.
@@ -192,9 +194,10 @@ impl PackedMaterials {
     /// [`PackError::TooManyWeights`] where the branches of nested blends have more weights than can be kept.
     pub fn new(scene: &Scene, of_surfaces: &BTreeSet<MaterialId>) -> Result<Self, PackError> {
         let mut packed = Self::default();
+        let volumes = scene.volumes_behind();
         for &id in of_surfaces {
             let material = match scene.materials[id].kind {
-                MaterialKind::Blend { .. } => packed.blend(scene, id)?,
+                MaterialKind::Blend { .. } => packed.blend(scene, id, volumes[id])?,
                 _ => packed.plain(&scene.materials[id]),
             };
             packed.materials.push(material);
@@ -282,7 +285,7 @@ impl PackedMaterials {
             .filter(|texture| **texture != NONE)
     }
 
-    fn blend(&mut self, scene: &Scene, id: MaterialId) -> Result<PackedMaterial, PackError> {
+    fn blend(&mut self, scene: &Scene, id: MaterialId, volume: Option<Attenuation>) -> Result<PackedMaterial, PackError> {
         let Parts { plain, emitting_blends } = parts(scene, id)?;
         let mut packed = PackedMaterial::new(&scene.materials[id]);
         // A blend that always is one of its materials is that material.
@@ -309,7 +312,7 @@ impl PackedMaterials {
         if plain.iter().any(|part| matches!(scene.materials[part.material].kind, MaterialKind::Pass)) {
             packed.emission_flags |= LETS_THROUGH;
         }
-        if let Some(attenuation) = scene.volume_behind(id) {
+        if let Some(attenuation) = volume {
             packed.emission_flags |= ENCLOSES_VOLUME;
             packed.color0 = attenuation.extinction().as_vec3().to_array();
         }

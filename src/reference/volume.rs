@@ -17,8 +17,8 @@ pub struct Volumes {
 
 impl Volumes {
     pub fn new(scene: &Scene) -> Self {
-        let of_material = |id| scene.volume_behind(id).map(|attenuation| attenuation.extinction());
-        let mut behind: Vec<_> = (0..scene.materials.len()).map(of_material).collect();
+        let volumes = scene.volumes_behind().into_iter();
+        let mut behind: Vec<_> = volumes.map(|volume| volume.map(|attenuation| attenuation.extinction())).collect();
         if behind.iter().all(Option::is_none) {
             behind.clear();
         }

@@ -88,21 +88,32 @@ impl Scene {
         found
     }
 
-    /// What takes light behind a surface of this material; of a blend, that of the first part that encloses something.
+    /// What takes light behind a surface of each material; of a blend, what the first part does that encloses something.
     #[doc(hidden)]
-    pub fn volume_behind(&self, material: MaterialId) -> Option<Attenuation> {
-        let mut seen = vec![false; self.materials.len()];
-        let mut to_visit = vec![material];
-        while let Some(id) = to_visit.pop() {
-            match &self.materials[id].kind {
-                MaterialKind::Principled(principled) if principled.attenuation.is_some() => return principled.attenuation,
-                MaterialKind::Blend { materials: [first, second], .. } if !std::mem::replace(&mut seen[id], true) => {
-                    to_visit.extend([*second, *first]);
+    pub fn volumes_behind(&self) -> Vec<Option<Attenuation>> {
+        let own = |material: &Material| match &material.kind {
+            MaterialKind::Principled(principled) => principled.attenuation,
+            _ => None,
+        };
+        let mut found: Vec<Option<Attenuation>> = self.materials.iter().map(own).collect();
+        if found.iter().all(Option::is_none) {
+            return found;
+        }
+        // Parts before wholes, each material once. One that is a part of itself is for the check of the scene to refuse.
+        let mut is_entered = vec![false; found.len()];
+        let mut to_visit = Vec::new();
+        for root in 0..found.len() {
+            to_visit.push((root, false));
+            while let Some((id, parts_are_known)) = to_visit.pop() {
+                let MaterialKind::Blend { materials: [first, second], .. } = self.materials[id].kind else { continue };
+                if parts_are_known {
+                    found[id] = found[first].or(found[second]);
+                } else if !std::mem::replace(&mut is_entered[id], true) {
+                    to_visit.extend([(id, true), (first, false), (second, false)]);
                 }
-                _ => {}
             }
         }
-        None
+        found
     }
 
     /// The material emits, by itself or through a part of it.

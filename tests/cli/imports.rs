@@ -36,11 +36,12 @@ fn what_is_written_renders_the_same_picture() {
 fn models_are_imported_as_they_are_framed() {
     let place = Workplace::new();
     place.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0.3\nf 1 2 3\n");
+    // A model is framed for the shape of its picture.
     place.expect(0, "import m.obj -o written.toml");
-    place.expect(0, "render written.toml --size 12x9 --spp 2 --device cpu --quiet -o b.exr");
-    place.expect(0, "render m.obj --size 12x9 --spp 2 --device cpu --quiet -o a.exr");
+    place.expect(0, "render written.toml --size 12x12 --spp 2 --device cpu --quiet -o b.exr");
+    place.expect(0, "render m.obj --size 12x12 --spp 2 --device cpu --quiet -o a.exr");
     place.expect(0, "compare a.exr b.exr");
-    place.expect(0, "render m.obj --size 12x9 --spp 2 --seed 9 --device cpu --quiet -o c.exr");
+    place.expect(0, "render m.obj --size 12x12 --spp 2 --seed 9 --device cpu --quiet -o c.exr");
     place.expect(7, "compare a.exr c.exr");
 }
 

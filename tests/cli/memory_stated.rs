@@ -28,7 +28,7 @@ fn memory_is_what_was_stated() {
         let (mut first_expected, mut largest) = (f64::INFINITY, 0.0);
         for arguments in [
             "scene.toml --spp 1",
-            "scene.toml --spp 1 --size 900x900 --max-depth 1",
+            "scene.toml --spp 1 --size 1200x1200 --max-depth 1",
             "scene.toml --spp 16 --size 400x400 --max-depth 1 --adaptive --checkpoint 0.1",
             "grid.obj --spp 1 --size 32x32",
         ] {
