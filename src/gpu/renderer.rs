@@ -27,7 +27,7 @@ use crate::renderer::{Batch, Change, DeviceChoice, Ending, Observer, RenderError
 use crate::sampling::Sampling;
 use crate::scene::{MaterialId, Scene};
 
-/// Adds the guide to a packed scene, where the scene's settings want one and it pays; the CPU traces some paths for it.
+/// Adds the guide to a packed scene, where the scene's settings want one; the CPU traces some paths for it.
 ///
 /// # Errors
 /// What the reference cannot render.
@@ -50,7 +50,7 @@ pub struct GpuRenderer {
     /// What a camera that moves is put together with.
     center: DVec3,
     environment: PackedEnvironment,
-    /// Paths are guided, or it was found that this does not pay.
+    /// A guide was asked for, whether or not training found light to make one of.
     is_trained: bool,
 }
 

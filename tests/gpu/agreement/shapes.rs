@@ -98,11 +98,7 @@ fn every_shape_agrees_in_every_part() {
         if index % 2 == 0 {
             assert_agrees(&name, &scene, &PlanOptions::default());
         } else {
-            // Through a tube that they graze, f32 does not resolve the density of directions: what light sampling alone makes of the dim samples
-            // there is off by more than the rounding of any one step.
-            if name != "cylinder, portal" {
-                scene.render.estimator = Estimator::Nee;
-            }
+            scene.render.estimator = Estimator::Nee;
             assert_agrees(&format!("{name}, wavefront"), &scene, &by_wavefront);
         }
     }
