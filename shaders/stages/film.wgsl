@@ -48,9 +48,7 @@ fn store_film(pixel_in_band: u32, sum: vec4<f32>, compensation: vec4<f32>) {
 struct FilmPixel {
     sum: vec4<f32>,
     compensation: vec4<f32>,
-    // Squared luminance and refused samples since it was loaded. Squares are summed pass by pass, which keeps four digits at any
-    // number of samples, as many as a variance is worth.
-    squares: f32,
+    // Refused samples since it was loaded.
     refused: u32,
 #if CLAMP
     clamped: u32,
@@ -73,6 +71,10 @@ fn opaque(x: vec3<f32>) -> vec3<f32> {
     return bitcast<vec3<f32>>(bitcast<vec3<u32>>(x) ^ vec3<u32>(pass_parameters.opaque_zero));
 }
 
+fn opaque_number(x: f32) -> f32 {
+    return bitcast<f32>(bitcast<u32>(x) ^ pass_parameters.opaque_zero);
+}
+
 #if CLAMP
 // The sample, its brightest channel no brighter than the setting `clamp` allows, in its own colour. One that is not finite is left as it is.
 fn clamped(pixel: ptr<function, FilmPixel>, sample: vec3<f32>) -> vec3<f32> {
@@ -91,6 +93,24 @@ fn clamped(pixel: ptr<function, FilmPixel>, sample: vec3<f32>) -> vec3<f32> {
     return sample;
 }
 #endif
+
+// The sum of squares and one more. They too are summed sample by sample, so that parts of pictures are the same bytes however samples were cut
+// into passes. There is no room for what rounding lost, and to the nearest number a long sum would lose small squares altogether. So a sum that
+// is no number of single precision goes to the one above or below, with the probability that keeps the mean (stochastic rounding), which
+// loses a digit with the square root of the samples: four are left of 2^24, as many as a variance is worth. `number` counts the samples.
+fn with_square(sum: f32, square: f32, number: u32) -> f32 {
+    let nearest = opaque_number(sum + square);
+    let lost = opaque_number(nearest - max(sum, square)) - min(sum, square);
+    let bits = bitcast<u32>(nearest);
+    // The distance to the next number is 2^-23 of the power of two below.
+    let unit = bitcast<f32>(bits & 0x7f800000u) * 1.1920929e-7;
+    // Multiples of the golden ratio: evenly spread over any run of samples.
+    let chance = (f32((number * 0x9e3779b9u) >> 9u) + 0.5) / 8388608.0;
+    if !(abs(lost) > chance * unit) {
+        return nearest;
+    }
+    return bitcast<f32>(select(bits + 1u, bits - 1u, lost > 0.0));
+}
 
 // Compensated summation (Kahan 1965), sample by sample: the relative error does not grow with the number of samples, and the sum does
 // not depend on how samples were cut into passes. `opaque` keeps compilers from cancelling (sum + y) - sum.
@@ -119,13 +139,12 @@ fn add_sample(pixel: ptr<function, FilmPixel>, found: vec3<f32>) {
     let sum = opaque(old + y);
     let lost = opaque(sum - old) - y;
     (*pixel).sum = vec4<f32>(sum, (*pixel).sum.w);
-    (*pixel).compensation = vec4<f32>(lost, (*pixel).compensation.w);
-    (*pixel).squares += l * l;
+    let squares = with_square((*pixel).compensation.w, l * l, u32((*pixel).sum.w));
+    (*pixel).compensation = vec4<f32>(lost, squares);
 }
 
 fn store_film_pixel(pixel_in_band: u32, pixel: FilmPixel) {
-    let compensation = vec4<f32>(pixel.compensation.xyz, pixel.compensation.w + pixel.squares);
-    store_film(pixel_in_band, pixel.sum, compensation);
+    store_film(pixel_in_band, pixel.sum, pixel.compensation);
     if pixel.refused > 0u {
         count_refused_samples(pixel.refused);
     }

@@ -130,7 +130,7 @@ fn bands_cover_the_picture_and_do_not_show() {
     assert!(differing_later * 4 > 1500 * 1000, "{differing_later}");
 }
 
-/// Passes are sized by time, so their borders differ from run to run; the picture must not. Bit for bit.
+/// Passes are sized by time, so their borders differ from run to run; the picture must not, nor what parts of pictures are made of. Bit for bit.
 #[test]
 fn the_picture_does_not_depend_on_how_samples_are_cut_into_passes() {
     let mut scene = load::load(Some("spheres")).expect("it is built in");
@@ -139,8 +139,10 @@ fn the_picture_does_not_depend_on_how_samples_are_cut_into_passes() {
         return;
     };
     assert!(one[0].mean == other[0].mean);
+    assert!(one[0].remainder == other[0].remainder && one[0].second_moment == other[0].second_moment);
     let Some(different) = render(&scene, &pool(1_001), 1..51) else { return };
     assert!(one[0].mean != different[0].mean, "other samples make another picture");
+    assert!(one[0].remainder != different[0].remainder && one[0].second_moment != different[0].second_moment);
 }
 
 /// Asks to stop once it was told of progress so often, and of so many samples.

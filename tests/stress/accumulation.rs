@@ -9,7 +9,7 @@ use super::support::{DEVICE, Effort, Finding, render_band_on, scene, whole_pictu
 
 /// Largest relative error of a mean.
 const MEAN_ERROR: f64 = 1e-6;
-/// Largest relative error of a second moment: squares are summed in f32, pass by pass, and a variance is worth no more.
+/// Largest relative error of a second moment: squares are summed in f32, and a variance is worth no more.
 const SQUARE_ERROR: f64 = 1e-4;
 
 pub fn findings(effort: Effort) -> Vec<Finding> {
