@@ -43,9 +43,9 @@ pub struct RenderRequest {
 /// In what a frame of a scene differs from the one before.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Change {
-    /// In where the camera stands and looks, and in nothing else.
+    /// In where the camera stands and looks, and in nothing else. Both move during the exposure, or both rest.
     Camera,
-    /// In where shapes are.
+    /// In more, such as where shapes are.
     Shapes,
 }
 

@@ -1,4 +1,5 @@
 // Camera rays. src/reference/camera.rs is the same in f64.
+#import core/layout.wgsl
 #import core/math.wgsl
 #import core/parameters.wgsl
 #import core/sampler.wgsl
@@ -61,21 +62,57 @@ fn aperture_point(bits_u: u32, bits_v: u32) -> vec2<f32> {
 }
 #endif
 
-fn camera_ray(pixel: u32, random: vec4<u32>) -> Ray {
-    let film = sample_position(pixel, random);
-#if ORTHOGRAPHIC
-    var origin = view.position.xyz + (view.corner.xyz + film.x * view.step_x.xyz + film.y * view.step_y.xyz);
-    var direction = view.forward.xyz;
+// Where the camera is when a path sees the scene: words of the view.
+struct Pose {
+    position: vec4<f32>,
+    corner: vec4<f32>,
+    step_x: vec4<f32>,
+    step_y: vec4<f32>,
+    forward: vec4<f32>,
+    lens_u: vec4<f32>,
+    lens_v: vec4<f32>,
+}
+
+#if CAMERA_MOTION
+// A word of the pose, `share` of the way through a stretch of the exposure.
+fn exposed(stretch: u32, word: u32, share: f32) -> vec4<f32> {
+    let start = view.exposure[stretch][word];
+    return start + share * (view.exposure[stretch + 1u][word] - start);
+}
+
+// At the time of a path, which is that of its shapes (geometry/motion.wgsl).
+fn pose_of(pixel: u32, sample_in_pass: u32) -> Pose {
+    let scaled = uniform_float(random_block(pixel, sample_in_pass, 1u).x) * f32(EXPOSURE_STRETCHES);
+    let stretch = min(u32(scaled), EXPOSURE_STRETCHES - 1u);
+    let share = scaled - f32(stretch);
+    return Pose(
+        exposed(stretch, 0u, share), exposed(stretch, 1u, share), exposed(stretch, 2u, share), exposed(stretch, 3u, share),
+        exposed(stretch, 4u, share), exposed(stretch, 5u, share), exposed(stretch, 6u, share)
+    );
+}
 #else
-    var origin = view.position.xyz;
-    var direction = view.corner.xyz + film.x * view.step_x.xyz + film.y * view.step_y.xyz;
+fn pose_of(pixel: u32, sample_in_pass: u32) -> Pose {
+    return Pose(view.position, view.corner, view.step_x, view.step_y, view.forward, view.lens_u, view.lens_v);
+}
+#endif
+
+fn camera_ray(pixel: u32, sample_in_pass: u32) -> Ray {
+    let random = camera_block(pixel, sample_in_pass);
+    let film = sample_position(pixel, random);
+    let pose = pose_of(pixel, sample_in_pass);
+#if ORTHOGRAPHIC
+    var origin = pose.position.xyz + (pose.corner.xyz + film.x * pose.step_x.xyz + film.y * pose.step_y.xyz);
+    var direction = pose.forward.xyz;
+#else
+    var origin = pose.position.xyz;
+    var direction = pose.corner.xyz + film.x * pose.step_x.xyz + film.y * pose.step_y.xyz;
 #endif
 #if LENS
     // All rays of a film position meet where the one through the middle of the lens crosses the plane in focus.
     let aperture = aperture_point(random.z, random.w);
-    let offset = aperture.x * view.lens_u.xyz + aperture.y * view.lens_v.xyz;
+    let offset = aperture.x * pose.lens_u.xyz + aperture.y * pose.lens_v.xyz;
     origin += offset;
-    direction = view.lens_u.w * direction - offset;
+    direction = pose.lens_u.w * direction - offset;
 #endif
     return Ray(origin, normalize(direction));
 }

@@ -43,6 +43,6 @@ fn start_path(pixel: u32, sample_in_pass: u32) -> Path {
 #if MOTION
     set_path_time(pixel, sample_in_pass);
 #endif
-    let ray = camera_ray(pixel, camera_block(pixel, sample_in_pass));
+    let ray = camera_ray(pixel, sample_in_pass);
     return new_path(ray, pixel, sample_in_pass);
 }

@@ -23,7 +23,7 @@ fn generate(@builtin(global_invocation_id) id: vec3<u32>) {
 #else
     let pixel = pass_parameters.first_pixel + slot - sample_in_pass * pass_parameters.pixel_count;
 #endif
-    let ray = camera_ray(pixel, camera_block(pixel, sample_in_pass));
+    let ray = camera_ray(pixel, sample_in_pass);
     store_path(slot, new_path(ray, pixel, sample_in_pass));
     path_state[PLANE_RADIANCE + slot] = vec4<f32>(0.0);
     queues[slot] = slot;

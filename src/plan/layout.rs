@@ -4,7 +4,7 @@
 use super::bindings::Binding;
 use super::parameters::{PassParameters, VertexParameters};
 use super::{path_state, trace_record};
-use crate::packed::{NONE, View, blend_weight, bvh4, guide, instance, light, material, motion, primitive, shape, texture};
+use crate::packed::{NONE, View, blend_weight, bvh4, guide, instance, light, material, motion, primitive, shape, texture, view};
 use crate::shader::shared::{Constant, Constants, SharedStruct, declare_constant};
 
 /// Name under which kernels import it.
@@ -23,6 +23,7 @@ pub fn constants() -> Constants {
         guide::constants(),
         instance::constants(),
         motion::constants(),
+        view::constants(),
         material::constants(),
         blend_weight::constants(),
         light::constants(),

@@ -212,6 +212,7 @@ fn enable_camera(switches: &mut Switches, scene: &Scene) -> u32 {
     switches.enable("FILTER_BOX", filter != Filter::default() && filter.kind == FilterKind::Box);
     switches.enable("FILTER_CURVE", matches!(filter.kind, FilterKind::Gaussian | FilterKind::BlackmanHarris));
     switches.enable("ORTHOGRAPHIC", matches!(scene.camera.projection, Projection::Orthographic { .. }));
+    switches.enable("CAMERA_MOTION", !scene.exposure.is_empty());
     switches.enable("LENS", scene.camera.aperture.is_some());
     let shape = scene.camera.aperture.map(|aperture| aperture.shape);
     switches.enable("APERTURE_SQUARE", shape == Some(ApertureShape::Square));

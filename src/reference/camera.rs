@@ -6,48 +6,94 @@ use super::intersect::Ray;
 use super::warp;
 use crate::sampling::filter::FilterSampler;
 use crate::sampling::{CameraDimension, Dimension, PathSampler};
-use crate::scene::{Aperture, ApertureShape, Camera, FilmSettings, Projection};
+use crate::scene::{Aperture, ApertureShape, Camera, FilmSettings, Projection, Scene};
 
 /// A pinhole or thin-lens camera, perspective or orthographic, with its frame worked out.
 #[derive(Debug, Clone)]
 pub struct ProjectiveCamera {
-    position: DVec3,
-    right: DVec3,
-    up: DVec3,
-    backward: DVec3,
+    /// Where it is, at even steps of time while the shutter is open; one where it rests.
+    poses: Vec<Pose>,
     orthographic: bool,
-    /// Half the window's width and height, at distance 1 if it is perspective.
-    half_extent: DVec2,
     /// To the right and up, in windows.
     shift: DVec2,
     size: DVec2,
     filter: FilterSampler,
     aperture: Option<Aperture>,
+}
+
+/// What of the camera is different where it moves.
+#[derive(Debug, Clone)]
+struct Pose {
+    position: DVec3,
+    right: DVec3,
+    up: DVec3,
+    backward: DVec3,
+    /// Half the window's width and height, at distance 1 if it is perspective.
+    half_extent: DVec2,
     /// Distance of the plane in focus along the viewing direction.
     focus_distance: f64,
 }
 
-impl ProjectiveCamera {
-    pub fn new(camera: &Camera, film: &FilmSettings) -> Self {
+/// A ray before its direction has length 1: of a film position and a point of the lens, linear in where the camera is.
+struct Unscaled {
+    /// Where the ray through the middle of the lens starts, and its direction.
+    middle: DVec3,
+    direction: DVec3,
+    /// From the middle of the lens.
+    offset: DVec3,
+    focus_distance: f64,
+}
+
+impl Pose {
+    fn new(camera: &Camera, size: DVec2) -> Self {
         let [right, up, backward] = camera.frame();
-        let size = DVec2::from(film.size.map(f64::from));
-        let (orthographic, half_height) = match camera.projection {
-            Projection::Perspective { vertical_fov_degrees } => (false, (0.5 * vertical_fov_degrees.to_radians()).tan()),
-            Projection::Orthographic { height } => (true, 0.5 * height),
+        let half_height = match camera.projection {
+            Projection::Perspective { vertical_fov_degrees } => (0.5 * vertical_fov_degrees.to_radians()).tan(),
+            Projection::Orthographic { height } => 0.5 * height,
         };
         Self {
             position: camera.position,
             right,
             up,
             backward,
-            orthographic,
             half_extent: DVec2::new(half_height * size.x / size.y, half_height),
+            focus_distance: camera.focus_distance,
+        }
+    }
+}
+
+impl Unscaled {
+    fn between(a: &Self, b: &Self, share: f64) -> Self {
+        Self {
+            middle: a.middle + (b.middle - a.middle) * share,
+            direction: a.direction + (b.direction - a.direction) * share,
+            offset: a.offset + (b.offset - a.offset) * share,
+            focus_distance: a.focus_distance + (b.focus_distance - a.focus_distance) * share,
+        }
+    }
+}
+
+impl ProjectiveCamera {
+    /// A camera at rest.
+    pub fn new(camera: &Camera, film: &FilmSettings) -> Self {
+        let size = DVec2::from(film.size.map(f64::from));
+        Self {
+            poses: vec![Pose::new(camera, size)],
+            orthographic: matches!(camera.projection, Projection::Orthographic { .. }),
             shift: DVec2::from(camera.shift),
             size,
             filter: FilterSampler::new(film.filter),
             aperture: camera.aperture,
-            focus_distance: camera.focus_distance,
         }
+    }
+
+    /// The camera of a scene, at rest or not.
+    pub fn of(scene: &Scene) -> Self {
+        let mut camera = Self::new(&scene.camera, &scene.film);
+        if !scene.exposure.is_empty() {
+            camera.poses = scene.exposure.iter().map(|pose| Pose::new(pose, camera.size)).collect();
+        }
+        camera
     }
 
     /// The camera ray of a sample of pixel (x, y). Its position is drawn from the filter around the pixel's centre, its origin from
@@ -60,22 +106,37 @@ impl ProjectiveCamera {
         let lens = self.aperture.map_or(DVec2::ZERO, |aperture| {
             aperture.radius * aperture_point(aperture.shape, bits(CameraDimension::LensU), bits(CameraDimension::LensV))
         });
-        self.ray(film_x, film_y, lens)
+        let time = if self.poses.len() > 1 { sampler.uniform(Dimension::camera(CameraDimension::Time)) } else { 0.0 };
+        self.ray(film_x, film_y, lens, time)
     }
 
     /// The ray through a film position in pixels: x to the right, y down, (0, 0) the picture's upper left corner. `lens` is where it
-    /// starts, to the right and up from the middle of the lens. All rays of a film position meet in the plane in focus.
-    pub fn ray(&self, film_x: f64, film_y: f64, lens: DVec2) -> Ray {
-        let x = (2.0 * (film_x / self.size.x + self.shift.x) - 1.0) * self.half_extent.x;
-        let y = (1.0 - 2.0 * (film_y / self.size.y - self.shift.y)) * self.half_extent.y;
-        let window = self.right * x + self.up * y;
-        let (middle, direction) =
-            if self.orthographic { (self.position + window, -self.backward) } else { (self.position, window - self.backward) };
+    /// starts, to the right and up from the middle of the lens. All rays of a film position meet in the plane in focus. `time` is 0 as the
+    /// shutter opens and 1 as it closes.
+    pub fn ray(&self, film_x: f64, film_y: f64, lens: DVec2, time: f64) -> Ray {
+        let stretches = self.poses.len() - 1;
+        let ray = if stretches == 0 {
+            self.unscaled(&self.poses[0], film_x, film_y, lens)
+        } else {
+            let scaled = time * stretches as f64;
+            let first = (scaled as usize).min(stretches - 1);
+            let [a, b] = [first, first + 1].map(|index| self.unscaled(&self.poses[index], film_x, film_y, lens));
+            Unscaled::between(&a, &b, scaled - first as f64)
+        };
         if self.aperture.is_none() {
-            return Ray { origin: middle, direction: direction.normalize() };
+            return Ray { origin: ray.middle, direction: ray.direction.normalize() };
         }
-        let offset = self.right * lens.x + self.up * lens.y;
-        Ray { origin: middle + offset, direction: (direction * self.focus_distance - offset).normalize() }
+        Ray { origin: ray.middle + ray.offset, direction: (ray.direction * ray.focus_distance - ray.offset).normalize() }
+    }
+
+    fn unscaled(&self, pose: &Pose, film_x: f64, film_y: f64, lens: DVec2) -> Unscaled {
+        let x = (2.0 * (film_x / self.size.x + self.shift.x) - 1.0) * pose.half_extent.x;
+        let y = (1.0 - 2.0 * (film_y / self.size.y - self.shift.y)) * pose.half_extent.y;
+        let window = pose.right * x + pose.up * y;
+        let (middle, direction) =
+            if self.orthographic { (pose.position + window, -pose.backward) } else { (pose.position, window - pose.backward) };
+        let offset = pose.right * lens.x + pose.up * lens.y;
+        Unscaled { middle, direction, offset, focus_distance: pose.focus_distance }
     }
 }
 

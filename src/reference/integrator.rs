@@ -78,7 +78,7 @@ impl Integrator {
         let scene = &*scene.centered();
         let world = World::new(scene)?;
         let lights = Lights::new(scene, &world);
-        let camera = ProjectiveCamera::new(&scene.camera, &scene.film);
+        let camera = ProjectiveCamera::of(scene);
         let instances_move = scene.instances.iter().any(|instances| instances.motion.is_some());
         let moves = instances_move || scene.shapes.iter().any(|shape| shape.motion.is_some());
         let lets_through = scene.materials_that(|material| matches!(material.kind, MaterialKind::Pass));
@@ -100,8 +100,9 @@ impl Integrator {
         if scene.center() != self.center {
             return false;
         }
-        self.scene.camera = scene.centered().camera.clone();
-        self.camera = ProjectiveCamera::new(&self.scene.camera, &self.scene.film);
+        let centered = scene.centered();
+        (self.scene.camera, self.scene.exposure) = (centered.camera.clone(), centered.exposure.clone());
+        self.camera = ProjectiveCamera::of(&self.scene);
         true
     }
 
@@ -117,7 +118,7 @@ impl Integrator {
 
     /// What the ray through the middle of a pixel and of the lens meets when the shutter opens.
     pub fn owner_at_centre(&self, x: u32, y: u32) -> Option<Owner> {
-        let ray = self.camera.ray(f64::from(x) + 0.5, f64::from(y) + 0.5, DVec2::ZERO);
+        let ray = self.camera.ray(f64::from(x) + 0.5, f64::from(y) + 0.5, DVec2::ZERO, 0.0);
         let time = if self.moves { PathTime::new(&self.scene, self.scene.camera.shutter[0]) } else { PathTime::default() };
         let hit = self.world.closest(ray, &time)?;
         Some(self.world.surface(&ray, &hit, &time).owner)

@@ -92,7 +92,7 @@ impl Renderer {
     pub fn with_scene(self, before: &Scene, scene: &Scene) -> Result<Self, RenderError> {
         let Self { renderer, notice, options, film, provenance: earlier, .. } = self;
         let bulk = BulkDigest::of(scene);
-        let as_before = Scene { camera: before.camera.clone(), ..scene.clone() };
+        let as_before = Scene { camera: before.camera.clone(), exposure: before.exposure.clone(), ..scene.clone() };
         let same_settings = earlier.settings == scene.render && earlier.filter == scene.film.filter && film == scene.film.size;
         let is_camera = same_settings
             && bulk.digest(&as_before) == earlier.scene_hash

@@ -2,6 +2,10 @@
 
 use glam::DVec3;
 
+/// Stretches of the exposure in each of which a camera that moves does so evenly: its rays' origins and directions go straight from one end of
+/// a stretch to the other. In an exposure that turns it by an eighth of a circle, rays are off by less than a hundredth of a degree.
+pub const EXPOSURE_STRETCHES: usize = 16;
+
 /// A camera in world space. It looks along `look_at - position`; `up` is made orthogonal to that.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {

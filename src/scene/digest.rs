@@ -72,6 +72,10 @@ fn finish(mut hash: Sha256, scene: &Scene) -> String {
     let printed =
         write!(HashWriter(&mut hash), "{:?}", (&rest.camera, &rest.textures, &rest.materials, &rest.shapes, &rest.lights));
     hash_instances(&mut hash, &mut rest);
+    if !rest.exposure.is_empty() {
+        let printed = write!(HashWriter(&mut hash), "{:?}", rest.exposure);
+        debug_assert!(printed.is_ok(), "hashing cannot fail");
+    }
     debug_assert!(printed.is_ok(), "hashing cannot fail");
     hash.finalize().iter().fold(String::new(), |mut hexadecimal, byte| {
         let _ = write!(hexadecimal, "{byte:02x}");

@@ -10,8 +10,8 @@ use super::validate::{InvalidScene, check_camera};
 
 impl Scene {
     /// The scene as it is at a frame, which need not be a whole number. Shapes whose keys move them while the shutter is open are blurred: they
-    /// are exactly where their keys put them as it opens and closes, and move evenly in between. The camera stands where it is at the frame itself. Meshes,
-    /// textures and whatever else does not change are shared.
+    /// are exactly where their keys put them as it opens and closes, and move evenly in between. So does the camera, which goes through many
+    /// places on its way. Meshes, textures and whatever else does not change are shared.
     ///
     /// # Errors
     /// What cannot be rendered there: a camera that looks at the point it stands at, a shape that is flattened.
@@ -23,6 +23,10 @@ impl Scene {
         let of = |part: String, message: String| InvalidScene { part: format!("frame {frame}: {part}"), message };
         check_camera(&scene.camera).map_err(|message| of("camera".to_owned(), message))?;
         let shutter = scene.camera.shutter;
+        scene.exposure = animation.exposure(&self.camera, frame);
+        for camera in &scene.exposure {
+            check_camera(camera).map_err(|message| of("camera, while the shutter is open".to_owned(), message))?;
+        }
         for track in &animation.shapes {
             let shape = &mut scene.shapes[track.shape];
             let at = |time: f64| track.at(animation, frame + time);
@@ -46,10 +50,11 @@ impl Scene {
 }
 
 impl Scene {
-    /// Whether all shapes stand and move, and all lights shine, as in another frame of the same scene.
+    /// Whether all shapes stand and move, and all lights shine, as in another frame of the same scene, and the camera moves or rests as there.
     pub fn shapes_stand_as_in(&self, other: &Self) -> bool {
         let same = |(shape, other): (&Shape, &Shape)| shape.transform == other.transform && shape.motion == other.motion;
         self.camera.shutter == other.camera.shutter
+            && self.exposure.is_empty() == other.exposure.is_empty()
             && self.shapes.len() == other.shapes.len()
             && self.shapes.iter().zip(&other.shapes).all(same)
             && self.lights.len() == other.lights.len()

@@ -29,6 +29,10 @@ pub struct Scene {
     pub layers: Vec<Layer>,
     #[doc(hidden)]
     pub camera: Camera,
+    /// The camera at [`EXPOSURE_STRETCHES`](crate::scene::EXPOSURE_STRETCHES) + 1 times, evenly from the shutter's opening to its closing, between
+    /// which it moves evenly; empty where it rests meanwhile.
+    #[doc(hidden)]
+    pub exposure: Vec<Camera>,
     #[doc(hidden)]
     pub textures: Vec<Texture>,
     #[doc(hidden)]

@@ -36,8 +36,10 @@ impl Scene {
             return Cow::Borrowed(self);
         }
         let mut moved = self.clone();
-        moved.camera.position -= center;
-        moved.camera.look_at -= center;
+        for camera in std::iter::once(&mut moved.camera).chain(&mut moved.exposure) {
+            camera.position -= center;
+            camera.look_at -= center;
+        }
         for shape in &mut moved.shapes {
             shape.transform.steps.push(TransformStep::Translate(-center));
         }

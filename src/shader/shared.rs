@@ -26,6 +26,12 @@ impl<const COUNT: usize> WgslType for [[f32; 4]; COUNT] {
     }
 }
 
+impl<const COUNT: usize, const ROWS: usize> WgslType for [[[f32; 4]; COUNT]; ROWS] {
+    fn name() -> String {
+        format!("array<array<vec4<f32>, {COUNT}>, {ROWS}>")
+    }
+}
+
 /// A struct that a buffer holds.
 pub trait SharedStruct {
     /// Its declaration in WGSL. A test holds its layout, by naga, against Rust's.

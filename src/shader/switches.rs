@@ -160,6 +160,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("BUMP_MAPS").requires(&["NORMAL_MAPS"]),
     // Kernels walk nodes.
     switch("BVH").one_of(HELD).excludes(&["RAY_QUERY"]),
+    // The camera moves while the shutter is open.
+    switch("CAMERA_MOTION"),
     switch("CHECKERS").requires(&["PROCEDURAL_TEXTURES"]),
     switch("COLOR1"),
     switch("COMPENSATION").requires(&["FURTHER_PARAMETERS", "PRINCIPLED"]),

@@ -39,9 +39,14 @@ const SIDE: u32 = 16;
 
 /// Parallel rays along −z towards one shape that emits radiance 1 and nothing else.
 fn glow(shutter: [f64; 2], shape: &str) -> Scene {
+    glow_before(&format!("shutter = {shutter:?}"), shape)
+}
+
+/// The same with further lines of the camera.
+fn glow_before(camera: &str, shape: &str) -> Scene {
     let text = format!(
         "[film]\nsize = [{SIDE}, {SIDE}]\n[render]\nspp = 1024\nmax_depth = 1\nsampler = \"halton\"\n[camera]\nposition = [0, 0, 9]\nlook_at = [0, 0, 0]\n\
-         projection = \"orthographic\"\nheight = 2\nshutter = {shutter:?}\n[[material]]\nname = \"glow\"\ntype = \"emissive\"\n\
+         projection = \"orthographic\"\nheight = 2\n{camera}\n[[material]]\nname = \"glow\"\ntype = \"emissive\"\n\
          radiance = 1\n[[shape]]\nmaterial = \"glow\"\n{shape}\n"
     );
     load(&text).unwrap_or_else(|error| panic!("{error}"))
@@ -49,6 +54,22 @@ fn glow(shutter: [f64; 2], shape: &str) -> Scene {
 
 /// A case and the share of the time for which the shape covers a point (x, y).
 type Coverage = (&'static str, Scene, fn(f64, f64) -> f64);
+
+/// Cameras before a shape at rest: one that goes by, and one whose window grows.
+fn cameras() -> [Coverage; 2] {
+    let at_frame = |camera: &str, shape: &str| glow_before(camera, shape).at_frame(0.0).expect("it can be rendered");
+    // At a speed of 6 from x = −3 to 3, as the sphere below.
+    let passing = "shutter = [0.25, 1.25]\nkeyframes = [{ frame = 0.25, position = [-3, 0, 9], look_at = [-3, 0, 0] }, \
+                   { frame = 1.25, position = [3, 0, 9], look_at = [3, 0, 0] }]";
+    let sphere = "type = \"sphere\"\ncenter = [0, 0, 0]\nradius = 0.6";
+    // From a height of 1 to 4, so that the disk's radius in windows falls from 1.2 to 0.3.
+    let growing = "shutter = [0, 1]\nkeyframes = [{ frame = 0, height = 1 }, { frame = 1, height = 4 }]";
+    let disk = "type = \"disk\"\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nradius = 0.6";
+    [
+        ("camera that goes by", at_frame(passing, sphere), |_, y| 2.0 * (0.36 - y * y).max(0.0).sqrt() / 6.0),
+        ("window that grows", at_frame(growing, disk), |x, y| ((1.2 / x.hypot(y) - 1.0) / 3.0).clamp(0.0, 1.0)),
+    ]
+}
 
 fn coverages() -> [Coverage; 4] {
     // From x = −3 to 3 while the shutter is open: it passes all of the picture at a speed of 6.
@@ -85,8 +106,9 @@ fn expected(coverage: fn(f64, f64) -> f64, column: u32, row: u32) -> f64 {
 /// of their own; with 1 % of energy added the same test fails.
 #[test]
 fn coverage_over_time_follows_its_closed_form() {
-    let level = sidak(0.01, 3 * coverages().len());
-    for (name, scene, coverage) in coverages() {
+    let cases: Vec<Coverage> = coverages().into_iter().chain(cameras()).collect();
+    let level = sidak(0.01, 3 * cases.len());
+    for (name, scene, coverage) in cases {
         for (device, pixels) in pictures(&scene) {
             let mut shares = Moments::default();
             for (index, pixel) in (0..).zip(&pixels) {

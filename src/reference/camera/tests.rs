@@ -1,5 +1,6 @@
 use super::*;
 use crate::compare::sidak;
+use crate::scene::EXPOSURE_STRETCHES;
 use crate::statistics::{chi_squared_test, random::SplitMix64};
 
 fn camera(projection: Projection, aperture: Option<Aperture>) -> ProjectiveCamera {
@@ -14,7 +15,7 @@ const FLAT: Projection = Projection::Orthographic { height: 3.0 };
 fn corners_look_where_they_should() {
     let camera = camera(WIDE, None);
     let expect = |film_x, film_y, direction: DVec3| {
-        let ray = camera.ray(film_x, film_y, DVec2::ZERO);
+        let ray = camera.ray(film_x, film_y, DVec2::ZERO, 0.0);
         assert!((ray.direction - direction.normalize()).length() < 1e-15);
     };
     expect(0.0, 0.0, DVec3::new(-2.0, 1.0, -1.0));
@@ -26,14 +27,14 @@ fn corners_look_where_they_should() {
 fn parallel_rays_start_on_the_window() {
     let camera = camera(FLAT, None);
     for (film, origin) in [([0.0, 0.0], DVec3::new(-3.0, 1.5, 5.0)), ([200.0, 50.0], DVec3::new(3.0, 0.0, 5.0))] {
-        let ray = camera.ray(film[0], film[1], DVec2::ZERO);
+        let ray = camera.ray(film[0], film[1], DVec2::ZERO, 0.0);
         assert_eq!((ray.origin, ray.direction), (origin, -DVec3::Z));
     }
 }
 
 /// Where rays of one film position cross a plane `depth` before the camera.
 fn crossing(camera: &ProjectiveCamera, film: [f64; 2], lens: DVec2, depth: f64) -> DVec3 {
-    let ray = camera.ray(film[0], film[1], lens);
+    let ray = camera.ray(film[0], film[1], lens, 0.0);
     ray.origin + ray.direction * ((5.0 - depth - ray.origin.z) / ray.direction.z)
 }
 
@@ -148,4 +149,38 @@ fn densities_are_one_over_the_area() {
         let density = derivative(step, 0.0).perp_dot(derivative(0.0, step)).abs().recip();
         assert!((density * area - 1.0).abs() < 2e-3, "{shape:?}: {density}, area {area}");
     }
+}
+
+/// Against the camera that is turned at each moment; the control is a camera that stops halfway.
+#[test]
+fn rays_follow_a_camera_that_turns() {
+    let scene = |stop: f64| {
+        let turned = |step: usize| {
+            let angle = (std::f64::consts::FRAC_PI_4 * step as f64 / EXPOSURE_STRETCHES as f64).min(stop);
+            Camera {
+                look_at: DVec3::new(-angle.sin(), 0.0, -angle.cos()),
+                position: DVec3::ZERO,
+                projection: WIDE,
+                ..Camera::default()
+            }
+        };
+        let exposure: Vec<Camera> = (0..=EXPOSURE_STRETCHES).map(turned).collect();
+        let film = FilmSettings { size: [100, 100], ..FilmSettings::default() };
+        Scene { camera: exposure[0].clone(), exposure, film, ..Scene::default() }
+    };
+    let farthest = |stop: f64| {
+        let camera = ProjectiveCamera::of(&scene(stop));
+        let mut farthest = 0.0_f64;
+        for step in 0..=100 {
+            let time = f64::from(step) / 100.0;
+            for [x, y] in [[50.0, 50.0], [0.0, 0.0], [100.0, 20.0]] {
+                let turn = glam::DQuat::from_rotation_y(std::f64::consts::FRAC_PI_4 * time);
+                let truth = turn * DVec3::new(x / 50.0 - 1.0, 1.0 - y / 50.0, -1.0).normalize();
+                farthest = farthest.max(camera.ray(x, y, DVec2::ZERO, time).direction.distance(truth).to_degrees());
+            }
+        }
+        farthest
+    };
+    assert!(farthest(1.0) < 0.01, "{}", farthest(1.0));
+    assert!(farthest(0.4) > 10.0);
 }

@@ -14,7 +14,7 @@ pub use curve::{Curve, Interpolation, Key, Turn};
 pub use moving::motion_between;
 pub use track::{CameraTrack, LightTrack, Node, ShapeTrack, TransformTrack};
 
-use super::camera::Camera;
+use super::camera::{Camera, EXPOSURE_STRETCHES};
 use super::light_at::LightAt;
 
 /// Frames in a second where nothing else is said.
@@ -86,8 +86,26 @@ impl Animation {
 
     /// The camera at a frame.
     pub fn camera_at(&self, rest: &Camera, frame: f64) -> Camera {
+        self.camera_between(rest, frame, frame)
+    }
+
+    /// The camera at even steps of time while the shutter of a frame is open, for [`Scene::exposure`](crate::scene::Scene::exposure). Keys that lead
+    /// by jumps to the next move nothing meanwhile.
+    pub fn exposure(&self, rest: &Camera, frame: f64) -> Vec<Camera> {
+        let [open, close] = rest.shutter;
+        let own_opens = self.camera.as_ref().is_some_and(CameraTrack::jumps).then_some(frame + open);
+        let at = |step: usize| {
+            let now = frame + open + (close - open) * (step as f64 / EXPOSURE_STRETCHES as f64);
+            self.camera_between(rest, own_opens.unwrap_or(now), now)
+        };
+        let cameras: Vec<Camera> = (0..=EXPOSURE_STRETCHES).map(at).collect();
+        if cameras.iter().all(|camera| *camera == cameras[0]) { Vec::new() } else { cameras }
+    }
+
+    /// The camera as its own keys have it at one frame, taken along to where nodes are at another.
+    fn camera_between(&self, rest: &Camera, own_frame: f64, frame: f64) -> Camera {
         let Some(track) = &self.camera else { return rest.clone() };
-        let mut camera = track.at(rest, frame);
+        let mut camera = track.at(rest, own_frame);
         if track.node.is_some_and(|node| self.moves(node)) {
             let along = self.taken_along(track.node, frame);
             camera.position = along.transform_point3(camera.position);

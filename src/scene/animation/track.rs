@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DQuat, DVec3};
 
-use super::curve::{Curve, Turn};
+use super::curve::{Curve, Interpolation, Turn};
 use crate::scene::camera::{Camera, Projection};
 use crate::scene::light_at::LightAt;
 use crate::scene::transform::Transform;
@@ -106,6 +106,11 @@ impl LightTrack {
 }
 
 impl CameraTrack {
+    /// Its keys lead by jumps from one to the next.
+    pub fn jumps(&self) -> bool {
+        self.position.interpolation == Interpolation::Step
+    }
+
     /// The camera at a frame, before its node moves it.
     pub fn at(&self, rest: &Camera, frame: f64) -> Camera {
         let opening = |rest: f64| self.opening.at(frame).unwrap_or(rest);

@@ -81,6 +81,31 @@ fn the_camera_goes_through_its_keyframes() {
     assert_ne!(crate::scene::digest(&moved), crate::scene::digest(&scene));
 }
 
+/// The camera goes on while the shutter is open, to where it is as it closes; where it rests, and where keys jump, it is still.
+#[test]
+fn the_camera_moves_while_the_shutter_is_open() {
+    let keys = "keyframes = [{ frame = 0, position = [0, 0, 5] }, { frame = 4, vfov = 20 }, { frame = 10, position = [10, 0, 5], vfov = 50 }]\n";
+    let keyed = scene(&format!("{keys}{MESH}"));
+    let exposed = keyed.at_frame(7.0).expect("it can be rendered");
+    let ends = [&exposed.exposure[0], &exposed.exposure[crate::scene::EXPOSURE_STRETCHES]];
+    assert_eq!(ends.map(|camera| camera.position), [DVec3::new(7.0, 0.0, 5.0), DVec3::new(7.5, 0.0, 5.0)]);
+    let fov = [35.0, 37.5].map(|vertical_fov_degrees| Projection::Perspective { vertical_fov_degrees });
+    assert_eq!(ends.map(|camera| camera.projection), fov);
+    assert!(!exposed.shapes_stand_as_in(&keyed), "one moves, one rests");
+    // With other things equal, the exposure makes another picture.
+    let still = Scene { exposure: Vec::new(), ..exposed.clone() };
+    assert_ne!(crate::scene::digest(&still), crate::scene::digest(&exposed));
+    assert!(keyed.at_frame(20.0).expect("it can be rendered").exposure.is_empty(), "it rests");
+    let jumping = scene(&format!("interpolation = \"step\"\n{keys}{MESH}"));
+    assert!(jumping.at_frame(9.75).expect("it can be rendered").exposure.is_empty(), "it jumps");
+    let taken = "node = \"cart\"\n[[node]]\nname = \"cart\"\nkeyframes = [{ frame = 0, translate = [0, 0, 0] }, { frame = 1, translate = [0, 2, 0] }]\n";
+    let taken = scene(&format!("{taken}{MESH}")).at_frame(0.5).expect("it can be rendered");
+    assert_eq!(taken.exposure[crate::scene::EXPOSURE_STRETCHES].position, DVec3::new(0.0, 2.0, 5.0));
+    let through = "keyframes = [{ frame = 0, position = [0, 0, 1] }, { frame = 1, position = [0, 0, -1] }]\n";
+    let error = scene(&format!("{through}{MESH}")).at_frame(0.0).expect_err("it meets what it looks at");
+    assert!(error.to_string().contains("while the shutter is open"), "{error}");
+}
+
 /// A scene whose lights have keyframes, and a node that takes two of them along.
 fn lit() -> Scene {
     let text = "animation.fps = 10\n\

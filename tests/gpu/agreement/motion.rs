@@ -168,6 +168,45 @@ fn all_together_agree_for_every_strategy() {
     }
 }
 
+/// The stage before a camera that flies, turns, zooms and focuses while the shutter is open, perspective or not.
+fn filmed(projection: &str, [open, close]: [&str; 2]) -> Scene {
+    let keys = format!(
+        "shutter = [0.25, 1.5]\naperture = {{ type = \"disk\", radius = 0.1 }}\nfocus_distance = 5\ninterpolation = \"smooth\"\n{projection}\n\
+         keyframes = [{{ frame = 2, position = [-1, 1.2, 6], look_at = [0.5, 1, 0], {open} }}, \
+         {{ frame = 4, position = [1, 2, 5], look_at = [0, 0.5, 0], up = [0.3, 1, 0], focus_distance = 6, {close} }}]\n"
+    );
+    let mesh = mesh("checked");
+    let shapes = format!("[[shape]]\n{mesh}\n[[shape]]\n{}\n", MOVING[0].1);
+    let text = format!("{STAGE}{shapes}").replace("vfov = 40\nshutter = [0.25, 1.5]\n", &keys);
+    let scene =
+        load::load_toml_str(&text, "camera.toml", std::path::Path::new("")).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    scene.at_frame(2.5).expect("it can be rendered")
+}
+
+/// By both kernels, with and without shapes that move as well; another way of the camera is noticed, and so is none.
+#[test]
+fn a_camera_that_moves_agrees() {
+    for (index, (projection, ends)) in
+        [("vfov = 40", ["vfov = 40", "vfov = 30"]), ("projection = \"orthographic\"\nheight = 3", ["height = 3", "height = 4"])]
+            .into_iter()
+            .enumerate()
+    {
+        let mut scene = filmed(projection, ends);
+        scene.render.sampler = [SamplerKind::Sobol, SamplerKind::Independent][index];
+        assert_agrees(projection, &scene, &ways()[index]);
+        scene.shapes.iter_mut().for_each(|shape| shape.motion = None);
+        assert_agrees(&format!("{projection}, at rest"), &scene, &ways()[1 - index]);
+        let mut changes = vec![scene.clone(); 3];
+        changes[0].exposure.clear();
+        changes[1].exposure.reverse();
+        changes[2].exposure.iter_mut().for_each(|camera| camera.look_at.x += 0.01);
+        for (change, changed) in changes.iter().enumerate() {
+            let Some(verdict) = compare_unequal(changed, &scene) else { return };
+            assert!(!verdict.agrees && verdict.matching_share() < 0.97, "{projection}, change {change}: {verdict:#?}");
+        }
+    }
+}
+
 /// What no ray meets moves in vain: nothing is compiled for it.
 #[test]
 fn a_moving_shape_of_pass_is_still() {
