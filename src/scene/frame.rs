@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::animation::motion_between;
+use super::animation::{Moment, motion_between};
 use super::model::Scene;
 use super::shape::Shape;
 use super::transform::{Transform, TransformStep};
@@ -29,7 +29,7 @@ impl Scene {
         }
         for track in &animation.shapes {
             let shape = &mut scene.shapes[track.shape];
-            let at = |time: f64| track.at(animation, frame + time);
+            let at = |time: f64| track.during(animation, Moment { now: frame + time, opening: frame + shutter[0] });
             let (map, motion) = match motion_between(&at, shutter) {
                 Ok(Some((map, motion))) => (map, Some(motion)),
                 Ok(None) => (at(shutter[0]), None),

@@ -44,7 +44,27 @@ pub trait Quantity: Copy {
     fn smoothly_between(before: Option<Key<Self>>, a: Key<Self>, b: Key<Self>, after: Option<Key<Self>>, share: f64) -> Self;
 }
 
+/// A moment while the shutter is open, both in frames.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moment {
+    pub now: f64,
+    /// When it opened. Jumps after that are not followed: a jump is no motion, and would be blurred as one.
+    pub opening: f64,
+}
+
+impl From<f64> for Moment {
+    /// By itself.
+    fn from(frame: f64) -> Self {
+        Self { now: frame, opening: frame }
+    }
+}
+
 impl<T: Quantity> Curve<T> {
+    /// Its value while the shutter is open; None where it has no keys.
+    pub fn during(&self, moment: Moment) -> Option<T> {
+        self.at(if self.interpolation == Interpolation::Step { moment.opening } else { moment.now })
+    }
+
     /// Its value at a frame; None where it has no keys.
     pub fn at(&self, frame: f64) -> Option<T> {
         let keys = &self.keys;

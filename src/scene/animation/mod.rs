@@ -10,7 +10,7 @@ mod track;
 
 use glam::DAffine3;
 
-pub use curve::{Curve, Interpolation, Key, Turn};
+pub use curve::{Curve, Interpolation, Key, Moment, Turn};
 pub use moving::motion_between;
 pub use track::{CameraTrack, LightTrack, Node, ShapeTrack, TransformTrack};
 
@@ -55,7 +55,7 @@ impl Animation {
     }
 
     /// By how much a node takes things along from where they stand without a frame.
-    fn taken_along(&self, node: Option<usize>, frame: f64) -> DAffine3 {
+    fn taken_along(&self, node: Option<usize>, moment: Moment) -> DAffine3 {
         let Some(node) = node else { return DAffine3::IDENTITY };
         if !self.moves(node) {
             return DAffine3::IDENTITY;
@@ -69,7 +69,7 @@ impl Animation {
             map
         };
         let rest = chain(&|node| node.rest);
-        chain(&|node| node.track.as_ref().map_or(node.rest, |track| track.at(frame))) * rest.inverse()
+        chain(&|node| node.track.as_ref().map_or(node.rest, |track| track.during(moment))) * rest.inverse()
     }
 
     /// The node or one of those around it has keys.
@@ -86,28 +86,26 @@ impl Animation {
 
     /// The camera at a frame.
     pub fn camera_at(&self, rest: &Camera, frame: f64) -> Camera {
-        self.camera_between(rest, frame, frame)
+        self.camera_during(rest, frame.into())
     }
 
-    /// The camera at even steps of time while the shutter of a frame is open, for [`Scene::exposure`](crate::scene::Scene::exposure). Keys that lead
-    /// by jumps to the next move nothing meanwhile.
+    /// The camera at even steps of time while the shutter of a frame is open, for [`Scene::exposure`](crate::scene::Scene::exposure).
     pub fn exposure(&self, rest: &Camera, frame: f64) -> Vec<Camera> {
         let [open, close] = rest.shutter;
-        let own_opens = self.camera.as_ref().is_some_and(CameraTrack::jumps).then_some(frame + open);
+        let opening = frame + open;
         let at = |step: usize| {
-            let now = frame + open + (close - open) * (step as f64 / EXPOSURE_STRETCHES as f64);
-            self.camera_between(rest, own_opens.unwrap_or(now), now)
+            let now = opening + (close - open) * (step as f64 / EXPOSURE_STRETCHES as f64);
+            self.camera_during(rest, Moment { now, opening })
         };
         let cameras: Vec<Camera> = (0..=EXPOSURE_STRETCHES).map(at).collect();
         if cameras.iter().all(|camera| *camera == cameras[0]) { Vec::new() } else { cameras }
     }
 
-    /// The camera as its own keys have it at one frame, taken along to where nodes are at another.
-    fn camera_between(&self, rest: &Camera, own_frame: f64, frame: f64) -> Camera {
+    fn camera_during(&self, rest: &Camera, moment: Moment) -> Camera {
         let Some(track) = &self.camera else { return rest.clone() };
-        let mut camera = track.at(rest, own_frame);
+        let mut camera = track.during(rest, moment);
         if track.node.is_some_and(|node| self.moves(node)) {
-            let along = self.taken_along(track.node, frame);
+            let along = self.taken_along(track.node, moment);
             camera.position = along.transform_point3(camera.position);
             camera.look_at = along.transform_point3(camera.look_at);
             camera.up = along.transform_vector3(camera.up);
@@ -119,14 +117,14 @@ impl Animation {
 impl LightTrack {
     /// What it says at a frame, and how its node moves the light.
     pub fn taken_along(&self, animation: &Animation, frame: f64) -> LightAt {
-        LightAt { along: animation.taken_along(self.node, frame), ..self.at(frame) }
+        LightAt { along: animation.taken_along(self.node, frame.into()), ..self.at(frame) }
     }
 }
 
 impl ShapeTrack {
     /// From the shape's own space to the world.
-    pub fn at(&self, animation: &Animation, frame: f64) -> DAffine3 {
-        let own = self.track.as_ref().map_or_else(|| self.rest.to_affine(), |track| track.at(frame));
-        animation.taken_along(self.node, frame) * own
+    pub fn during(&self, animation: &Animation, moment: Moment) -> DAffine3 {
+        let own = self.track.as_ref().map_or_else(|| self.rest.to_affine(), |track| track.during(moment));
+        animation.taken_along(self.node, moment) * own
     }
 }

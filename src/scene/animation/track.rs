@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DQuat, DVec3};
 
-use super::curve::{Curve, Interpolation, Turn};
+use super::curve::{Curve, Moment, Turn};
 use crate::scene::camera::{Camera, Projection};
 use crate::scene::light_at::LightAt;
 use crate::scene::transform::Transform;
@@ -16,12 +16,12 @@ pub struct TransformTrack {
 }
 
 impl TransformTrack {
-    /// The map at a frame.
-    pub fn at(&self, frame: f64) -> DAffine3 {
+    /// The map while the shutter is open.
+    pub fn during(&self, moment: Moment) -> DAffine3 {
         DAffine3::from_scale_rotation_translation(
-            self.scale.at(frame).unwrap_or(DVec3::ONE),
-            self.rotation.at(frame).map_or(DQuat::IDENTITY, Turn::rotation),
-            self.translation.at(frame).unwrap_or(DVec3::ZERO),
+            self.scale.during(moment).unwrap_or(DVec3::ONE),
+            self.rotation.during(moment).map_or(DQuat::IDENTITY, Turn::rotation),
+            self.translation.during(moment).unwrap_or(DVec3::ZERO),
         )
     }
 
@@ -106,25 +106,20 @@ impl LightTrack {
 }
 
 impl CameraTrack {
-    /// Its keys lead by jumps from one to the next.
-    pub fn jumps(&self) -> bool {
-        self.position.interpolation == Interpolation::Step
-    }
-
-    /// The camera at a frame, before its node moves it.
-    pub fn at(&self, rest: &Camera, frame: f64) -> Camera {
-        let opening = |rest: f64| self.opening.at(frame).unwrap_or(rest);
+    /// The camera while the shutter is open, before its node moves it.
+    pub fn during(&self, rest: &Camera, moment: Moment) -> Camera {
+        let opening = |rest: f64| self.opening.during(moment).unwrap_or(rest);
         Camera {
-            position: self.position.at(frame).unwrap_or(rest.position),
-            look_at: self.look_at.at(frame).unwrap_or(rest.look_at),
-            up: self.up.at(frame).unwrap_or(rest.up),
+            position: self.position.during(moment).unwrap_or(rest.position),
+            look_at: self.look_at.during(moment).unwrap_or(rest.look_at),
+            up: self.up.during(moment).unwrap_or(rest.up),
             projection: match rest.projection {
                 Projection::Perspective { vertical_fov_degrees } => {
                     Projection::Perspective { vertical_fov_degrees: opening(vertical_fov_degrees) }
                 }
                 Projection::Orthographic { height } => Projection::Orthographic { height: opening(height) },
             },
-            focus_distance: self.focus_distance.at(frame).unwrap_or(rest.focus_distance),
+            focus_distance: self.focus_distance.during(moment).unwrap_or(rest.focus_distance),
             ..rest.clone()
         }
     }

@@ -98,6 +98,12 @@ fn the_camera_moves_while_the_shutter_is_open() {
     assert!(keyed.at_frame(20.0).expect("it can be rendered").exposure.is_empty(), "it rests");
     let jumping = scene(&format!("interpolation = \"step\"\n{keys}{MESH}"));
     assert!(jumping.at_frame(9.75).expect("it can be rendered").exposure.is_empty(), "it jumps");
+    let keys = "keyframes = [{ frame = 0, translate = [0, 0, 0] }, { frame = 1, translate = [0, 2, 0] }]\n";
+    for (interpolation, moves) in [("step", false), ("linear", true)] {
+        let shape =
+            scene(&format!("{MESH}interpolation = \"{interpolation}\"\n{keys}")).at_frame(0.75).expect("it can be rendered");
+        assert_eq!(shape.shapes[0].motion.is_some(), moves, "{interpolation}");
+    }
     let taken = "node = \"cart\"\n[[node]]\nname = \"cart\"\nkeyframes = [{ frame = 0, translate = [0, 0, 0] }, { frame = 1, translate = [0, 2, 0] }]\n";
     let taken = scene(&format!("{taken}{MESH}")).at_frame(0.5).expect("it can be rendered");
     assert_eq!(taken.exposure[crate::scene::EXPOSURE_STRETCHES].position, DVec3::new(0.0, 2.0, 5.0));

@@ -171,7 +171,7 @@ fn all_together_agree_for_every_strategy() {
 /// The stage before a camera that flies, turns, zooms and focuses while the shutter is open, perspective or not.
 fn filmed(projection: &str, [open, close]: [&str; 2]) -> Scene {
     let keys = format!(
-        "shutter = [0.25, 1.5]\naperture = {{ type = \"disk\", radius = 0.1 }}\nfocus_distance = 5\ninterpolation = \"smooth\"\n{projection}\n\
+        "shutter = [0.25, 1.5]\naperture = {{ shape = \"disk\", radius = 0.1 }}\nfocus_distance = 5\ninterpolation = \"smooth\"\n{projection}\n\
          keyframes = [{{ frame = 2, position = [-1, 1.2, 6], look_at = [0.5, 1, 0], {open} }}, \
          {{ frame = 4, position = [1, 2, 5], look_at = [0, 0.5, 0], up = [0.3, 1, 0], focus_distance = 6, {close} }}]\n"
     );
