@@ -48,6 +48,12 @@ impl Image {
         Self { pixels, rendered: Some(Rendered { provenance, outcome, fewest_samples, counts }) }
     }
 
+    /// A picture of these pixels, row by row from the top; None where there is no pixel, or their number is not `width * height`.
+    pub fn from_pixels(width: u32, height: u32, pixels: Vec<[f32; 3]>) -> Option<Self> {
+        let is_picture = !pixels.is_empty() && pixels.len() as u64 == u64::from(width) * u64::from(height);
+        is_picture.then_some(Self { pixels: output::Image { width, height, pixels }, rendered: None })
+    }
+
     /// Reads an OpenEXR file, or a PNG, JPEG, Radiance HDR or another of the common formats, by its content. Integers are taken for sRGB.
     ///
     /// # Errors

@@ -1,0 +1,211 @@
+"""A headless GPU path tracer that proves its pictures against a CPU reference.
+
+    import gpt_pathtracer as gpt
+
+    picture = gpt.Scene.load("cornell").render(spp=64)
+    picture.pixels            # rows x columns x 3, linear radiance, float32
+    picture.save("cornell.exr")
+
+The program `gpt` comes with the package.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Mapping, Optional, Tuple, Union
+
+import numpy as np
+
+from . import _native
+from ._native import DeviceError, Error, SceneError, __version__
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Pixels = NDArray[np.float32]
+    Path = Union[str, os.PathLike[str]]
+
+__all__ = [
+    "Comparison",
+    "DeviceError",
+    "Error",
+    "Picture",
+    "Scene",
+    "SceneError",
+    "Verdict",
+    "__version__",
+    "builtin_scenes",
+    "compare",
+    "verify",
+]
+
+
+class Picture:
+    """Linear Rec. 709 radiance: rendered, or read from a file. numpy takes it for an array."""
+
+    def __init__(self, native: _native.Picture, layers: Mapping[str, Pixels], stats: Dict[str, Any]) -> None:
+        self._native = native
+        self._pixels: Optional[Pixels] = None
+        #: Arrays by the layers' names in EXR files: Albedo, N, P, Z, A, Direct, Indirect, Emission, ObjectId, MaterialId.
+        self.layers = dict(layers)
+        #: What the render did, with the names of `gpt render --stats`; empty of a picture that was read.
+        self.stats = stats
+
+    @staticmethod
+    def open(path: Path) -> Picture:
+        """Reads an OpenEXR file, or a PNG, JPEG, HDR and others, whose integers are taken for sRGB."""
+        return Picture(_native.Picture.open(os.fspath(path)), {}, {})
+
+    @property
+    def pixels(self) -> Pixels:
+        """Rows, columns, and red, green and blue: a read-only view of the picture's own memory. `.copy()` makes one that can be changed."""
+        if self._pixels is None:
+            self._pixels = np.asarray(self._native)
+        return self._pixels
+
+    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> Pixels:
+        pixels = self.pixels
+        if dtype is not None and np.dtype(dtype) != pixels.dtype:
+            if copy is False:
+                raise ValueError("numbers of another type are a copy")
+            return pixels.astype(dtype)
+        return pixels.copy() if copy else pixels
+
+    def save(self, path: Path) -> None:
+        """Writes the picture: .exr and .hdr hold the radiance, .png and .jpg are previews. Layers are not written; `gpt render --aov` does that."""
+        self._native.save(os.fspath(path))
+
+    def __repr__(self) -> str:
+        rows, columns, _ = self.pixels.shape
+        return f"<gpt_pathtracer.Picture of {columns}x{rows} pixels>"
+
+
+class Scene:
+    """A scene that was read. It does not change."""
+
+    def __init__(self, native: _native.Scene) -> None:
+        self._native = native
+
+    @staticmethod
+    def load(path: Path, *, strict: bool = False, definitions: Optional[Mapping[str, str]] = None) -> Scene:
+        """Reads a scene file (.toml), a model (.obj, .ply), a scene of another program (.gltf, .glb, .xml), or a built-in scene by its name.
+
+        `strict` refuses substitutes for missing textures and materials, and imports that are not exact. `definitions` are values of a Mitsuba
+        file's parameters.
+        """
+        return Scene(_native.Scene.load(os.fspath(path), strict, [(key, str(value)) for key, value in (definitions or {}).items()]))
+
+    @staticmethod
+    def from_toml(text: str, *, folder: Path = "") -> Scene:
+        """Reads the text of a scene file. Paths in it are relative to `folder`."""
+        return Scene(_native.Scene.from_toml(text, os.fspath(folder)))
+
+    @property
+    def name(self) -> str:
+        """The file's name without its ending, or the built-in scene's."""
+        return self._native.name
+
+    @property
+    def size(self) -> Tuple[int, int]:
+        """Columns and rows of the picture."""
+        return self._native.size
+
+    @property
+    def spp(self) -> int:
+        """Samples per pixel."""
+        return self._native.spp
+
+    @property
+    def warnings(self) -> List[str]:
+        """What could not be taken as written, in sentences."""
+        return self._native.warnings
+
+    def render(
+        self,
+        spp: Optional[int] = None,
+        *,
+        size: Optional[Tuple[int, int]] = None,
+        seed: Optional[int] = None,
+        device: str = "auto",
+        layers: Iterable[str] = (),
+        time_limit: Optional[float] = None,
+        target_error: Optional[float] = None,
+        adaptive: bool = False,
+        progress: Optional[Callable[[int, int], object]] = None,
+    ) -> Picture:
+        """Renders the scene. Other threads of Python run meanwhile, and Ctrl-C ends it.
+
+        `spp`, `size` and `seed` stand for what the scene says. `device`: auto, gpu, cpu, or a part of an adapter's name. `layers`: albedo, normal,
+        position, depth, alpha, direct, indirect, emission, ids. `time_limit` in seconds. `target_error`: the relative mean squared error to reach,
+        with `spp` as the most it may take. `adaptive`: more samples where the noise is. `progress` is called with the samples that are done and
+        those that are wanted, up to ten times a second; what it raises ends the render.
+        """
+        names = [layers] if isinstance(layers, str) else list(layers)
+        made = self._native.render(spp, size, seed, device, names, time_limit, target_error, adaptive, progress)
+        return Picture(made.picture, {name: np.asarray(layer) for name, layer in made.layers.items()}, json.loads(made.stats))
+
+    def __repr__(self) -> str:
+        columns, rows = self.size
+        return f"<gpt_pathtracer.Scene {self.name}, {columns}x{rows}, {self.spp} spp>"
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """How far a picture is from its reference, over all channels; `details` has all that `gpt compare --json` says."""
+
+    mse: float
+    #: Relative mean squared error: (a - b)^2 / (b^2 + 0.01).
+    relmse: float
+    mae: float
+    #: Peak signal-to-noise ratio in decibels; infinite of equal pictures.
+    psnr: float
+    #: Largest difference of a value.
+    largest: float
+    details: Dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Whether a device and the CPU reference agree on a scene, path by path."""
+
+    agrees: bool
+    #: Which limits were missed, in sentences.
+    missed: List[str]
+    details: Dict[str, Any]
+
+    def __bool__(self) -> bool:
+        return self.agrees
+
+
+def _picture(of: Any) -> _native.Picture:
+    if isinstance(of, Picture):
+        return of._native
+    if isinstance(of, (str, os.PathLike)):
+        return _native.Picture.open(os.fspath(of))
+    pixels = np.ascontiguousarray(of, dtype=np.float32)
+    if pixels.ndim != 3 or pixels.shape[2] != 3:
+        raise ValueError(f"a picture has rows, columns and three channels, not the shape {pixels.shape}")
+    return _native.Picture.from_bytes(pixels.shape[1], pixels.shape[0], pixels.tobytes())
+
+
+def compare(picture: Union[Picture, Pixels, Path], reference: Union[Picture, Pixels, Path]) -> Comparison:
+    """Measures how far a picture is from its reference; each is a picture, an array or a file."""
+    details = json.loads(_native.compare(_picture(picture), _picture(reference)))
+    mse, relmse, mae, psnr = (details[name]["all"] for name in ("mse", "relmse", "mae", "psnr"))
+    return Comparison(mse, relmse, mae, float("inf") if psnr is None else psnr, details["largest"]["difference"], details)
+
+
+def verify(
+    scene: Union[Scene, Path], *, size: Optional[Tuple[int, int]] = None, spp: Optional[int] = None, device: str = "gpu"
+) -> Verdict:
+    """Renders the scene on a device and by the CPU reference with the same random numbers, and compares them path by path."""
+    loaded = scene if isinstance(scene, Scene) else Scene.load(scene)
+    details = json.loads(_native.verify(loaded._native, size, spp, device))
+    return Verdict(details["agrees"], details["missed"], details)
+
+
+def builtin_scenes() -> List[str]:
+    """Names of the scenes that are part of the package."""
+    return _native.builtin_scenes()

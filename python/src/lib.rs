@@ -1,0 +1,28 @@
+//! What the Python package is made of. The package itself, with documentation and types, is in `package/`.
+//!
+//! Long work is done without Python's lock. Arrays are read-only views of this module's memory, by numpy's array interface.
+
+mod array;
+mod errors;
+mod picture;
+mod scene;
+mod watching;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let py = module.py();
+    module.add("Error", py.get_type::<errors::Error>())?;
+    module.add("SceneError", py.get_type::<errors::SceneError>())?;
+    module.add("DeviceError", py.get_type::<errors::DeviceError>())?;
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<array::Array>()?;
+    module.add_class::<picture::Picture>()?;
+    module.add_class::<scene::Scene>()?;
+    module.add_class::<scene::Rendered>()?;
+    module.add_function(wrap_pyfunction!(picture::compare, module)?)?;
+    module.add_function(wrap_pyfunction!(scene::verify, module)?)?;
+    module.add_function(wrap_pyfunction!(scene::builtin_scenes, module)?)?;
+    Ok(())
+}

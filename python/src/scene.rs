@@ -1,0 +1,222 @@
+//! Scenes, what is rendered of them, and whether devices agree on them.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+use gpt::choice::Choice;
+use gpt::film::Layer;
+use gpt::load::{LoadOptions, builtin_names, load_toml_str, load_with};
+use gpt::output::{LayerChannel, LayerSource};
+use gpt::render::layers::render_layers;
+use gpt::{DeviceChoice, RenderOptions, Renderer};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::array::Array;
+use crate::errors::raised;
+use crate::picture::Picture;
+use crate::watching::Watcher;
+
+/// A scene that was read.
+#[pyclass(frozen, module = "gpt_pathtracer")]
+pub struct Scene(gpt::Scene);
+
+/// A picture, its layers by channel, and what the render did, as JSON.
+#[pyclass(frozen, get_all, module = "gpt_pathtracer")]
+pub struct Rendered {
+    picture: Py<Picture>,
+    layers: BTreeMap<String, Py<Array>>,
+    stats: String,
+}
+
+fn device_of(name: &str) -> PyResult<DeviceChoice> {
+    match name {
+        "auto" => Ok(DeviceChoice::Auto),
+        "gpu" => Ok(DeviceChoice::Gpu),
+        "cpu" => Ok(DeviceChoice::Cpu),
+        "" => Err(PyValueError::new_err("device: auto, gpu, cpu, or a part of an adapter's name")),
+        name => Ok(DeviceChoice::Named(name.to_owned())),
+    }
+}
+
+#[pymethods]
+impl Scene {
+    /// Reads a scene file, a model, a scene of another program, or a built-in scene.
+    #[staticmethod]
+    fn load(py: Python<'_>, path: PathBuf, strict: bool, definitions: Vec<(String, String)>) -> PyResult<Self> {
+        let options = LoadOptions { strict, definitions, ..LoadOptions::default() };
+        py.detach(|| load_with(Some(path.as_os_str()), &options)).map(Self).map_err(|error| raised(error.into()))
+    }
+
+    /// Reads the text of a scene file.
+    #[staticmethod]
+    fn from_toml(py: Python<'_>, text: &str, folder: PathBuf) -> PyResult<Self> {
+        py.detach(|| load_toml_str(text, "scene", Path::new(&folder))).map(Self).map_err(|error| raised(error.into()))
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    #[getter]
+    fn size(&self) -> (u32, u32) {
+        let [width, height] = self.0.film.size;
+        (width, height)
+    }
+
+    #[getter]
+    fn spp(&self) -> u32 {
+        self.0.render.spp
+    }
+
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.0.warnings.clone()
+    }
+
+    /// Renders it.
+    #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn render(
+        &self,
+        py: Python<'_>,
+        spp: Option<u32>,
+        size: Option<(u32, u32)>,
+        seed: Option<u32>,
+        device: &str,
+        layers: Vec<String>,
+        time_limit: Option<f64>,
+        target_error: Option<f64>,
+        adaptive: bool,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Rendered> {
+        let wanted = layers.iter().map(|name| layer_of(name)).collect::<PyResult<Vec<_>>>()?;
+        let options = RenderOptions {
+            device: device_of(device)?,
+            time_limit: time_limit.map(seconds).transpose()?,
+            target_error,
+            adaptive,
+            ..RenderOptions::default()
+        };
+        let mut scene = self.0.clone();
+        scene.film.size = size.map_or(scene.film.size, |(width, height)| [width, height]);
+        scene.render.spp = spp.unwrap_or(scene.render.spp);
+        scene.render.seed = seed.unwrap_or(scene.render.seed);
+        let watcher = Watcher::new(progress);
+        let outcome = py.detach(|| -> Result<_, gpt::Error> {
+            let mut renderer = Renderer::new(&scene, &options)?;
+            let layers = if wanted.is_empty() { Some(Vec::new()) } else { render_layers(&scene, &options, &wanted, &watcher)? };
+            Ok((renderer.image(&watcher)?, layers, renderer.device().to_owned()))
+        });
+        watcher.result()?;
+        let (image, channels, device) = outcome.map_err(raised)?;
+        let stats = stats(&image, &scene, &device).to_string();
+        let layers = arrays(py, channels.unwrap_or_default(), scene.film.size)?;
+        Ok(Rendered { picture: Py::new(py, Picture(image))?, layers, stats })
+    }
+}
+
+fn seconds(seconds: f64) -> PyResult<Duration> {
+    let limit = Duration::try_from_secs_f64(seconds).ok().filter(|limit| !limit.is_zero());
+    limit.ok_or_else(|| PyValueError::new_err("time_limit: a number of seconds above 0"))
+}
+
+fn layer_of(name: &str) -> PyResult<Layer> {
+    let known = [
+        Layer::Albedo,
+        Layer::Normal,
+        Layer::Position,
+        Layer::Depth,
+        Layer::Alpha,
+        Layer::Direct,
+        Layer::Indirect,
+        Layer::Emission,
+        Layer::Ids,
+    ];
+    known.into_iter().find(|layer| layer.name() == name).ok_or_else(|| {
+        let names: Vec<&str> = known.iter().map(|layer| layer.name()).collect();
+        PyValueError::new_err(format!("there is no layer `{name}`; there are {}", names.join(", ")))
+    })
+}
+
+/// Channels as arrays, by the layers' names in EXR files: `Albedo` has three channels, `Z` one.
+fn arrays(py: Python<'_>, channels: Vec<LayerChannel>, [width, height]: [u32; 2]) -> PyResult<BTreeMap<String, Py<Array>>> {
+    let mut layers: BTreeMap<String, Vec<LayerSource>> = BTreeMap::new();
+    for LayerChannel { name, source } in channels {
+        let layer = name.rsplit_once('.').map_or(name, |(layer, _)| layer);
+        layers.entry(layer.to_owned()).or_default().push(source);
+    }
+    let mut arrays = BTreeMap::new();
+    for (name, sources) in layers {
+        let mut numbers = Vec::with_capacity(width as usize * height as usize * sources.len());
+        for row in 0..height {
+            let rows = sources.iter().map(|source| match source {
+                LayerSource::Component(picture, place) | LayerSource::Whole(picture, place) => Ok((picture.row(row)?, *place)),
+                LayerSource::Variance(..) | LayerSource::Count => Err(std::io::Error::other("it is no layer by itself")),
+            });
+            let rows = rows.collect::<Result<Vec<_>, _>>()?;
+            for column in 0..width as usize {
+                numbers.extend(rows.iter().map(|(row, place)| row[column][*place]));
+            }
+        }
+        let mut shape = vec![height as usize, width as usize];
+        if sources.len() > 1 {
+            shape.push(sources.len());
+        }
+        arrays.insert(name, Py::new(py, Array { numbers, shape })?);
+    }
+    Ok(arrays)
+}
+
+/// What the render did, with the names of `gpt render --stats`.
+fn stats(image: &gpt::Image, scene: &gpt::Scene, device: &str) -> serde_json::Value {
+    let Some(outcome) = image.outcome() else { return serde_json::Value::Null };
+    let report = &outcome.report;
+    let pixels = f64::from(image.width()) * f64::from(image.height());
+    serde_json::json!({
+        "scene": scene.name,
+        "device": device,
+        "width": image.width(),
+        "height": image.height(),
+        "spp": scene.render.spp,
+        "spp_done": report.samples as f64 / pixels,
+        "stopped_by": match outcome.stop {
+            gpt::Stop::Samples => "samples",
+            gpt::Stop::TimeLimit => "time_limit",
+            gpt::Stop::TargetError => "target_error",
+            gpt::Stop::Interrupted => "interrupted",
+        },
+        "expected_error": outcome.error.map(|error| error.mean),
+        "error_bound": outcome.error.map(|error| error.upper),
+        "seconds": { "build": report.build_seconds, "compile": report.compile_seconds, "render": report.render_seconds },
+        "samples": report.samples,
+        "samples_per_second": report.samples as f64 / report.render_seconds.max(1e-9),
+        "rays": report.rays,
+        "non_finite_samples": report.non_finite_samples,
+        "peak_device_bytes": report.peak_device_bytes,
+        "version": env!("CARGO_PKG_VERSION"),
+    })
+}
+
+/// Whether a device and the CPU reference agree on a scene, as JSON.
+#[pyfunction]
+pub fn verify(py: Python<'_>, scene: &Scene, size: Option<(u32, u32)>, spp: Option<u32>, device: &str) -> PyResult<String> {
+    let choice = device_of(device)?;
+    let mut scene = scene.0.clone();
+    scene.render.spp = spp.unwrap_or(gpt::verify::DEFAULT_SPP);
+    let [width, height] = scene.film.size;
+    let side = f64::from(gpt::verify::DEFAULT_SIDE) / f64::from(width.max(height));
+    let shrunk = |length: u32| (f64::from(length) * side.min(1.0)).round().max(1.0) as u32;
+    scene.film.size = size.map_or([shrunk(width), shrunk(height)], |(width, height)| [width, height]);
+    let scene = Arc::new(scene);
+    let verdict = py.detach(|| gpt::verify(&scene, &choice)).map_err(raised)?;
+    serde_json::to_string(&verdict).map_err(|error| PyValueError::new_err(error.to_string()))
+}
+
+/// Names of the scenes that are part of the program.
+#[pyfunction]
+pub fn builtin_scenes() -> Vec<&'static str> {
+    builtin_names().collect()
+}

@@ -1,0 +1,219 @@
+"""Tests of the Python package, run by scripts/python against the installed wheel."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import gpt_pathtracer as gpt
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+
+SCENE = """
+[film]
+size = [24, 16]
+[render]
+spp = 8
+[camera]
+position = [0, 0, 4]
+look_at = [0, 0, 0]
+vfov = 40
+[[material]]
+name = "clay"
+type = "diffuse"
+reflectance = [0.6, 0.3, 0.2]
+[[shape]]
+type = "sphere"
+center = [0, 0, 0]
+radius = 1
+material = "clay"
+[[light]]
+type = "point"
+position = [3, 4, 5]
+intensity = [40, 30, 20]
+"""
+
+
+def device():
+    return "cpu" if os.environ.get("GPT_TEST_GPU") == "skip" else "auto"
+
+
+class Rendering(unittest.TestCase):
+    def setUp(self):
+        self.scene = gpt.Scene.from_toml(SCENE)
+
+    def test_pixels_are_shared_and_cannot_be_written(self):
+        picture = self.scene.render(device="cpu")
+        pixels = picture.pixels
+        self.assertEqual((pixels.shape, pixels.dtype), ((16, 24, 3), np.float32))
+        self.assertTrue(pixels[8, 12, 0] > pixels[8, 12, 2] > 0)
+        self.assertEqual(pixels[0, 0].tolist(), [0, 0, 0])
+        address = pixels.__array_interface__["data"][0]
+        self.assertEqual(np.asarray(picture).__array_interface__["data"][0], address)
+        self.assertFalse(pixels.flags.owndata or pixels.flags.writeable)
+        copy = np.array(picture)
+        self.assertNotEqual(copy.__array_interface__["data"][0], address)
+        kept = copy.tolist()
+        del picture
+        other = [self.scene.render(device="cpu", seed=seed) for seed in range(3)]
+        self.assertEqual(pixels.tolist(), kept, "the view keeps its memory")
+        self.assertNotEqual(other[1].pixels.tolist(), kept)
+
+    def test_stats_say_what_was_done(self):
+        stats = self.scene.render(spp=4, size=(10, 6), device="cpu").stats
+        self.assertEqual((stats["width"], stats["height"], stats["spp"], stats["samples"]), (10, 6, 4, 240))
+        self.assertEqual((stats["device"], stats["stopped_by"]), ("CPU reference", "samples"))
+        self.assertGreaterEqual(stats["rays"], 240)
+
+    def test_layers_come_by_their_names(self):
+        layers = self.scene.render(device=device(), layers=["normal", "depth", "albedo", "ids"]).layers
+        self.assertEqual(sorted(layers), ["Albedo", "MaterialId", "N", "ObjectId", "Z"])
+        self.assertEqual((layers["N"].shape, layers["Z"].shape), ((16, 24, 3), (16, 24)))
+        self.assertAlmostEqual(float(np.linalg.norm(layers["N"][8, 12])), 1, delta=0.05)
+        self.assertAlmostEqual(float(layers["Z"][8, 12]), 3, delta=0.05)
+        self.assertEqual(self.scene.render(device="cpu").layers, {})
+
+    def test_goals(self):
+        limited = self.scene.render(spp=10_000_000, time_limit=0.5, device="cpu").stats
+        self.assertEqual(limited["stopped_by"], "time_limit")
+        reached = self.scene.render(spp=100_000, target_error=0.01, device="cpu").stats
+        self.assertEqual(reached["stopped_by"], "target_error")
+        self.assertLessEqual(reached["error_bound"], 0.01)
+
+    def test_both_devices_agree(self):
+        if device() == "cpu":
+            self.skipTest("without a GPU")
+        verdict = gpt.verify(self.scene, size=(24, 16), spp=4)
+        self.assertTrue(verdict and verdict.agrees, verdict.missed)
+        self.assertEqual(verdict.details["paths"], 24 * 16 * 4)
+
+    def test_progress_is_told_and_may_end_it(self):
+        told = []
+        self.scene.render(spp=200, device="cpu", progress=lambda done, total: told.append((done, total)))
+        self.assertTrue(told and all(0 <= done <= total for done, total in told), told)
+        self.assertEqual(told, sorted(told))
+
+        def enough(done, total):
+            raise RuntimeError("enough")
+
+        with self.assertRaisesRegex(RuntimeError, "enough"):
+            self.scene.render(spp=100_000_000, device="cpu", progress=enough)
+
+    def test_other_threads_run_meanwhile(self):
+        done = threading.Event()
+        render = threading.Thread(target=lambda: (self.scene.render(spp=10_000_000, time_limit=0.5, device="cpu"), done.set()))
+        render.start()
+        counted = 0
+        while not done.is_set():
+            counted += 1
+            time.sleep(0.001)
+        render.join()
+        self.assertGreater(counted, 3)
+
+    @unittest.skipIf(os.name == "nt", "signals of Unix")
+    def test_ctrl_c_ends_it(self):
+        code = "import sys, gpt_pathtracer as gpt\nprint('ready', flush=True)\n"
+        code += "try:\n  gpt.Scene.from_toml(sys.stdin.read()).render(spp=1_000_000_000, device='cpu')\n"
+        code += "except KeyboardInterrupt:\n  print('interrupted', flush=True)\n"
+        child = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        child.stdin.write(SCENE)
+        child.stdin.close()
+        self.assertEqual(child.stdout.readline().strip(), "ready")
+        time.sleep(1)
+        child.send_signal(signal.SIGINT)
+        self.assertEqual(child.stdout.readline().strip(), "interrupted")
+        self.assertEqual(child.wait(60), 0)
+        child.stdout.close()
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def test_scenes_come_from_files_and_by_name(self):
+        path = self.folder / "ball.toml"
+        path.write_text(SCENE)
+        scene = gpt.Scene.load(path)
+        self.assertEqual((scene.name, scene.size, scene.spp, scene.warnings), ("ball", (24, 16), 8, []))
+        self.assertIn("cornell", gpt.builtin_scenes())
+        self.assertEqual(gpt.Scene.load("cornell").name, "cornell")
+
+    def test_pictures_are_saved_read_and_compared(self):
+        picture = gpt.Scene.from_toml(SCENE).render(device="cpu")
+        path = self.folder / "ball.exr"
+        picture.save(path)
+        again = gpt.Picture.open(path)
+        self.assertEqual(again.pixels.tolist(), picture.pixels.tolist())
+        for same in (again, path, picture.pixels, picture.pixels.astype(np.float64)):
+            comparison = gpt.compare(same, picture)
+            self.assertEqual((comparison.mse, comparison.largest, comparison.psnr), (0, 0, float("inf")))
+        brighter = gpt.compare(picture.pixels + 0.5, picture)
+        self.assertAlmostEqual(brighter.mse, 0.25, delta=1e-6)
+        self.assertAlmostEqual(brighter.largest, 0.5, delta=1e-6)
+
+    def test_mistakes_are_exceptions(self):
+        with self.assertRaisesRegex(gpt.SceneError, "reflectanse"):
+            gpt.Scene.from_toml(SCENE.replace("reflectance", "reflectanse"))
+        with self.assertRaisesRegex(gpt.SceneError, "missing.toml"):
+            gpt.Scene.load(self.folder / "missing.toml")
+        scene = gpt.Scene.from_toml(SCENE)
+        with self.assertRaisesRegex(gpt.DeviceError, "Abacus"):
+            scene.render(device="Abacus")
+        for wrong in ({"spp": 0}, {"size": (0, 5)}, {"layers": ["scent"]}, {"time_limit": -1}, {"target_error": 0.0}, {"device": ""}):
+            with self.assertRaises(ValueError, msg=str(wrong)):
+                scene.render(**wrong)
+        for error in (gpt.SceneError, gpt.DeviceError):
+            self.assertTrue(issubclass(error, gpt.Error))
+        with self.assertRaises(OSError):
+            gpt.Picture.open(self.folder / "missing.exr")
+        with self.assertRaises(OSError):
+            scene.render(device="cpu", spp=1).save(self.folder / "no" / "folder.exr")
+        with self.assertRaises(ValueError):
+            gpt.compare(np.zeros((2, 3, 3)), np.zeros((3, 3, 3)))
+        with self.assertRaises(ValueError):
+            gpt.compare(np.zeros((2, 3)), np.zeros((2, 3)))
+
+    def test_the_program_is_there(self):
+        program = Path(sys.executable).parent / ("gpt.exe" if os.name == "nt" else "gpt")
+        said = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+        self.assertEqual(said.strip(), f"gpt {gpt.__version__}")
+
+    def test_types_are_stubbed(self):
+        package = Path(gpt.__file__).parent
+        self.assertTrue((package / "py.typed").exists())
+        stub = (package / "_native.pyi").read_text()
+        for name in dir(gpt._native):
+            if not name.startswith("__") or name == "__version__":
+                self.assertRegex(stub, rf"(?m)^(class {name}\b|def {name}\(|{name}:)", name)
+
+
+class Documentation(unittest.TestCase):
+    def test_the_examples_run(self):
+        """All Python of docs/python.md, in order, as one notebook."""
+        text = (ROOT / "docs" / "python.md").read_text()
+        cells = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+        self.assertGreater(len(cells), 3)
+        before = os.getcwd()
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            try:
+                names = {}
+                for cell in cells:
+                    exec(compile(cell, "docs/python.md", "exec"), names)
+                self.assertTrue(Path("ball.exr").exists() and Path("ball.png").exists())
+            finally:
+                os.chdir(before)
+
+
+if __name__ == "__main__":
+    unittest.main()
