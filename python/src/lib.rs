@@ -4,6 +4,7 @@
 
 mod array;
 mod errors;
+mod layers;
 mod picture;
 mod scene;
 mod watching;

@@ -10,7 +10,7 @@ use crate::array::interface;
 use crate::errors::raised;
 
 /// A picture: linear radiance, rendered, read or made of numbers.
-#[pyclass(frozen, module = "gpt_pathtracer")]
+#[pyclass(frozen, module = "gpt_pathtracer._native")]
 pub struct Picture(pub gpt::Image);
 
 #[pymethods]
@@ -36,7 +36,7 @@ impl Picture {
     #[getter]
     fn __array_interface__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let shape = [self.0.height() as usize, self.0.width() as usize, 3];
-        interface(py, self.0.pixels().as_ptr().cast(), &shape)
+        interface(py, "f4", self.0.pixels().as_ptr() as usize, &shape)
     }
 
     /// Writes a file.

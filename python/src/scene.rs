@@ -1,14 +1,12 @@
 //! Scenes, what is rendered of them, and whether devices agree on them.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::PathBuf;
 use std::time::Duration;
 
 use gpt::choice::Choice;
 use gpt::film::Layer;
-use gpt::load::{LoadOptions, builtin_names, load_toml_str, load_with};
-use gpt::output::{LayerChannel, LayerSource};
+use gpt::load::{LoadOptions, SceneError, builtin_names, load_toml_str, load_with};
 use gpt::render::layers::render_layers;
 use gpt::{DeviceChoice, RenderOptions, Renderer};
 use pyo3::exceptions::PyValueError;
@@ -16,15 +14,16 @@ use pyo3::prelude::*;
 
 use crate::array::Array;
 use crate::errors::raised;
+use crate::layers::arrays;
 use crate::picture::Picture;
-use crate::watching::Watcher;
+use crate::watching::watched;
 
 /// A scene that was read.
-#[pyclass(frozen, module = "gpt_pathtracer")]
+#[pyclass(frozen, module = "gpt_pathtracer._native")]
 pub struct Scene(gpt::Scene);
 
 /// A picture, its layers by channel, and what the render did, as JSON.
-#[pyclass(frozen, get_all, module = "gpt_pathtracer")]
+#[pyclass(frozen, get_all, module = "gpt_pathtracer._native")]
 pub struct Rendered {
     picture: Py<Picture>,
     layers: BTreeMap<String, Py<Array>>,
@@ -47,13 +46,20 @@ impl Scene {
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf, strict: bool, definitions: Vec<(String, String)>) -> PyResult<Self> {
         let options = LoadOptions { strict, definitions, ..LoadOptions::default() };
-        py.detach(|| load_with(Some(path.as_os_str()), &options)).map(Self).map_err(|error| raised(error.into()))
+        let load = || {
+            let scene = load_with(Some(path.as_os_str()), &options)?;
+            match scene.import_report.summary().filter(|_| strict) {
+                Some(summary) => Err(SceneError::in_file(&scene.name, summary)),
+                None => Ok(scene),
+            }
+        };
+        py.detach(load).map(Self).map_err(|error| raised(error.into()))
     }
 
     /// Reads the text of a scene file.
     #[staticmethod]
     fn from_toml(py: Python<'_>, text: &str, folder: PathBuf) -> PyResult<Self> {
-        py.detach(|| load_toml_str(text, "scene", Path::new(&folder))).map(Self).map_err(|error| raised(error.into()))
+        py.detach(|| load_toml_str(text, "scene", &folder)).map(Self).map_err(|error| raised(error.into()))
     }
 
     #[getter]
@@ -74,7 +80,8 @@ impl Scene {
 
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        self.0.warnings.clone()
+        let precision = self.0.precision_warnings();
+        self.0.warnings.iter().chain(&precision).cloned().chain(self.0.import_report.summary()).collect()
     }
 
     /// Renders it.
@@ -104,17 +111,18 @@ impl Scene {
         scene.film.size = size.map_or(scene.film.size, |(width, height)| [width, height]);
         scene.render.spp = spp.unwrap_or(scene.render.spp);
         scene.render.seed = seed.unwrap_or(scene.render.seed);
-        let watcher = Watcher::new(progress);
-        let outcome = py.detach(|| -> Result<_, gpt::Error> {
+        let outcome = watched(py, progress.as_ref(), |watcher| -> Result<_, gpt::Error> {
+            // First, because it finds what is wrong with the options.
             let mut renderer = Renderer::new(&scene, &options)?;
-            let layers = if wanted.is_empty() { Some(Vec::new()) } else { render_layers(&scene, &options, &wanted, &watcher)? };
-            Ok((renderer.image(&watcher)?, layers, renderer.device().to_owned()))
-        });
-        watcher.result()?;
-        let (image, channels, device) = outcome.map_err(raised)?;
-        let stats = stats(&image, &scene, &device).to_string();
-        let layers = arrays(py, channels.unwrap_or_default(), scene.film.size)?;
-        Ok(Rendered { picture: Py::new(py, Picture(image))?, layers, stats })
+            let layers = render_layers(&scene, &options, (&wanted, false), watcher, &mut |_, _| Ok::<_, gpt::Error>(None))?;
+            let image = renderer.image(watcher)?;
+            let stats = stats(&image, &scene, &renderer);
+            Ok((layers, image, stats))
+        })?;
+        let (channels, image, stats) = outcome.map_err(raised)?;
+        let layers = py.detach(|| arrays(&channels.unwrap_or_default(), &image))?;
+        let layers = layers.into_iter().map(|(name, array)| Ok((name, Py::new(py, array)?))).collect::<PyResult<_>>()?;
+        Ok(Rendered { picture: Py::new(py, Picture(image))?, layers, stats: stats.to_string() })
     }
 }
 
@@ -124,60 +132,21 @@ fn seconds(seconds: f64) -> PyResult<Duration> {
 }
 
 fn layer_of(name: &str) -> PyResult<Layer> {
-    let known = [
-        Layer::Albedo,
-        Layer::Normal,
-        Layer::Position,
-        Layer::Depth,
-        Layer::Alpha,
-        Layer::Direct,
-        Layer::Indirect,
-        Layer::Emission,
-        Layer::Ids,
-    ];
-    known.into_iter().find(|layer| layer.name() == name).ok_or_else(|| {
-        let names: Vec<&str> = known.iter().map(|layer| layer.name()).collect();
+    Layer::from_name(name).ok_or_else(|| {
+        let names: Vec<&str> = Layer::ALL.iter().map(|layer| layer.name()).collect();
         PyValueError::new_err(format!("there is no layer `{name}`; there are {}", names.join(", ")))
     })
 }
 
-/// Channels as arrays, by the layers' names in EXR files: `Albedo` has three channels, `Z` one.
-fn arrays(py: Python<'_>, channels: Vec<LayerChannel>, [width, height]: [u32; 2]) -> PyResult<BTreeMap<String, Py<Array>>> {
-    let mut layers: BTreeMap<String, Vec<LayerSource>> = BTreeMap::new();
-    for LayerChannel { name, source } in channels {
-        let layer = name.rsplit_once('.').map_or(name, |(layer, _)| layer);
-        layers.entry(layer.to_owned()).or_default().push(source);
-    }
-    let mut arrays = BTreeMap::new();
-    for (name, sources) in layers {
-        let mut numbers = Vec::with_capacity(width as usize * height as usize * sources.len());
-        for row in 0..height {
-            let rows = sources.iter().map(|source| match source {
-                LayerSource::Component(picture, place) | LayerSource::Whole(picture, place) => Ok((picture.row(row)?, *place)),
-                LayerSource::Variance(..) | LayerSource::Count => Err(std::io::Error::other("it is no layer by itself")),
-            });
-            let rows = rows.collect::<Result<Vec<_>, _>>()?;
-            for column in 0..width as usize {
-                numbers.extend(rows.iter().map(|(row, place)| row[column][*place]));
-            }
-        }
-        let mut shape = vec![height as usize, width as usize];
-        if sources.len() > 1 {
-            shape.push(sources.len());
-        }
-        arrays.insert(name, Py::new(py, Array { numbers, shape })?);
-    }
-    Ok(arrays)
-}
-
 /// What the render did, with the names of `gpt render --stats`.
-fn stats(image: &gpt::Image, scene: &gpt::Scene, device: &str) -> serde_json::Value {
+fn stats(image: &gpt::Image, scene: &gpt::Scene, renderer: &Renderer) -> serde_json::Value {
     let Some(outcome) = image.outcome() else { return serde_json::Value::Null };
     let report = &outcome.report;
     let pixels = f64::from(image.width()) * f64::from(image.height());
     serde_json::json!({
         "scene": scene.name,
-        "device": device,
+        "device": renderer.device(),
+        "notice": renderer.notice(),
         "width": image.width(),
         "height": image.height(),
         "spp": scene.render.spp,
@@ -206,11 +175,10 @@ pub fn verify(py: Python<'_>, scene: &Scene, size: Option<(u32, u32)>, spp: Opti
     let choice = device_of(device)?;
     let mut scene = scene.0.clone();
     scene.render.spp = spp.unwrap_or(gpt::verify::DEFAULT_SPP);
-    let [width, height] = scene.film.size;
-    let side = f64::from(gpt::verify::DEFAULT_SIDE) / f64::from(width.max(height));
-    let shrunk = |length: u32| (f64::from(length) * side.min(1.0)).round().max(1.0) as u32;
-    scene.film.size = size.map_or([shrunk(width), shrunk(height)], |(width, height)| [width, height]);
-    let scene = Arc::new(scene);
+    match size {
+        Some((width, height)) => scene.film.size = [width, height],
+        None => gpt::verify::shrink(&mut scene, gpt::verify::DEFAULT_SIDE),
+    }
     let verdict = py.detach(|| gpt::verify(&scene, &choice)).map_err(raised)?;
     serde_json::to_string(&verdict).map_err(|error| PyValueError::new_err(error.to_string()))
 }

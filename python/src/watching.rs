@@ -1,68 +1,83 @@
-//! A render that Python watches: Ctrl-C ends it, and a function is told how far it is.
+//! Renders that Python waits for: Ctrl-C ends them, and a function is told how far they are.
 
-use std::sync::{Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
 
 use pyo3::prelude::*;
 
 /// Time between two looks at Python's signals.
 const INTERVAL: Duration = Duration::from_millis(100);
+/// As much as the first thread of a program has.
+const STACK_BYTES: usize = 8 << 20;
 
-/// Tells Python of a render, and the render of Python.
-pub struct Watcher {
-    progress: Option<Py<PyAny>>,
-    state: Mutex<State>,
-}
-
+/// What a render and who waits for it know of each other.
 #[derive(Default)]
-struct State {
-    looked: Option<Instant>,
-    /// What Python raised; the render ends.
-    raised: Option<PyErr>,
-    done: u64,
-    total: u64,
-}
-
-impl Watcher {
-    pub fn new(progress: Option<Py<PyAny>>) -> Self {
-        Self { progress, state: Mutex::default() }
-    }
-
-    /// What Python raised meanwhile.
-    ///
-    /// # Errors
-    /// That.
-    pub fn result(self) -> PyResult<()> {
-        let state = self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
-        state.raised.map_or(Ok(()), Err)
-    }
+pub struct Watcher {
+    ends: AtomicBool,
+    done: AtomicU64,
+    total: AtomicU64,
 }
 
 impl gpt::Observer for Watcher {
     fn progress(&self, done: u64, total: u64) {
-        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        (state.done, state.total) = (done, total);
+        self.done.store(done, Ordering::Relaxed);
+        self.total.store(total, Ordering::Relaxed);
     }
 
     fn stop_requested(&self) -> bool {
-        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        if state.raised.is_some() || state.looked.is_some_and(|looked| looked.elapsed() < INTERVAL) {
-            return state.raised.is_some();
-        }
-        let (done, total) = (state.done, state.total);
-        // What comes first is told at once.
-        state.looked = (total > 0).then(Instant::now);
-        drop(state);
-        let outcome = Python::attach(|py| {
-            py.check_signals()?;
-            match &self.progress {
-                Some(function) if total > 0 => function.call1(py, (done, total)).map(drop),
-                _ => Ok(()),
-            }
-        });
-        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        state.looked = (total > 0).then(Instant::now);
-        state.raised = outcome.err();
-        state.raised.is_some()
+        self.ends.load(Ordering::Relaxed)
     }
+}
+
+impl Watcher {
+    fn tell(&self, py: Python<'_>, progress: Option<&Py<PyAny>>) -> PyResult<()> {
+        let (done, total) = (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed));
+        match progress {
+            // It may have begun anew between the two.
+            Some(function) if total > 0 && done <= total => function.call1(py, (done, total)).map(drop),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Renders in a thread of its own and without Python's lock, so that signals and other threads of Python are seen to meanwhile.
+///
+/// # Errors
+/// What Python raised: the exception of a signal, or what `progress` raised. Either ends the render.
+pub fn watched<T: Send>(py: Python<'_>, progress: Option<&Py<PyAny>>, render: impl FnOnce(&Watcher) -> T + Send) -> PyResult<T> {
+    let watcher = &Watcher::default();
+    let look = || {
+        Python::attach(|py| {
+            py.check_signals()?;
+            watcher.tell(py, progress)
+        })
+    };
+    let waiting = || {
+        thread::scope(|scope| {
+            let (ended, end) = mpsc::channel::<()>();
+            let rendering = move || {
+                let outcome = render(watcher);
+                drop(ended);
+                outcome
+            };
+            let worker =
+                thread::Builder::new().name("render".to_owned()).stack_size(STACK_BYTES).spawn_scoped(scope, rendering)?;
+            let mut raised = None;
+            while end.recv_timeout(INTERVAL) == Err(RecvTimeoutError::Timeout) {
+                if raised.is_none() {
+                    raised = look().err();
+                    watcher.ends.store(raised.is_some(), Ordering::Relaxed);
+                }
+            }
+            let outcome = worker.join().unwrap_or_else(|panic| resume_unwind(panic));
+            match raised {
+                Some(raised) => Err(raised),
+                None => look().map(|()| outcome),
+            }
+        })
+    };
+    py.detach(waiting)
 }

@@ -27,7 +27,7 @@ pub use error::OutputError;
 pub use exr_file::part_channels;
 pub use finished::is_finished_picture;
 pub use format::{PICTURE_ENDINGS, PictureFormat};
-pub use layers::{LayerChannel, LayerPicture, LayerSource};
+pub use layers::{LayerChannel, LayerPicture, LayerSource, sample_variance};
 pub use picture::{PictureFile, STDOUT};
 pub use provenance::{CROP_KEY, LAYERS_KEY, Provenance};
 pub use read::{Image, PictureKind, ReadError, read_image};

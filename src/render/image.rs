@@ -77,6 +77,13 @@ impl Image {
         &self.pixels.pixels
     }
 
+    /// Samples of a pixel of a picture that was rendered.
+    #[doc(hidden)]
+    pub fn samples(&self, pixel: usize) -> u32 {
+        let of = |rendered: &Rendered| rendered.counts.as_ref().map_or(rendered.fewest_samples, |counts| counts[pixel]);
+        self.rendered.as_ref().map_or(0, of)
+    }
+
     /// What the render did, of a picture that was rendered.
     pub fn outcome(&self) -> Option<&Outcome> {
         self.rendered.as_ref().map(|rendered| &rendered.outcome)

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Pixels = NDArray[np.float32]
+    Layer = NDArray[Any]
     Path = Union[str, os.PathLike[str]]
 
 __all__ = [
@@ -45,10 +46,11 @@ __all__ = [
 class Picture:
     """Linear Rec. 709 radiance: rendered, or read from a file. numpy takes it for an array."""
 
-    def __init__(self, native: _native.Picture, layers: Mapping[str, Pixels], stats: Dict[str, Any]) -> None:
+    def __init__(self, native: _native.Picture, layers: Mapping[str, Layer], stats: Dict[str, Any]) -> None:
         self._native = native
         self._pixels: Optional[Pixels] = None
-        #: Arrays by the layers' names in EXR files: Albedo, N, P, Z, A, Direct, Indirect, Emission, ObjectId, MaterialId.
+        #: Read-only arrays by the layers' names in EXR files: Albedo, N, P, Z, A, Variance, SampleCount, Direct, Indirect, Emission, ObjectId,
+        #: MaterialId, CryptoObject00 and so on. Numbers of samples, objects and materials are whole.
         self.layers = dict(layers)
         #: What the render did, with the names of `gpt render --stats`; empty of a picture that was read.
         self.stats = stats
@@ -138,9 +140,10 @@ class Scene:
         """Renders the scene. Other threads of Python run meanwhile, and Ctrl-C ends it.
 
         `spp`, `size` and `seed` stand for what the scene says. `device`: auto, gpu, cpu, or a part of an adapter's name. `layers`: albedo, normal,
-        position, depth, alpha, direct, indirect, emission, ids. `time_limit` in seconds. `target_error`: the relative mean squared error to reach,
-        with `spp` as the most it may take. `adaptive`: more samples where the noise is. `progress` is called with the samples that are done and
-        those that are wanted, up to ten times a second; what it raises ends the render.
+        position, depth, alpha, variance, samples, direct, indirect, emission, ids, cryptomatte. `time_limit` in seconds. `target_error`: the
+        relative mean squared error to reach, with `spp` as the most it may take. `adaptive`: more samples where the noise is. `progress` is called
+        with the samples that are done and those that are wanted, of each layer and then of the picture, up to ten times a second and at the end;
+        what it raises ends the render.
         """
         names = [layers] if isinstance(layers, str) else list(layers)
         made = self._native.render(spp, size, seed, device, names, time_limit, target_error, adaptive, progress)

@@ -1,15 +1,18 @@
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from typing import Any, Callable, Dict, List, Optional, Tuple, final
 
 __version__: str
+__all__ = ["Array", "DeviceError", "Error", "Picture", "Rendered", "Scene", "SceneError", "__version__", "builtin_scenes", "compare", "verify"]
 
 class Error(Exception): ...
 class SceneError(Error): ...
 class DeviceError(Error): ...
 
+@final
 class Array:
     @property
     def __array_interface__(self) -> Dict[str, Any]: ...
 
+@final
 class Picture:
     @staticmethod
     def open(path: str) -> Picture: ...
@@ -19,11 +22,16 @@ class Picture:
     def __array_interface__(self) -> Dict[str, Any]: ...
     def save(self, path: str) -> None: ...
 
+@final
 class Rendered:
-    picture: Picture
-    layers: Dict[str, Array]
-    stats: str
+    @property
+    def picture(self) -> Picture: ...
+    @property
+    def layers(self) -> Dict[str, Array]: ...
+    @property
+    def stats(self) -> str: ...
 
+@final
 class Scene:
     @staticmethod
     def load(path: str, strict: bool, definitions: List[Tuple[str, str]]) -> Scene: ...
