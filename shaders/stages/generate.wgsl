@@ -2,7 +2,6 @@
 #import core/layout.wgsl
 #import core/camera.wgsl
 #import core/parameters.wgsl
-#import core/sampler.wgsl
 #import shading/path.wgsl
 #import stages/wavefront.wgsl
 #if PIXEL_LIST
