@@ -116,6 +116,9 @@ pub mod shader;
 pub mod verify;
 
 #[cfg(test)]
+#[path = "../tests/common/effort.rs"]
+mod effort;
+#[cfg(test)]
 #[path = "../tests/statistics/mod.rs"]
 mod statistics;
 

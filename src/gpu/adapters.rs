@@ -1,7 +1,7 @@
 //! Which graphics adapters there are, and which one renders.
 
 use serde::Serialize;
-use wgpu::{Adapter, Backend, Backends, DeviceType, Features, Instance, InstanceDescriptor, TextureFormat};
+use wgpu::{Adapter, Backend, Backends, DeviceType, Features, Instance, InstanceDescriptor, InstanceFlags, TextureFormat};
 
 use crate::renderer::{DeviceChoice, RenderError};
 
@@ -127,7 +127,10 @@ fn name_contains(name: &str, part: &str) -> bool {
 }
 
 fn adapters_best_first() -> Vec<Adapter> {
-    let descriptor = InstanceDescriptor { backends: BACKENDS, ..InstanceDescriptor::new_without_display_handle() }.with_env();
+    // Line numbers in SPIR-V take naga a search through the whole text for every statement.
+    let flags = InstanceFlags::from_build_config().difference(InstanceFlags::DEBUG);
+    let descriptor =
+        InstanceDescriptor { backends: BACKENDS, flags, ..InstanceDescriptor::new_without_display_handle() }.with_env();
     let instance = Instance::new(descriptor);
     let mut adapters = pollster::block_on(instance.enumerate_adapters(BACKENDS));
     adapters.sort_by_key(|adapter| {

@@ -3,9 +3,9 @@
 /// Points of the Gauss–Legendre rule along each axis; it is exact for polynomials up to degree 15.
 const POINTS: usize = 8;
 /// A rectangle is first cut into this many parts along each axis, so that a narrow peak is not overlooked.
-const FIRST_CUTS: usize = 4;
+const FIRST_CUTS: usize = 2;
 /// How often each of those parts may be quartered.
-const DEEPEST: u32 = 7;
+const DEEPEST: u32 = 8;
 
 /// An integral and an estimate of its error.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

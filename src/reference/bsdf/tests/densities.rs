@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::*;
 use crate::compare::sidak;
+use crate::effort::in_full;
 use crate::statistics::{DirectionalReport, SphereBins, density_by_differences, test_directional_sampler};
 
 const TILTED: &str = "tilted";
@@ -34,7 +35,15 @@ fn surfaces() -> Vec<(String, Bsdf)> {
         }
         surfaces.push((format!("{name}, {TILTED}"), Bsdf::mixture(view(40.0, 25.0), lobes.clone())));
     }
+    // Coats and fibres lie on the outside: from within, what is smooth below them has single directions alone.
+    let all = surfaces.len();
+    surfaces.retain(|(_, bsdf)| has_density(bsdf));
+    assert_eq!(all - surfaces.len(), 1, "one example is smooth seen from behind, and rough from in front");
     surfaces
+}
+
+fn has_density(bsdf: &Bsdf) -> bool {
+    cube_points(64, 9).any(|[u, v, _]| bsdf.evaluate(crate::reference::warp::uniform_sphere(u, v)).pdf > 0.0)
 }
 
 #[test]
@@ -50,15 +59,16 @@ fn samples_follow_their_densities() {
     });
 }
 
-/// With a million samples, at one angle of each.
+/// With more samples, at one angle of each.
 #[test]
-fn a_million_samples_follow_their_densities() {
+fn many_samples_follow_their_densities() {
+    let samples = if in_full("a million directions of every lobe instead of 200,000") { 1_000_000 } else { 200_000 };
     let cases = non_delta_lobes();
     let level = sidak(0.01, cases.len());
-    for (seed, (name, lobe, _)) in (100..).zip(cases) {
-        let report = follow(&single(lobe, view(35.0, 0.0)), seed << 32, 1_000_000);
+    cases.into_par_iter().enumerate().for_each(|(index, (name, lobe, _))| {
+        let report = follow(&single(lobe, view(35.0, 0.0)), (100 + index as u64) << 32, samples);
         assert!(report.passes(level), "{name}: {report:?}");
-    }
+    });
 }
 
 /// A density that leans by a hundredth to one side is found out, for a lobe and for a mixture.
