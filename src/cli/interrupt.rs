@@ -1,6 +1,8 @@
 //! Signals: the first that asks for an end has the render stop and save, the second ends the program at once.
 
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
 
 use super::exit::{Exit, Failure};
 use super::terminal;
@@ -8,6 +10,11 @@ use super::terminal;
 static STOP: AtomicBool = AtomicBool::new(false);
 /// Nothing is left to be saved.
 static OVER: AtomicBool = AtomicBool::new(false);
+/// A render is being made ready, and nothing of it is there to be saved.
+static PREPARING: AtomicBool = AtomicBool::new(false);
+
+/// Schedulers kill ten seconds after they ask. What makes a render ready (reading, building, compiling) looks at no signals.
+const PREPARATION: Duration = Duration::from_secs(8);
 
 /// Takes over the signals by which a person or a system asks the program to end (on Unix SIGINT, SIGTERM, SIGHUP and SIGXCPU; not SIGHUP where
 /// it is ignored, as `nohup` has it). Those that end it at once remove temporary files before.
@@ -21,6 +28,16 @@ pub fn install() -> Result<(), Failure> {
 /// Whether the user asked to stop.
 pub fn requested() -> bool {
     STOP.load(Ordering::SeqCst)
+}
+
+/// What comes next takes its time, and brings nothing that could be saved until [`something_is_rendered`].
+pub fn preparation_begins() {
+    PREPARING.store(true, Ordering::SeqCst);
+}
+
+/// The first samples are there.
+pub fn something_is_rendered() {
+    PREPARING.store(false, Ordering::SeqCst);
 }
 
 /// What was rendered is saved; the program waits for its end alone.
@@ -37,7 +54,18 @@ fn ask_to_stop(why: &str) {
     if OVER.load(Ordering::SeqCst) {
         return;
     }
+    gpt::gpu::end_soon();
     terminal::note(&format!("{why}; what is rendered will be saved (once more to quit at once)"));
+    let quit_unless_rendered = || {
+        thread::sleep(PREPARATION);
+        if PREPARING.load(Ordering::SeqCst) && !OVER.load(Ordering::SeqCst) {
+            terminal::note("nothing is rendered yet, so nothing is saved");
+            gpt::output::remove_unfinished();
+            std::process::exit(Exit::Interrupted as i32);
+        }
+    };
+    // Without a thread it takes as long as it takes.
+    let _ = thread::Builder::new().name("end".to_owned()).spawn(quit_unless_rendered);
 }
 
 #[cfg(unix)]

@@ -147,6 +147,7 @@ impl Shown {
 
 impl Observer for Progress {
     fn progress(&self, done: u64, total: u64) {
+        interrupt::something_is_rendered();
         self.shown.progress(done, total, self.span);
         if let Some(machine) = &self.machine {
             let (machine, pace) = &mut *lock(machine);

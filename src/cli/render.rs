@@ -52,6 +52,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
         }
     }
     interrupt::install()?;
+    interrupt::preparation_begins();
 
     let device = device(arguments)?;
     let options = RenderOptions {

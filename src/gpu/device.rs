@@ -231,9 +231,8 @@ impl Device {
         self.check()?;
         let failure = match polled {
             Ok(Ok(())) => return Ok(()),
-            Ok(Err(wgpu::PollError::Timeout)) | Err(Fate::Hangs) => {
-                Failure::Lost(format!("it did not answer for {} s (--device-timeout)", self.driver.limit().as_secs_f64()))
-            }
+            Ok(Err(wgpu::PollError::Timeout)) => Failure::Lost(no_answer(self.driver.limit())),
+            Err(Fate::Hangs(waited)) => Failure::Lost(no_answer(waited)),
             Ok(Err(error)) => Failure::Lost(error.to_string()),
             Err(Fate::Panicked(message)) => Failure::Lost(message),
         };
@@ -275,4 +274,9 @@ impl Device {
 fn remember(slot: &Mutex<Option<Failure>>, failure: Failure) {
     let mut slot = slot.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     slot.get_or_insert(failure);
+}
+
+/// Where it is shorter than `--device-timeout`, the program was to end.
+fn no_answer(waited: std::time::Duration) -> String {
+    format!("it did not answer for {} s (--device-timeout)", (waited.as_secs_f64() * 10.0).round() / 10.0)
 }

@@ -5,10 +5,10 @@
 
 use std::any::Any;
 use std::panic::{self, AssertUnwindSafe};
-use std::sync::Once;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::sync::{Once, OnceLock};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Name of the thread, whose panics are told as errors and not printed.
 const THREAD: &str = "gpt driver";
@@ -16,6 +16,18 @@ const THREAD: &str = "gpt driver";
 pub const OPENING_THREAD: &str = "gpt opens a device";
 /// The driver itself is told to wait no longer than the limit, and has so much longer to say so.
 const GRACE: Duration = Duration::from_secs(2);
+/// How long a driver is waited for once the program is to end, which has ten seconds for all that it does.
+const LAST_WAIT: Duration = Duration::from_secs(5);
+/// Time between two looks at whether it is.
+const LOOK: Duration = Duration::from_millis(250);
+
+/// Since when the program is to end.
+static ENDING: OnceLock<Instant> = OnceLock::new();
+
+/// From now on a driver that does not answer is waited for a few seconds at most: the program is to end, and has something to save.
+pub fn end_soon() {
+    ENDING.get_or_init(Instant::now);
+}
 
 type Job = Box<dyn FnOnce() + Send>;
 
@@ -24,8 +36,8 @@ type Job = Box<dyn FnOnce() + Send>;
 pub enum Fate {
     /// The driver panicked, and said this.
     Panicked(String),
-    /// The driver did not come back in time; nothing may be asked of it any more.
-    Hangs,
+    /// The driver did not come back in this time; nothing may be asked of it any more.
+    Hangs(Duration),
 }
 
 /// The thread. Work is done in the order in which it comes.
@@ -60,11 +72,21 @@ impl DriverThread {
             let _ = answer.send(caught());
         };
         if jobs.send(Box::new(job)).is_err() {
-            return Err(Fate::Hangs);
+            return Err(Fate::Hangs(Duration::ZERO));
         }
-        match answered.recv_timeout(self.limit.saturating_add(GRACE)) {
-            Ok(outcome) => outcome,
-            Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => Err(Fate::Hangs),
+        let begun = Instant::now();
+        let limit = self.limit.saturating_add(GRACE);
+        loop {
+            let waited = begun.elapsed();
+            match answered.recv_timeout(LOOK.min(limit.saturating_sub(waited))) {
+                Ok(outcome) => return outcome,
+                Err(RecvTimeoutError::Disconnected) => return Err(Fate::Hangs(waited)),
+                Err(RecvTimeoutError::Timeout) if waited >= limit => return Err(Fate::Hangs(self.limit)),
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+            if ENDING.get().is_some_and(|since| since.elapsed() >= LAST_WAIT) {
+                return Err(Fate::Hangs(begun.elapsed()));
+            }
         }
     }
 }
@@ -111,7 +133,7 @@ mod tests {
         let thread = DriverThread::start(Duration::ZERO);
         let (hold, held) = channel::<()>();
         let fate = thread.run(move || held.recv().is_ok());
-        assert!(matches!(fate, Err(Fate::Hangs)));
+        assert!(matches!(fate, Err(Fate::Hangs(_))));
         drop(hold);
     }
 }

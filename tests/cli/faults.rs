@@ -192,6 +192,38 @@ fn an_adapter_that_does_not_open_is_told_of() {
     place.expect(0, "render scene.toml --require-device --spp 1 -q -o a.exr");
 }
 
+/// Whatever hangs, a render that is asked to end does so within ten seconds, with what it has: a submission, and what comes before the first.
+#[cfg(unix)]
+#[test]
+fn a_render_that_hangs_ends_when_it_is_asked_to() {
+    let Some(layer) = layer() else { return };
+    for (fault, code, words, files) in [
+        (
+            "vkQueueSubmit:100:hangs",
+            5,
+            "the state is saved",
+            ["a.exr", "a.exr.checkpoint", "counts.txt", "scene.toml"].as_slice(),
+        ),
+        ("vkCreateComputePipelines:3:hangs", 130, "nothing is rendered yet", &["counts.txt", "scene.toml"]),
+    ] {
+        let place = Workplace::new();
+        let mut command = place.command("render spheres --size 96x64 --spp 1000000 --device gpu --checkpoint 0.001 -o a.exr");
+        command.env("VK_LAYER_PATH", layer).env("VK_INSTANCE_LAYERS", "VK_LAYER_GPT_faults").env("GPT_FAULT", fault);
+        command.env("GPT_FAULT_COUNTS", place.path("counts.txt")).stdout(Stdio::null()).stderr(Stdio::piped());
+        let child = command.spawn().expect("a process");
+        super::checkpoints::wait_for(&place, "counts.txt");
+        let asked = Instant::now();
+        assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().expect("kill").success());
+        let output = child.wait_with_output().expect("an end");
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{fault}: {said}");
+        assert!(said.contains(words), "{fault}: {said}");
+        // Sixty seconds would pass without. A machine under load has twice the ten that schedulers give.
+        assert!(asked.elapsed() < Duration::from_secs(20), "{fault}: {:?}", asked.elapsed());
+        assert_eq!(place.files(), files, "{fault}");
+    }
+}
+
 /// The state that a lost device leaves is gone on from, on the same device bit for bit, and on another.
 #[test]
 fn a_render_goes_on_after_its_device_was_lost() {

@@ -9,7 +9,7 @@
 //! - `never`: the call succeeds and does nothing, so that whoever waits for its work waits for ever;
 //! - `hangs`: the call does not come back.
 //!
-//! `GPT_FAULT_COUNTS=FILE` writes there how often each function was called, when the device is destroyed.
+//! `GPT_FAULT_COUNTS=FILE` writes there how often each function was called, when the device is destroyed or a call hangs.
 
 #![allow(
     clippy::undocumented_unsafe_blocks,
@@ -95,9 +95,12 @@ fn instead(function: &'static str) -> Option<vk::Result> {
             "memory" => return Some(vk::Result::ERROR_OUT_OF_DEVICE_MEMORY),
             "refused" => return Some(vk::Result::ERROR_UNKNOWN),
             "never" => return Some(vk::Result::SUCCESS),
-            _ => loop {
-                std::thread::park();
-            },
+            _ => {
+                write_counts();
+                loop {
+                    std::thread::park();
+                }
+            }
         }
     }
     LOST.get().map(|()| vk::Result::ERROR_DEVICE_LOST)
@@ -166,12 +169,16 @@ unsafe extern "system" fn create_device(
     }
 }
 
-unsafe extern "system" fn destroy_device(device: vk::Device, allocator: *const vk::AllocationCallbacks<'_>) {
+fn write_counts() {
     if let Some(path) = std::env::var_os("GPT_FAULT_COUNTS") {
         let calls = CALLS.lock().expect("no call panics");
         let lines: String = calls.iter().map(|(function, count)| format!("{function} {count}\n")).collect();
         let _ = std::fs::write(path, lines);
     }
+}
+
+unsafe extern "system" fn destroy_device(device: vk::Device, allocator: *const vk::AllocationCallbacks<'_>) {
+    write_counts();
     unsafe {
         if let Some(next) = next_of_device::<vk::PFN_vkDestroyDevice>(c"vkDestroyDevice") {
             next(device, allocator);
