@@ -40,16 +40,16 @@ const STILL: Job = Job { scene: "scene.toml", arguments: "", output: ".exr", pic
 
 /// Every way in which a render ends, with states that say something else each.
 const JOBS: [Job; 7] = [
-    Job { arguments: "--size 96x64 --spp 500", ..STILL },
-    Job { arguments: "--size 96x64 --spp 400 --adaptive", ..STILL },
-    Job { arguments: "--size 96x64 --spp 400 --target-error 1e-12", ..STILL },
-    Job { arguments: "--size 96x64 --spp 300 --time-limit 100000", ..STILL },
-    Job { arguments: "--size 96x64 --spp 100 --aov albedo,depth,alpha,indirect", ..STILL },
-    Job { arguments: "--size 96x64 --spp 400 --first-sample 32 --crop 5,3,70,50", ..STILL },
+    Job { arguments: "--size 48x32 --spp 500", ..STILL },
+    Job { arguments: "--size 48x32 --spp 400 --adaptive", ..STILL },
+    Job { arguments: "--size 48x32 --spp 400 --target-error 1e-12", ..STILL },
+    Job { arguments: "--size 48x32 --spp 300 --time-limit 100000", ..STILL },
+    Job { arguments: "--size 48x32 --spp 100 --aov albedo,depth,alpha,indirect", ..STILL },
+    Job { arguments: "--size 48x32 --spp 400 --first-sample 32 --crop 5,3,35,25", ..STILL },
     // Some kills are within a frame, and some between two.
     Job {
         scene: "camera.toml",
-        arguments: "--size 96x64 --spp 120 --frames 3-5",
+        arguments: "--size 48x32 --spp 120 --frames 3-5",
         output: ".#.exr",
         pictures: &[".3.exr", ".4.exr", ".5.exr"],
         interval: 0.02,
