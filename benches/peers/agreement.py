@@ -42,16 +42,29 @@ class Judgement:
     """How many are rejected."""
     tiles: int
     """How many tiles × channels are rejected."""
+    least_p: float
+    """The smallest p-value of all tiles × channels."""
+    level: float
+    """What it is rejected below."""
+    planted_p: float
+    """The smallest p-value of the channels' means once the first has 1 % of energy more."""
+
+    @property
+    def largest_z(self):
+        """How many standard deviations of a normal distribution are as rare as the smallest p-value."""
+        return float(stats.norm.isf(0.5 * self.least_p))
 
 
 def judge(first, second, alpha=0.01, offset=1e-4):
     """Whether the replications of two renderers agree. `offset`: what share of a mean may differ and is not judged."""
     means = [pictures.mean(axis=(1, 2)) for pictures in (first, second)]
     tiles = [tile_means(pictures) for pictures in (first, second)]
-    rejected = [int((p < level).sum()) for p, level in (p_values(*means, alpha, offset), p_values(*tiles, alpha, offset))]
+    of_means, of_tiles = (p_values(*values, alpha, offset) for values in (means, tiles))
+    rejected = [int((p < level).sum()) for p, level in (of_means, of_tiles)]
     control, level = p_values(1.01 * means[0], means[1], alpha, offset)
     found = "differ" if any(rejected) else "agree" if (control < level).any() else "no verdict"
-    return Judgement(found, (means[0].mean(axis=0) / means[1].mean(axis=0) - 1).tolist(), *rejected)
+    difference = (means[0].mean(axis=0) / means[1].mean(axis=0) - 1).tolist()
+    return Judgement(found, difference, *rejected, float(of_tiles[0].min()), float(of_tiles[1]), float(control.min()))
 
 
 def disagreements(ours, theirs, alpha):

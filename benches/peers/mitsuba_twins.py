@@ -5,6 +5,9 @@ Both programs read the same XML, so importer, model and integrator are held to a
 Welch's t on seeds, of the whole picture and of tiles of 16 × 16 pixels, with a negative control of one per cent of energy added. Where the
 models are known to differ, a difference is expected, and how large it is is told.
 
+`--rows` prints rows of a table instead: the largest |z| of a tile, its p-value and what that is rejected below, and the p-value of the whole
+picture once 1 % of energy is added to ours.
+
 Exit status: 0 if every scene came out as expected, 7 otherwise. The default variant needs no LLVM.
 """
 
@@ -76,17 +79,40 @@ GOLD = word("material", "Au")
 DIFFUSE = '<bsdf type="diffuse"><rgb name="reflectance" value="0.1 0.3 0.6"/></bsdf>'
 PLASTIC = f'<bsdf type="plastic">{RED}</bsdf>'
 
-# Name, material, shape, whether agreement is expected.
+# Mitsuba takes the share of diffuse light that a rough surface sends back from within for the plain mean at 64 evenly spaced cosines, both ends
+# included, of which each should count half. It comes out 1.5 % too small, and the base too dark. These are the reflectances with which
+# Mitsuba's base is as bright as an integration makes it: by 1.27 % without `nonlinear` (GGX of 0.2), and so that rho / (1 - rho R) is right with it
+# (Beckmann of 0.3).
+BRIGHTER_RED = '<rgb name="diffuse_reflectance" value="0.60762 0.10127 0.050635"/>'
+BRIGHTER_NONLINEAR_RED = '<rgb name="diffuse_reflectance" value="0.6027 0.100075 0.0500187"/>'
+
+
+def rough_plastic(color):
+    return bsdf("roughplastic", color + number("alpha", 0.2) + word("distribution", "ggx"), True)
+
+
+def nonlinear_plastic(color):
+    return bsdf("roughplastic", color + number("alpha", 0.3) + word("distribution", "beckmann") + '<boolean name="nonlinear" value="true"/>', True)
+
+
+def blend_by_texture(color):
+    plastic = f'<bsdf type="roughplastic">{color}{number("alpha", 0.2)}{word("distribution", "ggx")}</bsdf>'
+    return bsdf("blendbsdf", f'<ref name="weight" id="checks"/>{plastic}{DIFFUSE}', True)
+
+
+MASK = bsdf("mask", f'<ref name="opacity" id="checks"/><bsdf type="twosided">{DIFFUSE}</bsdf>')
+MASK_OF_HALF = bsdf("mask", f'{number("opacity", 0.5)}<bsdf type="twosided">{PLASTIC}</bsdf>')
+# Before a material: paths of up to 64 edges.
+LONG = "<!-- long -->"
+
+# Name, material, shape, whether agreement is expected, and Mitsuba's own material where it has another.
 CASES = [
     ("plastic", bsdf("plastic", RED, True), SPHERE, True),
     ("plastic, nonlinear", bsdf("plastic", RED + '<boolean name="nonlinear" value="true"/>', True), SPHERE, True),
-    ("rough plastic", bsdf("roughplastic", RED + number("alpha", 0.2) + word("distribution", "ggx"), True), SPHERE, True),
-    (
-        "rough plastic, nonlinear, Beckmann",
-        bsdf("roughplastic", RED + number("alpha", 0.3) + word("distribution", "beckmann") + '<boolean name="nonlinear" value="true"/>', True),
-        SPHERE,
-        True,
-    ),
+    ("rough plastic", rough_plastic(RED), SPHERE, False),
+    ("rough plastic, Mitsuba's base as integrated", rough_plastic(RED), SPHERE, True, rough_plastic(BRIGHTER_RED)),
+    ("rough plastic, nonlinear, Beckmann", nonlinear_plastic(RED), SPHERE, False),
+    ("the same, Mitsuba's base as integrated", nonlinear_plastic(RED), SPHERE, True, nonlinear_plastic(BRIGHTER_NONLINEAR_RED)),
     ("Beckmann gold", bsdf("roughconductor", GOLD + number("alpha", 0.3) + word("distribution", "beckmann"), True), SPHERE, True),
     (
         "anisotropic gold",
@@ -96,8 +122,10 @@ CASES = [
     ),
     ("thin dielectric", bsdf("thindielectric"), SPHERE, True),
     ("rough dielectric", bsdf("roughdielectric", number("alpha", 0.3) + word("distribution", "ggx")), SPHERE, True),
-    ("mask", bsdf("mask", f'<ref name="opacity" id="checks"/><bsdf type="twosided">{DIFFUSE}</bsdf>'), SPHERE, True),
-    ("mask of a half", bsdf("mask", f'{number("opacity", 0.5)}<bsdf type="twosided">{PLASTIC}</bsdf>'), SPHERE, True),
+    # Mitsuba counts the way through a hole as an edge of the path, gpt does not. So paths are long enough to make no difference.
+    ("mask", LONG + MASK, SPHERE, True),
+    ("mask of a half", LONG + MASK_OF_HALF, SPHERE, True),
+    ("mask of a half, 8 edges", MASK_OF_HALF, SPHERE, False),
     (
         "blend of rough metal and diffuse",
         bsdf(
@@ -108,16 +136,7 @@ CASES = [
         SPHERE,
         True,
     ),
-    (
-        "blend by a texture",
-        bsdf(
-            "blendbsdf",
-            f'<ref name="weight" id="checks"/><bsdf type="roughplastic">{RED}{number("alpha", 0.2)}{word("distribution", "ggx")}</bsdf>{DIFFUSE}',
-            True,
-        ),
-        SPHERE,
-        True,
-    ),
+    ("blend by a texture, Mitsuba's base as integrated", blend_by_texture(RED), SPHERE, True, blend_by_texture(BRIGHTER_RED)),
     ("cylinder with a texture", bsdf("diffuse", '<ref name="reflectance" id="checks"/>', True), TUBE, True),
     ("brushed cylinder", bsdf("roughconductor", GOLD + number("alpha_u", 0.1) + number("alpha_v", 0.5) + word("distribution", "ggx"), True), TUBE, True),
     ("cylinder that gives light", bsdf("diffuse", '<rgb name="reflectance" value="0.2"/>', True), LAMP, True),
@@ -127,11 +146,13 @@ CASES = [
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--spp", type=int, default=4096, help="samples per pixel in all (default: 4096)")
-    parser.add_argument("--seeds", type=int, default=8, help="replications they are split into, at least 2 (default: 8)")
+    parser.add_argument("--seeds", type=int, default=16, help="replications they are split into, at least 2 (default: 16)")
     parser.add_argument("--alpha", type=float, default=0.01, help="level of each of the two verdicts (default: 0.01)")
     parser.add_argument("--variant", default="scalar_rgb", help="Mitsuba's variant (default: scalar_rgb)")
     parser.add_argument("--gpt", type=Path, default=HERE.parents[1] / "target" / "release" / "gpt", help="the program")
     parser.add_argument("--device", default="auto", help="gpt's device (default: auto)")
+    parser.add_argument("--first-seed", type=int, default=0, help="the first of the replications' seeds (default: 0)")
+    parser.add_argument("--rows", action="store_true", help="rows of a table in Markdown")
     parser.add_argument("--only", help="scenes whose name holds this")
     return parser.parse_args()
 
@@ -151,23 +172,36 @@ def imported_exactly(options, scene):
     return not report.get("dropped") and not report.get("approximated")
 
 
-def compare(options, name, text):
+def scene_with(material, shape):
+    text = SCENE.format(material=material, shape=shape)
+    return text.replace('name="max_depth" value="8"', 'name="max_depth" value="64"') if LONG in material else text
+
+
+def compare(options, name, text, twin_text):
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
         scene = folder / "twin.xml"
         scene.write_text(text, encoding="utf-8")
         exact = imported_exactly(options, scene)
-        twin = mi.load_file(str(scene))
-        pictures = [ours(options, scene, folder, seed) for seed in range(options.seeds)]
+        twin = mi.load_string(twin_text)
+        seeds = range(options.first_seed, options.first_seed + options.seeds)
+        pictures = [ours(options, scene, folder, seed) for seed in seeds]
         theirs = [
-            np.array(mi.render(twin, spp=options.spp // options.seeds, seed=seed), dtype=np.float64)[..., :3] for seed in range(options.seeds)
+            np.array(mi.render(twin, spp=options.spp // options.seeds, seed=seed), dtype=np.float64)[..., :3] for seed in seeds
         ]
     pictures, theirs = np.stack(pictures), np.stack(theirs)
     judged = agreement.judge(pictures, theirs, options.alpha)
     means = ", ".join(f"{100 * difference:+.3f} %" for difference in judged.difference)
+    inexact = "" if exact else "; not imported exactly"
+    if options.rows:
+        print(
+            f"| {name} | {judged.largest_z:.2f} | {judged.least_p:.2g} | {judged.level:.2g} | {means} | {judged.planted_p:.1g} | {judged.verdict}{inexact} |",
+            flush=True,
+        )
+        return judged.verdict
     print(
         f"{name}: {judged.verdict}; {judged.channels} of 3 channels and {judged.tiles} of {agreement.tile_means(theirs)[0].size} tiles × channels rejected; "
-        f"means {means}{'' if exact else '; not imported exactly'}",
+        f"means {means}{inexact}",
         flush=True,
     )
     return judged.verdict
@@ -177,10 +211,11 @@ def main():
     options = arguments()
     mi.set_variant(options.variant)
     surprises = []
-    for name, material, shape, agrees in CASES:
+    for name, material, shape, agrees, *theirs in CASES:
         if options.only and options.only not in name:
             continue
-        if compare(options, name, SCENE.format(material=material, shape=shape)) != ("agree" if agrees else "differ"):
+        ours, twin = (scene_with(chosen, shape) for chosen in (material, theirs[0] if theirs else material))
+        if compare(options, name, ours, twin) != ("agree" if agrees else "differ"):
             surprises.append(name)
     print(f"not as expected: {', '.join(surprises) or 'none'}")
     return 7 if surprises else 0
