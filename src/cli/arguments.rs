@@ -319,6 +319,9 @@ pub struct VerifyArguments {
     /// auto, gpu, or part of an adapter's name
     #[arg(long, default_value = "gpu", value_parser = parse_device)]
     pub device: DeviceChoice,
+    /// Take a device for lost (exit code 5) that does not finish a submission, or a kernel's compilation, in this time
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = parse_seconds)]
+    pub device_timeout: Duration,
     #[command(flatten)]
     pub traversal: TraversalArguments,
     /// Print JSON

@@ -58,11 +58,11 @@ impl PackedScene {
     /// # Errors
     /// [`PackError`] where something is too large for the packed form or came out inconsistent.
     pub fn for_traversal(scene: &Scene, traversal: Traversal) -> Result<Self, PackError> {
-        let scene = &*scene.centered();
         for shape in &scene.shapes {
             let fail = |(_, message)| PackError::Motion { shape: shape.label.clone(), message };
             shape.check_motion(scene.camera.shutter).map_err(fail)?;
         }
+        let scene = &*scene.centered();
         let mut world = world::collect(scene);
         let mut materials = PackedMaterials::new(scene, &world.materials())?;
         let mut thrown_textures = light::thrown_textures(scene);

@@ -7,12 +7,26 @@ use super::image::ImageData;
 /// Most texels along a side of an image: twice as many still are a positive number of 32 bits.
 const LONGEST_SIDE: u32 = 1 << 30;
 
+/// Farthest from the origin that anything may stand or reach. Bounding volumes and distances are squared in single precision, which ends at
+/// 3·10³⁸, and a scene is moved to its camera, which may stand on the other side.
+pub const FARTHEST: f64 = 1e18;
+
 /// What is wrong, in words.
 pub type Check = Result<(), String>;
 
 /// Neither 0 nor infinite.
 pub fn is_positive(number: f64) -> bool {
     number.is_finite() && number > 0.0
+}
+
+/// Whether what reaches this far from the origin can be rendered; not where it is no number.
+pub fn within_range(reach: f64) -> Check {
+    if reach <= FARTHEST {
+        return Ok(());
+    }
+    Err(format!(
+        "it reaches farther than {FARTHEST:e} units from the origin, beyond the range of numbers; choose a larger unit for the scene"
+    ))
 }
 
 /// A quantity of light, or a share of it.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::check::{Check, within_range};
 use super::material::MaterialId;
 use super::motion::Motion;
 use super::shape::{Geometry, Shape};
@@ -69,6 +70,20 @@ impl Instances {
         let of_map =
             |map: DAffine3| map.transform_point3(ball.center).distance(point) + ball.radius * largest_stretch(map.matrix3);
         self.maps().map(of_map).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether all of them stay within the range of numbers.
+    pub(super) fn check_reach(&self, ball: Ball, shutter: [f64; 2]) -> Check {
+        for (place, map) in self.maps().enumerate() {
+            let reach_from =
+                |point: DVec3| map.transform_point3(ball.center).distance(point) + ball.radius * largest_stretch(map.matrix3);
+            let checked = match &self.motion {
+                None => within_range(reach_from(DVec3::ZERO)),
+                Some(motion) => motion.check_reach(shutter, map.translation, reach_from(map.translation)),
+            };
+            checked.map_err(|message| format!("number {place}, counted from 0: {message}"))?;
+        }
+        Ok(())
     }
 
     /// The extents of the smallest and of the largest instance.

@@ -13,7 +13,7 @@ use super::image::ImageData;
 use super::light_at::LightAt;
 use super::texture::TextureId;
 use crate::math::luminance;
-use model::{DeltaLight, SceneLight, amounts, placed};
+use model::{DeltaLight, SceneLight, amounts, placed, stands};
 pub use model::{LightParameters, LightStrength};
 pub use thrown::{FALLOFF_LINEAR, FALLOFF_SQUARE, FalloffCurve, Projector, SpotLight, ThrownPicture, picture_turn};
 
@@ -181,7 +181,7 @@ pub struct PointLight {
 
 impl SceneLight for PointLight {
     fn check(&self) -> Check {
-        placed(self.position.is_finite())?;
+        stands(self.position)?;
         amounts(&[self.intensity])
     }
 

@@ -2,6 +2,8 @@
 
 use glam::{DAffine3, DQuat, DVec3};
 
+use super::check::{Check, FARTHEST, within_range};
+
 /// Steps applied in this order after a shape's `transform`, along the world's axes and about the shape's own origin, that is where
 /// `transform` puts the shape's (0, 0, 0). Each is interpolated by itself, at rest at one shutter time and reached at another: a rotation
 /// turns evenly about its axis, which no blend of matrices does. Times beyond the two extrapolate.
@@ -39,9 +41,6 @@ pub enum MotionStep {
 pub const SMALLEST_SCALE: f64 = 1e-6;
 /// Most turns of one step while the shutter is open. Beyond, single precision loses the angle, and the eye lost it long before.
 pub const MOST_TURNS: f64 = 100.0;
-/// Largest number in the map of a motion. Bounding volumes square lengths in single precision.
-const FARTHEST: f64 = 1e18;
-
 impl MotionStep {
     /// The factors of a scale at a time.
     pub fn factors(scale: DVec3, time: f64) -> DVec3 {
@@ -121,8 +120,20 @@ impl Motion {
         DAffine3::from_translation(origin) * moved
     }
 
+    /// Whether what is at rest within `radius` of `origin` stays within the range of numbers. Boxes around what moves are larger than it by a part
+    /// of the way that it goes, so that way counts too.
+    pub(super) fn check_reach(&self, shutter: [f64; 2], origin: DVec3, radius: f64) -> Check {
+        let (farthest, speed) = self.bounds(radius, shutter);
+        within_range(origin.length() + farthest + speed * (shutter[1] - shutter[0]))
+    }
+
     /// A bound on the speed, in lengths per shutter time, of points that at rest are within `radius` of the origin.
     pub fn greatest_speed(&self, radius: f64, shutter: [f64; 2]) -> f64 {
+        self.bounds(radius, shutter).1
+    }
+
+    /// Bounds on how far from the origin points that at rest are within `radius` of it come, and on their speed.
+    fn bounds(&self, radius: f64, shutter: [f64; 2]) -> (f64, f64) {
         let [open, close] = shutter.map(|time| self.share(time));
         let (mut farthest, mut speed) = (radius, 0.0);
         let latest = open.abs().max(close.abs());
@@ -142,7 +153,7 @@ impl Motion {
                 MotionStep::Turned { .. } => {}
             }
         }
-        speed / (self.reached - self.rest)
+        (farthest, speed / (self.reached - self.rest))
     }
 }
 

@@ -1,7 +1,7 @@
 //! What must hold of a scene's groups and instances, and what is known of all of them together.
 
 use super::check::Check;
-use super::instance::{Group, Instances, is_singular};
+use super::instance::{Ball, Group, Instances, is_singular};
 use super::material::MaterialKind;
 use super::model::Scene;
 use super::shape::{Geometry, Shape};
@@ -39,8 +39,14 @@ impl Scene {
         Ok(())
     }
 
-    /// What is wrong with instances of a group, in words. `textured` and `emits` are of each material.
-    pub(crate) fn check_instances(&self, instances: &Instances, textured: &[bool], emits: &[bool]) -> Check {
+    /// What is wrong with instances of a group, in words. `textured` and `emits` are of each material, `balls` around each group.
+    pub(crate) fn check_instances(
+        &self,
+        instances: &Instances,
+        textured: &[bool],
+        emits: &[bool],
+        balls: &[Option<Ball>],
+    ) -> Check {
         let Some(group) = self.groups.get(instances.group) else { return Err(format!("there is no group {}", instances.group)) };
         if let Some(place) = instances.maps().position(|map| !map.is_finite() || is_singular(map.matrix3)) {
             return Err(format!("the transform of number {place}, counted from 0, flattens it or leaves the range of numbers"));
@@ -65,7 +71,14 @@ impl Scene {
             ));
         }
         // The motion does not depend on where an instance stands, but for what it turns about.
-        instances.motion.as_ref().map_or(Ok(()), |motion| motion.check(self.camera.shutter)).map_err(|(_, message)| message)
+        instances.motion.as_ref().map_or(Ok(()), |motion| motion.check(self.camera.shutter)).map_err(|(_, message)| message)?;
+        let ball = balls.get(instances.group).copied().flatten();
+        ball.map_or(Ok(()), |ball| instances.check_reach(ball, self.camera.shutter))
+    }
+
+    /// Around each group.
+    pub(crate) fn balls(&self) -> Vec<Option<Ball>> {
+        self.groups.iter().map(Group::ball).collect()
     }
 
     /// No ray meets instances that are made of nothing.
@@ -112,11 +125,20 @@ mod tests {
             groups: vec![Group { name: "tree".into(), shapes: vec![shape] }],
             ..Scene::default()
         };
-        let check = |instances: &Instances, emits| scene.check_instances(instances, &[false], &[emits]).err().unwrap_or_default();
+        let check = |instances: &Instances, emits| {
+            scene.check_instances(instances, &[false], &[emits], &scene.balls()).err().unwrap_or_default()
+        };
         assert_eq!(check(&instances(vec![DAffine3::IDENTITY]), false), "");
         assert!(check(&instances(vec![DAffine3::IDENTITY]), true).contains("give no light"));
         assert!(check(&instances(vec![DAffine3::IDENTITY, DAffine3::ZERO]), false).contains("number 1"));
         assert!(check(&Instances { group: 1, ..instances(vec![]) }, false).contains("no group 1"));
         assert!(check(&Instances { material: Some(7), ..instances(vec![]) }, false).contains("no material 7"));
+        let far = |distance| instances(vec![DAffine3::IDENTITY, DAffine3::from_translation(glam::DVec3::X * distance)]);
+        assert_eq!(check(&far(0.9e18), false), "");
+        assert!(check(&far(1.1e18), false).contains("number 1, counted from 0: it reaches farther than 1e18"));
+        let translate = crate::scene::MotionStep::Translate(glam::DVec3::X * 0.4e18);
+        let moving = |distance| Instances { motion: Some(crate::scene::Motion::new(vec![translate])), ..far(distance) };
+        assert_eq!(check(&moving(0.1e18), false), "");
+        assert!(check(&moving(0.9e18), false).contains("number 1, counted from 0: it reaches farther than 1e18"));
     }
 }

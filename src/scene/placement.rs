@@ -8,7 +8,6 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::instance::Group;
 use super::model::Scene;
 use super::transform::TransformStep;
 
@@ -21,7 +20,7 @@ impl Scene {
     pub fn center(&self) -> DVec3 {
         let camera = self.camera.position;
         let of_shapes = self.shapes.iter().map(|shape| shape.farthest_from(camera));
-        let balls: Vec<_> = self.groups.iter().map(Group::ball).collect();
+        let balls = self.balls();
         let of_instances =
             self.instances.iter().filter_map(|entry| Some(entry.farthest_from((*balls.get(entry.group)?)?, camera)));
         let nearest = of_shapes.chain(of_instances).fold(f64::INFINITY, f64::min);

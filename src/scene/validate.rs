@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::blend_tree::check_blends;
 use super::camera::{ApertureShape, Camera, Projection};
-use super::check::{Check, image, is_amount, is_positive};
+use super::check::{Check, image, is_amount, is_positive, within_range};
 use super::light::{Environment, EnvironmentRadiance, Light};
 use super::material::{BlendWeight, Material, MaterialId, MaterialKind};
 use super::model::Scene;
@@ -73,8 +73,9 @@ impl Scene {
             }
             of(|| format!("group `{}`", group.name), self.check_group(group))?;
         }
-        let emits = self.materials_that(|material| material.emission.is_some());
-        self.instances.iter().try_for_each(|entry| of(|| entry.label.clone(), self.check_instances(entry, textured, &emits)))
+        let (emits, balls) = (self.materials_that(|material| material.emission.is_some()), self.balls());
+        let check = |entry| self.check_instances(entry, textured, &emits, &balls);
+        self.instances.iter().try_for_each(|entry| of(|| entry.label.clone(), check(entry)))
     }
 
     fn check_material(&self, material: &Material) -> Check {
@@ -146,9 +147,9 @@ impl Scene {
     }
 
     fn check_shape(&self, shape: &Shape, textured: &[bool]) -> Check {
+        shape.geometry.check()?;
         shape.check_place()?;
         shape.check_motion(self.camera.shutter).map_err(|(_, message)| message)?;
-        shape.geometry.check()?;
         if shape.portal && shape.geometry.is_infinite() {
             return Err("a plane cannot be a portal".into());
         }
@@ -183,6 +184,7 @@ pub(super) fn check_camera(camera: &Camera) -> Check {
     if !camera.frame().into_iter().all(DVec3::is_finite) || !camera.position.is_finite() {
         return Err("it looks at the point it stands at, or along `up`".into());
     }
+    within_range(camera.position.length())?;
     match camera.projection {
         Projection::Perspective { vertical_fov_degrees: angle } if !(angle > 0.0 && angle < 180.0) => {
             return Err(format!("the field of view must be between 0 and 180 degrees and is {angle}"));

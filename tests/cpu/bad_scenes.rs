@@ -299,6 +299,21 @@ fn an_unknown_setting_is_answered_with_all_settings() {
     assert_eq!(complaint("spp = 1", "samples = 1"), expected);
 }
 
+/// Numbers that are possible one by one, and lead out of the range of numbers together.
+#[test]
+fn what_ends_beyond_the_range_of_numbers_is_refused() {
+    let far = "it reaches farther than 1e18 units from the origin";
+    let transform = "transform = [{ scale = 1e10 }, { translate = [1e17, 0, 0] }, { scale = 1e3 }]";
+    let moving = "transform = { scale = 5e17 }\nmotion = [{ translate = [6e17, 0, 0] }]";
+    for (keys, column) in [(transform, 13), (moving, 10)] {
+        let line = 18 + keys.matches('\n').count();
+        let found = complaint("radius = 1", &format!("radius = 1\n{keys}"));
+        assert!(found.contains(&format!("test.toml:{line}:{column}: ")) && found.contains(far), "{keys}: {found}");
+    }
+    let near = GOOD.replace("radius = 1", &format!("radius = 1\n{}", transform.replace("1e17", "1e14")));
+    assert!(load::load_toml_str(&near, "test.toml", std::path::Path::new("")).is_ok());
+}
+
 #[test]
 fn shapes_without_area_are_refused() {
     let shape = "type = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1";

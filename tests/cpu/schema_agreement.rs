@@ -57,6 +57,7 @@ const RELATIONS: &[&str] = &[
     "a mesh of a group",
     "instances give no light",
     "flattens it",
+    "reaches farther than",
 ];
 
 /// Every table with every key somewhere, and nothing that needs a file.

@@ -2,9 +2,12 @@
 
 use std::time::{Duration, Instant};
 
-use crate::common::effort::announce;
+use crate::common::effort::{announce, in_full};
 use crate::counting::{Peak, take_turn};
 use crate::random::SplitMix64;
+use crate::seeds::{Answer, Seeds};
+use gpt::load::SceneError;
+use gpt::scene::Scene;
 
 /// Most memory for a text of a few thousand bytes.
 pub const MOST_FOR_TEXTS: usize = 64 << 20;
@@ -18,25 +21,55 @@ pub struct Tally {
     extremes: (Duration, usize),
     accepted: usize,
     refused: usize,
+    /// Ways in which files were answered.
+    answers: usize,
 }
 
 impl Tally {
     pub fn new(kind: &'static str, most_memory: usize) -> Self {
         // A file of a few thousand bytes is answered within this time, on a busy machine and with 16,384² texels to fill.
         let longest = Duration::from_secs(60);
-        Self { kind, most_memory, longest, extremes: (Duration::ZERO, 0), accepted: 0, refused: 0 }
+        Self { kind, most_memory, longest, extremes: (Duration::ZERO, 0), accepted: 0, refused: 0, answers: 0 }
     }
 
     /// The positive control: a file that is refused for another reason would hide what the damage does.
-    pub fn undamaged(&mut self, bytes: &[u8], read: impl Fn(&[u8]) -> bool) {
-        assert_eq!(self.bounded(bytes, read), Ok(true), "{}: the undamaged file is refused", self.kind);
+    pub fn undamaged(&mut self, bytes: &[u8], read: impl Fn(&[u8]) -> Answer) {
+        let answer = self.bounded(bytes, read);
+        assert!(matches!(answer, Ok(Ok(_))), "{}: the undamaged file is refused: {answer:?}", self.kind);
+    }
+
+    /// Reads the files that are kept of this kind, and then `count` that `damage` makes of these, of `whole`, and of what is answered anew. `damage`
+    /// is given the number of each.
+    pub fn hunt(
+        &mut self,
+        whole: &[u8],
+        count: usize,
+        random: &mut SplitMix64,
+        damage: impl Fn(&[u8], usize, &mut SplitMix64) -> Vec<u8>,
+        read: impl Fn(&[u8]) -> Answer,
+    ) {
+        let mut seeds = Seeds::new(self.kind, whole);
+        for (index, bytes) in seeds.kept().iter().enumerate() {
+            let answer = self.damaged(bytes, &read);
+            seeds.know(index, &answer);
+        }
+        for round in 0..count {
+            let bytes = damage(&seeds.choose(random), round, random);
+            let answer = self.damaged(&bytes, &read);
+            seeds.learn(&bytes, &answer);
+        }
+        self.answers += seeds.answers();
+        seeds.keep();
     }
 
     /// Reads a damaged file, and fails where that panics or takes too long or too much memory. Leaves the file that did it.
-    pub fn damaged(&mut self, bytes: &[u8], read: impl Fn(&[u8]) -> bool) {
+    fn damaged(&mut self, bytes: &[u8], read: impl Fn(&[u8]) -> Answer) -> Answer {
         match self.bounded(bytes, read) {
-            Ok(true) => self.accepted += 1,
-            Ok(false) => self.refused += 1,
+            Ok(answer) => {
+                let counter = if answer.is_ok() { &mut self.accepted } else { &mut self.refused };
+                *counter += 1;
+                answer
+            }
             Err(complaint) => {
                 let evidence = std::env::temp_dir().join(format!("gpt-hostile-{}", self.kind.replace(' ', "-")));
                 let kept = std::fs::write(&evidence, bytes).is_ok();
@@ -45,25 +78,29 @@ impl Tally {
         }
     }
 
-    /// Whether the file was accepted; an error where reading it broke a bound.
-    fn bounded(&mut self, bytes: &[u8], read: impl Fn(&[u8]) -> bool) -> Result<bool, String> {
+    /// What the reader answers; an error where reading the file broke a bound.
+    fn bounded(&mut self, bytes: &[u8], read: impl Fn(&[u8]) -> Answer) -> Result<Answer, String> {
         let peak = Peak::from_now();
         let start = Instant::now();
         let ended = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| read(bytes)));
         let (took, used) = (start.elapsed(), peak.bytes());
         self.extremes = (self.extremes.0.max(took), self.extremes.1.max(used));
-        let accepted = ended.map_err(|_| "it panics".to_owned())?;
+        let answer = ended.map_err(|_| "it panics".to_owned())?;
         if took > self.longest || used > self.most_memory {
             return Err(format!("it takes {took:?} and {used} bytes"));
         }
-        Ok(accepted)
+        if answer.as_ref().is_err_and(String::is_empty) {
+            return Err("it is refused without a word".to_owned());
+        }
+        Ok(answer)
     }
 
     /// Damage that is never noticed, or always fatal, would exercise half of a reader.
     pub fn judge(&self) {
-        let (Self { kind, accepted, refused, .. }, (took, used)) = (self, self.extremes);
+        let (Self { kind, accepted, refused, answers, .. }, (took, used)) = (self, self.extremes);
         let mebibytes = used as f64 / f64::from(1 << 20);
-        announce(&format!("{kind}: {accepted} accepted, {refused} refused, at most {took:.1?} and {mebibytes:.1} MiB"));
+        let extremes = format!("at most {took:.1?} and {mebibytes:.1} MiB");
+        announce(&format!("{kind}: {accepted} accepted, {refused} refused, {answers} different answers, {extremes}"));
         assert!(*accepted > 0 && *refused > 0, "{kind}: {accepted} accepted, {refused} refused");
     }
 }
@@ -73,16 +110,33 @@ impl Tally {
 fn readers_that_break_a_bound_are_noticed() {
     let _turn = take_turn();
     let mut tally = Tally::new("control", 1 << 20);
-    let greedy = |_: &[u8]| std::hint::black_box(vec![1_u8; 4 << 20]).len() > 1;
+    let fine = |_: &[u8]| Ok(String::new());
+    let greedy = |_: &[u8]| Ok(char::from(std::hint::black_box(vec![b'a'; 4 << 20])[7]).to_string());
     assert!(tally.bounded(&[], greedy).is_err());
     let quiet = std::panic::take_hook();
     std::panic::set_hook(Box::new(|_| {}));
     let panics = tally.bounded(&[], |_| panic!("as a reader would"));
     std::panic::set_hook(quiet);
     assert!(panics.is_err());
-    assert_eq!(tally.bounded(&[], |_| false), Ok(false));
+    assert!(tally.bounded(&[], |_| Err(String::new())).is_err());
+    assert_eq!(tally.bounded(&[], |_| Err("no".to_owned())), Ok(Err("no".to_owned())));
+    assert!(tally.bounded(&[], fine).is_ok());
     tally.longest = Duration::ZERO;
-    assert!(tally.bounded(&[], |_| true).is_err());
+    assert!(tally.bounded(&[], fine).is_err());
+}
+
+/// How many files of each kind are damaged: as many as `GPT_FUZZ_CASES` says, else so many in the long form and so many in the short one.
+pub fn cases(normally: usize, full: usize) -> usize {
+    let asked = std::env::var("GPT_FUZZ_CASES").ok().and_then(|count| count.parse().ok());
+    asked.unwrap_or_else(|| {
+        let left_out = format!("{full} damaged files of each kind instead of {normally}");
+        if in_full(&left_out) { full } else { normally }
+    })
+}
+
+/// What a reader answers: the scene's warnings, or the error.
+pub fn answer_of(loaded: Result<Scene, SceneError>) -> Answer {
+    loaded.map(|scene| scene.warnings.join(" ")).map_err(|error| error.to_string())
 }
 
 /// Some bytes or words replaced, cut out, or doubled.

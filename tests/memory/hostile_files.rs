@@ -4,9 +4,8 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use crate::common::effort::in_full;
 use crate::counting::take_turn;
-use crate::hostile::{MOST_FOR_TEXTS, Tally, damaged};
+use crate::hostile::{MOST_FOR_TEXTS, Tally, answer_of, cases, damaged};
 use crate::random::SplitMix64;
 use gpt::load;
 use image::ImageFormat;
@@ -15,36 +14,33 @@ use image::ImageFormat;
 /// made linear.
 const MOST_FOR_PICTURES: usize = 2 * 16 * 16_384 * 16_384;
 
-#[test]
-fn damaged_files_end_in_an_answer_or_an_error() {
-    let _turn = take_turn();
-    let asked = std::env::var("GPT_FUZZ_CASES").ok().and_then(|count| count.parse().ok());
-    let cases = asked.unwrap_or_else(|| if in_full("300 damaged files of each kind instead of 15") { 300 } else { 15 });
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let mut random = SplitMix64::new(3);
-    damage_scenes(cases, &mut random);
-    damage_models(cases, folder.path(), &mut random);
-    damage_ply(cases, folder.path(), &mut random);
-    damage_pictures(cases, folder.path(), &mut random);
+/// How many of each kind in the short form and in the long one.
+fn how_many() -> usize {
+    cases(15, 25_000)
 }
 
-fn damage_scenes(cases: usize, random: &mut SplitMix64) {
+#[test]
+fn damaged_scene_files() {
+    let (_turn, cases) = (take_turn(), how_many());
+    let random = &mut SplitMix64::new(3);
     let mut tally = Tally::new("scene", MOST_FOR_TEXTS);
     for name in ["cornell", "spheres", "motion-blur"] {
         let whole = load::builtin_text(name).expect("it is built in").as_bytes();
         let read = |bytes: &[u8]| {
             let text = String::from_utf8_lossy(bytes);
-            load::load_toml_str(&text, "damaged.toml", Path::new("")).is_ok()
+            answer_of(load::load_toml_str(&text, "damaged.toml", Path::new("")))
         };
         tally.undamaged(whole, read);
-        for _ in 0..cases {
-            tally.damaged(&damaged(whole, random, true), read);
-        }
+        tally.hunt(whole, cases, random, |bytes, _, random| damaged(bytes, random, true), read);
     }
     tally.judge();
 }
 
-fn damage_models(cases: usize, folder: &Path, random: &mut SplitMix64) {
+#[test]
+fn damaged_models_and_libraries() {
+    let (_turn, cases) = (take_turn(), how_many());
+    let (folder, random) = (tempfile::tempdir().expect("a temporary folder"), &mut SplitMix64::new(4));
+    let folder = folder.path();
     let [obj, mtl, png] = ["model.obj", "model.mtl", "picture.png"].map(|name| folder.join(name));
     let write = |path: &Path, bytes: &[u8]| std::fs::write(path, bytes).expect("the folder can be written to");
     image::RgbImage::new(2, 2).save(&png).expect("the folder can be written to");
@@ -53,47 +49,48 @@ fn damage_models(cases: usize, folder: &Path, random: &mut SplitMix64) {
         write(&mtl, MATERIALS.as_bytes());
         let read = |bytes: &[u8]| {
             write(target, bytes);
-            load::load(obj.to_str()).is_ok()
+            answer_of(load::load(obj.to_str()))
         };
         let mut tally = Tally::new(kind, MOST_FOR_TEXTS);
         tally.undamaged(whole.as_bytes(), read);
-        for _ in 0..2 * cases {
-            tally.damaged(&damaged(whole.as_bytes(), random, true), read);
-        }
+        tally.hunt(whole.as_bytes(), 2 * cases, random, |bytes, _, random| damaged(bytes, random, true), read);
         tally.judge();
     }
 }
 
-fn damage_ply(cases: usize, folder: &Path, random: &mut SplitMix64) {
-    let path = folder.join("model.ply");
+#[test]
+fn damaged_ply_models() {
+    let (_turn, cases) = (take_turn(), how_many());
+    let (folder, random) = (tempfile::tempdir().expect("a temporary folder"), &mut SplitMix64::new(5));
+    let path = folder.path().join("model.ply");
     let read = |bytes: &[u8]| {
         std::fs::write(&path, bytes).expect("the folder can be written to");
-        load::load(path.to_str()).is_ok()
+        answer_of(load::load(path.to_str()))
     };
-    let mut tally = Tally::new("ply", MOST_FOR_TEXTS);
-    for (whole, is_text) in [(PLY.as_bytes().to_vec(), true), (binary_ply(), false)] {
+    for (kind, whole, is_text) in [("PLY model", PLY.as_bytes().to_vec(), true), ("binary PLY model", binary_ply(), false)] {
+        let mut tally = Tally::new(kind, MOST_FOR_TEXTS);
         tally.undamaged(&whole, read);
-        for _ in 0..2 * cases {
-            tally.damaged(&damaged(&whole, random, is_text), read);
-        }
+        tally.hunt(&whole, 2 * cases, random, |bytes, _, random| damaged(bytes, random, is_text), read);
+        tally.judge();
     }
-    tally.judge();
 }
 
-fn damage_pictures(cases: usize, folder: &Path, random: &mut SplitMix64) {
-    let mut tally = Tally::new("picture", MOST_FOR_PICTURES);
+#[test]
+fn damaged_pictures() {
+    let (_turn, cases) = (take_turn(), how_many());
+    let (folder, random) = (tempfile::tempdir().expect("a temporary folder"), &mut SplitMix64::new(6));
+    let folder = folder.path();
     for (ending, whole) in pictures(folder) {
+        let mut tally = Tally::new(ending, MOST_FOR_PICTURES);
         let path = folder.join(format!("damaged.{ending}"));
         let read = |bytes: &[u8]| {
             std::fs::write(&path, bytes).expect("the folder can be written to");
-            load::read_image(&path, None).is_ok()
+            load::read_image(&path, None).map(|_| String::new()).map_err(|error| error.to_string())
         };
         tally.undamaged(&whole, read);
-        for _ in 0..cases {
-            tally.damaged(&damaged(&whole, random, false), read);
-        }
+        tally.hunt(&whole, cases, random, |bytes, _, random| damaged(bytes, random, false), read);
+        tally.judge();
     }
-    tally.judge();
 }
 
 /// The same small picture in every format that can be written here.

@@ -6,10 +6,9 @@ use std::io::Write as _;
 use base64::Engine as _;
 use serde_json::{Value, json};
 
-use crate::common::effort::in_full;
 use crate::common::files::{folder_with, png_bytes};
 use crate::counting::take_turn;
-use crate::hostile::{MOST_FOR_TEXTS, Tally, damaged, with_bits_turned};
+use crate::hostile::{MOST_FOR_TEXTS, Tally, answer_of, cases, damaged, with_bits_turned};
 use crate::random::SplitMix64;
 use gpt::load;
 
@@ -18,27 +17,24 @@ const IN_FULL: usize = 100_000;
 
 /// Damages `whole`, puts it into the file `name` by way of `pack`, and reads `scene`, which is that file or names it.
 fn damage(kind: &'static str, name: &str, whole: &[u8], others: &[(&str, &[u8])], scene: &str, pack: impl Fn(&[u8]) -> Vec<u8>) {
-    let asked = std::env::var("GPT_FUZZ_CASES").ok().and_then(|count| count.parse().ok());
-    let count = asked.unwrap_or_else(|| if in_full("most damaged imports") { IN_FULL } else { NORMALLY });
+    let count = cases(NORMALLY, IN_FULL);
     let is_text = std::str::from_utf8(whole).is_ok();
     let folder = folder_with(others);
     let path = |name: &str| folder.path().join(name);
     let read = |bytes: &[u8]| {
-        std::fs::write(path(name), bytes).expect("the folder can be written to");
-        load::load(path(scene).to_str()).map_err(|error| assert!(!error.to_string().is_empty())).is_ok()
+        std::fs::write(path(name), pack(bytes)).expect("the folder can be written to");
+        answer_of(load::load(path(scene).to_str()))
     };
     let _turn = take_turn();
     let mut tally = Tally::new(kind, MOST_FOR_TEXTS);
     let mut random = SplitMix64::new(7);
-    tally.undamaged(&pack(whole), read);
-    for round in 0..count {
-        // By turns: bits that leave the file as it is but for a number, and pieces that move what follows.
-        let bytes = match round % 2 {
-            0 => with_bits_turned(whole, &mut random),
-            _ => damaged(whole, &mut random, is_text),
-        };
-        tally.damaged(&pack(&bytes), read);
-    }
+    tally.undamaged(whole, read);
+    // By turns: bits that leave the file as it is but for a number, and pieces that move what follows.
+    let damage = |bytes: &[u8], round: usize, random: &mut SplitMix64| match round % 2 {
+        0 => with_bits_turned(bytes, random),
+        _ => damaged(bytes, random, is_text),
+    };
+    tally.hunt(whole, count, &mut random, damage, read);
     tally.judge();
 }
 

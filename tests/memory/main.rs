@@ -12,3 +12,4 @@ mod hostile_files;
 mod hostile_imports;
 mod large_pictures;
 mod many_files;
+mod seeds;

@@ -90,9 +90,10 @@ impl Resolver<'_> {
     pub(super) fn instances(&mut self, written: &[Located<InstanceEntry>], names: &HashMap<String, usize>) {
         let textured = self.scene.materials_that(Material::uses_texture);
         let emits = self.scene.materials_that(|material| material.emission.is_some());
+        let balls = self.scene.balls();
         for (index, entry) in written.iter().enumerate() {
             let instances = self.instances_of(index, entry, names).and_then(|instances| {
-                let check = self.scene.check_instances(&instances, &textured, &emits);
+                let check = self.scene.check_instances(&instances, &textured, &emits, &balls);
                 check.map(|()| instances).map_err(|message| self.error(&entry.span, message))
             });
             let instances = self.note(instances);

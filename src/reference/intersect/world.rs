@@ -71,9 +71,10 @@ impl World {
         let (instances, boxes_of_instances) = Instances::new(scene);
         let all_boxes = || boxes.iter().chain(&boxes_of_instances).flatten();
         let reach = all_boxes().fold(0.0, |reach: f64, corner| reach.max(corner.abs().max_element()));
-        // The hierarchy's builder squares lengths in f32.
-        if !all_boxes().all(|corner| corner.is_finite()) || reach > 1e18 {
-            return Err(RenderError::Internal("a shape lies farther than 1e18 from the origin".into()));
+        // The hierarchy's builder squares lengths in f32. A checked scene reaches to 1e18, is moved by as much to its camera, and its boxes are a
+        // little larger.
+        if !all_boxes().all(|corner| corner.is_finite()) || reach > 3e18 {
+            return Err(RenderError::Internal("a shape lies farther than 3e18 from the camera".into()));
         }
         let (hierarchy, leaf_order) = Hierarchy::build(&boxes);
         let mut scene_order = vec![0; leaf_order.len()];

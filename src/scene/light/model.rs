@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::scene::check::{Check, is_amount};
+use crate::scene::check::{Check, is_amount, within_range};
 use crate::scene::image::ImageData;
 use crate::scene::light_at::LightAt;
 use crate::scene::texture::TextureId;
@@ -87,6 +87,11 @@ impl LightParameters {
 pub fn amounts(lights: &[DVec3]) -> Check {
     let possible = lights.iter().copied().all(is_amount);
     if possible { Ok(()) } else { Err("its light must be finite and not negative".to_owned()) }
+}
+
+pub fn stands(position: DVec3) -> Check {
+    placed(position.is_finite())?;
+    within_range(position.length())
 }
 
 pub fn placed(possible: bool) -> Check {

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::model::{DeltaLight, LightParameters, LightStrength, SceneLight, amounts, placed};
+use super::model::{DeltaLight, LightParameters, LightStrength, SceneLight, amounts, placed, stands};
 use crate::math::{Frame, luminance};
 use crate::scene::check::{Check, is_direction};
 use crate::scene::light_at::LightAt;
@@ -67,7 +67,8 @@ impl SpotLight {
 
 impl SceneLight for SpotLight {
     fn check(&self) -> Check {
-        placed(self.position.is_finite() && is_direction(self.direction))?;
+        stands(self.position)?;
+        placed(is_direction(self.direction))?;
         let (falloff, angle) = (self.falloff_degrees, self.angle_degrees);
         if !(0.0 <= falloff && falloff <= angle && angle <= 180.0) {
             return Err(format!("its light falls off from {falloff} to {angle} degrees"));
@@ -159,7 +160,8 @@ impl Projector {
 
 impl SceneLight for Projector {
     fn check(&self) -> Check {
-        placed(self.position.is_finite() && is_direction(self.direction) && has_up(self.direction, self.up))?;
+        stands(self.position)?;
+        placed(is_direction(self.direction) && has_up(self.direction, self.up))?;
         let fov = self.vertical_fov_degrees;
         if !(fov > 0.0 && fov < 180.0 && self.aspect.is_finite() && self.aspect > 0.0) {
             return Err(format!("its picture is {fov} degrees high and {} times as wide", self.aspect));

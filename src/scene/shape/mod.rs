@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3, Vec3};
 
-use super::check::Check;
+use super::check::{Check, within_range};
 use super::material::MaterialId;
 use super::motion::{Motion, MotionStep};
 use super::transform::Transform;
@@ -180,7 +180,7 @@ impl Shape {
         self.motion.as_ref().map(|motion| motion.at(time, self.origin()))
     }
 
-    /// Whether it has a place: its transform leaves a volume, and what is round stays round.
+    /// Whether it has a place: its transform leaves a volume within the range of numbers, and what is round stays round.
     ///
     /// # Errors
     /// What is wrong, in words.
@@ -193,7 +193,7 @@ impl Shape {
         if self.geometry.is_round() && self.transform.uniform_scale().is_none() {
             return Err(self.geometry.stays_round());
         }
-        Ok(())
+        within_range(self.farthest_from(DVec3::ZERO))
     }
 
     /// Whether renderers can follow the shape's motion while the shutter is open.
@@ -218,6 +218,8 @@ impl Shape {
                 return Err((Some(index), self.geometry.stays_round()));
             }
         }
-        motion.check_ends(shutter, self.origin()).map_err(|message| (None, message))
+        let origin = self.origin();
+        let checked = motion.check_ends(shutter, origin);
+        checked.and_then(|()| motion.check_reach(shutter, origin, self.farthest_from(origin))).map_err(|message| (None, message))
     }
 }

@@ -228,6 +228,31 @@ fn each_mistake_is_named_with_its_part() {
             "rectangle: the scale shrinks the shape to nothing",
         ),
         (|s| s.shapes[4].geometry = Geometry::Box(Cuboid { min: DVec3::ONE, max: DVec3::ZERO }), "box: its numbers"),
+        (
+            |s| s.shapes[1].transform.steps = vec![TransformStep::Scale(DVec3::splat(1e10)); 2],
+            "sphere: it reaches farther than 1e18",
+        ),
+        (|s| s.shapes[4].transform.steps = vec![TransformStep::Translate(DVec3::splat(7e17)); 2], "box: it reaches farther than"),
+        (
+            |s| s.shapes[3].motion = Some(Motion::new(vec![MotionStep::Scale(DVec3::splat(1e10)); 2])),
+            "rectangle: the motion leaves the range of numbers",
+        ),
+        (
+            |s| s.shapes[3].motion = Some(Motion::new(vec![MotionStep::Translate(DVec3::X * 6e17); 2])),
+            "rectangle: the motion leaves the range of numbers",
+        ),
+        (
+            |s| {
+                s.shapes[3].transform.steps = vec![TransformStep::Translate(DVec3::X * 9e17)];
+                s.shapes[3].motion = Some(Motion::new(vec![MotionStep::Translate(DVec3::X * 9e17)]));
+            },
+            "rectangle: it reaches farther than 1e18",
+        ),
+        (|s| s.camera.position = DVec3::Z * 1.1e18, "camera: it reaches farther than 1e18"),
+        (
+            |s| s.lights[0] = Light::Point(PointLight { position: DVec3::X * 1.1e18, intensity: DVec3::ONE }),
+            "light[0]: it reaches farther than 1e18",
+        ),
         (|s| s.shapes[5].portal = true, "plane: a plane cannot be a portal"),
         (|s| s.shapes[5].geometry = Geometry::Plane(Plane { point: DVec3::ZERO, normal: DVec3::ZERO }), "plane: its numbers"),
         (

@@ -121,6 +121,8 @@ impl Resolver<'_> {
         }
         let label = format!("shape[{index}] ({})", geometry.kind_name());
         let shape = Shape { label, geometry, material, transform, motion, portal: common.portal };
+        let place = common.transform.map_or(&entry.span, |written| &written.span);
+        shape.check_place().map_err(|message| self.error(place, message))?;
         common.motion.map_or(Ok(()), |written| self.check_motion(written, &shape))?;
         Ok(shape)
     }
@@ -179,6 +181,7 @@ impl Resolver<'_> {
             motion: None,
             portal: false,
         });
+        self.scene.shapes[0].check_place().map_err(|message| SceneError::in_file(show(path), message))?;
         let lacking = self.scene.shapes[0].geometry.lacks_uv();
         if let (Some(lacking), true) = (lacking, self.uses_texture(material)) {
             let name = &self.scene.materials[material].name;
