@@ -211,7 +211,8 @@ fn equal_time(observations: &[Observations]) -> f64 {
     observations.iter().map(last).fold(f64::INFINITY, f64::min)
 }
 
-/// The picture that a setting makes in so many seconds; None where even one sample takes longer than its curve says anything about.
+/// The picture that a setting makes in so many seconds, or with its fewest samples where it takes longer for these; None where the curve says
+/// nothing about so many seconds.
 fn picture_at(
     subject: &mut dyn Subject,
     curve: &Curve,
@@ -220,7 +221,11 @@ fn picture_at(
     options: &ConvergenceOptions,
 ) -> Result<Option<EqualTimePicture>, BenchError> {
     let points: Vec<(f64, f64)> = curve.levels.iter().map(|level| (level.seconds.median, f64::from(level.spp))).collect();
-    let Some(spp) = interpolate(&points, seconds) else { return Ok(None) };
+    let spp = match (interpolate(&points, seconds), points.first()) {
+        (Some(spp), _) => spp,
+        (None, Some(&(least_seconds, fewest))) if least_seconds > seconds => fewest,
+        _ => return Ok(None),
+    };
     let spp = (spp.round() as u32).clamp(1, 2 * options.schedule.levels.last().copied().unwrap_or(1));
     let run = match subject.render(options.schedule.seed_of(0, 63, 1), spp) {
         Err(BenchError::Interrupted) => return Ok(None),

@@ -68,6 +68,25 @@ fn a_render_is_denoised_beside_itself() {
     assert!(Channels::read(&place.path("a.exr")).expect("a picture").channel("Albedo.R").is_some());
 }
 
+/// The benchmark measures denoised pictures beside raw ones.
+#[test]
+fn denoising_is_a_setting_of_the_benchmark() {
+    if !is_installed() {
+        return;
+    }
+    let place = Workplace::new();
+    let counts = "--size 32x32 --spp 8 --levels 2 --replications 2 --reference-spp 64 --references kept";
+    let said = place.expect(0, &format!("bench convergence scene.toml --device cpu --denoise no,yes {counts} -o out"));
+    assert!(said.contains("raw ") && said.contains("denoised "), "{said}");
+    let report: Value = serde_json::from_slice(&fs::read(place.path("out/convergence.json")).expect("a file")).expect("JSON");
+    let settings = report.pointer("/scenes/0/settings").expect("its settings");
+    let errors = |setting: usize| settings[setting]["levels"][1]["mse"]["estimate"].as_f64();
+    assert_eq!((&settings[0]["setting"], &settings[1]["setting"]), (&"raw".into(), &"denoised".into()));
+    assert!(errors(0).is_some() && errors(1).is_some() && errors(0) != errors(1), "{settings}");
+    let page = fs::read_to_string(place.path("out/report.html")).expect("a page");
+    assert!(page.contains("denoiser where it is denoised"));
+}
+
 /// Parts are denoised once they are joined, by what the whole picture's own denoising is helped by.
 #[test]
 fn parts_are_denoised_once_they_are_joined() {
@@ -101,7 +120,11 @@ fn parts_are_denoised_once_they_are_joined() {
 fn a_missing_library_is_named_with_how_to_get_it() {
     let place = Workplace::new();
     place.expect(0, "render scene.toml --device cpu -q -o a.exr");
-    for arguments in ["denoise a.exr -o b.exr", "render scene.toml --device cpu --spp 1000000 --denoise -o c.exr"] {
+    for arguments in [
+        "denoise a.exr -o b.exr",
+        "render scene.toml --device cpu --spp 1000000 --denoise -o c.exr",
+        "bench convergence scene.toml --device cpu --spp 1000000 --denoise yes -o report",
+    ] {
         let output = place.command(arguments).env(VARIABLE, "/nowhere/at/all").output().expect("the program starts");
         let stderr = text(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{stderr}");

@@ -104,9 +104,10 @@ pub fn convergence_page(scenes: &[SceneConvergence], machine: &Machine) -> Resul
     let content = html! {
         p {
             "Errors are means over independent pictures against a reference, whose own error is taken off; the ranges beside them hold the truth "
-            "with 95 % confidence (Student's t). Times are of the render alone, medians with least and largest. Settings took turns at every step, "
-            "after a picture of each that was thrown away. Ratios are taken replication by replication: their median, and the range that holds the "
-            "true one with at least 95 % confidence whatever the distribution. A range that holds 1 says “inside the noise”."
+            "with 95 % confidence (Student's t). Times are of the render alone, and of layers and denoiser where it is denoised: medians with least "
+            "and largest. Settings took turns at every step, after a picture of each that was thrown away. Ratios are taken replication by "
+            "replication: their median, and the range that holds the true one with at least 95 % confidence whatever the distribution. A range "
+            "that holds 1 says “inside the noise”."
         }
         @for section in sections? { (section) }
     };
@@ -146,6 +147,9 @@ fn section(index: usize, scene: &SceneConvergence) -> Result<Markup, BenchError>
             (ratios(scene))
         }
         h3 { "Pictures of " (number(scene.equal_time)) " s" }
+        @if scene.settings.iter().filter_map(|setting| setting.at_equal_time.as_ref()).any(|at| at.seconds > 1.5 * scene.equal_time) {
+            p { "A setting that takes longer for its fewest samples is shown with those." }
+        }
         (equal_time_pictures(index, scene)?)
     })
 }
