@@ -36,6 +36,9 @@ pub enum MergeError {
 const OWN: [&str; 7] =
     ["gpt:device", "gpt:firstSample", "gpt:samples", "gpt:samplesWanted", "gpt:complete", "gpt:brokenOff", CROP_KEY];
 
+/// Pixels of a part from which on several threads decompress it.
+const WORTH_THREADS: u64 = 1 << 16;
+
 /// What a part says of itself.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PartHeader {
@@ -217,14 +220,12 @@ impl PartHeader {
     pub fn pixels(&self) -> Result<PartPixels, MergeError> {
         let failure = |what: String| MergeError::Part { path: self.path.clone(), what };
         let file = input::open_own(&self.path).map_err(|error| failure(error.to_string()))?;
-        let image = exr::prelude::read()
-            .no_deep_data()
-            .largest_resolution_level()
-            .all_channels()
-            .first_valid_layer()
-            .all_attributes()
-            .from_buffered(file)
-            .map_err(|error| failure(error.to_string()))?;
+        let reader =
+            exr::prelude::read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer().all_attributes();
+        let [_, _, width, height] = self.region.map(u64::from);
+        // A reader with threads starts as many as there are cores for each file, which takes longer than a small one.
+        let reader = if width * height < WORTH_THREADS { reader.non_parallel() } else { reader };
+        let image = reader.from_buffered(file).map_err(|error| failure(error.to_string()))?;
         let AnyChannels { list } = image.layer_data.channel_data;
         let mut found: BTreeMap<String, FlatSamples> =
             list.into_iter().map(|channel| (channel.name.to_string(), channel.sample_data)).collect();
