@@ -26,7 +26,7 @@ use super::render_summary::{tell, tell_of_error};
 use super::sequence::{Done, Frame, Ready, Sequence, has_own_stats, tell_of_keyframes};
 use super::stats::{self, Stats};
 use super::view::{Live, Phase, Watching};
-use super::{denoise, interrupt, layers, settings, terminal, watch};
+use super::{denoise, first_look, interrupt, layers, settings, terminal, watch};
 
 /// Renders a scene to its picture files. Everything that can be wrong without rendering is found before.
 pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
@@ -149,6 +149,7 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     let progress = Progress::of_frame(arguments.quiet, arguments.progress, span);
     let size = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
     let watching = live.watching(&progress, size[1]);
+    let ready = first_look::show((live, &watching), ready, (scene, options), &wanted).inspect_err(|_| progress.clear())?;
     let layers =
         match layers::render(arguments, options, (scene, wanted), outputs, (started, &progress, &watching.without_rows())) {
             Err(Failure::Interrupted) if live.restarts() => return Ok(Done::Outdated(None)),

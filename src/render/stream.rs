@@ -187,13 +187,40 @@ impl Renderer {
         // A limit beyond what the clock can tell is none.
         let deadline = self.options.time_limit.and_then(|limit| start.checked_add(left(limit)));
         let goal = Goal { deadline, ..self.goal() };
+        self.render_for(&goal, observer, checkpoint, on_band)
+    }
+
+    /// Renders the first samples of every pixel alone, for a look at the picture before the rest of it is rendered.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    #[doc(hidden)]
+    pub fn render_first(
+        &mut self,
+        samples: u32,
+        observer: &dyn Observer,
+        on_band: &mut dyn FnMut(Band) -> io::Result<()>,
+    ) -> Result<Outcome, RenderError> {
+        let Goal { samples: all, region, .. } = self.goal();
+        let first = all.start..all.end.min(all.start.saturating_add(samples));
+        let goal = Goal { samples: first, region, deadline: None, target_error: None, adaptive: false };
+        self.render_for(&goal, observer, None, on_band)
+    }
+
+    fn render_for(
+        &mut self,
+        goal: &Goal,
+        observer: &dyn Observer,
+        checkpoint: Option<&mut Checkpoint>,
+        on_band: &mut dyn FnMut(Band) -> io::Result<()>,
+    ) -> Result<Outcome, RenderError> {
         let (renderer, seed) = (self.renderer.as_mut(), self.provenance.settings.seed);
         let crop = self.options.crop;
         let mut cropped = |band: Band| match crop {
             Some(region) => on_band(band.cropped(region)),
             None => on_band(band),
         };
-        progressive::render_kept(renderer, self.film, seed, &goal, observer, checkpoint, &mut cropped)
+        progressive::render_kept(renderer, self.film, seed, goal, observer, checkpoint, &mut cropped)
     }
 
     /// What the options ask for; a deadline is some time.

@@ -176,6 +176,26 @@ fn the_picture_converges_on_the_page_and_slow_browsers_hold_up_nothing() {
     assert!(header_number(&place.path("a.exr"), "gpt:samples") > 0);
 }
 
+/// All samples of the layers come before the picture's, but somebody watches: there is something of both at once.
+#[test]
+fn layers_are_there_with_the_first_picture() {
+    let place = Workplace::new();
+    for device in checkpoints::devices() {
+        let render = format!("render scene.toml --device {device} --view --spp 100000000 --aov normal,depth -o a.exr");
+        let viewed = Viewed::start(&place, &render);
+        let state = viewed.wait("a picture with layers", |state| {
+            state["samples"] == serde_json::json!([4, 4]) && state["layers"] == serde_json::json!(["N", "Z"])
+        });
+        assert!(["preparing", "layers"].contains(&state["phase"].as_str().unwrap_or_default()), "{state}");
+        let middle = |path: &str| viewed.picture(path).1[8 * 24 + 12];
+        let ([red, ..], [.., towards, _, _], [depth, ..]) =
+            (middle("picture"), middle("picture?layer=N"), middle("picture?layer=Z"));
+        assert!(red > 0.0 && (towards - 1.0).abs() < 0.05 && depth > 1.0, "{red} {towards} {depth}");
+        viewed.wait("all samples of a layer", |state| state["phase"] == "layers" && state["done"].as_u64() > Some(0));
+        assert_eq!(viewed.interrupt().0, Some(130));
+    }
+}
+
 /// With errors to reach and samples that follow the noise, too.
 #[test]
 fn renders_in_steps_are_shown_with_their_error() {

@@ -79,6 +79,11 @@ impl Live {
         Ok(live)
     }
 
+    /// Whether it is shown anywhere.
+    pub fn is_shown(&self) -> bool {
+        self.board.is_some()
+    }
+
     /// A scene of this name is about to be rendered.
     pub fn begin(&self, scene: &str) {
         if let Some(board) = &self.board {
@@ -146,7 +151,7 @@ impl Live {
 
     /// Watches a render of so many rows, whose progress people see there.
     pub fn watching<'a>(&'a self, progress: &'a Progress, height: u32) -> Watching<'a> {
-        Watching { live: self, progress, height, shows_rows: true, asked: Mutex::new(None) }
+        Watching { live: self, progress, height, shows_rows: true, tells_progress: true, asked: Mutex::new(None) }
     }
 }
 
@@ -167,6 +172,7 @@ pub struct Watching<'a> {
     progress: &'a Progress,
     height: u32,
     shows_rows: bool,
+    tells_progress: bool,
     /// When rows were asked for last.
     asked: Mutex<Option<Instant>>,
 }
@@ -175,6 +181,11 @@ impl Watching<'_> {
     /// As it is, but for the rows: of a layer, they are none of the picture.
     pub fn without_rows(&self) -> Self {
         Self { shows_rows: false, asked: Mutex::new(None), ..*self }
+    }
+
+    /// As it is, but for the progress: of samples that are rendered again, nobody is told.
+    pub fn in_advance(&self) -> Self {
+        Self { tells_progress: false, asked: Mutex::new(None), ..*self }
     }
 
     /// Finished rows.
@@ -191,6 +202,9 @@ impl Watching<'_> {
 
 impl Observer for Watching<'_> {
     fn progress(&self, done: u64, total: u64) {
+        if !self.tells_progress {
+            return;
+        }
         self.progress.progress(done, total);
         if let Some(board) = &self.live.board {
             let phase = if self.shows_rows { Phase::Rendering } else { Phase::Layers };
