@@ -14,7 +14,8 @@ fn erfc(x: f32) -> f32 {
 
 // The inverse of erf on (-1, 1) (Giles 2012).
 fn inverse_erf(x: f32) -> f32 {
-    var w = -log((1.0 - x) * (1.0 + x));
+    // Of numbers next to ±1 this is 2⁻²³, but drivers that reorder sums make it 0.
+    var w = -log(max((1.0 - x) * (1.0 + x), 1.1920929e-7));
     var p = 0.0;
     if w < 5.0 {
         w -= 2.5;

@@ -17,7 +17,7 @@ use super::bench::BenchArguments;
 use super::choice::by_name;
 use super::denoise::DenoiseArguments;
 use super::exit::Exit;
-use super::frames::{FrameArguments, FrameList};
+use super::frames::{FrameArguments, FrameList, parse_frame};
 use super::installing_arguments::{CompletionsArguments, ManArguments};
 use super::machine_progress::ProgressFormat;
 use super::model_arguments::ModelArguments;
@@ -310,6 +310,9 @@ pub struct VerifyArguments {
     /// Samples per pixel [default: 16]
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]
     pub spp: Option<u32>,
+    /// Verify frame N of the scene's keyframes [default: the scene as it is without a frame; built-in scenes with keyframes at frame 0 too]
+    #[arg(long, value_name = "N", value_parser = parse_frame, requires = "scene")]
+    pub frame: Option<u32>,
     /// Picture size in pixels [default: the scene's, shrunk to 128 pixels along the longer side]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<[u32; 2]>,

@@ -191,7 +191,7 @@ impl FrameList {
     }
 }
 
-fn parse_frame(text: &str) -> Result<u32, String> {
+pub fn parse_frame(text: &str) -> Result<u32, String> {
     let frame = text.trim().parse().ok().filter(|frame| *frame <= LAST_FRAME);
     frame.ok_or_else(|| format!("`{text}` is no frame: expected a whole number from 0 to {LAST_FRAME}"))
 }

@@ -16,6 +16,8 @@ use serde::Serialize;
 
 use super::arguments::VerifyArguments;
 use super::exit::{Exit, Failure};
+use super::frames::FrameArguments;
+use super::sequence::bad_frame;
 use super::terminal;
 
 /// One line of the answer.
@@ -68,21 +70,25 @@ pub fn run(arguments: &VerifyArguments) -> Result<Exit, Failure> {
     }
     let mut findings = Findings { as_json: arguments.json, found: Vec::new() };
     // A scene that cannot be read is reported before a device is asked for.
-    let named = arguments.scene.as_deref().map(|name| load(name, arguments)).transpose()?;
+    let named = arguments.scene.as_deref().map(|name| load(name, arguments, arguments.frame)).transpose()?;
     let device = Device::open_for(&arguments.device, &options)?;
     if let (Some(name), Some(scene)) = (&arguments.scene, named) {
-        findings.add(verify_scene(&device, &name.to_string_lossy(), &scene, arguments, &options)?)?;
+        findings.add(verify_scene(&device, (&name.to_string_lossy(), arguments.frame), &scene, arguments, &options)?)?;
     } else {
         for index in 0..closed_forms::count() {
             findings.add(Finding::ClosedForm(closed_forms::check(index, &device, &options).map_err(failure)?))?;
         }
         for name in load::builtin_names() {
-            match verify_scene(&device, name, &load(OsStr::new(name), arguments)?, arguments, &options) {
-                // Not every scene can be traversed in every way; the others still are.
-                Err(Failure::Render(RenderError::DoesNotFit(why))) if options.asks_for_ray_queries() => {
-                    terminal::warn(&format!("{name} is left out: {why}"));
+            let scene = load(OsStr::new(name), arguments, None)?;
+            let first_frame = (!scene.animation.is_empty()).then(|| load(OsStr::new(name), arguments, Some(0))).transpose()?;
+            for (scene, frame) in [Some((scene, None)), first_frame.map(|scene| (scene, Some(0)))].iter().flatten() {
+                match verify_scene(&device, (name, *frame), scene, arguments, &options) {
+                    // Not every scene can be traversed in every way; the others still are.
+                    Err(Failure::Render(RenderError::DoesNotFit(why))) if options.asks_for_ray_queries() => {
+                        terminal::warn(&format!("{name} is left out: {why}"));
+                    }
+                    outcome => findings.add(outcome?)?,
                 }
-                outcome => findings.add(outcome?)?,
             }
         }
     }
@@ -160,7 +166,7 @@ fn was_planted(arguments: &VerifyArguments, planted: bool) -> Result<(), Failure
 /// Prints one path on both devices.
 fn follow(arguments: &VerifyArguments, [x, y]: [u32; 2], options: &PlanOptions) -> Result<Exit, Failure> {
     let name = arguments.scene.as_deref().unwrap_or(OsStr::new("cornell"));
-    let scene = load(name, arguments)?;
+    let scene = load(name, arguments, arguments.frame)?;
     let [width, height] = scene.film.size;
     if x >= width || y >= height {
         return Err(Failure::usage(format!(
@@ -178,8 +184,13 @@ fn follow(arguments: &VerifyArguments, [x, y]: [u32; 2], options: &PlanOptions) 
     Ok(if comparison.agrees { Exit::Done } else { Exit::Difference })
 }
 
-fn load(name: &OsStr, arguments: &VerifyArguments) -> Result<Scene, Failure> {
+fn load(name: &OsStr, arguments: &VerifyArguments, frame: Option<u32>) -> Result<Scene, Failure> {
     let mut scene = load::load_with(Some(name), &arguments.access.options(false))?;
+    let wanted = FrameArguments { frame, ..FrameArguments::default() };
+    if let Some(frame) = wanted.times(&scene.animation)?.first().and_then(|time| time.frame()) {
+        scene = scene.at_frame(frame).map_err(|error| bad_frame(&scene, &error))?;
+        scene.name = format!("{}, frame {frame}", scene.name);
+    }
     match arguments.size {
         Some(size) => scene.film.size = size,
         None => verify::shrink(&mut scene, DEFAULT_SIDE),
@@ -191,7 +202,7 @@ fn load(name: &OsStr, arguments: &VerifyArguments) -> Result<Scene, Failure> {
 
 fn verify_scene(
     device: &Device,
-    name: &str,
+    (name, frame): (&str, Option<u32>),
     scene: &Scene,
     arguments: &VerifyArguments,
     options: &PlanOptions,
@@ -199,7 +210,7 @@ fn verify_scene(
     let share = if arguments.size.is_none() { shares::of_builtin(name) } else { None };
     let verdict = verify::verify_on(device, scene, options, share)?;
     if !verdict.agrees {
-        leave_evidence(&arguments.evidence, scene, &verdict, &path_command(name, scene, &verdict, arguments));
+        leave_evidence(&arguments.evidence, scene, &verdict, &path_command((name, frame), scene, &verdict, arguments));
     }
     Ok(Finding::Scene(verdict))
 }
@@ -251,12 +262,15 @@ fn scene_line(verdict: &Verdict) -> String {
 }
 
 /// The command that prints the worst path.
-fn path_command(name: &str, scene: &Scene, verdict: &Verdict, arguments: &VerifyArguments) -> String {
+fn path_command((name, frame): (&str, Option<u32>), scene: &Scene, verdict: &Verdict, arguments: &VerifyArguments) -> String {
     let [x, y, sample] = verdict.path_to_follow();
     let mut command = format!(
         "gpt verify {name} --size {}x{} --seed {} --pixel {x},{y} --sample {sample}",
         verdict.width, verdict.height, scene.render.seed
     );
+    if let Some(frame) = frame {
+        let _ = write!(command, " --frame {frame}");
+    }
     // Stratified samplers draw by the number of samples.
     if let Some(spp) = arguments.spp {
         let _ = write!(command, " --spp {spp}");

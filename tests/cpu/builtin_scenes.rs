@@ -58,7 +58,13 @@ fn compiled_in(scenes: &[Scene], limits: &DeviceLimits, options: &PlanOptions) -
 fn built_in_scenes_use_every_switch() {
     let built_in: Vec<Scene> = load::builtin_names().map(|name| load::load(Some(name)).expect("it is built in")).collect();
     let hardware = DeviceLimits::default();
-    let scenes = compiled_in(&built_in, &hardware, &PlanOptions::default());
+    let in_frames: Vec<Scene> = built_in
+        .iter()
+        .filter(|scene| !scene.animation.is_empty())
+        .map(|scene| scene.at_frame(0.0).expect("its first frame"))
+        .collect();
+    let mut scenes = compiled_in(&built_in, &hardware, &PlanOptions::default());
+    scenes.extend(compiled_in(&in_frames, &hardware, &PlanOptions::default()));
     let every = SWITCHES.iter().filter(|switch| !switch.debug).map(|switch| switch.name);
     let missing: Vec<_> = every.clone().filter(|name| !scenes.contains(name) && !OF_DEVICES.contains(name)).collect();
     assert!(missing.is_empty(), "no built-in scene uses {missing:?}");
