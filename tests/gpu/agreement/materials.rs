@@ -6,6 +6,7 @@ use glam::DVec3;
 use gpt::load;
 use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
 use gpt::scene::{BlendMode, Estimator, Geometry, Rectangle, Relief, Scene};
+use gpt::verify::path::compare_path;
 
 use super::lights::compare_unequal;
 use super::{DEVICE, assert_agrees, compare};
@@ -354,4 +355,18 @@ fn other_heights_are_noticed() {
     }
     let Some(verdict) = compare_unequal(&ours, &theirs) else { return };
     assert!(!verdict.agrees, "{verdict:#?}");
+}
+
+/// Across the view, the slopes of Beckmann's facets have no end, and this path's number is the largest below 1.
+#[test]
+fn the_steepest_of_beckmanns_facets_is_finite() {
+    let Some(device) = DEVICE.as_ref() else { return };
+    let text = "[film]\nsize = [64, 48]\n[render]\nseed = 11\nspp = 256\nmax_depth = 2\n\
+                [camera]\nposition = [0, 1, 5]\nlook_at = [0, 1, 0]\nvfov = 32\n\
+                [[material]]\nname = \"m\"\ntype = \"conductor\"\npreset = \"gold\"\nalpha = 0.3\ndistribution = \"beckmann\"\n\
+                [[shape]]\ntype = \"sphere\"\ncenter = [0, 1, 0]\nradius = 1\nmaterial = \"m\"\n\
+                [[light]]\ntype = \"environment\"\nradiance = 1\n";
+    let scene = load::load_toml_str(text, "steepest.toml", std::path::Path::new("")).expect("the scene is valid");
+    let path = compare_path(device, &scene, [31, 17], 137, &PlanOptions::default()).expect("both follow it");
+    assert!(path.rows.len() > 3 && path.rows.iter().all(|row| !row.parts), "{path}");
 }
