@@ -299,6 +299,16 @@ fn an_unknown_setting_is_answered_with_all_settings() {
     assert_eq!(complaint("spp = 1", "samples = 1"), expected);
 }
 
+/// Lists of values would be read in the order of the keys, and a schema refuses them.
+#[test]
+fn lists_in_the_place_of_tables_are_refused() {
+    for (table, list) in [("animation", "[24]"), ("film", "[[4, 4]]"), ("output", "[]"), ("render", "[4]")] {
+        let text = GOOD.replace("[film]\nsize = [4, 4]\n[render]\nspp = 1\n", "");
+        let found = error_of(&format!("{table} = {list}\n{text}")).to_string();
+        assert!(found.starts_with("test.toml:1:") && found.contains("expected a table"), "{table}: {found}");
+    }
+}
+
 /// Numbers that are possible one by one, and lead out of the range of numbers together.
 #[test]
 fn what_ends_beyond_the_range_of_numbers_is_refused() {

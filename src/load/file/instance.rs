@@ -22,6 +22,7 @@ use crate::scene::{Geometry, Group, Instances, Material, Transform};
 #[schemars(rename = "Group")]
 pub struct GroupEntry {
     /// What instances call it.
+    #[schemars(extend("minLength" = 1))]
     name: Located<String>,
     /// Its meshes, each a `[[group.shape]]` of type `mesh` in the group's own space.
     #[schemars(extend("minItems" = 1))]

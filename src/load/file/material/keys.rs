@@ -83,7 +83,9 @@ macro_rules! material_keys {
      [$($(#[$last_doc:meta])* $last:ident: $last_type:ty,)*]) => {
         #[derive(Debug, serde::Deserialize, schemars::JsonSchema)]
         #[serde(deny_unknown_fields, expecting = "a table")]
-        #[schemars(extend("dependentRequired" = { "emission_two_sided": ["emission"] }))]
+        #[schemars(extend("dependentRequired" = {
+            "emission_two_sided": ["emission"], "normal_scale": ["normal_map"], "bump_scale": ["bump_map"]
+        }))]
         $(#[$doc])*
         pub struct Keys {
             /// What shapes and blends call it.

@@ -24,7 +24,9 @@ use super::light::LightEntry;
 use super::material::MaterialEntry;
 use super::node::NodeEntry;
 use super::shape::ShapeEntry;
-use super::value::{Checked, Exactly, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
+use super::value::{
+    Checked, Exactly, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector, optional_table, table,
+};
 
 /// A scene of the path tracer gpt. Lengths in scene units, angles in degrees, colours linear Rec.709, radiance in W·sr⁻¹·m⁻².
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -32,13 +34,15 @@ use super::value::{Checked, Exactly, FieldOfView, FilterRadius, Located, NonNega
 #[schemars(title = "gpt scene")]
 #[schemars(extend("required" = [], "anyOf" = [{ "required": ["camera"] }, { "required": ["import"] }]))]
 pub struct SceneFile {
-    #[serde(default)]
+    #[serde(default, deserialize_with = "table")]
     pub film: FilmTable,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "table")]
     pub render: RenderTable,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "table")]
     pub output: OutputTable,
+    #[serde(deserialize_with = "table")]
     pub camera: CameraTable,
+    #[serde(default, deserialize_with = "optional_table")]
     pub animation: Option<AnimationTable>,
     #[serde(default)]
     pub node: Vec<Located<NodeEntry>>,
@@ -65,10 +69,15 @@ pub struct SceneFile {
 #[serde(deny_unknown_fields, expecting = "a scene")]
 #[allow(dead_code, reason = "it is read for its mistakes alone")]
 pub struct PartOfFile {
+    #[serde(default, deserialize_with = "optional_table")]
     film: Option<FilmTable>,
+    #[serde(default, deserialize_with = "optional_table")]
     render: Option<RenderTable>,
+    #[serde(default, deserialize_with = "optional_table")]
     output: Option<OutputTable>,
+    #[serde(default, deserialize_with = "optional_table")]
     camera: Option<CameraTable>,
+    #[serde(default, deserialize_with = "optional_table")]
     animation: Option<AnimationTable>,
     #[serde(default)]
     node: Vec<Located<NodeEntry>>,
