@@ -10,7 +10,7 @@ use gpt::scene::{Geometry, Shape};
 /// A scene of as many files and triangles as a large one has: each file is read once, and no more is held than three times what the scene holds.
 #[test]
 fn a_scene_of_many_files_is_read_in_a_few_times_its_memory() {
-    let (files, across) = if in_full("2 million triangles in 439 files") { (439, 48) } else { (40, 16) };
+    let (files, across) = if in_full("2 million triangles in 439 files") { (439, 48) } else { (40, 48) };
     let folder = tempfile::tempdir().expect("the system has a folder for temporary files");
     let mut scene = r#"<scene version="3.0.0"><sensor type="perspective"/>"#.to_owned();
     for number in 0..files {
