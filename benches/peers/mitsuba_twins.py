@@ -79,9 +79,8 @@ GOLD = word("material", "Au")
 DIFFUSE = '<bsdf type="diffuse"><rgb name="reflectance" value="0.1 0.3 0.6"/></bsdf>'
 PLASTIC = f'<bsdf type="plastic">{RED}</bsdf>'
 
-# Mitsuba takes the share of diffuse light that a rough surface sends back from within for the plain mean at 64 evenly spaced cosines, both ends
-# included, of which each should count half. It comes out 1.5 % too small, and the base too dark. These are the reflectances with which
-# Mitsuba's base is as bright as an integration makes it: by 1.27 % without `nonlinear` (GGX of 0.2), and so that rho / (1 - rho R) is right with it
+# Mitsuba's base under a rough surface is darker than an integration makes it. The plain mean over 64 evenly spaced cosines, both ends included, of the
+# light that is sent back from within gives about its numbers. These are the reflectances with which Mitsuba's base is as bright as integrated: by 1.27 % without `nonlinear` (GGX of 0.2), and so that rho / (1 - rho R) is right with it
 # (Beckmann of 0.3).
 BRIGHTER_RED = '<rgb name="diffuse_reflectance" value="0.60762 0.10127 0.050635"/>'
 BRIGHTER_NONLINEAR_RED = '<rgb name="diffuse_reflectance" value="0.6027 0.100075 0.0500187"/>'
@@ -122,7 +121,8 @@ CASES = [
     ),
     ("thin dielectric", bsdf("thindielectric"), SPHERE, True),
     ("rough dielectric", bsdf("roughdielectric", number("alpha", 0.3) + word("distribution", "ggx")), SPHERE, True),
-    # Mitsuba counts the way through a hole as an edge of the path, gpt does not. So paths are long enough to make no difference.
+    # gpt does not count the way through a hole as an edge of the path; that Mitsuba does would explain the difference at 8 edges. Long paths
+    # make none of it.
     ("mask", LONG + MASK, SPHERE, True),
     ("mask of a half", LONG + MASK_OF_HALF, SPHERE, True),
     ("mask of a half, 8 edges", MASK_OF_HALF, SPHERE, False),
