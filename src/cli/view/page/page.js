@@ -4,7 +4,7 @@ const picture = { width: 0, height: 0, number: 0, values: new Float32Array(0) };
 const developed = document.createElement("canvas");
 // Where the picture's corner is on the canvas, and screen pixels for one of its own. It fits until somebody moves it.
 const place = { x: 0, y: 0, scale: 1, fits: true };
-let state = null, wanted = -1, layer = "", autoExposure = false, frame = 0, isStale = true, pointer = null;
+let state = null, wanted = "", layer = "", autoExposure = false, frame = 0, isStale = true, pointer = null;
 
 // ---- news ----
 
