@@ -20,7 +20,7 @@ const FILES: [(&str, &[u8]); 9] = [
 ];
 
 /// Name and text of every built-in scene; the first is the default.
-const SCENES: [(&str, &str); 30] = [
+const SCENES: [(&str, &str); 31] = [
     ("cornell", include_str!("../../scenes/cornell.toml")),
     ("spheres", include_str!("../../scenes/spheres.toml")),
     ("veach-mis", include_str!("../../scenes/veach-mis.toml")),
@@ -45,6 +45,7 @@ const SCENES: [(&str, &str); 30] = [
     ("wardrobe", include_str!("../../scenes/wardrobe.toml")),
     ("grove", include_str!("../../scenes/grove.toml")),
     ("theatre", include_str!("../../scenes/theatre.toml")),
+    ("planetarium", include_str!("../../scenes/planetarium.toml")),
     ("cellar", include_str!("../../scenes/cellar.toml")),
     ("model-town", include_str!("../../scenes/model-town.toml")),
     ("furnace-lambert", include_str!("../../scenes/furnace-lambert.toml")),

@@ -48,6 +48,7 @@ const MEASURED: &[(&str, MeasuredShare)] = &[
     ("bazaar", MeasuredShare { matching: 188_312, paths: 188_416 }),
     ("arbour", MeasuredShare { matching: 163_752, paths: 163_840 }),
     ("theatre", MeasuredShare { matching: 145_652, paths: 147_456 }),
+    ("planetarium", MeasuredShare { matching: 173_967, paths: 176_128 }),
     ("cellar", MeasuredShare { matching: 196_165, paths: 196_608 }),
     ("grove", MeasuredShare { matching: 163_684, paths: 163_840 }),
     ("wardrobe", MeasuredShare { matching: 175_075, paths: 176_128 }),

@@ -7,7 +7,7 @@ use gpt::film::KernelLayer;
 use gpt::load;
 use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
-use gpt::plan::{DeviceLimits, Plan, PlanOptions, RayQueryLimits, TraversalChoice};
+use gpt::plan::{DeviceLimits, GeometryPlacement, Plan, PlanOptions, RayQueryLimits, StageMode, TraversalChoice};
 use gpt::reference::training::learn_for_device;
 use gpt::scene::Scene;
 use gpt::shader::switches::SWITCHES;
@@ -95,6 +95,19 @@ fn built_in_scenes_use_every_switch() {
     anywhere.extend(compiled_in(&[clamped], &hardware, &PlanOptions::default()));
     let missing: Vec<_> = every.filter(|name| !anywhere.contains(name)).collect();
     assert!(missing.is_empty(), "no built-in scene uses {missing:?} on any of these devices");
+}
+
+/// Software devices trace whole paths in packets wherever they may. One scene makes them go lane by lane too, as hardware does.
+#[test]
+fn software_devices_run_the_stages_of_hardware_in_one_scene() {
+    let software = DeviceLimits { software: true, subgroup_size: Some(8), ..DeviceLimits::default() };
+    for (name, stages) in [("planetarium", StageMode::Wavefront), ("teapot-plastic", StageMode::Fused)] {
+        let scene = load::load(Some(name)).expect("it is built in");
+        let packed = PackedScene::for_traversal(&scene, Traversal::Bvh).expect("it packs");
+        let plan = Plan::new(&scene, &packed, &software, &PlanOptions::default()).expect("it fits");
+        assert_eq!((plan.geometry, plan.stages), (GeometryPlacement::Hierarchy, stages), "{name}");
+        assert_eq!(plan.lanes.is_none(), stages == StageMode::Wavefront, "{name}");
+    }
 }
 
 #[test]
