@@ -8,7 +8,7 @@ use super::excerpt::Excerpt;
 use super::printable::{printable, short};
 
 /// Most mistakes of a file that are told at once.
-const MOST_ERRORS: usize = 20;
+pub(crate) const MOST_ERRORS: usize = 20;
 
 /// One mistake in a scene file or in a file it names. Displays as `file:line:column: key: message`.
 #[derive(Debug, Clone)]

@@ -193,3 +193,18 @@ fn mistakes_at_the_end_of_long_lines() {
         assert!(error.to_string().len() < 500 && error.excerpt().is_some_and(|excerpt| excerpt.text.len() < 1000));
     });
 }
+
+/// Files in which everything is wrong, as the reader sees it and as the scene does. Twenty mistakes of them are told.
+#[test]
+fn mistakes_in_every_entry() {
+    let _turn = take_turn();
+    for (mistake, words) in [("radiuss = 1\nmaterial = \"m\"", "radiuss"), ("radius = 1\nmaterial = \"none\"", "none")] {
+        assert_linear(words, 2000, |count| {
+            let entry = format!("[[shape]]\ntype = \"sphere\"\ncenter = [0, 0, 0]\n{mistake}\n");
+            let text = format!("{HEAD}{}", entry.repeat(count));
+            let error = load::load_toml_str(&text, "grown.toml", Path::new("")).expect_err("everything is wrong");
+            assert!(error.line().is_some_and(|line| line < 20) && error.to_string().contains(words), "{error}");
+            assert_eq!(error.others().len(), 19);
+        });
+    }
+}

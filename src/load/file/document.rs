@@ -7,7 +7,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::wording;
-use crate::load::error::SceneError;
+use crate::load::error::{MOST_ERRORS, SceneError};
 use crate::load::import::Origin;
 
 /// Keys at the top whose values are lists of tables of several types.
@@ -48,30 +48,28 @@ impl<'a> Document<'a> {
     /// refused for; `Part` is a file of which anything may be missing.
     pub fn all_mistakes<Part: DeserializeOwned>(self, first: SceneError) -> SceneError {
         let Ok(root) = self.parse() else { return first };
-        let mut found = vec![first.clone()];
+        let mut parts = Vec::new();
         for (key, value) in root.into_inner() {
             let is_list = LISTS.iter().chain(&PLAIN_LISTS).any(|list| key.get_ref() == list);
-            let parts = match (is_list, value.get_ref()) {
-                (true, DeValue::Array(_)) => {
-                    let span = value.span();
-                    let DeValue::Array(entries) = value.into_inner() else { continue };
-                    entries
-                        .into_iter()
-                        .map(|entry| Spanned::new(span.clone(), DeValue::Array([entry].into_iter().collect())))
-                        .collect()
-                }
-                _ => vec![value],
-            };
-            for part in parts {
-                let mut alone = Spanned::new(0..self.text.len(), DeTable::new());
-                alone.get_mut().insert(key.clone(), part);
-                let read = self.name_variants(alone.get_mut()).and_then(|()| {
-                    let read = Part::deserialize(toml::Deserializer::from(alone));
-                    read.map(|_| ()).map_err(|error| self.translate(&error))
-                });
-                found.extend(read.err());
+            let span = value.span();
+            match value.into_inner() {
+                DeValue::Array(entries) if is_list => parts.extend(entries.into_iter().map(|entry| {
+                    let at = entry.span().start;
+                    (at, key.clone(), Spanned::new(span.clone(), DeValue::Array([entry].into_iter().collect())))
+                })),
+                value => parts.push((span.start, key, Spanned::new(span, value))),
             }
         }
+        // In the order of the file, and no more than are told: finding the place of each takes as long as reading the file does.
+        parts.sort_by_key(|(at, ..)| *at);
+        let mistakes = parts.into_iter().filter_map(|(_, key, part)| {
+            let mut alone = Spanned::new(0..self.text.len(), DeTable::new());
+            alone.get_mut().insert(key, part);
+            let named = self.name_variants(alone.get_mut());
+            named.and_then(|()| Part::deserialize(toml::Deserializer::from(alone)).map_err(|error| self.translate(&error))).err()
+        });
+        let mut found: Vec<SceneError> = mistakes.take(MOST_ERRORS).collect();
+        found.push(first.clone());
         SceneError::of_all(found).unwrap_or(first)
     }
 

@@ -12,7 +12,7 @@ use super::document::Document;
 use super::value::{Located, Rule, Vector, vector};
 use super::wording::did_you_mean_name;
 use crate::load::access::Access;
-use crate::load::error::{SceneError, show};
+use crate::load::error::{MOST_ERRORS, SceneError, show};
 use crate::load::files::Files;
 use crate::load::image_file::{Picture, Pictures};
 use crate::scene::{Channel, ChannelInput, ColorInput, ColorSpace, ImageData, Material, MaterialId, Mesh, Scene, TextureId};
@@ -103,6 +103,11 @@ impl<'a> Resolver<'a> {
     /// The value, or a note of what is wrong with it.
     pub(super) fn note<T>(&mut self, result: Result<T, SceneError>) -> Option<T> {
         result.map_err(|error| self.errors.push(error)).ok()
+    }
+
+    /// More mistakes are not told, and finding the place of each takes as long as reading the file does.
+    pub(super) fn has_enough_errors(&self) -> bool {
+        self.errors.len() >= MOST_ERRORS
     }
 
     pub(super) fn files(&self) -> &Files {
