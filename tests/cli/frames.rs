@@ -169,6 +169,9 @@ fn what_cannot_be_is_said() {
     fs::write(place.path("bad.toml"), scene(camera, "", "")).expect("a file");
     let said = place.expect(3, "render bad.toml --device cpu --frame 10 -o a.#.exr");
     assert!(said.contains("frame 10: camera: it looks at the point it stands at"), "{said}");
+    fs::write(place.path("bad.toml"), scene("keyframes = [{ frame = 0 }]", "", "")).expect("a file");
+    let said = place.expect(3, "check bad.toml");
+    assert!(said.contains("bad.toml:") && said.contains("a keyframe of the camera states `position`"), "{said}");
     for (keys, words) in [
         ("keyframes = [{ frame = 1, scale = 1 }, { frame = 1, scale = 2 }]", "order of their frames"),
         ("keyframes = [{ scale = 1 }]", "states its `frame`"),

@@ -87,7 +87,9 @@ pub struct TransformKeyEntry {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table such as { frame = 10, position = [0, 1, 5] }")]
 #[schemars(rename = "CameraKeyframe")]
-#[schemars(extend("oneOf" = [{ "required": ["frame"] }, { "required": ["time"] }]))]
+#[schemars(extend("oneOf" = [{ "required": ["frame"] }, { "required": ["time"] }],
+    "anyOf" = [{ "required": ["position"] }, { "required": ["look_at"] }, { "required": ["up"] }, { "required": ["vfov"] },
+        { "required": ["height"] }, { "required": ["focus_distance"] }]))]
 pub struct CameraKeyEntry {
     /// Number of the frame, not necessarily a whole one; or `time`.
     pub frame: Option<Number>,

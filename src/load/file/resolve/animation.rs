@@ -159,6 +159,14 @@ impl Resolver<'_> {
         let mut track = CameraTrack { node, ..CameraTrack::default() };
         for (entry, frame) in keyframes.value.iter().zip(frames) {
             let CameraKeyEntry { position, look_at, up, vfov, height, focus_distance, .. } = &entry.value;
+            if [position, look_at, up].iter().all(|value| value.is_none())
+                && vfov.is_none()
+                && height.is_none()
+                && focus_distance.is_none()
+            {
+                let message = "a keyframe of the camera states `position`, `look_at`, `up`, `vfov`, `height` or `focus_distance`";
+                return Err(self.error(&entry.span, message));
+            }
             for (curve, value) in [(&mut track.position, position), (&mut track.look_at, look_at), (&mut track.up, up)] {
                 curve.keys.extend(value.map(|value| Key { frame, value: vector(value) }));
             }
