@@ -9,6 +9,7 @@ use std::path::Path;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gpt::bench::scenes;
+use gpt::binary_tree::parts::KeptTrees;
 use gpt::choice::Choice;
 use gpt::load;
 use gpt::packed::{PackedScene, hierarchy::Traversal, tree, world};
@@ -42,7 +43,7 @@ fn pack(criterion: &mut Criterion) {
         });
         let geometry = world::collect(&scene);
         group.bench_with_input(BenchmarkId::new("hierarchy", triangles), &geometry, |bencher, geometry| {
-            bencher.iter(|| tree::build(geometry, Traversal::Bvh));
+            bencher.iter(|| tree::build(geometry, Traversal::Bvh, &mut KeptTrees::default()));
         });
     }
     group.finish();

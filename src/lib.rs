@@ -67,7 +67,8 @@
 #[cfg(feature = "bench")]
 #[doc(hidden)]
 pub mod bench;
-mod binary_tree;
+#[doc(hidden)]
+pub mod binary_tree;
 mod black_body;
 #[doc(hidden)]
 pub mod choice;

@@ -4,6 +4,7 @@
 
 mod clustering;
 mod depth;
+pub mod parts;
 
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
@@ -29,7 +30,7 @@ pub fn build(boxes: &[Aabb], parameters: &BvhBuildParams) -> Bvh2 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use glam::Vec3A;
 
     use super::depth::top_down;

@@ -14,6 +14,7 @@ use super::passes::{PassLimits, PassSizer};
 use super::pipeline::Pipeline;
 use super::profile::{self, Profile};
 use super::trace::{self, GpuPathTrace};
+use crate::binary_tree::parts::KeptTrees;
 use crate::film::Band;
 use crate::packed::environment::PackedEnvironment;
 use crate::packed::view::View;
@@ -52,6 +53,8 @@ pub struct GpuRenderer {
     environment: PackedEnvironment,
     /// A guide was asked for, whether or not training found light to make one of.
     is_trained: bool,
+    /// What the next frame's hierarchy may be made of.
+    trees: KeptTrees,
 }
 
 impl GpuRenderer {
@@ -71,14 +74,16 @@ impl GpuRenderer {
         Self::from_opening_device(OpeningDevice::is_open(device), scene, options)
     }
 
-    /// As [`GpuRenderer::new`], on a device that opens while the scene is packed.
-    ///
-    /// # Errors
-    /// As [`GpuRenderer::new`].
-    pub fn from_opening_device(opening: OpeningDevice, scene: &Scene, options: &PlanOptions) -> Result<Self, RenderError> {
+    /// As [`GpuRenderer::from_opening_device`], with the trees of an earlier frame.
+    fn with_trees(
+        opening: OpeningDevice,
+        scene: &Scene,
+        options: &PlanOptions,
+        mut trees: KeptTrees,
+    ) -> Result<Self, RenderError> {
         let start = Instant::now();
         let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
-        let pack = |()| PackedScene::for_traversal(scene, options.packed_traversal()).map_err(does_not_fit);
+        let pack = |()| PackedScene::for_frame(scene, options.packed_traversal(), &mut trees).map_err(does_not_fit);
         let packed = scene.validate().map_err(RenderError::from).and_then(pack);
         // Where there is no device, that is what is told, whatever the scene: it may then go to the CPU.
         let device = opening.wait()?;
@@ -107,7 +112,16 @@ impl GpuRenderer {
             center: scene.center(),
             environment: packed.environment,
             is_trained: packed.guiding.is_some(),
+            trees,
         })
+    }
+
+    /// As [`GpuRenderer::new`], on a device that opens while the scene is packed.
+    ///
+    /// # Errors
+    /// As [`GpuRenderer::new`].
+    pub fn from_opening_device(opening: OpeningDevice, scene: &Scene, options: &PlanOptions) -> Result<Self, RenderError> {
+        Self::with_trees(opening, scene, options, KeptTrees::default())
     }
 
     /// Plans, uploads and compiles; for a film in bands where the device has no memory for all of it.
@@ -235,9 +249,10 @@ impl Renderer for GpuRenderer {
             return Ok(self);
         }
         let device = self.pipeline.device.clone();
+        let trees = std::mem::take(&mut self.trees);
         // Its memory is free before the next scene's is taken.
         drop(self);
-        Ok(Box::new(Self::on(&device, scene, options)?))
+        Ok(Box::new(Self::with_trees(OpeningDevice::is_open(&device), scene, options, trees)?))
     }
 
     fn holds_whole_film(&self) -> bool {

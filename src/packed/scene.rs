@@ -14,6 +14,7 @@ use super::primitive::Primitive;
 use super::texture::PackedTextures;
 use super::view::View;
 use super::{light, tree, world};
+use crate::binary_tree::parts::KeptTrees;
 use crate::sampling::light_tree::LightNode;
 use crate::scene::Scene;
 
@@ -58,6 +59,14 @@ impl PackedScene {
     /// # Errors
     /// [`PackError`] where something is too large for the packed form or came out inconsistent.
     pub fn for_traversal(scene: &Scene, traversal: Traversal) -> Result<Self, PackError> {
+        Self::for_frame(scene, traversal, &mut KeptTrees::default())
+    }
+
+    /// The same, with the trees that were built for an earlier frame of the scene, where they fit; they are replaced by those of this one.
+    ///
+    /// # Errors
+    /// As [`PackedScene::for_traversal`].
+    pub fn for_frame(scene: &Scene, traversal: Traversal, kept: &mut KeptTrees) -> Result<Self, PackError> {
         for shape in &scene.shapes {
             let fail = |(_, message)| PackError::Motion { shape: shape.label.clone(), message };
             shape.check_motion(scene.camera.shutter).map_err(fail)?;
@@ -76,7 +85,7 @@ impl PackedScene {
         for light in lights.iter_mut().filter(|light| light.material != NONE) {
             light.material = places[light.material as usize];
         }
-        let (hierarchy, order) = tree::build(&world, traversal)?;
+        let (hierarchy, order) = tree::build(&world, traversal, kept)?;
         let packed = Self {
             primitives: order.par_iter().map(|slot| slot.pack(&world)).collect(),
             // Without nodes there are no roots; the plan refuses such a scene.

@@ -1,5 +1,8 @@
 //! Builds the hierarchy over a scene's primitives.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use glam::Vec3;
 use obvhs::bvh2::Bvh2;
 use obvhs::{BvhBuildParams, aabb::Aabb};
@@ -9,11 +12,13 @@ use super::bvh4::Node;
 use super::error::PackError;
 use super::grid::Box3;
 use super::hierarchy::{Hierarchy, Traversal};
+use super::instance::WorldInstance;
 use super::primitive::{Primitive, WorldPrimitive};
 use super::shape::PrimitiveKind;
 use super::world::WorldGeometry;
 use super::{bvh4, instance, ray_query};
 use crate::binary_tree;
+use crate::binary_tree::parts::{KeptTrees, Part, Pose, build_of_parts};
 
 /// Leaves hold at most this many primitives: their size takes two bits.
 const MAX_LEAF: u32 = 4;
@@ -35,9 +40,11 @@ const PARAMETERS: BvhBuildParams = BvhBuildParams::medium_build();
 /// Planes, which nothing bounds, stay outside, and other shapes where they are few, so that a model on a ground under a lamp needs a
 /// hierarchy of triangles alone. What moves is always in it, bounded over the time for which the shutter is open.
 ///
+/// Trees of an earlier frame are `kept` for the next one, which saves time and changes nothing.
+///
 /// # Errors
 /// [`PackError`] for more primitives or planes than can be held.
-pub fn build(world: &WorldGeometry, traversal: Traversal) -> Result<(Hierarchy, Vec<Slot>), PackError> {
+pub fn build(world: &WorldGeometry, traversal: Traversal, kept: &mut KeptTrees) -> Result<(Hierarchy, Vec<Slot>), PackError> {
     let primitives = &world.primitives;
     let belongs = |primitive: &WorldPrimitive| primitive.kind() == PrimitiveKind::Triangle || primitive.moves();
     let others = primitives.iter().filter(|primitive| !belongs(primitive)).count();
@@ -56,13 +63,14 @@ pub fn build(world: &WorldGeometry, traversal: Traversal) -> Result<(Hierarchy, 
     }
     let slot = |&index: &usize| Slot::Primitive(index as u32);
     let (hierarchy, mut order) = match traversal {
-        Traversal::Bvh => of_two_levels(world, &inside),
+        Traversal::Bvh => of_two_levels(world, &inside, kept),
         Traversal::RayQuery => {
             let (boxes, order) = ray_query::build(primitives, &inside);
             (Hierarchy::of_boxes(boxes, inside.len() as u32), order.iter().map(|&index| slot(&inside[index])).collect())
         }
     };
     order.extend(outside.iter().map(slot));
+    kept.forget_unused();
     Ok((hierarchy, order))
 }
 
@@ -87,12 +95,17 @@ impl Slot {
 }
 
 /// A tree over the primitives `inside` and all instances, and behind it one for each group.
-fn of_two_levels(world: &WorldGeometry, inside: &[usize]) -> (Hierarchy, Vec<Slot>) {
+fn of_two_levels(world: &WorldGeometry, inside: &[usize], kept: &KeptTrees) -> (Hierarchy, Vec<Slot>) {
     let groups: Vec<(Vec<Node>, Vec<usize>)> = world
         .groups
         .par_iter()
         .map(|group| {
-            bvh4::build(&binary_tree(&group.primitives.iter().filter_map(WorldPrimitive::bounds).collect::<Vec<_>>(), MAX_LEAF))
+            let boxes: Vec<Aabb> = group.primitives.iter().filter_map(WorldPrimitive::bounds).map(as_box).collect();
+            bvh4::build(&*if world.posed.is_some() {
+                kept.tree(&boxes, MAX_LEAF, &binary_tree)
+            } else {
+                Arc::new(binary_tree(&boxes, MAX_LEAF))
+            })
         })
         .collect();
     let upper: Vec<Vec<Box3>> = groups.iter().map(|(nodes, _)| instance::upper_boxes(nodes, 0)).collect();
@@ -100,11 +113,16 @@ fn of_two_levels(world: &WorldGeometry, inside: &[usize]) -> (Hierarchy, Vec<Slo
         let primitive = &world.primitives[index];
         world.motions.get(primitive.motion as usize).map_or_else(|| primitive.bounds(), |motion| motion.swept(primitive))
     };
-    let mut boxes: Vec<(Vec3, Vec3)> = inside.iter().filter_map(of_primitive).collect();
-    boxes.par_extend(world.instances.par_iter().map(|instance| instance.bounds(&upper[instance.group], &world.motions)));
+    let mut boxes: Vec<Aabb> = inside.iter().filter_map(of_primitive).map(as_box).collect();
+    let of_instance = |instance: &WorldInstance| as_box(instance.bounds(&upper[instance.group], &world.motions));
+    boxes.par_extend(world.instances.par_iter().map(of_instance));
     // A ray is brought into the space of each instance of a leaf that it meets, so where they are many each has a box of its own.
     let most = if world.instances.len() > inside.len() { 1 } else { MAX_LEAF };
-    let (mut nodes, leaves) = bvh4::build(&binary_tree(&boxes, most));
+    let binary = match &world.posed {
+        None => binary_tree(&boxes, most),
+        Some(posed) => build_of_parts(&boxes, &parts(world, inside, posed, boxes.len()), most, kept, &binary_tree),
+    };
+    let (mut nodes, leaves) = bvh4::build(&binary);
     let slot = |index: usize| match inside.get(index) {
         Some(&index) => Slot::Primitive(index as u32),
         None => Slot::Instance((index - inside.len()) as u32),
@@ -120,9 +138,25 @@ fn of_two_levels(world: &WorldGeometry, inside: &[usize]) -> (Hierarchy, Vec<Slo
     (Hierarchy::of_nodes(nodes, roots, order.len() as u32), order)
 }
 
+/// The shapes with keyframes, each as a part, and what else there is.
+fn parts(world: &WorldGeometry, inside: &[usize], posed: &BTreeMap<usize, Pose>, count: usize) -> Vec<Part> {
+    let mut parts: Vec<Part> = posed.values().map(|pose| Part { reference: Some(pose.clone()), ..Part::default() }).collect();
+    let places: BTreeMap<usize, usize> = posed.keys().enumerate().map(|(part, &shape)| (shape, part)).collect();
+    let mut others = Part::default();
+    for place in 0..count {
+        let part = inside.get(place).and_then(|&index| places.get(&world.primitives[index].shape));
+        part.map_or(&mut others, |&part| &mut parts[part]).members.push(place as u32);
+    }
+    parts.push(others);
+    parts
+}
+
+fn as_box((low, high): (Vec3, Vec3)) -> Aabb {
+    Aabb::new(low.into(), high.into())
+}
+
 /// A binary tree over boxes, leaves of which hold up to `most`.
-fn binary_tree(boxes: &[(Vec3, Vec3)], most: u32) -> Bvh2 {
-    let boxes: Vec<Aabb> = boxes.iter().map(|&(low, high)| Aabb::new(low.into(), high.into())).collect();
+fn binary_tree(boxes: &[Aabb], most: u32) -> Bvh2 {
     let few = boxes.len() <= REINSERT_MANY;
     let parameters = BvhBuildParams {
         reinsertion_batch_ratio: if few { 0.3 } else { PARAMETERS.reinsertion_batch_ratio },
@@ -130,5 +164,5 @@ fn binary_tree(boxes: &[(Vec3, Vec3)], most: u32) -> Bvh2 {
         collapse_traversal_cost: 1.0,
         ..PARAMETERS
     };
-    binary_tree::build(&boxes, &parameters)
+    binary_tree::build(boxes, &parameters)
 }

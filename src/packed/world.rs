@@ -1,8 +1,9 @@
 //! Shapes to primitives in world space, in the order in which the scene names them.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
+use obvhs::aabb::Aabb;
 
 use super::attributes::TriangleAttributes;
 use super::constants::NONE;
@@ -10,7 +11,9 @@ use super::instance::{WorldGroup, WorldInstance};
 use super::motion::PackedMotion;
 use super::primitive::WorldPrimitive;
 use super::shape::{self, Placement};
-use crate::scene::{MaterialId, MaterialKind, Scene, Shape};
+use crate::binary_tree::parts::Pose;
+use crate::scene::animation::unevenness;
+use crate::scene::{MaterialId, MaterialKind, Scene, Shape, Transform, TransformStep};
 
 /// All primitives of a scene, and the attributes of those that have some.
 #[derive(Debug, Default)]
@@ -25,6 +28,8 @@ pub struct WorldGeometry {
     /// Meshes that are stored once, and where they stand.
     pub groups: Vec<WorldGroup>,
     pub instances: Vec<WorldInstance>,
+    /// Of a frame: each shape with keyframes in the pose in which its tree is built ([`Scene::first_poses`]).
+    pub posed: Option<BTreeMap<usize, Pose>>,
 }
 
 /// Surfaces made of `pass` are left out: to every ray they are not there.
@@ -44,7 +49,27 @@ pub fn collect(scene: &Scene) -> WorldGeometry {
         }
     }
     world.add_instances(scene, &textured);
+    world.posed = scene
+        .first_poses
+        .as_deref()
+        .map(|poses| poses.iter().map(|&(shape, pose)| (shape, in_pose(scene, shape, pose))).collect());
     world
+}
+
+/// What rays meet of a shape, turned and scaled like this.
+fn in_pose(scene: &Scene, shape: usize, pose: DMat3) -> Pose {
+    let unevenness = unevenness(scene.shapes[shape].transform.to_affine().matrix3 * pose.inverse());
+    let steps = vec![TransformStep::Matrix(DAffine3::from_mat3(pose))];
+    let shape = Shape { transform: Transform { steps }, motion: None, ..scene.shapes[shape].clone() };
+    // No texture coordinates are needed.
+    let textured = vec![false; scene.materials.len()];
+    let mut boxes = Vec::new();
+    shape::add(&Placement::new(&shape, &textured), &mut |geometry, _, face| {
+        if !matches!(scene.materials[shape.face_material(face)].kind, MaterialKind::Pass) {
+            boxes.extend(geometry.bounds().map(|(low, high)| Aabb::new(low.into(), high.into())));
+        }
+    });
+    Pose { boxes, unevenness }
 }
 
 impl WorldGeometry {
@@ -145,5 +170,51 @@ impl WorldGeometry {
             self.attributes[primitive.attributes as usize].motion = word;
         }
         self.motions.push(motion);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::load::load_toml_str;
+
+    const TURNED_THEN_SQUASHED: &str = r#"
+[camera]
+position = [0, 0, 6]
+look_at = [0, 0, 0]
+vfov = 40
+shutter = [0, 0]
+[[material]]
+name = "grey"
+type = "diffuse"
+reflectance = 0.5
+[[shape]]
+type = "mesh"
+positions = [[0, 0, 0], [1, 0, 0.5], [0, 1, 0.2], [1, 1, 1]]
+faces = [[0, 1, 2], [1, 2, 3]]
+material = "grey"
+keyframes = [
+    { frame = 0, rotate = [0, 1, 0], degrees = 0, translate = [0, 0, 0], scale = 1 },
+    { frame = 10, rotate = [0, 1, 0], degrees = 60, translate = [2, 3, 0], scale = 3 },
+    { frame = 20, rotate = [0, 1, 0], degrees = 60, translate = [2, 3, 0], scale = [1, 0.1, 1] },
+]
+[[light]]
+type = "environment"
+radiance = 1
+"#;
+
+    #[test]
+    fn shapes_with_keyframes_have_one_pose_for_reference_and_are_uneven_where_they_are_squashed() {
+        let scene = load_toml_str(TURNED_THEN_SQUASHED, "scene.toml", std::path::Path::new(".")).expect("a scene");
+        assert!(collect(&scene).posed.is_none(), "without a frame nothing has to be followed");
+        let pose = |frame: f64| {
+            let world = collect(&scene.at_frame(frame).expect("a frame"));
+            world.posed.expect("a frame").remove(&0).expect("the shape has keyframes")
+        };
+        let [start, turned, squashed] = [0.0, 10.0, 20.0].map(pose);
+        for (pose, unevenness) in [(&start, 1.0), (&turned, 1.0), (&squashed, 10.0)] {
+            assert!((pose.unevenness - unevenness).abs() < 1e-9, "{}", pose.unevenness);
+            assert!(pose.boxes.len() == 2 && pose.boxes == start.boxes);
+        }
     }
 }

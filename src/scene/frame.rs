@@ -19,6 +19,7 @@ impl Scene {
         let animation = &self.animation;
         let mut scene = self.clone();
         scene.animation = Arc::default();
+        scene.first_poses = animation.first_poses();
         scene.camera = animation.camera_at(&self.camera, frame);
         let of = |part: String, message: String| InvalidScene { part: format!("frame {frame}: {part}"), message };
         check_camera(&scene.camera).map_err(|message| of("camera".to_owned(), message))?;

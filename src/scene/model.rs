@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::DMat3;
+
 use super::animation::Animation;
 use super::camera::Camera;
 use super::import_report::ImportReport;
@@ -55,6 +57,10 @@ pub struct Scene {
     /// What is elsewhere at another frame; see [`Scene::at_frame`].
     #[doc(hidden)]
     pub animation: Arc<Animation>,
+    /// Of a frame in which shapes or lights may be elsewhere than in others: the shapes with keyframes, each as it is turned and scaled at the first
+    /// frame of all keys, where the trees are built that follow them. None: what is shown is no such frame.
+    #[doc(hidden)]
+    pub first_poses: Option<Arc<[(usize, DMat3)]>>,
     /// The files that meshes and pictures came from.
     #[doc(hidden)]
     pub sources: Sources,

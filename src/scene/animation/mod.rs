@@ -8,10 +8,12 @@ mod curve;
 mod moving;
 mod track;
 
-use glam::DAffine3;
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3};
 
 pub use curve::{Curve, Interpolation, Key, Moment, Turn};
-pub use moving::motion_between;
+pub use moving::{motion_between, unevenness};
 pub use track::{CameraTrack, LightTrack, Node, ShapeTrack, TransformTrack};
 
 use super::camera::{Camera, EXPOSURE_STRETCHES};
@@ -52,6 +54,14 @@ impl Animation {
             let [first, last] = ends.unwrap_or([frame; 2]);
             Some([f64::min(first, frame), f64::max(last, frame)])
         })
+    }
+
+    /// The shapes with keys, each as it is turned and scaled at the first frame of all keys; None where neither shapes nor lights have any. It is the
+    /// same for all frames.
+    pub fn first_poses(&self) -> Option<Arc<[(usize, DMat3)]>> {
+        let [first, _] = self.frames().filter(|_| !self.shapes.is_empty() || !self.lights.is_empty())?;
+        let at = Moment { now: first, opening: first };
+        Some(self.shapes.iter().map(|track| (track.shape, track.during(self, at).matrix3)).collect())
     }
 
     /// By how much a node takes things along from where they stand without a frame.

@@ -88,6 +88,14 @@ fn polar(map: DMat3) -> Option<((DMat3, DVec3), DQuat)> {
     rotation.is_finite().then(|| ((axes, factors), DQuat::from_mat3(&rotation).normalize()))
 }
 
+/// By what factor a map stretches one direction more than another at most: 1 for turns, mirrors and uniform scales; infinite where it flattens, or
+/// where that cannot be told.
+pub fn unevenness(map: DMat3) -> f64 {
+    let (_, squares) = eigen(map.transpose() * map);
+    let is_known = squares.is_finite() && squares.min_element() > 0.0;
+    if is_known { (squares.max_element() / squares.min_element()).sqrt() } else { f64::INFINITY }
+}
+
 /// Eigenvectors, as the columns of a rotation, and eigenvalues of a symmetric matrix, by Jacobi's method. A matrix that is diagonal keeps its axes.
 fn eigen(mut matrix: DMat3) -> (DMat3, DVec3) {
     let mut axes = DMat3::IDENTITY;
@@ -150,6 +158,20 @@ mod tests {
             motion.steps.retain(|step| !matches!(step, MotionStep::Turned { .. }));
             let wrong = motion.at(shutter[1], first.translation) * first;
             assert!(apart(wrong, at(shutter[1])) > 1e-3, "the control: {shutter:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_squashed_is_uneven_and_what_is_turned_moved_or_scaled_is_not() {
+        let turn = DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 1.1);
+        for even in [turn, turn * 1e3, DMat3::from_diagonal(DVec3::new(-2.0, 2.0, 2.0)) * turn] {
+            assert!((unevenness(even) - 1.0).abs() < 1e-9, "{even}");
+        }
+        let squashed = turn * DMat3::from_diagonal(DVec3::new(3.0, 0.5, 1.0)) * turn.transpose();
+        assert!((unevenness(squashed) - 6.0).abs() < 1e-9);
+        let flat = DMat3::from_diagonal(DVec3::new(1.0, 1.0, 0.0));
+        for flattened in [flat, flat.inverse(), turn * flat.inverse(), DMat3::ZERO] {
+            assert_eq!(unevenness(flattened), f64::INFINITY, "{flattened}");
         }
     }
 
