@@ -20,6 +20,8 @@ use super::terminal;
 
 /// Longer side in pixels of the picture by which the time is guessed.
 const PROBE_SIDE: u32 = 16;
+/// Most surfaces that its paths meet: in closed mirrors they would go on for ever.
+const PROBE_DEPTH: u32 = 1000;
 
 /// Most frames of a scene with keyframes that are looked at, but for one.
 const MOST_FRAMES: f64 = 500.0;
@@ -204,11 +206,13 @@ fn usual_device() -> (String, DeviceLimits) {
     }
 }
 
-/// Seconds that the CPU would take, by one sample of each pixel of a small picture.
+/// Seconds that the CPU would take, by one sample of each pixel of a small picture; too few where paths meet more than a thousand surfaces.
 pub fn guess_time(scene: &Scene) -> Result<f64, Failure> {
     let mut small = scene.clone();
     verify::shrink(&mut small, PROBE_SIDE);
     small.render.spp = 1;
+    // 0 sets no bound.
+    small.render.max_depth = if small.render.max_depth == 0 { PROBE_DEPTH } else { small.render.max_depth.min(PROBE_DEPTH) };
     small.render.guiding = Guiding::Off;
     let mut renderer = ReferenceRenderer::new(&small)?;
     let pixels = |scene: &Scene| scene.film.size.map(f64::from).iter().product::<f64>();

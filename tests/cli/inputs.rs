@@ -258,3 +258,17 @@ fn where_memory_is_used_up_the_scene_does_not_fit() {
     // The control: less fits.
     assert_eq!(limited(1000, "render scene.toml --device cpu --quiet -o a.exr").0, Some(0));
 }
+
+/// The time is guessed by paths, and these would go on for minutes.
+#[test]
+fn closed_mirrors_are_checked_at_once() {
+    let place = Workplace::new();
+    let mirrors = "camera = { position = [0, 0, 0], look_at = [0.3, 0.2, -1], vfov = 40 }\nrender.max_depth = 3_000_000\nrender.roulette_depth = 3_000_000\n\
+        material = [{ name = \"mirror\", type = \"mirror\", reflectance = [1, 1, 1] }]\nlight = [{ type = \"environment\", radiance = 1 }]\n\
+        shape = [{ type = \"box\", min = [-1, -1, -1], max = [1, 1, 1], material = \"mirror\" }]\n";
+    fs::write(place.path("mirrors.toml"), mirrors).expect("a file");
+    let start = std::time::Instant::now();
+    let output = place.run("check mirrors.toml");
+    assert!(output.status.success() && text(&output.stdout).starts_with("valid"), "{}", text(&output.stderr));
+    assert!(start.elapsed() < std::time::Duration::from_secs(30), "{:?}", start.elapsed());
+}
