@@ -143,7 +143,7 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
         ("radius = 1", "radius = -1", "test.toml:17:10: shape[0].radius: expected a number above 0, found -1"),
         ("radius = 1", "radius = nan", "test.toml:17:10: shape[0].radius: expected a number above 0, found NaN"),
         ("radius = 1", "radius = inf", "test.toml:17:10: shape[0].radius: expected a number above 0, found inf"),
-        ("radius = 1", "radius = 1e999", "test.toml:17:10: shape[0].radius: floating-point number overflowed"),
+        ("radius = 1", "radius = 1e999", "test.toml:17:10: shape[0].radius: the number is too large"),
         (
             "center = [0, 0, 0]",
             "center = [0, nan, 0]",
@@ -306,6 +306,18 @@ fn lists_in_the_place_of_tables_are_refused() {
         let text = GOOD.replace("[film]\nsize = [4, 4]\n[render]\nspp = 1\n", "");
         let found = error_of(&format!("{table} = {list}\n{text}")).to_string();
         assert!(found.starts_with("test.toml:1:") && found.contains("expected a table"), "{table}: {found}");
+    }
+    for (from, to) in [
+        ("radius = 1", "radius = 1\ntransform = [[2.0]]"),
+        ("radius = 1", "radius = 1\nmotion = [[[1, 1, 1]]]"),
+        ("radius = 1", "radius = 1\nkeyframes = [[1, [0, 0, 0]]]"),
+        ("[film]", "node = [[\"arm\"]]\n[film]"),
+        ("[film]", "instance = [[\"group\"]]\n[film]"),
+        ("[film]", "group = [[\"group\"]]\n[film]"),
+        ("[film]", "import = [[\"a.glb\"]]\n[film]"),
+    ] {
+        let found = complaint(from, to);
+        assert!(found.contains("expected a table"), "{to}: {found}");
     }
 }
 

@@ -7,7 +7,6 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use toml::de::DeTable;
 
 use super::document::{self, Document};
 use super::resolver::Resolver;
@@ -56,17 +55,21 @@ pub struct Expanded {
 }
 
 /// Puts what the document imports behind its text, and what that brings along among the files. None where nothing is imported.
-pub fn expand(document: Document<'_>, access: &mut Access, folder: &std::path::Path) -> Result<Option<Expanded>, SceneError> {
+pub fn expand<'a>(
+    document: &Document<'a>,
+    access: &mut Access,
+    folder: &'a std::path::Path,
+) -> Result<Option<Expanded>, SceneError> {
     if !document.text.contains("import") {
         return Ok(None);
     }
-    // A text that cannot be read is told about where it is read.
-    let Ok(root) = DeTable::parse(document.text) else { return Ok(None) };
-    if !root.get_ref().contains_key("import") {
+    // A text that cannot be parsed is told about where it is read.
+    let Ok(root) = document.root() else { return Ok(None) };
+    if !root.contains_key("import") {
         return Ok(None);
     }
-    let has_camera = root.get_ref().contains_key("camera");
-    let lights = root.get_ref().get("light").map_or("", |lights| document.text.get(lights.span()).unwrap_or_default());
+    let has_camera = root.contains_key("camera");
+    let lights = root.get("light").map_or("", |lights| document.text.get(lights.span()).unwrap_or_default());
     let has_environment = ["\"environment\"", "\"sky\""].iter().any(|kind| lights.contains(kind) || document.text.contains(kind));
     let Imports { import } = document.read_key("import")?;
     let mut expanded = Expanded { text: Text::default(), report: ImportReport::default() };
@@ -87,7 +90,7 @@ pub fn expand(document: Document<'_>, access: &mut Access, folder: &std::path::P
         description.film = Default::default();
         description.render = Default::default();
         if let Some(written) = &entry.transform {
-            let transform: Transform = Resolver::new(document, folder, access.clone()).transform(written)?;
+            let transform: Transform = Resolver::new(document.clone(), folder, access.clone()).transform(written)?;
             description.place(&transform.to_affine());
         }
         environment_is_open = description.keep_environment(environment_is_open);
@@ -107,7 +110,7 @@ pub fn expand(document: Document<'_>, access: &mut Access, folder: &std::path::P
 }
 
 fn read(
-    document: Document<'_>,
+    document: &Document<'_>,
     access: &Access,
     folder: &std::path::Path,
     entry: &ImportEntry,
@@ -142,7 +145,7 @@ fn prefix(imports: &[ImportEntry], place: usize) -> Cow<'_, str> {
     }
 }
 
-fn replace_materials(document: Document<'_>, entry: &ImportEntry, description: &mut Description) -> Result<(), SceneError> {
+fn replace_materials(document: &Document<'_>, entry: &ImportEntry, description: &mut Description) -> Result<(), SceneError> {
     for (theirs, ours) in &entry.materials {
         if !description.replace_material(theirs, &ours.value) {
             let names: Vec<&str> = description.materials.iter().filter_map(|material| material.keys.text("name")).collect();

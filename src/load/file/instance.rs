@@ -61,17 +61,14 @@ impl Resolver<'_> {
         for (index, entry) in written.iter().enumerate() {
             let mut group = Group { name: entry.name.value.clone(), shapes: Vec::new() };
             for (place, written) in entry.shape.iter().enumerate() {
-                if self.has_enough_errors() {
-                    break;
-                }
                 let shape = self.group_shape(place, written);
                 group.shapes.extend(self.note(shape).map(|mut shape| {
                     shape.label = format!("group[{index}].shape[{place}] ({})", shape.geometry.kind_name());
                     shape
                 }));
             }
-            if entry.shape.is_empty() && !self.has_enough_errors() {
-                self.errors.push(self.error(&entry.name.span, format!("the group `{}` has no shapes", group.name)));
+            if entry.shape.is_empty() {
+                self.note::<()>(Err(self.error(&entry.name.span, format!("the group `{}` has no shapes", group.name))));
             }
             self.scene.groups.push(group);
         }
@@ -96,9 +93,6 @@ impl Resolver<'_> {
         let emits = self.scene.materials_that(|material| material.emission.is_some());
         let balls = self.scene.balls();
         for (index, entry) in written.iter().enumerate() {
-            if self.has_enough_errors() {
-                break;
-            }
             let instances = self.instances_of(index, entry, names).and_then(|instances| {
                 let check = self.scene.check_instances(&instances, &textured, &emits, &balls);
                 check.map(|()| instances).map_err(|message| self.error(&entry.span, message))

@@ -11,6 +11,7 @@ mod keyframes;
 mod light;
 mod material;
 mod node;
+mod reader;
 mod resolve;
 mod resolver;
 mod schema;
@@ -49,16 +50,16 @@ pub fn load_toml_str(text: &str, name: &str, folder: &Path) -> Result<Scene, Sce
 
 /// As [`load_toml_str`], with this access to other files.
 pub(super) fn load_toml(text: &str, name: &str, folder: &Path, access: Access) -> Result<Scene, SceneError> {
-    load_document(Document { name, text, origins: &[] }, folder, access)
+    load_document(Document::new(name, text, &[]), folder, access)
 }
 
 /// Reads a document with what it imports.
-fn load_document(document: Document<'_>, folder: &Path, mut access: Access) -> Result<Scene, SceneError> {
-    match import::expand(document, &mut access, folder)? {
+fn load_document<'a>(document: Document<'a>, folder: &'a Path, mut access: Access) -> Result<Scene, SceneError> {
+    match import::expand(&document, &mut access, folder)? {
         None => load_whole(document, folder, access),
         Some(expanded) => {
             let Text { text, origins } = &expanded.text;
-            let mut scene = load_whole(Document { name: document.name, text, origins }, folder, access)?;
+            let mut scene = load_whole(Document::new(document.name, text, origins), folder, access)?;
             scene.import_report = expanded.report;
             Ok(scene)
         }
@@ -70,15 +71,15 @@ pub(super) fn load_description(description: Description, name: &str, mut access:
     let mut text = Text::default();
     text.push(&description, &|file| description.held_path(file).to_string_lossy().into_owned());
     description.hold_in(&mut access.files, Path::new(""));
-    let mut scene = load_whole(Document { name, text: &text.text, origins: &text.origins }, Path::new(""), access)?;
+    let mut scene = load_whole(Document::new(name, &text.text, &text.origins), Path::new(""), access)?;
     scene.import_report = description.report;
     Ok(scene)
 }
 
-fn load_whole(document: Document<'_>, folder: &Path, access: Access) -> Result<Scene, SceneError> {
+fn load_whole<'a>(document: Document<'a>, folder: &'a Path, access: Access) -> Result<Scene, SceneError> {
     let name = document.name;
     let file: SceneFile = document.read().map_err(|first| document.all_mistakes::<PartOfFile>(first))?;
-    let mut scene = resolve::resolve(document, folder, file, access)?;
+    let mut scene = resolve::resolve(document.without_tree(), folder, file, access)?;
     scene.name = stem(name);
     if !scene.has_light() {
         let message = "nothing in the scene gives light, so the picture would be black";
@@ -102,5 +103,5 @@ pub(super) fn load_model_of(
     (name, text, folder): (&str, &str, &Path),
     access: Access,
 ) -> Result<Scene, SceneError> {
-    resolve::resolve_model_of(path, smooth, (Document { name, text, origins: &[] }, folder), access)
+    resolve::resolve_model_of(path, smooth, (Document::new(name, text, &[]), folder), access)
 }

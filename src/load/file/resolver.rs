@@ -100,13 +100,19 @@ impl<'a> Resolver<'a> {
         Ok(self.scene)
     }
 
-    /// The value, or a note of what is wrong with it.
+    /// The value, or a note of what is wrong with it. More mistakes than are told are not noted.
     pub(super) fn note<T>(&mut self, result: Result<T, SceneError>) -> Option<T> {
-        result.map_err(|error| self.errors.push(error)).ok()
+        let is_full = self.has_enough_errors();
+        result
+            .map_err(|error| {
+                if !is_full {
+                    self.errors.push(error)
+                }
+            })
+            .ok()
     }
 
-    /// More mistakes are not told, and finding the place of each takes as long as reading the file does.
-    pub(super) fn has_enough_errors(&self) -> bool {
+    fn has_enough_errors(&self) -> bool {
         self.errors.len() >= MOST_ERRORS
     }
 
@@ -126,7 +132,11 @@ impl<'a> Resolver<'a> {
         Ok(())
     }
 
+    /// An error about the value written at `span`; without its place where it will not be told, since to find that takes as long as the file is.
     pub(super) fn error(&self, span: &Range<usize>, message: impl Into<String>) -> SceneError {
+        if self.has_enough_errors() {
+            return SceneError::in_file(self.document.name, message);
+        }
         self.document.error(span.clone(), message)
     }
 
@@ -164,10 +174,14 @@ impl<'a> Resolver<'a> {
         if let Some(&id) = names.get(&name.value) {
             return Ok(id);
         }
+        let error = self.error(&name.span, format!("there is no {what} named `{}`", name.value));
+        if self.has_enough_errors() {
+            return Err(error); // likenesses are looked for among all names
+        }
         let mut choices: Vec<&str> = names.keys().map(String::as_str).collect();
         choices.sort_unstable();
         let help = did_you_mean_name(&name.value, &choices).unwrap_or_else(|| format!("the file has no [[{what}]]"));
-        Err(self.error(&name.span, format!("there is no {what} named `{}`", name.value)).with_help(help))
+        Err(error.with_help(help))
     }
 
     /// Gives every entry its place by its name; a name may be used once.

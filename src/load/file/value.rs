@@ -8,9 +8,9 @@ use std::ops::{Deref, Range};
 
 use glam::DVec3;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
+use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, SeqAccess, Visitor};
 
+use super::reader::located;
 use crate::scene::settings::{LARGEST_FILTER_RADIUS, SMALLEST_FILTER_RADIUS};
 
 /// Largest magnitude of any number: its square is still finite in single precision, which is what the device computes in.
@@ -187,26 +187,6 @@ impl<R: Rule> JsonSchema for Checked<R> {
     }
 }
 
-/// A table, and no list of its values, which would be read in the order of the keys.
-pub fn table<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<T, D::Error> {
-    struct TableVisitor<T>(PhantomData<T>);
-    impl<'de, T: Deserialize<'de>> Visitor<'de> for TableVisitor<T> {
-        type Value = T;
-        fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-            f.write_str("a table")
-        }
-        fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<T, A::Error> {
-            T::deserialize(MapAccessDeserializer::new(map))
-        }
-    }
-    deserializer.deserialize_map(TableVisitor(PhantomData))
-}
-
-/// The same of a table that need not be there.
-pub fn optional_table<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
-    table(deserializer).map(Some)
-}
-
 /// A value and the bytes of the file it was written in.
 #[derive(Debug, Clone)]
 pub struct Located<T> {
@@ -216,8 +196,8 @@ pub struct Located<T> {
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Located<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let spanned = toml::Spanned::<T>::deserialize(deserializer)?;
-        Ok(Self { span: spanned.span(), value: spanned.into_inner() })
+        let (value, span) = located(deserializer)?;
+        Ok(Self { value, span })
     }
 }
 

@@ -65,7 +65,6 @@ fn replace_type_names(message: &str) -> String {
         ("sequence", "array"),
         ("unit variant", "a name"),
         ("newtype variant", "a table"),
-        ("wanted string or table", "expected a table or a name in quotes"),
         ("invalid length ", "wrong number of values: "),
         ("a string", "text in quotes"),
     ];

@@ -67,9 +67,6 @@ pub fn examples() -> impl Iterator<Item = (&'static str, String)> {
 impl Resolver<'_> {
     pub(super) fn lights(&mut self, written: &[Located<LightEntry>]) {
         for entry in written {
-            if self.has_enough_errors() {
-                break;
-            }
             let light = entry.resolve(self).and_then(|light| {
                 if light.is_environment() && self.scene.lights.iter().any(Light::is_environment) {
                     return Err(self.error(&entry.span, "a scene has one environment or sky, this is the second"));

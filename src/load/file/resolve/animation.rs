@@ -23,9 +23,6 @@ impl Resolver<'_> {
         let mut animation = Animation { frames_per_second: fps, ..Animation::default() };
         self.node_names = self.register("node", file.node.iter().map(|node| &node.value.name))?;
         for node in &file.node {
-            if self.has_enough_errors() {
-                break;
-            }
             let node = self.node(&node.value, fps);
             animation.nodes.extend(self.note(node));
         }

@@ -10,9 +10,6 @@ impl Resolver<'_> {
     pub(super) fn materials(&mut self, written: &[MaterialEntry]) -> Result<(), SceneError> {
         self.material_names = self.register("material", written.iter().map(|entry| entry.common().name))?;
         for entry in written {
-            if self.has_enough_errors() {
-                break;
-            }
             let material = self.material(entry).and_then(|material| self.with_relief(material, entry));
             let name = || entry.common().name.value.clone();
             // Something has to stand in its place, or others would have none.
@@ -45,9 +42,6 @@ impl Resolver<'_> {
         let mut of_entry = Vec::new();
         for (id, entry) in written.iter().enumerate() {
             let Some(opacity) = entry.common().opacity else { continue };
-            if self.has_enough_errors() {
-                break;
-            }
             let weight = opacity.value.weight(self);
             let Some(weight) = self.note(weight) else { continue };
             let material = &mut self.scene.materials[id];

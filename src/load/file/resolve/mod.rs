@@ -18,7 +18,7 @@ use crate::load::error::{SceneError, show};
 use crate::scene::Scene;
 
 /// Resolves a whole file.
-pub fn resolve(document: Document<'_>, folder: &Path, file: SceneFile, access: Access) -> Result<Scene, SceneError> {
+pub fn resolve<'a>(document: Document<'a>, folder: &'a Path, file: SceneFile, access: Access) -> Result<Scene, SceneError> {
     let mut resolver = Resolver::new(document, folder, access);
     // Each part goes on past its own mistakes, so that all are told at once.
     let settings = resolver.settings(&file);
@@ -50,19 +50,20 @@ pub fn resolve(document: Document<'_>, folder: &Path, file: SceneFile, access: A
 /// Reads a model by itself: a scene of one shape with the model's own materials and nothing else.
 pub fn resolve_model(path: &Path, smooth: Option<bool>, access: Access) -> Result<Scene, SceneError> {
     let name = show(path);
-    let mut resolver = Resolver::new(Document { name: &name, text: "", origins: &[] }, Path::new(""), access);
+    let mut resolver = Resolver::new(Document::new(&name, "", &[]), Path::new(""), access);
     resolver.lone_mesh(path, smooth, None)?;
     resolver.finish()
 }
 
 /// As [`resolve_model`], with the last of the materials of a file in place of the model's own.
-pub fn resolve_model_of(
+pub fn resolve_model_of<'a>(
     path: &Path,
     smooth: Option<bool>,
-    (document, folder): (Document<'_>, &Path),
+    (document, folder): (Document<'a>, &'a Path),
     access: Access,
 ) -> Result<Scene, SceneError> {
     let file: PartOfFile = document.read().map_err(|first| document.all_mistakes::<PartOfFile>(first))?;
+    let name = document.name;
     let mut resolver = Resolver::new(document, folder, access);
     resolver.textures(&file.texture)?;
     resolver.materials(&file.material)?;
@@ -70,7 +71,7 @@ pub fn resolve_model_of(
         return resolver.finish();
     }
     let Some(last) = resolver.scene.materials.len().checked_sub(1) else {
-        return Err(SceneError::in_file(document.name, "has no [[material]] to take"));
+        return Err(SceneError::in_file(name, "has no [[material]] to take"));
     };
     resolver.lone_mesh(path, smooth, Some(last))?;
     resolver.finish()

@@ -82,9 +82,6 @@ impl ShapeEntry {
 impl Resolver<'_> {
     pub(super) fn shapes(&mut self, written: &[Located<ShapeEntry>]) {
         for (index, entry) in written.iter().enumerate() {
-            if self.has_enough_errors() {
-                break;
-            }
             let shape = self.checked_shape(index, entry);
             if let Some(shape) = self.note(shape) {
                 let track = self.shape_track(entry.value.common().track, &shape);

@@ -1,8 +1,7 @@
 //! The scene file as it is written: one type per table. The JSON Schema is generated from these types.
 //!
-//! A table whose shape depends on a key (`type` mostly) is an enum with one struct per value of that key. Serde would read such an
-//! enum through a buffer that forgets where things were written; instead [`super::document`] rewrites
-//! `{ type = "mirror", … }` to `{ mirror = { … } }` before reading, which serde reads directly.
+//! A table whose shape depends on a key (`type` mostly) is an enum with one struct per value of that key, whose name stands in the table of
+//! [`super::reader`].
 
 mod output;
 mod render;
@@ -24,9 +23,7 @@ use super::light::LightEntry;
 use super::material::MaterialEntry;
 use super::node::NodeEntry;
 use super::shape::ShapeEntry;
-use super::value::{
-    Checked, Exactly, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector, optional_table, table,
-};
+use super::value::{Checked, Exactly, FieldOfView, FilterRadius, Located, NonNegative, Number, Positive, Vector};
 
 /// A scene of the path tracer gpt. Lengths in scene units, angles in degrees, colours linear Rec.709, radiance in W·sr⁻¹·m⁻².
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -34,15 +31,14 @@ use super::value::{
 #[schemars(title = "gpt scene")]
 #[schemars(extend("required" = [], "anyOf" = [{ "required": ["camera"] }, { "required": ["import"] }]))]
 pub struct SceneFile {
-    #[serde(default, deserialize_with = "table")]
+    #[serde(default)]
     pub film: FilmTable,
-    #[serde(default, deserialize_with = "table")]
+    #[serde(default)]
     pub render: RenderTable,
-    #[serde(default, deserialize_with = "table")]
+    #[serde(default)]
     pub output: OutputTable,
-    #[serde(deserialize_with = "table")]
     pub camera: CameraTable,
-    #[serde(default, deserialize_with = "optional_table")]
+    #[serde(default)]
     pub animation: Option<AnimationTable>,
     #[serde(default)]
     pub node: Vec<Located<NodeEntry>>,
@@ -69,15 +65,15 @@ pub struct SceneFile {
 #[serde(deny_unknown_fields, expecting = "a scene")]
 #[allow(dead_code, reason = "it is read for its mistakes alone")]
 pub struct PartOfFile {
-    #[serde(default, deserialize_with = "optional_table")]
+    #[serde(default)]
     film: Option<FilmTable>,
-    #[serde(default, deserialize_with = "optional_table")]
+    #[serde(default)]
     render: Option<RenderTable>,
-    #[serde(default, deserialize_with = "optional_table")]
+    #[serde(default)]
     output: Option<OutputTable>,
-    #[serde(default, deserialize_with = "optional_table")]
+    #[serde(default)]
     camera: Option<CameraTable>,
-    #[serde(default, deserialize_with = "optional_table")]
+    #[serde(default)]
     animation: Option<AnimationTable>,
     #[serde(default)]
     node: Vec<Located<NodeEntry>>,

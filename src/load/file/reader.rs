@@ -1,0 +1,479 @@
+//! Reads the types of a scene file from the tree of its text, through serde.
+//!
+//! A table whose kind is said by a key, `{ type = "mirror", … }`, is an enum with one struct per kind. Serde would read such an enum through a
+//! buffer that forgets where things were written; here the key is looked up first, and the struct is read from the rest. Lists are never taken
+//! for tables, and mistakes carry the place of the innermost value around them.
+
+use std::borrow::Cow;
+use std::fmt;
+use std::ops::Range;
+
+use serde::de::value::StrDeserializer;
+use serde::de::{
+    Deserialize, DeserializeSeed, Deserializer, EnumAccess, Error, Expected, IntoDeserializer, MapAccess, SeqAccess, Unexpected,
+    VariantAccess, Visitor,
+};
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
+
+use super::wording::MISSING;
+
+/// The enums whose kind is said by a key of their table, and that key.
+const TAGS: [(&str, &str); 7] = [
+    ("ApertureEntry", "shape"),
+    ("BlendWeightEntry", "type"),
+    ("FilterEntry", "type"),
+    ("LightEntry", "type"),
+    ("MaterialEntry", "type"),
+    ("ShapeEntry", "type"),
+    ("TextureEntry", "type"),
+];
+
+/// Stands for a value together with its place.
+const LOCATED: &str = "$located";
+
+/// A value of the tree.
+pub type Node<'t> = Spanned<DeValue<'t>>;
+
+/// What is wrong with a value, in serde's words, and the bytes of the value.
+#[derive(Debug)]
+pub struct Mistake {
+    pub message: String,
+    pub span: Option<Range<usize>>,
+}
+
+impl Mistake {
+    fn new(span: Range<usize>, message: String) -> Self {
+        Self { message, span: Some(span) }
+    }
+
+    /// The mistake, at a value around it where it has no place of its own.
+    fn within(mut self, span: Range<usize>) -> Self {
+        self.span.get_or_insert(span);
+        self
+    }
+}
+
+impl Error for Mistake {
+    fn custom<T: fmt::Display>(message: T) -> Self {
+        Self { message: message.to_string(), span: None }
+    }
+}
+
+impl fmt::Display for Mistake {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Mistake {}
+
+/// Reads the whole tree.
+pub fn read<'t, T: Deserialize<'t>>(root: &'t Node<'t>) -> Result<T, Mistake> {
+    T::deserialize(Reader { node: root, view: View::Whole })
+}
+
+/// Reads one key of a table as if there were no other; of its list one entry, where one is meant.
+pub fn read_part<'t, T: Deserialize<'t>>(table: &'t DeTable<'t>, key: &str, entry: Option<usize>) -> Result<T, Mistake> {
+    T::deserialize(Part(Entries {
+        entries: Source::One(table.get_key_value(key)),
+        without: None,
+        value: None,
+        view: entry.map_or(View::Whole, View::Only),
+    }))
+}
+
+/// How much of a value there is to be read.
+#[derive(Clone, Copy)]
+enum View {
+    Whole,
+    /// A table without a key that was read already.
+    Without(&'static str),
+    /// A list of only one of its entries.
+    Only(usize),
+}
+
+/// Reads one value.
+#[derive(Clone, Copy)]
+struct Reader<'t> {
+    node: &'t Node<'t>,
+    view: View,
+}
+
+impl<'t> Reader<'t> {
+    fn entries(self, table: &'t DeTable<'t>) -> Entries<'t> {
+        let without = if let View::Without(key) = self.view { Some(key) } else { None };
+        Entries { entries: Source::All(table.iter()), without, value: None, view: View::Whole }
+    }
+
+    fn items(self, list: &'t [Node<'t>]) -> Items<'t> {
+        Items(if let View::Only(entry) = self.view { list[entry..=entry].iter() } else { list.iter() })
+    }
+
+    fn number(self) -> Result<Number, Mistake> {
+        match self.node.get_ref() {
+            DeValue::Integer(digits) => {
+                let (text, radix) = (digits.as_str(), digits.radix());
+                let signed = i64::from_str_radix(text, radix).map(Number::Signed);
+                signed
+                    .or_else(|_| u64::from_str_radix(text, radix).map(Number::Unsigned))
+                    .map_err(|_| Mistake::custom("the number is too large"))
+            }
+            DeValue::Float(digits) => match digits.as_str().parse::<f64>() {
+                Ok(value) if value.is_finite() || digits.as_str().contains("inf") || value.is_nan() => Ok(Number::Float(value)),
+                _ => Err(Mistake::custom("the number is too large")),
+            },
+            _ => Ok(Number::None),
+        }
+    }
+
+    /// The complaint about a value of another kind than `expected`.
+    fn unexpected(self, expected: &dyn Expected) -> Mistake {
+        let found = match self.node.get_ref() {
+            DeValue::String(text) => Unexpected::Str(text),
+            DeValue::Boolean(value) => Unexpected::Bool(*value),
+            DeValue::Datetime(_) => Unexpected::Other("date"),
+            DeValue::Array(_) => Unexpected::Seq,
+            DeValue::Table(_) => Unexpected::Map,
+            DeValue::Integer(_) | DeValue::Float(_) => match self.number() {
+                Ok(Number::Signed(value)) => Unexpected::Signed(value),
+                Ok(Number::Unsigned(value)) => Unexpected::Unsigned(value),
+                Ok(Number::Float(value)) => Unexpected::Float(value),
+                Ok(Number::None) | Err(_) => Unexpected::Other("number"),
+            },
+        };
+        Mistake::invalid_type(found, expected).within(self.node.span())
+    }
+
+    /// The kind of an enum that is written here, and where its content is.
+    fn choice(self, name: &str) -> Result<Choice<'t>, Mistake> {
+        let span = self.node.span();
+        if name == LOCATED {
+            return Ok(Choice { kind: Kind::Place(span.clone()), span, content: Some(self) });
+        }
+        let found = self.node.get_ref();
+        let Some((_, tag)) = TAGS.iter().find(|(tagged, _)| *tagged == name) else {
+            return match found {
+                DeValue::String(text) => Ok(Choice { kind: Kind::Name(Cow::Borrowed(text)), span, content: None }),
+                other => Err(Mistake::new(span, format!("expected a name in quotes, found {}", other.type_str()))),
+            };
+        };
+        let DeValue::Table(table) = found else {
+            return Err(Mistake::new(span, format!("expected a table with the key `{tag}`, found {}", found.type_str())));
+        };
+        let content = Some(Self { node: self.node, view: View::Without(tag) });
+        match table.get(*tag) {
+            // A name that is no choice, so that serde's complaint lists the choices.
+            None => Ok(Choice { kind: Kind::Name(Cow::Owned(format!("{MISSING}{tag}"))), span, content }),
+            Some(kind) => match kind.get_ref() {
+                DeValue::String(text) => Ok(Choice { kind: Kind::Name(Cow::Borrowed(text)), span: kind.span(), content }),
+                other => Err(Mistake::new(kind.span(), format!("expected a name in quotes, found {}", other.type_str()))),
+            },
+        }
+    }
+}
+
+/// A number as serde tells them apart; none where something else is written.
+enum Number {
+    Signed(i64),
+    Unsigned(u64),
+    Float(f64),
+    None,
+}
+
+macro_rules! read_numbers {
+    ($($method:ident)*) => {$(
+        fn $method<V: Visitor<'t>>(self, visitor: V) -> Result<V::Value, Mistake> {
+            self.deserialize_f64(visitor)
+        }
+    )*};
+}
+
+macro_rules! read_anything {
+    ($($method:ident)*) => {$(
+        fn $method<V: Visitor<'t>>(self, visitor: V) -> Result<V::Value, Mistake> {
+            self.deserialize_any(visitor)
+        }
+    )*};
+}
+
+/// Each method asks for one kind of value alone, so that no more is compiled for each type than it can be made of.
+impl<'t> Deserializer<'t> for Reader<'t> {
+    type Error = Mistake;
+
+    fn deserialize_any<V: Visitor<'t>>(self, visitor: V) -> Result<V::Value, Mistake> {
+        match self.node.get_ref() {
+            DeValue::String(_) => self.deserialize_str(visitor),
+            DeValue::Integer(_) | DeValue::Float(_) => self.deserialize_f64(visitor),
+            DeValue::Boolean(_) => self.deserialize_bool(visitor),
+            DeValue::Datetime(_) => Err(self.unexpected(&visitor)),
+            DeValue::Array(_) => self.deserialize_seq(visitor),
+            DeValue::Table(_) => self.deserialize_map(visitor),
+        }
+    }
+
+    fn deserialize_bool<V: Visitor<'t>>(self, visitor: V) -> Result<V::Value, Mistake> {
+        match self.node.get_ref() {
+            DeValue::Boolean(value) => visitor.visit_bool(*value).map_err(|mistake: Mistake| mistake.within(self.node.span())),
+            _ => Err(self.unexpected(&visitor)),
+        }
+    }
+
+    fn deserialize_f64<V: Visitor<'t>>(self, visitor: V) -> Result<V::Value, Mistake> {
+        let value = match self.number() {
+            Ok(Number::Signed(value)) => visitor.visit_i64(value),
+            Ok(Number::Unsigned(value)) => visitor.visit_u64(value),
+            Ok(Number::Float(value)) => visitor.visit_f64(value),
+            Ok(Number::None) => return Err(self.unexpected(&visitor)),
+            Err(mistake) => Err(mistake),
+        };
+        value.map_err(|mistake| mistake.within(self.node.span()))
+    }
+
+    fn deserialize_str<V: Visitor<'t>>(self, visitor: V) -> Result<V::Value, Mistake> {
+        match self.node.get_ref() {
+            DeValue::String(text) => visitor.visit_str(text).map_err(|mistake: Mistake| mistake.within(self.node.span())),
+            _ => Err(self.unexpected(&visitor)),
+        }
+    }
+
+    fn deserialize_string<V: Visitor<'t>>(self, visitor: V) -> Result<V::Value, Mistake> {
+        self.deserialize_str(visitor)
+    }
+
+    fn deserialize_option<V: Visitor<'t>>(self, visitor: V) -> Result<V::Value, Mistake> {
+        visitor.visit_some(self)
+    }
+
+    fn deserialize_newtype_struct<V: Visitor<'t>>(self, _: &'static str, visitor: V) -> Result<V::Value, Mistake> {
+        visitor.visit_newtype_struct(self)
+    }
+
+    fn deserialize_seq<V: Visitor<'t>>(self, visitor: V) -> Result<V::Value, Mistake> {
+        match self.node.get_ref() {
+            DeValue::Array(list) => visitor.visit_seq(self.items(list)).map_err(|mistake| mistake.within(self.node.span())),
+            _ => Err(self.unexpected(&visitor)),
+        }
+    }
+
+    fn deserialize_tuple<V: Visitor<'t>>(self, _: usize, visitor: V) -> Result<V::Value, Mistake> {
+        self.deserialize_seq(visitor)
+    }
+
+    fn deserialize_tuple_struct<V: Visitor<'t>>(self, _: &'static str, _: usize, visitor: V) -> Result<V::Value, Mistake> {
+        self.deserialize_seq(visitor)
+    }
+
+    fn deserialize_map<V: Visitor<'t>>(self, visitor: V) -> Result<V::Value, Mistake> {
+        match self.node.get_ref() {
+            DeValue::Table(table) => visitor.visit_map(self.entries(table)).map_err(|mistake| mistake.within(self.node.span())),
+            _ => Err(self.unexpected(&visitor)),
+        }
+    }
+
+    fn deserialize_struct<V: Visitor<'t>>(
+        self,
+        _: &'static str,
+        _: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Mistake> {
+        self.deserialize_map(visitor)
+    }
+
+    fn deserialize_enum<V: Visitor<'t>>(
+        self,
+        name: &'static str,
+        _: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Mistake> {
+        visitor.visit_enum(self.choice(name)?).map_err(|mistake| mistake.within(self.node.span()))
+    }
+
+    fn deserialize_ignored_any<V: Visitor<'t>>(self, visitor: V) -> Result<V::Value, Mistake> {
+        visitor.visit_unit()
+    }
+
+    fn deserialize_unit_struct<V: Visitor<'t>>(self, _: &'static str, visitor: V) -> Result<V::Value, Mistake> {
+        self.deserialize_any(visitor)
+    }
+
+    read_numbers! { deserialize_i8 deserialize_i16 deserialize_i32 deserialize_i64 deserialize_u8 deserialize_u16 deserialize_u32 deserialize_u64 deserialize_f32 }
+    read_anything! { deserialize_char deserialize_bytes deserialize_byte_buf deserialize_unit deserialize_identifier }
+}
+
+/// The keys of a table.
+struct Entries<'t> {
+    entries: Source<'t>,
+    /// The key that is passed over.
+    without: Option<&'static str>,
+    /// The value of the key that was read last, and how much of it there is.
+    value: Option<&'t Node<'t>>,
+    view: View,
+}
+
+enum Source<'t> {
+    All(toml::map::Iter<'t, Spanned<DeString<'t>>, Node<'t>>),
+    One(Option<(&'t Spanned<DeString<'t>>, &'t Node<'t>)>),
+}
+
+impl<'t> Entries<'t> {
+    fn next(&mut self) -> Option<&'t Spanned<DeString<'t>>> {
+        let without = self.without;
+        let (key, value) = match &mut self.entries {
+            Source::All(entries) => entries.find(|(key, _)| without.is_none_or(|without| key.get_ref() != without)),
+            Source::One(entry) => entry.take(),
+        }?;
+        self.value = Some(value);
+        Some(key)
+    }
+}
+
+impl<'t> MapAccess<'t> for Entries<'t> {
+    type Error = Mistake;
+
+    fn next_key_seed<K: DeserializeSeed<'t>>(&mut self, seed: K) -> Result<Option<K::Value>, Mistake> {
+        let Some(key) = self.next() else { return Ok(None) };
+        let name: StrDeserializer<'_, Mistake> = key.get_ref().as_ref().into_deserializer();
+        seed.deserialize(name).map(Some).map_err(|mistake| mistake.within(key.span()))
+    }
+
+    fn next_value_seed<S: DeserializeSeed<'t>>(&mut self, seed: S) -> Result<S::Value, Mistake> {
+        let node = self.value.take().ok_or_else(|| Mistake::custom("a value was read before its key"))?;
+        seed.deserialize(Reader { node, view: self.view })
+    }
+}
+
+/// A table of which one key is read.
+struct Part<'t>(Entries<'t>);
+
+impl<'t> Deserializer<'t> for Part<'t> {
+    type Error = Mistake;
+
+    fn deserialize_any<V: Visitor<'t>>(self, visitor: V) -> Result<V::Value, Mistake> {
+        visitor.visit_map(self.0)
+    }
+
+    serde::forward_to_deserialize_any! {
+        <V: Visitor<'t>>
+        bool i8 i16 i32 i64 u8 u16 u32 u64 f32 f64 char str string bytes byte_buf option unit unit_struct newtype_struct seq tuple tuple_struct
+        map struct enum identifier ignored_any
+    }
+}
+
+/// The values of a list.
+struct Items<'t>(std::slice::Iter<'t, Node<'t>>);
+
+impl<'t> SeqAccess<'t> for Items<'t> {
+    type Error = Mistake;
+
+    fn next_element_seed<S: DeserializeSeed<'t>>(&mut self, seed: S) -> Result<Option<S::Value>, Mistake> {
+        self.0.next().map(|node| seed.deserialize(Reader { node, view: View::Whole })).transpose()
+    }
+
+    fn size_hint(&self) -> Option<usize> {
+        Some(self.0.len())
+    }
+}
+
+/// The kind of an enum and its content.
+struct Choice<'t> {
+    kind: Kind<'t>,
+    /// Where the kind is written.
+    span: Range<usize>,
+    content: Option<Reader<'t>>,
+}
+
+enum Kind<'t> {
+    Name(Cow<'t, str>),
+    /// Of a value with its place: the place.
+    Place(Range<usize>),
+}
+
+impl<'t> EnumAccess<'t> for Choice<'t> {
+    type Error = Mistake;
+    type Variant = Content<'t>;
+
+    fn variant_seed<S: DeserializeSeed<'t>>(self, seed: S) -> Result<(S::Value, Content<'t>), Mistake> {
+        let kind = seed.deserialize(self.kind).map_err(|mistake| mistake.within(self.span))?;
+        Ok((kind, Content(self.content)))
+    }
+}
+
+impl<'t> Deserializer<'t> for Kind<'t> {
+    type Error = Mistake;
+
+    fn deserialize_any<V: Visitor<'t>>(self, visitor: V) -> Result<V::Value, Mistake> {
+        match self {
+            Self::Name(name) => visitor.visit_str(&name),
+            Self::Place(span) => visitor.visit_u128(((span.start as u128) << 64) | span.end as u128),
+        }
+    }
+
+    serde::forward_to_deserialize_any! {
+        <V: Visitor<'t>>
+        bool i8 i16 i32 i64 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf option unit unit_struct newtype_struct seq tuple
+        tuple_struct map struct enum identifier ignored_any
+    }
+}
+
+/// What stands beside the kind; nothing where that is a mere name.
+struct Content<'t>(Option<Reader<'t>>);
+
+impl<'t> VariantAccess<'t> for Content<'t> {
+    type Error = Mistake;
+
+    fn unit_variant(self) -> Result<(), Mistake> {
+        Ok(())
+    }
+
+    fn newtype_variant_seed<S: DeserializeSeed<'t>>(self, seed: S) -> Result<S::Value, Mistake> {
+        seed.deserialize(self.0.ok_or_else(|| Mistake::custom("expected a table"))?)
+    }
+
+    fn tuple_variant<V: Visitor<'t>>(self, _: usize, visitor: V) -> Result<V::Value, Mistake> {
+        Err(Mistake::invalid_type(Unexpected::TupleVariant, &visitor))
+    }
+
+    fn struct_variant<V: Visitor<'t>>(self, _: &'static [&'static str], visitor: V) -> Result<V::Value, Mistake> {
+        Err(Mistake::invalid_type(Unexpected::StructVariant, &visitor))
+    }
+}
+
+/// Reads a value and its place.
+///
+/// # Errors
+/// Those of the value, and of readers that know no places.
+pub fn located<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<(T, Range<usize>), D::Error> {
+    struct LocatedVisitor<T>(std::marker::PhantomData<T>);
+    impl<'de, T: Deserialize<'de>> Visitor<'de> for LocatedVisitor<T> {
+        type Value = (T, Range<usize>);
+        fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+            f.write_str("a value with its place")
+        }
+        fn visit_enum<A: EnumAccess<'de>>(self, data: A) -> Result<Self::Value, A::Error> {
+            let (Place(span), content) = data.variant()?;
+            Ok((content.newtype_variant()?, span))
+        }
+    }
+    deserializer.deserialize_enum(LOCATED, &[], LocatedVisitor(std::marker::PhantomData))
+}
+
+/// The bytes of a value.
+struct Place(Range<usize>);
+
+impl<'de> Deserialize<'de> for Place {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct PlaceVisitor;
+        impl Visitor<'_> for PlaceVisitor {
+            type Value = Place;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a place")
+            }
+            /// The start in the upper half, the end in the lower.
+            fn visit_u128<E: Error>(self, both: u128) -> Result<Place, E> {
+                Ok(Place((both >> 64) as usize..both as u64 as usize))
+            }
+        }
+        deserializer.deserialize_u128(PlaceVisitor)
+    }
+}
