@@ -170,6 +170,7 @@ pub fn forest(trees: u32) -> Result<Scene, SceneError> {
         transform: Transform::default(),
         material: None,
         motion: None,
+        pivot: None,
     });
     Ok(scene)
 }

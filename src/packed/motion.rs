@@ -59,13 +59,30 @@ impl PackedMotion {
     /// Of what stands about `origin`.
     pub fn about(motion: &Motion, origin: DVec3, shutter: [f64; 2]) -> Self {
         let shares = shutter.map(|time| motion.share(time));
-        let steps: Vec<PackedStep> = motion.steps.iter().map(|&step| PackedStep::new(step, shares)).collect();
+        let steps = motion.steps.iter().map(|&step| PackedStep::new(step, shares)).collect();
+        Self::sampled(steps, origin, shutter, &|time| motion.at(time, origin))
+    }
+
+    /// With the maps at so many times as it bends.
+    fn sampled(steps: Vec<PackedStep>, origin: DVec3, [open, close]: [f64; 2], at: &dyn Fn(f64) -> DAffine3) -> Self {
         let (relative, _) = bend(&steps, 1.0);
         let times = (relative / (8.0 * DEVIATION)).sqrt().ceil().clamp(1.0, MOST_TIMES) as u32;
-        let [open, close] = shutter;
         let time = |index: u32| open + (close - open) * f64::from(index) / f64::from(times);
-        let maps = (0..=times).map(|index| motion.at(time(index), origin)).collect();
+        let maps = (0..=times).map(|index| at(time(index))).collect();
         Self { origin, steps, maps }
+    }
+
+    /// Of an instance relative to its place, from which `pivot` is what it moves about.
+    pub fn of_instance(motion: &Motion, pivot: DVec3, shutter: [f64; 2]) -> Self {
+        let about_place = Self::about(motion, DVec3::ZERO, shutter);
+        if pivot == DVec3::ZERO {
+            return about_place;
+        }
+        let shift = |start: DVec3| PackedStep::Translate { start, change: DVec3::ZERO };
+        let mut steps = vec![shift(-pivot)];
+        steps.extend(about_place.steps);
+        steps.push(shift(pivot));
+        Self::sampled(steps, DVec3::ZERO, shutter, &|time| motion.at(time, pivot))
     }
 
     /// The rows of `motion` in `shaders/geometry/motion.wgsl`: origin and number of steps; then, of each step, its start and kind, and

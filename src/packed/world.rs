@@ -13,7 +13,7 @@ use super::primitive::WorldPrimitive;
 use super::shape::{self, Placement};
 use crate::binary_tree::parts::Pose;
 use crate::scene::animation::unevenness;
-use crate::scene::{MaterialId, MaterialKind, Scene, Shape, Transform, TransformStep};
+use crate::scene::{Instances, MaterialId, MaterialKind, Scene, Shape, Transform, TransformStep};
 
 /// All primitives of a scene, and the attributes of those that have some.
 #[derive(Debug, Default)]
@@ -106,20 +106,32 @@ impl WorldGeometry {
         }
         for entry in &scene.instances {
             let Some(group) = places[entry.group].filter(|_| scene.are_visible(entry)) else { continue };
-            let [mut motion, mut motion_word] = [NONE; 2];
-            if let Some(steps) = &entry.motion {
-                let packed = PackedMotion::about(steps, DVec3::ZERO, scene.camera.shutter);
-                [motion, motion_word] = [self.motions.len() as u32, self.motion_words.len() as u32];
-                self.motion_words.extend(packed.words());
-                self.motions.push(packed);
-                if self.attributes.is_empty() {
-                    // Kernels that know motion know attributes.
-                    self.attributes.push(TriangleAttributes::new([Vec3::ZERO; 3], [Vec2::ZERO; 3]));
+            let Instances { material, pivot, .. } = *entry;
+            let mut packed = [NONE; 2];
+            for (number, map) in entry.maps().enumerate() {
+                // About its place each has the same motion, and about another point one of its own.
+                if let Some(motion) = &entry.motion
+                    && (number == 0 || pivot.is_some())
+                {
+                    let from_place = pivot.map_or(DVec3::ZERO, |pivot| pivot - map.translation);
+                    packed = self.add_motion(PackedMotion::of_instance(motion, from_place, scene.camera.shutter));
                 }
+                let [motion, motion_word] = packed;
+                self.instances.push(WorldInstance { group, map, material, motion, motion_word });
             }
-            let material = entry.material;
-            self.instances.extend(entry.maps().map(|map| WorldInstance { group, map, material, motion, motion_word }));
         }
+    }
+
+    /// Its index and its first word.
+    fn add_motion(&mut self, packed: PackedMotion) -> [u32; 2] {
+        let places = [self.motions.len() as u32, self.motion_words.len() as u32];
+        self.motion_words.extend(packed.words());
+        self.motions.push(packed);
+        if self.attributes.is_empty() {
+            // Kernels that know motion know attributes.
+            self.attributes.push(TriangleAttributes::new([Vec3::ZERO; 3], [Vec2::ZERO; 3]));
+        }
+        places
     }
 
     /// The faces of a group, in its own space.

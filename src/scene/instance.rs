@@ -33,6 +33,8 @@ pub struct Instances {
     pub material: Option<MaterialId>,
     /// How each moves while the shutter is open, about where it puts the group's (0, 0, 0); None: at rest.
     pub motion: Option<Motion>,
+    /// What the motion is about instead, in the world at shutter time 0.
+    pub pivot: Option<DVec3>,
 }
 
 /// A ball around a group.
@@ -65,6 +67,11 @@ impl Instances {
         self.places.iter().map(move |place| all * *place)
     }
 
+    /// What the motion of the instance with this map is about.
+    pub fn origin_of_motion(&self, map: &DAffine3) -> DVec3 {
+        self.pivot.unwrap_or(map.translation)
+    }
+
     /// A distance from `point` within which all of the nearest instance lies.
     pub(super) fn farthest_from(&self, ball: Ball, point: DVec3) -> f64 {
         let of_map =
@@ -79,7 +86,10 @@ impl Instances {
                 |point: DVec3| map.transform_point3(ball.center).distance(point) + ball.radius * largest_stretch(map.matrix3);
             let checked = match &self.motion {
                 None => within_range(reach_from(DVec3::ZERO)),
-                Some(motion) => motion.check_reach(shutter, map.translation, reach_from(map.translation)),
+                Some(motion) => {
+                    let origin = self.origin_of_motion(&map);
+                    motion.check_reach(shutter, origin, reach_from(origin))
+                }
             };
             checked.map_err(|message| format!("number {place}, counted from 0: {message}"))?;
         }
@@ -121,6 +131,7 @@ mod tests {
             transform: Transform { steps: vec![TransformStep::Translate(DVec3::X)] },
             material: None,
             motion: None,
+            pivot: None,
         }
     }
 

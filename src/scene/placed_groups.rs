@@ -70,6 +70,9 @@ impl Scene {
                 "the material `{name}` uses a texture, which needs uv coordinates, and of a mesh of `{group}`: {lacking}"
             ));
         }
+        if instances.pivot.is_some_and(|pivot| !pivot.is_finite()) {
+            return Err("its pivot must be finite".into());
+        }
         // The motion does not depend on where an instance stands, but for what it turns about.
         instances.motion.as_ref().map_or(Ok(()), |motion| motion.check(self.camera.shutter)).map_err(|(_, message)| message)?;
         let ball = balls.get(instances.group).copied().flatten();
@@ -98,7 +101,7 @@ mod tests {
 
     fn instances(places: Vec<DAffine3>) -> Instances {
         let (transform, places) = (Transform::default(), Arc::new(places));
-        Instances { label: "instance[0]".into(), group: 0, places, transform, material: None, motion: None }
+        Instances { label: "instance[0]".into(), group: 0, places, transform, material: None, motion: None, pivot: None }
     }
 
     #[test]

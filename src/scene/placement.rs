@@ -44,6 +44,7 @@ impl Scene {
         }
         for instances in &mut moved.instances {
             instances.transform.steps.push(TransformStep::Translate(-center));
+            instances.pivot = instances.pivot.map(|pivot| pivot - center);
         }
         for light in &mut moved.lights {
             light.translate(-center);

@@ -55,6 +55,9 @@ pub fn instances(instances: &Instances, writer: &mut Writer<'_>) -> String {
     }
     if let Some(motion) = &instances.motion {
         out += &line("motion", &steps(motion.steps.iter().map(motion_step)));
+        if let Some(pivot) = instances.pivot {
+            out += &line("pivot", &vector(pivot));
+        }
     }
     out
 }

@@ -171,6 +171,143 @@ fn files_of_places_are_read_and_mistakes_in_them_named() {
     }
 }
 
+/// A wood of two trees and a leaf of its own, twice, in which the trees stand at places that are exact in binary.
+const WOOD: &str = r#"
+[[group]]
+name = "wood"
+[[group.shape]]
+type = "mesh"
+positions = [[0, 0, 0], [0.5, 0, 0], [0, 0.5, 0]]
+faces = [[0, 1, 2]]
+material = "white"
+[[group.instance]]
+group = "tree"
+places = [[1, 0, 0, 2, 0, 1, 0, 0, 0, 0, 1, 0], [0.5, 0, 0, -2, 0, 1, 0, 0, 0, 0, 1, 0]]
+transform = [{ translate = [0, 0, 1] }]
+[[group]]
+name = "land"
+[[group.instance]]
+group = "wood"
+transform = [{ scale = 2 }]
+[[group.instance]]
+group = "wood"
+material = "white"
+transform = [{ translate = [8, 0, 0] }]
+[[instance]]
+group = "land"
+transform = [{ translate = [0, 4, 0] }]
+"#;
+
+/// As [`GOOD`], with a wood in place of the trees.
+fn wood(change: impl Fn(&str) -> String) -> String {
+    let trees = GOOD.find("[[instance]]").expect("it has some");
+    let end = GOOD.find("[[light]]").expect("it has one");
+    format!("{}{}{}", &GOOD[..trees], change(WOOD), &GOOD[end..])
+}
+
+#[test]
+fn groups_within_groups_stand_where_all_of_them_put_them() {
+    let scene = read(&wood(str::to_owned)).expect("it is right");
+    let names: Vec<&str> = scene.groups.iter().map(|group| group.name.as_str()).collect();
+    assert_eq!(names, ["tree", "wood"], "a group without meshes of its own is no group of the scene");
+    assert_eq!(scene.instance_count(), 6);
+    let at_origin = |of: &str, material: bool| -> Vec<[f64; 3]> {
+        let entries =
+            scene.instances.iter().filter(|entry| scene.groups[entry.group].name == of && entry.material.is_some() == material);
+        entries.flat_map(|entry| entry.maps().map(|map| map.translation.to_array()).collect::<Vec<_>>()).collect()
+    };
+    assert_eq!(at_origin("wood", false), [[0.0, 4.0, 0.0]]);
+    assert_eq!(at_origin("wood", true), [[8.0, 4.0, 0.0]]);
+    assert_eq!(at_origin("tree", false), [[4.0, 4.0, 2.0], [-4.0, 4.0, 2.0]]);
+    assert_eq!(at_origin("tree", true), [[10.0, 4.0, 1.0], [6.0, 4.0, 1.0]]);
+    // Every group is seen: `tree` and `wood` by way of `land`.
+    assert!(!scene.warnings.iter().any(|warning| warning.contains("not seen")), "{:?}", scene.warnings);
+    let without = read(&wood(|wood| wood.replace("[[instance]]\ngroup = \"land\"", "[[instance]]\ngroup = \"tree\"")));
+    let unseen = without.expect("it is right").warnings;
+    assert!(
+        ["wood", "land"].iter().all(|name| unseen.iter().any(|warning| warning.contains(&format!("`{name}`: it is not seen"))))
+    );
+    assert!(!unseen.iter().any(|warning| warning.contains("`tree`")));
+}
+
+#[test]
+fn mistakes_within_groups_are_named_with_their_place() {
+    let rows = [
+        (
+            "group = \"tree\"\nplaces",
+            "group = \"wood\"\nplaces",
+            "test.toml:39:9: group[1].instance[0].group: the group `wood` contains itself",
+        ),
+        (
+            "group = \"tree\"\nplaces",
+            "group = \"land\"\nplaces",
+            "group[2].instance[0].group: the group `wood` contains itself: `wood` holds `land`, which holds `wood`",
+        ),
+        (
+            "group = \"tree\"\nplaces",
+            "group = \"three\"\nplaces",
+            "test.toml:39:9: group[1].instance[0].group: there is no group named `three`",
+        ),
+        ("transform = [{ scale = 2 }]", "motion = [{ scale = 2 }]", "unknown key `motion`"),
+        (
+            "transform = [{ scale = 2 }]",
+            "places = [[0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]]",
+            "group[2].instance[0].group: the transform of number 0",
+        ),
+        (
+            "material = \"white\"\ntransform",
+            "material = \"lamp\"\ntransform",
+            "of `wood` within `land`: the material `lamp` emits",
+        ),
+        (
+            "material = \"white\"\ntransform",
+            "material = \"checked\"\ntransform",
+            "of `wood` within `land`: the material `checked` uses a texture",
+        ),
+        ("transform = [{ translate = [0, 4, 0] }]", "pivot = [0, 0, 0]", "`pivot` is what `motion` is about"),
+    ];
+    for (from, to, expected) in rows {
+        assert!(WOOD.contains(from), "{from}");
+        let error = read(&wood(|wood| wood.replacen(from, to, 1))).err().unwrap_or_else(|| panic!("no complaint about {to}"));
+        assert!(error.to_string().contains(expected), "{to}: {error}");
+    }
+}
+
+/// Thirty doublings are refused before any instance is made.
+#[test]
+fn a_billion_instances_in_thirty_lines_are_refused() {
+    let doublings = |levels: usize| {
+        let mut text = String::from("[[group]]\nname = \"g0\"\n[[group.instance]]\ngroup = \"tree\"\n");
+        for level in 1..=levels {
+            let inner = format!("[[group.instance]]\ngroup = \"g{}\"\n", level - 1);
+            text += &format!("[[group]]\nname = \"g{level}\"\n{inner}{inner}transform = [{{ translate = [{level}, 0, 0] }}]\n");
+        }
+        wood(|_| format!("{text}[[instance]]\ngroup = \"g{levels}\"\n"))
+    };
+    assert_eq!(read(&doublings(8)).expect("it is right").instance_count(), 256);
+    let error = read(&doublings(30)).expect_err("it is refused").to_string();
+    assert!(error.contains("`g30` and what it holds make 1073741824 instances; at most 268435456 are possible"), "{error}");
+    // The control: none of the places are instances where nothing names the group.
+    assert!(read(&doublings(30).replace("group = \"g30\"", "group = \"g3\"")).is_ok());
+}
+
+/// What is written again is the same scene.
+#[test]
+fn written_scenes_have_the_same_instances() {
+    let moving = wood(|wood| format!("{wood}motion = [{{ rotate = [0, 1, 0], degrees = 20 }}]\n"));
+    let scene = read(&moving).expect("it is right");
+    assert!(scene.instances.iter().all(|entry| entry.pivot == Some(DVec3::new(0.0, 4.0, 0.0))));
+    let folder = folder_with(&[]);
+    let path = folder.path().join("written.toml");
+    gpt::scene_writer::save_scene(&scene, &path).expect("it can be written");
+    let again = load::load(path.to_str()).expect("it is right");
+    let of = |scene: &Scene| -> Vec<(Vec<[f64; 3]>, Option<DVec3>)> {
+        let maps = |entry: &gpt::scene::Instances| entry.maps().map(|map| map.translation.to_array()).collect();
+        scene.instances.iter().map(|entry| (maps(entry), entry.pivot)).collect()
+    };
+    assert_eq!(of(&scene), of(&again));
+}
+
 /// A tree is stored once however often it stands: 96 bytes for an instance, 48 for its leaf, and its share of the nodes.
 #[test]
 fn memory_grows_by_instances_and_not_by_triangles() {

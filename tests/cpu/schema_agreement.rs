@@ -179,12 +179,22 @@ faces = [[0, 1, 2]]
 uvs = [[0, 0], [1, 0], [0, 1]]
 material = "grey"
 transform = [{ scale = 0.5 }]
+[[group]]
+name = "wood"
+[[group.instance]]
+group = "tree"
+places = [[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]]
+transform = [{ translate = [0, 1, 0] }]
+material = "grey"
+[[instance]]
+group = "wood"
 [[instance]]
 group = "tree"
 places = [[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0], [-1, 0, 0, 2, 0, 1, 0, 0, 0, 0, 1, 0]]
 transform = [{ translate = [0, 1, 0] }]
 material = "grey"
 motion = [{ rotate = [0, 1, 0], degrees = 20 }]
+pivot = [0, 1, 0]
 [[light]]
 type = "environment"
 radiance = 0.3

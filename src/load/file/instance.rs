@@ -1,4 +1,4 @@
-//! `[[group]]` and `[[instance]]`: meshes that are stored once, and the places where they stand.
+//! `[[group]]` and `[[instance]]`: meshes that are stored once, and the places where they stand. A group may hold instances of others.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -8,31 +8,56 @@ use glam::{DAffine3, DMat3, DVec3};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::nested::{FileGroup, Groups, Held};
 use super::resolver::Resolver;
 use super::shape::{ShapeEntry, TransformEntry};
-use super::value::{Exactly, LARGEST, Located, Number};
+use super::value::{Exactly, LARGEST, Located, Number, Vector, vector};
 use crate::load::error::{SceneError, show};
 use crate::load::files::MOST_MODEL_BYTES;
 use crate::load::import::{PLACE_NUMBERS, PlaceFormat};
-use crate::scene::{Geometry, Group, Instances, Material, Transform};
+use crate::scene::{Geometry, Group, Instances, Material, MaterialKind, Transform, is_singular};
 
-/// Meshes that are stored once. They are seen where an `[[instance]]` names the group.
+/// Meshes that are stored once, and instances of other groups. They are seen where an `[[instance]]` names the group.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
-#[schemars(rename = "Group")]
+#[schemars(rename = "Group", extend("anyOf" = [
+    { "required": ["shape"], "properties": { "shape": { "minItems": 1 } } },
+    { "required": ["instance"], "properties": { "instance": { "minItems": 1 } } },
+]))]
 pub struct GroupEntry {
     /// What instances call it.
     #[schemars(extend("minLength" = 1))]
     name: Located<String>,
     /// Its meshes, each a `[[group.shape]]` of type `mesh` in the group's own space.
-    #[schemars(extend("minItems" = 1))]
+    #[serde(default)]
     shape: Vec<Located<ShapeEntry>>,
+    /// Other groups within it, each a `[[group.instance]]`. Those may hold groups too, up to 64 within each other.
+    #[serde(default)]
+    instance: Vec<Located<HeldEntry>>,
+}
+
+/// A group within another one, at rest in that one's space.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+#[schemars(rename = "HeldInstance", extend("not" = { "required": ["places", "file"] }))]
+pub struct HeldEntry {
+    /// The name of another `[[group]]`, which does not hold this one.
+    group: Located<String>,
+    /// Steps applied in this order, or a matrix; after the places, where there are some.
+    transform: Option<Located<TransformEntry>>,
+    /// As an `[[instance]]`'s.
+    places: Option<Located<Vec<Located<Exactly<Number, 12>>>>>,
+    /// As an `[[instance]]`'s.
+    #[schemars(extend("pattern" = "\\.([fF]32|[fF]64|[cC][sS][vV]|[tT][xX][tT])$"))]
+    file: Option<Located<String>>,
+    /// A `[[material]]` for all faces, in place of the group's own, where the instance around names none.
+    material: Option<Located<String>>,
 }
 
 /// A group of meshes in one place, or in as many as `places` or `file` have.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
-#[schemars(rename = "Instance", extend("not" = { "required": ["places", "file"] }))]
+#[schemars(rename = "Instance", extend("not" = { "required": ["places", "file"] }, "dependentRequired" = { "pivot": ["motion"] }))]
 pub struct InstanceEntry {
     /// A `[[group]]`'s name.
     group: Located<String>,
@@ -47,32 +72,73 @@ pub struct InstanceEntry {
     /// A `[[material]]` for all faces, in place of the group's own; faces of type `pass` stay openings.
     material: Option<Located<String>>,
     /// Steps of `scale`, `rotate` and `translate` reached at shutter time 1, along the world's axes and about where each instance has the
-    /// group's (0, 0, 0).
+    /// group's (0, 0, 0), or about `pivot`.
     #[schemars(extend("allOf" = [{ "not": { "anyOf": [
         { "type": "object", "required": ["matrix"] },
         { "type": "array", "contains": { "type": "object", "required": ["matrix"] } },
     ] } }]))]
     motion: Option<Located<TransformEntry>>,
+    /// A point of the world, at shutter time 0, about which `motion` turns and scales all of the instances.
+    pivot: Option<Located<Vector>>,
+}
+
+/// Where instances stand, as it is written.
+struct WrittenPlaces<'a> {
+    transform: Option<&'a Located<TransformEntry>>,
+    places: Option<&'a Located<Vec<Located<Exactly<Number, 12>>>>>,
+    file: Option<&'a Located<String>>,
 }
 
 impl Resolver<'_> {
-    pub(super) fn groups(&mut self, written: &[GroupEntry]) -> Result<HashMap<String, usize>, SceneError> {
+    pub(super) fn groups(&mut self, written: &[GroupEntry]) -> Result<(HashMap<String, usize>, Groups), SceneError> {
         let names = self.register("group", written.iter().map(|entry| &entry.name))?;
+        let mut groups = Vec::with_capacity(written.len());
         for (index, entry) in written.iter().enumerate() {
-            let mut group = Group { name: entry.name.value.clone(), shapes: Vec::new() };
-            for (place, written) in entry.shape.iter().enumerate() {
-                let shape = self.group_shape(place, written);
-                group.shapes.extend(self.note(shape).map(|mut shape| {
-                    shape.label = format!("group[{index}].shape[{place}] ({})", shape.geometry.kind_name());
-                    shape
-                }));
+            let name = entry.name.value.clone();
+            if entry.shape.is_empty() && entry.instance.is_empty() {
+                self.note::<()>(Err(self.error(&entry.name.span, format!("the group `{name}` has no shapes"))));
             }
-            if entry.shape.is_empty() {
-                self.note::<()>(Err(self.error(&entry.name.span, format!("the group `{}` has no shapes", group.name))));
+            let own = self.group_shapes(index, entry);
+            let mut held = Vec::with_capacity(entry.instance.len());
+            for written in &entry.instance {
+                let found = self.held(&written.value, &names);
+                held.extend(self.note(found));
             }
-            self.scene.groups.push(group);
+            groups.push(FileGroup { name, own, held });
         }
-        Ok(names)
+        let groups = Groups::new(groups).map_err(|(span, message)| self.error(&span, message))?;
+        Ok((names, groups))
+    }
+
+    /// The scene's group of the meshes; None where there are none.
+    fn group_shapes(&mut self, index: usize, entry: &GroupEntry) -> Option<usize> {
+        let mut group = Group { name: entry.name.value.clone(), shapes: Vec::new() };
+        for (place, written) in entry.shape.iter().enumerate() {
+            let shape = self.group_shape(place, written);
+            group.shapes.extend(self.note(shape).map(|mut shape| {
+                shape.label = format!("group[{index}].shape[{place}] ({})", shape.geometry.kind_name());
+                shape
+            }));
+        }
+        (!group.shapes.is_empty()).then(|| {
+            self.scene.groups.push(group);
+            self.scene.groups.len() - 1
+        })
+    }
+
+    fn held(&self, written: &HeldEntry, names: &HashMap<String, usize>) -> Result<Held, SceneError> {
+        let group = self.look_up(names, &written.group, "group")?;
+        let HeldEntry { transform, places, file, .. } = written;
+        let places = WrittenPlaces { transform: transform.as_ref(), places: places.as_ref(), file: file.as_ref() };
+        let (places, transform) = self.places(&places)?;
+        let around = transform.to_affine();
+        let maps: Vec<DAffine3> = places.into_iter().map(|place| around * place).collect();
+        if let Some(place) = maps.iter().position(|map| !map.is_finite() || is_singular(map.matrix3)) {
+            let message = format!("the transform of number {place}, counted from 0, flattens it or leaves the range of numbers");
+            return Err(self.error(&written.group.span, message));
+        }
+        let material = written.material.as_ref().map(|name| self.material_id(name)).transpose()?;
+        Ok(Held { group, maps, material, named_at: written.group.span.clone() })
     }
 
     fn group_shape(&mut self, place: usize, written: &Located<ShapeEntry>) -> Result<crate::scene::Shape, SceneError> {
@@ -88,48 +154,80 @@ impl Resolver<'_> {
         Ok(shape)
     }
 
-    pub(super) fn instances(&mut self, written: &[Located<InstanceEntry>], names: &HashMap<String, usize>) {
+    pub(super) fn instances(&mut self, written: &[Located<InstanceEntry>], names: &HashMap<String, usize>, groups: &Groups) {
         let textured = self.scene.materials_that(Material::uses_texture);
         let emits = self.scene.materials_that(|material| material.emission.is_some());
         let balls = self.scene.balls();
+        let mut named = vec![false; names.len()];
+        let mut count = 0;
         for (index, entry) in written.iter().enumerate() {
-            let instances = self.instances_of(index, entry, names).and_then(|instances| {
-                let check = self.scene.check_instances(&instances, &textured, &emits, &balls);
-                check.map(|()| instances).map_err(|message| self.error(&entry.span, message))
+            let instances = self.instances_of(index, entry, names, groups).and_then(|instances| {
+                groups.check_count(&instances, count).map_err(|message| self.error(&entry.span, message))?;
+                named[instances.group] = true;
+                count += groups.count(&instances);
+                let all = groups.expanded(&instances, &|id| matches!(self.scene.materials[id].kind, MaterialKind::Pass));
+                for part in &all {
+                    let check = self.scene.check_instances(part, &textured, &emits, &balls);
+                    let of_held = |message: String| match part.label == instances.label {
+                        true => message,
+                        false => format!(
+                            "of `{}` within `{}`: {message}",
+                            self.scene.groups[part.group].name,
+                            groups.name(instances.group)
+                        ),
+                    };
+                    check.map_err(|message| self.error(&entry.span, of_held(message)))?;
+                }
+                Ok(all)
             });
             let instances = self.note(instances);
-            self.scene.instances.extend(instances);
+            self.scene.instances.extend(instances.into_iter().flatten());
         }
-        for (index, group) in self.scene.groups.iter().enumerate() {
-            if !self.scene.instances.iter().any(|instances| instances.group == index) && self.errors.is_empty() {
-                let warning = format!("{}: no [[instance]] names the group `{}`: it is not seen", self.document.name, group.name);
+        for (index, is_seen) in groups.reached_from(&named).into_iter().enumerate() {
+            if !is_seen && self.errors.is_empty() {
+                let warning =
+                    format!("{}: no [[instance]] names the group `{}`: it is not seen", self.document.name, groups.name(index));
                 self.scene.warnings.push(warning);
             }
         }
     }
 
+    /// An entry, whose group is one of the file's.
     fn instances_of(
         &mut self,
         index: usize,
         entry: &Located<InstanceEntry>,
         names: &HashMap<String, usize>,
+        groups: &Groups,
     ) -> Result<Instances, SceneError> {
         let written = &entry.value;
         let group = self.look_up(names, &written.group, "group")?;
-        let places = match (&written.places, &written.file) {
+        let InstanceEntry { transform, places, file, .. } = written;
+        let places = WrittenPlaces { transform: transform.as_ref(), places: places.as_ref(), file: file.as_ref() };
+        let (places, transform) = self.places(&places)?;
+        let material = written.material.as_ref().map(|name| self.material_id(name)).transpose()?;
+        let motion = written.motion.as_ref().map_or(Ok(None), |motion| self.motion(motion))?;
+        if let (Some(steps), Some(written)) = (&motion, &written.motion) {
+            steps.check(self.scene.camera.shutter).map_err(|(_, message)| self.error(&written.span, message))?;
+        }
+        if let (Some(pivot), None) = (&written.pivot, &written.motion) {
+            return Err(self.error(&pivot.span, "`pivot` is what `motion` is about, which is missing"));
+        }
+        let pivot = written.pivot.as_ref().map(|pivot| vector(pivot.value));
+        let label = format!("instance[{index}] of `{}`", groups.name(group));
+        Ok(Instances { label, group, places: Arc::new(places), transform, material, motion, pivot })
+    }
+
+    /// The places, one where none are written, and what comes behind them.
+    fn places(&self, written: &WrittenPlaces<'_>) -> Result<(Vec<DAffine3>, Transform), SceneError> {
+        let places = match (written.places, written.file) {
             (Some(places), Some(_)) => return Err(self.error(&places.span, "an instance has either `places` or `file`")),
             (Some(places), None) => places.value.iter().map(|place| affine(place.value.0.map(|number| number.0))).collect(),
             (None, Some(file)) => self.places_of_file(file)?,
             (None, None) => vec![DAffine3::IDENTITY],
         };
-        let material = written.material.as_ref().map(|name| self.material_id(name)).transpose()?;
-        let transform = written.transform.as_ref().map_or(Ok(Transform::default()), |transform| self.transform(transform))?;
-        let motion = written.motion.as_ref().map_or(Ok(None), |motion| self.motion(motion))?;
-        if let (Some(steps), Some(written)) = (&motion, &written.motion) {
-            steps.check(self.scene.camera.shutter).map_err(|(_, message)| self.error(&written.span, message))?;
-        }
-        let label = format!("instance[{index}] of `{}`", self.scene.groups[group].name);
-        Ok(Instances { label, group, places: Arc::new(places), transform, material, motion })
+        let transform = written.transform.map_or(Ok(Transform::default()), |transform| self.transform(transform))?;
+        Ok((places, transform))
     }
 
     fn places_of_file(&self, file: &Located<String>) -> Result<Vec<DAffine3>, SceneError> {

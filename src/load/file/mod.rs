@@ -10,6 +10,7 @@ mod instance;
 mod keyframes;
 mod light;
 mod material;
+mod nested;
 mod node;
 mod reader;
 mod resolve;

@@ -30,8 +30,8 @@ struct Placed {
     group: usize,
     map: DAffine3,
     at_rest: Pose,
-    /// Index of its motion.
-    motion: Option<usize>,
+    /// Index of its motion, and what that is about.
+    motion: Option<(usize, DVec3)>,
     /// In place of the group's own.
     material: Option<MaterialId>,
 }
@@ -83,6 +83,7 @@ impl Instances {
             for map in entry.maps() {
                 if is_met {
                     let at_rest = Pose::new(map);
+                    let motion = motion.map(|motion| (motion, entry.origin_of_motion(&map)));
                     unsorted.push(Placed { number, group: entry.group, map, at_rest, motion, material: entry.material });
                     boxes.push(bounds(entry, group, &map, scene.camera.shutter));
                 }
@@ -141,7 +142,7 @@ impl Instances {
     fn pose(&self, placed: &Placed, time: &PathTime) -> Pose {
         match placed.motion {
             None => placed.at_rest,
-            Some(motion) => Pose::new(self.motions[motion].at(time.value(), placed.map.translation) * placed.map),
+            Some((motion, origin)) => Pose::new(self.motions[motion].at(time.value(), origin) * placed.map),
         }
     }
 }
@@ -178,5 +179,5 @@ fn bounds(entry: &Entry, group: &Group, map: &DAffine3, shutter: [f64; 2]) -> [D
     // Rounding, of rays on their way to the group and back.
     let margin = 1e-9 * (low.abs().max(high.abs()).max_element() + (high - low).max_element());
     let at_rest = [low - margin, high + margin];
-    entry.motion.as_ref().map_or(at_rest, |motion| pose::swept_by(motion, map.translation, at_rest, shutter))
+    entry.motion.as_ref().map_or(at_rest, |motion| pose::swept_by(motion, entry.origin_of_motion(map), at_rest, shutter))
 }

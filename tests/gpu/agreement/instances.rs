@@ -7,6 +7,8 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 use gpt::load;
 use gpt::plan::{Chunks, GeometryPlacement, PlanOptions, StageMode};
+use gpt::reference::ReferenceRenderer;
+use gpt::renderer::{RenderRequest, Renderer, Silent};
 use gpt::scene::{Scene, Shape, TransformStep};
 
 use super::strategies::compare_unequal;
@@ -183,6 +185,80 @@ fn instances_agree_path_by_path() {
     for (index, (name, lines)) in cases.iter().enumerate() {
         assert_agrees(name, &stage(lines), &ways()[index % 2]);
     }
+}
+
+/// A fin with two balls on its flanks, in two places, and the same without groups within groups: numbers are exact in binary.
+const PAIRS: [&str; 2] = [
+    "[[group.instance]]\ngroup = \"thing\"\nplaces = [[0.5, 0, 0, -1, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0], [0, 0, -0.5, 1, 0, 0.5, 0, 0.75, 0.5, 0, 0, 0.25]]\n\
+     [[instance]]\ngroup = \"pair\"\nplaces = [[1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0], [-0.5, 0, 0, -1.5, 0, 0.5, 0, 1.5, 0, 0, 0.5, 1]]\n",
+    "[[instance]]\ngroup = \"pair\"\nplaces = [[1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0], [-0.5, 0, 0, -1.5, 0, 0.5, 0, 1.5, 0, 0, 0.5, 1]]\n\
+     [[instance]]\ngroup = \"thing\"\nplaces = [[0.5, 0, 0, -0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0], [0, 0, -0.5, 1.5, 0, 0.5, 0, 0.75, 0.5, 0, 0, 0.25], \
+     [-0.25, 0, 0, -1, 0, 0.25, 0, 1.75, 0, 0, 0.25, 1], [0, 0, 0.25, -2, 0, 0.25, 0, 1.875, 0.25, 0, 0, 1.125]]\n",
+];
+
+fn pairs(lines: &str) -> Scene {
+    let fin = "type = \"mesh\"\npositions = [[-0.5, 0.25, 0], [0.5, 0.25, 0.125], [0, 2, 0]]\nfaces = [[0, 1, 2]]\nmaterial = \"white\"\n";
+    stage(&format!("{}[[group]]\nname = \"pair\"\n[[group.shape]]\n{fin}{lines}", group("checked", true)))
+}
+
+/// Instances within instances are the instances that they come to, on the device and on the reference, to the last bit.
+#[test]
+fn groups_within_groups_show_the_same_picture_bit_for_bit() {
+    let [nested, flat] = PAIRS.map(pairs);
+    assert_eq!((nested.instance_count(), flat.instance_count()), (6, 6));
+    let elsewhere = pairs(&PAIRS[0].replace("0.5, 0, 0, -1,", "0.5, 0, 0, -1.0625,"));
+    let of_reference = reference_bits(&nested);
+    assert!(of_reference == reference_bits(&flat));
+    assert!(of_reference != reference_bits(&elsewhere), "a ball stands elsewhere, and nobody notices");
+    let Some(device) = DEVICE.as_ref() else { return };
+    for options in ways() {
+        let bits = |scene: &Scene| pixel_bits(device, scene, &options, 0..scene.render.spp).0;
+        let of_nested = bits(&nested);
+        assert!(of_nested == bits(&flat), "{options:?}");
+        assert!(of_nested != bits(&elsewhere), "{options:?}: a ball stands elsewhere, and nobody notices");
+    }
+}
+
+fn reference_bits(scene: &Scene) -> Vec<[u32; 3]> {
+    let mut pixels = Vec::new();
+    let request = RenderRequest { rows: 0..scene.film.size[1], samples: 0..scene.render.spp };
+    let mut on_band = |band: gpt::film::Band| {
+        pixels.extend(band.mean.iter().map(|pixel| pixel.map(f32::to_bits)));
+        Ok(())
+    };
+    let mut renderer = ReferenceRenderer::new(scene).expect("the scene is supported");
+    renderer.render(&request, &Silent, &mut on_band).expect("rendering succeeds");
+    pixels
+}
+
+/// What a moving instance holds turns about where that one stands, not about itself.
+#[test]
+fn what_moving_instances_hold_moves_with_them() {
+    let motion = "motion = [{ scale = [1.2, 0.8, 1] }, { rotate = [0.3, 1, 0], degrees = 90 }, { translate = [0.3, 0.2, 0] }]\n";
+    let scene = pairs(&format!("{}{motion}", PAIRS[0]));
+    for options in ways() {
+        assert_agrees("moving pairs", &scene, &options);
+    }
+    // One group with everything in it, which is about the same place by itself.
+    let mut whole = scene.clone();
+    let balls = whole.instances.split_off(1);
+    let own = whole.instances[0].maps().collect::<Vec<_>>();
+    let shapes = balls[..1].iter().flat_map(|entry| entry.maps()).map(|map| own[0].inverse() * map).flat_map(|map| {
+        scene.groups[0].shapes.iter().map(move |shape| {
+            let mut shape = shape.clone();
+            shape.transform.steps.push(TransformStep::Matrix(map));
+            shape
+        })
+    });
+    let pair = whole.instances[0].group;
+    whole.groups[pair].shapes.extend(shapes);
+    let Some(verdict) = compare_unequal(&scene, &whole) else { return };
+    assert!(verdict.agrees, "{verdict:#?}");
+    // The control: each ball turns about itself.
+    let mut apart = scene.clone();
+    apart.instances.iter_mut().for_each(|entry| entry.pivot = None);
+    let Some(verdict) = compare_unequal(&apart, &whole) else { return };
+    assert!(!verdict.agrees, "balls turn about themselves, and nobody notices: {verdict:#?}");
 }
 
 /// Lanes that trace rays of their own, without packets.

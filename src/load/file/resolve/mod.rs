@@ -40,8 +40,8 @@ pub fn resolve<'a>(document: Document<'a>, folder: &'a Path, file: SceneFile, ac
     }
     resolver.shapes(&file.shape);
     let groups = resolver.groups(&file.group);
-    if let Some(groups) = resolver.note(groups) {
-        resolver.instances(&file.instance, &groups);
+    if let Some((names, groups)) = resolver.note(groups) {
+        resolver.instances(&file.instance, &names, &groups);
     }
     resolver.lights(&file.light);
     resolver.finish()
