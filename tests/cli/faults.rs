@@ -171,6 +171,11 @@ fn every_command_survives_a_lost_device() {
     for command in ["verify spheres --size 24x16 --spp 4", "bench speed spheres --size 32x32"] {
         let (code, _, said) = run_with(&place, layer, "vkQueueSubmit:3:lost", command);
         assert_eq!(code, Some(5), "{command}: {said}");
+        // And a driver that never signals, within the time that is given.
+        let start = Instant::now();
+        let (code, _, said) = run_with(&place, layer, "vkQueueSubmit:3:never", &format!("{command} --device-timeout 3"));
+        assert_eq!(code, Some(5), "{command}: {said}");
+        assert!(said.contains("--device-timeout") && start.elapsed() < Duration::from_secs(40), "{command}: {said}");
     }
 }
 

@@ -1,6 +1,7 @@
 //! What can be typed after `gpt bench`.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::{Args, Subcommand, ValueEnum};
 use gpt::bench::growth::Growth;
@@ -11,10 +12,13 @@ use gpt::scene::settings::MOST_SAMPLES;
 use crate::cli::choice::by_name;
 use crate::cli::setting_flags::SettingAxes;
 use crate::cli::traversal::TraversalArguments;
-use crate::cli::values::{parse_device, parse_size};
+use crate::cli::values::{parse_device, parse_seconds, parse_size};
 
 #[derive(Debug, Args)]
 pub struct BenchArguments {
+    /// Take a device for lost (exit code 5) that does not finish a submission, or a kernel's compilation, in this time
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = parse_seconds, global = true)]
+    pub device_timeout: Duration,
     #[command(subcommand)]
     pub bench: Bench,
 }

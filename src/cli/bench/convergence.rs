@@ -8,6 +8,7 @@ use gpt::bench::schedule::SampleSchedule;
 use gpt::bench::setting::Axes;
 use gpt::bench::subject::{BenchError, Devices};
 use gpt::load;
+use gpt::plan::PlanOptions;
 use gpt::scene::Scene;
 use gpt::verify;
 use serde::Serialize;
@@ -30,7 +31,7 @@ struct File<'a> {
 }
 
 /// Measures scene after scene and writes the results.
-pub fn run(arguments: &ConvergenceArguments) -> Result<Exit, Failure> {
+pub fn run(arguments: &ConvergenceArguments, plan: &PlanOptions) -> Result<Exit, Failure> {
     let scenes = load(arguments)?;
     let axes = Axes::from(&arguments.axes);
     let settings = axes.variants(&scenes[0].render).len();
@@ -46,7 +47,7 @@ pub fn run(arguments: &ConvergenceArguments) -> Result<Exit, Failure> {
         reference_spp: arguments.reference_spp.unwrap_or(arguments.spp.saturating_mul(16)),
         store: arguments.references.clone().unwrap_or_else(Store::default_folder),
     };
-    let mut devices = Devices::default();
+    let mut devices = Devices::for_plans(plan);
     let mut measured = Vec::new();
     for scene in &scenes {
         match measure(scene, &options, &mut devices, &OnlyStops, &mut |what| results.say(what)) {

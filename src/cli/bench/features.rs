@@ -4,6 +4,7 @@ use gpt::bench::features::{Feature, FeatureCost, FeatureOptions, features, measu
 use gpt::bench::machine::Machine;
 use gpt::bench::report::{features_csv, features_page, features_text};
 use gpt::bench::subject::{BenchError, Devices};
+use gpt::plan::PlanOptions;
 use serde::Serialize;
 
 use super::arguments::FeatureArguments;
@@ -19,13 +20,13 @@ struct File<'a> {
 }
 
 /// Measures feature after feature and writes the results.
-pub fn run(arguments: &FeatureArguments) -> Result<Exit, Failure> {
+pub fn run(arguments: &FeatureArguments, plan: &PlanOptions) -> Result<Exit, Failure> {
     let wanted = wanted(&arguments.features)?;
     let options =
         FeatureOptions { device: arguments.device.clone(), size: arguments.size, spp: arguments.spp, rounds: arguments.rounds };
     let results = Results::prepare(&arguments.output, "features")?;
     interrupt::install()?;
-    let mut devices = Devices::default();
+    let mut devices = Devices::for_plans(plan);
     let mut costs: Vec<FeatureCost> = Vec::new();
     for (index, feature) in wanted.iter().enumerate() {
         results.say(&format!("{} ({} of {})", feature.name, index + 1, wanted.len()));

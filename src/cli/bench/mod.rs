@@ -8,15 +8,17 @@ mod speed;
 
 use arguments::Bench;
 pub use arguments::BenchArguments;
+use gpt::plan::PlanOptions;
 pub use output::{OnlyStops, command};
 
 use super::exit::{Exit, Failure};
 
 /// Does the measurement that was asked for.
 pub fn run(arguments: &BenchArguments) -> Result<Exit, Failure> {
+    let plan = PlanOptions { device_timeout: Some(arguments.device_timeout), ..PlanOptions::default() };
     match &arguments.bench {
-        Bench::Convergence(arguments) => convergence::run(arguments),
-        Bench::Speed(arguments) => speed::run(arguments),
-        Bench::Features(arguments) => features::run(arguments),
+        Bench::Convergence(arguments) => convergence::run(arguments, &plan),
+        Bench::Speed(arguments) => speed::run(arguments, plan),
+        Bench::Features(arguments) => features::run(arguments, &plan),
     }
 }

@@ -6,7 +6,7 @@ use gpt::bench::report::{speed_csv, speed_page, speed_text};
 use gpt::bench::speed::{SpeedOptions, SpeedTable, measure};
 use gpt::bench::subject::{BenchError, Devices};
 use gpt::load;
-use gpt::plan::StageMode;
+use gpt::plan::{PlanOptions, StageMode};
 use gpt::scene::Scene;
 use serde::Serialize;
 
@@ -23,7 +23,7 @@ struct File<'a> {
 }
 
 /// Measures table after table and writes the results.
-pub fn run(arguments: &SpeedArguments) -> Result<Exit, Failure> {
+pub fn run(arguments: &SpeedArguments, plan: PlanOptions) -> Result<Exit, Failure> {
     let default = ["cornell", "spheres", "veach-mis"].map(str::to_owned);
     let names = if arguments.scenes.is_empty() { &default[..] } else { &arguments.scenes };
     let scenes: Result<Vec<Scene>, Failure> = names.iter().map(|name| Ok(load::load(Some(name))?)).collect();
@@ -31,7 +31,7 @@ pub fn run(arguments: &SpeedArguments) -> Result<Exit, Failure> {
     for warning in scenes.iter().flat_map(|scene| &scene.warnings) {
         terminal::warn(warning);
     }
-    let plan = arguments.traversal.options_on(&arguments.device)?;
+    let plan = PlanOptions { device_timeout: plan.device_timeout, ..arguments.traversal.options_on(&arguments.device)? };
     let options = SpeedOptions {
         device: arguments.device.clone(),
         stages: arguments.stages.map(|stages| match stages {
