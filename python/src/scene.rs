@@ -7,7 +7,9 @@ use std::time::Duration;
 use gpt::choice::Choice;
 use gpt::film::Layer;
 use gpt::load::{LoadOptions, SceneError, builtin_names, load_toml_str, load_with};
+use gpt::plan::PlanOptions;
 use gpt::render::layers::render_layers;
+use gpt::render::stats::Stats;
 use gpt::{DeviceChoice, RenderOptions, Renderer};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -116,13 +118,16 @@ impl Scene {
             let mut renderer = Renderer::new(&scene, &options)?;
             let layers = render_layers(&scene, &options, (&wanted, false), watcher, &mut |_, _| Ok::<_, gpt::Error>(None))?;
             let image = renderer.image(watcher)?;
-            let stats = stats(&image, &scene, &renderer);
+            let mut stats = Stats::of_image(&image, &scene, &options);
+            if let Some(stats) = &mut stats {
+                stats.notice = renderer.notice().map(str::to_owned);
+            }
             Ok((layers, image, stats))
         })?;
         let (channels, image, stats) = outcome.map_err(raised)?;
         let layers = py.detach(|| arrays(&channels.unwrap_or_default(), &image))?;
         let layers = layers.into_iter().map(|(name, array)| Ok((name, Py::new(py, array)?))).collect::<PyResult<_>>()?;
-        Ok(Rendered { picture: Py::new(py, Picture(image))?, layers, stats: stats.to_string() })
+        Ok(Rendered { picture: Py::new(py, Picture(image))?, layers, stats: json(&stats)? })
     }
 }
 
@@ -138,37 +143,6 @@ fn layer_of(name: &str) -> PyResult<Layer> {
     })
 }
 
-/// What the render did, with the names of `gpt render --stats`.
-fn stats(image: &gpt::Image, scene: &gpt::Scene, renderer: &Renderer) -> serde_json::Value {
-    let Some(outcome) = image.outcome() else { return serde_json::Value::Null };
-    let report = &outcome.report;
-    let pixels = f64::from(image.width()) * f64::from(image.height());
-    serde_json::json!({
-        "scene": scene.name,
-        "device": renderer.device(),
-        "notice": renderer.notice(),
-        "width": image.width(),
-        "height": image.height(),
-        "spp": scene.render.spp,
-        "spp_done": report.samples as f64 / pixels,
-        "stopped_by": match outcome.stop {
-            gpt::Stop::Samples => "samples",
-            gpt::Stop::TimeLimit => "time_limit",
-            gpt::Stop::TargetError => "target_error",
-            gpt::Stop::Interrupted => "interrupted",
-        },
-        "expected_error": outcome.error.map(|error| error.mean),
-        "error_bound": outcome.error.map(|error| error.upper),
-        "seconds": { "build": report.build_seconds, "compile": report.compile_seconds, "render": report.render_seconds },
-        "samples": report.samples,
-        "samples_per_second": report.samples as f64 / report.render_seconds.max(1e-9),
-        "rays": report.rays,
-        "non_finite_samples": report.non_finite_samples,
-        "peak_device_bytes": report.peak_device_bytes,
-        "version": env!("CARGO_PKG_VERSION"),
-    })
-}
-
 /// Whether a device and the CPU reference agree on a scene, as JSON.
 #[pyfunction]
 pub fn verify(py: Python<'_>, scene: &Scene, size: Option<(u32, u32)>, spp: Option<u32>, device: &str) -> PyResult<String> {
@@ -179,8 +153,13 @@ pub fn verify(py: Python<'_>, scene: &Scene, size: Option<(u32, u32)>, spp: Opti
         Some((width, height)) => scene.film.size = [width, height],
         None => gpt::verify::shrink(&mut scene, gpt::verify::DEFAULT_SIDE),
     }
-    let verdict = py.detach(|| gpt::verify(&scene, &choice)).map_err(raised)?;
-    serde_json::to_string(&verdict).map_err(|error| PyValueError::new_err(error.to_string()))
+    let options = PlanOptions::default();
+    let verdict = watched(py, None, |watcher| gpt::verify::verify_watched(&scene, &choice, &options, watcher))?;
+    json(&verdict.map_err(|error| raised(error.into()))?)
+}
+
+fn json(value: &impl serde::Serialize) -> PyResult<String> {
+    serde_json::to_string(value).map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
 /// Names of the scenes that are part of the program.

@@ -2,6 +2,7 @@
 
 import ast
 import inspect
+import json
 import os
 import re
 import shutil
@@ -19,6 +20,8 @@ import numpy as np
 import gpt_pathtracer as gpt
 
 ROOT = Path(__file__).resolve().parent.parent.parent
+#: The program that the wheel brings.
+PROGRAM = Path(sys.executable).parent / ("gpt.exe" if os.name == "nt" else "gpt")
 
 SCENE = """
 [film]
@@ -75,6 +78,20 @@ class Rendering(unittest.TestCase):
         self.assertEqual((stats["width"], stats["height"], stats["spp"], stats["samples"]), (10, 6, 4, 240))
         self.assertEqual((stats["device"], stats["stopped_by"]), ("CPU reference", "samples"))
         self.assertGreaterEqual(stats["rays"], 240)
+        self.assertEqual((stats["spp_done"], len(stats["mean"]), stats["notice"]), (4, 3, None))
+
+    def test_stats_are_those_of_the_program(self):
+        """The same keys, and the same numbers where both render the same."""
+        with tempfile.TemporaryDirectory() as folder:
+            scene = Path(folder, "ball.toml")
+            scene.write_text(SCENE)
+            arguments = ["render", scene, "--device", "cpu", "-q", "-o", Path(folder, "ball.exr"), "--stats", "-"]
+            of_program = json.loads(subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=True).stdout)
+            ours = gpt.Scene.load(scene).render(device="cpu").stats
+        self.assertEqual(ours.keys(), of_program.keys())
+        for key in ("scene", "scene_hash", "spp", "spp_done", "samples", "rays", "stopped_by", "sampler", "filter", "version"):
+            self.assertEqual(ours[key], of_program[key], key)
+        np.testing.assert_allclose(ours["mean"], of_program["mean"], rtol=1e-6)
 
     def test_layers_come_by_their_names(self):
         layers = self.scene.render(device=device(), layers=["normal", "depth", "albedo", "ids"]).layers
@@ -136,14 +153,21 @@ class Rendering(unittest.TestCase):
 
     @unittest.skipIf(os.name == "nt", "signals of Unix")
     def test_ctrl_c_ends_it(self):
+        self.interrupt("gpt.Scene.from_toml(sys.stdin.read()).render(spp=1_000_000_000, device='cpu')")
+
+    @unittest.skipIf(os.name == "nt" or device() == "cpu", "signals of Unix, and a device to verify")
+    def test_ctrl_c_ends_verification(self):
+        self.interrupt("gpt.verify(gpt.Scene.from_toml(sys.stdin.read()), size=(400, 400), spp=1_000_000)")
+
+    def interrupt(self, call):
+        """Sends Ctrl-C while `call` is at work in a program of its own."""
         code = "import sys, gpt_pathtracer as gpt\nprint('ready', flush=True)\n"
-        code += "try:\n  gpt.Scene.from_toml(sys.stdin.read()).render(spp=1_000_000_000, device='cpu')\n"
-        code += "except KeyboardInterrupt:\n  print('interrupted', flush=True)\n"
+        code += f"try:\n  {call}\nexcept KeyboardInterrupt:\n  print('interrupted', flush=True)\n"
         child = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         child.stdin.write(SCENE)
         child.stdin.close()
         self.assertEqual(child.stdout.readline().strip(), "ready")
-        time.sleep(1)
+        time.sleep(2)
         child.send_signal(signal.SIGINT)
         self.assertEqual(child.stdout.readline().strip(), "interrupted")
         self.assertEqual(child.wait(60), 0)
@@ -199,8 +223,7 @@ class Files(unittest.TestCase):
             gpt.compare(np.zeros((2, 3)), np.zeros((2, 3)))
 
     def test_the_program_is_there(self):
-        program = Path(sys.executable).parent / ("gpt.exe" if os.name == "nt" else "gpt")
-        said = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+        said = subprocess.run([PROGRAM, "--version"], capture_output=True, text=True, check=True).stdout
         self.assertEqual(said.strip(), f"gpt {gpt.__version__}")
 
     def test_types_are_stubbed(self):

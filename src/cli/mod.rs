@@ -35,7 +35,6 @@ mod sequence;
 mod setting_flags;
 mod settings;
 mod shell;
-mod stats;
 mod terminal;
 mod test;
 mod traversal;

@@ -10,6 +10,7 @@ use gpt::plan::host::{HostNeeds, host_memory};
 use gpt::plan::memory::FILM_BYTES;
 use gpt::plan::{DeviceLimits, PlanOptions};
 use gpt::render::progressive::STREAMS;
+use gpt::render::stats::Stats;
 use gpt::renderer::{DeviceChoice, RenderError, RenderReport};
 use gpt::scene_writer;
 use gpt::{Outcome, RenderOptions, Renderer, Scene, Stop};
@@ -22,9 +23,8 @@ use super::layers::Layers;
 use super::machine_progress::Needs;
 use super::pictures::{PictureSummary, Pictures, is_stdout, output_formats};
 use super::progress::Progress;
-use super::render_summary::{tell, tell_of_error};
+use super::render_summary::{tell, tell_of_error, write_stats};
 use super::sequence::{Done, Frame, Ready, Sequence, has_own_stats, tell_of_keyframes};
-use super::stats::{self, Stats};
 use super::view::{Live, Phase, Watching};
 use super::{denoise, first_look, interrupt, layers, settings, terminal, watch};
 
@@ -175,28 +175,19 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
         checkpoint::remove_of_layers(&arguments.checkpoint, outputs);
     }
 
-    let report = outcome.report;
-    let mut stats = Stats::new(scene, &report);
+    let mut stats = Stats::new(scene, options, &outcome);
     stats.frame = time.frame();
+    stats.notice = renderer.notice().map(str::to_owned);
     stats.resumed(kept.resumed_samples);
-    [stats.width, stats.height] = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
-    stats.expected_host_bytes = needs.host_bytes;
-    stats.spp_done = summary.samples[0];
-    stats.stopped_by = stop_name(outcome.stop);
-    stats.adaptive = arguments.goal.adaptive;
-    stats.target_error = arguments.goal.target_error;
-    stats.expected_error = outcome.error.map(|error| error.mean);
-    stats.error_bound = outcome.error.map(|error| error.upper);
+    stats.expected_host_bytes = Some(needs.host_bytes);
     stats.scene_hash = provenance.scene_hash;
-    stats.first_sample = arguments.estimate.first_sample.unwrap_or(0);
-    stats.mean = summary.mean;
-    stats.clamped_light = stats.clamped_samples.map(|_| report.clamped_light(scene.render.clamp, summary.mean));
+    stats.picture(scene, &outcome, summary.samples[0], summary.mean);
     stats.outputs = summary.places.iter().map(|path| path.display().to_string()).collect();
     stats.seconds.load = load_seconds;
     stats.seconds.write = summary.seconds_writing;
     stats.seconds.total = started.elapsed().as_secs_f64();
     if let Some(path) = arguments.stats.as_ref().filter(|path| has_own_stats(arguments, path)) {
-        stats::write(&named(path, time.number()), &stats)?;
+        write_stats(&named(path, time.number()), &stats)?;
     }
     tell(&stats, &summary, arguments.quiet);
     kept.tell();
@@ -211,7 +202,7 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
         denoise::denoise_render(&Library::open()?, outputs, arguments.display.display(), arguments.quiet)?;
     }
     live.end(if broke_off { Phase::Stopped } else { Phase::Finished }, "", &stats.outputs);
-    let exit = exit(&report, arguments.strict);
+    let exit = exit(&outcome.report, arguments.strict);
     Ok(Done::Now { exit, renderer: Box::new(renderer), stats: Box::new(stats) })
 }
 
@@ -363,15 +354,6 @@ fn save_rest(pictures: Pictures) {
     }
     for failure in failures {
         terminal::warn(&failure.to_string());
-    }
-}
-
-fn stop_name(stop: Stop) -> &'static str {
-    match stop {
-        Stop::Samples => "samples",
-        Stop::TimeLimit => "time_limit",
-        Stop::TargetError => "target_error",
-        Stop::Interrupted => "interrupted",
     }
 }
 

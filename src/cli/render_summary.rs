@@ -1,10 +1,15 @@
 //! What is said when a render is over.
 
+use std::path::Path;
+
+use gpt::output::AtomicFile;
+use gpt::render::stats::Stats;
 use gpt::{ErrorEstimate, Stop};
+use serde::Serialize;
 
 use super::arguments::RenderArguments;
-use super::pictures::PictureSummary;
-use super::stats::Stats;
+use super::exit::Failure;
+use super::pictures::{PictureSummary, is_stdout};
 use super::terminal;
 
 /// Whether the picture is as good as was asked for.
@@ -18,6 +23,18 @@ pub fn tell_of_error(arguments: &RenderArguments, error: Option<ErrorEstimate>, 
     } else if !arguments.quiet {
         terminal::note(&format!("relative mean squared error: {mean:.3e} expected, below {upper:.3e} with 95 % confidence"));
     }
+}
+
+/// Writes statistics to a file, or to standard output.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn write_stats(path: &Path, stats: &impl Serialize) -> Result<(), Failure> {
+    if is_stdout(path) {
+        return terminal::answer_json(stats);
+    }
+    let json = serde_json::to_string_pretty(stats).map_err(|error| Failure::Other(error.to_string()))?;
+    Ok(AtomicFile::write(path, (json + "\n").as_bytes())?)
 }
 
 /// What a person should know when it is over.

@@ -7,6 +7,7 @@ use std::time::Instant;
 use gpt::load::SceneError;
 use gpt::output::PictureFormat;
 use gpt::render::choice::Choice;
+use gpt::render::stats::Stats;
 use gpt::renderer::RenderError;
 use gpt::scene::{BulkDigest, InvalidScene};
 use gpt::{RenderOptions, Renderer, Scene};
@@ -16,7 +17,7 @@ use super::exit::{Exit, Failure};
 use super::frames::{FrameTime, Span, has_place, named};
 use super::pictures::is_stdout;
 use super::progress::Progress;
-use super::stats::{self, Stats};
+use super::render_summary::write_stats;
 use super::view::Live;
 use super::{interrupt, terminal};
 
@@ -181,7 +182,7 @@ impl Sequence<'_> {
     /// Writes the statistics of frames that share a file, as a list.
     fn write_stats(&self, all: &[Stats]) -> Result<(), Failure> {
         let shared = self.arguments.stats.as_deref().filter(|path| !has_own_stats(self.arguments, path));
-        shared.map_or(Ok(()), |path| stats::write(path, &all))
+        shared.map_or(Ok(()), |path| write_stats(path, &all))
     }
 }
 

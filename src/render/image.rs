@@ -84,6 +84,16 @@ impl Image {
         self.rendered.as_ref().map_or(0, of)
     }
 
+    /// Samples of the pixel that has fewest, of a picture that was rendered.
+    pub(super) fn fewest_samples(&self) -> u32 {
+        self.rendered.as_ref().map_or(0, |rendered| rendered.fewest_samples)
+    }
+
+    /// The fingerprint of the scene of a picture that was rendered.
+    pub(super) fn scene_hash(&self) -> Option<&str> {
+        self.rendered.as_ref().map(|rendered| rendered.provenance.scene_hash.as_str())
+    }
+
     /// What the render did, of a picture that was rendered.
     pub fn outcome(&self) -> Option<&Outcome> {
         self.rendered.as_ref().map(|rendered| &rendered.outcome)
@@ -107,7 +117,7 @@ impl Image {
         let output::Image { width, height, ref pixels } = self.pixels;
         let provenance = self.rendered.as_ref().map(|rendered| rendered.provenance.clone());
         let mut file = PictureFile::create(path, format, &PictureSpec { width, height, provenance, ..PictureSpec::default() })?;
-        let samples = self.rendered.as_ref().map_or(0, |rendered| rendered.fewest_samples);
+        let samples = self.fewest_samples();
         let counts = self.rendered.as_ref().and_then(|rendered| rendered.counts.clone());
         let band = Band { first_row: 0, width, rows: height, samples, counts, mean: pixels.clone(), ..Band::default() };
         file.write_band(&Arc::new(band)).map_err(|source| OutputError::Write { path: path.to_owned(), source })?;

@@ -23,7 +23,7 @@ use crate::film::Band;
 use crate::gpu::{Device, GpuRenderer};
 use crate::plan::{Fault, PlanOptions};
 use crate::reference::ReferenceRenderer;
-use crate::renderer::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
+use crate::renderer::{DeviceChoice, Observer, RenderError, RenderRequest, Renderer, Silent};
 use crate::scene::Scene;
 use cause::{Cause, Differing, Selection};
 
@@ -132,6 +132,20 @@ pub fn verify(scene: &Scene, choice: &DeviceChoice, options: &PlanOptions) -> Re
     verify_on(&Device::open_for(choice, options)?, scene, options, None)
 }
 
+/// As [`verify`]; None where the observer ends it.
+///
+/// # Errors
+/// What either renderer reports.
+pub fn verify_watched(
+    scene: &Scene,
+    choice: &DeviceChoice,
+    options: &PlanOptions,
+    observer: &dyn Observer,
+) -> Result<Option<Verdict>, RenderError> {
+    let mut gpu = GpuRenderer::on(&Device::open_for(choice, options)?, scene, options)?;
+    compare_watched(scene, &mut gpu, &mut ReferenceRenderer::new(scene)?, None, observer)
+}
+
 /// As [`verify`], on a device that is already open. `share` is what is [known](shares) of the scene's share of matching paths.
 ///
 /// # Errors
@@ -164,6 +178,21 @@ pub fn compare(
     cpu: &mut ReferenceRenderer,
     share: Option<shares::MeasuredShare>,
 ) -> Result<Verdict, RenderError> {
+    let verdict = compare_watched(scene, gpu, cpu, share, &Silent)?;
+    verdict.ok_or_else(|| RenderError::Internal("the comparison ended without being asked to".to_owned()))
+}
+
+/// As [`compare`]; None where the observer ends it.
+///
+/// # Errors
+/// What either renderer reports.
+pub fn compare_watched(
+    scene: &Scene,
+    gpu: &mut dyn Renderer,
+    cpu: &mut ReferenceRenderer,
+    share: Option<shares::MeasuredShare>,
+    observer: &dyn Observer,
+) -> Result<Option<Verdict>, RenderError> {
     let [width, height] = scene.film.size;
     let spp = scene.render.spp;
     let pixels = width as usize * height as usize;
@@ -171,8 +200,11 @@ pub fn compare(
     let mut tally = Tally::default();
     let mut non_finite_samples = 0;
     for sample in 0..spp {
-        let (ours, refused) = one_sample(gpu, height, sample)?;
-        let (theirs, _) = one_sample(cpu, height, sample)?;
+        let (ours, refused) = one_sample(gpu, height, sample, observer)?;
+        let (theirs, _) = one_sample(cpu, height, sample, observer)?;
+        if observer.stop_requested() {
+            return Ok(None);
+        }
         non_finite_samples += refused;
         for (index, (a, b)) in ours.iter().zip(&theirs).enumerate() {
             tally.add(&Differing { path: [index as u32 % width, index as u32 / width, sample], first: *a, second: *b });
@@ -187,7 +219,9 @@ pub fn compare(
     let comparison = test(&gpu_picture, &cpu_picture, width)?;
     let paths = pixels as u64 * u64::from(spp);
     let mean = cpu_picture.iter().flatten().map(|value| f64::from(value.abs())).sum::<f64>() / (3 * pixels) as f64;
-    let followed = follow(tally.differing.into_chosen(), cpu, cause::of_cancellation(mean));
+    let Some(followed) = follow(tally.differing.into_chosen(), cpu, cause::of_cancellation(mean), observer) else {
+        return Ok(None);
+    };
     let mut verdict = Verdict {
         scene: scene.name.clone(),
         device: gpu.device().to_owned(),
@@ -217,7 +251,7 @@ pub fn compare(
     };
     verdict.missed = missed(&verdict);
     verdict.agrees = verdict.missed.is_empty();
-    Ok(verdict)
+    Ok(Some(verdict))
 }
 
 /// Each limit that a verdict misses, with what was wanted and what was found.
@@ -254,11 +288,19 @@ struct Followed {
     unexplained: Vec<UnexplainedPath>,
 }
 
-/// Finds out why these paths differ, the largest difference first.
-fn follow(mut differing: Vec<Differing>, reference: &ReferenceRenderer, of_cancellation: f64) -> Followed {
+/// Finds out why these paths differ, the largest difference first; None where the observer ends it.
+fn follow(
+    mut differing: Vec<Differing>,
+    reference: &ReferenceRenderer,
+    of_cancellation: f64,
+    observer: &dyn Observer,
+) -> Option<Followed> {
     differing.sort_by(|a, b| b.difference().total_cmp(&a.difference()));
     let mut followed = Followed::default();
     for path in differing {
+        if observer.stop_requested() {
+            return None;
+        }
         followed.paths += 1;
         let cause = if path.difference() <= of_cancellation { Cause::Steepness } else { cause::of(&path, reference) };
         match cause {
@@ -274,7 +316,7 @@ fn follow(mut differing: Vec<Differing>, reference: &ReferenceRenderer, of_cance
             }
         }
     }
-    followed
+    Some(followed)
 }
 
 /// The paired test of TRUTHS: every tile and the whole picture.
@@ -330,10 +372,15 @@ impl Tally {
 }
 
 /// One sample of every pixel, and how many the film refused.
-fn one_sample(renderer: &mut dyn Renderer, height: u32, sample: u32) -> Result<(Vec<[f32; 3]>, u64), RenderError> {
+fn one_sample(
+    renderer: &mut dyn Renderer,
+    height: u32,
+    sample: u32,
+    observer: &dyn Observer,
+) -> Result<(Vec<[f32; 3]>, u64), RenderError> {
     let pixels = Mutex::new(Vec::new());
     let request = RenderRequest { rows: 0..height, samples: sample..sample + 1 };
-    let report = renderer.render(&request, &Silent, &mut |band: Band| {
+    let report = renderer.render(&request, observer, &mut |band: Band| {
         pixels.lock().unwrap_or_else(std::sync::PoisonError::into_inner).extend(band.mean);
         Ok(())
     })?;

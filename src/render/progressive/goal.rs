@@ -33,6 +33,18 @@ pub enum Stop {
     Interrupted,
 }
 
+impl Stop {
+    /// As statistics name it.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Samples => "samples",
+            Self::TimeLimit => "time_limit",
+            Self::TargetError => "target_error",
+            Self::Interrupted => "interrupted",
+        }
+    }
+}
+
 /// What became of a render.
 #[derive(Debug, Clone)]
 pub struct Outcome {

@@ -1,19 +1,15 @@
-//! `--stats`: what a render did, as JSON for other programs.
+//! What a render did, for other programs: the keys of `--stats` and of a picture's statistics in Python.
 
-use std::path::Path;
-
-use gpt::output::AtomicFile;
-use gpt::packed::hierarchy::Traversal;
-use gpt::plan::Decision;
-use gpt::renderer::RenderReport;
-use gpt::scene::{RenderSettings, Scene};
 use serde::Serialize;
 
-use super::exit::Failure;
-use super::pictures::is_stdout;
-use super::terminal;
+use super::image::Image;
+use super::options::RenderOptions;
+use super::progressive::Outcome;
+use crate::packed::hierarchy::Traversal;
+use crate::plan::Decision;
+use crate::scene::{RenderSettings, Scene};
 
-/// The keys of the file. They stay as they are; new ones may be added.
+/// The keys. They stay as they are; new ones may be added.
 #[derive(Debug, Serialize)]
 pub struct Stats {
     pub scene: String,
@@ -22,6 +18,8 @@ pub struct Stats {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frame: Option<f64>,
     pub device: String,
+    /// Why the CPU renders, where a GPU was looked for.
+    pub notice: Option<String>,
     /// `bvh4` or `ray_query`; null where the device tests every primitive, and for the CPU reference.
     pub hierarchy: Option<&'static str>,
     /// What the plan decided for the device, and why; empty for the CPU reference.
@@ -60,8 +58,8 @@ pub struct Stats {
     pub peak_device_bytes: u64,
     /// Largest resident set of the process so far; null where the system does not say.
     pub peak_host_bytes: Option<u64>,
-    /// What was expected of it before: the peak is within a factor of two.
-    pub expected_host_bytes: u64,
+    /// What was expected of it before: the peak is within a factor of two. Null where nothing was.
+    pub expected_host_bytes: Option<u64>,
     /// Mean radiance of the picture.
     pub mean: [f64; 3],
     pub interrupted: bool,
@@ -85,15 +83,17 @@ pub struct Seconds {
 }
 
 impl Stats {
-    /// What the scene and the renderer know; the rest starts empty.
-    pub fn new(scene: &Scene, report: &RenderReport) -> Self {
-        let [width, height] = scene.film.size;
+    /// What the scene, as it was rendered, and the render know. What the picture and the program know starts empty.
+    pub fn new(scene: &Scene, options: &RenderOptions, outcome: &Outcome) -> Self {
+        let report = &outcome.report;
+        let [width, height] = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
         let per_second = |count: u64| if report.render_seconds > 0.0 { count as f64 / report.render_seconds } else { 0.0 };
         Self {
             scene: scene.name.clone(),
             scene_hash: String::new(),
             frame: None,
             device: report.device.clone(),
+            notice: None,
             hierarchy: report.traversal.map(Traversal::key),
             decisions: report.decisions.clone(),
             compiled_in: report.compiled_in.clone(),
@@ -102,12 +102,12 @@ impl Stats {
             filter: scene.film.filter.to_string(),
             settings: scene.render.clone(),
             spp_done: 0,
-            stopped_by: "samples",
-            adaptive: false,
-            target_error: None,
-            expected_error: None,
-            error_bound: None,
-            first_sample: 0,
+            stopped_by: outcome.stop.name(),
+            adaptive: options.adaptive,
+            target_error: options.target_error,
+            expected_error: outcome.error.map(|error| error.mean),
+            error_bound: outcome.error.map(|error| error.upper),
+            first_sample: options.first_sample,
             seconds: Seconds {
                 build: report.build_seconds,
                 compile: report.compile_seconds,
@@ -124,16 +124,40 @@ impl Stats {
             clamped_light: None,
             peak_device_bytes: report.peak_device_bytes,
             peak_host_bytes: peak_host_bytes(),
-            expected_host_bytes: 0,
+            expected_host_bytes: None,
             mean: [0.0; 3],
             interrupted: report.interrupted,
             outputs: Vec::new(),
             version: env!("CARGO_PKG_VERSION"),
         }
     }
-}
 
-impl Stats {
+    /// Of a picture in memory that was rendered so.
+    pub fn of_image(image: &Image, scene: &Scene, options: &RenderOptions) -> Option<Self> {
+        let outcome = image.outcome()?;
+        let mut stats = Self::new(scene, options, outcome);
+        stats.scene_hash = image.scene_hash()?.to_owned();
+        let pixels = image.pixels();
+        let mut mean = [0.0; 3];
+        for pixel in pixels {
+            for (mean, value) in mean.iter_mut().zip(pixel) {
+                *mean += f64::from(*value) / pixels.len() as f64;
+            }
+        }
+        let average = outcome.report.samples as f64 / pixels.len() as f64;
+        let fewest = if options.adaptive { average.round() as u32 } else { image.fewest_samples() };
+        stats.picture(scene, outcome, fewest, mean);
+        Some(stats)
+    }
+
+    /// What the finished picture is like: samples of its pixels that have fewest (on average, where samples follow the noise), and its mean
+    /// radiance.
+    pub fn picture(&mut self, scene: &Scene, outcome: &Outcome, samples: u32, mean: [f64; 3]) {
+        self.spp_done = samples;
+        self.mean = mean;
+        self.clamped_light = self.clamped_samples.map(|_| outcome.report.clamped_light(scene.render.clamp, mean));
+    }
+
     /// So many of the samples were finished by an earlier render; the rates are this one's.
     pub fn resumed(&mut self, samples: u64) {
         self.resumed_samples = samples;
@@ -143,18 +167,6 @@ impl Stats {
             self.rays_per_second *= share;
         }
     }
-}
-
-/// Writes statistics to a file, or to standard output.
-///
-/// # Errors
-/// A file that cannot be written.
-pub fn write(path: &Path, stats: &impl Serialize) -> Result<(), Failure> {
-    if is_stdout(path) {
-        return terminal::answer_json(stats);
-    }
-    let json = serde_json::to_string_pretty(stats).map_err(|error| Failure::Other(error.to_string()))?;
-    Ok(AtomicFile::write(path, (json + "\n").as_bytes())?)
 }
 
 /// The kernel's high-water mark of this process's resident memory, in bytes (Linux).
