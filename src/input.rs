@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
-use std::io::{self, ErrorKind, Read};
+use std::io::{self, BufRead, ErrorKind, Read, Seek};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
@@ -14,6 +14,14 @@ use crate::patience::{self, PatientFile};
 
 /// A regular file that is being read.
 pub type InputFile = PatientFile<File>;
+
+/// What is read from any place in it.
+pub trait Seekable: BufRead + Seek {}
+
+impl<T: BufRead + Seek> Seekable for T {}
+
+/// A file or what stands for one. Decoders of pictures are large, and compiled for each type that they read from: this is the one.
+pub type AnyFile = Box<dyn Seekable + Send>;
 
 /// Opens a regular file, which from now on is one that the program must not write.
 ///
@@ -51,6 +59,14 @@ pub fn open_own(path: &Path) -> io::Result<InputFile> {
         Ok((file, length))
     })?;
     Ok(PatientFile::new(file, length))
+}
+
+/// As [`open_own`], for a decoder.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_to_decode(path: &Path) -> io::Result<AnyFile> {
+    Ok(Box::new(open_own(path)?))
 }
 
 /// Whether there is a regular file. One whose file system does not answer counts: whoever opens it learns why it cannot be read.

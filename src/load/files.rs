@@ -3,13 +3,13 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::fs;
-use std::io::{self, BufRead, Cursor, ErrorKind, Seek};
+use std::io::{self, Cursor, ErrorKind};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use super::builtin::embedded;
 use super::error::{SceneError, show};
-use crate::input;
+use crate::input::{self, AnyFile};
 use crate::scene::Mesh;
 
 /// Most bytes of a scene file, where memory suffices.
@@ -34,11 +34,6 @@ struct Held {
     bytes: HashMap<PathBuf, Arc<[u8]>>,
     meshes: HashMap<PathBuf, Arc<Mesh>>,
 }
-
-/// A file that is read from any place in it.
-pub trait SeekableFile: BufRead + Seek {}
-
-impl<T: BufRead + Seek> SeekableFile for T {}
 
 /// A file that was looked for.
 pub struct Found {
@@ -98,7 +93,7 @@ impl Files {
         }
     }
 
-    pub fn open(&self, path: &Path) -> io::Result<Box<dyn SeekableFile + Send>> {
+    pub fn open(&self, path: &Path) -> io::Result<AnyFile> {
         if let Some(bytes) = self.held.bytes.get(path) {
             return Ok(Box::new(Cursor::new(bytes.clone())));
         }

@@ -1,6 +1,5 @@
 //! Image files as linear texels.
 
-use std::io::{BufRead, Seek};
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -9,8 +8,9 @@ use exr::meta::MetaData;
 use exr::prelude::{ReadChannels, ReadLayers, f16};
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, Rgba};
 
-use super::files::{Files, SeekableFile};
+use super::files::Files;
 use super::memory;
+use crate::input::AnyFile;
 use crate::math::srgb_to_linear;
 use crate::scene::{Channel, ColorSpace, ImageData, Texels};
 
@@ -74,7 +74,7 @@ impl Pictures {
         Ok(picture)
     }
 
-    fn open(&self, path: &Path) -> Result<Box<dyn SeekableFile + Send>, String> {
+    fn open(&self, path: &Path) -> Result<AnyFile, String> {
         self.files.open(path).map_err(|error| format!("cannot be read: {error}"))
     }
 
@@ -167,7 +167,7 @@ impl Pictures {
     }
 }
 
-fn guess<R: BufRead + Seek>(path: &Path, file: R) -> Result<ImageReader<R>, String> {
+fn guess(path: &Path, file: AnyFile) -> Result<ImageReader<AnyFile>, String> {
     let mut reader = ImageReader::new(file);
     // The ending says what a file without a signature is, as TGA files are.
     if let Ok(format) = ImageFormat::from_path(path) {

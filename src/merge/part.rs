@@ -85,7 +85,7 @@ impl PartHeader {
     /// A file that is no part, or whose render broke off.
     pub fn read(path: &Path) -> Result<Self, MergeError> {
         let failure = |what: String| MergeError::Part { path: path.to_owned(), what };
-        let file = input::open_own(path).map_err(|error| failure(error.to_string()))?;
+        let file = input::open_to_decode(path).map_err(|error| failure(error.to_string()))?;
         let meta =
             MetaData::read_from_buffered(file, false).map_err(|error| failure(format!("it is no EXR picture: {error}")))?;
         let header = meta.headers.first().ok_or_else(|| failure("it is no EXR picture".to_owned()))?;
@@ -219,7 +219,7 @@ impl PartHeader {
     /// A file that is damaged.
     pub fn pixels(&self) -> Result<PartPixels, MergeError> {
         let failure = |what: String| MergeError::Part { path: self.path.clone(), what };
-        let file = input::open_own(&self.path).map_err(|error| failure(error.to_string()))?;
+        let file = input::open_to_decode(&self.path).map_err(|error| failure(error.to_string()))?;
         let reader =
             exr::prelude::read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer().all_attributes();
         let [_, _, width, height] = self.region.map(u64::from);

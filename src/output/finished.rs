@@ -43,7 +43,7 @@ fn decisive(spec: &PictureSpec) -> impl Iterator<Item = (&'static str, Entry)> {
 }
 
 fn exr_agrees(path: &Path, spec: &PictureSpec) -> bool {
-    let Some(meta) = input::open_own(path).ok().and_then(|file| MetaData::read_from_buffered(file, false).ok()) else {
+    let Some(meta) = input::open_to_decode(path).ok().and_then(|file| MetaData::read_from_buffered(file, false).ok()) else {
         return false;
     };
     let Some(header) = meta.headers.first() else { return false };

@@ -213,7 +213,7 @@ fn beside_finished(target: &Path) -> PathBuf {
 /// Whether what stands there is to be kept: anything but a picture that says that its render broke off.
 pub(super) fn is_finished(path: &Path) -> bool {
     let note = BROKEN_OFF_KEY;
-    if let Ok(Ok(meta)) = input::open_own(path).map(|file| MetaData::read_from_buffered(file, false)) {
+    if let Ok(Ok(meta)) = input::open_to_decode(path).map(|file| MetaData::read_from_buffered(file, false)) {
         return meta
             .headers
             .iter()

@@ -8,7 +8,7 @@ use exr::meta::MetaData;
 use exr::prelude::{ReadChannels, ReadLayers, f16};
 use image::{ImageFormat, ImageReader};
 
-use crate::input::{self, InputFile};
+use crate::input::{self, AnyFile};
 use crate::math::srgb_to_linear;
 use crate::scene::settings::{MAX_PIXELS, MAX_SIDE};
 
@@ -73,12 +73,12 @@ fn short_file(error: std::io::Error) -> std::io::Result<bool> {
     if error.kind() == std::io::ErrorKind::UnexpectedEof { Ok(false) } else { Err(error) }
 }
 
-fn open(path: &Path) -> Result<InputFile, String> {
-    input::open(path).map_err(|error| error.to_string())
+fn open(path: &Path) -> Result<AnyFile, String> {
+    Ok(Box::new(input::open(path).map_err(|error| error.to_string())?))
 }
 
 /// Opens an OpenEXR file whose layers are no larger than pictures may be: its headers say so before anything is decoded.
-pub fn open_exr(path: &Path) -> Result<InputFile, String> {
+pub fn open_exr(path: &Path) -> Result<AnyFile, String> {
     let meta = MetaData::read_from_buffered(open(path)?, false).map_err(|error| error.to_string())?;
     for header in &meta.headers {
         check_size(header.layer_size.width() as u64, header.layer_size.height() as u64)?;
@@ -136,7 +136,7 @@ pub(super) fn sample(samples: &FlatSamples, index: usize) -> f32 {
     }
 }
 
-fn guess(path: &Path) -> Result<ImageReader<InputFile>, String> {
+fn guess(path: &Path) -> Result<ImageReader<AnyFile>, String> {
     let mut reader = ImageReader::new(open(path)?);
     // The ending says what a file without a signature is, as TGA files are.
     if let Ok(format) = ImageFormat::from_path(path) {

@@ -40,11 +40,14 @@ fn open<const REST: bool>(files: &Files, path: &Path) -> Result<ModelFile, Scene
     let mut file = files.open(path).map_err(cannot_be_read)?;
     let packed = file.fill_buf().map_err(cannot_be_read)?.starts_with(&[0x1f, 0x8b]);
     if packed {
-        read::<REST>(&name, BufReader::new(MultiGzDecoder::new(file).take(MOST_MODEL_BYTES)))
+        read::<REST>(&name, &mut BufReader::new(MultiGzDecoder::new(file).take(MOST_MODEL_BYTES)))
     } else {
-        read::<REST>(&name, file)
+        read::<REST>(&name, &mut file)
     }
 }
+
+/// One type for packed and plain files: the parser is large, and compiled for each type that it reads from.
+type Source<'a> = Reader<&'a mut dyn BufRead>;
 
 /// What is read so far.
 #[derive(Default)]
@@ -60,7 +63,7 @@ struct Model {
     without_effect: Vec<String>,
 }
 
-fn read<const REST: bool>(name: &str, source: impl BufRead) -> Result<ModelFile, SceneError> {
+fn read<const REST: bool>(name: &str, source: &mut dyn BufRead) -> Result<ModelFile, SceneError> {
     let refused = |error: ParseError| SceneError::in_file(name, in_one_line(&error));
     let mut reader = Reader::new(source);
     let header = Parser::<Ignored>::new().read_header(&mut reader).map_err(refused)?;
@@ -90,7 +93,7 @@ impl Model {
         &mut self,
         element: &ElementDef,
         header: &Header,
-        reader: &mut Reader<impl BufRead>,
+        reader: &mut Source<'_>,
     ) -> Result<(), Refusal> {
         if element.properties.is_empty() {
             // Nothing of it stands in the file.
@@ -136,7 +139,7 @@ impl Model {
         &mut self,
         declared: &Declared,
         header: &Header,
-        reader: &mut Reader<impl BufRead>,
+        reader: &mut Source<'_>,
     ) -> Result<(), Refusal> {
         if !declared.has_positions() {
             return Err(Refusal::Content("its vertices have no numbers x, y and z".to_owned()));
@@ -301,7 +304,7 @@ fn add_polygon(mesh: &mut Mesh, corners: &[u32]) -> bool {
 fn in_chunks<E: PropertyAccess>(
     element: &ElementDef,
     header: &Header,
-    reader: &mut Reader<impl BufRead>,
+    reader: &mut Source<'_>,
     mut each: impl FnMut(E) -> Result<(), String>,
 ) -> Result<(), Refusal> {
     let parser = Parser::<E>::new();

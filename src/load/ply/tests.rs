@@ -12,7 +12,7 @@ fn text(header: &str, data: &str) -> Vec<u8> {
 const SQUARE: &str = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 
 fn read_bytes(bytes: &[u8]) -> Result<ModelFile, String> {
-    read::<false>("a.ply", bytes).map_err(|error| error.to_string())
+    read::<false>("a.ply", &mut &*bytes).map_err(|error| error.to_string())
 }
 
 fn mesh(bytes: &[u8]) -> Mesh {
