@@ -16,7 +16,7 @@ use serde::Serialize;
 use super::arguments::CheckArguments;
 use super::exit::{Exit, Failure};
 use super::sequence::bad_frame;
-use super::terminal;
+use super::{reading, terminal};
 
 /// Longer side in pixels of the picture by which the time is guessed.
 const PROBE_SIDE: u32 = 16;
@@ -91,7 +91,7 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
         terminal::answer(&load::json_schema())?;
         return Ok(Exit::Done);
     };
-    let mut scene = match load::load_with(Some(name), &arguments.access.options(arguments.strict)) {
+    let mut scene = match reading::shown(false, || load::load_with(Some(name), &arguments.access.options(arguments.strict))) {
         Ok(scene) => scene,
         Err(error) => {
             if arguments.json {

@@ -5,10 +5,11 @@ use std::path::Path;
 use gpt::load::{self, SceneError, SceneSource};
 use gpt::output::{AtomicFile, check_target};
 use gpt::scene_writer;
+use rayon::prelude::*;
 
 use super::arguments::ImportArguments;
 use super::exit::{Exit, Failure};
-use super::terminal;
+use super::{reading, terminal};
 
 /// Writes a scene of another program, or a model, as a scene file, with the meshes and pictures that it embeds beside it.
 pub fn run(arguments: &ImportArguments) -> Result<Exit, Failure> {
@@ -24,19 +25,18 @@ pub fn run(arguments: &ImportArguments) -> Result<Exit, Failure> {
         scene_writer::save_scene(&scene, &target)?;
         return Ok(Exit::Done);
     }
-    let written = load::as_scene_file(Path::new(&arguments.scene), &target, &options)?;
+    let written = reading::shown(false, || load::as_scene_file(Path::new(&arguments.scene), &target, &options))?;
     if let Some(summary) = written.report.summary() {
         if arguments.strict {
             return Err(SceneError::in_file(arguments.scene.display(), summary).into());
         }
         terminal::warn(&summary);
     }
-    for (path, bytes) in &written.files {
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).map_err(|error| Failure::Other(format!("{}: {error}", folder.display())))?;
-        }
-        AtomicFile::write(path, bytes)?;
+    for folder in written.files.iter().filter_map(|(path, _)| path.parent()) {
+        std::fs::create_dir_all(folder).map_err(|error| Failure::Other(format!("{}: {error}", folder.display())))?;
     }
+    // Side by side: a disk takes some time to say that a file is safe, however small it is.
+    written.files.par_iter().try_for_each(|(path, bytes)| AtomicFile::write(path, bytes))?;
     AtomicFile::write(&target, written.text.as_bytes())?;
     Ok(Exit::Done)
 }

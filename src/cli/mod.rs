@@ -25,6 +25,7 @@ mod picture_arguments;
 mod pictures;
 mod plan;
 mod progress;
+mod reading;
 #[cfg(test)]
 mod reference_pages;
 mod render;

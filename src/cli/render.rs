@@ -26,7 +26,7 @@ use super::progress::Progress;
 use super::render_summary::{tell, tell_of_error, write_stats};
 use super::sequence::{Done, Frame, Ready, Sequence, has_own_stats, tell_of_keyframes};
 use super::view::{Live, Phase, Watching};
-use super::{denoise, first_look, interrupt, layers, settings, terminal, watch};
+use super::{denoise, first_look, interrupt, layers, reading, settings, terminal, watch};
 
 /// Renders a scene to its picture files. Everything that can be wrong without rendering is found before.
 pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
@@ -138,7 +138,7 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
         layer_names: wanted.clone(),
         ..PictureSpec::default()
     };
-    if arguments.checkpoint.resume && checkpoint::all_are_finished(outputs, (scene, ready.bulk_digest()), options, &shown) {
+    if arguments.checkpoint.resume && checkpoint::all_are_finished(outputs, (scene, ready.bulk_digest(scene)), options, &shown) {
         checkpoint::remove_beside_finished(&arguments.checkpoint, outputs);
         if !arguments.quiet {
             terminal::note(&format!("{}: finished before, nothing is left to render", names(outputs)));
@@ -261,7 +261,8 @@ fn device(arguments: &RenderArguments) -> Result<DeviceChoice, Failure> {
 fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
     let source = SceneSource::parse(arguments.scene.as_deref())?;
     let view = arguments.model.view(&source, arguments.environment.clone(), arguments.estimate.size)?;
-    let mut scene = source.load(&LoadOptions { view, ..arguments.access.options(arguments.strict) })?;
+    let options = LoadOptions { view, ..arguments.access.options(arguments.strict) };
+    let mut scene = reading::shown(arguments.quiet, || source.load(&options))?;
     for warning in scene.warnings.iter().chain(&scene.precision_warnings()) {
         terminal::warn(warning);
     }

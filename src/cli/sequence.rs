@@ -52,11 +52,11 @@ impl Ready {
         }
     }
 
-    /// What was hashed for an earlier frame.
-    pub fn bulk_digest(&self) -> Option<&BulkDigest> {
+    /// What was hashed for an earlier frame with the same meshes.
+    pub fn bulk_digest(&self, scene: &Scene) -> Option<&BulkDigest> {
         match self {
             Self::Device(_) | Self::Other(..) => None,
-            Self::Renderer(renderer, _) => Some(renderer.bulk_digest()),
+            Self::Renderer(renderer, before) => scene.has_meshes_of(before).then(|| renderer.bulk_digest()),
         }
     }
 }

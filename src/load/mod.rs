@@ -9,6 +9,7 @@
 
 mod access;
 mod builtin;
+mod deformation_file;
 mod encoding;
 pub mod error;
 mod excerpt;
@@ -28,6 +29,7 @@ mod ply;
 mod polygon;
 mod presets;
 mod printable;
+mod reading;
 pub mod source;
 mod view;
 
@@ -42,6 +44,7 @@ pub use import_file::{WrittenScene, as_scene_file};
 pub use mitsuba::WrittenMitsuba;
 pub use presets::preset_names;
 pub use printable::printable;
+pub use reading::files_read;
 pub use source::{SceneSource, as_mitsuba, load, load_with};
 pub use view::{ModelView, Up};
 

@@ -77,7 +77,9 @@ impl Renderer {
     #[doc(hidden)]
     pub fn at_frame(self, before: &Scene, scene: &Scene) -> Result<Self, RenderError> {
         let Self { renderer, notice, options, film, size, bulk, .. } = self;
-        let change = if scene.shapes_stand_as_in(before) { Change::Camera } else { Change::Shapes };
+        let same_meshes = scene.has_meshes_of(before);
+        let bulk = if same_meshes { bulk } else { BulkDigest::of(scene) };
+        let change = if same_meshes && scene.shapes_stand_as_in(before) { Change::Camera } else { Change::Shapes };
         let renderer = renderer.with_scene(scene, &options.plan_options(), change)?;
         let provenance = Self::provenance_with(&bulk, scene, &options, renderer.device());
         Ok(Self { renderer, notice, options, film, size, provenance, bulk })
@@ -107,7 +109,7 @@ impl Renderer {
         Ok(Self { renderer, notice, options, film, size, provenance, bulk })
     }
 
-    /// A fingerprint of the scene's meshes and pictures, which all of its frames share.
+    /// A fingerprint of the scene's meshes and pictures, which all of its frames share but those in which meshes are bent.
     #[doc(hidden)]
     pub fn bulk_digest(&self) -> &BulkDigest {
         &self.bulk

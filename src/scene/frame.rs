@@ -4,14 +4,15 @@ use std::sync::Arc;
 
 use super::animation::{Moment, motion_between};
 use super::model::Scene;
-use super::shape::Shape;
+use super::shape::{Geometry, Shape};
 use super::transform::{Transform, TransformStep};
 use super::validate::{InvalidScene, check_camera};
 
 impl Scene {
     /// The scene as it is at a frame, which need not be a whole number. Shapes whose keys move them while the shutter is open are blurred: they
     /// are exactly where their keys put them as it opens and closes, and move evenly in between. So does the camera, which goes through many
-    /// places on its way. Meshes, textures and whatever else does not change are shared.
+    /// places on its way. Meshes that are bent are bent as at the
+    /// frame itself. Meshes, textures and whatever else does not change are shared.
     ///
     /// # Errors
     /// What cannot be rendered there: a camera that looks at the point it stands at, a shape that is flattened.
@@ -27,6 +28,11 @@ impl Scene {
         scene.exposure = animation.exposure(&self.camera, frame);
         for camera in &scene.exposure {
             check_camera(camera).map_err(|message| of("camera, while the shutter is open".to_owned(), message))?;
+        }
+        for track in &animation.deformations {
+            let shape = &mut scene.shapes[track.shape];
+            shape.geometry = Geometry::Mesh(Arc::new(track.at(animation, frame)));
+            shape.check_place().map_err(|message| of(shape.label.clone(), message))?;
         }
         for track in &animation.shapes {
             let shape = &mut scene.shapes[track.shape];
@@ -50,7 +56,23 @@ impl Scene {
     }
 }
 
+impl Shape {
+    /// Whether it is the same mesh, or neither is one.
+    fn has_mesh_of(&self, other: &Self) -> bool {
+        match (&self.geometry, &other.geometry) {
+            (Geometry::Mesh(mesh), Geometry::Mesh(other)) => Arc::ptr_eq(mesh, other),
+            _ => true,
+        }
+    }
+}
+
 impl Scene {
+    /// Whether all meshes are those of another frame of the same scene: none is bent differently.
+    pub fn has_meshes_of(&self, other: &Self) -> bool {
+        self.shapes.len() == other.shapes.len()
+            && self.shapes.iter().zip(&other.shapes).all(|(shape, other)| shape.has_mesh_of(other))
+    }
+
     /// Whether all shapes stand and move, and all lights shine, as in another frame of the same scene, and the camera moves or rests as there.
     pub fn shapes_stand_as_in(&self, other: &Self) -> bool {
         let same = |(shape, other): (&Shape, &Shape)| shape.transform == other.transform && shape.motion == other.motion;

@@ -58,7 +58,7 @@ impl SceneSummary {
             triangles: scene.shapes.iter().map(triangles).sum(),
             moving_shapes: scene.shapes.iter().filter(|shape| shape.motion.is_some()).count(),
             keyframes: scene.animation.frames(),
-            animated_shapes: scene.animation.shapes.len(),
+            animated_shapes: scene.animation.animated_shapes(),
             groups: scene.groups.len(),
             group_triangles: scene.groups.iter().map(Group::triangles).sum(),
             instances: scene.instance_count(),

@@ -23,7 +23,12 @@ fn damage(kind: &'static str, name: &str, whole: &[u8], others: &[(&str, &[u8])]
     let path = |name: &str| folder.path().join(name);
     let read = |bytes: &[u8]| {
         std::fs::write(path(name), pack(bytes)).expect("the folder can be written to");
-        answer_of(load::load(path(scene).to_str()))
+        let loaded = load::load(path(scene).to_str());
+        // What is there without a frame may be nowhere at one.
+        if let Ok(scene) = &loaded {
+            let _ = scene.at_frame(7.0);
+        }
+        answer_of(loaded)
     };
     let _turn = take_turn();
     let mut tally = Tally::new(kind, MOST_FOR_TEXTS);
@@ -142,15 +147,78 @@ fn damaged_gltf() {
 #[test]
 fn damaged_binary_gltf() {
     let (root, data) = gltf();
+    damage("binary glTF", "a.glb", &binary(&root, &data), &[], "a.glb", as_it_is);
+}
+
+/// JSON and data as one file.
+fn binary(root: &Value, data: &[u8]) -> Vec<u8> {
     let mut text = root.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
     let mut bytes = b"glTF".to_vec();
     for number in [2, 28 + text.len() + data.len(), text.len()] {
         bytes.extend((number as u32).to_le_bytes());
     }
-    let chunks: [&[u8]; 5] = [b"JSON", &text, &(data.len() as u32).to_le_bytes(), b"BIN\0", &data];
+    let chunks: [&[u8]; 5] = [b"JSON", &text, &(data.len() as u32).to_le_bytes(), b"BIN\0", data];
     bytes.extend(chunks.concat());
-    damage("binary glTF", "a.glb", &bytes, &[], "a.glb", as_it_is);
+    bytes
+}
+
+/// Two triangles that share an edge, as meshoptimizer packs them.
+const PACKED_TRIANGLES: [u8; 19] =
+    [0xe1, 0xf0, 0x10, 0x00, 0x76, 0x87, 0x56, 0x67, 0x78, 0xa9, 0x86, 0x65, 0x89, 0x68, 0x98, 0x01, 0x69, 0x00, 0x00];
+
+/// Elements of up to 16 as meshoptimizer packs them, each difference as a whole byte.
+fn packed_attributes(elements: &[[u8; 8]]) -> Vec<u8> {
+    let mut bytes = vec![0xa0];
+    for place in 0..8 {
+        let mut differences = [0; 16];
+        let mut before = 0;
+        for (difference, element) in differences.iter_mut().zip(elements) {
+            let step = element[place].wrapping_sub(before);
+            *difference = (step << 1) ^ (0_u8.wrapping_sub(step >> 7));
+            before = element[place];
+        }
+        bytes.push(0b11);
+        bytes.extend(differences);
+    }
+    bytes.extend([0; 32]);
+    bytes
+}
+
+#[test]
+fn damaged_packed_gltf() {
+    let corner = |x: i16, y: i16| {
+        let mut element = [0; 8];
+        element[..2].copy_from_slice(&x.to_le_bytes());
+        element[2..4].copy_from_slice(&y.to_le_bytes());
+        element
+    };
+    let corners = [corner(0, 0), corner(i16::MAX, 0), corner(0, i16::MAX), corner(i16::MAX, 300)];
+    let positions = packed_attributes(&corners);
+    let mut data = positions.clone();
+    data.resize(data.len().next_multiple_of(4), 0);
+    let start = data.len();
+    data.extend(PACKED_TRIANGLES);
+    let packed = |offset: usize, length: usize, count: u32, stride: u32, mode: &str| {
+        json!({ "EXT_meshopt_compression": { "buffer": 0, "byteOffset": offset, "byteLength": length, "count": count, "byteStride": stride,
+            "mode": mode, "filter": "NONE" } })
+    };
+    let root = json!({
+        "asset": { "version": "2.0" },
+        "extensionsRequired": ["EXT_meshopt_compression", "KHR_mesh_quantization"],
+        "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }],
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "indices": 1 }] }],
+        "accessors": [
+            { "bufferView": 0, "componentType": 5122, "normalized": true, "type": "VEC3", "count": 4 },
+            { "bufferView": 1, "componentType": 5123, "type": "SCALAR", "count": 6 },
+        ],
+        "bufferViews": [
+            { "buffer": 1, "byteLength": 32, "byteStride": 8, "extensions": packed(0, positions.len(), 4, 8, "ATTRIBUTES") },
+            { "buffer": 1, "byteLength": 12, "extensions": packed(start, PACKED_TRIANGLES.len(), 6, 2, "TRIANGLES") },
+        ],
+        "buffers": [{ "byteLength": data.len() }, { "byteLength": 44, "extensions": { "EXT_meshopt_compression": { "fallback": true } } }],
+    });
+    damage("packed glTF", "a.glb", &binary(&root, &data), &[], "a.glb", as_it_is);
 }
 
 #[test]
@@ -263,7 +331,7 @@ fn damaged_ply_meshes() {
 #[test]
 fn damaged_models_and_their_materials() {
     let model = "mtllib b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\nusemtl m\nf 1/1/1 2/2/1 3/1/1\n";
-    let materials = "newmtl m\nKd 0.5 0.4 0.3\nPr 0.4\nPm 0.7\nPc 0.2\nPcr 0.1\naniso 0.5\nanisor 0.2\nNi 1.4\nd 0.9\nillum 2\nKe 1 0 0\n\
+    let materials = "newmtl m\nKd 0.5 0.4 0.3\nPr 0.4\nPm 0.7\nPc 0.2\nPcr 0.1\naniso 0.5\nanisor 0.2\nNi 1.4\nPs 0.3\nd 0.9\nillum 2\nKe 1 0 0\n\
         map_Kd h.png\nmap_Pr h.png\nnorm h.png\n";
     let png = png_bytes([9, 8, 7]);
     let pictures: (&str, &[u8]) = ("h.png", &png);

@@ -15,6 +15,7 @@ use crate::load::access::Access;
 use crate::load::error::{MOST_ERRORS, SceneError, show};
 use crate::load::files::Files;
 use crate::load::image_file::{Picture, Pictures};
+use crate::scene::animation::Deformation;
 use crate::scene::{Channel, ChannelInput, ColorInput, ColorSpace, ImageData, Material, MaterialId, Mesh, Scene, TextureId};
 
 /// Images by file and by how their values are read, so that each is decoded once.
@@ -63,6 +64,8 @@ pub struct Resolver<'a> {
     pub(super) mesh_files: HashMap<MeshFileKey, LoadedMesh>,
     /// Of the materials so far, as far as it was asked: they or a part of them look up a texture.
     textured: Vec<bool>,
+    /// What bends the mesh that was read last.
+    pub(super) deformation: Option<Deformation>,
     /// The material of faces that name none.
     pub(super) unnamed_material: Option<MaterialId>,
 }
@@ -83,6 +86,7 @@ impl<'a> Resolver<'a> {
             linear_textures: Vec::new(),
             mesh_files: HashMap::new(),
             textured: Vec::new(),
+            deformation: None,
             unnamed_material: None,
         }
     }

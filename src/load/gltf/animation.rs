@@ -10,7 +10,8 @@ use serde::Deserialize;
 
 use super::importer::Importer;
 use super::json::{Animation, Channel};
-use super::node::{MovingNodes, Placed, local, unit};
+use super::made::{MovingNodes, WeightTrack};
+use super::node::{Placed, local, unit};
 use crate::load::import::{Entry, Keys, Value, list, matrix_value};
 use crate::scene::animation::Turn;
 
@@ -44,11 +45,13 @@ impl Importer<'_> {
     pub fn animate(&mut self, placed: &[Placed]) -> Result<MovingNodes, String> {
         let mut tracks = self.tracks();
         let keys = |tracks: &Tracks| tracks.values().flat_map(HashMap::values).map(|track| track.keys.len()).sum::<usize>();
-        let count = keys(&tracks);
+        let of_weights = self.weight_tracks.values().flat_map(|track| &track.keys).map(|(_, weights)| weights.len());
+        let count = keys(&tracks) + of_weights.sum::<usize>();
         if count > MOST_KEYS {
             let instead = format!("it has {count} keyframes, of which at most {MOST_KEYS} are taken: everything is at rest");
             self.drop("animation", "animations", &instead);
             tracks.clear();
+            self.weight_tracks.clear();
         }
         let mut parents: Vec<Option<usize>> = vec![None; self.root.nodes.len()];
         for Placed { node, .. } in placed {
@@ -139,36 +142,16 @@ impl Importer<'_> {
             "translation" => (Part::Translation, "VEC3"),
             "rotation" => (Part::Rotation, "VEC4"),
             "scale" => (Part::Scale, "VEC3"),
-            "weights" => return Err("morph targets stay as they are".to_owned()),
+            "weights" => return self.weights_channel(animation, channel, node, key),
             other => return Err(format!("it moves the property `{other}`")),
         };
-        let sampler =
-            animation.samplers.get(channel.sampler).ok_or_else(|| format!("there is no samplers[{}]", channel.sampler))?;
-        let (times, _) = self.buffers.numbers(sampler.input, &["SCALAR"])?;
-        let (values, width) = self.buffers.numbers(sampler.output, &[kind])?;
-        let interpolation = sampler.interpolation.as_deref().unwrap_or("LINEAR");
-        let per_key = if interpolation == "CUBICSPLINE" { 3 } else { 1 };
-        if values.len() != times.len() * width * per_key {
-            return Err(format!("it has {} times and {} values", times.len(), values.len() / width));
-        }
+        let sampled = self.sampled(animation, channel, kind, None, key)?;
+        let width = sampled.width;
         let value = |index: usize| {
-            let of = |component: usize| if component < width { f64::from(values[index * width + component]) } else { 0.0 };
+            let of = |component: usize| if component < width { sampled.number(index, component) } else { 0.0 };
             DVec4::new(of(0), of(1), of(2), of(3))
         };
-        let is_finite = times.iter().chain(&values).all(|number| number.is_finite() && number.abs() < 1e18);
-        if !is_finite || times.windows(2).any(|pair| pair[0] >= pair[1]) || times.is_empty() {
-            return Err("its times do not go forward, or its numbers are out of range".to_owned());
-        }
-        let times = times.into_iter().map(f64::from);
-        let keys: Vec<(f64, DVec4)> = match interpolation {
-            "LINEAR" | "STEP" => times.enumerate().map(|(index, time)| (time, value(index))).collect(),
-            "CUBICSPLINE" => {
-                self.scene.report.approximate("cubic of an animation", self.place(key).to_string(), "straight pieces are taken");
-                cubic(&times.collect::<Vec<_>>(), &value)
-            }
-            other => return Err(format!("there is no interpolation {other}")),
-        };
-        let mut track = Track { keys: without_repeats(keys), is_step: interpolation == "STEP" };
+        let mut track = Track { keys: without_repeats(sampled.keys(&value)), is_step: sampled.interpolation == "STEP" };
         if part == Part::Scale {
             let nothing = |scale: f64| scale.abs() < SMALLEST_SCALE;
             if track.keys.iter().any(|(_, scale)| scale.truncate().to_array().into_iter().any(nothing)) {
@@ -183,6 +166,84 @@ impl Importer<'_> {
         }
         of_node.insert(part, track);
         Ok(())
+    }
+}
+
+impl Importer<'_> {
+    fn weights_channel(&mut self, animation: &Animation, channel: &Channel, node: usize, key: &str) -> Result<(), String> {
+        let mesh = self.root.nodes[node].mesh.and_then(|mesh| self.root.meshes.get(mesh));
+        let count = mesh.map_or(0, |mesh| mesh.primitives.iter().map(|primitive| primitive.targets.len()).max().unwrap_or(0));
+        if count == 0 {
+            return Err(format!("nodes[{node}] has no morph targets"));
+        }
+        if self.weight_tracks.contains_key(&node) {
+            return Err(format!("an earlier one moves the morph targets of nodes[{node}]"));
+        }
+        let sampled = self.sampled(animation, channel, "SCALAR", Some(count), key)?;
+        let of_target = |target: usize| sampled.keys(&|index| DVec4::splat(sampled.number(index, target)));
+        let mut keys: Vec<(f64, Vec<f64>)> =
+            of_target(0).into_iter().map(|(time, _)| (time, Vec::with_capacity(count))).collect();
+        for target in 0..count {
+            keys.iter_mut().zip(of_target(target)).for_each(|((_, weights), (_, value))| weights.push(value.x));
+        }
+        self.weight_tracks.insert(node, WeightTrack { keys, is_step: sampled.interpolation == "STEP" });
+        Ok(())
+    }
+
+    /// The numbers of a channel. `width`: of a key, where it is not that of the type.
+    fn sampled(
+        &mut self,
+        animation: &Animation,
+        channel: &Channel,
+        kind: &str,
+        width: Option<usize>,
+        key: &str,
+    ) -> Result<Sampled, String> {
+        let sampler =
+            animation.samplers.get(channel.sampler).ok_or_else(|| format!("there is no samplers[{}]", channel.sampler))?;
+        let (times, _) = self.buffers.numbers(sampler.input, &["SCALAR"])?;
+        let (values, own_width) = self.buffers.numbers(sampler.output, &[kind])?;
+        let width = width.unwrap_or(own_width);
+        let interpolation = sampler.interpolation.clone().unwrap_or_else(|| "LINEAR".to_owned());
+        let per_key = match interpolation.as_str() {
+            "LINEAR" | "STEP" => 1,
+            "CUBICSPLINE" => 3,
+            other => return Err(format!("there is no interpolation {other}")),
+        };
+        if values.len() != times.len() * width * per_key {
+            return Err(format!("it has {} times and {} values", times.len(), values.len() / own_width));
+        }
+        let is_finite = times.iter().chain(&values).all(|number| number.is_finite() && number.abs() < 1e18);
+        if !is_finite || times.windows(2).any(|pair| pair[0] >= pair[1]) || times.is_empty() {
+            return Err("its times do not go forward, or its numbers are out of range".to_owned());
+        }
+        if per_key == 3 {
+            self.scene.report.approximate("cubic of an animation", self.place(key).to_string(), "straight pieces are taken");
+        }
+        Ok(Sampled { times: times.into_iter().map(f64::from).collect(), values, width, interpolation })
+    }
+}
+
+/// The numbers of a channel.
+struct Sampled {
+    times: Vec<f64>,
+    values: Vec<f32>,
+    /// Numbers of a value.
+    width: usize,
+    interpolation: String,
+}
+
+impl Sampled {
+    fn number(&self, index: usize, component: usize) -> f64 {
+        self.values[index * self.width + component].into()
+    }
+
+    /// Values at times, of cubics at those of their pieces. `value` gives the value of an index.
+    fn keys(&self, value: &dyn Fn(usize) -> DVec4) -> Vec<(f64, DVec4)> {
+        if self.interpolation == "CUBICSPLINE" {
+            return cubic(&self.times, value);
+        }
+        self.times.iter().enumerate().map(|(index, &time)| (time, value(index))).collect()
     }
 }
 

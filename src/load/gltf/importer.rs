@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::buffers::Buffers;
 use super::json::Root;
-use super::made::{MadeMaterial, MadePrimitive};
+use super::made::{MadeMaterial, MadePrimitive, WeightTrack};
 use crate::load::files::Files;
 use crate::load::import::{Description, FileReference, Place};
 use crate::load::printable::short_list;
@@ -48,10 +48,13 @@ pub struct Importer<'a> {
     pub buffers: Buffers<'a>,
     pub scene: Description,
     pub materials: HashMap<Option<usize>, MadeMaterial>,
-    pub textures: HashMap<(usize, bool), String>,
+    /// By index, whether texels are numbers, and placement.
+    pub textures: HashMap<(usize, bool, Option<[u64; 5]>), String>,
     pub pictures: HashMap<usize, FileReference>,
-    /// Of primitives without skin, by mesh and place in it.
+    /// Of primitives that nothing of a node bends, by mesh and place in it.
     pub meshes: HashMap<(usize, usize), MadePrimitive>,
+    /// Of nodes whose morph targets count differently at frames.
+    pub weight_tracks: HashMap<usize, WeightTrack>,
     /// Of all shapes, copies counted.
     pub triangles: u64,
     /// The variant of materials that is shown.

@@ -36,6 +36,8 @@ objects! {
         extensions_required: Vec<String>,
         extensions: Extensions,
     }
+    /// What every version has.
+    Head { asset: Asset, }
     Asset { version: String, min_version: Option<String>, }
     Scene { nodes: Vec<usize>, }
     Node {

@@ -1,8 +1,10 @@
-//! What materials and primitives became.
+//! What materials, nodes and primitives became, and what bends meshes.
 
-use glam::DAffine2;
+use std::collections::HashMap;
 
-use crate::load::import::FileReference;
+use glam::{DAffine2, DAffine3};
+
+use crate::load::import::{FileReference, Keys};
 
 /// Of a material of a primitive.
 #[derive(Debug, Clone)]
@@ -26,4 +28,46 @@ pub struct MadePrimitive {
     pub material: String,
     pub smooth: bool,
     pub triangles: u64,
+    /// `deformation`, of what is bent at frames.
+    pub deformation: Option<Keys>,
+}
+
+/// How much the morph targets of a node count at times in seconds, each later than the one before.
+#[derive(Debug, Clone)]
+pub struct WeightTrack {
+    pub keys: Vec<(f64, Vec<f64>)>,
+    pub is_step: bool,
+}
+
+/// Of nodes that are taken along, the name of the node of the scene file that takes them.
+pub type MovingNodes = HashMap<usize, String>;
+
+/// Joints of a skin.
+pub struct Skinning {
+    /// From the mesh's space to the world.
+    pub maps: Vec<DAffine3>,
+    /// Of the node of the scene file that takes the joint along.
+    pub nodes: Vec<Option<String>>,
+}
+
+/// What bends the mesh of a node.
+#[derive(Clone, Copy, Default)]
+pub struct Bending<'b> {
+    pub skinning: Option<&'b Skinning>,
+    /// Of morph targets, in place of the mesh's own.
+    pub weights: Option<&'b [f64]>,
+    /// The same at frames.
+    pub track: Option<&'b WeightTrack>,
+}
+
+impl Bending<'_> {
+    /// All nodes have the same mesh.
+    pub fn is_none(&self) -> bool {
+        self.skinning.is_none() && self.weights.is_none() && self.track.is_none()
+    }
+
+    /// The mesh is another one at frames.
+    pub fn is_animated(&self) -> bool {
+        self.track.is_some() || self.skinning.is_some_and(|skinning| skinning.nodes.iter().any(Option::is_some))
+    }
 }

@@ -1,9 +1,10 @@
 //! Materials and their textures.
 
-use glam::{DAffine2, DMat2, DVec2, DVec3};
+use glam::{DAffine2, DVec3};
 
 use super::importer::Importer;
-use super::json::{Material, TextureInfo, TextureTransform, extension};
+use super::json::{Material, TextureInfo, extension};
+use super::lookup::{Lookup, Lookups};
 use super::made::{Coordinates, MadeMaterial};
 use crate::load::import::{Entry, Keys, Value};
 
@@ -52,7 +53,8 @@ impl Importer<'_> {
         place: String,
         paint: Option<&str>,
     ) -> Result<MadeMaterial, String> {
-        let mut surface = Surface { importer: self, material, place, coordinates: None, paint };
+        let lookups = Lookups::of(material)?;
+        let mut surface = Surface { importer: self, material, place, lookups, coordinates: None, paint };
         let keys = surface.keys()?;
         let coordinates = surface.coordinates;
         let place = surface.place;
@@ -69,6 +71,7 @@ struct Surface<'s, 'i> {
     importer: &'s mut Importer<'i>,
     material: &'s Material,
     place: String,
+    lookups: Lookups,
     coordinates: Option<Coordinates>,
     /// A texture that multiplies the base colour.
     paint: Option<&'s str>,
@@ -239,7 +242,7 @@ impl Surface<'_, '_> {
         };
         let factor = factor.clamp(0.0, 1.0);
         let map = match self.material.pbr_metallic_roughness.base_color_texture.clone() {
-            Some(info) => Some(self.importer.texture(info.index, false)?),
+            Some(info) => self.lookup(&info, false, "alpha").map(Some)?,
             None => None,
         };
         let share = match (map, cutoff) {
@@ -340,23 +343,28 @@ impl Surface<'_, '_> {
 
     /// `{ texture = … }`, or a constant where there is no picture.
     fn texture(&mut self, info: &TextureInfo, linear: bool, factor: DVec3, what: &str) -> Result<Value, String> {
-        let transform = extension::<TextureTransform>(&info.extensions, "KHR_texture_transform")?;
-        let map = transform.as_ref().map_or(DAffine2::IDENTITY, |transform| {
-            let scale = DVec2::from(transform.scale.unwrap_or([1.0; 2]));
-            // The specification turns counter-clockwise in a space whose v runs downward.
-            let turn = DMat2::from_angle(-transform.rotation);
-            DAffine2 { matrix2: turn * DMat2::from_diagonal(scale), translation: DVec2::from(transform.offset) }
-        });
-        let set = transform.and_then(|transform| transform.tex_coord).unwrap_or(info.tex_coord);
-        let wanted = Coordinates { set, map };
-        if self.coordinates.is_some_and(|other| other != wanted) {
-            let message = format!("texture coordinates of the {what}");
-            self.approximate(&message, "they are those of the material's first texture");
-        }
-        self.coordinates.get_or_insert(wanted);
-        let name = self.importer.texture(info.index, linear)?;
+        let name = self.lookup(info, linear, what)?;
         let factor = (factor != DVec3::ONE).then(|| constant(factor));
         Ok(Value::Table(Keys::new().with("texture", name).with_some("factor", factor)))
+    }
+}
+
+impl Surface<'_, '_> {
+    /// The texture of a lookup; its name.
+    fn lookup(&mut self, info: &TextureInfo, linear: bool, what: &str) -> Result<String, String> {
+        let lookup = Lookup::of(info)?;
+        let coordinates = self.lookups.coordinates;
+        if lookup.set != coordinates.set {
+            let message = format!("set of texture coordinates of the {what}");
+            self.approximate(&message, "it is that of the material's first texture");
+        }
+        let placement = lookup.about(&coordinates.map).unwrap_or_else(|| {
+            let message = format!("KHR_texture_transform of the {what}");
+            self.approximate(&message, "what is turned and stretched beside the normal map lies as that does");
+            None
+        });
+        self.coordinates.get_or_insert(coordinates);
+        self.importer.texture(info.index, linear, placement)
     }
 }
 

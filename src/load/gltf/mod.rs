@@ -1,13 +1,15 @@
 //! glTF 2.0 in its two forms: JSON (`.gltf`) and binary (`.glb`).
 //!
-//! `json` is the file as it is written, `buffers` the numbers that it names. Meshes at rest become meshes of their own for each primitive, with
+//! `json` is the file as it is written, `buffers` the numbers that it names. Meshes become meshes of their own for each primitive, with
 //! the texture coordinates that the primitive's material wants. Texture coordinates run downward there and upward here.
 
 mod animation;
+mod bending;
 mod buffers;
 mod importer;
 mod json;
 mod light;
+mod lookup;
 mod made;
 mod material;
 mod meshopt;
@@ -21,7 +23,7 @@ use std::path::Path;
 
 use self::buffers::Buffers;
 use self::importer::{Importer, KNOWN};
-use self::json::Root;
+use self::json::{Asset, Head, Root};
 use super::error::{SceneError, show};
 use super::files::{Files, MOST_MODEL_BYTES};
 use super::import::Description;
@@ -37,12 +39,17 @@ pub fn load(files: &Files, path: &Path, camera: Option<&str>, variant: Option<&s
     let refuse = |message: String| SceneError::in_file(&name, message);
     let bytes = files.read(path, MOST_MODEL_BYTES).map_err(|error| refuse(format!("cannot be read: {error}")))?;
     let (json, binary) = split(&bytes).map_err(refuse)?;
-    let root: Root = serde_json::from_slice(json.strip_prefix(&[0xef, 0xbb, 0xbf]).unwrap_or(json)).map_err(|error| {
+    let json = json.strip_prefix(&[0xef, 0xbb, 0xbf]).unwrap_or(json);
+    let root: Root = serde_json::from_slice(json).map_err(|error| {
+        // Other versions have other types where this one has lists.
+        if let Some(reason) = serde_json::from_slice(json).ok().and_then(|head: Head| check_version(&head.asset).err()) {
+            return refuse(reason);
+        }
         let message = error.to_string();
         let what = message.rsplit_once(" at line").map_or(message.as_str(), |(what, _)| what).to_owned();
         SceneError::in_line(&name, error.line(), format!("is not valid glTF: {what}"))
     })?;
-    check_version(&root).map_err(refuse)?;
+    check_version(&root.asset).map_err(refuse)?;
     check_extensions(&root, &name)?;
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
     let buffers = Buffers::load(files, &folder, &root, binary).map_err(refuse)?;
@@ -58,6 +65,7 @@ pub fn load(files: &Files, path: &Path, camera: Option<&str>, variant: Option<&s
         pictures: HashMap::new(),
         meshes: HashMap::new(),
         triangles: 0,
+        weight_tracks: HashMap::new(),
         variant: variant::chosen(&root, variant).map_err(refuse)?,
     };
     importer.report_extensions();
@@ -99,12 +107,12 @@ fn split(bytes: &[u8]) -> Result<(&[u8], Option<Vec<u8>>), String> {
     Ok((json, None))
 }
 
-fn check_version(root: &Root) -> Result<(), String> {
-    let version = root.asset.min_version.as_deref().unwrap_or(&root.asset.version);
-    if root.asset.version.is_empty() {
+fn check_version(asset: &Asset) -> Result<(), String> {
+    let version = asset.min_version.as_deref().unwrap_or(&asset.version);
+    if asset.version.is_empty() {
         return Err("is not glTF: it states no asset.version".to_owned());
     }
-    if version.split('.').next() != Some("2") || root.asset.min_version.as_deref().is_some_and(|least| least != "2.0") {
+    if version.split('.').next() != Some("2") || asset.min_version.as_deref().is_some_and(|least| least != "2.0") {
         return Err(format!("is glTF of version {version}; version 2.0 is read"));
     }
     Ok(())

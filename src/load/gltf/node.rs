@@ -1,13 +1,12 @@
 //! Nodes: what stands where.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3, DVec4};
 
 use super::importer::Importer;
 use super::json::{Instances, Node, extension};
-use super::made::MadePrimitive;
-use super::primitive::Skinning;
+use super::made::{Bending, MadePrimitive, MovingNodes};
 use crate::load::import::{Entry, Keys, camera_keys, matrix_value, pays_as_instances};
 use crate::load::memory;
 use crate::load::printable::short_list;
@@ -18,9 +17,6 @@ const TRIANGLE_BYTES: u64 = 200;
 const MOST_SHAPES: usize = 1 << 20;
 /// The longer side in pixels of a picture whose camera states how wide it is.
 const LONGER_SIDE: f64 = 512.0;
-
-/// Of nodes that are taken along, the name of the node of the scene file that takes them.
-pub type MovingNodes = HashMap<usize, String>;
 
 /// A node and where it stands.
 #[derive(Clone, Copy)]
@@ -40,8 +36,8 @@ impl Importer<'_> {
         let mut copies: BTreeMap<usize, Vec<Placed>> = BTreeMap::new();
         for &Placed { node: index, map } in &placed {
             let node = &self.root.nodes[index];
-            // What moves by itself is a shape of its own.
-            let (Some(mesh), None, None, None) = (node.mesh, node.skin, &node.weights, moving.get(&index)) else { continue };
+            // What moves or is bent by itself is a shape of its own.
+            let Some(mesh) = node.mesh.filter(|_| self.has_mesh_of_others(index, &moving)) else { continue };
             let maps = self.instances(node).map_err(|message| format!("nodes[{index}]: {message}"))?;
             copies.entry(mesh).or_default().extend(maps.into_iter().map(|own| Placed { node: index, map: map * own }));
         }
@@ -55,15 +51,12 @@ impl Importer<'_> {
             let of_node = |message: String| format!("nodes[{index}]: {message}");
             let node = &self.root.nodes[index];
             let name = moving.get(&index);
-            let is_instanced = name.is_none()
-                && node.skin.is_none()
-                && node.weights.is_none()
-                && node.mesh.is_some_and(|mesh| stored_once.contains(&mesh));
+            let is_instanced =
+                self.has_mesh_of_others(index, &moving) && node.mesh.is_some_and(|mesh| stored_once.contains(&mesh));
             if let Some(mesh) = node.mesh.filter(|_| !is_instanced) {
-                self.report_skin(node, &moving, index);
                 for instance in self.instances(node).map_err(of_node)? {
                     let first = self.scene.shapes.len();
-                    self.mesh_node(node, mesh, map * instance, &world, index).map_err(of_node)?;
+                    self.mesh_node(index, mesh, map * instance, &world, &moving).map_err(of_node)?;
                     if let Some(name) = name.filter(|_| node.skin.is_none()) {
                         self.scene.shapes[first..].iter_mut().for_each(|shape| shape.keys.set("node", name.as_str()));
                     }
@@ -92,7 +85,7 @@ impl Importer<'_> {
         for primitive in 0..found.primitives.len() {
             let of_primitive =
                 |message: String| format!("nodes[{first_node}]: meshes[{mesh}].primitives[{primitive}]: {message}");
-            let Some(made) = self.primitive(mesh, primitive, None, None).map_err(of_primitive)? else { continue };
+            let Some(made) = self.primitive(mesh, primitive, Bending::default()).map_err(of_primitive)? else { continue };
             if self.scene.gives_light(&made.material) {
                 return Ok(false);
             }
@@ -143,12 +136,11 @@ impl Importer<'_> {
         Ok(placed)
     }
 
-    /// Joints that move would bend the mesh anew for each frame.
-    fn report_skin(&mut self, node: &Node, moving: &MovingNodes, index: usize) {
-        let skin = node.skin.and_then(|skin| self.root.skins.get(skin));
-        if skin.is_some_and(|skin| skin.joints.iter().any(|joint| moving.contains_key(joint))) {
-            self.drop("animation of a skin", &format!("nodes[{index}]"), "the mesh is as it is at rest");
-        }
+    /// Nothing moves or bends the node's mesh at frames.
+    fn has_mesh_of_others(&self, index: usize, moving: &MovingNodes) -> bool {
+        let node = &self.root.nodes[index];
+        let is_bent = node.skin.is_some() || node.weights.is_some() || self.weight_tracks.contains_key(&index);
+        !is_bent && !moving.contains_key(&index)
     }
 
     fn choose_camera(&mut self, placed: &[Placed], wanted: Option<&str>, moving: &MovingNodes) -> Result<(), String> {
@@ -248,14 +240,15 @@ impl Importer<'_> {
 
     fn mesh_node(
         &mut self,
-        node: &Node,
+        index: usize,
         mesh: usize,
         map: DAffine3,
         world: &[Option<DAffine3>],
-        index: usize,
+        moving: &MovingNodes,
     ) -> Result<(), String> {
+        let node = &self.root.nodes[index];
         let count = self.root.meshes.get(mesh).ok_or_else(|| format!("there is no meshes[{mesh}]"))?.primitives.len();
-        let skinning = node.skin.map(|skin| self.skinning(skin, world)).transpose()?;
+        let skinning = node.skin.map(|skin| self.skinning(skin, world, moving)).transpose()?;
         // Joints say where the vertices of a skinned mesh are in the world.
         let map = if skinning.is_some() { DAffine3::IDENTITY } else { map };
         let volume = map.matrix3.determinant();
@@ -263,9 +256,11 @@ impl Importer<'_> {
             self.drop("mesh without extent", &format!("nodes[{index}]"), "it is left out: its node scales it by 0");
             return Ok(());
         }
+        let track = self.weight_tracks.get(&index).cloned();
+        let bending = Bending { skinning: skinning.as_ref(), weights: node.weights.as_deref(), track: track.as_ref() };
         for primitive in 0..count {
             let of_primitive = |message: String| format!("meshes[{mesh}].primitives[{primitive}]: {message}");
-            let made = self.primitive(mesh, primitive, skinning.as_ref(), node.weights.as_deref()).map_err(of_primitive)?;
+            let made = self.primitive(mesh, primitive, bending).map_err(of_primitive)?;
             let Some(made) = made else { continue };
             self.triangles += made.triangles;
             let needed = self.triangles * TRIANGLE_BYTES;
@@ -285,29 +280,11 @@ impl Importer<'_> {
         }
         Ok(())
     }
-
-    /// What moves the vertices of a skinned mesh into the world.
-    fn skinning(&self, skin: usize, world: &[Option<DAffine3>]) -> Result<Skinning, String> {
-        let found = self.root.skins.get(skin).ok_or_else(|| format!("there is no skins[{skin}]"))?;
-        let inverse = match found.inverse_bind_matrices {
-            Some(accessor) => self.buffers.numbers(accessor, &["MAT4"])?.0,
-            None => Vec::new(),
-        };
-        let joint = |(place, &joint): (usize, &usize)| {
-            let world = world.get(joint).copied().flatten();
-            let world = world.ok_or_else(|| format!("skins[{skin}]: its joint {joint} is not part of the scene"))?;
-            let bind = inverse.get(16 * place..16 * place + 16).map_or(DMat4::IDENTITY, |numbers| {
-                let numbers: [f64; 16] = std::array::from_fn(|at| numbers[at].into());
-                DMat4::from_cols_array(&numbers)
-            });
-            Ok(world * DAffine3::from_mat4(bind))
-        };
-        found.joints.iter().enumerate().map(joint).collect::<Result<_, String>>().map(Skinning)
-    }
 }
 
 fn mesh_keys(made: MadePrimitive) -> Keys {
-    Keys::of_type("mesh").with("file", made.file).with("smooth", made.smooth).with("material", made.material)
+    let keys = Keys::of_type("mesh").with("file", made.file).with("smooth", made.smooth).with("material", made.material);
+    keys.with_some("deformation", made.deformation)
 }
 
 /// The map of a node about its parent.

@@ -5,6 +5,7 @@ use std::path::Path;
 use super::buffers::{file_of, read_uri};
 use super::importer::Importer;
 use super::json::Image;
+use super::lookup::Placement;
 use crate::load::import::{Entry, FileReference, Keys};
 
 const CLAMP: u64 = 33_071;
@@ -12,9 +13,10 @@ const MIRROR: u64 = 33_648;
 const NEAREST: u64 = 9728;
 
 impl Importer<'_> {
-    /// The name of a texture whose texels are colours in sRGB, or numbers as they are.
-    pub fn texture(&mut self, index: usize, linear: bool) -> Result<String, String> {
-        if let Some(name) = self.textures.get(&(index, linear)) {
+    /// The name of a texture whose texels are colours in sRGB, or numbers as they are. `placement`: how it lies on the mesh's coordinates.
+    pub fn texture(&mut self, index: usize, linear: bool, placement: Option<Placement>) -> Result<String, String> {
+        let key = (index, linear, placement.map(Placement::bits));
+        if let Some(name) = self.textures.get(&key) {
             return Ok(name.clone());
         }
         let of_texture = |message: String| format!("textures[{index}]: {message}");
@@ -52,8 +54,13 @@ impl Importer<'_> {
                 keys.set("filter", "nearest");
             }
         }
+        if let Some(Placement { scale, rotation_degrees, offset }) = placement {
+            keys.set("scale", scale);
+            keys.set("rotation", rotation_degrees);
+            keys.set("offset", offset);
+        }
         self.scene.textures.push(Entry { place: self.place(&format!("textures[{index}]")), keys });
-        self.textures.insert((index, linear), name.clone());
+        self.textures.insert(key, name.clone());
         Ok(name)
     }
 
@@ -103,6 +110,6 @@ impl Importer<'_> {
         };
         let name = image.name.clone().unwrap_or_else(|| format!("image-{index}"));
         let stem = Path::new(&name).file_stem().map_or_else(|| name.clone(), |stem| stem.to_string_lossy().into_owned());
-        Ok(self.scene.hold_picture(&stem, ending, bytes))
+        Ok(self.scene.hold_bytes(&stem, ending, bytes))
     }
 }

@@ -1,30 +1,22 @@
-//! Primitives of meshes: triangles, strips and fans, at rest.
+//! Primitives of meshes: triangles, strips and fans.
 
-use glam::{DAffine3, DVec2, DVec3, Vec2, Vec3};
+use glam::{DVec2, Vec2, Vec3};
 use serde_json::{Map, Value};
 
 use super::importer::Importer;
 use super::json::Primitive;
-use super::made::{Coordinates, MadePrimitive};
+use super::made::{Bending, Coordinates, MadePrimitive};
 use super::variant;
 use crate::load::import::{Blocks, Entry, Keys};
 use crate::load::model::{FARTHEST, MeshAttribute};
 use crate::scene::Mesh;
 
-/// Of each joint, the map from the mesh's space to the world.
-pub struct Skinning(pub Vec<DAffine3>);
-
 impl Importer<'_> {
     /// None where there is nothing to render.
-    pub fn primitive(
-        &mut self,
-        mesh: usize,
-        index: usize,
-        skinning: Option<&Skinning>,
-        weights: Option<&[f64]>,
-    ) -> Result<Option<MadePrimitive>, String> {
-        let is_shared = skinning.is_none() && weights.is_none();
-        if is_shared && let Some(made) = self.meshes.get(&(mesh, index)) {
+    pub fn primitive(&mut self, mesh: usize, index: usize, bending: Bending) -> Result<Option<MadePrimitive>, String> {
+        if bending.is_none()
+            && let Some(made) = self.meshes.get(&(mesh, index))
+        {
             return Ok(Some(made.clone()));
         }
         let of = &self.root.meshes[mesh];
@@ -41,17 +33,24 @@ impl Importer<'_> {
         }
         let named = variant::material_of(self.variant, &primitive);
         let mut material = self.material(named)?;
-        let weights = weights.unwrap_or(&of.weights);
-        let Some(mut built) = self.geometry(&primitive, mode, skinning, weights, &key)? else { return Ok(None) };
+        let Some(base) = self.geometry(&primitive, mode, &key)? else { return Ok(None) };
+        let mut deformation = self.deformation(&primitive, base, bending.weights.unwrap_or(&of.weights), bending)?;
+        let is_bent = bending.is_animated();
+        let mut built = if is_bent { Mesh::clone(&deformation.base) } else { deformation.at_rest() };
+        check_range(&built)?;
+        complete_normals(&mut built);
         let colours = self.colours(&primitive, material.coordinates.is_some(), built.positions.len(), &key)?;
         self.coordinates(&primitive, material.coordinates, &mut built, &key)?;
-        built.drop_degenerate_faces();
+        if is_bent && built.drop_degenerate_faces() > 0 {
+            self.drop("face without area of a mesh that is bent", &key, "it is left out, at frames where it has area too");
+        }
         if built.faces.is_empty() {
             self.drop("primitive without a face that has area", &key, "it is left out");
             return Ok(None);
         }
         if let Some(colours) = colours {
             let blocks = Blocks::of(&mut built);
+            deformation.spread(blocks.corners());
             let name = self.scene.free_texture_name(&format!("{key}.COLOR_0"));
             let made = blocks.texture(&colours, &mut self.scene).ok_or("COLOR_0 makes no picture")?;
             let mut keys = Keys::new().with("name", name.as_str());
@@ -60,48 +59,34 @@ impl Importer<'_> {
             material = self.painted_material(named, &name)?;
         }
         built.smooth = !built.normals.is_empty();
-        let triangles = built.faces.len() as u64;
+        let (triangles, smooth) = (built.faces.len() as u64, built.smooth);
         let name = of.name.clone().unwrap_or_else(|| format!("mesh-{mesh}"));
-        let smooth = built.smooth;
-        let file = self.scene.hold_mesh(&name, built);
-        let made = MadePrimitive { file, material: material.name, smooth, triangles };
-        if is_shared {
+        let (file, deformation) = if is_bent {
+            deformation.base = built.into();
+            check_range(&deformation.at_rest())?;
+            let (file, keys) = self.hold_bent(&name, deformation, bending);
+            (file, Some(keys))
+        } else {
+            (self.scene.hold_mesh(&name, built), None)
+        };
+        let made = MadePrimitive { file, material: material.name, smooth, triangles, deformation };
+        if bending.is_none() {
             self.meshes.insert((mesh, index), made.clone());
         }
         Ok(Some(made))
     }
 
-    fn geometry(
-        &mut self,
-        primitive: &Primitive,
-        mode: u64,
-        skinning: Option<&Skinning>,
-        weights: &[f64],
-        key: &str,
-    ) -> Result<Option<Mesh>, String> {
+    /// The primitive before anything bends it.
+    fn geometry(&mut self, primitive: &Primitive, mode: u64, key: &str) -> Result<Option<Mesh>, String> {
         if !primitive.attributes.contains_key("POSITION") {
             self.drop("primitive without positions", key, "it is left out");
             return Ok(None);
         }
-        let mut positions = self.triples(&primitive.attributes, "POSITION")?.unwrap_or_default();
-        let mut normals = self.triples(&primitive.attributes, "NORMAL")?.unwrap_or_default();
+        let positions = self.triples(&primitive.attributes, "POSITION")?.unwrap_or_default();
+        let normals = self.triples(&primitive.attributes, "NORMAL")?.unwrap_or_default();
         let count = positions.len();
         if !normals.is_empty() && normals.len() != count {
             return Err(format!("there are {} normals for {count} positions", normals.len()));
-        }
-        for (target, weight) in primitive.targets.iter().zip(weights) {
-            for (name, values) in [("POSITION", &mut positions), ("NORMAL", &mut normals)] {
-                let Some(moves) = self.triples(target, name)? else { continue };
-                if *weight != 0.0 {
-                    values.iter_mut().zip(moves).for_each(|(value, step)| *value += step * *weight as f32);
-                }
-            }
-        }
-        if let Some(skinning) = skinning {
-            self.bend(primitive, skinning, &mut positions, &mut normals)?;
-        }
-        if let Some(at) = positions.iter().position(|position| !position.is_finite() || position.abs().max_element() > FARTHEST) {
-            return Err(format!("vertex {at} stands at {}: not within 1e18", positions[at]));
         }
         let indices = match primitive.indices {
             Some(accessor) => self.buffers.indices(accessor)?,
@@ -110,19 +95,7 @@ impl Importer<'_> {
         if let Some(index) = indices.iter().find(|index| **index as usize >= count) {
             return Err(format!("a face uses vertex {index}, but there are only {count} (counted from 0)"));
         }
-        let faces = triangles(&indices, mode);
-        // A normal of no length says nothing; then all faces are flat.
-        let mut units = Vec::with_capacity(normals.len());
-        for normal in normals {
-            let is_unit = (normal.length_squared() - 1.0).abs() < 1e-6;
-            match if is_unit { Some(normal) } else { normal.try_normalize() } {
-                Some(normal) => units.push(normal),
-                None => units.push(Vec3::ZERO),
-            }
-        }
-        let mut mesh = Mesh { positions, normals: units, faces, ..Mesh::default() };
-        complete_normals(&mut mesh);
-        Ok(Some(mesh))
+        Ok(Some(Mesh { positions, normals, faces: triangles(&indices, mode), ..Mesh::default() }))
     }
 
     /// The vertices' colours, which multiply the base colour of materials without textures.
@@ -189,60 +162,15 @@ impl Importer<'_> {
         Ok(())
     }
 
-    fn triples(&self, attributes: &Map<String, Value>, name: &str) -> Result<Option<Vec<Vec3>>, String> {
+    pub fn triples(&self, attributes: &Map<String, Value>, name: &str) -> Result<Option<Vec<Vec3>>, String> {
         let Some(accessor) = accessor(attributes, name)? else { return Ok(None) };
         let (numbers, _) = self.buffers.numbers(accessor, &["VEC3"])?;
         Ok(Some(numbers.as_chunks::<3>().0.iter().map(|xyz| Vec3::from_array(*xyz)).collect()))
     }
-
-    /// Moves vertices with their joints.
-    fn bend(
-        &self,
-        primitive: &Primitive,
-        Skinning(joints): &Skinning,
-        positions: &mut [Vec3],
-        normals: &mut [Vec3],
-    ) -> Result<(), String> {
-        let mut sums: Vec<Vec<(usize, f64)>> = vec![Vec::new(); positions.len()];
-        for set in 0.. {
-            let (joint, weight) = (format!("JOINTS_{set}"), format!("WEIGHTS_{set}"));
-            let (Some(joint), Some(weight)) =
-                (accessor(&primitive.attributes, &joint)?, accessor(&primitive.attributes, &weight)?)
-            else {
-                break;
-            };
-            let (joint, weight) = (self.buffers.numbers(joint, &["VEC4"])?.0, self.buffers.numbers(weight, &["VEC4"])?.0);
-            let pairs = joint.as_chunks::<4>().0.iter().zip(weight.as_chunks::<4>().0);
-            for (sum, (joints, weights)) in sums.iter_mut().zip(pairs) {
-                let used = joints.iter().zip(weights).filter(|(_, weight)| **weight != 0.0);
-                sum.extend(used.map(|(joint, weight)| (*joint as usize, f64::from(*weight))));
-            }
-        }
-        for (vertex, sum) in sums.iter().enumerate() {
-            let total: f64 = sum.iter().map(|(_, weight)| weight).sum();
-            if total <= 0.0 {
-                continue;
-            }
-            let (mut position, mut normal) = (DVec3::ZERO, DVec3::ZERO);
-            for (joint, weight) in sum {
-                let map = joints
-                    .get(*joint)
-                    .ok_or_else(|| format!("vertex {vertex} hangs on joint {joint}, and there are {}", joints.len()))?;
-                position += map.transform_point3(positions[vertex].as_dvec3()) * (weight / total);
-                if let Some(own) = normals.get(vertex) {
-                    normal += (map.matrix3.inverse().transpose() * own.as_dvec3()) * (weight / total);
-                }
-            }
-            positions[vertex] = position.as_vec3();
-            if let Some(own) = normals.get_mut(vertex) {
-                *own = normal.as_vec3();
-            }
-        }
-        Ok(())
-    }
 }
 
-fn accessor(attributes: &Map<String, Value>, name: &str) -> Result<Option<usize>, String> {
+/// The accessor of an attribute.
+pub fn accessor(attributes: &Map<String, Value>, name: &str) -> Result<Option<usize>, String> {
     let Some(value) = attributes.get(name) else { return Ok(None) };
     let index = value.as_u64().and_then(|index| usize::try_from(index).ok());
     index.map(Some).ok_or_else(|| format!("{name} names no accessor"))
@@ -259,6 +187,14 @@ fn triangles(indices: &[u32], mode: u64) -> Vec<[u32; 3]> {
         }
         6 => indices.get(1..).unwrap_or_default().windows(2).map(|pair| [pair[0], pair[1], indices[0]]).collect(),
         _ => indices.as_chunks::<3>().0.to_vec(),
+    }
+}
+
+fn check_range(mesh: &Mesh) -> Result<(), String> {
+    let is_far = |position: &Vec3| !position.is_finite() || position.abs().max_element() > FARTHEST;
+    match mesh.positions.iter().position(is_far) {
+        Some(at) => Err(format!("vertex {at} stands at {}: not within 1e18", mesh.positions[at])),
+        None => Ok(()),
     }
 }
 

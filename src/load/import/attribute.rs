@@ -45,6 +45,11 @@ impl Blocks {
         Self { columns, rows, corners }
     }
 
+    /// The corners of the triangles, before they had vertices of their own.
+    pub fn corners(&self) -> &[[u32; 3]] {
+        &self.corners
+    }
+
     /// The attribute as a texture, without its name.
     pub fn texture(&self, attribute: &MeshAttribute, scene: &mut Description) -> Option<Keys> {
         let value = |face: usize, corner: usize| {
@@ -67,7 +72,7 @@ impl Blocks {
         let mut bytes = Vec::new();
         let image = Image::from_channels(size, SpecificChannels::rgb(|place| -> (f32, f32, f32) { texel(place) }));
         image.write().to_buffered(Cursor::new(&mut bytes)).ok()?;
-        let file: FileReference = scene.hold_picture(&attribute.name, "exr", bytes);
+        let file: FileReference = scene.hold_bytes(&attribute.name, "exr", bytes);
         Some(Keys::of_type("image").with("file", file).with("wrap", "clamp").with("filter", "triangle"))
     }
 }

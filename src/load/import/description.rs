@@ -32,6 +32,10 @@ pub struct Description {
     pub nodes: Vec<Entry>,
     /// Meshes and pictures, by [`FileReference::Held`].
     pub held: Vec<(String, HeldContent)>,
+    /// Of meshes that are bent, by the places of their files among `held`: what they are without a frame.
+    pub bent: HashMap<usize, Arc<Mesh>>,
+    /// Materials that are others for some meshes, by their names, and those others.
+    pub material_variants: HashMap<String, String>,
     pub report: ImportReport,
     pub(super) group_names: Names,
     pub(super) material_names: Names,
@@ -144,8 +148,15 @@ impl Description {
         self.hold(name, HeldContent::Mesh(Arc::new(mesh)))
     }
 
-    /// Keeps a picture; `ending` says its format.
-    pub fn hold_picture(&mut self, name: &str, ending: &str, bytes: Vec<u8>) -> FileReference {
+    /// Keeps a mesh that is bent, and what it is without a frame.
+    pub fn hold_bent_mesh(&mut self, name: &str, base: Arc<Mesh>, rest: Mesh) -> FileReference {
+        self.bent.insert(self.held.len(), Arc::new(rest));
+        let name = format!("{:04}-{}.ply", self.held.len(), file_name(name));
+        self.hold(name, HeldContent::Mesh(base))
+    }
+
+    /// Keeps a picture or another file; `ending` says its format.
+    pub fn hold_bytes(&mut self, name: &str, ending: &str, bytes: Vec<u8>) -> FileReference {
         let name = format!("{:04}-{}.{ending}", self.held.len(), file_name(name));
         self.hold(name, HeldContent::Bytes(bytes.into()))
     }
@@ -216,7 +227,8 @@ impl Description {
     /// The vertices of a mesh that faces use, as its transform places them.
     fn points_of_shape(&self, shape: &Entry) -> Vec<DVec3> {
         let Some(Value::File(file)) = shape.keys.get("file") else { return Vec::new() };
-        let Some(mesh) = self.mesh(file) else { return Vec::new() };
+        let bent = if let FileReference::Held(index) = file { self.bent.get(index) } else { None };
+        let Some(mesh) = bent.or_else(|| self.mesh(file)) else { return Vec::new() };
         let map = shape.keys.get("transform").and_then(matrix_of).unwrap_or(DAffine3::IDENTITY);
         let mut used = vec![false; mesh.positions.len()];
         mesh.faces.iter().flatten().for_each(|&index| used[index as usize] = true);

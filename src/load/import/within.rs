@@ -86,10 +86,12 @@ impl Description {
         let before = self.materials.len();
         self.materials.retain(|entry| entry.keys.text("name") != Some(theirs));
         let replaced = format!("{OURS}{ours}");
+        let variants = &self.material_variants;
         let of_groups = self.groups.iter_mut().flat_map(|group| &mut group.shapes);
         for entry in self.shapes.iter_mut().chain(of_groups).chain(&mut self.materials) {
+            let is_theirs = |name: &str| name == theirs || variants.get(name).is_some_and(|of| of == theirs);
             rename(&mut entry.keys, &["material", "materials"], &|name| {
-                if name == theirs { replaced.clone() } else { name.to_owned() }
+                if is_theirs(name) { replaced.clone() } else { name.to_owned() }
             });
         }
         self.materials.len() < before
@@ -134,6 +136,13 @@ fn rename(keys: &mut Keys, of: &[&str], renamed: &dyn Fn(&str) -> String) {
                 for name in names {
                     if let Value::Text(name) = name {
                         *name = renamed(name);
+                    }
+                }
+            }
+            Value::List(tables) if of != ["name"] => {
+                for table in tables {
+                    if let Value::Table(keys) = table {
+                        rename(keys, of, renamed);
                     }
                 }
             }

@@ -8,6 +8,7 @@ mod colour;
 mod converter;
 mod document;
 mod emitter;
+mod handedness;
 mod input;
 mod mesh_file;
 mod metals;
@@ -74,6 +75,7 @@ pub fn load(files: &Files, path: &Path, options: &Options) -> Result<Description
     converter.read_meshes.clear();
     let Converter { reader, mut scene, .. } = converter;
     scene.report.append(reader.report);
+    handedness::turn_mirrored(&mut scene);
     Ok(scene)
 }
 

@@ -35,7 +35,7 @@ pub struct TextureMap {
 }
 
 /// Keys that have an effect here. All others are named.
-const HONOURED: [&str; 24] = [
+const HONOURED: [&str; 26] = [
     "newmtl",
     "Kd",
     "Ks",
@@ -50,12 +50,14 @@ const HONOURED: [&str; 24] = [
     "map_Ke",
     "Pr",
     "Pm",
+    "Ps",
     "Pc",
     "Pcr",
     "aniso",
     "anisor",
     "map_Pr",
     "map_Pm",
+    "map_Ps",
     "map_Pc",
     "map_Pcr",
     "map_aniso",

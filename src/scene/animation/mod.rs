@@ -5,6 +5,7 @@
 //! shutter time 1 of frame f is shutter time 0 of frame f + 1.
 
 mod curve;
+mod deformation;
 mod moving;
 mod track;
 
@@ -13,11 +14,13 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3};
 
 pub use curve::{Curve, Interpolation, Key, Moment, Turn};
+pub use deformation::{Deformation, DeformationTrack, Influences, Joint, MorphTarget};
 pub use moving::{motion_between, unevenness};
 pub use track::{CameraTrack, LightTrack, Node, ShapeTrack, TransformTrack};
 
 use super::camera::{Camera, EXPOSURE_STRETCHES};
 use super::light_at::LightAt;
+use super::shape::Mesh;
 
 /// Frames in a second where nothing else is said.
 pub const FRAMES_PER_SECOND: f64 = 24.0;
@@ -30,11 +33,20 @@ pub struct Animation {
     pub shapes: Vec<ShapeTrack>,
     pub camera: Option<CameraTrack>,
     pub lights: Vec<LightTrack>,
+    /// Meshes that are bent, in the order of their shapes.
+    pub deformations: Vec<DeformationTrack>,
 }
 
 impl Default for Animation {
     fn default() -> Self {
-        Self { frames_per_second: FRAMES_PER_SECOND, nodes: Vec::new(), shapes: Vec::new(), camera: None, lights: Vec::new() }
+        Self {
+            frames_per_second: FRAMES_PER_SECOND,
+            nodes: Vec::new(),
+            shapes: Vec::new(),
+            camera: None,
+            lights: Vec::new(),
+            deformations: Vec::new(),
+        }
     }
 }
 
@@ -44,12 +56,20 @@ impl Animation {
         self.frames().is_none()
     }
 
+    /// How many shapes have keys, or are bent by what has some.
+    pub fn animated_shapes(&self) -> usize {
+        let is_counted = |bent: &&DeformationTrack| self.shapes.iter().any(|track| track.shape == bent.shape);
+        self.shapes.len() + self.deformations.iter().filter(|bent| !is_counted(bent)).count()
+    }
+
     /// The first and the last frame of all keys; None where there are none.
     pub fn frames(&self) -> Option<[f64; 2]> {
         let nodes = self.nodes.iter().filter_map(|node| node.track.as_ref());
         let tracks = nodes.chain(self.shapes.iter().filter_map(|shape| shape.track.as_ref()));
         let frames = tracks.flat_map(TransformTrack::frames).chain(self.camera.iter().flat_map(CameraTrack::frames));
         let frames = frames.chain(self.lights.iter().flat_map(LightTrack::frames));
+        let targets = self.deformations.iter().flat_map(|track| &track.deformation.targets);
+        let frames = frames.chain(targets.flat_map(|target| target.weight.keys.iter().map(|key| key.frame)));
         frames.fold(None, |ends, frame| {
             let [first, last] = ends.unwrap_or([frame; 2]);
             Some([f64::min(first, frame), f64::max(last, frame)])
@@ -57,11 +77,15 @@ impl Animation {
     }
 
     /// The shapes with keys, each as it is turned and scaled at the first frame of all keys; None where neither shapes nor lights have any. It is the
-    /// same for all frames.
+    /// same for all frames. Meshes that are bent are among them, so that what stands still beside them has a tree of its own.
     pub fn first_poses(&self) -> Option<Arc<[(usize, DMat3)]>> {
-        let [first, _] = self.frames().filter(|_| !self.shapes.is_empty() || !self.lights.is_empty())?;
+        let has_some = !(self.shapes.is_empty() && self.lights.is_empty() && self.deformations.is_empty());
+        let [first, _] = self.frames().filter(|_| has_some)?;
         let at = Moment { now: first, opening: first };
-        Some(self.shapes.iter().map(|track| (track.shape, track.during(self, at).matrix3)).collect())
+        let moved = self.shapes.iter().map(|track| (track.shape, track.during(self, at).matrix3));
+        let stands = |bent: &&DeformationTrack| self.shapes.iter().all(|track| track.shape != bent.shape);
+        let bent = self.deformations.iter().filter(stands).map(|track| (track.shape, track.place.matrix3));
+        Some(moved.chain(bent).collect())
     }
 
     /// By how much a node takes things along from where they stand without a frame.
@@ -128,6 +152,14 @@ impl LightTrack {
     /// What it says at a frame, and how its node moves the light.
     pub fn taken_along(&self, animation: &Animation, frame: f64) -> LightAt {
         LightAt { along: animation.taken_along(self.node, frame.into()), ..self.at(frame) }
+    }
+}
+
+impl DeformationTrack {
+    /// The mesh at a frame. While the shutter is open it stays so.
+    pub fn at(&self, animation: &Animation, frame: f64) -> Mesh {
+        let back = self.place.inverse();
+        self.deformation.during(frame.into(), &|node| back * animation.taken_along(Some(node), frame.into()) * self.place)
     }
 }
 

@@ -10,7 +10,7 @@ use crate::scene::check::Check;
 use crate::scene::material::MaterialId;
 
 /// Triangles with shared vertices. Front faces are counter-clockwise.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mesh {
     pub positions: Vec<Vec3>,
     /// One per position, or empty.

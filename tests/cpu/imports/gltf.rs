@@ -58,7 +58,7 @@ impl File {
     }
 
     /// Appends bytes with a view of them; its index.
-    fn bytes(&mut self, bytes: &[u8]) -> usize {
+    pub fn bytes(&mut self, bytes: &[u8]) -> usize {
         let start = self.data.len();
         self.data.extend(bytes);
         let Some(views) = self.root.get_mut("bufferViews").and_then(Value::as_array_mut) else { return 0 };
@@ -67,12 +67,12 @@ impl File {
     }
 
     /// Appends numbers with an accessor of them; its index.
-    fn add(&mut self, kind: &str, numbers: &[f32]) -> usize {
+    pub fn add(&mut self, kind: &str, numbers: &[f32]) -> usize {
         let accessor = self.accessor(kind, numbers);
         self.enter(accessor)
     }
 
-    fn enter(&mut self, accessor: Value) -> usize {
+    pub fn enter(&mut self, accessor: Value) -> usize {
         let accessors = self.root["accessors"].as_array_mut().expect("a list");
         accessors.push(accessor);
         accessors.len() - 1
@@ -113,16 +113,16 @@ impl File {
         bytes
     }
 
-    fn read(&self) -> Scene {
+    pub fn read(&self) -> Scene {
         Folder::new(&[("a.gltf", &self.text())]).valid("a.gltf")
     }
 
-    fn refused(&self) -> String {
+    pub fn refused(&self) -> String {
         refusal(Folder::new(&[("a.gltf", &self.text())]).load("a.gltf"))
     }
 }
 
-fn mesh(scene: &Scene, index: usize) -> &Mesh {
+pub fn mesh(scene: &Scene, index: usize) -> &Mesh {
     match &scene.shapes[index].geometry {
         Geometry::Mesh(mesh) => mesh,
         other => panic!("{other:?}"),
@@ -276,7 +276,7 @@ fn report_or_refusal(file: &File) -> String {
 }
 
 #[test]
-fn morph_targets_and_skins_are_at_rest() {
+fn morph_targets_and_skins_bend_meshes() {
     let mut file = File::new();
     let target = file.add("VEC3", &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0]);
     file.root["meshes"][0]["primitives"][0]["targets"] = json!([{ "POSITION": target }]);
@@ -296,15 +296,21 @@ fn morph_targets_and_skins_are_at_rest() {
     let scene = file.read();
     assert_eq!(mesh(&scene, 0).positions[2], glam::Vec3::new(0.0, 2.0, 7.0));
     assert_eq!(scene.shapes[0].origin(), glam::DVec3::ZERO);
-    let [times, values] = [file.add("SCALAR", &[0.0, 1.0]), file.add("VEC3", &[0.0, 0.0, 7.0, 0.0, 0.0, 9.0])];
-    let sampler = json!({ "input": times, "output": values });
-    let channel = |node: u64, path: &str| json!({ "sampler": 0, "target": { "node": node, "path": path } });
-    file.root["animations"] = json!([{ "channels": [channel(3, "translation"), channel(0, "weights")], "samplers": [sampler] }]);
+    let times = file.add("SCALAR", &[0.0, 1.0]);
+    let places = file.add("VEC3", &[0.0, 0.0, 7.0, 0.0, 0.0, 9.0]);
+    let counts = file.add("SCALAR", &[0.5, 1.5]);
+    let sampler = |output: usize| json!({ "input": times, "output": output });
+    let channel = |sampler: u64, node: u64, path: &str| json!({ "sampler": sampler, "target": { "node": node, "path": path } });
+    let channels = [channel(0, 3, "translation"), channel(1, 0, "weights")];
+    file.root["animations"] = json!([{ "channels": channels, "samplers": [sampler(places), sampler(counts)] }]);
     let scene = file.read();
-    let report = report(&scene);
-    assert!(report.contains("animation of a skin x1: the mesh is as it is at rest"), "{report}");
-    assert!(report.contains("channel of an animation x1: it has no effect: morph targets stay as they are"), "{report}");
+    assert_eq!(report(&scene), "");
+    // Without a time it is as the nodes have it.
     assert_eq!(mesh(&scene, 0).positions[2], glam::Vec3::new(0.0, 2.0, 7.0));
+    for (seconds, expected) in [(0.0, [2.0, 7.0]), (0.5, [3.0, 8.0]), (9.0, [4.0, 9.0])] {
+        let at = scene.at_frame(seconds * 24.0).expect("it can be rendered");
+        assert_eq!(mesh(&at, 0).positions[2], glam::Vec3::new(0.0, expected[0], expected[1]), "{seconds}");
+    }
 }
 
 /// Where a corner of the first shape is at a time in seconds.
@@ -402,6 +408,82 @@ fn textures_are_turned_with_their_coordinates() {
     assert!(matches!(scene.materials[0].kind, MaterialKind::Diffuse { .. }));
     let folder = Folder::new(&[("a.gltf", &file.text())]);
     assert_eq!(super::picture(&folder.valid("a.gltf")), super::picture(&folder.written("a.gltf")));
+}
+
+/// A file whose base colour and metallic-roughness pictures, of 2 × 2 texels, lie differently on the triangle.
+fn with_two_placements(base: Value, roughness: Value, normal: Option<Value>) -> File {
+    let mut file = File::new();
+    let uvs = file.add("VEC2", &[0.0, 0.0, 1.0, 0.0, 0.5, 1.0]);
+    file.root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(uvs);
+    file.root["images"] = json!([{ "uri": "a.png" }]);
+    file.root["textures"] = json!([{ "source": 0, "sampler": 0 }]);
+    file.root["samplers"] = json!([{ "magFilter": 9728 }]);
+    let info = |transform: Value| json!({ "index": 0, "extensions": { "KHR_texture_transform": transform } });
+    file.root["materials"][0] = json!({ "pbrMetallicRoughness": {
+        "baseColorTexture": info(base), "metallicRoughnessTexture": info(roughness) } });
+    if let Some(normal) = normal {
+        file.root["materials"][0]["normalTexture"] = info(normal);
+    }
+    file
+}
+
+/// The same scene by hand, each texture with a placement of its own.
+fn with_placements_by_hand(base: &str, roughness: &str) -> String {
+    let texture = |name: &str, space: &str, placement: &str| {
+        format!(
+            "[[texture]]\nname = \"{name}\"\ntype = \"image\"\nfile = \"a.png\"\ncolor_space = \"{space}\"\nfilter = \"nearest\"\n{placement}\n"
+        )
+    };
+    format!(
+        "[film]\nsize = [512, 256]\n[camera]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\nvfov = {}\n{}{}\
+         [[material]]\nname = \"a\"\ntype = \"principled\"\nbase_color = {{ texture = \"base\" }}\n\
+         metallic = {{ texture = \"orm\", channel = \"b\" }}\nroughness = {{ texture = \"orm\", channel = \"g\" }}\nior = 1.5\n\
+         [[shape]]\ntype = \"mesh\"\nmaterial = \"a\"\npositions = [[-1, -1, 0], [1, -1, 0.5], [0, 1, 0]]\nfaces = [[0, 1, 2]]\n\
+         uvs = [[0, 1], [1, 1], [0.5, 0]]\n[[light]]\ntype = \"point\"\nposition = [1, 2, 3]\nintensity = [40, 20, 10]\n",
+        0.7_f64.to_degrees(),
+        texture("base", "srgb", base),
+        texture("orm", "linear", roughness),
+    )
+}
+
+/// By hand: v runs upward here, so that (u, 1 - v) is looked up; a turn of 90 degrees leads (u, v) to (v, -u) there.
+#[test]
+fn each_texture_lies_as_its_own_transform_says() {
+    let base = json!({ "offset": [0.25, 0.5], "scale": [2.0, 3.0] });
+    let turned = json!({ "rotation": std::f64::consts::FRAC_PI_2 });
+    let mut pixels = image::RgbImage::new(2, 2);
+    for (place, colour) in pixels.pixels_mut().zip([[250, 20, 30], [40, 250, 60], [70, 80, 250], [200, 190, 20]]) {
+        *place = image::Rgb(colour);
+    }
+    let mut png = std::io::Cursor::new(Vec::new());
+    pixels.write_to(&mut png, image::ImageFormat::Png).expect("memory can be written to");
+    let file = with_two_placements(base.clone(), turned.clone(), None);
+    let by_hand =
+        with_placements_by_hand("scale = [2, 3]\nrotation = 0\noffset = [0.25, -2.5]", "rotation = 90\noffset = [1, 1]");
+    let wrong = with_placements_by_hand("scale = [2, 3]\nrotation = 0\noffset = [0.25, -2.5]", "");
+    let folder = Folder::new(&[
+        ("a.png", &png.into_inner()),
+        ("a.gltf", &file.text()),
+        ("b.toml", by_hand.as_bytes()),
+        ("c.toml", wrong.as_bytes()),
+        ("d.gltf", &with_two_placements(base.clone(), base.clone(), None).text()),
+        ("e.gltf", &with_two_placements(base.clone(), turned.clone(), Some(turned)).text()),
+        ("f.gltf", &with_two_placements(base, json!({}), Some(json!({ "rotation": 0.5 }))).text()),
+    ]);
+    let scene = folder.valid("a.gltf");
+    assert_eq!(report(&scene), "");
+    let expected = picture(&folder.valid("b.toml"));
+    assert_eq!(picture(&scene), expected);
+    assert_eq!(picture(&folder.written("a.gltf")), expected);
+    assert_ne!(picture(&folder.valid("c.toml")), expected, "the control");
+    // What lies alike is applied to the mesh.
+    let alike = folder.valid("d.gltf");
+    assert!(mesh(&alike, 0).uvs[1].abs_diff_eq(glam::Vec2::new(2.25, 0.5), 1e-6), "{:?}", mesh(&alike, 0).uvs);
+    // A normal map that is turned has the mesh's coordinates, so that its directions are turned as well.
+    let turned = folder.valid("e.gltf");
+    assert!(mesh(&turned, 0).uvs[1].abs_diff_eq(glam::Vec2::new(0.0, 2.0), 1e-6), "{:?}", mesh(&turned, 0).uvs);
+    assert_eq!(report(&turned), "");
+    assert!(report(&folder.valid("f.gltf")).contains("KHR_texture_transform of the base colour x1"), "a shear");
 }
 
 /// KHR_materials_sheen and KHR_materials_volume, whose defaults have no effect.

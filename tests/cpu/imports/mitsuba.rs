@@ -487,3 +487,56 @@ fn bumps_without_slopes_are_reported() {
     );
     assert_eq!(report(&scene), "texture `checkerboard` as a bump map x1: it has steps and no slopes, and bends no normals\n");
 }
+
+/// A square seen from the front, which v crosses upward or downward; the map of normals is the same everywhere, so in Mitsuba, where green points
+/// across the normal and the tangent, both look alike. In a scene file of ours, where green points to where v grows, they do not.
+#[test]
+fn green_points_across_the_tangent_whichever_way_v_runs() {
+    let square = |v: [u8; 4]| {
+        let rows = [["-1 -1", "0"], ["1 -1", "1"], ["1 1", "1"], ["-1 1", "0"]].into_iter().zip(v);
+        let rows: String = rows.map(|([place, u], v)| format!("{place} 0 {u} {v}\n")).collect();
+        format!(
+            "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty float u\n\
+             property float v\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n{rows}3 0 1 2\n3 0 2 3\n"
+        )
+    };
+    let (upward, downward) = (square([0, 0, 1, 1]), square([1, 1, 0, 0]));
+    // One face of each.
+    let both = upward
+        .replace("element vertex 4", "element vertex 7")
+        .replace("3 0 1 2\n3 0 2 3\n", "-1 -1 0 0 1\n1 1 0 1 0\n-1 1 0 0 0\n3 0 1 2\n3 4 5 6\n");
+    let mut png = std::io::Cursor::new(Vec::new());
+    let texel = image::Rgb([150, 220, 190]);
+    image::RgbImage::from_pixel(2, 2, texel).write_to(&mut png, image::ImageFormat::Png).expect("memory can be written to");
+    let scene = |file: &str| {
+        with(&format!(
+            r#"<shape type="ply"><string name="filename" value="{file}"/><bsdf type="normalmap"><texture name="normalmap" type="bitmap">
+            <boolean name="raw" value="true"/><string name="filename" value="h.png"/></texture><bsdf type="diffuse"><rgb name="reflectance"
+            value="0.5"/></bsdf></bsdf></shape>"#
+        ))
+    };
+    let ours = |file: &str| {
+        format!(
+            "[camera]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\nvfov = 40\n[[texture]]\nname = \"h\"\ntype = \"image\"\nfile = \"h.png\"\n\
+             color_space = \"linear\"\n[[material]]\nname = \"m\"\ntype = \"diffuse\"\nreflectance = 0.5\nnormal_map = \"h\"\n\
+             [[shape]]\ntype = \"mesh\"\nfile = \"{file}\"\nmaterial = \"m\"\n[[light]]\ntype = \"point\"\nposition = [0, 3, 3]\nintensity = 10\n"
+        )
+    };
+    let folder = Folder::new(&[
+        ("up.ply", upward.as_bytes()),
+        ("down.ply", downward.as_bytes()),
+        ("both.ply", both.as_bytes()),
+        ("h.png", &png.into_inner()),
+        ("up.xml", scene("up.ply").as_bytes()),
+        ("down.xml", scene("down.ply").as_bytes()),
+        ("both.xml", scene("both.ply").as_bytes()),
+        ("up.toml", ours("up.ply").as_bytes()),
+        ("down.toml", ours("down.ply").as_bytes()),
+    ]);
+    let [up, down, both] = ["up.xml", "down.xml", "both.xml"].map(|name| folder.valid(name));
+    assert_eq!([&up, &down, &both].map(|scene| scene.shapes.len()), [1, 1, 2].map(|count| count + up.shapes.len() - 1));
+    assert_eq!(picture(&down), picture(&up));
+    assert_eq!(picture(&both), picture(&up));
+    assert_eq!(picture(&folder.written("down.xml")), picture(&up));
+    assert_ne!(picture(&folder.valid("up.toml")), picture(&folder.valid("down.toml")), "the control");
+}

@@ -1,7 +1,9 @@
 //! Scenes of other programs: what they say is what a scene file of ours says, and what is wrong with them is told in one sentence.
 
+mod bending;
 mod gltf;
 mod mitsuba;
+mod mtl;
 mod within;
 
 use std::ffi::OsStr;

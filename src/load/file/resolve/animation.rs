@@ -107,7 +107,10 @@ impl Resolver<'_> {
     }
 
     /// `interpolation` says how keyframes lead from one to the next.
-    fn without_keyframes(&self, interpolation: Option<&Located<InterpolationName>>) -> Result<(), SceneError> {
+    pub(in crate::load::file) fn without_keyframes(
+        &self,
+        interpolation: Option<&Located<InterpolationName>>,
+    ) -> Result<(), SceneError> {
         let refuse = |written: &Located<_>| {
             Err(self.error(&written.span, "`interpolation` belongs to `keyframes`, of which there are none"))
         };
@@ -115,7 +118,7 @@ impl Resolver<'_> {
     }
 
     /// The frames of keyframes, each later than the one before.
-    fn frames<T>(
+    pub(in crate::load::file) fn frames<T>(
         &self,
         keyframes: &Located<Vec<Located<T>>>,
         fps: f64,

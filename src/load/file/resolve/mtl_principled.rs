@@ -1,4 +1,4 @@
-//! MTL's keys of physically based materials (`Pr`, `Pm`, `Pc`, `Pcr`, `aniso`, `anisor`, their maps and `norm`), as Blender writes them.
+//! MTL's keys of physically based materials (`Pr`, `Pm`, `Ps`, `Pc`, `Pcr`, `aniso`, `anisor`, their maps and `norm`), as Blender writes them.
 
 use glam::DVec3;
 
@@ -10,9 +10,17 @@ use crate::scene::{ChannelInput, ColorInput, ColorSpace, Masking, MaterialKind, 
 /// Keys of which one makes a material this kind.
 const KEYS: [&str; 4] = ["Pr", "Pm", "map_Pr", "map_Pm"];
 
-/// It says its roughness or how much of a metal it is.
+/// Others, unless they are 0.
+const KEYS_OF_SOME: [&str; 6] = ["Ps", "Pc", "aniso", "map_Ps", "map_Pc", "map_aniso"];
+/// MTL has no key for the roughness of sheen; this is what Blender, which writes `Ps`, begins with.
+const SHEEN_ROUGHNESS: f64 = 0.5;
+
+/// It says its roughness or how much of a metal it is, or has a coat, sheen or a direction.
 pub fn is_principled(written: &MtlMaterial) -> bool {
-    KEYS.iter().any(|key| written.material.unknown_param.contains_key(*key))
+    let params = &written.material.unknown_param;
+    let is_zero = |text: &String| text.split_whitespace().all(|word| word.parse() == Ok(0.0));
+    KEYS.iter().any(|key| params.contains_key(*key))
+        || KEYS_OF_SOME.iter().any(|key| params.get(*key).is_some_and(|text| !is_zero(text)))
 }
 
 impl Resolver<'_> {
@@ -23,6 +31,7 @@ impl Resolver<'_> {
         let ior = f64::from(written.material.optical_density.unwrap_or(1.5));
         let ior = if (1.0..=10.0).contains(&ior) { ior } else { 1.5 };
         let anisotropy = self.mtl_scalar(written, "aniso", 0.0)?;
+        let sheen = self.mtl_scalar(written, "Ps", 0.0)?;
         let rotation = number(written, "anisor")?.unwrap_or(0.0);
         Ok(MaterialKind::Principled(Box::new(Principled {
             base_color,
@@ -35,8 +44,8 @@ impl Resolver<'_> {
             transmission: ColorInput::grey(if opacity < 1.0 && is_glass(written) { 1.0 - opacity } else { 0.0 }),
             thin: false,
             attenuation: None,
-            sheen_color: ColorInput::grey(0.0),
-            sheen_roughness: ColorInput::grey(0.0),
+            sheen_roughness: ColorInput::grey(if sheen == ColorInput::grey(0.0) { 0.0 } else { SHEEN_ROUGHNESS }),
+            sheen_color: sheen,
             energy_compensation: false,
             clearcoat: self.mtl_scalar(written, "Pc", 0.0)?,
             clearcoat_roughness: self.mtl_scalar(written, "Pcr", 0.0)?,

@@ -12,7 +12,7 @@ use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::{CachedImage, Resolver};
 use crate::load::file::syntax::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 use crate::load::file::value::{Checked, Exactly, Located, Number, Positive};
-use crate::load::formats;
+use crate::load::{formats, reading};
 use crate::scene::validate::MOST_OCTAVES;
 use crate::scene::{
     ColorSpace, ImageData, ImageSource, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap, UvTransform,
@@ -68,8 +68,11 @@ impl Resolver<'_> {
             _ => None,
         };
         let keys: HashSet<(PathBuf, Option<ColorSpace>)> = written.iter().filter_map(key).collect();
+        reading::expect(keys.len());
         let decode = |key: (PathBuf, Option<ColorSpace>)| {
-            self.pictures.read(&key.0, key.1).ok().map(|picture| (key, CachedImage::from(picture)))
+            let picture = self.pictures.read(&key.0, key.1);
+            reading::one_was_read();
+            picture.ok().map(|picture| (key, CachedImage::from(picture)))
         };
         let decoded: Vec<_> = keys.into_par_iter().filter_map(decode).collect();
         self.images.extend(decoded);

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
+use super::deformation::DeformationEntry;
 use super::keys::{ShapeKeys, Written, shape_keys};
 use super::mesh_file::{Replaced, choose_normals};
 use super::mesh_writer;
@@ -42,6 +43,8 @@ shape_keys! {
         /// Of a file's own materials, by their names, those for which a `[[material]]` of this scene stands: `{ Wood = "oak" }`. The names
         /// of a PLY file's are the numbers `material_index` of its faces.
         materials: Option<Located<BTreeMap<String, Located<String>>>>,
+        /// Morph targets and joints that bend the mesh.
+        deformation: Option<Box<Located<DeformationEntry>>>,
         /// Interpolate normals over the faces; when left out, true if there are normals.
         smooth: Option<bool>,
     }
@@ -63,7 +66,8 @@ impl ShapeKeys for Keys {
             if entry.material.is_none() {
                 return Err(resolver.error(entry.span, "the key `material` is missing: only a mesh file can have its own"));
             }
-            return Ok(Arc::new(self.inline_mesh(resolver, entry)?));
+            let mesh = Arc::new(self.inline_mesh(resolver, entry)?);
+            return resolver.deformed(mesh, self.deformation.as_deref());
         };
         let given = [
             ("positions", self.positions.is_some()),
@@ -89,7 +93,7 @@ impl ShapeKeys for Keys {
         let replaced = self.replaced(resolver, entry)?;
         let LoadedMesh { mesh, material } = resolver.mesh_file(&path, self.smooth, entry.material, &replaced)?;
         entry.material = Some(material);
-        Ok(mesh)
+        resolver.deformed(mesh, self.deformation.as_deref())
     }
 
     fn write(mesh: &Arc<Mesh>, shape: &Shape, writer: &mut Writer<'_>) -> String {

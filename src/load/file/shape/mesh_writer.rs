@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::deformation;
 use crate::load::file::writer::{Writer, line, named_file, pair_f32, ply, text, vector_f32};
 use crate::scene::{MaterialId, Mesh, MeshSource, Shape};
 
@@ -11,6 +12,10 @@ const MOST_INLINE_FACES: usize = 24;
 /// The keys of a mesh and its material, a line each.
 pub fn write(mesh: &Arc<Mesh>, shape: &Shape, writer: &mut Writer<'_>) -> String {
     let scene = writer.scene;
+    if let Some(track) = scene.animation.deformations.iter().find(|track| Arc::ptr_eq(&track.rest, mesh)) {
+        let deformation = &track.deformation;
+        return write(&deformation.base, shape, writer) + &deformation::write(deformation, writer);
+    }
     if let Some(source) = named_file(scene, mesh) {
         return named_mesh(shape, source, writer);
     }

@@ -1,11 +1,13 @@
 //! `[[shape]]`: a file for each shape, with the keys it is written by.
 
+mod deformation;
 mod keys;
 mod mesh_file;
 mod mesh_writer;
 mod transform;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -19,6 +21,7 @@ use super::value::Located;
 use super::writer::Writer;
 use crate::load::error::SceneError;
 use crate::load::error::show;
+use crate::scene::animation::DeformationTrack;
 use crate::scene::shape::shape_table;
 use crate::scene::{Geometry, MaterialId, MaterialKind, Shape, Transform};
 
@@ -83,9 +86,16 @@ impl Resolver<'_> {
     pub(super) fn shapes(&mut self, written: &[Located<ShapeEntry>]) {
         for (index, entry) in written.iter().enumerate() {
             let shape = self.checked_shape(index, entry);
+            let deformation = self.deformation.take();
             if let Some(shape) = self.note(shape) {
                 let track = self.shape_track(entry.value.common().track, &shape);
                 self.note(track);
+                if let (Some(deformation), Geometry::Mesh(rest)) = (deformation, &shape.geometry) {
+                    let (rest, place) = (rest.clone(), shape.transform.to_affine());
+                    let track =
+                        DeformationTrack { shape: self.scene.shapes.len(), deformation: Arc::new(deformation), rest, place };
+                    Arc::make_mut(&mut self.scene.animation).deformations.push(track);
+                }
                 self.scene.shapes.push(shape);
             }
         }
