@@ -127,7 +127,7 @@ impl Scene {
         let (channels, image, stats) = outcome.map_err(raised)?;
         let layers = py.detach(|| arrays(&channels.unwrap_or_default(), &image))?;
         let layers = layers.into_iter().map(|(name, array)| Ok((name, Py::new(py, array)?))).collect::<PyResult<_>>()?;
-        Ok(Rendered { picture: Py::new(py, Picture(image))?, layers, stats: json(&stats)? })
+        Ok(Rendered { picture: Py::new(py, Picture(image))?, layers, stats: text(serde_json::to_string(&stats))? })
     }
 }
 
@@ -155,11 +155,11 @@ pub fn verify(py: Python<'_>, scene: &Scene, size: Option<(u32, u32)>, spp: Opti
     }
     let options = PlanOptions::default();
     let verdict = watched(py, None, |watcher| gpt::verify::verify_watched(&scene, &choice, &options, watcher))?;
-    json(&verdict.map_err(|error| raised(error.into()))?)
+    text(serde_json::to_string(&verdict.map_err(|error| raised(error.into()))?))
 }
 
-fn json(value: &impl serde::Serialize) -> PyResult<String> {
-    serde_json::to_string(value).map_err(|error| PyValueError::new_err(error.to_string()))
+fn text(json: serde_json::Result<String>) -> PyResult<String> {
+    json.map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
 /// Names of the scenes that are part of the program.

@@ -1,11 +1,6 @@
-//! Reads the types of a scene file from the tree of its text, through serde.
-//!
-//! A table whose kind is said by a key, `{ type = "mirror", … }`, is an enum with one struct per kind. Serde would read such an enum through a
-//! buffer that forgets where things were written; here the key is looked up first, and the struct is read from the rest. Lists are never taken
-//! for tables, and mistakes carry the place of the innermost value around them.
+//! Serde's reader of the tree: of a value, of the keys of a table, the values of a list, and the kind of an enum.
 
 use std::borrow::Cow;
-use std::fmt;
 use std::ops::Range;
 
 use serde::de::value::StrDeserializer;
@@ -16,7 +11,9 @@ use serde::de::{
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
-use super::wording::MISSING;
+use super::located::LOCATED;
+use super::mistake::Mistake;
+use crate::load::file::wording::MISSING;
 
 /// The enums whose kind is said by a key of their table, and that key.
 const TAGS: [(&str, &str); 7] = [
@@ -29,44 +26,8 @@ const TAGS: [(&str, &str); 7] = [
     ("TextureEntry", "type"),
 ];
 
-/// Stands for a value together with its place.
-const LOCATED: &str = "$located";
-
 /// A value of the tree.
 pub type Node<'t> = Spanned<DeValue<'t>>;
-
-/// What is wrong with a value, in serde's words, and the bytes of the value.
-#[derive(Debug)]
-pub struct Mistake {
-    pub message: String,
-    pub span: Option<Range<usize>>,
-}
-
-impl Mistake {
-    fn new(span: Range<usize>, message: String) -> Self {
-        Self { message, span: Some(span) }
-    }
-
-    /// The mistake, at a value around it where it has no place of its own.
-    fn within(mut self, span: Range<usize>) -> Self {
-        self.span.get_or_insert(span);
-        self
-    }
-}
-
-impl Error for Mistake {
-    fn custom<T: fmt::Display>(message: T) -> Self {
-        Self { message: message.to_string(), span: None }
-    }
-}
-
-impl fmt::Display for Mistake {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)
-    }
-}
-
-impl std::error::Error for Mistake {}
 
 /// Reads the whole tree.
 pub fn read<'t, T: Deserialize<'t>>(root: &'t Node<'t>) -> Result<T, Mistake> {
@@ -436,44 +397,5 @@ impl<'t> VariantAccess<'t> for Content<'t> {
 
     fn struct_variant<V: Visitor<'t>>(self, _: &'static [&'static str], visitor: V) -> Result<V::Value, Mistake> {
         Err(Mistake::invalid_type(Unexpected::StructVariant, &visitor))
-    }
-}
-
-/// Reads a value and its place.
-///
-/// # Errors
-/// Those of the value, and of readers that know no places.
-pub fn located<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<(T, Range<usize>), D::Error> {
-    struct LocatedVisitor<T>(std::marker::PhantomData<T>);
-    impl<'de, T: Deserialize<'de>> Visitor<'de> for LocatedVisitor<T> {
-        type Value = (T, Range<usize>);
-        fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-            f.write_str("a value with its place")
-        }
-        fn visit_enum<A: EnumAccess<'de>>(self, data: A) -> Result<Self::Value, A::Error> {
-            let (Place(span), content) = data.variant()?;
-            Ok((content.newtype_variant()?, span))
-        }
-    }
-    deserializer.deserialize_enum(LOCATED, &[], LocatedVisitor(std::marker::PhantomData))
-}
-
-/// The bytes of a value.
-struct Place(Range<usize>);
-
-impl<'de> Deserialize<'de> for Place {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct PlaceVisitor;
-        impl Visitor<'_> for PlaceVisitor {
-            type Value = Place;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a place")
-            }
-            /// The start in the upper half, the end in the lower.
-            fn visit_u128<E: Error>(self, both: u128) -> Result<Place, E> {
-                Ok(Place((both >> 64) as usize..both as u64 as usize))
-            }
-        }
-        deserializer.deserialize_u128(PlaceVisitor)
     }
 }
