@@ -266,8 +266,9 @@ impl Integrator {
             return;
         }
         let [choice, u, v] = bits();
-        let [u, v] = [u, v].map(|bits| visitor.round_bits(bits));
         let reference = surface.point.leave_towards(bsdf.view.wo);
+        let magnified = if V::ROUNDS { self.lights.magnifies((&self.world, &path.time), reference, choice) } else { 1.0 };
+        let [u, v] = [u, v].map(|bits| visitor.round_bits(bits, magnified));
         let Some(light) = self.lights.sample(&self.scene, (&self.world, &path.time), reference, choice, [u, v]) else { return };
         // Several samples are as dense together as one of as many times its density.
         let mut light = LightSample { pdf: light.pdf * f64::from(settings.light_samples_at(path.depth)), ..light };

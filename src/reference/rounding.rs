@@ -120,8 +120,8 @@ impl PathVisitor for Rounding {
         (number + self.size * self.draw()).clamp(0.0, LARGEST_NUMBER)
     }
 
-    fn round_bits(&mut self, bits: u32) -> u32 {
+    fn round_bits(&mut self, bits: u32, magnified: f64) -> u32 {
         // A cast to an integer ends at the smallest and the largest.
-        (f64::from(bits) + self.size * self.draw() * 4_294_967_296.0) as u32
+        (f64::from(bits) + magnified * self.size * self.draw() * 4_294_967_296.0) as u32
     }
 }

@@ -55,8 +55,8 @@ pub trait PathVisitor {
     fn round_number(&mut self, number: f64) -> f64 {
         number
     }
-    /// The bits of a random number of a light sample.
-    fn round_bits(&mut self, bits: u32) -> u32 {
+    /// The bits of a random number of a light sample, whose rounding errors are magnified so many times.
+    fn round_bits(&mut self, bits: u32, _magnified: f64) -> u32 {
         bits
     }
 }

@@ -118,7 +118,57 @@ fn steep_paths_are_no_false_alarm() {
     assert!(verdict.agrees && verdict.followed_paths > 2, "{verdict:#?}");
 }
 
-/// The same scene with a metal that returns 1 % too much.
+/// A lamp seen under a small solid angle, with a texture that changes a lot over what single precision is off by there.
+const FINE_LAMP: &str = r#"
+[film]
+size = [64, 48]
+[render]
+spp = 16
+[camera]
+position = [0, 1.5, 6]
+look_at = [0, 1, 0]
+vfov = 40
+[[texture]]
+name = "fine"
+type = "perlin"
+a = 0
+b = [20, 15, 10]
+scale = 60
+[[material]]
+name = "clay"
+type = "diffuse"
+reflectance = 0.6
+[[material]]
+name = "lamp"
+type = "emissive"
+radiance = { texture = "fine" }
+[[shape]]
+type = "rectangle"
+corner = [-5, 0, 5]
+edge_u = [10, 0, 0]
+edge_v = [0, 0, -10]
+material = "clay"
+[[shape]]
+type = "rectangle"
+corner = [-1, 3, -1]
+edge_u = [2, 0, 0]
+edge_v = [0, 0, 2]
+material = "lamp"
+"#;
+
+#[test]
+fn fine_textures_of_lamps_are_no_false_alarm() {
+    let Some(device) = DEVICE.as_ref() else { return };
+    let scene = gpt::load::load_toml_str(FINE_LAMP, "fine-lamp", std::path::Path::new("")).expect("it is valid");
+    let verdict = verify::verify_on(device, &scene, &PlanOptions::default(), None).expect("it renders");
+    assert!(verdict.agrees && verdict.followed_paths > 500, "{verdict:#?}");
+    // The control: a surface that returns 1 % too much.
+    let options = PlanOptions { fault: Some(Fault::Brdf), ..PlanOptions::default() };
+    let verdict = verify::verify_on(device, &scene, &options, None).expect("it renders");
+    assert!(!verdict.agrees && verdict.unexplained_paths.len() > 5, "{verdict:#?}");
+}
+
+/// The steep scene with a metal that returns 1 % too much.
 #[test]
 fn a_mistake_in_a_steep_scene_is_found() {
     let Some(device) = DEVICE.as_ref() else { return };

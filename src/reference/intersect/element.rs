@@ -64,6 +64,11 @@ pub trait Element: Debug + Send + Sync {
         self.sample_area(u1, u2)
     }
 
+    /// By how much drawing such a point magnifies rounding errors of its random numbers, where single precision computes it.
+    fn magnifies(&self, _pose: Option<&Pose>, _strategy: LightSampling, _from: DVec3) -> f64 {
+        1.0
+    }
+
     /// Whether the element itself stands between `from` and a point of it.
     fn hides(&self, _from: DVec3, _point: &SurfacePoint) -> bool {
         false

@@ -156,6 +156,17 @@ impl Lights {
         }
     }
 
+    /// By how much drawing a direction to the light that these bits choose magnifies rounding errors of its random numbers.
+    pub fn magnifies(&self, (world, time): (&World, &PathTime), reference: DVec3, choice: u32) -> f64 {
+        match self.lights[self.choose(reference, choice).0] {
+            SampledLight::Area(index) => {
+                let pose = world.pose(index, time);
+                world.primitive(index).element().magnifies(pose, self.sphere_sampling, reference)
+            }
+            _ => 1.0,
+        }
+    }
+
     /// The probability with which a light inside the scene is chosen at a point.
     fn probability(&self, point: DVec3, light: usize) -> f64 {
         self.tree.as_ref().map_or(self.table.pmf[light], |tree| tree.probability(point, light))

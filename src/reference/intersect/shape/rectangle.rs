@@ -1,5 +1,7 @@
 //! Rectangles, and the quads that boxes are made of as well.
 
+use std::f64::consts::TAU;
+
 use glam::{DVec2, DVec3};
 
 use super::placement::Placement;
@@ -92,6 +94,11 @@ impl Element for Quad {
             Some(seen) => 1.0 / seen.solid_angle,
             None => area_to_solid_angle(self.area() * pose.map_or(1.0, |pose| pose.area_factor(point.normal)), from, point),
         }
+    }
+
+    /// The solid angle is what is left of angles that add up to 2π, and so is each part of it.
+    fn magnifies(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3) -> f64 {
+        self.seen(pose, strategy, from).map_or(1.0, |seen| (TAU / seen.solid_angle).max(1.0))
     }
 
     /// Portals are drawn from by area.
