@@ -76,8 +76,9 @@ fn denoising_is_a_setting_of_the_benchmark() {
     }
     let place = Workplace::new();
     let counts = "--size 32x32 --spp 8 --levels 2 --replications 2 --reference-spp 64 --references kept";
-    let said = place.expect(0, &format!("bench convergence scene.toml --device cpu --denoise no,yes {counts} -o out"));
-    assert!(said.contains("raw ") && said.contains("denoised "), "{said}");
+    let output = place.run(&format!("bench convergence scene.toml --device cpu --denoise no,yes {counts} -o out"));
+    let [said, progress] = [&output.stdout, &output.stderr].map(|bytes| text(bytes));
+    assert!(output.status.success() && said.contains("  raw ") && said.contains("  denoised "), "{said}{progress}");
     let report: Value = serde_json::from_slice(&fs::read(place.path("out/convergence.json")).expect("a file")).expect("JSON");
     let settings = report.pointer("/scenes/0/settings").expect("its settings");
     let errors = |setting: usize| settings[setting]["levels"][1]["mse"]["estimate"].as_f64();
