@@ -13,6 +13,9 @@
 #if LIGHT_TREE
 #import shading/light_tree.wgsl
 #endif
+#if RECTANGLES_BY_PICTURE
+#import shading/light_picture.wgsl
+#endif
 #if RECTANGLES_BY_SOLID_ANGLE
 #import shading/seen_rectangle.wgsl
 #endif
@@ -127,17 +130,25 @@ fn area_light_sample(reference: vec3<f32>, point: ShapePoint, area: f32, error: 
     return LightSample(wi, (distance - early) * SHADOW_SHORTENING, radiance, pmf * distance2 / (abs(cosine) * area));
 }
 
-// Draws a point of a light that is a surface, evenly over its area.
-fn sample_area_light(light: u32, kind_flags: u32, reference: vec3<f32>, pmf: f32, u: f32, v: f32) -> LightSample {
+// Draws a point of a light that is a surface, evenly over its area unless its flags say otherwise. `bits` are those of u and v.
+fn sample_area_light(light: u32, kind_flags: u32, reference: vec3<f32>, pmf: f32, bits: vec2<u32>) -> LightSample {
     let l1 = light_word(light, 1u);
+    let u = uniform_float(bits.x);
+    let v = uniform_float(bits.y);
+    var place = vec2<f32>(u, v);
 #if RECTANGLES_BY_SOLID_ANGLE
     let seen = seen_rectangle_light(light, kind_flags, reference);
-    var place = vec2<f32>(u, v);
     if seen.solid_angle > 0.0 {
         place = rectangle_place(seen, u, v);
     }
-#else
-    let place = vec2<f32>(u, v);
+#endif
+#if RECTANGLES_BY_PICTURE
+    var density = 1.0;
+    if (kind_flags & LIGHT_WARPED) != 0u {
+        let drawn = draw_shown_place(light, kind_flags, bits.x, bits.y);
+        place = drawn.place;
+        density = drawn.density;
+    }
 #endif
     let point = sample_shape(kind_flags & 255u, l1.xyz, light_word(light, 2u).xyz, light_word(light, 3u).xyz, place.x, place.y);
     var size = point.size;
@@ -150,6 +161,9 @@ fn sample_area_light(light: u32, kind_flags: u32, reference: vec3<f32>, pmf: f32
     if (kind_flags & LIGHT_VARIES) != 0u {
         var light_sample = area_light_sample(reference, point, l1.w, error, vec3<f32>(1.0), two_sided, pmf);
         light_sample.radiance *= varying_radiance(light, point, -light_sample.wi);
+#if RECTANGLES_BY_PICTURE
+        light_sample.pdf_solid_angle *= density;
+#endif
 #if RECTANGLES_BY_SOLID_ANGLE
         if seen.solid_angle > 0.0 {
             light_sample.pdf_solid_angle = pmf / seen.solid_angle;
@@ -246,7 +260,7 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
 #if AREA_LIGHTS
             // Below that number are the kinds of surfaces.
             if kind < LIGHT_PORTAL {
-                return sample_area_light(light, kind_flags, reference, pmf, u, v);
+                return sample_area_light(light, kind_flags, reference, pmf, bits.yz);
             }
 #endif
             return sample_delta_light(kind, light, reference, pmf);
@@ -285,7 +299,13 @@ fn light_pdf_solid_angle(ray: Ray, surface: Surface) -> f32 {
     }
 #endif
     let to_light = surface.position - ray.origin;
-    return pmf * dot(to_light, to_light) / (abs(dot(ray.direction, surface.facing_normal)) * surface.area);
+    let even = pmf * dot(to_light, to_light) / (abs(dot(ray.direction, surface.facing_normal)) * surface.area);
+#if RECTANGLES_BY_PICTURE
+    if (bitcast<u32>(light_word(surface.light, 0u).x) & LIGHT_WARPED) != 0u {
+        return even * shown_density(surface.light, surface.uv);
+    }
+#endif
+    return even;
 }
 
 // The light that these bits chose at a point, to be written down where paths are. Elsewhere a tree is not walked twice for nothing: 0.

@@ -79,7 +79,7 @@ impl PackedScene {
         let mut textures = PackedTextures::new(scene, materials.textures_mut().chain(of_lights))?;
         let environment = light::environment(scene, &mut textures)?;
         let light::SampledLights { mut lights, local_count, nodes } =
-            light::collect(scene, &mut world, &environment, &thrown_textures);
+            light::collect(scene, &mut world, &environment, &thrown_textures, &mut textures)?;
         let places = materials.places(scene);
         world.replace_materials(|material| places[material] as usize);
         for light in lights.iter_mut().filter(|light| light.material != NONE) {

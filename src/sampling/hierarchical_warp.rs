@@ -77,6 +77,11 @@ impl HierarchicalWarp {
         levels(self.width, self.height)
     }
 
+    /// The same of any grid.
+    pub fn levels_over(width: u32, height: u32) -> u32 {
+        levels(width, height)
+    }
+
     /// The point that 32 uniform bits each for u and v make.
     pub fn sample(&self, bits_u: u32, bits_v: u32) -> WarpSample {
         let point = [bits_u >> 1, bits_v >> 1];

@@ -245,6 +245,22 @@ pub enum TextureWrap {
     Mirror,
 }
 
+impl TextureWrap {
+    /// A place of 0..size for every index.
+    pub fn index(self, index: i64, size: usize) -> usize {
+        let size = size as i64;
+        let inside = match self {
+            Self::Repeat => index.rem_euclid(size),
+            Self::Clamp => index.clamp(0, size - 1),
+            Self::Mirror => {
+                let period = index.rem_euclid(2 * size);
+                period.min(2 * size - 1 - period)
+            }
+        };
+        inside as usize
+    }
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TextureFilter {
     Bilinear,

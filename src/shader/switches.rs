@@ -234,6 +234,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("PROCEDURAL_TEXTURES").requires(&["TEXTURES"]).one_of(&["CHECKERS", "PERLIN", "WORLEY"]),
     // Acceleration structures hold a scene at rest.
     switch("RAY_QUERY").one_of(HELD).excludes(&["MOTION"]),
+    // Points of some are drawn by what they show.
+    switch("RECTANGLES_BY_PICTURE").requires(&["AREA_LIGHTS", "IMAGES", "LIGHTS", "QUAD_LIGHTS", "VARYING_LIGHTS"]),
     // Among them are lights.
     switch("RECTANGLES_BY_SOLID_ANGLE").requires(&["AREA_LIGHTS", "LIGHTS", "QUAD_LIGHTS"]),
     switch("ROUGHNESS"),

@@ -1,11 +1,16 @@
 //! Ways of sampling the same light make the same picture: Welch's t-test on every tile and the whole picture, over replications.
 
+use std::sync::Arc;
+
+use glam::Vec3;
 use gpt::compare::image_tests::{Picture, TileSettings, compare_replications};
 use gpt::film::Band;
 use gpt::load;
 use gpt::reference::ReferenceRenderer;
 use gpt::renderer::{RenderRequest, Renderer, Silent};
-use gpt::scene::{Estimator, LightChoice, LightSampling, Scene};
+use gpt::scene::{
+    Estimator, ImageData, ImageTexture, LightChoice, LightSampling, Scene, TextureFilter, TextureKind, TextureWrap,
+};
 
 const SIDE: u32 = 24;
 const REPLICATIONS: u32 = 12;
@@ -158,4 +163,91 @@ fn rectangles_look_the_same_whatever_their_points_are_drawn_by() {
         })
     });
     assert_all_agree(ways.collect());
+}
+
+/// A screen of 8 × 8 texels above the floor, and a lamp that is one of its texels.
+const SCREEN: &str = "[[texture]]\nname = \"picture\"\ntype = \"checker\"\na = 0\nb = 1\n[[material]]\nname = \"screen\"\ntype = \"emissive\"\n\
+                      radiance = { texture = \"picture\", factor = [60, 50, 40] }\n";
+const QUAD: &str =
+    "[[shape]]\ntype = \"rectangle\"\ncorner = [-2, 1.9, -2]\nedge_u = [4, 0, 0]\nedge_v = [0, 0, 4]\nmaterial = \"screen\"\n";
+const TEXEL: &str = "[[material]]\nname = \"bright\"\ntype = \"emissive\"\nradiance = [60, 50, 40]\n\
+                     [[shape]]\ntype = \"rectangle\"\ncorner = [0.5, 1.9, 0]\nedge_u = [0.5, 0, 0]\nedge_v = [0, 0, 0.5]\nmaterial = \"bright\"\n";
+
+/// The screen as a mesh of so many squares a side.
+fn mesh_of_screen(side: u32) -> String {
+    let (mut positions, mut uvs, mut faces) = (Vec::new(), Vec::new(), Vec::new());
+    for (row, column) in (0..=side).flat_map(|row| (0..=side).map(move |column| (row, column))) {
+        let [u, v] = [column, row].map(|place| f64::from(place) / f64::from(side));
+        positions.push([4.0 * u - 2.0, 1.9, 4.0 * v - 2.0]);
+        uvs.push([u, v]);
+    }
+    for corner in (0..side * side).map(|square| square / side * (side + 1) + square % side) {
+        faces.extend([[corner, corner + 1, corner + side + 2], [corner, corner + side + 2, corner + side + 1]]);
+    }
+    format!("[[shape]]\ntype = \"mesh\"\npositions = {positions:?}\nuvs = {uvs:?}\nfaces = {faces:?}\nmaterial = \"screen\"\n")
+}
+
+/// The scene with this picture on the screen.
+fn with_picture(mut scene: Scene, filter: TextureFilter, texel: impl Fn(u32, u32) -> f32) -> Scene {
+    let texels: Vec<Vec3> = (0..64).map(|index| Vec3::splat(texel(index % 8, index / 8))).collect();
+    let image = Arc::new(ImageData { width: 8, height: 8, texels: texels.into(), has_alpha: false });
+    scene.textures[0].kind = TextureKind::Image(ImageTexture { image, wrap: TextureWrap::Clamp, filter, scale: [1.0, 1.0] });
+    scene
+}
+
+/// Texel 5 from the left; the screen's v grows towards the viewer, and rows run the other way.
+fn one_bright(x: u32, y: u32) -> f32 {
+    f32::from(u8::from((x, y) == (5, 3)))
+}
+
+#[test]
+fn screens_look_the_same_whatever_their_points_are_drawn_by() {
+    for (filter, shape) in [
+        (TextureFilter::Nearest, QUAD.to_owned()),
+        (TextureFilter::Bilinear, QUAD.to_owned()),
+        (TextureFilter::Bilinear, mesh_of_screen(3)),
+    ] {
+        let ways = [Estimator::Bsdf, Estimator::Mis, Estimator::Nee].map(|estimator| {
+            let texel = |x, y| if one_bright(x, y) > 0.0 { 1.0 } else { 0.02 * (x + y) as f32 };
+            let mut scene = with_picture(load(&[SCREEN, &shape]), filter, texel);
+            scene.render.estimator = estimator;
+            scene.render.spp *= if estimator == Estimator::Bsdf { 8 } else { 1 };
+            (format!("{filter:?}, {estimator:?}"), scene)
+        });
+        assert_all_agree(ways.to_vec());
+    }
+}
+
+/// The mean over pixels of the variance over replications.
+fn variance(scene: &Scene) -> f64 {
+    let pictures = replications(scene, 1);
+    let count = pictures.len() as f64;
+    let of_pixel = |pixel: usize| {
+        let values: Vec<f64> = pictures.iter().map(|picture| f64::from(picture[pixel][1])).collect();
+        let mean = values.iter().sum::<f64>() / count;
+        values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / (count - 1.0)
+    };
+    (0..pictures[0].len()).map(of_pixel).sum::<f64>() / pictures[0].len() as f64
+}
+
+/// A screen of which one texel shines has at most twice the error of a lamp of that size.
+#[test]
+fn a_bright_texel_is_found_as_a_lamp_of_its_size_is() {
+    let mut lamp = load(&[TEXEL]);
+    lamp.render.max_depth = 2;
+    let error_of_lamp = variance(&lamp).sqrt();
+    for (name, shape) in [("quad", QUAD.to_owned()), ("mesh", mesh_of_screen(8))] {
+        let mut screen = with_picture(load(&[SCREEN, &shape]), TextureFilter::Nearest, one_bright);
+        screen.render.max_depth = 2;
+        let error = variance(&screen).sqrt();
+        assert!(error < 2.0 * error_of_lamp, "{name}: {error} and {error_of_lamp}");
+        eprintln!("{name}: {error:.5}, a lamp of its size {error_of_lamp:.5}");
+        // The control: what is made of two such materials is drawn evenly.
+        let halves = "[[material]]\nname = \"halves\"\ntype = \"blend\"\nmaterials = [\"screen\", \"screen\"]\nweight = { type = \"constant\", value = 0.5 }\n";
+        let shape = shape.replace("material = \"screen\"", "material = \"halves\"");
+        let mut evenly = with_picture(load(&[SCREEN, halves, &shape]), TextureFilter::Nearest, one_bright);
+        evenly.render.max_depth = 2;
+        let error_of_even = variance(&evenly).sqrt();
+        assert!(error_of_even > 4.0 * error_of_lamp, "{name}: {error_of_even}");
+    }
 }

@@ -3,6 +3,8 @@
 pub mod record;
 mod surface;
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::f64::consts::PI;
 
 use glam::DVec3;
@@ -13,12 +15,13 @@ use super::error::PackError;
 use super::primitive::WorldPrimitive;
 use super::texture::{self, PackedTextures};
 use super::world::WorldGeometry;
+use crate::packed::shape::PrimitiveKind;
 use crate::sampling::light_tree::{self, Emitter, LightNode};
-use crate::sampling::{LightGroup, LightSampler, LightTree};
+use crate::sampling::{EmissionMaps, HierarchicalWarp, LightGroup, LightSampler, LightTree};
 use crate::scene::light::light_table;
 use crate::scene::{Estimator, Light, LightStrength, Scene};
 use record::PORTAL_SHIFT;
-pub use record::{LightKind, PackedLight, constants};
+pub use record::{LightKind, PackedLight, PackedWarp, constants};
 use surface::{SurfaceEmission, surface_light};
 
 /// The kind of a delta light, by the table of lights.
@@ -67,26 +70,44 @@ pub fn thrown_textures(scene: &Scene) -> Vec<u32> {
 }
 
 /// All sampled lights, with the places of the textures that the scene's lights throw; marks the primitives that are lights with their index. The order is that of the reference.
+/// What points of rectangles are drawn by is appended to the texels.
+///
+/// # Errors
+/// [`PackError::TooManyTexels`] where 32 bits cannot number them.
 pub fn collect(
     scene: &Scene,
     world: &mut WorldGeometry,
     environment: &PackedEnvironment,
     thrown_textures: &[u32],
-) -> SampledLights {
+    textures: &mut PackedTextures,
+) -> Result<SampledLights, PackError> {
     if scene.render.estimator == Estimator::Bsdf {
-        return SampledLights::default();
+        return Ok(SampledLights::default());
     }
     let (mut lights, mut sampler) = (Vec::new(), LightSampler::default());
     // Asked once a material, not once a triangle: a texture's mean looks at all of it, and a blend's at all of its parts.
     let emits = scene.materials_that(|material| material.emission.is_some());
     let two_sided = scene.materials_that(|material| material.emission.is_some_and(|emission| emission.two_sided));
     let emissions: Vec<_> = (0..emits.len()).map(|id| emits[id].then(|| SurfaceEmission::of(scene, id, two_sided[id]))).collect();
+    let maps = EmissionMaps::new(scene);
+    let mut warps: HashMap<usize, PackedWarp> = HashMap::new();
+    let mut powers = Vec::new();
     for primitive in &mut world.primitives {
         let Some(emission) = &emissions[primitive.material] else { continue };
-        let power = emission.power(primitive);
-        if let Some(light) = surface_light(primitive, emission, scene.render.light_sampling).filter(|_| power > 0.0) {
+        let attributes = world.attributes.get(primitive.attributes as usize);
+        let power = emission.power(primitive, &maps, attributes);
+        let warp = match maps.warp(primitive.material).filter(|_| primitive.kind() == PrimitiveKind::Quad && power > 0.0) {
+            None => None,
+            Some(warp) => Some(match warps.entry(primitive.material) {
+                Entry::Occupied(known) => *known.get(),
+                Entry::Vacant(place) => *place.insert(pack_warp(warp, textures)?),
+            }),
+        };
+        let light = surface_light(primitive, emission, scene.render.light_sampling, warp, attributes);
+        if let Some(light) = light.filter(|_| power > 0.0) {
             primitive.light = lights.len() as u32;
             lights.push(light);
+            powers.push(power);
             let group = LightGroup::Surface { shape: primitive.shape, material: primitive.material };
             sampler.add(group, LightStrength::Power(power));
         }
@@ -110,10 +131,12 @@ pub fn collect(
     }
     let local_count = sampler.local_count();
     if !light_tree::is_by_tree(scene.render.light_choice, local_count) {
-        return SampledLights { lights, local_count, nodes: Vec::new() };
+        return Ok(SampledLights { lights, local_count, nodes: Vec::new() });
     }
-    let of_surface = |primitive: &WorldPrimitive| Some(emitter(scene, primitive, emissions[primitive.material].as_ref()?));
-    let surfaces = world.primitives.iter().filter(|primitive| primitive.light != NONE).filter_map(of_surface);
+    let of_surface = |(primitive, power): (&WorldPrimitive, f64)| {
+        Some(emitter(scene, primitive, emissions[primitive.material].as_ref()?, power))
+    };
+    let surfaces = world.primitives.iter().filter(|primitive| primitive.light != NONE).zip(powers).filter_map(of_surface);
     let delta_lights = scene.lights.iter().filter_map(Light::delta).filter(|light| light.strength.is_positive());
     let emitters: Vec<Emitter> = surfaces.chain(delta_lights.filter_map(|light| Emitter::delta(&light))).collect();
     let LightTree { nodes, trails, at_infinity } = LightTree::new(&emitters, sampler.table_at_infinity());
@@ -124,13 +147,25 @@ pub fn collect(
         light.alias = local_count as u32 + at_infinity.alias[index];
         light.alias_threshold = at_infinity.threshold[index];
     }
-    SampledLights { lights, local_count, nodes }
+    Ok(SampledLights { lights, local_count, nodes })
+}
+
+/// Appends a density to the texels.
+fn pack_warp(warp: &HierarchicalWarp, textures: &mut PackedTextures) -> Result<PackedWarp, PackError> {
+    let end = textures.texel_words() + 3 * warp.splits.len() + warp.densities.len();
+    if end > u32::MAX as usize {
+        return Err(PackError::TooManyTexels { words: end });
+    }
+    let first_node = textures.texel_words() as u32;
+    textures.words.extend(warp.splits.iter().flatten());
+    let first_density = textures.texel_words() as u32;
+    textures.words.extend(warp.densities.iter().map(|&density| (density as f32).to_bits()));
+    Ok(PackedWarp { first_node, first_density, width: warp.width, height: warp.height })
 }
 
 /// What the tree knows of an emitting surface.
-fn emitter(scene: &Scene, primitive: &WorldPrimitive, emission: &SurfaceEmission) -> Emitter {
+fn emitter(scene: &Scene, primitive: &WorldPrimitive, emission: &SurfaceEmission, power: f64) -> Emitter {
     let bounds = primitive.geometry.extent().unwrap_or_default();
-    let power = emission.power(primitive);
     if primitive.moves() {
         return Emitter::moving(&scene.shapes[primitive.shape], scene.camera.shutter, bounds, power);
     }

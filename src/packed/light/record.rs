@@ -71,6 +71,10 @@ shared_constants!(flags {
     const LEAST_RECTANGLE_DISTANCE: f32 = strategy::LEAST_DISTANCE as f32;
     /// Its points move as its attributes say.
     pub(in crate::packed) const LIGHT_MOVES: u32 = 1024;
+    /// A rectangle whose points are drawn by what it shows: where that density stands is in place of the radiance.
+    pub(in crate::packed) const LIGHT_WARPED: u32 = 4096;
+    /// Its texture coordinates run against its first edge.
+    pub(in crate::packed) const LIGHT_REVERSED: u32 = 8192;
     /// Of a delta light: where the number of its form stands.
     pub(in crate::packed) const LIGHT_FORM_SHIFT: u32 = 16;
     /// Of a spot light: how its intensity falls off between its angles.
@@ -115,10 +119,27 @@ pub struct PackedLight {
     pub p2: [f32; 3],
     /// Of a delta light: the texture that it throws, or NONE.
     pub attributes: u32,
-    /// Radiance of a surface; of a delta light, intensity or irradiance.
+    /// Radiance of a surface; of a delta light, intensity or irradiance; of a rectangle whose points are drawn by what it shows, the [`PackedWarp`].
     pub radiance: [f32; 3],
     /// Of a surface.
     pub material: u32,
+}
+
+/// A density over the unit square among the texels: a quadtree, three words for each inner node, and the densities of the cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PackedWarp {
+    pub first_node: u32,
+    pub first_density: u32,
+    /// Cells.
+    pub width: u32,
+    pub height: u32,
+}
+
+impl PackedWarp {
+    /// In the place of a radiance.
+    pub(super) fn words(self) -> [f32; 3] {
+        [self.first_node, self.first_density, self.width | self.height << 16].map(f32::from_bits)
+    }
 }
 
 impl PackedLight {
@@ -170,6 +191,17 @@ impl PackedLight {
 
     pub fn is_drawn_by_solid_angle(&self) -> bool {
         self.kind_and_flags & LIGHT_RECTANGLE != 0
+    }
+
+    pub fn is_warped(&self) -> bool {
+        self.is_surface() && self.kind_and_flags & LIGHT_WARPED != 0
+    }
+
+    /// What its points are drawn by, where that is not evenly.
+    pub fn warp(&self) -> Option<PackedWarp> {
+        let [first_node, first_density, size] = self.radiance.map(f32::to_bits);
+        let (width, height) = (size & 0xffff, size >> 16);
+        self.is_warped().then_some(PackedWarp { first_node, first_density, width, height })
     }
 
     pub fn moves(&self) -> bool {

@@ -2,13 +2,18 @@
 
 use std::f64::consts::PI;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
-use super::record::{LIGHT_MOVES, LIGHT_RECTANGLE, LIGHT_TWO_SIDED, LIGHT_VARIES, PackedLight};
+use super::record::{
+    LIGHT_MOVES, LIGHT_RECTANGLE, LIGHT_REVERSED, LIGHT_TWO_SIDED, LIGHT_VARIES, LIGHT_WARPED, PackedLight, PackedWarp,
+};
 use crate::math::luminance;
+use crate::packed::attributes::TriangleAttributes;
 use crate::packed::material::{color_and_texture, mean_emission};
 use crate::packed::primitive::WorldPrimitive;
 use crate::packed::shape::PrimitiveKind;
+use crate::sampling::EmissionMaps;
+use crate::sampling::emission_map::UNIT_SQUARE;
 use crate::sampling::solid_angle::is_rectangle;
 use crate::scene::{ChannelInput, ColorInput, LightSampling, Scene};
 
@@ -41,9 +46,10 @@ impl SurfaceEmission {
         self.two_sided
     }
 
-    /// Luminous power: π·A·L, twice that for two sides.
-    pub fn power(&self, primitive: &WorldPrimitive) -> f64 {
-        let luminance = luminance(self.mean_radiance);
+    /// Luminous power: π·A·L, twice that for two sides. `attributes` are those of the primitive.
+    pub fn power(&self, primitive: &WorldPrimitive, maps: &EmissionMaps, attributes: Option<&TriangleAttributes>) -> f64 {
+        let of_part = maps.luminance(self.material, &uv_corners(primitive, attributes));
+        let luminance = of_part.unwrap_or(luminance(self.mean_radiance));
         // An infinite plane that does not emit has no power: 0, not 0·∞.
         if luminance == 0.0 {
             return 0.0;
@@ -65,17 +71,40 @@ fn mean_color(scene: &Scene, input: &ColorInput) -> DVec3 {
     }
 }
 
-/// The light that an emitting primitive is; None where it cannot be sampled.
-pub fn surface_light(primitive: &WorldPrimitive, emission: &SurfaceEmission, sampling: LightSampling) -> Option<PackedLight> {
+/// Texture coordinates at the corners of a primitive, none of what has no corners or no coordinates.
+fn uv_corners(primitive: &WorldPrimitive, attributes: Option<&TriangleAttributes>) -> Vec<DVec2> {
+    match (primitive.kind(), attributes) {
+        (PrimitiveKind::Quad, _) => UNIT_SQUARE.to_vec(),
+        (PrimitiveKind::Triangle, Some(&TriangleAttributes { u0, v0, u1, v1, u2, v2, .. })) => {
+            [[u0, v0], [u1, v1], [u2, v2]].map(|[u, v]| DVec2::new(u.into(), v.into())).to_vec()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// The light that an emitting primitive is; None where it cannot be sampled. Rectangles are drawn by `warp`, where there is one; `attributes` are
+/// those of the primitive.
+pub fn surface_light(
+    primitive: &WorldPrimitive,
+    emission: &SurfaceEmission,
+    sampling: LightSampling,
+    warp: Option<PackedWarp>,
+    attributes: Option<&TriangleAttributes>,
+) -> Option<PackedLight> {
     let (radiance, _) = color_and_texture(&emission.radiance);
     let (size, [p0, p1, p2]) = primitive.geometry.light()?;
     let flag = |set: bool, bit: u32| if set { bit } else { 0 };
     let is_quad = primitive.kind() == PrimitiveKind::Quad && !primitive.moves();
-    let is_rectangle = is_quad && sampling == LightSampling::Cone && is_rectangle(p1, p2);
+    let warp = warp.filter(|_| primitive.kind() == PrimitiveKind::Quad);
+    let is_rectangle = is_quad && warp.is_none() && sampling == LightSampling::Cone && is_rectangle(p1, p2);
+    let is_reversed = warp.is_some() && attributes.is_some_and(|attributes| attributes.u0 > attributes.u1);
     let flags = flag(emission.two_sided, LIGHT_TWO_SIDED)
         | flag(emission.varies, LIGHT_VARIES)
         | flag(is_rectangle, LIGHT_RECTANGLE)
-        | flag(primitive.moves(), LIGHT_MOVES);
+        | flag(primitive.moves(), LIGHT_MOVES)
+        | flag(warp.is_some(), LIGHT_WARPED)
+        | flag(is_reversed, LIGHT_REVERSED);
+    let plain = PackedLight::at(p0, DVec3::from(radiance.map(f64::from)));
     Some(PackedLight {
         kind_and_flags: primitive.kind() as u32 | flags,
         size: size as f32,
@@ -83,6 +112,7 @@ pub fn surface_light(primitive: &WorldPrimitive, emission: &SurfaceEmission, sam
         p2: p2.as_vec3().to_array(),
         attributes: primitive.attributes,
         material: emission.material as u32,
-        ..PackedLight::at(p0, DVec3::from(radiance.map(f64::from)))
+        radiance: warp.map_or(plain.radiance, PackedWarp::words),
+        ..plain
     })
 }

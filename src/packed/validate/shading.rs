@@ -3,21 +3,29 @@
 use super::Check;
 use crate::packed::blend_weight::{self, WeightKind};
 use crate::packed::constants::NONE;
+use crate::packed::light::PackedWarp;
 use crate::packed::light::record::{
-    LIGHT_FORM_SHIFT, LIGHT_FORMS, LIGHT_MOVES, LIGHT_RECTANGLE, LIGHT_TWO_SIDED, LIGHT_VARIES, LightKind, PORTAL_SHIFT,
-    PackedLight,
+    LIGHT_FORM_SHIFT, LIGHT_FORMS, LIGHT_MOVES, LIGHT_RECTANGLE, LIGHT_REVERSED, LIGHT_TWO_SIDED, LIGHT_VARIES, LIGHT_WARPED,
+    LightKind, PORTAL_SHIFT, PackedLight,
 };
 use crate::packed::material::{self, PackedMaterial};
 use crate::packed::scene::PackedScene;
 use crate::packed::shape::PrimitiveKind;
 use crate::packed::texture::{self, PackedTexture, PackedTextureKind, TexelFormat};
-use crate::sampling::light_tree;
+use crate::sampling::{HierarchicalWarp, light_tree};
 use crate::scene::LobeKind;
 use crate::scene::material::{ATTENUATES, FORMS};
 use crate::scene::validate::MOST_OCTAVES;
 
 /// Most texels along a side of an image: kernels compute with twice as many in signed numbers.
 const LONGEST_SIDE: u32 = 1 << 30;
+
+/// Inner nodes of a quadtree over a grid.
+fn inner_nodes(width: u32, height: u32) -> u64 {
+    let levels = HierarchicalWarp::levels_over(width, height);
+    let at = |level: u32| u64::from(width.div_ceil(1 << level)) * u64::from(height.div_ceil(1 << level));
+    (1..=levels).map(at).sum()
+}
 
 /// Whether `count` records from `first` on stand within `length`.
 fn is_within(first: u32, count: u32, length: usize) -> bool {
@@ -174,7 +182,8 @@ impl PackedScene {
         let is_surface = light.is_surface();
         let has_area = |kind: u32| PrimitiveKind::of(kind).is_some_and(|kind| !kind.is_infinite());
         let (is_known, flags) = if is_surface {
-            (has_area(light.kind()), LIGHT_TWO_SIDED | LIGHT_VARIES | LIGHT_MOVES | LIGHT_RECTANGLE)
+            let of_quads = if light.kind() == PrimitiveKind::Quad as u32 { LIGHT_WARPED | LIGHT_REVERSED } else { 0 };
+            (has_area(light.kind()), LIGHT_TWO_SIDED | LIGHT_VARIES | LIGHT_MOVES | LIGHT_RECTANGLE | of_quads)
         } else if light.is(LightKind::Portal) {
             (has_area(light.kind_and_flags >> PORTAL_SHIFT), u32::MAX << PORTAL_SHIFT)
         } else if light.is_delta() {
@@ -195,6 +204,14 @@ impl PackedScene {
         }
         if is_surface && light.material == NONE {
             return Err("is a surface without a material".to_owned());
+        }
+        if let Some(PackedWarp { first_node, first_density, width, height }) = light.warp() {
+            let length = self.textures.texel_words();
+            let nodes = first_density.saturating_sub(first_node);
+            let is_whole = width > 0 && height > 0 && u64::from(nodes) == 3 * inner_nodes(width, height);
+            if !is_whole || !light.varies() || !is_within(first_density, width * height, length) {
+                return Err(format!("is drawn by {width} × {height} cells at {first_node} and {first_density}"));
+            }
         }
         if light.moves() && self.motion_of(light.attributes).is_none() {
             return Err("moves, and nothing says how".to_owned());

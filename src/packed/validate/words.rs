@@ -172,11 +172,15 @@ const BLEND_PART: [(usize, Word); 3] = [
 const WEIGHT: [(usize, Word); 2] =
     [(word!(PackedBlendWeight, kind_and_flags), Checked), (word!(PackedBlendWeight, texture), Optional(Array::Textures))];
 
-const LIGHT: [(usize, Word); 4] = [
+const LIGHT: [(usize, Word); 7] = [
     (word!(PackedLight, kind_and_flags), Checked),
     (word!(PackedLight, alias), Index(Array::Lights)),
     // Of a delta light a texture, of others attributes.
     (word!(PackedLight, attributes), Checked),
+    // Where a density stands.
+    (word!(PackedLight, radiance), CheckedIn(is_warped)),
+    (word!(PackedLight, radiance) + 1, CheckedIn(is_warped)),
+    (word!(PackedLight, radiance) + 2, CheckedIn(is_warped)),
     (word!(PackedLight, material), Optional(Array::Materials)),
 ];
 
@@ -193,6 +197,10 @@ const TEXTURE: [(usize, Word); 5] = [
 
 fn is_blend(material: &[u32]) -> bool {
     material[word!(PackedMaterial, kind_and_form)] & 255 == BLEND
+}
+
+fn is_warped(light: &[u32]) -> bool {
+    bytemuck::from_bytes::<PackedLight>(bytemuck::cast_slice(light)).is_warped()
 }
 
 fn is_image(texture: &[u32]) -> bool {

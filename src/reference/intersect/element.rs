@@ -37,6 +37,11 @@ pub trait Element: Debug + Send + Sync {
         DVec2::ZERO
     }
 
+    /// The place with these texture coordinates, where those fill the unit square evenly.
+    fn place_of_uv(&self, _uv: DVec2) -> Option<Local> {
+        None
+    }
+
     /// The directions in which they grow.
     fn tangents(&self, _local: Local, _normal: DVec3) -> Option<Tangents> {
         None

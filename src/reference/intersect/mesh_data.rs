@@ -30,11 +30,16 @@ impl MeshData {
         }
     }
 
-    /// Directions of the texture coordinates on a face of a mesh.
-    pub fn tangents(&self, face: usize, triangle: &Triangle) -> Option<Tangents> {
+    /// Texture coordinates of a face's corners, where there are some.
+    pub fn uv_corners(&self, face: usize) -> Option<[DVec2; 3]> {
         let uvs = &self.mesh.as_ref()?.uvs;
         let [a, b, c] = self.faces[face].map(|corner| uvs.get(corner as usize).map(|uv| uv.as_dvec2()));
-        Tangents::of_triangle(triangle.corners.map(|corner| corner.as_dvec3()), [a?, b?, c?])
+        Some([a?, b?, c?])
+    }
+
+    /// Directions of the texture coordinates on a face of a mesh.
+    pub fn tangents(&self, face: usize, triangle: &Triangle) -> Option<Tangents> {
+        Tangents::of_triangle(triangle.corners.map(|corner| corner.as_dvec3()), self.uv_corners(face)?)
     }
 
     /// Normal and texture coordinates on a face of a mesh.

@@ -12,6 +12,7 @@ use super::pose::{self, PathTime, Pose};
 use super::ray::{Local, Ray, SurfacePoint};
 use super::shape::{self, Placement, Primitive};
 use crate::renderer::RenderError;
+use crate::sampling::emission_map::UNIT_SQUARE;
 use crate::scene::{Material, MaterialId, MaterialKind, Scene, Shape};
 
 /// A ray's closest crossing.
@@ -97,6 +98,18 @@ impl World {
     #[inline]
     pub fn primitive(&self, index: usize) -> &Primitive {
         &self.primitives[index]
+    }
+
+    /// Texture coordinates at the corners of a primitive, none of what has no corners or no coordinates.
+    pub fn uv_corners(&self, index: usize) -> Vec<DVec2> {
+        let owner = self.owners[index];
+        match &self.primitives[index] {
+            Primitive::Triangle(_) => {
+                self.shapes[owner.shape].uv_corners(owner.part).map_or(Vec::new(), |corners| corners.to_vec())
+            }
+            Primitive::Other(element) if element.place_of_uv(DVec2::ZERO).is_some() => UNIT_SQUARE.to_vec(),
+            Primitive::Other(_) => Vec::new(),
+        }
     }
 
     /// Portals, in the order of the scene file.

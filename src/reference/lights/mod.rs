@@ -10,15 +10,15 @@ mod thrown_picture;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::emission::{emitted, mean_exitance};
 use super::intersect::{Owner, PathTime, PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
 use crate::sampling::light_tree::{self, Emitter};
 use crate::sampling::sampler::uniform;
-use crate::sampling::{AliasTable, LightGroup, LightSampler, LightTree};
+use crate::sampling::{AliasTable, EmissionMaps, HierarchicalWarp, LightGroup, LightSampler, LightTree};
 use crate::scene::light::light_table;
-use crate::scene::{Estimator, Light, LightSampling, LightStrength, Scene};
+use crate::scene::{Estimator, Light, LightSampling, LightStrength, MaterialId, Scene};
 use delta::DeltaLight;
 pub use outside::Outside;
 
@@ -75,6 +75,8 @@ pub struct Lights {
     /// Index of the first portal among the lights.
     first_portal: usize,
     sphere_sampling: LightSampling,
+    /// By material: what points of its rectangles are drawn by, where that is not evenly.
+    warps: Vec<Option<Arc<HierarchicalWarp>>>,
 }
 
 /// Light arriving at a reference point from one sampled direction.
@@ -102,12 +104,19 @@ impl Lights {
         // Once a material, not once a primitive: a texture's mean looks at all of it.
         let emits = scene.materials_that(|material| material.emission.is_some());
         let exitances: Vec<f64> = (0..emits.len()).map(|id| if emits[id] { mean_exitance(scene, id) } else { 0.0 }).collect();
+        let maps = EmissionMaps::new(scene);
+        let mut powers = Vec::new();
         for &index in world.indices_in_scene_order() {
             let Owner { shape, material, .. } = world.owner(SurfaceId::Primitive(index));
-            let power = world.primitive(index).area() * exitances[material];
+            if exitances[material] == 0.0 {
+                continue;
+            }
+            let of_part = exitance_of_part(scene, &maps, material, &world.uv_corners(index));
+            let power = world.primitive(index).area() * of_part.unwrap_or(exitances[material]);
             if power > 0.0 {
                 of_primitive[index] = Some(lights.len() as u32);
                 lights.push(SampledLight::Area(index));
+                powers.push(power);
                 sampler.add(LightGroup::Surface { shape, material }, LightStrength::Power(power));
             }
         }
@@ -120,7 +129,7 @@ impl Lights {
             lights.push(SampledLight::Delta(light));
         }
         let is_by_tree = light_tree::is_by_tree(scene.render.light_choice, sampler.local_count());
-        let emitters = if is_by_tree { emitters(scene, world, &lights, &exitances) } else { Vec::new() };
+        let emitters = if is_by_tree { emitters(scene, world, &lights, &powers) } else { Vec::new() };
         let outside = Outside::of(scene.lights.iter().filter_map(outside_light));
         let irradiance = PI * outside.mean_luminance();
         let mut environment_light = None;
@@ -142,7 +151,15 @@ impl Lights {
         }
         let sphere_sampling = scene.render.light_sampling;
         let tree = is_by_tree.then(|| LightTree::new(&emitters, sampler.table_at_infinity()));
-        Self { lights, table: sampler.table(), tree, of_primitive, outside, environment_light, first_portal, sphere_sampling }
+        let warps = (0..scene.materials.len()).map(|id| maps.warp(id).cloned()).collect();
+        let table = sampler.table();
+        Self { lights, table, tree, of_primitive, outside, environment_light, first_portal, sphere_sampling, warps }
+    }
+
+    /// What points of a primitive are drawn by, where that is not evenly.
+    fn warp(&self, world: &World, index: usize) -> Option<&HierarchicalWarp> {
+        let warp = self.warps[world.owner(SurfaceId::Primitive(index)).material].as_deref()?;
+        world.primitive(index).element().place_of_uv(DVec2::ZERO).map(|_| warp)
     }
 
     /// The light that 32 random bits choose at a point, and the probability of that.
@@ -206,12 +223,19 @@ impl Lights {
         };
         match *sampled {
             SampledLight::Area(index) => {
-                let direction =
-                    world.primitive(index).element().sample(world.pose(index, time), self.sphere_sampling, reference, u1, u2)?;
+                let (element, pose) = (world.primitive(index).element(), world.pose(index, time));
+                let (direction, density) = match self.warp(world, index) {
+                    None => (element.sample(pose, self.sphere_sampling, reference, u1, u2)?, 1.0),
+                    Some(warp) => {
+                        let drawn = warp.sample(u, v);
+                        let place = element.place_of_uv(DVec2::new(drawn.u, drawn.v))?;
+                        (element.sample(pose, LightSampling::Area, reference, place.x, place.y)?, drawn.density)
+                    }
+                };
                 let surface = world.surface_at(index, direction.point, direction.local, time);
                 let radiance = emitted(scene, &surface, -direction.wi);
                 let distance = direction.distance * (1.0 - SHADOW_MARGIN);
-                let pdf = direction.pdf_solid_angle;
+                let pdf = density * direction.pdf_solid_angle;
                 let usable = pdf > 0.0 && pdf.is_finite();
                 if usable { sample(direction.wi, distance, radiance, probability * pdf, Some(index)) } else { None }
             }
@@ -259,25 +283,40 @@ impl Lights {
         let SurfaceId::Primitive(index) = surface.id else { return 0.0 };
         let Some(light) = self.of_primitive[index] else { return 0.0 };
         let pose = world.pose(index, time);
-        let pdf = world.primitive(index).element().pdf(pose, self.sphere_sampling, reference, &surface.point);
+        let element = world.primitive(index).element();
+        let pdf = match self.warp(world, index) {
+            None => element.pdf(pose, self.sphere_sampling, reference, &surface.point),
+            Some(warp) => {
+                let density = warp.density(surface.uv.x, surface.uv.y);
+                density * element.pdf(pose, LightSampling::Area, reference, &surface.point)
+            }
+        };
         self.probability(reference, light as usize) * pdf
     }
 }
 
-/// What the tree knows of the lights inside the scene, in their order. `exitances` are those of the materials.
-fn emitters(scene: &Scene, world: &World, lights: &[SampledLight], exitances: &[f64]) -> Vec<Emitter> {
+/// As [`mean_exitance`], of the part of a material that lies between these texture coordinates; None: nothing more is known of it.
+fn exitance_of_part(scene: &Scene, maps: &EmissionMaps, material: MaterialId, corners: &[DVec2]) -> Option<f64> {
+    let luminance = maps.luminance(material, corners)?;
+    let two_sided = scene.materials[material].emission.is_some_and(|emission| emission.two_sided);
+    Some(PI * luminance * if two_sided { 2.0 } else { 1.0 })
+}
+
+/// What the tree knows of the lights inside the scene, in their order. `powers` are those of the surfaces among them.
+fn emitters(scene: &Scene, world: &World, lights: &[SampledLight], powers: &[f64]) -> Vec<Emitter> {
     let two_sided = scene.materials_that(|material| material.emission.is_some_and(|emission| emission.two_sided));
-    let of_surface = |index: usize| {
+    let of_surface = |index: usize, power: f64| {
         let Owner { shape, material, .. } = world.owner(SurfaceId::Primitive(index));
         let (element, shape) = (world.primitive(index).element(), &scene.shapes[shape]);
-        let (bounds, power) = (element.bounds().unwrap_or_default(), element.area() * exitances[material]);
+        let bounds = element.bounds().unwrap_or_default();
         if shape.motion.is_some() {
             return Emitter::moving(shape, scene.camera.shutter, bounds, power);
         }
         Emitter::surface(bounds, element.normal(), two_sided[material], power)
     };
-    let surfaces = lights.iter().filter_map(|light| match light {
-        SampledLight::Area(index) => Some(of_surface(*index)),
+    // Surfaces are the first.
+    let surfaces = lights.iter().zip(powers).filter_map(|(light, power)| match light {
+        SampledLight::Area(index) => Some(of_surface(*index, *power)),
         _ => None,
     });
     let delta_lights = scene.lights.iter().filter_map(Light::delta).filter(|light| light.strength.is_positive());

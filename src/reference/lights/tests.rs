@@ -8,10 +8,12 @@ use crate::load::file::delta_light_examples;
 use crate::math::luminance;
 use crate::reference::warp;
 use crate::scene::{
-    ColorInput, DirectionalLight, Disk, Emission, Environment, EnvironmentRadiance, Geometry, Material, MaterialKind, Mesh,
-    PointLight, Rectangle, Shape, Sky, Sphere, SpotLight, Transform,
+    ColorInput, DirectionalLight, Disk, Emission, Environment, EnvironmentRadiance, Geometry, ImageData, ImageTexture, Material,
+    MaterialKind, Mesh, PointLight, Rectangle, Shape, Sky, Sphere, SpotLight, Texture, TextureFilter, TextureKind, TextureWrap,
+    Transform,
 };
-use crate::statistics::{SphereBins, density_by_differences, test_directional_sampler};
+use crate::statistics::random::SplitMix64;
+use crate::statistics::{SphereBins, chi_squared_test, density_by_differences, test_directional_sampler};
 
 /// A scene whose shapes all emit grey radiance 2 from both sides, with a point light of intensity 3.
 fn glowing(shapes: Vec<Geometry>) -> (Scene, World) {
@@ -184,6 +186,63 @@ fn directions_to_the_environment_and_through_portals_follow_their_density() {
         assert!((report.integral.value - 1.0).abs() < 5e-3, "{portal:?}: {:?}", report.integral);
         let without = test_directional_sampler(&bins, 200_000, seed, sample, |wi| lights.outside.pdf(wi));
         assert_eq!(without.passes(level), portal.is_none(), "{portal:?}: {without:?}");
+    }
+}
+
+/// Rectangles that show a picture of a bright texel, as they are written, mirrored, and no right-angled ones: what is stated is what the map from
+/// random numbers does, and what a ray that meets the point finds; and points are as many as the stated density says.
+#[test]
+fn points_of_pictures_follow_their_density() {
+    let level = sidak(0.01, 6);
+    for ((geometry, side), reference) in [(rectangle(), 1.0), (true_rectangle(), 1.0), (true_rectangle(), -1.0)]
+        .into_iter()
+        .flat_map(|case| [REFERENCES[0], REFERENCES[1]].map(|reference| (case.clone(), reference)))
+    {
+        let (mut scene, _) = glowing(vec![geometry]);
+        scene.lights.clear();
+        scene.shapes[0].transform.steps.push(crate::scene::TransformStep::Scale(DVec3::new(side, 1.0, 1.0)));
+        let texels: Vec<Vec3> = (0..20).map(|at| Vec3::splat(if at == 6 { 9.0 } else { 0.1 * at as f32 + 0.05 })).collect();
+        let image = ImageData { width: 5, height: 4, texels: texels.into(), has_alpha: false };
+        let (wrap, filter) = (TextureWrap::Clamp, TextureFilter::Bilinear);
+        let picture = ImageTexture { image: Arc::new(image), wrap, filter, scale: [1.0, 1.0] };
+        scene.textures.push(Texture::new("picture", TextureKind::Image(picture)));
+        scene.materials[0].emission = Some(Emission { radiance: ColorInput::Texture(0), two_sided: true });
+        let world = World::new(&scene).expect("the scene is sound");
+        let (lights, time) = (Lights::new(&scene, &world), PathTime::default());
+        let bits = |u: f64| (u * 4_294_967_296.0) as u32;
+        let draw = |[u, v]: [f64; 2]| lights.sample(&scene, (&world, &time), reference, 0, [bits(u), bits(v)]);
+        let (mut differ, mut counts) = (0, [0_u64; 20]);
+        let mut random = SplitMix64::new(7);
+        let samples = 20_000;
+        for number in 0..samples {
+            let u = [random.uniform(), random.uniform()];
+            let drawn = draw(u).expect("all of it shines");
+            let ray = Ray { origin: reference, direction: drawn.wi };
+            let hit = world.closest(ray, &time).expect("it is a point of the light");
+            let surface = world.surface(&ray, &hit, &time);
+            let stated = lights.pdf((&world, &time), reference, &surface);
+            assert!((drawn.pdf / stated - 1.0).abs() < 1e-6, "{} and {stated}", drawn.pdf);
+            assert!((drawn.radiance - emitted(&scene, &surface, -drawn.wi)).length() < 1e-6 * drawn.radiance.length());
+            let cell = [surface.uv.x * 5.0, surface.uv.y * 4.0].map(|at| at as usize);
+            counts[cell[1] * 5 + cell[0]] += 1;
+            if number < 500 {
+                let by_map = density_by_differences(|at| draw(at).map_or(DVec3::NAN, |drawn| drawn.wi), u);
+                // Beside the border of a cell of the density it jumps.
+                differ += u32::from(!(stated / by_map - 1.0).abs().le(&2e-3));
+            }
+        }
+        assert!(differ < 40, "{differ} of 500 from {reference}");
+        let warp = lights.warp(&world, 0).expect("it is lit unevenly");
+        let cells = warp.densities.len() as f64;
+        let mut expected = [0.0; 20];
+        for (index, density) in warp.densities.iter().enumerate() {
+            let place = [index as u32 % warp.width * 5 / warp.width, index as u32 / warp.width * 4 / warp.height];
+            expected[(place[1] * 5 + place[0]) as usize] += density / cells * f64::from(samples);
+        }
+        let report = chi_squared_test(&counts, &expected);
+        assert!(report.p_value >= level, "{report:?}");
+        // The control: evenly over the area.
+        assert!(chi_squared_test(&counts, &[f64::from(samples) / 20.0; 20]).p_value < 1e-9);
     }
 }
 

@@ -56,16 +56,7 @@ fn texel(image: &ImageData, wrap: TextureWrap, position: DVec2) -> DVec4 {
 /// An index in 0..size.
 fn wrapped(index: f64, size: u32, wrap: TextureWrap) -> usize {
     // Far beyond any picture, the conversion saturates; NaN becomes 0.
-    let (index, size) = (index as i64, i64::from(size));
-    let inside = match wrap {
-        TextureWrap::Repeat => index.rem_euclid(size),
-        TextureWrap::Clamp => index.clamp(0, size - 1),
-        TextureWrap::Mirror => {
-            let period = index.rem_euclid(2 * size);
-            period.min(2 * size - 1 - period)
-        }
-    };
-    inside as usize
+    wrap.index(index as i64, size as usize)
 }
 
 #[cfg(test)]

@@ -424,3 +424,48 @@ fn other_lights_are_noticed() {
         assert!(!verdict.agrees && verdict.matching_share() < 0.97, "change {index}: {verdict:#?}");
     }
 }
+
+/// A screen that shows a picture of few bright texels: as a rectangle, mirrored, leaning, moving, as the faces of a box and as a mesh; the picture
+/// scaled, turned and repeated; among few lights and among many. The first way is not right-angled.
+#[test]
+fn screens_agree() {
+    let picture = "[[texture]]\nname = \"picture\"\ntype = \"image\"\nfile = \"picture.exr\"\n";
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let texel = |x: usize, y: usize| {
+        if (x * 5 + y * 7).is_multiple_of(23) { (1.0, 0.8, 0.1 * x as f32) } else { (0.02, 0.01 * y as f32, 0.03) }
+    };
+    exr::prelude::write_rgb_file(folder.path().join("picture.exr"), 13, 10, texel).expect("the picture is written");
+    let keys = ["", "filter = \"nearest\"\n", "scale = [2.5, 1.5]\nrotation = 30\nwrap = \"mirror\"\n"];
+    let material =
+        "[[material]]\nname = \"screen\"\ntype = \"emissive\"\nradiance = { texture = \"picture\", factor = [9, 8, 7] }\n";
+    let quad = "[[shape]]\ntype = \"rectangle\"\ncorner = [-1.5, 2.4, -1]\nedge_u = [3, 0.2, 0]\nedge_v = [0.2, 0, 2]\nmaterial = \"screen\"\n";
+    let shapes = [
+        quad.to_owned(),
+        format!("{quad}transform = [{{ scale = [-1, 1, 1] }}]\n"),
+        format!("{quad}motion = [{{ rotate = [0, 1, 0.2], degrees = 40 }}]\n"),
+        "[[shape]]\ntype = \"box\"\nmin = [-1, 1.8, -0.5]\nmax = [0.5, 2.5, 0.5]\nmaterial = \"screen\"\n".to_owned(),
+        "[[shape]]\ntype = \"mesh\"\npositions = [[-1.5, 2, -1], [1.5, 2.2, -1], [1.5, 2.4, 1], [-1.5, 2.1, 1]]\n\
+         uvs = [[0, 0], [1, 0], [1, 1], [0, 1]]\nfaces = [[0, 1, 2], [0, 2, 3]]\nmaterial = \"screen\"\n"
+            .to_owned(),
+    ];
+    for (index, shape) in shapes.iter().enumerate() {
+        let keys = keys[index % keys.len()];
+        for (way, choice) in [(PlanOptions::default(), LightChoice::Power), (by_wavefront(), LightChoice::Tree)] {
+            let text = format!("{HEAD}{picture}{keys}{material}{shape}{SPOT}");
+            let mut scene =
+                load::load_toml_str(&text, "screens.toml", folder.path()).unwrap_or_else(|error| panic!("{error}\n{text}"));
+            scene.render.light_choice = choice;
+            let packed = gpt::packed::PackedScene::new(&scene).expect("it can be packed");
+            assert_eq!(packed.lights.iter().any(|light| light.is_warped()), !shape.contains("mesh"), "screen {index}");
+            assert_agrees(&format!("screen {index}, {choice:?}"), &scene, &way);
+            if choice == LightChoice::Tree {
+                continue;
+            }
+            // The control: the reference draws points by another picture.
+            let mut other = scene.clone();
+            other.textures[0].transform.offset = [0.02, 0.0];
+            let Some(verdict) = compare_unequal(&scene, &other) else { return };
+            assert!(verdict.matching_share() < 0.97, "screen {index}: {verdict:#?}");
+        }
+    }
+}

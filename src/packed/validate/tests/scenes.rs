@@ -69,6 +69,8 @@ fn image(width: u32, height: u32) -> Arc<ImageData> {
         2 => Texels::Shorts { codes: vec![[1, 2, 3, 4]; count], space: ColorSpace::Linear },
         3 => Texels::Half(vec![[0x3800; 4]; count]),
         4 => Texels::FloatAlpha(vec![[0.1, 0.5, 0.2, 0.7]; count]),
+        // A lamp that shows it is drawn by what it shows.
+        6 => Texels::Float((0..count).map(|index| [if index == 7 { 50.0 } else { 0.1 }; 3]).collect()),
         _ => Texels::Float((0..count).map(|index| [0.1 * index as f32, 0.5, 0.2]).collect()),
     };
     Arc::new(ImageData { width, height, texels, has_alpha: false })
@@ -105,6 +107,7 @@ fn everything() -> Scene {
         TextureKind::Worley { scale: 3.0, a, b, seed: 2 },
         picture(4, TextureWrap::Repeat, TextureFilter::Bilinear),
         picture(5, TextureWrap::Repeat, TextureFilter::Nearest),
+        picture(6, TextureWrap::Clamp, TextureFilter::Bilinear),
     ] {
         scene.textures.push(Texture::new("texture", kind));
     }
@@ -173,6 +176,9 @@ fn everything() -> Scene {
     let last = scene.materials.len() - 1;
     scene.shapes[7].material = last;
     scene.shapes[8].material = last;
+    let emission = Some(Emission { radiance: of(8), two_sided: false });
+    scene.materials.push(Material { emission, ..plain("screen", MaterialKind::Emissive) });
+    scene.shapes.push(shape(sheet(7.0), last + 1));
     scene.lights = delta_light_examples().into_iter().map(|(_, light)| light).collect();
     for light in &mut scene.lights {
         match light {

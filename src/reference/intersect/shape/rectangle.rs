@@ -67,6 +67,10 @@ impl Element for Quad {
         if self.reversed { DVec2::new(1.0 - local.x, local.y) } else { local }
     }
 
+    fn place_of_uv(&self, uv: DVec2) -> Option<Local> {
+        Some(if self.reversed { DVec2::new(1.0 - uv.x, uv.y) } else { uv })
+    }
+
     fn tangents(&self, _: Local, _: DVec3) -> Option<Tangents> {
         Some(Tangents::along(if self.reversed { -self.edge_u } else { self.edge_u }, self.edge_v))
     }
