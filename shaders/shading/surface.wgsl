@@ -152,7 +152,14 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
 #if NORMAL_MAPS
     own_normal = mapped_normal(material, kind, bitcast<u32>(p2.w), own_normal, point, uv);
 #endif
+#if NORMAL_MIRRORING
+    var shading_normal = shading_normal_towards(own_normal, facing_normal, wo);
+    if mirrors_bent_normals(material) {
+        shading_normal = mirrored_normal_towards(own_normal, unbent_normal, facing_normal, wo);
+    }
+#else
     let shading_normal = shading_normal_towards(own_normal, facing_normal, wo);
+#endif
 #if MOTION
     size += placed.magnitude;
 #endif

@@ -44,6 +44,8 @@ shared_constants!(flags {
     pub(super) const TEXTURE_HEIGHTS: u32 = 1 << 18;
     /// Of any kind: what the normals that it bends reflect is shadowed by the surface.
     pub(super) const TEXTURE_SHADOWS: u32 = 1 << 19;
+    /// Of any kind, beside the flag before: normals that it bends away from the viewer are mirrored.
+    pub(super) const TEXTURE_MIRRORS: u32 = 1 << 20;
     /// Where the way of wrapping stands.
     pub(super) const WRAP_SHIFT: u32 = 8;
     /// Where an image's format stands, and the flag of floating-point texels that have alpha.
@@ -187,6 +189,11 @@ impl PackedTextures {
         self.textures.iter().any(|texture| texture.kind_and_flags & TEXTURE_SHADOWS != 0)
     }
 
+    /// Some map mirrors normals that it bends away from the viewer.
+    pub fn has_mirrored_normals(&self) -> bool {
+        self.textures.iter().any(|texture| texture.kind_and_flags & TEXTURE_MIRRORS != 0)
+    }
+
     /// Some normal map is made stronger or weaker.
     pub fn has_scaled_normals(&self) -> bool {
         self.textures.iter().any(|texture| texture.kind_and_flags & TEXTURE_HEIGHTS == 0 && texture.a[3] != 1.0)
@@ -242,7 +249,8 @@ impl Packing {
         self.packed.textures.push(PackedTexture {
             kind_and_flags: packed.kind_and_flags
                 | if heights { TEXTURE_HEIGHTS } else { 0 }
-                | if texture.shadows_bent_normals { TEXTURE_SHADOWS } else { 0 },
+                | if texture.shadows_bent_normals { TEXTURE_SHADOWS } else { 0 }
+                | if texture.mirrors_bent_normals { TEXTURE_MIRRORS } else { 0 },
             a: [packed.a[0], packed.a[1], packed.a[2], scale as f32],
             offset: texture.transform.offset.map(|x| x as f32),
             cosine_sine: axis.as_vec2().to_array(),

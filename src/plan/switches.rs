@@ -248,6 +248,8 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     let has_maps = packed.materials.materials.iter().any(|material| material.normal_map != NONE);
     switches.enable("BUMP_MAPS", has_maps && packed.textures.has_heights());
     switches.enable("NORMAL_SHADOWING", has_maps && packed.textures.has_shadowed_normals());
+    let is_mirrored = packed.textures.has_shadowed_normals() && packed.textures.has_mirrored_normals();
+    switches.enable("NORMAL_MIRRORING", has_maps && is_mirrored);
     switches.enable("NORMAL_SCALES", has_maps && packed.textures.has_scaled_normals());
     switches.enable("NORMAL_MAPS", packed.materials.materials.iter().any(|material| material.normal_map != NONE));
     switches.enable("EMISSION", materials.iter().any(PackedMaterial::emits));

@@ -91,6 +91,8 @@ pub struct Texture {
     /// Light that reaches the normals that it bends fades where the surface itself would hide it (Estevez, Lecocq and Stein 2019, "A
     /// microfacet-based shadowing function to solve the bump terminator problem").
     pub shadows_bent_normals: bool,
+    /// A normal that it bends away from the viewer is mirrored about the one before; else the surface's own takes its place. Of maps that shadow.
+    pub mirrors_bent_normals: bool,
 }
 
 /// How a texture bends the normals of materials that have it for their normal map.
@@ -117,6 +119,7 @@ impl Texture {
             transform: UvTransform::default(),
             relief: Relief::default(),
             shadows_bent_normals: false,
+            mirrors_bent_normals: false,
         }
     }
 

@@ -20,6 +20,9 @@ pub fn material(id: MaterialId, writer: &Writer<'_>) -> String {
         if writer.scene.textures[texture].shadows_bent_normals {
             out += "normal_shadowing = true\n";
         }
+        if writer.scene.textures[texture].mirrors_bent_normals {
+            out += "normal_mirroring = true\n";
+        }
     }
     let emits = matches!(material.kind, MaterialKind::Emissive);
     match material.emission {

@@ -211,6 +211,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("NODE_CHUNKS").requires(&["BVH"]).excludes(&["UNIFORM_NODES"]),
     switch("NON_DELTA_TRANSMISSION"),
     switch("NORMAL_MAPS").requires(&["TEXTURES"]),
+    switch("NORMAL_MIRRORING").requires(&["NORMAL_SHADOWING"]),
     switch("NORMAL_SCALES").requires(&["NORMAL_MAPS"]),
     switch("NORMAL_SHADOWING").requires(&["NORMAL_MAPS"]),
     switch("ONE_LIGHT"),

@@ -48,7 +48,7 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
             "reflectance = 0.5",
             "reflectence = 0.5",
             "test.toml:13:1: material[0].reflectence: unknown key `reflectence` [did you mean `reflectance`? valid choices: name, \
-             reflectance, normal_map, normal_scale, bump_map, bump_scale, normal_shadowing, emission, emission_two_sided, opacity, two_sided]",
+             reflectance, normal_map, normal_scale, bump_map, bump_scale, normal_shadowing, normal_mirroring, emission, emission_two_sided, opacity, two_sided]",
         ),
         (
             "type = \"diffuse\"",

@@ -162,7 +162,7 @@ impl Importer<'_> {
         }
         let of_node = tracks.entry(node).or_default();
         if of_node.contains_key(&part) {
-            return Err(format!("an earlier one moves nodes[{node}]"));
+            return Err("an earlier one moves the same".to_owned());
         }
         of_node.insert(part, track);
         Ok(())
@@ -177,7 +177,7 @@ impl Importer<'_> {
             return Err(format!("nodes[{node}] has no morph targets"));
         }
         if self.weight_tracks.contains_key(&node) {
-            return Err(format!("an earlier one moves the morph targets of nodes[{node}]"));
+            return Err("an earlier one moves the same".to_owned());
         }
         let sampled = self.sampled(animation, channel, "SCALAR", Some(count), key)?;
         let of_target = |target: usize| sampled.keys(&|index| DVec4::splat(sampled.number(index, target)));

@@ -28,7 +28,7 @@ impl Importer<'_> {
             self.drop(what, &key, "they have no surface and are left out");
             return Ok(None);
         }
-        if primitive.extensions.contains_key("KHR_draco_mesh_compression") && !primitive.attributes.contains_key("POSITION") {
+        if primitive.extensions.contains_key("KHR_draco_mesh_compression") && !self.has_data(&primitive.attributes)? {
             return Err(format!("its data are packed by Draco, which is not read: `{}` unpacks them", super::DRACO_COMMAND));
         }
         let named = variant::material_of(self.variant, &primitive);
@@ -160,6 +160,12 @@ impl Importer<'_> {
             return Err(format!("{name} has numbers that are not finite"));
         }
         Ok(())
+    }
+
+    /// The positions stand in the file, and not only packed.
+    fn has_data(&self, attributes: &Map<String, Value>) -> Result<bool, String> {
+        let Some(index) = accessor(attributes, "POSITION")? else { return Ok(false) };
+        Ok(self.root.accessors.get(index).is_some_and(|accessor| accessor.buffer_view.is_some() || accessor.sparse.is_some()))
     }
 
     pub fn triples(&self, attributes: &Map<String, Value>, name: &str) -> Result<Option<Vec<Vec3>>, String> {

@@ -8,6 +8,7 @@ use crate::load::error::{SceneError, show};
 use crate::load::files::{Files, MOST_LIBRARY_BYTES};
 use crate::load::model::MtlMaterial;
 use crate::load::printable::short_list;
+use crate::scene::ColorSpace;
 
 /// All MTL files of one model.
 #[derive(Default)]
@@ -30,6 +31,8 @@ pub struct TextureMap {
     pub offset: [f64; 2],
     /// Do not repeat (`-clamp on`).
     pub clamp: bool,
+    /// How texels are stored (`-colorspace`), where that is said.
+    pub space: Option<ColorSpace>,
     /// Options that were left out.
     pub unsupported: Vec<String>,
 }
@@ -182,7 +185,8 @@ fn split_names<'w>(files: &Files, folder: &Path, written: &'w str) -> Vec<&'w st
 impl TextureMap {
     /// Parses `[options] file`.
     pub fn parse(written: &str) -> Result<Self, String> {
-        let mut map = Self { file: String::new(), scale: [1.0; 2], offset: [0.0; 2], clamp: false, unsupported: Vec::new() };
+        let mut map =
+            Self { file: String::new(), scale: [1.0; 2], offset: [0.0; 2], clamp: false, space: None, unsupported: Vec::new() };
         let mut rest = written.trim();
         while rest.starts_with('-') {
             let (option, after) = next_word(rest);
@@ -195,12 +199,21 @@ impl TextureMap {
                     map.clamp = state == "on";
                     rest = after;
                 }
+                "-colorspace" => {
+                    let (name, after) = next_word(rest);
+                    rest = after;
+                    map.space = match name.to_ascii_lowercase().as_str() {
+                        "srgb" => Some(ColorSpace::Srgb),
+                        "linear" | "raw" | "non-color" => Some(ColorSpace::Linear),
+                        other => return Err(format!("the colour space `{other}` is neither `sRGB` nor `linear`")),
+                    };
+                }
                 "-t" => rest = numbers(rest, &mut [0.0; 2])?,
                 "-mm" => rest = next_word(next_word(rest).1).1,
                 "-blendu" | "-blendv" | "-cc" | "-boost" | "-texres" | "-bm" | "-imfchan" | "-type" => rest = next_word(rest).1,
                 other => return Err(format!("the texture option `{other}` is not known")),
             }
-            if !["-s", "-o", "-clamp", "-blendu", "-blendv", "-texres"].contains(&option) {
+            if !["-s", "-o", "-clamp", "-colorspace", "-blendu", "-blendv", "-texres"].contains(&option) {
                 map.unsupported.push(option.to_owned());
             }
         }
@@ -249,9 +262,14 @@ mod tests {
             scale: [2.0, 3.0],
             offset: [0.5, 0.0],
             clamp: true,
+            space: None,
             unsupported: Vec::new(),
         };
         assert_eq!(map, Ok(expected));
+        let space = |written: &str| TextureMap::parse(written).map(|map| (map.space, map.file));
+        assert_eq!(space("-colorspace sRGB a.png"), Ok((Some(ColorSpace::Srgb), "a.png".to_owned())));
+        assert_eq!(space("-colorspace linear a.png"), Ok((Some(ColorSpace::Linear), "a.png".to_owned())));
+        assert!(space("-colorspace red a.png").is_err());
         assert!(TextureMap::parse("-s wood.png").is_err());
         assert!(TextureMap::parse("-clamp on").is_err());
         assert!(TextureMap::parse("-nonsense 3 wood.png").is_err());

@@ -71,6 +71,7 @@ impl Bsdf {
             .with_unbent_normal(surface.unbent_normal)
             .with_hemisphere(scene.render.hemisphere)
             .with_tangents(surface.tangents);
+        let view = if surface.is_mirrored { view.with_mirrored_normal(surface.shading_normal) } else { view };
         let lookup = Lookup::new(scene, surface, &view);
         let material = surface.owner.material;
         if scene.render.blend == BlendMode::Pick {

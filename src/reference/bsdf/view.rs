@@ -43,6 +43,17 @@ impl View {
         Self { unbent_normal: unbent_normal.map(|normal| towards(self.wo, self.geometric_normal, normal)), ..self }
     }
 
+    /// As a map bends the normal that mirrors what it bends away from wo, instead of leaving it to the geometric normal. The unbent normal is known.
+    pub fn with_mirrored_normal(self, bent: DVec3) -> Self {
+        let Some(unbent) = self.unbent_normal else { return self };
+        let normal = if bent.dot(self.geometric_normal) < 0.0 { -bent } else { bent };
+        let mirrored = 2.0 * normal.dot(unbent) * unbent - normal;
+        if normal.dot(self.wo) > 0.0 || mirrored.dot(self.wo) <= 0.0 || mirrored.dot(self.geometric_normal) <= 0.0 {
+            return self;
+        }
+        Self { frame: Frame::around(mirrored), ..self }
+    }
+
     /// What is left of light between wo and `wi` where a map bent the normal (Estevez, Lecocq and Stein 2019): 1 where none did.
     pub fn shadowing(&self, wi: DVec3) -> f64 {
         let Some(unbent) = self.unbent_normal else { return 1.0 };
@@ -104,6 +115,19 @@ impl View {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// By hand: seen from 80 degrees to the left, a normal that leans 30 degrees to the right looks away; its mirror leans to the left.
+    #[test]
+    fn normals_that_look_away_are_mirrored() {
+        let leaning = |degrees: f64| DVec3::new(degrees.to_radians().sin(), 0.0, degrees.to_radians().cos());
+        let view = |wo: DVec3, bent: DVec3| View::new(wo, DVec3::Z, bent).with_unbent_normal(Some(DVec3::Z));
+        let away = view(leaning(-80.0), leaning(30.0));
+        assert_eq!(away.normal(), DVec3::Z);
+        assert!((away.with_mirrored_normal(leaning(30.0)).normal() - leaning(-30.0)).length() < 1e-15);
+        // What looks at the viewer stays as it is.
+        let towards = view(leaning(-50.0), leaning(30.0));
+        assert_eq!(towards.with_mirrored_normal(leaning(30.0)), towards);
+    }
 
     /// By hand: a normal bent by 45 degrees has the width ⅛ of its squared tangent.
     #[test]

@@ -76,6 +76,11 @@ impl NormalMaps {
         self.of_material[material].is_some_and(|texture| self.textures[texture].shadows_bent_normals)
     }
 
+    /// Normals that the material's map bends away from the viewer are mirrored.
+    pub fn mirrors(&self, material: MaterialId) -> bool {
+        self.of_material[material].is_some_and(|texture| self.textures[texture].mirrors_bent_normals)
+    }
+
     /// The shading normal as the material's map bends it; as it is where there is no map or no tangent.
     pub fn bend(
         &self,

@@ -33,6 +33,8 @@ pub struct Surface {
     pub shading_normal: DVec3,
     /// The normal before that, where it shadows the bent one.
     pub unbent_normal: Option<DVec3>,
+    /// Where it is bent away from the viewer, it is mirrored about the normal before that.
+    pub is_mirrored: bool,
     pub uv: DVec2,
     /// The directions in which texture coordinates grow, where the material depends on them and there are some.
     pub tangents: Option<Tangents>,
@@ -254,6 +256,7 @@ impl World {
                     point,
                     shading_normal: point.normal,
                     unbent_normal: None,
+                    is_mirrored: false,
                     uv: DVec2::ZERO,
                     tangents: None,
                 }
@@ -292,7 +295,8 @@ impl World {
         let shading_normal = self.normal_maps.bend(owner.material, [normal, point.normal], uv, &tangents);
         let tangents = if self.anisotropic[owner.material] { tangents() } else { None };
         let unbent_normal = self.normal_maps.shadows(owner.material).then_some(normal);
-        Surface { id, owner, point, shading_normal, unbent_normal, uv, tangents }
+        let is_mirrored = self.normal_maps.mirrors(owner.material);
+        Surface { id, owner, point, shading_normal, unbent_normal, is_mirrored, uv, tangents }
     }
 }
 

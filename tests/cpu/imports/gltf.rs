@@ -543,6 +543,17 @@ fn what_cannot_be_read_is_refused_by_name() {
     file.root["extensionsRequired"] = json!([]);
     file.root["extensionsUsed"] = json!(["EXT_unknown"]);
     assert!(report(&file.read()).contains("EXT_unknown"));
+    // Packed positions that have an accessor without data, as every file has them that can be read by Draco alone without saying so.
+    let mut packed = File::new();
+    packed.root["meshes"][0]["primitives"][0]["extensions"] = json!({ "KHR_draco_mesh_compression": { "bufferView": 0 } });
+    packed.read();
+    packed.root["accessors"][0].as_object_mut().expect("an object").remove("bufferView");
+    assert!(packed.refused().contains("Draco"), "{}", packed.refused());
+    // Lists were objects once.
+    let mut old = File::new();
+    old.root["asset"]["version"] = json!("1.0");
+    old.root["nodes"] = json!({ "node": {} });
+    assert!(old.refused().contains("is glTF of version 1.0; version 2.0 is read"), "{}", old.refused());
 }
 
 /// Faults as they stand in collections of malformed files.

@@ -473,6 +473,7 @@ fn bent_normals_are_shadowed() {
         let scene = folder.valid("a.xml");
         let bent = scene.materials.iter().find_map(|material| material.normal_map).expect("a map");
         assert_eq!((scene.textures[bent].shadows_bent_normals, report(&scene).as_str()), (expected, ""));
+        assert_eq!(scene.textures[bent].mirrors_bent_normals, expected);
         let drawn = picture(&scene);
         assert_eq!(picture(&folder.written("a.xml")), drawn);
         drawn

@@ -326,10 +326,26 @@ fn maps_of_heights_and_scaled_normals_agree() {
             "shadowed normals",
             "type = \"conductor\"\npreset = \"gold\"\nroughness = 0.5\nnormal_map = \"bumps\"\nnormal_scale = 1.5\nnormal_shadowing = true",
         ),
+        (
+            "mirrored normals",
+            "type = \"conductor\"\npreset = \"gold\"\nroughness = 0.5\nnormal_map = \"bumps\"\nnormal_scale = 4\nnormal_shadowing = true\nnormal_mirroring = true",
+        ),
         ("strong normals", "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 2.5"),
     ] {
         assert_agrees(name, &with_edges(material), &PlanOptions::default());
     }
+}
+
+/// The control: with the surface's own in place of normals that look away, the picture is another one.
+#[test]
+fn missing_mirrors_of_bent_normals_are_noticed() {
+    let theirs = with_edges(
+        "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 4\nnormal_shadowing = true\nnormal_mirroring = true",
+    );
+    let mut ours = theirs.clone();
+    ours.textures.iter_mut().for_each(|texture| texture.mirrors_bent_normals = false);
+    let Some(verdict) = compare_unequal(&ours, &theirs) else { return };
+    assert!(!verdict.agrees, "{verdict:#?}");
 }
 
 /// The control: without the shadow of the surface, the picture is another one.

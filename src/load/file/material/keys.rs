@@ -67,6 +67,7 @@ pub struct CommonKeys<'a> {
     pub bump_map: Option<&'a Located<String>>,
     pub bump_scale: Option<&'a Located<Number>>,
     pub normal_shadowing: Option<&'a Located<bool>>,
+    pub normal_mirroring: Option<&'a Located<bool>>,
     pub emission: Option<&'a Located<Colour<NonNegative>>>,
     pub emission_two_sided: Option<&'a Located<bool>>,
     pub opacity: Option<&'a Located<Opacity>>,
@@ -102,6 +103,8 @@ macro_rules! material_keys {
             bump_scale: Option<$crate::load::file::value::Located<$crate::load::file::value::Number>>,
             /// With `normal_map` or `bump_map`: light fades that the surface itself would hide from a normal that is bent towards it.
             normal_shadowing: Option<$crate::load::file::value::Located<bool>>,
+            /// With `normal_shadowing`: a normal that is bent away from the viewer is mirrored about the surface's own, which takes its place otherwise.
+            normal_mirroring: Option<$crate::load::file::value::Located<bool>>,
             /// Radiance the surface sends out by itself, besides what it reflects.
             emission: Option<$crate::load::file::value::Located<
                 $crate::load::file::colour::Colour<$crate::load::file::value::NonNegative>,
@@ -122,6 +125,7 @@ macro_rules! material_keys {
                     bump_map: self.bump_map.as_ref(),
                     bump_scale: self.bump_scale.as_ref(),
                     normal_shadowing: self.normal_shadowing.as_ref(),
+                    normal_mirroring: self.normal_mirroring.as_ref(),
                     emission: self.emission.as_ref(),
                     emission_two_sided: self.emission_two_sided.as_ref(),
                     opacity: self.opacity.as_ref(),

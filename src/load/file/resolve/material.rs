@@ -122,6 +122,11 @@ impl Resolver<'_> {
             return Err(self.error(&shadowing.span, message));
         }
         let is_shadowed = shadowing.is_some_and(|shadowing| shadowing.value);
+        let is_mirrored = common.normal_mirroring.is_some_and(|mirroring| mirroring.value);
+        if let (Some(mirroring), false) = (common.normal_mirroring, is_shadowed) {
+            let message = "`normal_mirroring` belongs to `normal_shadowing = true`, which is not there";
+            return Err(self.error(&mirroring.span, message));
+        }
         let relief = match (common.bump_map, material.normal_map, common.normal_scale) {
             (Some(bump), Some(_), _) => {
                 return Err(self.error(&bump.span, "a material has a normal map or a bump map, not both"));
@@ -147,7 +152,9 @@ impl Resolver<'_> {
         };
         if let Some((id, relief)) = relief {
             let linear = self.linear_textures[id];
-            self.scene.textures.push(Texture { relief, shadows_bent_normals: is_shadowed, ..self.scene.textures[id].clone() });
+            let (shadows_bent_normals, mirrors_bent_normals) = (is_shadowed, is_mirrored);
+            let texture = self.scene.textures[id].clone();
+            self.scene.textures.push(Texture { relief, shadows_bent_normals, mirrors_bent_normals, ..texture });
             self.linear_textures.push(linear);
             material.normal_map = Some(self.scene.textures.len() - 1);
         }

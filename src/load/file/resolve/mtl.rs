@@ -196,6 +196,7 @@ impl Resolver<'_> {
         let of_material = |message: String| format!("the material `{}`: {key}: {message}", written.material.name);
         let folder = written.file.parent().unwrap_or(Path::new(""));
         let map = TextureMap::parse(map).map_err(|message| SceneError::in_file(show(&written.file), of_material(message)))?;
+        let space = space.or(map.space);
         let found = self.files().find(folder, &map.file);
         let path = found.as_ref().map_or_else(|| folder.join(&map.file), |found| found.path.clone());
         if found.is_some_and(|found| found.is_substitute) {
@@ -226,6 +227,7 @@ impl Resolver<'_> {
             transform: UvTransform { offset: map.offset, ..UvTransform::default() },
             relief: Relief::default(),
             shadows_bent_normals: false,
+            mirrors_bent_normals: false,
         });
         self.linear_textures.push(space == Some(ColorSpace::Linear));
         Ok(match tint {

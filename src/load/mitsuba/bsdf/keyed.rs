@@ -11,7 +11,7 @@ pub struct Parts {
 }
 
 /// The keys by which a material's normals are bent.
-const RELIEF: [&str; 5] = ["normal_map", "normal_scale", "bump_map", "bump_scale", "normal_shadowing"];
+const RELIEF: [&str; 6] = ["normal_map", "normal_scale", "bump_map", "bump_scale", "normal_shadowing", "normal_mirroring"];
 
 /// The keys that bend normals, and the others but the name.
 pub fn without_relief(keys: Keys) -> (Keys, Keys) {

@@ -55,6 +55,7 @@ pub fn bump_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) ->
     Ok(match converter.texture(&map, Role::Surface, Texels::Numbers)? {
         Input::Texture(name, factor) => {
             let keys = keys.with("bump_map", name).with("bump_scale", scale * factor.x);
+            plugin.without_effect(&["flip_invalid_normals"]);
             (shadowed(plugin, keys)?, two_sided)
         }
         Input::Constant(_) => (keys, two_sided),
@@ -63,7 +64,6 @@ pub fn bump_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) ->
 
 /// As a map there shadows the normals that it bends, unless it says otherwise.
 fn shadowed(plugin: &Plugin, keys: Keys) -> Result<Keys, SceneError> {
-    plugin.without_effect(&["flip_invalid_normals"]);
     let is_shadowed = plugin.flag("use_shadowing_function", true)?;
     Ok(if is_shadowed { keys.with("normal_shadowing", true) } else { keys })
 }
@@ -73,7 +73,11 @@ pub fn normal_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) 
     let map = map.ok_or_else(|| plugin.error("a normal map needs a texture within"))?;
     let (keys, two_sided) = converter.within(plugin, depth)?;
     Ok(match converter.texture(&map, Role::Surface, Texels::Numbers)? {
-        Input::Texture(name, _) => (shadowed(plugin, keys.with("normal_map", name))?, two_sided),
+        Input::Texture(name, _) => {
+            let keys = shadowed(plugin, keys.with("normal_map", name))?;
+            let is_mirrored = plugin.flag("flip_invalid_normals", true)? && keys.get("normal_shadowing").is_some();
+            (keys.with_some("normal_mirroring", is_mirrored.then_some(true)), two_sided)
+        }
         Input::Constant(_) => (keys, two_sided),
     })
 }

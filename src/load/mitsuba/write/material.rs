@@ -18,10 +18,12 @@ impl Writer<'_> {
         let kind = text(material, "type").unwrap_or_default();
         let is_transparent = ["glass", "rough_glass", "pass"].contains(&kind);
         let is_shadowed = flag(material, "normal_shadowing") == Some(true);
+        let is_mirrored = flag(material, "normal_mirroring") == Some(true);
         let bsdf = match text(material, "normal_map") {
             Some(texture) => {
                 let map = self.texture(texture, "normalmap", true)?;
-                Element::new("bsdf", "normalmap").boolean("use_shadowing_function", is_shadowed).with(map).with(bsdf)
+                let element = Element::new("bsdf", "normalmap").boolean("use_shadowing_function", is_shadowed);
+                element.boolean("flip_invalid_normals", is_mirrored).with(map).with(bsdf)
             }
             None => bsdf,
         };
