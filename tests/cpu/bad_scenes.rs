@@ -76,6 +76,7 @@ fn mistakes_are_named_with_their_place_and_the_valid_choices() {
             "test.toml:14:12: material[0].bump_map: the checker `c` rises in steps, and has no slopes for a bump map: take an image or noise",
         ),
         // Wrong types.
+        ("[film]", "texture = { type = \"checker\" }\n[film]", "test.toml:2:11: texture: invalid type: table, expected an array"),
         (
             "spp = 1",
             "spp = \"many\"",

@@ -62,6 +62,7 @@ fn replace_type_names(message: &str) -> String {
         ("expected u32", "expected a whole number of at least 0"),
         ("floating point `", "number `"),
         ("invalid type: map", "invalid type: table"),
+        ("a sequence", "an array"),
         ("sequence", "array"),
         ("unit variant", "a name"),
         ("newtype variant", "a table"),
