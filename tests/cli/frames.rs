@@ -48,6 +48,11 @@ radiance = 0.3
 const CAMERA: &str = "interpolation = \"smooth\"\nkeyframes = [{ frame = 0, position = [0, 1, 6] }, { time = 1, position = [3, 1, 5], vfov = 30 }, { frame = 20, position = [5, 2, 3], vfov = 45 }]";
 const BALL: &str = "keyframes = [{ frame = 0, translate = [0, 0, 0] }, { frame = 4, translate = [0, 1, 0], scale = 0.5 }, { frame = 8, translate = [1, 1, 0], scale = 1 }]";
 
+/// A target that grows, and a joint that takes one corner along.
+const BENT: &str = "deformation = { file = \"bent.json\", joints = [{ node = \"table\" }], weights = [0], keyframes = [{ frame = 0, weights = [0] }, { frame = 8, weights = [1] }] }";
+const BENDING: &str =
+    r#"{ "influences": [[[0, 1]], [], []], "targets": [{ "positions": [[0, 0, 0], [0, 0, 0], [-3, 0, 0.5]] }] }"#;
+
 fn scene(camera: &str, ball: &str, block: &str) -> String {
     SCENE.replace("CAMERA", camera).replace("BALL", ball).replace("BLOCK", block)
 }
@@ -57,11 +62,13 @@ pub fn moving_camera() -> String {
     scene(CAMERA, "", "")
 }
 
-/// A folder with that scene, and the one in which shapes do too.
+/// A folder with that scene, the one in which shapes do too, and one in which nothing moves but the vertices of a mesh.
 fn place() -> Workplace {
     let place = Workplace::new();
     fs::write(place.path("camera.toml"), moving_camera()).expect("the scene file");
     fs::write(place.path("shapes.toml"), scene(CAMERA, BALL, "node = \"table\"")).expect("the scene file");
+    fs::write(place.path("bent.toml"), scene("", "", BENT)).expect("the scene file");
+    fs::write(place.path("bent.json"), BENDING).expect("the joints and targets");
     place
 }
 
@@ -70,7 +77,7 @@ fn place() -> Workplace {
 fn a_frame_of_several_is_the_frame_alone() {
     let place = place();
     for device in devices() {
-        for name in ["camera", "shapes"] {
+        for name in ["camera", "shapes", "bent"] {
             let render = format!("render {name}.toml -q --device {device}");
             place.expect(0, &format!("{render} --frames 7,1-5x2 -o all.##.exr --stats all.json"));
             let stats = place.stats("all.json");

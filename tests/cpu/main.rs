@@ -11,6 +11,7 @@ mod bad_materials;
 mod bad_scenes;
 mod blends;
 mod builtin_scenes;
+mod deformations;
 mod flip;
 mod hierarchy;
 mod imports;

@@ -79,6 +79,9 @@ impl Writer<'_> {
         if shape.contains_key("keyframes") || shape.contains_key("node") {
             self.drop("keyframes", place, "the shape stands where it is without a frame");
         }
+        if shape.contains_key("deformation") {
+            self.drop("deformation", place, "the mesh is as in its file, before it is bent");
+        }
         if flag(shape, "portal") == Some(true) {
             self.drop("portal", place, "its directions are not sampled by themselves");
         }
