@@ -59,7 +59,8 @@ pub fn load(files: &Files, path: &Path, camera: Option<&str>, variant: Option<&s
         name: name.clone(),
         root: &root,
         buffers,
-        scene: Description::default(),
+        // Up to 1, emission is what shows in the dark; viewers light such models all the same.
+        scene: Description::with_glow(1.0),
         materials: HashMap::new(),
         textures: HashMap::new(),
         pictures: HashMap::new(),

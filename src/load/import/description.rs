@@ -34,6 +34,8 @@ pub struct Description {
     pub held: Vec<(String, HeldContent)>,
     /// Of meshes that are bent, by the places of their files among `held`: what they are without a frame.
     pub bent: HashMap<usize, Arc<Mesh>>,
+    /// Radiance up to which a surface glows and lights no scene.
+    pub(super) glow: f64,
     /// Materials that are others for some meshes, by their names, and those others.
     pub material_variants: HashMap<String, String>,
     pub report: ImportReport,
@@ -97,6 +99,11 @@ const MOST_WRITTEN_PLACES: usize = 16;
 const MOST_POINTS: usize = 1 << 23;
 
 impl Description {
+    /// An empty one, whose surfaces glow up to a radiance and light nothing.
+    pub fn with_glow(glow: f64) -> Self {
+        Self { glow, ..Self::default() }
+    }
+
     /// Adds shapes of meshes as a group that stands in all of these places.
     pub fn add_instances(&mut self, name: &str, place: &Place, shapes: Vec<Entry>, places: &[DAffine3]) {
         let name = self.group_names.free(name);
@@ -195,9 +202,10 @@ impl Description {
         }
     }
 
-    /// A light, or a material of a shape that gives light.
+    /// A light, or a material of a shape that gives more light than a glow.
     pub fn has_light(&self) -> bool {
-        let gives_light = |entry: &Entry| ["emission", "radiance"].iter().any(|key| entry.keys.get(key).is_some());
+        let shines = |value: &Value| brightest(value) > self.glow;
+        let gives_light = |entry: &Entry| ["emission", "radiance"].iter().any(|key| entry.keys.get(key).is_some_and(shines));
         // Instances give none.
         let lamps: HashSet<&str> =
             self.materials.iter().filter(|entry| gives_light(entry)).filter_map(|entry| entry.keys.text("name")).collect();
@@ -258,6 +266,17 @@ impl Description {
     /// The same for a texture.
     pub fn free_texture_name(&mut self, wanted: &str) -> String {
         self.texture_names.free(wanted)
+    }
+}
+
+/// The most that a colour can be, where textures are at most white.
+fn brightest(colour: &Value) -> f64 {
+    match colour {
+        Value::Number(number) => *number,
+        Value::Integer(number) => *number as f64,
+        Value::List(channels) => channels.iter().map(brightest).fold(0.0, f64::max),
+        Value::Table(texture) => texture.get("factor").map_or(1.0, brightest),
+        Value::Flag(_) | Value::Text(_) | Value::File(_) => 1.0,
     }
 }
 

@@ -168,6 +168,25 @@ fn what_has_no_camera_and_no_light_is_framed_as_a_model() {
     assert_eq!(picture(&scene), picture(&folder.written("a.glb")));
 }
 
+/// What merely glows, as the labels and lamps of many models do, is lit as well; a lamp of another strength lights by itself.
+#[test]
+fn what_glows_is_lit() {
+    let lights = |factor: [f64; 3], strength: Option<f64>| {
+        let mut file = File::new();
+        file.root["scenes"] = json!([{ "nodes": [0, 1] }]);
+        file.root["materials"][0]["emissiveFactor"] = json!(factor);
+        if let Some(strength) = strength {
+            file.root["materials"][0]["extensions"] =
+                json!({ "KHR_materials_emissive_strength": { "emissiveStrength": strength } });
+        }
+        file.read().lights.len()
+    };
+    assert_eq!(lights([1.0, 0.5, 0.0], None), 1);
+    assert_eq!(lights([1.0, 0.5, 0.0], Some(1.0)), 1);
+    assert_eq!(lights([1.0, 0.5, 0.0], Some(1.5)), 0);
+    assert_eq!(lights([0.0; 3], Some(1.5)), 1, "the control: it is dark");
+}
+
 #[test]
 fn cameras_are_chosen_by_their_name() {
     let mut file = File::new();
