@@ -43,6 +43,15 @@ fn interpolate_attributes(first: u32, weights: vec2<f32>) -> Attribute {
 #endif
 }
 
+#if SECOND_UVS
+// Second texture coordinates of a triangle, which stand behind the first ones.
+fn second_uv(first: u32, weights: vec2<f32>) -> vec2<f32> {
+    let words = attribute_words(first + 1u);
+    let w = 1.0 - weights.x - weights.y;
+    return w * vec2<f32>(words.w0.w, words.w1.w) + weights.x * vec2<f32>(words.w2.w, words.w3.x) + weights.y * words.w3.yz;
+}
+#endif
+
 // Of the linear map from texture coordinates at the corners to the edges.
 fn edge_tangents(first: u32, edge_u: vec3<f32>, edge_v: vec3<f32>) -> Tangents {
     let words = attribute_words(first);

@@ -4,6 +4,7 @@
 #import core/layout.wgsl
 #import geometry/scene.wgsl
 #import shading/blend_weight.wgsl
+#import shading/coordinates.wgsl
 #import shading/lobe.wgsl
 
 struct PartRun {
@@ -31,7 +32,7 @@ struct WeightedPart {
 #endif
 }
 
-fn weighted_part(run: PartRun, index: u32, cosine: f32, uv: vec2<f32>) -> WeightedPart {
+fn weighted_part(run: PartRun, index: u32, cosine: f32, uv: TextureCoordinates) -> WeightedPart {
     if run.first == NONE {
 #if ONE_SIDED
         return WeightedPart(run.material, 1.0, is_front_only(run.material));
@@ -58,7 +59,7 @@ fn weighted_part(run: PartRun, index: u32, cosine: f32, uv: vec2<f32>) -> Weight
 }
 
 // Σ wᵢ Leᵢ, and what the blend emits by itself.
-fn material_emission(material: u32, cosine: f32, front: bool, uv: vec2<f32>) -> vec3<f32> {
+fn material_emission(material: u32, cosine: f32, front: bool, uv: TextureCoordinates) -> vec3<f32> {
     var radiance = own_emission(material, front, uv);
     if (bitcast<u32>(tables[material * MATERIAL_WORDS + 2u].w) & PARTS_EMIT) != 0u {
         let run = part_run(material);

@@ -3,12 +3,13 @@
 #import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/scene.wgsl
+#import shading/coordinates.wgsl
 #import shading/fresnel.wgsl
 #if TEXTURES
 #import shading/texture.wgsl
 #endif
 
-fn blend_weight(index: u32, cosine: f32, uv: vec2<f32>) -> f32 {
+fn blend_weight(index: u32, cosine: f32, uv: TextureCoordinates) -> f32 {
     let h = tables[FIRST_BLEND_WEIGHT_WORD + index];
     let flags = bitcast<u32>(h.x);
     var w = h.y;

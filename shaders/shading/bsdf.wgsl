@@ -2,6 +2,7 @@
 #if NORMAL_SHADOWING
 #import shading/normal_shadowing.wgsl
 #endif
+#import shading/coordinates.wgsl
 #import shading/scattering.wgsl
 #import shading/surface.wgsl
 #if BLENDS
@@ -62,7 +63,7 @@ fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
 
 #if !BLENDS
 // Radiance that a material sends out at an angle of the given cosine with its normal.
-fn material_emission(material: u32, cosine: f32, front: bool, uv: vec2<f32>) -> vec3<f32> {
+fn material_emission(material: u32, cosine: f32, front: bool, uv: TextureCoordinates) -> vec3<f32> {
     return own_emission(material, front, uv);
 }
 #endif

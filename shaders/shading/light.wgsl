@@ -27,6 +27,10 @@
 #endif
 #if VARYING_LIGHTS
 #import shading/bsdf.wgsl
+#import shading/coordinates.wgsl
+#if SECOND_UVS
+#import shading/attributes.wgsl
+#endif
 #if SPHERE_LIGHTS
 #import shading/shape/sphere.wgsl
 #endif
@@ -51,11 +55,19 @@ fn varying_radiance(light: u32, point: ShapePoint, wo: vec3<f32>) -> vec3<f32> {
         own_normal = looked_up.normal;
     }
 #endif
+#if SECOND_UVS
+    var coordinates = only_coordinates(uv);
+    if first != NONE && kind == KIND_TRIANGLE {
+        coordinates = vec4<f32>(uv, second_uv(first, point.uv));
+    }
+#else
+    let coordinates = only_coordinates(uv);
+#endif
 #if NORMAL_MAPS
-    own_normal = mapped_normal(material, kind, first, own_normal, point, uv);
+    own_normal = mapped_normal(material, kind, first, own_normal, point, coordinates);
 #endif
     let shading_normal = shading_normal_towards(own_normal, select(-point.normal, point.normal, front), wo);
-    return material_emission(material, clamp(dot(wo, shading_normal), 0.0, 1.0), front, uv);
+    return material_emission(material, clamp(dot(wo, shading_normal), 0.0, 1.0), front, coordinates);
 }
 
 #if SPHERE_LIGHTS
@@ -81,11 +93,11 @@ fn varying_sphere_sample(light: u32, reference: vec3<f32>, two_sided: bool, pmf:
     let normal = outward / l1.w;
     var point = no_shape_point();
     point.normal = normal;
-    let mapped = mapped_normal(material, KIND_SPHERE, first, vec3<f32>(0.0), point, uv);
+    let mapped = mapped_normal(material, KIND_SPHERE, first, vec3<f32>(0.0), point, only_coordinates(uv));
     let wo = -light_sample.wi;
     cosine = clamp(dot(shading_normal_towards(mapped, select(normal, -normal, inside), wo), wo), 0.0, 1.0);
 #endif
-    light_sample.radiance *= material_emission(material, cosine, !inside, uv);
+    light_sample.radiance *= material_emission(material, cosine, !inside, only_coordinates(uv));
     return light_sample;
 }
 #endif
@@ -302,7 +314,7 @@ fn light_pdf_solid_angle(ray: Ray, surface: Surface) -> f32 {
     let even = pmf * dot(to_light, to_light) / (abs(dot(ray.direction, surface.facing_normal)) * surface.area);
 #if RECTANGLES_BY_PICTURE
     if (bitcast<u32>(light_word(surface.light, 0u).x) & LIGHT_WARPED) != 0u {
-        return even * shown_density(surface.light, surface.uv);
+        return even * shown_density(surface.light, surface.uv.xy);
     }
 #endif
     return even;

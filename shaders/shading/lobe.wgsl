@@ -1,6 +1,7 @@
 // A lobe: one material that is no blend, with its parameters looked up for one hit.
 #import core/layout.wgsl
 #import geometry/scene.wgsl
+#import shading/coordinates.wgsl
 #if TEXTURES
 #import shading/texture.wgsl
 #endif
@@ -34,7 +35,7 @@ fn further_parameter(lobe: Lobe, index: u32, otherwise: vec3<f32>) -> vec3<f32> 
     return further[index];
 }
 
-fn load_further(lobe: ptr<function, Lobe>, material: u32, uv: vec2<f32>) {
+fn load_further(lobe: ptr<function, Lobe>, material: u32, uv: TextureCoordinates) {
     let run = bitcast<u32>(tables[material * MATERIAL_WORDS + 4u].w);
     let first = FIRST_FURTHER_WORD + (run & ((1u << FURTHER_SHIFT) - 1u));
     let count = run >> FURTHER_SHIFT;
@@ -57,7 +58,7 @@ fn lobe_width_across(lobe: Lobe) -> f32 {
 }
 #endif
 
-fn material_color(constant: vec3<f32>, texture: f32, uv: vec2<f32>) -> vec3<f32> {
+fn material_color(constant: vec3<f32>, texture: f32, uv: TextureCoordinates) -> vec3<f32> {
 #if TEXTURES
     let index = bitcast<u32>(texture);
     if index != NONE {
@@ -67,7 +68,7 @@ fn material_color(constant: vec3<f32>, texture: f32, uv: vec2<f32>) -> vec3<f32>
     return constant;
 }
 
-fn load_lobe(material: u32, uv: vec2<f32>) -> Lobe {
+fn load_lobe(material: u32, uv: TextureCoordinates) -> Lobe {
     let word = material * MATERIAL_WORDS;
     let m0 = tables[word];
     var lobe: Lobe;
@@ -122,7 +123,7 @@ fn no_lobe() -> Lobe {
 #endif
 
 // Radiance that the front, or the back, of a material that is no blend sends out.
-fn own_emission(material: u32, front: bool, uv: vec2<f32>) -> vec3<f32> {
+fn own_emission(material: u32, front: bool, uv: TextureCoordinates) -> vec3<f32> {
     let word = material * MATERIAL_WORDS;
     let m2 = tables[word + 2u];
     let flags = bitcast<u32>(m2.w);

@@ -2,6 +2,7 @@
 // along the shading normal; each colour times 2 minus 1. src/reference/intersect/normal_map.rs is the same in f64.
 #import core/layout.wgsl
 #import geometry/scene.wgsl
+#import shading/coordinates.wgsl
 #import shading/shape_point.wgsl
 #import shading/shapes.wgsl
 #import shading/texture.wgsl
@@ -14,7 +15,7 @@
 #if BUMP_MAPS
 // The normal of the surface that is lifted along `normal` by a texture's height (Blinn 1978). `along_u` and `along_v` are how its points move
 // with the texture coordinates.
-fn bumped_normal(texture: u32, normal: vec3<f32>, geometric: vec3<f32>, along_u: vec3<f32>, along_v: vec3<f32>, uv: vec2<f32>) -> vec3<f32> {
+fn bumped_normal(texture: u32, normal: vec3<f32>, geometric: vec3<f32>, along_u: vec3<f32>, along_v: vec3<f32>, uv: TextureCoordinates) -> vec3<f32> {
     let slope = texture_word(texture, 2u).w * texture_gradient(texture, uv);
     let lifted_u = along_u + normal * (slope.x - dot(normal, along_u));
     let lifted_v = along_v + normal * (slope.y - dot(normal, along_v));
@@ -39,7 +40,7 @@ fn edge_area(first: u32) -> f32 {
 
 // The shading normal as the material's map bends it; as it is where there is no map or no tangent. `shading` is 0 where it is the
 // geometric one, and may be of any length.
-fn mapped_normal(material: u32, kind: u32, first: u32, shading: vec3<f32>, point: ShapePoint, uv: vec2<f32>) -> vec3<f32> {
+fn mapped_normal(material: u32, kind: u32, first: u32, shading: vec3<f32>, point: ShapePoint, uv: TextureCoordinates) -> vec3<f32> {
     let texture = bitcast<u32>(tables[material * MATERIAL_WORDS + 4u].y);
     if texture == NONE {
         return shading;

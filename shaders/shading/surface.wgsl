@@ -3,6 +3,7 @@
 #import core/math.wgsl
 #import geometry/records.wgsl
 #import geometry/scene.wgsl
+#import shading/coordinates.wgsl
 #import shading/shapes.wgsl
 #if INSTANCES
 #import geometry/instance.wgsl
@@ -28,7 +29,7 @@ struct Surface {
     facing_normal: vec3<f32>,
     // The shading normal on wo's side.
     shading_normal: vec3<f32>,
-    uv: vec2<f32>,
+    uv: TextureCoordinates,
     // wo is on the side where the normal points.
     front: bool,
     // How far along its normal the true surface can lie from `position`.
@@ -143,6 +144,14 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
         own_normal = looked_up.normal;
     }
 #endif
+#if SECOND_UVS
+    var coordinates = only_coordinates(uv);
+    if first != NONE && kind == KIND_TRIANGLE {
+        coordinates = vec4<f32>(uv, second_uv(first, point.uv));
+    }
+#else
+    let coordinates = only_coordinates(uv);
+#endif
 #if NORMAL_SHADOWING
     var unbent_normal = vec3<f32>(0.0);
     if shadows_bent_normals(material) {
@@ -150,7 +159,7 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
     }
 #endif
 #if NORMAL_MAPS
-    own_normal = mapped_normal(material, kind, bitcast<u32>(p2.w), own_normal, point, uv);
+    own_normal = mapped_normal(material, kind, bitcast<u32>(p2.w), own_normal, point, coordinates);
 #endif
 #if NORMAL_MIRRORING
     var shading_normal = shading_normal_towards(own_normal, facing_normal, wo);
@@ -170,7 +179,7 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
     let tangents = shape_tangents(kind, bitcast<u32>(p2.w), point);
 #endif
     return Surface(
-        point.position, facing_normal, shading_normal, uv, front, POINT_ERROR * dot(abs(facing_normal), size) + point.error,
+        point.position, facing_normal, shading_normal, coordinates, front, POINT_ERROR * dot(abs(facing_normal), size) + point.error,
         material, bitcast<u32>(p1.w), point.area, sphere
 #if ANISOTROPY
         , tangents.along_u, tangents.along_v

@@ -2,6 +2,7 @@
 #import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/scene.wgsl
+#import shading/coordinates.wgsl
 #if IMAGES
 #import shading/image.wgsl
 #endif
@@ -20,8 +21,14 @@ fn texture_word(texture: u32, word: u32) -> vec4<f32> {
 }
 
 // Where in itself a texture is looked up.
-fn texture_place(texture: u32, uv: vec2<f32>) -> vec2<f32> {
+fn texture_place(texture: u32, coordinates: TextureCoordinates) -> vec2<f32> {
     let t1 = texture_word(texture, 1u);
+#if SECOND_UVS
+    let by_second = (bitcast<u32>(texture_word(texture, 0u).x) & TEXTURE_BY_SECOND_UVS) != 0u;
+    let uv = select(coordinates.xy, coordinates.zw, by_second);
+#else
+    let uv = coordinates;
+#endif
 #if TEXTURE_ROTATION
     let turn = texture_word(texture, 4u).xy;
     let scaled = uv * t1.xy;
@@ -32,7 +39,7 @@ fn texture_place(texture: u32, uv: vec2<f32>) -> vec2<f32> {
 }
 
 // `texture` counts from the scene's first texture.
-fn texture_color(texture: u32, uv: vec2<f32>) -> vec3<f32> {
+fn texture_color(texture: u32, uv: TextureCoordinates) -> vec3<f32> {
     return texture_color_at(texture, texture_place(texture, uv));
 }
 
@@ -73,7 +80,7 @@ fn texture_color_at(texture: u32, st: vec2<f32>) -> vec3<f32> {
 #if BUMP_MAPS
 // How a texture's luminance changes along u and v. A checker changes in steps alone, and bends no normals.
 // src/reference/texture/gradient.rs is the same in f64.
-fn texture_gradient(texture: u32, uv: vec2<f32>) -> vec2<f32> {
+fn texture_gradient(texture: u32, uv: TextureCoordinates) -> vec2<f32> {
     let st = texture_place(texture, uv);
     let t0 = bitcast<vec4<u32>>(texture_word(texture, 0u));
     var slope = vec2<f32>(0.0);

@@ -43,6 +43,8 @@ pub struct PackedScene {
     pub guide: Vec<u32>,
     /// What was decided about guiding paths and why; None where nobody asked for it.
     pub guiding: Option<String>,
+    /// Behind the attributes of every triangle stand others whose texture coordinates are its second ones.
+    pub second_uvs: bool,
 }
 
 impl PackedScene {
@@ -106,6 +108,7 @@ impl PackedScene {
             view: View::new(scene, &environment),
             guide: Vec::new(),
             guiding: None,
+            second_uvs: world.second_uvs,
         };
         packed.validate()?;
         Ok(packed)

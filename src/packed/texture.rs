@@ -46,6 +46,8 @@ shared_constants!(flags {
     pub(super) const TEXTURE_SHADOWS: u32 = 1 << 19;
     /// Of any kind, beside the flag before: normals that it bends away from the viewer are mirrored.
     pub(super) const TEXTURE_MIRRORS: u32 = 1 << 20;
+    /// Of any kind: it lies by the second texture coordinates.
+    pub(super) const TEXTURE_BY_SECOND_UVS: u32 = 1 << 21;
     /// Where the way of wrapping stands.
     pub(super) const WRAP_SHIFT: u32 = 8;
     /// Where an image's format stands, and the flag of floating-point texels that have alpha.
@@ -199,6 +201,11 @@ impl PackedTextures {
         self.textures.iter().any(|texture| texture.kind_and_flags & TEXTURE_HEIGHTS == 0 && texture.a[3] != 1.0)
     }
 
+    /// Some texture lies by second texture coordinates.
+    pub fn uses_second_uvs(&self) -> bool {
+        self.textures.iter().any(|texture| texture.kind_and_flags & TEXTURE_BY_SECOND_UVS != 0)
+    }
+
     /// Some texture is turned.
     pub fn is_rotated(&self) -> bool {
         self.textures.iter().any(|texture| texture.cosine_sine != [1.0, 0.0])
@@ -250,7 +257,8 @@ impl Packing {
             kind_and_flags: packed.kind_and_flags
                 | if heights { TEXTURE_HEIGHTS } else { 0 }
                 | if texture.shadows_bent_normals { TEXTURE_SHADOWS } else { 0 }
-                | if texture.mirrors_bent_normals { TEXTURE_MIRRORS } else { 0 },
+                | if texture.mirrors_bent_normals { TEXTURE_MIRRORS } else { 0 }
+                | if texture.by_second_uvs { TEXTURE_BY_SECOND_UVS } else { 0 },
             a: [packed.a[0], packed.a[1], packed.a[2], scale as f32],
             offset: texture.transform.offset.map(|x| x as f32),
             cosine_sine: axis.as_vec2().to_array(),

@@ -13,7 +13,7 @@ use super::primitive::WorldPrimitive;
 use super::shape::{self, Placement};
 use crate::binary_tree::parts::Pose;
 use crate::scene::animation::unevenness;
-use crate::scene::{Instances, MaterialId, MaterialKind, Scene, Shape, Transform, TransformStep};
+use crate::scene::{Geometry, Instances, MaterialId, MaterialKind, Scene, Shape, Transform, TransformStep};
 
 /// All primitives of a scene, and the attributes of those that have some.
 #[derive(Debug, Default)]
@@ -30,17 +30,20 @@ pub struct WorldGeometry {
     pub instances: Vec<WorldInstance>,
     /// Of a frame: each shape with keyframes in the pose in which its tree is built ([`Scene::first_poses`]).
     pub posed: Option<BTreeMap<usize, Pose>>,
+    /// Behind the attributes of every primitive stand others whose texture coordinates are its second ones, or the same.
+    pub second_uvs: bool,
 }
 
 /// Surfaces made of `pass` are left out: to every ray they are not there.
 pub fn collect(scene: &Scene) -> WorldGeometry {
-    let mut world = WorldGeometry::default();
+    let mut world = WorldGeometry { second_uvs: uses_second_uvs(scene), ..WorldGeometry::default() };
     let textured = scene.materials_that(|material| material.uses_texture() || material.is_anisotropic());
     for (index, shape) in scene.shapes.iter().enumerate() {
         let first = world.primitives.len();
+        let second = world.second_corners(shape);
         shape::add(&Placement::new(shape, &textured), &mut |geometry, attributes, face| {
             let primitive = WorldPrimitive { shape: index, ..WorldPrimitive::new(geometry, shape.face_material(face)) };
-            world.add(scene, primitive, attributes);
+            world.add(scene, primitive, attributes, second.get(face));
         });
         // What no ray meets, a shape of `pass` or a mesh without faces, need not move.
         let met = world.primitives.len() > first;
@@ -54,6 +57,13 @@ pub fn collect(scene: &Scene) -> WorldGeometry {
         .as_deref()
         .map(|poses| poses.iter().map(|&(shape, pose)| (shape, in_pose(scene, shape, pose))).collect());
     world
+}
+
+/// Some texture lies by second texture coordinates, and some mesh has them.
+fn uses_second_uvs(scene: &Scene) -> bool {
+    let has_second = |shape: &Shape| matches!(&shape.geometry, Geometry::Mesh(mesh) if !mesh.second_uvs.is_empty());
+    let mut shapes = scene.shapes.iter().chain(scene.groups.iter().flat_map(|group| &group.shapes));
+    scene.textures.iter().any(|texture| texture.by_second_uvs) && shapes.any(has_second)
 }
 
 /// What rays meet of a shape, turned and scaled like this.
@@ -138,6 +148,7 @@ impl WorldGeometry {
     fn group(&mut self, scene: &Scene, shapes: &[Shape], textured: &[bool]) -> Vec<WorldPrimitive> {
         let mut primitives = Vec::new();
         for (index, shape) in shapes.iter().enumerate() {
+            let second = self.second_corners(shape);
             shape::add(&Placement::new(shape, textured), &mut |geometry, attributes, face| {
                 let material = shape.face_material(face);
                 if matches!(scene.materials[material].kind, MaterialKind::Pass) {
@@ -145,8 +156,7 @@ impl WorldGeometry {
                 }
                 let mut primitive = WorldPrimitive { shape: index, ..WorldPrimitive::new(geometry, material) };
                 if let Some(attributes) = attributes {
-                    primitive.attributes = self.attributes.len() as u32;
-                    self.attributes.push(attributes);
+                    primitive.attributes = self.add_attributes(attributes, second.get(face));
                 }
                 primitives.push(primitive);
             });
@@ -154,7 +164,13 @@ impl WorldGeometry {
         primitives
     }
 
-    fn add(&mut self, scene: &Scene, mut primitive: WorldPrimitive, attributes: Option<TriangleAttributes>) {
+    fn add(
+        &mut self,
+        scene: &Scene,
+        mut primitive: WorldPrimitive,
+        attributes: Option<TriangleAttributes>,
+        second: Option<&[Vec2; 3]>,
+    ) {
         if matches!(scene.materials[primitive.material].kind, MaterialKind::Pass) {
             if scene.shapes[primitive.shape].portal && !primitive.is_infinite() && primitive.area() > 0.0 {
                 self.portals.push(primitive);
@@ -162,10 +178,28 @@ impl WorldGeometry {
             return;
         }
         if let Some(attributes) = attributes {
-            primitive.attributes = self.attributes.len() as u32;
-            self.attributes.push(attributes);
+            primitive.attributes = self.add_attributes(attributes, second);
         }
         self.primitives.push(primitive);
+    }
+
+    /// Their index.
+    fn add_attributes(&mut self, attributes: TriangleAttributes, second: Option<&[Vec2; 3]>) -> u32 {
+        let index = self.attributes.len() as u32;
+        self.attributes.push(attributes);
+        if self.second_uvs {
+            self.attributes.push(second.map_or(attributes, |&uvs| TriangleAttributes::new([Vec3::ZERO; 3], uvs)));
+        }
+        index
+    }
+
+    /// The second texture coordinates at the corners of each face of a mesh; none where it has none, or nothing looks them up.
+    fn second_corners(&self, shape: &Shape) -> Vec<[Vec2; 3]> {
+        let Geometry::Mesh(mesh) = &shape.geometry else { return Vec::new() };
+        if !self.second_uvs || mesh.second_uvs.is_empty() {
+            return Vec::new();
+        }
+        shape.world_faces().into_iter().map(|face| face.map(|corner| mesh.second_uvs[corner as usize])).collect()
     }
 
     /// Moves the primitives from `first` on. Their attributes say how.
@@ -177,7 +211,8 @@ impl WorldGeometry {
             if primitive.attributes == NONE {
                 primitive.attributes = self.attributes.len() as u32;
                 // Texture coordinates that interpolate to themselves.
-                self.attributes.push(TriangleAttributes::new([Vec3::ZERO; 3], [Vec2::ZERO, Vec2::X, Vec2::Y]));
+                let plain = TriangleAttributes::new([Vec3::ZERO; 3], [Vec2::ZERO, Vec2::X, Vec2::Y]);
+                self.attributes.extend(std::iter::repeat_n(plain, if self.second_uvs { 2 } else { 1 }));
             }
             self.attributes[primitive.attributes as usize].motion = word;
         }

@@ -15,7 +15,11 @@ use crate::scene::{Emission, MaterialId, MaterialKind, Scene};
 pub fn emitted(scene: &Scene, surface: &Surface, wo: DVec3) -> DVec3 {
     let front = wo.dot(surface.point.normal) > 0.0;
     let radiance = |emission: &Emission| {
-        if front || emission.two_sided { texture::evaluate(scene, &emission.radiance, surface.uv) } else { DVec3::ZERO }
+        if front || emission.two_sided {
+            texture::evaluate(scene, &emission.radiance, surface.coordinates())
+        } else {
+            DVec3::ZERO
+        }
     };
     let material = surface.owner.material;
     if !scene.materials[material].is_blend() {

@@ -105,6 +105,9 @@ impl PathVisitor for Rounding {
     fn round_surface(&mut self, surface: &mut Surface) {
         self.round_direction(&mut surface.shading_normal);
         surface.uv *= 1.0 + self.size * self.draw();
+        if let Some(uv) = &mut surface.second_uv {
+            *uv *= 1.0 + self.size * self.draw();
+        }
     }
 
     fn round_direction(&mut self, direction: &mut DVec3) {

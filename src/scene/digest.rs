@@ -114,6 +114,9 @@ fn hash_mesh(hash: &mut Sha256, mesh: &Mesh) {
     hash_items(hash, &mesh.positions, Vec3::to_array);
     hash_items(hash, &mesh.normals, Vec3::to_array);
     hash_items(hash, &mesh.uvs, Vec2::to_array);
+    if !mesh.second_uvs.is_empty() {
+        hash_items(hash, &mesh.second_uvs, Vec2::to_array);
+    }
     hash_items(hash, &mesh.faces, |face| face.map(f32::from_bits));
     hash_items(hash, &mesh.face_materials, |material| [f32::from_bits(*material as u32)]);
     hash.update([u8::from(mesh.smooth)]);

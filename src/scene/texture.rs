@@ -87,6 +87,8 @@ pub struct Texture {
     pub name: String,
     pub kind: TextureKind,
     pub transform: UvTransform,
+    /// It lies by the second texture coordinates of meshes that have two.
+    pub by_second_uvs: bool,
     pub relief: Relief,
     /// Light that reaches the normals that it bends fades where the surface itself would hide it (Estevez, Lecocq and Stein 2019, "A
     /// microfacet-based shadowing function to solve the bump terminator problem").
@@ -117,6 +119,7 @@ impl Texture {
             name: name.into(),
             kind,
             transform: UvTransform::default(),
+            by_second_uvs: false,
             relief: Relief::default(),
             shadows_bent_normals: false,
             mirrors_bent_normals: false,

@@ -28,7 +28,11 @@ pub fn texture(id: TextureId, writer: &mut Writer<'_>) -> String {
     if texture.transform.rotation_degrees != 0.0 {
         out += &line("rotation", &number(texture.transform.rotation_degrees));
     }
-    out + &pair("offset", texture.transform.offset, 0.0)
+    out += &pair("offset", texture.transform.offset, 0.0);
+    if texture.by_second_uvs {
+        out += "second_uvs = true\n";
+    }
+    out
 }
 
 fn image_texture(texture: &ImageTexture, writer: &mut Writer<'_>) -> String {

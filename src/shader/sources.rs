@@ -42,6 +42,7 @@ shader_files![
     "shading/bsdf.wgsl",
     "shading/dielectric.wgsl",
     "shading/constant_environment.wgsl",
+    "shading/coordinates.wgsl",
     "shading/cosine_power.wgsl",
     "shading/environment_sample.wgsl",
     "shading/fresnel.wgsl",

@@ -241,6 +241,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("RECTANGLES_BY_SOLID_ANGLE").requires(&["AREA_LIGHTS", "LIGHTS", "QUAD_LIGHTS"]),
     switch("ROUGHNESS"),
     switch("ROULETTE"),
+    // Some texture lies by the second texture coordinates of meshes.
+    switch("SECOND_UVS").requires(&["ATTRIBUTES", "TEXTURES"]),
     switch("SEPARABLE_MASKING"),
     switch("SEQUENCE"),
     switch("SHEEN").requires(&["FURTHER_PARAMETERS", "PRINCIPLED"]),

@@ -39,6 +39,7 @@ const RELATIONS: &[&str] = &[
     "below its `min`",
     "can only be scaled",
     "a normal map holds directions",
+    "cannot lie by `second_uvs`",
     "cannot be read",
     "there is no file",
     "is at most `angle`",
@@ -99,6 +100,7 @@ type = "checker"
 a = 0.2
 b = [0.1, 0.5, 0.9]
 scale = [4, 2]
+second_uvs = true
 [[texture]]
 name = "clouds"
 type = "perlin"
@@ -145,6 +147,7 @@ type = "mesh"
 positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
 faces = [[0, 1, 2]]
 uvs = [[0, 0], [1, 0], [0, 1]]
+second_uvs = [[0, 1], [1, 0], [0, 0]]
 normals = [[0, 0, 1], [0, 0, 1], [0, 0, 1]]
 material = "plain"
 smooth = false

@@ -3,6 +3,7 @@
 #import shading/light_record.wgsl
 #import shading/light_sample.wgsl
 #if LIGHT_TEXTURES
+#import shading/coordinates.wgsl
 #import shading/texture.wgsl
 #endif
 #import shading/thrown_picture.wgsl
@@ -28,7 +29,7 @@ fn sample_projector_light(light: u32, reference: vec3<f32>, pmf: f32) -> LightSa
 #if LIGHT_TEXTURES
     let texture = bitcast<u32>(word3.w);
     if texture != NONE {
-        intensity *= texture_color(texture, uv);
+        intensity *= texture_color(texture, only_coordinates(uv));
     }
 #endif
     return LightSample(wi, distance * SHADOW_SHORTENING, intensity / (distance2 * pmf), -1.0);

@@ -4,6 +4,7 @@
 #import shading/light_record.wgsl
 #import shading/light_sample.wgsl
 #if LIGHT_TEXTURES
+#import shading/coordinates.wgsl
 #import shading/texture.wgsl
 #import shading/thrown_picture.wgsl
 #endif
@@ -69,7 +70,7 @@ fn sample_spot_light(light: u32, reference: vec3<f32>, pmf: f32) -> LightSample 
 #endif
         let half_inverse_tangent = 0.5 * (1.0 - outer) / sqrt(outer * (2.0 - outer));
         let place = picture_place(wi, word2.xyz, vec2<f32>(word3.z, word1.w));
-        intensity *= texture_color(texture, 0.5 + half_inverse_tangent * place);
+        intensity *= texture_color(texture, only_coordinates(0.5 + half_inverse_tangent * place));
     }
 #endif
     return LightSample(wi, distance * SHADOW_SHORTENING, intensity / (distance2 * pmf), -1.0);

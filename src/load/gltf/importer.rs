@@ -39,6 +39,9 @@ pub const KNOWN: [&str; 24] = [
     "KHR_animation_pointer",
 ];
 
+/// What makes textures differ: which it is, whether its texels are numbers, where it lies, and whether on the second coordinates.
+type TextureKey = (usize, bool, Option<[u64; 5]>, bool);
+
 /// A description in the making. Errors are sentences without the file's name.
 pub struct Importer<'a> {
     pub files: &'a Files,
@@ -49,7 +52,7 @@ pub struct Importer<'a> {
     pub scene: Description,
     pub materials: HashMap<Option<usize>, MadeMaterial>,
     /// By index, whether texels are numbers, and placement.
-    pub textures: HashMap<(usize, bool, Option<[u64; 5]>), String>,
+    pub textures: HashMap<TextureKey, String>,
     pub pictures: HashMap<usize, FileReference>,
     /// Of primitives that nothing of a node bends, by mesh and place in it.
     pub meshes: HashMap<(usize, usize), MadePrimitive>,

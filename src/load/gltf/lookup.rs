@@ -1,6 +1,7 @@
 //! Which texture coordinates the textures of a material are looked up by (`KHR_texture_transform`).
 //!
-//! A mesh has one set. Where all textures of a material lie alike, their transform is applied to it. Else textures have placements of their own, and
+//! A mesh has two sets at most: the first is that of the normal map, or of the first texture, and the second that of the first texture which has
+//! another. Where all textures of the first set lie alike, their transform is applied to it. Else textures have placements of their own, and
 //! the mesh's coordinates are as they are written, unless the normal map is turned or mirrored: directions of a normal map follow the mesh's, so
 //! they are those of the normal map then.
 
@@ -98,17 +99,19 @@ impl Lookups {
             }
         }
         let Some(first) = lookups.first() else {
-            return Ok(Self { coordinates: Coordinates { set: 0, map: DAffine2::IDENTITY } });
+            return Ok(Self { coordinates: Coordinates { set: 0, map: DAffine2::IDENTITY, second: None } });
         };
-        let are_alike = lookups.iter().all(|lookup| lookup.map() == first.map());
         let normal = material.normal_texture.as_ref().map(Lookup::of).transpose()?;
+        let first = normal.as_ref().unwrap_or(first);
+        let second = lookups.iter().map(|lookup| lookup.set).find(|set| *set != first.set);
+        let are_alike = lookups.iter().filter(|lookup| lookup.set == first.set).all(|lookup| lookup.map() == first.map());
         let turned =
             normal.filter(|normal| normal.rotation != 0.0 || normal.scale.min_element() < 0.0).map(|normal| normal.map());
         let map = match turned.filter(|map| map.matrix2.determinant() != 0.0) {
             _ if are_alike => first.map(),
             turned => turned.unwrap_or(DAffine2::IDENTITY),
         };
-        Ok(Self { coordinates: Coordinates { set: first.set, map } })
+        Ok(Self { coordinates: Coordinates { set: first.set, map, second } })
     }
 }
 

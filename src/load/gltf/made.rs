@@ -19,6 +19,8 @@ pub struct MadeMaterial {
 pub struct Coordinates {
     pub set: u64,
     pub map: DAffine2,
+    /// The set that stands beside as the second coordinates of meshes, as it is written.
+    pub second: Option<u64>,
 }
 
 /// What a primitive became.

@@ -176,7 +176,7 @@ impl Surface<'_, '_> {
             keys.set("anisotropy", anisotropy);
             keys.set("anisotropy_rotation", self.number(ANISOTROPY, "anisotropyRotation", 0.0).to_degrees());
             // Directions follow texture coordinates.
-            self.coordinates.get_or_insert(Coordinates { set: 0, map: DAffine2::IDENTITY });
+            self.coordinates.get_or_insert(Coordinates { set: 0, map: DAffine2::IDENTITY, second: None });
         }
         Ok(keys)
     }
@@ -354,9 +354,15 @@ impl Surface<'_, '_> {
     fn lookup(&mut self, info: &TextureInfo, linear: bool, what: &str) -> Result<String, String> {
         let lookup = Lookup::of(info)?;
         let coordinates = self.lookups.coordinates;
+        if Some(lookup.set) == coordinates.second {
+            self.coordinates.get_or_insert(coordinates);
+            // On coordinates as they are written every placement can be said.
+            let placement = lookup.about(&DAffine2::IDENTITY).flatten();
+            return self.importer.texture(info.index, linear, placement, true);
+        }
         if lookup.set != coordinates.set {
             let message = format!("set of texture coordinates of the {what}");
-            self.approximate(&message, "it is that of the material's first texture");
+            self.approximate(&message, "a mesh has two sets, and this is a third one");
         }
         let placement = lookup.about(&coordinates.map).unwrap_or_else(|| {
             let message = format!("KHR_texture_transform of the {what}");
@@ -364,7 +370,7 @@ impl Surface<'_, '_> {
             None
         });
         self.coordinates.get_or_insert(coordinates);
-        self.importer.texture(info.index, linear, placement)
+        self.importer.texture(info.index, linear, placement, false)
     }
 }
 

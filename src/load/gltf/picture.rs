@@ -13,9 +13,16 @@ const MIRROR: u64 = 33_648;
 const NEAREST: u64 = 9728;
 
 impl Importer<'_> {
-    /// The name of a texture whose texels are colours in sRGB, or numbers as they are. `placement`: how it lies on the mesh's coordinates.
-    pub fn texture(&mut self, index: usize, linear: bool, placement: Option<Placement>) -> Result<String, String> {
-        let key = (index, linear, placement.map(Placement::bits));
+    /// The name of a texture whose texels are colours in sRGB, or numbers as they are. `placement`: how it lies on the mesh's coordinates, which are
+    /// the second ones where `by_second`.
+    pub fn texture(
+        &mut self,
+        index: usize,
+        linear: bool,
+        placement: Option<Placement>,
+        by_second: bool,
+    ) -> Result<String, String> {
+        let key = (index, linear, placement.map(Placement::bits), by_second);
         if let Some(name) = self.textures.get(&key) {
             return Ok(name.clone());
         }
@@ -58,6 +65,9 @@ impl Importer<'_> {
             keys.set("scale", scale);
             keys.set("rotation", rotation_degrees);
             keys.set("offset", offset);
+        }
+        if by_second {
+            keys.set("second_uvs", true);
         }
         self.scene.textures.push(Entry { place: self.place(&format!("textures[{index}]")), keys });
         self.textures.insert(key, name.clone());

@@ -1,6 +1,6 @@
 //! Primitives of meshes: triangles, strips and fans.
 
-use glam::{DVec2, Vec2, Vec3};
+use glam::{DAffine2, DVec2, Vec2, Vec3};
 use serde_json::{Map, Value};
 
 use super::importer::Importer;
@@ -137,29 +137,52 @@ impl Importer<'_> {
         mesh: &mut Mesh,
         key: &str,
     ) -> Result<(), String> {
-        let Some(Coordinates { set, map }) = wanted else { return Ok(()) };
-        let name = format!("TEXCOORD_{set}");
+        let Some(Coordinates { set, map, second }) = wanted else { return Ok(()) };
         let count = mesh.positions.len();
-        let Some(accessor) = accessor(&primitive.attributes, &name)? else {
-            let place = self.place(key).to_string();
-            let instead = "the texture at (0, 0) is everywhere";
-            self.scene.report.approximate("texture on a primitive without texture coordinates", place, instead);
-            mesh.uvs = vec![Vec2::ZERO; count];
-            return Ok(());
-        };
+        match self.texture_coordinates(primitive, set, &map, count)? {
+            Some(uvs) => mesh.uvs = uvs,
+            None => {
+                let place = self.place(key).to_string();
+                let instead = "the texture at (0, 0) is everywhere";
+                self.scene.report.approximate("texture on a primitive without texture coordinates", place, instead);
+                mesh.uvs = vec![Vec2::ZERO; count];
+            }
+        }
+        let Some(second) = second else { return Ok(()) };
+        match self.texture_coordinates(primitive, second, &DAffine2::IDENTITY, count)? {
+            Some(uvs) => mesh.second_uvs = uvs,
+            None => {
+                let place = self.place(key).to_string();
+                let what = format!("texture by TEXCOORD_{second} on a primitive without it");
+                self.scene.report.approximate(&what, place, format!("it lies by TEXCOORD_{set}"));
+            }
+        }
+        Ok(())
+    }
+
+    /// A set of texture coordinates, one for each position; None where the primitive has none of that number.
+    fn texture_coordinates(
+        &self,
+        primitive: &Primitive,
+        set: u64,
+        map: &DAffine2,
+        count: usize,
+    ) -> Result<Option<Vec<Vec2>>, String> {
+        let name = format!("TEXCOORD_{set}");
+        let Some(accessor) = accessor(&primitive.attributes, &name)? else { return Ok(None) };
         let (numbers, _) = self.buffers.numbers(accessor, &["VEC2"])?;
         let uvs = numbers.as_chunks::<2>().0.iter().map(|&[u, v]| {
             let at = map.transform_point2(DVec2::new(u.into(), v.into()));
             Vec2::new(at.x as f32, (1.0 - at.y) as f32)
         });
-        mesh.uvs = uvs.collect();
-        if mesh.uvs.len() != count {
-            return Err(format!("there are {} {name} for {count} positions", mesh.uvs.len()));
+        let uvs: Vec<Vec2> = uvs.collect();
+        if uvs.len() != count {
+            return Err(format!("there are {} {name} for {count} positions", uvs.len()));
         }
-        if mesh.uvs.iter().any(|uv| !uv.is_finite()) {
+        if uvs.iter().any(|uv| !uv.is_finite()) {
             return Err(format!("{name} has numbers that are not finite"));
         }
-        Ok(())
+        Ok(Some(uvs))
     }
 
     /// The positions stand in the file, and not only packed.

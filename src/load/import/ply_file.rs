@@ -16,6 +16,9 @@ pub fn write_ply(mesh: &Mesh) -> Vec<u8> {
     if !mesh.uvs.is_empty() {
         properties.extend(["u", "v"]);
     }
+    if !mesh.second_uvs.is_empty() {
+        properties.extend(["u1", "v1"]);
+    }
     for property in properties {
         let _ = writeln!(header, "property float {property}");
     }
@@ -25,6 +28,7 @@ pub fn write_ply(mesh: &Mesh) -> Vec<u8> {
         let normal = mesh.normals.get(index).map(|normal| normal.to_array());
         let uv = mesh.uvs.get(index).map(|uv| uv.to_array());
         let numbers = position.to_array().into_iter().chain(normal.into_iter().flatten()).chain(uv.into_iter().flatten());
+        let numbers = numbers.chain(mesh.second_uvs.get(index).into_iter().flat_map(|uv| uv.to_array()));
         numbers.for_each(|number| bytes.extend(number.to_le_bytes()));
     }
     for face in &mesh.faces {

@@ -10,6 +10,9 @@ const NO_GROUP: u32 = u32::MAX;
 /// Names of the texture coordinates, as programs write them.
 const U: [&str; 4] = ["u", "s", "texture_u", "texture_s"];
 const V: [&str; 4] = ["v", "t", "texture_v", "texture_t"];
+/// The same of the second ones.
+const SECOND_U: [&str; 4] = ["u1", "s1", "texture_u1", "texture_s1"];
+const SECOND_V: [&str; 4] = ["v1", "t1", "texture_v1", "texture_t1"];
 /// Names of a face's or a strip's corners.
 const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
@@ -19,6 +22,7 @@ pub struct Vertex<const REST: bool> {
     pub position: [f32; 3],
     pub normal: [f32; 3],
     pub uv: [f32; 2],
+    pub second_uv: [f32; 2],
     /// Numbers of other names, in their order.
     pub rest: Vec<f32>,
 }
@@ -34,6 +38,8 @@ impl<const REST: bool> Vertex<REST> {
             "nz" => &mut self.normal[2],
             _ if U.contains(&name) => &mut self.uv[0],
             _ if V.contains(&name) => &mut self.uv[1],
+            _ if SECOND_U.contains(&name) => &mut self.second_uv[0],
+            _ if SECOND_V.contains(&name) => &mut self.second_uv[1],
             _ if REST => {
                 self.rest.push(value);
                 return PropertyAccessResult::Set;
@@ -155,6 +161,10 @@ impl Declared<'_> {
         U.iter().zip(V).any(|(u, v)| self.is_scalar(u) && self.is_scalar(v))
     }
 
+    pub fn has_second_uvs(&self) -> bool {
+        SECOND_U.iter().zip(SECOND_V).any(|(u, v)| self.is_scalar(u) && self.is_scalar(v))
+    }
+
     pub fn has_corners(&self) -> bool {
         CORNERS
             .iter()
@@ -195,7 +205,7 @@ impl Declared<'_> {
 
 /// Every name that a vertex's position, normal and texture coordinates have.
 pub fn vertex_names() -> Vec<&'static str> {
-    [&["x", "y", "z", "nx", "ny", "nz"][..], &U, &V].concat()
+    [&["x", "y", "z", "nx", "ny", "nz"][..], &U, &V, &SECOND_U, &SECOND_V].concat()
 }
 
 pub fn corner_names() -> Vec<&'static str> {

@@ -150,6 +150,7 @@ impl Model {
         }
         let mut rest = Rest::new(if REST { declared.attributes(&known) } else { Vec::new() });
         let (has_normals, has_uvs) = (declared.has_normals(), declared.has_uvs());
+        let has_second_uvs = declared.has_second_uvs();
         let mut mesh = Mesh::default();
         in_chunks(declared.0, header, reader, |vertex: Vertex<REST>| {
             let index = mesh.positions.len();
@@ -161,12 +162,13 @@ impl Model {
             if has_normals {
                 mesh.normals.push(unit(Vec3::from(vertex.normal)));
             }
-            if has_uvs {
-                let uv = Vec2::from(vertex.uv);
+            let of_vertex = [(has_uvs, vertex.uv, &mut mesh.uvs), (has_second_uvs, vertex.second_uv, &mut mesh.second_uvs)];
+            for (_, uv, uvs) in of_vertex.into_iter().filter(|(is_there, ..)| *is_there) {
+                let uv = Vec2::from(uv);
                 if !uv.is_finite() {
                     return Err(format!("vertex {index} has the texture coordinates {uv}: not finite"));
                 }
-                mesh.uvs.push(uv);
+                uvs.push(uv);
             }
             rest.push(&vertex.rest);
             Ok(())

@@ -71,6 +71,10 @@ impl PackedScene {
         if PrimitiveKind::of(primitive.kind()).is_none() {
             return Err(format!("is of kind {}", primitive.kind()));
         }
+        let has_second = primitive.attributes == NONE || (primitive.attributes as usize) + 1 < self.attributes.len();
+        if self.second_uvs && primitive.is(PrimitiveKind::Triangle) && !has_second {
+            return Err(format!("has attributes {}, and no second texture coordinates follow", primitive.attributes));
+        }
         // What moves has attributes, which say how.
         if primitive.moves() && self.motion_of(primitive.attributes).is_none() {
             return Err("moves, and nothing says how".to_owned());

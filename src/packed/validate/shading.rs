@@ -112,7 +112,8 @@ impl PackedScene {
         let is = |kind: PackedTextureKind| texture.kind() == kind as u32;
         let flags = if is(PackedTextureKind::Image) { texture::IMAGE_FLAGS } else { 0 };
         let wrap = kind_and_flags >> texture::WRAP_SHIFT & 3;
-        let flags = flags | texture::TEXTURE_HEIGHTS | texture::TEXTURE_SHADOWS | texture::TEXTURE_MIRRORS;
+        let of_normals = texture::TEXTURE_HEIGHTS | texture::TEXTURE_SHADOWS | texture::TEXTURE_MIRRORS;
+        let flags = flags | of_normals | texture::TEXTURE_BY_SECOND_UVS;
         let is_known = texture.kind() <= PackedTextureKind::Worley as u32 && kind_and_flags & !(255 | flags) == 0;
         if !is_known || wrap > 2 || texture.channel() > 4 {
             return Err(format!("is of kind {kind_and_flags:#x}"));

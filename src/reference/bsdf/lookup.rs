@@ -1,24 +1,24 @@
 //! Parameters of materials at one hit.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use super::view::View;
 use crate::reference::intersect::Surface;
-use crate::reference::texture;
+use crate::reference::texture::{self, Coordinates};
 use crate::scene::{ColorInput, Scene};
 
 /// Where a material's parameters and weights are looked up.
 #[derive(Debug, Clone, Copy)]
 pub struct Lookup<'a> {
     pub scene: &'a Scene,
-    pub uv: DVec2,
+    pub uv: Coordinates,
     /// Cosine of the angle between wo and the shading normal, in [0, 1].
     pub cosine: f64,
 }
 
 impl<'a> Lookup<'a> {
     pub fn new(scene: &'a Scene, surface: &Surface, view: &View) -> Self {
-        Self { scene, uv: surface.uv, cosine: view.wo.dot(view.normal()).clamp(0.0, 1.0) }
+        Self { scene, uv: surface.coordinates(), cosine: view.wo.dot(view.normal()).clamp(0.0, 1.0) }
     }
 
     pub(super) fn color(&self, input: &ColorInput) -> DVec3 {

@@ -30,6 +30,13 @@ impl MeshData {
         }
     }
 
+    /// Second texture coordinates on a face of a mesh that has some.
+    pub fn second_uv(&self, face: usize, local: Local) -> Option<DVec2> {
+        let uvs = &self.mesh.as_ref()?.second_uvs;
+        let [a, b, c] = self.faces.get(face)?.map(|corner| uvs.get(corner as usize).map(|uv| uv.as_dvec2()));
+        Some(a? * (1.0 - local.x - local.y) + b? * local.x + c? * local.y)
+    }
+
     /// Texture coordinates of a face's corners, where there are some.
     pub fn uv_corners(&self, face: usize) -> Option<[DVec2; 3]> {
         let uvs = &self.mesh.as_ref()?.uvs;

@@ -11,6 +11,7 @@ use super::owner::{Owner, SurfaceId};
 use super::pose::{self, PathTime, Pose};
 use super::ray::{Local, Ray, SurfacePoint};
 use super::shape::{self, Placement, Primitive};
+use crate::reference::texture::Coordinates;
 use crate::renderer::RenderError;
 use crate::sampling::emission_map::UNIT_SQUARE;
 use crate::scene::{Material, MaterialId, MaterialKind, Scene, Shape};
@@ -36,8 +37,16 @@ pub struct Surface {
     /// Where it is bent away from the viewer, it is mirrored about the normal before that.
     pub is_mirrored: bool,
     pub uv: DVec2,
+    /// Of a mesh that has second ones.
+    pub second_uv: Option<DVec2>,
     /// The directions in which texture coordinates grow, where the material depends on them and there are some.
     pub tangents: Option<Tangents>,
+}
+
+impl Surface {
+    pub fn coordinates(&self) -> Coordinates {
+        Coordinates { first: self.uv, second: self.second_uv.unwrap_or(self.uv) }
+    }
 }
 
 /// Surfaces that exist for rays. Those of a `pass` material do not, and are left out.
@@ -246,7 +255,8 @@ impl World {
                 let point = pose.point(&at_rest);
                 let looks = mesh.interpolate(face, hit.local, point.normal, Some(&pose));
                 let tangents = || mesh.tangents(face, triangle).map(|tangents| pose.tangents(tangents));
-                self.shaded((hit.surface, owner), point, looks, tangents)
+                let shaded = self.shaded((hit.surface, owner), point, looks, tangents);
+                Surface { second_uv: mesh.second_uv(face, hit.local), ..shaded }
             }
             SurfaceId::Infinite(index) => {
                 let point = self.infinite[index].0.element().point(ray, hit.distance, hit.local);
@@ -258,6 +268,7 @@ impl World {
                     unbent_normal: None,
                     is_mirrored: false,
                     uv: DVec2::ZERO,
+                    second_uv: None,
                     tangents: None,
                 }
             }
@@ -281,7 +292,8 @@ impl World {
             };
             at_rest.map(|tangents| pose.map_or(tangents, |pose| pose.tangents(tangents)))
         };
-        self.shaded((SurfaceId::Primitive(index), owner), point, (normal, uv), tangents)
+        let shaded = self.shaded((SurfaceId::Primitive(index), owner), point, (normal, uv), tangents);
+        Surface { second_uv: shape.second_uv(owner.part, local), ..shaded }
     }
 
     /// A surface with its own normal and texture coordinates, as its material bends it.
@@ -296,7 +308,8 @@ impl World {
         let tangents = if self.anisotropic[owner.material] { tangents() } else { None };
         let unbent_normal = self.normal_maps.shadows(owner.material).then_some(normal);
         let is_mirrored = self.normal_maps.mirrors(owner.material);
-        Surface { id, owner, point, shading_normal, unbent_normal, is_mirrored, uv, tangents }
+        let second_uv = None;
+        Surface { id, owner, point, shading_normal, unbent_normal, is_mirrored, uv, second_uv, tangents }
     }
 }
 

@@ -19,8 +19,22 @@ use glam::{DVec2, DVec3};
 
 use crate::scene::{Channel, ChannelInput, ColorInput, Scene, Texture, TextureId, TextureKind};
 
+/// Texture coordinates at a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coordinates {
+    pub first: DVec2,
+    /// Of textures that lie by the second ones; the first where there are none.
+    pub second: DVec2,
+}
+
+impl From<DVec2> for Coordinates {
+    fn from(uv: DVec2) -> Self {
+        Self { first: uv, second: uv }
+    }
+}
+
 /// The colour at `uv`.
-pub fn evaluate(scene: &Scene, input: &ColorInput, uv: DVec2) -> DVec3 {
+pub fn evaluate(scene: &Scene, input: &ColorInput, uv: Coordinates) -> DVec3 {
     match *input {
         ColorInput::Constant(color) => color,
         ColorInput::Texture(texture) => look_up(&scene.textures, texture, uv),
@@ -47,19 +61,20 @@ pub fn mean(scene: &Scene, input: &ColorInput) -> DVec3 {
 }
 
 /// The colour of one of the scene's textures at `uv`.
-pub fn look_up(textures: &[Texture], texture: TextureId, uv: DVec2) -> DVec3 {
+pub fn look_up(textures: &[Texture], texture: TextureId, uv: impl Into<Coordinates>) -> DVec3 {
     let [red, green, blue, _] = texels(textures, texture, uv);
     DVec3::new(red, green, blue)
 }
 
 /// One of its channels.
-pub fn look_up_channel(textures: &[Texture], texture: TextureId, channel: Channel, uv: DVec2) -> f64 {
+pub fn look_up_channel(textures: &[Texture], texture: TextureId, channel: Channel, uv: Coordinates) -> f64 {
     channel.of(texels(textures, texture, uv))
 }
 
 /// All of its channels.
-fn texels(textures: &[Texture], texture: TextureId, uv: DVec2) -> [f64; 4] {
-    let texture = &textures[texture];
+fn texels(textures: &[Texture], texture: TextureId, uv: impl Into<Coordinates>) -> [f64; 4] {
+    let (texture, Coordinates { first, second }) = (&textures[texture], uv.into());
+    let uv = if texture.by_second_uvs { second } else { first };
     let at = |scale: [f64; 2]| texture.placed(uv * DVec2::from(scale));
     let between = |a: DVec3, b: DVec3, share: f64| (a + share * (b - a)).extend(1.0).to_array();
     match texture.kind {

@@ -83,9 +83,10 @@ fn picture<'a>(scene: &'a Scene, material: &Material) -> Option<(ColorInput, &'a
     if material.is_blend() || input.is_squared() {
         return None;
     }
-    let TextureKind::Image(image) = &scene.textures.get(input.texture()?)?.kind else { return None };
+    let texture = scene.textures.get(input.texture()?)?;
+    let TextureKind::Image(image) = &texture.kind else { return None };
     // Colours of triangles' corners lie in the picture in blocks of their own.
-    (image.filter != TextureFilter::Triangle).then_some((input, image))
+    (image.filter != TextureFilter::Triangle && !texture.by_second_uvs).then_some((input, image))
 }
 
 impl EmissionMap {

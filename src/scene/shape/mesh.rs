@@ -17,6 +17,8 @@ pub struct Mesh {
     pub normals: Vec<Vec3>,
     /// One per position, or empty.
     pub uvs: Vec<Vec2>,
+    /// Those of textures that lie by the second ones: one per position, or empty, where `uvs` serve them too.
+    pub second_uvs: Vec<Vec2>,
     pub faces: Vec<[u32; 3]>,
     /// One material per face, or empty: then the shape's material is that of every face.
     pub face_materials: Vec<MaterialId>,
@@ -32,7 +34,8 @@ impl ShapeModel for Arc<Mesh> {
             return Err(format!("a face names a vertex beyond the last, {}", vertices.saturating_sub(1)));
         }
         let fits = |length: usize, needed: usize| length == 0 || length == needed;
-        if !fits(self.normals.len(), vertices) || !fits(self.uvs.len(), vertices) {
+        let coordinates = [&self.uvs, &self.second_uvs];
+        if !fits(self.normals.len(), vertices) || coordinates.iter().any(|uvs| !fits(uvs.len(), vertices)) {
             return Err("normals and uvs must be as many as positions".into());
         }
         if !fits(self.face_materials.len(), self.faces.len()) {
@@ -122,6 +125,7 @@ impl Mesh {
                 self.positions.push(old.positions[index]);
                 self.normals.push(normal);
                 self.uvs.extend(old.uvs.get(index));
+                self.second_uvs.extend(old.second_uvs.get(index));
             }
             self.faces.push([first, first + 1, first + 2]);
         }
@@ -131,10 +135,12 @@ impl Mesh {
     /// both or neither.
     pub fn append(&mut self, other: Mesh) {
         let offset = self.positions.len() as u32;
-        if !self.uvs.is_empty() || !other.uvs.is_empty() {
-            self.uvs.resize(self.positions.len(), Vec2::ZERO);
-            self.uvs.extend(&other.uvs);
-            self.uvs.resize(self.positions.len() + other.positions.len(), Vec2::ZERO);
+        for (own, others) in [(&mut self.uvs, &other.uvs), (&mut self.second_uvs, &other.second_uvs)] {
+            if !own.is_empty() || !others.is_empty() {
+                own.resize(self.positions.len(), Vec2::ZERO);
+                own.extend(others);
+                own.resize(self.positions.len() + other.positions.len(), Vec2::ZERO);
+            }
         }
         self.positions.extend(other.positions);
         self.normals.extend(other.normals);

@@ -505,6 +505,59 @@ fn each_texture_lies_as_its_own_transform_says() {
     assert!(report(&folder.valid("f.gltf")).contains("KHR_texture_transform of the base colour x1"), "a shear");
 }
 
+/// A colour by the second set and a roughness by the first, as by hand; a third set is approximated.
+#[test]
+fn textures_lie_by_two_sets_of_coordinates() {
+    let file = |sets: [u64; 3], normal: bool| {
+        let mut file = with_two_placements(
+            json!({ "offset": [0.25, 0.5], "scale": [2.0, 3.0], "texCoord": sets[0] }),
+            json!({ "texCoord": sets[1] }),
+            None,
+        );
+        for set in [1, 2] {
+            let uvs = file.add("VEC2", &[0.3, 0.1, 0.9, 0.4, 0.2, 0.8]);
+            file.root["meshes"][0]["primitives"][0]["attributes"][format!("TEXCOORD_{set}")] = json!(uvs);
+        }
+        if normal {
+            file.root["materials"][0]["normalTexture"] = json!({ "index": 0, "texCoord": sets[2] });
+        }
+        file
+    };
+    let pixels = image::RgbImage::from_fn(2, 2, |x, y| {
+        image::Rgb([(200 - 90 * x) as u8, (60 + 120 * y) as u8, (40 + 70 * x + 90 * y) as u8])
+    });
+    let mut png = std::io::Cursor::new(Vec::new());
+    pixels.write_to(&mut png, image::ImageFormat::Png).expect("memory can be written to");
+    let by_hand = |uvs: &str| {
+        with_placements_by_hand("scale = [2, 3]\nrotation = 0\noffset = [0.25, -2.5]\nsecond_uvs = true", "")
+            .replace("uvs = [[0, 1], [1, 1], [0.5, 0]]", uvs)
+    };
+    let right = by_hand("uvs = [[0, 1], [1, 1], [0.5, 0]]\nsecond_uvs = [[0.3, 0.9], [0.9, 0.6], [0.2, 0.2]]");
+    let wrong = by_hand("uvs = [[0, 1], [1, 1], [0.5, 0]]\nsecond_uvs = [[0.3, 0.9], [0.9, 0.6], [0.2, 0.3]]");
+    let without = file([1, 0, 0], false).text();
+    let folder = Folder::new(&[
+        ("a.png", &png.into_inner()),
+        ("a.gltf", &without),
+        ("b.toml", right.as_bytes()),
+        ("c.toml", wrong.as_bytes()),
+        ("d.gltf", &file([0, 1, 1], true).text()),
+        ("e.gltf", &file([0, 1, 2], true).text()),
+    ]);
+    let scene = folder.valid("a.gltf");
+    assert_eq!(report(&scene), "");
+    // The first texture's set is the mesh's first.
+    assert_eq!(scene.textures.iter().filter(|texture| texture.by_second_uvs).count(), 1);
+    let expected = picture(&folder.valid("b.toml"));
+    assert_eq!(picture(&scene), expected);
+    assert_eq!(picture(&folder.written("a.gltf")), expected);
+    assert_ne!(picture(&folder.valid("c.toml")), expected, "the control");
+    // Directions follow the first set, so that is the normal map's.
+    let with_normals = folder.valid("d.gltf");
+    assert_eq!(report(&with_normals), "");
+    assert_eq!(mesh(&with_normals, 0).uvs[0], glam::Vec2::new(0.3, 0.9));
+    assert!(report(&folder.valid("e.gltf")).contains("set of texture coordinates of the"), "{}", report(&folder.valid("e.gltf")));
+}
+
 /// KHR_materials_sheen and KHR_materials_volume, whose defaults have no effect.
 #[test]
 fn sheen_and_volumes_are_read() {

@@ -5,9 +5,12 @@ use std::path::PathBuf;
 
 use gpt::load;
 use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
-use gpt::scene::Scene;
+use gpt::reference::ReferenceRenderer;
+use gpt::renderer::{RenderRequest, Renderer, Silent};
+use gpt::scene::{Estimator, Scene};
 
 use super::assert_agrees;
+use super::strategies::compare_unequal;
 
 /// A folder with a small colourful texture in it.
 fn folder_with_texture() -> tempfile::TempDir {
@@ -164,6 +167,100 @@ fn every_shape_light_and_texture_agrees() {
         let options = PlanOptions { stages: Some(stages), ..PlanOptions::default() };
         assert_agrees(&format!("everything, {stages:?}"), &scene, &options);
     }
+}
+
+/// A bent sheet of 3 × 3 squares and its two sets of coordinates, of which the second lies across the first; `names` are the keys that have them.
+fn sheet(names: [&str; 2], keys: &str) -> String {
+    let (mut positions, mut sets, mut faces) = (Vec::new(), [Vec::new(), Vec::new()], Vec::new());
+    for (row, column) in (0..4).flat_map(|row| (0..4).map(move |column| (f64::from(row) / 3.0, f64::from(column) / 3.0))) {
+        positions.push([2.0 * column - 1.0, 0.4 * (3.0 * column + 2.0 * row).sin(), 2.0 * row - 1.0]);
+        sets[0].push([column, row]);
+        sets[1].push([0.7 * row + 0.1, 1.3 * column - 0.4 * row]);
+    }
+    for corner in (0..9).map(|square| square / 3 * 4 + square % 3) {
+        faces.extend([[corner, corner + 4, corner + 1], [corner + 1, corner + 4, corner + 5]]);
+    }
+    let written = names.iter().zip(sets).filter(|(name, _)| !name.is_empty());
+    let uvs: Vec<String> = written.map(|(name, uvs)| format!("{name} = {uvs:?}\n")).collect();
+    format!("type = \"mesh\"\npositions = {positions:?}\nfaces = {faces:?}\n{}{keys}", uvs.concat())
+}
+
+/// Materials that look everything up by the second coordinates, beside some that look up by both and by the first; `by` is the texture's key.
+fn by_second(by: &str) -> String {
+    format!(
+        "[[texture]]\nname = \"second\"\ntype = \"image\"\nfile = \"texture.png\"\nscale = [1.5, 2]\n{by}\n\
+         [[material]]\nname = \"other\"\ntype = \"diffuse\"\nreflectance = {{ texture = \"second\" }}\n\
+         [[material]]\nname = \"holes\"\ntype = \"diffuse\"\nreflectance = {{ texture = \"second\" }}\nopacity = {{ texture = \"second\", channel = \"r\" }}\n\
+         [[material]]\nname = \"shining\"\ntype = \"emissive\"\nradiance = {{ texture = \"second\", factor = 4 }}\n\
+         [[material]]\nname = \"rough\"\ntype = \"conductor\"\nreflectance = 0.9\nroughness = {{ texture = \"second\", channel = \"g\" }}\n"
+    )
+}
+
+/// Sheets by their second coordinates: of each material, moving, mirrored, in a group, and beside shapes that have one set.
+fn sheets(names: [&str; 2], by: &str) -> String {
+    let at = |x: f64, y: f64, more: &str| {
+        format!(
+            "transform = [{{ scale = 0.6 }}, {{ rotate = [1, 0.4, 0], degrees = 60 }}, {{ translate = [{x}, {y}, 0.6] }}]\n{more}"
+        )
+    };
+    let shape = |material: &str, place: String| {
+        format!("[[shape]]\n{}material = \"{material}\"\n{place}", sheet(names, "smooth = false\n"))
+    };
+    [
+        by_second(by),
+        shape("other", at(-1.6, 0.7, "")),
+        shape("holes", at(0.0, 0.7, "motion = { translate = [0.2, 0.1, 0] }\n")),
+        shape("shining", at(1.6, 1.9, "")),
+        shape("rough", at(1.6, 0.5, "").replace("scale = 0.6", "scale = [-0.6, 0.5, 0.6]")),
+        format!(
+            "[[group]]\nname = \"sheets\"\n[[group.shape]]\n{}material = \"other\"\n[[instance]]\ngroup = \"sheets\"\n{}",
+            sheet(names, "smooth = false\n"),
+            at(-1.6, 1.9, "")
+        ),
+        "[[shape]]\ntype = \"rectangle\"\ncorner = [-4, 0, 4]\nedge_u = [8, 0, 0]\nedge_v = [0, 0, -8]\nmaterial = \"other\"\n"
+            .to_owned(),
+    ]
+    .concat()
+}
+
+#[test]
+fn second_texture_coordinates_agree() {
+    let folder = folder_with_texture();
+    let light = "[[light]]\ntype = \"environment\"\nradiance = 0.5\n";
+    let load = |parts: &[&str]| {
+        let mut scene = load(&parts.concat(), &folder);
+        (scene.film.size, scene.render.spp) = ([32, 24], 6);
+        scene
+    };
+    let scene = load(&[HEAD, &sheets(["uvs", "second_uvs"], "second_uvs = true"), light]);
+    for stages in [StageMode::Fused, StageMode::Wavefront] {
+        let options = PlanOptions { stages: Some(stages), ..PlanOptions::default() };
+        assert_agrees(&format!("second coordinates, {stages:?}"), &scene, &options);
+    }
+    // The same by a texture that lies by the only coordinates of meshes, which are those.
+    let only = load(&[HEAD, &sheets(["", "uvs"], ""), light]);
+    let first = load(&[HEAD, &sheets(["uvs", "second_uvs"], ""), light]);
+    let by_reference = |scene: &Scene| {
+        let mut pixels = Vec::new();
+        let request = RenderRequest { rows: 0..scene.film.size[1], samples: 0..scene.render.spp };
+        let mut renderer = ReferenceRenderer::new(scene).expect("the scene is supported");
+        let mut on_band = |band: gpt::film::Band| {
+            pixels.extend(band.mean.iter().map(|pixel| pixel.map(f32::to_bits)));
+            Ok(())
+        };
+        renderer.render(&request, &Silent, &mut on_band).expect("rendering succeeds");
+        pixels
+    };
+    // Lamps are chosen by the texels on them where the coordinates are the first.
+    let (mut scene, mut only, mut first) = (scene, only, first);
+    for scene in [&mut scene, &mut only, &mut first] {
+        scene.render.estimator = Estimator::Bsdf;
+    }
+    let expected = by_reference(&only);
+    assert!(by_reference(&scene) == expected);
+    assert!(by_reference(&first) != expected, "first coordinates show the same");
+    let Some(verdict) = compare_unequal(&first, &scene) else { return };
+    assert!(verdict.matching_share() < 0.97, "the first coordinates, and nobody notices: {verdict:#?}");
 }
 
 #[test]

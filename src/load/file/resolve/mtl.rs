@@ -228,6 +228,7 @@ impl Resolver<'_> {
             relief: Relief::default(),
             shadows_bent_normals: false,
             mirrors_bent_normals: false,
+            by_second_uvs: false,
         });
         self.linear_textures.push(space == Some(ColorSpace::Linear));
         Ok(match tint {

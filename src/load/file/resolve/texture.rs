@@ -33,7 +33,8 @@ impl Resolver<'_> {
                 rotation_degrees: rotation.map_or(0.0, |rotation| rotation.0),
                 offset: offset.map_or([0.0; 2], |offset| offset.map(|shift| shift.0)),
             };
-            self.scene.textures.push(Texture { transform, ..Texture::new(entry.name().value.clone(), kind) });
+            let by_second_uvs = entry.is_by_second_uvs();
+            self.scene.textures.push(Texture { transform, by_second_uvs, ..Texture::new(entry.name().value.clone(), kind) });
         }
         Ok(())
     }

@@ -22,7 +22,7 @@ shape_keys! {
     /// Triangles, from a file or written here.
     #[schemars(extend("allOf" = [{ "oneOf": [
         { "required": ["file"], "not": { "anyOf": [
-            { "required": ["positions"] }, { "required": ["faces"] }, { "required": ["uvs"] }, { "required": ["normals"] },
+            { "required": ["positions"] }, { "required": ["faces"] }, { "required": ["uvs"] }, { "required": ["second_uvs"] }, { "required": ["normals"] },
             { "required": ["material", "materials"] },
         ] } },
         { "required": ["positions", "faces", "material"], "not": { "anyOf": [
@@ -38,6 +38,8 @@ shape_keys! {
         faces: Option<Vec<Located<Exactly<u32, 3>>>>,
         /// One per position.
         uvs: Option<Located<Vec<Exactly<Number, 2>>>>,
+        /// One per position, for textures that have `second_uvs`.
+        second_uvs: Option<Located<Vec<Exactly<Number, 2>>>>,
         /// One per position.
         normals: Option<Located<Vec<Located<Vector>>>>,
         /// Of a file's own materials, by their names, those for which a `[[material]]` of this scene stands: `{ Wood = "oak" }`. The names
@@ -73,6 +75,7 @@ impl ShapeKeys for Keys {
             ("positions", self.positions.is_some()),
             ("faces", self.faces.is_some()),
             ("uvs", self.uvs.is_some()),
+            ("second_uvs", self.second_uvs.is_some()),
             ("normals", self.normals.is_some()),
         ];
         if let Some((key, _)) = given.iter().find(|(_, given)| *given) {
@@ -126,6 +129,7 @@ impl Keys {
         }
         let lengths = [
             ("uvs", self.uvs.as_ref().map(|uvs| (uvs.value.len(), &uvs.span))),
+            ("second_uvs", self.second_uvs.as_ref().map(|uvs| (uvs.value.len(), &uvs.span))),
             ("normals", self.normals.as_ref().map(|normals| (normals.value.len(), &normals.span))),
         ];
         for (key, given) in lengths {
@@ -140,8 +144,9 @@ impl Keys {
             faces: faces.iter().map(|face| face.value.0).collect(),
             ..Mesh::default()
         };
-        if let Some(uvs) = &self.uvs {
-            mesh.uvs = uvs.value.iter().map(|uv| Vec2::new(uv[0].0 as f32, uv[1].0 as f32)).collect();
+        for (uvs, written) in [(&mut mesh.uvs, &self.uvs), (&mut mesh.second_uvs, &self.second_uvs)] {
+            let written = written.iter().flat_map(|written| &written.value);
+            uvs.extend(written.map(|uv| Vec2::new(uv[0].0 as f32, uv[1].0 as f32)));
         }
         if let Some(normals) = &self.normals {
             let unit = |normal| resolver.direction(normal).map(|normal| normal.as_vec3());

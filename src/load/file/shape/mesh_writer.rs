@@ -29,6 +29,9 @@ pub fn write(mesh: &Arc<Mesh>, shape: &Shape, writer: &mut Writer<'_>) -> String
     if !mesh.uvs.is_empty() {
         out += &line("uvs", &list(mesh.uvs.iter().map(|&uv| pair_f32(uv)).collect()));
     }
+    if !mesh.second_uvs.is_empty() {
+        out += &line("second_uvs", &list(mesh.second_uvs.iter().map(|&uv| pair_f32(uv)).collect()));
+    }
     out + &writer.material_of(shape) + &smooth
 }
 

@@ -39,6 +39,8 @@ pub struct ImageEntry {
     pub rotation: Option<Number>,
     /// Added to (u, v) last, [0, 0] when left out.
     pub offset: Option<Exactly<Number, 2>>,
+    /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates. Not for normal and bump maps.
+    pub second_uvs: Option<bool>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -80,6 +82,8 @@ pub struct CheckerEntry {
     pub rotation: Option<Number>,
     /// Added to (u, v) last, in squares; [0, 0] when left out.
     pub offset: Option<Exactly<Number, 2>>,
+    /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates. Not for normal and bump maps.
+    pub second_uvs: Option<bool>,
 }
 
 /// Improved Perlin noise between two colours.
@@ -100,6 +104,8 @@ pub struct PerlinEntry {
     pub rotation: Option<Number>,
     /// Added to (u, v) last, [0, 0] when left out.
     pub offset: Option<Exactly<Number, 2>>,
+    /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates. Not for normal and bump maps.
+    pub second_uvs: Option<bool>,
 }
 
 /// Distance to the nearest feature point, between two colours.
@@ -117,6 +123,8 @@ pub struct WorleyEntry {
     pub rotation: Option<Number>,
     /// Added to (u, v) last, [0, 0] when left out.
     pub offset: Option<Exactly<Number, 2>>,
+    /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates. Not for normal and bump maps.
+    pub second_uvs: Option<bool>,
 }
 
 impl TextureEntry {
@@ -128,6 +136,17 @@ impl TextureEntry {
             Self::Perlin(entry) => (entry.rotation, entry.offset),
             Self::Worley(entry) => (entry.rotation, entry.offset),
         }
+    }
+
+    /// It lies by the second texture coordinates.
+    pub fn is_by_second_uvs(&self) -> bool {
+        let written = match self {
+            Self::Image(entry) => entry.second_uvs,
+            Self::Checker(entry) => entry.second_uvs,
+            Self::Perlin(entry) => entry.second_uvs,
+            Self::Worley(entry) => entry.second_uvs,
+        };
+        written.unwrap_or(false)
     }
 
     pub fn name(&self) -> &Located<String> {

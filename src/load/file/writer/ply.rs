@@ -19,6 +19,9 @@ pub fn ply(mesh: &Mesh, groups: Option<&[u32]>) -> Vec<u8> {
     if with_uvs {
         properties(&["u", "v"]);
     }
+    if !mesh.second_uvs.is_empty() {
+        properties(&["u1", "v1"]);
+    }
     let _ = writeln!(header, "element face {}\nproperty list uchar uint vertex_indices", mesh.faces.len());
     if groups.is_some() {
         header += "property uint material_index\n";
@@ -34,6 +37,9 @@ pub fn ply(mesh: &Mesh, groups: Option<&[u32]>) -> Vec<u8> {
         }
         if with_uvs {
             floats(&mesh.uvs[index].to_array());
+        }
+        if let Some(uv) = mesh.second_uvs.get(index) {
+            floats(&uv.to_array());
         }
     }
     for (index, face) in mesh.faces.iter().enumerate() {
