@@ -209,7 +209,13 @@ impl<'s> Page<'s> {
 
     fn list(&mut self, value: &'s Value) -> String {
         let item = self.words(&value["items"]);
-        let items = item.trim_start_matches("a ").replacen("number", "numbers", 1).replacen("text", "texts", 1);
+        let item = item.trim_start_matches("a ");
+        // A list of lists has the plural already.
+        let items = if item.contains("numbers") {
+            item.to_owned()
+        } else {
+            item.replacen("number", "numbers", 1).replacen("text", "texts", 1)
+        };
         match value["maxItems"].as_u64() {
             Some(count) => format!("{count} {items}"),
             None => format!("a list of {items}{}", if value["items"]["type"] == "array" { " each" } else { "" }),
