@@ -62,6 +62,11 @@ struct Reader<'t> {
 }
 
 impl<'t> Reader<'t> {
+    /// Reads the value as `seed` does, which may find mistakes of its own in it.
+    fn read<S: DeserializeSeed<'t>>(self, seed: S) -> Result<S::Value, Mistake> {
+        seed.deserialize(self).map_err(|mistake| mistake.within(self.node.span()))
+    }
+
     fn entries(self, table: &'t DeTable<'t>) -> Entries<'t> {
         let without = if let View::Without(key) = self.view { Some(key) } else { None };
         Entries { entries: Source::All(table.iter()), without, value: None, view: View::Whole }
@@ -300,7 +305,7 @@ impl<'t> MapAccess<'t> for Entries<'t> {
 
     fn next_value_seed<S: DeserializeSeed<'t>>(&mut self, seed: S) -> Result<S::Value, Mistake> {
         let node = self.value.take().ok_or_else(|| Mistake::custom("a value was read before its key"))?;
-        seed.deserialize(Reader { node, view: self.view })
+        Reader { node, view: self.view }.read(seed)
     }
 }
 
@@ -328,7 +333,7 @@ impl<'t> SeqAccess<'t> for Items<'t> {
     type Error = Mistake;
 
     fn next_element_seed<S: DeserializeSeed<'t>>(&mut self, seed: S) -> Result<Option<S::Value>, Mistake> {
-        self.0.next().map(|node| seed.deserialize(Reader { node, view: View::Whole })).transpose()
+        self.0.next().map(|node| Reader { node, view: View::Whole }.read(seed)).transpose()
     }
 
     fn size_hint(&self) -> Option<usize> {
@@ -388,7 +393,7 @@ impl<'t> VariantAccess<'t> for Content<'t> {
     }
 
     fn newtype_variant_seed<S: DeserializeSeed<'t>>(self, seed: S) -> Result<S::Value, Mistake> {
-        seed.deserialize(self.0.ok_or_else(|| Mistake::custom("expected a table"))?)
+        self.0.ok_or_else(|| Mistake::custom("expected a table"))?.read(seed)
     }
 
     fn tuple_variant<V: Visitor<'t>>(self, _: usize, visitor: V) -> Result<V::Value, Mistake> {
