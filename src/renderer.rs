@@ -124,6 +124,7 @@ pub struct RenderReport {
     pub build_seconds: f64,
     /// Seconds spent making shaders and pipelines.
     pub compile_seconds: f64,
+    /// Seconds spent tracing paths.
     pub render_seconds: f64,
     /// The observer asked to stop before all samples were done.
     pub interrupted: bool,

@@ -30,13 +30,16 @@ choices! {
 /// A metric's value for red, green and blue, and over all three.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MetricValue {
+    /// Of red, green and blue.
     pub channels: [f64; 3],
+    /// Over all channels.
     pub all: f64,
 }
 
 /// Where two pictures are farthest apart.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Extreme {
+    /// Its absolute value, in the units of the pictures.
     pub difference: f64,
     /// Column from the left.
     pub x: u32,
@@ -49,15 +52,21 @@ pub struct Extreme {
 /// Everything that is known of two pictures of one size. Means and metrics leave out pixels that are not finite in either picture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Comparison {
+    /// Columns of both pictures.
     pub width: u32,
+    /// Rows of both pictures.
     pub height: u32,
     /// Per-channel means of the picture and of the reference.
     pub means: [[f64; 3]; 2],
+    /// [`Metric::Mse`].
     pub mse: MetricValue,
+    /// [`Metric::RelMse`].
     pub relmse: MetricValue,
+    /// [`Metric::Mae`].
     pub mae: MetricValue,
     /// Infinite where the mean squared error is 0; JSON has no such number and says null.
     pub psnr: MetricValue,
+    /// Where they are farthest apart.
     pub largest: Extreme,
     /// Pixels that differ in some channel.
     pub different_pixels: u64,
@@ -69,6 +78,7 @@ pub struct Comparison {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("the pictures have different sizes: {}x{} and {}x{}", sizes[0][0], sizes[0][1], sizes[1][0], sizes[1][1])]
 pub struct SizeMismatch {
+    /// Width and height of the picture and of the reference.
     pub sizes: [[u32; 2]; 2],
 }
 

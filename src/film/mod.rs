@@ -12,7 +12,9 @@ use crate::math::luminance;
 pub struct Band {
     /// First row, counted from the top.
     pub first_row: u32,
+    /// Columns.
     pub width: u32,
+    /// Number of rows.
     pub rows: u32,
     /// Samples each pixel of the band received; where they differ, the fewest.
     pub samples: u32,

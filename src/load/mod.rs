@@ -1,7 +1,7 @@
 //! From a file, a model or a name to a [`Scene`](crate::scene::Scene).
 //!
 //! - [`source`]: what a person may name as the scene.
-//! - [`file`]: scene files in TOML; `obj`, `ply`: models, of which `model` is what they have in common; `image_file`: textures and environment maps.
+//! - [`mod@file`]: scene files in TOML; `obj`, `ply`: models, of which `model` is what they have in common; `image_file`: textures and environment maps.
 //! - `mitsuba`, `gltf`: scenes of other programs, which become scene files in the terms of `import`.
 //! - `framing`: camera, ground and light for a model that comes without them; `view`: what a person may say of that; `presets`: materials by name.
 //! - `builtin`: scenes that are part of the program.

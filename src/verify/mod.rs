@@ -44,41 +44,57 @@ pub const DEFAULT_SPP: u32 = 16;
 /// What the comparison of one scene found.
 #[derive(Serialize)]
 pub struct Verdict {
+    /// The scene's name.
     pub scene: String,
+    /// The name of the device that was held against the reference.
     pub device: String,
+    /// Columns of the pictures.
     pub width: u32,
+    /// Rows of the pictures.
     pub height: u32,
+    /// Samples of each pixel.
     pub spp: u32,
+    /// Samples of all pixels.
     pub paths: u64,
+    /// Those whose radiance agrees to [`PATH_TOLERANCE`].
     pub matching_paths: u64,
+    /// Those whose radiance agrees to [`LOOSE_TOLERANCE`].
     pub loosely_matching_paths: u64,
     /// Share of paths that have to match; None where the scene's is not known.
     pub least_matching_share: Option<f64>,
     /// Of the paths that do not match, those that were followed again on the reference, and what explains them.
     pub followed_paths: u64,
+    /// Of those that were followed: rounding turns a decision over ([`Cause::Decision`]).
     pub explained_by_a_decision: u64,
+    /// Of those that were followed: the path magnifies rounding ([`Cause::Steepness`]).
     pub explained_by_steepness: u64,
     /// Differences that rounding does not explain, the largest first.
     pub unexplained_paths: Vec<UnexplainedPath>,
     /// Largest difference of one path in one channel, and the root of the mean square over all paths and channels.
     pub largest_difference: f64,
+    /// See `largest_difference`.
     pub rms_difference: f64,
     /// Pixel and sample of the largest difference.
     pub worst_path: [u32; 3],
     /// Whole-picture means per channel.
     pub gpu_mean: [f64; 3],
+    /// See `gpu_mean`.
     pub cpu_mean: [f64; 3],
+    /// Samples of the device that its film refused.
     pub non_finite_samples: u64,
     /// Tiles and channels that the tests reject, in words.
     pub rejections: Vec<String>,
     /// Which limits were missed, in words; empty where the devices agree.
     pub missed: Vec<String>,
+    /// Whether no limit was missed.
     pub agrees: bool,
     /// The fault that was planted on purpose.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub planted: Option<Fault>,
+    /// The device's picture, row by row from the top.
     #[serde(skip)]
     pub gpu: Vec<[f32; 3]>,
+    /// The reference's picture.
     #[serde(skip)]
     pub cpu: Vec<[f32; 3]>,
 }
@@ -100,10 +116,12 @@ impl fmt::Debug for Verdict {
 }
 
 impl Verdict {
+    /// The share of paths that match.
     pub fn matching_share(&self) -> f64 {
         self.matching_paths as f64 / self.paths.max(1) as f64
     }
 
+    /// The share of paths that match loosely.
     pub fn loosely_matching_share(&self) -> f64 {
         self.loosely_matching_paths as f64 / self.paths.max(1) as f64
     }

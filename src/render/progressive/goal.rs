@@ -27,9 +27,13 @@ pub struct Goal {
 /// Why a render ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stop {
+    /// All samples are done.
     Samples,
+    /// The time was up.
     TimeLimit,
+    /// The error is as small as was asked for.
     TargetError,
+    /// The observer asked for the end.
     Interrupted,
 }
 
@@ -48,7 +52,9 @@ impl Stop {
 /// What became of a render.
 #[derive(Debug, Clone)]
 pub struct Outcome {
+    /// What the renderer did.
     pub report: RenderReport,
+    /// Why it ended.
     pub stop: Stop,
     /// The error as last estimated, where there was one to reach.
     pub error: Option<ErrorEstimate>,

@@ -18,6 +18,7 @@ pub const LARGEST_FILTER_RADIUS: f64 = 16.0;
 pub struct FilmSettings {
     /// Width and height in pixels, both at least 1.
     pub size: [u32; 2],
+    /// How samples become pixels.
     pub filter: Filter,
 }
 
@@ -30,6 +31,7 @@ impl Default for FilmSettings {
 /// Reconstruction filter; samples are drawn from it, so every sample has weight 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Filter {
+    /// Its curve.
     pub kind: FilterKind,
     /// Half the filter's width, in pixels.
     pub radius: f64,
