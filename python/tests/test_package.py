@@ -163,7 +163,10 @@ class Rendering(unittest.TestCase):
         """Sends Ctrl-C while `call` is at work in a program of its own."""
         code = "import sys, gpt_pathtracer as gpt\nprint('ready', flush=True)\n"
         code += f"try:\n  {call}\nexcept KeyboardInterrupt:\n  print('interrupted', flush=True)\n"
-        child = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        # Who runs these tests in the background may have told them to ignore Ctrl-C.
+        heeds = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)  # noqa: E731
+        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+        child = subprocess.Popen([sys.executable, "-c", code], text=True, preexec_fn=heeds, **pipes)
         child.stdin.write(SCENE)
         child.stdin.close()
         self.assertEqual(child.stdout.readline().strip(), "ready")
