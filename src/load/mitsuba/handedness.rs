@@ -3,7 +3,7 @@
 //! There, green points across the normal and the tangent, wherever v grows; here, to where v grows. What has mirrored coordinates gets others whose
 //! v runs the other way, and a material whose textures are turned over to make up for it: all pictures lie as before, and green points as there.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use glam::{DVec2, DVec3, Vec2};
 
@@ -12,8 +12,7 @@ use crate::scene::Mesh;
 
 /// Turns over what is mirrored and has a normal map.
 pub fn turn_mirrored(scene: &mut Description) {
-    let bent: Vec<String> = scene.materials.iter().filter_map(|entry| entry.keys.text("name")).map(str::to_owned).collect();
-    let bent: Vec<String> = bent.into_iter().filter(|name| has_normal_map(scene, name)).collect();
+    let bent = with_normal_maps(scene);
     if bent.is_empty() {
         return;
     }
@@ -26,10 +25,22 @@ pub fn turn_mirrored(scene: &mut Description) {
     }
 }
 
-/// The material of this name, or one that it blends, has one.
-fn has_normal_map(scene: &Description, name: &str) -> bool {
-    let Some(material) = scene.materials.iter().find(|entry| entry.keys.text("name") == Some(name)) else { return false };
-    material.keys.get("normal_map").is_some() || parts(&material.keys).any(|part| has_normal_map(scene, part))
+/// The names of materials that have one, or blend one that has. Blends share their parts, so nothing is walked twice: where parts stand before
+/// what blends them, as the reader puts them, the second pass finds nothing new.
+fn with_normal_maps(scene: &Description) -> HashSet<String> {
+    let named = || scene.materials.iter().filter_map(|entry| Some((entry.keys.text("name")?, &entry.keys)));
+    let has_map = named().filter(|(_, keys)| keys.get("normal_map").is_some());
+    let mut bent: HashSet<String> = has_map.map(|(name, _)| name.to_owned()).collect();
+    let mut before = 0;
+    while bent.len() > before {
+        before = bent.len();
+        for (name, keys) in named() {
+            if parts(keys).any(|part| bent.contains(part)) {
+                bent.insert(name.to_owned());
+            }
+        }
+    }
+    bent
 }
 
 /// What a blend blends.
@@ -48,8 +59,8 @@ struct Turned {
 
 impl Turned {
     /// The shape as it is, or in up to two parts.
-    fn shape(&mut self, scene: &mut Description, shape: Entry, bent: &[String]) -> Vec<Entry> {
-        let Some(material) = shape.keys.text("material").filter(|name| bent.iter().any(|bent| bent == name)) else {
+    fn shape(&mut self, scene: &mut Description, shape: Entry, bent: &HashSet<String>) -> Vec<Entry> {
+        let Some(material) = shape.keys.text("material").filter(|name| bent.contains(*name)) else {
             return vec![shape];
         };
         let (material, Some(Value::File(FileReference::Held(index)))) = (material.to_owned(), shape.keys.get("file")) else {
