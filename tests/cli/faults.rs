@@ -140,11 +140,12 @@ fn memory_forces_bands() {
 fn a_lost_device_leaves_the_picture_so_far() {
     let Some(layer) = layer() else { return };
     let place = Workplace::new();
+    // The film is read every two seconds, between two sweeps.
     for (goal, fault) in [
-        ("", "vkQueueSubmit:100:lost"),
-        ("", "vkQueueSubmit:100:never"),
-        ("--time-limit 600", "vkWaitSemaphores:150:lost"),
-        ("--adaptive --time-limit 600", "vkQueueSubmit:200:lost"),
+        ("", "vkQueueSubmit:100@4:lost"),
+        ("", "vkQueueSubmit:100@4:never"),
+        ("--time-limit 600", "vkWaitSemaphores:150@4:lost"),
+        ("--adaptive --time-limit 600", "vkQueueSubmit:200@4:lost"),
     ] {
         fs::write(place.path("a.exr"), "what was there before").expect("a file");
         let render =

@@ -1,7 +1,10 @@
 //! A Vulkan layer that makes a driver fail, for tests: the Nth call of one function returns an error, never comes back, or is never done.
 //!
 //! The Vulkan loader puts a layer between a program and its driver (the loader's interface for layers, version 2). This one passes everything
-//! on, and looks at a few functions on the way. `GPT_FAULT=vkQueueSubmit:3:lost` names a function, which of its calls fails, and how:
+//! on, and looks at a few functions on the way. `GPT_FAULT=vkQueueSubmit:3:lost` names a function, which of its calls fails, and how. Of
+//! `vkQueueSubmit:3@2.5:lost` it is the first call from the third on that comes at least 2.5 s after the first.
+//!
+//! How a call fails:
 //!
 //! - `lost`: `VK_ERROR_DEVICE_LOST`, and so does every later call that can say so;
 //! - `memory`: `VK_ERROR_OUT_OF_DEVICE_MEMORY`, once;
@@ -18,7 +21,9 @@
 
 use std::collections::BTreeMap;
 use std::ffi::{CStr, c_char, c_void};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, OnceLock};
+use std::time::{Duration, Instant};
 
 use ash::vk;
 
@@ -59,11 +64,21 @@ const LINK_INFO: i32 = 0;
 struct Fault {
     function: String,
     call: u64,
+    /// Since the function's first call.
+    earliest: Duration,
     how: String,
 }
 
+/// The calls of a function.
+struct Calls {
+    count: u64,
+    first: Instant,
+}
+
 static FAULT: OnceLock<Option<Fault>> = OnceLock::new();
-static CALLS: Mutex<BTreeMap<&'static str, u64>> = Mutex::new(BTreeMap::new());
+static CALLS: Mutex<BTreeMap<&'static str, Calls>> = Mutex::new(BTreeMap::new());
+/// That the fault came: it comes once.
+static CAME: AtomicBool = AtomicBool::new(false);
 static LOST: OnceLock<()> = OnceLock::new();
 static NEXT_INSTANCE: OnceLock<(vk::PFN_vkGetInstanceProcAddr, vk::Instance)> = OnceLock::new();
 static NEXT_DEVICE: OnceLock<(vk::PFN_vkGetDeviceProcAddr, vk::Device)> = OnceLock::new();
@@ -73,21 +88,27 @@ fn fault() -> Option<&'static Fault> {
         let text = std::env::var("GPT_FAULT").ok()?;
         let mut parts = text.split(':');
         let function = parts.next()?.to_owned();
-        Some(Fault { function, call: parts.next()?.parse().ok()?, how: parts.next()?.to_owned() })
+        let (call, seconds) = match parts.next()? {
+            when if when.contains('@') => when.split_once('@')?,
+            call => (call, "0"),
+        };
+        let earliest = Duration::from_secs_f64(seconds.parse().ok()?);
+        Some(Fault { function, call: call.parse().ok()?, earliest, how: parts.next()?.to_owned() })
     };
     FAULT.get_or_init(read).as_ref()
 }
 
 /// What a call of this function does instead of what it should; None: what it should.
 fn instead(function: &'static str) -> Option<vk::Result> {
-    let call = {
+    let (call, time) = {
         let mut calls = CALLS.lock().expect("no call panics");
-        let count = calls.entry(function).or_insert(0);
-        *count += 1;
-        *count
+        let calls = calls.entry(function).or_insert_with(|| Calls { count: 0, first: Instant::now() });
+        calls.count += 1;
+        (calls.count, calls.first.elapsed())
     };
     let fault = fault()?;
-    if fault.function == function && fault.call == call {
+    let is_due = fault.call > 0 && call >= fault.call && time >= fault.earliest;
+    if fault.function == function && is_due && !CAME.swap(true, Ordering::SeqCst) {
         match fault.how.as_str() {
             "lost" => {
                 let _ = LOST.set(());
@@ -172,7 +193,7 @@ unsafe extern "system" fn create_device(
 fn write_counts() {
     if let Some(path) = std::env::var_os("GPT_FAULT_COUNTS") {
         let calls = CALLS.lock().expect("no call panics");
-        let lines: String = calls.iter().map(|(function, count)| format!("{function} {count}\n")).collect();
+        let lines: String = calls.iter().map(|(function, calls)| format!("{function} {}\n", calls.count)).collect();
         let _ = std::fs::write(path, lines);
     }
 }
