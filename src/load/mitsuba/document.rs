@@ -9,7 +9,7 @@ use glam::DAffine3;
 use roxmltree::{Document, Node};
 
 use super::number::parse_number;
-use super::plugin::{Child, Plugin, Property, PropertyValue, Spectrum, error_at};
+use super::plugin::{Child, Plugin, Property, PropertyValue, Spectrum, Within, error_at};
 use super::{colour, transform};
 use crate::load::encoding;
 use crate::load::error::{SceneError, show};
@@ -60,14 +60,15 @@ pub struct Reader<'a> {
 
 /// What the elements of one file have in common.
 #[derive(Clone, Copy)]
-struct Source<'d, 'input> {
-    document: &'d Document<'input>,
+struct Source<'d> {
     name: &'d str,
+    /// Where the lines end, in bytes: to count them for each element takes the square of the file's length.
+    line_ends: &'d [usize],
 }
 
-impl Source<'_, '_> {
+impl Source<'_> {
     fn place(&self, node: Node) -> Place {
-        let line = self.document.text_pos_at(node.range().start).row as usize;
+        let line = self.line_ends.partition_point(|end| *end < node.range().start) + 1;
         Place { file: self.name.to_owned(), line: Some(line), key: String::new() }
     }
 }
@@ -108,7 +109,8 @@ impl<'a> Reader<'a> {
             let what = message.rsplit_once(" at ").map_or(message.as_str(), |(what, _)| what).to_owned();
             SceneError::in_line(&name, error.pos().row as usize, format!("is not valid XML: {what}"))
         })?;
-        let source = Source { document: &document, name: &name };
+        let line_ends: Vec<usize> = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at).collect();
+        let source = Source { name: &name, line_ends: &line_ends };
         let root = document.root_element();
         if root.tag_name().name() != "scene" && depth == 0 {
             let tag = root.tag_name().name();
@@ -139,6 +141,10 @@ impl<'a> Reader<'a> {
             }
         }
         old_texture_coordinates(&mut plugin);
+        plugin.summarize();
+        if plugin.within.depth > DEEPEST {
+            return Err(plugin.error(format!("plugins lie more than {DEEPEST} deep within each other, references followed")));
+        }
         Ok(plugin)
     }
 
@@ -343,6 +349,7 @@ fn empty_plugin(kind: &str, place: Place) -> Plugin {
         place,
         properties: Vec::new(),
         children: Vec::new(),
+        within: Within::default(),
         visited: Cell::new(false),
     }
 }

@@ -19,8 +19,23 @@ pub struct Plugin {
     pub place: Place,
     pub properties: Vec<Property>,
     pub children: Vec<Child>,
+    pub within: Within,
     /// Something asked what it says.
     pub visited: Cell<bool>,
+}
+
+/// What is true of a plugin or of one within it. It is noted once the plugin is read: plugins share those that they name, and what walks them
+/// all meets 2³² of them where each of 32 names the one before twice.
+#[derive(Debug, Default, Clone, Copy)]
+pub struct Within {
+    /// How many lie within each other, itself among them.
+    pub depth: usize,
+    /// It looks up a texture.
+    pub uses_texture: bool,
+    pub uses_bitmap: bool,
+    /// An attribute of a mesh.
+    pub uses_attribute: bool,
+    pub has_bump_map: bool,
 }
 
 #[derive(Debug)]
@@ -65,6 +80,30 @@ impl Plugin {
     /// How reports call it: `bsdf \`plastic\``.
     pub fn title(&self) -> String {
         format!("{} `{}`", self.kind, self.name)
+    }
+
+    /// Notes what is true of it and of what lies within, which is noted there.
+    pub fn summarize(&mut self) {
+        // Textures without places.
+        const CONSTANT: [&str; 9] =
+            ["rgb", "srgb", "uniform", "d65", "regular", "irregular", "blackbody", "srgb_d65", "rawconstant"];
+        let (kind, name) = (self.kind.as_str(), self.name.as_str());
+        let own = Within {
+            depth: 0,
+            // Directions of roughness follow texture coordinates.
+            uses_texture: ["texture", "spectrum"].contains(&kind) && !CONSTANT.contains(&name) || self.has("alpha_u"),
+            uses_bitmap: kind == "texture" && name == "bitmap",
+            uses_attribute: kind == "texture" && name == "mesh_attribute",
+            has_bump_map: ["bumpmap", "bump"].contains(&name),
+        };
+        let all = self.children.iter().map(|child| child.plugin.within).fold(own, |a, b| Within {
+            depth: a.depth.max(b.depth),
+            uses_texture: a.uses_texture || b.uses_texture,
+            uses_bitmap: a.uses_bitmap || b.uses_bitmap,
+            uses_attribute: a.uses_attribute || b.uses_attribute,
+            has_bump_map: a.has_bump_map || b.has_bump_map,
+        });
+        self.within = Within { depth: all.depth + 1, ..all };
     }
 
     fn find(&self, name: &str) -> Option<&Property> {

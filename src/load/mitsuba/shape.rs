@@ -106,18 +106,14 @@ impl Converter<'_> {
         let bsdf = plugin.first_of("bsdf").cloned();
         let light = plugin.first_of("emitter").cloned();
         let light = light.map(|light| emitter::area_radiance(self, &light)).transpose()?.flatten();
-        let textured = bsdf.as_ref().is_some_and(uses_texture) || matches!(light, Some(super::input::Input::Texture(..)));
+        let within = bsdf.as_ref().map(|bsdf| bsdf.within).unwrap_or_default();
+        let textured = within.uses_texture || matches!(light, Some(super::input::Input::Texture(..)));
         let flip = plugin.flag("flip_normals", false)?;
-        let looks_up_attributes =
-            bsdf.as_ref().is_some_and(|bsdf| has_texture(bsdf, &|texture| texture.name == "mesh_attribute"));
-        if looks_up_attributes && bsdf.as_ref().is_some_and(|bsdf| has_texture(bsdf, &|texture| texture.name == "bitmap")) {
+        if within.uses_attribute && within.uses_bitmap {
             self.drop(plugin, "texture beside an attribute of a mesh", "its texture coordinates are those of the attribute");
         }
-        let Some((keys, map)) = self.geometry(
-            plugin,
-            map,
-            Looks { textured, flip, attributes: looks_up_attributes, bumped: bsdf.as_ref().is_some_and(is_bumped) },
-        )?
+        let Some((keys, map)) =
+            self.geometry(plugin, map, Looks { textured, flip, attributes: within.uses_attribute, bumped: within.has_bump_map })?
         else {
             return Ok(());
         };
@@ -304,22 +300,4 @@ fn rectangle(corner: DVec3, edge_u: DVec3, edge_v: DVec3) -> Keys {
 pub fn turn_inside_out(mesh: &mut Mesh) {
     mesh.faces.iter_mut().for_each(|face| face.swap(1, 2));
     mesh.normals.iter_mut().for_each(|normal| *normal = -*normal);
-}
-
-/// The plugin or one within it is a bump map.
-fn is_bumped(plugin: &Rc<Plugin>) -> bool {
-    ["bumpmap", "bump"].contains(&plugin.name.as_str()) || plugin.children.iter().any(|child| is_bumped(&child.plugin))
-}
-
-/// The plugin or one within it is such a texture.
-fn has_texture(plugin: &Rc<Plugin>, is_it: &dyn Fn(&Plugin) -> bool) -> bool {
-    plugin.kind == "texture" && is_it(plugin) || plugin.children.iter().any(|child| has_texture(&child.plugin, is_it))
-}
-
-/// The plugin or one within it looks up a texture.
-fn uses_texture(plugin: &Rc<Plugin>) -> bool {
-    const CONSTANT: [&str; 9] = ["rgb", "srgb", "uniform", "d65", "regular", "irregular", "blackbody", "srgb_d65", "rawconstant"];
-    let is_texture = ["texture", "spectrum"].contains(&plugin.kind.as_str()) && !CONSTANT.contains(&plugin.name.as_str());
-    // Directions of roughness follow texture coordinates.
-    is_texture || plugin.has("alpha_u") || plugin.children.iter().any(|child| uses_texture(&child.plugin))
 }
