@@ -5,6 +5,7 @@
 #import shading/coordinates.wgsl
 #import shading/shape_point.wgsl
 #import shading/shapes.wgsl
+#import shading/tangent_space.wgsl
 #import shading/texture.wgsl
 #if BUMP_MAPS
 #if ATTRIBUTES
@@ -56,16 +57,10 @@ fn mapped_normal(material: u32, kind: u32, first: u32, shading: vec3<f32>, point
         return bumped_normal(texture, normal, point.normal, tangents.along_u * per_uv, tangents.along_v * per_uv, uv);
     }
 #endif
-    let along = tangents.along_u - normal * dot(normal, tangents.along_u);
-    if dot(along, along) == 0.0 {
-        return shading;
-    }
-    let tangent = normalize(along);
-    let across = cross(normal, tangent);
-    let bitangent = select(-across, across, dot(across, tangents.along_v) >= 0.0);
     var local = texture_color(texture, uv) * 2.0 - 1.0;
 #if NORMAL_SCALES
     local = vec3<f32>(local.xy * texture_word(texture, 2u).w, local.z);
 #endif
-    return tangent * local.x + bitangent * local.y + normal * local.z;
+    let bent = from_tangent_space(normal, tangents, local);
+    return select(bent, shading, dot(bent, bent) == 0.0);
 }

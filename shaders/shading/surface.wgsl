@@ -40,7 +40,7 @@ struct Surface {
     // For densities of light sampling: area, or 0 for a sphere; center and radius of a sphere.
     area: f32,
     sphere: vec4<f32>,
-#if ANISOTROPY
+#if TANGENTS
     // The directions in which texture coordinates grow, of any length; 0 where there are none.
     along_u: vec3<f32>,
     along_v: vec3<f32>,
@@ -48,6 +48,10 @@ struct Surface {
 #if NORMAL_SHADOWING
     // The shading normal before a map bent it, where it shadows the bent one; else 0.
     unbent_normal: vec3<f32>,
+#endif
+#if COAT_NORMALS
+    // The shading normal before a map bent it, on the front side and of any length.
+    coat_normal: vec3<f32>,
 #endif
 }
 
@@ -158,6 +162,9 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
         unbent_normal = shading_normal_towards(own_normal, facing_normal, wo);
     }
 #endif
+#if COAT_NORMALS
+    let coat_normal = select(own_normal, normal, dot(own_normal, own_normal) == 0.0);
+#endif
 #if NORMAL_MAPS
     own_normal = mapped_normal(material, kind, bitcast<u32>(p2.w), own_normal, point, coordinates);
 #endif
@@ -175,17 +182,20 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
 #if INSTANCES
     size += magnitude;
 #endif
-#if ANISOTROPY
+#if TANGENTS
     let tangents = shape_tangents(kind, bitcast<u32>(p2.w), point);
 #endif
     return Surface(
         point.position, facing_normal, shading_normal, coordinates, front, POINT_ERROR * dot(abs(facing_normal), size) + point.error,
         material, bitcast<u32>(p1.w), point.area, sphere
-#if ANISOTROPY
+#if TANGENTS
         , tangents.along_u, tangents.along_v
 #endif
 #if NORMAL_SHADOWING
         , unbent_normal
+#endif
+#if COAT_NORMALS
+        , coat_normal
 #endif
     );
 }

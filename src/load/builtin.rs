@@ -20,7 +20,7 @@ const FILES: [(&str, &[u8]); 9] = [
 ];
 
 /// Name and text of every built-in scene; the first is the default.
-const SCENES: [(&str, &str); 31] = [
+const SCENES: [(&str, &str); 32] = [
     ("cornell", include_str!("../../scenes/cornell.toml")),
     ("spheres", include_str!("../../scenes/spheres.toml")),
     ("veach-mis", include_str!("../../scenes/veach-mis.toml")),
@@ -43,6 +43,7 @@ const SCENES: [(&str, &str); 31] = [
     ("arbour", include_str!("../../scenes/arbour.toml")),
     ("vitrine", include_str!("../../scenes/vitrine.toml")),
     ("wardrobe", include_str!("../../scenes/wardrobe.toml")),
+    ("workshop", include_str!("../../scenes/workshop.toml")),
     ("grove", include_str!("../../scenes/grove.toml")),
     ("theatre", include_str!("../../scenes/theatre.toml")),
     ("planetarium", include_str!("../../scenes/planetarium.toml")),

@@ -263,7 +263,11 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     switches.enable("COMPENSATION", has_form(material::COMPENSATED));
     switches.enable("SHEEN", has_form(material::SHEEN));
     switches.enable("ATTENUATION", has_form(material::ATTENUATES));
-    switches.enable("ANISOTROPY", materials.iter().any(|material| material.has_form(ANISOTROPIC)));
+    switches.enable("ANISOTROPY", has_form(ANISOTROPIC));
+    let coat_normals_differ = scene.coat_normals_differ();
+    let coat_normals = packed.materials.scene_ids.iter().any(|&id| coat_normals_differ[id]);
+    switches.enable("COAT_NORMALS", coat_normals);
+    switches.enable("TANGENTS", coat_normals || has_form(ANISOTROPIC));
     switches.enable("ONE_SIDED", materials.iter().any(PackedMaterial::is_front_only) || packed.materials.has_front_only_parts());
     switches.enable("VARYING_LIGHTS", samples_lights(scene, packed) && packed.lights.iter().any(PackedLight::varies));
 }

@@ -104,6 +104,9 @@ impl PathVisitor for Rounding {
 
     fn round_surface(&mut self, surface: &mut Surface) {
         self.round_direction(&mut surface.shading_normal);
+        if let Some(normal) = &mut surface.coat_normal {
+            self.round_direction(normal);
+        }
         surface.uv *= 1.0 + self.size * self.draw();
         if let Some(uv) = &mut surface.second_uv {
             *uv *= 1.0 + self.size * self.draw();

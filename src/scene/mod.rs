@@ -43,8 +43,8 @@ pub use light::{
     OutsideParameters, PointLight, Projector, Sky, SpotLight, ThrownPicture,
 };
 pub use material::{
-    Attenuation, BlendWeight, ConductorFresnel, Emission, LobeKind, LobeParameters, LobeSupport, Masking, Material, MaterialId,
-    MaterialKind, MicrofacetDistribution, Microfacets, PlasticInterface, Principled,
+    Attenuation, BlendWeight, CoatNormalMap, ConductorFresnel, Emission, LobeKind, LobeParameters, LobeSupport, Masking,
+    Material, MaterialId, MaterialKind, MicrofacetDistribution, Microfacets, PlasticInterface, Principled,
 };
 pub use model::Scene;
 pub use motion::{Motion, MotionStep};

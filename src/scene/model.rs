@@ -98,6 +98,17 @@ impl Scene {
         found
     }
 
+    /// Of each material: whether its coat, or that of one that it blends at any depth, lies about another normal than what is below.
+    #[doc(hidden)]
+    pub fn coat_normals_differ(&self) -> Vec<bool> {
+        let is_coated =
+            |material: &Material| matches!(&material.kind, MaterialKind::Principled(principled) if principled.is_coated());
+        let coated = self.materials_that(is_coated);
+        let mapped = self.materials_that(Material::has_coat_normal_map);
+        let differs = |id: MaterialId| mapped[id] || (coated[id] && self.materials[id].normal_map.is_some());
+        (0..self.materials.len()).map(differs).collect()
+    }
+
     /// What takes light behind a surface of each material; of a blend, what the first part does that encloses something.
     #[doc(hidden)]
     pub fn volumes_behind(&self) -> Vec<Option<Attenuation>> {

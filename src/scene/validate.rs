@@ -92,6 +92,11 @@ impl Scene {
             }
             self.weight(weight)?;
         }
+        if let MaterialKind::Principled(principled) = &material.kind
+            && principled.coat_normal_map.is_some_and(|map| !map.scale.is_finite())
+        {
+            return Err("the scale of its coat's normal map must be finite".into());
+        }
         let Some(lobe) = material.kind.lobe() else { return Ok(()) };
         if lobe.ior.is_some_and(|ior| !is_positive(ior)) {
             return Err("the index of refraction must be positive".into());

@@ -78,6 +78,7 @@ shader_files![
     "shading/surface_layer.wgsl",
     "shading/transmittance.wgsl",
     "shading/image.wgsl",
+    "shading/tangent_space.wgsl",
     "shading/texture.wgsl",
     "shading/thrown_picture.wgsl",
     "shading/trace.wgsl",

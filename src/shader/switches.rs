@@ -147,7 +147,7 @@ pub static SWITCHES: LazyLock<Vec<Switch>> = LazyLock::new(|| {
 
 /// All but lobes, shapes, and lights that are no surfaces.
 const OF_FEATURES: &[Switch] = &[
-    switch("ANISOTROPY").requires(&["FURTHER_PARAMETERS"]),
+    switch("ANISOTROPY").requires(&["FURTHER_PARAMETERS", "TANGENTS"]),
     switch("APERTURE_POLYGON").requires(&["LENS"]).excludes(&["APERTURE_SQUARE"]),
     switch("APERTURE_SQUARE").requires(&["LENS"]),
     switch("AREA_LIGHTS").one_of(DRAWN_BY_AREA),
@@ -163,6 +163,8 @@ const OF_FEATURES: &[Switch] = &[
     // The camera moves while the shutter is open.
     switch("CAMERA_MOTION"),
     switch("CHECKERS").requires(&["PROCEDURAL_TEXTURES"]),
+    // Coats lie about other normals than what is below them.
+    switch("COAT_NORMALS").requires(&["FURTHER_PARAMETERS", "PRINCIPLED", "TANGENTS", "TEXTURES"]),
     switch("COLOR1"),
     switch("COMPENSATION").requires(&["FURTHER_PARAMETERS", "PRINCIPLED"]),
     switch("DELTA_LIGHTS").one_of(DELTA),
@@ -252,6 +254,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("SPOT_FALLOFFS").requires(&["SPOT_LIGHT"]),
     switch("SPREAD"),
     switch("SUBGROUP_QUEUES"),
+    // The directions of texture coordinates matter to some lobe.
+    switch("TANGENTS").requires(&["FURTHER_PARAMETERS"]),
     switch("TEXELS"),
     switch("TEXELS_IN_BYTES").requires(&["IMAGES"]),
     switch("TEXELS_IN_FLOATS").requires(&["IMAGES"]),

@@ -92,6 +92,16 @@ fn keys_of_rough_surfaces_that_do_not_go_together_are_refused() {
         (principled("anisotropy_rotation = 30"), "`anisotropy_rotation` needs the key `anisotropy`"),
         (principled("thin = true"), "`thin` needs the key `transmission`"),
         (principled("clearcoat_roughness = 0.1"), "`clearcoat_roughness` needs the key `clearcoat`"),
+        (principled("coat_normal_map = \"bumps\""), "`coat_normal_map` needs the key `clearcoat`"),
+        (principled("clearcoat = 1\ncoat_normal_scale = 2"), "`coat_normal_scale` needs the key `coat_normal_map`"),
+        (
+            principled("clearcoat = 1\ncoat_normal_map = \"bumps\""),
+            "material[2].coat_normal_map: there is no texture named `bumps`",
+        ),
+        (
+            principled("clearcoat = 1\ncoat_normal_map = \"checks\"\ncoat_normal_scale = inf"),
+            "material[2].coat_normal_scale: expected a number of magnitude at most 1e18, found inf",
+        ),
         (principled("sheen_roughness = 0.1"), "`sheen_roughness` needs the key `sheen_color`"),
         (principled("transmission = 1\nattenuation_color = 0.5"), "`attenuation_color` needs the key `attenuation_distance`"),
         (principled("transmission = 1\nattenuation_distance = 2"), "`attenuation_distance` needs the key `attenuation_color`"),

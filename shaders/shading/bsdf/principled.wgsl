@@ -1,6 +1,7 @@
 // The material of glTF 2.0's Appendix B with its extensions; src/reference/bsdf/principled.rs has the model. color0 is the base colour,
 // color1 the specular colour; the further parameters are metallic, specular, transmission, clearcoat, its roughness, the anisotropy and its
-// rotation, 1 plus its cosine and sine, and where there are more, an extinction, and the colour and the roughness of the sheen.
+// rotation, 1 plus its cosine and sine, and where there are more, an extinction, the colour and the roughness of the sheen, and what the coat's
+// own normal map has here, and its scale above and below 0.
 #import core/layout.wgsl
 #import core/math.wgsl
 #import shading/dielectric.wgsl
@@ -16,6 +17,10 @@
 #endif
 #if SHEEN
 #import shading/sheen.wgsl
+#endif
+#if COAT_NORMALS
+#import shading/shape_point.wgsl
+#import shading/tangent_space.wgsl
 #endif
 
 // Largest share of the base's samples that the reflection takes, and least share of those of a reflection that there is.
@@ -40,6 +45,10 @@ struct Principled {
     eta: f32,
 #if SHEEN
     sheen: Sheen,
+#endif
+#if COAT_NORMALS
+    // On wo's side.
+    coat_normal: vec3<f32>,
 #endif
 }
 
@@ -92,6 +101,34 @@ fn principled_of(lobe: Lobe, front: bool) -> Principled {
             p.facets.alpha_v = max(alpha, DELTA_ALPHA);
         }
     }
+#endif
+    return p;
+}
+
+#if COAT_NORMALS
+// The normal that the coat lies about: the surface's own, or what the coat's map makes of it.
+fn principled_coat_normal(lobe: Lobe, surface: Surface, wo: vec3<f32>) -> vec3<f32> {
+    var normal = normalize(surface.coat_normal);
+    if (lobe.kind & COAT_NORMAL_MAP) != 0u {
+        let scale = principled_parameter(lobe, COAT_NORMAL_PARAMETER + 1u);
+        let texel = principled_parameter(lobe, COAT_NORMAL_PARAMETER) * 2.0 - 1.0;
+        let local = vec3<f32>(texel.xy * (scale.x - scale.y), texel.z);
+        let bent = from_tangent_space(normal, Tangents(surface.along_u, surface.along_v), local);
+        normal = select(bent, normal, dot(bent, bent) == 0.0);
+    }
+    return shading_normal_towards(normal, surface.facing_normal, wo);
+}
+
+fn on_coat_side(p: Principled, surface: Surface, wi: vec3<f32>) -> bool {
+    return dot(wi, p.coat_normal) > 0.0 && dot(wi, surface.facing_normal) > 0.0;
+}
+#endif
+
+// As it lies on a surface seen from wo.
+fn principled_at(lobe: Lobe, surface: Surface, wo: vec3<f32>) -> Principled {
+    var p = principled_of(lobe, surface.front);
+#if COAT_NORMALS
+    p.coat_normal = principled_coat_normal(lobe, surface, wo);
 #endif
     return p;
 }
@@ -169,8 +206,13 @@ fn principled_below_sheen(p: Principled, cosine_o: f32, cosine_i: f32) -> f32 {
 
 fn principled_shares(p: Principled, surface: Surface, wo: vec3<f32>) -> PrincipledShares {
     let cosine = clamp(dot(wo, surface.shading_normal), 0.0, 1.0);
+#if COAT_NORMALS
+    let coat_cosine = clamp(dot(wo, p.coat_normal), 0.0, 1.0);
+#else
+    let coat_cosine = cosine;
+#endif
     // The coat lies on the outside.
-    let coat = select(p.coat * schlick(cosine, vec3<f32>(0.04)).x, 0.0, principled_is_within(p, surface));
+    let coat = select(p.coat * schlick(coat_cosine, vec3<f32>(0.04)).x, 0.0, principled_is_within(p, surface));
     let split = principled_split(p, cosine);
     let possible = select(max(p.metallic, (1.0 - p.metallic) * p.specular), 1.0, p.eta < 1.0);
     var reflection = max(max_component(split.reflected), LEAST_REFLECTED * possible);
@@ -224,11 +266,31 @@ fn principled_mirror(facets: Facets, o: vec3<f32>, i: vec3<f32>, m: vec3<f32>) -
 }
 
 fn evaluate_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
-    let p = principled_of(lobe, surface.front);
+    let p = principled_at(lobe, surface, wo);
     return principled_value(lobe, p, principled_shares(p, surface, wo), surface, wo, wi);
 }
 
 fn principled_value(
+    lobe: Lobe, p: Principled, shares: PrincipledShares, surface: Surface, wo: vec3<f32>, wi: vec3<f32>
+) -> BsdfValue {
+#if COAT_NORMALS
+    var value = principled_value_by_base(lobe, p, shares, surface, wo, wi);
+    if shares.coat > 0.0 && !facets_are_smooth(p.coat_facets) && on_coat_side(p, surface, wi) {
+        let frame = frame_from_normal(p.coat_normal);
+        let o = to_local(frame, wo);
+        let i = to_local(frame, wi);
+        let coat_mirror = principled_mirror(p.coat_facets, o, i, normalize(o + i));
+        value.value += (1.0 - shares.below_coat) * coat_mirror.x;
+        value.pdf_solid_angle += shares.coat * coat_mirror.y;
+    }
+    return value;
+#else
+    return principled_value_by_base(lobe, p, shares, surface, wo, wi);
+#endif
+}
+
+// What lies about the surface's shading normal: all but a coat that has a normal of its own.
+fn principled_value_by_base(
     lobe: Lobe, p: Principled, shares: PrincipledShares, surface: Surface, wo: vec3<f32>, wi: vec3<f32>
 ) -> BsdfValue {
     let frame = principled_frame(lobe, p.facets, surface);
@@ -254,11 +316,13 @@ fn principled_value(
         }
 #endif
         value *= shares.below_coat;
+#if !COAT_NORMALS
         if shares.coat > 0.0 && !facets_are_smooth(p.coat_facets) {
             let coat_mirror = principled_mirror(p.coat_facets, o, i, m);
             value += (1.0 - shares.below_coat) * coat_mirror.x;
             pdf += shares.coat * coat_mirror.y;
         }
+#endif
         return BsdfValue(value, pdf);
     }
 #if PRINCIPLED_TRANSMISSION
@@ -296,7 +360,7 @@ fn principled_value(
 }
 
 fn sample_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
-    let p = principled_of(lobe, surface.front);
+    let p = principled_at(lobe, surface, wo);
     let shares = principled_shares(p, surface, wo);
     let below_reflection = shares.coat + shares.reflection;
     let below_diffuse = below_reflection + shares.diffuse;
@@ -315,6 +379,11 @@ fn sample_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u
     }
     if !is_diffuse && facets_are_smooth(facets) {
         var wi = mirrored(surface, wo);
+#if COAT_NORMALS
+        if is_coat {
+            wi = 2.0 * dot(wo, p.coat_normal) * p.coat_normal - wo;
+        }
+#endif
         var weight = vec3<f32>((1.0 - shares.below_coat) / shares.coat);
         let split = principled_split(p, cosine);
         if is_reflection {
@@ -346,7 +415,12 @@ fn sample_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u
     if is_diffuse {
         wi = sample_hemisphere(surface, u, v).xyz;
     } else {
-        let frame = principled_frame(lobe, facets, surface);
+        var frame = principled_frame(lobe, facets, surface);
+#if COAT_NORMALS
+        if is_coat {
+            frame = frame_from_normal(p.coat_normal);
+        }
+#endif
         let o = to_local(frame, wo);
         let m = sample_visible_normal(facets, o, u, v);
         var i = 2.0 * dot(o, m) * m - o;
@@ -363,8 +437,14 @@ fn sample_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u
         wi = frame_to_world(frame, i);
     }
     // A facet that is seen from the other side would be taken for the other way.
+#if COAT_NORMALS
+    if !select(select(on_wo_side(surface, wi), on_far_side(surface, wi), transmits), on_coat_side(p, surface, wi), is_coat) {
+        return no_sample();
+    }
+#else
     if transmits == on_wo_side(surface, wi) {
         return no_sample();
     }
+#endif
     return from_value(wi, principled_value(lobe, p, shares, surface, wo, wi), eta_scale);
 }

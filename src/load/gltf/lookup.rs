@@ -14,7 +14,7 @@ use super::made::Coordinates;
 const OF_EXTENSIONS: [(&str, &[&str]); 4] = [
     ("KHR_materials_specular", &["specularTexture", "specularColorTexture"]),
     ("KHR_materials_transmission", &["transmissionTexture"]),
-    ("KHR_materials_clearcoat", &["clearcoatTexture", "clearcoatRoughnessTexture"]),
+    ("KHR_materials_clearcoat", &["clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"]),
     ("KHR_materials_sheen", &["sheenColorTexture", "sheenRoughnessTexture"]),
 ];
 

@@ -170,6 +170,14 @@ impl Surface<'_, '_> {
             let roughness = self.factor(CLEARCOAT, "clearcoatRoughnessFactor", 0.0, "clearcoatRoughnessTexture", "g")?;
             keys.set("clearcoat", clearcoat);
             keys.set("clearcoat_roughness", roughness);
+            if let Some(info) = self.texture_of(CLEARCOAT, "clearcoatNormalTexture")?
+                && let Some(name) = self.texture_name(&info, "clearcoatNormalTexture")?
+            {
+                keys.set("coat_normal_map", name);
+                if let Some(scale) = info.scale.filter(|scale| *scale != 1.0) {
+                    keys.set("coat_normal_scale", scale);
+                }
+            }
         }
         let anisotropy = self.number(ANISOTROPY, "anisotropyStrength", 0.0).clamp(0.0, 1.0);
         if anisotropy > 0.0 {
@@ -307,7 +315,6 @@ impl Surface<'_, '_> {
         ];
         let parts_of = [
             ("KHR_materials_volume", "thicknessTexture", "thickness is that of the shape"),
-            ("KHR_materials_clearcoat", "clearcoatNormalTexture", "the coat lies as the surface does"),
             ("KHR_materials_anisotropy", "anisotropyTexture", "the factors alone count"),
         ];
         for (name, key, instead) in parts_of {

@@ -123,7 +123,9 @@ impl Turned {
     fn keys(&mut self, scene: &mut Description, keys: &mut Keys) {
         for (key, value) in &mut keys.0 {
             match value {
-                Value::Text(name) if ["texture", "normal_map", "bump_map"].contains(key) => *name = self.texture(scene, name),
+                Value::Text(name) if ["texture", "normal_map", "coat_normal_map", "bump_map"].contains(key) => {
+                    *name = self.texture(scene, name);
+                }
                 Value::List(names) if *key == "materials" => {
                     for name in names {
                         if let Value::Text(name) = name {

@@ -14,7 +14,7 @@ use super::sheen::Sheen;
 use super::view::View;
 use crate::math::Frame;
 use crate::scene::material::{AlbedoTable, DELTA_ALPHA, SMALLEST_BEND};
-use crate::scene::{MaterialKind, MicrofacetDistribution};
+use crate::scene::{ColorInput, MaterialKind, MicrofacetDistribution};
 
 /// Largest share of the base's samples that the surface's reflection takes: facets that are turned away from the normal let more through.
 const MOST_REFLECTED: f64 = 0.95;
@@ -49,6 +49,8 @@ pub struct Principled {
     pub coat: f64,
     pub facets: Facets,
     pub coat_facets: Facets,
+    /// What the coat's own normal map has here, and its scale.
+    pub coat_texel: Option<(DVec3, f64)>,
     /// From the tangent towards the bitangent, in radians.
     pub rotation: f64,
     pub sheen: Sheen,
@@ -58,6 +60,8 @@ pub struct Principled {
 /// The ways in which light is scattered, and the probability of sampling each.
 #[derive(Debug, Clone, Copy)]
 struct Shares {
+    /// What the coat's facets lie in.
+    coat_frame: Frame,
     /// Of all light, what the coat leaves to the rest.
     below_coat: f64,
     coat: f64,
@@ -135,7 +139,8 @@ impl Principled {
     fn shares(&self, view: &View) -> Shares {
         let cosine = view.wo.dot(view.normal()).clamp(0.0, 1.0);
         let eta = self.eta_of_reflection(view);
-        let coat = self.coat_reflectance(view, cosine);
+        let coat_frame = view.coat_frame(self.coat_texel);
+        let coat = self.coat_reflectance(view, view.wo.dot(coat_frame.normal).clamp(0.0, 1.0));
         let Split { reflected, passed } = self.split(cosine, eta);
         let possible = if eta < 1.0 { 1.0 } else { self.metallic.max((1.0 - self.metallic) * self.specular) };
         // The fibres stand on the outside, and are sampled as the diffuse base is.
@@ -146,6 +151,7 @@ impl Principled {
         let sum = coat + (1.0 - coat) * (reflection + diffuse + transmission);
         let of = |share: f64| if sum > 0.0 { share / sum } else { 0.0 };
         Shares {
+            coat_frame,
             below_coat: 1.0 - coat,
             coat: of(coat),
             reflection: of((1.0 - coat) * reflection),
@@ -180,13 +186,22 @@ impl Principled {
             value = value * self.below_sheen(wo.z, local.z) + self.sheen.value(wo, local);
         }
         value *= shares.below_coat;
-        if !self.coat_facets.are_smooth() && shares.coat > 0.0 {
-            let (wo, local) = (view.frame.to_local(view.wo), view.frame.to_local(wi));
-            let (shadowed, density) = Self::mirror_terms(&self.coat_facets, wo, local, (wo + local).normalize());
-            value += DVec3::splat((1.0 - shares.below_coat) * shadowed);
-            pdf += shares.coat * density;
-        }
         Evaluation { value, pdf }
+    }
+
+    /// The coat reflects light from `wi`, as its own normal and the true surface lie.
+    fn coat_reflects(view: &View, wi: DVec3, shares: &Shares) -> bool {
+        wi.dot(view.geometric_normal) > 0.0 && wi.dot(shares.coat_frame.normal) > 0.0
+    }
+
+    /// What the coat reflects, from a direction from which it does.
+    fn evaluate_coat(&self, view: &View, wi: DVec3, shares: &Shares) -> Evaluation {
+        if self.coat_facets.are_smooth() || shares.coat <= 0.0 {
+            return Evaluation::default();
+        }
+        let (wo, local) = (shares.coat_frame.to_local(view.wo), shares.coat_frame.to_local(wi));
+        let (shadowed, density) = Self::mirror_terms(&self.coat_facets, wo, local, (wo + local).normalize());
+        Evaluation { value: DVec3::splat((1.0 - shares.below_coat) * shadowed), pdf: shares.coat * density }
     }
 
     fn evaluate_transmission(&self, view: &View, wi: DVec3, shares: &Shares) -> Option<Evaluation> {
@@ -272,6 +287,7 @@ impl Scatter for Principled {
                 facets.alpha = facets.alpha.max(DVec2::splat(DELTA_ALPHA));
             }
         }
+        let coat_texel = written.coat_normal_map.map(|map| (lookup.color(&ColorInput::Texture(map.texture)), map.scale));
         Some(Self {
             base: lookup.color(&written.base_color),
             metallic: lookup.scalar(&written.metallic),
@@ -283,6 +299,7 @@ impl Scatter for Principled {
             coat: lookup.scalar(&written.clearcoat),
             facets,
             coat_facets: isotropic(lookup.scalar(&written.clearcoat_roughness).powi(2)),
+            coat_texel,
             rotation: written.anisotropy_rotation_degrees.to_radians(),
             sheen: Sheen { color: lookup.color(&written.sheen_color), roughness: lookup.scalar(&written.sheen_roughness) },
             compensates: written.energy_compensation,
@@ -303,13 +320,18 @@ impl Scatter for Principled {
 
     fn evaluate(&self, view: &View, wi: DVec3) -> Evaluation {
         let shares = self.shares(view);
-        if view.reflects(wi) {
+        let below = if view.reflects(wi) {
             self.evaluate_reflection(view, wi, &shares)
         } else if view.transmits(wi) {
             self.evaluate_transmission(view, wi, &shares).unwrap_or_default()
         } else {
             Evaluation::default()
+        };
+        if !Self::coat_reflects(view, wi, &shares) {
+            return below;
         }
+        let coat = self.evaluate_coat(view, wi, &shares);
+        Evaluation { value: below.value + coat.value, pdf: below.pdf + coat.pdf }
     }
 
     fn sample(&self, view: &View, u_lobe: f64, u1: f64, u2: f64) -> Option<BsdfSample> {
@@ -317,12 +339,15 @@ impl Scatter for Principled {
         let smooth = self.facets.are_smooth();
         let below_reflection = shares.coat + shares.reflection;
         let below_diffuse = below_reflection + shares.diffuse;
-        let wi = if u_lobe < shares.coat {
+        let is_coat = u_lobe < shares.coat;
+        let wi = if is_coat {
+            let frame = &shares.coat_frame;
             if self.coat_facets.are_smooth() {
-                let (wi, weight) = (view.mirrored(), DVec3::splat((1.0 - shares.below_coat) / shares.coat));
-                return view.reflects(wi).then_some(BsdfSample { weight, ..BsdfSample::reflected(wi, Density::Delta) });
+                let (wi, weight) = (view.mirrored_about(frame.normal), DVec3::splat((1.0 - shares.below_coat) / shares.coat));
+                let is_possible = Self::coat_reflects(view, wi, &shares);
+                return is_possible.then_some(BsdfSample { weight, ..BsdfSample::reflected(wi, Density::Delta) });
             }
-            reflected(&self.coat_facets, &view.frame, view, u1, u2)
+            reflected(&self.coat_facets, frame, view, u1, u2)
         } else if u_lobe < below_reflection {
             if smooth {
                 return self.sample_delta(view, &shares, true);
@@ -340,7 +365,12 @@ impl Scatter for Principled {
         let transmits = u_lobe >= below_diffuse && shares.transmission > 0.0;
         let Evaluation { value, pdf } = self.evaluate(view, wi);
         let eta = if transmits && !self.is_thin() { self.eta(view) } else { 1.0 };
-        let is_possible = pdf > 0.0 && transmits != view.reflects(wi);
+        let leaves_as_drawn = match (is_coat, transmits) {
+            (true, _) => Self::coat_reflects(view, wi, &shares),
+            (false, true) => view.transmits(wi),
+            (false, false) => view.reflects(wi),
+        };
+        let is_possible = pdf > 0.0 && leaves_as_drawn;
         is_possible.then(|| BsdfSample { wi, weight: value / pdf, density: Density::SolidAngle(pdf), eta, is_null: false })
     }
 }

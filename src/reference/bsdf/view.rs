@@ -28,6 +28,8 @@ pub struct View {
     pub tangents: Option<Tangents>,
     /// The shading normal before a map bent it, where it shadows the bent one.
     unbent_normal: Option<DVec3>,
+    /// The same on the front side, where coats lie about it.
+    coat_normal: Option<DVec3>,
 }
 
 impl View {
@@ -36,11 +38,22 @@ impl View {
         let geometric_normal = if front { front_normal } else { -front_normal };
         let normal = towards(wo, geometric_normal, shading_normal);
         let (hemisphere, frame) = (HemisphereSampling::Cosine, Frame::around(normal));
-        Self { wo, front, geometric_normal, frame, hemisphere, tangents: None, unbent_normal: None }
+        Self { wo, front, geometric_normal, frame, hemisphere, tangents: None, unbent_normal: None, coat_normal: None }
     }
 
     pub fn with_unbent_normal(self, unbent_normal: Option<DVec3>) -> Self {
         Self { unbent_normal: unbent_normal.map(|normal| towards(self.wo, self.geometric_normal, normal)), ..self }
+    }
+
+    pub fn with_coat_normal(self, coat_normal: Option<DVec3>) -> Self {
+        Self { coat_normal, ..self }
+    }
+
+    /// The frame of a coat whose own normal map has this texel, of its scale, if it has a map.
+    pub(super) fn coat_frame(&self, texel: Option<(DVec3, f64)>) -> Frame {
+        let Some(normal) = self.coat_normal else { return self.frame };
+        let bent = texel.zip(self.tangents).and_then(|((texel, scale), tangents)| tangents.direction(normal, texel, scale));
+        Frame::around(towards(self.wo, self.geometric_normal, bent.unwrap_or(normal)))
     }
 
     /// As a map bends the normal that mirrors what it bends away from wo, instead of leaving it to the geometric normal. The unbent normal is known.
@@ -107,7 +120,11 @@ impl View {
 
     /// wo mirrored about the shading normal.
     pub(super) fn mirrored(&self) -> DVec3 {
-        let normal = self.normal();
+        self.mirrored_about(self.normal())
+    }
+
+    /// wo mirrored about another normal.
+    pub(super) fn mirrored_about(&self, normal: DVec3) -> DVec3 {
         (normal * (2.0 * self.wo.dot(normal)) - self.wo).normalize()
     }
 }

@@ -47,7 +47,7 @@ impl Tangents {
 
     /// The direction that a texel stands for about `normal`, the shading normal on the front side. The tangent is made perpendicular
     /// to the normal, the bitangent to both.
-    fn direction(&self, normal: DVec3, texel: DVec3, scale: f64) -> Option<DVec3> {
+    pub fn direction(&self, normal: DVec3, texel: DVec3, scale: f64) -> Option<DVec3> {
         let tangent = (self.along_u - normal * normal.dot(self.along_u)).try_normalize()?;
         let across = normal.cross(tangent);
         let bitangent = across * across.dot(self.along_v).signum();

@@ -14,7 +14,7 @@ use super::shape::{self, Placement, Primitive};
 use crate::reference::texture::Coordinates;
 use crate::renderer::RenderError;
 use crate::sampling::emission_map::UNIT_SQUARE;
-use crate::scene::{Material, MaterialId, MaterialKind, Scene, Shape};
+use crate::scene::{MaterialId, MaterialKind, Scene, Shape};
 
 /// A ray's closest crossing.
 #[derive(Debug, Clone, Copy)]
@@ -34,6 +34,8 @@ pub struct Surface {
     pub shading_normal: DVec3,
     /// The normal before that, where it shadows the bent one.
     pub unbent_normal: Option<DVec3>,
+    /// The same where a coat lies about this normal, or about what its own map makes of it.
+    pub coat_normal: Option<DVec3>,
     /// Where it is bent away from the viewer, it is mirrored about the normal before that.
     pub is_mirrored: bool,
     pub uv: DVec2,
@@ -63,7 +65,9 @@ pub struct World {
     shapes: Vec<MeshData>,
     normal_maps: NormalMaps,
     /// By material: it or a part of it depends on the directions of texture coordinates.
-    anisotropic: Vec<bool>,
+    uses_tangents: Vec<bool>,
+    /// By material: its coat, or that of a part of it, lies about another normal than the rest.
+    coat_normals_differ: Vec<bool>,
     /// Windows that directions to the environment are sampled through; rays do not meet them.
     portals: Vec<Primitive>,
 }
@@ -97,8 +101,21 @@ impl World {
         let (primitives, owners) = leaf_order.iter().map(in_leaf_order).unzip();
         let Collected { infinite, shapes, portals, .. } = collected;
         let normal_maps = NormalMaps::new(scene);
-        let anisotropic = scene.materials_that(Material::is_anisotropic);
-        Ok(Self { hierarchy, primitives, owners, scene_order, infinite, instances, shapes, normal_maps, anisotropic, portals })
+        let uses_tangents = scene.materials_that(|material| material.is_anisotropic() || material.has_coat_normal_map());
+        let coat_normals_differ = scene.coat_normals_differ();
+        Ok(Self {
+            hierarchy,
+            primitives,
+            owners,
+            scene_order,
+            infinite,
+            instances,
+            shapes,
+            normal_maps,
+            uses_tangents,
+            coat_normals_differ,
+            portals,
+        })
     }
 
     /// Leaf-order indices of all primitives, in the order of the scene file; planes are not among them.
@@ -266,6 +283,7 @@ impl World {
                     point,
                     shading_normal: point.normal,
                     unbent_normal: None,
+                    coat_normal: None,
                     is_mirrored: false,
                     uv: DVec2::ZERO,
                     second_uv: None,
@@ -305,11 +323,12 @@ impl World {
         tangents: impl Fn() -> Option<Tangents>,
     ) -> Surface {
         let shading_normal = self.normal_maps.bend(owner.material, [normal, point.normal], uv, &tangents);
-        let tangents = if self.anisotropic[owner.material] { tangents() } else { None };
+        let tangents = if self.uses_tangents[owner.material] { tangents() } else { None };
+        let coat_normal = self.coat_normals_differ[owner.material].then_some(normal);
         let unbent_normal = self.normal_maps.shadows(owner.material).then_some(normal);
         let is_mirrored = self.normal_maps.mirrors(owner.material);
         let second_uv = None;
-        Surface { id, owner, point, shading_normal, unbent_normal, is_mirrored, uv, second_uv, tangents }
+        Surface { id, owner, point, shading_normal, unbent_normal, coat_normal, is_mirrored, uv, second_uv, tangents }
     }
 }
 

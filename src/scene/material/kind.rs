@@ -98,7 +98,8 @@ pub struct LobeParameters {
     ///
     /// - of a conductor, and of rough glass, thin or not, the width across the tangent, and a factor of what is reflected;
     /// - of the principled lobe, metallic, specular, transmission, clearcoat, its roughness, anisotropy, and 1 plus the cosine and the sine of
-    ///   its rotation; and where it has a form that needs more, the extinction of what it encloses, and the colour and the roughness of its sheen;
+    ///   its rotation; where it has a form that needs more, the extinction of what it encloses, and the colour and the roughness of its sheen;
+    ///   and where its coat has normals of its own, their texels, and their scale: how far it is above 0, and how far below;
     /// - of plastic, the share of light from within that the surface sends back;
     /// - of rough plastic, the same, and then what the surface lets through, three angles an entry.
     pub further: Vec<ColorInput>,
@@ -128,6 +129,8 @@ pub const COMPENSATED: u32 = 256;
 pub const SHEEN: u32 = 512;
 /// What the surface encloses takes light.
 pub const ATTENUATES: u32 = 1024;
+/// The coat has a normal map of its own.
+pub const COAT_NORMAL_MAP: u32 = 2048;
 /// All of these.
 pub const FORMS: u32 = COMPLEX_FRESNEL
     | BECKMANN
@@ -139,7 +142,8 @@ pub const FORMS: u32 = COMPLEX_FRESNEL
     | TRANSMITS
     | COMPENSATED
     | SHEEN
-    | ATTENUATES;
+    | ATTENUATES
+    | COAT_NORMAL_MAP;
 
 /// Entries that the transmittance of rough plastic takes.
 const TRANSMITTANCE_ENTRIES: usize = TRANSMITTANCE_NODES.div_ceil(3);
@@ -249,9 +253,16 @@ impl MaterialKind {
 /// Where the extinction of what it encloses stands among the further parameters of the principled lobe.
 pub const EXTINCTION_PARAMETER: usize = 7;
 
+/// Where the texels of its coat's normals stand; their scale is the next.
+pub const COAT_NORMAL_PARAMETER: usize = EXTINCTION_PARAMETER + 3;
+
 /// How many further parameters the principled lobe has.
 fn further_of_principled(form: u32) -> usize {
-    if form & (SHEEN | ATTENUATES) == 0 { EXTINCTION_PARAMETER } else { EXTINCTION_PARAMETER + 3 }
+    match form {
+        form if form & COAT_NORMAL_MAP != 0 => COAT_NORMAL_PARAMETER + 2,
+        form if form & (SHEEN | ATTENUATES) != 0 => COAT_NORMAL_PARAMETER,
+        _ => EXTINCTION_PARAMETER,
+    }
 }
 
 impl Principled {
@@ -264,8 +275,13 @@ impl Principled {
             | if self.transmission == zero { 0 } else { TRANSMITS }
             | if self.energy_compensation { COMPENSATED } else { 0 }
             | if self.sheen_color == zero { 0 } else { SHEEN }
-            | if self.attenuation.is_some() { ATTENUATES } else { 0 };
+            | if self.attenuation.is_some() { ATTENUATES } else { 0 }
+            | if self.coat_normal_map.is_some() { COAT_NORMAL_MAP } else { 0 };
         let extinction = self.attenuation.map_or(DVec3::ZERO, |attenuation| attenuation.extinction());
+        let [coat_normal, scale] = self.coat_normal_map.map_or([zero; 2], |map| {
+            let scale = DVec3::new(map.scale.max(0.0), (-map.scale).max(0.0), 0.0);
+            [ColorInput::Texture(map.texture), ColorInput::Constant(scale)]
+        });
         let mut further = vec![
             self.metallic,
             self.specular,
@@ -277,6 +293,8 @@ impl Principled {
             ColorInput::Constant(extinction),
             self.sheen_color,
             self.sheen_roughness,
+            coat_normal,
+            scale,
         ];
         further.truncate(further_of_principled(form));
         LobeParameters {

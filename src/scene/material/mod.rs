@@ -11,13 +11,13 @@ pub use albedo::{ALBEDO_COLUMNS, ALBEDO_ROWS, AlbedoTable, SHEEN_KNEE, SMALLEST_
 pub use blend_weight::BlendWeight;
 pub(crate) use kind::material_table;
 pub use kind::{
-    ANISOTROPIC, ATTENUATES, BECKMANN, COMPENSATED, COMPLEX_FRESNEL, ConductorFresnel, EXTINCTION_PARAMETER, FORMS, LobeKind,
-    LobeParameters, LobeSupport, MaterialId, MaterialKind, NONLINEAR, SEPARABLE_MASKING, SHEEN, SMALLEST_BEND, SQUARED_ACROSS,
-    THIN_WALL, TRANSMITS,
+    ANISOTROPIC, ATTENUATES, BECKMANN, COAT_NORMAL_MAP, COAT_NORMAL_PARAMETER, COMPENSATED, COMPLEX_FRESNEL, ConductorFresnel,
+    EXTINCTION_PARAMETER, FORMS, LobeKind, LobeParameters, LobeSupport, MaterialId, MaterialKind, NONLINEAR, SEPARABLE_MASKING,
+    SHEEN, SMALLEST_BEND, SQUARED_ACROSS, THIN_WALL, TRANSMITS,
 };
 pub use microfacets::{DELTA_ALPHA, Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};
 pub use plastic::{PlasticInterface, TRANSMITTANCE_NODES, diffuse_reflectance};
-pub use principled::{Attenuation, Principled};
+pub use principled::{Attenuation, CoatNormalMap, Principled};
 
 use super::texture::{ColorInput, TextureId};
 
@@ -61,6 +61,11 @@ impl Material {
             MaterialKind::Principled(principled) => principled.anisotropy.is_some(),
             _ => false,
         }
+    }
+
+    /// The material itself, not those it blends, has a coat with a normal map of its own.
+    pub fn has_coat_normal_map(&self) -> bool {
+        matches!(&self.kind, MaterialKind::Principled(principled) if principled.is_coated() && principled.coat_normal_map.is_some())
     }
 
     /// The material itself, not those it blends, looks up a texture.

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::microfacets::Masking;
-use crate::scene::texture::ColorInput;
+use crate::scene::texture::{ColorInput, TextureId};
 
 /// The parameters of glTF 2.0's metallic-roughness material and of its extensions. Scalars are the first channel of their colour.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +25,8 @@ pub struct Principled {
     pub attenuation: Option<Attenuation>,
     pub clearcoat: ColorInput,
     pub clearcoat_roughness: ColorInput,
+    /// Bends the coat's own normal. None: the coat lies as the surface does, whatever bends the normals of what is below it.
+    pub coat_normal_map: Option<CoatNormalMap>,
     /// Colour of the fibres that stand on the surface, and the root of the width of their distribution.
     pub sheen_color: ColorInput,
     pub sheen_roughness: ColorInput,
@@ -37,12 +39,28 @@ pub struct Principled {
     pub energy_compensation: bool,
 }
 
+/// Tangent-space normals of a coat.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CoatNormalMap {
+    /// Its colour space is linear.
+    pub texture: TextureId,
+    /// Multiplies red and green, after they are taken from 0 to 1 to −1 to 1.
+    pub scale: f64,
+}
+
 /// A volume that takes light and scatters none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Attenuation {
     /// Share of light that is left after the distance.
     pub color: DVec3,
     pub distance: f64,
+}
+
+impl Principled {
+    /// Some of it may be coated.
+    pub fn is_coated(&self) -> bool {
+        self.clearcoat != ColorInput::grey(0.0)
+    }
 }
 
 /// Darker colours of a volume are taken for this.

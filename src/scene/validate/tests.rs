@@ -6,13 +6,38 @@ use super::*;
 use crate::reference::ReferenceRenderer;
 use crate::renderer::RenderError;
 use crate::scene::{
-    Aperture, ConductorFresnel, Cuboid, DirectionalLight, Disk, Emission, Geometry, ImageData, ImageTexture, Mesh, Microfacets,
-    Motion, MotionStep, Plane, PointLight, Rectangle, Sphere, SpotLight, Texture, TextureFilter, TextureWrap, ThrownPicture,
-    Transform, TransformStep,
+    Aperture, CoatNormalMap, ConductorFresnel, Cuboid, DirectionalLight, Disk, Emission, Geometry, ImageData, ImageTexture,
+    Masking, Mesh, Microfacets, Motion, MotionStep, Plane, PointLight, Principled, Rectangle, Sphere, SpotLight, Texture,
+    TextureFilter, TextureWrap, ThrownPicture, Transform, TransformStep,
 };
 
 fn material(name: &str, kind: MaterialKind) -> Material {
     Material { name: name.into(), kind, normal_map: None, emission: None, two_sided: true }
+}
+
+/// Gives the first material a coat with a normal map.
+fn coat_normals(scene: &mut Scene, texture: usize, scale: f64) {
+    let [zero, one] = [0.0, 1.0].map(ColorInput::grey);
+    scene.materials[0].kind = MaterialKind::Principled(Box::new(Principled {
+        base_color: one,
+        metallic: one,
+        roughness: one,
+        ior: 1.5,
+        specular: one,
+        specular_color: one,
+        transmission: zero,
+        thin: false,
+        attenuation: None,
+        clearcoat: one,
+        clearcoat_roughness: zero,
+        coat_normal_map: Some(CoatNormalMap { texture, scale }),
+        sheen_color: zero,
+        sheen_roughness: zero,
+        anisotropy: None,
+        anisotropy_rotation_degrees: 0.0,
+        masking: Masking::Separable,
+        energy_compensation: false,
+    }));
 }
 
 fn shape(label: &str, geometry: Geometry, material: MaterialId) -> Shape {
@@ -157,6 +182,8 @@ fn each_mistake_is_named_with_its_part() {
             "texture `cells`: its colours and its scale must be finite",
         ),
         (|s| s.materials[0].normal_map = Some(4), "material `grey`: there is no texture 4"),
+        (|s| coat_normals(s, 4, 1.0), "material `grey`: there is no texture 4"),
+        (|s| coat_normals(s, 0, f64::NAN), "material `grey`: the scale of its coat's normal map must be finite"),
         (
             |s| emission(s, ColorInput::grey(-1.0)),
             "material `grey`: a colour, or a complex index of refraction, must be finite and not negative",

@@ -584,6 +584,49 @@ fn sheen_and_volumes_are_read() {
     assert_eq!((plain.sheen_color, plain.attenuation, plain.thin), (ColorInput::grey(0.0), None, false));
 }
 
+/// A coat has the normals of its own texture, and without one those of the surface, whatever bends the normals below it.
+#[test]
+fn coats_have_normal_maps_of_their_own() {
+    let coated = |normal: Option<Value>| {
+        let mut file = with_normals();
+        let mut coat = json!({ "clearcoatFactor": 0.9, "clearcoatRoughnessFactor": 0.1 });
+        normal.into_iter().for_each(|normal| coat["clearcoatNormalTexture"] = normal);
+        file.root["materials"][0]["extensions"] = json!({ "KHR_materials_clearcoat": coat });
+        let folder = Folder::new(&[("a.gltf", &file.text())]);
+        let scene = folder.valid("a.gltf");
+        assert!(!report(&scene).contains("clearcoat"), "{}", report(&scene));
+        assert_eq!(picture(&folder.written("a.gltf")), picture(&scene));
+        let MaterialKind::Principled(principled) = &scene.materials[0].kind else { panic!("{:?}", scene.materials[0]) };
+        assert!(scene.materials[0].normal_map.is_some());
+        (principled.coat_normal_map, picture(&scene))
+    };
+    let (none, even) = coated(None);
+    assert_eq!(none, None);
+    let (weak, bent) = coated(Some(json!({ "index": 0, "scale": 0.5 })));
+    assert_eq!(weak.map(|map| map.scale), Some(0.5));
+    let (full, bent_more) = coated(Some(json!({ "index": 0 })));
+    assert_eq!(full.map(|map| map.scale), Some(1.0));
+    assert!(even != bent && bent != bent_more, "the pictures are alike");
+}
+
+/// A triangle with a normal map of 4 × 4 texels.
+fn with_normals() -> File {
+    let mut file = File::new();
+    let uvs = file.add("VEC2", &[0.0, 0.0, 1.0, 0.0, 0.5, 1.0]);
+    file.root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(uvs);
+    let mut png = Vec::new();
+    let texels = image::RgbImage::from_fn(4, 4, |x, y| image::Rgb([100 + 30 * x as u8, 90 + 40 * y as u8, 230]));
+    texels.write_to(&mut std::io::Cursor::new(&mut png), image::ImageFormat::Png).expect("encoding to memory works");
+    let picture = file.bytes(&png);
+    file.root["images"] = json!([{ "bufferView": picture, "mimeType": "image/png" }]);
+    file.root["textures"] = json!([{ "source": 0 }]);
+    file.root["materials"][0] = json!({
+        "pbrMetallicRoughness": { "baseColorFactor": [0.7, 0.4, 0.2, 1.0], "metallicFactor": 0.5, "roughnessFactor": 0.6 },
+        "normalTexture": { "index": 0, "scale": 2.0 },
+    });
+    file
+}
+
 #[test]
 fn lights_shine_along_their_nodes() {
     let mut file = File::new();

@@ -150,6 +150,18 @@ const LOBES: &[(&str, &str)] = &[
         "type = \"principled\"\nmetallic = 0\nroughness = 0.5\nsheen_color = { texture = \"checks\" }\nsheen_roughness = { texture = \"clouds\" }",
     ),
     ("textured and compensated", "type = \"principled\"\nroughness = { texture = \"clouds\" }\nenergy_compensation = true"),
+    (
+        "coat over bumps",
+        "type = \"principled\"\nbase_color = [0.8, 0.3, 0.2]\nmetallic = 0.5\nroughness = 0.5\nnormal_map = \"bumps\"\nclearcoat = 1\nclearcoat_roughness = 0.3",
+    ),
+    (
+        "bumpy coat",
+        "type = \"principled\"\nmetallic = 0.5\nroughness = 0.4\nclearcoat = { texture = \"clouds\" }\nclearcoat_roughness = 0.4\ncoat_normal_map = \"bumps\"\ncoat_normal_scale = 0.7",
+    ),
+    (
+        "bumpy smooth coat over bumps",
+        "type = \"principled\"\nmetallic = 0\nroughness = 0.6\ntransmission = 0.5\nnormal_map = \"bumps\"\nclearcoat = 1\ncoat_normal_map = \"bumps\"\ncoat_normal_scale = -1.5\nopacity = 0.8",
+    ),
     ("normal map", "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\""),
     ("normal map of a mirror", "type = \"mirror\"\nnormal_map = \"bumps\""),
     ("textured exponent", "type = \"glossy\"\nreflectance = 0.8\nexponent = { texture = \"cells\" }"),
@@ -345,6 +357,20 @@ fn missing_mirrors_of_bent_normals_are_noticed() {
     let mut ours = theirs.clone();
     ours.textures.iter_mut().for_each(|texture| texture.mirrors_bent_normals = false);
     let Some(verdict) = compare_unequal(&ours, &theirs) else { return };
+    assert!(!verdict.agrees, "{verdict:#?}");
+}
+
+/// The control: a coat without its map, and one that lies as the base below it, make another picture.
+#[test]
+fn missing_normals_of_coats_are_noticed() {
+    let coated =
+        "type = \"principled\"\nbase_color = 0.1\nmetallic = 0\nroughness = 0.5\nclearcoat = 1\nclearcoat_roughness = 0.3\n";
+    let theirs = stage(&format!("{coated}coat_normal_map = \"bumps\""));
+    let Some(verdict) = compare_unequal(&stage(coated), &theirs) else { return };
+    assert!(!verdict.agrees, "{verdict:#?}");
+    let over_bumps = format!("{coated}normal_map = \"bumps\"\n");
+    let as_the_base = stage(&format!("{over_bumps}coat_normal_map = \"bumps\""));
+    let Some(verdict) = compare_unequal(&as_the_base, &stage(&over_bumps)) else { return };
     assert!(!verdict.agrees, "{verdict:#?}");
 }
 

@@ -153,6 +153,7 @@ fn plain_principled(base: DVec3, metallic: f64, roughness: f64, transmission: f6
         thin: true,
         attenuation: None,
         clearcoat: zero,
+        coat_normal_map: None,
         clearcoat_roughness: zero,
         sheen_color: zero,
         sheen_roughness: zero,

@@ -11,7 +11,7 @@ use crate::load::file::colour::{Colour, Rgb, Scalar};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, NonNegative, Number, Positive};
 use crate::load::file::writer::{self, Writer, flag, line, number};
-use crate::scene::{Attenuation, ColorInput, Masking, MaterialKind, Principled};
+use crate::scene::{Attenuation, CoatNormalMap, ColorInput, Masking, MaterialKind, Principled};
 
 material_keys! {
     /// The metallic-roughness material of glTF 2.0 (Appendix B) with its extensions for the index of refraction, specular, transmission,
@@ -21,6 +21,8 @@ material_keys! {
             "anisotropy_rotation": ["anisotropy"],
             "thin": ["transmission"],
             "clearcoat_roughness": ["clearcoat"],
+            "coat_normal_map": ["clearcoat"],
+            "coat_normal_scale": ["coat_normal_map"],
             "sheen_roughness": ["sheen_color"],
             "attenuation_color": ["attenuation_distance", "transmission"],
             "attenuation_distance": ["attenuation_color"],
@@ -52,6 +54,10 @@ material_keys! {
         clearcoat: Option<Scalar<Fraction>>,
         /// 0 when left out.
         clearcoat_roughness: Option<Located<Scalar<Fraction>>>,
+        /// A texture of tangent-space normals of the coat, whose color_space is "linear". Without it the coat lies as the surface does, whatever `normal_map` or `bump_map` makes of what is below.
+        coat_normal_map: Option<Located<String>>,
+        /// With `coat_normal_map`: multiplies its red and green, after they are taken from 0 to 1 to -1 to 1; 1 when left out.
+        coat_normal_scale: Option<Located<Number>>,
         /// Colour of fibres that stand on the surface, as on cloth; 0 when left out.
         sheen_color: Option<Colour<Fraction>>,
         /// 0 when left out.
@@ -90,6 +96,8 @@ impl MaterialKeys for Keys {
             written.as_ref().map_or(Ok(ColorInput::grey(otherwise)), |written| resolver.scalar(written))
         };
         let anisotropy = self.anisotropy.as_ref().map(|written| resolver.scalar(written)).transpose()?;
+        let coat_normal_map = self.coat_normal_map.as_ref().map(|name| resolver.normal_map(name)).transpose()?;
+        let coat_normal_scale = self.coat_normal_scale.as_ref().map_or(1.0, |scale| scale.value.0);
         let clearcoat_roughness = self.clearcoat_roughness.as_ref().map(|written| resolver.scalar(&written.value)).transpose()?;
         let sheen_roughness = self.sheen_roughness.as_ref().map(|written| resolver.scalar(&written.value)).transpose()?;
         let sheen_color = self.sheen_color.as_ref().map(|written| resolver.colour(written)).transpose()?;
@@ -108,6 +116,7 @@ impl MaterialKeys for Keys {
                 .filter(|attenuation| attenuation.color != DVec3::ONE),
             clearcoat: scalar(&self.clearcoat, 0.0)?,
             clearcoat_roughness: clearcoat_roughness.unwrap_or(ColorInput::grey(0.0)),
+            coat_normal_map: coat_normal_map.map(|texture| CoatNormalMap { texture, scale: coat_normal_scale }),
             sheen_color: sheen_color.unwrap_or(ColorInput::grey(0.0)),
             sheen_roughness: sheen_roughness.unwrap_or(ColorInput::grey(0.0)),
             anisotropy: anisotropy.filter(|strength| *strength != ColorInput::grey(0.0)),
@@ -129,6 +138,10 @@ impl MaterialKeys for Keys {
             + &flag("thin", principled.thin)
             + &writer.input("clearcoat", &principled.clearcoat)
             + &writer.input("clearcoat_roughness", &principled.clearcoat_roughness);
+        if let Some(CoatNormalMap { texture, scale }) = principled.coat_normal_map {
+            out += &line("coat_normal_map", &writer.textures.quoted(texture));
+            out += &line("coat_normal_scale", &number(scale));
+        }
         if let Some(Attenuation { color, distance }) = principled.attenuation {
             out += &line("attenuation_color", &writer::colour(color));
             out += &line("attenuation_distance", &number(distance));
@@ -160,6 +173,8 @@ impl Keys {
             (span(&self.anisotropy_rotation), "anisotropy_rotation", self.anisotropy.is_some(), "anisotropy"),
             (span(&self.thin), "thin", self.transmission.is_some(), "transmission"),
             (span(&self.clearcoat_roughness), "clearcoat_roughness", self.clearcoat.is_some(), "clearcoat"),
+            (span(&self.coat_normal_map), "coat_normal_map", self.clearcoat.is_some(), "clearcoat"),
+            (span(&self.coat_normal_scale), "coat_normal_scale", self.coat_normal_map.is_some(), "coat_normal_map"),
             (span(&self.sheen_roughness), "sheen_roughness", self.sheen_color.is_some(), "sheen_color"),
             (span(&self.attenuation_color), "attenuation_color", self.transmission.is_some(), "transmission"),
             (span(&self.attenuation_color), "attenuation_color", self.attenuation_distance.is_some(), "attenuation_distance"),

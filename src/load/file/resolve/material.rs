@@ -106,7 +106,7 @@ impl Resolver<'_> {
         Err(self.error(&name.span, message).with_help("let the other textures lie by them, and the normal map by the first"))
     }
 
-    fn normal_map(&self, name: &Located<String>) -> Result<TextureId, SceneError> {
+    pub(in crate::load::file) fn normal_map(&self, name: &Located<String>) -> Result<TextureId, SceneError> {
         let id = self.first_uvs_texture(name)?;
         if self.linear_textures[id] {
             return Ok(id);

@@ -49,6 +49,7 @@ impl Resolver<'_> {
             energy_compensation: false,
             clearcoat: self.mtl_scalar(written, "Pc", 0.0)?,
             clearcoat_roughness: self.mtl_scalar(written, "Pcr", 0.0)?,
+            coat_normal_map: None,
             anisotropy: Some(anisotropy).filter(|strength| *strength != ColorInput::grey(0.0)),
             // A share of a whole turn.
             anisotropy_rotation_degrees: 360.0 * rotation,

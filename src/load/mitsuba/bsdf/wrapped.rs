@@ -54,6 +54,9 @@ pub fn bump_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) ->
     }
     Ok(match converter.texture(&map, Role::Surface, Texels::Numbers)? {
         Input::Texture(name, factor) => {
+            if keys.get("clearcoat").is_some() {
+                converter.approximate(plugin, "bump map of a coat", "it bends what is below the coat alone");
+            }
             let keys = keys.with("bump_map", name).with("bump_scale", scale * factor.x);
             plugin.without_effect(&["flip_invalid_normals"]);
             (shadowed(plugin, keys)?, two_sided)
@@ -68,13 +71,20 @@ fn shadowed(plugin: &Plugin, keys: Keys) -> Result<Keys, SceneError> {
     Ok(if is_shadowed { keys.with("normal_shadowing", true) } else { keys })
 }
 
+/// A map there bends a coat too.
+fn with_coat(keys: Keys, map: &str) -> Keys {
+    let is_coated = keys.get("clearcoat").is_some();
+    keys.with_some("coat_normal_map", is_coated.then_some(map))
+}
+
 pub fn normal_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
     let map = plugin.child("normalmap").or_else(|| plugin.first_of("texture")).cloned();
     let map = map.ok_or_else(|| plugin.error("a normal map needs a texture within"))?;
     let (keys, two_sided) = converter.within(plugin, depth)?;
     Ok(match converter.texture(&map, Role::Surface, Texels::Numbers)? {
         Input::Texture(name, _) => {
-            let keys = shadowed(plugin, keys.with("normal_map", name))?;
+            let keys = with_coat(keys, &name).with("normal_map", name);
+            let keys = shadowed(plugin, keys)?;
             let is_mirrored = plugin.flag("flip_invalid_normals", true)? && keys.get("normal_shadowing").is_some();
             (keys.with_some("normal_mirroring", is_mirrored.then_some(true)), two_sided)
         }

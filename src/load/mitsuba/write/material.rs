@@ -85,6 +85,13 @@ impl Writer<'_> {
             "principled" => {
                 self.approximate("material of type `principled`", place, "Mitsuba's, whose base is no Lambertian one");
                 let element = self.with_colour(Element::new("bsdf", "principled"), "base_color", material, "base_color")?;
+                if material.contains_key("coat_normal_map") {
+                    self.drop("coat_normal_map", place, "the coat lies as the rest does");
+                } else if material.contains_key("clearcoat")
+                    && ["normal_map", "bump_map"].iter().any(|key| material.contains_key(*key))
+                {
+                    self.approximate("coat over a normal or bump map", place, "the map bends the coat too");
+                }
                 let share = |key: &str, default: f64| number(material, key).unwrap_or(default);
                 element
                     .float("metallic", share("metallic", 1.0))

@@ -1,6 +1,7 @@
 //! Every lobe and many mixtures of them, judged by what they state about themselves and by what is known of them.
 
 mod blend_weights;
+mod coats;
 mod densities;
 mod dielectrics;
 mod energy;
