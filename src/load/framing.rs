@@ -88,7 +88,7 @@ impl Stage {
     /// # Errors
     /// There are none, or all are the same.
     pub fn around(points: &[DVec3], name: &str) -> Result<Self, SceneError> {
-        let (min, max) = bounds(points).ok_or_else(|| SceneError::in_file(name, "the model has no vertices"))?;
+        let (min, max) = bounds(points).ok_or_else(|| SceneError::in_file(name, "there is nothing to place the camera by"))?;
         let center = 0.5 * (min + max);
         let radius = 0.5 * (max - min).length();
         if !(radius.is_finite() && radius > 1e-15) {

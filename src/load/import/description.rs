@@ -7,6 +7,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::keys::{FileReference, Keys, Value, list};
+use super::outline::{corners, outline};
 use super::place_file::{PLACE_NUMBERS, PlaceFormat, place_rows, write_places};
 use super::placed::{matrix_of, matrix_value};
 use crate::load::files::Files;
@@ -213,8 +214,20 @@ impl Description {
         !self.lights.is_empty() || self.shapes.iter().any(is_lamp)
     }
 
-    /// The vertices of all meshes that faces use, in the world.
+    /// Points in the world around what is shown: the vertices of all meshes that faces use, or, without meshes, points around the other shapes.
     pub fn points(&self) -> Vec<DVec3> {
+        let points = self.points_of_meshes();
+        if !points.is_empty() {
+            return points;
+        }
+        let placed = |shape: &Entry| {
+            let map = transform_of(shape);
+            outline(&shape.keys).into_iter().map(move |point| map.transform_point3(point))
+        };
+        self.shapes.iter().flat_map(placed).collect()
+    }
+
+    fn points_of_meshes(&self) -> Vec<DVec3> {
         let mut points = Vec::new();
         for shape in &self.shapes {
             points.extend(self.points_of_shape(shape));
@@ -237,7 +250,7 @@ impl Description {
         let Some(Value::File(file)) = shape.keys.get("file") else { return Vec::new() };
         let bent = if let FileReference::Held(index) = file { self.bent.get(index) } else { None };
         let Some(mesh) = bent.or_else(|| self.mesh(file)) else { return Vec::new() };
-        let map = shape.keys.get("transform").and_then(matrix_of).unwrap_or(DAffine3::IDENTITY);
+        let map = transform_of(shape);
         let mut used = vec![false; mesh.positions.len()];
         mesh.faces.iter().flatten().for_each(|&index| used[index as usize] = true);
         let placed = mesh.positions.iter().zip(used).filter(|(_, used)| *used);
@@ -269,6 +282,10 @@ impl Description {
     }
 }
 
+fn transform_of(shape: &Entry) -> DAffine3 {
+    shape.keys.get("transform").and_then(matrix_of).unwrap_or(DAffine3::IDENTITY)
+}
+
 /// The most that a colour can be, where textures are at most white.
 fn brightest(colour: &Value) -> f64 {
     match colour {
@@ -278,14 +295,6 @@ fn brightest(colour: &Value) -> f64 {
         Value::Table(texture) => texture.get("factor").map_or(1.0, brightest),
         Value::Flag(_) | Value::Text(_) | Value::File(_) => 1.0,
     }
-}
-
-/// Of the box around the points.
-fn corners(points: &[DVec3]) -> Vec<DVec3> {
-    let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-    let high = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
-    let corner = |index: usize| DVec3::select(glam::BVec3::new(index & 1 != 0, index & 2 != 0, index & 4 != 0), high, low);
-    (0..8).map(corner).collect()
 }
 
 /// Names that are taken.

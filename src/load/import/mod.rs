@@ -7,6 +7,7 @@ mod attribute;
 mod description;
 mod keys;
 mod mesh;
+mod outline;
 mod place_file;
 mod placed;
 mod ply_file;

@@ -541,3 +541,20 @@ fn green_points_across_the_tangent_whichever_way_v_runs() {
     assert_eq!(picture(&folder.written("down.xml")), picture(&up));
     assert_ne!(picture(&folder.valid("up.toml")), picture(&folder.valid("down.toml")), "the control");
 }
+
+/// What has no sensor is framed, whatever its shapes are.
+#[test]
+fn scenes_without_sensor_and_meshes_are_framed() {
+    for (shape, size) in [("sphere", 1.0), ("disk", 1.0), ("rectangle", 1.0), ("cube", 1.0), ("cylinder", 1.0), ("sphere", 100.0)]
+    {
+        let placed = |offset: f64| {
+            let map = format!("<transform name=\"to_world\"><scale value=\"{size}\"/><translate x=\"{offset}\"/></transform>");
+            let text = format!("<scene version=\"3.0.0\"><shape type=\"{shape}\">{map}</shape></scene>");
+            Folder::new(&[("a.xml", text.as_bytes())]).valid("a.xml").camera
+        };
+        let [camera, beside] = [0.0, 3.0].map(placed);
+        let distance = (camera.position - camera.look_at).length();
+        assert!(distance > size && distance < 10.0 * size, "{shape}: {distance}");
+        assert!((beside.look_at - camera.look_at).distance((3.0, 0.0, 0.0).into()) < 1e-9 * size, "{shape}");
+    }
+}
