@@ -88,7 +88,7 @@ impl<'a> From<&'a SceneError> for Mistake<'a> {
 /// Loads the scene, which validates all of it, and prints what is in it and what it takes.
 pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
     let Some(name) = arguments.scene.as_deref().filter(|_| !arguments.schema) else {
-        terminal::answer(&load::json_schema())?;
+        terminal::answer(load::json_schema())?;
         return Ok(Exit::Done);
     };
     let mut scene = match reading::shown(false, || load::load_with(Some(name), &arguments.access.options(arguments.strict))) {

@@ -4,14 +4,16 @@
 //! - [`mod@file`]: scene files in TOML; `obj`, `ply`: models, of which `model` is what they have in common; `image_file`: textures and environment maps.
 //! - `mitsuba`, `gltf`: scenes of other programs, which become scene files in the terms of `import`.
 //! - `framing`: camera, ground and light for a model that comes without them; `view`: what a person may say of that; `presets`: materials by name.
-//! - `builtin`: scenes that are part of the program.
+//! - `builtin_scenes`: scenes that are part of the program, among them `examples`, made of all examples; `builtin`: the files they name.
 //! - [`error`]: what is wrong with an input file, and where.
 
 mod access;
 mod builtin;
+mod builtin_scenes;
 mod deformation_file;
 mod encoding;
 pub mod error;
+mod examples;
 mod excerpt;
 pub mod file;
 mod files;
@@ -34,10 +36,11 @@ pub mod source;
 mod view;
 
 pub use access::LoadOptions;
-pub use builtin::{builtin_names, builtin_text, is_builtin};
+pub use builtin::is_builtin;
+pub use builtin_scenes::{builtin_names, builtin_text};
 pub use error::SceneError;
 pub use excerpt::Excerpt;
-pub use file::{json_schema, load_toml_str};
+pub use file::{json_schema, load_toml_str, make_json_schema};
 pub use image_file::read_image;
 pub(crate) use import::{place_rows, write_places};
 pub use import_file::{WrittenScene, as_scene_file};

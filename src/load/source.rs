@@ -4,7 +4,8 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use super::access::{Access, LoadOptions};
-use super::builtin::{FOLDER, builtin_names, builtin_text};
+use super::builtin::FOLDER;
+use super::builtin_scenes::{builtin_names, builtin_text};
 use super::error::{SceneError, show};
 use super::files::MOST_SCENE_BYTES;
 use super::model::ModelFormat;

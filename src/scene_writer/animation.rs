@@ -3,6 +3,7 @@
 use glam::{DAffine3, DVec3};
 
 use super::shape::{steps, transform_step};
+use crate::load::file::strength_key;
 use crate::load::file::writer::{Names, colour, direction, line, number, text, vector};
 use crate::scene::animation::{
     CameraTrack, Curve, FRAMES_PER_SECOND, Interpolation, LightTrack, Node, ShapeTrack, TransformTrack,
@@ -66,11 +67,7 @@ pub fn camera(track: &CameraTrack, projection: Projection, nodes: &Names) -> Str
 
 /// Those of a light.
 pub fn light(track: &LightTrack, light: &Light, nodes: &Names) -> String {
-    let strength = match light {
-        Light::Point(_) | Light::Spot(_) => "intensity",
-        Light::Directional(_) | Light::Projector(_) => "irradiance",
-        Light::Environment(_) | Light::Sky(_) => "radiance",
-    };
+    let strength = strength_key(light);
     let written = vec![
         Written::of("position", &track.position, |value| vector(*value)),
         Written::of("direction", &track.direction, |value| direction(*value)),

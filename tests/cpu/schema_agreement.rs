@@ -371,7 +371,7 @@ fn disagreement(validator: &Validator, text: &str) -> Option<String> {
 
 #[test]
 fn the_schema_and_the_program_agree_on_random_files() {
-    let schema: Value = serde_json::from_str(&load::json_schema()).expect("the schema is JSON");
+    let schema: Value = serde_json::from_str(load::json_schema()).expect("the schema is JSON");
     let validator = jsonschema::validator_for(&schema).expect("the schema is one");
     let mut keys = Vec::new();
     all_keys(&schema, &mut keys);

@@ -28,11 +28,11 @@ use document::Document;
 pub(super) use document::stem;
 #[cfg(test)]
 pub use light::delta_examples as delta_light_examples;
-pub use light::examples as light_examples;
 pub(crate) use light::write_light;
+pub use light::{examples as light_examples, examples_of as light_examples_of, strength_key};
 pub use material::examples as material_examples;
 pub(crate) use material::write_kind;
-pub use schema::json_schema;
+pub use schema::{json_schema, make_json_schema};
 pub use shape::examples as shape_examples;
 pub(crate) use shape::write_geometry;
 use syntax::{PartOfFile, SceneFile};

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Keys, Value};
+use super::keys::{Keys, Value};
 
 /// The corners of boxes around round shapes, and those of flat ones; none of what is infinite or a mesh. In the shape's own coordinates.
 pub fn outline(shape: &Keys) -> Vec<DVec3> {

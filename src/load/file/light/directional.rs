@@ -36,6 +36,7 @@ impl LightKeys for Keys {
     type Light = DirectionalLight;
 
     const EXAMPLES: &'static [&'static str] = &["direction = [1, -2, -0.7]\nirradiance = [0.5, 0.6, 0.7]"];
+    const STRENGTH: &'static str = "irradiance";
 
     fn resolve(&self, resolver: &mut Resolver<'_>, _: &Range<usize>) -> Result<DirectionalLight, SceneError> {
         Ok(DirectionalLight { direction: resolver.direction(&self.direction)?, irradiance: self.irradiance.0 })

@@ -53,6 +53,7 @@ impl LightKeys for Keys {
 
     const EXAMPLES: &'static [&'static str] =
         &["radiance = [0.2, 0.5, 1]", "file = \"map.exr\"\nscale = 1.5\nrotate = 40", "file = \"map.exr\"\nrows = \"to_poles\""];
+    const STRENGTH: &'static str = "radiance";
 
     fn resolve(&self, resolver: &mut Resolver<'_>, span: &Range<usize>) -> Result<Environment, SceneError> {
         let scale = self.scale.as_ref().map_or(1.0, |scale| scale.value.0);

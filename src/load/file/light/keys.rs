@@ -15,6 +15,9 @@ pub trait LightKeys {
     /// Tables without their `type`, which tests render. Each lights the origin; a picture that one names is the lat-long map `map.exr`.
     const EXAMPLES: &'static [&'static str];
 
+    /// The key of its strength, which keyframes change.
+    const STRENGTH: &'static str;
+
     /// The light; `span` is its whole table.
     fn resolve(&self, resolver: &mut Resolver<'_>, span: &Range<usize>) -> Result<Self::Light, SceneError>;
 

@@ -29,8 +29,13 @@ macro_rules! entries {
             $($($variant($module::Keys),)*)*
         }
 
-        /// Each type, and tables of it without `type`.
-        const EXAMPLES: &[(&str, &[&str])] = &[$($((stringify!($module), $module::Keys::EXAMPLES),)*)*];
+        /// Each type with its group, and tables of it without `type`.
+        const EXAMPLES: &[(&str, &str, &[&str])] = &[$($((stringify!($group), stringify!($module), $module::Keys::EXAMPLES),)*)*];
+
+        /// The key by which keyframes state how strong a light is.
+        pub fn strength_key(light: &Light) -> &'static str {
+            match light { $($(Light::$variant(_) => $module::Keys::STRENGTH,)*)* }
+        }
 
         impl Located<LightEntry> {
             fn resolve(&self, resolver: &mut Resolver<'_>) -> Result<Light, SceneError> {
@@ -58,10 +63,15 @@ light_table!(entries);
 
 /// Name of the type, and keys as TOML, of examples of every light.
 pub fn examples() -> impl Iterator<Item = (&'static str, String)> {
-    let of_type = |&(name, examples): &(&'static str, &'static [&'static str])| {
+    ["environment", "delta"].into_iter().flat_map(examples_of)
+}
+
+/// Those of a group of the table of lights.
+pub fn examples_of(group: &str) -> impl Iterator<Item = (&'static str, String)> {
+    let of_type = |&(_, name, examples): &(&'static str, &'static str, &'static [&'static str])| {
         examples.iter().map(move |keys| (name, format!("[[light]]\ntype = \"{name}\"\n{keys}\n")))
     };
-    EXAMPLES.iter().flat_map(of_type)
+    EXAMPLES.iter().filter(move |(of, _, _)| *of == group).flat_map(of_type)
 }
 
 impl Resolver<'_> {

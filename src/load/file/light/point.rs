@@ -35,6 +35,7 @@ impl LightKeys for Keys {
     type Light = PointLight;
 
     const EXAMPLES: &'static [&'static str] = &["position = [-2, 3, 2]\nintensity = [6, 5, 4]"];
+    const STRENGTH: &'static str = "intensity";
 
     fn resolve(&self, _: &mut Resolver<'_>, _: &Range<usize>) -> Result<PointLight, SceneError> {
         Ok(PointLight { position: vector(self.position), intensity: self.intensity.0 })

@@ -39,6 +39,7 @@ impl LightKeys for Keys {
     const EXAMPLES: &'static [&'static str] = &[
         "position = [1, 3, 2]\ndirection = [-0.5, -1, -0.6]\nirradiance = [9, 8, 7]\nvfov = 70\naspect = 1.5\nup = [0.2, 0.5, 1]",
     ];
+    const STRENGTH: &'static str = "irradiance";
 
     fn resolve(&self, resolver: &mut Resolver<'_>, _: &Range<usize>) -> Result<Projector, SceneError> {
         let texture = self.texture.as_ref().map(|name| resolver.texture_id(name)).transpose()?;

@@ -27,6 +27,7 @@ impl LightKeys for Keys {
     type Light = Sky;
 
     const EXAMPLES: &'static [&'static str] = &["zenith = [0.2, 0.4, 0.9]\nhorizon = [0.8, 0.8, 0.7]\nground = [0.2, 0.15, 0.1]"];
+    const STRENGTH: &'static str = "radiance";
 
     fn resolve(&self, _: &mut Resolver<'_>, _: &Range<usize>) -> Result<Sky, SceneError> {
         Ok(Sky { zenith: self.zenith.0, horizon: self.horizon.0, ground: self.ground.0 })

@@ -64,6 +64,7 @@ impl LightKeys for Keys {
         "position = [1, 3, 2]\ndirection = [-0.5, -1, -0.6]\nintensity = 15\nangle = 35\nfalloff = 10\ncurve = \"square\"",
         "position = [1, 3, 2]\ndirection = [-0.5, -1, -0.6]\nintensity = 15\nangle = 35\nfalloff = 10\ncurve = \"linear\"",
     ];
+    const STRENGTH: &'static str = "intensity";
 
     fn resolve(&self, resolver: &mut Resolver<'_>, _: &Range<usize>) -> Result<SpotLight, SceneError> {
         let angle = self.angle.0;
