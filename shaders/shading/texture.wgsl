@@ -15,7 +15,7 @@
 
 // A texture takes five vec4 of the tables:
 //   (kind and flags; first texel or seed; width or octaves; height), (scale, offset), (colour a), (colour b),
-//   (cosine and sine of its rotation; first value of an image's integers)
+//   (cosine and sine of its rotation; first value of an image's integers; one more than the texture by which it is multiplied)
 fn texture_word(texture: u32, word: u32) -> vec4<f32> {
     return tables[FIRST_TEXTURE_WORD + texture * TEXTURE_WORDS + word];
 }
@@ -40,7 +40,18 @@ fn texture_place(texture: u32, coordinates: TextureCoordinates) -> vec2<f32> {
 
 // `texture` counts from the scene's first texture.
 fn texture_color(texture: u32, uv: TextureCoordinates) -> vec3<f32> {
+#if TEXTURE_PRODUCTS
+    // One call for both: software drivers copy what is called to wherever it is called.
+    var color = vec3<f32>(1.0);
+    var next = texture + 1u;
+    for (var factors = 0u; factors < 2u && next != 0u; factors++) {
+        color *= texture_color_at(next - 1u, texture_place(next - 1u, uv));
+        next = bitcast<u32>(texture_word(next - 1u, 4u).w);
+    }
+    return color;
+#else
     return texture_color_at(texture, texture_place(texture, uv));
+#endif
 }
 
 fn texture_color_at(texture: u32, st: vec2<f32>) -> vec3<f32> {

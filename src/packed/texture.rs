@@ -87,7 +87,8 @@ pub struct PackedTexture {
     pub cosine_sine: [f32; 2],
     /// Of an image of integers: index of the word among the texels from which on the values of its codes stand.
     pub first_value: u32,
-    pub padding: u32,
+    /// One more than the place of the texture by which it is multiplied; 0: by none.
+    pub times: u32,
 }
 
 /// The textures that something looks up.
@@ -123,17 +124,7 @@ impl PackedTextures {
         let mut packed = Packing::default();
         let mut places: HashMap<u32, u32> = HashMap::new();
         for mention in mentions {
-            *mention = match places.get(mention) {
-                Some(&place) => place,
-                None => {
-                    let id = (*mention & ((1 << MENTIONED_CHANNEL_SHIFT) - 1)) as TextureId;
-                    let channel =
-                        Channel::ALL.into_iter().find(|&channel| number_of(channel) == *mention >> MENTIONED_CHANNEL_SHIFT);
-                    let place = packed.add(&scene.textures[id], channel)?;
-                    places.insert(*mention, place);
-                    place
-                }
-            };
+            *mention = packed.place_of(scene, *mention, &mut places)?;
         }
         packed.finish()
     }
@@ -206,6 +197,11 @@ impl PackedTextures {
         self.textures.iter().any(|texture| texture.kind_and_flags & TEXTURE_BY_SECOND_UVS != 0)
     }
 
+    /// Some texture is multiplied by another.
+    pub fn has_products(&self) -> bool {
+        self.textures.iter().any(|texture| texture.times != 0)
+    }
+
     /// Some texture is turned.
     pub fn is_rotated(&self) -> bool {
         self.textures.iter().any(|texture| texture.cosine_sine != [1.0, 0.0])
@@ -227,6 +223,23 @@ struct Packing {
 }
 
 impl Packing {
+    /// The place of a texture that is [mentioned](mention), which is added, with the one by which it is multiplied, where it was not before.
+    fn place_of(&mut self, scene: &Scene, mentioned: u32, places: &mut HashMap<u32, u32>) -> Result<u32, PackError> {
+        if let Some(&place) = places.get(&mentioned) {
+            return Ok(place);
+        }
+        let id = (mentioned & ((1 << MENTIONED_CHANNEL_SHIFT) - 1)) as TextureId;
+        let channel = Channel::ALL.into_iter().find(|&channel| number_of(channel) == mentioned >> MENTIONED_CHANNEL_SHIFT);
+        let texture = &scene.textures[id];
+        let place = self.add(texture, channel)?;
+        places.insert(mentioned, place);
+        if let Some(other) = texture.times {
+            let by = self.place_of(scene, mention(other, channel), places)?;
+            self.packed.textures[place as usize].times = by + 1;
+        }
+        Ok(place)
+    }
+
     /// Its place.
     fn add(&mut self, texture: &Texture, channel: Option<Channel>) -> Result<u32, PackError> {
         // A grey of the channel.
@@ -351,7 +364,7 @@ fn procedural(kind: PackedTextureKind, a: DVec3, b: DVec3) -> PackedTexture {
         b: color(b),
         cosine_sine: [1.0, 0.0],
         first_value: 0,
-        padding: 0,
+        times: 0,
     }
 }
 

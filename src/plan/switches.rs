@@ -47,6 +47,7 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
     switches.enable("TEXTURE_CHANNELS", packed.textures.has_channels());
     switches.enable("TEXTURES_OF_TRIANGLES", packed.textures.has_triangles());
     switches.enable("SECOND_UVS", packed.second_uvs && packed.has_attributes() && packed.textures.uses_second_uvs());
+    switches.enable("TEXTURE_PRODUCTS", packed.textures.has_products());
     switches.enable("TEXTURE_ROTATION", packed.textures.is_rotated());
     switches.enable("CHECKERS", has_texture(PackedTextureKind::Checker));
     switches.enable("PERLIN", has_texture(PackedTextureKind::Perlin));

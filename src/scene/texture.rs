@@ -89,6 +89,8 @@ pub struct Texture {
     pub transform: UvTransform,
     /// It lies by the second texture coordinates of meshes that have two.
     pub by_second_uvs: bool,
+    /// Another texture by which it is multiplied, channel by channel; that one is multiplied by none.
+    pub times: Option<TextureId>,
     pub relief: Relief,
     /// Light that reaches the normals that it bends fades where the surface itself would hide it (Estevez, Lecocq and Stein 2019, "A
     /// microfacet-based shadowing function to solve the bump terminator problem").
@@ -120,6 +122,7 @@ impl Texture {
             kind,
             transform: UvTransform::default(),
             by_second_uvs: false,
+            times: None,
             relief: Relief::default(),
             shadows_bent_normals: false,
             mirrors_bent_normals: false,
@@ -135,6 +138,30 @@ impl Texture {
     pub fn placed(&self, scaled: DVec2) -> DVec2 {
         self.transform.rotation() * scaled + DVec2::from(self.transform.offset)
     }
+}
+
+/// The mean colour over the whole texture: of a product, the product of the means.
+pub(crate) fn mean_of_texture(textures: &[Texture], id: TextureId) -> DVec3 {
+    let by = textures[id].times.map_or(DVec3::ONE, |other| textures[other].kind.mean());
+    textures[id].kind.mean() * by
+}
+
+/// The mean of one channel, likewise.
+pub(crate) fn mean_of_channel(textures: &[Texture], id: TextureId, channel: Channel) -> f64 {
+    let by = textures[id].times.map_or(1.0, |other| textures[other].kind.mean_of(channel));
+    textures[id].kind.mean_of(channel) * by
+}
+
+/// The smallest and the largest value of a texture's channels, or of one of them: of a product, bounds.
+pub(crate) fn range_of_texture(textures: &[Texture], id: TextureId, channel: Option<Channel>) -> (f64, f64) {
+    let range = |id: TextureId| {
+        let kind = &textures[id].kind;
+        channel.map_or_else(|| kind.range(), |channel| kind.range_of(channel))
+    };
+    let own = range(id);
+    let Some((low, high)) = textures[id].times.map(range) else { return own };
+    let ends = [own.0 * low, own.0 * high, own.1 * low, own.1 * high];
+    (ends.into_iter().fold(f64::INFINITY, f64::min), ends.into_iter().fold(f64::NEG_INFINITY, f64::max))
 }
 
 /// How texture coordinates are changed before a texture is looked up, after the factors of its kind.

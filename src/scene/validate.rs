@@ -45,7 +45,7 @@ impl Scene {
         of(|| "render settings".into(), self.render.check().map_err(words))?;
         of(|| "camera".into(), check_camera(&self.camera))?;
         for texture in &self.textures {
-            of(|| format!("texture `{}`", texture.name), check_texture(texture))?;
+            of(|| format!("texture `{}`", texture.name), check_texture(texture).and(self.check_times(texture)))?;
         }
         for material in &self.materials {
             of(|| format!("material `{}`", material.name), self.check_material(material))?;
@@ -81,6 +81,9 @@ impl Scene {
     fn check_material(&self, material: &Material) -> Check {
         if let Some(id) = material.normal_map {
             self.texture_exists(id)?;
+            if self.textures[id].times.is_some() {
+                return Err("its normal map is a product of textures".into());
+            }
         }
         if let Some(emission) = &material.emission {
             self.color(&emission.radiance)?;
@@ -136,6 +139,13 @@ impl Scene {
             }
             ColorInput::Channel(ChannelInput { texture, .. }) => self.texture_exists(*texture),
         }
+    }
+
+    /// A product has two textures.
+    fn check_times(&self, texture: &Texture) -> Check {
+        let Some(other) = texture.times else { return Ok(()) };
+        self.texture_exists(other)?;
+        if self.textures[other].times.is_some() { Err("it is multiplied by a product".into()) } else { Ok(()) }
     }
 
     fn texture_exists(&self, id: TextureId) -> Check {

@@ -32,6 +32,9 @@ pub fn texture(id: TextureId, writer: &mut Writer<'_>) -> String {
     if texture.by_second_uvs {
         out += "second_uvs = true\n";
     }
+    if let Some(other) = texture.times {
+        out += &line("times", &writer.textures.quoted(other));
+    }
     out
 }
 

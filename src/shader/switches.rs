@@ -267,6 +267,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("TEXTURES_OF_TRIANGLES").requires(&["IMAGES"]),
     // One channel counts of some image.
     switch("TEXTURE_CHANNELS").requires(&["IMAGES"]),
+    switch("TEXTURE_PRODUCTS").requires(&["TEXTURES"]),
     switch("TEXTURE_ROTATION").requires(&["TEXTURES"]),
     switch("TRACE").debug(),
     // Shadow rays go on through null surfaces.

@@ -1,5 +1,6 @@
 //! Scenes that are wrong: each is one error that names the file, the line, the key and what would be right.
 
+use std::path::Path;
 use std::sync::LazyLock;
 
 use crate::common::files::{TRIANGLE, folder_with, png_bytes};
@@ -470,6 +471,34 @@ fn bad_textures_name_the_key() {
         without_uv.contains("shape[0].material: the material `grey` uses a texture, which needs uv coordinates"),
         "{without_uv}"
     );
+}
+
+/// A product has two textures, and their values are those of both.
+#[test]
+fn bad_products_of_textures_name_the_key() {
+    let load = |times: [&str; 2], keys: &str| {
+        let texture = |name: &str, value: &str, times: &str| {
+            let times = if times.is_empty() { String::new() } else { format!("times = \"{times}\"\n") };
+            format!("[[texture]]\nname = \"{name}\"\ntype = \"perlin\"\na = {value}\nb = {value}\n{times}")
+        };
+        let textures = texture("first", "0.5", times[0]) + &texture("second", "1.5", times[1]);
+        let text = GOOD.replace("reflectance = 0.5", &format!("{keys}\n{textures}"));
+        load::load_toml_str(&text, "test.toml", Path::new("")).map(|_| ()).map_err(|error| error.to_string())
+    };
+    let used = "reflectance = { texture = \"first\" }";
+    assert_eq!(load(["second", ""], used), Ok(()));
+    let bright = load(["second", ""], "reflectance = { texture = \"second\" }").err().unwrap_or_default();
+    assert!(bright.contains("found 1.5 in the texture `second`"), "{bright}");
+    let bright = load(["second", ""], "reflectance = { texture = \"first\", factor = 2 }").err().unwrap_or_default();
+    assert!(bright.contains("found 1.5 in the texture `first` times its factor"), "{bright}");
+    for times in [["first", ""], ["second", "first"]] {
+        let message = load(times, used).err().unwrap_or_default();
+        assert!(message.contains("which is multiplied by another texture itself"), "{message}");
+    }
+    let message = load(["thrid", ""], used).err().unwrap_or_default();
+    assert!(message.contains("thrid"), "{message}");
+    let message = load(["second", ""], "reflectance = 0.5\nbump_map = \"first\"").err().unwrap_or_default();
+    assert!(message.contains("normal and bump maps cannot be products"), "{message}");
 }
 
 #[test]

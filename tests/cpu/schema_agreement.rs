@@ -40,6 +40,8 @@ const RELATIONS: &[&str] = &[
     "can only be scaled",
     "a normal map holds directions",
     "cannot lie by `second_uvs`",
+    "is multiplied by another texture itself",
+    "cannot be products",
     "cannot be read",
     "there is no file",
     "is at most `angle`",
@@ -116,6 +118,7 @@ scale = 2
 a = 0
 b = 1
 seed = 1
+times = "clouds"
 [[material]]
 name = "plain"
 type = "diffuse"

@@ -16,6 +16,7 @@ use crate::load::error::{MOST_ERRORS, SceneError, show};
 use crate::load::files::Files;
 use crate::load::image_file::{Picture, Pictures};
 use crate::scene::animation::Deformation;
+use crate::scene::texture::range_of_texture;
 use crate::scene::{Channel, ChannelInput, ColorInput, ColorSpace, ImageData, Material, MaterialId, Mesh, Scene, TextureId};
 
 /// Images by file and by how their values are read, so that each is decoded once.
@@ -230,8 +231,7 @@ impl<'a> Resolver<'a> {
         factor: DVec3,
     ) -> Result<ColorInput, SceneError> {
         let texture = self.texture_id(name)?;
-        let kind = &self.scene.textures[texture].kind;
-        let (low, high) = channel.map_or_else(|| kind.range(), |channel| kind.range_of(channel));
+        let (low, high) = range_of_texture(&self.scene.textures, texture, channel);
         let input = match channel {
             Some(channel) => ColorInput::Channel(ChannelInput { texture, channel, factor, is_squared: false }),
             None if factor == DVec3::ONE => ColorInput::Texture(texture),

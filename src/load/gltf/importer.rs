@@ -39,8 +39,9 @@ pub const KNOWN: [&str; 24] = [
     "KHR_animation_pointer",
 ];
 
-/// What makes textures differ: which it is, whether its texels are numbers, where it lies, and whether on the second coordinates.
-type TextureKey = (usize, bool, Option<[u64; 5]>, bool);
+/// What makes textures differ: which it is, whether its texels are numbers, where it lies, whether on the second coordinates, and by which texture
+/// it is multiplied.
+type TextureKey = (usize, bool, Option<[u64; 5]>, bool, Option<String>);
 
 /// A description in the making. Errors are sentences without the file's name.
 pub struct Importer<'a> {

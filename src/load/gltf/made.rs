@@ -23,6 +23,14 @@ pub struct Coordinates {
     pub second: Option<u64>,
 }
 
+/// A texture of vertex colours.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Paint {
+    pub texture: String,
+    /// Its alpha is below 1 somewhere.
+    pub has_alpha: bool,
+}
+
 /// What a primitive became.
 #[derive(Debug, Clone)]
 pub struct MadePrimitive {

@@ -5,7 +5,7 @@ use glam::{DAffine2, DVec3};
 use super::importer::Importer;
 use super::json::{Material, TextureInfo, extension};
 use super::lookup::{Lookup, Lookups};
-use super::made::{Coordinates, MadeMaterial};
+use super::made::{Coordinates, MadeMaterial, Paint};
 use crate::load::import::{Entry, Keys, Value};
 
 /// Index of refraction where nothing is said.
@@ -35,11 +35,11 @@ impl Importer<'_> {
     }
 
     /// The material once more, its base colour multiplied by a texture of vertex colours.
-    pub fn painted_material(&mut self, index: Option<usize>, texture: &str) -> Result<MadeMaterial, String> {
+    pub fn painted_material(&mut self, index: Option<usize>, paint: &Paint) -> Result<MadeMaterial, String> {
         let material = index.and_then(|index| self.root.materials.get(index)).cloned().unwrap_or_default();
         let name = material.name.clone().unwrap_or_else(|| "painted".to_owned());
         let place = index.map_or_else(String::new, |index| format!("materials[{index}]"));
-        self.make_painted_material(&material, &name, place, Some(texture))
+        self.make_painted_material(&material, &name, place, Some(paint))
     }
 
     fn make_material(&mut self, material: &Material, name: &str, place: String) -> Result<MadeMaterial, String> {
@@ -51,7 +51,7 @@ impl Importer<'_> {
         material: &Material,
         name: &str,
         place: String,
-        paint: Option<&str>,
+        paint: Option<&Paint>,
     ) -> Result<MadeMaterial, String> {
         let lookups = Lookups::of(material)?;
         let mut surface = Surface { importer: self, material, place, lookups, coordinates: None, paint };
@@ -73,8 +73,8 @@ struct Surface<'s, 'i> {
     place: String,
     lookups: Lookups,
     coordinates: Option<Coordinates>,
-    /// A texture that multiplies the base colour.
-    paint: Option<&'s str>,
+    /// What multiplies the base colour.
+    paint: Option<&'s Paint>,
 }
 
 impl Surface<'_, '_> {
@@ -96,14 +96,11 @@ impl Surface<'_, '_> {
         let factor = pbr.base_color_factor.unwrap_or([1.0; 4]);
         let colour = DVec3::new(factor[0], factor[1], factor[2]).clamp(DVec3::ZERO, DVec3::ONE);
         let base = match &pbr.base_color_texture {
-            Some(info) => self.texture(info, false, colour, "base colour")?,
-            None => match self.paint {
-                Some(texture) => {
-                    let factor = (colour != DVec3::ONE).then(|| constant(colour));
-                    Value::Table(Keys::new().with("texture", texture).with_some("factor", factor))
-                }
-                None => constant(colour),
-            },
+            Some(info) => {
+                let name = self.base_texture(info)?;
+                reference(&name, colour)
+            }
+            None => self.paint.map_or_else(|| constant(colour), |paint| reference(&paint.texture, colour)),
         };
         self.report_extensions();
         let mut keys = if self.material.extensions.contains_key("KHR_materials_unlit") {
@@ -250,8 +247,8 @@ impl Surface<'_, '_> {
         };
         let factor = factor.clamp(0.0, 1.0);
         let map = match self.material.pbr_metallic_roughness.base_color_texture.clone() {
-            Some(info) => self.lookup(&info, false, "alpha").map(Some)?,
-            None => None,
+            Some(info) => Some(self.base_texture(&info)?),
+            None => self.paint.filter(|paint| paint.has_alpha).map(|paint| paint.texture.clone()),
         };
         let share = match (map, cutoff) {
             (None, Some(cutoff)) => return Ok(if factor < cutoff { Keys::of_type("pass") } else { keys }),
@@ -350,22 +347,26 @@ impl Surface<'_, '_> {
 
     /// `{ texture = … }`, or a constant where there is no picture.
     fn texture(&mut self, info: &TextureInfo, linear: bool, factor: DVec3, what: &str) -> Result<Value, String> {
-        let name = self.lookup(info, linear, what)?;
-        let factor = (factor != DVec3::ONE).then(|| constant(factor));
-        Ok(Value::Table(Keys::new().with("texture", name).with_some("factor", factor)))
+        let name = self.lookup(info, linear, what, None)?;
+        Ok(reference(&name, factor))
+    }
+
+    /// The base colour's texture, multiplied by the vertex colours; its name.
+    fn base_texture(&mut self, info: &TextureInfo) -> Result<String, String> {
+        self.lookup(info, false, "base colour", self.paint.map(|paint| paint.texture.as_str()))
     }
 }
 
 impl Surface<'_, '_> {
-    /// The texture of a lookup; its name.
-    fn lookup(&mut self, info: &TextureInfo, linear: bool, what: &str) -> Result<String, String> {
+    /// The texture of a lookup, multiplied by another; its name.
+    fn lookup(&mut self, info: &TextureInfo, linear: bool, what: &str, times: Option<&str>) -> Result<String, String> {
         let lookup = Lookup::of(info)?;
         let coordinates = self.lookups.coordinates;
         if Some(lookup.set) == coordinates.second {
             self.coordinates.get_or_insert(coordinates);
             // On coordinates as they are written every placement can be said.
             let placement = lookup.about(&DAffine2::IDENTITY).flatten();
-            return self.importer.texture(info.index, linear, placement, true);
+            return self.importer.texture(info.index, linear, placement, true, times);
         }
         if lookup.set != coordinates.set {
             let message = format!("set of texture coordinates of the {what}");
@@ -377,8 +378,14 @@ impl Surface<'_, '_> {
             None
         });
         self.coordinates.get_or_insert(coordinates);
-        self.importer.texture(info.index, linear, placement, false)
+        self.importer.texture(info.index, linear, placement, false, times)
     }
+}
+
+/// A texture of colours, times a factor.
+fn reference(texture: &str, factor: DVec3) -> Value {
+    let factor = (factor != DVec3::ONE).then(|| constant(factor));
+    Value::Table(Keys::new().with("texture", texture).with_some("factor", factor))
 }
 
 /// A number for grey.

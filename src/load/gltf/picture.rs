@@ -14,15 +14,16 @@ const NEAREST: u64 = 9728;
 
 impl Importer<'_> {
     /// The name of a texture whose texels are colours in sRGB, or numbers as they are. `placement`: how it lies on the mesh's coordinates, which are
-    /// the second ones where `by_second`.
+    /// the second ones where `by_second`. `times`: the texture by which it is multiplied.
     pub fn texture(
         &mut self,
         index: usize,
         linear: bool,
         placement: Option<Placement>,
         by_second: bool,
+        times: Option<&str>,
     ) -> Result<String, String> {
-        let key = (index, linear, placement.map(Placement::bits), by_second);
+        let key = (index, linear, placement.map(Placement::bits), by_second, times.map(str::to_owned));
         if let Some(name) = self.textures.get(&key) {
             return Ok(name.clone());
         }
@@ -68,6 +69,9 @@ impl Importer<'_> {
         }
         if by_second {
             keys.set("second_uvs", true);
+        }
+        if let Some(times) = times {
+            keys.set("times", times);
         }
         self.scene.textures.push(Entry { place: self.place(&format!("textures[{index}]")), keys });
         self.textures.insert(key, name.clone());

@@ -5,11 +5,18 @@ use serde_json::{Map, Value};
 
 use super::importer::Importer;
 use super::json::Primitive;
-use super::made::{Bending, Coordinates, MadePrimitive};
+use super::made::{Bending, Coordinates, MadePrimitive, Paint};
 use super::variant;
 use crate::load::import::{Blocks, Entry, Keys};
 use crate::load::model::{FARTHEST, MeshAttribute};
 use crate::scene::Mesh;
+
+/// `COLOR_0`.
+struct Colours {
+    attribute: MeshAttribute,
+    /// A number for each vertex, where some is below 1.
+    alpha: Option<Vec<f32>>,
+}
 
 impl Importer<'_> {
     /// None where there is nothing to render.
@@ -39,7 +46,7 @@ impl Importer<'_> {
         let mut built = if is_bent { Mesh::clone(&deformation.base) } else { deformation.at_rest() };
         check_range(&built)?;
         complete_normals(&mut built);
-        let colours = self.colours(&primitive, material.coordinates.is_some(), built.positions.len(), &key)?;
+        let colours = self.colours(&primitive, material.coordinates, built.positions.len(), &key)?;
         self.coordinates(&primitive, material.coordinates, &mut built, &key)?;
         if is_bent && built.drop_degenerate_faces() > 0 {
             self.drop("face without area of a mesh that is bent", &key, "it is left out, at frames where it has area too");
@@ -49,14 +56,18 @@ impl Importer<'_> {
             return Ok(None);
         }
         if let Some(colours) = colours {
-            let blocks = Blocks::of(&mut built);
+            let is_beside = material.coordinates.is_some();
+            let blocks = if is_beside { Blocks::beside(&mut built) } else { Blocks::of(&mut built) };
             deformation.spread(blocks.corners());
             let name = self.scene.free_texture_name(&format!("{key}.COLOR_0"));
-            let made = blocks.texture(&colours, &mut self.scene).ok_or("COLOR_0 makes no picture")?;
+            let made = blocks.texture(&colours.attribute, colours.alpha.as_deref(), &mut self.scene);
             let mut keys = Keys::new().with("name", name.as_str());
-            keys.0.extend(made.0);
+            keys.0.extend(made.ok_or("COLOR_0 makes no picture")?.0);
+            if is_beside {
+                keys.set("second_uvs", true);
+            }
             self.scene.textures.push(Entry { place: self.place(&key), keys });
-            material = self.painted_material(named, &name)?;
+            material = self.painted_material(named, &Paint { texture: name, has_alpha: colours.alpha.is_some() })?;
         }
         built.smooth = !built.normals.is_empty();
         let (triangles, smooth) = (built.faces.len() as u64, built.smooth);
@@ -98,14 +109,14 @@ impl Importer<'_> {
         Ok(Some(Mesh { positions, normals, faces: triangles(&indices, mode), ..Mesh::default() }))
     }
 
-    /// The vertices' colours, which multiply the base colour of materials without textures.
+    /// The vertices' colours, which multiply the base colour and its alpha.
     fn colours(
         &mut self,
         primitive: &Primitive,
-        has_textures: bool,
+        coordinates: Option<Coordinates>,
         count: usize,
         key: &str,
-    ) -> Result<Option<MeshAttribute>, String> {
+    ) -> Result<Option<Colours>, String> {
         let Some(accessor) = accessor(&primitive.attributes, "COLOR_0")? else { return Ok(None) };
         let (numbers, channels) = self.buffers.numbers(accessor, &["VEC3", "VEC4"])?;
         let value = |number: f32| if number.is_finite() { number.clamp(0.0, 1.0) } else { 0.0 };
@@ -116,17 +127,16 @@ impl Importer<'_> {
         if values.len() != count {
             return Err(format!("there are {} COLOR_0 for {count} positions", values.len()));
         }
-        if values.iter().all(|colour| *colour == Vec3::ONE) {
+        let alpha = (channels == 4).then(|| numbers.chunks_exact(4).map(|colour| value(colour[3])).collect::<Vec<_>>());
+        let alpha = alpha.filter(|alpha| alpha.iter().any(|alpha| *alpha < 1.0));
+        if alpha.is_none() && values.iter().all(|colour| *colour == Vec3::ONE) {
             return Ok(None);
         }
-        if has_textures {
-            self.drop("COLOR_0 of a material with textures", key, "the textures alone count");
+        if coordinates.is_some_and(|coordinates| coordinates.second.is_some()) {
+            self.drop("COLOR_0 of a material with two sets of texture coordinates", key, "the textures alone count");
             return Ok(None);
         }
-        if channels == 4 && numbers.chunks_exact(4).any(|colour| colour[3] < 1.0) {
-            self.drop("alpha of COLOR_0", key, "the material's alone counts");
-        }
-        Ok(Some(MeshAttribute { name: "color".to_owned(), of_faces: false, values }))
+        Ok(Some(Colours { attribute: MeshAttribute { name: "color".to_owned(), of_faces: false, values }, alpha }))
     }
 
     /// Texture coordinates as the material wants them. v runs upward here.

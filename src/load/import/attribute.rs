@@ -24,6 +24,22 @@ pub struct Blocks {
 impl Blocks {
     /// Gives every triangle vertices of its own, with texture coordinates that lead to its block.
     pub fn of(mesh: &mut Mesh) -> Self {
+        let (blocks, uvs) = Self::spread(mesh);
+        mesh.uvs = uvs;
+        blocks
+    }
+
+    /// The same for a mesh whose own texture coordinates stay: the second ones lead to the blocks.
+    pub fn beside(mesh: &mut Mesh) -> Self {
+        let own = std::mem::take(&mut mesh.uvs);
+        let (blocks, uvs) = Self::spread(mesh);
+        mesh.uvs = blocks.corners.iter().flatten().map(|&corner| own[corner as usize]).collect();
+        mesh.second_uvs = uvs;
+        blocks
+    }
+
+    /// Gives every triangle vertices of its own; the coordinates that lead to its block.
+    fn spread(mesh: &mut Mesh) -> (Self, Vec<Vec2>) {
         let count = mesh.faces.len().max(1);
         let columns = (count as f64).sqrt().ceil() as usize;
         let rows = count.div_ceil(columns);
@@ -41,8 +57,8 @@ impl Blocks {
             [(0.5, 0.5), (1.5, 0.5), (0.5, 1.5)]
                 .map(|(x, y)| Vec2::new(((2.0 * column + x) / width) as f32, (1.0 - (2.0 * row + y) / height) as f32))
         });
-        mesh.uvs = uvs.collect();
-        Self { columns, rows, corners }
+        let uvs = uvs.collect();
+        (Self { columns, rows, corners }, uvs)
     }
 
     /// The corners of the triangles, before they had vertices of their own.
@@ -50,13 +66,14 @@ impl Blocks {
         &self.corners
     }
 
-    /// The attribute as a texture, without its name.
-    pub fn texture(&self, attribute: &MeshAttribute, scene: &mut Description) -> Option<Keys> {
+    /// The attribute as a texture, without its name. `alpha`, where there is one, holds a number for each value.
+    pub fn texture(&self, attribute: &MeshAttribute, alpha: Option<&[f32]>, scene: &mut Description) -> Option<Keys> {
         let value = |face: usize, corner: usize| {
             let place = if attribute.of_faces { face } else { self.corners.get(face)?[corner] as usize };
-            attribute.values.get(place).copied()
+            let alpha = alpha.map_or(Some(1.0), |alpha| alpha.get(place).copied())?;
+            attribute.values.get(place).map(|value| value.extend(alpha))
         };
-        let texel = |place: Place<usize>| {
+        let texel = |place: Place<usize>| -> (f32, f32, f32, f32) {
             let face = place.y() / 2 * self.columns + place.x() / 2;
             let [first, second, third] = [0, 1, 2].map(|corner| value(face, corner).unwrap_or_default());
             let texel = match (place.x() % 2, place.y() % 2) {
@@ -70,8 +87,16 @@ impl Blocks {
         };
         let size = (2 * self.columns, 2 * self.rows);
         let mut bytes = Vec::new();
-        let image = Image::from_channels(size, SpecificChannels::rgb(|place| -> (f32, f32, f32) { texel(place) }));
-        image.write().to_buffered(Cursor::new(&mut bytes)).ok()?;
+        let to = Cursor::new(&mut bytes);
+        if alpha.is_some() {
+            Image::from_channels(size, SpecificChannels::rgba(texel)).write().to_buffered(to).ok()?;
+        } else {
+            let texel = |place: Place<usize>| -> (f32, f32, f32) {
+                let (red, green, blue, _) = texel(place);
+                (red, green, blue)
+            };
+            Image::from_channels(size, SpecificChannels::rgb(texel)).write().to_buffered(to).ok()?;
+        }
         let file: FileReference = scene.hold_bytes(&attribute.name, "exr", bytes);
         Some(Keys::of_type("image").with("file", file).with("wrap", "clamp").with("filter", "triangle"))
     }
@@ -109,7 +134,7 @@ mod tests {
         assert_eq!((mesh.positions.len(), mesh.uvs.len(), mesh.faces.len()), (15, 15, 5));
         for attribute in [of_vertices, of_faces] {
             let mut scene = Description::default();
-            let keys = blocks.texture(&attribute, &mut scene).expect("it can be written");
+            let keys = blocks.texture(&attribute, None, &mut scene).expect("it can be written");
             assert_eq!(keys.text("filter"), Some("triangle"));
             let mut files = crate::load::files::Files::default();
             let folder = std::path::Path::new("nowhere");

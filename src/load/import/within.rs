@@ -106,6 +106,9 @@ impl Description {
         for entry in self.textures.iter_mut().chain(&mut self.materials) {
             rename(&mut entry.keys, &["name"], &renamed);
         }
+        for entry in &mut self.textures {
+            rename(&mut entry.keys, &["times"], &renamed);
+        }
         self.groups.iter_mut().for_each(|group| group.name = renamed(&group.name));
         let of_groups = self.groups.iter_mut().flat_map(|group| &mut group.shapes);
         for entry in self.materials.iter_mut().chain(&mut self.shapes).chain(of_groups).chain(&mut self.instances) {

@@ -100,7 +100,7 @@ impl Converter<'_> {
                 let blocks = Blocks::of(mesh);
                 for attribute in &model.attributes {
                     let name = format!("{}_{}", if attribute.of_faces { "face" } else { "vertex" }, attribute.name);
-                    let made = blocks.texture(attribute, &mut self.scene);
+                    let made = blocks.texture(attribute, None, &mut self.scene);
                     let made = made.ok_or_else(|| plugin.error(format!("the attribute `{name}` makes no picture")))?;
                     inputs.insert(name.clone(), self.add_texture(plugin, &name, made));
                 }

@@ -15,6 +15,7 @@ use crate::packed::shape::PrimitiveKind;
 use crate::sampling::EmissionMaps;
 use crate::sampling::emission_map::UNIT_SQUARE;
 use crate::sampling::solid_angle::is_rectangle;
+use crate::scene::texture::{mean_of_channel, mean_of_texture};
 use crate::scene::{ChannelInput, ColorInput, LightSampling, Scene};
 
 /// What a surface of some material sends out.
@@ -59,14 +60,14 @@ impl SurfaceEmission {
 }
 
 fn mean_color(scene: &Scene, input: &ColorInput) -> DVec3 {
-    let mean = |texture: usize| scene.textures[texture].kind.mean();
+    let mean = |texture: usize| mean_of_texture(&scene.textures, texture);
     match input {
         ColorInput::Constant(color) => *color,
         ColorInput::Texture(texture) => mean(*texture),
         ColorInput::ScaledTexture(texture, factor) => mean(*texture) * *factor,
         ColorInput::SquaredTexture(texture) => mean(*texture) * mean(*texture),
         ColorInput::Channel(ChannelInput { texture, channel, factor, .. }) => {
-            scene.textures[*texture].kind.mean_of(*channel) * *factor
+            mean_of_channel(&scene.textures, *texture, *channel) * *factor
         }
     }
 }

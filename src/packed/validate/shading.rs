@@ -112,6 +112,10 @@ impl PackedScene {
         let is = |kind: PackedTextureKind| texture.kind() == kind as u32;
         let flags = if is(PackedTextureKind::Image) { texture::IMAGE_FLAGS } else { 0 };
         let wrap = kind_and_flags >> texture::WRAP_SHIFT & 3;
+        let is_product = |number: u32| self.textures.textures.get(number as usize - 1).is_none_or(|other| other.times != 0);
+        if texture.times != 0 && is_product(texture.times) {
+            return Err(format!("is multiplied by texture {}, which is none or a product", texture.times - 1));
+        }
         let of_normals = texture::TEXTURE_HEIGHTS | texture::TEXTURE_SHADOWS | texture::TEXTURE_MIRRORS;
         let flags = flags | of_normals | texture::TEXTURE_BY_SECOND_UVS;
         let is_known = texture.kind() <= PackedTextureKind::Worley as u32 && kind_and_flags & !(255 | flags) == 0;

@@ -187,12 +187,13 @@ const LIGHT: [(usize, Word); 7] = [
 const LIGHT_NODE: [(usize, Word); 2] =
     [(word!(LightCluster, link), Checked), (size_of::<LightCluster>() / 4 + word!(LightCluster, link), Checked)];
 
-const TEXTURE: [(usize, Word); 5] = [
+const TEXTURE: [(usize, Word); 6] = [
     (word!(PackedTexture, kind_and_flags), Checked),
     (word!(PackedTexture, first_texel_or_seed), CheckedIn(is_image)),
     (word!(PackedTexture, width_or_octaves), CheckedIn(|texture| is_image(texture) || is_perlin(texture))),
     (word!(PackedTexture, height), CheckedIn(is_image)),
     (word!(PackedTexture, first_value), CheckedIn(|texture| is_image(texture) && has_values(texture))),
+    (word!(PackedTexture, times), Checked),
 ];
 
 fn is_blend(material: &[u32]) -> bool {

@@ -17,6 +17,7 @@ mod worley;
 
 use glam::{DVec2, DVec3};
 
+use crate::scene::texture::{mean_of_channel, mean_of_texture};
 use crate::scene::{Channel, ChannelInput, ColorInput, Scene, Texture, TextureId, TextureKind};
 
 /// Texture coordinates at a point.
@@ -51,11 +52,11 @@ pub fn evaluate(scene: &Scene, input: &ColorInput, uv: Coordinates) -> DVec3 {
 pub fn mean(scene: &Scene, input: &ColorInput) -> DVec3 {
     match *input {
         ColorInput::Constant(color) => color,
-        ColorInput::Texture(texture) => mean_of_texture(scene, texture),
-        ColorInput::ScaledTexture(texture, factor) => factor * mean_of_texture(scene, texture),
-        ColorInput::SquaredTexture(texture) => mean_of_texture(scene, texture).powf(2.0),
+        ColorInput::Texture(texture) => mean_of_texture(&scene.textures, texture),
+        ColorInput::ScaledTexture(texture, factor) => factor * mean_of_texture(&scene.textures, texture),
+        ColorInput::SquaredTexture(texture) => mean_of_texture(&scene.textures, texture).powf(2.0),
         ColorInput::Channel(ChannelInput { texture, channel, factor, .. }) => {
-            factor * scene.textures[texture].kind.mean_of(channel)
+            factor * mean_of_channel(&scene.textures, texture, channel)
         }
     }
 }
@@ -71,9 +72,18 @@ pub fn look_up_channel(textures: &[Texture], texture: TextureId, channel: Channe
     channel.of(texels(textures, texture, uv))
 }
 
-/// All of its channels.
+/// All of its channels, times those of the texture by which it is multiplied.
 fn texels(textures: &[Texture], texture: TextureId, uv: impl Into<Coordinates>) -> [f64; 4] {
-    let (texture, Coordinates { first, second }) = (&textures[texture], uv.into());
+    let (texture, uv) = (&textures[texture], uv.into());
+    let own = own_texels(texture, uv);
+    texture.times.map_or(own, |other| {
+        let by = own_texels(&textures[other], uv);
+        std::array::from_fn(|channel| own[channel] * by[channel])
+    })
+}
+
+/// All channels of a texture by itself.
+fn own_texels(texture: &Texture, Coordinates { first, second }: Coordinates) -> [f64; 4] {
     let uv = if texture.by_second_uvs { second } else { first };
     let at = |scale: [f64; 2]| texture.placed(uv * DVec2::from(scale));
     let between = |a: DVec3, b: DVec3, share: f64| (a + share * (b - a)).extend(1.0).to_array();
@@ -83,8 +93,4 @@ fn texels(textures: &[Texture], texture: TextureId, uv: impl Into<Coordinates>) 
         TextureKind::Perlin { scale, octaves, a, b, seed } => between(a, b, perlin::share(at([scale; 2]), octaves, seed)),
         TextureKind::Worley { scale, a, b, seed } => between(a, b, worley::share(at([scale; 2]), seed)),
     }
-}
-
-fn mean_of_texture(scene: &Scene, texture: TextureId) -> DVec3 {
-    scene.textures[texture].kind.mean()
 }

@@ -85,8 +85,8 @@ fn picture<'a>(scene: &'a Scene, material: &Material) -> Option<(ColorInput, &'a
     }
     let texture = scene.textures.get(input.texture()?)?;
     let TextureKind::Image(image) = &texture.kind else { return None };
-    // Colours of triangles' corners lie in the picture in blocks of their own.
-    (image.filter != TextureFilter::Triangle && !texture.by_second_uvs).then_some((input, image))
+    // Colours of triangles' corners lie in the picture in blocks of their own; of a product the picture is not all.
+    (image.filter != TextureFilter::Triangle && !texture.by_second_uvs && texture.times.is_none()).then_some((input, image))
 }
 
 impl EmissionMap {

@@ -724,6 +724,67 @@ fn vertex_colours_become_a_texture() {
     assert!(!report(&scene).contains("COLOR_0"));
 }
 
+/// Vertex colours multiply the base colour's texture, whatever it is, and their alpha the texture's.
+#[test]
+fn vertex_colours_multiply_textures() {
+    let file = |texture: Option<&str>, alpha: [f32; 3], mode: &str| {
+        let mut file = File::new();
+        file.paint();
+        let colours = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.5, 1.0]];
+        let numbers: Vec<f32> = colours.into_iter().zip(alpha).flat_map(|([r, g, b], a)| [r, g, b, a]).collect();
+        let colours = file.add("VEC4", &numbers);
+        let uvs = file.add("VEC2", &[0.3, 0.1, 0.9, 0.4, 0.2, 0.8]);
+        let attributes = &mut file.root["meshes"][0]["primitives"][0]["attributes"];
+        attributes["COLOR_0"] = json!(colours);
+        attributes["TEXCOORD_0"] = json!(uvs);
+        file.root["materials"][0] = json!({ "alphaMode": mode, "pbrMetallicRoughness": { "metallicFactor": 0.0 },
+            "extensions": { "KHR_materials_specular": { "specularFactor": 0.0 } } });
+        if let Some(uri) = texture {
+            file.root["images"] = json!([{ "uri": uri }]);
+            file.root["textures"] = json!([{ "source": 0 }]);
+            file.root["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = json!({ "index": 0 });
+        }
+        file.text()
+    };
+    let picture_of = |colour: [u8; 4]| {
+        let mut png = std::io::Cursor::new(Vec::new());
+        image::RgbaImage::from_pixel(2, 2, image::Rgba(colour)).write_to(&mut png, image::ImageFormat::Png).expect("it fits");
+        png.into_inner()
+    };
+    let (opaque, seen) = ([1.0; 3], [1.0, 0.5, 0.0]);
+    let folder = Folder::new(&[
+        ("white.png", &picture_of([255; 4])),
+        ("red.png", &picture_of([255, 0, 0, 255])),
+        ("clear.png", &picture_of([255, 255, 255, 0])),
+        ("plain.gltf", &file(None, opaque, "OPAQUE")),
+        ("white.gltf", &file(Some("white.png"), opaque, "OPAQUE")),
+        ("red.gltf", &file(Some("red.png"), opaque, "OPAQUE")),
+        ("ignored.gltf", &file(Some("white.png"), seen, "OPAQUE")),
+        ("seen.gltf", &file(None, seen, "BLEND")),
+        ("white-seen.gltf", &file(Some("white.png"), seen, "BLEND")),
+        ("clear.gltf", &file(Some("clear.png"), seen, "BLEND")),
+        ("nothing.gltf", &file(Some("clear.png"), opaque, "BLEND")),
+    ]);
+    let white = folder.valid("white.gltf");
+    assert_eq!(report(&white), "");
+    assert_eq!(white.textures.iter().filter(|texture| texture.times.is_some()).count(), 1);
+    let of = |name: &str| picture(&folder.valid(name));
+    let plain = of("plain.gltf");
+    assert_eq!(picture(&white), plain);
+    assert_eq!(picture(&folder.written("white.gltf")), plain);
+    assert_eq!(of("ignored.gltf"), plain, "alpha of what is opaque");
+    assert_ne!(of("red.gltf"), plain, "the control");
+    let green = |name: &str| of(name).iter().map(|pixel| f32::from_bits(pixel[1])).fold(0.0, f32::max);
+    assert_eq!(green("red.gltf"), 0.0);
+    assert!(green("white.gltf") > 0.0);
+    // What is behind shows through as far as alpha says.
+    let seen = of("seen.gltf");
+    assert_ne!(seen, plain, "the control");
+    assert_eq!(of("white-seen.gltf"), seen);
+    assert_eq!(of("clear.gltf"), of("nothing.gltf"));
+    assert_ne!(of("clear.gltf"), seen, "the control");
+}
+
 /// One of several materials is chosen by its variant's name; an unknown name is told with those that there are.
 #[test]
 fn variants_of_materials_are_chosen_by_name() {

@@ -71,7 +71,9 @@ fn wall(materials: &[(&str, String)], folder: &Path) -> Scene {
         text += &format!("[[texture]]\nname = \"{name}\"\ntype = \"image\"\nfile = \"{file}\"\n{keys}\n");
     }
     text += "[[texture]]\nname = \"clouds\"\ntype = \"perlin\"\nscale = 4\na = [0.1, 0.5, 0.9]\nb = [0.9, 0.2, 0.4]\n\
-             rotation = 70\noffset = [3, 1]\n";
+             rotation = 70\noffset = [3, 1]\n\
+             [[texture]]\nname = \"product\"\ntype = \"image\"\nfile = \"shorts.png\"\ntimes = \"turned\"\n\
+             [[texture]]\nname = \"cloudy\"\ntype = \"checker\"\na = [0.9, 0.5, 0.7]\nb = 0.3\nscale = [3, 3]\ntimes = \"clouds\"\n";
     for (number, (name, keys)) in materials.iter().enumerate() {
         let [x, y] = [number % 6, number / 6].map(|place| place as f64 * 0.5);
         text += &format!(
@@ -102,6 +104,8 @@ fn everything(folder: &Path) -> Scene {
         ("alpha of float", "float", "a"),
         ("blue of clouds", "clouds", "b"),
         ("red of bytes", "turned", "r"),
+        ("alpha of a product", "product", "a"),
+        ("blue of a product", "cloudy", "b"),
     ] {
         materials.push((name, grey(texture, channel)));
     }
@@ -121,6 +125,13 @@ fn everything(folder: &Path) -> Scene {
         "mixed",
         "type = \"blend\"\nmaterials = [\"metal\", \"float\"]\n\
          weight = { type = \"texture\", texture = \"bytes\", channel = \"a\", factor = 0.9 }"
+            .into(),
+    ));
+    materials.push(("product", "type = \"diffuse\"\nreflectance = { texture = \"product\", factor = [1, 0.7, 0.4] }".into()));
+    materials.push((
+        "mixed by a product",
+        "type = \"blend\"\nmaterials = [\"metal\", \"float\"]\n\
+         weight = { type = \"texture\", texture = \"product\", channel = \"a\" }"
             .into(),
     ));
     wall(&materials, folder)
@@ -145,13 +156,18 @@ fn every_way_of_keeping_texels_agrees() {
     }
 }
 
-/// The same test must notice another channel, a texture that is turned the other way, and one that is not as far away.
+/// The texture of an image that is multiplied by another.
+fn product(scene: &mut Scene) -> &mut gpt::scene::Texture {
+    scene.textures.iter_mut().find(|texture| texture.name == "product").expect("it is there")
+}
+
+/// The same test must notice another channel, a texture that is turned the other way, one that is not as far away, and other products.
 #[test]
 fn another_channel_and_another_place_are_noticed() {
     let Some(device) = DEVICE.as_ref() else { return };
     let folder = tempfile::tempdir().expect("a temporary folder");
     let scene = everything(folder.path());
-    let faults: [fn(&mut Scene); 3] = [
+    let faults: [fn(&mut Scene); 5] = [
         |scene| {
             for material in &mut scene.materials {
                 if let MaterialKind::Diffuse { reflectance: ColorInput::Channel(input) } = &mut material.kind
@@ -163,6 +179,8 @@ fn another_channel_and_another_place_are_noticed() {
         },
         |scene| scene.textures[1].transform.rotation_degrees *= -1.0,
         |scene| scene.textures[0].transform.offset[1] += 0.2,
+        |scene| product(scene).times = None,
+        |scene| product(scene).times = Some(0),
     ];
     for (number, fault) in faults.into_iter().enumerate() {
         let mut faulty = scene.clone();

@@ -99,6 +99,10 @@ impl Resolver<'_> {
     /// A texture by which normals are bent: they turn about the directions in which the first texture coordinates grow.
     fn first_uvs_texture(&self, name: &Located<String>) -> Result<TextureId, SceneError> {
         let id = self.texture_id(name)?;
+        if self.scene.textures[id].times.is_some() {
+            let message = format!("normal and bump maps cannot be products, as the texture `{}` is by `times`", name.value);
+            return Err(self.error(&name.span, message));
+        }
         if !self.scene.textures[id].by_second_uvs {
             return Ok(id);
         }

@@ -229,6 +229,7 @@ impl Resolver<'_> {
             shadows_bent_normals: false,
             mirrors_bent_normals: false,
             by_second_uvs: false,
+            times: None,
         });
         self.linear_textures.push(space == Some(ColorSpace::Linear));
         Ok(match tint {

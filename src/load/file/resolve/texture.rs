@@ -15,14 +15,14 @@ use crate::load::file::value::{Checked, Exactly, Located, Number, Positive};
 use crate::load::{formats, reading};
 use crate::scene::validate::MOST_OCTAVES;
 use crate::scene::{
-    ColorSpace, ImageData, ImageSource, ImageTexture, Texture, TextureFilter, TextureKind, TextureWrap, UvTransform,
+    ColorSpace, ImageData, ImageSource, ImageTexture, Texture, TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,
 };
 
 impl Resolver<'_> {
     pub(super) fn textures(&mut self, written: &[TextureEntry]) -> Result<(), SceneError> {
         self.texture_names = self.register("texture", written.iter().map(TextureEntry::name))?;
         self.decode_side_by_side(written);
-        for entry in written {
+        for (index, entry) in written.iter().enumerate() {
             let kind = self.texture_kind(entry);
             // Something has to stand in its place, or others would have none.
             let kind = self.note(kind).unwrap_or(TextureKind::Checker { a: DVec3::ZERO, b: DVec3::ZERO, scale: [1.0; 2] });
@@ -34,9 +34,29 @@ impl Resolver<'_> {
                 offset: offset.map_or([0.0; 2], |offset| offset.map(|shift| shift.0)),
             };
             let by_second_uvs = entry.is_by_second_uvs();
-            self.scene.textures.push(Texture { transform, by_second_uvs, ..Texture::new(entry.name().value.clone(), kind) });
+            let times = self.times(index, written);
+            let times = self.note(times).flatten();
+            self.scene.textures.push(Texture {
+                transform,
+                by_second_uvs,
+                times,
+                ..Texture::new(entry.name().value.clone(), kind)
+            });
         }
         Ok(())
+    }
+
+    /// The texture by which one is multiplied.
+    fn times(&self, index: usize, written: &[TextureEntry]) -> Result<Option<TextureId>, SceneError> {
+        let Some(name) = written[index].times() else { return Ok(None) };
+        let other = self.texture_id(name)?;
+        if other == index || written.get(other).is_none_or(|entry| entry.times().is_some()) {
+            let message = format!("`times` names `{}`, which is multiplied by another texture itself", name.value);
+            return Err(self
+                .error(&name.span, message)
+                .with_help("a product has two textures, of which the second has no `times`"));
+        }
+        Ok(Some(other))
     }
 
     fn texture_kind(&mut self, entry: &TextureEntry) -> Result<TextureKind, SceneError> {

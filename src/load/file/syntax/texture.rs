@@ -41,6 +41,8 @@ pub struct ImageEntry {
     pub offset: Option<Exactly<Number, 2>>,
     /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates. Not for normal and bump maps.
     pub second_uvs: Option<bool>,
+    /// The name of another texture by which it is multiplied, channel by channel, and which has no `times` itself. Not for normal and bump maps.
+    pub times: Option<Located<String>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -84,6 +86,8 @@ pub struct CheckerEntry {
     pub offset: Option<Exactly<Number, 2>>,
     /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates. Not for normal and bump maps.
     pub second_uvs: Option<bool>,
+    /// The name of another texture by which it is multiplied, channel by channel, and which has no `times` itself. Not for normal and bump maps.
+    pub times: Option<Located<String>>,
 }
 
 /// Improved Perlin noise between two colours.
@@ -106,6 +110,8 @@ pub struct PerlinEntry {
     pub offset: Option<Exactly<Number, 2>>,
     /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates. Not for normal and bump maps.
     pub second_uvs: Option<bool>,
+    /// The name of another texture by which it is multiplied, channel by channel, and which has no `times` itself. Not for normal and bump maps.
+    pub times: Option<Located<String>>,
 }
 
 /// Distance to the nearest feature point, between two colours.
@@ -125,6 +131,8 @@ pub struct WorleyEntry {
     pub offset: Option<Exactly<Number, 2>>,
     /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates. Not for normal and bump maps.
     pub second_uvs: Option<bool>,
+    /// The name of another texture by which it is multiplied, channel by channel, and which has no `times` itself. Not for normal and bump maps.
+    pub times: Option<Located<String>>,
 }
 
 impl TextureEntry {
@@ -135,6 +143,16 @@ impl TextureEntry {
             Self::Checker(entry) => (entry.rotation, entry.offset),
             Self::Perlin(entry) => (entry.rotation, entry.offset),
             Self::Worley(entry) => (entry.rotation, entry.offset),
+        }
+    }
+
+    /// The texture by which it is multiplied.
+    pub fn times(&self) -> Option<&Located<String>> {
+        match self {
+            Self::Image(entry) => entry.times.as_ref(),
+            Self::Checker(entry) => entry.times.as_ref(),
+            Self::Perlin(entry) => entry.times.as_ref(),
+            Self::Worley(entry) => entry.times.as_ref(),
         }
     }
 

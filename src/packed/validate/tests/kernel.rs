@@ -279,6 +279,9 @@ impl Kernel<'_> {
         }
         let first = self.tables.first_texture.wrapping_add(texture.wrapping_mul(5));
         let words = (0..5).map(|word| self.table(first.wrapping_add(word))).collect::<Read<Vec<_>>>()?;
+        if words[4][3] != 0 {
+            self.texture(words[4][3] - 1)?;
+        }
         let [flags, first, width, height] = words[0];
         match flags & 255 {
             0 => self.image(first, [width, height].map(|side| side as i32), flags, words[4][2]),

@@ -111,6 +111,7 @@ fn everything() -> Scene {
     ] {
         scene.textures.push(Texture::new("texture", kind));
     }
+    (scene.textures[0].times, scene.textures[3].times) = (Some(5), Some(1));
     let channel =
         |texture, channel| ColorInput::Channel(ChannelInput { texture, channel, factor: DVec3::splat(0.5), is_squared: false });
     let (grey, of) = (ColorInput::grey(0.5), ColorInput::Texture);
