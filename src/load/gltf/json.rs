@@ -37,7 +37,7 @@ objects! {
         extensions: Extensions,
     }
     /// What every version has.
-    Head { asset: Asset, }
+    Head { asset: Value, }
     Asset { version: String, min_version: Option<String>, }
     Scene { nodes: Vec<usize>, }
     Node {

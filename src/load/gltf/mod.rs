@@ -42,7 +42,7 @@ pub fn load(files: &Files, path: &Path, camera: Option<&str>, variant: Option<&s
     let json = json.strip_prefix(&[0xef, 0xbb, 0xbf]).unwrap_or(json);
     let root: Root = serde_json::from_slice(json).map_err(|error| {
         // Other versions have other types where this one has lists.
-        if let Some(reason) = serde_json::from_slice(json).ok().and_then(|head: Head| check_version(&head.asset).err()) {
+        if let Some(reason) = serde_json::from_slice(json).ok().and_then(|head: Head| check_old_version(head.asset).err()) {
             return refuse(reason);
         }
         let message = error.to_string();
@@ -106,6 +106,14 @@ fn split(bytes: &[u8]) -> Result<(&[u8], Option<Vec<u8>>), String> {
         at = end;
     }
     Ok((json, None))
+}
+
+/// The first version's drafts wrote a number.
+fn check_old_version(asset: serde_json::Value) -> Result<(), String> {
+    if let Some(version) = asset.get("version").and_then(serde_json::Value::as_f64).filter(|version| *version < 2.0) {
+        return Err(format!("is glTF of version {version}; version 2.0 is read"));
+    }
+    serde_json::from_value(asset).map_or(Ok(()), |asset| check_version(&asset))
 }
 
 fn check_version(asset: &Asset) -> Result<(), String> {

@@ -674,9 +674,10 @@ fn what_cannot_be_read_is_refused_by_name() {
 /// Faults as they stand in collections of malformed files.
 #[test]
 fn malformed_files_are_refused_in_a_sentence() {
-    let rows: [(&str, Value, &str); 15] = [
+    let rows: [(&str, Value, &str); 16] = [
         ("/asset/version", json!("1.0"), "version 1.0"),
         ("/asset/version", json!(7), "is not valid glTF"),
+        ("/asset/version", json!(1), "is glTF of version 1; version 2.0 is read"),
         ("/scene", json!(9), "no scenes[9]"),
         ("/scenes/0/nodes", json!([9]), "no nodes[9]"),
         ("/scenes/0/nodes", json!([-1]), "is not valid glTF"),
