@@ -6,10 +6,11 @@ use std::path::Path;
 pub(super) const FOLDER: &str = "builtin:";
 
 /// Path within [`FOLDER`] and content of every file that built-in scenes name.
-const FILES: [(&str, &[u8]); 9] = [
+const FILES: [(&str, &[u8]); 10] = [
     ("models/teapot.obj", include_bytes!("../../scenes/models/teapot.obj")),
     ("models/knot.obj", include_bytes!("../../scenes/models/knot.obj")),
     // scripts/textures makes them.
+    ("textures/brushed.png", include_bytes!("../../scenes/textures/brushed.png")),
     ("textures/embers.hdr", include_bytes!("../../scenes/textures/embers.hdr")),
     ("textures/evening.hdr", include_bytes!("../../scenes/textures/evening.hdr")),
     ("textures/hammered.png", include_bytes!("../../scenes/textures/hammered.png")),

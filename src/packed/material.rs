@@ -35,6 +35,7 @@ shared_constants!(flags {
     const ANISOTROPIC: u32 = material::ANISOTROPIC << FORM_SHIFT;
     const THIN_WALL: u32 = material::THIN_WALL << FORM_SHIFT;
     const COMPENSATED: u32 = material::COMPENSATED << FORM_SHIFT;
+    const DIRECTED: u32 = material::DIRECTED << FORM_SHIFT;
     const COAT_NORMAL_MAP: u32 = material::COAT_NORMAL_MAP << FORM_SHIFT;
     /// Rows of a table of albedos, by roughness, and its columns, by cosine.
     const ALBEDO_ROWS: u32 = material::ALBEDO_ROWS as u32;
@@ -45,6 +46,8 @@ shared_constants!(flags {
     const EXTINCTION_PARAMETER: u32 = material::EXTINCTION_PARAMETER as u32;
     /// Likewise, where the texels of its coat's normals stand; their scale is the next.
     const COAT_NORMAL_PARAMETER: u32 = material::COAT_NORMAL_PARAMETER as u32;
+    /// Likewise, where the texels of its anisotropy's direction stand.
+    const DIRECTION_PARAMETER: u32 = material::DIRECTION_PARAMETER as u32;
     /// Nearer to 1 an index of refraction bends no light.
     const SMALLEST_BEND: f32 = material::SMALLEST_BEND as f32;
     /// Angles in the table of what a rough plastic's surface lets through.

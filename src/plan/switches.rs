@@ -265,6 +265,7 @@ fn choose_materials(scene: &Scene, packed: &PackedScene, switches: &mut Switches
     switches.enable("SHEEN", has_form(material::SHEEN));
     switches.enable("ATTENUATION", has_form(material::ATTENUATES));
     switches.enable("ANISOTROPY", has_form(ANISOTROPIC));
+    switches.enable("ANISOTROPY_DIRECTIONS", has_form(material::DIRECTED));
     let coat_normals_differ = scene.coat_normals_differ();
     let coat_normals = packed.materials.scene_ids.iter().any(|&id| coat_normals_differ[id]);
     switches.enable("COAT_NORMALS", coat_normals);

@@ -148,6 +148,8 @@ pub static SWITCHES: LazyLock<Vec<Switch>> = LazyLock::new(|| {
 /// All but lobes, shapes, and lights that are no surfaces.
 const OF_FEATURES: &[Switch] = &[
     switch("ANISOTROPY").requires(&["FURTHER_PARAMETERS", "TANGENTS"]),
+    // The direction of some anisotropy comes from a texture.
+    switch("ANISOTROPY_DIRECTIONS").requires(&["ANISOTROPY", "PRINCIPLED", "TEXTURES"]),
     switch("APERTURE_POLYGON").requires(&["LENS"]).excludes(&["APERTURE_SQUARE"]),
     switch("APERTURE_SQUARE").requires(&["LENS"]),
     switch("AREA_LIGHTS").one_of(DRAWN_BY_AREA),

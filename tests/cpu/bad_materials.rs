@@ -92,6 +92,11 @@ fn keys_of_rough_surfaces_that_do_not_go_together_are_refused() {
         (principled("anisotropy_rotation = 30"), "`anisotropy_rotation` needs the key `anisotropy`"),
         (principled("thin = true"), "`thin` needs the key `transmission`"),
         (principled("clearcoat_roughness = 0.1"), "`clearcoat_roughness` needs the key `clearcoat`"),
+        (principled("anisotropy_direction = \"checks\""), "`anisotropy_direction` needs the key `anisotropy`"),
+        (
+            principled("anisotropy = 0.5\nanisotropy_direction = \"bumps\""),
+            "material[2].anisotropy_direction: there is no texture named `bumps`",
+        ),
         (principled("coat_normal_map = \"bumps\""), "`coat_normal_map` needs the key `clearcoat`"),
         (principled("clearcoat = 1\ncoat_normal_scale = 2"), "`coat_normal_scale` needs the key `coat_normal_map`"),
         (

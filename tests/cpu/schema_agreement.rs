@@ -38,7 +38,7 @@ const RELATIONS: &[&str] = &[
     " in the texture `",
     "below its `min`",
     "can only be scaled",
-    "a normal map holds directions",
+    "holds directions, not colours",
     "cannot lie by `second_uvs`",
     "is multiplied by another texture itself",
     "cannot be products",

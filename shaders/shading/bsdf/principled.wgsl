@@ -1,7 +1,7 @@
 // The material of glTF 2.0's Appendix B with its extensions; src/reference/bsdf/principled.rs has the model. color0 is the base colour,
 // color1 the specular colour; the further parameters are metallic, specular, transmission, clearcoat, its roughness, the anisotropy and its
 // rotation, 1 plus its cosine and sine, and where there are more, an extinction, the colour and the roughness of the sheen, and what the coat's
-// own normal map has here, and its scale above and below 0.
+// own normal map has here, its scale above and below 0, and what the map of the anisotropy's directions has.
 #import core/layout.wgsl
 #import core/math.wgsl
 #import shading/dielectric.wgsl
@@ -137,7 +137,16 @@ fn principled_frame(lobe: Lobe, facets: Facets, surface: Surface) -> Frame {
 #if ANISOTROPY
     if (facets.flags & ANISOTROPIC) != 0u {
         let frame = facet_frame(facets, surface);
-        let turned = principled_parameter(lobe, 6u).xy - 1.0;
+        var turned = principled_parameter(lobe, 6u).xy - 1.0;
+#if ANISOTROPY_DIRECTIONS
+        if (facets.flags & DIRECTED) != 0u {
+            let direction = principled_parameter(lobe, DIRECTION_PARAMETER).xy * 2.0 - 1.0;
+            if dot(direction, direction) > 0.0 {
+                let unit = normalize(direction);
+                turned = vec2<f32>(turned.x * unit.x - turned.y * unit.y, turned.y * unit.x + turned.x * unit.y);
+            }
+        }
+#endif
         // Towards the side where v grows.
         let side = select(-1.0, 1.0, dot(frame.bitangent, surface.along_v) >= 0.0);
         let tangent = turned.x * frame.tangent + turned.y * side * frame.bitangent;

@@ -11,10 +11,11 @@ use super::json::{Material, TextureInfo, TextureTransform, extension};
 use super::made::Coordinates;
 
 /// Textures of extensions that materials are made of.
-const OF_EXTENSIONS: [(&str, &[&str]); 4] = [
+const OF_EXTENSIONS: [(&str, &[&str]); 5] = [
     ("KHR_materials_specular", &["specularTexture", "specularColorTexture"]),
     ("KHR_materials_transmission", &["transmissionTexture"]),
     ("KHR_materials_clearcoat", &["clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"]),
+    ("KHR_materials_anisotropy", &["anisotropyTexture"]),
     ("KHR_materials_sheen", &["sheenColorTexture", "sheenRoughnessTexture"]),
 ];
 

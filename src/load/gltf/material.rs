@@ -176,9 +176,14 @@ impl Surface<'_, '_> {
                 }
             }
         }
-        let anisotropy = self.number(ANISOTROPY, "anisotropyStrength", 0.0).clamp(0.0, 1.0);
-        if anisotropy > 0.0 {
+        let anisotropy = self.factor(ANISOTROPY, "anisotropyStrength", 0.0, "anisotropyTexture", "b")?;
+        if anisotropy != none {
             keys.set("anisotropy", anisotropy);
+            if let Some(info) = self.texture_of(ANISOTROPY, "anisotropyTexture")?
+                && let Some(name) = self.texture_name(&info, "anisotropyTexture")?
+            {
+                keys.set("anisotropy_direction", name);
+            }
             keys.set("anisotropy_rotation", self.number(ANISOTROPY, "anisotropyRotation", 0.0).to_degrees());
             // Directions follow texture coordinates.
             self.coordinates.get_or_insert(Coordinates { set: 0, map: DAffine2::IDENTITY, second: None });
@@ -310,14 +315,9 @@ impl Surface<'_, '_> {
             ("KHR_materials_diffuse_transmission", "light does not come through"),
             ("KHR_materials_pbrSpecularGlossiness", "the metallic-roughness parameters count"),
         ];
-        let parts_of = [
-            ("KHR_materials_volume", "thicknessTexture", "thickness is that of the shape"),
-            ("KHR_materials_anisotropy", "anisotropyTexture", "the factors alone count"),
-        ];
-        for (name, key, instead) in parts_of {
-            if self.material.extensions.get(name).is_some_and(|object| object.get(key).is_some()) {
-                self.drop(&format!("{name}: {key}"), instead);
-            }
+        let volume = self.material.extensions.get("KHR_materials_volume");
+        if volume.is_some_and(|volume| volume.get("thicknessTexture").is_some()) {
+            self.drop("KHR_materials_volume: thicknessTexture", "thickness is that of the shape");
         }
         for (name, instead) in PARTS {
             if self.material.extensions.contains_key(name) {

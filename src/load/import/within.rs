@@ -7,7 +7,8 @@ use super::keys::{Keys, Value};
 use super::placed::{matrix_of, matrix_value};
 
 /// Keys whose values are names of materials, textures, nodes or groups.
-const REFERENCES: [&str; 8] = ["group", "material", "materials", "node", "normal_map", "coat_normal_map", "bump_map", "texture"];
+const REFERENCES: [&str; 9] =
+    ["group", "material", "materials", "node", "anisotropy_direction", "normal_map", "coat_normal_map", "bump_map", "texture"];
 
 /// Marks the name of a material of the scene around, which stays as it is.
 const OURS: char = '\u{1}';

@@ -51,8 +51,8 @@ pub struct Principled {
     pub coat_facets: Facets,
     /// What the coat's own normal map has here, and its scale.
     pub coat_texel: Option<(DVec3, f64)>,
-    /// From the tangent towards the bitangent, in radians.
-    pub rotation: f64,
+    /// Of the greater width: along the tangent, and across it towards the bitangent. Of length 1.
+    pub direction: DVec2,
     pub sheen: Sheen,
     pub compensates: bool,
 }
@@ -161,7 +161,7 @@ impl Principled {
     }
 
     fn frame(&self, view: &View) -> Frame {
-        view.turned_facet_frame(self.facets.anisotropic, self.rotation)
+        view.turned_facet_frame(self.facets.anisotropic, self.direction)
     }
 
     /// D·G2/(4·cosθo) and the density of the reflected direction.
@@ -288,6 +288,11 @@ impl Scatter for Principled {
             }
         }
         let coat_texel = written.coat_normal_map.map(|map| (lookup.color(&ColorInput::Texture(map.texture)), map.scale));
+        let turned = written.anisotropy_rotation_degrees.to_radians();
+        let direction = written.anisotropy_direction.and_then(|map| {
+            let texel = lookup.color(&ColorInput::Texture(map)).truncate();
+            (texel * 2.0 - 1.0).try_normalize()
+        });
         Some(Self {
             base: lookup.color(&written.base_color),
             metallic: lookup.scalar(&written.metallic),
@@ -300,7 +305,7 @@ impl Scatter for Principled {
             facets,
             coat_facets: isotropic(lookup.scalar(&written.clearcoat_roughness).powi(2)),
             coat_texel,
-            rotation: written.anisotropy_rotation_degrees.to_radians(),
+            direction: DVec2::new(turned.cos(), turned.sin()).rotate(direction.unwrap_or(DVec2::X)),
             sheen: Sheen { color: lookup.color(&written.sheen_color), roughness: lookup.scalar(&written.sheen_roughness) },
             compensates: written.energy_compensation,
         })

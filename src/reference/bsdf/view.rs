@@ -1,6 +1,6 @@
 //! A surface and the direction it is seen from.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use crate::math::Frame;
 use crate::reference::intersect::Tangents;
@@ -94,14 +94,14 @@ impl View {
         }
     }
 
-    /// The same, turned about the normal by an angle in radians, from the tangent towards the side where v grows.
-    pub(super) fn turned_facet_frame(&self, anisotropic: bool, angle: f64) -> Frame {
+    /// The same, turned about the normal: its x is `direction`, along the tangent and across it towards the side where v grows.
+    pub(super) fn turned_facet_frame(&self, anisotropic: bool, direction: DVec2) -> Frame {
         let frame = self.facet_frame(anisotropic);
         if !anisotropic {
             return frame;
         }
         let side = if self.tangents.is_some_and(|tangents| frame.bitangent.dot(tangents.along_v) < 0.0) { -1.0 } else { 1.0 };
-        Frame::along(frame.normal, frame.tangent * angle.cos() + frame.bitangent * (side * angle.sin()))
+        Frame::along(frame.normal, frame.tangent * direction.x + frame.bitangent * (side * direction.y))
     }
 
     pub fn normal(&self) -> DVec3 {

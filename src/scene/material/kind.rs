@@ -99,7 +99,8 @@ pub struct LobeParameters {
     /// - of a conductor, and of rough glass, thin or not, the width across the tangent, and a factor of what is reflected;
     /// - of the principled lobe, metallic, specular, transmission, clearcoat, its roughness, anisotropy, and 1 plus the cosine and the sine of
     ///   its rotation; where it has a form that needs more, the extinction of what it encloses, and the colour and the roughness of its sheen;
-    ///   and where its coat has normals of its own, their texels, and their scale: how far it is above 0, and how far below;
+    ///   where its coat has normals of its own, their texels, and their scale: how far it is above 0, and how far below; and where the direction of
+    ///   its anisotropy comes from a texture, the texels;
     /// - of plastic, the share of light from within that the surface sends back;
     /// - of rough plastic, the same, and then what the surface lets through, three angles an entry.
     pub further: Vec<ColorInput>,
@@ -131,6 +132,8 @@ pub const SHEEN: u32 = 512;
 pub const ATTENUATES: u32 = 1024;
 /// The coat has a normal map of its own.
 pub const COAT_NORMAL_MAP: u32 = 2048;
+/// The direction in which microfacets are wider comes from a texture.
+pub const DIRECTED: u32 = 4096;
 /// All of these.
 pub const FORMS: u32 = COMPLEX_FRESNEL
     | BECKMANN
@@ -143,7 +146,8 @@ pub const FORMS: u32 = COMPLEX_FRESNEL
     | COMPENSATED
     | SHEEN
     | ATTENUATES
-    | COAT_NORMAL_MAP;
+    | COAT_NORMAL_MAP
+    | DIRECTED;
 
 /// Entries that the transmittance of rough plastic takes.
 const TRANSMITTANCE_ENTRIES: usize = TRANSMITTANCE_NODES.div_ceil(3);
@@ -256,10 +260,14 @@ pub const EXTINCTION_PARAMETER: usize = 7;
 /// Where the texels of its coat's normals stand; their scale is the next.
 pub const COAT_NORMAL_PARAMETER: usize = EXTINCTION_PARAMETER + 3;
 
+/// Where the texels of its anisotropy's direction stand.
+pub const DIRECTION_PARAMETER: usize = COAT_NORMAL_PARAMETER + 2;
+
 /// How many further parameters the principled lobe has.
 fn further_of_principled(form: u32) -> usize {
     match form {
-        form if form & COAT_NORMAL_MAP != 0 => COAT_NORMAL_PARAMETER + 2,
+        form if form & DIRECTED != 0 => DIRECTION_PARAMETER + 1,
+        form if form & COAT_NORMAL_MAP != 0 => DIRECTION_PARAMETER,
         form if form & (SHEEN | ATTENUATES) != 0 => COAT_NORMAL_PARAMETER,
         _ => EXTINCTION_PARAMETER,
     }
@@ -269,6 +277,7 @@ impl Principled {
     fn lobe(&self) -> LobeParameters {
         let zero = ColorInput::grey(0.0);
         let turned = self.anisotropy_rotation_degrees.to_radians();
+        let direction = self.anisotropy_direction.filter(|_| self.anisotropy.is_some());
         let form = if self.masking == Masking::Separable { SEPARABLE_MASKING } else { 0 }
             | if self.anisotropy.is_some() { ANISOTROPIC } else { 0 }
             | if self.thin { THIN_WALL } else { 0 }
@@ -276,7 +285,8 @@ impl Principled {
             | if self.energy_compensation { COMPENSATED } else { 0 }
             | if self.sheen_color == zero { 0 } else { SHEEN }
             | if self.attenuation.is_some() { ATTENUATES } else { 0 }
-            | if self.coat_normal_map.is_some() { COAT_NORMAL_MAP } else { 0 };
+            | if self.coat_normal_map.is_some() { COAT_NORMAL_MAP } else { 0 }
+            | if direction.is_some() { DIRECTED } else { 0 };
         let extinction = self.attenuation.map_or(DVec3::ZERO, |attenuation| attenuation.extinction());
         let [coat_normal, scale] = self.coat_normal_map.map_or([zero; 2], |map| {
             let scale = DVec3::new(map.scale.max(0.0), (-map.scale).max(0.0), 0.0);
@@ -295,6 +305,7 @@ impl Principled {
             self.sheen_roughness,
             coat_normal,
             scale,
+            direction.map_or(zero, ColorInput::Texture),
         ];
         further.truncate(further_of_principled(form));
         LobeParameters {

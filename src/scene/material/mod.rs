@@ -12,8 +12,8 @@ pub use blend_weight::BlendWeight;
 pub(crate) use kind::material_table;
 pub use kind::{
     ANISOTROPIC, ATTENUATES, BECKMANN, COAT_NORMAL_MAP, COAT_NORMAL_PARAMETER, COMPENSATED, COMPLEX_FRESNEL, ConductorFresnel,
-    EXTINCTION_PARAMETER, FORMS, LobeKind, LobeParameters, LobeSupport, MaterialId, MaterialKind, NONLINEAR, SEPARABLE_MASKING,
-    SHEEN, SMALLEST_BEND, SQUARED_ACROSS, THIN_WALL, TRANSMITS,
+    DIRECTED, DIRECTION_PARAMETER, EXTINCTION_PARAMETER, FORMS, LobeKind, LobeParameters, LobeSupport, MaterialId, MaterialKind,
+    NONLINEAR, SEPARABLE_MASKING, SHEEN, SMALLEST_BEND, SQUARED_ACROSS, THIN_WALL, TRANSMITS,
 };
 pub use microfacets::{DELTA_ALPHA, Masking, MicrofacetDistribution, Microfacets, visible_slopes_below};
 pub use plastic::{PlasticInterface, TRANSMITTANCE_NODES, diffuse_reflectance};

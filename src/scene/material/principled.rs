@@ -32,6 +32,9 @@ pub struct Principled {
     pub sheen_roughness: ColorInput,
     /// How much wider microfacets are along the direction of the anisotropy, by the square; None: not at all.
     pub anisotropy: Option<ColorInput>,
+    /// Red and green times 2 minus 1 are that direction: along the one in which texture coordinate u grows, and across it towards that of v. Its
+    /// colour space is linear. None: along u.
+    pub anisotropy_direction: Option<TextureId>,
     /// Of that direction, from the one in which texture coordinate u grows towards that of v.
     pub anisotropy_rotation_degrees: f64,
     pub masking: Masking,

@@ -34,6 +34,7 @@ fn coat_normals(scene: &mut Scene, texture: usize, scale: f64) {
         sheen_color: zero,
         sheen_roughness: zero,
         anisotropy: None,
+        anisotropy_direction: None,
         anisotropy_rotation_degrees: 0.0,
         masking: Masking::Separable,
         energy_compensation: false,

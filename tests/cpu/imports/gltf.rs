@@ -3,7 +3,7 @@
 use base64::Engine as _;
 use glam::DVec3;
 use gpt::load::LoadOptions;
-use gpt::scene::{Attenuation, ColorInput, Geometry, Light, MaterialKind, Mesh, Projection, Scene};
+use gpt::scene::{Attenuation, Channel, ChannelInput, ColorInput, Geometry, Light, MaterialKind, Mesh, Projection, Scene};
 use serde_json::{Value, json};
 
 use super::{Folder, picture, refusal, report};
@@ -607,6 +607,33 @@ fn coats_have_normal_maps_of_their_own() {
     let (full, bent_more) = coated(Some(json!({ "index": 0 })));
     assert_eq!(full.map(|map| map.scale), Some(1.0));
     assert!(even != bent && bent != bent_more, "the pictures are alike");
+}
+
+/// Of the texture, red and green are the direction and blue is the strength.
+#[test]
+fn directions_of_anisotropy_are_read() {
+    let brushed = |anisotropy: Value| {
+        let mut file = with_normals();
+        file.root["materials"][0]["extensions"] = json!({ "KHR_materials_anisotropy": anisotropy });
+        let folder = Folder::new(&[("a.gltf", &file.text())]);
+        let scene = folder.valid("a.gltf");
+        assert!(!report(&scene).contains("anisotropy"), "{}", report(&scene));
+        assert_eq!(picture(&folder.written("a.gltf")), picture(&scene));
+        let MaterialKind::Principled(principled) = &scene.materials[0].kind else { panic!("{:?}", scene.materials[0]) };
+        ((**principled).clone(), picture(&scene))
+    };
+    let (even, plain) = brushed(json!({ "anisotropyStrength": 0.75 }));
+    assert_eq!((even.anisotropy, even.anisotropy_direction), (Some(ColorInput::grey(0.75)), None));
+    let texture = json!({ "anisotropyStrength": 0.75, "anisotropyRotation": 0.5, "anisotropyTexture": { "index": 0 } });
+    let (textured, turned) = brushed(texture);
+    let direction = textured.anisotropy_direction.expect("it has a direction");
+    let strength = ChannelInput { texture: direction, channel: Channel::B, factor: DVec3::splat(0.75), is_squared: false };
+    assert_eq!(textured.anisotropy, Some(ColorInput::Channel(strength)));
+    assert!((textured.anisotropy_rotation_degrees - 0.5_f64.to_degrees()).abs() < 1e-12);
+    assert!(plain != turned, "the pictures are alike");
+    // Without a strength there is none.
+    let (none, _) = brushed(json!({ "anisotropyTexture": { "index": 0 } }));
+    assert_eq!((none.anisotropy, none.anisotropy_direction), (None, None));
 }
 
 /// A triangle with a normal map of 4 × 4 texels.

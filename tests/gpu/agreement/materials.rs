@@ -151,6 +151,14 @@ const LOBES: &[(&str, &str)] = &[
     ),
     ("textured and compensated", "type = \"principled\"\nroughness = { texture = \"clouds\" }\nenergy_compensation = true"),
     (
+        "brushed by a texture",
+        "type = \"principled\"\nroughness = 0.4\nanisotropy = { texture = \"bumps\", channel = \"b\", factor = 0.8 }\nanisotropy_direction = \"bumps\"\nanisotropy_rotation = 40",
+    ),
+    (
+        "brushed, coated and bumpy",
+        "type = \"principled\"\nroughness = 0.3\nanisotropy = 0.9\nanisotropy_direction = \"bumps\"\nnormal_map = \"bumps\"\nclearcoat = 0.6\nclearcoat_roughness = 0.2\ncoat_normal_map = \"bumps\"",
+    ),
+    (
         "coat over bumps",
         "type = \"principled\"\nbase_color = [0.8, 0.3, 0.2]\nmetallic = 0.5\nroughness = 0.5\nnormal_map = \"bumps\"\nclearcoat = 1\nclearcoat_roughness = 0.3",
     ),
@@ -371,6 +379,15 @@ fn missing_normals_of_coats_are_noticed() {
     let over_bumps = format!("{coated}normal_map = \"bumps\"\n");
     let as_the_base = stage(&format!("{over_bumps}coat_normal_map = \"bumps\""));
     let Some(verdict) = compare_unequal(&as_the_base, &stage(&over_bumps)) else { return };
+    assert!(!verdict.agrees, "{verdict:#?}");
+}
+
+/// The control: with the direction of u in place of a texture's, the picture is another one.
+#[test]
+fn missing_directions_of_anisotropy_are_noticed() {
+    let brushed = "type = \"principled\"\nroughness = 0.4\nanisotropy = 0.9\n";
+    let theirs = stage(&format!("{brushed}anisotropy_direction = \"bumps\""));
+    let Some(verdict) = compare_unequal(&stage(brushed), &theirs) else { return };
     assert!(!verdict.agrees, "{verdict:#?}");
 }
 

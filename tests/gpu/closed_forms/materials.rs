@@ -158,6 +158,7 @@ fn plain_principled(base: DVec3, metallic: f64, roughness: f64, transmission: f6
         sheen_color: zero,
         sheen_roughness: zero,
         anisotropy: None,
+        anisotropy_direction: None,
         anisotropy_rotation_degrees: 0.0,
         masking: Masking::Separable,
         energy_compensation: false,

@@ -19,6 +19,7 @@ material_keys! {
     #[schemars(extend("allOf" = [
         { "dependentRequired": {
             "anisotropy_rotation": ["anisotropy"],
+            "anisotropy_direction": ["anisotropy"],
             "thin": ["transmission"],
             "clearcoat_roughness": ["clearcoat"],
             "coat_normal_map": ["clearcoat"],
@@ -59,12 +60,14 @@ material_keys! {
         /// With `coat_normal_map`: multiplies its red and green, after they are taken from 0 to 1 to -1 to 1; 1 when left out.
         coat_normal_scale: Option<Located<Number>>,
         /// Colour of fibres that stand on the surface, as on cloth; 0 when left out.
-        sheen_color: Option<Colour<Fraction>>,
+        sheen_color: Option<Box<Colour<Fraction>>>,
         /// 0 when left out.
         sheen_roughness: Option<Located<Scalar<Fraction>>>,
-        /// 0 when left out.
-        anisotropy: Option<Scalar<Fraction>>,
-        /// Degrees, from the direction in which texture coordinate u grows towards that of v.
+        /// How much wider microfacets are along one direction. 0 when left out.
+        anisotropy: Option<Box<Scalar<Fraction>>>,
+        /// A texture of that direction, whose color_space is "linear": red along the direction in which texture coordinate u grows, green across it towards that of v, each from 0 to 1 for -1 to 1. Along u when left out.
+        anisotropy_direction: Option<Located<String>>,
+        /// Degrees by which it is turned further, from the direction in which texture coordinate u grows towards that of v.
         anisotropy_rotation: Option<Located<Number>>,
         /// "separable" when left out.
         masking: Option<MaskingEntry>,
@@ -96,8 +99,14 @@ impl MaterialKeys for Keys {
             written.as_ref().map_or(Ok(ColorInput::grey(otherwise)), |written| resolver.scalar(written))
         };
         let anisotropy = self.anisotropy.as_ref().map(|written| resolver.scalar(written)).transpose()?;
+        let anisotropy_direction = self
+            .anisotropy_direction
+            .as_ref()
+            .map(|name| resolver.texture_of_directions(name, "an anisotropy_direction"))
+            .transpose()?;
         let coat_normal_map = self.coat_normal_map.as_ref().map(|name| resolver.normal_map(name)).transpose()?;
         let coat_normal_scale = self.coat_normal_scale.as_ref().map_or(1.0, |scale| scale.value.0);
+        let is_isotropic = anisotropy.is_none_or(|strength| strength == ColorInput::grey(0.0));
         let clearcoat_roughness = self.clearcoat_roughness.as_ref().map(|written| resolver.scalar(&written.value)).transpose()?;
         let sheen_roughness = self.sheen_roughness.as_ref().map(|written| resolver.scalar(&written.value)).transpose()?;
         let sheen_color = self.sheen_color.as_ref().map(|written| resolver.colour(written)).transpose()?;
@@ -119,6 +128,7 @@ impl MaterialKeys for Keys {
             coat_normal_map: coat_normal_map.map(|texture| CoatNormalMap { texture, scale: coat_normal_scale }),
             sheen_color: sheen_color.unwrap_or(ColorInput::grey(0.0)),
             sheen_roughness: sheen_roughness.unwrap_or(ColorInput::grey(0.0)),
+            anisotropy_direction: anisotropy_direction.filter(|_| !is_isotropic),
             anisotropy: anisotropy.filter(|strength| *strength != ColorInput::grey(0.0)),
             anisotropy_rotation_degrees: self.anisotropy_rotation.as_ref().map_or(0.0, |degrees| degrees.value.0),
             masking: self.masking.map_or(Masking::Separable, Masking::from),
@@ -152,6 +162,9 @@ impl MaterialKeys for Keys {
         }
         if let Some(anisotropy) = &principled.anisotropy {
             out += &writer.input("anisotropy", anisotropy);
+            if let Some(texture) = principled.anisotropy_direction {
+                out += &line("anisotropy_direction", &writer.textures.quoted(texture));
+            }
             out += &line("anisotropy_rotation", &number(principled.anisotropy_rotation_degrees));
         }
         if principled.masking == Masking::HeightCorrelated {
@@ -171,6 +184,7 @@ impl Keys {
         }
         let rows = [
             (span(&self.anisotropy_rotation), "anisotropy_rotation", self.anisotropy.is_some(), "anisotropy"),
+            (span(&self.anisotropy_direction), "anisotropy_direction", self.anisotropy.is_some(), "anisotropy"),
             (span(&self.thin), "thin", self.transmission.is_some(), "transmission"),
             (span(&self.clearcoat_roughness), "clearcoat_roughness", self.clearcoat.is_some(), "clearcoat"),
             (span(&self.coat_normal_map), "coat_normal_map", self.clearcoat.is_some(), "clearcoat"),

@@ -111,11 +111,20 @@ impl Resolver<'_> {
     }
 
     pub(in crate::load::file) fn normal_map(&self, name: &Located<String>) -> Result<TextureId, SceneError> {
-        let id = self.first_uvs_texture(name)?;
+        self.first_uvs_texture(name)?;
+        self.texture_of_directions(name, "a normal map")
+    }
+
+    pub(in crate::load::file) fn texture_of_directions(
+        &self,
+        name: &Located<String>,
+        what: &str,
+    ) -> Result<TextureId, SceneError> {
+        let id = self.texture_id(name)?;
         if self.linear_textures[id] {
             return Ok(id);
         }
-        let message = format!("a normal map holds directions, not colours: `{}` needs color_space = \"linear\"", name.value);
+        let message = format!("{what} holds directions, not colours: `{}` needs color_space = \"linear\"", name.value);
         Err(self.error(&name.span, message))
     }
 

@@ -51,6 +51,7 @@ impl Resolver<'_> {
             clearcoat_roughness: self.mtl_scalar(written, "Pcr", 0.0)?,
             coat_normal_map: None,
             anisotropy: Some(anisotropy).filter(|strength| *strength != ColorInput::grey(0.0)),
+            anisotropy_direction: None,
             // A share of a whole turn.
             anisotropy_rotation_degrees: 360.0 * rotation,
             masking: Masking::Separable,

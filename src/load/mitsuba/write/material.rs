@@ -85,6 +85,9 @@ impl Writer<'_> {
             "principled" => {
                 self.approximate("material of type `principled`", place, "Mitsuba's, whose base is no Lambertian one");
                 let element = self.with_colour(Element::new("bsdf", "principled"), "base_color", material, "base_color")?;
+                if material.contains_key("anisotropy") {
+                    self.drop("anisotropy", place, "microfacets are as wide along all directions");
+                }
                 if material.contains_key("coat_normal_map") {
                     self.drop("coat_normal_map", place, "the coat lies as the rest does");
                 } else if material.contains_key("clearcoat")

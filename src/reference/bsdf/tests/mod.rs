@@ -4,6 +4,7 @@ mod blend_weights;
 mod coats;
 mod densities;
 mod dielectrics;
+mod directions;
 mod energy;
 mod facets;
 mod fresnel;
