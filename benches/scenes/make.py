@@ -7,6 +7,7 @@
   interior      a furnished room of some 70,000 triangles, textured, lit through a window and by lamps behind shades
   ajar          a room that light reaches through a door ajar alone (after Veach)
   sponza-like   a colonnade of two floors round a court, some 80,000 triangles and 10 textures, under sky, sun and one small lamp
+  canopy        a tree whose 6,000 leaves are cut out of squares by a picture, under sky and sun
 
 Scene files, meshes and textures are the same from run to run.
 """
@@ -66,7 +67,8 @@ class Scene:
     def sky(self, zenith, horizon, ground):
         file = f"{self.name}-sky.hdr"
         write_sky(self.folder / file, zenith, horizon, ground)
-        self.add("light", type="environment", file=file)
+        # Rows as Mitsuba has them, so that both see the same sky.
+        self.add("light", type="environment", file=file, rows="to_poles")
 
     def rectangle(self, material, corner, u, v, **keys):
         self.add("shape", type="rectangle", corner=corner, edge_u=u, edge_v=v, material=material, **keys)
@@ -164,7 +166,7 @@ def interior(folder):
     scene.textured("oak", grain((0.4, 0.26, 0.15), 9))
     scene.diffuse("white", (0.8, 0.8, 0.78))
     scene.diffuse("paper", (0.78, 0.7, 0.58))
-    scene.add("material", name="brass", type="conductor", reflectance=(0.9, 0.72, 0.4), roughness=0.45)
+    scene.add("material", name="brass", type="conductor", preset="gold", roughness=0.45, masking="separable")
     scene.add("material", name="glaze", type="plastic", reflectance=(0.1, 0.28, 0.3))
     scene.add("material", name="gone", type="pass")
     scene.emissive("bulb", (500, 400, 280))
@@ -259,7 +261,7 @@ def ajar(folder):
     scene.diffuse("plaster", (0.75, 0.73, 0.7))
     scene.diffuse("door", (0.45, 0.3, 0.2))
     scene.add("material", name="glaze", type="plastic", reflectance=(0.6, 0.15, 0.1))
-    scene.add("material", name="steel", type="conductor", reflectance=(0.7, 0.7, 0.72), roughness=0.4)
+    scene.add("material", name="steel", type="conductor", preset="aluminium", roughness=0.4, masking="separable")
     scene.add("material", name="glass", type="glass", ior=1.5)
     scene.emissive("lamp", (900, 830, 730))
     # The dark room, whose left wall has the door; and the bright one behind it.
@@ -394,7 +396,48 @@ def sponza_like(folder):
     scene.write()
 
 
-ALL = {"lamps": lamps, "interior": interior, "ajar": ajar, "sponza-like": sponza_like}
+def canopy(folder):
+    scene = Scene(folder, "canopy", (256, 192), 8, (4.6, 1.4, 6.0), (0.0, 2.1, 0.0), 44)
+    # A leaf with a notch, and its stalk: whole texels, so that a cut-out is 0 or 1 for everybody.
+    inside = lambda u, v: abs(u - 0.5) < 0.42 * math.sin(math.pi * min(1, v * 0.98 + 0.01)) ** 0.8 * (0.7 + 0.3 * math.cos(22 * v)) or abs(u - 0.5) < 0.03
+    write_png(folder / "canopy-leaf.png", 64, 64, lambda u, v: (float(inside(u, v)),) * 3)
+    scene.add("texture", name="leaf", type="image", file="canopy-leaf.png", color_space="linear", filter="nearest", wrap="clamp")
+    scene.textured("lawn", mottled((0.3, 0.42, 0.16), 0.3, 31))
+    scene.textured("bark", grain((0.32, 0.24, 0.17), 32))
+    for name, colour in (("green", (0.22, 0.45, 0.1)), ("yellow", (0.55, 0.5, 0.12))):
+        scene.add("material", name=name, type="diffuse", reflectance=colour, opacity='{ texture = "leaf", channel = "r" }')
+    lawn = Mesh()
+    lawn.quad((-9, 0, 9), (18, 0, 0), (0, 0, -18), 0.5)
+    scene.mesh("lawn", lawn, "lawn")
+    bark = Mesh()
+    bark.lathe((0, 0, 0), [(0.24 - 0.16 * h / 24 + 0.12 * math.exp(-h / 2), 2.6 * h / 24) for h in range(25)], 48)
+    scene.mesh("bark", bark, "bark")
+    place = random.Random(33)
+    crown = {"green": Mesh(), "yellow": Mesh()}
+    for number in range(6000):
+        # Denser towards the surface of an egg.
+        z, turn, out = place.uniform(-1, 1), place.uniform(0, 2 * math.pi), place.random() ** 0.25
+        level = math.sqrt(1 - z * z)
+        center = (1.6 * out * level * math.cos(turn), 2.7 + 1.35 * out * z, 1.6 * out * level * math.sin(turn))
+        axis = [place.gauss(0, 1) for _ in range(3)]
+        length = math.hypot(*axis)
+        u = [0.17 * part / length for part in axis]
+        other = [place.gauss(0, 1) for _ in range(3)]
+        along = sum(a * b for a, b in zip(u, other)) / sum(a * a for a in u)
+        v = [b - along * a for a, b in zip(u, other)]
+        length = math.hypot(*v)
+        v = [0.17 * part / length for part in v]
+        corner = [c - 0.5 * (a + b) for c, a, b in zip(center, u, v)]
+        # Texture coordinates are lengths times the scale: the square has the picture once.
+        crown["yellow" if number % 7 == 0 else "green"].quad(corner, u, v, 1 / 0.17)
+    for name, leaves in crown.items():
+        scene.mesh(name, leaves, name)
+    scene.sky((0.4, 0.65, 1.4), (0.9, 1.0, 1.2), (0.15, 0.16, 0.1))
+    scene.add("light", type="directional", direction=(-0.45, -0.8, -0.4), irradiance=(9, 8.2, 7))
+    scene.write()
+
+
+ALL = {"lamps": lamps, "interior": interior, "ajar": ajar, "sponza-like": sponza_like, "canopy": canopy}
 
 
 def main(arguments):
