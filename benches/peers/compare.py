@@ -68,8 +68,8 @@ def processes(options, folder):
     python = [sys.executable]
     commands = {
         "gpt": [*python, "worker_gpt.py", options.gpt.resolve(), options.device],
-        "mitsuba-llvm": [*python, "worker_mitsuba.py", "llvm_ad_rgb"],
-        "mitsuba-scalar": [*python, "worker_mitsuba.py", "scalar_rgb"],
+        "mitsuba-llvm": [*python, "worker_mitsuba.py", "llvm_ad_rgb", options.gpt.resolve()],
+        "mitsuba-scalar": [*python, "worker_mitsuba.py", "scalar_rgb", options.gpt.resolve()],
         "cycles": [options.cycles_python, "worker_cycles.py"],
         "luxcore": [*python, "worker_luxcore.py"],
     }

@@ -1,4 +1,4 @@
-"""Mitsuba 3 as a worker (worker.py); its variant is the argument."""
+"""Mitsuba 3 as a worker (worker.py). Arguments: its variant, then the program gpt, which exports what scene_file.py does not translate."""
 
 import sys
 import time
@@ -9,12 +9,14 @@ import mitsuba as mi
 import numpy as np
 
 import scene_file
+from exported import Exported
 
 SAMPLERS = ["independent", "stratified", "multijitter", "orthogonal", "ldsampler"]
 
 
 class Mitsuba:
-    def __init__(self, variant):
+    def __init__(self, variant, program):
+        self.program = program
         mi.set_variant(variant)
         mi.set_log_level(mi.LogLevel.Error)  # samplers warn where they round the number of samples; it is reported instead
         self.name, self.version, self.compiles = f"Mitsuba {variant}", mi.__version__, not variant.startswith("scalar")
@@ -23,7 +25,12 @@ class Mitsuba:
         import export_mitsuba  # needs the variant to be set
 
         self.export, self.sensors, self.warm = export_mitsuba, {}, set()
-        self.plan = scene_file.load(path, size=size)
+        try:
+            self.plan = scene_file.load(path, size=size)
+        except scene_file.Refused:
+            self.plan = Exported(mi, self.program, path, size)
+            self.scene = self.plan.scene()
+            return
         self.scene = mi.load_dict(export_mitsuba.export(self.plan))
 
     def settings(self):
@@ -31,8 +38,11 @@ class Mitsuba:
 
     def sensor(self, sampler, spp):
         if (sampler, spp) not in self.sensors:
-            self.plan.spp = spp
-            self.sensors[sampler, spp] = mi.load_dict(self.export.sensor(self.plan, sampler))
+            if isinstance(self.plan, Exported):
+                self.sensors[sampler, spp] = self.plan.sensor(sampler, spp)
+            else:
+                self.plan.spp = spp
+                self.sensors[sampler, spp] = mi.load_dict(self.export.sensor(self.plan, sampler))
         return self.sensors[sampler, spp]
 
     def render(self, setting, spp, seed):
@@ -50,4 +60,4 @@ class Mitsuba:
 
 
 if __name__ == "__main__":
-    worker.serve(Mitsuba(sys.argv[1]))
+    worker.serve(Mitsuba(*sys.argv[1:]))

@@ -7,7 +7,7 @@
   interior      a furnished room of some 70,000 triangles, textured, lit through a window and by lamps behind shades
   ajar          a room that light reaches through a door ajar alone (after Veach)
   sponza-like   a colonnade of two floors round a court, some 80,000 triangles and 10 textures, under sky, sun and one small lamp
-  canopy        a tree whose 6,000 leaves are cut out of squares by a picture, under sky and sun
+  canopy        a tree whose 6,000 leaves are cut out of squares by a picture, under a sky with a hazy sun
 
 Scene files, meshes and textures are the same from run to run.
 """
@@ -64,9 +64,9 @@ class Scene:
         self.files += len(mesh.faces)
         self.add("shape", type="mesh", file=file, material=material, smooth=False)
 
-    def sky(self, zenith, horizon, ground):
+    def sky(self, zenith, horizon, ground, sun=None):
         file = f"{self.name}-sky.hdr"
-        write_sky(self.folder / file, zenith, horizon, ground)
+        write_sky(self.folder / file, zenith, horizon, ground, sun)
         # Rows as Mitsuba has them, so that both see the same sky.
         self.add("light", type="environment", file=file, rows="to_poles")
 
@@ -432,8 +432,8 @@ def canopy(folder):
         crown["yellow" if number % 7 == 0 else "green"].quad(corner, u, v, 1 / 0.17)
     for name, leaves in crown.items():
         scene.mesh(name, leaves, name)
-    scene.sky((0.4, 0.65, 1.4), (0.9, 1.0, 1.2), (0.15, 0.16, 0.1))
-    scene.add("light", type="directional", direction=(-0.45, -0.8, -0.4), irradiance=(9, 8.2, 7))
+    # The sun is a texel of the sky, six degrees wide: Mitsuba's shadow rays stop at masks, so it finds no light from one direction behind them.
+    scene.sky((0.4, 0.65, 1.4), (0.9, 1.0, 1.2), (0.15, 0.16, 0.1), ((25, 7), (900, 820, 700)))
     scene.write()
 
 

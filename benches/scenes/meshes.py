@@ -96,15 +96,22 @@ def write_png(path, width, height, colour):
         file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(b"".join(rows), 9)) + chunk(b"IEND", b""))
 
 
-def write_sky(path, zenith, horizon, ground, width=64, height=32):
-    """A lat-long map as Radiance's .hdr: from the horizon's colour to the zenith's by the direction's height, another one below."""
+def write_sky(path, zenith, horizon, ground, sun=None, width=64, height=32):
+    """A lat-long map as Radiance's .hdr: from the horizon's colour to the zenith's by the direction's height, another one below. `sun` is the
+    (column, row) of a texel and its colour."""
+
+    def texel(colour):
+        mantissa, exponent = math.frexp(max(colour))
+        return bytes(int(256 * math.ldexp(c, -exponent)) for c in colour) + bytes([exponent + 128])
+
     rows = []
     for y in range(height):
         up = math.cos(math.pi * (y + 0.5) / height)
         colour = [h + (z - h) * up for z, h in zip(zenith, horizon)] if up > 0 else ground
-        mantissa, exponent = math.frexp(max(colour))
-        texel = bytes(int(256 * math.ldexp(c, -exponent)) for c in colour) + bytes([exponent + 128])
-        rows.append(texel * width)
+        texels = [texel(colour)] * width
+        if sun and sun[0][1] == y:
+            texels[sun[0][0]] = texel(sun[1])
+        rows.append(b"".join(texels))
     with open(path, "wb") as file:
         file.write(f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n".encode() + b"".join(rows))
 

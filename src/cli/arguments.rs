@@ -61,7 +61,7 @@ pub enum Command {
     Check(CheckArguments),
     /// Write a scene of another program as a scene file that can be edited and renders the same picture
     Import(ImportArguments),
-    /// Write a scene file or a built-in scene as a scene of Mitsuba 3, as far as it can be said there
+    /// Write a scene as one of Mitsuba 3, as far as it can be said there
     Export(ExportArguments),
     /// List the built-in scenes, or print one
     Scenes(ScenesArguments),
@@ -377,7 +377,7 @@ pub struct ImportArguments {
 
 #[derive(Debug, Args)]
 pub struct ExportArguments {
-    /// A .toml scene or the name of a built-in scene
+    /// Whatever `gpt render` takes: a scene, a model, or the name of a built-in scene
     pub scene: OsString,
     /// Scene of Mitsuba to write; what the scene embeds goes into a folder beside it
     #[arg(short, long, value_name = "SCENE.xml")]

@@ -2,6 +2,7 @@
 
 use gpt::load::{self, SceneError};
 use gpt::output::{AtomicFile, check_target};
+use gpt::scene_writer;
 
 use super::arguments::ExportArguments;
 use super::exit::{Exit, Failure};
@@ -14,22 +15,22 @@ pub fn run(arguments: &ExportArguments) -> Result<Exit, Failure> {
     if target.extension().is_none_or(|ending| !ending.eq_ignore_ascii_case("xml")) {
         return Err(Failure::usage(format!("{} does not end in .xml, as a scene of Mitsuba does", target.display())));
     }
-    let stem = target.file_stem().map_or_else(|| "scene".to_owned(), |stem| stem.to_string_lossy().into_owned());
-    let beside = format!("{stem}-files");
-    let written = load::as_mitsuba(&arguments.scene, &arguments.access.options(arguments.strict), &beside)?;
+    let options = arguments.access.options(arguments.strict);
+    let scene = load::load_with(Some(&arguments.scene), &options)?;
+    let name = std::path::Path::new(&arguments.scene).display().to_string();
+    let written = scene_writer::as_mitsuba(&scene, &name, target)?;
     if let Some(summary) = written.report.summary() {
         if arguments.strict {
-            return Err(SceneError::in_file(std::path::Path::new(&arguments.scene).display(), summary).into());
+            return Err(SceneError::in_file(&name, summary).into());
         }
         let items = written.report.dropped.iter().chain(&written.report.approximated);
         items.for_each(|item| terminal::warn(&format!("{}: {}: {}", item.place, item.what, item.instead)));
     }
-    if !written.files.is_empty() {
-        let folder = target.with_file_name(&beside);
-        std::fs::create_dir_all(&folder).map_err(|error| Failure::Other(format!("{}: {error}", folder.display())))?;
-        for (name, bytes) in &written.files {
-            AtomicFile::write(&folder.join(name), bytes)?;
+    for (path, bytes) in &written.files {
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|error| Failure::Other(format!("{}: {error}", folder.display())))?;
         }
+        AtomicFile::write(path, bytes)?;
     }
     AtomicFile::write(target, written.text.as_bytes())?;
     Ok(Exit::Done)

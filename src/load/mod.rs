@@ -42,13 +42,12 @@ pub use error::SceneError;
 pub use excerpt::Excerpt;
 pub use file::{json_schema, load_toml_str, make_json_schema};
 pub use image_file::read_image;
-pub(crate) use import::{place_rows, write_places};
+pub(crate) use import::{place_rows, write_places, write_ply};
 pub use import_file::{WrittenScene, as_scene_file};
-pub use mitsuba::WrittenMitsuba;
 pub use presets::preset_names;
 pub use printable::printable;
 pub use reading::files_read;
-pub use source::{SceneSource, as_mitsuba, load, load_with};
+pub use source::{SceneSource, load, load_with};
 pub use view::{ModelView, Up};
 
 /// Whether a scene that this process read is made of this file, by whatever name.

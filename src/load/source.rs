@@ -10,7 +10,7 @@ use super::error::{SceneError, show};
 use super::files::MOST_SCENE_BYTES;
 use super::model::ModelFormat;
 use super::view::ModelView;
-use super::{encoding, file, formats, framing, import_file, memory, mitsuba, presets};
+use super::{encoding, file, formats, framing, import_file, memory, presets};
 use crate::input;
 use crate::scene::Scene;
 
@@ -145,26 +145,4 @@ pub fn load(written: Option<&str>) -> Result<Scene, SceneError> {
 /// As [`load`], with `-` for the standard input.
 pub fn load_with(written: Option<&OsStr>, options: &LoadOptions) -> Result<Scene, SceneError> {
     SceneSource::parse(written)?.load(options)
-}
-
-/// A scene file or a built-in scene as a scene of Mitsuba, after it was read and found right. `beside` is the folder of the files that it embeds.
-pub fn as_mitsuba(written: &OsStr, options: &LoadOptions, beside: &str) -> Result<mitsuba::WrittenMitsuba, SceneError> {
-    let source = SceneSource::parse(Some(written))?;
-    source.load(options)?;
-    let access = options.access()?;
-    match source {
-        SceneSource::BuiltIn(name) => {
-            let text = builtin_text(name).ok_or_else(|| SceneError::in_file(name, "is no built-in scene"))?;
-            mitsuba::write(text, name, Path::new(FOLDER), &access.files, beside)
-        }
-        SceneSource::File(path) => {
-            let name = show(&path);
-            let bytes = input::read(&path, most_scene_bytes());
-            let bytes = bytes.map_err(|error| SceneError::in_file(&name, format!("cannot be read: {error}")))?;
-            let (text, _) = encoding::decode(&bytes);
-            mitsuba::write(&text, &name, path.parent().unwrap_or(Path::new("")), &access.files, beside)
-        }
-        _ => Err(SceneError::in_file(show(Path::new(written)), "is no scene file")
-            .with_help("a .toml file or a built-in scene can be exported")),
-    }
 }

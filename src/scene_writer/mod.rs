@@ -5,7 +5,9 @@
 
 mod animation;
 mod material;
+mod mitsuba;
 mod needed;
+mod scene_file;
 mod settings;
 mod shape;
 mod texture;
@@ -13,11 +15,11 @@ mod texture;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::load::file::write_light;
-use crate::load::file::writer::{Names, SideFiles, Writer};
+use crate::load::file::writer::SideFiles;
 use crate::output::{AtomicFile, OutputError};
 use crate::scene::{Motion, Scene};
-use needed::Needed;
+pub use mitsuba::{WrittenMitsuba, as_mitsuba};
+use scene_file::scene_text;
 
 /// Writes the scene as a TOML file, and in the folder `NAME.files` beside it the meshes and pictures that come from no file. All files that
 /// were written, the scene file last.
@@ -35,49 +37,6 @@ pub fn save_scene(scene: &Scene, path: &Path) -> Result<Vec<PathBuf>, OutputErro
     AtomicFile::write(path, text.as_bytes())?;
     written.push(path.to_owned());
     Ok(written)
-}
-
-/// The text of the scene file that would lie at `path`.
-fn scene_text(scene: &Scene, path: &Path) -> (String, SideFiles) {
-    let needed = Needed::of(scene);
-    let animation = &scene.animation;
-    let mut writer = Writer {
-        scene,
-        textures: Names::unique(scene.textures.iter().map(|texture| texture.name.as_str()), "texture"),
-        materials: Names::unique(scene.materials.iter().map(|material| material.name.as_str()), "material"),
-        groups: Names::unique(scene.groups.iter().map(|group| group.name.as_str()), "group"),
-        nodes: Names::unique(animation.nodes.iter().map(|node| node.name.as_str()), "node"),
-        files: SideFiles::beside(path),
-    };
-    let mut text = settings::settings(scene);
-    // The camera's table is the last.
-    let of_camera = animation.camera.as_ref();
-    text += &of_camera.map_or_else(String::new, |track| animation::camera(track, scene.camera.projection, &writer.nodes));
-    text += &animation::animation(animation, &writer.nodes);
-    for id in needed.textures() {
-        text.push_str(&texture::texture(id, &mut writer));
-    }
-    for id in needed.materials() {
-        text.push_str(&material::material(id, &writer));
-    }
-    for (index, shape) in scene.shapes.iter().enumerate() {
-        text.push_str(&shape::shape("[[shape]]", shape, &mut writer));
-        let tracks = animation.shapes.iter().filter(|track| track.shape == index);
-        tracks.for_each(|track| text.push_str(&animation::shape(track, &writer.nodes)));
-    }
-    for (index, group) in scene.groups.iter().enumerate() {
-        text.push_str(&shape::group(index, group, &mut writer));
-    }
-    for instances in &scene.instances {
-        text.push_str(&shape::instances(instances, &mut writer));
-    }
-    for (index, light) in scene.lights.iter().enumerate() {
-        let keys = write_light(light, &mut writer);
-        text.push_str(&format!("\n[[light]]\ntype = \"{}\"\n{keys}", light.kind_name()));
-        let tracks = animation.lights.iter().filter(|track| track.light == index);
-        tracks.for_each(|track| text.push_str(&animation::light(track, light, &writer.nodes)));
-    }
-    (text, writer.files)
 }
 
 /// Writes the files that lie beside the scene file; their paths.

@@ -111,7 +111,32 @@ fn what_is_exported_comes_back() {
         place.expect(0, &format!("check {name}.xml"));
     }
     place.expect(3, "export gallery --strict -o d.xml");
-    place.expect(3, "export a.xml -o d.xml");
     place.expect(2, "export cornell -o d.toml");
     assert!(!place.path("d.xml").exists());
+    // What was imported as well.
+    place.expect(0, "export a.xml -o e.xml");
+    place.expect(0, "check e.xml");
+}
+
+/// Colours however they are written, opacity, and what cannot be said.
+#[test]
+fn what_is_exported_is_said_or_reported() {
+    let place = place();
+    let text = std::fs::read_to_string(place.path("scene.toml")).expect("the scene");
+    let material = "[[material]]\nname = \"veil\"\ntype = \"diffuse\"\nreflectance = \"#ff8000\"\nopacity = 0.25\n\
+                    [[material]]\nname = \"glow\"\ntype = \"emissive\"\nradiance = { kelvin = 3200, factor = 2 }\n\
+                    [[material]]\nname = \"lacquer\"\ntype = \"principled\"\nbase_color = 0.5\nsheen_color = 0.5\n";
+    let shapes = ["veil", "glow", "lacquer"]
+        .map(|name| format!("[[shape]]\ntype = \"sphere\"\ncenter = [9, 0, 0]\nradius = 0.1\nmaterial = \"{name}\"\n"));
+    place.write("all.toml", format!("{text}\n{material}{}", shapes.concat()));
+    let said = place.expect(0, "export all.toml -o all.xml");
+    assert!(said.contains("material `lacquer`: key `sheen_color`: it has no effect"), "{said}");
+    let xml = std::fs::read_to_string(place.path("all.xml")).expect("it was written");
+    assert!(xml.contains("<bsdf type=\"mask\" id=\"veil\">") && xml.contains("name=\"opacity\" value=\"0.25\""), "{xml}");
+    // 1, 0.2159 and 0: the hex digits are sRGB. And a lamp is not black.
+    assert!(xml.contains("name=\"reflectance\" value=\"1, 0.215"), "{xml}");
+    assert!(!xml.contains("name=\"radiance\" value=\"0, 0, 0\""), "{xml}");
+    place.expect(3, "export all.toml --strict -o strict.xml");
+    let parts = ["id=\"veil (where it is)\"", "id=\"veil\""].map(|id| xml.find(id).unwrap_or(usize::MAX));
+    assert!(parts[0] < parts[1] && parts[1] < usize::MAX, "what is named stands above: {parts:?}");
 }

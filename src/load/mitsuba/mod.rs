@@ -20,7 +20,6 @@ mod shape;
 mod spectrum;
 mod texture;
 mod transform;
-mod write;
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -35,7 +34,6 @@ use super::error::SceneError;
 use super::files::Files;
 use super::import::Description;
 use super::printable::short_list;
-pub use write::{WrittenMitsuba, write};
 
 /// What to read of a file.
 #[derive(Debug, Clone, Default)]

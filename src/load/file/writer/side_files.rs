@@ -25,9 +25,24 @@ impl SideFiles {
 
     /// Adds a file; how the scene file names it, in quotes.
     pub fn add(&mut self, name: &str, content: Vec<u8>) -> String {
+        text(&self.add_file(name, content))
+    }
+
+    /// Adds a file; its path relative to the scene file's folder.
+    pub fn add_file(&mut self, name: &str, content: Vec<u8>) -> String {
         let within = format!("{}/{name}", self.subfolder);
         self.files.push((self.folder.join(&within), content));
-        text(&within)
+        within
+    }
+
+    /// The folder of the scene file.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Whether this file is to be written.
+    pub fn contains(&self, path: &Path) -> bool {
+        self.files.iter().any(|(file, _)| file == path)
     }
 
     /// How the scene file names a file that is there, in quotes: relative to its own folder.

@@ -3,18 +3,17 @@
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use toml::{Table, Value};
 
+use super::Writer;
+use super::keys::{Keys, as_number, entries, flag, number, numbers, text, vector};
 use super::xml::{Element, matrix};
-use super::{Writer, as_number, entries, flag, number, numbers, text, vector};
-use crate::load::error::SceneError;
-use crate::load::files::MOST_MODEL_BYTES;
-use crate::load::import::{PLACE_NUMBERS, PlaceFormat, write_ply};
+use crate::load::{SceneError, write_ply};
 use crate::scene::Mesh;
 
 /// Half the side of the rectangle that stands for an infinite plane.
 const PLANE: f64 = 1e4;
 
 impl Writer<'_> {
-    pub fn shape(&mut self, index: usize, shape: &Table) -> Result<(), SceneError> {
+    pub fn shape(&mut self, index: usize, shape: &Keys<'_>) -> Result<(), SceneError> {
         if let Some(element) = self.shape_element(&format!("shape[{index}]"), shape)? {
             self.xml.push(element);
         }
@@ -25,8 +24,8 @@ impl Writer<'_> {
     pub fn group(&mut self, index: usize, group: &Table) -> Result<(), SceneError> {
         let name = text(group, "name").unwrap_or_default();
         let mut element = Element::new("shape", "shapegroup").id(&group_id(name));
-        for (number, shape) in entries(group, "shape").into_iter().enumerate() {
-            if let Some(shape) = self.shape_element(&format!("group[{index}].shape[{number}]"), shape)? {
+        for (number, shape) in entries(group, "shape").into_iter().map(Keys::of).enumerate() {
+            if let Some(shape) = self.shape_element(&format!("group[{index}].shape[{number}]"), &shape)? {
                 element = element.with(shape);
             }
         }
@@ -35,53 +34,19 @@ impl Writer<'_> {
     }
 
     /// `[[instance]]`, an instance for each place.
-    pub fn instances(&mut self, index: usize, instances: &Table) -> Result<(), SceneError> {
-        let place = format!("instance[{index}]");
-        if instances.contains_key("motion") {
-            self.drop("motion", &place, "the instances rest");
-        }
-        if instances.contains_key("material") {
-            self.drop("material of instances", &place, "they have the group's own");
-        }
+    pub fn instances(&mut self, index: usize, instances: &Keys<'_>) {
+        // The scene has the places, wherever the file keeps them.
+        let _ = (instances.contains_key("places"), instances.contains_key("file"));
         let all = instances.get("transform").map_or(DAffine3::IDENTITY, transform);
         let group = group_id(text(instances, "group").unwrap_or_default());
-        for own in self.places(instances)? {
-            let element = Element::new("shape", "instance").transform("to_world", &matrix(&(all * own)));
+        let places = self.original.instances.get(index).map_or(&[][..], |instances| &instances.places);
+        for own in places {
+            let element = Element::new("shape", "instance").transform("to_world", &matrix(&(all * *own)));
             self.xml.push(element.reference(&group));
         }
-        Ok(())
     }
 
-    fn places(&self, instances: &Table) -> Result<Vec<DAffine3>, SceneError> {
-        let numbers: Vec<f64> = match (instances.get("places").and_then(Value::as_array), text(instances, "file")) {
-            (Some(places), _) => places.iter().filter_map(Value::as_array).flatten().filter_map(as_number).collect(),
-            (None, Some(file)) => {
-                let path = self.folder.join(file);
-                let fail = |message: String| SceneError::in_file(self.name, format!("{file}: {message}"));
-                let bytes = self.files.read(&path, MOST_MODEL_BYTES).map_err(|error| fail(error.to_string()))?;
-                let format = PlaceFormat::of(&path).ok_or_else(|| fail("it is no file of places".to_owned()))?;
-                format.numbers(&bytes).map_err(fail)?
-            }
-            (None, None) => return Ok(vec![DAffine3::IDENTITY]),
-        };
-        let (rows, _) = numbers.as_chunks::<PLACE_NUMBERS>();
-        let affine = |row: &[f64; PLACE_NUMBERS]| {
-            let column = |index: usize| DVec3::new(row[index], row[4 + index], row[8 + index]);
-            DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) }
-        };
-        Ok(rows.iter().map(affine).collect())
-    }
-
-    fn shape_element(&mut self, place: &str, shape: &Table) -> Result<Option<Element>, SceneError> {
-        if shape.contains_key("motion") {
-            self.drop("motion", place, "the shape rests");
-        }
-        if shape.contains_key("keyframes") || shape.contains_key("node") {
-            self.drop("keyframes", place, "the shape stands where it is without a frame");
-        }
-        if shape.contains_key("deformation") {
-            self.drop("deformation", place, "the mesh is as in its file, before it is bent");
-        }
+    fn shape_element(&mut self, place: &str, shape: &Keys<'_>) -> Result<Option<Element>, SceneError> {
         if flag(shape, "portal") == Some(true) {
             self.drop("portal", place, "its directions are not sampled by themselves");
         }
@@ -139,10 +104,11 @@ impl Writer<'_> {
                 element
             }
         };
+        self.drop_rest(shape, place);
         Ok(Some(element))
     }
 
-    fn mesh(&mut self, shape: &Table, place: &str) -> Result<Element, SceneError> {
+    fn mesh(&mut self, shape: &Keys<'_>, place: &str) -> Result<Element, SceneError> {
         let smooth = flag(shape, "smooth");
         let Some(file) = text(shape, "file") else {
             let mut mesh = inline(shape);
@@ -150,7 +116,7 @@ impl Writer<'_> {
             if mesh.smooth && mesh.normals.is_empty() {
                 mesh.compute_smooth_normals();
             }
-            let name = self.beside_file(&format!("{}.ply", file_of(place)), write_ply(&mesh));
+            let name = self.files.add_file(&format!("{}.ply", file_of(place)), write_ply(&mesh));
             return Ok(Element::new("shape", "ply").string("filename", &name).boolean("face_normals", !mesh.smooth));
         };
         let lower = file.to_ascii_lowercase();
@@ -161,7 +127,7 @@ impl Writer<'_> {
         if smooth.is_none() {
             self.approximate("`smooth` that is not written", place, "Mitsuba makes normals where the file has none");
         }
-        let name = self.file(file)?;
+        let name = self.file(file);
         let element = Element::new("shape", kind).string("filename", &name);
         // Our v runs upward in every file.
         let element = if kind == "obj" { element.boolean("flip_tex_coords", false) } else { element };
@@ -179,7 +145,7 @@ fn file_of(place: &str) -> String {
     place.replace(['[', '.'], "-").replace(']', "")
 }
 
-fn inline(shape: &Table) -> Mesh {
+fn inline(shape: &Keys<'_>) -> Mesh {
     let rows = |key: &str| -> Vec<Vec<f64>> {
         let list = shape.get(key).and_then(Value::as_array);
         let row = |row: &Value| row.as_array().map(|row| row.iter().filter_map(as_number).collect()).unwrap_or_default();

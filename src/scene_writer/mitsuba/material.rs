@@ -1,17 +1,25 @@
 //! Materials and their textures.
 
+use std::collections::HashMap;
+
 use glam::DVec3;
 use toml::{Table, Value};
 
+use super::Writer;
+use super::keys::{Keys, as_number, colour, entries, flag, number, numbers, table, text, vector};
 use super::xml::Element;
-use super::{Writer, colour, entries, flag, number, numbers, table, text, vector};
-use crate::load::error::SceneError;
+use crate::load::SceneError;
 
 /// Mitsuba's name of one of our presets.
 const PRESETS: [(&str, &str); 4] = [("gold", "Au"), ("copper", "Cu"), ("silver", "Ag"), ("aluminium", "Al")];
 
-impl Writer<'_> {
-    pub fn material(&mut self, material: &Table) -> Result<(), SceneError> {
+impl<'w> Writer<'w> {
+    /// Says a material; its place in reports.
+    pub fn material(&mut self, material: &Keys<'_>) -> Result<String, SceneError> {
+        // Shapes say what it gives off.
+        for key in ["emission", "emission_two_sided", "radiance"] {
+            let _ = material.contains_key(key);
+        }
         let name = text(material, "name").unwrap_or_default().to_owned();
         let place = format!("material `{name}`");
         let bsdf = self.bsdf(material, &place)?;
@@ -41,33 +49,58 @@ impl Writer<'_> {
         };
         let one_sided = flag(material, "two_sided") == Some(false) && kind != "emissive";
         // A blend of see-through parts cannot be two-sided there.
-        let bsdf = if is_transparent || one_sided || self.lets_light_through(material, 0) {
+        let bsdf = if is_transparent || one_sided || self.lets_light_through(&name, 0) {
             bsdf
         } else {
             Element::new("bsdf", "twosided").with(bsdf)
         };
         self.xml.push(bsdf.id(&name));
-        Ok(())
+        Ok(place)
+    }
+
+    /// All materials, each behind the parts that it blends: what is named stands above there.
+    pub fn parts_first(&self) -> Vec<&'w Table> {
+        let all = entries(self.scene, "material");
+        let by_name: HashMap<&str, usize> =
+            all.iter().enumerate().filter_map(|(index, material)| Some((text(*material, "name")?, index))).collect();
+        let (mut is_done, mut ordered) = (vec![false; all.len()], Vec::with_capacity(all.len()));
+        for start in 0..all.len() {
+            // A blend waits below its parts; that none is a part of itself was found before.
+            let mut waiting = vec![start];
+            while let Some(&index) = waiting.last() {
+                let parts = all[index].get("materials").and_then(Value::as_array).into_iter().flatten();
+                let mut parts = parts.filter_map(Value::as_str).filter_map(|part| by_name.get(part).copied());
+                if let Some(part) = parts.find(|part| !is_done[*part]) {
+                    waiting.push(part);
+                    continue;
+                }
+                waiting.pop();
+                if !std::mem::replace(&mut is_done[index], true) {
+                    ordered.push(all[index]);
+                }
+            }
+        }
+        ordered
     }
 
     fn named(&self, name: &str) -> Option<&Table> {
-        entries(self.scene, "material").into_iter().find(|material| text(material, "name") == Some(name))
+        entries(self.scene, "material").into_iter().find(|material| text(*material, "name") == Some(name))
     }
 
     /// A part of it does, at any depth.
-    fn lets_light_through(&self, material: &Table, depth: usize) -> bool {
+    fn lets_light_through(&self, name: &str, depth: usize) -> bool {
+        let Some(material) = self.named(name) else { return false };
         match text(material, "type") {
             Some("glass" | "rough_glass" | "pass") => true,
             Some("blend") if depth < 100 => {
                 let parts = material.get("materials").and_then(Value::as_array);
-                let parts = parts.into_iter().flatten().filter_map(Value::as_str);
-                parts.filter_map(|part| self.named(part)).any(|part| self.lets_light_through(part, depth + 1))
+                parts.into_iter().flatten().filter_map(Value::as_str).any(|part| self.lets_light_through(part, depth + 1))
             }
             _ => false,
         }
     }
 
-    fn bsdf(&mut self, material: &Table, place: &str) -> Result<Element, SceneError> {
+    fn bsdf(&mut self, material: &Keys<'_>, place: &str) -> Result<Element, SceneError> {
         Ok(match text(material, "type").unwrap_or_default() {
             "diffuse" => self.with_colour(Element::new("bsdf", "diffuse"), "reflectance", material, "reflectance")?,
             "mirror" => self.with_colour(Element::new("bsdf", "conductor"), "specular_reflectance", material, "reflectance")?,
@@ -91,7 +124,7 @@ impl Writer<'_> {
                 if material.contains_key("coat_normal_map") {
                     self.drop("coat_normal_map", place, "the coat lies as the rest does");
                 } else if material.contains_key("clearcoat")
-                    && ["normal_map", "bump_map"].iter().any(|key| material.contains_key(*key))
+                    && ["normal_map", "bump_map"].iter().any(|key| material.contains_key(key))
                 {
                     self.approximate("coat over a normal or bump map", place, "the map bends the coat too");
                 }
@@ -114,7 +147,7 @@ impl Writer<'_> {
         })
     }
 
-    fn conductor(&mut self, material: &Table, place: &str) -> Result<Element, SceneError> {
+    fn conductor(&mut self, material: &Keys<'_>, place: &str) -> Result<Element, SceneError> {
         let rough = self.alpha(material).is_some() || material.contains_key("alpha_u") || material.contains_key("roughness_u");
         let element = Element::new("bsdf", if rough { "roughconductor" } else { "conductor" });
         let preset = text(material, "preset");
@@ -133,7 +166,7 @@ impl Writer<'_> {
         if rough { self.facets(element, material, place) } else { Ok(element) }
     }
 
-    fn glass(&mut self, material: &Table, place: &str) -> Result<Element, SceneError> {
+    fn glass(&mut self, material: &Keys<'_>, place: &str) -> Result<Element, SceneError> {
         let thin = flag(material, "thin") == Some(true);
         let rough = text(material, "type") == Some("rough_glass");
         if rough && (thin || material.contains_key("exponent")) {
@@ -153,12 +186,12 @@ impl Writer<'_> {
     }
 
     /// `alpha`, or the square of `roughness`, where they are numbers.
-    fn alpha(&self, material: &Table) -> Option<Value> {
+    fn alpha(&self, material: &Keys<'_>) -> Option<Value> {
         let squared = number(material, "roughness").map(|roughness| Value::Float(roughness * roughness));
         material.get("alpha").cloned().or(squared).or_else(|| material.get("roughness").cloned())
     }
 
-    fn facets(&mut self, mut element: Element, material: &Table, place: &str) -> Result<Element, SceneError> {
+    fn facets(&mut self, mut element: Element, material: &Keys<'_>, place: &str) -> Result<Element, SceneError> {
         if text(material, "masking") != Some("separable") {
             self.approximate("height-correlated masking", place, "it is separate there: 1 to 2 % darker at grazing angles");
         }
@@ -178,12 +211,12 @@ impl Writer<'_> {
                 let name = text(&of, "texture").unwrap_or_default().to_owned();
                 Ok(element.with(self.texture(&name, "alpha", true)?))
             }
-            Some(value) => Ok(element.float("alpha", super::as_number(&value).unwrap_or(0.0).max(1e-4))),
+            Some(value) => Ok(element.float("alpha", as_number(&value).unwrap_or(0.0).max(1e-4))),
             None => Ok(element.float("alpha", 1e-4)),
         }
     }
 
-    fn blend(&mut self, material: &Table, place: &str) -> Result<Element, SceneError> {
+    fn blend(&mut self, material: &Keys<'_>, place: &str) -> Result<Element, SceneError> {
         let parts: Vec<String> = material
             .get("materials")
             .and_then(Value::as_array)
@@ -192,20 +225,27 @@ impl Writer<'_> {
         let weight = table(material, "weight");
         let kind = weight.and_then(|weight| text(weight, "type")).unwrap_or_default();
         let [first, second] = &parts[..] else { return Ok(Element::new("bsdf", "null")) };
+        // A share of what is behind is a mask there, and only a mask lets shadow rays through.
+        let is_mask = self.named(second).is_some_and(|part| text(part, "type") == Some("pass"));
+        let share = if is_mask { "opacity" } else { "weight" };
         // Mitsuba's weight is the second one's share.
-        let element = Element::new("bsdf", "blendbsdf");
+        let element = Element::new("bsdf", if is_mask { "mask" } else { "blendbsdf" });
         let element = match (kind, weight) {
-            ("constant", Some(weight)) => element.float("weight", number(weight, "value").unwrap_or(1.0)),
+            ("constant", Some(weight)) => element.float(share, number(weight, "value").unwrap_or(1.0)),
             ("texture", Some(weight)) => {
                 let name = text(weight, "texture").unwrap_or_default().to_owned();
-                element.with(self.texture(&name, "weight", true)?)
+                if text(weight, "channel").is_some_and(|channel| channel != "a") {
+                    self.approximate("channel of a texture", place, "the luminance of its colours is taken");
+                }
+                self.drop_others(weight, &["type", "texture", "channel"], place);
+                element.with(self.texture(&name, share, true)?)
             }
             (other, _) => {
                 self.approximate(&format!("weight `{other}` of a blend"), place, "one half of each is taken");
-                element.float("weight", 0.5)
+                element.float(share, 0.5)
             }
         };
-        Ok(element.reference(second).reference(first))
+        Ok(if is_mask { element.reference(first) } else { element.reference(second).reference(first) })
     }
 
     /// The light of a material; None where it gives none.
@@ -228,14 +268,12 @@ impl Writer<'_> {
     }
 
     /// The plugin with a colour, a constant or a texture, where one is written.
-    fn with_colour(&mut self, element: Element, theirs: &str, material: &Table, ours: &str) -> Result<Element, SceneError> {
+    fn with_colour(&mut self, element: Element, theirs: &str, material: &Keys<'_>, ours: &str) -> Result<Element, SceneError> {
         match material.get(ours) {
             None => Ok(element),
             Some(Value::Table(of)) => {
                 let place = format!("material `{}`", text(material, "name").unwrap_or_default());
-                if of.contains_key("factor") || of.contains_key("channel") {
-                    self.drop("factor or channel of a texture", &place, "the colours of the texture are taken");
-                }
+                self.drop_others(of, &["texture"], &place);
                 let name = text(of, "texture").unwrap_or_default();
                 Ok(element.with(self.texture(name, theirs, false)?))
             }
@@ -245,8 +283,8 @@ impl Writer<'_> {
 
     fn texture(&mut self, name: &str, role: &str, raw: bool) -> Result<Element, SceneError> {
         let place = format!("texture `{name}`");
-        let found = entries(self.scene, "texture").into_iter().find(|texture| text(texture, "name") == Some(name)).cloned();
-        let Some(texture) = found else {
+        let found = entries(self.scene, "texture").into_iter().find(|texture| text(*texture, "name") == Some(name));
+        let Some(texture) = found.map(Keys::of) else {
             return Err(SceneError::in_file(self.name, format!("there is no texture named `{name}`")));
         };
         let scale = numbers(&texture, "scale").filter(|scale| scale.len() == 2).unwrap_or(vec![1.0, 1.0]);
@@ -255,7 +293,7 @@ impl Writer<'_> {
         let (u, v, x, y) = (scale[0], scale[1], offset[0], offset[1]);
         Ok(match text(&texture, "type").unwrap_or_default() {
             "image" => {
-                let file = self.file(text(&texture, "file").unwrap_or_default())?;
+                let file = self.file(text(&texture, "file").unwrap_or_default());
                 let raw = raw || text(&texture, "color_space") == Some("linear");
                 // v runs downward over a picture there.
                 let steps = format!(

@@ -1,7 +1,8 @@
-//! A scene file of ours as a scene of Mitsuba 3, as far as it can be said there.
+//! A scene as one of Mitsuba 3, as far as it can be said there.
 //!
-//! The scene file has been read and found right before: a key that is missing here is one that may be left out.
+//! It is written as a scene file of ours first, whose keys are then said one by one: colours are numbers there, and opacity is a blend.
 
+mod keys;
 mod material;
 mod shape;
 mod xml;
@@ -9,52 +10,47 @@ mod xml;
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use toml::{Table, Value};
+use toml::Table;
 
+use self::keys::{Keys, colour, entries, integer, number, numbers, table, text, vector};
 use self::xml::{Element, Xml};
-use crate::load::error::SceneError;
-use crate::load::files::{Files, MOST_MODEL_BYTES};
-use crate::scene::ImportReport;
+use super::scene_file::scene_text;
+use crate::load::SceneError;
+use crate::load::file::writer::SideFiles;
+use crate::scene::{ImportReport, Scene};
 
 /// A scene of Mitsuba, and the files that it names beside those on disk.
 #[derive(Debug)]
 pub struct WrittenMitsuba {
     /// XML
     pub text: String,
-    /// Names of files beside the scene's own, with their contents.
-    pub files: Vec<(String, Vec<u8>)>,
+    /// Where they are to be written, with their contents.
+    pub files: Vec<(PathBuf, Vec<u8>)>,
     /// What is not exact.
     pub report: ImportReport,
 }
 
-/// The scene whose text this is. `beside` is the folder of the files that are written, relative to the scene of Mitsuba.
+/// A scene as one of Mitsuba that is to be written to `target`; meshes and pictures that come from no file lie in the folder `NAME.files` beside
+/// it. `name` is how reports call the scene.
 ///
 /// # Errors
-/// A text that is no scene file, and files that cannot be read.
-pub fn write(text: &str, name: &str, folder: &Path, files: &Files, beside: &str) -> Result<WrittenMitsuba, SceneError> {
-    let scene: Table = text.parse().map_err(|error: toml::de::Error| SceneError::in_file(name, error.message().to_owned()))?;
-    let mut writer = Writer {
-        name,
-        scene: &scene,
-        folder,
-        files,
-        beside,
-        xml: Xml::default(),
-        written: Vec::new(),
-        report: ImportReport::default(),
-    };
+/// None that is known: what cannot be said there is in the report.
+pub fn as_mitsuba(scene: &Scene, name: &str, target: &Path) -> Result<WrittenMitsuba, SceneError> {
+    let (text, files) = scene_text(scene, target);
+    let tables: Table = text.parse().map_err(|error: toml::de::Error| SceneError::in_file(name, error.message().to_owned()))?;
+    let mut writer =
+        Writer { name, scene: &tables, original: scene, files, xml: Xml::default(), report: ImportReport::default() };
     writer.all()?;
-    Ok(WrittenMitsuba { text: writer.xml.finish(), files: writer.written, report: writer.report })
+    Ok(WrittenMitsuba { text: writer.xml.finish(), files: writer.files.into_files(), report: writer.report })
 }
 
 struct Writer<'w> {
     name: &'w str,
+    /// The scene as a scene file of ours.
     scene: &'w Table,
-    folder: &'w Path,
-    files: &'w Files,
-    beside: &'w str,
+    original: &'w Scene,
+    files: SideFiles,
     xml: Xml,
-    written: Vec<(String, Vec<u8>)>,
     report: ImportReport,
 }
 
@@ -62,23 +58,25 @@ impl Writer<'_> {
     fn all(&mut self) -> Result<(), SceneError> {
         self.integrator();
         self.sensor();
-        for material in entries(self.scene, "material") {
-            self.material(material)?;
+        for material in self.parts_first().into_iter().map(Keys::of) {
+            let place = self.material(&material)?;
+            self.drop_rest(&material, &place);
         }
-        for (index, shape) in entries(self.scene, "shape").iter().enumerate() {
-            self.shape(index, shape)?;
+        for (index, shape) in entries(self.scene, "shape").into_iter().map(Keys::of).enumerate() {
+            self.shape(index, &shape)?;
         }
         for (index, group) in entries(self.scene, "group").into_iter().enumerate() {
             self.group(index, group)?;
         }
-        for (index, instances) in entries(self.scene, "instance").into_iter().enumerate() {
-            self.instances(index, instances)?;
+        for (index, instances) in entries(self.scene, "instance").into_iter().map(Keys::of).enumerate() {
+            self.instances(index, &instances);
+            self.drop_rest(&instances, &format!("instance[{index}]"));
         }
-        for (index, light) in entries(self.scene, "light").iter().enumerate() {
-            self.light(index, light)?;
-        }
-        if self.scene.contains_key("import") {
-            self.drop("import", "[[import]]", "`gpt import` writes a scene file of it that can be exported");
+        for (index, light) in entries(self.scene, "light").into_iter().map(Keys::of).enumerate() {
+            let place = format!("light[{index}]");
+            if self.light(&light, &place)? {
+                self.drop_rest(&light, &place);
+            }
         }
         Ok(())
     }
@@ -87,12 +85,28 @@ impl Writer<'_> {
         self.report.drop(what, format!("{}: {place}", self.name), instead);
     }
 
+    /// Reports the keys that nothing said.
+    fn drop_rest(&mut self, keys: &Keys<'_>, place: &str) {
+        keys.rest().into_iter().for_each(|key| self.drop(&format!("key `{key}`"), place, "it has no effect"));
+    }
+
+    /// The same of a table within a key, of which these are said.
+    fn drop_others(&mut self, of: &Table, said: &[&str], place: &str) {
+        // A factor of 1 is as if none were written.
+        let is_one = |key: &str| key == "factor" && number(of, key) == Some(1.0);
+        let others = of.keys().filter(|key| !said.contains(&key.as_str()) && !is_one(key));
+        others.for_each(|key| self.drop(&format!("key `{key}`"), place, "it has no effect"));
+    }
+
     fn approximate(&mut self, what: &str, place: &str, instead: &str) {
         self.report.approximate(what, format!("{}: {place}", self.name), instead);
     }
 
     fn integrator(&mut self) {
         let render = table(self.scene, "render");
+        if render.is_some_and(|render| number(render, "clamp").is_some_and(|clamp| clamp > 0.0)) {
+            self.drop("clamp", "render", "bright samples stay as they are");
+        }
         let depth = render.and_then(|render| integer(render, "max_depth")).unwrap_or(16);
         let roulette = render.and_then(|render| integer(render, "roulette_depth")).unwrap_or(5);
         let integrator = Element::new("integrator", "path")
@@ -102,16 +116,18 @@ impl Writer<'_> {
     }
 
     fn sensor(&mut self) {
-        if table(self.scene, "camera").is_some_and(|camera| camera.contains_key("keyframes") || camera.contains_key("node")) {
-            self.drop("keyframes", "camera", "the camera stands where it is without a frame");
-        }
         let film = table(self.scene, "film");
         let size = film.and_then(|film| numbers(film, "size")).unwrap_or(vec![512.0, 512.0]);
         let filter = film.and_then(|film| table(film, "filter"));
         let (kind, radius) =
             filter.map_or(("box", None), |filter| (text(filter, "type").unwrap_or("box"), number(filter, "radius")));
         let filter = match kind {
-            "box" => Element::new("rfilter", "box").float("radius", radius.unwrap_or(0.5)),
+            "box" => {
+                if radius.is_some_and(|radius| radius != 0.5) {
+                    self.approximate("box filter of another radius", "film.filter", "it is a pixel wide");
+                }
+                Element::new("rfilter", "box")
+            }
             "tent" => Element::new("rfilter", "tent").float("radius", radius.unwrap_or(1.0)),
             other => {
                 if other != "gaussian" {
@@ -127,7 +143,8 @@ impl Writer<'_> {
             .with(filter);
         let spp = table(self.scene, "render").and_then(|render| integer(render, "spp")).unwrap_or(256);
         let sampler = Element::new("sampler", "independent").integer("sample_count", spp);
-        let Some(camera) = table(self.scene, "camera") else { return };
+        let Some(camera) = table(self.scene, "camera").map(Keys::of) else { return };
+        let camera = &camera;
         let position = vector(camera, "position").unwrap_or(DVec3::Z);
         let look_at = vector(camera, "look_at").unwrap_or(DVec3::ZERO);
         let up = vector(camera, "up").unwrap_or(DVec3::Y);
@@ -145,7 +162,7 @@ impl Writer<'_> {
             }
             _ => {
                 let aperture =
-                    table(camera, "aperture").filter(|aperture| number(aperture, "radius").is_some_and(|radius| radius > 0.0));
+                    table(camera, "aperture").filter(|aperture| number(*aperture, "radius").is_some_and(|radius| radius > 0.0));
                 let kind = if aperture.is_some() { "thinlens" } else { "perspective" };
                 let mut sensor = Element::new("sensor", kind)
                     .string("fov_axis", "y")
@@ -162,11 +179,14 @@ impl Writer<'_> {
             }
         };
         sensor = sensor.with(sampler).with(film);
+        // Where nothing moves, the shutter has no effect; what does is reported by itself.
+        let _ = (camera.contains_key("shutter"), camera.contains_key("focus_distance"), camera.contains_key("aperture"));
+        self.drop_rest(camera, "camera");
         self.xml.push(sensor);
     }
 
-    fn light(&mut self, index: usize, light: &Table) -> Result<(), SceneError> {
-        let place = format!("light[{index}]");
+    /// Whether it is said.
+    fn light(&mut self, light: &Keys<'_>, place: &str) -> Result<bool, SceneError> {
         let emitter = match text(light, "type").unwrap_or_default() {
             "point" => Element::new("emitter", "point")
                 .point("position", vector(light, "position").unwrap_or_default())
@@ -177,7 +197,7 @@ impl Writer<'_> {
                 let angle = number(light, "angle").unwrap_or(90.0);
                 let falloff = number(light, "falloff").unwrap_or(angle);
                 if falloff < angle {
-                    self.approximate("falloff of a spot light", &place, "it is straight in the angle, not smooth in its cosine");
+                    self.approximate("falloff of a spot light", place, "it is straight in the angle, not smooth in its cosine");
                 }
                 Element::new("emitter", "spot")
                     .transform("to_world", &xml::look_along(position, direction))
@@ -188,17 +208,17 @@ impl Writer<'_> {
             "directional" => Element::new("emitter", "directional")
                 .vector("direction", vector(light, "direction").unwrap_or(DVec3::NEG_Y))
                 .rgb("irradiance", colour(light, "irradiance")),
-            "environment" => self.environment(light, &place)?,
+            "environment" => self.environment(light, place)?,
             other => {
-                self.drop(&format!("light `{other}`"), &place, "it gives no light");
-                return Ok(());
+                self.drop(&format!("light `{other}`"), place, "it gives no light");
+                return Ok(false);
             }
         };
         self.xml.push(emitter);
-        Ok(())
+        Ok(true)
     }
 
-    fn environment(&mut self, light: &Table, place: &str) -> Result<Element, SceneError> {
+    fn environment(&mut self, light: &Keys<'_>, place: &str) -> Result<Element, SceneError> {
         let scale = number(light, "scale").unwrap_or(1.0);
         let Some(file) = text(light, "file") else {
             return Ok(
@@ -209,77 +229,18 @@ impl Writer<'_> {
             self.approximate("rows of an environment map", place, "they stand half a row nearer to the poles");
         }
         let degrees = number(light, "rotate").unwrap_or(0.0);
-        let file = self.file(file)?;
+        let file = self.file(file);
         Ok(Element::new("emitter", "envmap")
             .string("filename", &file)
             .float("scale", scale)
             .transform("to_world", &format!("<rotate y=\"1\" angle=\"{degrees}\"/>")))
     }
 
-    /// The name of a file as the scene of Mitsuba has it: absolute, or beside it where it lies in no file.
-    fn file(&mut self, written: &str) -> Result<String, SceneError> {
-        let path = self.folder.join(written);
-        let is_embedded = !path.is_file();
-        if !is_embedded {
-            let real = std::fs::canonicalize(&path).unwrap_or(path);
-            return Ok(real.to_string_lossy().replace('\\', "/"));
-        }
-        let bytes = self.files.read(&path, MOST_MODEL_BYTES);
-        let bytes = bytes.map_err(|error| SceneError::in_file(self.name, format!("{written}: cannot be read: {error}")))?;
-        let name =
-            PathBuf::from(written).file_name().map_or_else(|| "file".to_owned(), |name| name.to_string_lossy().into_owned());
-        Ok(self.beside_file(&name, bytes.into_owned()))
+    /// The name of a file as the scene of Mitsuba has it: absolute, or of one that is written beside it.
+    fn file(&self, written: &str) -> String {
+        let path = self.files.folder().join(written);
+        let is_there = path.is_file() && !self.files.contains(&path);
+        let name = if is_there { std::fs::canonicalize(&path).unwrap_or(path) } else { PathBuf::from(written) };
+        name.to_string_lossy().replace('\\', "/")
     }
-
-    /// Keeps a file that is written beside the scene; how the scene names it.
-    fn beside_file(&mut self, name: &str, bytes: Vec<u8>) -> String {
-        if !self.written.iter().any(|(known, _)| known == name) {
-            self.written.push((name.to_owned(), bytes));
-        }
-        format!("{}/{name}", self.beside)
-    }
-}
-
-/// The tables of a list.
-fn entries<'t>(scene: &'t Table, key: &str) -> Vec<&'t Table> {
-    let list = scene.get(key).and_then(Value::as_array);
-    list.map(|list| list.iter().filter_map(Value::as_table).collect()).unwrap_or_default()
-}
-
-fn table<'t>(table: &'t Table, key: &str) -> Option<&'t Table> {
-    table.get(key)?.as_table()
-}
-
-fn text<'t>(table: &'t Table, key: &str) -> Option<&'t str> {
-    table.get(key)?.as_str()
-}
-
-fn flag(table: &Table, key: &str) -> Option<bool> {
-    table.get(key)?.as_bool()
-}
-
-fn integer(table: &Table, key: &str) -> Option<i64> {
-    table.get(key)?.as_integer()
-}
-
-fn as_number(value: &Value) -> Option<f64> {
-    value.as_float().or(value.as_integer().map(|number| number as f64))
-}
-
-fn number(table: &Table, key: &str) -> Option<f64> {
-    as_number(table.get(key)?)
-}
-
-fn numbers(table: &Table, key: &str) -> Option<Vec<f64>> {
-    table.get(key)?.as_array()?.iter().map(as_number).collect()
-}
-
-fn vector(table: &Table, key: &str) -> Option<DVec3> {
-    let numbers: [f64; 3] = numbers(table, key)?.try_into().ok()?;
-    Some(DVec3::from_array(numbers))
-}
-
-/// Three numbers or one for grey; black where nothing is written.
-fn colour(table: &Table, key: &str) -> DVec3 {
-    vector(table, key).or(number(table, key).map(DVec3::splat)).unwrap_or_default()
 }
