@@ -15,7 +15,6 @@ const HAS_NORMALS: u32 = 0x0001;
 const HAS_UVS: u32 = 0x0002;
 const HAS_COLOURS: u32 = 0x0008;
 const FACE_NORMALS: u32 = 0x0010;
-const SINGLE: u32 = 0x1000;
 const DOUBLE: u32 = 0x2000;
 /// Elements that are read at a time, so that a header that lies takes no memory.
 const CHUNK: usize = 1 << 16;
@@ -115,11 +114,8 @@ fn read<R: Read>(stream: &mut Stream<R>, version: u16) -> Result<Mesh, String> {
     if vertices > MOST || triangles > MOST {
         return Err(format!("says it has {vertices} vertices and {triangles} triangles; at most {MOST} are read"));
     }
-    let double = match flags & (SINGLE | DOUBLE) {
-        SINGLE => false,
-        DOUBLE => true,
-        _ => return Err("does not say whether its numbers are of single or double precision".to_owned()),
-    };
+    // As in Mitsuba, single precision where nothing is said.
+    let double = flags & DOUBLE != 0;
     let count = vertices as usize;
     let triples =
         |floats: Vec<f32>| -> Vec<Vec3> { floats.as_chunks::<3>().0.iter().map(|xyz| Vec3::from_array(*xyz)).collect() };
@@ -167,8 +163,15 @@ mod tests {
 
     use super::*;
 
+    const SINGLE: u32 = 0x1000;
+
     /// Two meshes: a triangle of single and one of double precision.
     pub fn example(version: u16) -> Vec<u8> {
+        example_of(version, SINGLE)
+    }
+
+    /// The same with a flag of single precision.
+    fn example_of(version: u16, single: u32) -> Vec<u8> {
         let mut bytes = Vec::new();
         let mut places = Vec::new();
         for double in [false, true] {
@@ -176,7 +179,7 @@ mod tests {
             bytes.extend(IDENTIFIER.to_le_bytes());
             bytes.extend(version.to_le_bytes());
             let mut body = Vec::new();
-            body.extend((HAS_UVS | if double { DOUBLE } else { SINGLE }).to_le_bytes());
+            body.extend((HAS_UVS | if double { DOUBLE } else { single }).to_le_bytes());
             if version == 4 {
                 body.extend(b"name\0");
             }
@@ -206,12 +209,13 @@ mod tests {
 
     #[test]
     fn both_versions_and_precisions_are_read() {
-        for version in [3, 4] {
+        // Some exporters write no flag of single precision.
+        for (version, single) in [(3, SINGLE), (4, SINGLE), (3, 0), (4, 0)] {
             for index in [0.0, 1.0] {
-                let mesh = load_bytes(&example(version), index).unwrap();
+                let mesh = load_bytes(&example_of(version, single), index).unwrap();
                 assert_eq!((mesh.positions[1], mesh.uvs[2], mesh.faces[0]), (Vec3::X, Vec2::new(0.0, 0.5), [0, 1, 2]));
             }
-            assert!(load_bytes(&example(version), 2.0).unwrap_err().contains("2 meshes"));
+            assert!(load_bytes(&example_of(version, single), 2.0).unwrap_err().contains("2 meshes"));
         }
     }
 
