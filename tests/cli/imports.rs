@@ -128,9 +128,17 @@ fn what_is_exported_is_said_or_reported() {
                     [[material]]\nname = \"lacquer\"\ntype = \"principled\"\nbase_color = 0.5\nsheen_color = 0.5\n";
     let shapes = ["veil", "glow", "lacquer"]
         .map(|name| format!("[[shape]]\ntype = \"sphere\"\ncenter = [9, 0, 0]\nradius = 0.1\nmaterial = \"{name}\"\n"));
-    place.write("all.toml", format!("{text}\n{material}{}", shapes.concat()));
+    let textures = "[[texture]]\nname = \"checks\"\ntype = \"checker\"\na = 0.2\nb = 0.5\ntimes = \"others\"\nsecond_uvs = true\n\
+                    [[texture]]\nname = \"others\"\ntype = \"checker\"\na = 0.2\nb = 0.5\n\
+                    [[material]]\nname = \"checked\"\ntype = \"diffuse\"\nreflectance = { texture = \"checks\" }\n\
+                    [[shape]]\ntype = \"sphere\"\ncenter = [9, 0, 0]\nradius = 0.1\nmaterial = \"checked\"\n";
+    place.write("all.toml", format!("{text}\n{material}{textures}{}", shapes.concat()));
     let said = place.expect(0, "export all.toml -o all.xml");
     assert!(said.contains("material `lacquer`: key `sheen_color`: it has no effect"), "{said}");
+    for key in ["times", "second_uvs"] {
+        assert!(said.contains(&format!("texture `checks`: key `{key}`: it has no effect")), "{said}");
+    }
+    assert_eq!(said.matches("texture `checks`").count(), 2, "{said}");
     let xml = std::fs::read_to_string(place.path("all.xml")).expect("it was written");
     assert!(xml.contains("<bsdf type=\"mask\" id=\"veil\">") && xml.contains("name=\"opacity\" value=\"0.25\""), "{xml}");
     // 1, 0.2159 and 0: the hex digits are sRGB. And a lamp is not black.

@@ -282,19 +282,20 @@ impl<'w> Writer<'w> {
     }
 
     fn texture(&mut self, name: &str, role: &str, raw: bool) -> Result<Element, SceneError> {
-        let place = format!("texture `{name}`");
         let found = entries(self.scene, "texture").into_iter().find(|texture| text(*texture, "name") == Some(name));
         let Some(texture) = found.map(Keys::of) else {
             return Err(SceneError::in_file(self.name, format!("there is no texture named `{name}`")));
         };
+        let place = format!("texture `{}`", text(&texture, "name").unwrap_or(name));
         let scale = numbers(&texture, "scale").filter(|scale| scale.len() == 2).unwrap_or(vec![1.0, 1.0]);
         let offset = numbers(&texture, "offset").filter(|offset| offset.len() == 2).unwrap_or(vec![0.0, 0.0]);
         let turn = number(&texture, "rotation").map_or(String::new(), |degrees| format!("<rotate z=\"1\" angle=\"{degrees}\"/>"));
         let (u, v, x, y) = (scale[0], scale[1], offset[0], offset[1]);
-        Ok(match text(&texture, "type").unwrap_or_default() {
+        let kind = text(&texture, "type").unwrap_or_default();
+        let element = match kind {
             "image" => {
                 let file = self.file(text(&texture, "file").unwrap_or_default());
-                let raw = raw || text(&texture, "color_space") == Some("linear");
+                let raw = text(&texture, "color_space") == Some("linear") || raw;
                 // v runs downward over a picture there.
                 let steps = format!(
                     "<scale x=\"{u}\" y=\"{v}\"/>{turn}<translate x=\"{x}\" y=\"{y}\"/><scale y=\"-1\"/><translate y=\"1\"/>"
@@ -323,6 +324,10 @@ impl<'w> Writer<'w> {
                 let mean = 0.5 * (colour(&texture, "a") + colour(&texture, "b"));
                 Element::new("texture", "checkerboard").named(role).rgb("color0", mean).rgb("color1", mean)
             }
-        })
+        };
+        if matches!(kind, "image" | "checker") {
+            self.drop_rest(&texture, &place);
+        }
+        Ok(element)
     }
 }
