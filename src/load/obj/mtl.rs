@@ -8,7 +8,7 @@ use crate::load::error::{SceneError, show};
 use crate::load::files::{Files, MOST_LIBRARY_BYTES};
 use crate::load::model::MtlMaterial;
 use crate::load::printable::short_list;
-use crate::scene::ColorSpace;
+use crate::scene::{Channel, ColorSpace};
 
 /// All MTL files of one model.
 #[derive(Default)]
@@ -33,12 +33,14 @@ pub struct TextureMap {
     pub clamp: bool,
     /// How texels are stored (`-colorspace`), where that is said.
     pub space: Option<ColorSpace>,
+    /// Of which a number is taken (`-imfchan`), where that is said; `l`, the luminance, is red in a grey picture.
+    pub channel: Option<Channel>,
     /// Options that were left out.
     pub unsupported: Vec<String>,
 }
 
 /// Keys that have an effect here. All others are named.
-const HONOURED: [&str; 26] = [
+const HONOURED: [&str; 27] = [
     "newmtl",
     "Kd",
     "Ks",
@@ -51,6 +53,7 @@ const HONOURED: [&str; 26] = [
     "illum",
     "map_Kd",
     "map_Ke",
+    "map_d",
     "Pr",
     "Pm",
     "Ps",
@@ -146,7 +149,9 @@ fn check(name: &str, text: &str) -> Result<(String, BTreeSet<String>), SceneErro
             "illum" if rest.parse::<u8>().is_err() => {
                 return Err(wrong(format!("illum: expected an illumination model from 0 to 10, found `{rest}`")));
             }
-            "newmtl" | "map_Kd" | "map_Ke" if rest.is_empty() => return Err(wrong(format!("{key}: the name is missing"))),
+            "newmtl" | "map_Kd" | "map_Ke" | "map_d" if rest.is_empty() => {
+                return Err(wrong(format!("{key}: the name is missing")));
+            }
             // The ambient colour has no meaning in a path tracer.
             "Ka" => continue,
             "" => {}
@@ -185,8 +190,15 @@ fn split_names<'w>(files: &Files, folder: &Path, written: &'w str) -> Vec<&'w st
 impl TextureMap {
     /// Parses `[options] file`.
     pub fn parse(written: &str) -> Result<Self, String> {
-        let mut map =
-            Self { file: String::new(), scale: [1.0; 2], offset: [0.0; 2], clamp: false, space: None, unsupported: Vec::new() };
+        let mut map = Self {
+            file: String::new(),
+            scale: [1.0; 2],
+            offset: [0.0; 2],
+            clamp: false,
+            space: None,
+            channel: None,
+            unsupported: Vec::new(),
+        };
         let mut rest = written.trim();
         while rest.starts_with('-') {
             let (option, after) = next_word(rest);
@@ -210,10 +222,21 @@ impl TextureMap {
                 }
                 "-t" => rest = numbers(rest, &mut [0.0; 2])?,
                 "-mm" => rest = next_word(next_word(rest).1).1,
-                "-blendu" | "-blendv" | "-cc" | "-boost" | "-texres" | "-bm" | "-imfchan" | "-type" => rest = next_word(rest).1,
+                "-imfchan" => {
+                    let (name, after) = next_word(rest);
+                    map.channel = Some(match name {
+                        "r" | "l" => Channel::R,
+                        "g" => Channel::G,
+                        "b" => Channel::B,
+                        "m" => Channel::A,
+                        other => return Err(format!("the channel `{other}` is none of r, g, b, m and l")),
+                    });
+                    rest = after;
+                }
+                "-blendu" | "-blendv" | "-cc" | "-boost" | "-texres" | "-bm" | "-type" => rest = next_word(rest).1,
                 other => return Err(format!("the texture option `{other}` is not known")),
             }
-            if !["-s", "-o", "-clamp", "-colorspace", "-blendu", "-blendv", "-texres"].contains(&option) {
+            if !["-s", "-o", "-clamp", "-colorspace", "-imfchan", "-blendu", "-blendv", "-texres"].contains(&option) {
                 map.unsupported.push(option.to_owned());
             }
         }
@@ -263,6 +286,7 @@ mod tests {
             offset: [0.5, 0.0],
             clamp: true,
             space: None,
+            channel: None,
             unsupported: Vec::new(),
         };
         assert_eq!(map, Ok(expected));

@@ -1,6 +1,6 @@
 //! MTL's keys of physically based materials.
 
-use gpt::scene::{ColorInput, MaterialKind, Principled};
+use gpt::scene::{BlendWeight, Channel, ColorInput, MaterialKind, Principled};
 
 use super::Folder;
 
@@ -8,13 +8,16 @@ const MODEL: &str = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt
 
 /// The material of a library's keys, and the warnings.
 fn material(keys: &str) -> (MaterialKind, Vec<String>) {
-    let png = {
+    let png = |picture: image::DynamicImage| {
         let mut bytes = std::io::Cursor::new(Vec::new());
-        image::RgbImage::new(2, 2).write_to(&mut bytes, image::ImageFormat::Png).expect("memory can be written to");
+        picture.write_to(&mut bytes, image::ImageFormat::Png).expect("memory can be written to");
         bytes.into_inner()
     };
+    let with_alpha = png(image::RgbaImage::from_pixel(2, 2, image::Rgba([255, 255, 255, 128])).into());
+    let png = png(image::RgbImage::new(2, 2).into());
     let library = format!("newmtl m\nKd 0.5 0.25 0.125\n{keys}\n");
-    let folder = Folder::new(&[("a.obj", MODEL.as_bytes()), ("a.mtl", library.as_bytes()), ("h.png", &png)]);
+    let folder =
+        Folder::new(&[("a.obj", MODEL.as_bytes()), ("a.mtl", library.as_bytes()), ("h.png", &png), ("a.png", &with_alpha)]);
     let scene = folder.valid("a.obj");
     let shape = &scene.shapes[0];
     let id = shape.materials().next().expect("it has one");
@@ -54,4 +57,28 @@ fn what_has_no_effect_is_named_once() {
     let (_, warnings) = material("Pr 0.3\nPl 1\nPl 2\ndisp h.png");
     assert_eq!(warnings.len(), 1, "{warnings:?}");
     assert!(warnings[0].contains("keys that have no effect: Pl, disp"), "{warnings:?}");
+}
+
+#[test]
+fn masks_are_blends_with_what_is_behind() {
+    let weight = |keys: &str| match material(keys) {
+        (MaterialKind::Blend { weight, .. }, warnings) => {
+            assert!(warnings.is_empty(), "{warnings:?}");
+            weight
+        }
+        (other, _) => panic!("{other:?}"),
+    };
+    let channel = |weight: BlendWeight| match weight {
+        BlendWeight::Channel { channel, factor, .. } => (channel, factor),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(channel(weight("map_d h.png")), (Channel::R, 1.0));
+    assert_eq!(channel(weight("map_d a.png")), (Channel::A, 1.0));
+    assert_eq!(channel(weight("d 0.5\nmap_d -imfchan g a.png")), (Channel::G, 0.5));
+    // Beside a map, 0 says nothing.
+    assert_eq!(channel(weight("d 0\nmap_d h.png")), (Channel::R, 1.0));
+    assert!(matches!(weight("d 0.5"), BlendWeight::Constant { value: 0.5 }));
+    // What cannot be read hides nothing.
+    let (kind, warnings) = material("map_d absent.png");
+    assert!(matches!(kind, MaterialKind::Diffuse { .. }) && warnings.iter().any(|said| said.contains("map_d")), "{warnings:?}");
 }

@@ -5,7 +5,7 @@
 //! | `illum` 4, 6, 7, or `d` < 1 with `Ni` ≠ 1 | glass of index `Ni`, transmittance `Tf` |
 //! | `illum` 3, 5, or black `Kd` with white `Ks` and `Ns` ≥ 1000 | mirror of reflectance `Ks` |
 //! | `d` = 0 | pass |
-//! | 0 < `d` < 1 | blend of the rest and pass |
+//! | 0 < `d` < 1, `map_d` | blend of the rest and pass |
 //! | `illum` ≥ 2 and `Ks` above 0 | phong: `Kd` times `map_Kd`, `Ks`, exponent `Ns` |
 //! | else | diffuse `Kd` times `map_Kd` |
 //! | `Ke` | emission, from the front |
@@ -21,8 +21,8 @@ use crate::load::formats;
 use crate::load::model::MtlMaterial;
 use crate::load::obj::TextureMap;
 use crate::scene::{
-    BlendWeight, ColorInput, ColorSpace, Emission, ImageTexture, Material, MaterialId, MaterialKind, Principled, Relief, Texture,
-    TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,
+    BlendWeight, Channel, ColorInput, ColorSpace, Emission, ImageTexture, Material, MaterialId, MaterialKind, Principled, Relief,
+    Texture, TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,
 };
 
 /// Stands for what is missing. No material looks so by chance.
@@ -54,14 +54,19 @@ impl Resolver<'_> {
             let name = format!("{} (missing)", written.material.name);
             return Ok(self.add(Material { name, kind, normal_map: None, emission: None, two_sided: true }));
         }
-        let opacity = self.opacity(written)?;
+        let mut opacity = self.opacity(written)?;
+        if opacity == 0.0 && written.material.dissolve_texture.is_some() {
+            // Beside a map the number is often 0, which would leave nothing of it.
+            opacity = 1.0;
+        }
         let kind = self.mtl_kind(written, opacity)?;
         let emission = self.mtl_emission(written)?;
         let transmits = |principled: &Principled| principled.transmission != ColorInput::grey(0.0);
         let see_through = matches!(&kind, MaterialKind::Glass { .. } | MaterialKind::Pass)
             || matches!(&kind, MaterialKind::Principled(principled) if transmits(principled));
         let normal_map = self.mtl_normal_map(written)?;
-        let whole = opacity >= 1.0 || see_through;
+        let mask = self.mtl_mask(written, opacity)?;
+        let whole = mask.is_none() && (opacity >= 1.0 || see_through);
         // A blend's normals are its own, not those of a part.
         let own_map = normal_map.filter(|_| whole);
         let material = Material { name: written.material.name.clone(), kind, normal_map: own_map, emission, two_sided: true };
@@ -77,9 +82,12 @@ impl Resolver<'_> {
             emission: None,
             two_sided: true,
         });
-        let weight = BlendWeight::Constant { value: opacity };
+        let (behind, weight) = match mask {
+            Some(weight) => (format!("{name} (map_d)"), weight),
+            None => (format!("{name} (d = {opacity})"), BlendWeight::Constant { value: opacity }),
+        };
         Ok(self.add(Material {
-            name: format!("{name} (d = {opacity})"),
+            name: behind,
             kind: MaterialKind::Blend { materials: [id, pass], weight },
             normal_map,
             emission: None,
@@ -248,6 +256,19 @@ impl Resolver<'_> {
         }
         let name = &written.material.name;
         Err(SceneError::in_file(show(&written.file), format!("the material `{name}` has d or Tr outside 0 to 1")))
+    }
+
+    /// `map_d`: the alpha channel where the picture has one, else red, times `d`. None where there is no map, or it cannot be read.
+    fn mtl_mask(&mut self, written: &MtlMaterial, opacity: f64) -> Result<Option<BlendWeight>, SceneError> {
+        let Some(map) = written.material.dissolve_texture.clone() else { return Ok(None) };
+        let wanted = TextureMap::parse(&map).ok().and_then(|map| map.channel);
+        let Some(texture) = self.mtl_texture(written, "map_d", &map, None, Some(ColorSpace::Linear))?.texture() else {
+            return Ok(None);
+        };
+        let kind = &self.scene.textures[texture].kind;
+        let has_alpha = matches!(kind, TextureKind::Image(image) if image.image.has_alpha);
+        let channel = wanted.unwrap_or(if has_alpha { Channel::A } else { Channel::R });
+        Ok(Some(BlendWeight::Channel { texture, channel, factor: opacity }))
     }
 
     /// A reflectance above 1 would make energy.
