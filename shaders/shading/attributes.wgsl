@@ -1,6 +1,7 @@
 // What the attributes of a primitive say of a point of it.
 #import core/layout.wgsl
 #import geometry/records.wgsl
+#import shading/coordinates.wgsl
 #import shading/shape_point.wgsl
 #if INSTANCES
 #import geometry/instance.wgsl
@@ -51,6 +52,16 @@ fn second_uv(first: u32, weights: vec2<f32>) -> vec2<f32> {
     return w * vec2<f32>(words.w0.w, words.w1.w) + weights.x * vec2<f32>(words.w2.w, words.w3.x) + weights.y * words.w3.yz;
 }
 #endif
+
+// What textures are looked up by at a point of a primitive whose first texture coordinates there are `uv`; triangles may have second ones.
+fn texture_coordinates(kind: u32, first: u32, uv: vec2<f32>, weights: vec2<f32>) -> TextureCoordinates {
+#if SECOND_UVS
+    if first != NONE && kind == KIND_TRIANGLE {
+        return vec4<f32>(uv, second_uv(first, weights));
+    }
+#endif
+    return only_coordinates(uv);
+}
 
 // Of the linear map from texture coordinates at the corners to the edges.
 fn edge_tangents(first: u32, edge_u: vec3<f32>, edge_v: vec3<f32>) -> Tangents {

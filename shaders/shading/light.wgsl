@@ -28,7 +28,7 @@
 #if VARYING_LIGHTS
 #import shading/bsdf.wgsl
 #import shading/coordinates.wgsl
-#if SECOND_UVS
+#if ATTRIBUTES
 #import shading/attributes.wgsl
 #endif
 #if SPHERE_LIGHTS
@@ -55,11 +55,8 @@ fn varying_radiance(light: u32, point: ShapePoint, wo: vec3<f32>) -> vec3<f32> {
         own_normal = looked_up.normal;
     }
 #endif
-#if SECOND_UVS
-    var coordinates = only_coordinates(uv);
-    if first != NONE && kind == KIND_TRIANGLE {
-        coordinates = vec4<f32>(uv, second_uv(first, point.uv));
-    }
+#if ATTRIBUTES
+    let coordinates = texture_coordinates(kind, first, uv, point.uv);
 #else
     let coordinates = only_coordinates(uv);
 #endif

@@ -19,6 +19,12 @@ struct Lobe {
     further_count: u32,
     further: array<vec3<f32>, MOST_FURTHER>,
 #endif
+#if COAT_NORMALS
+#if SECOND_UVS
+    // The normal map of its coat lies by the second texture coordinates.
+    coat_by_second: bool,
+#endif
+#endif
 #if ROUGH_PLASTIC
     // Where those that need no look-up stand in the tables.
     further_word: u32,
@@ -47,6 +53,13 @@ fn load_further(lobe: ptr<function, Lobe>, material: u32, uv: TextureCoordinates
         let word = tables[first + index];
         (*lobe).further[index] = material_color(word.xyz, word.w, uv);
     }
+#if COAT_NORMALS
+#if SECOND_UVS
+    if ((*lobe).kind & COAT_NORMAL_MAP) != 0u {
+        (*lobe).coat_by_second = lies_by_second_uvs(bitcast<u32>(tables[first + COAT_NORMAL_PARAMETER].w));
+    }
+#endif
+#endif
 }
 #endif
 

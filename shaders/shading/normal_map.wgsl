@@ -4,8 +4,8 @@
 #import geometry/scene.wgsl
 #import shading/coordinates.wgsl
 #import shading/shape_point.wgsl
-#import shading/shapes.wgsl
 #import shading/tangent_space.wgsl
+#import shading/tangents.wgsl
 #import shading/texture.wgsl
 #if BUMP_MAPS
 #if ATTRIBUTES
@@ -29,10 +29,10 @@ fn bumped_normal(texture: u32, normal: vec3<f32>, geometric: vec3<f32>, along_u:
 }
 
 // The area of the triangle's or quad's edges in texture coordinates, of which tangents have the sign alone.
-fn edge_area(first: u32) -> f32 {
+fn edge_area(kind: u32, first: u32, by_second: bool) -> f32 {
 #if ATTRIBUTES
     if first != NONE {
-        return attribute_uv_area(first);
+        return attribute_uv_area(select(first, first + 1u, by_second && kind == KIND_TRIANGLE));
     }
 #endif
     return 1.0;
@@ -50,10 +50,11 @@ fn mapped_normal(material: u32, kind: u32, first: u32, shading: vec3<f32>, point
     if dot(shading, shading) > 0.0 {
         normal = normalize(shading);
     }
-    let tangents = shape_tangents(kind, first, point);
+    let by_second = lies_by_second_uvs(texture);
+    let tangents = tangents_of_set(kind, first, point, by_second);
 #if BUMP_MAPS
     if (bitcast<u32>(texture_word(texture, 0u).x) & TEXTURE_HEIGHTS) != 0u {
-        let per_uv = 1.0 / edge_area(first);
+        let per_uv = 1.0 / edge_area(kind, first, by_second);
         return bumped_normal(texture, normal, point.normal, tangents.along_u * per_uv, tangents.along_v * per_uv, uv);
     }
 #endif

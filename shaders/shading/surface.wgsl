@@ -9,9 +9,12 @@
 #import geometry/instance.wgsl
 #import shading/shape/triangle.wgsl
 #import shading/shape_point.wgsl
+#endif
 #if ATTRIBUTES
 #import shading/attributes.wgsl
 #endif
+#if COAT_NORMALS
+#import shading/tangents.wgsl
 #endif
 #if MOTION
 #import geometry/placed.wgsl
@@ -52,6 +55,11 @@ struct Surface {
 #if COAT_NORMALS
     // The shading normal before a map bent it, on the front side and of any length.
     coat_normal: vec3<f32>,
+#if SECOND_UVS
+    // The directions in which second texture coordinates grow; of what has one set, those of that.
+    second_along_u: vec3<f32>,
+    second_along_v: vec3<f32>,
+#endif
 #endif
 }
 
@@ -148,11 +156,8 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
         own_normal = looked_up.normal;
     }
 #endif
-#if SECOND_UVS
-    var coordinates = only_coordinates(uv);
-    if first != NONE && kind == KIND_TRIANGLE {
-        coordinates = vec4<f32>(uv, second_uv(first, point.uv));
-    }
+#if ATTRIBUTES
+    let coordinates = texture_coordinates(kind, first, uv, point.uv);
 #else
     let coordinates = only_coordinates(uv);
 #endif
@@ -185,6 +190,11 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
 #if TANGENTS
     let tangents = shape_tangents(kind, bitcast<u32>(p2.w), point);
 #endif
+#if COAT_NORMALS
+#if SECOND_UVS
+    let second_tangents = tangents_of_set(kind, bitcast<u32>(p2.w), point, true);
+#endif
+#endif
     return Surface(
         point.position, facing_normal, shading_normal, coordinates, front, POINT_ERROR * dot(abs(facing_normal), size) + point.error,
         material, bitcast<u32>(p1.w), point.area, sphere
@@ -196,6 +206,9 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
 #endif
 #if COAT_NORMALS
         , coat_normal
+#if SECOND_UVS
+        , second_tangents.along_u, second_tangents.along_v
+#endif
 #endif
     );
 }

@@ -20,12 +20,20 @@ fn texture_word(texture: u32, word: u32) -> vec4<f32> {
     return tables[FIRST_TEXTURE_WORD + texture * TEXTURE_WORDS + word];
 }
 
+// It lies by the second texture coordinates of triangles that have some.
+fn lies_by_second_uvs(texture: u32) -> bool {
+#if SECOND_UVS
+    return (bitcast<u32>(texture_word(texture, 0u).x) & TEXTURE_BY_SECOND_UVS) != 0u;
+#else
+    return false;
+#endif
+}
+
 // Where in itself a texture is looked up.
 fn texture_place(texture: u32, coordinates: TextureCoordinates) -> vec2<f32> {
     let t1 = texture_word(texture, 1u);
 #if SECOND_UVS
-    let by_second = (bitcast<u32>(texture_word(texture, 0u).x) & TEXTURE_BY_SECOND_UVS) != 0u;
-    let uv = select(coordinates.xy, coordinates.zw, by_second);
+    let uv = select(coordinates.xy, coordinates.zw, lies_by_second_uvs(texture));
 #else
     let uv = coordinates;
 #endif

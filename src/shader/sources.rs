@@ -79,6 +79,7 @@ shader_files![
     "shading/transmittance.wgsl",
     "shading/image.wgsl",
     "shading/tangent_space.wgsl",
+    "shading/tangents.wgsl",
     "shading/texture.wgsl",
     "shading/thrown_picture.wgsl",
     "shading/trace.wgsl",

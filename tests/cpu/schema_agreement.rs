@@ -39,7 +39,6 @@ const RELATIONS: &[&str] = &[
     "below its `min`",
     "can only be scaled",
     "holds directions, not colours",
-    "cannot lie by `second_uvs`",
     "is multiplied by another texture itself",
     "cannot be products",
     "cannot be read",

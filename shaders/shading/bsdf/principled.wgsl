@@ -113,7 +113,13 @@ fn principled_coat_normal(lobe: Lobe, surface: Surface, wo: vec3<f32>) -> vec3<f
         let scale = principled_parameter(lobe, COAT_NORMAL_PARAMETER + 1u);
         let texel = principled_parameter(lobe, COAT_NORMAL_PARAMETER) * 2.0 - 1.0;
         let local = vec3<f32>(texel.xy * (scale.x - scale.y), texel.z);
-        let bent = from_tangent_space(normal, Tangents(surface.along_u, surface.along_v), local);
+        var tangents = Tangents(surface.along_u, surface.along_v);
+#if SECOND_UVS
+        if lobe.coat_by_second {
+            tangents = Tangents(surface.second_along_u, surface.second_along_v);
+        }
+#endif
+        let bent = from_tangent_space(normal, tangents, local);
         normal = select(bent, normal, dot(bent, bent) == 0.0);
     }
     return shading_normal_towards(normal, surface.facing_normal, wo);

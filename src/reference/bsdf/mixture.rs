@@ -8,7 +8,7 @@ use super::lobe::Lobe;
 use super::lookup::Lookup;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
-use crate::reference::intersect::Surface;
+use crate::reference::intersect::{Surface, UvSet};
 use crate::scene::{BlendMode, Material, MaterialId, Scene};
 
 /// The largest lobe number: random numbers are multiples of 2⁻²⁴ below 1.
@@ -71,7 +71,8 @@ impl Bsdf {
             .with_unbent_normal(surface.unbent_normal)
             .with_coat_normal(surface.coat_normal)
             .with_hemisphere(scene.render.hemisphere)
-            .with_tangents(surface.tangents);
+            .with_tangents(surface.tangents)
+            .with_second_tangents(surface.tangents_of(UvSet::Second));
         let view = if surface.is_mirrored { view.with_mirrored_normal(surface.shading_normal) } else { view };
         let lookup = Lookup::new(scene, surface, &view);
         let material = surface.owner.material;

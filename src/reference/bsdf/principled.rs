@@ -13,6 +13,7 @@ use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::sheen::Sheen;
 use super::view::View;
 use crate::math::Frame;
+use crate::reference::intersect::{NormalTexel, UvSet};
 use crate::scene::material::{AlbedoTable, DELTA_ALPHA, SMALLEST_BEND};
 use crate::scene::{ColorInput, MaterialKind, MicrofacetDistribution};
 
@@ -49,8 +50,8 @@ pub struct Principled {
     pub coat: f64,
     pub facets: Facets,
     pub coat_facets: Facets,
-    /// What the coat's own normal map has here, and its scale.
-    pub coat_texel: Option<(DVec3, f64)>,
+    /// What the coat's own normal map has here.
+    pub coat_texel: Option<NormalTexel>,
     /// Of the greater width: along the tangent, and across it towards the bitangent. Of length 1.
     pub direction: DVec2,
     pub sheen: Sheen,
@@ -287,7 +288,11 @@ impl Scatter for Principled {
                 facets.alpha = facets.alpha.max(DVec2::splat(DELTA_ALPHA));
             }
         }
-        let coat_texel = written.coat_normal_map.map(|map| (lookup.color(&ColorInput::Texture(map.texture)), map.scale));
+        let coat_texel = written.coat_normal_map.map(|map| NormalTexel {
+            texel: lookup.color(&ColorInput::Texture(map.texture)),
+            scale: map.scale,
+            set: UvSet::of(&lookup.scene.textures[map.texture]),
+        });
         let turned = written.anisotropy_rotation_degrees.to_radians();
         let direction = written.anisotropy_direction.and_then(|map| {
             let texel = lookup.color(&ColorInput::Texture(map)).truncate();

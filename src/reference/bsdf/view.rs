@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::math::Frame;
-use crate::reference::intersect::Tangents;
+use crate::reference::intersect::{NormalTexel, Tangents, UvSet};
 use crate::scene::HemisphereSampling;
 
 /// A shading normal on the side of the geometric one.
@@ -26,6 +26,8 @@ pub struct View {
     pub hemisphere: HemisphereSampling,
     /// The directions in which texture coordinates grow, where they do.
     pub tangents: Option<Tangents>,
+    /// The same of the second ones; of what has one set, of that.
+    second_tangents: Option<Tangents>,
     /// The shading normal before a map bent it, where it shadows the bent one.
     unbent_normal: Option<DVec3>,
     /// The same on the front side, where coats lie about it.
@@ -38,7 +40,17 @@ impl View {
         let geometric_normal = if front { front_normal } else { -front_normal };
         let normal = towards(wo, geometric_normal, shading_normal);
         let (hemisphere, frame) = (HemisphereSampling::Cosine, Frame::around(normal));
-        Self { wo, front, geometric_normal, frame, hemisphere, tangents: None, unbent_normal: None, coat_normal: None }
+        Self {
+            wo,
+            front,
+            geometric_normal,
+            frame,
+            hemisphere,
+            tangents: None,
+            second_tangents: None,
+            unbent_normal: None,
+            coat_normal: None,
+        }
     }
 
     pub fn with_unbent_normal(self, unbent_normal: Option<DVec3>) -> Self {
@@ -49,10 +61,13 @@ impl View {
         Self { coat_normal, ..self }
     }
 
-    /// The frame of a coat whose own normal map has this texel, of its scale, if it has a map.
-    pub(super) fn coat_frame(&self, texel: Option<(DVec3, f64)>) -> Frame {
+    /// The frame of a coat whose own normal map has this texel, if it has a map.
+    pub(super) fn coat_frame(&self, texel: Option<NormalTexel>) -> Frame {
         let Some(normal) = self.coat_normal else { return self.frame };
-        let bent = texel.zip(self.tangents).and_then(|((texel, scale), tangents)| tangents.direction(normal, texel, scale));
+        let bent = texel.and_then(|NormalTexel { texel, scale, set }| {
+            let tangents = if set == UvSet::Second { self.second_tangents } else { self.tangents };
+            tangents?.direction(normal, texel, scale)
+        });
         Frame::around(towards(self.wo, self.geometric_normal, bent.unwrap_or(normal)))
     }
 
@@ -84,6 +99,10 @@ impl View {
 
     pub fn with_tangents(self, tangents: Option<Tangents>) -> Self {
         Self { tangents, ..self }
+    }
+
+    pub fn with_second_tangents(self, second_tangents: Option<Tangents>) -> Self {
+        Self { second_tangents, ..self }
     }
 
     /// The frame that microfacets lie in: x along the tangent where that matters and there is one.

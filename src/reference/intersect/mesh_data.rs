@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
-use super::normal_map::Tangents;
+use super::normal_map::{Tangents, UvSet};
 use super::pose::Pose;
 use super::ray::Local;
 use super::shape::Triangle;
@@ -32,21 +32,28 @@ impl MeshData {
 
     /// Second texture coordinates on a face of a mesh that has some.
     pub fn second_uv(&self, face: usize, local: Local) -> Option<DVec2> {
-        let uvs = &self.mesh.as_ref()?.second_uvs;
-        let [a, b, c] = self.faces.get(face)?.map(|corner| uvs.get(corner as usize).map(|uv| uv.as_dvec2()));
-        Some(a? * (1.0 - local.x - local.y) + b? * local.x + c? * local.y)
+        let [a, b, c] = self.corners(&self.mesh.as_ref()?.second_uvs, face)?;
+        Some(a * (1.0 - local.x - local.y) + b * local.x + c * local.y)
     }
 
     /// Texture coordinates of a face's corners, where there are some.
     pub fn uv_corners(&self, face: usize) -> Option<[DVec2; 3]> {
-        let uvs = &self.mesh.as_ref()?.uvs;
-        let [a, b, c] = self.faces[face].map(|corner| uvs.get(corner as usize).map(|uv| uv.as_dvec2()));
-        Some([a?, b?, c?])
+        self.corners(&self.mesh.as_ref()?.uvs, face)
     }
 
-    /// Directions of the texture coordinates on a face of a mesh.
-    pub fn tangents(&self, face: usize, triangle: &Triangle) -> Option<Tangents> {
-        Tangents::of_triangle(triangle.corners.map(|corner| corner.as_dvec3()), self.uv_corners(face)?)
+    /// Directions of one of the sets of texture coordinates on a face of a mesh.
+    pub fn tangents(&self, face: usize, triangle: &Triangle, set: UvSet) -> Option<Tangents> {
+        let mesh = self.mesh.as_ref()?;
+        let uvs = match set {
+            UvSet::Second if !mesh.second_uvs.is_empty() => self.corners(&mesh.second_uvs, face)?,
+            _ => self.uv_corners(face)?,
+        };
+        Tangents::of_triangle(triangle.corners.map(|corner| corner.as_dvec3()), uvs)
+    }
+
+    fn corners(&self, uvs: &[Vec2], face: usize) -> Option<[DVec2; 3]> {
+        let [a, b, c] = self.faces.get(face)?.map(|corner| uvs.get(corner as usize).map(|uv| uv.as_dvec2()));
+        Some([a?, b?, c?])
     }
 
     /// Normal and texture coordinates on a face of a mesh.

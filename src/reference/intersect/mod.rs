@@ -12,7 +12,7 @@ mod shape;
 mod world;
 
 pub use hierarchy::PreparedRay;
-pub use normal_map::Tangents;
+pub use normal_map::{NormalTexel, Tangents, UvSet};
 pub use owner::{Owner, SurfaceId};
 pub use pose::{PathTime, Pose};
 pub use ray::{Ray, SurfacePoint};

@@ -5,7 +5,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::reference::texture;
+use crate::reference::texture::{self, Coordinates};
 use crate::scene::{MaterialId, Relief, Scene, Texture, TextureId};
 
 /// The directions in which u and v grow, not of unit length.
@@ -56,6 +56,30 @@ impl Tangents {
     }
 }
 
+/// One of a mesh's sets of texture coordinates; of what has one, that.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UvSet {
+    First,
+    Second,
+}
+
+/// What a normal map has at a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NormalTexel {
+    pub texel: DVec3,
+    /// Multiplies red and green, after they are taken from 0 to 1 to −1 to 1.
+    pub scale: f64,
+    /// The coordinates that the map lies by.
+    pub set: UvSet,
+}
+
+impl UvSet {
+    /// The coordinates that a texture lies by.
+    pub fn of(texture: &Texture) -> Self {
+        if texture.by_second_uvs { Self::Second } else { Self::First }
+    }
+}
+
 /// The normal maps of a scene's materials.
 #[derive(Debug, Clone)]
 pub struct NormalMaps {
@@ -81,16 +105,17 @@ impl NormalMaps {
         self.of_material[material].is_some_and(|texture| self.textures[texture].mirrors_bent_normals)
     }
 
-    /// The shading normal as the material's map bends it; as it is where there is no map or no tangent.
+    /// The shading normal as the material's map bends it; as it is where there is no map or no tangent. `tangents` are those of the coordinates
+    /// that the map lies by.
     pub fn bend(
         &self,
         material: MaterialId,
         [normal, geometric_normal]: [DVec3; 2],
-        uv: DVec2,
-        tangents: impl FnOnce() -> Option<Tangents>,
+        uv: Coordinates,
+        tangents: impl FnOnce(UvSet) -> Option<Tangents>,
     ) -> DVec3 {
         let Some(texture) = self.of_material[material] else { return normal };
-        let Some(tangents) = tangents() else { return normal };
+        let Some(tangents) = tangents(UvSet::of(&self.textures[texture])) else { return normal };
         let bent = match self.textures[texture].relief {
             Relief::Normals(scale) => {
                 let texel = texture::look_up(&self.textures, texture, uv);

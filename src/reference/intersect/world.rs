@@ -6,7 +6,7 @@ use super::element::Element;
 use super::hierarchy::{Hierarchy, PreparedRay};
 use super::instances::{Instances, PlacedTriangle};
 use super::mesh_data::MeshData;
-use super::normal_map::{NormalMaps, Tangents};
+use super::normal_map::{NormalMaps, Tangents, UvSet};
 use super::owner::{Owner, SurfaceId};
 use super::pose::{self, PathTime, Pose};
 use super::ray::{Local, Ray, SurfacePoint};
@@ -43,9 +43,16 @@ pub struct Surface {
     pub second_uv: Option<DVec2>,
     /// The directions in which texture coordinates grow, where the material depends on them and there are some.
     pub tangents: Option<Tangents>,
+    /// The same of the second ones of a mesh that has two.
+    pub second_tangents: Option<Tangents>,
 }
 
 impl Surface {
+    /// The directions of the set that a texture lies by, which is the only one of what has no second.
+    pub fn tangents_of(&self, set: UvSet) -> Option<Tangents> {
+        if set == UvSet::Second && self.second_uv.is_some() { self.second_tangents } else { self.tangents }
+    }
+
     pub fn coordinates(&self) -> Coordinates {
         Coordinates { first: self.uv, second: self.second_uv.unwrap_or(self.uv) }
     }
@@ -271,9 +278,8 @@ impl World {
                 let at_rest = triangle.point(&pose.ray_to_rest(ray), hit.distance, hit.local);
                 let point = pose.point(&at_rest);
                 let looks = mesh.interpolate(face, hit.local, point.normal, Some(&pose));
-                let tangents = || mesh.tangents(face, triangle).map(|tangents| pose.tangents(tangents));
-                let shaded = self.shaded((hit.surface, owner), point, looks, tangents);
-                Surface { second_uv: mesh.second_uv(face, hit.local), ..shaded }
+                let tangents = |set| mesh.tangents(face, triangle, set).map(|tangents| pose.tangents(tangents));
+                self.shaded((hit.surface, owner), point, looks, mesh.second_uv(face, hit.local), tangents)
             }
             SurfaceId::Infinite(index) => {
                 let point = self.infinite[index].0.element().point(ray, hit.distance, hit.local);
@@ -288,6 +294,7 @@ impl World {
                     uv: DVec2::ZERO,
                     second_uv: None,
                     tangents: None,
+                    second_tangents: None,
                 }
             }
         }
@@ -303,15 +310,15 @@ impl World {
             Primitive::Triangle(_) => shape.interpolate(owner.part, local, point.normal, pose),
             Primitive::Other(element) => (point.normal, element.uv(local, at_rest)),
         };
-        let tangents = || {
+        let tangents = |set| {
             let at_rest = match &self.primitives[index] {
-                Primitive::Triangle(triangle) => shape.tangents(owner.part, triangle),
+                Primitive::Triangle(triangle) => shape.tangents(owner.part, triangle, set),
                 Primitive::Other(element) => element.tangents(local, at_rest),
             };
             at_rest.map(|tangents| pose.map_or(tangents, |pose| pose.tangents(tangents)))
         };
-        let shaded = self.shaded((SurfaceId::Primitive(index), owner), point, (normal, uv), tangents);
-        Surface { second_uv: shape.second_uv(owner.part, local), ..shaded }
+        let second_uv = shape.second_uv(owner.part, local);
+        self.shaded((SurfaceId::Primitive(index), owner), point, (normal, uv), second_uv, tangents)
     }
 
     /// A surface with its own normal and texture coordinates, as its material bends it.
@@ -320,15 +327,30 @@ impl World {
         (id, owner): (SurfaceId, Owner),
         point: SurfacePoint,
         (normal, uv): (DVec3, DVec2),
-        tangents: impl Fn() -> Option<Tangents>,
+        second_uv: Option<DVec2>,
+        tangents: impl Fn(UvSet) -> Option<Tangents>,
     ) -> Surface {
-        let shading_normal = self.normal_maps.bend(owner.material, [normal, point.normal], uv, &tangents);
-        let tangents = if self.uses_tangents[owner.material] { tangents() } else { None };
+        let coordinates = Coordinates { first: uv, second: second_uv.unwrap_or(uv) };
+        let shading_normal = self.normal_maps.bend(owner.material, [normal, point.normal], coordinates, &tangents);
+        let uses_tangents = self.uses_tangents[owner.material];
+        let second_tangents = if uses_tangents && second_uv.is_some() { tangents(UvSet::Second) } else { None };
+        let tangents = if uses_tangents { tangents(UvSet::First) } else { None };
         let coat_normal = self.coat_normals_differ[owner.material].then_some(normal);
         let unbent_normal = self.normal_maps.shadows(owner.material).then_some(normal);
         let is_mirrored = self.normal_maps.mirrors(owner.material);
-        let second_uv = None;
-        Surface { id, owner, point, shading_normal, unbent_normal, coat_normal, is_mirrored, uv, second_uv, tangents }
+        Surface {
+            id,
+            owner,
+            point,
+            shading_normal,
+            unbent_normal,
+            coat_normal,
+            is_mirrored,
+            uv,
+            second_uv,
+            tangents,
+            second_tangents,
+        }
     }
 }
 

@@ -2,13 +2,14 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{image, perlin, worley};
+use super::{Coordinates, image, perlin, worley};
 use crate::math::luminance;
 use crate::scene::{Texture, TextureId, TextureKind};
 
 /// How a texture's luminance changes along u and v. A checker changes in steps alone, and bends no normals.
-pub fn gradient(textures: &[Texture], id: TextureId, uv: DVec2) -> DVec2 {
+pub fn gradient(textures: &[Texture], id: TextureId, uv: impl Into<Coordinates>) -> DVec2 {
     let texture = &textures[id];
+    let uv = uv.into().of(texture);
     let at = |scale: [f64; 2]| texture.placed(uv * DVec2::from(scale));
     let between = |a: DVec3, b: DVec3| luminance(b) - luminance(a);
     let (scale, slope) = match texture.kind {

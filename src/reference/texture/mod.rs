@@ -28,6 +28,13 @@ pub struct Coordinates {
     pub second: DVec2,
 }
 
+impl Coordinates {
+    /// Those that a texture lies by.
+    fn of(self, texture: &Texture) -> DVec2 {
+        if texture.by_second_uvs { self.second } else { self.first }
+    }
+}
+
 impl From<DVec2> for Coordinates {
     fn from(uv: DVec2) -> Self {
         Self { first: uv, second: uv }
@@ -83,8 +90,8 @@ fn texels(textures: &[Texture], texture: TextureId, uv: impl Into<Coordinates>) 
 }
 
 /// All channels of a texture by itself.
-fn own_texels(texture: &Texture, Coordinates { first, second }: Coordinates) -> [f64; 4] {
-    let uv = if texture.by_second_uvs { second } else { first };
+fn own_texels(texture: &Texture, uv: Coordinates) -> [f64; 4] {
+    let uv = uv.of(texture);
     let at = |scale: [f64; 2]| texture.placed(uv * DVec2::from(scale));
     let between = |a: DVec3, b: DVec3, share: f64| (a + share * (b - a)).extend(1.0).to_array();
     match texture.kind {

@@ -607,6 +607,17 @@ fn coats_have_normal_maps_of_their_own() {
     let (full, bent_more) = coated(Some(json!({ "index": 0 })));
     assert_eq!(full.map(|map| map.scale), Some(1.0));
     assert!(even != bent && bent != bent_more, "the pictures are alike");
+    // By coordinates of its own.
+    let mut file = with_normals();
+    let uvs = file.add("VEC2", &[0.3, 0.0, 0.0, 1.0, 1.0, 0.5]);
+    file.root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = json!(uvs);
+    file.root["materials"][0]["extensions"] = json!({ "KHR_materials_clearcoat": {
+        "clearcoatFactor": 0.9, "clearcoatRoughnessFactor": 0.1, "clearcoatNormalTexture": { "index": 0, "texCoord": 1 } } });
+    let scene = file.read();
+    let MaterialKind::Principled(principled) = &scene.materials[0].kind else { panic!("{:?}", scene.materials[0]) };
+    let map = principled.coat_normal_map.expect("it has one");
+    assert!(scene.textures[map.texture].by_second_uvs && report(&scene).is_empty(), "{}", report(&scene));
+    assert!(picture(&scene) != bent_more, "the pictures are alike");
 }
 
 /// Of the texture, red and green are the direction and blue is the strength.

@@ -223,8 +223,49 @@ fn sheets(names: [&str; 2], by: &str) -> String {
     .concat()
 }
 
+/// Sheets bent by their second coordinates: by normals, one of them mirrored, by heights, and of a coat; one is placed as an instance.
+fn bent_sheets(names: [&str; 2], by: &str) -> String {
+    let materials = format!(
+        "[[texture]]\nname = \"relief\"\ntype = \"image\"\nfile = \"texture.png\"\ncolor_space = \"linear\"\nscale = [0.8, 1.2]\n{by}\n\
+         [[material]]\nname = \"bent\"\ntype = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"relief\"\nnormal_scale = 0.6\n\
+         [[material]]\nname = \"bumpy\"\ntype = \"diffuse\"\nreflectance = 0.7\nbump_map = \"relief\"\nbump_scale = 0.3\n\
+         [[material]]\nname = \"coated\"\ntype = \"principled\"\nbase_color = 0.2\nmetallic = 0\nroughness = 0.7\n\
+         clearcoat = 1\nclearcoat_roughness = 0.4\ncoat_normal_map = \"relief\"\ncoat_normal_scale = 0.6\n"
+    );
+    let at = |scale: &str, x: f64, y: f64| {
+        format!(
+            "transform = [{{ scale = {scale} }}, {{ rotate = [1, 0.4, 0], degrees = 60 }}, {{ translate = [{x}, {y}, 0.6] }}]\n"
+        )
+    };
+    let shape = |material: &str, place: String| {
+        format!("[[shape]]\n{}material = \"{material}\"\n{place}", sheet(names, "smooth = false\n"))
+    };
+    [
+        materials,
+        shape("bent", at("[-0.8, 0.7, 0.8]", -1.2, 0.3)),
+        shape("bumpy", at("0.8", 1.2, 0.3)),
+        shape("coated", at("0.8", -0.8, 1.8)),
+        format!(
+            "[[group]]\nname = \"sheets\"\n[[group.shape]]\n{}material = \"bumpy\"\n[[instance]]\ngroup = \"sheets\"\nmaterial = \"coated\"\n{}",
+            sheet(names, "smooth = false\n"),
+            at("[0.7, 0.8, 0.8]", 1.2, 1.8)
+        ),
+    ]
+    .concat()
+}
+
+#[test]
+fn maps_of_normals_and_heights_by_second_coordinates_agree() {
+    second_coordinates_agree(bent_sheets);
+}
+
 #[test]
 fn second_texture_coordinates_agree() {
+    second_coordinates_agree(sheets);
+}
+
+/// Of a scene whose textures lie by the second of two sets of coordinates, by the only set, and by the first.
+fn second_coordinates_agree(sheets: fn([&str; 2], &str) -> String) {
     let folder = folder_with_texture();
     let light = "[[light]]\ntype = \"environment\"\nradiance = 0.5\n";
     let load = |parts: &[&str]| {

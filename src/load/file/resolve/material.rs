@@ -96,22 +96,18 @@ impl Resolver<'_> {
         })
     }
 
-    /// A texture by which normals are bent: they turn about the directions in which the first texture coordinates grow.
-    fn first_uvs_texture(&self, name: &Located<String>) -> Result<TextureId, SceneError> {
+    /// A texture by which normals are bent.
+    fn relief_texture(&self, name: &Located<String>) -> Result<TextureId, SceneError> {
         let id = self.texture_id(name)?;
         if self.scene.textures[id].times.is_some() {
             let message = format!("normal and bump maps cannot be products, as the texture `{}` is by `times`", name.value);
             return Err(self.error(&name.span, message));
         }
-        if !self.scene.textures[id].by_second_uvs {
-            return Ok(id);
-        }
-        let message = format!("normal and bump maps cannot lie by `second_uvs`, as the texture `{}` does", name.value);
-        Err(self.error(&name.span, message).with_help("let the other textures lie by them, and the normal map by the first"))
+        Ok(id)
     }
 
     pub(in crate::load::file) fn normal_map(&self, name: &Located<String>) -> Result<TextureId, SceneError> {
-        self.first_uvs_texture(name)?;
+        self.relief_texture(name)?;
         self.texture_of_directions(name, "a normal map")
     }
 
@@ -155,7 +151,7 @@ impl Resolver<'_> {
                 return Err(self.error(&bump.span, "a material has a normal map or a bump map, not both"));
             }
             (Some(bump), None, _) => {
-                let id = self.first_uvs_texture(bump)?;
+                let id = self.relief_texture(bump)?;
                 let is_image = matches!(self.scene.textures[id].kind, TextureKind::Image(_));
                 let name = &bump.value;
                 if let TextureKind::Checker { .. } = self.scene.textures[id].kind {

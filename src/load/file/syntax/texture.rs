@@ -39,7 +39,7 @@ pub struct ImageEntry {
     pub rotation: Option<Number>,
     /// Added to (u, v) last, [0, 0] when left out.
     pub offset: Option<Exactly<Number, 2>>,
-    /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates. Not for normal and bump maps.
+    /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates.
     pub second_uvs: Option<bool>,
     /// The name of another texture by which it is multiplied, channel by channel, and which has no `times` itself. Not for normal and bump maps.
     pub times: Option<Located<String>>,
@@ -84,7 +84,7 @@ pub struct CheckerEntry {
     pub rotation: Option<Number>,
     /// Added to (u, v) last, in squares; [0, 0] when left out.
     pub offset: Option<Exactly<Number, 2>>,
-    /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates. Not for normal and bump maps.
+    /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates.
     pub second_uvs: Option<bool>,
     /// The name of another texture by which it is multiplied, channel by channel, and which has no `times` itself. Not for normal and bump maps.
     pub times: Option<Located<String>>,
@@ -108,7 +108,7 @@ pub struct PerlinEntry {
     pub rotation: Option<Number>,
     /// Added to (u, v) last, [0, 0] when left out.
     pub offset: Option<Exactly<Number, 2>>,
-    /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates. Not for normal and bump maps.
+    /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates.
     pub second_uvs: Option<bool>,
     /// The name of another texture by which it is multiplied, channel by channel, and which has no `times` itself. Not for normal and bump maps.
     pub times: Option<Located<String>>,
@@ -129,7 +129,7 @@ pub struct WorleyEntry {
     pub rotation: Option<Number>,
     /// Added to (u, v) last, [0, 0] when left out.
     pub offset: Option<Exactly<Number, 2>>,
-    /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates. Not for normal and bump maps.
+    /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates.
     pub second_uvs: Option<bool>,
     /// The name of another texture by which it is multiplied, channel by channel, and which has no `times` itself. Not for normal and bump maps.
     pub times: Option<Located<String>>,

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::compare::sidak;
-use crate::reference::intersect::Tangents;
+use crate::reference::intersect::{NormalTexel, Tangents, UvSet};
 use crate::statistics::{SphereBins, test_directional_sampler};
 
 fn principled(keys: &str) -> Lobe {
@@ -15,7 +15,7 @@ fn principled(keys: &str) -> Lobe {
 }
 
 /// The same with a map of the coat's own that has this texel here.
-fn mapped(lobe: Lobe, texel: Option<(DVec3, f64)>) -> Lobe {
+fn mapped(lobe: Lobe, texel: Option<NormalTexel>) -> Lobe {
     let Lobe::Principled(principled) = lobe else { panic!("it is no principled lobe") };
     Lobe::Principled(super::super::principled::Principled { coat_texel: texel, ..principled })
 }
@@ -30,6 +30,10 @@ fn bent_below(wo_degrees: f64, tilt_degrees: f64) -> View {
 /// Leans by about 31 degrees towards u and away from v.
 const LEANING: DVec3 = DVec3::new(0.9, 0.3, 1.0);
 
+fn leaning(scale: f64) -> Option<NormalTexel> {
+    Some(NormalTexel { texel: LEANING, scale, set: UvSet::First })
+}
+
 const MATERIALS: [&str; 5] = [
     "base_color = [0.8, 0.2, 0.1]\nmetallic = 0.3\nroughness = 0.6\nclearcoat = 0.8\nclearcoat_roughness = 0.3",
     "base_color = 1\nmetallic = 1\nroughness = 0.3\nclearcoat = 1\nclearcoat_roughness = 0.5",
@@ -41,7 +45,7 @@ const MATERIALS: [&str; 5] = [
 fn surfaces(tilt_degrees: f64) -> Vec<(String, Bsdf)> {
     let mut surfaces = Vec::new();
     for keys in MATERIALS {
-        for texel in [None, Some((LEANING, 1.0)), Some((LEANING, -0.6))] {
+        for texel in [None, leaning(1.0), leaning(-0.6)] {
             for degrees in [10.0, 70.0, 130.0] {
                 let name = format!("{} with {texel:?} at {degrees}", keys.replace('\n', ", "));
                 surfaces.push((name, single(mapped(principled(keys), texel), bent_below(degrees, tilt_degrees))));
@@ -95,14 +99,14 @@ fn smooth_coats_mirror_about_their_own_normals() {
     let view = bent_below(30.0, 25.0);
     let own = at_degrees(4.0, 1.0);
     let mirror = |normal: DVec3| 2.0 * view.wo.dot(normal) * normal - view.wo;
-    let drawn = |texel: Option<(DVec3, f64)>| single(mapped(lobe, texel), view).sample(0.0, 0.3, 0.4).expect("it reflects");
+    let drawn = |texel: Option<NormalTexel>| single(mapped(lobe, texel), view).sample(0.0, 0.3, 0.4).expect("it reflects");
     let plain = drawn(None);
     assert!((plain.wi - mirror(own)).length() < 1e-12 && (plain.wi - mirror(view.normal())).length() > 0.1, "{plain:?}");
     // About u and v, which are nearly x and y.
     let tangents = Tangents::along(DVec3::new(1.0, 0.2, 0.0), DVec3::Y);
     for scale in [1.0, 0.5, -0.7] {
         let bent = tangents.direction(own, LEANING, scale).expect("it has tangents");
-        let sample = drawn(Some((LEANING, scale)));
+        let sample = drawn(leaning(scale));
         assert!((sample.wi - mirror(bent)).length() < 1e-12 && bent.dot(own) < 0.98, "{sample:?}");
         let fresnel = 0.04 + 0.96 * (1.0 - view.wo.dot(bent)).powi(5);
         assert!((sample.weight.x - fresnel).abs() < 0.02, "all of the light that it reflects: {sample:?} {fresnel}");
