@@ -128,9 +128,9 @@ pub struct RenderArguments {
     /// Fail (exit code 4) where `auto` finds no graphics device, rather than render on the CPU
     #[arg(long, help_heading = DEVICE)]
     pub require_device: bool,
-    /// Take a device for lost (exit code 5) that does not finish a submission, of a second at most, in this time
-    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = parse_seconds, help_heading = DEVICE)]
-    pub device_timeout: Duration,
+    /// Take a device for lost (exit code 5) that does not finish a submission, of a second at most, in this time [default: 60; 300 on software devices]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, help_heading = DEVICE)]
+    pub device_timeout: Option<Duration>,
     #[command(flatten, next_help_heading = "When it ends, and where samples go")]
     pub checkpoint: CheckpointArguments,
     #[command(flatten, next_help_heading = DEVICE)]
@@ -322,9 +322,9 @@ pub struct VerifyArguments {
     /// auto, gpu, or part of an adapter's name
     #[arg(long, default_value = "gpu", value_parser = parse_device)]
     pub device: DeviceChoice,
-    /// Take a device for lost (exit code 5) that does not finish a submission, or a kernel's compilation, in this time
-    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = parse_seconds)]
-    pub device_timeout: Duration,
+    /// Take a device for lost (exit code 5) that does not finish a submission, or a kernel's compilation, in this time [default: 60; 300 on software devices]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+    pub device_timeout: Option<Duration>,
     #[command(flatten)]
     pub traversal: TraversalArguments,
     /// Print JSON

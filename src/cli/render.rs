@@ -62,7 +62,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
         time_limit: arguments.goal.time_limit,
         target_error: arguments.goal.target_error,
         adaptive: arguments.goal.adaptive,
-        plan: PlanOptions { device_timeout: Some(arguments.device_timeout), ..arguments.traversal.options_on(&device)? },
+        plan: PlanOptions { device_timeout: arguments.device_timeout, ..arguments.traversal.options_on(&device)? },
         ..RenderOptions::default()
     };
     watch::check(arguments)?;

@@ -24,6 +24,8 @@ pub struct Device {
 
 /// What a submission may take, where nothing else is said.
 pub const DEFAULT_TIMEOUT: Duration = Duration::from_secs(60);
+/// The same of software devices, which compile kernels on the processor: a minute for a scene of many features, more where others keep it busy.
+const SOFTWARE_TIMEOUT: Duration = Duration::from_secs(300);
 /// What wgpu says where a device is given up because its memory is used up.
 const OUT_OF_MEMORY: &str = "Out of memory";
 
@@ -160,7 +162,8 @@ impl Device {
             }
             _ => remember(&seen, Failure::Lost(message)),
         });
-        let driver = Arc::new(DriverThread::start(options.device_timeout.unwrap_or(DEFAULT_TIMEOUT)));
+        let usual = if limits.software { SOFTWARE_TIMEOUT } else { DEFAULT_TIMEOUT };
+        let driver = Arc::new(DriverThread::start(options.device_timeout.unwrap_or(usual)));
         let name = adapter.get_info().name;
         Ok(Self { name, limits, device, queue, failure, driver, kernels: Arc::default() })
     }

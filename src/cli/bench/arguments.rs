@@ -16,9 +16,9 @@ use crate::cli::values::{parse_device, parse_seconds, parse_size};
 
 #[derive(Debug, Args)]
 pub struct BenchArguments {
-    /// Take a device for lost (exit code 5) that does not finish a submission, or a kernel's compilation, in this time
-    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = parse_seconds, global = true)]
-    pub device_timeout: Duration,
+    /// Take a device for lost (exit code 5) that does not finish a submission, or a kernel's compilation, in this time [default: 60; 300 on software devices]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, global = true)]
+    pub device_timeout: Option<Duration>,
     #[command(subcommand)]
     pub bench: Bench,
 }

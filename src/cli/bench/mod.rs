@@ -15,7 +15,7 @@ use super::exit::{Exit, Failure};
 
 /// Does the measurement that was asked for.
 pub fn run(arguments: &BenchArguments) -> Result<Exit, Failure> {
-    let plan = PlanOptions { device_timeout: Some(arguments.device_timeout), ..PlanOptions::default() };
+    let plan = PlanOptions { device_timeout: arguments.device_timeout, ..PlanOptions::default() };
     match &arguments.bench {
         Bench::Convergence(arguments) => convergence::run(arguments, &plan),
         Bench::Speed(arguments) => speed::run(arguments, plan),

@@ -60,9 +60,9 @@ pub struct TestArguments {
     /// Fail (exit code 4) where `auto` finds no graphics device, rather than render on the CPU
     #[arg(long, help_heading = DEVICE)]
     pub require_device: bool,
-    /// Take a device for lost (exit code 5) that does not finish a submission in this time
-    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = parse_seconds, help_heading = DEVICE)]
-    pub device_timeout: Duration,
+    /// Take a device for lost (exit code 5) that does not finish a submission in this time [default: 60; 300 on software devices]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, help_heading = DEVICE)]
+    pub device_timeout: Option<Duration>,
     /// Print JSON
     #[arg(long, help_heading = REPORTS)]
     pub json: bool,

@@ -119,7 +119,7 @@ impl<'a> Maker<'a> {
             (DeviceChoice::Auto, true) => DeviceChoice::Gpu,
             (device, _) => device.clone(),
         };
-        let plan = PlanOptions { device_timeout: Some(arguments.device_timeout), ..PlanOptions::default() };
+        let plan = PlanOptions { device_timeout: arguments.device_timeout, ..PlanOptions::default() };
         let ChosenRenderer { renderer, notice } = Choice::begin(&device, &plan).renderer(scene, &plan)?;
         if let (Some(notice), false) = (notice, arguments.quiet) {
             terminal::note(&notice);
