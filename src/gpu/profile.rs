@@ -130,7 +130,9 @@ fn profile_wavefront(pipeline: &Pipeline, pass: &Pass) -> Result<Profile, Render
     let paths = pass.paths() as u32;
     let vertices = pipeline.vertices_ahead(1);
     pipeline.begin_paths(pass);
-    let mut recorder = Recorder::new(device, 2 + 4 * vertices);
+    let stages = |when: When| pipeline.plan.pipeline().filter(|stage| stage.when == when).count() as u32;
+    let dispatches = stages(When::PassStart) + vertices * stages(When::EachVertex) + stages(When::PassEnd);
+    let mut recorder = Recorder::new(device, dispatches);
     let counts = device.readback_buffer(16 * u64::from(vertices));
     for step in pipeline.steps(When::PassStart, true, pass) {
         recorder.record(&step, 0);
