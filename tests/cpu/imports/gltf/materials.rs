@@ -1,0 +1,138 @@
+//! Materials of glTF.
+
+use super::*;
+
+/// KHR_materials_sheen and KHR_materials_volume, whose defaults have no effect.
+#[test]
+fn sheen_and_volumes_are_read() {
+    let material = |sheen: Value, volume: Value| {
+        let mut file = File::new();
+        file.root["materials"][0]["extensions"] = json!({ "KHR_materials_transmission": { "transmissionFactor": 1.0 }, "KHR_materials_sheen": sheen, "KHR_materials_volume": volume });
+        file.root["extensionsUsed"] =
+            json!(["KHR_lights_punctual", "KHR_materials_transmission", "KHR_materials_sheen", "KHR_materials_volume"]);
+        let folder = Folder::new(&[("a.gltf", &file.text())]);
+        let scene = folder.valid("a.gltf");
+        assert!(!report(&scene).contains("sheen") && !report(&scene).contains("volume"), "{}", report(&scene));
+        assert_eq!(picture(&folder.written("a.gltf")), picture(&scene));
+        let MaterialKind::Principled(principled) = &scene.materials[0].kind else { panic!("{:?}", scene.materials[0]) };
+        (**principled).clone()
+    };
+    let written = material(
+        json!({ "sheenColorFactor": [0.5, 0.25, 1.5], "sheenRoughnessFactor": 0.75 }),
+        json!({ "thicknessFactor": 1.0, "attenuationColor": [1.0, 0.5, 0.0], "attenuationDistance": 2.5 }),
+    );
+    assert_eq!(written.sheen_color, ColorInput::Constant(DVec3::new(0.5, 0.25, 1.0)));
+    assert_eq!(written.sheen_roughness, ColorInput::grey(0.75));
+    assert_eq!(written.attenuation, Some(Attenuation { color: DVec3::new(1.0, 0.5, 0.0), distance: 2.5 }));
+    let plain = material(json!({}), json!({ "thicknessFactor": 1.0, "attenuationColor": [0.5, 0.5, 0.5] }));
+    assert_eq!((plain.sheen_color, plain.attenuation, plain.thin), (ColorInput::grey(0.0), None, false));
+}
+
+/// A coat has the normals of its own texture, and without one those of the surface, whatever bends the normals below it.
+#[test]
+fn coats_have_normal_maps_of_their_own() {
+    let coated = |normal: Option<Value>| {
+        let mut file = with_normals();
+        let mut coat = json!({ "clearcoatFactor": 0.9, "clearcoatRoughnessFactor": 0.1 });
+        normal.into_iter().for_each(|normal| coat["clearcoatNormalTexture"] = normal);
+        file.root["materials"][0]["extensions"] = json!({ "KHR_materials_clearcoat": coat });
+        let folder = Folder::new(&[("a.gltf", &file.text())]);
+        let scene = folder.valid("a.gltf");
+        assert!(!report(&scene).contains("clearcoat"), "{}", report(&scene));
+        assert_eq!(picture(&folder.written("a.gltf")), picture(&scene));
+        let MaterialKind::Principled(principled) = &scene.materials[0].kind else { panic!("{:?}", scene.materials[0]) };
+        assert!(scene.materials[0].normal_map.is_some());
+        (principled.coat_normal_map, picture(&scene))
+    };
+    let (none, even) = coated(None);
+    assert_eq!(none, None);
+    let (weak, bent) = coated(Some(json!({ "index": 0, "scale": 0.5 })));
+    assert_eq!(weak.map(|map| map.scale), Some(0.5));
+    let (full, bent_more) = coated(Some(json!({ "index": 0 })));
+    assert_eq!(full.map(|map| map.scale), Some(1.0));
+    assert!(even != bent && bent != bent_more, "the pictures are alike");
+    // By coordinates of its own.
+    let mut file = with_normals();
+    let uvs = file.add("VEC2", &[0.3, 0.0, 0.0, 1.0, 1.0, 0.5]);
+    file.root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = json!(uvs);
+    file.root["materials"][0]["extensions"] = json!({ "KHR_materials_clearcoat": {
+        "clearcoatFactor": 0.9, "clearcoatRoughnessFactor": 0.1, "clearcoatNormalTexture": { "index": 0, "texCoord": 1 } } });
+    let scene = file.read();
+    let MaterialKind::Principled(principled) = &scene.materials[0].kind else { panic!("{:?}", scene.materials[0]) };
+    let map = principled.coat_normal_map.expect("it has one");
+    assert!(scene.textures[map.texture].by_second_uvs && report(&scene).is_empty(), "{}", report(&scene));
+    assert!(picture(&scene) != bent_more, "the pictures are alike");
+}
+
+/// Of the texture, red and green are the direction and blue is the strength.
+#[test]
+fn directions_of_anisotropy_are_read() {
+    let brushed = |anisotropy: Value| {
+        let mut file = with_normals();
+        file.root["materials"][0]["extensions"] = json!({ "KHR_materials_anisotropy": anisotropy });
+        let folder = Folder::new(&[("a.gltf", &file.text())]);
+        let scene = folder.valid("a.gltf");
+        assert!(!report(&scene).contains("anisotropy"), "{}", report(&scene));
+        assert_eq!(picture(&folder.written("a.gltf")), picture(&scene));
+        let MaterialKind::Principled(principled) = &scene.materials[0].kind else { panic!("{:?}", scene.materials[0]) };
+        ((**principled).clone(), picture(&scene))
+    };
+    let (even, plain) = brushed(json!({ "anisotropyStrength": 0.75 }));
+    assert_eq!((even.anisotropy, even.anisotropy_direction), (Some(ColorInput::grey(0.75)), None));
+    let texture = json!({ "anisotropyStrength": 0.75, "anisotropyRotation": 0.5, "anisotropyTexture": { "index": 0 } });
+    let (textured, turned) = brushed(texture);
+    let direction = textured.anisotropy_direction.expect("it has a direction");
+    let strength = ChannelInput { texture: direction, channel: Channel::B, factor: DVec3::splat(0.75), is_squared: false };
+    assert_eq!(textured.anisotropy, Some(ColorInput::Channel(strength)));
+    assert!((textured.anisotropy_rotation_degrees - 0.5_f64.to_degrees()).abs() < 1e-12);
+    assert!(plain != turned, "the pictures are alike");
+    // Without a strength there is none.
+    let (none, _) = brushed(json!({ "anisotropyTexture": { "index": 0 } }));
+    assert_eq!((none.anisotropy, none.anisotropy_direction), (None, None));
+}
+
+/// A triangle with a normal map of 4 × 4 texels.
+fn with_normals() -> File {
+    let mut file = File::new();
+    let uvs = file.add("VEC2", &[0.0, 0.0, 1.0, 0.0, 0.5, 1.0]);
+    file.root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(uvs);
+    let mut png = Vec::new();
+    let texels = image::RgbImage::from_fn(4, 4, |x, y| image::Rgb([100 + 30 * x as u8, 90 + 40 * y as u8, 230]));
+    texels.write_to(&mut std::io::Cursor::new(&mut png), image::ImageFormat::Png).expect("encoding to memory works");
+    let picture = file.bytes(&png);
+    file.root["images"] = json!([{ "bufferView": picture, "mimeType": "image/png" }]);
+    file.root["textures"] = json!([{ "source": 0 }]);
+    file.root["materials"][0] = json!({
+        "pbrMetallicRoughness": { "baseColorFactor": [0.7, 0.4, 0.2, 1.0], "metallicFactor": 0.5, "roughnessFactor": 0.6 },
+        "normalTexture": { "index": 0, "scale": 2.0 },
+    });
+    file
+}
+
+/// One of several materials is chosen by its variant's name; an unknown name is told with those that there are.
+#[test]
+fn variants_of_materials_are_chosen_by_name() {
+    let mut file = File::new();
+    let mut green = file.root["materials"][0].clone();
+    green["pbrMetallicRoughness"]["baseColorFactor"] = json!([0.1, 0.8, 0.2, 1.0]);
+    file.root["materials"].as_array_mut().expect("a list").push(green);
+    file.root["extensionsUsed"].as_array_mut().expect("a list").push(json!("KHR_materials_variants"));
+    file.root["extensions"]["KHR_materials_variants"] = json!({ "variants": [{ "name": "worn" }, { "name": "new" }] });
+    file.root["meshes"][0]["primitives"][0]["extensions"] =
+        json!({ "KHR_materials_variants": { "mappings": [{ "material": 1, "variants": [1] }] } });
+    let folder = Folder::new(&[("a.gltf", &file.text())]);
+    let of =
+        |variant: &str| folder.load_as("a.gltf", &LoadOptions { variant: Some(variant.to_owned()), ..LoadOptions::default() });
+    let red_of = |scene: Scene| match scene.materials[scene.shapes[0].material].kind {
+        MaterialKind::Diffuse { reflectance: gpt::scene::ColorInput::Constant(colour) } => colour.x,
+        ref other => panic!("{other:?}"),
+    };
+    assert_eq!(of("new").map(red_of).ok(), Some(0.1));
+    // What a variant says nothing of stays as it is.
+    assert_eq!(of("worn").map(red_of).ok(), Some(0.7));
+    let plain = folder.valid("a.gltf");
+    assert!(report(&plain).contains("--variant chooses worn, new"), "{}", report(&plain));
+    assert_eq!(red_of(plain), 0.7);
+    let message = refusal(of("old"));
+    assert!(message.contains("old") && message.contains("worn") && message.contains("new"), "{message}");
+}
