@@ -6,6 +6,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use glam::DVec3;
 
+use super::blend_parts::{MOST_WEIGHTS, Part, Parts, lambert_of_the_mean, parts};
 use super::blend_weight::{PackedBlendWeight, constant_weight};
 use super::constants::NONE;
 use super::error::PackError;
@@ -113,9 +114,6 @@ pub struct PackedParameter {
     /// Index of the texture that it is multiplied by, or NONE.
     pub texture: u32,
 }
-
-/// Most weights of all parts together: 16 MiB of them.
-const MOST_WEIGHTS: usize = 1 << 20;
 
 /// One part of a blend, 16 bytes.
 #[repr(C)]
@@ -347,69 +345,6 @@ impl PackedMaterials {
     pub fn has(&self, kind: u32) -> bool {
         self.materials.iter().any(|material| material.kind() == kind)
     }
-}
-
-/// A part of a blend on the way from the tree to the tables.
-#[derive(Clone)]
-struct Part {
-    material: MaterialId,
-    constant: f64,
-    factors: Vec<PackedBlendWeight>,
-    /// It or a blend that it is in scatters nothing on the back.
-    front_only: bool,
-}
-
-struct Parts {
-    /// The plain materials at its ends, in the tree's order: the first child's before the second's.
-    plain: Vec<Part>,
-    /// Blends below the root that emit besides what their parts do.
-    emitting_blends: Vec<Part>,
-}
-
-/// The parts of a blend; those that never have any weight are left out.
-fn parts(scene: &Scene, id: MaterialId) -> Result<Parts, PackError> {
-    let mut weights = 0;
-    let mut found = Parts { plain: Vec::new(), emitting_blends: Vec::new() };
-    let mut to_visit = vec![Part { material: id, constant: 1.0, factors: Vec::new(), front_only: false }];
-    while let Some(mut branch) = to_visit.pop() {
-        branch.front_only |= !scene.materials[branch.material].two_sided;
-        // Checked on the way: a deep chain of blends would fill the memory before it ends.
-        weights += branch.factors.len();
-        if weights > 2 * MOST_WEIGHTS {
-            return Err(PackError::TooManyWeights { material: scene.materials[id].name.clone(), limit: MOST_WEIGHTS });
-        }
-        let MaterialKind::Blend { materials, weight } = &scene.materials[branch.material].kind else {
-            found.plain.push(branch);
-            continue;
-        };
-        for (child, reversed) in [(1, true), (0, false)] {
-            let mut below = Part { material: materials[child], ..branch.clone() };
-            match constant_weight(weight) {
-                Some(value) => below.constant *= if reversed { 1.0 - value } else { value },
-                None => below.factors.push(PackedBlendWeight::new(weight, reversed)),
-            }
-            if below.constant > 0.0 {
-                to_visit.push(below);
-            }
-        }
-        if branch.material != id && scene.materials[branch.material].emission.is_some() {
-            found.emitting_blends.push(branch);
-        }
-    }
-    Ok(found)
-}
-
-/// Lambert surfaces blended by weights that never change are one of their mean reflectance. None where a part is anything else, varies
-/// over the surface, or emits.
-fn lambert_of_the_mean(scene: &Scene, plain: &[Part]) -> Option<DVec3> {
-    let weighted =
-        plain.iter().map(|part| match &scene.materials[part.material] {
-            Material {
-                kind: MaterialKind::Diffuse { reflectance: ColorInput::Constant(reflectance) }, emission: None, ..
-            } if part.factors.is_empty() && !part.front_only => Some(part.constant * *reflectance),
-            _ => None,
-        });
-    weighted.sum()
 }
 
 impl PackedMaterial {

@@ -4,6 +4,7 @@
 //! primitives stand in the order of the hierarchy's leaves, those outside of it behind them.
 
 pub mod attributes;
+mod blend_parts;
 pub mod blend_weight;
 pub mod bvh4;
 mod constants;
