@@ -9,6 +9,7 @@ use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
 use gpt::plan::{DeviceLimits, Plan, PlanOptions, RayQueryLimits, TraversalChoice};
 use gpt::scene::{Scene, SceneSummary};
+use gpt::{DeviceChoice, RenderOptions};
 
 use crate::common::files::folder_with;
 
@@ -90,13 +91,12 @@ fn mistakes_are_named_with_their_place() {
         ("places = [[1, 0, 0, 4,", "places = [[1e19, 0, 0, 4,", "expected a number of magnitude at most 1e18"),
         ("[-1, 0, 0, 0, 0, 1,", "[0, 0, 0, 0, 0, 1,", "number 1, counted from 0, flattens it"),
         ("transform = [{ scale = 2 }]", "transform = [{ scale = 0 }]", "flattens the shape"),
-        ("transform = [{ scale = 2 }]", "material = \"lamp\"", "instances give no light"),
+        ("transform = [{ scale = 2 }]", "material = \"lamp\"\nmotion = [{ scale = 2 }]", "instances that give light do not move"),
         ("transform = [{ scale = 2 }]", "material = \"checked\"", "needs uv coordinates"),
         ("transform = [{ scale = 2 }]", "material = \"gold\"", "there is no material named `gold`"),
         ("transform = [{ scale = 2 }]", "file = \"a.f32\"", "either `places` or `file`"),
         ("transform = [{ scale = 2 }]", "motion = [{ scale = -1 }]", "shrinks"),
         ("transform = [{ scale = 2 }]", "portal = true", "unknown key `portal`"),
-        ("material = \"white\"\n[[instance", "material = \"lamp\"\n[[instance", "instances give no light"),
         (
             "material = \"white\"\n[[instance",
             "material = \"white\"\nmotion = [{ scale = 2 }]\n[[instance",
@@ -128,6 +128,41 @@ fn mistakes_are_named_with_their_place() {
         let found = complaint(from, to);
         assert!(found.contains(expected), "{to}: {found}");
     }
+}
+
+/// Instances that give light are shapes, of the group's material or of their own, at any depth: what is written by hand shows the same.
+#[test]
+fn instances_that_give_light_stand_one_by_one() {
+    let picture = |scene: &Scene| {
+        let options =
+            RenderOptions { device: DeviceChoice::Cpu, size: Some([16, 12]), samples: Some(4), ..RenderOptions::default() };
+        let image = scene.render(&options).unwrap_or_else(|error| panic!("{error}"));
+        image.pixels().iter().map(|pixel| pixel.map(f32::to_bits)).collect::<Vec<_>>()
+    };
+    let floor = "[[shape]]\ntype = \"rectangle\"\ncorner = [-9, -1, 9]\nedge_u = [18, 0, 0]\nedge_v = [0, 0, -18]\nmaterial = \"white\"\n";
+    let by_hand = ["[1, 0, 0, 4, 0, 1, 0, 5, 0, 0, 1, 6, 0, 0, 0, 1]", "[-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]"].map(|place| {
+        format!(
+            "[[shape]]\ntype = \"mesh\"\npositions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nfaces = [[0, 1, 2]]\nmaterial = \"lamp\"\n\
+             transform = [{{ matrix = {place} }}, {{ scale = 2 }}]\n"
+        )
+    });
+    let (before, after) = GOOD.split_once("[[group]]").expect("it has one");
+    let light = after.split_once("[[light]]").expect("it has one").1.replace("radiance = 1", "radiance = 0.1");
+    let hand = read(&format!("{before}{floor}{}[[light]]{light}", by_hand.concat())).expect("it is right");
+    let dim = GOOD.replace("radiance = 1", "radiance = 0.1").replace("[[group]]", &format!("{floor}[[group]]"));
+    let own = dim.replace("material = \"white\"\n[[instance", "material = \"lamp\"\n[[instance");
+    let given = dim.replace("transform = [{ scale = 2 }]", "transform = [{ scale = 2 }]\nmaterial = \"lamp\"");
+    let held =
+        own.replace("[[instance]]\ngroup = \"tree\"", "[[group]]\nname = \"around\"\n[[group.instance]]\ngroup = \"tree\"");
+    let held = held.replace("[[light]]", "[[instance]]\ngroup = \"around\"\n[[light]]");
+    for text in [&own, &given, &held] {
+        let scene = read(text).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!((scene.instances.len(), scene.shapes.len()), (0, 3));
+        assert!(picture(&scene) == picture(&hand), "{text}");
+    }
+    // The control: what is of white gives none.
+    let dark = read(&dim).expect("it is right");
+    assert!(dark.instances.len() == 1 && picture(&dark) != picture(&hand));
 }
 
 #[test]
@@ -255,9 +290,9 @@ fn mistakes_within_groups_are_named_with_their_place() {
             "group[2].instance[0].group: the transform of number 0",
         ),
         (
-            "material = \"white\"\ntransform",
-            "material = \"lamp\"\ntransform",
-            "of `wood` within `land`: the material `lamp` emits",
+            "transform = [{ translate = [0, 4, 0] }]\n",
+            "motion = [{ scale = 2 }]\nmaterial = \"lamp\"\n",
+            "of `wood` within `land`: it emits, and instances that give light do not move",
         ),
         (
             "material = \"white\"\ntransform",

@@ -57,7 +57,7 @@ const RELATIONS: &[&str] = &[
     "there is no group named",
     "a group consists of meshes",
     "a mesh of a group",
-    "instances give no light",
+    "instances that give light do not move",
     "flattens it",
     "reaches farther than",
 ];

@@ -69,7 +69,8 @@ pub struct InstanceEntry {
     /// other; `.csv` and `.txt` a line of 12 numbers for each place, between commas or blanks.
     #[schemars(extend("pattern" = "\\.([fF]32|[fF]64|[cC][sS][vV]|[tT][xX][tT])$"))]
     file: Option<Located<String>>,
-    /// A `[[material]]` for all faces, in place of the group's own; faces of type `pass` stay openings.
+    /// A `[[material]]` for all faces, in place of the group's own; faces of type `pass` stay openings. Instances of which a face emits stand in the scene
+    /// one by one, as if each were written as `[[shape]]`s, and do not move.
     material: Option<Located<String>>,
     /// Steps of `scale`, `rotate` and `translate` reached at shutter time 1, along the world's axes and about where each instance has the
     /// group's (0, 0, 0), or about `pivot`.
@@ -168,8 +169,16 @@ impl Resolver<'_> {
                 named[instances.group] = true;
                 count += groups.count(&instances);
                 let all = groups.expanded(&instances, &|id| matches!(self.scene.materials[id].kind, MaterialKind::Pass));
-                for part in &all {
-                    let check = self.scene.check_instances(part, &textured, &emits, &balls);
+                let (lit, all): (Vec<Instances>, Vec<Instances>) = all.into_iter().partition(|part| self.are_lit(part, &emits));
+                let none = vec![false; emits.len()];
+                let mut copies = Vec::new();
+                for part in all.iter().chain(&lit) {
+                    // What gives light becomes shapes.
+                    let check = self.scene.check_instances(part, &textured, &none, &balls);
+                    let check = check.and_then(|()| match self.are_lit(part, &emits) {
+                        true => self.lit_copies(part).map(|shapes| copies.extend(shapes)),
+                        false => Ok(()),
+                    });
                     let of_held = |message: String| match part.label == instances.label {
                         true => message,
                         false => format!(
@@ -180,10 +189,11 @@ impl Resolver<'_> {
                     };
                     check.map_err(|message| self.error(&entry.span, of_held(message)))?;
                 }
-                Ok(all)
+                Ok((all, copies))
             });
-            let instances = self.note(instances);
-            self.scene.instances.extend(instances.into_iter().flatten());
+            let (instances, copies) = self.note(instances).unwrap_or_default();
+            self.scene.instances.extend(instances);
+            self.scene.shapes.extend(copies);
         }
         for (index, is_seen) in groups.reached_from(&named).into_iter().enumerate() {
             if !is_seen && self.errors.is_empty() {

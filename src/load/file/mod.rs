@@ -9,6 +9,7 @@ mod import;
 mod instance;
 mod keyframes;
 mod light;
+mod lit_instances;
 mod material;
 mod nested;
 mod node;

@@ -1,0 +1,64 @@
+//! Instances that give light: lamps are drawn one by one, so each stands in the scene as shapes of its own.
+
+use std::sync::Arc;
+
+use glam::DAffine3;
+
+use super::resolver::Resolver;
+use crate::scene::{Geometry, Instances, MaterialId, MaterialKind, Mesh, Shape, TransformStep};
+
+/// Most triangles of all copies that an entry makes.
+const MOST_TRIANGLES: usize = 20_000_000;
+
+impl Resolver<'_> {
+    /// Whether some face of them emits.
+    pub(super) fn are_lit(&self, instances: &Instances, emits: &[bool]) -> bool {
+        let mut own = self.scene.groups[instances.group].shapes.iter().flat_map(Shape::materials);
+        match instances.material {
+            Some(material) => emits[material],
+            None => own.any(|id| emits[id]),
+        }
+    }
+
+    /// The meshes of the group for each place.
+    ///
+    /// # Errors
+    /// In words, that they move, or are too many.
+    pub(super) fn lit_copies(&self, instances: &Instances) -> Result<Vec<Shape>, String> {
+        if instances.motion.is_some() {
+            return Err("it emits, and instances that give light do not move: write a moving lamp as a shape".to_owned());
+        }
+        let group = &self.scene.groups[instances.group];
+        let triangles = group.triangles().saturating_mul(instances.places.len());
+        if triangles > MOST_TRIANGLES {
+            return Err(format!(
+                "it emits, and its {} instances have {triangles} triangles, which stand in the scene one by one; at most {MOST_TRIANGLES} are possible",
+                instances.places.len()
+            ));
+        }
+        let meshes: Vec<Shape> = group.shapes.iter().map(|shape| self.made_of(shape, instances.material)).collect();
+        let copy = |number: usize, map: DAffine3, shape: &Shape| {
+            let mut copy = shape.clone();
+            copy.label = format!("{}, number {number}", instances.label);
+            copy.transform.steps.push(TransformStep::Matrix(map));
+            copy
+        };
+        let copies = instances.maps().enumerate();
+        Ok(copies.flat_map(|(number, map)| meshes.iter().map(move |shape| copy(number, map, shape))).collect())
+    }
+
+    /// A mesh of another material; faces of a `pass` material stay openings.
+    fn made_of(&self, shape: &Shape, material: Option<MaterialId>) -> Shape {
+        let Some(material) = material else { return shape.clone() };
+        let mut made = shape.clone();
+        let replaced = |id: MaterialId| if matches!(self.scene.materials[id].kind, MaterialKind::Pass) { id } else { material };
+        made.material = replaced(shape.material);
+        if let Geometry::Mesh(mesh) = &mut made.geometry
+            && !mesh.face_materials.is_empty()
+        {
+            let face_materials = mesh.face_materials.iter().map(|id| replaced(*id)).collect();
+            *mesh = Arc::new(Mesh { face_materials, ..Mesh::clone(mesh) });
+        }
+        made
+    }
+}
