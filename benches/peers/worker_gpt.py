@@ -52,8 +52,8 @@ class Gpt:
             subprocess.run(run, check=True)  # the driver compiles on first use, and keeps what it compiled
         subprocess.run(run, check=True)
         figures = json.loads(report.read_text(encoding="utf-8"))
-        bitmap = mi.Bitmap(str(picture)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, srgb_gamma=False)
-        return np.array(bitmap), figures["seconds"]["render"], spp
+        # Where adaptive sampling gave pixels different numbers of samples, they stand in a fourth channel.
+        return np.array(mi.Bitmap(str(picture)), dtype=np.float32)[..., :3], figures["seconds"]["render"], spp
 
 
 if __name__ == "__main__":
