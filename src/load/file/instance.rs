@@ -160,6 +160,10 @@ impl Resolver<'_> {
     pub(super) fn instances(&mut self, written: &[Located<InstanceEntry>], names: &HashMap<String, usize>, groups: &Groups) {
         let textured = self.scene.materials_that(Material::uses_texture);
         let emits = self.scene.materials_that(|material| material.emission.is_some());
+        let lit_groups = self.lit_groups(&emits);
+        let are_lit = |part: &Instances| part.material.map_or(lit_groups[part.group], |material| emits[material]);
+        // What gives light becomes shapes, so that no instance emits.
+        let none_emits = vec![false; emits.len()];
         let balls = self.scene.balls();
         let mut named = vec![false; names.len()];
         let mut count = 0;
@@ -169,16 +173,10 @@ impl Resolver<'_> {
                 named[instances.group] = true;
                 count += groups.count(&instances);
                 let all = groups.expanded(&instances, &|id| matches!(self.scene.materials[id].kind, MaterialKind::Pass));
-                let (lit, all): (Vec<Instances>, Vec<Instances>) = all.into_iter().partition(|part| self.are_lit(part, &emits));
-                let none = vec![false; emits.len()];
-                let mut copies = Vec::new();
-                for part in all.iter().chain(&lit) {
-                    // What gives light becomes shapes.
-                    let check = self.scene.check_instances(part, &textured, &none, &balls);
-                    let check = check.and_then(|()| match self.are_lit(part, &emits) {
-                        true => self.lit_copies(part).map(|shapes| copies.extend(shapes)),
-                        false => Ok(()),
-                    });
+                let (mut kept, mut copies) = (Vec::new(), Vec::new());
+                for part in all {
+                    let check = self.scene.check_instances(&part, &textured, &none_emits, &balls);
+                    let lit = check.and_then(|()| if are_lit(&part) { self.lit_copies(&part).map(Some) } else { Ok(None) });
                     let of_held = |message: String| match part.label == instances.label {
                         true => message,
                         false => format!(
@@ -187,9 +185,12 @@ impl Resolver<'_> {
                             groups.name(instances.group)
                         ),
                     };
-                    check.map_err(|message| self.error(&entry.span, of_held(message)))?;
+                    match lit.map_err(|message| self.error(&entry.span, of_held(message)))? {
+                        Some(shapes) => copies.extend(shapes),
+                        None => kept.push(part),
+                    }
                 }
-                Ok((all, copies))
+                Ok((kept, copies))
             });
             let (instances, copies) = self.note(instances).unwrap_or_default();
             self.scene.instances.extend(instances);

@@ -5,19 +5,16 @@ use std::sync::Arc;
 use glam::DAffine3;
 
 use super::resolver::Resolver;
-use crate::scene::{Geometry, Instances, MaterialId, MaterialKind, Mesh, Shape, TransformStep};
+use crate::scene::{Geometry, Group, Instances, MaterialId, MaterialKind, Mesh, Shape, TransformStep};
 
 /// Most triangles of all copies that an entry makes.
 const MOST_TRIANGLES: usize = 20_000_000;
 
 impl Resolver<'_> {
-    /// Whether some face of them emits.
-    pub(super) fn are_lit(&self, instances: &Instances, emits: &[bool]) -> bool {
-        let mut own = self.scene.groups[instances.group].shapes.iter().flat_map(Shape::materials);
-        match instances.material {
-            Some(material) => emits[material],
-            None => own.any(|id| emits[id]),
-        }
+    /// Of each group, whether some face of it emits.
+    pub(super) fn lit_groups(&self, emits: &[bool]) -> Vec<bool> {
+        let is_lit = |group: &Group| group.shapes.iter().flat_map(Shape::materials).any(|id| emits[id]);
+        self.scene.groups.iter().map(is_lit).collect()
     }
 
     /// The meshes of the group for each place.
