@@ -23,7 +23,7 @@ use crate::plan::bindings::Binding;
 use crate::plan::{Plan, PlanOptions, StageMode};
 use crate::reference::training;
 use crate::renderer::sink::Sink;
-use crate::renderer::state::Tally;
+use crate::renderer::state::{BatchState, Tally};
 use crate::renderer::{Batch, Change, DeviceChoice, Ending, Observer, RenderError, RenderReport, Renderer, Stopping};
 use crate::sampling::Sampling;
 use crate::scene::{MaterialId, Scene};
@@ -286,7 +286,8 @@ impl Renderer for GpuRenderer {
             finished: &finished,
         };
         let mut ended = None;
-        let mut first_row = batch.resume.map_or(request.rows.start, |state| state.rows.start);
+        let begin = batch.resume.map_or(request.rows.start, |state| state.rows.start);
+        let mut first_row = begin;
         let is_cut = request.rows.len() as u32 > self.pipeline.plan.band_rows;
         while first_row < request.rows.end && ended.is_none() {
             let mut rows = self.pipeline.plan.band_rows.min(request.rows.end - first_row);
@@ -294,9 +295,16 @@ impl Renderer for GpuRenderer {
             if let Some(state) = resume {
                 rows = rows.min(state.rows.len() as u32);
             }
+            let mut begun = BatchState::before(first_row..first_row + rows, before);
+            if first_row > begin {
+                (begun.tally, ended) = self.between_bands(&begun, &sweeps, sink)?;
+                if ended.is_some() {
+                    break;
+                }
+            }
             let pixels = self.listed_pixels([first_row, rows], batch)?;
             let mut band = BandProgress::new([first_row, rows], pixels);
-            ended = self.render_and_deliver(&mut band, &sweeps, resume, is_cut, sink)?;
+            ended = self.render_and_deliver(&mut band, &sweeps, resume.unwrap_or(&begun), is_cut, sink)?;
             finished.set(finished.get() + band.samples_done);
             first_row += rows;
         }

@@ -10,8 +10,8 @@ use super::pipeline::Pipeline;
 use super::renderer::GpuRenderer;
 use super::snapshot::Snapshot;
 use crate::plan::bindings::Binding;
-use crate::renderer::sink::Sink;
-use crate::renderer::state::{BatchState, FilmState};
+use crate::renderer::sink::{Sink, keep_between};
+use crate::renderer::state::{BatchState, FilmState, Tally};
 use crate::renderer::{Ending, RenderError};
 
 /// Sweeps are planned to take so much of the time that is left.
@@ -69,22 +69,22 @@ impl GpuRenderer {
         Ok(band.state(sweeps.batch, self.size[0], film, self.tally(band.samples_done, sweeps)?))
     }
 
-    /// Renders the samples of the band's pixels that take part; why it ended early, if it did. `resume`: what the band has already.
+    /// Renders the samples of the band's pixels that take part; why it ended early, if it did. `begun`: what the band has already.
     fn render_band(
         &mut self,
         band: &mut BandProgress,
         sweeps: &Sweeps<'_>,
-        resume: Option<&BatchState>,
+        begun: &BatchState,
         snapshot: &mut Snapshot,
         sink: &mut dyn Sink,
     ) -> Result<Option<Ending>, RenderError> {
         let samples = if band.pixels > 0 { sweeps.samples.len() as u32 } else { 0 };
         let ended = if samples > 0 { self.probe(band, sweeps)? } else { None };
         // Probes leave their samples in the film.
-        if let Some(state) = resume {
+        if !begun.film.is_empty() {
             let Pipeline { device, buffers, .. } = &*self.pipeline;
-            film::write_band(device, &buffers.film, [self.size[0], band.rows], &state.film)?;
-            band.resume(state, sweeps.batch, self.size[0]);
+            film::write_band(device, &buffers.film, [self.size[0], band.rows], &begun.film)?;
+            band.resume(begun, sweeps.batch, self.size[0]);
         }
         if ended.is_some() {
             return Ok(ended);
@@ -102,23 +102,37 @@ impl GpuRenderer {
         Ok(None)
     }
 
+    /// What was counted when a band begins that is not the first, and whether the render ends before it; `begun` is the state without the counts.
+    pub(super) fn between_bands(
+        &self,
+        begun: &BatchState,
+        sweeps: &Sweeps<'_>,
+        sink: &mut dyn Sink,
+    ) -> Result<(Tally, Option<Ending>), RenderError> {
+        let counted = self.tally(0, sweeps);
+        // Finished bands count where the device is lost; its counts are gone.
+        let tally = *counted.as_ref().unwrap_or(&Tally { samples: sweeps.finished.get(), ..sweeps.before });
+        let ended = sweeps.stopping.between_bands();
+        keep_between(sink, ended.is_some() || counted.is_err(), &BatchState { tally, ..begun.clone() })?;
+        Ok((counted?, ended))
+    }
+
     /// Renders a band and hands it over, as far as it got; why it ended early, if it did. Where the device is lost, that is what was read of
-    /// it before.
+    /// it before. `begun`: what the band has already.
     pub(super) fn render_and_deliver(
         &mut self,
         band: &mut BandProgress,
         sweeps: &Sweeps<'_>,
-        resume: Option<&BatchState>,
+        begun: &BatchState,
         is_cut: bool,
         sink: &mut dyn Sink,
     ) -> Result<Option<Ending>, RenderError> {
         let (batch, width) = (sweeps.batch, self.size[0]);
         let mut snapshot = Snapshot::new();
-        let ended = match self.render_band(band, sweeps, resume, &mut snapshot, sink) {
+        let ended = match self.render_band(band, sweeps, begun, &mut snapshot, sink) {
             Err(error @ RenderError::DeviceLost(_)) => {
-                if let Some(state) = snapshot.state().filter(|_| sink.takes_states()) {
-                    sink.state(state.clone())?;
-                }
+                // What was finished before the band counts, where nothing was read of it.
+                keep_between(sink, true, snapshot.state().unwrap_or(begun))?;
                 snapshot.deliver(width, batch, 0, &mut |band| sink.band(band))?;
                 return Err(error);
             }
@@ -138,6 +152,10 @@ impl GpuRenderer {
             });
             if let Err(error) = delivered {
                 if matches!(error, RenderError::DeviceLost(_)) {
+                    // What was handed over of the band is not handed over again.
+                    if next_row == band.first_row {
+                        keep_between(sink, true, snapshot.state().unwrap_or(begun))?;
+                    }
                     snapshot.deliver(width, batch, next_row, &mut |band| sink.band(band))?;
                 }
                 return Err(error);

@@ -18,8 +18,8 @@ use super::training;
 use crate::film::KernelLayer;
 use crate::math::luminance;
 use crate::plan::{Decision, PlanOptions};
-use crate::renderer::sink::Sink;
-use crate::renderer::state::{MOST_SAMPLES_PER_SWEEP, Tally};
+use crate::renderer::sink::{Sink, keep_between};
+use crate::renderer::state::{BatchState, MOST_SAMPLES_PER_SWEEP, Tally};
 use crate::renderer::{Batch, Change, Ending, Observer, RenderError, RenderReport, RenderRequest, Renderer, Stopping};
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
 use crate::scene::Scene;
@@ -42,6 +42,8 @@ pub struct ReferenceRenderer {
     layer: Option<KernelLayer>,
     /// Whether paths are guided, and why, where that was asked for.
     guiding: Option<String>,
+    /// Most pixels whose samples go together: [`PIXELS_IN_MEMORY`] but for tests.
+    pixels_in_memory: u64,
     build_seconds: f64,
     /// Passes done and how long they took, to size the next.
     timed_samples: f64,
@@ -110,10 +112,17 @@ impl ReferenceRenderer {
             integrator,
             layer,
             guiding,
+            pixels_in_memory: PIXELS_IN_MEMORY,
             build_seconds: start.elapsed().as_secs_f64(),
             timed_samples: 0.0,
             timed_seconds: 0.0,
         })
+    }
+
+    /// With a film of so many pixels at a time: those of larger pictures are rendered band by band.
+    #[must_use]
+    pub fn with_film_pixels(self, pixels: u64) -> Self {
+        Self { pixels_in_memory: pixels, ..self }
     }
 
     /// What is met at a pixel's centre at the shutter's opening: the number of the shape and of its material, from 1.
@@ -380,7 +389,7 @@ impl Renderer for ReferenceRenderer {
 
     fn holds_whole_film(&self) -> bool {
         let [width, height] = self.integrator.scene().film.size;
-        u64::from(width) * u64::from(height) <= PIXELS_IN_MEMORY
+        u64::from(width) * u64::from(height) <= self.pixels_in_memory
     }
 
     fn set_samples_per_pixel(&mut self, spp: u32) {
@@ -400,7 +409,7 @@ impl Renderer for ReferenceRenderer {
         if rows.end > height {
             return Err(RenderError::Internal(format!("rows up to {} of a picture of {height} rows", rows.end)));
         }
-        let is_whole = u64::from(width) * rows.len() as u64 <= PIXELS_IN_MEMORY;
+        let is_whole = u64::from(width) * rows.len() as u64 <= self.pixels_in_memory;
         let before = batch.resume.map(|state| state.tally).unwrap_or_default();
         let report = RenderReport {
             device: self.device().into(),
@@ -418,11 +427,20 @@ impl Renderer for ReferenceRenderer {
             ..RenderReport::default()
         };
         let mut progress = Progress { observer, total: batch.total_samples(width), report };
-        let mut first_row = batch.resume.map_or(rows.start, |state| state.rows.start);
+        let begin = batch.resume.map_or(rows.start, |state| state.rows.start);
+        let mut first_row = begin;
         while first_row < rows.end {
             let resume = batch.resume.filter(|state| state.rows.start == first_row && !state.film.is_empty());
             let mut end = if is_whole { rows.end } else { rows.end.min(first_row + BAND_ROWS) };
             end = resume.map_or(end, |state| end.min(state.rows.end));
+            if first_row > begin {
+                progress.report.interrupted = samples.stopping.between_bands().is_some();
+                let begun = BatchState::before(first_row..end, progress.tally(Counts::default()));
+                keep_between(sink, progress.report.interrupted, &begun)?;
+                if progress.report.interrupted {
+                    break;
+                }
+            }
             let mut group = Group::new(first_row..end, &samples, resume);
             let ended = self.render_group(&mut group, &samples, &mut progress, sink)?;
             let bands = group.bands;

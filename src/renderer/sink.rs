@@ -33,6 +33,14 @@ pub trait Sink {
     }
 }
 
+/// Between two pieces of a render, the first of which is whole: gives the sink the state there, if it is time for one or the render `stops`.
+///
+/// # Errors
+/// As [`Sink::state`].
+pub fn keep_between(sink: &mut dyn Sink, stops: bool, state: &BatchState) -> io::Result<()> {
+    if sink.takes_states() && (stops || sink.wants_state()) { sink.state(state.clone()) } else { Ok(()) }
+}
+
 /// A function takes bands and no states.
 impl<F: FnMut(Band) -> io::Result<()>> Sink for F {
     fn band(&mut self, band: Band) -> io::Result<()> {

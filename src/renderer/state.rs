@@ -22,6 +22,13 @@ pub struct BatchState {
     pub tally: Tally,
 }
 
+impl BatchState {
+    /// Of a batch that is between two bands, or not begun: these rows have no samples yet.
+    pub fn before(rows: Range<u32>, tally: Tally) -> Self {
+        Self { rows, done: 0, sweep: 0, reached: 0, film: Arc::new(FilmState::empty()), tally }
+    }
+}
+
 /// Parts of the radiance that the setting `clamp` allows, in which luminance is counted that it takes.
 pub const CLAMP_UNITS: f64 = 1024.0;
 /// The most luminance that is counted of one pixel in one pass, in these parts.

@@ -44,6 +44,11 @@ impl<'a> Stopping<'a> {
         self.late_by(LATENESS).filter(|late| *late && is_whole).map(|_| Ending::OutOfTime)
     }
 
+    /// Whether to end after a band whose samples are done, or after a batch, where nobody waits for the rest.
+    pub fn between_bands(&self) -> Option<Ending> {
+        self.asked_since().map(|_| Ending::Interrupted)
+    }
+
     /// Whether to give up paths that do not end.
     pub fn gives_up_paths(&self) -> Option<Ending> {
         if self.asked_since().is_some_and(|since| since > LONGEST_PATH) {

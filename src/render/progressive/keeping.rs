@@ -37,7 +37,9 @@ impl Sink for WholeBatch<'_> {
     }
 
     fn state(&mut self, state: BatchState) -> io::Result<()> {
-        self.checkpoint.keep(state, None);
+        if state.tally.samples > 0 {
+            self.checkpoint.keep(state, None);
+        }
         Ok(())
     }
 }
@@ -87,6 +89,9 @@ impl Sink for StepBatch<'_> {
             if self.checkpoint.as_ref().is_none_or(|checkpoint| !checkpoint.is_due()) && !self.watch.observer.stop_requested() {
                 return Ok(());
             }
+        }
+        if self.tally.samples + state.tally.samples == 0 {
+            return Ok(());
         }
         let steps = StepsState {
             place: self.place,

@@ -15,6 +15,7 @@ use super::watching::Watch;
 use crate::film::Band;
 use crate::render::checkpoint::Checkpoint;
 use crate::render::checkpoint::saved::{Place, Saved, StepsState};
+use crate::renderer::sink::keep_between;
 use crate::renderer::state::{BatchState, Tally};
 use crate::renderer::{Batch, Observer, RenderError, RenderReport, RenderRequest, Renderer};
 use crate::sampling::hash::mix;
@@ -289,6 +290,14 @@ impl<'a> Work<'a> {
             share: part.share,
             part_of_mean,
         };
+        // Between two batches, where every pixel has samples.
+        if resume.is_none() && samples > 0 {
+            let stops = self.observer.stop_requested();
+            keep_between(&mut sink, stops, &BatchState::before(request.rows.clone(), Tally::default()))?;
+            if stops {
+                return Ok(Some(Stop::Interrupted));
+            }
+        }
         let report = self.renderer.render_into(&batch, &observer, &mut sink)?;
         let ended = stop_of(&report);
         add_report(&mut self.report, report);
