@@ -1,142 +1,17 @@
-//! Renders that are killed or asked to stop, and go on.
+//! Renders that are asked to stop and go on, and states that nobody goes on from.
 
 use std::process::Child;
 use std::time::{Duration, Instant};
 
-use super::common::effort::{announce, in_full};
 use super::*;
 
-/// A number that is different each time and the same in each run of the tests.
-struct Numbers(u32);
-
-impl Numbers {
-    fn next(&mut self) -> u32 {
-        self.0 = gpt::sampling::hash::mix(self.0 + 1);
-        self.0
-    }
-}
-
-fn start(place: &Workplace, arguments: &str) -> Child {
+pub fn start(place: &Workplace, arguments: &str) -> Child {
     place.command(arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("a process")
 }
 
 pub fn devices() -> Vec<&'static str> {
     let gpu = std::env::var("GPT_TEST_GPU").as_deref() != Ok("skip");
     ["cpu", "gpu"].into_iter().filter(|device| *device == "cpu" || gpu).collect()
-}
-
-/// A render that is killed, and the names of its pictures after what they begin with.
-#[derive(Clone, Copy)]
-struct Job {
-    scene: &'static str,
-    arguments: &'static str,
-    output: &'static str,
-    pictures: &'static [&'static str],
-    /// Seconds between two states.
-    interval: f64,
-}
-
-const STILL: Job = Job { scene: "scene.toml", arguments: "", output: ".exr", pictures: &[".exr"], interval: 0.02 };
-
-/// Every way in which a render ends, with states that say something else each.
-const JOBS: [Job; 7] = [
-    Job { arguments: "--size 48x32 --spp 500", ..STILL },
-    Job { arguments: "--size 48x32 --spp 400 --adaptive", ..STILL },
-    Job { arguments: "--size 48x32 --spp 400 --target-error 1e-12", ..STILL },
-    Job { arguments: "--size 48x32 --spp 300 --time-limit 100000", ..STILL },
-    Job { arguments: "--size 48x32 --spp 100 --aov albedo,depth,alpha,indirect", ..STILL },
-    Job { arguments: "--size 48x32 --spp 400 --first-sample 32 --crop 5,3,35,25", ..STILL },
-    // Some kills are within a frame, and some between two.
-    Job {
-        scene: "camera.toml",
-        arguments: "--size 48x32 --spp 120 --frames 3-5",
-        output: ".#.exr",
-        pictures: &[".3.exr", ".4.exr", ".5.exr"],
-        interval: 0.02,
-    },
-];
-
-/// More pixels than a film has at a time, so that finished rows are kept by themselves.
-const BANDS: Job = Job { arguments: "--size 8192x4104 --spp 1 --max-depth 1", interval: 0.5, ..STILL };
-
-/// Kills renders at random moments until there were so many, and lets each end; every picture is the uninterrupted one, byte for byte, and
-/// stands alone in its folder.
-fn kill_and_resume(place: &Workplace, kills: u32, device: &str, job: &Job) {
-    let Job { scene, arguments, output, pictures, interval } = job;
-    let mut numbers = Numbers(kills ^ arguments.len() as u32);
-    let render = format!("render {scene} -q --device {device} {arguments}");
-    let read = |stem: &str| -> Vec<Vec<u8>> {
-        pictures.iter().map(|name| fs::read(place.path(&format!("{stem}{name}"))).expect("the picture")).collect()
-    };
-    let remove = |stem: &str| {
-        pictures.iter().for_each(|name| fs::remove_file(place.path(&format!("{stem}{name}"))).expect("it is there"));
-    };
-    let files = place.files();
-    let whole = Instant::now();
-    place.expect(0, &format!("{render} -o whole{output}"));
-    let milliseconds = whole.elapsed().as_millis() as u32;
-    let expected = read("whole");
-    remove("whole");
-    let resume = format!("{render} --checkpoint {interval} --resume -o a{output}");
-    let mut killed = 0;
-    while killed < kills {
-        let mut in_a_row = 0;
-        loop {
-            let mut child = start(place, &resume);
-            // Most are killed well before the end; the states make sure that there is one.
-            std::thread::sleep(Duration::from_millis(u64::from(numbers.next() % milliseconds.max(200))));
-            // Refused where it is over.
-            let _ = child.kill();
-            let status = child.wait().expect("an end");
-            if status.success() {
-                break;
-            }
-            assert!(status.code().is_none(), "{device} {arguments}: {status}");
-            (killed, in_a_row) = (killed + 1, in_a_row + 1);
-            if in_a_row >= 12 {
-                place.expect(0, &resume);
-                break;
-            }
-        }
-        assert!(read("a") == expected, "{device} {arguments}: after {killed} kills");
-        remove("a");
-        assert_eq!(place.files(), files, "{device} {arguments}: something is left");
-    }
-    // The control: another seed is another picture.
-    place.expect(0, &format!("{render} --seed 9 -o whole{output}"));
-    assert!(read("whole") != expected, "{device} {arguments}");
-    remove("whole");
-}
-
-/// A folder with a still scene and one whose camera moves.
-fn place_to_kill_in() -> Workplace {
-    let place = Workplace::new();
-    fs::write(place.path("camera.toml"), super::frames::moving_camera()).expect("the scene file");
-    place
-}
-
-#[test]
-fn a_render_that_is_killed_goes_on_bit_for_bit() {
-    let in_full = in_full("210 kills of renders");
-    let place = place_to_kill_in();
-    for device in devices() {
-        for job in &JOBS {
-            let kills = if in_full { 15 } else { 2 };
-            let begun = Instant::now();
-            kill_and_resume(&place, kills, device, job);
-            if in_full {
-                announce(&format!("{device} {}: {kills} kills in {:.0} s", job.arguments, begun.elapsed().as_secs_f64()));
-            }
-        }
-    }
-}
-
-#[test]
-fn a_picture_in_bands_that_is_killed_goes_on_bit_for_bit() {
-    if in_full("kills of a picture in bands") {
-        let place = place_to_kill_in();
-        devices().into_iter().for_each(|device| kill_and_resume(&place, 10, device, &BANDS));
-    }
 }
 
 /// Waits until the file is there.

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use super::*;
 
 /// The folder with the layer and its manifest; None where no graphics device is tested.
-fn layer() -> Option<&'static Path> {
+pub fn layer() -> Option<&'static Path> {
     static LAYER: OnceLock<Option<TempDir>> = OnceLock::new();
     let make = || {
         if cfg!(not(target_os = "linux")) || std::env::var("GPT_TEST_GPU").as_deref() == Ok("skip") {
@@ -43,17 +43,17 @@ fn layer() -> Option<&'static Path> {
     LAYER.get_or_init(make).as_ref().map(TempDir::path)
 }
 
+/// Has a program meet a fault.
+pub fn make_fail(command: &mut Command, layer: &Path, fault: &str) {
+    command.env("VK_LAYER_PATH", layer).env("VK_INSTANCE_LAYERS", "VK_LAYER_GPT_faults").env("GPT_FAULT", fault);
+}
+
 /// Runs with a fault, within a time that is far from for ever.
 fn run_with(place: &Workplace, layer: &Path, fault: &str, arguments: &str) -> (Option<i32>, String, String) {
     let start = Instant::now();
-    let output = place
-        .command(arguments)
-        .env("VK_LAYER_PATH", layer)
-        .env("VK_INSTANCE_LAYERS", "VK_LAYER_GPT_faults")
-        .env("GPT_FAULT", fault)
-        .env("GPT_FAULT_COUNTS", place.path("counts.txt"))
-        .output()
-        .expect("the program starts");
+    let mut command = place.command(arguments);
+    make_fail(&mut command, layer, fault);
+    let output = command.env("GPT_FAULT_COUNTS", place.path("counts.txt")).output().expect("the program starts");
     assert!(start.elapsed() < Duration::from_secs(100), "{fault}: {:?}", start.elapsed());
     let [stdout, stderr] = [&output.stdout, &output.stderr].map(|bytes| text(bytes));
     assert!(!stderr.contains("panicked"), "{fault}: {stderr}");
@@ -214,7 +214,7 @@ fn a_render_that_hangs_ends_when_it_is_asked_to() {
     ] {
         let place = Workplace::new();
         let mut command = place.command("render spheres --size 96x64 --spp 1000000 --device gpu --checkpoint 0.001 -o a.exr");
-        command.env("VK_LAYER_PATH", layer).env("VK_INSTANCE_LAYERS", "VK_LAYER_GPT_faults").env("GPT_FAULT", fault);
+        make_fail(&mut command, layer, fault);
         command.env("GPT_FAULT_COUNTS", place.path("counts.txt")).stdout(Stdio::null()).stderr(Stdio::piped());
         let child = command.spawn().expect("a process");
         super::checkpoints::wait_for(&place, "counts.txt");

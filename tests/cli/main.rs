@@ -16,6 +16,7 @@ mod goals;
 mod imports;
 mod inputs;
 mod installing;
+mod kills;
 mod mattes;
 mod memory_stated;
 mod models;
