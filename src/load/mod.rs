@@ -5,6 +5,7 @@
 //! - `mitsuba`, `gltf`: scenes of other programs, which become scene files in the terms of `import`.
 //! - `framing`: camera, ground and light for a model that comes without them; `view`: what a person may say of that; `presets`: materials by name.
 //! - `builtin_scenes`: scenes that are part of the program, among them `examples`, made of all examples; `builtin`: the files they name.
+//! - `toml_text`: values and tables as scene files have them, for those who write some.
 //! - [`error`]: what is wrong with an input file, and where.
 
 mod access;
@@ -33,6 +34,7 @@ mod presets;
 mod printable;
 mod reading;
 pub mod source;
+mod toml_text;
 mod view;
 
 pub use access::LoadOptions;

@@ -2,9 +2,9 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::shape::{steps, transform_step};
+use super::shape::transform_step;
 use crate::load::file::strength_key;
-use crate::load::file::writer::{Names, colour, direction, line, number, text, vector};
+use crate::load::file::writer::{Names, colour, direction, line, list, number, table, text, vector};
 use crate::scene::animation::{
     CameraTrack, Curve, FRAMES_PER_SECOND, Interpolation, LightTrack, Node, ShapeTrack, TransformTrack,
 };
@@ -38,7 +38,7 @@ pub fn animation(animation: &Animation, nodes: &Names) -> String {
 fn node_keys(node: &Node, nodes: &Names) -> String {
     let mut out = taken_along("parent", node.parent, nodes);
     if node.rest != DAffine3::IDENTITY {
-        out += &line("transform", &steps(std::iter::once(transform_step(&TransformStep::Matrix(node.rest)))));
+        out += &line("transform", &list([transform_step(&TransformStep::Matrix(node.rest))]));
     }
     out + &node.track.as_ref().map_or_else(String::new, transform)
 }
@@ -99,16 +99,15 @@ fn keyframes(written: &[Written], interpolation: Interpolation) -> String {
     if frames.is_empty() {
         return String::new();
     }
-    let table = |frame: &f64| {
+    let keyframe = |frame: &f64| {
         let stated = written.iter().flat_map(|written| written.at.iter().map(|(at, value)| (written.key, at, value)));
-        let values = stated.filter(|(_, at, _)| *at == frame).map(|(key, _, value)| format!(", {key} = {value}"));
-        format!("{{ frame = {}{} }}", number(*frame), values.collect::<String>())
+        let values = stated.filter(|(_, at, _)| *at == frame).map(|(key, _, value)| (key, value.clone()));
+        table(std::iter::once(("frame", number(*frame))).chain(values))
     };
-    let tables: Vec<String> = frames.iter().map(table).collect();
     let name = match interpolation {
         Interpolation::Linear => String::new(),
         Interpolation::Smooth => line("interpolation", &text("smooth")),
         Interpolation::Step => line("interpolation", &text("step")),
     };
-    line("keyframes", &format!("[{}]", tables.join(", "))) + &name
+    line("keyframes", &list(frames.iter().map(keyframe))) + &name
 }

@@ -2,13 +2,13 @@
 
 use super::needed::named_texture;
 use crate::load::file::write_kind;
-use crate::load::file::writer::{Writer, line, number};
+use crate::load::file::writer::{Writer, flag, line, number, text};
 use crate::scene::{Emission, MaterialId, MaterialKind, Relief};
 
 pub fn material(id: MaterialId, writer: &Writer<'_>) -> String {
     let material = &writer.scene.materials[id];
     let type_name = material.kind.type_name();
-    let mut out = format!("\n[[material]]\nname = {}\ntype = \"{type_name}\"\n", writer.materials.quoted(id));
+    let mut out = "\n[[material]]\n".to_owned() + &line("name", &writer.materials.quoted(id)) + &line("type", &text(type_name));
     out += &write_kind(&material.kind, writer);
     if let Some(texture) = material.normal_map {
         let name = writer.textures.quoted(named_texture(writer.scene, texture));
@@ -17,12 +17,8 @@ pub fn material(id: MaterialId, writer: &Writer<'_>) -> String {
             Relief::Normals(scale) => line("normal_map", &name) + &line("normal_scale", &number(scale)),
             Relief::Heights(scale) => line("bump_map", &name) + &line("bump_scale", &number(scale)),
         };
-        if writer.scene.textures[texture].shadows_bent_normals {
-            out += "normal_shadowing = true\n";
-        }
-        if writer.scene.textures[texture].mirrors_bent_normals {
-            out += "normal_mirroring = true\n";
-        }
+        out += &flag("normal_shadowing", writer.scene.textures[texture].shadows_bent_normals);
+        out += &flag("normal_mirroring", writer.scene.textures[texture].mirrors_bent_normals);
     }
     let emits = matches!(material.kind, MaterialKind::Emissive);
     match material.emission {

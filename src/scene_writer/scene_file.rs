@@ -5,7 +5,7 @@ use std::path::Path;
 use super::needed::Needed;
 use super::{animation, material, settings, shape, texture};
 use crate::load::file::write_light;
-use crate::load::file::writer::{Names, SideFiles, Writer};
+use crate::load::file::writer::{Names, SideFiles, Writer, line, text as quoted};
 use crate::scene::Scene;
 
 /// The text of the scene file that would lie at `path`.
@@ -44,7 +44,7 @@ pub fn scene_text(scene: &Scene, path: &Path) -> (String, SideFiles) {
     }
     for (index, light) in scene.lights.iter().enumerate() {
         let keys = write_light(light, &mut writer);
-        text.push_str(&format!("\n[[light]]\ntype = \"{}\"\n{keys}", light.kind_name()));
+        text.push_str(&format!("\n[[light]]\n{}{keys}", line("type", &quoted(light.kind_name()))));
         let tracks = animation.lights.iter().filter(|track| track.light == index);
         tracks.for_each(|track| text.push_str(&animation::light(track, light, &writer.nodes)));
     }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use glam::DVec3;
 
 use crate::choice::Choice;
-use crate::load::file::writer::{line, number, numbers, text, vector};
+use crate::load::file::writer::{line, list, number, numbers, table, text, vector};
 use crate::scene::{Aperture, ApertureShape, Camera, FilmSettings, Filter, PixelSampler, Projection, RenderSettings, Scene};
 
 /// All four; of the settings, those that are not at their defaults.
@@ -16,18 +16,17 @@ pub fn settings(scene: &Scene) -> String {
         let _ = write!(out, "\n[render]\n{written}");
     }
     if !scene.layers.is_empty() {
-        let names: Vec<String> = scene.layers.iter().map(|layer| text(layer.name())).collect();
-        let _ = write!(out, "\n[output]\n{}", line("aov", &format!("[{}]", names.join(", "))));
+        let names = scene.layers.iter().map(|layer| text(layer.name()));
+        let _ = write!(out, "\n[output]\n{}", line("aov", &list(names)));
     }
     out + &camera(&scene.camera)
 }
 
 fn film(film: &FilmSettings) -> String {
-    let [width, height] = film.size;
-    let mut out = format!("[film]\nsize = [{width}, {height}]\n");
+    let mut out = "[film]\n".to_owned() + &line("size", &list(film.size.map(|side| side.to_string())));
     if film.filter != Filter::default() {
         let Filter { kind, radius } = film.filter;
-        out += &line("filter", &format!("{{ type = {}, radius = {} }}", text(kind.name()), number(radius)));
+        out += &line("filter", &table([("type", text(kind.name())), ("radius", number(radius))]));
     }
     out
 }
@@ -49,14 +48,15 @@ fn render(settings: &RenderSettings) -> String {
 }
 
 fn camera(camera: &Camera) -> String {
-    let mut out = format!("\n[camera]\nposition = {}\nlook_at = {}\n", vector(camera.position), vector(camera.look_at));
+    let mut out =
+        "\n[camera]\n".to_owned() + &line("position", &vector(camera.position)) + &line("look_at", &vector(camera.look_at));
     if camera.up != DVec3::Y {
         out += &line("up", &vector(camera.up));
     }
     match camera.projection {
         Projection::Perspective { vertical_fov_degrees } => out += &line("vfov", &number(vertical_fov_degrees)),
         Projection::Orthographic { height } => {
-            out += "projection = \"orthographic\"\n";
+            out += &line("projection", &text("orthographic"));
             out += &line("height", &number(height));
         }
     }
@@ -76,12 +76,12 @@ fn camera(camera: &Camera) -> String {
 }
 
 fn opening(aperture: &Aperture) -> String {
-    let radius = number(aperture.radius);
-    match aperture.shape {
-        ApertureShape::Disk => format!("{{ shape = \"disk\", radius = {radius} }}"),
-        ApertureShape::Square => format!("{{ shape = \"square\", radius = {radius} }}"),
+    let (shape, further) = match aperture.shape {
+        ApertureShape::Disk => ("disk", Vec::new()),
+        ApertureShape::Square => ("square", Vec::new()),
         ApertureShape::Polygon { blades, rotation_degrees } => {
-            format!("{{ shape = \"polygon\", radius = {radius}, blades = {blades}, rotation = {} }}", number(rotation_degrees))
+            ("polygon", vec![("blades", blades.to_string()), ("rotation", number(rotation_degrees))])
         }
-    }
+    };
+    table([("shape", text(shape)), ("radius", number(aperture.radius))].into_iter().chain(further))
 }

@@ -1,9 +1,9 @@
 //! `[[shape]]`
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 
 use crate::load::file::write_geometry;
-use crate::load::file::writer::{Writer, direction, line, number, numbers, vector};
+use crate::load::file::writer::{Writer, direction, line, list, number, numbers, table, text, vector};
 use crate::load::{place_rows, write_places};
 use crate::scene::{Group, Instances, MotionStep, Shape, TransformStep};
 
@@ -13,12 +13,12 @@ const MOST_INLINE_PLACES: usize = 16;
 /// A shape under `[[shape]]` or `[[group.shape]]`.
 pub fn shape(heading: &str, shape: &Shape, writer: &mut Writer<'_>) -> String {
     let keys = write_geometry(shape, writer);
-    let mut out = format!("\n{heading}\ntype = \"{}\"\n{keys}", shape.geometry.kind_name());
+    let mut out = format!("\n{heading}\n{}{keys}", line("type", &text(shape.geometry.kind_name())));
     if !shape.transform.steps.is_empty() {
-        out += &line("transform", &steps(shape.transform.steps.iter().map(transform_step)));
+        out += &line("transform", &list(shape.transform.steps.iter().map(transform_step)));
     }
     if let Some(motion) = &shape.motion {
-        out += &line("motion", &steps(motion.steps.iter().map(motion_step)));
+        out += &line("motion", &list(motion.steps.iter().map(motion_step)));
     }
     if shape.portal {
         out += &line("portal", "true");
@@ -39,8 +39,7 @@ pub fn instances(instances: &Instances, writer: &mut Writer<'_>) -> String {
     match &instances.places[..] {
         [only] if *only == DAffine3::IDENTITY => {}
         few if few.len() <= MOST_INLINE_PLACES => {
-            let rows: Vec<String> = few.iter().map(|place| numbers(&place_rows(place))).collect();
-            out += &line("places", &format!("[{}]", rows.join(", ")));
+            out += &line("places", &list(few.iter().map(|place| numbers(&place_rows(place)))));
         }
         many => {
             let name = format!("places-{}.f64", writer.files.len() + 1);
@@ -48,13 +47,13 @@ pub fn instances(instances: &Instances, writer: &mut Writer<'_>) -> String {
         }
     }
     if !instances.transform.steps.is_empty() {
-        out += &line("transform", &steps(instances.transform.steps.iter().map(transform_step)));
+        out += &line("transform", &list(instances.transform.steps.iter().map(transform_step)));
     }
     if let Some(material) = instances.material {
         out += &line("material", &writer.materials.quoted(material));
     }
     if let Some(motion) = &instances.motion {
-        out += &line("motion", &steps(motion.steps.iter().map(motion_step)));
+        out += &line("motion", &list(motion.steps.iter().map(motion_step)));
         if let Some(pivot) = instances.pivot {
             out += &line("pivot", &vector(pivot));
         }
@@ -62,33 +61,28 @@ pub fn instances(instances: &Instances, writer: &mut Writer<'_>) -> String {
     out
 }
 
-/// A list of steps.
-pub fn steps(written: impl Iterator<Item = String>) -> String {
-    format!("[{}]", written.collect::<Vec<_>>().join(", "))
-}
-
 /// A step of a transform.
 pub fn transform_step(step: &TransformStep) -> String {
     match *step {
-        TransformStep::Scale(factors) => format!("{{ scale = {} }}", vector(factors)),
-        TransformStep::Rotate { axis, degrees } => {
-            format!("{{ rotate = {}, degrees = {} }}", direction(axis), number(degrees))
-        }
-        TransformStep::Translate(offset) => format!("{{ translate = {} }}", vector(offset)),
+        TransformStep::Scale(factors) => table([("scale", vector(factors))]),
+        TransformStep::Rotate { axis, degrees } => rotation(axis, degrees),
+        TransformStep::Translate(offset) => table([("translate", vector(offset))]),
         TransformStep::Matrix(DAffine3 { matrix3, translation }) => {
             let row = |row: usize| [matrix3.row(row).x, matrix3.row(row).y, matrix3.row(row).z, translation[row]];
             let rows = [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]].concat();
-            format!("{{ matrix = {} }}", numbers(&rows))
+            table([("matrix", numbers(&rows))])
         }
     }
 }
 
 fn motion_step(step: &MotionStep) -> String {
     match *step {
-        MotionStep::Scale(factors) => format!("{{ scale = {} }}", vector(factors)),
-        MotionStep::Rotate { axis, degrees } | MotionStep::Turned { axis, degrees } => {
-            format!("{{ rotate = {}, degrees = {} }}", direction(axis), number(degrees))
-        }
-        MotionStep::Translate(offset) => format!("{{ translate = {} }}", vector(offset)),
+        MotionStep::Scale(factors) => table([("scale", vector(factors))]),
+        MotionStep::Rotate { axis, degrees } | MotionStep::Turned { axis, degrees } => rotation(axis, degrees),
+        MotionStep::Translate(offset) => table([("translate", vector(offset))]),
     }
+}
+
+fn rotation(axis: DVec3, degrees: f64) -> String {
+    table([("rotate", direction(axis)), ("degrees", number(degrees))])
 }

@@ -1,37 +1,35 @@
 //! `[[texture]]`
 
-use crate::load::file::writer::{Writer, colour, line, number, numbers};
+use crate::load::file::writer::{Writer, colour, flag, line, number, numbers, text};
 use crate::scene::{ColorSpace, ImageTexture, TextureFilter, TextureId, TextureKind, TextureWrap};
 
 pub fn texture(id: TextureId, writer: &mut Writer<'_>) -> String {
-    let mut out = format!("\n[[texture]]\nname = {}\n", writer.textures.quoted(id));
+    let mut out = "\n[[texture]]\n".to_owned() + &line("name", &writer.textures.quoted(id));
     let scene = writer.scene;
     let texture = &scene.textures[id];
     match &texture.kind {
         TextureKind::Image(image) => out += &image_texture(image, writer),
         TextureKind::Checker { a, b, scale } => {
-            out += "type = \"checker\"\n";
+            out += &line("type", &text("checker"));
             out += &(line("a", &colour(*a)) + &line("b", &colour(*b)));
             out += &pair("scale", *scale, 1.0);
         }
         TextureKind::Perlin { scale, octaves, a, b, seed } => {
-            out += "type = \"perlin\"\n";
+            out += &line("type", &text("perlin"));
             out += &(line("a", &colour(*a)) + &line("b", &colour(*b)) + &line("scale", &number(*scale)));
-            out += &format!("octaves = {octaves}\nseed = {seed}\n");
+            out += &(line("octaves", &octaves.to_string()) + &line("seed", &seed.to_string()));
         }
         TextureKind::Worley { scale, a, b, seed } => {
-            out += "type = \"worley\"\n";
+            out += &line("type", &text("worley"));
             out += &(line("a", &colour(*a)) + &line("b", &colour(*b)) + &line("scale", &number(*scale)));
-            out += &format!("seed = {seed}\n");
+            out += &line("seed", &seed.to_string());
         }
     }
     if texture.transform.rotation_degrees != 0.0 {
         out += &line("rotation", &number(texture.transform.rotation_degrees));
     }
     out += &pair("offset", texture.transform.offset, 0.0);
-    if texture.by_second_uvs {
-        out += "second_uvs = true\n";
-    }
+    out += &flag("second_uvs", texture.by_second_uvs);
     if let Some(other) = texture.times {
         out += &line("times", &writer.textures.quoted(other));
     }
@@ -40,23 +38,23 @@ pub fn texture(id: TextureId, writer: &mut Writer<'_>) -> String {
 
 fn image_texture(texture: &ImageTexture, writer: &mut Writer<'_>) -> String {
     let (file, space, _) = writer.image(&texture.image);
-    let mut out = "type = \"image\"\n".to_owned() + &line("file", &file);
-    match space {
-        None => {}
-        Some(ColorSpace::Srgb) => out += "color_space = \"srgb\"\n",
-        Some(ColorSpace::Linear) => out += "color_space = \"linear\"\n",
-    }
-    out += match texture.wrap {
-        TextureWrap::Repeat => "",
-        TextureWrap::Clamp => "wrap = \"clamp\"\n",
-        TextureWrap::Mirror => "wrap = \"mirror\"\n",
+    let space = space.map(|space| match space {
+        ColorSpace::Srgb => "srgb",
+        ColorSpace::Linear => "linear",
+    });
+    let wrap = match texture.wrap {
+        TextureWrap::Repeat => None,
+        TextureWrap::Clamp => Some("clamp"),
+        TextureWrap::Mirror => Some("mirror"),
     };
-    out += match texture.filter {
-        TextureFilter::Bilinear => "",
-        TextureFilter::Nearest => "filter = \"nearest\"\n",
-        TextureFilter::Triangle => "filter = \"triangle\"\n",
+    let filter = match texture.filter {
+        TextureFilter::Bilinear => None,
+        TextureFilter::Nearest => Some("nearest"),
+        TextureFilter::Triangle => Some("triangle"),
     };
-    out + &pair("scale", texture.scale, 1.0)
+    let names = [("color_space", space), ("wrap", wrap), ("filter", filter)];
+    let written = names.into_iter().filter_map(|(key, name)| Some(line(key, &text(name?))));
+    line("type", &text("image")) + &line("file", &file) + &written.collect::<String>() + &pair("scale", texture.scale, 1.0)
 }
 
 /// Nothing where both are the default.

@@ -8,7 +8,7 @@ use crate::load::error::SceneError;
 use crate::load::file::colour::ChannelName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, Fraction, IndexOfRefraction, Located, NonNegative, Number};
-use crate::load::file::writer::{Writer, channel_name, number};
+use crate::load::file::writer::{Writer, channel_name, number, table, text};
 use crate::scene::{BlendWeight, TextureId, TextureKind};
 
 /// The weight of a blend's first material.
@@ -122,20 +122,17 @@ fn weight_texture(name: &Located<String>, resolver: &Resolver<'_>) -> Result<Tex
 
 /// The weight as a scene file has it.
 pub fn write(weight: &BlendWeight, writer: &Writer<'_>) -> String {
-    match weight {
-        BlendWeight::Constant { value } => format!("{{ type = \"constant\", value = {} }}", number(*value)),
-        BlendWeight::Facing { power } => format!("{{ type = \"facing\", power = {} }}", number(*power)),
-        BlendWeight::Fresnel { ior, exact } => format!("{{ type = \"fresnel\", ior = {}, exact = {exact} }}", number(*ior)),
-        BlendWeight::Texture { texture } => format!("{{ type = \"texture\", texture = {} }}", writer.textures.quoted(*texture)),
-        BlendWeight::Channel { texture, channel, factor } => format!(
-            "{{ type = \"texture\", texture = {}, channel = \"{}\", factor = {} }}",
-            writer.textures.quoted(*texture),
-            channel_name(*channel),
-            number(*factor)
-        ),
-        BlendWeight::Reverse { of } => format!("{{ type = \"reverse\", of = {} }}", write(of, writer)),
-        BlendWeight::Threshold { tau, of } => {
-            format!("{{ type = \"threshold\", tau = {}, of = {} }}", number(*tau), write(of, writer))
+    let (type_name, keys) = match weight {
+        BlendWeight::Constant { value } => ("constant", vec![("value", number(*value))]),
+        BlendWeight::Facing { power } => ("facing", vec![("power", number(*power))]),
+        BlendWeight::Fresnel { ior, exact } => ("fresnel", vec![("ior", number(*ior)), ("exact", exact.to_string())]),
+        BlendWeight::Texture { texture } => ("texture", vec![("texture", writer.textures.quoted(*texture))]),
+        BlendWeight::Channel { texture, channel, factor } => {
+            let name = ("texture", writer.textures.quoted(*texture));
+            ("texture", vec![name, ("channel", text(channel_name(*channel))), ("factor", number(*factor))])
         }
-    }
+        BlendWeight::Reverse { of } => ("reverse", vec![("of", write(of, writer))]),
+        BlendWeight::Threshold { tau, of } => ("threshold", vec![("tau", number(*tau)), ("of", write(of, writer))]),
+    };
+    table(std::iter::once(("type", text(type_name))).chain(keys))
 }

@@ -11,7 +11,7 @@ use crate::load::error::{SceneError, show};
 use crate::load::file::keyframes::InterpolationName;
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Exactly, Located, Number};
-use crate::load::file::writer::{Writer, line, number, numbers, text};
+use crate::load::file::writer::{Writer, line, list, number, numbers, table, text};
 use crate::load::files::MOST_SCENE_BYTES;
 use crate::load::import::place_rows;
 use crate::load::memory;
@@ -151,30 +151,29 @@ fn map(rows: &[Number; 12]) -> DAffine3 {
 /// The key that bends a mesh.
 pub fn write(deformation: &Deformation, writer: &mut Writer<'_>) -> String {
     let name = format!("deformation-{}.json", writer.files.len() + 1);
-    let mut keys = vec![format!("file = {}", writer.files.add(&name, influences_file(deformation)))];
+    let mut keys = vec![("file", writer.files.add(&name, influences_file(deformation)))];
     let joint = |joint: &Joint| {
-        let node = joint.node.map_or_else(String::new, |node| format!("node = {}, ", writer.nodes.quoted(node)));
-        format!("{{ {node}matrix = {} }}", numbers(&place_rows(&joint.bind)))
+        let node = joint.node.map(|node| ("node", writer.nodes.quoted(node)));
+        table(node.into_iter().chain([("matrix", numbers(&place_rows(&joint.bind)))]))
     };
     if !deformation.joints.is_empty() {
-        keys.push(format!("joints = [{}]", deformation.joints.iter().map(joint).collect::<Vec<_>>().join(", ")));
+        keys.push(("joints", list(deformation.joints.iter().map(joint))));
     }
     if let Some(first) = deformation.targets.first() {
         let rest: Vec<f64> = deformation.targets.iter().map(|target| target.rest).collect();
-        keys.push(format!("weights = {}", numbers(&rest)));
+        keys.push(("weights", numbers(&rest)));
         let keyframe = |(index, key): (usize, &Key<f64>)| {
             let weights: Vec<f64> = deformation.targets.iter().map(|target| target.weight.keys[index].value).collect();
-            format!("{{ frame = {}, weights = {} }}", number(key.frame), numbers(&weights))
+            table([("frame", number(key.frame)), ("weights", numbers(&weights))])
         };
         if !first.weight.keys.is_empty() {
-            let keyframes: Vec<String> = first.weight.keys.iter().enumerate().map(keyframe).collect();
-            keys.push(format!("keyframes = [{}]", keyframes.join(", ")));
+            keys.push(("keyframes", list(first.weight.keys.iter().enumerate().map(keyframe))));
         }
         match first.weight.interpolation {
             Interpolation::Linear => {}
-            Interpolation::Smooth => keys.push(format!("interpolation = {}", text("smooth"))),
-            Interpolation::Step => keys.push(format!("interpolation = {}", text("step"))),
+            Interpolation::Smooth => keys.push(("interpolation", text("smooth"))),
+            Interpolation::Step => keys.push(("interpolation", text("step"))),
         }
     }
-    line("deformation", &format!("{{ {} }}", keys.join(", ")))
+    line("deformation", &table(keys))
 }

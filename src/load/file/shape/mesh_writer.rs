@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::deformation;
-use crate::load::file::writer::{Writer, line, named_file, pair_f32, ply, text, vector_f32};
+use crate::load::file::writer::{Writer, line, list, named_file, pair_f32, ply, table, text, vector_f32};
 use crate::scene::{MaterialId, Mesh, MeshSource, Shape};
 
 /// Larger meshes that come from no file lie in one beside the scene file.
@@ -23,14 +23,13 @@ pub fn write(mesh: &Arc<Mesh>, shape: &Shape, writer: &mut Writer<'_>) -> String
     if mesh.faces.len() > MOST_INLINE_FACES || mesh.smooth || !mesh.face_materials.is_empty() {
         return mesh_beside(mesh, shape, writer) + &smooth;
     }
-    let list = |items: Vec<String>| format!("[{}]", items.join(", "));
-    let mut out = line("positions", &list(mesh.positions.iter().map(|&position| vector_f32(position)).collect()));
-    out += &line("faces", &list(mesh.faces.iter().map(|[a, b, c]| format!("[{a}, {b}, {c}]")).collect()));
+    let mut out = line("positions", &list(mesh.positions.iter().map(|&position| vector_f32(position))));
+    out += &line("faces", &list(mesh.faces.iter().map(|face| list(face.map(|corner| corner.to_string())))));
     if !mesh.uvs.is_empty() {
-        out += &line("uvs", &list(mesh.uvs.iter().map(|&uv| pair_f32(uv)).collect()));
+        out += &line("uvs", &list(mesh.uvs.iter().map(|&uv| pair_f32(uv))));
     }
     if !mesh.second_uvs.is_empty() {
-        out += &line("second_uvs", &list(mesh.second_uvs.iter().map(|&uv| pair_f32(uv)).collect()));
+        out += &line("second_uvs", &list(mesh.second_uvs.iter().map(|&uv| pair_f32(uv))));
     }
     out + &writer.material_of(shape) + &smooth
 }
@@ -42,9 +41,7 @@ fn named_mesh(shape: &Shape, source: &MeshSource, writer: &Writer<'_>) -> String
     } else if !source.replaced.is_empty() {
         let id = |name: &str| writer.scene.materials.iter().position(|material| material.name == name);
         let rows = source.replaced.iter().filter_map(|(of_file, name)| Some((of_file, id(name)?)));
-        let rows: Vec<String> =
-            rows.map(|(of_file, id)| format!("{} = {}", text(of_file), writer.materials.quoted(id))).collect();
-        out += &line("materials", &format!("{{ {} }}", rows.join(", ")));
+        out += &line("materials", &table(rows.map(|(of_file, id)| (text(of_file), writer.materials.quoted(id)))));
     }
     if let Some(smooth) = source.smooth {
         out += &line("smooth", &smooth.to_string());
@@ -64,7 +61,6 @@ fn mesh_beside(mesh: &Mesh, shape: &Shape, writer: &mut Writer<'_>) -> String {
     // Every material of a face is among those that are used.
     let group = |id: &MaterialId| used.binary_search(id).unwrap_or_default() as u32;
     let groups: Vec<u32> = mesh.face_materials.iter().map(group).collect();
-    let rows: Vec<String> =
-        used.iter().enumerate().map(|(group, &id)| format!("{group} = {}", writer.materials.quoted(id))).collect();
-    line("file", &writer.files.add(&name, ply(mesh, Some(&groups)))) + &line("materials", &format!("{{ {} }}", rows.join(", ")))
+    let rows = table(used.iter().enumerate().map(|(group, &id)| (group.to_string(), writer.materials.quoted(id))));
+    line("file", &writer.files.add(&name, ply(mesh, Some(&groups)))) + &line("materials", &rows)
 }

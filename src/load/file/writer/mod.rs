@@ -13,8 +13,9 @@ use picture::picture;
 pub use ply::ply;
 pub use side_files::SideFiles;
 use side_files::is_on_disk;
-pub use value::{colour, direction, flag, line, number, numbers, pair_f32, text, vector, vector_f32};
+pub use value::{colour, direction, flag, numbers, pair_f32, vector, vector_f32};
 
+pub use crate::load::toml_text::{line, list, number, table, text};
 use crate::scene::{Channel, ChannelInput, ColorInput, ColorSpace, ImageData, Mesh, MeshSource, Scene, Shape};
 
 /// A scene file in the making.
@@ -38,16 +39,13 @@ impl Writer<'_> {
     pub fn value_of(&self, input: ColorInput) -> String {
         match input {
             ColorInput::Constant(value) => colour(value),
-            ColorInput::Texture(id) | ColorInput::SquaredTexture(id) => format!("{{ texture = {} }}", self.textures.quoted(id)),
-            ColorInput::ScaledTexture(id, scale) => {
-                format!("{{ texture = {}, factor = {} }}", self.textures.quoted(id), colour(scale))
-            }
-            ColorInput::Channel(ChannelInput { texture, channel, factor, .. }) => format!(
-                "{{ texture = {}, channel = \"{}\", factor = {} }}",
-                self.textures.quoted(texture),
-                channel_name(channel),
-                colour(factor)
-            ),
+            ColorInput::Texture(id) | ColorInput::SquaredTexture(id) => table([("texture", self.textures.quoted(id))]),
+            ColorInput::ScaledTexture(id, scale) => table([("texture", self.textures.quoted(id)), ("factor", colour(scale))]),
+            ColorInput::Channel(ChannelInput { texture, channel, factor, .. }) => table([
+                ("texture", self.textures.quoted(texture)),
+                ("channel", text(channel_name(channel))),
+                ("factor", colour(factor)),
+            ]),
         }
     }
 

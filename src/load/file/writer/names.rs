@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::value::text;
+use crate::load::toml_text::text;
 
 /// The name of each entry of a list; no two are equal, and none is empty.
 pub struct Names(Vec<String>);

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-use super::value::text;
 use crate::load::builtin::is_builtin;
+use crate::load::toml_text::text;
 
 /// Files that are to be written beside a scene file.
 pub struct SideFiles {
