@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::{CachedImage, Resolver};
-use crate::load::file::syntax::{ColorSpaceEntry, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
+use crate::load::file::syntax::{ColorSpaceEntry, CommonKeys, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 use crate::load::file::value::{Checked, Exactly, Located, Number, Positive};
 use crate::load::{formats, reading};
 use crate::scene::validate::MOST_OCTAVES;
@@ -20,7 +20,7 @@ use crate::scene::{
 
 impl Resolver<'_> {
     pub(super) fn textures(&mut self, written: &[TextureEntry]) -> Result<(), SceneError> {
-        self.texture_names = self.register("texture", written.iter().map(TextureEntry::name))?;
+        self.texture_names = self.register("texture", written.iter().map(|entry| entry.common().name))?;
         self.decode_side_by_side(written);
         for (index, entry) in written.iter().enumerate() {
             let kind = self.texture_kind(entry);
@@ -28,29 +28,24 @@ impl Resolver<'_> {
             let kind = self.note(kind).unwrap_or(TextureKind::Checker { a: DVec3::ZERO, b: DVec3::ZERO, scale: [1.0; 2] });
             self.linear_textures
                 .push(matches!(entry, TextureEntry::Image(ImageEntry { color_space: Some(ColorSpaceEntry::Linear), .. })));
-            let (rotation, offset) = entry.placement();
+            let CommonKeys { name, rotation, offset, second_uvs, .. } = entry.common();
             let transform = UvTransform {
                 rotation_degrees: rotation.map_or(0.0, |rotation| rotation.0),
                 offset: offset.map_or([0.0; 2], |offset| offset.map(|shift| shift.0)),
             };
-            let by_second_uvs = entry.is_by_second_uvs();
+            let by_second_uvs = second_uvs.unwrap_or(false);
             let times = self.times(index, written);
             let times = self.note(times).flatten();
-            self.scene.textures.push(Texture {
-                transform,
-                by_second_uvs,
-                times,
-                ..Texture::new(entry.name().value.clone(), kind)
-            });
+            self.scene.textures.push(Texture { transform, by_second_uvs, times, ..Texture::new(name.value.clone(), kind) });
         }
         Ok(())
     }
 
     /// The texture by which one is multiplied.
     fn times(&self, index: usize, written: &[TextureEntry]) -> Result<Option<TextureId>, SceneError> {
-        let Some(name) = written[index].times() else { return Ok(None) };
+        let Some(name) = written[index].common().times else { return Ok(None) };
         let other = self.texture_id(name)?;
-        if other == index || written.get(other).is_none_or(|entry| entry.times().is_some()) {
+        if other == index || written.get(other).is_none_or(|entry| entry.common().times.is_some()) {
             let message = format!("`times` names `{}`, which is multiplied by another texture itself", name.value);
             return Err(self
                 .error(&name.span, message)

@@ -19,30 +19,90 @@ pub enum TextureEntry {
     Worley(WorleyEntry),
 }
 
-/// A picture file, looked up by uv.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table")]
-pub struct ImageEntry {
-    #[schemars(extend("minLength" = 1))]
-    pub name: Located<String>,
-    /// Path relative to the scene file.
-    pub file: Located<String>,
-    /// "srgb" for integer formats, "linear" for floating-point ones when left out.
-    pub color_space: Option<ColorSpaceEntry>,
-    /// "repeat" when left out.
-    pub wrap: Option<WrapEntry>,
-    /// "bilinear" when left out.
-    pub filter: Option<TextureFilterEntry>,
-    /// Factors of u and v, [1, 1] when left out.
-    pub scale: Option<Exactly<Number, 2>>,
-    /// Degrees by which (u, v) is turned about (0, 0) after scaling, from u towards v; 0 when left out.
+/// What all textures have, as one of them states it.
+#[derive(Debug, Clone, Copy)]
+pub struct CommonKeys<'e> {
+    pub name: &'e Located<String>,
+    /// Degrees.
     pub rotation: Option<Number>,
-    /// Added to (u, v) last, [0, 0] when left out.
     pub offset: Option<Exactly<Number, 2>>,
-    /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates.
     pub second_uvs: Option<bool>,
-    /// The name of another texture by which it is multiplied, channel by channel, and which has no `times` itself. Not for normal and bump maps.
-    pub times: Option<Located<String>>,
+    /// The texture by which it is multiplied.
+    pub times: Option<&'e Located<String>>,
+}
+
+/// Kinds of textures by the keys of their own, to which it adds those that all have.
+macro_rules! texture_entries {
+    ($($(#[$about:meta])* $entry:ident { $($(#[$key_about:meta])* $key:ident: $type:ty,)* })*) => {$(
+        $(#[$about])*
+        #[derive(Debug, Deserialize, JsonSchema)]
+        #[serde(deny_unknown_fields, expecting = "a table")]
+        pub struct $entry {
+            #[schemars(extend("minLength" = 1))]
+            pub name: Located<String>,
+            $($(#[$key_about])* pub $key: $type,)*
+            /// Degrees by which (u, v) is turned about (0, 0) after scaling, from u towards v; 0 when left out.
+            pub rotation: Option<Number>,
+            /// Added last to (u, v) as it is scaled and turned, [0, 0] when left out.
+            pub offset: Option<Exactly<Number, 2>>,
+            /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates.
+            pub second_uvs: Option<bool>,
+            /// The name of another texture by which it is multiplied, channel by channel, and which has no `times` itself. Not for normal and bump maps.
+            pub times: Option<Located<String>>,
+        }
+
+        impl $entry {
+            fn common(&self) -> CommonKeys<'_> {
+                let Self { name, rotation, offset, second_uvs, times, .. } = self;
+                CommonKeys { name, rotation: *rotation, offset: *offset, second_uvs: *second_uvs, times: times.as_ref() }
+            }
+        }
+    )*};
+}
+
+texture_entries! {
+    /// A picture file, looked up by uv.
+    ImageEntry {
+        /// Path relative to the scene file.
+        file: Located<String>,
+        /// "srgb" for integer formats, "linear" for floating-point ones when left out.
+        color_space: Option<ColorSpaceEntry>,
+        /// "repeat" when left out.
+        wrap: Option<WrapEntry>,
+        /// "bilinear" when left out.
+        filter: Option<TextureFilterEntry>,
+        /// Factors of u and v, [1, 1] when left out.
+        scale: Option<Exactly<Number, 2>>,
+    }
+
+    /// Two colours in squares.
+    CheckerEntry {
+        a: Rgb<Any>,
+        b: Rgb<Any>,
+        /// Squares per unit of u and v, [1, 1] when left out.
+        scale: Option<Exactly<Number, 2>>,
+    }
+
+    /// Improved Perlin noise between two colours.
+    PerlinEntry {
+        /// Factor of u and v, 1 when left out.
+        scale: Option<Checked<Positive>>,
+        /// 1 when left out, at most 16.
+        #[schemars(extend("maximum" = 16))]
+        octaves: Option<Located<NonZeroU32>>,
+        a: Rgb<Any>,
+        b: Rgb<Any>,
+        seed: Option<u32>,
+    }
+
+    /// Distance to the nearest feature point, between two colours.
+    WorleyEntry {
+        /// Factor of u and v, 1 when left out.
+        scale: Option<Checked<Positive>>,
+        a: Rgb<Any>,
+        b: Rgb<Any>,
+        seed: Option<u32>,
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -70,109 +130,14 @@ pub enum TextureFilterEntry {
     Triangle,
 }
 
-/// Two colours in squares.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table")]
-pub struct CheckerEntry {
-    #[schemars(extend("minLength" = 1))]
-    pub name: Located<String>,
-    pub a: Rgb<Any>,
-    pub b: Rgb<Any>,
-    /// Squares per unit of u and v, [1, 1] when left out.
-    pub scale: Option<Exactly<Number, 2>>,
-    /// Degrees by which (u, v) is turned about (0, 0) after scaling, from u towards v; 0 when left out.
-    pub rotation: Option<Number>,
-    /// Added to (u, v) last, in squares; [0, 0] when left out.
-    pub offset: Option<Exactly<Number, 2>>,
-    /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates.
-    pub second_uvs: Option<bool>,
-    /// The name of another texture by which it is multiplied, channel by channel, and which has no `times` itself. Not for normal and bump maps.
-    pub times: Option<Located<String>>,
-}
-
-/// Improved Perlin noise between two colours.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table")]
-pub struct PerlinEntry {
-    #[schemars(extend("minLength" = 1))]
-    pub name: Located<String>,
-    /// Factor of u and v, 1 when left out.
-    pub scale: Option<Checked<Positive>>,
-    /// 1 when left out, at most 16.
-    #[schemars(extend("maximum" = 16))]
-    pub octaves: Option<Located<NonZeroU32>>,
-    pub a: Rgb<Any>,
-    pub b: Rgb<Any>,
-    pub seed: Option<u32>,
-    /// Degrees by which (u, v) is turned about (0, 0) after scaling, from u towards v; 0 when left out.
-    pub rotation: Option<Number>,
-    /// Added to (u, v) last, [0, 0] when left out.
-    pub offset: Option<Exactly<Number, 2>>,
-    /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates.
-    pub second_uvs: Option<bool>,
-    /// The name of another texture by which it is multiplied, channel by channel, and which has no `times` itself. Not for normal and bump maps.
-    pub times: Option<Located<String>>,
-}
-
-/// Distance to the nearest feature point, between two colours.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table")]
-pub struct WorleyEntry {
-    #[schemars(extend("minLength" = 1))]
-    pub name: Located<String>,
-    /// Factor of u and v, 1 when left out.
-    pub scale: Option<Checked<Positive>>,
-    pub a: Rgb<Any>,
-    pub b: Rgb<Any>,
-    pub seed: Option<u32>,
-    /// Degrees by which (u, v) is turned about (0, 0) after scaling, from u towards v; 0 when left out.
-    pub rotation: Option<Number>,
-    /// Added to (u, v) last, [0, 0] when left out.
-    pub offset: Option<Exactly<Number, 2>>,
-    /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates.
-    pub second_uvs: Option<bool>,
-    /// The name of another texture by which it is multiplied, channel by channel, and which has no `times` itself. Not for normal and bump maps.
-    pub times: Option<Located<String>>,
-}
-
 impl TextureEntry {
-    /// Rotation and offset.
-    pub fn placement(&self) -> (Option<Number>, Option<Exactly<Number, 2>>) {
+    /// What it has whatever its kind.
+    pub fn common(&self) -> CommonKeys<'_> {
         match self {
-            Self::Image(entry) => (entry.rotation, entry.offset),
-            Self::Checker(entry) => (entry.rotation, entry.offset),
-            Self::Perlin(entry) => (entry.rotation, entry.offset),
-            Self::Worley(entry) => (entry.rotation, entry.offset),
-        }
-    }
-
-    /// The texture by which it is multiplied.
-    pub fn times(&self) -> Option<&Located<String>> {
-        match self {
-            Self::Image(entry) => entry.times.as_ref(),
-            Self::Checker(entry) => entry.times.as_ref(),
-            Self::Perlin(entry) => entry.times.as_ref(),
-            Self::Worley(entry) => entry.times.as_ref(),
-        }
-    }
-
-    /// It lies by the second texture coordinates.
-    pub fn is_by_second_uvs(&self) -> bool {
-        let written = match self {
-            Self::Image(entry) => entry.second_uvs,
-            Self::Checker(entry) => entry.second_uvs,
-            Self::Perlin(entry) => entry.second_uvs,
-            Self::Worley(entry) => entry.second_uvs,
-        };
-        written.unwrap_or(false)
-    }
-
-    pub fn name(&self) -> &Located<String> {
-        match self {
-            Self::Image(entry) => &entry.name,
-            Self::Checker(entry) => &entry.name,
-            Self::Perlin(entry) => &entry.name,
-            Self::Worley(entry) => &entry.name,
+            Self::Image(entry) => entry.common(),
+            Self::Checker(entry) => entry.common(),
+            Self::Perlin(entry) => entry.common(),
+            Self::Worley(entry) => entry.common(),
         }
     }
 }
