@@ -91,7 +91,8 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
         terminal::answer(load::json_schema())?;
         return Ok(Exit::Done);
     };
-    let mut scene = match reading::shown(false, || load::load_with(Some(name), &arguments.access.options(arguments.strict))) {
+    let options = arguments.access.options(arguments.strict);
+    let mut scene = match reading::shown(false, &options.progress, || load::load_with(Some(name), &options)) {
         Ok(scene) => scene,
         Err(error) => {
             if arguments.json {

@@ -25,7 +25,8 @@ pub fn run(arguments: &ImportArguments) -> Result<Exit, Failure> {
         scene_writer::save_scene(&scene, &target)?;
         return Ok(Exit::Done);
     }
-    let written = reading::shown(false, || load::as_scene_file(Path::new(&arguments.scene), &target, &options))?;
+    let written =
+        reading::shown(false, &options.progress, || load::as_scene_file(Path::new(&arguments.scene), &target, &options))?;
     if let Some(summary) = written.report.summary() {
         if arguments.strict {
             return Err(SceneError::in_file(arguments.scene.display(), summary).into());

@@ -5,7 +5,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
-use gpt::load::files_read;
+use gpt::load::ReadingProgress;
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// What takes less is not told of.
@@ -13,12 +13,11 @@ const PATIENCE: Duration = Duration::from_millis(400);
 /// Time between two looks.
 const TICK: Duration = Duration::from_millis(120);
 
-/// Reads something, and shows on a terminal how far that is where it takes long.
-pub fn shown<T>(quiet: bool, read: impl FnOnce() -> T) -> T {
+/// Reads something that tells `progress` how far it is, and shows that on a terminal where it takes long.
+pub fn shown<T>(quiet: bool, progress: &ReadingProgress, read: impl FnOnce() -> T) -> T {
     if quiet || !io::stderr().is_terminal() {
         return read();
     }
-    let before = files_read();
     thread::scope(|scope| {
         // Dropped as this returns, which ends the other thread.
         let (_reading, ended) = channel::<()>();
@@ -27,7 +26,7 @@ pub fn shown<T>(quiet: bool, read: impl FnOnce() -> T) -> T {
             let mut wait = PATIENCE;
             while ended.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
                 wait = TICK;
-                let [read, known] = [0, 1].map(|at| files_read()[at].saturating_sub(before[at]) as u64);
+                let [read, known] = progress.files().map(|files| files as u64);
                 show(bar.get_or_insert_with(ProgressBar::no_length), read, known);
             }
             bar.iter().for_each(ProgressBar::finish_and_clear);

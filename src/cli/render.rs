@@ -262,7 +262,7 @@ fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
     let source = SceneSource::parse(arguments.scene.as_deref())?;
     let view = arguments.model.view(&source, arguments.environment.clone(), arguments.estimate.size)?;
     let options = LoadOptions { view, ..arguments.access.options(arguments.strict) };
-    let mut scene = reading::shown(arguments.quiet, || source.load(&options))?;
+    let mut scene = reading::shown(arguments.quiet, &options.progress, || source.load(&options))?;
     for warning in scene.warnings.iter().chain(&scene.precision_warnings()) {
         terminal::warn(warning);
     }

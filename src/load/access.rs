@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::error::SceneError;
 use super::files::Files;
+use super::reading::ReadingProgress;
 use super::view::ModelView;
 
 /// What whoever reads a scene allows.
@@ -21,6 +22,8 @@ pub struct LoadOptions {
     pub variant: Option<String>,
     /// How a model is shown that comes without camera and light. Of scene files, only its environment counts.
     pub view: ModelView,
+    /// Is told how many files are read, and how many were.
+    pub progress: ReadingProgress,
 }
 
 /// [`LoadOptions`] whose folder is there.
@@ -33,6 +36,6 @@ pub struct Access {
 impl LoadOptions {
     pub(super) fn access(&self) -> Result<Access, SceneError> {
         let files = self.assets_root.as_deref().map_or(Ok(Files::default()), Files::within)?;
-        Ok(Access { files, strict: self.strict })
+        Ok(Access { files: files.with_progress(self.progress.clone()), strict: self.strict })
     }
 }

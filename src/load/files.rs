@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use super::builtin::embedded;
 use super::error::{SceneError, show};
+use super::reading::ReadingProgress;
 use crate::input::{self, AnyFile};
 use crate::scene::Mesh;
 
@@ -26,6 +27,7 @@ pub struct Files {
     root: Option<PathBuf>,
     /// What imported files brought along, by the paths at which it is looked for.
     held: Arc<Held>,
+    progress: ReadingProgress,
 }
 
 /// Contents that stand in no file of their own.
@@ -52,9 +54,19 @@ impl Files {
             if real.is_dir() { Ok(real) } else { Err(io::Error::new(ErrorKind::NotADirectory, "it is no folder")) }
         });
         match real {
-            Ok(real) => Ok(Self { root: Some(real), held: Arc::default() }),
+            Ok(real) => Ok(Self { root: Some(real), ..Self::default() }),
             Err(error) => Err(SceneError::in_file(show(root), format!("cannot be the folder of all files: {error}"))),
         }
+    }
+
+    /// The same files, of which this is told how many are read.
+    pub fn with_progress(self, progress: ReadingProgress) -> Self {
+        Self { progress, ..self }
+    }
+
+    /// Who is told how many are read.
+    pub fn progress(&self) -> &ReadingProgress {
+        &self.progress
     }
 
     /// From now on, a mesh is found at this path.

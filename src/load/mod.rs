@@ -48,7 +48,7 @@ pub(crate) use import::{place_rows, write_places, write_ply};
 pub use import_file::{WrittenScene, as_scene_file};
 pub use presets::preset_names;
 pub use printable::printable;
-pub use reading::files_read;
+pub use reading::ReadingProgress;
 pub use source::{SceneSource, load, load_with};
 pub use view::{ModelView, Up};
 

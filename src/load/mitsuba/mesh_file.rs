@@ -14,7 +14,7 @@ use super::shape::{Looks, turn_inside_out};
 use crate::load::error::{SceneError, show};
 use crate::load::files::Files;
 use crate::load::import::{Blocks, Keys, smooth_by_index};
-use crate::load::{obj, ply, reading};
+use crate::load::{obj, ply};
 use crate::scene::Mesh;
 
 impl Converter<'_> {
@@ -132,10 +132,10 @@ impl Converter<'_> {
             }
         }
         let files = self.files;
-        reading::expect(wanted.len());
+        files.progress().expect(wanted.len());
         let read = |key: MeshKey| {
             let mesh = read(files, &key);
-            reading::one_was_read();
+            files.progress().one_was_read();
             (mesh, key)
         };
         self.read_meshes = wanted.into_par_iter().map(read).map(|(mesh, key)| (key, mesh)).collect();

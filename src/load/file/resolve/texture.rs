@@ -12,7 +12,7 @@ use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::{CachedImage, Resolver};
 use crate::load::file::syntax::{ColorSpaceEntry, CommonKeys, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 use crate::load::file::value::{Checked, Exactly, Located, Number, Positive};
-use crate::load::{formats, reading};
+use crate::load::formats;
 use crate::scene::validate::MOST_OCTAVES;
 use crate::scene::{
     ColorSpace, ImageData, ImageSource, ImageTexture, Texture, TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,
@@ -84,10 +84,11 @@ impl Resolver<'_> {
             _ => None,
         };
         let keys: HashSet<(PathBuf, Option<ColorSpace>)> = written.iter().filter_map(key).collect();
-        reading::expect(keys.len());
+        let progress = self.pictures.files().progress();
+        progress.expect(keys.len());
         let decode = |key: (PathBuf, Option<ColorSpace>)| {
             let picture = self.pictures.read(&key.0, key.1);
-            reading::one_was_read();
+            progress.one_was_read();
             picture.ok().map(|picture| (key, CachedImage::from(picture)))
         };
         let decoded: Vec<_> = keys.into_par_iter().filter_map(decode).collect();
