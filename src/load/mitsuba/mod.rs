@@ -1,7 +1,8 @@
 //! Scenes of Mitsuba, versions 0.4 to 3, in XML.
 //!
-//! `document` reads the file into plugins with properties (`plugin`); the other modules say in the terms of scene files what each kind of
-//! plugin means. Whatever no module asked for ends up in the report.
+//! `document` reads the file into plugins (`plugin`) with properties (`property`), with its `parameters` filled in and what older `versions` wrote
+//! brought up to date; the other modules say in the terms of scene files what each kind of plugin means. Whatever no module asked for ends up in the
+//! report.
 
 mod bsdf;
 mod colour;
@@ -12,14 +13,18 @@ mod handedness;
 mod input;
 mod mesh_file;
 mod metals;
+mod nesting;
 mod number;
+mod parameters;
 mod plugin;
+mod property;
 mod sensor;
 mod serialized;
 mod shape;
 mod spectrum;
 mod texture;
 mod transform;
+mod versions;
 
 use std::collections::HashMap;
 use std::path::Path;
