@@ -114,6 +114,13 @@ fn facet_shadowing_of_visible(facets: Facets, lambda_o: f32, lambda_i: f32) -> f
     return (1.0 + lambda_o) / (1.0 + lambda_o + lambda_i);
 }
 
+// D G2 / (4 cosθo), and the density of the reflected direction; m is the normal between both.
+fn facet_reflection(facets: Facets, o: vec3<f32>, i: vec3<f32>, m: vec3<f32>) -> vec2<f32> {
+    let lambda_o = facet_lambda(facets, o);
+    let unshadowed = facet_distribution(facets, m) / (4.0 * o.z);
+    return vec2<f32>(unshadowed * facet_shadowing(facets, lambda_o, facet_lambda(facets, i)), unshadowed / (1.0 + lambda_o));
+}
+
 // A microfacet normal visible from wo, by stretching both to a surface of width 1.
 fn sample_visible_normal(facets: Facets, wo: vec3<f32>, u: f32, v: f32) -> vec3<f32> {
 #if ANISOTROPY

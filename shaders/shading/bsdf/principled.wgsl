@@ -4,6 +4,7 @@
 // own normal map has here, its scale above and below 0, and what the map of the anisotropy's directions has.
 #import core/layout.wgsl
 #import core/math.wgsl
+#import shading/coat.wgsl
 #import shading/dielectric.wgsl
 #import shading/fresnel.wgsl
 #import shading/hemisphere.wgsl
@@ -17,10 +18,6 @@
 #endif
 #if SHEEN
 #import shading/sheen.wgsl
-#endif
-#if COAT_NORMALS
-#import shading/shape_point.wgsl
-#import shading/tangent_space.wgsl
 #endif
 
 // Largest share of the base's samples that the reflection takes, and least share of those of a reflection that there is.
@@ -36,19 +33,14 @@ struct Principled {
     metallic: f32,
     specular: f32,
     transmission: f32,
-    coat: f32,
+    coat: Coat,
     facets: Facets,
-    coat_facets: Facets,
     // Transmitted light goes on as if the wall had no thickness.
     thin: bool,
     // Of the index of refraction beyond over that on wo's side; 1 where no light comes from within.
     eta: f32,
 #if SHEEN
     sheen: Sheen,
-#endif
-#if COAT_NORMALS
-    // On wo's side.
-    coat_normal: vec3<f32>,
 #endif
 }
 
@@ -87,9 +79,7 @@ fn principled_of(lobe: Lobe, front: bool) -> Principled {
 #if SHEEN
     p.sheen = Sheen(principled_parameter(lobe, 8u), principled_parameter(lobe, 9u).x);
 #endif
-    p.coat = principled_parameter(lobe, 3u).x;
-    let coat_roughness = principled_parameter(lobe, 4u).x;
-    p.coat_facets = Facets(coat_roughness * coat_roughness, coat_roughness * coat_roughness, lobe.kind & ~ANISOTROPIC);
+    p.coat = coat_of(lobe, principled_parameter(lobe, 3u).x, principled_parameter(lobe, 4u).x);
     let alpha = lobe.roughness * lobe.roughness;
     p.facets = Facets(alpha, alpha, lobe.kind);
 #if ANISOTROPY
@@ -105,37 +95,10 @@ fn principled_of(lobe: Lobe, front: bool) -> Principled {
     return p;
 }
 
-#if COAT_NORMALS
-// The normal that the coat lies about: the surface's own, or what the coat's map makes of it.
-fn principled_coat_normal(lobe: Lobe, surface: Surface, wo: vec3<f32>) -> vec3<f32> {
-    var normal = normalize(surface.coat_normal);
-    if (lobe.kind & COAT_NORMAL_MAP) != 0u {
-        let scale = principled_parameter(lobe, COAT_NORMAL_PARAMETER + 1u);
-        let texel = principled_parameter(lobe, COAT_NORMAL_PARAMETER) * 2.0 - 1.0;
-        let local = vec3<f32>(texel.xy * (scale.x - scale.y), texel.z);
-        var tangents = Tangents(surface.along_u, surface.along_v);
-#if SECOND_UVS
-        if lobe.coat_by_second {
-            tangents = Tangents(surface.second_along_u, surface.second_along_v);
-        }
-#endif
-        let bent = from_tangent_space(normal, tangents, local);
-        normal = select(bent, normal, dot(bent, bent) == 0.0);
-    }
-    return shading_normal_towards(normal, surface.facing_normal, wo);
-}
-
-fn on_coat_side(p: Principled, surface: Surface, wi: vec3<f32>) -> bool {
-    return dot(wi, p.coat_normal) > 0.0 && dot(wi, surface.facing_normal) > 0.0;
-}
-#endif
-
 // As it lies on a surface seen from wo.
 fn principled_at(lobe: Lobe, surface: Surface, wo: vec3<f32>) -> Principled {
     var p = principled_of(lobe, surface.front);
-#if COAT_NORMALS
-    p.coat_normal = principled_coat_normal(lobe, surface, wo);
-#endif
+    p.coat = coat_on(p.coat, lobe, surface, wo);
     return p;
 }
 
@@ -160,12 +123,6 @@ fn principled_frame(lobe: Lobe, facets: Facets, surface: Surface) -> Frame {
     }
 #endif
     return facet_frame(facets, surface);
-}
-
-fn schlick(cosine: f32, normal_incidence: vec3<f32>) -> vec3<f32> {
-    let away = 1.0 - cosine;
-    let away2 = away * away;
-    return normal_incidence + (1.0 - normal_incidence) * (away2 * away2 * away);
 }
 
 struct PrincipledSplit {
@@ -221,13 +178,8 @@ fn principled_below_sheen(p: Principled, cosine_o: f32, cosine_i: f32) -> f32 {
 
 fn principled_shares(p: Principled, surface: Surface, wo: vec3<f32>) -> PrincipledShares {
     let cosine = clamp(dot(wo, surface.shading_normal), 0.0, 1.0);
-#if COAT_NORMALS
-    let coat_cosine = clamp(dot(wo, p.coat_normal), 0.0, 1.0);
-#else
-    let coat_cosine = cosine;
-#endif
     // The coat lies on the outside.
-    let coat = select(p.coat * schlick(coat_cosine, vec3<f32>(0.04)).x, 0.0, principled_is_within(p, surface));
+    let coat = select(coat_reflectance(p.coat, surface, wo), 0.0, principled_is_within(p, surface));
     let split = principled_split(p, cosine);
     let possible = select(max(p.metallic, (1.0 - p.metallic) * p.specular), 1.0, p.eta < 1.0);
     var reflection = max(max_component(split.reflected), LEAST_REFLECTED * possible);
@@ -257,27 +209,20 @@ fn principled_is_non_delta(lobe: Lobe) -> bool {
         return true;
     }
 #endif
-    return !facets_are_smooth(p.facets) || diffuse > 0.0 || (p.coat > 0.0 && !facets_are_smooth(p.coat_facets));
+    return !facets_are_smooth(p.facets) || diffuse > 0.0 || (p.coat.strength > 0.0 && !facets_are_smooth(p.coat.facets));
 }
 
 fn principled_sampling_weight(lobe: Lobe) -> f32 {
     var p = principled_of(lobe, true);
     p.eta = 1.0;
     let split = principled_split(p, 1.0);
-    let coat = 0.04 * p.coat;
+    let coat = COAT_REFLECTANCE * p.coat.strength;
     let weight = coat + (1.0 - coat) * max_component(split.reflected + p.base * split.passed);
 #if SHEEN
     return weight + SHEEN_WEIGHT * max_component(p.sheen.color);
 #else
     return weight;
 #endif
-}
-
-// D G2 / (4 cosθo), and the density of the reflected direction.
-fn principled_mirror(facets: Facets, o: vec3<f32>, i: vec3<f32>, m: vec3<f32>) -> vec2<f32> {
-    let lambda_o = facet_lambda(facets, o);
-    let unshadowed = facet_distribution(facets, m) / (4.0 * o.z);
-    return vec2<f32>(unshadowed * facet_shadowing(facets, lambda_o, facet_lambda(facets, i)), unshadowed / (1.0 + lambda_o));
 }
 
 fn evaluate_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
@@ -288,36 +233,27 @@ fn evaluate_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32
 fn principled_value(
     lobe: Lobe, p: Principled, shares: PrincipledShares, surface: Surface, wo: vec3<f32>, wi: vec3<f32>
 ) -> BsdfValue {
-#if COAT_NORMALS
-    var value = principled_value_by_base(lobe, p, shares, surface, wo, wi);
-    if shares.coat > 0.0 && !facets_are_smooth(p.coat_facets) && on_coat_side(p, surface, wi) {
-        let frame = frame_from_normal(p.coat_normal);
-        let o = to_local(frame, wo);
-        let i = to_local(frame, wi);
-        let coat_mirror = principled_mirror(p.coat_facets, o, i, normalize(o + i));
-        value.value += (1.0 - shares.below_coat) * coat_mirror.x;
-        value.pdf_solid_angle += shares.coat * coat_mirror.y;
+    let frame = principled_frame(lobe, p.facets, surface);
+    var value = principled_base_value(p, shares, surface, wi, to_local(frame, wo), to_local(frame, wi));
+    if shares.coat > 0.0 && !facets_are_smooth(p.coat.facets) && on_coat_side(p.coat, surface, wi) {
+        let coat = coat_reflection(p.coat, frame, wo, wi);
+        value.value += (1.0 - shares.below_coat) * coat.x;
+        value.pdf_solid_angle += shares.coat * coat.y;
     }
     return value;
-#else
-    return principled_value_by_base(lobe, p, shares, surface, wo, wi);
-#endif
 }
 
-// What lies about the surface's shading normal: all but a coat that has a normal of its own.
-fn principled_value_by_base(
-    lobe: Lobe, p: Principled, shares: PrincipledShares, surface: Surface, wo: vec3<f32>, wi: vec3<f32>
+// All that lies below the coat, of directions in its frame; o is that of wo and i that of wi.
+fn principled_base_value(
+    p: Principled, shares: PrincipledShares, surface: Surface, wi: vec3<f32>, o: vec3<f32>, i: vec3<f32>
 ) -> BsdfValue {
-    let frame = principled_frame(lobe, p.facets, surface);
-    let o = to_local(frame, wo);
-    let i = to_local(frame, wi);
     if on_wo_side(surface, wi) {
         let m = normalize(o + i);
         let split = principled_split(p, clamp(dot(o, m), 0.0, 1.0));
         var value = p.base * (split.passed * (1.0 - p.transmission) * INVERSE_PI * i.z);
         var pdf = shares.diffuse * hemisphere_pdf(i.z);
         if !facets_are_smooth(p.facets) {
-            let mirror = principled_mirror(p.facets, o, i, m);
+            let mirror = facet_reflection(p.facets, o, i, m);
 #if COMPENSATION
             value += split.reflected * principled_compensation(p, o.z) * mirror.x;
 #else
@@ -330,15 +266,7 @@ fn principled_value_by_base(
             value = value * principled_below_sheen(p, o.z, i.z) + sheen_value(p.sheen, o, i);
         }
 #endif
-        value *= shares.below_coat;
-#if !COAT_NORMALS
-        if shares.coat > 0.0 && !facets_are_smooth(p.coat_facets) {
-            let coat_mirror = principled_mirror(p.coat_facets, o, i, m);
-            value += (1.0 - shares.below_coat) * coat_mirror.x;
-            pdf += shares.coat * coat_mirror.y;
-        }
-#endif
-        return BsdfValue(value, pdf);
+        return BsdfValue(value * shares.below_coat, pdf);
     }
 #if PRINCIPLED_TRANSMISSION
     if on_far_side(surface, wi) && shares.transmission > 0.0 && !facets_are_smooth(p.facets) {
@@ -348,7 +276,7 @@ fn principled_value_by_base(
             let across = vec3<f32>(i.xy, -i.z);
             let m = normalize(o + across);
             cosine = clamp(dot(o, m), 0.0, 1.0);
-            terms = principled_mirror(p.facets, o, across, m);
+            terms = facet_reflection(p.facets, o, across, m);
         } else {
             var m = normalize(o + p.eta * i);
             m = select(-m, m, m.z > 0.0);
@@ -385,7 +313,7 @@ fn sample_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u
     let transmits = !is_coat && !is_reflection && !is_diffuse;
     var facets = p.facets;
     if is_coat {
-        facets = p.coat_facets;
+        facets = p.coat.facets;
     }
     let cosine = min(dot(wo, surface.shading_normal), 1.0);
     var eta_scale = 1.0;
@@ -394,11 +322,9 @@ fn sample_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u
     }
     if !is_diffuse && facets_are_smooth(facets) {
         var wi = mirrored(surface, wo);
-#if COAT_NORMALS
         if is_coat {
-            wi = 2.0 * dot(wo, p.coat_normal) * p.coat_normal - wo;
+            wi = coat_mirrored(p.coat, surface, wo);
         }
-#endif
         var weight = vec3<f32>((1.0 - shares.below_coat) / shares.coat);
         let split = principled_split(p, cosine);
         if is_reflection {
@@ -431,11 +357,9 @@ fn sample_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u
         wi = sample_hemisphere(surface, u, v).xyz;
     } else {
         var frame = principled_frame(lobe, facets, surface);
-#if COAT_NORMALS
         if is_coat {
-            frame = frame_from_normal(p.coat_normal);
+            frame = coat_frame(p.coat, surface);
         }
-#endif
         let o = to_local(frame, wo);
         let m = sample_visible_normal(facets, o, u, v);
         var i = 2.0 * dot(o, m) * m - o;
@@ -452,14 +376,8 @@ fn sample_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u
         wi = frame_to_world(frame, i);
     }
     // A facet that is seen from the other side would be taken for the other way.
-#if COAT_NORMALS
-    if !select(select(on_wo_side(surface, wi), on_far_side(surface, wi), transmits), on_coat_side(p, surface, wi), is_coat) {
+    if !select(select(on_wo_side(surface, wi), on_far_side(surface, wi), transmits), on_coat_side(p.coat, surface, wi), is_coat) {
         return no_sample();
     }
-#else
-    if transmits == on_wo_side(surface, wi) {
-        return no_sample();
-    }
-#endif
     return from_value(wi, principled_value(lobe, p, shares, surface, wo, wi), eta_scale);
 }
