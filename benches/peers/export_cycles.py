@@ -51,8 +51,18 @@ def material(name, entry, scene):
     made = bpy.data.materials.new(name)
     tree = new_tree(made)
     shader = emission(tree, entry["radiance"]) if entry["type"] == "emissive" else surface(tree, entry, scene)
+    if "opacity" in entry:
+        shader = cut_out(tree, shader, colour(tree, {"texture": entry["opacity"]}, scene))
     node(tree, "ShaderNodeOutputMaterial", {"Surface": shader.outputs[0]})
     return made
+
+
+def cut_out(tree, shader, opacity):
+    """The mix node's factor is the weight of its second shader."""
+    mix = node(tree, "ShaderNodeMixShader", {"Fac": opacity})
+    tree.links.new(node(tree, "ShaderNodeBsdfTransparent").outputs[0], mix.inputs[1])
+    tree.links.new(shader.outputs[0], mix.inputs[2])
+    return mix
 
 
 def emission(tree, radiance):
@@ -137,18 +147,36 @@ def add_lights(target, lights):
         if "radiance" in light:
             colour = (*light["radiance"], 1)
         else:
-            colour, strength = environment_map(tree, light["file"]), light["scale"]
+            colour, strength = environment_map(tree, light), light["scale"]
     background = node(tree, "ShaderNodeBackground", {"Color": colour, "Strength": strength})
     node(tree, "ShaderNodeOutputWorld", {"Surface": background.outputs[0]})
 
 
-def environment_map(tree, file):
+def environment_map(tree, light):
     """Cycles' u is ½ − atan2(y, x)/2π and its pole +z; gpt's is atan2(x, −z)/2π and +y: so (x, y, z) there are (z, x, y) here."""
     parts = node(tree, "ShaderNodeSeparateXYZ", {"Vector": node(tree, "ShaderNodeTexCoord").outputs["Generated"]}).outputs
     turned = node(tree, "ShaderNodeCombineXYZ", {"X": parts["Z"], "Y": parts["X"], "Z": parts["Y"]}).outputs[0]
-    image = bpy.data.images.load(str(file))
+    image = bpy.data.images.load(str(light["file"]))
     image.colorspace_settings.name = "Linear Rec.709"
+    if light["to_poles"]:
+        image = with_rows_inside(image)
     return node(tree, "ShaderNodeTexEnvironment", {"Vector": turned}, image=image, interpolation="Linear").outputs["Color"]
+
+
+def with_rows_inside(image, times=32):
+    """A map whose first and last row lie on the poles, as one whose rows end there: each gap between two rows is `times` rows that interpolate."""
+    width, height = image.size
+    pixels = np.empty(width * height * 4, dtype=np.float32)
+    image.pixels.foreach_get(pixels)
+    rows = pixels.reshape(height, -1)
+    place = (np.arange(times * (height - 1)) + 0.5) / times
+    below, share = place.astype(int), (place % 1)[:, None].astype(np.float32)
+    finer = (1 - share) * rows[below] + share * rows[below + 1]
+    made = bpy.data.images.new("map", width, len(finer), float_buffer=True)
+    made.colorspace_settings.name = "Linear Rec.709"
+    made.pixels.foreach_set(finer.ravel())
+    made.pack()
+    return made
 
 
 def set_camera(target, camera):
@@ -170,8 +198,10 @@ def set_cycles(target, scene):
     cycles = target.cycles
     cycles.device = "CPU"
     bounces = scene.max_depth - 2 if scene.max_depth else 1024  # none: light sources seen directly and direct lighting, two edges
-    for kind in ("max", "diffuse", "glossy", "transmission", "transparent_max"):
+    for kind in ("max", "diffuse", "glossy", "transmission"):
         setattr(cycles, f"{kind}_bounces", bounces)
+    # Ways through holes are no edges of a path.
+    cycles.transparent_max_bounces = 1024 if any("opacity" in entry for entry in scene.materials.values()) else bounces
     cycles.pixel_filter_type = "BOX"
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
     cycles.blur_glossy = 0.0

@@ -58,8 +58,9 @@ class Scene:
     lights: list = field(default_factory=list)
 
 
-def load(path, spp=None, size=None, max_depth=None):
-    """The scene of a TOML file; `spp`, `size` and `max_depth` override the file's."""
+def load(path, spp=None, size=None, max_depth=None, exported=True):
+    """The scene of a TOML file; `spp`, `size` and `max_depth` override the file's. What `gpt export` writes for those that read it, cut-outs and maps
+    that end on the poles, is read only for others."""
     path = Path(path)
     root = Table(tomllib.loads(path.read_text(encoding="utf-8")), path.name)
     film, render = Table(root.take("film", {}), "[film]"), Table(root.take("render", {}), "[render]")
@@ -84,11 +85,12 @@ def load(path, spp=None, size=None, max_depth=None):
     for entries in root.take("material", []):
         table = Table(entries, f"material {entries.get('name')!r}")
         name = table.take("name")
-        scene.materials[name] = material(table, scene)
+        cut_out = opacity(table, scene) if "opacity" in table.entries and not exported else None
+        scene.materials[name] = material(table, scene) | ({"opacity": cut_out} if cut_out else {})
     for number, entries in enumerate(root.take("shape", [])):
         scene.shapes.append(shape(Table(entries, f"shape {number + 1}"), scene, path.parent))
     for number, entries in enumerate(root.take("light", [])):
-        scene.lights.append(light(Table(entries, f"light {number + 1}"), path.parent))
+        scene.lights.append(light(Table(entries, f"light {number + 1}"), path.parent, exported))
     for table in (pixel_filter, film, render, root):
         table.finish()
     return scene
@@ -174,6 +176,15 @@ def material(table, scene):
     return found
 
 
+def opacity(table, scene):
+    """The name of a texture whose red channel cuts holes."""
+    entries = Table(table.take("opacity"), table.where)
+    entries.only("channel", ["r"], None)
+    name = entries.take("texture")
+    entries.finish()
+    return colour({"texture": name}, scene.textures)["texture"]
+
+
 def width(table, *default):
     """The width of the GGX distribution."""
     roughness = table.take("roughness", None)
@@ -212,13 +223,14 @@ def shape(table, scene, folder):
     return found
 
 
-def light(table, folder):
+def light(table, folder, exported):
     kind = table.take("type")
     if kind == "point":
         found = {"position": table.take("position"), "intensity": colour(table.take("intensity"), {})}
     elif kind == "environment" and "file" in table.entries:
         found = {"file": existing(folder, table.take("file"), "environment map"), "scale": float(table.take("scale", 1.0))}
         table.only("rotate", [0], 0)
+        found["to_poles"] = not exported and table.only("rows", ["inside", "to_poles"], "inside") == "to_poles"
     elif kind == "environment":
         found = {"radiance": colour(table.take("radiance"), {})}
         table.take("rotate", None)  # a constant looks the same from every side

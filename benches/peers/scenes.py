@@ -99,5 +99,7 @@ ALL = {
     "interior": Scene("target/scenes/interior.toml", (256, 192), without=EXPORTED, kind="model"),
     "ajar": Scene("target/scenes/ajar.toml", (256, 192), without=EXPORTED, kind="model"),
     "sponza-like": Scene("target/scenes/sponza-like.toml", (256, 192), without=EXPORTED, kind="model"),
-    "canopy": Scene("target/scenes/canopy.toml", (256, 192), without=EXPORTED, kind="model"),
+    "canopy": Scene(
+        "target/scenes/canopy.toml", (256, 192), without={"luxcore": "its cut-outs are not translated for it"}, kind="model"
+    ),
 }

@@ -32,7 +32,7 @@ def mesh(shape, columns=128):
         made = sphere(columns)
         made.positions = shape["center"] + shape["radius"] * made.positions
     elif "file" in shape:
-        made = wavefront(shape)
+        made = (binary_ply if shape["file"].suffix == ".ply" else wavefront)(shape)
     else:
         made = Mesh(np.array(shape["positions"], dtype=float), np.array(shape["faces"]))
     matrix = shape["matrix"]
@@ -91,3 +91,17 @@ def wavefront(shape):
     if has_normals if shape["smooth"] is None else shape["smooth"]:
         raise Refused(f"{shape['file'].name}: interpolated normals of a model are not translated")
     return Mesh(np.array(positions), np.array(faces))
+
+
+def binary_ply(shape):
+    """A PLY file as benches/scenes/meshes.py writes it: vertices of x, y, z, u, v, and triangles."""
+    text = shape["file"].read_bytes()
+    head, data = text.split(b"end_header\n", 1)
+    head = head.decode()
+    expected = ["ply", "format binary_little_endian 1.0", "property float x", "property float y", "property float z", "property float u", "property float v"]
+    if any(line not in head.splitlines() for line in expected) or head.count("property") != 6 or shape["smooth"] is not False:
+        raise Refused(f"{shape['file'].name}: only flat meshes of x, y, z, u, v are translated")
+    vertices, faces = (int(line.split()[-1]) for line in head.splitlines() if line.startswith("element"))
+    points = np.frombuffer(data, "<f4", 5 * vertices).reshape(-1, 5).astype(float)
+    corners = np.frombuffer(data, [("count", "u1"), ("corners", "<i4", 3)], faces, 20 * vertices)
+    return Mesh(points[:, :3], corners["corners"].astype(int), coordinates=points[:, 3:])

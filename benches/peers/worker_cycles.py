@@ -27,7 +27,7 @@ class Cycles:
         self.name, self.version, self.folder = "Cycles", bpy.app.version_string, tempfile.TemporaryDirectory()
 
     def load(self, path, size):
-        self.scene = export_cycles.build(scene_file.load(path, size=size))
+        self.scene = export_cycles.build(scene_file.load(path, size=size, exported=False))
         self.render(next(iter(SETTINGS)), 1, 0)  # builds what persistent data keeps
 
     def settings(self):
