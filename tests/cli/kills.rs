@@ -47,8 +47,8 @@ const JOBS: [Job; 8] = [
 /// More pixels than there is memory for, on either device. A few columns are enough to have all bands.
 fn bands_on(device: &str) -> Job {
     match device {
-        "cpu" => Job { arguments: "--size 32768x1100 --crop 0,0,4,1100", spp: 16, ..STILL },
-        _ => Job { arguments: "--size 2048x4096 --crop 0,0,8,4096", spp: 16, has_small_film: true, ..STILL },
+        "cpu" => Job { arguments: "--size 32768x1100 --crop 0,0,4,1100", spp: 1, ..STILL },
+        _ => Job { arguments: "--size 2048x4096 --crop 0,0,8,4096", spp: 1, has_small_film: true, ..STILL },
     }
 }
 
