@@ -70,7 +70,7 @@ fn load(name: &str) -> Result<Scene, Box<dyn std::error::Error>> {
         _ if MODELS.contains(&name) => {
             let file = format!("{}/benches/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
             let mut scene = load::load(Some(&file))?;
-            scene.render.light_samples = 2;
+            scene.render.light_samples = 2.into();
             scene
         }
         _ => load::load(Some(name))?,

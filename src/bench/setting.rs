@@ -134,7 +134,7 @@ mod tests {
         let counts = [1, 4].map(|count| row.number(count).expect("a possible number"));
         let settings = Axes { settings: vec![counts.to_vec()], ..Axes::default() }.variants(&RenderSettings::default());
         let told: Vec<_> = settings.iter().map(|setting| (setting.name.as_str(), setting.render.light_samples)).collect();
-        assert_eq!(told, [("light_samples 1", 1), ("light_samples 4", 4)]);
+        assert_eq!(told, [("light_samples 1", 1.into()), ("light_samples 4", 4.into())]);
     }
 
     #[test]

@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use gpt::gpu::{learn_guide, select_adapter};
+use gpt::binary_tree::parts::KeptTrees;
+use gpt::gpu::{prepare, select_adapter};
 use gpt::load::{self, SceneError, printable};
-use gpt::packed::{PackError, PackedScene};
 use gpt::plan::host::{HostNeeds, host_memory};
 use gpt::plan::{Decision, DeviceLimits, Memory, Plan, PlanOptions};
 use gpt::reference::ReferenceRenderer;
@@ -108,15 +108,13 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
         terminal::warn(warning);
     }
     check_frames(&scene)?;
-    let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
     let options = arguments.traversal.options();
-    let mut packed = PackedScene::for_traversal(&scene, options.packed_traversal()).map_err(does_not_fit)?;
-    learn_guide(&scene, &mut packed)?;
+    let (settled, packed) = prepare(&scene, options.packed_traversal(), &mut KeptTrees::default())?;
     let (device, limits) = usual_device();
-    let plan = Plan::new(&scene, &packed, &limits, &options).map_err(RenderError::from)?;
+    let plan = Plan::new(&settled.scene, &packed, &limits, &options).map_err(RenderError::from)?;
     let summary = SceneSummary::of(&scene);
     let exit = if arguments.strict && !scene.import_report.is_empty() { Exit::Input } else { Exit::Done };
-    let cpu_seconds = guess_time(&scene)?;
+    let cpu_seconds = guess_time(&settled.scene)?;
     let host = host_needs(&scene, false);
     if arguments.json {
         let compiled_in = plan.switches.enabled.iter().copied().collect();
@@ -191,11 +189,9 @@ pub fn host_needs(scene: &Scene, on_cpu: bool) -> Memory {
 /// The device that `--device auto` takes, and what it needs of its memory for the scene.
 pub fn device_memory(scene: &Scene) -> Result<(String, u64), Failure> {
     let options = PlanOptions::default();
-    let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
-    let mut packed = PackedScene::for_traversal(scene, options.packed_traversal()).map_err(does_not_fit)?;
-    learn_guide(scene, &mut packed)?;
+    let (settled, packed) = prepare(scene, options.packed_traversal(), &mut KeptTrees::default())?;
     let (device, limits) = usual_device();
-    let plan = Plan::new(scene, &packed, &limits, &options).map_err(RenderError::from)?;
+    let plan = Plan::new(&settled.scene, &packed, &limits, &options).map_err(RenderError::from)?;
     Ok((device, plan.memory.total()))
 }
 

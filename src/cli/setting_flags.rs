@@ -72,12 +72,9 @@ fn flag(setting: &'static Setting) -> Arg {
             let numbers = RangedU64ValueParser::<u32>::new().range(u64::from(least)..=u64::from(most));
             ValueParser::from(numbers.try_map(|number| setting.number(number.into())))
         }
-        Values::Real(..) => {
-            let number =
-                |text: String| text.parse().map_or_else(|_| Err(setting.values.to_string()), |number| setting.real(number));
-            ValueParser::from(
-                StringValueParser::new().try_map(move |text| number(text).map_err(|expected| format!("expected {expected}"))),
-            )
+        Values::Real(..) | Values::WholeOr(..) => {
+            let value = |text: String| setting.text(&text).map_err(|expected| format!("expected {expected}"));
+            ValueParser::from(StringValueParser::new().try_map(value))
         }
         Values::Names(choices) => ValueParser::from(names(choices).try_map(|name| setting.name(&name))),
     };
@@ -103,6 +100,7 @@ mod tests {
     fn two_values(setting: &Setting) -> [String; 2] {
         match setting.values {
             Values::Whole(least, _) => [(least + 1).to_string(), least.to_string()],
+            Values::WholeOr(least, _, name) => [(least + 1).to_string(), name.name.to_owned()],
             Values::Real(least, _) => [(least + 0.5).to_string(), least.to_string()],
             Values::Names(names) => [names[1].name.to_owned(), names[0].name.to_owned()],
         }

@@ -20,4 +20,4 @@ pub mod trace;
 pub use adapters::{AdapterSummary, list_devices, select_adapter};
 pub use device::{Device, OpeningDevice};
 pub use driver_thread::end_soon;
-pub use renderer::{GpuRenderer, learn_guide};
+pub use renderer::{GpuRenderer, prepare};

@@ -17,10 +17,12 @@ use super::trace::{self, GpuPathTrace};
 use crate::binary_tree::parts::KeptTrees;
 use crate::film::Band;
 use crate::packed::environment::PackedEnvironment;
+use crate::packed::hierarchy::Traversal;
 use crate::packed::view::View;
 use crate::packed::{PackError, PackedScene};
 use crate::plan::bindings::Binding;
 use crate::plan::{Plan, PlanOptions, StageMode};
+use crate::reference::pilot::{self, Settled};
 use crate::reference::training;
 use crate::renderer::sink::Sink;
 use crate::renderer::state::{BatchState, Tally};
@@ -28,15 +30,25 @@ use crate::renderer::{Batch, Change, DeviceChoice, Ending, Observer, RenderError
 use crate::sampling::Sampling;
 use crate::scene::{MaterialId, Scene};
 
-/// Adds the guide to a packed scene, where the scene's settings want one; the CPU traces some paths for it.
+/// Packs a scene with all that the CPU finds out before the first sample: how lights are drawn from, where the settings leave that open, and the guide,
+/// where they want one. `kept`: the trees of an earlier frame. The scene comes back with complete settings.
 ///
 /// # Errors
-/// What the reference cannot render.
-pub fn learn_guide(scene: &Scene, packed: &mut PackedScene) -> Result<(), RenderError> {
-    let learned = training::learn_for_device(scene)?;
+/// A scene that is not valid, and what does not fit the packed form.
+pub fn prepare<'a>(
+    scene: &'a Scene,
+    traversal: Traversal,
+    kept: &mut KeptTrees,
+) -> Result<(Settled<'a>, PackedScene), RenderError> {
+    scene.validate()?;
+    let settled = pilot::settle(scene)?;
+    let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
+    let mut packed = PackedScene::for_frame(&settled.scene, traversal, kept).map_err(does_not_fit)?;
+    let learned = training::learn_for_device(&settled.scene)?;
     packed.guide = learned.words().to_vec();
     packed.guiding = learned.because;
-    Ok(())
+    packed.piloted.clone_from(&settled.because);
+    Ok((settled, packed))
 }
 
 /// A scene uploaded, its kernels compiled.
@@ -51,8 +63,8 @@ pub struct GpuRenderer {
     /// What a camera that moves is put together with.
     center: DVec3,
     environment: PackedEnvironment,
-    /// A guide was asked for, whether or not training found light to make one of.
-    is_trained: bool,
+    /// Paths were traced before the first sample, for a guide or to choose how lights are drawn from.
+    depends_on_view: bool,
     /// What the next frame's hierarchy may be made of.
     trees: KeptTrees,
 }
@@ -82,13 +94,11 @@ impl GpuRenderer {
         mut trees: KeptTrees,
     ) -> Result<Self, RenderError> {
         let start = Instant::now();
-        let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
-        let pack = |()| PackedScene::for_frame(scene, options.packed_traversal(), &mut trees).map_err(does_not_fit);
-        let packed = scene.validate().map_err(RenderError::from).and_then(pack);
+        let prepared = prepare(scene, options.packed_traversal(), &mut trees);
         // Where there is no device, that is what is told, whatever the scene: it may then go to the CPU.
         let device = opening.wait()?;
-        let mut packed = packed?;
-        learn_guide(scene, &mut packed)?;
+        let (settled, packed) = prepared?;
+        let scene = &*settled.scene;
         let pipeline = Self::pipeline(device, scene, &packed, options, start)?;
         let plan = &pipeline.plan;
         let sizer = PassSizer::new(PassLimits {
@@ -111,7 +121,7 @@ impl GpuRenderer {
             sizer,
             center: scene.center(),
             environment: packed.environment,
-            is_trained: packed.guiding.is_some(),
+            depends_on_view: packed.guiding.is_some() || settled.is_piloted,
             trees,
         })
     }
@@ -240,7 +250,7 @@ impl Renderer for GpuRenderer {
         change: Change,
     ) -> Result<Box<dyn Renderer>, RenderError> {
         // Where light is to be looked for depends on what the camera sees.
-        if change == Change::Camera && !self.is_trained && scene.center() == self.center {
+        if change == Change::Camera && !self.depends_on_view && scene.center() == self.center {
             let start = Instant::now();
             let view = View::new(&scene.centered(), &self.environment);
             self.pipeline.write(Binding::View, bytemuck::bytes_of(&view));

@@ -14,7 +14,7 @@ use crate::film::{KernelLayer, Layer, PartChannels};
 use crate::input;
 use crate::output::{CROP_KEY, LAYERS_KEY, Provenance, part_channels};
 use crate::render::cryptomatte;
-use crate::scene::settings::{SETTINGS, Values};
+use crate::scene::settings::SETTINGS;
 use crate::scene::{Filter, FilterKind, RenderSettings};
 
 /// Why files are not joined.
@@ -186,12 +186,7 @@ impl PartHeader {
         let mut settings = RenderSettings::default();
         for setting in SETTINGS {
             let text = entry(setting.header);
-            let assignment = match setting.values {
-                Values::Whole(..) => text.parse().ok().and_then(|number| setting.number(number).ok()),
-                Values::Real(..) => text.parse().ok().and_then(|number| setting.real(number).ok()),
-                Values::Names(_) => setting.name(&text).ok(),
-            };
-            if let Some(assignment) = assignment {
+            if let Ok(assignment) = setting.text(&text) {
                 assignment.apply(&mut settings);
             }
         }

@@ -68,7 +68,9 @@ impl Provenance {
 /// Numbers that may need all 32 bits, as a seed may, are text, because the header's integers are signed.
 fn entry(setting: &Setting, value: Value) -> Entry {
     match (setting.values, value) {
-        (Values::Whole(_, most), Value::Number(number)) if i32::try_from(most).is_ok() => Entry::Number(number),
+        (Values::Whole(_, most) | Values::WholeOr(_, most, _), Value::Number(number)) if i32::try_from(most).is_ok() => {
+            Entry::Number(number)
+        }
         _ => Entry::Text(value.to_string()),
     }
 }

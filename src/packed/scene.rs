@@ -41,6 +41,8 @@ pub struct PackedScene {
     pub view: View,
     /// From where light arrives, as a table ([`crate::sampling::guide`]); empty until that is learned, and where paths are not guided.
     pub guide: Vec<u32>,
+    /// Why light samples are as many as they are; None where the scene says how many.
+    pub piloted: Option<String>,
     /// What was decided about guiding paths and why; None where nobody asked for it.
     pub guiding: Option<String>,
     /// Behind the attributes of every triangle stand others whose texture coordinates are its second ones.
@@ -107,6 +109,7 @@ impl PackedScene {
             motions: world.motion_words,
             view: View::new(scene, &environment),
             guide: Vec::new(),
+            piloted: None,
             guiding: None,
             second_uvs: world.second_uvs,
         };

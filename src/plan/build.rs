@@ -37,7 +37,7 @@ impl Plan {
             ));
         }
         let (geometry, why_geometry) = decisions::geometry(packed, options);
-        let light_samples = if switches::samples_lights(scene, packed) { scene.render.light_samples } else { 1 };
+        let light_samples = if switches::samples_lights(scene, packed) { scene.render.several_light_samples()[0] } else { 1 };
         let remembered = PathMemory {
             lit_from: switches::shadows_are_transparent(scene, packed),
             extinction: packed.materials.materials.iter().any(|material| material.has_form(ATTENUATES)),

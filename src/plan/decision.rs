@@ -13,6 +13,16 @@ pub struct Decision {
 }
 
 impl Decision {
+    /// How many light samples surfaces take, as [`RenderSettings::several_light_samples`] says it.
+    pub fn about_light_samples([count, depth]: [u32; 2], because: &str) -> Self {
+        let choice = match (count, depth) {
+            (1, _) => "1".to_owned(),
+            (count, 1) => format!("{count} at the first surface"),
+            (count, depth) => format!("{count} at each of the first {depth} surfaces"),
+        };
+        Self { about: "light samples", choice, because: because.to_owned() }
+    }
+
     /// How directions are drawn.
     pub fn about_directions(guided: bool, because: &str) -> Self {
         let choice = if guided { "by BSDFs, and by a guide to where light comes from" } else { "by BSDFs alone" };

@@ -99,16 +99,9 @@ pub(super) fn explain(
         let (choice, because) = light_choice(scene.render.light_choice, packed);
         add("light choice", choice, because);
     }
-    if plan.light_samples > 1 {
-        let surfaces = match plan.light_samples_depth {
-            1 => "at the first surface".to_owned(),
-            depth => format!("at each of the first {depth} surfaces"),
-        };
-        let because = "the scene or the command line says so".into();
-        add("light samples", format!("{} {surfaces}", plan.light_samples), because);
-    } else if plan.geometry == GeometryPlacement::Hierarchy && plan.samples_lights() && packed.environment.map.is_some() {
-        let because = "nothing else is asked for; under maps, several lower the error in less time: docs/strategies.md".into();
-        add("light samples", "1".into(), because);
+    if plan.samples_lights() && (plan.light_samples > 1 || packed.piloted.is_some()) {
+        let because = packed.piloted.as_deref().unwrap_or(ASKED_FOR);
+        decisions.push(Decision::about_light_samples([plan.light_samples, plan.light_samples_depth], because));
     }
     decisions.extend(packed.guiding.as_ref().map(|because| Decision::about_directions(!packed.guide.is_empty(), because)));
     let mut add = |about, choice: String, because: String| decisions.push(Decision { about, choice, because });

@@ -173,7 +173,10 @@ fn choose_lights(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
     switches.enable("RECTANGLES_BY_SOLID_ANGLE", sampled && packed.lights.iter().any(PackedLight::is_drawn_by_solid_angle));
     switches.enable("RECTANGLES_BY_PICTURE", sampled && packed.lights.iter().any(PackedLight::is_warped));
     let spheres = packed.lights.iter().any(|light| light.is_surface() && light.shape() == Some(PrimitiveKind::Sphere));
-    switches.enable("SPHERE_LIGHTS_BY_POINT", spheres && render.light_sampling != LightSampling::Cone);
+    switches.enable(
+        "SPHERE_LIGHTS_BY_POINT",
+        spheres && matches!(render.light_sampling, LightSampling::Visible | LightSampling::Area),
+    );
     switches.enable("SPHERE_LIGHTS_VISIBLE_HALF", spheres && render.light_sampling == LightSampling::Visible);
     switches.enable("DELTA_LIGHTS", packed.lights.iter().any(PackedLight::is_delta));
     for &kind in LightKind::DELTA {

@@ -21,7 +21,7 @@ use super::trace::{LightConnection, PathVisitor};
 use super::volume::{Volumes, transmittance};
 use crate::renderer::RenderError;
 use crate::sampling::{CameraDimension, Dimension, Guide, PathSampler, VertexDimension};
-use crate::scene::{Estimator, MaterialId, MaterialKind, Scene};
+use crate::scene::{Estimator, MaterialId, MaterialKind, RenderSettings, Scene};
 
 /// Edges from which on Russian roulette always has a chance to end the path, whatever its throughput.
 const CERTAIN_ROULETTE_DEPTH: u32 = 64;
@@ -122,6 +122,28 @@ impl Integrator {
         let time = if self.moves { PathTime::new(&self.scene, self.scene.camera.shutter[0]) } else { PathTime::default() };
         let hit = self.world.closest(ray, &time)?;
         Some(self.world.surface(&ray, &hit, &time).owner)
+    }
+
+    /// Draws from lights as these settings say; all others stay.
+    pub fn set_light_sampling(&mut self, settings: &RenderSettings) {
+        let RenderSettings { light_sampling, light_samples, light_samples_depth, .. } = settings;
+        self.scene.render = RenderSettings {
+            light_sampling: *light_sampling,
+            light_samples: *light_samples,
+            light_samples_depth: *light_samples_depth,
+            ..self.scene.render.clone()
+        };
+        self.lights.set_sampling(*light_sampling);
+    }
+
+    /// Of all surfaces.
+    pub fn primitive_count(&self) -> usize {
+        self.world.indices_in_scene_order().len()
+    }
+
+    /// Whether some lights can be drawn from by solid angle as well as by area.
+    pub fn has_rectangle_lights(&self) -> bool {
+        self.lights.has_rectangles(&self.world)
     }
 
     /// Changes what stratified random numbers depend on; nothing that was built from the scene does.

@@ -17,6 +17,7 @@ pub mod intersect;
 pub mod layer;
 pub mod lights;
 pub mod mis;
+pub mod pilot;
 mod renderer;
 pub mod rounding;
 pub mod texture;

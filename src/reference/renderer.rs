@@ -12,6 +12,7 @@ use super::film::{BAND_ROWS, BandSums, BatchSamples, Group, PixelSum, are_even};
 use super::integrator::Integrator;
 use super::intersect::Ray;
 use super::layer::LayerVisitor;
+use super::pilot;
 use super::rounding::Rounding;
 use super::trace::{PathTrace, PathVisitor, RayCounter};
 use super::training;
@@ -44,6 +45,10 @@ pub struct ReferenceRenderer {
     guiding: Option<String>,
     /// Most pixels whose samples go together: [`PIXELS_IN_MEMORY`] but for tests.
     pixels_in_memory: u64,
+    /// Why light samples are as many as they are, where the scene does not say how many.
+    piloted: Option<String>,
+    /// Paths were traced before the first sample, for a guide or to choose how lights are drawn from.
+    depends_on_view: bool,
     build_seconds: f64,
     /// Passes done and how long they took, to size the next.
     timed_samples: f64,
@@ -106,11 +111,15 @@ impl ReferenceRenderer {
     /// As [`ReferenceRenderer::new`], to make a layer in place of the picture, of a scene that is [made ready](super::layer::layer_scene) for it.
     pub fn of_layer(scene: &Scene, layer: Option<KernelLayer>) -> Result<Self, RenderError> {
         let start = Instant::now();
-        let mut integrator = Integrator::new(scene)?;
+        scene.validate()?;
+        let settled = pilot::settle(scene)?;
+        let mut integrator = Integrator::new(&settled.scene)?;
         let guiding = training::train(&mut integrator).because;
         Ok(Self {
             integrator,
             layer,
+            depends_on_view: settled.is_piloted || guiding.is_some(),
+            piloted: settled.because,
             guiding,
             pixels_in_memory: PIXELS_IN_MEMORY,
             build_seconds: start.elapsed().as_secs_f64(),
@@ -123,6 +132,15 @@ impl ReferenceRenderer {
     #[must_use]
     pub fn with_film_pixels(self, pixels: u64) -> Self {
         Self { pixels_in_memory: pixels, ..self }
+    }
+
+    /// What was decided, where the settings leave it open.
+    fn decisions(&self) -> Vec<Decision> {
+        let settings = &self.integrator.scene().render;
+        let of_lights =
+            self.piloted.iter().map(|because| Decision::about_light_samples(settings.several_light_samples(), because));
+        let guided = self.integrator.guide().is_some();
+        of_lights.chain(self.guiding.iter().map(|because| Decision::about_directions(guided, because))).collect()
     }
 
     /// What is met at a pixel's centre at the shutter's opening: the number of the shape and of its material, from 1.
@@ -378,7 +396,7 @@ impl Renderer for ReferenceRenderer {
     ) -> Result<Box<dyn Renderer>, RenderError> {
         let start = Instant::now();
         // Where light is to be looked for depends on what the camera sees.
-        if change == Change::Camera && self.guiding.is_none() && self.integrator.set_camera(scene) {
+        if change == Change::Camera && !self.depends_on_view && self.integrator.set_camera(scene) {
             self.build_seconds = start.elapsed().as_secs_f64();
             return Ok(self);
         }
@@ -419,11 +437,7 @@ impl Renderer for ReferenceRenderer {
             non_finite_samples: before.non_finite_samples,
             clamped_samples: before.clamped_samples,
             clamped_units: before.clamped_units,
-            decisions: self
-                .guiding
-                .iter()
-                .map(|because| Decision::about_directions(self.integrator.guide().is_some(), because))
-                .collect(),
+            decisions: self.decisions(),
             ..RenderReport::default()
         };
         let mut progress = Progress { observer, total: batch.total_samples(width), report };

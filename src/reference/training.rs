@@ -111,7 +111,7 @@ fn training_numbers(scene: &Scene) -> Sampling {
 }
 
 /// A pixel for each path: spread evenly over the film, whatever their number (Roberts's R2 sequence, in integers).
-fn pixel_of(path: u32, [width, height]: [u32; 2]) -> [u32; 2] {
+pub(super) fn pixel_of(path: u32, [width, height]: [u32; 2]) -> [u32; 2] {
     let scaled = |number: u32, size: u32| ((u64::from(number) * u64::from(size)) >> 32) as u32;
     [scaled(path.wrapping_mul(3_242_174_889), width), scaled(path.wrapping_mul(2_447_445_414), height)]
 }

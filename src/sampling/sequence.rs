@@ -4,7 +4,6 @@ use super::dimension::{Dimension, SEQUENCE_DIMENSIONS, VertexDimension};
 use super::halton::radical_inverse_bits;
 use super::sobol::sobol_bits;
 use super::strata::{quadrant_bits, stratified_bits};
-use crate::scene::settings::{MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH};
 use crate::scene::{PixelSampler, RenderSettings, SamplerKind};
 
 /// Everything a render's random numbers depend on beside pixel and sample.
@@ -22,13 +21,14 @@ pub struct Sampling {
 
 impl From<&RenderSettings> for Sampling {
     fn from(settings: &RenderSettings) -> Self {
+        let [light_samples, light_samples_depth] = settings.several_light_samples();
         Self {
             path: settings.sampler,
             pixel: settings.pixel_sampler,
             seed: settings.seed,
             samples: settings.spp.clamp(1, 1 << 31),
-            light_samples: settings.light_samples.clamp(1, MOST_LIGHT_SAMPLES),
-            light_samples_depth: settings.light_samples_depth.clamp(1, MOST_LIGHT_SAMPLES_DEPTH),
+            light_samples,
+            light_samples_depth,
         }
     }
 }

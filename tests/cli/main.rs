@@ -364,6 +364,14 @@ fn check_says_what_is_in_the_scene() {
     // What kernels are made of is for those who ask.
     assert!(report.starts_with("valid\n") && !report.contains("compiled in") && summary["plan"].is_null(), "{report}");
     assert!(text(&place.run("check scene.toml --plan").stdout).contains("compiled in"));
+    // So many light samples as a pilot finds best, of pictures that are worth one.
+    for (scene, because) in [
+        ("veach-mis", "light samples  2 at each of the first 2 surfaces (a pilot found"),
+        ("scene.toml", "light samples  1 (a pilot takes too long"),
+    ] {
+        let report = text(&place.run(&format!("check {scene} --plan")).stdout);
+        assert!(report.contains(because), "`{because}` is not in\n{report}");
+    }
     let plan: Value = serde_json::from_slice(&place.run("check scene.toml --plan --json").stdout).expect("JSON");
     assert!(plan["plan"]["compiled_in"].as_array().is_some_and(|switches| !switches.is_empty()));
     let schema: Value = serde_json::from_slice(&place.run("check --schema").stdout).expect("JSON");

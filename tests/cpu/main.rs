@@ -19,6 +19,7 @@ mod instances;
 mod light_strategies;
 mod models;
 mod picture_test;
+mod pilot;
 mod plan;
 mod samplers;
 mod scaling;

@@ -287,7 +287,7 @@ fn several_light_samples_take_room_for_their_shadow_rays() {
     let mut scene = load::load(Some("motion-blur")).expect("it is built in");
     let mut before = u32::MAX;
     for count in [1, 2, 4, 16] {
-        scene.render.light_samples = count;
+        scene.render.light_samples = count.into();
         for limits in [
             DeviceLimits::default(),
             DeviceLimits { max_storage_binding: 1 << 30, max_buffer: 1 << 30, ..DeviceLimits::default() },
@@ -314,7 +314,7 @@ fn stages_are_what_was_asked_for() {
         Plan::new(scene, &packed, &DeviceLimits::default(), &options)
     };
     for count in [1, 4] {
-        scene.render.light_samples = count;
+        scene.render.light_samples = count.into();
         for stages in [StageMode::Fused, StageMode::Wavefront] {
             assert_eq!(plan(&scene, stages, false).expect("it fits").stages, stages);
         }

@@ -109,7 +109,8 @@ fn guided_paths_agree_path_by_path() {
     let Some(device) = DEVICE.as_ref() else { return };
     let scene = round_the_corner();
     let mut several = scene.clone();
-    (several.render.light_samples, several.render.light_samples_depth, several.render.sampler) = (3, 2, SamplerKind::Halton);
+    (several.render.light_samples, several.render.light_samples_depth, several.render.sampler) =
+        (3.into(), 2, SamplerKind::Halton);
     let mut alone = scene.clone();
     (alone.render.estimator, alone.render.seed) = (Estimator::Nee, 5);
     let mut picked = scene.clone();

@@ -259,7 +259,7 @@ fn paths_and_shadow_rays_through_veils_agree() {
         ("nee", |scene| scene.render.estimator = Estimator::Nee),
         ("bsdf", |scene| scene.render.estimator = Estimator::Bsdf),
         ("pick", |scene| scene.render.blend = BlendMode::Pick),
-        ("several light samples", |scene| (scene.render.light_samples, scene.render.light_samples_depth) = (3, 2)),
+        ("several light samples", |scene| (scene.render.light_samples, scene.render.light_samples_depth) = (3.into(), 2)),
     ];
     for (what, change) in changes {
         let mut scene = load(ROOM);

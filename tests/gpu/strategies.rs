@@ -198,9 +198,9 @@ fn several_light_samples_at_later_surfaces_have_the_same_mean() {
     use gpt::compare::{Moments, hypothesis};
     let mut scene = load::load(Some("cornell")).expect("it is built in");
     (scene.film.size, scene.render.spp, scene.render.max_depth) = ([48, 48], 64, 4);
-    let means = |count, depth| -> Vec<Vec<f64>> {
+    let means = |count: u32, depth| -> Vec<Vec<f64>> {
         let mut scene = scene.clone();
-        (scene.render.light_samples, scene.render.light_samples_depth) = (count, depth);
+        (scene.render.light_samples, scene.render.light_samples_depth) = (count.into(), depth);
         let mut of_devices = vec![Vec::new(); 2];
         for seed in 0..8 {
             scene.render.seed = 100 * (count + 10 * depth) + seed;
@@ -231,8 +231,8 @@ fn several_light_samples_have_the_same_mean_and_less_noise() {
     scene.film.size = [32, 32];
     for estimator in [scene::Estimator::Mis, scene::Estimator::Nee] {
         scene.render.estimator = estimator;
-        let variances = [1, 4].map(|count| {
-            scene.render.light_samples = count;
+        let variances = [1_u32, 4].map(|count| {
+            scene.render.light_samples = count.into();
             let check = |(device, pixels): (&str, Vec<[f32; 3]>)| {
                 let moments: Moments = pixels.iter().map(|pixel| f64::from(pixel[1])).collect();
                 let held = hypothesis::one_sample_t_test(&moments, exact);

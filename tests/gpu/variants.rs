@@ -127,7 +127,7 @@ fn subgroups_take_places_where_they_can() {
 fn selected_pixels(device: &Device, scene: &Scene, stages: StageMode, traversal: TraversalChoice) -> (Vec<[u32; 3]>, u64) {
     let options = PlanOptions { stages: Some(stages), traversal, pixel_list: true, ..PlanOptions::default() };
     let mut renderer = GpuRenderer::on(device, scene, &options).expect("the scene fits");
-    assert_eq!((renderer.plan().stages, renderer.plan().light_samples), (stages, scene.render.light_samples));
+    assert_eq!((renderer.plan().stages, renderer.plan().light_samples), (stages, scene.render.light_samples_at(1)));
     let [width, height] = scene.film.size;
     let selection: Vec<bool> = (0..width * height).map(|pixel| gpt::sampling::hash::mix(pixel).is_multiple_of(7)).collect();
     let request = RenderRequest { rows: 0..height, samples: 2..2 + scene.render.spp };
@@ -161,7 +161,7 @@ fn several_light_samples_are_the_same_in_every_kernel() {
         ("veils in a hierarchy", veils(), TraversalChoice::Bvh, 2, 2),
     ];
     for (name, mut scene, traversal, count, depth) in cases {
-        (scene.render.light_samples, scene.render.light_samples_depth, scene.render.spp) = (count, depth, 5);
+        (scene.render.light_samples, scene.render.light_samples_depth, scene.render.spp) = (count.into(), depth, 5);
         let what = format!("{name}, {count} light samples at {depth} surfaces");
         let way = |stages| PlanOptions { stages: Some(stages), traversal, ..PlanOptions::default() };
         let of = |device: &Option<Device>, stages| picture(device.as_ref(), &scene, &way(stages));
@@ -173,7 +173,7 @@ fn several_light_samples_are_the_same_in_every_kernel() {
             [StageMode::Fused, StageMode::Wavefront].map(|stages| selected_pixels(device, &scene, stages, traversal));
         assert!(fused == wavefront, "{what}, a list of pixels; {} and {} rays", fused.1, wavefront.1);
         // The comparison sees one light sample more or less.
-        scene.render.light_samples = if count == 1 { 2 } else { count - 1 };
+        scene.render.light_samples = if count == 1 { 2 } else { count - 1 }.into();
         assert!(picture(Some(device), &scene, &way(StageMode::Wavefront)).as_ref() != Some(&expected), "{what}");
     }
 }

@@ -58,7 +58,7 @@ fn an_exr_comes_back_bit_by_bit_with_its_attributes() {
     for setting in SETTINGS {
         assert!(header.own_attributes.other.contains_key(&Text::from(setting.header)), "{}", setting.header);
     }
-    assert_eq!(attribute("gpt:lightSampling"), AttributeValue::Text(Text::from("cone")));
+    assert_eq!(attribute("gpt:lightSampling"), AttributeValue::Text(Text::from("auto")));
     assert_eq!(attribute("gpt:maxDepth"), AttributeValue::I32(16));
     assert_eq!(attribute("gpt:device"), AttributeValue::Text(Text::from("a device")));
     assert_eq!(attribute("gpt:firstSample"), AttributeValue::I32(128));

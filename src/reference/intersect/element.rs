@@ -74,6 +74,11 @@ pub trait Element: Debug + Send + Sync {
         1.0
     }
 
+    /// Whether points of it can be drawn by solid angle as well as by area, where it is at rest.
+    fn is_rectangle(&self) -> bool {
+        false
+    }
+
     /// Whether the element itself stands between `from` and a point of it.
     fn hides(&self, _from: DVec3, _point: &SurfacePoint) -> bool {
         false

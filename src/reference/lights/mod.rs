@@ -74,7 +74,7 @@ pub struct Lights {
     environment_light: Option<usize>,
     /// Index of the first portal among the lights.
     first_portal: usize,
-    sphere_sampling: LightSampling,
+    sampling: LightSampling,
     /// By material: what points of its rectangles are drawn by, where that is not evenly.
     warps: Vec<Option<Arc<HierarchicalWarp>>>,
 }
@@ -149,11 +149,11 @@ impl Lights {
                 sampler.add(LightGroup::Environment, LightStrength::Irradiance(irradiance * area / total));
             }
         }
-        let sphere_sampling = scene.render.light_sampling;
+        let sampling = scene.render.light_sampling;
         let tree = is_by_tree.then(|| LightTree::new(&emitters, sampler.table_at_infinity()));
         let warps = (0..scene.materials.len()).map(|id| maps.warp(id).cloned()).collect();
         let table = sampler.table();
-        Self { lights, table, tree, of_primitive, outside, environment_light, first_portal, sphere_sampling, warps }
+        Self { lights, table, tree, of_primitive, outside, environment_light, first_portal, sampling, warps }
     }
 
     /// What points of a primitive are drawn by, where that is not evenly.
@@ -178,7 +178,7 @@ impl Lights {
         match self.lights[self.choose(reference, choice).0] {
             SampledLight::Area(index) => {
                 let pose = world.pose(index, time);
-                world.primitive(index).element().magnifies(pose, self.sphere_sampling, reference)
+                world.primitive(index).element().magnifies(pose, self.sampling, reference)
             }
             _ => 1.0,
         }
@@ -191,6 +191,19 @@ impl Lights {
 
     pub fn is_empty(&self) -> bool {
         self.lights.is_empty()
+    }
+
+    /// Draws points of surfaces in another way.
+    pub fn set_sampling(&mut self, sampling: LightSampling) {
+        self.sampling = sampling;
+    }
+
+    /// Whether there are some that can be drawn from by solid angle as well as by area.
+    pub fn has_rectangles(&self, world: &World) -> bool {
+        self.lights.iter().any(|light| match *light {
+            SampledLight::Area(index) => self.warp(world, index).is_none() && world.primitive(index).element().is_rectangle(),
+            _ => false,
+        })
     }
 
     /// Everything outside the scene.
@@ -225,7 +238,7 @@ impl Lights {
             SampledLight::Area(index) => {
                 let (element, pose) = (world.primitive(index).element(), world.pose(index, time));
                 let (direction, density) = match self.warp(world, index) {
-                    None => (element.sample(pose, self.sphere_sampling, reference, u1, u2)?, 1.0),
+                    None => (element.sample(pose, self.sampling, reference, u1, u2)?, 1.0),
                     Some(warp) => {
                         let drawn = warp.sample(u, v);
                         let place = element.place_of_uv(DVec2::new(drawn.u, drawn.v))?;
@@ -285,7 +298,7 @@ impl Lights {
         let pose = world.pose(index, time);
         let element = world.primitive(index).element();
         let pdf = match self.warp(world, index) {
-            None => element.pdf(pose, self.sphere_sampling, reference, &surface.point),
+            None => element.pdf(pose, self.sampling, reference, &surface.point),
             Some(warp) => {
                 let density = warp.density(surface.uv.x, surface.uv.y);
                 density * element.pdf(pose, LightSampling::Area, reference, &surface.point)

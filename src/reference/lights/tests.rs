@@ -144,7 +144,7 @@ fn directions_to_spheres_follow_their_density() {
         let report = test_directional_sampler(&bins, 300_000, seed, sample, density);
         assert!(report.passes(level), "{strategy:?} from {reference}: {report:?}");
         let visible = match strategy {
-            LightSampling::Cone => 1.0,
+            LightSampling::Cone | LightSampling::Auto => 1.0,
             _ if !outside => 1.0,
             // The cap within acos(r/d) of the middle, of the half or of the whole sphere.
             LightSampling::Visible => 1.0 - sphere.radius / to_center.length(),

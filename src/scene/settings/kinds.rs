@@ -45,6 +45,8 @@ choices! {
 
     /// How a point on a sphere or a rectangle that is a light is drawn.
     pub enum LightSampling {
+        /// `cone` for spheres; for rectangles `cone` or `area`, whichever a pilot of some thousand paths finds better.
+        Auto = "auto",
         /// Uniform in the cone of directions that meet the sphere, and in those that meet a rectangle which is seen under a large angle.
         Cone = "cone",
         /// Uniform over the half of a sphere that faces the point, and over rectangles.

@@ -2,6 +2,7 @@
 
 mod film;
 mod kinds;
+mod light_samples;
 mod row;
 mod table;
 mod value;
@@ -10,5 +11,6 @@ pub use film::{FilmSettings, Filter, FilterKind, LARGEST_FILTER_RADIUS, MAX_PIXE
 pub use kinds::{
     BlendMode, Estimator, Guiding, HemisphereSampling, LightChoice, LightSampling, MisHeuristic, PixelSampler, SamplerKind,
 };
+pub use light_samples::LightSamples;
 pub use table::{Assignment, MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH, RenderSettings, SETTINGS, Setting};
 pub use value::{BadSetting, MOST_SAMPLES, Value, Values};

@@ -10,8 +10,9 @@ use serde::{Serialize, Serializer};
 use super::kinds::{
     BlendMode, Estimator, Guiding, HemisphereSampling, LightChoice, LightSampling, MisHeuristic, PixelSampler, SamplerKind,
 };
+use super::light_samples::LightSamples;
 use super::row::settings;
-use super::value::Values::{Names, Real, Whole};
+use super::value::Values::{Names, Real, Whole, WholeOr};
 use super::value::{BadSetting, Field, MOST_SAMPLES, Value, Values};
 use crate::choice::Choice;
 
@@ -84,7 +85,7 @@ settings! {
             compared: true,
         }
         /// How a point on a sphere or a rectangle that is a light is drawn.
-        light_sampling: LightSampling = LightSampling::Cone => {
+        light_sampling: LightSampling = LightSampling::Auto => {
             values: Names(LightSampling::NAMES),
             flag: "--light-sampling",
             placeholder: "STRATEGY",
@@ -100,14 +101,14 @@ settings! {
             compared: true,
         }
         /// Light samples at the first surfaces of a path; later surfaces take one. Several pay where direct light is most of the noise.
-        light_samples: u32 = 1 => {
-            values: Whole(1, MOST_LIGHT_SAMPLES),
+        light_samples: LightSamples = LightSamples::Auto => {
+            values: WholeOr(1, MOST_LIGHT_SAMPLES, LightSamples::AUTO),
             flag: "--light-samples",
             placeholder: "N",
             header: "gpt:lightSamples",
             compared: true,
         }
-        /// How many of a path's first surfaces take `light_samples`, counted by edges from the camera on.
+        /// How many of a path's first surfaces take `light_samples`, where that is a number; counted by edges from the camera on.
         light_samples_depth: u32 = 1 => {
             values: Whole(1, MOST_LIGHT_SAMPLES_DEPTH),
             flag: "--light-samples-depth",
@@ -210,6 +211,14 @@ impl Setting {
         self.values.real(number).map(|value| Assignment { setting: self, value })
     }
 
+    /// The setting with the value that is written so, a number or a name.
+    ///
+    /// # Errors
+    /// What would be right, to follow "expected".
+    pub fn text(&'static self, text: &str) -> Result<Assignment, String> {
+        self.values.text(text).map(|value| Assignment { setting: self, value })
+    }
+
     /// The setting with the value of this name.
     ///
     /// # Errors
@@ -251,10 +260,19 @@ impl fmt::Display for Assignment {
 }
 
 impl RenderSettings {
-    /// How many light samples the surface takes that a ray of this depth met: 1 is the camera's.
+    /// How many light samples the surface takes that a ray of this depth met: 1 is the camera's. One everywhere before a pilot has found a number.
     #[doc(hidden)]
     pub fn light_samples_at(&self, depth: u32) -> u32 {
-        if (1..=self.light_samples_depth).contains(&depth) { self.light_samples } else { 1 }
+        match self.light_samples {
+            LightSamples::Count(count) if (1..=self.light_samples_depth).contains(&depth) => count,
+            _ => 1,
+        }
+    }
+
+    /// As [`RenderSettings::light_samples_at`] says of every depth: the number of light samples, at least 1, and of first surfaces that take so many.
+    #[doc(hidden)]
+    pub fn several_light_samples(&self) -> [u32; 2] {
+        [self.light_samples_at(1).clamp(1, MOST_LIGHT_SAMPLES), self.light_samples_depth.clamp(1, MOST_LIGHT_SAMPLES_DEPTH)]
     }
 
     /// Random numbers depend on how many samples there are in all: the first samples of many are not those of few.
@@ -329,6 +347,7 @@ mod tests {
         for row in SETTINGS {
             let values: Vec<Value> = match row.values {
                 Whole(least, most) => [least, least + 1, most].map(Value::Number).to_vec(),
+                WholeOr(least, most, name) => vec![Value::Number(least), Value::Name(name.name), Value::Number(most)],
                 Real(least, most) => [least, 0.5 * (least + most), most].map(Value::Real).to_vec(),
                 Names(names) => names.iter().map(|name| Value::Name(name.name)).collect(),
             };
@@ -347,8 +366,8 @@ mod tests {
     #[test]
     fn values_that_cannot_be_are_named() {
         let message = |settings: RenderSettings| settings.check().expect_err("the settings cannot be").to_string();
-        let many = RenderSettings { light_samples: 17, ..RenderSettings::default() };
-        assert_eq!(message(many), "light_samples: expected a whole number from 1 to 16, found 17");
+        let many = RenderSettings { light_samples: 17.into(), ..RenderSettings::default() };
+        assert_eq!(message(many), "light_samples: expected a whole number from 1 to 16, or auto, found 17");
         let none = RenderSettings { spp: 0, ..RenderSettings::default() };
         assert_eq!(message(none), "spp: expected a whole number of at least 1, found 0");
         let endless = RenderSettings { max_depth: 0, roulette_depth: 0, ..RenderSettings::default() };

@@ -43,6 +43,8 @@ impl Serialize for Value {
 pub enum Values {
     /// Whole numbers from the first to the second.
     Whole(u32, u32),
+    /// Whole numbers from the first to the second, and a name that stands for none of them.
+    WholeOr(u32, u32, Named),
     /// Numbers from the first to the second.
     Real(f64, f64),
     Names(&'static [Named]),
@@ -55,7 +57,9 @@ impl Values {
     /// What would be right, to follow "expected".
     pub fn number(self, number: i64) -> Result<Value, String> {
         match (self, u32::try_from(number)) {
-            (Self::Whole(least, most), Ok(number)) if (least..=most).contains(&number) => Ok(Value::Number(number)),
+            (Self::Whole(least, most) | Self::WholeOr(least, most, _), Ok(number)) if (least..=most).contains(&number) => {
+                Ok(Value::Number(number))
+            }
             (Self::Real(..), _) => self.real(number as f64),
             (Self::Whole(_, most), _) if most >= MOST_SAMPLES && number > i64::from(most) => {
                 Err(format!("a whole number of at most {most}"))
@@ -82,9 +86,24 @@ impl Values {
     pub fn name(self, name: &str) -> Result<Value, String> {
         match self {
             Self::Names(names) => names.iter().find(|known| known.name == name).map(|known| Value::Name(known.name)),
+            Self::WholeOr(.., known) => (known.name == name).then_some(Value::Name(known.name)),
             Self::Whole(..) | Self::Real(..) => None,
         }
         .ok_or_else(|| self.to_string())
+    }
+
+    /// The value that is written so, a number or a name.
+    ///
+    /// # Errors
+    /// What would be right, to follow "expected".
+    pub fn text(self, text: &str) -> Result<Value, String> {
+        let wrong = || self.to_string();
+        match self {
+            Self::Names(_) => self.name(text),
+            Self::Real(..) => text.parse().map_err(|_| wrong()).and_then(|number| self.real(number)),
+            Self::Whole(..) => text.parse().map_err(|_| wrong()).and_then(|number| self.number(number)),
+            Self::WholeOr(..) => text.parse().map_or_else(|_| self.name(text), |number| self.number(number)),
+        }
     }
 
     /// Whether the value is one of these.
@@ -107,6 +126,7 @@ impl fmt::Display for Values {
         match self {
             Self::Whole(least, most) if *most >= MOST_SAMPLES => write!(out, "a whole number of at least {least}"),
             Self::Whole(least, most) => write!(out, "a whole number from {least} to {most}"),
+            Self::WholeOr(least, most, name) => write!(out, "a whole number from {least} to {most}, or {}", name.name),
             Self::Real(least, most) if *most >= 1e9 => write!(out, "a number of at least {least}"),
             Self::Real(least, most) => write!(out, "a number from {least} to {most}"),
             Self::Names(names) => {
@@ -177,7 +197,7 @@ impl<T: Choice> Field for T {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::SamplerKind;
+    use crate::scene::{LightSamples, SamplerKind};
 
     #[test]
     fn values_out_of_range_are_refused_with_what_would_be_right() {
@@ -200,6 +220,19 @@ mod tests {
             assert_eq!(some.real(bad), Err("a number from 0 to 8".to_owned()), "{bad}");
         }
         assert!(some.name("three").is_err() && Values::Whole(1, 16).real(2.0).is_err());
+    }
+
+    #[test]
+    fn a_name_may_stand_for_no_number() {
+        let some = Values::WholeOr(1, 16, LightSamples::AUTO);
+        assert_eq!((some.number(3), some.name("auto")), (Ok(Value::Number(3)), Ok(Value::Name("auto"))));
+        assert_eq!((some.text("3"), some.text("auto")), (Ok(Value::Number(3)), Ok(Value::Name("auto"))));
+        for bad in ["0", "17", "-1", "2.5", "Auto", "", "many"] {
+            assert_eq!(some.text(bad), Err("a whole number from 1 to 16, or auto".to_owned()), "{bad}");
+        }
+        for value in [LightSamples::Auto, LightSamples::Count(7)] {
+            assert_eq!(LightSamples::from_value(value.to_value()), Some(value));
+        }
     }
 
     #[test]

@@ -151,7 +151,10 @@ fn each_mistake_is_named_with_its_part() {
         (|s| s.film.size = [0, 4], "film: size: a picture of 0 x 4 pixels is empty"),
         (|s| s.film.size = [1 << 16, 1 << 16], "film: size: a picture of 65536 x 65536 pixels is too large"),
         (|s| s.film.filter.radius = f64::NAN, "film: filter: expected a radius from 0.5 to 16 pixels, found NaN"),
-        (|s| s.render.light_samples = 17, "render settings: light_samples: expected a whole number from 1 to 16, found 17"),
+        (
+            |s| s.render.light_samples = 17.into(),
+            "render settings: light_samples: expected a whole number from 1 to 16, or auto, found 17",
+        ),
         (
             |s| s.render.light_samples_depth = 0,
             "render settings: light_samples_depth: expected a whole number from 1 to 3, found 0",

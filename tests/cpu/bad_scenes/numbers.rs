@@ -22,7 +22,7 @@ fn numbers_out_of_range_are_told_with_their_range() {
         (
             "spp = 1",
             "light_samples = 17",
-            "test.toml:5:17: render.light_samples: invalid value: integer `17`, expected a whole number from 1 to 16",
+            "test.toml:5:17: render.light_samples: invalid value: integer `17`, expected a whole number from 1 to 16, or auto",
         ),
         (
             "spp = 1",

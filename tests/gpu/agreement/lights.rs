@@ -317,7 +317,7 @@ fn a_tree_of_lights_agrees() {
     assert_agrees("bazaar", &bazaar, &by_wavefront());
     bazaar.render.estimator = Estimator::Nee;
     bazaar.lights.retain(|light| light.delta().is_some_and(|light| light.cone.is_some()));
-    bazaar.render.light_samples = 3;
+    bazaar.render.light_samples = 3.into();
     bazaar.render.light_samples_depth = 2;
     assert_agrees("bazaar, spots alone, nee", &bazaar, &PlanOptions::default());
     let mut few = load(&[SPHERES, MAP, SPOT]);

@@ -81,7 +81,7 @@ impl Visitor<'_> for Written {
 
     fn visit_i64<E: Error>(self, number: i64) -> Result<Self::Value, E> {
         let wrong = match self.0.values {
-            Values::Whole(..) | Values::Real(..) => E::invalid_value,
+            Values::Whole(..) | Values::WholeOr(..) | Values::Real(..) => E::invalid_value,
             Values::Names(_) => E::invalid_type,
         };
         self.0.number(number).map_err(|expected| wrong(Unexpected::Signed(number), &expected.as_str()))
@@ -90,7 +90,7 @@ impl Visitor<'_> for Written {
     fn visit_f64<E: Error>(self, number: f64) -> Result<Self::Value, E> {
         let wrong = match self.0.values {
             Values::Real(..) => E::invalid_value,
-            Values::Whole(..) | Values::Names(_) => E::invalid_type,
+            Values::Whole(..) | Values::WholeOr(..) | Values::Names(_) => E::invalid_type,
         };
         self.0.real(number).map_err(|expected| wrong(Unexpected::Float(number), &expected.as_str()))
     }
@@ -98,6 +98,7 @@ impl Visitor<'_> for Written {
     fn visit_str<E: Error>(self, name: &str) -> Result<Self::Value, E> {
         self.0.name(name).map_err(|expected| match self.0.values {
             Values::Names(names) => E::custom(not_among("unknown variant", name, names.iter().map(|name| name.name))),
+            Values::WholeOr(..) => E::invalid_value(Unexpected::Str(name), &expected.as_str()),
             Values::Whole(..) | Values::Real(..) => E::invalid_type(Unexpected::Str(name), &expected.as_str()),
         })
     }
@@ -132,6 +133,12 @@ fn property(setting: &Setting) -> serde_json::Value {
     match setting.values {
         Values::Whole(least, most) => json!({
             "description": description, "type": "integer", "minimum": least, "maximum": most, "default": default,
+        }),
+        Values::WholeOr(least, most, name) => json!({
+            "description": description, "default": default, "oneOf": [
+                { "description": "So many.", "type": "integer", "minimum": least, "maximum": most },
+                { "description": name.help(), "type": "string", "const": name.name },
+            ],
         }),
         Values::Real(least, most) => json!({
             "description": description, "type": "number", "minimum": least, "maximum": most, "default": default,

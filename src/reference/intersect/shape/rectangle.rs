@@ -105,6 +105,10 @@ impl Element for Quad {
         self.seen(pose, strategy, from).map_or(1.0, |seen| (TAU / seen.solid_angle).max(1.0))
     }
 
+    fn is_rectangle(&self) -> bool {
+        is_rectangle(self.edge_u, self.edge_v)
+    }
+
     /// Portals are drawn from by area.
     fn pdf_through(&self, _: LightSampling, ray: &PreparedRay) -> f64 {
         let Some((_, local)) = self.intersect(ray, f64::INFINITY) else { return 0.0 };

@@ -59,7 +59,7 @@ impl Element for Sphere {
     fn sample(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3, u1: f64, u2: f64) -> Option<Direction> {
         let sphere = self.moved(pose);
         match strategy {
-            LightSampling::Cone => sphere.sample_cone(from, u1, u2),
+            LightSampling::Cone | LightSampling::Auto => sphere.sample_cone(from, u1, u2),
             LightSampling::Visible | LightSampling::Area => sphere.sample_surface(strategy, from, u1, u2),
         }
     }
@@ -151,7 +151,7 @@ impl Sphere {
         let area = 4.0 * PI * self.radius * self.radius;
         let outside = (self.center - from).length() > self.radius;
         match strategy {
-            LightSampling::Cone => self.cone_pdf(from),
+            LightSampling::Cone | LightSampling::Auto => self.cone_pdf(from),
             LightSampling::Visible if outside => area_to_solid_angle(0.5 * area, from, point),
             LightSampling::Visible | LightSampling::Area => area_to_solid_angle(area, from, point),
         }

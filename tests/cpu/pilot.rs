@@ -1,0 +1,90 @@
+//! How lights are drawn from where the settings leave it open.
+
+use std::path::Path;
+
+use gpt::load;
+use gpt::reference::pilot::settle;
+use gpt::scene::{Estimator, LightSamples, LightSampling, RenderSettings, Scene};
+
+const SIZE: [u32; 2] = [256, 256];
+
+/// A built-in scene, large enough for a pilot.
+fn built_in(name: &str) -> Scene {
+    let mut scene = Scene::load(name).expect("a built-in scene");
+    scene.film.size = SIZE;
+    scene
+}
+
+fn settled(scene: &Scene) -> RenderSettings {
+    settle(scene).expect("the reference can render the scene").scene.render.clone()
+}
+
+fn light_samples(scene: &Scene) -> [u32; 2] {
+    settled(scene).several_light_samples()
+}
+
+/// A floor under a square lamp of this half width, and at this height.
+fn floor_under_a_lamp(half_width: f64, height: f64) -> Scene {
+    let text = format!(
+        "[film]\nsize = [256, 256]\n[render]\nmax_depth = 2\n\
+         [camera]\nposition = [0, 0.4, 3]\nlook_at = [0, 0, 0]\nvfov = 40\n\
+         [[material]]\nname = \"grey\"\ntype = \"diffuse\"\nreflectance = 0.5\n\
+         [[material]]\nname = \"lamp\"\ntype = \"diffuse\"\nreflectance = 0\nemission = 1\n\
+         [[shape]]\ntype = \"rectangle\"\ncorner = [-4, 0, 4]\nedge_u = [8, 0, 0]\nedge_v = [0, 0, -8]\nmaterial = \"grey\"\n\
+         [[shape]]\ntype = \"rectangle\"\ncorner = [-{half_width}, {height}, -{half_width}]\nedge_u = [{0}, 0, 0]\nedge_v = [0, 0, {0}]\n\
+         material = \"lamp\"\n",
+        2.0 * half_width
+    );
+    load::load_toml_str(&text, "lamp", Path::new("")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn several_light_samples_are_taken_where_they_pay() {
+    assert_eq!(light_samples(&built_in("cornell")), [1, 1]);
+    let [count, _] = light_samples(&built_in("veach-mis"));
+    assert!(count > 1, "{count}");
+}
+
+/// The choice belongs to the scene: whoever renders a part of the picture, or goes on with it, comes to the same.
+#[test]
+fn the_choice_depends_on_neither_seed_nor_samples() {
+    let scene = built_in("veach-mis");
+    let chosen = settled(&scene);
+    assert_ne!(chosen.light_samples, LightSamples::Auto);
+    for (seed, spp) in [(0, 1), (1, 256), (77, 100_000)] {
+        let mut other = scene.clone();
+        (other.render.seed, other.render.spp) = (seed, spp);
+        assert_eq!(settled(&other), RenderSettings { seed, spp, ..chosen.clone() });
+    }
+}
+
+#[test]
+fn what_is_given_stays_and_what_cannot_pay_is_not_tried() {
+    let scene = built_in("veach-mis");
+    let given = |change: fn(&mut RenderSettings)| {
+        let mut scene = scene.clone();
+        change(&mut scene.render);
+        scene
+    };
+    assert_eq!(light_samples(&given(|render| (render.light_samples, render.light_samples_depth) = (5.into(), 3))), [5, 3]);
+    let not_tried = [given(|render| render.estimator = Estimator::Bsdf), given(|render| render.max_depth = 1), {
+        let mut small = scene.clone();
+        small.film.size = [255, 256];
+        small
+    }];
+    for scene in not_tried {
+        let settled = settle(&scene).expect("the reference can render the scene");
+        assert_eq!((settled.scene.render.several_light_samples(), settled.is_piloted), ([1, 1], false));
+        assert!(settled.because.is_some());
+    }
+}
+
+/// A lamp that fills half the sky of the floor below it is drawn by solid angle; one like a point is not.
+#[test]
+fn only_lamps_seen_under_large_angles_are_drawn_by_solid_angle() {
+    assert_eq!(settled(&floor_under_a_lamp(3.0, 0.6)).light_sampling, LightSampling::Cone);
+    assert_eq!(settled(&floor_under_a_lamp(0.1, 3.0)).light_sampling, LightSampling::Auto);
+    let mut by_area = floor_under_a_lamp(3.0, 0.6);
+    by_area.render.light_sampling = LightSampling::Area;
+    assert_eq!(settled(&by_area).light_sampling, LightSampling::Area);
+}
