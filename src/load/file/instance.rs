@@ -70,7 +70,7 @@ pub struct InstanceEntry {
     #[schemars(extend("pattern" = "\\.([fF]32|[fF]64|[cC][sS][vV]|[tT][xX][tT])$"))]
     file: Option<Located<String>>,
     /// A `[[material]]` for all faces, in place of the group's own; faces of type `pass` stay openings. Instances of which a face emits stand in the scene
-    /// one by one, as if each were written as `[[shape]]`s, and do not move.
+    /// one by one, as if each were written as `[[shape]]`s.
     material: Option<Located<String>>,
     /// Steps of `scale`, `rotate` and `translate` reached at shutter time 1, along the world's axes and about where each instance has the
     /// group's (0, 0, 0), or about `pivot`.

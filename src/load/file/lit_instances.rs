@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec3, Vec3};
 
 use super::resolver::Resolver;
 use crate::scene::{Geometry, Group, Instances, MaterialId, MaterialKind, Mesh, Shape, TransformStep};
@@ -20,11 +20,8 @@ impl Resolver<'_> {
     /// The meshes of the group for each place.
     ///
     /// # Errors
-    /// In words, that they move, or are too many.
+    /// In words, that they are too many.
     pub(super) fn lit_copies(&self, instances: &Instances) -> Result<Vec<Shape>, String> {
-        if instances.motion.is_some() {
-            return Err("it emits, and instances that give light do not move: write a moving lamp as a shape".to_owned());
-        }
         let group = &self.scene.groups[instances.group];
         let triangles = group.triangles().saturating_mul(instances.places.len());
         if triangles > MOST_TRIANGLES {
@@ -37,7 +34,15 @@ impl Resolver<'_> {
         let copy = |number: usize, map: DAffine3, shape: &Shape| {
             let mut copy = shape.clone();
             copy.label = format!("{}, number {number}", instances.label);
-            copy.transform.steps.push(TransformStep::Matrix(map));
+            let Some(motion) = &instances.motion else {
+                copy.transform.steps.push(TransformStep::Matrix(map));
+                return copy;
+            };
+            let origin = instances.origin_of_motion(&map);
+            about(&mut copy, map.inverse().transform_point3(origin));
+            let placed = DAffine3 { translation: origin, ..map };
+            copy.transform.steps = vec![TransformStep::Matrix(placed)];
+            copy.motion = Some(motion.clone());
             copy
         };
         let copies = instances.maps().enumerate();
@@ -57,5 +62,18 @@ impl Resolver<'_> {
             *mesh = Arc::new(Mesh { face_materials, ..Mesh::clone(mesh) });
         }
         made
+    }
+}
+
+/// Moves a mesh's vertices in the group's space, so that `origin` is (0, 0, 0) there and the mesh's own: shapes move about that.
+fn about(shape: &mut Shape, origin: DVec3) {
+    let map = shape.transform.to_affine();
+    if map == DAffine3::IDENTITY && origin == DVec3::ZERO {
+        return;
+    }
+    let (normals, faces) = (shape.world_normals(), shape.world_faces());
+    if let Geometry::Mesh(mesh) = &mut shape.geometry {
+        let place = |position: &Vec3| (map.transform_point3(position.as_dvec3()) - origin).as_vec3();
+        *mesh = Arc::new(Mesh { positions: mesh.positions.iter().map(place).collect(), normals, faces, ..Mesh::clone(mesh) });
     }
 }
