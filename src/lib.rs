@@ -77,6 +77,8 @@ pub mod compare;
 #[cfg(feature = "denoise")]
 #[doc(hidden)]
 pub mod denoise;
+#[doc(hidden)]
+pub mod emission_map;
 mod error;
 #[doc(hidden)]
 pub mod film;
@@ -113,6 +115,8 @@ pub mod scene;
 pub mod scene_writer;
 #[doc(hidden)]
 pub mod shader;
+#[doc(hidden)]
+pub mod texture;
 #[doc(hidden)]
 pub mod verify;
 

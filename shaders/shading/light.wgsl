@@ -13,7 +13,7 @@
 #if LIGHT_TREE
 #import shading/light_tree.wgsl
 #endif
-#if RECTANGLES_BY_PICTURE
+#if LIGHTS_BY_PICTURE
 #import shading/light_picture.wgsl
 #endif
 #if RECTANGLES_BY_SOLID_ANGLE
@@ -66,6 +66,22 @@ fn varying_radiance(light: u32, point: ShapePoint, wo: vec3<f32>) -> vec3<f32> {
     let shading_normal = shading_normal_towards(own_normal, select(-point.normal, point.normal, front), wo);
     return material_emission(material, clamp(dot(wo, shading_normal), 0.0, 1.0), front, coordinates);
 }
+
+#if SPHERE_LIGHTS_BY_PICTURE
+// Draws a point of a sphere by what it shows.
+fn shown_sphere_sample(light: u32, kind_flags: u32, reference: vec3<f32>, two_sided: bool, pmf: f32, bits: vec2<u32>) -> LightSample {
+    let l1 = light_word(light, 1u);
+    let drawn = draw_shown_place(light, kind_flags, bits.x, bits.y);
+    var point = no_shape_point();
+    let band = sphere_band(light, drawn.place.y);
+    point.normal = sphere_normal_at(bitcast<u32>(light_word(light, 3u).w), drawn.place.x, band.below);
+    let area = 2.0 * TWO_PI * l1.w * l1.w;
+    var light_sample = sphere_sample_of_point(reference, l1.xyz, l1.w, point.normal, vec3<f32>(1.0), two_sided, pmf, area);
+    light_sample.radiance *= varying_radiance(light, point, -light_sample.wi);
+    light_sample.pdf_solid_angle *= drawn.density / band.area;
+    return light_sample;
+}
+#endif
 
 #if SPHERE_LIGHTS
 fn varying_sphere_sample(light: u32, reference: vec3<f32>, two_sided: bool, pmf: f32, u: f32, v: f32) -> LightSample {
@@ -151,7 +167,7 @@ fn sample_area_light(light: u32, kind_flags: u32, reference: vec3<f32>, pmf: f32
         place = rectangle_place(seen, u, v);
     }
 #endif
-#if RECTANGLES_BY_PICTURE
+#if AREA_LIGHTS_BY_PICTURE
     var density = 1.0;
     if (kind_flags & LIGHT_WARPED) != 0u {
         let drawn = draw_shown_place(light, kind_flags, bits.x, bits.y);
@@ -170,7 +186,7 @@ fn sample_area_light(light: u32, kind_flags: u32, reference: vec3<f32>, pmf: f32
     if (kind_flags & LIGHT_VARIES) != 0u {
         var light_sample = area_light_sample(reference, point, l1.w, error, vec3<f32>(1.0), two_sided, pmf);
         light_sample.radiance *= varying_radiance(light, point, -light_sample.wi);
-#if RECTANGLES_BY_PICTURE
+#if AREA_LIGHTS_BY_PICTURE
         light_sample.pdf_solid_angle *= density;
 #endif
 #if RECTANGLES_BY_SOLID_ANGLE
@@ -232,6 +248,11 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
 #if SPHERE_LIGHTS
         case KIND_SPHERE: {
             let two_sided = (kind_flags & LIGHT_TWO_SIDED) != 0u;
+#if SPHERE_LIGHTS_BY_PICTURE
+            if (kind_flags & LIGHT_WARPED) != 0u {
+                return shown_sphere_sample(light, kind_flags, reference, two_sided, pmf, bits.yz);
+            }
+#endif
 #if VARYING_LIGHTS
             if (kind_flags & LIGHT_VARIES) != 0u {
                 return varying_sphere_sample(light, reference, two_sided, pmf, u, v);
@@ -290,6 +311,14 @@ fn light_pdf_solid_angle(ray: Ray, surface: Surface) -> f32 {
 #endif
 #if SPHERE_LIGHTS
     if surface.area == 0.0 {
+#if SPHERE_LIGHTS_BY_PICTURE
+        if (bitcast<u32>(light_word(surface.light, 0u).x) & LIGHT_WARPED) != 0u {
+            let to_lamp = surface.position - ray.origin;
+            let whole = 2.0 * TWO_PI * surface.sphere.w * surface.sphere.w;
+            let by_area = pmf * dot(to_lamp, to_lamp) / (abs(dot(ray.direction, surface.facing_normal)) * whole);
+            return by_area * shown_density_on_sphere(surface.light, surface.uv.xy);
+        }
+#endif
 #if SPHERE_LIGHTS_BY_POINT
         let to_center = surface.sphere.xyz - ray.origin;
         let outside = dot(to_center, to_center) > surface.sphere.w * surface.sphere.w;
@@ -309,7 +338,7 @@ fn light_pdf_solid_angle(ray: Ray, surface: Surface) -> f32 {
 #endif
     let to_light = surface.position - ray.origin;
     let even = pmf * dot(to_light, to_light) / (abs(dot(ray.direction, surface.facing_normal)) * surface.area);
-#if RECTANGLES_BY_PICTURE
+#if AREA_LIGHTS_BY_PICTURE
     if (bitcast<u32>(light_word(surface.light, 0u).x) & LIGHT_WARPED) != 0u {
         return even * shown_density(surface.light, surface.uv.xy);
     }

@@ -50,6 +50,27 @@ fn sphere_cone_pdf(reference: vec3<f32>, center: vec3<f32>, radius: f32) -> f32 
     return (1.0 + sqrt(max(0.0, 1.0 - sin2_max))) / (TWO_PI * sin2_max);
 }
 
+#if SPHERE_POINTS
+// To the point with this normal, of which so large an area was drawn from evenly. From outside, the sphere hides its own far side.
+fn sphere_sample_of_point(
+    reference: vec3<f32>, center: vec3<f32>, radius: f32, normal: vec3<f32>, radiance: vec3<f32>, two_sided: bool, pmf: f32, area: f32
+) -> LightSample {
+    let to_reference = reference - center;
+    let outside = dot(to_reference, to_reference) > radius * radius;
+    let to_light = center + radius * normal - reference;
+    let distance2 = dot(to_light, to_light);
+    let distance = sqrt(distance2);
+    let wi = to_light / distance;
+    let cosine = -dot(wi, normal);
+    if distance2 == 0.0 || cosine == 0.0 || (outside && cosine < 0.0) || (!outside && !two_sided) {
+        return no_light();
+    }
+    let error = POINT_ERROR * (max_component(abs(center)) + radius);
+    let early = min(error / abs(cosine), 0.5 * distance);
+    return LightSample(wi, (distance - early) * SHADOW_SHORTENING, radiance, pmf * distance2 / (abs(cosine) * area));
+}
+#endif
+
 #if SPHERE_LIGHTS_BY_POINT
 // Area over which points are drawn: that of the whole sphere, or of the half that faces an outside reference point.
 fn sphere_sampled_area(radius: f32, outside: bool) -> f32 {
@@ -60,7 +81,7 @@ fn sphere_sampled_area(radius: f32, outside: bool) -> f32 {
 #endif
 }
 
-// Uniform over that area. From outside, the sphere hides its own far side.
+// Uniform over that area.
 fn sphere_point_sample(
     reference: vec3<f32>, center: vec3<f32>, radius: f32, radiance: vec3<f32>, two_sided: bool, pmf: f32, u: f32, v: f32
 ) -> LightSample {
@@ -78,18 +99,7 @@ fn sphere_point_sample(
         normal = frame_to_world(frame, vec3<f32>(sine_of_half * circle.y, sine_of_half * circle.x, u));
     }
 #endif
-    let to_light = center + radius * normal - reference;
-    let distance2 = dot(to_light, to_light);
-    let distance = sqrt(distance2);
-    let wi = to_light / distance;
-    let cosine = -dot(wi, normal);
-    if distance2 == 0.0 || cosine == 0.0 || (outside && cosine < 0.0) || (!outside && !two_sided) {
-        return no_light();
-    }
-    let error = POINT_ERROR * (max_component(abs(center)) + radius);
-    let early = min(error / abs(cosine), 0.5 * distance);
-    let pdf = pmf * distance2 / (abs(cosine) * sphere_sampled_area(radius, outside));
-    return LightSample(wi, (distance - early) * SHADOW_SHORTENING, radiance, pdf);
+    return sphere_sample_of_point(reference, center, radius, normal, radiance, two_sided, pmf, sphere_sampled_area(radius, outside));
 }
 #endif
 

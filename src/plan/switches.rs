@@ -171,12 +171,16 @@ fn choose_lights(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
     };
     switches.enable("AREA_LIGHTS", has_surface(SurfaceSampling::Area));
     switches.enable("RECTANGLES_BY_SOLID_ANGLE", sampled && packed.lights.iter().any(PackedLight::is_drawn_by_solid_angle));
-    switches.enable("RECTANGLES_BY_PICTURE", sampled && packed.lights.iter().any(PackedLight::is_warped));
-    let spheres = packed.lights.iter().any(|light| light.is_surface() && light.shape() == Some(PrimitiveKind::Sphere));
-    switches.enable(
-        "SPHERE_LIGHTS_BY_POINT",
-        spheres && matches!(render.light_sampling, LightSampling::Visible | LightSampling::Area),
-    );
+    let is_sphere = |light: &PackedLight| light.is_surface() && light.shape() == Some(PrimitiveKind::Sphere);
+    let spheres = packed.lights.iter().any(is_sphere);
+    let (spheres_shown, areas_shown): (Vec<&PackedLight>, Vec<&PackedLight>) =
+        packed.lights.iter().filter(|light| sampled && light.is_warped()).partition(|light| is_sphere(light));
+    switches.enable("LIGHTS_BY_PICTURE", !spheres_shown.is_empty() || !areas_shown.is_empty());
+    switches.enable("AREA_LIGHTS_BY_PICTURE", !areas_shown.is_empty());
+    switches.enable("SPHERE_LIGHTS_BY_PICTURE", !spheres_shown.is_empty());
+    let by_point = spheres && matches!(render.light_sampling, LightSampling::Visible | LightSampling::Area);
+    switches.enable("SPHERE_POINTS", !spheres_shown.is_empty() || by_point);
+    switches.enable("SPHERE_LIGHTS_BY_POINT", by_point);
     switches.enable("SPHERE_LIGHTS_VISIBLE_HALF", spheres && render.light_sampling == LightSampling::Visible);
     switches.enable("DELTA_LIGHTS", packed.lights.iter().any(PackedLight::is_delta));
     for &kind in LightKind::DELTA {

@@ -6,9 +6,9 @@ use glam::DVec3;
 
 use super::bsdf::{Lookup, View, blend};
 use super::intersect::Surface;
-use super::texture;
 use crate::math::luminance;
 use crate::scene::{Emission, MaterialId, MaterialKind, Scene};
+use crate::texture;
 
 /// Radiance that leaves the surface towards `wo` by its own emission: that of the material, and, where it is a blend, that of its
 /// parts by their weights.

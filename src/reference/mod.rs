@@ -2,7 +2,7 @@
 //!
 //! It draws the same random numbers as the device and takes the same decisions, so that the two agree path by path, and it renders
 //! where there is no device. The way of a sample: [`camera`] makes a ray, [`integrator`] follows it from surface to surface,
-//! [`intersect`] says which surface it meets, [`bsdf`] how that scatters, [`texture`] what it is made of there, [`lights`] where light is looked for, [`mis`] how the
+//! [`intersect`] says which surface it meets, [`bsdf`] how that scatters, [`texture`](crate::texture) what it is made of there, [`lights`] where light is looked for, [`mis`] how the
 //! two ways of finding light share it.
 
 pub mod bsdf;
@@ -20,7 +20,6 @@ pub mod mis;
 pub mod pilot;
 mod renderer;
 pub mod rounding;
-pub mod texture;
 pub mod trace;
 pub mod training;
 mod volume;

@@ -9,7 +9,6 @@
 
 pub mod alias;
 pub mod dimension;
-pub mod emission_map;
 pub mod environment;
 pub mod filter;
 pub mod guide;
@@ -27,7 +26,6 @@ pub mod strata;
 
 pub use alias::AliasTable;
 pub use dimension::{CameraDimension, Dimension, VertexDimension};
-pub use emission_map::EmissionMaps;
 pub use environment::MapDistribution;
 pub use guide::Guide;
 pub use hierarchical_warp::{HierarchicalWarp, WarpSample};

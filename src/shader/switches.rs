@@ -153,6 +153,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("APERTURE_POLYGON").requires(&["LENS"]).excludes(&["APERTURE_SQUARE"]),
     switch("APERTURE_SQUARE").requires(&["LENS"]),
     switch("AREA_LIGHTS").one_of(DRAWN_BY_AREA),
+    switch("AREA_LIGHTS_BY_PICTURE").requires(&["AREA_LIGHTS", "LIGHTS_BY_PICTURE"]),
     switch("ATTENUATION").requires(&["FURTHER_PARAMETERS", "PRINCIPLED"]),
     switch("ATTRIBUTES"),
     switch("ATTRIBUTE_CHUNKS").requires(&["ATTRIBUTES"]),
@@ -203,6 +204,10 @@ const OF_FEATURES: &[Switch] = &[
     switch("LAYER_SQUARES").excludes(LAYERS),
     switch("LENS"),
     switch("LIGHTS").one_of(LIGHT_KINDS),
+    // Points of some are drawn by what they show.
+    switch("LIGHTS_BY_PICTURE")
+        .requires(&["LIGHTS", "TEXELS", "TEXTURES", "VARYING_LIGHTS"])
+        .one_of(&["AREA_LIGHTS_BY_PICTURE", "SPHERE_LIGHTS_BY_PICTURE"]),
     // Some delta light throws a texture.
     switch("LIGHT_TEXTURES").requires(&["DELTA_LIGHTS", "TEXTURES"]),
     switch("MIXTURE").requires(&["BLENDS"]).excludes(&["PICK"]),
@@ -239,8 +244,6 @@ const OF_FEATURES: &[Switch] = &[
     switch("PROCEDURAL_TEXTURES").requires(&["TEXTURES"]).one_of(&["CHECKERS", "PERLIN", "WORLEY"]),
     // Acceleration structures hold a scene at rest.
     switch("RAY_QUERY").one_of(HELD).excludes(&["MOTION"]),
-    // Points of some are drawn by what they show.
-    switch("RECTANGLES_BY_PICTURE").requires(&["AREA_LIGHTS", "IMAGES", "LIGHTS", "QUAD_LIGHTS", "VARYING_LIGHTS"]),
     // Among them are lights.
     switch("RECTANGLES_BY_SOLID_ANGLE").requires(&["AREA_LIGHTS", "LIGHTS", "QUAD_LIGHTS"]),
     switch("ROUGHNESS"),
@@ -250,8 +253,11 @@ const OF_FEATURES: &[Switch] = &[
     switch("SEPARABLE_MASKING"),
     switch("SEQUENCE"),
     switch("SHEEN").requires(&["FURTHER_PARAMETERS", "PRINCIPLED"]),
-    switch("SPHERE_LIGHTS_BY_POINT").requires(&["SPHERE_LIGHTS"]),
+    switch("SPHERE_LIGHTS_BY_PICTURE").requires(&["ATTRIBUTES", "LIGHTS_BY_PICTURE", "SPHERE_POINTS"]),
+    switch("SPHERE_LIGHTS_BY_POINT").requires(&["SPHERE_POINTS"]),
     switch("SPHERE_LIGHTS_VISIBLE_HALF").requires(&["SPHERE_LIGHTS_BY_POINT"]),
+    // Points of sphere lights are drawn by area, and not their directions.
+    switch("SPHERE_POINTS").requires(&["SPHERE_LIGHTS"]).one_of(&["SPHERE_LIGHTS_BY_PICTURE", "SPHERE_LIGHTS_BY_POINT"]),
     // The intensity of some spot light falls otherwise than by the smooth step.
     switch("SPOT_FALLOFFS").requires(&["SPOT_LIGHT"]),
     switch("SPREAD"),

@@ -165,14 +165,11 @@ fn rectangles_look_the_same_whatever_their_points_are_drawn_by() {
     assert_all_agree(ways.collect());
 }
 
-/// A screen of 8 × 8 texels above the floor, and a lamp that is one of its texels.
+/// A screen of 8 × 8 texels above the floor.
 const SCREEN: &str = "[[texture]]\nname = \"picture\"\ntype = \"checker\"\na = 0\nb = 1\n[[material]]\nname = \"screen\"\ntype = \"emissive\"\n\
                       radiance = { texture = \"picture\", factor = [60, 50, 40] }\n";
 const QUAD: &str =
     "[[shape]]\ntype = \"rectangle\"\ncorner = [-2, 1.9, -2]\nedge_u = [4, 0, 0]\nedge_v = [0, 0, 4]\nmaterial = \"screen\"\n";
-const TEXEL: &str = "[[material]]\nname = \"bright\"\ntype = \"emissive\"\nradiance = [60, 50, 40]\n\
-                     [[shape]]\ntype = \"rectangle\"\ncorner = [0.5, 1.9, 0]\nedge_u = [0.5, 0, 0]\nedge_v = [0, 0, 0.5]\nmaterial = \"bright\"\n";
-
 /// The screen as a mesh of so many squares a side.
 fn mesh_of_screen(side: u32) -> String {
     let (mut positions, mut uvs, mut faces) = (Vec::new(), Vec::new(), Vec::new());
@@ -200,12 +197,27 @@ fn one_bright(x: u32, y: u32) -> f32 {
     f32::from(u8::from((x, y) == (5, 3)))
 }
 
+/// Shapes that are lit by the same picture, all round.
+const TUBE: &str =
+    "[[shape]]\ntype = \"cylinder\"\nfrom = [-2, 2.2, 0]\nto = [2, 2.2, 0.5]\nradius = 0.6\nmaterial = \"screen\"\n";
+const GLOBE: &str = "[[shape]]\ntype = \"sphere\"\ncenter = [0.4, 2.3, 0.3]\nradius = 0.8\nmaterial = \"screen\"\n\
+                     transform = [{ rotate = [0, 1, 0], degrees = 20 }]\n";
+/// Half of the screen's light, and half of another's of its kind; and light where the picture is a weight.
+const HALVES: &str = "[[material]]\nname = \"halves\"\ntype = \"blend\"\nmaterials = [\"screen\", \"screen\"]\n\
+                      weight = { type = \"constant\", value = 0.5 }\n";
+const STENCIL: &str = "[[material]]\nname = \"glow\"\ntype = \"emissive\"\nradiance = [60, 50, 40]\n\
+                       [[material]]\nname = \"dark\"\ntype = \"diffuse\"\nreflectance = 0\n\
+                       [[material]]\nname = \"stencil\"\ntype = \"blend\"\nmaterials = [\"glow\", \"dark\"]\n\
+                       weight = { type = \"texture\", texture = \"picture\" }\n";
+
 #[test]
 fn screens_look_the_same_whatever_their_points_are_drawn_by() {
     for (filter, shape) in [
         (TextureFilter::Nearest, QUAD.to_owned()),
         (TextureFilter::Bilinear, QUAD.to_owned()),
-        (TextureFilter::Bilinear, mesh_of_screen(3)),
+        (TextureFilter::Bilinear, TUBE.to_owned()),
+        (TextureFilter::Nearest, STENCIL.to_owned() + &GLOBE.replace("\"screen\"", "\"stencil\"")),
+        (TextureFilter::Bilinear, HALVES.to_owned() + &mesh_of_screen(3).replace("\"screen\"", "\"halves\"")),
     ] {
         let ways = [Estimator::Bsdf, Estimator::Mis, Estimator::Nee].map(|estimator| {
             let texel = |x, y| if one_bright(x, y) > 0.0 { 1.0 } else { 0.02 * (x + y) as f32 };
@@ -230,24 +242,78 @@ fn variance(scene: &Scene) -> f64 {
     (0..pictures[0].len()).map(of_pixel).sum::<f64>() / pictures[0].len() as f64
 }
 
-/// A screen of which one texel shines has at most twice the error of a lamp of that size.
+/// A lamp that is the part of a surface under the bright texel: of 8 × 8, the third from the left and the sixth from above. Its front is where u, v and it
+/// are right-handed, or the other way.
+fn lamp_of_texel(is_right_handed: bool, surface: impl Fn(f64, f64) -> [f64; 3]) -> String {
+    let (mut positions, mut faces) = (Vec::new(), Vec::new());
+    let side: u32 = 8;
+    for (row, column) in (0..=side).flat_map(|row| (0..=side).map(move |column| (row, column))) {
+        let [u, v] = [2 * side + column, 2 * side + row].map(|place| f64::from(place) / f64::from(8 * side));
+        positions.push(surface(u, v));
+    }
+    for corner in (0..side * side).map(|square| square / side * (side + 1) + square % side) {
+        faces.extend([[corner, corner + 1, corner + side + 2], [corner, corner + side + 2, corner + side + 1]]);
+    }
+    if !is_right_handed {
+        faces.iter_mut().for_each(|face| face.swap(1, 2));
+    }
+    format!(
+        "[[material]]\nname = \"bright\"\ntype = \"emissive\"\nradiance = [60, 50, 40]\n\
+         [[shape]]\ntype = \"mesh\"\npositions = {positions:?}\nfaces = {faces:?}\nmaterial = \"bright\"\n"
+    )
+}
+
+fn on_quad(u: f64, v: f64) -> [f64; 3] {
+    [4.0 * u - 2.0, 1.9, 4.0 * v - 2.0]
+}
+
+/// Of [`TUBE`], level and higher; u grows from −z, counter-clockwise seen from −x.
+fn on_tube(u: f64, v: f64) -> [f64; 3] {
+    let (sine, cosine) = (std::f64::consts::TAU * u).sin_cos();
+    [4.0 * v - 2.0, 3.0 - 0.6 * sine, -0.6 * cosine]
+}
+
+/// Of [`GLOBE`], higher and not turned.
+fn on_globe(u: f64, v: f64) -> [f64; 3] {
+    let ((sine, cosine), (across, height)) = ((std::f64::consts::TAU * u).sin_cos(), (std::f64::consts::PI * v).sin_cos());
+    [0.4 + 0.8 * across * sine, 3.2 - 0.8 * height, 0.3 - 0.8 * across * cosine]
+}
+
+/// A screen of which one texel shines has at most twice the error of a lamp of that size, whatever its shape and its material. Neither is in view.
 #[test]
 fn a_bright_texel_is_found_as_a_lamp_of_its_size_is() {
-    let mut lamp = load(&[TEXEL]);
-    lamp.render.max_depth = 2;
-    let error_of_lamp = variance(&lamp).sqrt();
-    for (name, shape) in [("quad", QUAD.to_owned()), ("mesh", mesh_of_screen(8))] {
-        let mut screen = with_picture(load(&[SCREEN, &shape]), TextureFilter::Nearest, one_bright);
-        screen.render.max_depth = 2;
-        let error = variance(&screen).sqrt();
-        assert!(error < 2.0 * error_of_lamp, "{name}: {error} and {error_of_lamp}");
-        eprintln!("{name}: {error:.5}, a lamp of its size {error_of_lamp:.5}");
-        // The control: what is made of two such materials is drawn evenly.
-        let halves = "[[material]]\nname = \"halves\"\ntype = \"blend\"\nmaterials = [\"screen\", \"screen\"]\nweight = { type = \"constant\", value = 0.5 }\n";
-        let shape = shape.replace("material = \"screen\"", "material = \"halves\"");
-        let mut evenly = with_picture(load(&[SCREEN, halves, &shape]), TextureFilter::Nearest, one_bright);
-        evenly.render.max_depth = 2;
-        let error_of_even = variance(&evenly).sqrt();
-        assert!(error_of_even > 4.0 * error_of_lamp, "{name}: {error_of_even}");
+    let tube = TUBE.replace("2.2, 0.5]", "3, 0]").replace("2.2", "3");
+    let globe = GLOBE.replace("2.3", "3.2").replace("transform = [{ rotate = [0, 1, 0], degrees = 20 }]\n", "");
+    // Made of so much that it is drawn evenly.
+    let mut deep = HALVES.to_owned();
+    for level in 0..20 {
+        let below = if level == 0 { "halves".to_owned() } else { format!("deep{}", level - 1) };
+        let names = format!("\"screen\", \"{below}\"");
+        deep += &HALVES.replace("\"halves\"", &format!("\"deep{level}\"")).replace("\"screen\", \"screen\"", &names);
+    }
+    let error_of = |text: &[&str]| {
+        let mut scene = load(text);
+        if !scene.textures.is_empty() {
+            scene = with_picture(scene, TextureFilter::Nearest, |x, y| f32::from(u8::from((x, y) == (2, 5))));
+        }
+        scene.camera.look_at.y = 0.2;
+        scene.render.max_depth = 2;
+        variance(&scene).sqrt()
+    };
+    for (name, shape, lamp, materials) in [
+        ("quad", QUAD, lamp_of_texel(true, on_quad), ["screen", "stencil", "deep19"].as_slice()),
+        ("mesh", &mesh_of_screen(8), lamp_of_texel(true, on_quad), &["screen", "halves", "deep19"]),
+        ("tube", &tube, lamp_of_texel(false, on_tube), &["screen", "deep19"]),
+        ("globe", &globe, lamp_of_texel(false, on_globe), &["screen", "stencil", "deep19"]),
+    ] {
+        let error_of_lamp = error_of(&[&lamp]);
+        for &material in materials {
+            let others = [STENCIL, &deep].concat();
+            let error = error_of(&[SCREEN, &others, &shape.replace("\"screen\"", &format!("\"{material}\""))]);
+            println!("{name}, {material}: {error:.5}, a lamp of its size {error_of_lamp:.5}");
+            // The control is what is drawn evenly.
+            let holds = if material == "deep19" { error > 2.5 * error_of_lamp } else { error < 2.0 * error_of_lamp };
+            assert!(holds, "{name}, {material}: {error} and {error_of_lamp}");
+        }
     }
 }

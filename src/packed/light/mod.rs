@@ -15,9 +15,9 @@ use super::error::PackError;
 use super::primitive::WorldPrimitive;
 use super::texture::{self, PackedTextures};
 use super::world::WorldGeometry;
-use crate::packed::shape::PrimitiveKind;
+use crate::emission_map::{EmissionMaps, Unrolled};
 use crate::sampling::light_tree::{self, Emitter, LightNode};
-use crate::sampling::{EmissionMaps, HierarchicalWarp, LightGroup, LightSampler, LightTree};
+use crate::sampling::{HierarchicalWarp, LightGroup, LightSampler, LightTree};
 use crate::scene::light::light_table;
 use crate::scene::{Estimator, Light, LightStrength, Scene};
 use record::PORTAL_SHIFT;
@@ -70,7 +70,7 @@ pub fn thrown_textures(scene: &Scene) -> Vec<u32> {
 }
 
 /// All sampled lights, with the places of the textures that the scene's lights throw; marks the primitives that are lights with their index. The order is that of the reference.
-/// What points of rectangles are drawn by is appended to the texels.
+/// What points of lamps are drawn by is appended to the texels.
 ///
 /// # Errors
 /// [`PackError::TooManyTexels`] where 32 bits cannot number them.
@@ -90,15 +90,19 @@ pub fn collect(
     let two_sided = scene.materials_that(|material| material.emission.is_some_and(|emission| emission.two_sided));
     let emissions: Vec<_> = (0..emits.len()).map(|id| emits[id].then(|| SurfaceEmission::of(scene, id, two_sided[id]))).collect();
     let maps = EmissionMaps::new(scene);
-    let mut warps: HashMap<usize, PackedWarp> = HashMap::new();
+    let mut warps: HashMap<(usize, Unrolled), PackedWarp> = HashMap::new();
     let mut powers = Vec::new();
     for primitive in &mut world.primitives {
         let Some(emission) = &emissions[primitive.material] else { continue };
         let attributes = world.attributes.get(primitive.attributes as usize);
-        let power = emission.power(primitive, &maps, attributes);
-        let warp = match maps.warp(primitive.material).filter(|_| primitive.kind() == PrimitiveKind::Quad && power > 0.0) {
+        // Where there are second texture coordinates, they stand behind the first.
+        let second = if world.second_uvs { world.attributes.get(primitive.attributes as usize + 1) } else { None };
+        let power = emission.power(primitive, &maps, [attributes, second]);
+        let unrolled = primitive.kind().unrolled().filter(|_| power > 0.0);
+        let shown = unrolled.and_then(|unrolled| Some((unrolled, maps.warp(primitive.material, unrolled)?)));
+        let warp = match shown {
             None => None,
-            Some(warp) => Some(match warps.entry(primitive.material) {
+            Some((unrolled, warp)) => Some(match warps.entry((primitive.material, unrolled)) {
                 Entry::Occupied(known) => *known.get(),
                 Entry::Vacant(place) => *place.insert(pack_warp(warp, textures)?),
             }),

@@ -71,7 +71,7 @@ shared_constants!(flags {
     const LEAST_RECTANGLE_DISTANCE: f32 = strategy::LEAST_DISTANCE as f32;
     /// Its points move as its attributes say.
     pub(in crate::packed) const LIGHT_MOVES: u32 = 1024;
-    /// A rectangle whose points are drawn by what it shows: where that density stands is in place of the radiance.
+    /// Its points are drawn by what it shows: where that density stands is in place of the radiance.
     pub(in crate::packed) const LIGHT_WARPED: u32 = 4096;
     /// Its texture coordinates run against its first edge.
     pub(in crate::packed) const LIGHT_REVERSED: u32 = 8192;
@@ -119,7 +119,7 @@ pub struct PackedLight {
     pub p2: [f32; 3],
     /// Of a delta light: the texture that it throws, or NONE.
     pub attributes: u32,
-    /// Radiance of a surface; of a delta light, intensity or irradiance; of a rectangle whose points are drawn by what it shows, the [`PackedWarp`].
+    /// Radiance of a surface; of a delta light, intensity or irradiance; of a lamp whose points are drawn by what it shows, the [`PackedWarp`].
     pub radiance: [f32; 3],
     /// Of a surface.
     pub material: u32,

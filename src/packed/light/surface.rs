@@ -7,16 +7,16 @@ use glam::{DVec2, DVec3};
 use super::record::{
     LIGHT_MOVES, LIGHT_RECTANGLE, LIGHT_REVERSED, LIGHT_TWO_SIDED, LIGHT_VARIES, LIGHT_WARPED, PackedLight, PackedWarp,
 };
+use crate::emission_map::{EmissionMaps, LampPart};
 use crate::math::luminance;
 use crate::packed::attributes::TriangleAttributes;
 use crate::packed::material::{color_and_texture, mean_emission};
 use crate::packed::primitive::WorldPrimitive;
 use crate::packed::shape::PrimitiveKind;
-use crate::sampling::EmissionMaps;
-use crate::sampling::emission_map::UNIT_SQUARE;
 use crate::sampling::solid_angle::is_rectangle;
 use crate::scene::texture::{mean_of_channel, mean_of_texture};
 use crate::scene::{ChannelInput, ColorInput, LightSampling, Scene};
+use crate::texture::Coordinates;
 
 /// What a surface of some material sends out.
 pub struct SurfaceEmission {
@@ -47,9 +47,9 @@ impl SurfaceEmission {
         self.two_sided
     }
 
-    /// Luminous power: π·A·L, twice that for two sides. `attributes` are those of the primitive.
-    pub fn power(&self, primitive: &WorldPrimitive, maps: &EmissionMaps, attributes: Option<&TriangleAttributes>) -> f64 {
-        let of_part = maps.luminance(self.material, &uv_corners(primitive, attributes));
+    /// Luminous power: π·A·L, twice that for two sides. `attributes` are those of the primitive, for either set of texture coordinates.
+    pub fn power(&self, primitive: &WorldPrimitive, maps: &EmissionMaps, attributes: [Option<&TriangleAttributes>; 2]) -> f64 {
+        let of_part = lamp_part(primitive, attributes).and_then(|part| maps.luminance(self.material, &part));
         let luminance = of_part.unwrap_or(luminance(self.mean_radiance));
         // An infinite plane that does not emit has no power: 0, not 0·∞.
         if luminance == 0.0 {
@@ -72,18 +72,19 @@ fn mean_color(scene: &Scene, input: &ColorInput) -> DVec3 {
     }
 }
 
-/// Texture coordinates at the corners of a primitive, none of what has no corners or no coordinates.
-fn uv_corners(primitive: &WorldPrimitive, attributes: Option<&TriangleAttributes>) -> Vec<DVec2> {
-    match (primitive.kind(), attributes) {
-        (PrimitiveKind::Quad, _) => UNIT_SQUARE.to_vec(),
-        (PrimitiveKind::Triangle, Some(&TriangleAttributes { u0, v0, u1, v1, u2, v2, .. })) => {
-            [[u0, v0], [u1, v1], [u2, v2]].map(|[u, v]| DVec2::new(u.into(), v.into())).to_vec()
-        }
-        _ => Vec::new(),
+/// The part of a lamp that a primitive is; None of what has no texture coordinates.
+fn lamp_part(primitive: &WorldPrimitive, attributes: [Option<&TriangleAttributes>; 2]) -> Option<LampPart> {
+    if primitive.kind() != PrimitiveKind::Triangle {
+        return primitive.kind().unrolled().map(LampPart::Whole);
     }
+    let uvs =
+        |of: &TriangleAttributes| [[of.u0, of.v0], [of.u1, of.v1], [of.u2, of.v2]].map(|[u, v]| DVec2::new(u.into(), v.into()));
+    let first = uvs(attributes[0]?);
+    let second = attributes[1].map_or(first, uvs);
+    Some(LampPart::Triangle(std::array::from_fn(|corner| Coordinates { first: first[corner], second: second[corner] })))
 }
 
-/// The light that an emitting primitive is; None where it cannot be sampled. Rectangles are drawn by `warp`, where there is one; `attributes` are
+/// The light that an emitting primitive is; None where it cannot be sampled. Whole shapes are drawn by `warp`, where there is one; `attributes` are
 /// those of the primitive.
 pub fn surface_light(
     primitive: &WorldPrimitive,
@@ -96,7 +97,6 @@ pub fn surface_light(
     let (size, [p0, p1, p2]) = primitive.geometry.light()?;
     let flag = |set: bool, bit: u32| if set { bit } else { 0 };
     let is_quad = primitive.kind() == PrimitiveKind::Quad && !primitive.moves();
-    let warp = warp.filter(|_| primitive.kind() == PrimitiveKind::Quad);
     let is_rectangle = is_quad && warp.is_none() && sampling == LightSampling::Cone && is_rectangle(p1, p2);
     let is_reversed = warp.is_some() && attributes.is_some_and(|attributes| attributes.u0 > attributes.u1);
     let flags = flag(emission.two_sided, LIGHT_TWO_SIDED)

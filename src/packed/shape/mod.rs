@@ -6,6 +6,7 @@ mod placement;
 use glam::{DAffine3, DVec3, Vec3};
 
 use super::attributes::TriangleAttributes;
+use crate::emission_map::Unrolled;
 use crate::scene::Geometry;
 use crate::scene::shape::shape_table;
 use crate::shader::shared::{Constant, Constants};
@@ -191,6 +192,15 @@ impl PrimitiveKind {
     /// It has neither bounds nor an area: it stands in no hierarchy, and is neither light nor portal.
     pub fn is_infinite(self) -> bool {
         self.sampling() == SurfaceSampling::Infinite
+    }
+
+    /// How whole ones of it are drawn by what they show, where they can be.
+    pub fn unrolled(self) -> Option<Unrolled> {
+        match self {
+            Self::Quad | Self::Cylinder => Some(Unrolled::Evenly),
+            Self::Sphere => Some(Unrolled::Sphere),
+            Self::Triangle | Self::Disk | Self::Plane => None,
+        }
     }
 
     /// The kind of a record's number.

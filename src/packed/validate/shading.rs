@@ -187,8 +187,9 @@ impl PackedScene {
         let is_surface = light.is_surface();
         let has_area = |kind: u32| PrimitiveKind::of(kind).is_some_and(|kind| !kind.is_infinite());
         let (is_known, flags) = if is_surface {
-            let of_quads = if light.kind() == PrimitiveKind::Quad as u32 { LIGHT_WARPED | LIGHT_REVERSED } else { 0 };
-            (has_area(light.kind()), LIGHT_TWO_SIDED | LIGHT_VARIES | LIGHT_MOVES | LIGHT_RECTANGLE | of_quads)
+            let unrolled = light.shape().and_then(PrimitiveKind::unrolled);
+            let of_wholes = if unrolled.is_some() { LIGHT_WARPED | LIGHT_REVERSED } else { 0 };
+            (has_area(light.kind()), LIGHT_TWO_SIDED | LIGHT_VARIES | LIGHT_MOVES | LIGHT_RECTANGLE | of_wholes)
         } else if light.is(LightKind::Portal) {
             (has_area(light.kind_and_flags >> PORTAL_SHIFT), u32::MAX << PORTAL_SHIFT)
         } else if light.is_delta() {
@@ -216,6 +217,9 @@ impl PackedScene {
             let is_whole = width > 0 && height > 0 && u64::from(nodes) == 3 * inner_nodes(width, height);
             if !is_whole || !light.varies() || !is_within(first_density, width * height, length) {
                 return Err(format!("is drawn by {width} × {height} cells at {first_node} and {first_density}"));
+            }
+            if light.kind() == PrimitiveKind::Sphere as u32 && light.attributes == NONE {
+                return Err("is a sphere that shows something, and nothing says how it is turned".to_owned());
             }
         }
         if light.moves() && self.motion_of(light.attributes).is_none() {

@@ -5,8 +5,8 @@ use glam::DVec3;
 use super::fresnel::{dielectric_reflectance, normal_incidence_reflectance, schlick_reflectance};
 use super::lookup::Lookup;
 use crate::math::luminance;
-use crate::reference::texture;
 use crate::scene::BlendWeight;
+use crate::texture;
 
 /// w0 in [0, 1] at one hit. Nested weights are evaluated from the inside out, as plain numbers.
 pub fn weight(blend_weight: &BlendWeight, lookup: &Lookup) -> f64 {

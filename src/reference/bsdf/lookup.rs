@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::view::View;
 use crate::reference::intersect::Surface;
-use crate::reference::texture::{self, Coordinates};
 use crate::scene::{ColorInput, Scene};
+use crate::texture::{self, Coordinates};
 
 /// Where a material's parameters and weights are looked up.
 #[derive(Debug, Clone, Copy)]

@@ -8,6 +8,7 @@ use super::hierarchy::PreparedRay;
 use super::normal_map::Tangents;
 use super::pose::Pose;
 use super::ray::{Local, Ray, SurfacePoint};
+use crate::emission_map::Unrolled;
 use crate::scene::LightSampling;
 
 /// A direction to an element, before its emission is looked up.
@@ -37,9 +38,15 @@ pub trait Element: Debug + Send + Sync {
         DVec2::ZERO
     }
 
-    /// The place with these texture coordinates, where those fill the unit square evenly.
-    fn place_of_uv(&self, _uv: DVec2) -> Option<Local> {
+    /// How texture coordinates cover it, where its points can be drawn by what it shows.
+    fn unrolled(&self) -> Option<Unrolled> {
         None
+    }
+
+    /// The numbers with which [`Element::sample`] draws, evenly over the area, the point at a `u` above such a share of the area, as it is
+    /// [unrolled](Self::unrolled).
+    fn numbers_of_place(&self, _pose: Option<&Pose>, place: DVec2) -> DVec2 {
+        place
     }
 
     /// The directions in which they grow.

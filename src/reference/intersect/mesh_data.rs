@@ -9,6 +9,7 @@ use super::pose::Pose;
 use super::ray::Local;
 use super::shape::Triangle;
 use crate::scene::{Geometry, Mesh, Shape};
+use crate::texture::Coordinates;
 
 /// What shading needs of a shape besides its primitives; nothing where it is no mesh.
 #[derive(Debug, Clone, Default)]
@@ -39,6 +40,13 @@ impl MeshData {
     /// Texture coordinates of a face's corners, where there are some.
     pub fn uv_corners(&self, face: usize) -> Option<[DVec2; 3]> {
         self.corners(&self.mesh.as_ref()?.uvs, face)
+    }
+
+    /// The same of both sets; the first stands for a second that there is not.
+    pub fn coordinates_of_corners(&self, face: usize) -> Option<[Coordinates; 3]> {
+        let first = self.uv_corners(face)?;
+        let second = self.corners(&self.mesh.as_ref()?.second_uvs, face).unwrap_or(first);
+        Some(std::array::from_fn(|corner| Coordinates { first: first[corner], second: second[corner] }))
     }
 
     /// Directions of one of the sets of texture coordinates on a face of a mesh.

@@ -5,8 +5,8 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::reference::texture::{self, Coordinates};
 use crate::scene::{MaterialId, Relief, Scene, Texture, TextureId};
+use crate::texture::{self, Coordinates};
 
 /// The directions in which u and v grow, not of unit length.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -11,10 +11,10 @@ use super::owner::{Owner, SurfaceId};
 use super::pose::{self, PathTime, Pose};
 use super::ray::{Local, Ray, SurfacePoint};
 use super::shape::{self, Placement, Primitive};
-use crate::reference::texture::Coordinates;
+use crate::emission_map::LampPart;
 use crate::renderer::RenderError;
-use crate::sampling::emission_map::UNIT_SQUARE;
 use crate::scene::{MaterialId, MaterialKind, Scene, Shape};
+use crate::texture::Coordinates;
 
 /// A ray's closest crossing.
 #[derive(Debug, Clone, Copy)]
@@ -135,15 +135,12 @@ impl World {
         &self.primitives[index]
     }
 
-    /// Texture coordinates at the corners of a primitive, none of what has no corners or no coordinates.
-    pub fn uv_corners(&self, index: usize) -> Vec<DVec2> {
+    /// The part of a lamp that a primitive is; None of what has no texture coordinates.
+    pub fn lamp_part(&self, index: usize) -> Option<LampPart> {
         let owner = self.owners[index];
         match &self.primitives[index] {
-            Primitive::Triangle(_) => {
-                self.shapes[owner.shape].uv_corners(owner.part).map_or(Vec::new(), |corners| corners.to_vec())
-            }
-            Primitive::Other(element) if element.place_of_uv(DVec2::ZERO).is_some() => UNIT_SQUARE.to_vec(),
-            Primitive::Other(_) => Vec::new(),
+            Primitive::Triangle(_) => self.shapes[owner.shape].coordinates_of_corners(owner.part).map(LampPart::Triangle),
+            Primitive::Other(element) => element.unrolled().map(LampPart::Whole),
         }
     }
 

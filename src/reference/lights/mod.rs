@@ -7,6 +7,7 @@ mod delta;
 mod outside;
 mod thrown_picture;
 
+use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -14,9 +15,10 @@ use glam::{DVec2, DVec3};
 
 use super::emission::{emitted, mean_exitance};
 use super::intersect::{Owner, PathTime, PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
+use crate::emission_map::{EmissionMaps, LampPart, Unrolled};
 use crate::sampling::light_tree::{self, Emitter};
 use crate::sampling::sampler::uniform;
-use crate::sampling::{AliasTable, EmissionMaps, HierarchicalWarp, LightGroup, LightSampler, LightTree};
+use crate::sampling::{AliasTable, HierarchicalWarp, LightGroup, LightSampler, LightTree};
 use crate::scene::light::light_table;
 use crate::scene::{Estimator, Light, LightSampling, LightStrength, MaterialId, Scene};
 use delta::DeltaLight;
@@ -75,8 +77,8 @@ pub struct Lights {
     /// Index of the first portal among the lights.
     first_portal: usize,
     sampling: LightSampling,
-    /// By material: what points of its rectangles are drawn by, where that is not evenly.
-    warps: Vec<Option<Arc<HierarchicalWarp>>>,
+    /// By material and way: what points of shapes that are unrolled so are drawn by, where that is not evenly.
+    warps: HashMap<(MaterialId, Unrolled), Arc<HierarchicalWarp>>,
 }
 
 /// Light arriving at a reference point from one sampled direction.
@@ -104,16 +106,20 @@ impl Lights {
         // Once a material, not once a primitive: a texture's mean looks at all of it.
         let emits = scene.materials_that(|material| material.emission.is_some());
         let exitances: Vec<f64> = (0..emits.len()).map(|id| if emits[id] { mean_exitance(scene, id) } else { 0.0 }).collect();
+        let two_sided = scene.materials_that(|material| material.emission.is_some_and(|emission| emission.two_sided));
         let maps = EmissionMaps::new(scene);
-        let mut powers = Vec::new();
+        let (mut powers, mut warps) = (Vec::new(), HashMap::new());
         for &index in world.indices_in_scene_order() {
             let Owner { shape, material, .. } = world.owner(SurfaceId::Primitive(index));
             if exitances[material] == 0.0 {
                 continue;
             }
-            let of_part = exitance_of_part(scene, &maps, material, &world.uv_corners(index));
+            let of_part = world.lamp_part(index).and_then(|part| exitance_of_part(&maps, (material, two_sided[material]), &part));
             let power = world.primitive(index).area() * of_part.unwrap_or(exitances[material]);
             if power > 0.0 {
+                if let Some(unrolled) = world.primitive(index).element().unrolled() {
+                    warps.extend(maps.warp(material, unrolled).map(|warp| ((material, unrolled), warp.clone())));
+                }
                 of_primitive[index] = Some(lights.len() as u32);
                 lights.push(SampledLight::Area(index));
                 powers.push(power);
@@ -151,15 +157,18 @@ impl Lights {
         }
         let sampling = scene.render.light_sampling;
         let tree = is_by_tree.then(|| LightTree::new(&emitters, sampler.table_at_infinity()));
-        let warps = (0..scene.materials.len()).map(|id| maps.warp(id).cloned()).collect();
         let table = sampler.table();
         Self { lights, table, tree, of_primitive, outside, environment_light, first_portal, sampling, warps }
     }
 
     /// What points of a primitive are drawn by, where that is not evenly.
-    fn warp(&self, world: &World, index: usize) -> Option<&HierarchicalWarp> {
-        let warp = self.warps[world.owner(SurfaceId::Primitive(index)).material].as_deref()?;
-        world.primitive(index).element().place_of_uv(DVec2::ZERO).map(|_| warp)
+    fn warp(&self, world: &World, index: usize) -> Option<(Unrolled, &HierarchicalWarp)> {
+        if self.warps.is_empty() {
+            return None;
+        }
+        let unrolled = world.primitive(index).element().unrolled()?;
+        let warp: &HierarchicalWarp = self.warps.get(&(world.owner(SurfaceId::Primitive(index)).material, unrolled))?;
+        Some((unrolled, warp))
     }
 
     /// The light that 32 random bits choose at a point, and the probability of that.
@@ -239,10 +248,11 @@ impl Lights {
                 let (element, pose) = (world.primitive(index).element(), world.pose(index, time));
                 let (direction, density) = match self.warp(world, index) {
                     None => (element.sample(pose, self.sampling, reference, u1, u2)?, 1.0),
-                    Some(warp) => {
+                    Some((unrolled, warp)) => {
                         let drawn = warp.sample(u, v);
-                        let place = element.place_of_uv(DVec2::new(drawn.u, drawn.v))?;
-                        (element.sample(pose, LightSampling::Area, reference, place.x, place.y)?, drawn.density)
+                        let (below, area) = unrolled.area_below(drawn.v, warp.height);
+                        let numbers = element.numbers_of_place(pose, DVec2::new(drawn.u, below));
+                        (element.sample(pose, LightSampling::Area, reference, numbers.x, numbers.y)?, drawn.density / area)
                     }
                 };
                 let surface = world.surface_at(index, direction.point, direction.local, time);
@@ -299,8 +309,9 @@ impl Lights {
         let element = world.primitive(index).element();
         let pdf = match self.warp(world, index) {
             None => element.pdf(pose, self.sampling, reference, &surface.point),
-            Some(warp) => {
-                let density = warp.density(surface.uv.x, surface.uv.y);
+            Some((unrolled, warp)) => {
+                let (_, area) = unrolled.area_below(surface.uv.y, warp.height);
+                let density = warp.density(surface.uv.x, surface.uv.y) / area;
                 density * element.pdf(pose, LightSampling::Area, reference, &surface.point)
             }
         };
@@ -309,10 +320,8 @@ impl Lights {
 }
 
 /// As [`mean_exitance`], of the part of a material that lies between these texture coordinates; None: nothing more is known of it.
-fn exitance_of_part(scene: &Scene, maps: &EmissionMaps, material: MaterialId, corners: &[DVec2]) -> Option<f64> {
-    let luminance = maps.luminance(material, corners)?;
-    let two_sided = scene.materials[material].emission.is_some_and(|emission| emission.two_sided);
-    Some(PI * luminance * if two_sided { 2.0 } else { 1.0 })
+fn exitance_of_part(maps: &EmissionMaps, (material, two_sided): (MaterialId, bool), part: &LampPart) -> Option<f64> {
+    Some(PI * maps.luminance(material, part)? * if two_sided { 2.0 } else { 1.0 })
 }
 
 /// What the tree knows of the lights inside the scene, in their order. `powers` are those of the surfaces among them.

@@ -8,9 +8,9 @@ use crate::load::file::delta_light_examples;
 use crate::math::luminance;
 use crate::reference::warp;
 use crate::scene::{
-    ColorInput, DirectionalLight, Disk, Emission, Environment, EnvironmentRadiance, Geometry, ImageData, ImageTexture, Material,
-    MaterialKind, Mesh, PointLight, Rectangle, Shape, Sky, Sphere, SpotLight, Texture, TextureFilter, TextureKind, TextureWrap,
-    Transform,
+    ColorInput, Cylinder, DirectionalLight, Disk, Emission, Environment, EnvironmentRadiance, Geometry, ImageData, ImageTexture,
+    Material, MaterialKind, Mesh, PointLight, Rectangle, Shape, Sky, Sphere, SpotLight, Texture, TextureFilter, TextureKind,
+    TextureWrap, Transform,
 };
 use crate::statistics::random::SplitMix64;
 use crate::statistics::{SphereBins, chi_squared_test, density_by_differences, test_directional_sampler};
@@ -189,14 +189,23 @@ fn directions_to_the_environment_and_through_portals_follow_their_density() {
     }
 }
 
-/// Rectangles that show a picture of a bright texel, as they are written, mirrored, and no right-angled ones: what is stated is what the map from
+/// The share of one of `count` equal parts of a length that lies in one of `bins`.
+fn common_share(part: u32, count: u32, bin: u32, bins: u32) -> f64 {
+    let (low, high) = ((part * bins).max(bin * count), ((part + 1) * bins).min((bin + 1) * count));
+    f64::from(high.saturating_sub(low)) / f64::from(bins)
+}
+
+/// Rectangles that show a picture of a bright texel, as they are written, mirrored, and no right-angled ones, and cylinders and spheres from within: what is stated is what the map from
 /// random numbers does, and what a ray that meets the point finds; and points are as many as the stated density says.
 #[test]
 fn points_of_pictures_follow_their_density() {
-    let level = sidak(0.01, 6);
-    for ((geometry, side), reference) in [(rectangle(), 1.0), (true_rectangle(), 1.0), (true_rectangle(), -1.0)]
-        .into_iter()
-        .flat_map(|case| [REFERENCES[0], REFERENCES[1]].map(|reference| (case.clone(), reference)))
+    let level = sidak(0.01, 14);
+    let tube = Geometry::Cylinder(Cylinder { from: DVec3::new(-30.0, 4.0, 1.0), to: DVec3::new(30.0, -2.0, -3.0), radius: 20.0 });
+    let globe = Geometry::Sphere(Sphere { center: DVec3::new(2.0, 3.0, -4.0), radius: 25.0 });
+    let flat = [(rectangle(), 1.0), (true_rectangle(), 1.0), (true_rectangle(), -1.0)];
+    let round = [(tube.clone(), 1.0), (tube, -1.0), (globe.clone(), 1.0), (globe, -1.0)];
+    for ((geometry, side), reference) in
+        flat.into_iter().chain(round).flat_map(|case| [REFERENCES[0], REFERENCES[1]].map(|reference| (case.clone(), reference)))
     {
         let (mut scene, _) = glowing(vec![geometry]);
         scene.lights.clear();
@@ -211,6 +220,7 @@ fn points_of_pictures_follow_their_density() {
         let (lights, time) = (Lights::new(&scene, &world), PathTime::default());
         let bits = |u: f64| (u * 4_294_967_296.0) as u32;
         let draw = |[u, v]: [f64; 2]| lights.sample(&scene, (&world, &time), reference, 0, [bits(u), bits(v)]);
+        let (_, warp) = lights.warp(&world, 0).expect("it is lit unevenly");
         let (mut differ, mut counts) = (0, [0_u64; 20]);
         let mut random = SplitMix64::new(7);
         let samples = 20_000;
@@ -232,12 +242,14 @@ fn points_of_pictures_follow_their_density() {
             }
         }
         assert!(differ < 40, "{differ} of 500 from {reference}");
-        let warp = lights.warp(&world, 0).expect("it is lit unevenly");
         let cells = warp.densities.len() as f64;
         let mut expected = [0.0; 20];
         for (index, density) in warp.densities.iter().enumerate() {
-            let place = [index as u32 % warp.width * 5 / warp.width, index as u32 / warp.width * 4 / warp.height];
-            expected[(place[1] * 5 + place[0]) as usize] += density / cells * f64::from(samples);
+            let [column, row] = [index as u32 % warp.width, index as u32 / warp.width];
+            for bin in 0..20 {
+                let share = common_share(column, warp.width, bin % 5, 5) * common_share(row, warp.height, bin / 5, 4);
+                expected[bin as usize] += share * density / cells * f64::from(samples);
+            }
         }
         let report = chi_squared_test(&counts, &expected);
         assert!(report.p_value >= level, "{report:?}");

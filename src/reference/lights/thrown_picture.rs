@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::reference::texture;
 use crate::scene::{Scene, Texture, TextureId};
+use crate::texture;
 
 /// A texture on the plane at distance 1 before a light, over a rectangle about the light's axis.
 #[derive(Debug)]

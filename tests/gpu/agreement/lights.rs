@@ -425,8 +425,9 @@ fn other_lights_are_noticed() {
     }
 }
 
-/// A screen that shows a picture of few bright texels: as a rectangle, mirrored, leaning, moving, as the faces of a box and as a mesh; the picture
-/// scaled, turned and repeated; among few lights and among many. The first way is not right-angled.
+/// A screen that shows a picture of few bright texels: as a rectangle, mirrored, leaning, moving, as the faces of a box, as a mesh, as cylinders and as
+/// spheres, from within as well; the picture scaled, turned and repeated, multiplied by another, and a blend's weight; among few lights and among
+/// many. The first way is not right-angled.
 #[test]
 fn screens_agree() {
     let picture = "[[texture]]\nname = \"picture\"\ntype = \"image\"\nfile = \"picture.exr\"\n";
@@ -438,6 +439,13 @@ fn screens_agree() {
     let keys = ["", "filter = \"nearest\"\n", "scale = [2.5, 1.5]\nrotation = 30\nwrap = \"mirror\"\n"];
     let material =
         "[[material]]\nname = \"screen\"\ntype = \"emissive\"\nradiance = { texture = \"picture\", factor = [9, 8, 7] }\n";
+    let more = "[[texture]]\nname = \"checks\"\ntype = \"checker\"\na = 0\nb = 1\nscale = [6, 5]\ntimes = \"picture\"\n\
+                [[material]]\nname = \"inward\"\ntype = \"emissive\"\nradiance = { texture = \"picture\" }\ntwo_sided = true\n\
+                [[material]]\nname = \"worn\"\ntype = \"emissive\"\nradiance = { texture = \"checks\", factor = [9, 8, 7] }\n\
+                [[material]]\nname = \"stencil\"\ntype = \"blend\"\nmaterials = [\"screen\", \"grey\"]\n\
+                weight = { type = \"texture\", texture = \"picture\" }\n";
+    let tube = "[[shape]]\ntype = \"cylinder\"\nfrom = [-1, 2, -0.4]\nto = [1, 2.3, 0.2]\nradius = 0.4\nmaterial = \"screen\"\n";
+    let globe = "[[shape]]\ntype = \"sphere\"\ncenter = [0.3, 2, 0.2]\nradius = 0.5\nmaterial = \"screen\"\n";
     let quad = "[[shape]]\ntype = \"rectangle\"\ncorner = [-1.5, 2.4, -1]\nedge_u = [3, 0.2, 0]\nedge_v = [0.2, 0, 2]\nmaterial = \"screen\"\n";
     let shapes = [
         quad.to_owned(),
@@ -447,11 +455,19 @@ fn screens_agree() {
         "[[shape]]\ntype = \"mesh\"\npositions = [[-1.5, 2, -1], [1.5, 2.2, -1], [1.5, 2.4, 1], [-1.5, 2.1, 1]]\n\
          uvs = [[0, 0], [1, 0], [1, 1], [0, 1]]\nfaces = [[0, 1, 2], [0, 2, 3]]\nmaterial = \"screen\"\n"
             .to_owned(),
+        tube.to_owned(),
+        format!("{tube}transform = [{{ scale = [-1, 1, 1] }}, {{ rotate = [0, 0, 1], degrees = 20 }}]\n"),
+        format!("{tube}motion = [{{ rotate = [0, 1, 0.2], degrees = 40 }}]\n"),
+        format!("{globe}transform = [{{ scale = [-1, 1, 1] }}, {{ rotate = [0.2, 1, 1], degrees = 70 }}]\n"),
+        format!("{globe}motion = [{{ rotate = [0.3, 1, 0.2], degrees = 40 }}]\n"),
+        "[[shape]]\ntype = \"sphere\"\ncenter = [0, 1, 2]\nradius = 7\nmaterial = \"inward\"\n".to_owned(),
+        quad.replace("\"screen\"", "\"stencil\""),
+        globe.replace("\"screen\"", "\"worn\""),
     ];
     for (index, shape) in shapes.iter().enumerate() {
         let keys = keys[index % keys.len()];
         for (way, choice) in [(PlanOptions::default(), LightChoice::Power), (by_wavefront(), LightChoice::Tree)] {
-            let text = format!("{HEAD}{picture}{keys}{material}{shape}{SPOT}");
+            let text = format!("{HEAD}{picture}{keys}{material}{more}{shape}{SPOT}");
             let mut scene =
                 load::load_toml_str(&text, "screens.toml", folder.path()).unwrap_or_else(|error| panic!("{error}\n{text}"));
             scene.render.light_choice = choice;

@@ -6,9 +6,11 @@ use glam::{DVec2, DVec3};
 
 use super::placement::Placement;
 use super::primitive::Primitive;
+use crate::emission_map::Unrolled;
 use crate::reference::intersect::element::{Element, area_to_solid_angle};
 use crate::reference::intersect::hierarchy::PreparedRay;
 use crate::reference::intersect::normal_map::Tangents;
+use crate::reference::intersect::pose::Pose;
 use crate::reference::intersect::ray::{Local, Ray, SurfacePoint};
 use crate::scene::{self, LightSampling};
 
@@ -74,11 +76,18 @@ impl Element for Cylinder {
         Some(Tangents::along(along_u, self.axis))
     }
 
+    fn unrolled(&self) -> Option<Unrolled> {
+        Some(Unrolled::Evenly)
+    }
+
+    /// u runs against the sense of what is drawn where the cylinder is mirrored.
+    fn numbers_of_place(&self, _: Option<&Pose>, place: DVec2) -> DVec2 {
+        if self.drawn_quarter().dot(self.second) < 0.0 { DVec2::new(1.0 - place.x, place.y) } else { place }
+    }
+
     fn sample_area(&self, u1: f64, u2: f64) -> Option<(SurfacePoint, Local)> {
         let (sine, cosine) = (TAU * u1).sin_cos();
-        // Both devices draw in the sense of the transformed axis, mirrored or not.
-        let quarter = self.first.cross(self.axis.normalize());
-        Some((self.at(self.first * cosine + quarter * sine, u2), Local::new(0.0, u2)))
+        Some((self.at(self.first * cosine + self.drawn_quarter() * sine, u2), Local::new(0.0, u2)))
     }
 
     fn normal(&self) -> Option<DVec3> {
@@ -111,6 +120,11 @@ impl Element for Cylinder {
 }
 
 impl Cylinder {
+    /// Both devices draw in the sense of the transformed axis, mirrored or not.
+    fn drawn_quarter(&self) -> DVec3 {
+        self.first.cross(self.axis.normalize())
+    }
+
     /// How high between the ends a place relative to `from` is, and its part across the axis.
     fn parts(&self, place: DVec3) -> (f64, DVec3) {
         let height = place.dot(self.axis) / self.axis.length_squared();

@@ -6,6 +6,7 @@ use glam::{DVec2, DVec3};
 
 use super::placement::Placement;
 use super::primitive::Primitive;
+use crate::emission_map::Unrolled;
 use super::seen_rectangle::SeenRectangle;
 use crate::reference::intersect::element::{Element, area_to_solid_angle};
 use crate::reference::intersect::hierarchy::PreparedRay;
@@ -67,8 +68,12 @@ impl Element for Quad {
         if self.reversed { DVec2::new(1.0 - local.x, local.y) } else { local }
     }
 
-    fn place_of_uv(&self, uv: DVec2) -> Option<Local> {
-        Some(if self.reversed { DVec2::new(1.0 - uv.x, uv.y) } else { uv })
+    fn unrolled(&self) -> Option<Unrolled> {
+        Some(Unrolled::Evenly)
+    }
+
+    fn numbers_of_place(&self, _: Option<&Pose>, place: DVec2) -> DVec2 {
+        if self.reversed { DVec2::new(1.0 - place.x, place.y) } else { place }
     }
 
     fn tangents(&self, _: Local, _: DVec3) -> Option<Tangents> {

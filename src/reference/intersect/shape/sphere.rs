@@ -6,6 +6,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::placement::Placement;
 use super::primitive::Primitive;
+use crate::emission_map::Unrolled;
 use crate::math::Frame;
 use crate::reference::intersect::element::{Direction, Element, area_to_solid_angle};
 use crate::reference::intersect::hierarchy::PreparedRay;
@@ -49,6 +50,20 @@ impl Element for Sphere {
 
     fn uv(&self, _: Local, normal: DVec3) -> DVec2 {
         uv(self.own_direction(normal))
+    }
+
+    fn unrolled(&self) -> Option<Unrolled> {
+        Some(Unrolled::Sphere)
+    }
+
+    /// Those of [`warp::uniform_sphere`].
+    fn numbers_of_place(&self, pose: Option<&Pose>, place: DVec2) -> DVec2 {
+        let (height, turn) = (2.0 * place.y - 1.0, TAU * place.x);
+        let across = (1.0 - height * height).max(0.0).sqrt();
+        let own = DVec3::new(across * turn.sin(), height, -across * turn.cos());
+        let at_rest = (self.to_local.inverse() * own).normalize_or_zero();
+        let normal = pose.map_or(at_rest, |pose| pose.normal(at_rest));
+        DVec2::new(0.5 * (1.0 - normal.z), (normal.y.atan2(normal.x) / TAU).rem_euclid(1.0))
     }
 
     fn tangents(&self, _: Local, normal: DVec3) -> Option<Tangents> {

@@ -30,8 +30,8 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
-    use crate::reference::texture::look_up;
     use crate::scene::{ImageData, ImageTexture, TextureFilter, TextureWrap, UvTransform};
+    use crate::texture::look_up;
 
     /// Against differences of look-ups over steps that stay between the same texels.
     #[test]

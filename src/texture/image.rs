@@ -66,8 +66,8 @@ mod tests {
     use glam::{DVec3, Vec3};
 
     use super::*;
-    use crate::reference::texture::look_up;
     use crate::scene::{Texture, TextureKind};
+    use crate::texture::look_up;
 
     /// Red grows to the right: 0 1 2; green grows downward: 0 10.
     fn ramp(wrap: TextureWrap, filter: TextureFilter) -> ImageTexture {

@@ -1,0 +1,171 @@
+//! Where a lamp that shows something is bright: how bright any part of it is, and what points of whole shapes are drawn by.
+
+mod function;
+mod level;
+mod picture;
+mod unrolled;
+
+use std::cell::OnceCell;
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use crate::sampling::HierarchicalWarp;
+use crate::scene::{MaterialId, MaterialKind, Scene};
+use crate::texture::Coordinates;
+use function::Function;
+use picture::Picture;
+pub use unrolled::Unrolled;
+
+/// The mean of the squared luminance over the squared mean from which on points are drawn by luminance. Shapes that are lit more evenly are
+/// drawn by solid angle, which counts for more where they are near.
+const LEAST_CONTRAST: f64 = 1.5;
+
+/// What a scene's lamps show, by material.
+#[derive(Debug, Clone, Default)]
+pub struct EmissionMaps<'a> {
+    maps: Vec<Option<EmissionMap<'a>>>,
+}
+
+#[derive(Debug, Clone)]
+struct EmissionMap<'a> {
+    shown: Shown<'a>,
+    evenly: OnceCell<Whole>,
+    sphere: OnceCell<Whole>,
+}
+
+#[derive(Debug, Clone)]
+enum Shown<'a> {
+    Picture(Picture),
+    Function(Function<'a>),
+}
+
+/// What lies on a whole shape.
+#[derive(Debug, Clone)]
+struct Whole {
+    /// Its mean; None: more than is looked at.
+    luminance: Option<f64>,
+    /// What points are drawn by; None: evenly.
+    warp: Option<Arc<HierarchicalWarp>>,
+}
+
+/// A piece of a lamp's surface.
+#[derive(Debug, Clone, Copy)]
+pub enum LampPart {
+    /// A triangle, with the texture coordinates at its corners.
+    Triangle([Coordinates; 3]),
+    Whole(Unrolled),
+}
+
+impl<'a> EmissionMaps<'a> {
+    /// Of all materials that emit by textures, or in shares that textures give.
+    pub fn new(scene: &'a Scene) -> Self {
+        let emits = scene.materials_that(|material| material.emission.is_some());
+        let varies = scene.materials_that(|material| {
+            let weight_varies = matches!(&material.kind, MaterialKind::Blend { weight, .. } if weight.uses_texture());
+            weight_varies || material.emission.is_some_and(|emission| emission.radiance.is_texture())
+        });
+        let shows = |id: MaterialId| emits[id] && varies[id];
+        if !(0..emits.len()).any(shows) {
+            return Self::default();
+        }
+        let lamps = scene.shapes.iter().filter(|shape| shape.materials().any(shows));
+        let parts: usize = lamps.map(|shape| shape.geometry.faces().max(1)).sum();
+        let of = |id: MaterialId| {
+            let picture = Picture::of(scene, &scene.materials[id], parts).map(Shown::Picture);
+            let shown = picture.or_else(|| Function::of(scene, id, parts).map(Shown::Function))?;
+            Some(EmissionMap { shown, evenly: OnceCell::new(), sphere: OnceCell::new() })
+        };
+        Self { maps: (0..emits.len()).map(|id| if shows(id) { of(id) } else { None }).collect() }
+    }
+
+    /// The mean luminance that a material sends out from a part of a lamp, positive where anything of it shines. None: that of the whole material
+    /// is all that is known.
+    pub fn luminance(&self, material: MaterialId, part: &LampPart) -> Option<f64> {
+        let map = self.map(material)?;
+        match part {
+            LampPart::Triangle(corners) => map.shown.mean_over_triangle(corners),
+            LampPart::Whole(unrolled) => map.whole(*unrolled).luminance,
+        }
+    }
+
+    /// The density over the unit square by which points of such shapes of this material are drawn. None: evenly.
+    pub fn warp(&self, material: MaterialId, unrolled: Unrolled) -> Option<&Arc<HierarchicalWarp>> {
+        self.map(material)?.whole(unrolled).warp.as_ref()
+    }
+
+    fn map(&self, material: MaterialId) -> Option<&EmissionMap<'a>> {
+        self.maps.get(material)?.as_ref()
+    }
+}
+
+impl EmissionMap<'_> {
+    fn whole(&self, unrolled: Unrolled) -> &Whole {
+        let cell = match unrolled {
+            Unrolled::Evenly => &self.evenly,
+            Unrolled::Sphere => &self.sphere,
+        };
+        cell.get_or_init(|| Whole::of(&self.shown, unrolled))
+    }
+}
+
+impl Shown<'_> {
+    fn mean_over_triangle(&self, corners: &[Coordinates; 3]) -> Option<f64> {
+        match self {
+            Self::Picture(picture) => picture.mean_over_triangle(corners),
+            Self::Function(function) => Some(function.floor() + function.mean_over_triangle(corners)),
+        }
+    }
+
+    /// Of the cell of the unit square from its lower to its upper corner, in one of so many rows.
+    fn mean_over_cell(&self, [low, high]: [DVec2; 2], rows: u32, unrolled: Unrolled) -> Option<f64> {
+        match self {
+            Self::Picture(picture) => picture.mean_over(&[low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]),
+            Self::Function(function) => Some(function.mean_over_cell([low, high], rows, unrolled)),
+        }
+    }
+
+    fn cells(&self) -> [u32; 2] {
+        match self {
+            Self::Picture(picture) => picture.cells(),
+            Self::Function(function) => function.cells(),
+        }
+    }
+
+    /// Of the luminance of a part, what is there wherever it is looked at. A cell of a picture has no weight where nothing of it shines: an even share
+    /// would be noise that even sequences do not have.
+    fn floor(&self) -> f64 {
+        match self {
+            Self::Picture(_) => 0.0,
+            Self::Function(function) => function.floor(),
+        }
+    }
+}
+
+impl Whole {
+    fn of(shown: &Shown, unrolled: Unrolled) -> Self {
+        let [columns, rows] = shown.cells();
+        let size = DVec2::new(columns.into(), rows.into());
+        let of_cell = |(row, column): (u32, u32)| {
+            let low = DVec2::new(column.into(), row.into());
+            let (_, area) = unrolled.area_below((low.y + 0.5) / size.y, rows);
+            Some((shown.mean_over_cell([low / size, (low + 1.0) / size], rows, unrolled)?, area))
+        };
+        let all = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
+        let Some(cells) = all.map(of_cell).collect::<Option<Vec<(f64, f64)>>>() else {
+            return Self { luminance: None, warp: None };
+        };
+        let count = size.x * size.y;
+        let mean = cells.iter().map(|(luminance, area)| luminance * area).sum::<f64>() / count;
+        let squares = cells.iter().map(|(luminance, area)| luminance * luminance * area).sum::<f64>() / count;
+        let luminance = Some(mean + shown.floor());
+        if mean.is_nan() || mean <= 0.0 || squares < LEAST_CONTRAST * mean * mean {
+            return Self { luminance, warp: None };
+        }
+        let weights: Vec<f64> = cells.iter().map(|(luminance, area)| (luminance + shown.floor()) * area).collect();
+        Self { luminance, warp: HierarchicalWarp::new(columns, rows, &weights).map(Arc::new) }
+    }
+}
+
+#[cfg(test)]
+mod tests;
