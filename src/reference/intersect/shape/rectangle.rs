@@ -6,8 +6,8 @@ use glam::{DVec2, DVec3};
 
 use super::placement::Placement;
 use super::primitive::Primitive;
-use crate::emission_map::Unrolled;
 use super::seen_rectangle::SeenRectangle;
+use crate::emission_map::Unrolled;
 use crate::reference::intersect::element::{Element, area_to_solid_angle};
 use crate::reference::intersect::hierarchy::PreparedRay;
 use crate::reference::intersect::normal_map::Tangents;
