@@ -121,8 +121,10 @@ fn choose(pilot: &mut Pilot<'_>, [no_count, no_way]: [bool; 2]) -> (RenderSettin
     let settings = &pilot.scene.render;
     let mut best = Tried { sampling: settings.light_sampling, samples: [1, 1], loss: 1.0 };
     let simplest = pilot.loss(best.sampling, best.samples);
-    if simplest == 0.0 {
-        return (way(settings, best.sampling, best.samples), "a pilot found no noise".to_owned());
+    // An environment of one colour is no light that is sampled.
+    let nothing_to_gain = [(pilot.shadow_rays == 0, "no light is sampled"), (simplest == 0.0, "a pilot found no noise")];
+    if let Some((_, because)) = nothing_to_gain.into_iter().find(|(holds, _)| *holds) {
+        return (way(settings, best.sampling, best.samples), because.to_owned());
     }
     if no_way {
         best = pilot.better(best, Tried { sampling: LightSampling::Cone, ..best }, simplest);

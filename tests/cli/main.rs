@@ -225,7 +225,7 @@ fn usage_errors_are_refused_before_anything_happens() {
         ("render --estimator guess", "mis"),
         ("render --roulette-depth many", "--roulette-depth"),
         ("render scene.toml --max-depth 0 --roulette-depth 0", "paths would never end"),
-        ("render --light-samples 17", "1..=16"),
+        ("render --light-samples 17", "from 1 to 16, or auto"),
         ("render --exposure nan", "--exposure"),
         ("render --first-sample 2147483600 --device cpu", "--first-sample"),
         ("render --exposure bright", "or auto"),

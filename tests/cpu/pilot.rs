@@ -79,6 +79,18 @@ fn what_is_given_stays_and_what_cannot_pay_is_not_tried() {
     }
 }
 
+/// BSDF sampling finds an environment of one colour better than light sampling does, so there is none.
+#[test]
+fn nothing_is_tried_where_only_an_even_sky_gives_light() {
+    let text = "[film]\nsize = [256, 256]\n[camera]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\nvfov = 40\n\
+        [[material]]\nname = \"grey\"\ntype = \"diffuse\"\nreflectance = 0.5\n\
+        [[shape]]\ntype = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"grey\"\n\
+        [[light]]\ntype = \"environment\"\nradiance = 1\n";
+    let scene = load::load_toml_str(text, "even", Path::new("")).unwrap_or_else(|error| panic!("{error}"));
+    let settled = settle(&scene).expect("the reference can render the scene");
+    assert_eq!((settled.because.as_deref(), settled.scene.render.several_light_samples()), (Some("no light is sampled"), [1, 1]));
+}
+
 /// A lamp that fills half the sky of the floor below it is drawn by solid angle; one like a point is not.
 #[test]
 fn only_lamps_seen_under_large_angles_are_drawn_by_solid_angle() {

@@ -1,8 +1,8 @@
 #!/bin/sh
 # Runs a job array with its merge on a Slurm of its own: a controller and two nodes as plain processes on the loopback interface.
 #   slurm.sh FOLDER PORT CHUNKS SPP SCENE PICTURE.exr [flags of gpt render]
-# GPT names the program. One of its processes is killed by SIGKILL and one asked to stop by SIGTERM on the way. Exit code 0 once the merged
-# picture is there.
+# GPT names the program. One of its processes is killed by SIGKILL and one asked to stop by SIGTERM on the way, unless SIGNALS names others. Exit
+# code 0 once the merged picture is there.
 set -eu
 folder=$1 port=$2 chunks=$3 spp=$4 scene=$5 picture=$6
 shift 6
@@ -70,7 +70,7 @@ renderer() {
         fi
     done
 }
-for signal in KILL TERM; do
+for signal in ${SIGNALS-KILL TERM}; do
     waited=0
     # One that ends by itself before it is reached is none: then the next.
     while process=$(renderer); sleep 0.3; [ -z "$process" ] || ! kill -$signal "$process" 2> /dev/null; do
@@ -84,6 +84,6 @@ done
 waited=0
 while [ ! -e "$picture" ]; do
     waited=$((waited + 1))
-    [ "$waited" -lt 400 ] || { squeue -t all >&2; tail -n 20 "$folder"/*.out "$folder"/*.log >&2; exit 1; }
+    [ "$waited" -lt "${MOST_WAITS:-400}" ] || { squeue -t all >&2; tail -n 20 "$folder"/*.out "$folder"/*.log >&2; exit 1; }
     sleep 0.5
 done

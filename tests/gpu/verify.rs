@@ -124,6 +124,7 @@ const FINE_LAMP: &str = r#"
 size = [64, 48]
 [render]
 spp = 16
+light_sampling = "cone"
 [camera]
 position = [0, 1.5, 6]
 look_at = [0, 1, 0]

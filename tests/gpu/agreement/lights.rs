@@ -366,6 +366,7 @@ material = "both"
 #[test]
 fn rectangles_drawn_by_solid_angle_agree() {
     let mut scene = load(&[RECTANGLES]);
+    scene.render.light_sampling = LightSampling::Cone;
     for estimator in [Estimator::Mis, Estimator::Nee] {
         scene.render.estimator = estimator;
         assert_agrees(&format!("rectangles, {estimator:?}"), &scene, &PlanOptions::default());
