@@ -100,7 +100,7 @@ fn rectangles(effort: Effort) -> Vec<Finding> {
         let eye = 0.3 * above.min(size);
         // A field of view so narrow that all pixels see the same point, which are replications of each other.
         let scene = scene(&format!(
-            "[film]\nsize = [16, 16]\n[render]\nspp = 512\nmax_depth = 2\nestimator = \"nee\"\n\
+            "[film]\nsize = [16, 16]\n[render]\nspp = 512\nmax_depth = 2\nestimator = \"nee\"\nlight_sampling = \"cone\"\n\
              [camera]\nposition = [{eye:e}, {eye:e}, 0]\nlook_at = [0, 0, 0]\nvfov = 0.001\n\
              [[material]]\nname = \"floor\"\ntype = \"diffuse\"\nreflectance = 0.5\n\
              [[material]]\nname = \"light\"\ntype = \"emissive\"\nradiance = 1\n\
