@@ -1,4 +1,4 @@
-// Procedural textures over uv; the lattice's hash is integer arithmetic, the same on every device. src/reference/texture has the same in
+// Procedural textures over uv; the lattice's hash is integer arithmetic, the same on every device. src/texture has the same in
 // f64.
 #import core/sampler.wgsl
 

@@ -98,7 +98,7 @@ fn texture_color_at(texture: u32, st: vec2<f32>) -> vec3<f32> {
 
 #if BUMP_MAPS
 // How a texture's luminance changes along u and v. A checker changes in steps alone, and bends no normals.
-// src/reference/texture/gradient.rs is the same in f64.
+// src/texture/gradient.rs is the same in f64.
 fn texture_gradient(texture: u32, uv: TextureCoordinates) -> vec2<f32> {
     let st = texture_place(texture, uv);
     let t0 = bitcast<vec4<u32>>(texture_word(texture, 0u));

@@ -41,10 +41,11 @@ pub fn prepare<'a>(
     kept: &mut KeptTrees,
 ) -> Result<(Settled<'a>, PackedScene), RenderError> {
     scene.validate()?;
-    let settled = pilot::settle(scene)?;
+    let mut settled = pilot::settle(scene)?;
+    // Before it is packed, so that the scene is not held in both forms.
+    let learned = training::learn_for_device(&settled.scene, settled.integrator.take())?;
     let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
     let mut packed = PackedScene::for_frame(&settled.scene, traversal, kept).map_err(does_not_fit)?;
-    let learned = training::learn_for_device(&settled.scene)?;
     packed.guide = learned.words().to_vec();
     packed.guiding = learned.because;
     packed.piloted.clone_from(&settled.because);

@@ -126,14 +126,10 @@ impl Integrator {
 
     /// Draws from lights as these settings say; all others stay.
     pub fn set_light_sampling(&mut self, settings: &RenderSettings) {
-        let RenderSettings { light_sampling, light_samples, light_samples_depth, .. } = settings;
-        self.scene.render = RenderSettings {
-            light_sampling: *light_sampling,
-            light_samples: *light_samples,
-            light_samples_depth: *light_samples_depth,
-            ..self.scene.render.clone()
-        };
-        self.lights.set_sampling(*light_sampling);
+        let own = &mut self.scene.render;
+        own.light_sampling = settings.light_sampling;
+        (own.light_samples, own.light_samples_depth) = (settings.light_samples, settings.light_samples_depth);
+        self.lights.set_sampling(settings.light_sampling);
     }
 
     /// Of all surfaces.

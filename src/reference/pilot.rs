@@ -19,6 +19,7 @@ use crate::plan::UNROLL_LIMIT;
 use crate::renderer::RenderError;
 use crate::sampling::hash::mix;
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
+use crate::scene::settings::MOST_LIGHT_SAMPLES;
 use crate::scene::{Estimator, LightSamples, LightSampling, RenderSettings, Scene, SceneSummary};
 
 /// Pixels of a film below which a pilot would take longer than it saves.
@@ -60,6 +61,8 @@ pub struct Settled<'a> {
     pub because: Option<String>,
     /// Paths were traced to find out.
     pub is_piloted: bool,
+    /// The scene made ready, where that was needed to find out.
+    pub integrator: Option<Integrator>,
 }
 
 /// Chooses what the scene's settings leave open. A scene whose settings are complete is as it was.
@@ -69,22 +72,27 @@ pub struct Settled<'a> {
 pub fn settle(scene: &Scene) -> Result<Settled<'_>, RenderError> {
     let settings = &scene.render;
     let [no_count, no_way] = [settings.light_samples == LightSamples::Auto, settings.light_sampling == LightSampling::Auto];
-    let as_it_is = || Settled { scene: Cow::Borrowed(scene), because: None, is_piloted: false };
+    let as_it_is = Settled { scene: Cow::Borrowed(scene), because: None, is_piloted: false, integrator: None };
     if !no_count && !no_way {
-        return Ok(as_it_is());
+        return Ok(as_it_is);
     }
-    let with = |settings| Cow::Owned(Scene { render: settings, ..scene.clone() });
+    // What nobody has chosen is one light sample, and the area of rectangles.
     if let Some(because) = not_worth_trying(scene) {
-        let because = no_count.then(|| because.to_owned());
-        return Ok(Settled { scene: with(way(settings, settings.light_sampling, [1, 1])), because, is_piloted: false });
+        return Ok(Settled { because: no_count.then(|| because.to_owned()), ..as_it_is });
     }
     let mut pilot = Pilot::new(scene)?;
     let open = [no_count, no_way && pilot.integrator.has_rectangle_lights()];
     if open == [false; 2] {
-        return Ok(as_it_is());
+        return Ok(Settled { integrator: Some(pilot.integrator), ..as_it_is });
     }
     let (settings, because) = choose(&mut pilot, open);
-    Ok(Settled { scene: with(settings), because: no_count.then_some(because), is_piloted: true })
+    pilot.integrator.set_light_sampling(&settings);
+    Ok(Settled {
+        scene: Cow::Owned(Scene { render: settings, ..scene.clone() }),
+        because: no_count.then_some(because),
+        is_piloted: true,
+        integrator: Some(pilot.integrator),
+    })
 }
 
 /// Why nothing is tried, if so.
@@ -131,7 +139,7 @@ fn choose(pilot: &mut Pilot<'_>, [no_count, no_way]: [bool; 2]) -> (RenderSettin
     }
     for depth in (1..=most_depth(settings)).filter(|_| no_count) {
         let (mut in_vain, fewest) = (0, best.samples[0]);
-        for count in [2, 4, 8, 16].into_iter().filter(|&count| count >= fewest) {
+        for count in [2, 4, 8, MOST_LIGHT_SAMPLES].into_iter().filter(|&count| count >= fewest) {
             let better = pilot.better(best, Tried { samples: [count, depth], ..best }, simplest);
             in_vain = if better == best { in_vain + 1 } else { 0 };
             best = better;

@@ -113,7 +113,7 @@ impl ReferenceRenderer {
         let start = Instant::now();
         scene.validate()?;
         let settled = pilot::settle(scene)?;
-        let mut integrator = Integrator::new(&settled.scene)?;
+        let mut integrator = settled.integrator.map_or_else(|| Integrator::new(scene), Ok)?;
         let guiding = training::train(&mut integrator).because;
         Ok(Self {
             integrator,

@@ -62,15 +62,15 @@ pub fn train(integrator: &mut Integrator) -> Learned {
     Learned { guide, because: Some(because) }
 }
 
-/// As [`train`], for a device that renders the scene instead.
+/// As [`train`], for a device that renders the scene instead. `integrator`: the scene made ready, where it is already.
 ///
 /// # Errors
 /// What the reference cannot render.
-pub fn learn_for_device(scene: &Scene) -> Result<Learned, crate::renderer::RenderError> {
+pub fn learn_for_device(scene: &Scene, integrator: Option<Integrator>) -> Result<Learned, crate::renderer::RenderError> {
     if scene.render.guiding == Guiding::Off {
         return Ok(Learned::default());
     }
-    Ok(train(&mut Integrator::new(scene)?))
+    Ok(train(&mut integrator.map_or_else(|| Integrator::new(scene), Ok)?))
 }
 
 /// Paths of one edge scatter nowhere.

@@ -47,7 +47,7 @@ fn compiled_in(scenes: &[Scene], limits: &DeviceLimits, options: &PlanOptions) -
     let traversal = if options.asks_for_ray_queries() { Traversal::RayQuery } else { Traversal::Bvh };
     let of_scene = |scene: &Scene| {
         let mut packed = PackedScene::for_traversal(scene, traversal).expect("it packs");
-        packed.guide = learn_for_device(scene).expect("the reference renders it").words().to_vec();
+        packed.guide = learn_for_device(scene, None).expect("the reference renders it").words().to_vec();
         // Ray queries do not see what moves.
         Plan::new(scene, &packed, limits, options).map_or_else(|_| BTreeSet::new(), |plan| plan.switches.enabled)
     };

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use gpt::load;
+use gpt::reference::ReferenceRenderer;
 use gpt::reference::pilot::settle;
 use gpt::scene::{Estimator, LightSamples, LightSampling, RenderSettings, Scene};
 
@@ -89,6 +90,21 @@ fn nothing_is_tried_where_only_an_even_sky_gives_light() {
     let scene = load::load_toml_str(text, "even", Path::new("")).unwrap_or_else(|error| panic!("{error}"));
     let settled = settle(&scene).expect("the reference can render the scene");
     assert_eq!((settled.because.as_deref(), settled.scene.render.several_light_samples()), (Some("no light is sampled"), [1, 1]));
+}
+
+/// A render whose settings leave it open is, sample by sample, the one whose settings say what the pilot chose, and not that of one light sample.
+#[test]
+fn what_is_chosen_is_what_is_rendered() {
+    let open = built_in("veach-mis");
+    let with = |settings: RenderSettings| Scene { render: settings, ..open.clone() };
+    let one = with(RenderSettings { light_samples: 1.into(), ..open.render.clone() });
+    let radiance = |scene: &Scene| -> Vec<[f64; 3]> {
+        let renderer = ReferenceRenderer::new(scene).expect("the reference can render the scene");
+        (0..64).map(|number| renderer.radiance_of_sample(4 * number, 200, number)).collect()
+    };
+    let found = radiance(&open);
+    assert_eq!(found, radiance(&with(settled(&open))));
+    assert_ne!(found, radiance(&one));
 }
 
 /// A lamp that fills half the sky of the floor below it is drawn by solid angle; one like a point is not.
