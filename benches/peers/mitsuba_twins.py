@@ -13,6 +13,7 @@ Exit status: 0 if every scene came out as expected, 7 otherwise. The default var
 
 import argparse
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -79,9 +80,9 @@ GOLD = word("material", "Au")
 DIFFUSE = '<bsdf type="diffuse"><rgb name="reflectance" value="0.1 0.3 0.6"/></bsdf>'
 PLASTIC = f'<bsdf type="plastic">{RED}</bsdf>'
 
-# Mitsuba's base under a rough surface is darker than an integration makes it. The plain mean over 64 evenly spaced cosines, both ends included, of the
-# light that is sent back from within gives about its numbers. These are the reflectances with which Mitsuba's base is as bright as integrated: by 1.27 % without `nonlinear` (GGX of 0.2), and so that rho / (1 - rho R) is right with it
-# (Beckmann of 0.3).
+# Mitsuba's base under a rough surface is darker than an integration makes it. The plain mean over 64 evenly spaced cosines, both ends included, of
+# the light that is sent back from within gives about its numbers. These are the reflectances with which Mitsuba's base is as bright as integrated:
+# by 1.27 % without `nonlinear` (GGX of 0.2), and so that rho / (1 - rho R) is right with it (Beckmann of 0.3).
 BRIGHTER_RED = '<rgb name="diffuse_reflectance" value="0.60762 0.10127 0.050635"/>'
 BRIGHTER_NONLINEAR_RED = '<rgb name="diffuse_reflectance" value="0.6027 0.100075 0.0500187"/>'
 
@@ -100,9 +101,27 @@ def blend_by_texture(color):
 
 
 MASK = bsdf("mask", f'<ref name="opacity" id="checks"/><bsdf type="twosided">{DIFFUSE}</bsdf>')
+PLAIN = bsdf("diffuse", '<rgb name="reflectance" value="0.9"/>', True)
 MASK_OF_HALF = bsdf("mask", f'{number("opacity", 0.5)}<bsdf type="twosided">{PLASTIC}</bsdf>')
-# Before a material: paths of up to 64 edges.
-LONG = "<!-- long -->"
+
+
+def edges(most):
+    """Before a material: paths of up to so many edges, in place of 8."""
+    return f"<!-- edges: {most} -->"
+
+
+# Sheets across the whole view, close before the camera, that let nine tenths through as holes do and absorb the rest: every path from the camera
+# goes through each of them once, and next to none meets one again.
+SHEET_COUNT = 6
+BEHIND_SHEETS = SPHERE + "".join(
+    f"""<shape type="rectangle">
+    <transform name="to_world"><scale value="0.1"/>
+      <lookat origin="0,{1.6 - 0.8 * along:.6g},{5 - 5 * along:.6g}" target="0,0.8,0" up="0,1,0"/></transform>
+    <bsdf type="mask"><float name="opacity" value="0.1"/>
+      <bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></bsdf></bsdf>
+  </shape>"""
+    for along in (0.02 + 0.004 * number for number in range(SHEET_COUNT))
+)
 
 # Name, material, shape, whether agreement is expected, and Mitsuba's own material where it has another.
 CASES = [
@@ -121,11 +140,15 @@ CASES = [
     ),
     ("thin dielectric", bsdf("thindielectric"), SPHERE, True),
     ("rough dielectric", bsdf("roughdielectric", number("alpha", 0.3) + word("distribution", "ggx")), SPHERE, True),
-    # gpt does not count the way through a hole as an edge of the path; that Mitsuba does would explain the difference at 8 edges. Long paths
-    # make none of it.
-    ("mask", LONG + MASK, SPHERE, True),
-    ("mask of a half", LONG + MASK_OF_HALF, SPHERE, True),
+    # gpt does not count the way through a hole as an edge of the path, and Mitsuba does. Paths of 64 edges end where next to nothing is left.
+    ("mask, 8 edges", MASK, SPHERE, False),
+    ("mask, 64 edges", edges(64) + MASK, SPHERE, True),
     ("mask of a half, 8 edges", MASK_OF_HALF, SPHERE, False),
+    ("mask of a half, 64 edges", edges(64) + MASK_OF_HALF, SPHERE, True),
+    # How many edges Mitsuba needs where gpt has 3: as many more as there are sheets. One fewer is too few, and one more too many.
+    (f"behind {SHEET_COUNT} sheets, Mitsuba's {2 + SHEET_COUNT} edges", edges(3) + PLAIN, BEHIND_SHEETS, False, edges(2 + SHEET_COUNT) + PLAIN),
+    (f"behind {SHEET_COUNT} sheets, Mitsuba's {3 + SHEET_COUNT} edges", edges(3) + PLAIN, BEHIND_SHEETS, True, edges(3 + SHEET_COUNT) + PLAIN),
+    (f"behind {SHEET_COUNT} sheets, Mitsuba's {4 + SHEET_COUNT} edges", edges(3) + PLAIN, BEHIND_SHEETS, False, edges(4 + SHEET_COUNT) + PLAIN),
     (
         "blend of rough metal and diffuse",
         bsdf(
@@ -174,7 +197,8 @@ def imported_exactly(options, scene):
 
 def scene_with(material, shape):
     text = SCENE.format(material=material, shape=shape)
-    return text.replace('name="max_depth" value="8"', 'name="max_depth" value="64"') if LONG in material else text
+    asked = re.search("<!-- edges: ([0-9]+) -->", material)
+    return text.replace('name="max_depth" value="8"', f'name="max_depth" value="{asked[1]}"') if asked else text
 
 
 def compare(options, name, text, twin_text):
