@@ -58,7 +58,11 @@ impl Scene {
         };
         if let Some(lamp) = lamp {
             let name = &self.materials[lamp].name;
-            return Err(format!("the material `{name}` emits, and instances give no light: write lamps as shapes"));
+            return Err(format!(
+                "the material `{name}` emits, and lamps are drawn one by one: put the meshes of the group `{}` into the scene's shapes, once for each place, \
+                 as readers of scene files do",
+                group.name
+            ));
         }
         let lacks_uv = || group.shapes.iter().find_map(|shape| shape.geometry.lacks_uv());
         if let Some(material) = instances.material
@@ -131,8 +135,12 @@ mod tests {
         let check = |instances: &Instances, emits| {
             scene.check_instances(instances, &[false], &[emits], &scene.balls()).err().unwrap_or_default()
         };
-        assert_eq!(check(&instances(vec![DAffine3::IDENTITY]), false), "");
-        assert!(check(&instances(vec![DAffine3::IDENTITY]), true).contains("give no light"));
+        let one = || instances(vec![DAffine3::IDENTITY]);
+        for lit in [one(), Instances { material: Some(0), ..one() }] {
+            let said = check(&lit, true);
+            assert!(said.contains("the material `lamp` emits") && said.contains("meshes of the group `tree`"), "{said}");
+            assert_eq!(check(&lit, false), "");
+        }
         assert!(check(&instances(vec![DAffine3::IDENTITY, DAffine3::ZERO]), false).contains("number 1"));
         assert!(check(&Instances { group: 1, ..instances(vec![]) }, false).contains("no group 1"));
         assert!(check(&Instances { material: Some(7), ..instances(vec![]) }, false).contains("no material 7"));
