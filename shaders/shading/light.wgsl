@@ -16,8 +16,8 @@
 #if LIGHTS_BY_PICTURE
 #import shading/light_picture.wgsl
 #endif
-#if RECTANGLES_BY_SOLID_ANGLE
-#import shading/seen_rectangle.wgsl
+#if FLAT_LIGHTS_BY_SOLID_ANGLE
+#import shading/seen_light.wgsl
 #endif
 #if SPHERE_LIGHTS
 #import shading/sphere_light.wgsl
@@ -128,17 +128,6 @@ fn choose_light(bits: u32) -> u32 {
 #endif
 }
 
-#if RECTANGLES_BY_SOLID_ANGLE
-// The rectangle that a light is, seen from a point; its solid angle is 0 where points of the light are drawn by area.
-fn seen_rectangle_light(light: u32, kind_flags: u32, reference: vec3<f32>) -> SeenRectangle {
-    if (kind_flags & LIGHT_RECTANGLE) == 0u {
-        var by_area: SeenRectangle;
-        return by_area;
-    }
-    return see_rectangle(reference, light_word(light, 1u).xyz, light_word(light, 2u).xyz, light_word(light, 3u).xyz);
-}
-#endif
-
 #if AREA_LIGHTS
 // A point on a light, seen from `reference`: density by area turned into density by solid angle.
 fn area_light_sample(reference: vec3<f32>, point: ShapePoint, area: f32, error: f32, radiance: vec3<f32>, two_sided: bool, pmf: f32) -> LightSample {
@@ -161,11 +150,9 @@ fn sample_area_light(light: u32, kind_flags: u32, reference: vec3<f32>, pmf: f32
     let u = uniform_float(bits.x);
     let v = uniform_float(bits.y);
     var place = vec2<f32>(u, v);
-#if RECTANGLES_BY_SOLID_ANGLE
-    let seen = seen_rectangle_light(light, kind_flags, reference);
-    if seen.solid_angle > 0.0 {
-        place = rectangle_place(seen, u, v);
-    }
+#if FLAT_LIGHTS_BY_SOLID_ANGLE
+    let seen = draw_seen_place(light, kind_flags, reference, u, v);
+    place = seen.numbers;
 #endif
 #if AREA_LIGHTS_BY_PICTURE
     var density = 1.0;
@@ -189,7 +176,7 @@ fn sample_area_light(light: u32, kind_flags: u32, reference: vec3<f32>, pmf: f32
 #if AREA_LIGHTS_BY_PICTURE
         light_sample.pdf_solid_angle *= density;
 #endif
-#if RECTANGLES_BY_SOLID_ANGLE
+#if FLAT_LIGHTS_BY_SOLID_ANGLE
         if seen.solid_angle > 0.0 {
             light_sample.pdf_solid_angle = pmf / seen.solid_angle;
         }
@@ -197,7 +184,7 @@ fn sample_area_light(light: u32, kind_flags: u32, reference: vec3<f32>, pmf: f32
         return light_sample;
     }
 #endif
-#if RECTANGLES_BY_SOLID_ANGLE
+#if FLAT_LIGHTS_BY_SOLID_ANGLE
     var light_sample = area_light_sample(reference, point, l1.w, error, light_word(light, 4u).xyz, two_sided, pmf);
     if seen.solid_angle > 0.0 {
         light_sample.pdf_solid_angle = pmf / seen.solid_angle;
@@ -330,10 +317,10 @@ fn light_pdf_solid_angle(ray: Ray, surface: Surface) -> f32 {
 #endif
     }
 #endif
-#if RECTANGLES_BY_SOLID_ANGLE
-    let seen = seen_rectangle_light(surface.light, bitcast<u32>(light_word(surface.light, 0u).x), ray.origin);
-    if seen.solid_angle > 0.0 {
-        return pmf / seen.solid_angle;
+#if FLAT_LIGHTS_BY_SOLID_ANGLE
+    let solid_angle = drawn_solid_angle(surface.light, ray.origin);
+    if solid_angle > 0.0 {
+        return pmf / solid_angle;
     }
 #endif
     let to_light = surface.position - ray.origin;

@@ -170,7 +170,11 @@ fn choose_lights(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
         packed.lights.iter().any(is_it)
     };
     switches.enable("AREA_LIGHTS", has_surface(SurfaceSampling::Area));
-    switches.enable("RECTANGLES_BY_SOLID_ANGLE", sampled && packed.lights.iter().any(PackedLight::is_drawn_by_solid_angle));
+    let by_solid_angle = |kind| sampled && packed.lights.iter().any(|light| light.is_drawn_by_solid_angle(kind));
+    let [rectangles, triangles] = [PrimitiveKind::Quad, PrimitiveKind::Triangle].map(by_solid_angle);
+    switches.enable("FLAT_LIGHTS_BY_SOLID_ANGLE", rectangles || triangles);
+    switches.enable("RECTANGLES_BY_SOLID_ANGLE", rectangles);
+    switches.enable("TRIANGLES_BY_SOLID_ANGLE", triangles);
     let is_sphere = |light: &PackedLight| light.is_surface() && light.shape() == Some(PrimitiveKind::Sphere);
     let spheres = packed.lights.iter().any(is_sphere);
     let (spheres_shown, areas_shown): (Vec<&PackedLight>, Vec<&PackedLight>) =

@@ -138,8 +138,8 @@ impl Integrator {
     }
 
     /// Whether some lights can be drawn from by solid angle as well as by area.
-    pub fn has_rectangle_lights(&self) -> bool {
-        self.lights.has_rectangles(&self.world)
+    pub fn has_flat_lights(&self) -> bool {
+        self.lights.has_flat_lights(&self.world)
     }
 
     /// Changes what stratified random numbers depend on; nothing that was built from the scene does.

@@ -1,6 +1,6 @@
 //! How lights are drawn from where nobody says so: a pilot renders some pixels in several ways and compares error times cost.
 //!
-//! It decides how many light samples the first surfaces take ([`LightSamples::Auto`]), and whether points on rectangles are drawn by solid angle
+//! It decides how many light samples the first surfaces take ([`LightSamples::Auto`]), and whether points on rectangles and triangles are drawn by solid angle
 //! ([`LightSampling::Auto`]). All ways are tried with the same paths, so they differ by the noise of direct light alone. Random numbers are
 //! not those of the picture. Cost is counted, in rays, and not timed. So what is chosen depends on the scene, its settings and the size of its
 //! film: not on the seed, the number of samples, the device or the machine.
@@ -76,12 +76,12 @@ pub fn settle(scene: &Scene) -> Result<Settled<'_>, RenderError> {
     if !no_count && !no_way {
         return Ok(as_it_is);
     }
-    // What nobody has chosen is one light sample, and the area of rectangles.
+    // What nobody has chosen is one light sample, and the area of flat lights.
     if let Some(because) = not_worth_trying(scene) {
         return Ok(Settled { because: no_count.then(|| because.to_owned()), ..as_it_is });
     }
     let mut pilot = Pilot::new(scene)?;
-    let open = [no_count, no_way && pilot.integrator.has_rectangle_lights()];
+    let open = [no_count, no_way && pilot.integrator.has_flat_lights()];
     if open == [false; 2] {
         return Ok(Settled { integrator: Some(pilot.integrator), ..as_it_is });
     }
@@ -123,7 +123,7 @@ fn way(settings: &RenderSettings, sampling: LightSampling, [count, depth]: [u32;
     settings
 }
 
-/// Tries what the settings leave open, the number of light samples or how rectangles are drawn from or both, from the simplest way on: the settings
+/// Tries what the settings leave open, the number of light samples or how flat lights are drawn from or both, from the simplest way on: the settings
 /// with the best, and why.
 fn choose(pilot: &mut Pilot<'_>, [no_count, no_way]: [bool; 2]) -> (RenderSettings, String) {
     let settings = &pilot.scene.render;

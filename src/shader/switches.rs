@@ -183,6 +183,10 @@ const OF_FEATURES: &[Switch] = &[
     switch("FILTER"),
     switch("FILTER_BOX").requires(&["FILTER"]).excludes(&["FILTER_CURVE"]),
     switch("FILTER_CURVE").requires(&["FILTER"]),
+    // Points of some are drawn by solid angle.
+    switch("FLAT_LIGHTS_BY_SOLID_ANGLE")
+        .requires(&["AREA_LIGHTS", "LIGHTS"])
+        .one_of(&["RECTANGLES_BY_SOLID_ANGLE", "TRIANGLES_BY_SOLID_ANGLE"]),
     // Layers of surfaces follow mirrors and glass alone.
     switch("GUIDE").excludes(&["LAYER_OF_SURFACES"]),
     switch("HEURISTIC_POWER"),
@@ -245,7 +249,7 @@ const OF_FEATURES: &[Switch] = &[
     // Acceleration structures hold a scene at rest.
     switch("RAY_QUERY").one_of(HELD).excludes(&["MOTION"]),
     // Among them are lights.
-    switch("RECTANGLES_BY_SOLID_ANGLE").requires(&["AREA_LIGHTS", "LIGHTS", "QUAD_LIGHTS"]),
+    switch("RECTANGLES_BY_SOLID_ANGLE").requires(&["FLAT_LIGHTS_BY_SOLID_ANGLE", "QUAD_LIGHTS"]),
     switch("ROUGHNESS"),
     switch("ROULETTE"),
     // Some texture lies by the second texture coordinates of meshes.
@@ -278,6 +282,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("TEXTURE_PRODUCTS").requires(&["TEXTURES"]),
     switch("TEXTURE_ROTATION").requires(&["TEXTURES"]),
     switch("TRACE").debug(),
+    // Among them are lights.
+    switch("TRIANGLES_BY_SOLID_ANGLE").requires(&["FLAT_LIGHTS_BY_SOLID_ANGLE", "TRIANGLE_LIGHTS"]),
     // Shadow rays go on through null surfaces.
     switch("TRANSPARENT_SHADOWS").requires(&["LIGHTS", "NULL_SURFACES"]),
     switch("UNIFORM_HEMISPHERE"),

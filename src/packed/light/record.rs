@@ -64,11 +64,14 @@ shared_constants!(flags {
     pub(in crate::packed) const LIGHT_TWO_SIDED: u32 = 256;
     /// The radiance is that of the whole material, seen from where the light goes.
     pub(in crate::packed) const LIGHT_VARIES: u32 = 512;
-    /// A rectangle whose points are drawn by solid angle where it is large enough.
-    pub(in crate::packed) const LIGHT_RECTANGLE: u32 = 2048;
-    /// The least solid angle of those, and the least distance of the point from the plane as a share of that of the farthest side.
+    /// A rectangle or a triangle whose points are drawn by solid angle where that is large enough.
+    pub(in crate::packed) const LIGHT_BY_SOLID_ANGLE: u32 = 2048;
+    /// The least solid angle of rectangles, and the least distance of the point from the plane as a share of that of the farthest side.
     const LEAST_RECTANGLE_SOLID_ANGLE: f32 = strategy::LEAST_SOLID_ANGLE as f32;
     const LEAST_RECTANGLE_DISTANCE: f32 = strategy::LEAST_DISTANCE as f32;
+    /// The same of triangles; the share is that of a volume.
+    const LEAST_TRIANGLE_SOLID_ANGLE: f32 = strategy::LEAST_TRIANGLE_SOLID_ANGLE as f32;
+    const LEAST_TRIANGLE_SHARE: f32 = strategy::LEAST_TRIANGLE_SHARE as f32;
     /// Its points move as its attributes say.
     pub(in crate::packed) const LIGHT_MOVES: u32 = 1024;
     /// Its points are drawn by what it shows: where that density stands is in place of the radiance.
@@ -189,8 +192,9 @@ impl PackedLight {
         self.kind_and_flags & LIGHT_VARIES != 0
     }
 
-    pub fn is_drawn_by_solid_angle(&self) -> bool {
-        self.kind_and_flags & LIGHT_RECTANGLE != 0
+    /// It is a surface of this kind whose points are drawn by solid angle.
+    pub fn is_drawn_by_solid_angle(&self, kind: PrimitiveKind) -> bool {
+        self.is_surface() && self.shape() == Some(kind) && self.kind_and_flags & LIGHT_BY_SOLID_ANGLE != 0
     }
 
     pub fn is_warped(&self) -> bool {

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use super::record::{
-    LIGHT_MOVES, LIGHT_RECTANGLE, LIGHT_REVERSED, LIGHT_TWO_SIDED, LIGHT_VARIES, LIGHT_WARPED, PackedLight, PackedWarp,
+    LIGHT_BY_SOLID_ANGLE, LIGHT_MOVES, LIGHT_REVERSED, LIGHT_TWO_SIDED, LIGHT_VARIES, LIGHT_WARPED, PackedLight, PackedWarp,
 };
 use crate::emission_map::{EmissionMaps, LampPart};
 use crate::math::luminance;
@@ -96,12 +96,15 @@ pub fn surface_light(
     let (radiance, _) = color_and_texture(&emission.radiance);
     let (size, [p0, p1, p2]) = primitive.geometry.light()?;
     let flag = |set: bool, bit: u32| if set { bit } else { 0 };
-    let is_quad = primitive.kind() == PrimitiveKind::Quad && !primitive.moves();
-    let is_rectangle = is_quad && warp.is_none() && sampling == LightSampling::Cone && is_rectangle(p1, p2);
+    let is_suited = match primitive.kind() {
+        PrimitiveKind::Quad => is_rectangle(p1, p2),
+        kind => kind == PrimitiveKind::Triangle,
+    };
+    let by_solid_angle = is_suited && !primitive.moves() && warp.is_none() && sampling == LightSampling::Cone;
     let is_reversed = warp.is_some() && attributes.is_some_and(|attributes| attributes.u0 > attributes.u1);
     let flags = flag(emission.two_sided, LIGHT_TWO_SIDED)
         | flag(emission.varies, LIGHT_VARIES)
-        | flag(is_rectangle, LIGHT_RECTANGLE)
+        | flag(by_solid_angle, LIGHT_BY_SOLID_ANGLE)
         | flag(primitive.moves(), LIGHT_MOVES)
         | flag(warp.is_some(), LIGHT_WARPED)
         | flag(is_reversed, LIGHT_REVERSED);

@@ -5,8 +5,8 @@ use crate::packed::blend_weight::{self, WeightKind};
 use crate::packed::constants::NONE;
 use crate::packed::light::PackedWarp;
 use crate::packed::light::record::{
-    LIGHT_FORM_SHIFT, LIGHT_FORMS, LIGHT_MOVES, LIGHT_RECTANGLE, LIGHT_REVERSED, LIGHT_TWO_SIDED, LIGHT_VARIES, LIGHT_WARPED,
-    LightKind, PORTAL_SHIFT, PackedLight,
+    LIGHT_BY_SOLID_ANGLE, LIGHT_FORM_SHIFT, LIGHT_FORMS, LIGHT_MOVES, LIGHT_REVERSED, LIGHT_TWO_SIDED, LIGHT_VARIES,
+    LIGHT_WARPED, LightKind, PORTAL_SHIFT, PackedLight,
 };
 use crate::packed::material::{self, PackedMaterial};
 use crate::packed::scene::PackedScene;
@@ -189,7 +189,7 @@ impl PackedScene {
         let (is_known, flags) = if is_surface {
             let unrolled = light.shape().and_then(PrimitiveKind::unrolled);
             let of_wholes = if unrolled.is_some() { LIGHT_WARPED | LIGHT_REVERSED } else { 0 };
-            (has_area(light.kind()), LIGHT_TWO_SIDED | LIGHT_VARIES | LIGHT_MOVES | LIGHT_RECTANGLE | of_wholes)
+            (has_area(light.kind()), LIGHT_TWO_SIDED | LIGHT_VARIES | LIGHT_MOVES | LIGHT_BY_SOLID_ANGLE | of_wholes)
         } else if light.is(LightKind::Portal) {
             (has_area(light.kind_and_flags >> PORTAL_SHIFT), u32::MAX << PORTAL_SHIFT)
         } else if light.is_delta() {

@@ -82,7 +82,7 @@ pub trait Element: Debug + Send + Sync {
     }
 
     /// Whether points of it can be drawn by solid angle as well as by area, where it is at rest.
-    fn is_rectangle(&self) -> bool {
+    fn has_solid_angle(&self) -> bool {
         false
     }
 
@@ -92,7 +92,7 @@ pub trait Element: Debug + Send + Sync {
     }
 
     /// A direction from `from` to a point of it. None where the point cannot be seen from there because the element itself is in the way.
-    /// `pose`: where it has moved to; `strategy`: how spheres and rectangles are sampled.
+    /// `pose`: where it has moved to; `strategy`: how spheres, rectangles and triangles are sampled.
     fn sample(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3, u1: f64, u2: f64) -> Option<Direction> {
         let (at_rest, local) = self.sample_seen(pose, strategy, from, u1, u2)?;
         let is_hidden = self.hides(pose.map_or(from, |pose| pose.place_at_rest(from)), &at_rest);

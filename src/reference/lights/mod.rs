@@ -208,9 +208,9 @@ impl Lights {
     }
 
     /// Whether there are some that can be drawn from by solid angle as well as by area.
-    pub fn has_rectangles(&self, world: &World) -> bool {
+    pub fn has_flat_lights(&self, world: &World) -> bool {
         self.lights.iter().any(|light| match *light {
-            SampledLight::Area(index) => self.warp(world, index).is_none() && world.primitive(index).element().is_rectangle(),
+            SampledLight::Area(index) => self.warp(world, index).is_none() && world.primitive(index).element().has_solid_angle(),
             _ => false,
         })
     }

@@ -154,6 +154,41 @@ fn directions_to_spheres_follow_their_density() {
     }
 }
 
+/// Directions to a triangle by solid angle: as they are stated, over all of it and nowhere else.
+#[test]
+fn directions_to_triangles_follow_their_density() {
+    let (mut scene, world) = glowing(vec![triangle()]);
+    let level = sidak(0.01, REFERENCES.len());
+    scene.render.light_sampling = LightSampling::Cone;
+    let lights = Lights::new(&scene, &world);
+    let mut by_area = lights.clone();
+    by_area.set_sampling(LightSampling::Area);
+    let bins = SphereBins::uniform(DVec3::new(0.3, 1.0, 0.2), 24, 24);
+    for (seed, reference) in (0..).zip(REFERENCES) {
+        let drawn = |u1, u2| world.primitive(0).element().sample(None, LightSampling::Cone, reference, u1, u2);
+        let report_against = |lights: &Lights| {
+            let density = |wi: DVec3| {
+                let ray = Ray { origin: reference, direction: wi.normalize() };
+                world.closest(ray, &PathTime::default()).map_or(0.0, |hit| {
+                    let surface = world.surface(&ray, &hit, &PathTime::default());
+                    lights.pdf((&world, &PathTime::default()), reference, &surface) / lights.table.pmf[0]
+                })
+            };
+            test_directional_sampler(&bins, 100_000, seed, |[u1, u2, _]| drawn(u1, u2).map(|drawn| drawn.wi), density)
+        };
+        let report = report_against(&lights);
+        // The density ends at an edge, where its integral is known to no more than this.
+        assert!((report.integral.value - 1.0).abs() < 1e-3, "from {reference}: {report:?}");
+        assert_eq!([report.without_density, report.not_unit, report.declined], [0; 3], "from {reference}: {report:?}");
+        assert!(report.chi_squared.p_value >= level, "from {reference}: {report:?}");
+        // The control: from here, it makes a difference how points are drawn.
+        if reference == REFERENCES[0] {
+            let wrong = report_against(&by_area);
+            assert!(wrong.chi_squared.p_value < 1e-6, "from {reference}: {wrong:?}");
+        }
+    }
+}
+
 /// The environment's density is one for all ways of drawing it, portals of every shape among them: what is stated is what happens.
 #[test]
 fn directions_to_the_environment_and_through_portals_follow_their_density() {

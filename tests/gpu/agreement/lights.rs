@@ -378,6 +378,56 @@ fn rectangles_drawn_by_solid_angle_agree() {
     assert!(verdict.matching_share() < 0.97, "{verdict:#?}");
 }
 
+/// Triangles above, beside, behind and through the ground, alone and in meshes, of one side and of two, large and small, textured, and one that is a sliver.
+const TRIANGLES: &str = r#"
+[[texture]]
+name = "checks"
+type = "checker"
+a = [0.5, 0.2, 0.1]
+b = [0.1, 0.2, 0.6]
+scale = [5, 3]
+[[material]]
+name = "panel"
+type = "emissive"
+radiance = { texture = "checks" }
+two_sided = true
+[[shape]]
+type = "mesh"
+positions = [[-3, 3, -3], [3, 3, -3], [3, 2.5, 3], [-3, 3, 3]]
+faces = [[0, 1, 2], [0, 2, 3]]
+material = "both"
+[[shape]]
+type = "mesh"
+positions = [[2.2, -0.3, -1.5], [2.8, -0.3, 0.9], [1.9, 1.7, -1.4], [2.2, 1, 0.5]]
+uvs = [[0, 0], [1, 0], [0, 1], [1, 1]]
+faces = [[0, 1, 2], [1, 3, 2]]
+material = "panel"
+[[shape]]
+type = "mesh"
+positions = [[-2.5, 0.1, -2], [2.5, 0.1, -2.2], [2.5, 0.1005, -2.2], [-1.5, 1, 1], [-1.4, 1, 1], [-1.5, 1.1, 1.05]]
+faces = [[0, 1, 2], [3, 4, 5]]
+material = "lamp"
+"#;
+
+#[test]
+fn triangles_drawn_by_solid_angle_agree() {
+    for others in ["", RECTANGLES] {
+        let shared = TRIANGLES.find("[[shape]]").expect("there are shapes");
+        let triangles = if others.is_empty() { TRIANGLES } else { &TRIANGLES[shared..] };
+        let mut scene = load(&[others, triangles]);
+        scene.render.light_sampling = LightSampling::Cone;
+        for estimator in [Estimator::Mis, Estimator::Nee] {
+            scene.render.estimator = estimator;
+            assert_agrees(&format!("triangles, {estimator:?}, others: {others}"), &scene, &PlanOptions::default());
+        }
+        assert_agrees("triangles, wavefront", &scene, &by_wavefront());
+        let mut by_area = scene.clone();
+        by_area.render.light_sampling = LightSampling::Area;
+        let Some(verdict) = compare_unequal(&by_area, &scene) else { return };
+        assert!(verdict.matching_share() < 0.97, "{verdict:#?}");
+    }
+}
+
 /// The device renders `ours`, the reference `theirs`.
 pub fn compare_unequal(ours: &Scene, theirs: &Scene) -> Option<Verdict> {
     let device = DEVICE.as_ref()?;

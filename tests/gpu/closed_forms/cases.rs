@@ -148,7 +148,7 @@ fn sphere_lights(cases: &mut Vec<Case>) {
     }
 }
 
-/// A triangle light over a floor of albedo ½ (nori's fifth assignment; Lambert's formula).
+/// A triangle light over a floor of albedo ½ (nori's fifth assignment; Lambert's formula), by area and by solid angle.
 fn triangle_lights(cases: &mut Vec<Case>) {
     let table: [([[f32; 3]; 3], f64); 5] = [
         ([[-0.443432, 0.596366, 0.495985], [-0.320397, 0.0677699, -0.229359], [0.0341197, 0.11415, -0.343049]], 0.0898393),
@@ -167,6 +167,9 @@ fn triangle_lights(cases: &mut Vec<Case>) {
         shape(&mut scene, triangle(corners), light);
         // BSDF samples seldom meet the dim ones: they would need many samples to see 1 %.
         let estimators = if expected > 0.08 { &ALL[..] } else { &WITH_LIGHT_SAMPLING };
-        push(cases, &format!("triangle light {index}"), &scene, DVec3::splat(expected), estimators);
+        for strategy in [LightSampling::Area, LightSampling::Cone] {
+            scene.render.light_sampling = strategy;
+            push(cases, &format!("triangle light {index} by {strategy:?}"), &scene, DVec3::splat(expected), estimators);
+        }
     }
 }

@@ -110,7 +110,7 @@ impl Element for Quad {
         self.seen(pose, strategy, from).map_or(1.0, |seen| (TAU / seen.solid_angle).max(1.0))
     }
 
-    fn is_rectangle(&self) -> bool {
+    fn has_solid_angle(&self) -> bool {
         is_rectangle(self.edge_u, self.edge_v)
     }
 
