@@ -139,8 +139,8 @@ fn area_light_sample(reference: vec3<f32>, point: ShapePoint, area: f32, error: 
     if distance2 == 0.0 || cosine == 0.0 || (cosine < 0.0 && !two_sided) {
         return no_light();
     }
-    // Along wi, the light's error is its error along the normal over the cosine; never more than the distance.
-    let early = min(error / abs(cosine), 0.5 * distance);
+    // Along wi, the light's error is its error along the normal over the cosine, and so is that of the direction; never more than the distance.
+    let early = min((error + DIRECTION_ERROR * distance) / abs(cosine), 0.5 * distance);
     return LightSample(wi, (distance - early) * SHADOW_SHORTENING, radiance, pmf * distance2 / (abs(cosine) * area));
 }
 

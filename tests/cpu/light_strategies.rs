@@ -152,17 +152,23 @@ fn a_tree_of_lights_changes_no_picture() {
     ]);
 }
 
+/// A rectangle, and triangles that are level, aslant and upright.
 #[test]
-fn rectangles_look_the_same_whatever_their_points_are_drawn_by() {
-    let panel = "[[shape]]\ntype = \"rectangle\"\ncorner = [-1.5, 1.7, -1]\nedge_u = [3, 0, 0]\nedge_v = [0, 0, 2]\nmaterial = \"lamp\"\n";
-    let ways = [LightSampling::Area, LightSampling::Cone].into_iter().flat_map(|strategy| {
-        [Estimator::Mis, Estimator::Nee].map(|estimator| {
-            let mut scene = load(&[panel]);
-            (scene.render.light_sampling, scene.render.estimator) = (strategy, estimator);
-            (format!("{strategy:?}, {estimator:?}"), scene)
-        })
-    });
-    assert_all_agree(ways.collect());
+fn flat_lamps_look_the_same_whatever_their_points_are_drawn_by() {
+    let rectangle = "[[shape]]\ntype = \"rectangle\"\ncorner = [-1.5, 1.7, -1]\nedge_u = [3, 0, 0]\nedge_v = [0, 0, 2]\nmaterial = \"lamp\"\n";
+    let triangles = "[[shape]]\ntype = \"mesh\"\nmaterial = \"lamp\"\n\
+                     positions = [[-1.5, 1.7, -1], [1.5, 1.7, -1], [1.3, 2, 1], [-2, 0.1, -1.5], [1, 0.1, -1.7], [-1.2, 1.5, -1.6]]\n\
+                     faces = [[0, 1, 2], [3, 4, 5]]\n";
+    for lamp in [rectangle, triangles] {
+        let ways = [LightSampling::Area, LightSampling::Cone].into_iter().flat_map(|strategy| {
+            [Estimator::Mis, Estimator::Nee].map(|estimator| {
+                let mut scene = load(&[lamp]);
+                (scene.render.light_sampling, scene.render.estimator) = (strategy, estimator);
+                (format!("{strategy:?}, {estimator:?}"), scene)
+            })
+        });
+        assert_all_agree(ways.collect());
+    }
 }
 
 /// A screen of 8 × 8 texels above the floor.

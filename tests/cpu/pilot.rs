@@ -24,17 +24,37 @@ fn light_samples(scene: &Scene) -> [u32; 2] {
     settled(scene).several_light_samples()
 }
 
+/// A rectangle, or as many triangles a side.
+#[derive(Clone, Copy)]
+enum Lamp {
+    Rectangle,
+    Mesh(u32),
+}
+
 /// A floor under a square lamp of this half width, and at this height.
-fn floor_under_a_lamp(half_width: f64, height: f64) -> Scene {
+fn floor_under_a_lamp(lamp: Lamp, half_width: f64, height: f64) -> Scene {
+    let lamp = match lamp {
+        Lamp::Rectangle => format!(
+            "type = \"rectangle\"\ncorner = [-{half_width}, {height}, -{half_width}]\nedge_u = [{0}, 0, 0]\nedge_v = [0, 0, {0}]\n",
+            2.0 * half_width
+        ),
+        Lamp::Mesh(side) => {
+            let at = |index: u32| half_width * (2.0 * f64::from(index) / f64::from(side) - 1.0);
+            let corners = (0..=side).flat_map(|row| (0..=side).map(move |column| (row, column)));
+            let positions: Vec<[f64; 3]> = corners.map(|(row, column)| [at(column), height, at(row)]).collect();
+            let squares = (0..side * side).map(|square| square / side * (side + 1) + square % side);
+            let faces: Vec<[u32; 3]> =
+                squares.flat_map(|at| [[at, at + 1, at + side + 2], [at, at + side + 2, at + side + 1]]).collect();
+            format!("type = \"mesh\"\npositions = {positions:?}\nfaces = {faces:?}\n")
+        }
+    };
     let text = format!(
         "[film]\nsize = [256, 256]\n[render]\nmax_depth = 2\n\
          [camera]\nposition = [0, 0.4, 3]\nlook_at = [0, 0, 0]\nvfov = 40\n\
          [[material]]\nname = \"grey\"\ntype = \"diffuse\"\nreflectance = 0.5\n\
          [[material]]\nname = \"lamp\"\ntype = \"diffuse\"\nreflectance = 0\nemission = 1\n\
          [[shape]]\ntype = \"rectangle\"\ncorner = [-4, 0, 4]\nedge_u = [8, 0, 0]\nedge_v = [0, 0, -8]\nmaterial = \"grey\"\n\
-         [[shape]]\ntype = \"rectangle\"\ncorner = [-{half_width}, {height}, -{half_width}]\nedge_u = [{0}, 0, 0]\nedge_v = [0, 0, {0}]\n\
-         material = \"lamp\"\n",
-        2.0 * half_width
+         [[shape]]\n{lamp}material = \"lamp\"\n"
     );
     load::load_toml_str(&text, "lamp", Path::new("")).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -107,12 +127,17 @@ fn what_is_chosen_is_what_is_rendered() {
     assert_ne!(found, radiance(&one));
 }
 
-/// A lamp that fills half the sky of the floor below it is drawn by solid angle; one like a point is not.
+/// A lamp that fills half the sky of the floor below it is drawn by solid angle; one like a point is not, nor one of many triangles.
 #[test]
 fn only_lamps_seen_under_large_angles_are_drawn_by_solid_angle() {
-    assert_eq!(settled(&floor_under_a_lamp(3.0, 0.6)).light_sampling, LightSampling::Cone);
-    assert_eq!(settled(&floor_under_a_lamp(0.1, 3.0)).light_sampling, LightSampling::Auto);
-    let mut by_area = floor_under_a_lamp(3.0, 0.6);
-    by_area.render.light_sampling = LightSampling::Area;
-    assert_eq!(settled(&by_area).light_sampling, LightSampling::Area);
+    // Rectangles are drawn by area below a larger angle than triangles are.
+    for (lamp, least) in [(Lamp::Rectangle, 0.1), (Lamp::Mesh(1), 0.001)] {
+        assert_eq!(settled(&floor_under_a_lamp(lamp, 3.0, 0.6)).light_sampling, LightSampling::Cone);
+        assert_eq!(settled(&floor_under_a_lamp(lamp, least, 3.0)).light_sampling, LightSampling::Auto);
+        let mut by_area = floor_under_a_lamp(lamp, 3.0, 0.6);
+        by_area.render.light_sampling = LightSampling::Area;
+        assert_eq!(settled(&by_area).light_sampling, LightSampling::Area);
+    }
+    // Each of many triangles is seen under a small angle.
+    assert_eq!(settled(&floor_under_a_lamp(Lamp::Mesh(24), 3.0, 0.6)).light_sampling, LightSampling::Auto);
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use gpt::plan::PlanOptions;
 use gpt::scene::{Environment, EnvironmentRadiance, ImageData, Light, Scene};
 
@@ -14,6 +14,7 @@ pub fn findings(effort: Effort) -> Vec<Finding> {
     findings.extend(judge("lights of radiance 1e-6 and 1e6 in one picture", &dim_and_bright(), &dim_and_bright()));
     findings.extend(tiny_far_lights());
     findings.extend(rectangles(effort));
+    findings.extend(triangles(effort));
     findings.extend(judge("environment with a sun of 1e5 over a sky of 1", &sun(), &sun()));
     findings.extend(white_boxes(effort));
     findings.extend(densities(effort));
@@ -98,22 +99,69 @@ fn rectangles(effort: Effort) -> Vec<Finding> {
         let part = |x: f64, y: f64| x / (1.0 + x * x).sqrt() * (y / (1.0 + x * x).sqrt()).atan();
         let truth = 0.5 * 2.0 / std::f64::consts::PI * (part(x, y) + part(y, x));
         let eye = 0.3 * above.min(size);
-        // A field of view so narrow that all pixels see the same point, which are replications of each other.
-        let scene = scene(&format!(
-            "[film]\nsize = [16, 16]\n[render]\nspp = 512\nmax_depth = 2\nestimator = \"nee\"\nlight_sampling = \"cone\"\n\
-             [camera]\nposition = [{eye:e}, {eye:e}, 0]\nlook_at = [0, 0, 0]\nvfov = 0.001\n\
-             [[material]]\nname = \"floor\"\ntype = \"diffuse\"\nreflectance = 0.5\n\
-             [[material]]\nname = \"light\"\ntype = \"emissive\"\nradiance = 1\n\
-             [[shape]]\ntype = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"floor\"\n\
-             [[shape]]\ntype = \"rectangle\"\ncorner = [{:e}, {above:e}, {:e}]\nedge_u = [{width:e}, 0, 0]\nedge_v = [0, 0, {depth:e}]\n\
-             material = \"light\"\n",
+        let lamp = format!(
+            "type = \"rectangle\"\ncorner = [{:e}, {above:e}, {:e}]\nedge_u = [{width:e}, 0, 0]\nedge_v = [0, 0, {depth:e}]\n",
             -0.5 * width,
             -0.5 * depth
-        ));
+        );
+        let scene = point_under(&lamp, eye);
         let case = format!("rectangle of size {size:e} at {height} times its size");
         findings.extend(against_truth(case, &scene, truth, 1e-3));
     }
     findings
+}
+
+/// A point of a floor and a triangle light: overhead from so near that it fills the sky to so far that its points are drawn by area, aside in a plane
+/// that all but holds the point, and as narrow as a hair. In closed form (Lambert): radiance = ρ · L · Σ θ cos γ / 2π over the edges, θ the angle that an
+/// edge is seen under, γ that of the normal of the plane through it and the point with the floor's.
+fn triangles(effort: Effort) -> Vec<Finding> {
+    let sizes = effort.pick(vec![1.0], vec![1e-4, 1.0, 1e4]);
+    let heights = effort.pick(vec![0.005, 1.0, 800.0, 1e6], vec![0.005, 0.02, 0.1, 1.0, 4.0, 30.0, 800.0, 1e3, 1e6]);
+    let asides = effort.pick(vec![0.02], vec![0.1, 0.02, 0.01, 0.005]);
+    let widths = effort.pick(vec![1e-2], vec![0.1, 1e-2, 1e-3]);
+    let overhead = heights.iter().map(|height| {
+        let corners = [[-0.7, 1.0, -0.4], [0.8, 1.0, -0.5], [0.1, 1.1, 0.6]].map(|[x, y, z]| DVec3::new(x, y * height, z));
+        (format!("at {height} times its size"), corners, 0.3 * height.min(1.0))
+    });
+    let aside = asides.iter().map(|&off: &f64| {
+        let corners = [DVec3::new(1.0, 0.1, off), DVec3::new(3.0, 0.1, off), DVec3::new(1.5, 2.0, off)];
+        (format!("seen from {off} times its size off its plane"), corners, 0.04)
+    });
+    let narrow = widths.iter().map(|&width: &f64| {
+        let corners = [DVec3::new(-0.5, 1.0, 0.0), DVec3::new(0.5, 1.0, 0.0), DVec3::new(0.5, 1.0, width)];
+        (format!("{width} times as wide as long"), corners, 0.3)
+    });
+    let cases: Vec<(String, [DVec3; 3], f64)> = overhead.chain(aside).chain(narrow).collect();
+    let of_size = |&size: &f64| {
+        let finding = move |(name, corners, eye): &(String, [DVec3; 3], f64)| {
+            let truth = 0.5 * lambert(corners).abs();
+            let positions = corners.map(|corner| (size * corner).to_array());
+            let lamp = format!("type = \"mesh\"\npositions = {positions:?}\nfaces = [[0, 1, 2]]\n");
+            let scene = point_under(&lamp, size * eye);
+            against_truth(format!("triangle of size {size:e} {name}"), &scene, truth, 1e-3)
+        };
+        cases.iter().filter_map(finding).collect::<Vec<_>>()
+    };
+    sizes.iter().flat_map(of_size).collect()
+}
+
+/// The share of the light of a whole sky that comes to the origin of a floor from a polygon above it.
+fn lambert(corners: &[DVec3]) -> f64 {
+    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+    edges.map(|(from, to)| from.angle_between(*to) * from.cross(*to).normalize().y).sum::<f64>() / std::f64::consts::TAU
+}
+
+/// The origin of a floor of albedo ½ that a lamp of radiance 1 lights, as the keys of its shape say, seen from a place aside.
+fn point_under(lamp: &str, eye: f64) -> Scene {
+    // A field of view so narrow that all pixels see the same point, which are replications of each other.
+    scene(&format!(
+        "[film]\nsize = [16, 16]\n[render]\nspp = 512\nmax_depth = 2\nestimator = \"nee\"\nlight_sampling = \"cone\"\n\
+         [camera]\nposition = [{eye:e}, {eye:e}, 0]\nlook_at = [0, 0, 0]\nvfov = 0.001\n\
+         [[material]]\nname = \"floor\"\ntype = \"diffuse\"\nreflectance = 0.5\n\
+         [[material]]\nname = \"light\"\ntype = \"emissive\"\nradiance = 1\ntwo_sided = true\n\
+         [[shape]]\ntype = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"floor\"\n\
+         [[shape]]\n{lamp}material = \"light\"\n"
+    ))
 }
 
 /// As a comparison with the reference, and the device's mean against a truth, to the relative `margin`.

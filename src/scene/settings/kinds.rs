@@ -43,13 +43,13 @@ choices! {
         Uniform = "uniform",
     }
 
-    /// How a point on a sphere or a rectangle that is a light is drawn.
+    /// How a point on a sphere, a rectangle or a triangle that is a light is drawn.
     pub enum LightSampling {
-        /// `cone` for spheres; for rectangles `cone` or `area`, whichever a pilot of some thousand paths finds better.
+        /// `cone` for spheres; for rectangles and triangles `cone` or `area`, whichever a pilot of some thousand paths finds better.
         Auto = "auto",
-        /// Uniform in the cone of directions that meet the sphere, and in those that meet a rectangle which is seen under a large angle.
+        /// Uniform in the cone of directions that meet the sphere, and in those that meet a rectangle or a triangle which is seen under a large angle.
         Cone = "cone",
-        /// Uniform over the half of a sphere that faces the point, and over rectangles.
+        /// Uniform over the half of a sphere that faces the point, and over rectangles and triangles.
         Visible = "visible",
         /// Uniform over the whole surface.
         Area = "area",

@@ -84,7 +84,7 @@ settings! {
             header: "gpt:hemisphere",
             compared: true,
         }
-        /// How a point on a sphere or a rectangle that is a light is drawn.
+        /// How a point on a sphere, a rectangle or a triangle that is a light is drawn.
         light_sampling: LightSampling = LightSampling::Auto => {
             values: Names(LightSampling::NAMES),
             flag: "--light-sampling",
