@@ -38,7 +38,9 @@ impl SeenTriangle {
         let farthest = distances.into_iter().fold(0.0, f64::max);
         let a = to_corner / distances[0];
         let height = a.dot(edge_u.cross(edge_v)).abs();
-        if !(distances[0] * height > LEAST_TRIANGLE_SHARE * farthest * edge_u.length() * edge_v.length()) {
+        // False as well where the point is the corner, and there is no height.
+        let is_open = distances[0] * height > LEAST_TRIANGLE_SHARE * farthest * edge_u.length() * edge_v.length();
+        if !is_open {
             return None;
         }
         let along_a = edge_v.dot(a);
