@@ -142,6 +142,11 @@ impl Integrator {
         self.lights.has_flat_lights(&self.world)
     }
 
+    /// Whether triangles are among those.
+    pub fn has_triangle_lights(&self) -> bool {
+        self.lights.has_triangles(&self.world)
+    }
+
     /// Changes what stratified random numbers depend on; nothing that was built from the scene does.
     pub fn set_samples_per_pixel(&mut self, spp: u32) {
         self.scene.render.spp = spp;

@@ -46,13 +46,13 @@ const SEED: u32 = 0x7069_6c6f;
 struct Costs {
     /// A light sample with its shadow ray.
     light_sample: f64,
-    /// Drawing its point by solid angle, with the density of what paths find.
-    solid_angle: f64,
+    /// Drawing its point by solid angle, with the density of what paths find: of rectangles, and where there are triangles.
+    solid_angle: [f64; 2],
 }
 
-/// Measured on lavapipe (docs/performance.md): geometry that is code, and geometry in a hierarchy.
-const SIMPLE: Costs = Costs { light_sample: 1.0, solid_angle: 0.75 };
-const TRAVERSED: Costs = Costs { light_sample: 1.2, solid_angle: 0.2 };
+/// Measured on lavapipe (docs/strategies.md): geometry that is code, and geometry in a hierarchy; there, of triangles in the same proportion.
+const SIMPLE: Costs = Costs { light_sample: 1.0, solid_angle: [0.75, 2.2] };
+const TRAVERSED: Costs = Costs { light_sample: 1.2, solid_angle: [0.2, 0.6] };
 
 /// A scene whose settings say how lights are drawn from.
 pub struct Settled<'a> {
@@ -172,6 +172,8 @@ struct Pilot<'a> {
     scene: &'a Scene,
     /// Geometry is few primitives.
     is_simple: bool,
+    /// Some lamps are triangles.
+    has_triangles: bool,
     /// Pixels that are tried.
     pixels: u32,
     /// Of the first way that was tried: what the squared errors of a pixel's channels are multiplied by, and shadow rays.
@@ -183,9 +185,10 @@ impl<'a> Pilot<'a> {
     fn new(scene: &'a Scene) -> Result<Self, RenderError> {
         let integrator = Integrator::new(scene)?;
         let is_simple = integrator.primitive_count() <= UNROLL_LIMIT;
+        let has_triangles = integrator.has_triangle_lights();
         let [fewest, most] = TRIED_PIXELS;
         let pixels = (pixel_count(scene) / ONE_OF_PIXELS).clamp(fewest, most) as u32;
-        Ok(Self { integrator, scene, is_simple, pixels, weights: Vec::new(), shadow_rays: 0 })
+        Ok(Self { integrator, scene, is_simple, has_triangles, pixels, weights: Vec::new(), shadow_rays: 0 })
     }
 
     /// The better of two ways.
@@ -215,7 +218,8 @@ impl<'a> Pilot<'a> {
         let by_solid_angle =
             settings.light_sampling == LightSampling::Cone && self.scene.render.light_sampling == LightSampling::Auto;
         let costs = if self.is_simple { SIMPLE } else { TRAVERSED };
-        let a_light_sample = costs.light_sample + if by_solid_angle { costs.solid_angle } else { 0.0 };
+        let a_light_sample =
+            costs.light_sample + if by_solid_angle { costs.solid_angle[usize::from(self.has_triangles)] } else { 0.0 };
         // Where a lane goes on to its next path by itself, all wait for one that is at its first surface.
         let light_samples =
             if self.is_simple { u64::from(settings.several_light_samples()[0]) * self.shadow_rays } else { rays.shadow };

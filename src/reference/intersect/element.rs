@@ -86,6 +86,11 @@ pub trait Element: Debug + Send + Sync {
         false
     }
 
+    /// Whether it is a triangle: drawing one by solid angle takes more than a rectangle.
+    fn is_triangle(&self) -> bool {
+        false
+    }
+
     /// Whether the element itself stands between `from` and a point of it.
     fn hides(&self, _from: DVec3, _point: &SurfacePoint) -> bool {
         false

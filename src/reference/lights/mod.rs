@@ -215,6 +215,13 @@ impl Lights {
         })
     }
 
+    /// Whether there are triangles among those.
+    pub fn has_triangles(&self, world: &World) -> bool {
+        let is_triangle =
+            |light: &SampledLight| matches!(*light, SampledLight::Area(index) if world.primitive(index).element().is_triangle());
+        self.lights.iter().any(is_triangle)
+    }
+
     /// Everything outside the scene.
     pub fn outside(&self) -> &Outside {
         &self.outside

@@ -82,6 +82,10 @@ impl Element for Triangle {
         true
     }
 
+    fn is_triangle(&self) -> bool {
+        true
+    }
+
     /// Portals are drawn from by area.
     fn pdf_through(&self, _: LightSampling, ray: &PreparedRay) -> f64 {
         let Some((distance, local)) = self.intersect(ray, f64::INFINITY) else { return 0.0 };
