@@ -1,5 +1,5 @@
 // Rectangles as they are seen from a point: directions uniform over their solid angle (Ureña, Fajardo and King 2013).
-// src/reference/intersect/shape/seen_rectangle.rs does the same, and says how.
+// src/reference/intersect/seen/rectangle.rs does the same, and says how.
 #import core/layout.wgsl
 #import core/math.wgsl
 

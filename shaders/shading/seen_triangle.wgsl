@@ -1,5 +1,5 @@
 // Triangles as they are seen from a point: directions uniform over their solid angle (Arvo 1995, Peters 2021).
-// src/reference/intersect/shape/seen_triangle.rs does the same, and says how.
+// src/reference/intersect/seen/triangle.rs does the same, and says how.
 #import core/layout.wgsl
 #import core/math.wgsl
 

@@ -1,4 +1,4 @@
-//! Which flat lights are drawn from by solid angle, not by area. `seen_rectangle` and `seen_triangle` in `reference::intersect::shape` say how.
+//! Which flat lights are drawn from by solid angle, not by area. `reference::intersect::seen` says how.
 
 use glam::DVec3;
 

@@ -8,6 +8,7 @@ use super::hierarchy::PreparedRay;
 use super::normal_map::Tangents;
 use super::pose::Pose;
 use super::ray::{Local, Ray, SurfacePoint};
+use super::seen::{Flat, Seen};
 use crate::emission_map::Unrolled;
 use crate::scene::LightSampling;
 
@@ -64,31 +65,35 @@ pub trait Element: Debug + Send + Sync {
         self.sample_area(0.5, 0.5).map(|(point, _)| point.normal)
     }
 
-    /// A point as it is drawn for light that goes to `from`; unless it says otherwise, uniform over the area.
+    /// What it is where points of it can be drawn by solid angle as well as by area, at rest.
+    fn flat(&self) -> Option<Flat> {
+        None
+    }
+
+    /// As it is seen from `from`, where its points are drawn by solid angle.
+    fn seen(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3) -> Option<Seen> {
+        if pose.is_some() || strategy != LightSampling::Cone {
+            return None;
+        }
+        self.flat()?.seen_from(from)
+    }
+
+    /// A point as it is drawn for light that goes to `from`: uniform over its solid angle or over the area.
     fn sample_seen(
         &self,
-        _pose: Option<&Pose>,
-        _strategy: LightSampling,
-        _from: DVec3,
+        pose: Option<&Pose>,
+        strategy: LightSampling,
+        from: DVec3,
         u1: f64,
         u2: f64,
     ) -> Option<(SurfacePoint, Local)> {
-        self.sample_area(u1, u2)
+        let numbers = self.seen(pose, strategy, from).map_or(DVec2::new(u1, u2), |seen| seen.numbers(u1, u2));
+        self.sample_area(numbers.x, numbers.y)
     }
 
     /// By how much drawing such a point magnifies rounding errors of its random numbers, where single precision computes it.
-    fn magnifies(&self, _pose: Option<&Pose>, _strategy: LightSampling, _from: DVec3) -> f64 {
-        1.0
-    }
-
-    /// Whether points of it can be drawn by solid angle as well as by area, where it is at rest.
-    fn has_solid_angle(&self) -> bool {
-        false
-    }
-
-    /// Whether it is a triangle: drawing one by solid angle takes more than a rectangle.
-    fn is_triangle(&self) -> bool {
-        false
+    fn magnifies(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3) -> f64 {
+        self.seen(pose, strategy, from).map_or(1.0, |seen| seen.magnifies())
     }
 
     /// Whether the element itself stands between `from` and a point of it.
@@ -104,10 +109,10 @@ pub trait Element: Debug + Send + Sync {
         if is_hidden { None } else { self.towards(pose, strategy, from, &at_rest, local) }
     }
 
-    /// The same at rest, of points that the element hides as well.
-    fn sample_through(&self, strategy: LightSampling, from: DVec3, u1: f64, u2: f64) -> Option<Direction> {
+    /// The same at rest, of points that the element hides as well, uniform over the area unless it says otherwise.
+    fn sample_through(&self, _strategy: LightSampling, from: DVec3, u1: f64, u2: f64) -> Option<Direction> {
         let (at_rest, local) = self.sample_area(u1, u2)?;
-        self.towards(None, strategy, from, &at_rest, local)
+        self.towards(None, LightSampling::Area, from, &at_rest, local)
     }
 
     /// The direction from `from` to a point.
@@ -129,17 +134,18 @@ pub trait Element: Debug + Send + Sync {
     }
 
     /// Density per steradian with which [`Element::sample`] draws the direction from `from` to a point of it.
-    fn pdf(&self, pose: Option<&Pose>, _strategy: LightSampling, from: DVec3, point: &SurfacePoint) -> f64 {
-        let area = self.area() * pose.map_or(1.0, |pose| pose.area_factor(point.normal));
-        area_to_solid_angle(area, from, point)
+    fn pdf(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3, point: &SurfacePoint) -> f64 {
+        match self.seen(pose, strategy, from) {
+            Some(seen) => 1.0 / seen.solid_angle(),
+            None => area_to_solid_angle(self.area() * pose.map_or(1.0, |pose| pose.area_factor(point.normal)), from, point),
+        }
     }
 
     /// Density per steradian with which [`Element::sample_through`] draws the direction in which `ray` goes from its origin; 0 where the ray
     /// does not meet it.
-    fn pdf_through(&self, strategy: LightSampling, ray: &PreparedRay) -> f64 {
+    fn pdf_through(&self, _strategy: LightSampling, ray: &PreparedRay) -> f64 {
         let Some((distance, local)) = self.intersect(ray, f64::INFINITY) else { return 0.0 };
-        let point = self.point(&ray.ray, distance, local);
-        self.pdf(None, strategy, ray.ray.origin, &point)
+        area_to_solid_angle(self.area(), ray.ray.origin, &self.point(&ray.ray, distance, local))
     }
 }
 

@@ -8,6 +8,7 @@ mod normal_map;
 mod owner;
 mod pose;
 mod ray;
+mod seen;
 mod shape;
 mod world;
 
@@ -16,6 +17,7 @@ pub use normal_map::{NormalTexel, Tangents, UvSet};
 pub use owner::{Owner, SurfaceId};
 pub use pose::{PathTime, Pose};
 pub use ray::{Ray, SurfacePoint};
+pub use seen::Outline;
 pub use shape::Primitive;
 pub use world::{Surface, World};
 

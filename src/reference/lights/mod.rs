@@ -14,7 +14,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::emission::{emitted, mean_exitance};
-use super::intersect::{Owner, PathTime, PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
+use super::intersect::{Outline, Owner, PathTime, PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
 use crate::emission_map::{EmissionMaps, LampPart, Unrolled};
 use crate::sampling::light_tree::{self, Emitter};
 use crate::sampling::sampler::uniform;
@@ -207,19 +207,21 @@ impl Lights {
         self.sampling = sampling;
     }
 
-    /// Whether there are some that can be drawn from by solid angle as well as by area.
-    pub fn has_flat_lights(&self, world: &World) -> bool {
-        self.lights.iter().any(|light| match *light {
-            SampledLight::Area(index) => self.warp(world, index).is_none() && world.primitive(index).element().has_solid_angle(),
-            _ => false,
-        })
+    /// Whether those inside the scene are chosen by a tree.
+    pub fn are_in_tree(&self) -> bool {
+        self.tree.is_some()
     }
 
-    /// Whether there are triangles among those.
-    pub fn has_triangles(&self, world: &World) -> bool {
-        let is_triangle =
-            |light: &SampledLight| matches!(*light, SampledLight::Area(index) if world.primitive(index).element().is_triangle());
-        self.lights.iter().any(is_triangle)
+    /// Of those that can be drawn from by solid angle as well as by area, what takes most to be drawn so. None: there are none.
+    pub fn costliest_outline(&self, scene: &Scene, world: &World) -> Option<Outline> {
+        let opening = PathTime::new(scene, 0.0);
+        let outline = |light: &SampledLight| match *light {
+            SampledLight::Area(index) if world.pose(index, &opening).is_none() && self.warp(world, index).is_none() => {
+                world.primitive(index).element().flat().map(|flat| flat.outline)
+            }
+            _ => None,
+        };
+        self.lights.iter().filter_map(outline).max()
     }
 
     /// Everything outside the scene.

@@ -2,8 +2,6 @@
 
 mod placement;
 mod primitive;
-mod seen_rectangle;
-mod seen_triangle;
 mod triangle;
 
 use crate::scene::Geometry;

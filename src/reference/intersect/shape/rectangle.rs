@@ -1,20 +1,18 @@
 //! Rectangles, and the quads that boxes are made of as well.
 
-use std::f64::consts::TAU;
-
 use glam::{DVec2, DVec3};
 
 use super::placement::Placement;
 use super::primitive::Primitive;
-use super::seen_rectangle::SeenRectangle;
 use crate::emission_map::Unrolled;
-use crate::reference::intersect::element::{Element, area_to_solid_angle};
+use crate::reference::intersect::element::Element;
 use crate::reference::intersect::hierarchy::PreparedRay;
 use crate::reference::intersect::normal_map::Tangents;
 use crate::reference::intersect::pose::Pose;
 use crate::reference::intersect::ray::{Local, Ray, SurfacePoint};
+use crate::reference::intersect::seen::{Flat, Outline};
 use crate::sampling::solid_angle::is_rectangle;
-use crate::scene::{LightSampling, Rectangle};
+use crate::scene::Rectangle;
 
 pub fn elements(shape: &Rectangle, placement: &Placement<'_>) -> Vec<(usize, Primitive)> {
     let quad = Quad::placed([shape.corner, shape.edge_u, shape.edge_v], placement);
@@ -85,49 +83,13 @@ impl Element for Quad {
         Some((self.at(local), local))
     }
 
-    fn sample_seen(
-        &self,
-        pose: Option<&Pose>,
-        strategy: LightSampling,
-        from: DVec3,
-        u1: f64,
-        u2: f64,
-    ) -> Option<(SurfacePoint, Local)> {
-        let seen = self.seen(pose, strategy, from);
-        let local = seen.map_or(DVec2::new(u1, u2), |seen| seen.place(u1, u2));
-        Some((self.at(local), local))
-    }
-
-    fn pdf(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3, point: &SurfacePoint) -> f64 {
-        match self.seen(pose, strategy, from) {
-            Some(seen) => 1.0 / seen.solid_angle,
-            None => area_to_solid_angle(self.area() * pose.map_or(1.0, |pose| pose.area_factor(point.normal)), from, point),
-        }
-    }
-
-    /// The solid angle is what is left of angles that add up to 2π, and so is each part of it.
-    fn magnifies(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3) -> f64 {
-        self.seen(pose, strategy, from).map_or(1.0, |seen| (TAU / seen.solid_angle).max(1.0))
-    }
-
-    fn has_solid_angle(&self) -> bool {
-        is_rectangle(self.edge_u, self.edge_v)
-    }
-
-    /// Portals are drawn from by area.
-    fn pdf_through(&self, _: LightSampling, ray: &PreparedRay) -> f64 {
-        let Some((_, local)) = self.intersect(ray, f64::INFINITY) else { return 0.0 };
-        area_to_solid_angle(self.area(), ray.ray.origin, &self.at(local))
+    fn flat(&self) -> Option<Flat> {
+        let flat = Flat { outline: Outline::Rectangle, corner: self.corner, edges: [self.edge_u, self.edge_v] };
+        is_rectangle(self.edge_u, self.edge_v).then_some(flat)
     }
 }
 
 impl Quad {
-    /// None where its points are drawn by area: it moves, is no rectangle, or is seen under too small an angle.
-    fn seen(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3) -> Option<SeenRectangle> {
-        let by_solid_angle = pose.is_none() && strategy == LightSampling::Cone && is_rectangle(self.edge_u, self.edge_v);
-        if by_solid_angle { SeenRectangle::new(from, self.corner, self.edge_u, self.edge_v) } else { None }
-    }
-
     /// Corner and edges in the shape's own space. None where the area is zero.
     pub fn placed([corner, edge_u, edge_v]: [DVec3; 3], placement: &Placement<'_>) -> Option<Self> {
         let linear = placement.to_world.matrix3;

@@ -86,6 +86,11 @@ impl Element for Sphere {
     fn pdf(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3, point: &SurfacePoint) -> f64 {
         self.moved(pose).pdf_at_rest(strategy, from, point)
     }
+
+    fn pdf_through(&self, strategy: LightSampling, ray: &PreparedRay) -> f64 {
+        let Some((distance, local)) = self.intersect(ray, f64::INFINITY) else { return 0.0 };
+        self.pdf_at_rest(strategy, ray.ray.origin, &self.point(&ray.ray, distance, local))
+    }
 }
 
 impl Sphere {

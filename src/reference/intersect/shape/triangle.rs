@@ -2,13 +2,11 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
-use super::seen_triangle::SeenTriangle;
-use crate::reference::intersect::element::{Element, area_to_solid_angle};
+use crate::reference::intersect::element::Element;
 use crate::reference::intersect::hierarchy::PreparedRay;
-use crate::reference::intersect::pose::Pose;
 use crate::reference::intersect::ray::{Local, Ray, SurfacePoint};
+use crate::reference::intersect::seen::{Flat, Outline};
 use crate::reference::warp;
-use crate::scene::LightSampling;
 
 /// Three corners, counter-clockwise seen from the front. They are stored as they are, in f32; all arithmetic is f64, where
 /// differences and products of such numbers are all but exact.
@@ -58,51 +56,13 @@ impl Element for Triangle {
         Some((self.at(local), local))
     }
 
-    fn sample_seen(
-        &self,
-        pose: Option<&Pose>,
-        strategy: LightSampling,
-        from: DVec3,
-        u1: f64,
-        u2: f64,
-    ) -> Option<(SurfacePoint, Local)> {
-        let seen = self.seen(pose, strategy, from);
-        let numbers = seen.map_or(DVec2::new(u1, u2), |seen| seen.numbers(u1, u2));
-        self.sample_area(numbers.x, numbers.y)
-    }
-
-    fn pdf(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3, point: &SurfacePoint) -> f64 {
-        match self.seen(pose, strategy, from) {
-            Some(seen) => 1.0 / seen.solid_angle,
-            None => area_to_solid_angle(self.area() * pose.map_or(1.0, |pose| pose.area_factor(point.normal)), from, point),
-        }
-    }
-
-    fn has_solid_angle(&self) -> bool {
-        true
-    }
-
-    fn is_triangle(&self) -> bool {
-        true
-    }
-
-    /// Portals are drawn from by area.
-    fn pdf_through(&self, _: LightSampling, ray: &PreparedRay) -> f64 {
-        let Some((distance, local)) = self.intersect(ray, f64::INFINITY) else { return 0.0 };
-        area_to_solid_angle(self.area(), ray.ray.origin, &self.point(&ray.ray, distance, local))
+    fn flat(&self) -> Option<Flat> {
+        let [a, b, c] = self.corners_f64();
+        Some(Flat { outline: Outline::Triangle, corner: a, edges: [b - a, c - a] })
     }
 }
 
 impl Triangle {
-    /// None where its points are drawn by area: it moves, or is seen aslant or under too small an angle.
-    fn seen(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3) -> Option<SeenTriangle> {
-        if pose.is_some() || strategy != LightSampling::Cone {
-            return None;
-        }
-        let [a, b, c] = self.corners_f64();
-        SeenTriangle::new(from, a, b - a, c - a)
-    }
-
     /// Lower and upper corner of the box around its corners.
     pub fn corner_bounds(&self) -> [DVec3; 2] {
         let [a, b, c] = self.corners;
