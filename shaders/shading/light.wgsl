@@ -139,9 +139,10 @@ fn area_light_sample(reference: vec3<f32>, point: ShapePoint, area: f32, error: 
     if distance2 == 0.0 || cosine == 0.0 || (cosine < 0.0 && !two_sided) {
         return no_light();
     }
-    // Along wi, the light's error is its error along the normal over the cosine, never more than the distance. So is that of the direction, but what
-    // stands before a light that is all but seen from its edge is not left out for it.
-    let early = max(min(error / abs(cosine), 0.5 * distance), min(DIRECTION_ERROR / abs(cosine), 0.01) * distance);
+    // Along wi, the light's error is its error along the normal over the cosine, never more than the distance. That of the direction adds to it, but
+    // what stands before a light that is all but seen from its edge is not left out for it.
+    let own = min(error / abs(cosine), 0.5 * distance);
+    let early = min(own + DIRECTION_ERROR * distance / abs(cosine), max(own, 0.01 * distance));
     return LightSample(wi, (distance - early) * SHADOW_SHORTENING, radiance, pmf * distance2 / (abs(cosine) * area));
 }
 

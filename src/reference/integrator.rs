@@ -14,7 +14,7 @@ use super::bsdf::{Bsdf, BsdfSample, Density};
 use super::camera::ProjectiveCamera;
 use super::emission::{emitted, null_weight};
 use super::guided::GuidedBsdf;
-use super::intersect::{Owner, PathTime, Ray, Surface, World};
+use super::intersect::{Outline, Owner, PathTime, Ray, Surface, World};
 use super::lights::{LightSample, Lights};
 use super::mis;
 use super::trace::{LightConnection, PathVisitor};
@@ -132,19 +132,24 @@ impl Integrator {
         self.lights.set_sampling(settings.light_sampling);
     }
 
+    /// Whether lights are chosen by a tree of them.
+    pub fn chooses_lights_by_tree(&self) -> bool {
+        self.lights.are_in_tree()
+    }
+
+    /// Lets paths have so many edges; returns how many they had.
+    pub fn set_max_depth(&mut self, max_depth: u32) -> u32 {
+        std::mem::replace(&mut self.scene.render.max_depth, max_depth)
+    }
+
     /// Of all surfaces.
     pub fn primitive_count(&self) -> usize {
         self.world.indices_in_scene_order().len()
     }
 
-    /// Whether some lights can be drawn from by solid angle as well as by area.
-    pub fn has_flat_lights(&self) -> bool {
-        self.lights.has_flat_lights(&self.world)
-    }
-
-    /// Whether triangles are among those.
-    pub fn has_triangle_lights(&self) -> bool {
-        self.lights.has_triangles(&self.world)
+    /// Of lights that can be drawn from by solid angle as well as by area, what takes most to be drawn so. None: there are none.
+    pub fn costliest_outline(&self) -> Option<Outline> {
+        self.lights.costliest_outline(&self.scene, &self.world)
     }
 
     /// Changes what stratified random numbers depend on; nothing that was built from the scene does.

@@ -15,6 +15,7 @@ pub fn findings(effort: Effort) -> Vec<Finding> {
     findings.extend(tiny_far_lights());
     findings.extend(rectangles(effort));
     findings.extend(triangles(effort));
+    findings.extend(spheres(effort));
     findings.extend(judge("environment with a sun of 1e5 over a sky of 1", &sun(), &sun()));
     findings.extend(white_boxes(effort));
     findings.extend(densities(effort));
@@ -115,9 +116,9 @@ fn rectangles(effort: Effort) -> Vec<Finding> {
 /// that all but holds the point, and as narrow as a hair. In closed form (Lambert): radiance = ρ · L · Σ θ cos γ / 2π over the edges, θ the angle that an
 /// edge is seen under, γ that of the normal of the plane through it and the point with the floor's.
 fn triangles(effort: Effort) -> Vec<Finding> {
-    let sizes = effort.pick(vec![1.0], vec![1e-4, 1.0, 1e4]);
+    let sizes = effort.pick(vec![1.0, 1e4], vec![1e-4, 1.0, 1e4]);
     let heights = effort.pick(vec![0.005, 1.0, 800.0, 1e6], vec![0.005, 0.02, 0.1, 1.0, 4.0, 30.0, 800.0, 1e3, 1e6]);
-    let asides = effort.pick(vec![0.02], vec![0.1, 0.02, 0.01, 0.005]);
+    let asides = effort.pick(vec![0.02, 0.01], vec![0.1, 0.02, 0.01, 0.005]);
     let widths = effort.pick(vec![1e-2], vec![0.1, 1e-2, 1e-3]);
     let overhead = heights.iter().map(|height| {
         let corners = [[-0.7, 1.0, -0.4], [0.8, 1.0, -0.5], [0.1, 1.1, 0.6]].map(|[x, y, z]| DVec3::new(x, y * height, z));
@@ -145,6 +146,20 @@ fn triangles(effort: Effort) -> Vec<Finding> {
     sizes.iter().flat_map(of_size).collect()
 }
 
+/// A point of a floor under a sphere light that stands near the camera: its own numbers are small, and say nothing of the errors of rays that come
+/// from afar. In closed form: radiance = ρ · L · (r/d)².
+fn spheres(effort: Effort) -> Vec<Finding> {
+    let heights = effort.pick(vec![1e4], vec![1e1, 1e2, 1e3, 1e4, 1e5]);
+    let ways = [("cone", 1e-3), ("visible", 3e-3)];
+    let finding = |(height, (way, margin)): (f64, (&str, f64))| {
+        let lamp = format!("type = \"sphere\"\ncenter = [0, {height:e}, 0]\nradius = 1\n");
+        let scene = lit_point(&lamp, way, [2.0, height, 0.0]);
+        let case = format!("sphere at {height:e} radii from what it lights, drawn by \"{way}\", beside the camera");
+        against_truth(case, &scene, 0.5 / (height * height), margin)
+    };
+    heights.iter().flat_map(|&height| ways.map(|way| (height, way))).filter_map(finding).collect()
+}
+
 /// The share of the light of a whole sky that comes to the origin of a floor from a polygon above it.
 fn lambert(corners: &[DVec3]) -> f64 {
     let edges = corners.iter().zip(corners.iter().cycle().skip(1));
@@ -153,10 +168,15 @@ fn lambert(corners: &[DVec3]) -> f64 {
 
 /// The origin of a floor of albedo ½ that a lamp of radiance 1 lights, as the keys of its shape say, seen from a place aside.
 fn point_under(lamp: &str, eye: f64) -> Scene {
+    lit_point(lamp, "cone", [eye, eye, 0.0])
+}
+
+/// The same with points of the lamp drawn in any way, seen from any place.
+fn lit_point(lamp: &str, light_sampling: &str, eye: [f64; 3]) -> Scene {
     // A field of view so narrow that all pixels see the same point, which are replications of each other.
     scene(&format!(
-        "[film]\nsize = [16, 16]\n[render]\nspp = 512\nmax_depth = 2\nestimator = \"nee\"\nlight_sampling = \"cone\"\n\
-         [camera]\nposition = [{eye:e}, {eye:e}, 0]\nlook_at = [0, 0, 0]\nvfov = 0.001\n\
+        "[film]\nsize = [16, 16]\n[render]\nspp = 512\nmax_depth = 2\nestimator = \"nee\"\nlight_sampling = \"{light_sampling}\"\n\
+         [camera]\nposition = {eye:?}\nlook_at = [0, 0, 0]\nvfov = 0.001\n\
          [[material]]\nname = \"floor\"\ntype = \"diffuse\"\nreflectance = 0.5\n\
          [[material]]\nname = \"light\"\ntype = \"emissive\"\nradiance = 1\ntwo_sided = true\n\
          [[shape]]\ntype = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"floor\"\n\

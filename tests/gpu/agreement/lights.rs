@@ -10,7 +10,8 @@ use gpt::verify::{self, Verdict};
 
 use super::{DEVICE, assert_agrees, compare};
 
-const HEAD: &str = r#"
+/// A floor and two spheres for lights to fall on, and what lamps and portals are made of.
+pub const HEAD: &str = r#"
 [film]
 size = [32, 32]
 [render]
@@ -82,7 +83,8 @@ radius = 12
 material = "both"
 "#;
 
-const SPOT: &str = r#"
+/// One light that is no surface.
+pub const SPOT: &str = r#"
 [[light]]
 type = "spot"
 position = [1, 3, 2]
@@ -182,7 +184,8 @@ material = "gone"
 portal = true
 "#;
 
-fn load(parts: &[&str]) -> Scene {
+/// These parts after the [`HEAD`]; without any, under a sky of one colour.
+pub fn load(parts: &[&str]) -> Scene {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let texel = |x: usize, y: usize| {
         let sun = if (x, y) == (9, 4) { 80.0 } else { 0.0 };
@@ -196,7 +199,8 @@ fn load(parts: &[&str]) -> Scene {
     load::load_toml_str(&text, "lights", folder.path()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn by_wavefront() -> PlanOptions {
+/// All of a wavefront's stages, over a hierarchy.
+pub fn by_wavefront() -> PlanOptions {
     let (traversal, stages) = (TraversalChoice::Bvh, Some(StageMode::Wavefront));
     PlanOptions { traversal, stages, ..PlanOptions::default() }
 }
@@ -330,104 +334,6 @@ fn a_tree_of_lights_agrees() {
     assert!(verdict.matching_share() < 0.97, "{verdict:#?}");
 }
 
-/// Rectangles above, beside, behind and through the ground, of one side and of two, textured and turned; one is a rhomboid.
-const RECTANGLES: &str = r#"
-[[texture]]
-name = "checks"
-type = "checker"
-a = [0.5, 0.2, 0.1]
-b = [0.1, 0.2, 0.6]
-scale = [5, 3]
-[[material]]
-name = "panel"
-type = "emissive"
-radiance = { texture = "checks" }
-two_sided = true
-[[shape]]
-type = "rectangle"
-corner = [-3, 3, -3]
-edge_u = [6, 0, 0]
-edge_v = [0, 0, 6]
-material = "both"
-[[shape]]
-type = "rectangle"
-corner = [2.2, -0.3, -1.5]
-edge_u = [0.6, 0, 2.4]
-edge_v = [-0.3, 2, 0.075]
-material = "panel"
-[[shape]]
-type = "rectangle"
-corner = [-2.5, 0.1, -2]
-edge_u = [2, 0, 0]
-edge_v = [0.9, 2, 0]
-material = "both"
-"#;
-
-#[test]
-fn rectangles_drawn_by_solid_angle_agree() {
-    let mut scene = load(&[RECTANGLES]);
-    scene.render.light_sampling = LightSampling::Cone;
-    for estimator in [Estimator::Mis, Estimator::Nee] {
-        scene.render.estimator = estimator;
-        assert_agrees(&format!("rectangles, {estimator:?}"), &scene, &PlanOptions::default());
-    }
-    assert_agrees("rectangles, wavefront", &scene, &by_wavefront());
-    let mut by_area = scene.clone();
-    by_area.render.light_sampling = LightSampling::Area;
-    let Some(verdict) = compare_unequal(&by_area, &scene) else { return };
-    assert!(verdict.matching_share() < 0.97, "{verdict:#?}");
-}
-
-/// Triangles above, beside, behind and through the ground, alone and in meshes, of one side and of two, large and small, textured, and one that is a sliver.
-const TRIANGLES: &str = r#"
-[[texture]]
-name = "checks"
-type = "checker"
-a = [0.5, 0.2, 0.1]
-b = [0.1, 0.2, 0.6]
-scale = [5, 3]
-[[material]]
-name = "panel"
-type = "emissive"
-radiance = { texture = "checks" }
-two_sided = true
-[[shape]]
-type = "mesh"
-positions = [[-3, 3, -3], [3, 3, -3], [3, 2.5, 3], [-3, 3, 3]]
-faces = [[0, 1, 2], [0, 2, 3]]
-material = "both"
-[[shape]]
-type = "mesh"
-positions = [[2.2, -0.3, -1.5], [2.8, -0.3, 0.9], [1.9, 1.7, -1.4], [2.2, 1, 0.5]]
-uvs = [[0, 0], [1, 0], [0, 1], [1, 1]]
-faces = [[0, 1, 2], [1, 3, 2]]
-material = "panel"
-[[shape]]
-type = "mesh"
-positions = [[-2.5, 0.1, -2], [2.5, 0.1, -2.2], [2.5, 0.1005, -2.2], [-1.5, 1, 1], [-1.4, 1, 1], [-1.5, 1.1, 1.05]]
-faces = [[0, 1, 2], [3, 4, 5]]
-material = "lamp"
-"#;
-
-#[test]
-fn triangles_drawn_by_solid_angle_agree() {
-    for others in ["", RECTANGLES] {
-        let shared = TRIANGLES.find("[[shape]]").expect("there are shapes");
-        let triangles = if others.is_empty() { TRIANGLES } else { &TRIANGLES[shared..] };
-        let mut scene = load(&[others, triangles]);
-        scene.render.light_sampling = LightSampling::Cone;
-        for estimator in [Estimator::Mis, Estimator::Nee] {
-            scene.render.estimator = estimator;
-            assert_agrees(&format!("triangles, {estimator:?}, others: {others}"), &scene, &PlanOptions::default());
-        }
-        assert_agrees("triangles, wavefront", &scene, &by_wavefront());
-        let mut by_area = scene.clone();
-        by_area.render.light_sampling = LightSampling::Area;
-        let Some(verdict) = compare_unequal(&by_area, &scene) else { return };
-        assert!(verdict.matching_share() < 0.97, "{verdict:#?}");
-    }
-}
-
 /// The device renders `ours`, the reference `theirs`.
 pub fn compare_unequal(ours: &Scene, theirs: &Scene) -> Option<Verdict> {
     let device = DEVICE.as_ref()?;
@@ -473,66 +379,5 @@ fn other_lights_are_noticed() {
     for (index, (ours, theirs)) in cases.iter().enumerate() {
         let Some(verdict) = compare_unequal(ours, theirs) else { return };
         assert!(!verdict.agrees && verdict.matching_share() < 0.97, "change {index}: {verdict:#?}");
-    }
-}
-
-/// A screen that shows a picture of few bright texels: as a rectangle, mirrored, leaning, moving, as the faces of a box, as a mesh, as cylinders and as
-/// spheres, from within as well; the picture scaled, turned and repeated, multiplied by another, and a blend's weight; among few lights and among
-/// many. The first way is not right-angled.
-#[test]
-fn screens_agree() {
-    let picture = "[[texture]]\nname = \"picture\"\ntype = \"image\"\nfile = \"picture.exr\"\n";
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let texel = |x: usize, y: usize| {
-        if (x * 5 + y * 7).is_multiple_of(23) { (1.0, 0.8, 0.1 * x as f32) } else { (0.02, 0.01 * y as f32, 0.03) }
-    };
-    exr::prelude::write_rgb_file(folder.path().join("picture.exr"), 13, 10, texel).expect("the picture is written");
-    let keys = ["", "filter = \"nearest\"\n", "scale = [2.5, 1.5]\nrotation = 30\nwrap = \"mirror\"\n"];
-    let material =
-        "[[material]]\nname = \"screen\"\ntype = \"emissive\"\nradiance = { texture = \"picture\", factor = [9, 8, 7] }\n";
-    let more = "[[texture]]\nname = \"checks\"\ntype = \"checker\"\na = 0\nb = 1\nscale = [6, 5]\ntimes = \"picture\"\n\
-                [[material]]\nname = \"inward\"\ntype = \"emissive\"\nradiance = { texture = \"picture\" }\ntwo_sided = true\n\
-                [[material]]\nname = \"worn\"\ntype = \"emissive\"\nradiance = { texture = \"checks\", factor = [9, 8, 7] }\n\
-                [[material]]\nname = \"stencil\"\ntype = \"blend\"\nmaterials = [\"screen\", \"grey\"]\n\
-                weight = { type = \"texture\", texture = \"picture\" }\n";
-    let tube = "[[shape]]\ntype = \"cylinder\"\nfrom = [-1, 2, -0.4]\nto = [1, 2.3, 0.2]\nradius = 0.4\nmaterial = \"screen\"\n";
-    let globe = "[[shape]]\ntype = \"sphere\"\ncenter = [0.3, 2, 0.2]\nradius = 0.5\nmaterial = \"screen\"\n";
-    let quad = "[[shape]]\ntype = \"rectangle\"\ncorner = [-1.5, 2.4, -1]\nedge_u = [3, 0.2, 0]\nedge_v = [0.2, 0, 2]\nmaterial = \"screen\"\n";
-    let shapes = [
-        quad.to_owned(),
-        format!("{quad}transform = [{{ scale = [-1, 1, 1] }}]\n"),
-        format!("{quad}motion = [{{ rotate = [0, 1, 0.2], degrees = 40 }}]\n"),
-        "[[shape]]\ntype = \"box\"\nmin = [-1, 1.8, -0.5]\nmax = [0.5, 2.5, 0.5]\nmaterial = \"screen\"\n".to_owned(),
-        "[[shape]]\ntype = \"mesh\"\npositions = [[-1.5, 2, -1], [1.5, 2.2, -1], [1.5, 2.4, 1], [-1.5, 2.1, 1]]\n\
-         uvs = [[0, 0], [1, 0], [1, 1], [0, 1]]\nfaces = [[0, 1, 2], [0, 2, 3]]\nmaterial = \"screen\"\n"
-            .to_owned(),
-        tube.to_owned(),
-        format!("{tube}transform = [{{ scale = [-1, 1, 1] }}, {{ rotate = [0, 0, 1], degrees = 20 }}]\n"),
-        format!("{tube}motion = [{{ rotate = [0, 1, 0.2], degrees = 40 }}]\n"),
-        format!("{globe}transform = [{{ scale = [-1, 1, 1] }}, {{ rotate = [0.2, 1, 1], degrees = 70 }}]\n"),
-        format!("{globe}motion = [{{ rotate = [0.3, 1, 0.2], degrees = 40 }}]\n"),
-        "[[shape]]\ntype = \"sphere\"\ncenter = [0, 1, 2]\nradius = 7\nmaterial = \"inward\"\n".to_owned(),
-        quad.replace("\"screen\"", "\"stencil\""),
-        globe.replace("\"screen\"", "\"worn\""),
-    ];
-    for (index, shape) in shapes.iter().enumerate() {
-        let keys = keys[index % keys.len()];
-        for (way, choice) in [(PlanOptions::default(), LightChoice::Power), (by_wavefront(), LightChoice::Tree)] {
-            let text = format!("{HEAD}{picture}{keys}{material}{more}{shape}{SPOT}");
-            let mut scene =
-                load::load_toml_str(&text, "screens.toml", folder.path()).unwrap_or_else(|error| panic!("{error}\n{text}"));
-            scene.render.light_choice = choice;
-            let packed = gpt::packed::PackedScene::new(&scene).expect("it can be packed");
-            assert_eq!(packed.lights.iter().any(|light| light.is_warped()), !shape.contains("mesh"), "screen {index}");
-            assert_agrees(&format!("screen {index}, {choice:?}"), &scene, &way);
-            if choice == LightChoice::Tree {
-                continue;
-            }
-            // The control: the reference draws points by another picture.
-            let mut other = scene.clone();
-            other.textures[0].transform.offset = [0.02, 0.0];
-            let Some(verdict) = compare_unequal(&scene, &other) else { return };
-            assert!(verdict.matching_share() < 0.97, "screen {index}: {verdict:#?}");
-        }
     }
 }

@@ -1,11 +1,13 @@
 //! The GPU's picture against the reference's, path by path, for every built-in scene and every way to run it.
 
 mod features;
+mod flat_lights;
 mod instances;
 mod light_samples;
 mod lights;
 mod materials;
 mod motion;
+mod screens;
 mod shapes;
 mod strategies;
 mod textures;
