@@ -96,10 +96,10 @@ ALL = {
     "bunny-area": Scene("benches/scenes/bunny-area.toml", kind="model"),
     "bunny-environment": Scene("benches/scenes/bunny-environment.toml", kind="model"),
     "lamps": Scene("target/scenes/lamps.toml", without=EXPORTED, kind="model"),
-    "interior": Scene("target/scenes/interior.toml", (256, 192), without=EXPORTED, kind="model"),
-    "ajar": Scene("target/scenes/ajar.toml", (256, 192), without=EXPORTED, kind="model"),
-    "sponza-like": Scene("target/scenes/sponza-like.toml", (256, 192), without=EXPORTED, kind="model"),
+    "interior": Scene("target/scenes/interior.toml", (320, 240), without=EXPORTED, kind="model"),
+    "ajar": Scene("target/scenes/ajar.toml", (320, 240), without=EXPORTED, kind="model"),
+    "sponza-like": Scene("target/scenes/sponza-like.toml", (320, 240), without=EXPORTED, kind="model"),
     "canopy": Scene(
-        "target/scenes/canopy.toml", (256, 192), without={"luxcore": "its cut-outs are not translated for it"}, kind="model"
+        "target/scenes/canopy.toml", (320, 240), without={"luxcore": "its cut-outs are not translated for it"}, kind="model"
     ),
 }

@@ -158,7 +158,7 @@ def room_walls(scene, low, high, wall, floor, ceiling):
 
 
 def interior(folder):
-    scene = Scene(folder, "interior", (256, 192), 8, (2.6, 1.5, 2.4), (-0.6, 0.9, -1.2), 58)
+    scene = Scene(folder, "interior", (320, 240), 8, (2.6, 1.5, 2.4), (-0.6, 0.9, -1.2), 58)
     scene.textured("boards", grain((0.5, 0.33, 0.2), 1))
     scene.textured("wallpaper", stripes((0.72, 0.7, 0.62), (0.66, 0.66, 0.6), 12, 3))
     scene.textured("rug", stripes((0.55, 0.16, 0.13), (0.2, 0.18, 0.3), 9, 5))
@@ -256,7 +256,7 @@ def interior(folder):
 
 
 def ajar(folder):
-    scene = Scene(folder, "ajar", (256, 192), 10, (0.9, 1.5, 3.2), (-0.5, 0.85, -0.8), 50)
+    scene = Scene(folder, "ajar", (320, 240), 10, (0.9, 1.5, 3.2), (-0.5, 0.85, -0.8), 50)
     scene.textured("boards", grain((0.5, 0.36, 0.24), 21))
     scene.diffuse("plaster", (0.75, 0.73, 0.7))
     scene.diffuse("door", (0.45, 0.3, 0.2))
@@ -300,7 +300,7 @@ def ajar(folder):
 
 
 def sponza_like(folder):
-    scene = Scene(folder, "sponza-like", (256, 192), 7, (6.3, 1.7, 0.7), (-3.0, 3.2, -0.5), 66)
+    scene = Scene(folder, "sponza-like", (320, 240), 7, (6.3, 1.7, 0.7), (-3.0, 3.2, -0.5), 66)
     for name, colour in (
         ("flags", mottled((0.5, 0.47, 0.42), 0.2, 31, 32, (4, 4))),
         ("brick", mottled((0.55, 0.38, 0.28), 0.2, 33, 32, (6, 14))),
@@ -397,7 +397,7 @@ def sponza_like(folder):
 
 
 def canopy(folder):
-    scene = Scene(folder, "canopy", (256, 192), 8, (4.6, 1.4, 6.0), (0.0, 2.1, 0.0), 44)
+    scene = Scene(folder, "canopy", (320, 240), 8, (4.6, 1.4, 6.0), (0.0, 2.1, 0.0), 44)
     # A leaf with a notch, and its stalk: whole texels, so that a cut-out is 0 or 1 for everybody.
     inside = lambda u, v: abs(u - 0.5) < 0.42 * math.sin(math.pi * min(1, v * 0.98 + 0.01)) ** 0.8 * (0.7 + 0.3 * math.cos(22 * v)) or abs(u - 0.5) < 0.03
     write_png(folder / "canopy-leaf.png", 64, 64, lambda u, v: (float(inside(u, v)),) * 3)
