@@ -5,54 +5,46 @@
 //! not those of the picture. Cost is counted, in rays, and not timed. So what is chosen depends on the scene, its settings and the size of its
 //! film: not on the seed, the number of samples, the device or the machine.
 
+mod tried;
+
 use std::borrow::Cow;
 
-use glam::DVec3;
-use rayon::prelude::*;
-
 use super::integrator::Integrator;
-use super::intersect::Surface;
-use super::trace::{LightConnection, PathVisitor};
-use super::training::pixel_of;
-use crate::compare::metrics::relative_weight;
+use super::intersect::Outline;
 use crate::plan::UNROLL_LIMIT;
 use crate::renderer::RenderError;
-use crate::sampling::hash::mix;
-use crate::sampling::{PathSampler, Sampling, SequencePoint};
 use crate::scene::settings::MOST_LIGHT_SAMPLES;
 use crate::scene::{Estimator, LightSamples, LightSampling, RenderSettings, Scene, SceneSummary};
+use tried::{Found, InView, Rays};
 
 /// Pixels of a film below which a pilot would take longer than it saves.
 const FEWEST_PIXELS: u64 = 1 << 16;
 /// Triangles above which the reference's hierarchy, which the pilot needs, takes seconds to build.
 const MOST_TRIANGLES: usize = 1 << 20;
-/// One of so many pixels is tried, within these numbers, each by so many independent pictures of so many samples.
+/// One of so many pixels is tried, within these numbers.
 const ONE_OF_PIXELS: u64 = 1 << 10;
-const TRIED_PIXELS: [u64; 2] = [1 << 7, 1 << 10];
-const PICTURES: u32 = 4;
-const SAMPLES: u32 = 16;
-/// Vertices after which a path is given up.
-const MOST_VERTICES: u32 = 64;
+const TRIED_PIXELS: [u64; 2] = [1 << 8, 1 << 10];
 /// What is chosen in place of something simpler has to be so much better: less is noise of the pilot.
-const LEAST_GAIN: f64 = 1.03;
+const LEAST_GAIN: f64 = 1.06;
 /// First surfaces of a path at which several light samples are tried.
 const MOST_DEPTH: u32 = 2;
 /// Numbers, each twice the one before, that are tried after the best one.
 const MOST_IN_VAIN: u32 = 2;
-/// Of the random numbers.
-const SEED: u32 = 0x7069_6c6f;
-
 /// What things take, in rays of paths with the surfaces that they meet.
 struct Costs {
     /// A light sample with its shadow ray.
     light_sample: f64,
-    /// Drawing its point by solid angle, with the density of what paths find: of rectangles, and where there are triangles.
-    solid_angle: [f64; 2],
+    /// The way down a tree of lights, and its probability for what paths find.
+    tree_of_lights: f64,
+    /// Drawing its point by solid angle, with the density of what paths find.
+    of_rectangle: f64,
+    of_triangle: f64,
 }
 
-/// Measured on lavapipe (docs/strategies.md): geometry that is code, and geometry in a hierarchy; there, of triangles in the same proportion.
-const SIMPLE: Costs = Costs { light_sample: 1.0, solid_angle: [0.75, 2.2] };
-const TRAVERSED: Costs = Costs { light_sample: 1.2, solid_angle: [0.2, 0.6] };
+/// Measured on lavapipe (docs/strategies.md): geometry that is code, and geometry in a hierarchy; of triangles there, and of trees where geometry is code,
+/// by what they take in the other.
+const SIMPLE: Costs = Costs { light_sample: 1.0, tree_of_lights: 1.4, of_rectangle: 0.75, of_triangle: 2.2 };
+const TRAVERSED: Costs = Costs { light_sample: 0.8, tree_of_lights: 1.4, of_rectangle: 0.2, of_triangle: 0.6 };
 
 /// A scene whose settings say how lights are drawn from.
 pub struct Settled<'a> {
@@ -81,7 +73,7 @@ pub fn settle(scene: &Scene) -> Result<Settled<'_>, RenderError> {
         return Ok(Settled { because: no_count.then(|| because.to_owned()), ..as_it_is });
     }
     let mut pilot = Pilot::new(scene)?;
-    let open = [no_count, no_way && pilot.integrator.has_flat_lights()];
+    let open = [no_count, no_way && pilot.costliest_outline.is_some()];
     if open == [false; 2] {
         return Ok(Settled { integrator: Some(pilot.integrator), ..as_it_is });
     }
@@ -128,19 +120,20 @@ fn way(settings: &RenderSettings, sampling: LightSampling, [count, depth]: [u32;
 fn choose(pilot: &mut Pilot<'_>, [no_count, no_way]: [bool; 2]) -> (RenderSettings, String) {
     let settings = &pilot.scene.render;
     let mut best = Tried { sampling: settings.light_sampling, samples: [1, 1], loss: 1.0 };
-    let simplest = pilot.loss(best.sampling, best.samples);
+    let simplest = pilot.try_way(best.sampling, best.samples);
     // An environment of one colour is no light that is sampled.
-    let nothing_to_gain = [(pilot.shadow_rays == 0, "no light is sampled"), (simplest == 0.0, "a pilot found no noise")];
+    let nothing_to_gain = [(pilot.shadow_rays == 0, "no light is sampled"), (!simplest.has_noise(), "a pilot found no noise")];
     if let Some((_, because)) = nothing_to_gain.into_iter().find(|(holds, _)| *holds) {
         return (way(settings, best.sampling, best.samples), because.to_owned());
     }
+    let beside = (&simplest, &InView::new(&mut pilot.integrator, pilot.pixels));
     if no_way {
-        best = pilot.better(best, Tried { sampling: LightSampling::Cone, ..best }, simplest);
+        best = pilot.better(best, Tried { sampling: LightSampling::Cone, ..best }, beside);
     }
     for depth in (1..=most_depth(settings)).filter(|_| no_count) {
         let (mut in_vain, fewest) = (0, best.samples[0]);
         for count in [2, 4, 8, MOST_LIGHT_SAMPLES].into_iter().filter(|&count| count >= fewest) {
-            let better = pilot.better(best, Tried { samples: [count, depth], ..best }, simplest);
+            let better = pilot.better(best, Tried { samples: [count, depth], ..best }, beside);
             in_vain = if better == best { in_vain + 1 } else { 0 };
             best = better;
             if in_vain == MOST_IN_VAIN {
@@ -172,12 +165,11 @@ struct Pilot<'a> {
     scene: &'a Scene,
     /// Geometry is few primitives.
     is_simple: bool,
-    /// Some lamps are triangles.
-    has_triangles: bool,
+    /// Of lamps that can be drawn from by solid angle.
+    costliest_outline: Option<Outline>,
     /// Pixels that are tried.
     pixels: u32,
-    /// Of the first way that was tried: what the squared errors of a pixel's channels are multiplied by, and shadow rays.
-    weights: Vec<DVec3>,
+    /// Of the first way that was tried.
     shadow_rays: u64,
 }
 
@@ -185,32 +177,27 @@ impl<'a> Pilot<'a> {
     fn new(scene: &'a Scene) -> Result<Self, RenderError> {
         let integrator = Integrator::new(scene)?;
         let is_simple = integrator.primitive_count() <= UNROLL_LIMIT;
-        let has_triangles = integrator.has_triangle_lights();
+        let costliest_outline = integrator.costliest_outline();
         let [fewest, most] = TRIED_PIXELS;
         let pixels = (pixel_count(scene) / ONE_OF_PIXELS).clamp(fewest, most) as u32;
-        Ok(Self { integrator, scene, is_simple, has_triangles, pixels, weights: Vec::new(), shadow_rays: 0 })
+        Ok(Self { integrator, scene, is_simple, costliest_outline, pixels, shadow_rays: 0 })
     }
 
-    /// The better of two ways.
-    fn better(&mut self, best: Tried, other: Tried, simplest: f64) -> Tried {
-        let loss = self.loss(other.sampling, other.samples) / simplest;
+    /// The better of two ways, both beside the simplest.
+    fn better(&mut self, best: Tried, other: Tried, (simplest, in_view): (&Found, &InView)) -> Tried {
+        let loss = self.try_way(other.sampling, other.samples).loss_over(simplest, in_view);
         if loss * LEAST_GAIN < best.loss { Tried { loss, ..other } } else { best }
     }
 
-    /// Error times cost.
-    fn loss(&mut self, sampling: LightSampling, samples: [u32; 2]) -> f64 {
+    fn try_way(&mut self, sampling: LightSampling, samples: [u32; 2]) -> Found {
         let settings = way(&self.scene.render, sampling, samples);
         self.integrator.set_light_sampling(&settings);
-        let pictures: Vec<Picture> = (0..PICTURES).map(|number| Picture::new(&settings, number)).collect();
-        let of_pixel = |number| TriedPixel::of(&self.integrator, &pictures, number);
-        let pixels: Vec<TriedPixel> = (0..self.pixels).into_par_iter().map(of_pixel).collect();
-        let rays = pixels.iter().fold(Rays::default(), |sum, pixel| sum.and(pixel.rays));
-        if self.weights.is_empty() {
-            self.weights = pixels.iter().map(|pixel| DVec3::from_array(pixel.mean.to_array().map(relative_weight))).collect();
-            self.shadow_rays = rays.shadow;
+        let mut found = Found::new(&self.integrator, self.pixels);
+        if self.shadow_rays == 0 {
+            self.shadow_rays = found.rays().shadow;
         }
-        let error: f64 = pixels.iter().zip(&self.weights).map(|(pixel, weight)| pixel.variance.dot(*weight)).sum();
-        error * self.cost(rays, &settings)
+        found.cost = self.cost(found.rays(), &settings);
+        found
     }
 
     /// What rays take, in rays of paths, by what kernels take on software devices, where lanes wait for each other.
@@ -218,85 +205,16 @@ impl<'a> Pilot<'a> {
         let by_solid_angle =
             settings.light_sampling == LightSampling::Cone && self.scene.render.light_sampling == LightSampling::Auto;
         let costs = if self.is_simple { SIMPLE } else { TRAVERSED };
-        let a_light_sample =
-            costs.light_sample + if by_solid_angle { costs.solid_angle[usize::from(self.has_triangles)] } else { 0.0 };
+        let of_point = match self.costliest_outline.filter(|_| by_solid_angle) {
+            None => 0.0,
+            Some(Outline::Rectangle) => costs.of_rectangle,
+            Some(Outline::Triangle) => costs.of_triangle,
+        };
+        let of_choice = if self.integrator.chooses_lights_by_tree() { costs.tree_of_lights } else { 0.0 };
+        let a_light_sample = costs.light_sample + of_choice + of_point;
         // Where a lane goes on to its next path by itself, all wait for one that is at its first surface.
         let light_samples =
             if self.is_simple { u64::from(settings.several_light_samples()[0]) * self.shadow_rays } else { rays.shadow };
         rays.path as f64 + a_light_sample * light_samples as f64
-    }
-}
-
-/// The random numbers of one of the independent pictures.
-struct Picture {
-    sampling: Sampling,
-    points: Vec<SequencePoint>,
-}
-
-impl Picture {
-    fn new(settings: &RenderSettings, number: u32) -> Self {
-        let sampling = Sampling { seed: mix(SEED.wrapping_add(number)), samples: SAMPLES, ..Sampling::from(settings) };
-        Self { sampling, points: (0..SAMPLES).map(|sample| SequencePoint::new(&sampling, sample)).collect() }
-    }
-}
-
-/// What came of a pixel.
-struct TriedPixel {
-    mean: DVec3,
-    /// Of one of the pictures.
-    variance: DVec3,
-    rays: Rays,
-}
-
-impl TriedPixel {
-    fn of(integrator: &Integrator, pictures: &[Picture], number: u32) -> Self {
-        let size = integrator.scene().film.size;
-        let [x, y] = pixel_of(number, size);
-        let pixel = y.wrapping_mul(size[0]).wrapping_add(x);
-        let mut rays = Rays::default();
-        let mut radiance = |picture: &Picture| {
-            let of_sample = |point| {
-                let found = integrator.radiance(x, y, &PathSampler::new(&picture.sampling, pixel, point), &mut rays);
-                // The film leaves out what is not finite, too.
-                if found.is_finite() { found } else { DVec3::ZERO }
-            };
-            picture.points.iter().map(of_sample).sum::<DVec3>() / f64::from(SAMPLES)
-        };
-        let found: Vec<DVec3> = pictures.iter().map(&mut radiance).collect();
-        let count = found.len() as f64;
-        let mean = found.iter().sum::<DVec3>() / count;
-        let variance = found.iter().map(|one| (*one - mean) * (*one - mean)).sum::<DVec3>() / (count - 1.0);
-        Self { mean, variance, rays }
-    }
-}
-
-/// Counts rays of paths and shadow rays.
-#[derive(Debug, Clone, Copy, Default)]
-struct Rays {
-    path: u64,
-    shadow: u64,
-}
-
-impl Rays {
-    fn and(self, other: Self) -> Self {
-        Self { path: self.path + other.path, shadow: self.shadow + other.shadow }
-    }
-}
-
-impl PathVisitor for Rays {
-    fn surface(&mut self, _: u32, _: &Surface, _: DVec3, _: DVec3) {
-        self.path += 1;
-    }
-
-    fn escaped(&mut self, _: DVec3, _: f64, _: DVec3) {
-        self.path += 1;
-    }
-
-    fn light(&mut self, _: &LightConnection) {
-        self.shadow += 1;
-    }
-
-    fn gives_up(&mut self, vertices: u32) -> bool {
-        vertices > MOST_VERTICES
     }
 }

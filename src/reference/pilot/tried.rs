@@ -1,0 +1,251 @@
+//! What a pilot's pixels come to in one way of drawing from lights.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::compare::metrics::relative_weight;
+use crate::reference::bsdf::BsdfSample;
+use crate::reference::integrator::Integrator;
+use crate::reference::intersect::Surface;
+use crate::reference::trace::{LightConnection, PathVisitor};
+use crate::reference::training::pixel_of;
+use crate::sampling::hash::mix;
+use crate::sampling::{PathSampler, Sampling, SequencePoint};
+
+/// Each pixel is tried by so many independent pictures of so many samples.
+const PICTURES: u32 = 4;
+const SAMPLES: u32 = 16;
+/// Of what is in view, so many times as many pixels are looked at, each by so many pictures.
+const MORE_PIXELS: u32 = 16;
+const PICTURES_IN_VIEW: u32 = 2;
+/// Vertices after which a path is given up.
+const MOST_VERTICES: u32 = 64;
+/// Of the random numbers.
+const SEED: u32 = 0x7069_6c6f;
+
+/// What came of a way.
+pub struct Found {
+    pixels: Vec<TriedPixel>,
+    /// What its paths take.
+    pub cost: f64,
+}
+
+impl Found {
+    /// Of so many pixels; the cost is not known yet.
+    pub fn new(integrator: &Integrator, pixels: u32) -> Self {
+        let pictures = pictures(integrator, PICTURES);
+        let pixels = (0..pixels).into_par_iter().map(|number| TriedPixel::of(integrator, &pictures, number)).collect();
+        Self { pixels, cost: 0.0 }
+    }
+
+    /// All together.
+    pub fn rays(&self) -> Rays {
+        self.pixels.iter().fold(Rays::default(), |sum, pixel| sum.and(pixel.rays))
+    }
+
+    pub fn has_noise(&self) -> bool {
+        self.pixels.iter().any(|pixel| pixel.variance != DVec3::ZERO)
+    }
+
+    /// Error times cost, over that of another way. Errors are relative to what both ways found together: relative to what one of them found alone,
+    /// its own outliers would count for less than those of the other.
+    pub fn loss_over(&self, other: &Self, in_view: &InView) -> f64 {
+        let mut errors = [0.0; 2];
+        let mut beyond = DVec3::ZERO;
+        for (own, others) in self.pixels.iter().zip(&other.pixels) {
+            beyond += 0.5 * (own.mean + others.mean);
+            let weight = weight(own.in_view + 0.5 * (own.mean + others.mean));
+            errors[0] += own.variance.dot(weight);
+            errors[1] += others.variance.dot(weight);
+        }
+        let of_view = in_view.error(beyond / self.pixels.len() as f64);
+        (errors[0] + of_view) * self.cost / ((errors[1] + of_view) * other.cost)
+    }
+}
+
+/// What squared errors are multiplied by.
+fn weight(mean: DVec3) -> DVec3 {
+    DVec3::from_array(mean.to_array().map(relative_weight))
+}
+
+/// Lamps and the environment as they are in view. All ways of drawing from lights have the same noise at their edges, which few pixels show: those
+/// that are tried may miss them.
+pub struct InView {
+    /// Mean and variance of pixels.
+    pixels: Vec<[DVec3; 2]>,
+}
+
+impl InView {
+    /// Beside so many pixels that are tried.
+    pub fn new(integrator: &mut Integrator, pixels: u32) -> Self {
+        let max_depth = integrator.set_max_depth(1);
+        let pictures = pictures(integrator, PICTURES_IN_VIEW);
+        let look = |number| {
+            let found = pictures.iter().map(|picture| picture.show(integrator, number).in_view);
+            mean_and_variance(&found.collect::<Vec<DVec3>>())
+        };
+        let pixels = (0..MORE_PIXELS * pixels).into_par_iter().map(look).collect();
+        integrator.set_max_depth(max_depth);
+        Self { pixels }
+    }
+
+    /// Of as many pixels as are tried, where so much light comes from beyond what is in view.
+    fn error(&self, beyond: DVec3) -> f64 {
+        let error: f64 = self.pixels.iter().map(|[mean, variance]| variance.dot(weight(*mean + beyond))).sum();
+        error / f64::from(MORE_PIXELS)
+    }
+}
+
+/// The random numbers of one of the independent pictures.
+struct Picture {
+    sampling: Sampling,
+    points: Vec<SequencePoint>,
+}
+
+fn pictures(integrator: &Integrator, count: u32) -> Vec<Picture> {
+    let picture = |number: u32| {
+        let seed = mix(SEED.wrapping_add(number));
+        let sampling = Sampling { seed, samples: SAMPLES, ..Sampling::from(&integrator.scene().render) };
+        Picture { sampling, points: (0..SAMPLES).map(|sample| SequencePoint::new(&sampling, sample)).collect() }
+    };
+    (0..count).map(picture).collect()
+}
+
+impl Picture {
+    /// What a pixel shows.
+    fn show(&self, integrator: &Integrator, number: u32) -> Shown {
+        let size = integrator.scene().film.size;
+        let [x, y] = pixel_of(number, size);
+        let pixel = y.wrapping_mul(size[0]).wrapping_add(x);
+        let mut shown = Shown::default();
+        for point in &self.points {
+            let mut path = Watched::default();
+            let found = integrator.radiance(x, y, &PathSampler::new(&self.sampling, pixel, point), &mut path);
+            // The film leaves out what is not finite, too.
+            if found.is_finite() {
+                shown.in_view += path.in_view / f64::from(SAMPLES);
+                shown.beyond += (found - path.in_view) / f64::from(SAMPLES);
+            }
+            shown.rays = shown.rays.and(path.rays);
+        }
+        shown
+    }
+}
+
+/// Light that the first edges of a pixel's paths find, and light beyond those.
+#[derive(Default)]
+struct Shown {
+    in_view: DVec3,
+    beyond: DVec3,
+    rays: Rays,
+}
+
+/// Of one of them.
+fn mean_and_variance(found: &[DVec3]) -> [DVec3; 2] {
+    let count = found.len() as f64;
+    let mean = found.iter().sum::<DVec3>() / count;
+    [mean, found.iter().map(|one| (*one - mean) * (*one - mean)).sum::<DVec3>() / (count - 1.0)]
+}
+
+/// What came of a pixel.
+struct TriedPixel {
+    in_view: DVec3,
+    /// Light beyond, and its variance in one of the pictures.
+    mean: DVec3,
+    variance: DVec3,
+    rays: Rays,
+}
+
+impl TriedPixel {
+    fn of(integrator: &Integrator, pictures: &[Picture], number: u32) -> Self {
+        let shown: Vec<Shown> = pictures.iter().map(|picture| picture.show(integrator, number)).collect();
+        let [mean, variance] = mean_and_variance(&shown.iter().map(|shown| shown.beyond).collect::<Vec<DVec3>>());
+        let in_view = shown.iter().map(|shown| shown.in_view).sum::<DVec3>() / f64::from(PICTURES);
+        Self { in_view, mean, variance, rays: shown.iter().fold(Rays::default(), |sum, shown| sum.and(shown.rays)) }
+    }
+}
+
+/// Numbers of rays of paths and of shadow rays.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Rays {
+    pub path: u64,
+    pub shadow: u64,
+}
+
+impl Rays {
+    fn and(self, other: Self) -> Self {
+        Self { path: self.path + other.path, shadow: self.shadow + other.shadow }
+    }
+}
+
+/// A path that is followed.
+#[derive(Default)]
+struct Watched {
+    rays: Rays,
+    /// Light of its first edge, on which it may have gone through null surfaces.
+    in_view: DVec3,
+    scatters: bool,
+}
+
+impl PathVisitor for Watched {
+    fn surface(&mut self, _: u32, _: &Surface, _: DVec3, _: DVec3) {
+        self.rays.path += 1;
+    }
+
+    fn emission(&mut self, _: DVec3, _: f64, contribution: DVec3) {
+        if !self.scatters {
+            self.in_view += contribution;
+        }
+    }
+
+    fn scattered(&mut self, sample: &BsdfSample) {
+        self.scatters |= !sample.is_null;
+    }
+
+    fn escaped(&mut self, _: DVec3, _: f64, contribution: DVec3) {
+        self.rays.path += 1;
+        if !self.scatters {
+            self.in_view += contribution;
+        }
+    }
+
+    fn light(&mut self, _: &LightConnection) {
+        self.rays.shadow += 1;
+    }
+
+    fn gives_up(&mut self, vertices: u32) -> bool {
+        vertices > MOST_VERTICES
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::load;
+
+    /// A lamp before the camera, from so far left to so far right.
+    fn lamp(from: f64, to: f64) -> Integrator {
+        let text = format!(
+            "[film]\nsize = [64, 64]\n[camera]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\nvfov = 40\n\
+             [[material]]\nname = \"lamp\"\ntype = \"emissive\"\nradiance = 2\n\
+             [[shape]]\ntype = \"rectangle\"\ncorner = [{from}, -9, 0]\nedge_u = [{}, 0, 0]\nedge_v = [0, 18, 0]\nmaterial = \"lamp\"\n",
+            to - from
+        );
+        let scene = load::load_toml_str(&text, "lamp", Path::new("")).unwrap_or_else(|error| panic!("{error}"));
+        Integrator::new(&scene).expect("the reference can render the scene")
+    }
+
+    /// Where a lamp ends within pixels, their samples differ: by as much whether few pixels are looked at or all, and not where it fills the view.
+    #[test]
+    fn edges_of_lamps_in_view_have_noise() {
+        let beyond = DVec3::ZERO;
+        let error = |from, to, pixels| InView::new(&mut lamp(from, to), pixels).error(beyond) / f64::from(pixels);
+        assert_eq!(error(-9.0, 9.0, 64), 0.0);
+        let [few, all] = [64, 1024].map(|pixels| error(-0.517, 0.391, pixels));
+        assert!(all > 0.0 && (few / all - 1.0).abs() < 0.3, "{few} and {all}");
+        // Relative to more light, it is less.
+        assert!(InView::new(&mut lamp(-0.517, 0.391), 64).error(DVec3::splat(10.0)) < 0.1 * 64.0 * few);
+    }
+}
