@@ -10,9 +10,10 @@ fn albedo_node(table: u32, row: u32, column: u32) -> f32 {
     return select(select(word.x, word.y, place == 1u), word.z, place == 2u);
 }
 
-// Linear between the entries, which stand at even steps of roughness, and of a place that changes most about the cosine `knee`.
+// Linear between the entries, which stand at even steps of roughness, and of a place that changes most about the cosine `knee`, and as its
+// root does near a right angle.
 fn tabulated_albedo(table: u32, cosine: f32, roughness: f32, knee: f32) -> f32 {
-    let place = clamp(cosine * (1.0 + knee) / max(cosine + knee, 1.0e-6), 0.0, 1.0) * f32(ALBEDO_COLUMNS - 1u);
+    let place = sqrt(clamp(cosine * (1.0 + knee) / max(cosine + knee, 1.0e-6), 0.0, 1.0)) * f32(ALBEDO_COLUMNS - 1u);
     let height = clamp(roughness, 0.0, 1.0) * f32(ALBEDO_ROWS - 1u);
     let column = min(u32(place), ALBEDO_COLUMNS - 2u);
     let row = min(u32(height), ALBEDO_ROWS - 2u);

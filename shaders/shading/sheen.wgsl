@@ -5,6 +5,7 @@
 
 struct Sheen {
     color: vec3<f32>,
+    // Not below the smallest that is resolved.
     roughness: f32,
 }
 
@@ -25,7 +26,7 @@ fn sheen_lambda(alpha: f32, cosine: f32) -> f32 {
 
 // f cosθi, of directions in the surface's frame.
 fn sheen_value(sheen: Sheen, o: vec3<f32>, i: vec3<f32>) -> vec3<f32> {
-    let alpha = max(sheen.roughness * sheen.roughness, SMALLEST_SHEEN_ALPHA);
+    let alpha = sheen.roughness * sheen.roughness;
     let m = normalize(o + i);
     let shadowing = 1.0 + sheen_lambda(alpha, o.z) + sheen_lambda(alpha, i.z);
     let distribution = (2.0 + 1.0 / alpha) * pow(min(m.x * m.x + m.y * m.y, 1.0), 0.5 / alpha) / TWO_PI;

@@ -41,8 +41,9 @@ shared_constants!(flags {
     /// Rows of a table of albedos, by roughness, and its columns, by cosine.
     const ALBEDO_ROWS: u32 = material::ALBEDO_ROWS as u32;
     const ALBEDO_COLUMNS: u32 = material::ALBEDO_COLUMNS as u32;
+    const FACET_KNEE: f32 = material::FACET_KNEE as f32;
     const SHEEN_KNEE: f32 = material::SHEEN_KNEE as f32;
-    const SMALLEST_SHEEN_ALPHA: f32 = material::SMALLEST_SHEEN_ALPHA as f32;
+    const SMALLEST_SHEEN_ROUGHNESS: f32 = material::SMALLEST_SHEEN_ROUGHNESS as f32;
     /// Where a volume's extinction stands among the further parameters of its material.
     const EXTINCTION_PARAMETER: u32 = material::EXTINCTION_PARAMETER as u32;
     /// Likewise, where the texels of its coat's normals stand; their scale is the next.

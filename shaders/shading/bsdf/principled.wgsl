@@ -77,7 +77,7 @@ fn principled_of(lobe: Lobe, front: bool) -> Principled {
     }
 #endif
 #if SHEEN
-    p.sheen = Sheen(principled_parameter(lobe, 8u), principled_parameter(lobe, 9u).x);
+    p.sheen = Sheen(principled_parameter(lobe, 8u), max(principled_parameter(lobe, 9u).x, SMALLEST_SHEEN_ROUGHNESS));
 #endif
     p.coat = coat_of(lobe, principled_parameter(lobe, 3u).x, principled_parameter(lobe, 4u).x);
     let alpha = lobe.roughness * lobe.roughness;
@@ -158,8 +158,7 @@ fn principled_compensation(p: Principled, cosine: f32) -> vec3<f32> {
     let alpha = p.facets.alpha;
 #endif
     let table = select(CORRELATED_ALBEDO_WORD, SEPARABLE_ALBEDO_WORD, (p.facets.flags & SEPARABLE_MASKS) != 0u);
-    let root = sqrt(alpha);
-    let once = tabulated_albedo(table, cosine, root, root);
+    let once = tabulated_albedo(table, cosine, sqrt(alpha), FACET_KNEE * alpha);
     return 1.0 + mix(p.specular * p.normal_incidence, p.base, p.metallic) * ((1.0 - once) / once);
 }
 #endif

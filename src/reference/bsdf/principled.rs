@@ -14,7 +14,7 @@ use super::sheen::Sheen;
 use super::view::View;
 use crate::math::Frame;
 use crate::reference::intersect::{NormalTexel, UvSet};
-use crate::scene::material::{AlbedoTable, DELTA_ALPHA, SMALLEST_BEND};
+use crate::scene::material::{AlbedoTable, DELTA_ALPHA, SMALLEST_BEND, SMALLEST_SHEEN_ROUGHNESS};
 use crate::scene::{ColorInput, MaterialKind, MicrofacetDistribution};
 
 /// Largest share of the base's samples that the surface's reflection takes: facets that are turned away from the normal let more through.
@@ -311,7 +311,10 @@ impl Scatter for Principled {
             coat_facets: isotropic(lookup.scalar(&written.clearcoat_roughness).powi(2)),
             coat_texel,
             direction: DVec2::new(turned.cos(), turned.sin()).rotate(direction.unwrap_or(DVec2::X)),
-            sheen: Sheen { color: lookup.color(&written.sheen_color), roughness: lookup.scalar(&written.sheen_roughness) },
+            sheen: Sheen {
+                color: lookup.color(&written.sheen_color),
+                roughness: lookup.scalar(&written.sheen_roughness).max(SMALLEST_SHEEN_ROUGHNESS),
+            },
             compensates: written.energy_compensation,
         })
     }

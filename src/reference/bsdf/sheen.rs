@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::scene::material::{AlbedoTable, SMALLEST_SHEEN_ALPHA, sheen_distribution, sheen_lambda};
+use crate::scene::material::{AlbedoTable, sheen_distribution, sheen_lambda};
 
 /// The sheen of KHR_materials_sheen: c·D·G/(4·cosθo·cosθi) by the distribution and the shadowing of Estevez and Kulla (2017), without Fresnel's
 /// reflectance. What lies below gets 1 − max c·E, E the share of light that white fibres reflect, by the larger of those of wo and wi.
@@ -11,7 +11,7 @@ use crate::scene::material::{AlbedoTable, SMALLEST_SHEEN_ALPHA, sheen_distributi
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sheen {
     pub color: DVec3,
-    /// The width of the distribution is its square.
+    /// The width of the distribution is its square. Not below the smallest that is resolved.
     pub roughness: f64,
 }
 
@@ -22,7 +22,7 @@ impl Sheen {
 
     /// f·cosθi, of directions in the surface's frame.
     pub fn value(&self, wo: DVec3, wi: DVec3) -> DVec3 {
-        let alpha = (self.roughness * self.roughness).max(SMALLEST_SHEEN_ALPHA);
+        let alpha = self.roughness * self.roughness;
         let m = (wo + wi).normalize_or(DVec3::Z);
         let shadowing = 1.0 + sheen_lambda(alpha, wo.z) + sheen_lambda(alpha, wi.z);
         let table = AlbedoTable::of_sheen();

@@ -11,11 +11,12 @@ use super::microfacets::{Masking, MicrofacetDistribution};
 pub const ALBEDO_ROWS: usize = 64;
 pub const ALBEDO_COLUMNS: usize = 24;
 /// Points of the integrals over microfacets, and over directions.
-const FACETS: [usize; 2] = [40, 20];
+const FACETS: [usize; 2] = [64, 12];
 const DIRECTIONS: [usize; 2] = [40, 20];
-/// Narrower distributions of fibres are as wide as this: f32 does not resolve their powers, and the fit of their shadowing was made for wider
-/// ones.
-pub const SMALLEST_SHEEN_ALPHA: f64 = 1e-2;
+/// Over the width of microfacets, the cosine about which most changes.
+pub const FACET_KNEE: f64 = 2.0;
+/// Smoother fibres are as rough as this: f32 does not resolve their powers, and the fit of their shadowing was made for rougher ones.
+pub const SMALLEST_SHEEN_ROUGHNESS: f64 = 0.1;
 /// What is added to the roughness of fibres to find the cosine about which most changes.
 pub const SHEEN_KNEE: f64 = 0.1;
 
@@ -24,16 +25,49 @@ pub const SHEEN_KNEE: f64 = 0.1;
 #[derive(Debug)]
 pub struct AlbedoTable {
     shares: [[f32; ALBEDO_COLUMNS]; ALBEDO_ROWS],
-    /// The cosine about which most changes, by roughness: it stands half-way.
-    knee: fn(f64) -> f64,
+    layout: Layout,
 }
 
+/// Which angles and roughnesses a table has.
+#[derive(Debug, Clone, Copy)]
+struct Layout {
+    /// The cosine about which most changes, by roughness.
+    knee: fn(f64) -> f64,
+    /// Nothing arrives at a right angle: the first column is for this place.
+    first_place: f64,
+    /// The rows of smoother surfaces are for this roughness.
+    least_roughness: f64,
+}
+
+/// What narrow facets reflect depends on the cosine over their width alone, so on the place alone: any of them serve for the first row.
+const OF_FACETS: Layout =
+    Layout { knee: |roughness| FACET_KNEE * roughness * roughness, first_place: 1e-3, least_roughness: 1e-2 };
+/// Nearer to a right angle the fit of the shadowing gives ever more. One row lies below the smallest roughness: it is looked up as well.
+const OF_SHEEN: Layout = Layout {
+    knee: |roughness| roughness + SHEEN_KNEE,
+    first_place: 1e-2,
+    least_roughness: SMALLEST_SHEEN_ROUGHNESS - 1.0 / (ALBEDO_ROWS - 1) as f64,
+};
+
 static SEPARABLE: LazyLock<AlbedoTable> =
-    LazyLock::new(|| AlbedoTable::new(facet_knee, |cosine, roughness| facet_albedo(cosine, roughness, Masking::Separable)));
-static HEIGHT_CORRELATED: LazyLock<AlbedoTable> = LazyLock::new(|| {
-    AlbedoTable::new(facet_knee, |cosine, roughness| facet_albedo(cosine, roughness, Masking::HeightCorrelated))
-});
-static SHEEN: LazyLock<AlbedoTable> = LazyLock::new(|| AlbedoTable::new(sheen_knee, sheen_albedo));
+    LazyLock::new(|| AlbedoTable::new(OF_FACETS, |cosine, roughness| facet_albedo(cosine, roughness, Masking::Separable)));
+static HEIGHT_CORRELATED: LazyLock<AlbedoTable> =
+    LazyLock::new(|| AlbedoTable::new(OF_FACETS, |cosine, roughness| facet_albedo(cosine, roughness, Masking::HeightCorrelated)));
+static SHEEN: LazyLock<AlbedoTable> = LazyLock::new(|| AlbedoTable::new(OF_SHEEN, sheen_albedo));
+
+impl Layout {
+    /// Of a cosine c, √(c·(1 + k)/(c + k)) with the knee k. The root spreads what lies near a right angle.
+    fn place(&self, cosine: f64, roughness: f64) -> f64 {
+        let knee = (self.knee)(roughness);
+        (cosine * (1.0 + knee) / (cosine + knee).max(1e-6)).clamp(0.0, 1.0).sqrt()
+    }
+
+    /// The cosine that has this place.
+    fn cosine(&self, place: f64, roughness: f64) -> f64 {
+        let (knee, squared) = ((self.knee)(roughness), place * place);
+        (knee * squared / (1.0 + knee - squared)).min(1.0)
+    }
+}
 
 impl AlbedoTable {
     /// Of GGX microfacets that reflect everything, by the root of their width.
@@ -49,24 +83,21 @@ impl AlbedoTable {
         &SHEEN
     }
 
-    fn new(knee: fn(f64) -> f64, share: impl Fn(f64, f64) -> f64) -> Self {
+    fn new(layout: Layout, share: impl Fn(f64, f64) -> f64) -> Self {
         let mut shares = [[0.0_f32; ALBEDO_COLUMNS]; ALBEDO_ROWS];
         for (row, shares) in shares.iter_mut().enumerate() {
-            let roughness = row as f64 / (ALBEDO_ROWS - 1) as f64;
-            let knee = knee(roughness).max(1e-9);
+            let roughness = (row as f64 / (ALBEDO_ROWS - 1) as f64).max(layout.least_roughness);
             for (column, value) in shares.iter_mut().enumerate() {
-                // The place of a cosine c is c·(1 + k)/(c + k). Nothing arrives at a right angle: the first entry is for one just above it.
-                let place = (column as f64 / (ALBEDO_COLUMNS - 1) as f64).max(1e-3);
-                *value = share((knee * place / (1.0 + knee - place)).min(1.0), roughness) as f32;
+                let place = (column as f64 / (ALBEDO_COLUMNS - 1) as f64).max(layout.first_place);
+                *value = share(layout.cosine(place, roughness), roughness) as f32;
             }
         }
-        Self { shares, knee }
+        Self { shares, layout }
     }
 
-    /// Linear between the entries.
+    /// Linear between the entries. Of fibres, from their smallest roughness on.
     pub fn at(&self, cosine: f64, roughness: f64) -> f64 {
-        let knee = (self.knee)(roughness);
-        let place = cosine * (1.0 + knee) / (cosine + knee).max(1e-6);
+        let place = self.layout.place(cosine, roughness);
         let step = |share: f64, count: usize| {
             let place = share.clamp(0.0, 1.0) * (count - 1) as f64;
             let before = (place as usize).min(count - 2);
@@ -86,14 +117,6 @@ impl AlbedoTable {
     }
 }
 
-fn facet_knee(roughness: f64) -> f64 {
-    roughness
-}
-
-fn sheen_knee(roughness: f64) -> f64 {
-    roughness + SHEEN_KNEE
-}
-
 /// The middles of so many equal parts of [0, 1].
 fn midpoints(count: usize) -> impl Iterator<Item = f64> {
     (0..count).map(move |part| (part as f64 + 0.5) / count as f64)
@@ -101,9 +124,6 @@ fn midpoints(count: usize) -> impl Iterator<Item = f64> {
 
 /// The mean of G2/G1 over the microfacets that are seen (Heitz 2018), each as often as it is large.
 fn facet_albedo(cosine: f64, roughness: f64, masking: Masking) -> f64 {
-    if roughness == 0.0 {
-        return 1.0;
-    }
     let alpha = roughness * roughness;
     let wo = DVec3::new((1.0 - cosine * cosine).max(0.0).sqrt(), 0.0, cosine);
     let lambda = |cosine: f64| {
@@ -152,7 +172,7 @@ pub fn sheen_lambda(alpha: f64, cosine: f64) -> f64 {
 
 /// More than 1 where the fit overestimates what narrow fibres show of themselves: ∫ D·cosθi/((1 + Λo + Λi)·4·cosθo·cosθi) dωi.
 fn sheen_albedo(cosine: f64, roughness: f64) -> f64 {
-    let alpha = (roughness * roughness).max(SMALLEST_SHEEN_ALPHA);
+    let alpha = roughness * roughness;
     let wo = DVec3::new((1.0 - cosine * cosine).max(0.0).sqrt(), 0.0, cosine);
     let lambda_o = sheen_lambda(alpha, cosine);
     let mut sum = 0.0;
@@ -172,39 +192,4 @@ fn sheen_albedo(cosine: f64, roughness: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// 1 − ln 2 at normal incidence where the width is 1 and heights are correlated.
-    #[test]
-    fn facets_reflect_what_is_known_in_closed_form() {
-        let table = AlbedoTable::of_facets(Masking::HeightCorrelated);
-        assert!((table.at(1.0, 1.0) - (1.0 - std::f64::consts::LN_2)).abs() < 3e-4, "{}", table.at(1.0, 1.0));
-        // Smooth microfacets reflect everything.
-        assert!((table.at(0.5, 0.0) - 1.0).abs() < 1e-6);
-    }
-
-    /// What lies between the entries is as it would be if it were computed there.
-    #[test]
-    fn tables_are_dense_enough() {
-        type Share = fn(f64, f64) -> f64;
-        let separable: Share = |cosine, roughness| facet_albedo(cosine, roughness, Masking::Separable);
-        let height_correlated: Share = |cosine, roughness| facet_albedo(cosine, roughness, Masking::HeightCorrelated);
-        for (table, share, most) in [
-            (AlbedoTable::of_facets(Masking::Separable), separable, 2e-3),
-            (AlbedoTable::of_facets(Masking::HeightCorrelated), height_correlated, 2e-3),
-            // Fibres shine suddenly within a degree of the horizon.
-            (AlbedoTable::of_sheen(), sheen_albedo, 2.5e-2),
-        ] {
-            let mut worst = 0.0_f64;
-            for (index, roughness) in midpoints(24).enumerate() {
-                for cosine in midpoints(23 + index % 3) {
-                    let [table, exact] = [table.at(cosine, roughness), share(cosine, roughness)];
-                    worst = worst.max((table - exact).abs() / exact.max(1.0));
-                }
-            }
-            println!("off by {worst:.1e}");
-            assert!(worst < most, "{worst}");
-        }
-    }
-}
+mod tests;

@@ -7,7 +7,9 @@ mod microfacets;
 mod plastic;
 mod principled;
 
-pub use albedo::{ALBEDO_COLUMNS, ALBEDO_ROWS, AlbedoTable, SHEEN_KNEE, SMALLEST_SHEEN_ALPHA, sheen_distribution, sheen_lambda};
+pub use albedo::{
+    ALBEDO_COLUMNS, ALBEDO_ROWS, AlbedoTable, FACET_KNEE, SHEEN_KNEE, SMALLEST_SHEEN_ROUGHNESS, sheen_distribution, sheen_lambda,
+};
 pub use blend_weight::BlendWeight;
 pub(crate) use kind::material_table;
 pub use kind::{
