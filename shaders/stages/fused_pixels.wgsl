@@ -2,6 +2,7 @@
 #import core/layout.wgsl
 #import core/camera.wgsl
 #import core/parameters.wgsl
+#import core/sampler.wgsl
 #import shading/path.wgsl
 #if MOTION
 #import geometry/motion.wgsl
@@ -27,11 +28,13 @@ fn pass_pixel(index: u32) -> PassPixel {
 }
 
 // The pixel that an invocation has, as an index in the pass. A software device gives each of its threads one run of consecutive workgroups, and none helps
-// another: with neighbouring workgroups in different runs, the threads' shares of the picture cost the same.
+// another. Of RUNS neighbouring workgroups each run has one, so that the threads' shares of the picture cost the same. Which one is random, because pictures
+// often are as wide as a multiple of RUNS workgroups, and each run would have a strip of columns of its own.
 fn index_in_pass(workgroup: u32, invocation: u32) -> u32 {
 #if SPREAD
     let run = workgroup / pass_parameters.run_length;
-    let spread = (workgroup - run * pass_parameters.run_length) * RUNS + run;
+    let turn = workgroup - run * pass_parameters.run_length;
+    let spread = turn * RUNS + (run + mix_bits(turn)) % RUNS;
     return spread * WORKGROUP + invocation;
 #else
     return workgroup * WORKGROUP + invocation;
