@@ -6,14 +6,9 @@
 #import stages/fused_vertex.wgsl
 #import stages/statistics.wgsl
 
-// Reads the pass's parameters. One invocation traces all samples of one pixel, starting the next path where one ends so that no
-// lane waits for its neighbours' longer paths. Adds them to the film, and counts rays. Leaves everything else alone.
-@compute @workgroup_size(WORKGROUP)
-fn trace_paths(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) invocation: u32) {
-    let index = index_in_pass(workgroup.x, invocation);
-    if index >= pass_parameters.pixel_count {
-        return;
-    }
+// All samples of the pixel with this index in the pass, added to the film. The next path starts where one ends, so that no lane waits for its
+// neighbours' longer paths. Number of rays.
+fn render_pixel(index: u32) -> u32 {
     let pixel = pass_pixel(index);
     var film_pixel = load_film_pixel(pixel.in_band);
     var rays = 0u;
@@ -35,5 +30,22 @@ fn trace_paths(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
         }
     }
     store_film_pixel(pixel.in_band, film_pixel);
+    return rays;
+}
+
+// Reads the pass's parameters. One invocation traces all samples of one pixel; on software devices, of one pixel after the other, as long as any
+// is left. Adds them to the film, and counts rays. Leaves everything else alone.
+@compute @workgroup_size(WORKGROUP)
+fn trace_paths(@builtin(global_invocation_id) id: vec3<u32>) {
+    var rays = 0u;
+#if TAKEN_PIXELS
+    for (var index = take_pixels(1u); index < pass_parameters.pixel_count; index = take_pixels(1u)) {
+        rays += render_pixel(index);
+    }
+#else
+    if id.x < pass_parameters.pixel_count {
+        rays = render_pixel(id.x);
+    }
+#endif
     count_rays(rays);
 }

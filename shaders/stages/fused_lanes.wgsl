@@ -25,21 +25,25 @@ fn path_radiance(first: Path, exists: bool, rays: ptr<function, u32>) -> vec3<f3
     return radiance;
 }
 
-// Reads the pass's parameters. LANES invocations, a subgroup, trace all samples of LANES pixels and add them to the film, in the order
-// of the samples: pixel after pixel, each lane one sample of it; or, of passes with few samples, each lane all samples of one pixel.
-// Counts rays. Leaves everything else alone.
-@compute @workgroup_size(WORKGROUP)
-fn trace_paths(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) invocation: u32) {
-    let index = index_in_pass(workgroup.x, invocation);
-    lane = invocation % LANES;
+// Index in the pass of the first of LANES pixels that nobody took before. All lanes take part.
+fn take_pixels_together() -> u32 {
+    var first = 0u;
+    if lane == 0u {
+        first = take_pixels(LANES);
+    }
+    return subgroupShuffle(first, 0u);
+}
+
+// All samples of LANES pixels, the first of which has this index in the pass, added to the film in the order of the samples: pixel after pixel, each
+// lane one sample of it; or, of passes with few samples, each lane all samples of one pixel. Counts rays. All lanes take part.
+fn render_pixels(first_pixel: u32, rays: ptr<function, u32>) {
     let samples = pass_parameters.sample_count;
     // How many lanes share a pixel: all, or one.
     let sharing = select(1u, LANES, samples > LANES / 2u);
     let rounds = (samples + sharing - 1u) / sharing;
     var film_pixel: FilmPixel;
-    var rays = 0u;
     for (var turn = 0u; turn < LANES; turn += LANES / sharing) {
-        let own_index = select(index, index - lane + turn, sharing == LANES);
+        let own_index = first_pixel + select(lane, turn, sharing == LANES);
         let exists = own_index < pass_parameters.pixel_count;
         // All lanes take part in exchanges, those without a pixel of their own with another's.
         let pixel = pass_pixel(min(own_index, pass_parameters.pixel_count - 1u));
@@ -47,7 +51,7 @@ fn trace_paths(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
         for (var round = 0u; round < rounds; round++) {
             let sample = select(round, round * LANES + lane, sharing == LANES);
             let path = start_path(pixel.pixel, min(sample, samples - 1u));
-            let radiance = path_radiance(path, exists && sample < samples, &rays);
+            let radiance = path_radiance(path, exists && sample < samples, rays);
             for (var other = 0u; other < min(sharing, samples - round * sharing); other++) {
                 add_sample(&film_pixel, subgroupShuffle(radiance, select(lane, other, sharing == LANES)));
             }
@@ -55,6 +59,17 @@ fn trace_paths(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
         if exists && (sharing == 1u || lane == 0u) {
             store_film_pixel(pixel.in_band, film_pixel);
         }
+    }
+}
+
+// Reads the pass's parameters. A subgroup, LANES invocations, traces all samples of LANES pixels at a time, as long as any are left, and adds them to
+// the film. Counts rays. Leaves everything else alone.
+@compute @workgroup_size(WORKGROUP)
+fn trace_paths(@builtin(local_invocation_index) invocation: u32) {
+    lane = invocation % LANES;
+    var rays = 0u;
+    for (var first = take_pixels_together(); first < pass_parameters.pixel_count; first = take_pixels_together()) {
+        render_pixels(first, &rays);
     }
     count_rays(rays);
 }

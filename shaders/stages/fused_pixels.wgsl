@@ -1,8 +1,6 @@
 // Which pixels an invocation of a fused kernel has.
-#import core/layout.wgsl
 #import core/camera.wgsl
 #import core/parameters.wgsl
-#import core/sampler.wgsl
 #import shading/path.wgsl
 #if MOTION
 #import geometry/motion.wgsl
@@ -24,20 +22,6 @@ fn pass_pixel(index: u32) -> PassPixel {
     return PassPixel(pass_parameters.first_pixel + in_band, in_band);
 #else
     return PassPixel(pass_parameters.first_pixel + index, pass_parameters.first_pixel_in_band + index);
-#endif
-}
-
-// The pixel that an invocation has, as an index in the pass. A software device gives each of its threads one run of consecutive workgroups, and none helps
-// another. Of RUNS neighbouring workgroups each run has one, so that the threads' shares of the picture cost the same. Which one is random, because pictures
-// often are as wide as a multiple of RUNS workgroups, and each run would have a strip of columns of its own.
-fn index_in_pass(workgroup: u32, invocation: u32) -> u32 {
-#if SPREAD
-    let run = workgroup / pass_parameters.run_length;
-    let turn = workgroup - run * pass_parameters.run_length;
-    let spread = turn * RUNS + (run + mix_bits(turn)) % RUNS;
-    return spread * WORKGROUP + invocation;
-#else
-    return workgroup * WORKGROUP + invocation;
 #endif
 }
 

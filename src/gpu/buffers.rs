@@ -24,6 +24,8 @@ pub const VERTICES_PER_SUBMISSION: u32 = 32;
 pub const STATISTICS_BYTES: u64 = 4 * STATISTICS_WORDS as u64;
 /// Numbers that kernels count: see `shaders/stages/statistics.wgsl`.
 pub const STATISTICS_WORDS: usize = 8;
+/// Where the number of a pass's pixels that were taken stands among them, in bytes.
+pub const TAKEN_PIXELS: u64 = 4 * 6;
 /// Distance between the parameters of successive vertices: the largest alignment a device may ask for.
 const VERTEX_STRIDE: usize = 256;
 

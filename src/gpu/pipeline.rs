@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::buffers::{Buffers, VERTICES_PER_SUBMISSION, vertex_parameters};
+use super::buffers::{Buffers, TAKEN_PIXELS, VERTICES_PER_SUBMISSION, vertex_parameters};
 use super::device::Device;
 use super::kernels::{self, Kernel};
 use super::passes::Pass;
@@ -96,15 +96,6 @@ impl Pipeline {
         self.plan.switches.enabled.contains("PIXEL_LIST")
     }
 
-    /// Workgroups of a fused kernel: as many in every run.
-    fn fused_workgroups(&self, pass: &Pass) -> u32 {
-        self.run_length(pass) * self.plan.runs
-    }
-
-    fn run_length(&self, pass: &Pass) -> u32 {
-        pass.pixel_count.div_ceil(WORKGROUP).div_ceil(self.plan.runs)
-    }
-
     /// Uploads what a pass over a band that begins at `first_row` needs: its parameters, and its samples' points of the sampler's sequence.
     pub fn write_pass(&self, first_row: u32, pass: &Pass, sampling: &Sampling) {
         let first_of_band = first_row * self.width;
@@ -118,10 +109,11 @@ impl Pipeline {
             film_is_empty: u32::from(pass.film_is_empty),
             opaque_zero: 0,
             seed: sampling.seed,
-            run_length: self.run_length(pass),
-            ..Default::default()
         };
         self.write(Binding::Pass, bytemuck::bytes_of(&parameters));
+        if let (Some(_), Some(statistics)) = (self.plan.pixel_takers, self.buffers.buffer(Binding::Statistics)) {
+            self.device.queue.write_buffer(statistics, TAKEN_PIXELS, &[0; 4]);
+        }
         if sampling.uses_sequence() {
             let samples = pass.first_sample..pass.first_sample + pass.sample_count;
             let mut words = Vec::new();
@@ -207,13 +199,13 @@ impl Pipeline {
 
     /// The stages of this time, in order, with the workgroups of each. `first_vertex`: queues hold all paths of the pass.
     pub fn steps(&self, when: When, first_vertex: bool, pass: &Pass) -> impl Iterator<Item = Step<'_>> {
-        let (paths, pixels, in_runs) = (pass.paths() as u32, pass.pixel_count, self.fused_workgroups(pass));
+        let (paths, pixels) = (pass.paths() as u32, pass.pixel_count);
         self.kernels.iter().filter(move |kernel| kernel.stage.when == when).map(move |kernel| {
             let direct = |invocations: u32| Workgroups::Direct(invocations.div_ceil(WORKGROUP));
             let workgroups = match kernel.stage.over {
                 Over::Paths => direct(paths),
                 Over::Pixels => direct(pixels),
-                Over::PixelsInRuns => Workgroups::Direct(in_runs),
+                Over::PixelsThatAreTaken => self.plan.pixel_takers.map_or_else(|| direct(pixels), Workgroups::Direct),
                 Over::Once => Workgroups::Direct(1),
                 Over::Queue { size, rays } => match self.buffers.buffer(Binding::DispatchSizes) {
                     // Shadow rays come after `prepare`, which knows how many there are, at the first vertex as well.

@@ -85,12 +85,8 @@ impl Plan {
             subgroup_queues,
             light_samples,
             light_samples_depth: if light_samples > 1 { scene.render.light_samples_depth } else { 0 },
-            runs: limits.threads.max(1),
-            // As many workgroups in every run, up to the limit.
-            pixels_per_dispatch: (limits.max_workgroups / limits.threads.max(1))
-                .max(1)
-                .saturating_mul(limits.threads.max(1))
-                .saturating_mul(WORKGROUP),
+            pixel_takers: (limits.software && stages == StageMode::Fused && !options.trace).then_some(limits.threads.max(1)),
+            pixels_per_dispatch: limits.max_workgroups.saturating_mul(WORKGROUP),
             band_rows,
             switches: Switches::default(),
             memory: Memory::default(),

@@ -42,9 +42,9 @@ pub struct Plan {
     /// Light samples at a path's first surfaces, and at how many of them; 1 and 0 where each takes one at most.
     pub light_samples: u32,
     pub light_samples_depth: u32,
-    /// Runs of workgroups into which the device cuts a dispatch, one for each of its threads. Neighbouring workgroups are dealt to
-    /// different runs, because no thread helps another with its own.
-    pub runs: u32,
+    /// Workgroups of a fused kernel whose invocations take pixels from a counter until none is left: one for each thread of a software device, which
+    /// deals workgroups to its threads beforehand, and lets none help another. None: each invocation has the pixel of its number.
+    pub pixel_takers: Option<u32>,
     /// Pixels that a kernel can have an invocation each for.
     pub pixels_per_dispatch: u32,
     /// Rows of a band at most.

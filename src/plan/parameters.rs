@@ -18,11 +18,6 @@ pub struct PassParameters {
     /// Always 0.
     pub opaque_zero: u32,
     pub seed: u32,
-    /// Workgroups of one run; see [`crate::plan::Plan::runs`].
-    pub run_length: u32,
-    pub padding_0: u32,
-    pub padding_1: u32,
-    pub padding_2: u32,
 }
 }
 

@@ -23,8 +23,8 @@ pub enum Over {
     Paths,
     /// The pixels of a pass.
     Pixels,
-    /// The same, with as many workgroups in every [run](Plan::runs).
-    PixelsInRuns,
+    /// The same; where [invocations take them](Plan::pixel_takers), a workgroup for each thread of the device.
+    PixelsThatAreTaken,
     /// Nothing: one workgroup of one invocation.
     Once,
     /// What waits in a queue. The device knows how much, and wrote the number of workgroups at this word of the dispatch sizes. The first
@@ -86,9 +86,9 @@ stages! {
     Wavefront "stages/accumulate.wgsl" "accumulate" PassEnd Over::Pixels,
         reads &[PathState, FilmSum, FilmCompensation], writes FILM_AND_COUNTS, if |_| true;
 
-    Fused "stages/fused.wgsl" "trace_paths" PassStart Over::PixelsInRuns,
+    Fused "stages/fused.wgsl" "trace_paths" PassStart Over::PixelsThatAreTaken,
         reads FILM, writes FILM_AND_COUNTS, if |plan| plan.lanes.is_none();
-    Fused "stages/fused_lanes.wgsl" "trace_paths" PassStart Over::PixelsInRuns,
+    Fused "stages/fused_lanes.wgsl" "trace_paths" PassStart Over::PixelsThatAreTaken,
         reads FILM, writes FILM_AND_COUNTS, if |plan| plan.lanes.is_some();
 }
 

@@ -71,7 +71,7 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
     switches.enable("UNIFORM_HEMISPHERE", render.hemisphere == HemisphereSampling::Uniform);
     let blades = enable_camera(&mut switches, scene);
     switches.enable("FILM_TEXTURE", plan.film == FilmStorage::Texture);
-    switches.enable("SPREAD", plan.runs > 1);
+    switches.enable("TAKEN_PIXELS", plan.pixel_takers.is_some());
     switches.enable("SUBGROUP_QUEUES", plan.subgroup_queues);
 
     let tables = packed.tables();
@@ -119,7 +119,6 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
         ("PRIMITIVE_WORDS", (3 * packed.primitives.len() as u32).max(1)),
         ("RAYS_PER_INVOCATION", plan.rays_per_invocation),
         ("ROULETTE_DEPTH", render.roulette_depth),
-        ("RUNS", plan.runs),
         ("SEQUENCE_BLOCKS", SEQUENCE_BLOCKS),
         ("SEQUENCE_POINTS", plan.sequence_stride() * MAX_SAMPLES_PER_PASS),
         ("SEQUENCE_STRIDE", plan.sequence_stride()),

@@ -264,8 +264,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("SPHERE_POINTS").requires(&["SPHERE_LIGHTS"]).one_of(&["SPHERE_LIGHTS_BY_PICTURE", "SPHERE_LIGHTS_BY_POINT"]),
     // The intensity of some spot light falls otherwise than by the smooth step.
     switch("SPOT_FALLOFFS").requires(&["SPOT_LIGHT"]),
-    switch("SPREAD"),
     switch("SUBGROUP_QUEUES"),
+    switch("TAKEN_PIXELS").excludes(&["TRACE"]),
     // The directions of texture coordinates matter to some lobe.
     switch("TANGENTS").requires(&["FURTHER_PARAMETERS"]),
     switch("TEXELS"),
