@@ -108,7 +108,7 @@ fn random_half(seed: u32) -> BTreeSet<&'static str> {
 fn ordinary_kernels_hold_nothing_for_debugging() {
     let without = SWITCHES.iter().filter(|row| !row.debug).map(|row| row.name).collect();
     let mut with = all_names();
-    with.retain(|name| !["PACKETS", "PIXEL_LIST"].contains(name));
+    with.retain(|name| !["PACKETS", "PIXEL_LIST", "TAKEN_PIXELS"].contains(name));
     // How many statements write a path down, whether there is a place to write to, and how many lines know of a fault.
     let left = |switches: &Switches| {
         let composed = compose("stages/fused.wgsl", switches).expect("it composes");
