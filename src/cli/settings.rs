@@ -104,7 +104,7 @@ mod tests {
     #[test]
     fn combinations_that_cannot_be_are_refused() {
         let mut scene = Scene::default();
-        scene.render.roulette_depth = 0;
+        scene.render.roulette_depth = 0.into();
         assert!(matches!(apply(&flags("--max-depth 0"), &mut scene), Err(Failure::Usage { .. })));
         let past_the_end = flags(&format!("--first-sample {}", MOST_SAMPLES - 5));
         assert!(matches!(apply(&past_the_end, &mut Scene::default()), Err(Failure::Usage { .. })));

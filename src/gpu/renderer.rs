@@ -30,7 +30,7 @@ use crate::renderer::{Batch, Change, DeviceChoice, Ending, Observer, RenderError
 use crate::sampling::Sampling;
 use crate::scene::{MaterialId, Scene};
 
-/// Packs a scene with all that the CPU finds out before the first sample: how lights are drawn from, where the settings leave that open, and the guide,
+/// Packs a scene with all that the CPU finds out before the first sample: how lights are drawn from and where roulette begins, where the settings leave that open, and the guide,
 /// where they want one. `kept`: the trees of an earlier frame. The scene comes back with complete settings.
 ///
 /// # Errors
@@ -48,7 +48,8 @@ pub fn prepare<'a>(
     let mut packed = PackedScene::for_frame(&settled.scene, traversal, kept).map_err(does_not_fit)?;
     packed.guide = learned.words().to_vec();
     packed.guiding = learned.because;
-    packed.piloted.clone_from(&settled.because);
+    packed.piloted.clone_from(&settled.because.light_samples);
+    packed.roulette.clone_from(&settled.because.roulette);
     Ok((settled, packed))
 }
 

@@ -43,6 +43,8 @@ pub struct PackedScene {
     pub guide: Vec<u32>,
     /// Why light samples are as many as they are; None where the scene says how many.
     pub piloted: Option<String>,
+    /// Why Russian roulette begins where it does; None where the scene says where.
+    pub roulette: Option<String>,
     /// What was decided about guiding paths and why; None where nobody asked for it.
     pub guiding: Option<String>,
     /// Behind the attributes of every triangle stand others whose texture coordinates are its second ones.
@@ -110,6 +112,7 @@ impl PackedScene {
             view: View::new(scene, &environment),
             guide: Vec::new(),
             piloted: None,
+            roulette: None,
             guiding: None,
             second_uvs: world.second_uvs,
         };

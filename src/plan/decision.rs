@@ -23,6 +23,12 @@ impl Decision {
         Self { about: "light samples", choice, because: because.to_owned() }
     }
 
+    /// From which depth on Russian roulette ends paths, as [`RenderSettings::first_roulette`] says it.
+    pub fn about_roulette(first: Option<u32>, because: &str) -> Self {
+        let choice = first.map_or_else(|| "ends no path".to_owned(), |depth| format!("from depth {depth} on"));
+        Self { about: "roulette", choice, because: because.to_owned() }
+    }
+
     /// How directions are drawn.
     pub fn about_directions(guided: bool, because: &str) -> Self {
         let choice = if guided { "by BSDFs, and by a guide to where light comes from" } else { "by BSDFs alone" };

@@ -21,7 +21,7 @@ use super::trace::{LightConnection, PathVisitor};
 use super::volume::{Volumes, transmittance};
 use crate::renderer::RenderError;
 use crate::sampling::{CameraDimension, Dimension, Guide, PathSampler, VertexDimension};
-use crate::scene::{Estimator, MaterialId, MaterialKind, RenderSettings, Scene};
+use crate::scene::{Estimator, MaterialId, MaterialKind, NumberOrAuto, RenderSettings, Scene};
 
 /// Edges from which on Russian roulette always has a chance to end the path, whatever its throughput.
 const CERTAIN_ROULETTE_DEPTH: u32 = 64;
@@ -135,6 +135,11 @@ impl Integrator {
     /// Whether lights are chosen by a tree of them.
     pub fn chooses_lights_by_tree(&self) -> bool {
         self.lights.are_in_tree()
+    }
+
+    /// Lets roulette end paths from this depth on.
+    pub fn set_roulette_depth(&mut self, depth: NumberOrAuto) {
+        self.scene.render.roulette_depth = depth;
     }
 
     /// Lets paths have so many edges; returns how many they had.
@@ -338,12 +343,10 @@ impl Integrator {
 
     /// Russian roulette: the path goes on with probability q and then counts 1/q times as much, which leaves the mean as it is.
     fn survives_roulette<V: PathVisitor>(&self, path: &mut Path, u: f64, visitor: &mut V) -> bool {
-        let first = self.scene.render.roulette_depth;
-        if first == 0 || path.depth < first {
+        if self.scene.render.first_roulette().is_none_or(|first| path.depth < first) {
             return true;
         }
-        let largest = if path.depth < CERTAIN_ROULETTE_DEPTH { 1.0 } else { LARGEST_SURVIVAL };
-        let survival = (path.throughput * path.eta_scale).max_element().min(largest);
+        let survival = roulette_survival(path.throughput * path.eta_scale, path.depth);
         visitor.roulette(survival, u < survival);
         if u >= survival {
             return false;
@@ -351,6 +354,11 @@ impl Integrator {
         path.throughput /= survival;
         true
     }
+}
+
+/// The chance of a path of this depth to survive Russian roulette, by its throughput without the scaling of radiance by refraction.
+pub(super) fn roulette_survival(throughput: DVec3, depth: u32) -> f64 {
+    throughput.max_element().min(if depth < CERTAIN_ROULETTE_DEPTH { 1.0 } else { LARGEST_SURVIVAL })
 }
 
 /// A sampled direction, rounded, with the density that belongs to it. Of a narrow lobe that changes much faster than the direction.

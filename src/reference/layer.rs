@@ -21,7 +21,7 @@ pub fn layer_scene(scene: &Scene, layer: KernelLayer) -> Cow<'_, Scene> {
     let mut scene = scene.clone();
     scene.render.estimator = Estimator::Bsdf;
     scene.render.max_depth = MOST_EDGES;
-    scene.render.roulette_depth = 0;
+    scene.render.roulette_depth = 0.into();
     scene.render.guiding = Guiding::Off;
     Cow::Owned(scene)
 }

@@ -12,7 +12,7 @@ use super::film::{BAND_ROWS, BandSums, BatchSamples, Group, PixelSum, are_even};
 use super::integrator::Integrator;
 use super::intersect::Ray;
 use super::layer::LayerVisitor;
-use super::pilot;
+use super::pilot::{self, Reasons};
 use super::rounding::Rounding;
 use super::trace::{PathTrace, PathVisitor, RayCounter};
 use super::training;
@@ -45,8 +45,8 @@ pub struct ReferenceRenderer {
     guiding: Option<String>,
     /// Most pixels whose samples go together: [`PIXELS_IN_MEMORY`] but for tests.
     pixels_in_memory: u64,
-    /// Why light samples are as many as they are, where the scene does not say how many.
-    piloted: Option<String>,
+    /// Why settings are what they are that the scene leaves open.
+    because: Reasons,
     /// Paths were traced before the first sample, for a guide or to choose how lights are drawn from.
     depends_on_view: bool,
     build_seconds: f64,
@@ -119,7 +119,7 @@ impl ReferenceRenderer {
             integrator,
             layer,
             depends_on_view: settled.is_piloted || guiding.is_some(),
-            piloted: settled.because,
+            because: settled.because,
             guiding,
             pixels_in_memory: PIXELS_IN_MEMORY,
             build_seconds: start.elapsed().as_secs_f64(),
@@ -137,10 +137,12 @@ impl ReferenceRenderer {
     /// What was decided, where the settings leave it open.
     fn decisions(&self) -> Vec<Decision> {
         let settings = &self.integrator.scene().render;
+        let Reasons { light_samples, roulette } = &self.because;
         let of_lights =
-            self.piloted.iter().map(|because| Decision::about_light_samples(settings.several_light_samples(), because));
+            light_samples.iter().map(|because| Decision::about_light_samples(settings.several_light_samples(), because));
+        let of_roulette = roulette.iter().map(|because| Decision::about_roulette(settings.first_roulette(), because));
         let guided = self.integrator.guide().is_some();
-        of_lights.chain(self.guiding.iter().map(|because| Decision::about_directions(guided, because))).collect()
+        of_lights.chain(of_roulette).chain(self.guiding.iter().map(|because| Decision::about_directions(guided, because))).collect()
     }
 
     /// What is met at a pixel's centre at the shutter's opening: the number of the shape and of its material, from 1.

@@ -49,7 +49,7 @@ pub use material::{
 pub use model::Scene;
 pub use motion::{Motion, MotionStep};
 pub use settings::{
-    BlendMode, Estimator, FilmSettings, Filter, FilterKind, Guiding, HemisphereSampling, LightChoice, LightSamples,
+    BlendMode, Estimator, FilmSettings, Filter, FilterKind, Guiding, HemisphereSampling, LightChoice, NumberOrAuto,
     LightSampling, MisHeuristic, PixelSampler, RenderSettings, SamplerKind,
 };
 pub use shape::*;

@@ -62,7 +62,7 @@ fn grey(value: f64) -> ColorInput {
 fn stage() -> Scene {
     let mut scene = Scene {
         film: FilmSettings { size: [SIDE; 2], ..FilmSettings::default() },
-        render: RenderSettings { spp: 64, max_depth: 6, roulette_depth: 0, ..RenderSettings::default() },
+        render: RenderSettings { spp: 64, max_depth: 6, roulette_depth: 0.into(), ..RenderSettings::default() },
         camera: Camera {
             position: DVec3::new(0.0, 3.0, 6.0),
             look_at: DVec3::new(0.0, 0.7, 0.0),

@@ -5,7 +5,7 @@ use std::path::Path;
 use gpt::load;
 use gpt::reference::ReferenceRenderer;
 use gpt::reference::pilot::settle;
-use gpt::scene::{Estimator, LightSamples, LightSampling, RenderSettings, Scene};
+use gpt::scene::{Estimator, NumberOrAuto, LightSampling, RenderSettings, Scene};
 
 const SIZE: [u32; 2] = [256, 256];
 
@@ -71,7 +71,7 @@ fn several_light_samples_are_taken_where_they_pay() {
 fn the_choice_depends_on_neither_seed_nor_samples() {
     let scene = built_in("veach-mis");
     let chosen = settled(&scene);
-    assert_ne!(chosen.light_samples, LightSamples::Auto);
+    assert_ne!(chosen.light_samples, NumberOrAuto::Auto);
     for (seed, spp) in [(0, 1), (1, 256), (77, 100_000)] {
         let mut other = scene.clone();
         (other.render.seed, other.render.spp) = (seed, spp);

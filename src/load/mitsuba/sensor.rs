@@ -57,7 +57,7 @@ impl Converter<'_> {
             }
         }
         let depth = plugin.number_or("max_depth", -1.0)?;
-        let roulette = plugin.number_or("rr_depth", 5.0)?;
+        let roulette = plugin.number("rr_depth")?;
         if depth.fract() != 0.0 || !(-1.0..1e9).contains(&depth) {
             return Err(plugin.error(format!("`max_depth` is -1 or a whole number, not {depth}")));
         }
@@ -65,7 +65,7 @@ impl Converter<'_> {
             return Err(plugin.error("with `max_depth` 0 the picture is black"));
         }
         self.scene.render.set("max_depth", if depth < 0.0 { 0 } else { depth as i64 });
-        if (1.0..1e9).contains(&roulette) {
+        if let Some(roulette) = roulette.filter(|depth| (1.0..1e9).contains(depth)) {
             self.scene.render.set("roulette_depth", roulette as i64);
         }
         Ok(())

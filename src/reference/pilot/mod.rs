@@ -1,10 +1,11 @@
-//! How lights are drawn from where nobody says so: a pilot renders some pixels in several ways and compares error times cost.
+//! How lights are drawn from, and where Russian roulette begins, where nobody says so: a pilot renders some pixels and compares error times cost.
 //!
-//! It decides how many light samples the first surfaces take ([`LightSamples::Auto`]), and whether points on rectangles and triangles are drawn by solid angle
-//! ([`LightSampling::Auto`]). All ways are tried with the same paths, so they differ by the noise of direct light alone. Random numbers are
-//! not those of the picture. Cost is counted, in rays, and not timed. So what is chosen depends on the scene, its settings and the size of its
+//! It decides how many light samples the first surfaces take, and whether points on rectangles and triangles are drawn by solid angle
+//! ([`LightSampling::Auto`]): all ways are tried with the same paths, so they differ by the noise of direct light alone. Then it decides from which depth on
+//! roulette ends paths, by what that would do to the paths of the best way. Random numbers are not those of the picture. Cost is counted, in rays, and not timed. So what is chosen depends on the scene, its settings and the size of its
 //! film: not on the seed, the number of samples, the device or the machine.
 
+mod roulette;
 mod tried;
 
 use std::borrow::Cow;
@@ -14,8 +15,9 @@ use super::intersect::Outline;
 use crate::plan::UNROLL_LIMIT;
 use crate::renderer::RenderError;
 use crate::scene::settings::MOST_LIGHT_SAMPLES;
-use crate::scene::{Estimator, LightSamples, LightSampling, RenderSettings, Scene, SceneSummary};
-use tried::{Found, InView, Rays};
+use crate::scene::{Estimator, LightSampling, NumberOrAuto, RenderSettings, Scene, SceneSummary};
+use roulette::{Effects, ROULETTE_DEPTHS};
+use tried::{Found, InView, Rays, losses_of_roulette};
 
 /// Pixels of a film below which a pilot would take longer than it saves.
 const FEWEST_PIXELS: u64 = 1 << 16;
@@ -46,15 +48,54 @@ struct Costs {
 const SIMPLE: Costs = Costs { light_sample: 1.0, tree_of_lights: 1.4, of_rectangle: 0.75, of_triangle: 2.2 };
 const TRAVERSED: Costs = Costs { light_sample: 0.8, tree_of_lights: 1.4, of_rectangle: 0.2, of_triangle: 0.6 };
 
-/// A scene whose settings say how lights are drawn from.
+/// Edges of a path at most where one that no roulette ends is considered.
+const MOST_EDGES_WITHOUT_ROULETTE: u32 = 16;
+
+/// A scene whose settings say how lights are drawn from and where roulette begins.
 pub struct Settled<'a> {
     pub scene: Cow<'a, Scene>,
-    /// Why light samples are as many as they are; None where the scene says how many.
-    pub because: Option<String>,
+    pub because: Reasons,
     /// Paths were traced to find out.
     pub is_piloted: bool,
     /// The scene made ready, where that was needed to find out.
     pub integrator: Option<Integrator>,
+}
+
+/// Why settings are what they are; None where the scene says what they are.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Reasons {
+    /// How many light samples there are.
+    pub light_samples: Option<String>,
+    /// Where roulette begins.
+    pub roulette: Option<String>,
+}
+
+/// What settings leave open.
+#[derive(Clone, Copy, PartialEq)]
+struct Open {
+    light_samples: bool,
+    light_sampling: bool,
+    roulette: bool,
+}
+
+impl Open {
+    fn of(settings: &RenderSettings) -> Self {
+        Self {
+            light_samples: settings.light_samples == NumberOrAuto::Auto,
+            light_sampling: settings.light_sampling == LightSampling::Auto,
+            roulette: settings.roulette_depth == NumberOrAuto::Auto,
+        }
+    }
+
+    fn draws_from_lights(self) -> bool {
+        self.light_samples || self.light_sampling
+    }
+
+    /// The same reason for each of them.
+    fn reasons(self, because: &str) -> Reasons {
+        let because = |is_open: bool| is_open.then(|| because.to_owned());
+        Reasons { light_samples: because(self.light_samples), roulette: because(self.roulette) }
+    }
 }
 
 /// Chooses what the scene's settings leave open. A scene whose settings are complete is as it was.
@@ -62,35 +103,38 @@ pub struct Settled<'a> {
 /// # Errors
 /// What the reference cannot render.
 pub fn settle(scene: &Scene) -> Result<Settled<'_>, RenderError> {
-    let settings = &scene.render;
-    let [no_count, no_way] = [settings.light_samples == LightSamples::Auto, settings.light_sampling == LightSampling::Auto];
-    let as_it_is = Settled { scene: Cow::Borrowed(scene), because: None, is_piloted: false, integrator: None };
-    if !no_count && !no_way {
-        return Ok(as_it_is);
+    let mut open = Open::of(&scene.render);
+    let as_it_is = |because: Reasons| Settled { scene: Cow::Borrowed(scene), because, is_piloted: false, integrator: None };
+    if !open.draws_from_lights() && !open.roulette {
+        return Ok(as_it_is(Reasons::default()));
     }
-    // What nobody has chosen is one light sample, and the area of flat lights.
-    if let Some(because) = not_worth_trying(scene) {
-        return Ok(Settled { because: no_count.then(|| because.to_owned()), ..as_it_is });
+    // What nobody has chosen is one light sample, the area of flat lights, and the default of roulette.
+    if let Some(because) = not_worth_trying(scene, open) {
+        return Ok(as_it_is(open.reasons(because)));
     }
     let mut pilot = Pilot::new(scene)?;
-    let open = [no_count, no_way && pilot.costliest_outline.is_some()];
-    if open == [false; 2] {
-        return Ok(Settled { integrator: Some(pilot.integrator), ..as_it_is });
+    open.light_sampling &= pilot.costliest_outline.is_some();
+    if !open.draws_from_lights() && !open.roulette {
+        return Ok(Settled { integrator: Some(pilot.integrator), ..as_it_is(Reasons::default()) });
     }
-    let (settings, because) = choose(&mut pilot, open);
-    pilot.integrator.set_light_sampling(&settings);
+    let because = choose(&mut pilot, open);
+    pilot.integrator.set_light_sampling(&pilot.settings);
+    pilot.integrator.set_roulette_depth(pilot.settings.roulette_depth);
     Ok(Settled {
-        scene: Cow::Owned(Scene { render: settings, ..scene.clone() }),
-        because: no_count.then_some(because),
+        scene: Cow::Owned(Scene { render: pilot.settings, ..scene.clone() }),
+        because,
         is_piloted: true,
         integrator: Some(pilot.integrator),
     })
 }
 
 /// Why nothing is tried, if so.
-fn not_worth_trying(scene: &Scene) -> Option<&'static str> {
-    if scene.render.estimator == Estimator::Bsdf || !scene.has_light() {
+fn not_worth_trying(scene: &Scene, open: Open) -> Option<&'static str> {
+    if scene.render.estimator == Estimator::Bsdf && !open.roulette {
         return Some("no light is sampled");
+    }
+    if !scene.has_light() {
+        return Some("there is no light");
     }
     if scene.render.max_depth == 1 {
         return Some("paths have no second edge");
@@ -106,31 +150,55 @@ fn pixel_count(scene: &Scene) -> u64 {
     scene.film.size.map(u64::from).iter().product()
 }
 
-/// The settings with another way to draw from lights; a number of light samples that is given stays.
-fn way(settings: &RenderSettings, sampling: LightSampling, [count, depth]: [u32; 2]) -> RenderSettings {
-    let mut settings = RenderSettings { light_sampling: sampling, ..settings.clone() };
-    if settings.light_samples == LightSamples::Auto {
-        (settings.light_samples, settings.light_samples_depth) = (LightSamples::Count(count), depth);
+/// Chooses what the settings leave open, and leaves it in the pilot's: how lights are drawn from, then where roulette begins. Returns why.
+fn choose(pilot: &mut Pilot<'_>, open: Open) -> Reasons {
+    let first = Tried { sampling: pilot.settings.light_sampling, samples: [1, 1], loss: 1.0 };
+    let simplest = pilot.try_way(first);
+    let in_view = InView::new(&mut pilot.integrator, pilot.pixels);
+    let mut best = first;
+    let nothing_to_gain = if !simplest.has_noise() {
+        Some("a pilot found no noise")
+    } else {
+        // An environment of one colour is no light that is sampled.
+        (simplest.rays().shadow == 0.0).then_some("no light is sampled")
+    };
+    if open.draws_from_lights() && nothing_to_gain.is_none() {
+        best = best_way(pilot, first, open, (&simplest, &in_view));
     }
-    settings
+    let mut reasons = Reasons::default();
+    reasons.light_samples = open.light_samples.then(|| match nothing_to_gain {
+        Some(because) => because.to_owned(),
+        None => format!("a pilot found {:.2} of the error × cost of one light sample", best.loss),
+    });
+    pilot.settings = pilot.way(best);
+    if open.roulette {
+        let (found, effects) = pilot.try_roulette();
+        let losses = losses_of_roulette(&found, &effects, &in_view, |rays| pilot.cost_of_roulette(rays));
+        let (depth, because) = best_roulette(losses, pilot.settings.max_depth);
+        pilot.settings.roulette_depth = depth.into();
+        reasons.roulette = Some(because);
+    }
+    reasons
 }
 
-/// Tries what the settings leave open, the number of light samples or how flat lights are drawn from or both, from the simplest way on: the settings
-/// with the best, and why.
-fn choose(pilot: &mut Pilot<'_>, [no_count, no_way]: [bool; 2]) -> (RenderSettings, String) {
-    let settings = &pilot.scene.render;
-    let mut best = Tried { sampling: settings.light_sampling, samples: [1, 1], loss: 1.0 };
-    let simplest = pilot.try_way(best.sampling, best.samples);
-    // An environment of one colour is no light that is sampled.
-    let nothing_to_gain = [(pilot.shadow_rays == 0, "no light is sampled"), (!simplest.has_noise(), "a pilot found no noise")];
-    if let Some((_, because)) = nothing_to_gain.into_iter().find(|(holds, _)| *holds) {
-        return (way(settings, best.sampling, best.samples), because.to_owned());
-    }
-    let beside = (&simplest, &InView::new(&mut pilot.integrator, pilot.pixels));
-    if no_way {
+/// The depth with the least error times cost, if that is clearly less than by default, and why.
+fn best_roulette(losses: [f64; ROULETTE_DEPTHS.len()], max_depth: u32) -> (u32, String) {
+    let by_default = (ROULETTE_DEPTHS[0], 1.0);
+    let can_be = |depth: u32| depth > 0 || (1..=MOST_EDGES_WITHOUT_ROULETTE).contains(&max_depth);
+    let candidates = ROULETTE_DEPTHS.into_iter().zip(losses).filter(|&(depth, _)| can_be(depth));
+    let best = candidates.fold(by_default, |best, other| if other.1 < best.1 { other } else { best });
+    if std::env::var("DBG").is_ok() { eprintln!("{losses:?}"); }
+    let (depth, loss) = if best.1 * LEAST_GAIN < 1.0 { best } else { by_default };
+    (depth, format!("a pilot found {loss:.2} of the error × cost of depth {}", by_default.0))
+}
+
+/// The best way to draw from lights, from the simplest on.
+fn best_way(pilot: &mut Pilot<'_>, simplest: Tried, open: Open, beside: (&Found, &InView)) -> Tried {
+    let mut best = simplest;
+    if open.light_sampling {
         best = pilot.better(best, Tried { sampling: LightSampling::Cone, ..best }, beside);
     }
-    for depth in (1..=most_depth(settings)).filter(|_| no_count) {
+    for depth in (1..=most_depth(&pilot.settings)).filter(|_| open.light_samples) {
         let (mut in_vain, fewest) = (0, best.samples[0]);
         for count in [2, 4, 8, MOST_LIGHT_SAMPLES].into_iter().filter(|&count| count >= fewest) {
             let better = pilot.better(best, Tried { samples: [count, depth], ..best }, beside);
@@ -141,8 +209,7 @@ fn choose(pilot: &mut Pilot<'_>, [no_count, no_way]: [bool; 2]) -> (RenderSettin
             }
         }
     }
-    let because = format!("a pilot found {:.2} of the error × cost of one light sample", best.loss);
-    (way(settings, best.sampling, best.samples), because)
+    best
 }
 
 /// How many first surfaces of a path can take light samples, up to those that are tried.
@@ -163,6 +230,8 @@ struct Tried {
 struct Pilot<'a> {
     integrator: Integrator,
     scene: &'a Scene,
+    /// The scene's, with what was chosen so far.
+    settings: RenderSettings,
     /// Geometry is few primitives.
     is_simple: bool,
     /// Of lamps that can be drawn from by solid angle.
@@ -170,7 +239,7 @@ struct Pilot<'a> {
     /// Pixels that are tried.
     pixels: u32,
     /// Of the first way that was tried.
-    shadow_rays: u64,
+    shadow_rays: f64,
 }
 
 impl<'a> Pilot<'a> {
@@ -180,28 +249,56 @@ impl<'a> Pilot<'a> {
         let costliest_outline = integrator.costliest_outline();
         let [fewest, most] = TRIED_PIXELS;
         let pixels = (pixel_count(scene) / ONE_OF_PIXELS).clamp(fewest, most) as u32;
-        Ok(Self { integrator, scene, is_simple, costliest_outline, pixels, shadow_rays: 0 })
+        let settings = scene.render.clone();
+        Ok(Self { integrator, scene, settings, is_simple, costliest_outline, pixels, shadow_rays: 0.0 })
     }
 
     /// The better of two ways, both beside the simplest.
     fn better(&mut self, best: Tried, other: Tried, (simplest, in_view): (&Found, &InView)) -> Tried {
-        let loss = self.try_way(other.sampling, other.samples).loss_over(simplest, in_view);
+        let loss = self.try_way(other).loss_over(simplest, in_view);
         if loss * LEAST_GAIN < best.loss { Tried { loss, ..other } } else { best }
     }
 
-    fn try_way(&mut self, sampling: LightSampling, samples: [u32; 2]) -> Found {
-        let settings = way(&self.scene.render, sampling, samples);
+    /// The settings with another way to draw from lights; a number of light samples that is given stays.
+    fn way(&self, Tried { sampling, samples: [count, depth], .. }: Tried) -> RenderSettings {
+        let mut settings = RenderSettings { light_sampling: sampling, ..self.settings.clone() };
+        if settings.light_samples == NumberOrAuto::Auto {
+            (settings.light_samples, settings.light_samples_depth) = (count.into(), depth);
+        }
+        settings
+    }
+
+    fn try_way(&mut self, tried: Tried) -> Found {
+        let settings = self.way(tried);
         self.integrator.set_light_sampling(&settings);
         let mut found = Found::new(&self.integrator, self.pixels);
-        if self.shadow_rays == 0 {
+        if self.shadow_rays == 0.0 {
             self.shadow_rays = found.rays().shadow;
         }
         found.cost = self.cost(found.rays(), &settings);
         found
     }
 
+    /// What the settings' way finds, and what roulette would do to its paths.
+    fn try_roulette(&mut self) -> (Found, Vec<Effects>) {
+        self.integrator.set_light_sampling(&self.settings);
+        Found::with_roulette(&self.integrator, self.pixels)
+    }
+
     /// What rays take, in rays of paths, by what kernels take on software devices, where lanes wait for each other.
     fn cost(&self, rays: Rays, settings: &RenderSettings) -> f64 {
+        // Where a lane goes on to its next path by itself, all wait for one that is at its first surface.
+        let light_samples =
+            if self.is_simple { f64::from(settings.several_light_samples()[0]) * self.shadow_rays } else { rays.shadow };
+        rays.path + self.cost_of_light_sample(settings) * light_samples
+    }
+
+    /// The same of rays that another roulette leaves.
+    fn cost_of_roulette(&self, rays: Rays) -> f64 {
+        rays.path + self.cost_of_light_sample(&self.settings) * rays.shadow
+    }
+
+    fn cost_of_light_sample(&self, settings: &RenderSettings) -> f64 {
         let by_solid_angle =
             settings.light_sampling == LightSampling::Cone && self.scene.render.light_sampling == LightSampling::Auto;
         let costs = if self.is_simple { SIMPLE } else { TRAVERSED };
@@ -211,10 +308,6 @@ impl<'a> Pilot<'a> {
             Some(Outline::Triangle) => costs.of_triangle,
         };
         let of_choice = if self.integrator.chooses_lights_by_tree() { costs.tree_of_lights } else { 0.0 };
-        let a_light_sample = costs.light_sample + of_choice + of_point;
-        // Where a lane goes on to its next path by itself, all wait for one that is at its first surface.
-        let light_samples =
-            if self.is_simple { u64::from(settings.several_light_samples()[0]) * self.shadow_rays } else { rays.shadow };
-        rays.path as f64 + a_light_sample * light_samples as f64
+        costs.light_sample + of_choice + of_point
     }
 }

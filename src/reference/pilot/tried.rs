@@ -4,6 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::compare::metrics::relative_weight;
+use super::roulette::{Effects, PathRecord, ROULETTE_DEPTHS};
 use crate::reference::bsdf::BsdfSample;
 use crate::reference::integrator::Integrator;
 use crate::reference::intersect::Surface;
@@ -18,6 +19,8 @@ const SAMPLES: u32 = 16;
 /// Of what is in view, so many times as many pixels are looked at, each by so many pictures.
 const MORE_PIXELS: u32 = 16;
 const PICTURES_IN_VIEW: u32 = 2;
+/// Least error that another roulette may leave, beside what there was.
+const LEAST_ERROR: f64 = 0.25;
 /// Vertices after which a path is given up.
 const MOST_VERTICES: u32 = 64;
 /// Of the random numbers.
@@ -33,9 +36,19 @@ pub struct Found {
 impl Found {
     /// Of so many pixels; the cost is not known yet.
     pub fn new(integrator: &Integrator, pixels: u32) -> Self {
+        Self::watched_by::<Watched>(integrator, pixels).0
+    }
+
+    /// As [`Found::new`], with what roulette from other depths on would do to the paths.
+    pub fn with_roulette(integrator: &Integrator, pixels: u32) -> (Self, Vec<Effects>) {
+        Self::watched_by::<WatchedRoulette>(integrator, pixels)
+    }
+
+    fn watched_by<W: Watcher>(integrator: &Integrator, pixels: u32) -> (Self, Vec<Effects>) {
         let pictures = pictures(integrator, PICTURES);
-        let pixels = (0..pixels).into_par_iter().map(|number| TriedPixel::of(integrator, &pictures, number)).collect();
-        Self { pixels, cost: 0.0 }
+        let of_pixel = |number| TriedPixel::of::<W>(integrator, &pictures, number);
+        let (pixels, effects) = (0..pixels).into_par_iter().map(of_pixel).unzip();
+        (Self { pixels, cost: 0.0 }, effects)
     }
 
     /// All together.
@@ -63,6 +76,32 @@ impl Found {
     }
 }
 
+/// Error times cost with roulette from each of [`ROULETTE_DEPTHS`] on, over that of a way as it is. `effects`: of its pixels. `cost`: of rays.
+pub fn losses_of_roulette(
+    found: &Found,
+    effects: &[Effects],
+    in_view: &InView,
+    cost: impl Fn(Rays) -> f64,
+) -> [f64; ROULETTE_DEPTHS.len()] {
+    let total = effects.iter().fold(Effects::default(), |sum, effects| sum.and(*effects));
+    let mut error = 0.0;
+    let mut more = [0.0; ROULETTE_DEPTHS.len()];
+    let mut beyond = DVec3::ZERO;
+    for (pixel, effects) in found.pixels.iter().zip(effects) {
+        beyond += pixel.mean;
+        let weight = weight(pixel.in_view + pixel.mean);
+        error += pixel.variance.dot(weight);
+        for (more, effect) in more.iter_mut().zip(effects.0) {
+            *more += effect.variance.dot(weight) / f64::from(SAMPLES);
+        }
+    }
+    error += in_view.error(beyond / found.pixels.len() as f64);
+    // Both are estimates: roulette makes a part of the error, however it came out.
+    let loss = |index: usize| (error + more[index]).max(LEAST_ERROR * error) * cost(total.0[index].rays);
+    let own = loss(0);
+    std::array::from_fn(|index| loss(index) / own)
+}
+
 /// What squared errors are multiplied by.
 fn weight(mean: DVec3) -> DVec3 {
     DVec3::from_array(mean.to_array().map(relative_weight))
@@ -81,7 +120,7 @@ impl InView {
         let max_depth = integrator.set_max_depth(1);
         let pictures = pictures(integrator, PICTURES_IN_VIEW);
         let look = |number| {
-            let found = pictures.iter().map(|picture| picture.show(integrator, number).in_view);
+            let found = pictures.iter().map(|picture| picture.show::<Watched>(integrator, number).in_view);
             mean_and_variance(&found.collect::<Vec<DVec3>>())
         };
         let pixels = (0..MORE_PIXELS * pixels).into_par_iter().map(look).collect();
@@ -113,18 +152,20 @@ fn pictures(integrator: &Integrator, count: u32) -> Vec<Picture> {
 
 impl Picture {
     /// What a pixel shows.
-    fn show(&self, integrator: &Integrator, number: u32) -> Shown {
+    fn show<W: Watcher>(&self, integrator: &Integrator, number: u32) -> Shown {
         let size = integrator.scene().film.size;
         let [x, y] = pixel_of(number, size);
         let pixel = y.wrapping_mul(size[0]).wrapping_add(x);
         let mut shown = Shown::default();
         for point in &self.points {
-            let mut path = Watched::default();
-            let found = integrator.radiance(x, y, &PathSampler::new(&self.sampling, pixel, point), &mut path);
+            let mut watcher = W::default();
+            let found = integrator.radiance(x, y, &PathSampler::new(&self.sampling, pixel, point), &mut watcher);
+            let path = watcher.watched();
             // The film leaves out what is not finite, too.
             if found.is_finite() {
                 shown.in_view += path.in_view / f64::from(SAMPLES);
                 shown.beyond += (found - path.in_view) / f64::from(SAMPLES);
+                shown.effects = shown.effects.and(watcher.effects());
             }
             shown.rays = shown.rays.and(path.rays);
         }
@@ -138,6 +179,8 @@ struct Shown {
     in_view: DVec3,
     beyond: DVec3,
     rays: Rays,
+    /// Of all samples together.
+    effects: Effects,
 }
 
 /// Of one of them.
@@ -157,24 +200,44 @@ struct TriedPixel {
 }
 
 impl TriedPixel {
-    fn of(integrator: &Integrator, pictures: &[Picture], number: u32) -> Self {
-        let shown: Vec<Shown> = pictures.iter().map(|picture| picture.show(integrator, number)).collect();
+    /// With the effects of roulette on a sample of it.
+    fn of<W: Watcher>(integrator: &Integrator, pictures: &[Picture], number: u32) -> (Self, Effects) {
+        let shown: Vec<Shown> = pictures.iter().map(|picture| picture.show::<W>(integrator, number)).collect();
         let [mean, variance] = mean_and_variance(&shown.iter().map(|shown| shown.beyond).collect::<Vec<DVec3>>());
         let in_view = shown.iter().map(|shown| shown.in_view).sum::<DVec3>() / f64::from(PICTURES);
-        Self { in_view, mean, variance, rays: shown.iter().fold(Rays::default(), |sum, shown| sum.and(shown.rays)) }
+        let effects = shown.iter().fold(Effects::default(), |sum, shown| sum.and(shown.effects));
+        let rays = shown.iter().fold(Rays::default(), |sum, shown| sum.and(shown.rays));
+        (Self { in_view, mean, variance, rays }, effects.times(1.0 / f64::from(PICTURES * SAMPLES)))
     }
 }
 
 /// Numbers of rays of paths and of shadow rays.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Rays {
-    pub path: u64,
-    pub shadow: u64,
+    pub path: f64,
+    pub shadow: f64,
 }
 
 impl Rays {
-    fn and(self, other: Self) -> Self {
+    pub const PATH: Self = Self { path: 1.0, shadow: 0.0 };
+    pub const SHADOW: Self = Self { path: 0.0, shadow: 1.0 };
+
+    pub fn times(self, factor: f64) -> Self {
+        Self { path: self.path * factor, shadow: self.shadow * factor }
+    }
+
+    pub fn and(self, other: Self) -> Self {
         Self { path: self.path + other.path, shadow: self.shadow + other.shadow }
+    }
+}
+
+/// Follows a path.
+trait Watcher: PathVisitor + Default {
+    fn watched(&self) -> &Watched;
+
+    /// What roulette from other depths on would do to it.
+    fn effects(&self) -> Effects {
+        Effects::default()
     }
 }
 
@@ -187,9 +250,15 @@ struct Watched {
     scatters: bool,
 }
 
+impl Watcher for Watched {
+    fn watched(&self) -> &Watched {
+        self
+    }
+}
+
 impl PathVisitor for Watched {
     fn surface(&mut self, _: u32, _: &Surface, _: DVec3, _: DVec3) {
-        self.rays.path += 1;
+        self.rays.path += 1.0;
     }
 
     fn emission(&mut self, _: DVec3, _: f64, contribution: DVec3) {
@@ -203,18 +272,77 @@ impl PathVisitor for Watched {
     }
 
     fn escaped(&mut self, _: DVec3, _: f64, contribution: DVec3) {
-        self.rays.path += 1;
+        self.rays.path += 1.0;
         if !self.scatters {
             self.in_view += contribution;
         }
     }
 
     fn light(&mut self, _: &LightConnection) {
-        self.rays.shadow += 1;
+        self.rays.shadow += 1.0;
     }
 
     fn gives_up(&mut self, vertices: u32) -> bool {
         vertices > MOST_VERTICES
+    }
+}
+
+/// A path that is followed, and what it tells of roulette. Light in view is no part of that: no roulette ends paths before it.
+#[derive(Default)]
+struct WatchedRoulette {
+    watched: Watched,
+    record: PathRecord,
+}
+
+impl Watcher for WatchedRoulette {
+    fn watched(&self) -> &Watched {
+        &self.watched
+    }
+
+    fn effects(&self) -> Effects {
+        self.record.effects()
+    }
+}
+
+impl WatchedRoulette {
+    fn found(&mut self, contribution: DVec3) {
+        if self.watched.scatters {
+            self.record.found(contribution);
+        }
+    }
+}
+
+impl PathVisitor for WatchedRoulette {
+    fn surface(&mut self, depth: u32, surface: &Surface, wo: DVec3, throughput: DVec3) {
+        self.watched.surface(depth, surface, wo, throughput);
+        self.record.traced(Rays::PATH);
+        self.record.met(depth, throughput);
+    }
+
+    fn emission(&mut self, radiance: DVec3, weight: f64, contribution: DVec3) {
+        self.watched.emission(radiance, weight, contribution);
+        self.found(contribution);
+    }
+
+    fn scattered(&mut self, sample: &BsdfSample) {
+        self.watched.scattered(sample);
+        self.record.scattered(sample);
+    }
+
+    fn escaped(&mut self, radiance: DVec3, weight: f64, contribution: DVec3) {
+        self.watched.escaped(radiance, weight, contribution);
+        self.record.traced(Rays::PATH);
+        self.found(contribution);
+    }
+
+    fn light(&mut self, connection: &LightConnection) {
+        self.watched.light(connection);
+        self.record.traced(Rays::SHADOW);
+        self.record.found(connection.contribution);
+    }
+
+    fn gives_up(&mut self, vertices: u32) -> bool {
+        self.watched.gives_up(vertices)
     }
 }
 

@@ -209,7 +209,7 @@ fn what_cannot_be_rendered_is_refused_by_name() {
     assert!(refusal(|scene| (scene.materials[0].kind, scene.materials[1].kind) = (blend(1, 2), blend(2, 0))).contains("itself"));
     assert!(refusal(|scene| scene.materials[0].kind = blend(1, 99)).contains("no material 99"));
     assert!(refusal(|scene| blends_of_twice_the_blend_before(scene, 17)).contains("more than 65536"));
-    assert!(refusal(|scene| (scene.render.max_depth, scene.render.roulette_depth) = (0, 0)).contains("never end"));
+    assert!(refusal(|scene| (scene.render.max_depth, scene.render.roulette_depth) = (0, 0.into())).contains("never end"));
     assert!(
         refusal(|scene| scene.materials[0].kind = MaterialKind::Mirror { reflectance: ColorInput::Texture(0) })
             .contains("no texture")

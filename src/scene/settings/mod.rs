@@ -2,7 +2,7 @@
 
 mod film;
 mod kinds;
-mod light_samples;
+mod number_or_auto;
 mod row;
 mod table;
 mod value;
@@ -11,6 +11,6 @@ pub use film::{FilmSettings, Filter, FilterKind, LARGEST_FILTER_RADIUS, MAX_PIXE
 pub use kinds::{
     BlendMode, Estimator, Guiding, HemisphereSampling, LightChoice, LightSampling, MisHeuristic, PixelSampler, SamplerKind,
 };
-pub use light_samples::LightSamples;
-pub use table::{Assignment, MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH, RenderSettings, SETTINGS, Setting};
+pub use number_or_auto::NumberOrAuto;
+pub use table::{Assignment, DEFAULT_ROULETTE_DEPTH, MOST_LIGHT_SAMPLES, MOST_LIGHT_SAMPLES_DEPTH, RenderSettings, SETTINGS, Setting};
 pub use value::{BadSetting, MOST_SAMPLES, Value, Values};

@@ -10,7 +10,7 @@ use serde::{Serialize, Serializer};
 use super::kinds::{
     BlendMode, Estimator, Guiding, HemisphereSampling, LightChoice, LightSampling, MisHeuristic, PixelSampler, SamplerKind,
 };
-use super::light_samples::LightSamples;
+use super::number_or_auto::{NumberOrAuto, auto};
 use super::row::settings;
 use super::value::Values::{Names, Real, Whole, WholeOr};
 use super::value::{BadSetting, Field, MOST_SAMPLES, Value, Values};
@@ -20,6 +20,9 @@ use crate::choice::Choice;
 pub const MOST_LIGHT_SAMPLES: u32 = 16;
 /// Most edges of a path whose surfaces take more than one: their points stand in a table that has to fit a uniform buffer.
 pub const MOST_LIGHT_SAMPLES_DEPTH: u32 = 3;
+
+/// First depth at which Russian roulette may end a path where neither the scene nor a pilot chooses one.
+pub const DEFAULT_ROULETTE_DEPTH: u32 = 5;
 
 /// Largest radiance that samples may be clamped to: it is an f32 in shaders.
 const LARGEST_CLAMP: f64 = 1e18;
@@ -101,8 +104,8 @@ settings! {
             compared: true,
         }
         /// Light samples at the first surfaces of a path; later surfaces take one. Several pay where direct light is most of the noise.
-        light_samples: LightSamples = LightSamples::Auto => {
-            values: WholeOr(1, MOST_LIGHT_SAMPLES, LightSamples::AUTO),
+        light_samples: NumberOrAuto = NumberOrAuto::Auto => {
+            values: WholeOr(1, MOST_LIGHT_SAMPLES, auto("As many as a pilot of some thousand paths finds best, and at as many surfaces.")),
             flag: "--light-samples",
             placeholder: "N",
             header: "gpt:lightSamples",
@@ -133,8 +136,8 @@ settings! {
             compared: true,
         }
         /// First depth at which Russian roulette may end a path; 0 = never.
-        roulette_depth: u32 = 5 => {
-            values: Whole(0, MOST_SAMPLES),
+        roulette_depth: NumberOrAuto = NumberOrAuto::Auto => {
+            values: WholeOr(0, MOST_SAMPLES, auto("The depth that a pilot of some thousand paths finds best; 5 where none is rendered.")),
             flag: "--roulette-depth",
             placeholder: "N",
             header: "gpt:rouletteDepth",
@@ -264,7 +267,7 @@ impl RenderSettings {
     #[doc(hidden)]
     pub fn light_samples_at(&self, depth: u32) -> u32 {
         match self.light_samples {
-            LightSamples::Count(count) if (1..=self.light_samples_depth).contains(&depth) => count,
+            NumberOrAuto::Number(count) if (1..=self.light_samples_depth).contains(&depth) => count,
             _ => 1,
         }
     }
@@ -273,6 +276,15 @@ impl RenderSettings {
     #[doc(hidden)]
     pub fn several_light_samples(&self) -> [u32; 2] {
         [self.light_samples_at(1).clamp(1, MOST_LIGHT_SAMPLES), self.light_samples_depth.clamp(1, MOST_LIGHT_SAMPLES_DEPTH)]
+    }
+
+    /// The first depth at which Russian roulette may end a path; none where it never does. [`DEFAULT_ROULETTE_DEPTH`] before a pilot has found one.
+    #[doc(hidden)]
+    pub fn first_roulette(&self) -> Option<u32> {
+        match self.roulette_depth {
+            NumberOrAuto::Auto => Some(DEFAULT_ROULETTE_DEPTH),
+            NumberOrAuto::Number(depth) => (depth > 0).then_some(depth),
+        }
     }
 
     /// Random numbers depend on how many samples there are in all: the first samples of many are not those of few.
@@ -304,7 +316,7 @@ impl RenderSettings {
                 return Err(BadSetting { setting: setting.name, message, help: None });
             }
         }
-        if self.max_depth == 0 && self.roulette_depth == 0 {
+        if self.max_depth == 0 && self.first_roulette().is_none() {
             return Err(BadSetting {
                 setting: "roulette_depth",
                 message: "with max_depth = 0 and roulette_depth = 0 paths would never end".to_owned(),
@@ -370,7 +382,7 @@ mod tests {
         assert_eq!(message(many), "light_samples: expected a whole number from 1 to 16, or auto, found 17");
         let none = RenderSettings { spp: 0, ..RenderSettings::default() };
         assert_eq!(message(none), "spp: expected a whole number of at least 1, found 0");
-        let endless = RenderSettings { max_depth: 0, roulette_depth: 0, ..RenderSettings::default() };
+        let endless = RenderSettings { max_depth: 0, roulette_depth: 0.into(), ..RenderSettings::default() };
         assert_eq!(message(endless), "roulette_depth: with max_depth = 0 and roulette_depth = 0 paths would never end");
     }
 

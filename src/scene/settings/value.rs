@@ -64,6 +64,9 @@ impl Values {
             (Self::Whole(_, most), _) if most >= MOST_SAMPLES && number > i64::from(most) => {
                 Err(format!("a whole number of at most {most}"))
             }
+            (Self::WholeOr(_, most, name), _) if most >= MOST_SAMPLES && number > i64::from(most) => {
+                Err(format!("a whole number of at most {most}, or {}", name.name))
+            }
             _ => Err(self.to_string()),
         }
     }
@@ -126,6 +129,9 @@ impl fmt::Display for Values {
         match self {
             Self::Whole(least, most) if *most >= MOST_SAMPLES => write!(out, "a whole number of at least {least}"),
             Self::Whole(least, most) => write!(out, "a whole number from {least} to {most}"),
+            Self::WholeOr(least, most, name) if *most >= MOST_SAMPLES => {
+                write!(out, "a whole number of at least {least}, or {}", name.name)
+            }
             Self::WholeOr(least, most, name) => write!(out, "a whole number from {least} to {most}, or {}", name.name),
             Self::Real(least, most) if *most >= 1e9 => write!(out, "a number of at least {least}"),
             Self::Real(least, most) => write!(out, "a number from {least} to {most}"),
@@ -197,7 +203,8 @@ impl<T: Choice> Field for T {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{LightSamples, SamplerKind};
+    use super::super::number_or_auto::{NumberOrAuto, auto};
+    use crate::scene::SamplerKind;
 
     #[test]
     fn values_out_of_range_are_refused_with_what_would_be_right() {
@@ -224,14 +231,14 @@ mod tests {
 
     #[test]
     fn a_name_may_stand_for_no_number() {
-        let some = Values::WholeOr(1, 16, LightSamples::AUTO);
+        let some = Values::WholeOr(1, 16, auto("As many as are best."));
         assert_eq!((some.number(3), some.name("auto")), (Ok(Value::Number(3)), Ok(Value::Name("auto"))));
         assert_eq!((some.text("3"), some.text("auto")), (Ok(Value::Number(3)), Ok(Value::Name("auto"))));
         for bad in ["0", "17", "-1", "2.5", "Auto", "", "many"] {
             assert_eq!(some.text(bad), Err("a whole number from 1 to 16, or auto".to_owned()), "{bad}");
         }
-        for value in [LightSamples::Auto, LightSamples::Count(7)] {
-            assert_eq!(LightSamples::from_value(value.to_value()), Some(value));
+        for value in [NumberOrAuto::Auto, NumberOrAuto::Number(7)] {
+            assert_eq!(NumberOrAuto::from_value(value.to_value()), Some(value));
         }
     }
 

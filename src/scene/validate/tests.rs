@@ -160,7 +160,7 @@ fn each_mistake_is_named_with_its_part() {
             "render settings: light_samples_depth: expected a whole number from 1 to 3, found 0",
         ),
         (
-            |s| (s.render.max_depth, s.render.roulette_depth) = (0, 0),
+            |s| (s.render.max_depth, s.render.roulette_depth) = (0, 0.into()),
             "render settings: roulette_depth: with max_depth = 0 and roulette_depth = 0 paths would never end",
         ),
         (|s| s.camera.look_at = s.camera.position, "camera: it looks at the point it stands at"),

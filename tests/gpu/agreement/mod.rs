@@ -112,7 +112,7 @@ fn every_estimator_sampler_and_heuristic_agrees() {
 fn unlimited_depth_agrees() {
     let mut scene = small("furnace-box", 24, 4);
     scene.render.max_depth = 0;
-    scene.render.roulette_depth = 2;
+    scene.render.roulette_depth = 2.into();
     assert_agrees("unlimited, fused", &scene, &PlanOptions::default());
     let wavefront = PlanOptions { stages: Some(StageMode::Wavefront), ..PlanOptions::default() };
     assert_agrees("unlimited, wavefront", &scene, &wavefront);

@@ -61,7 +61,7 @@ fn furnaces(cases: &mut Vec<Case>) {
         for albedo in [0.5, 0.8] {
             let mut scene = scene(64, inside());
             // Roulette adds noise and waits, lest it hide 1 %: the longer, the brighter the walls.
-            scene.render.roulette_depth = if albedo > 0.5 { 24 } else { 9 };
+            scene.render.roulette_depth = if albedo > 0.5 { 24 } else { 9 }.into();
             let walls = glowing(&mut scene, albedo, 1.0);
             room.iter().for_each(|part| shape(&mut scene, part.clone(), walls));
             // Where emitting walls meet at an edge, light sampling alone has infinite variance.

@@ -282,7 +282,7 @@ fn blends_with_delta_lobes(cases: &mut Vec<Case>) {
 fn furnaces_of_blends(cases: &mut Vec<Case>) {
     let inside = camera(DVec3::new(0.2, -0.3, 0.1), DVec3::new(1.0, 0.5, -0.7), 60.0);
     let mut scene = scene(64, inside);
-    scene.render.roulette_depth = 12;
+    scene.render.roulette_depth = 12.into();
     let (bright, dark) = (glowing(&mut scene, 0.9, 2.0), glowing(&mut scene, 0.1, 0.4));
     let middle = diffuse(&mut scene, 0.5);
     let inner = blend(&mut scene, dark, middle, half());

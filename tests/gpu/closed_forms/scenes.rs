@@ -11,7 +11,7 @@ use super::SIDE;
 pub fn scene(spp: u32, camera: Camera) -> Scene {
     Scene {
         film: FilmSettings { size: [SIDE; 2], ..FilmSettings::default() },
-        render: RenderSettings { spp, max_depth: 0, roulette_depth: 5, ..RenderSettings::default() },
+        render: RenderSettings { spp, max_depth: 0, roulette_depth: 5.into(), ..RenderSettings::default() },
         camera,
         ..Scene::default()
     }

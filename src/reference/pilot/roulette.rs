@@ -1,0 +1,131 @@
+//! What Russian roulette from another depth on would do to paths that were traced.
+//!
+//! A path finds contributions c₁, c₂, … as if there were no roulette, and reaches the k-th with a probability Pₖ, the product of the chances to survive
+//! up to there. The sample is Σ cₖ / Pₖ over what the path reaches, and its second moment is the mean of Σₖ (cₖ² + 2 cₖ Σ_{j>k} cⱼ) / Pₖ, because
+//! whoever reaches j has reached k before. So the paths of one render give the variance, and the rays, of roulette from any depth on: what they find
+//! counts by one over the probability that they themselves had.
+
+use glam::DVec3;
+
+use super::tried::Rays;
+use crate::reference::bsdf::BsdfSample;
+use crate::reference::integrator::roulette_survival;
+use crate::scene::settings::DEFAULT_ROULETTE_DEPTH;
+
+/// First depths at which roulette may end a path, and 0 for none that does. The first is that of the paths that are traced.
+pub const ROULETTE_DEPTHS: [u32; 6] = [DEFAULT_ROULETTE_DEPTH, 4, 3, 2, 1, 0];
+/// Which of them is that of the traced paths.
+const OWN: usize = 0;
+
+/// A number for each of [`ROULETTE_DEPTHS`].
+type OfEach<T> = [T; ROULETTE_DEPTHS.len()];
+
+/// What roulette would do to samples.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Effect {
+    /// By how much a sample's variance would be larger than that of the traced paths.
+    pub variance: DVec3,
+    pub rays: Rays,
+}
+
+impl Effect {
+    fn and(self, other: Self) -> Self {
+        Self { variance: self.variance + other.variance, rays: self.rays.and(other.rays) }
+    }
+
+    fn times(self, factor: f64) -> Self {
+        Self { variance: self.variance * factor, rays: self.rays.times(factor) }
+    }
+}
+
+/// The effect of each depth.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Effects(pub OfEach<Effect>);
+
+impl Effects {
+    pub fn and(self, other: Self) -> Self {
+        Self(std::array::from_fn(|index| self.0[index].and(other.0[index])))
+    }
+
+    pub fn times(self, factor: f64) -> Self {
+        Self(self.0.map(|effect| effect.times(factor)))
+    }
+}
+
+/// Follows one path.
+pub struct PathRecord {
+    /// The chance to come to the path's end as it stands.
+    survival: OfEach<f64>,
+    /// As if there were no roulette.
+    throughput: DVec3,
+    eta_scale: f64,
+    depth: u32,
+    /// Contributions as if there were no roulette, with the chances to reach them.
+    found: Vec<(DVec3, OfEach<f64>)>,
+    rays: OfEach<Rays>,
+}
+
+impl Default for PathRecord {
+    fn default() -> Self {
+        Self {
+            survival: [1.0; ROULETTE_DEPTHS.len()],
+            throughput: DVec3::ONE,
+            eta_scale: 1.0,
+            depth: 1,
+            found: Vec::new(),
+            rays: Default::default(),
+        }
+    }
+}
+
+impl PathRecord {
+    /// A ray of the path, or a shadow ray, was traced.
+    pub fn traced(&mut self, rays: Rays) {
+        for (sum, survival) in self.rays.iter_mut().zip(self.survival) {
+            *sum = sum.and(rays.times(survival / self.survival[OWN]));
+        }
+    }
+
+    /// The path met a surface, with a throughput that roulette has made larger.
+    pub fn met(&mut self, depth: u32, throughput: DVec3) {
+        self.depth = depth;
+        self.throughput = throughput * self.survival[OWN];
+    }
+
+    /// The path found light.
+    pub fn found(&mut self, contribution: DVec3) {
+        if contribution != DVec3::ZERO {
+            self.found.push((contribution * self.survival[OWN], self.survival));
+        }
+    }
+
+    /// The path goes on unless roulette ends it.
+    pub fn scattered(&mut self, sample: &BsdfSample) {
+        self.eta_scale *= sample.eta * sample.eta;
+        let throughput = self.throughput * sample.weight * self.eta_scale;
+        // Null surfaces end no edge.
+        if sample.is_null || throughput.max_element() <= 0.0 {
+            return;
+        }
+        for (survival, first) in self.survival.iter_mut().zip(ROULETTE_DEPTHS) {
+            if first > 0 && self.depth >= first {
+                *survival *= roulette_survival(throughput / *survival, self.depth);
+            }
+        }
+    }
+
+    /// What each depth would do to a sample by what this path tells of it.
+    pub fn effects(&self) -> Effects {
+        let mut effects = Effects(self.rays.map(|rays| Effect { variance: DVec3::ZERO, rays }));
+        let mut behind = DVec3::ZERO;
+        for (contribution, survival) in self.found.iter().rev() {
+            let own = *contribution / survival[OWN];
+            let moment = *contribution * (own + 2.0 * behind);
+            for (effect, chance) in effects.0.iter_mut().zip(survival) {
+                effect.variance += moment * (1.0 / chance - 1.0 / survival[OWN]);
+            }
+            behind += own;
+        }
+        effects
+    }
+}
