@@ -58,6 +58,11 @@ fn guide_at(surface: Surface, probability: f32) -> GuideCell {
     return cell;
 }
 
+// What a surface sends on, on average: all light, or what comes by way of its scattering.
+fn guide_sent_on(cell: GuideCell, all: bool) -> f32 {
+    return bitcast<f32>(guide[cell.first + GUIDE_ROWS * GUIDE_COLUMNS + select(0u, 1u, all)]);
+}
+
 // Draws a direction.
 fn guided_direction(cell: GuideCell, u: f32, v: f32) -> vec3<f32> {
     let u_bits = u32(u * 16777216.0);

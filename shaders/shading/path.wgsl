@@ -13,6 +13,7 @@
 #import shading/outside.wgsl
 #export shading/path_record.wgsl
 #import shading/planted.wgsl
+#import shading/roulette.wgsl
 #import shading/scatterer.wgsl
 #import shading/scattering.wgsl
 #import shading/surface.wgsl
@@ -167,17 +168,20 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
         return shading;
     }
     trace_sample(drawn.wi, drawn.pdf_solid_angle, drawn.weight, drawn.eta_scale, drawn.is_null);
-    if HAS_ROULETTE && depth >= ROULETTE_DEPTH && !drawn.is_null {
-        // Past depth 64 even a lossless path ends some day.
-        let survival = min(max_component(throughput) * (incoming.eta_scale * drawn.eta_scale), select(1.0, 0.999, depth >= 64u));
-        trace_roulette(survival);
-        if uniform_float(more_random.z) >= survival {
-            return shading;
+    var roulette_scale = incoming.roulette_scale;
+    if HAS_ROULETTE && !drawn.is_null {
+        let roulette = roulette_at(incoming, scatterer, throughput, drawn.eta_scale, depth);
+        roulette_scale = roulette.scale;
+        if depth >= ROULETTE_DEPTH {
+            trace_roulette(roulette.survival);
+            if uniform_float(more_random.z) >= roulette.survival {
+                return shading;
+            }
+            throughput /= roulette.survival;
         }
-        throughput /= survival;
     }
     shading.alive = true;
-    *path = extended_path(incoming, surface, drawn, throughput);
+    *path = extended_path(incoming, surface, drawn, throughput, roulette_scale);
     return shading;
 }
 #endif

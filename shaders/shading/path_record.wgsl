@@ -12,8 +12,9 @@ struct Path {
     throughput: vec3<f32>,
     // Density of the ray's direction by solid angle; negative after the camera or a delta lobe.
     pdf_solid_angle: f32,
-    // Product of the squared index ratios of all refractions so far; Russian roulette looks past them.
-    eta_scale: f32,
+    // What Russian roulette multiplies throughputs by: the squared index ratios of all refractions so far. Of guided paths one over what they were
+    // expected to bring at their first guided surface, 0 before.
+    roulette_scale: f32,
     // Pixel over the whole film, and the sample's index within the pass.
     pixel: u32,
     sample_in_pass: u32,
@@ -60,7 +61,7 @@ struct Shading {
 // A path on its first edge.
 fn new_path(ray: Ray, pixel: u32, sample_in_pass: u32) -> Path {
     return Path(
-        ray, vec3<f32>(1.0), -1.0, 1.0, pixel, sample_in_pass, 0u
+        ray, vec3<f32>(1.0), -1.0, select(1.0, 0.0, HAS_GUIDE), pixel, sample_in_pass, 0u
 #if TRANSPARENT_SHADOWS
         , ray.origin
 #endif
@@ -124,12 +125,12 @@ fn volume_share(path: Path, surface: Surface, wi: vec3<f32>, ray_length: f32) ->
 }
 
 // The path along the ray that was drawn where it met a surface.
-fn extended_path(incoming: Path, surface: Surface, drawn: BsdfSample, throughput: vec3<f32>) -> Path {
+fn extended_path(incoming: Path, surface: Surface, drawn: BsdfSample, throughput: vec3<f32>, roulette_scale: f32) -> Path {
     var path = incoming;
     path.ray = Ray(offset_origin(surface, drawn.wi), drawn.wi);
     path.throughput = throughput;
     path.pdf_solid_angle = drawn.pdf_solid_angle;
-    path.eta_scale = incoming.eta_scale * drawn.eta_scale;
+    path.roulette_scale = roulette_scale;
     path.null_vertices += select(0u, 1u, drawn.is_null);
 #if TRANSPARENT_SHADOWS
     // Through a null surface goes the ray that was drawn before.

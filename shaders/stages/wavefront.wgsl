@@ -81,7 +81,7 @@ fn store_path(slot: u32, path: Path) {
     let identity = (path.pixel - pass_parameters.first_pixel) | (path.sample_in_pass << 24u);
     path_state[PLANE_ORIGIN + slot] = vec4<f32>(path.ray.origin, bitcast<f32>(identity));
     path_state[PLANE_DIRECTION + slot] = vec4<f32>(path.ray.direction, path.pdf_solid_angle);
-    path_state[PLANE_THROUGHPUT + slot] = vec4<f32>(path.throughput, path.eta_scale);
+    path_state[PLANE_THROUGHPUT + slot] = vec4<f32>(path.throughput, path.roulette_scale);
 #if TRANSPARENT_SHADOWS
     path_state[PLANE_LIT_FROM + slot] = vec4<f32>(path.lit_from, 0.0);
 #endif

@@ -9,6 +9,8 @@ shared_constants!(constants {
     const GUIDE_CELL_WORDS: u32 = table::GUIDE_CELL_WORDS;
     const GUIDE_HEADER_WORDS: u32 = table::GUIDE_HEADER_WORDS;
     const GUIDED_SHARE: f32 = table::GUIDED_SHARE;
+    const SURVIVAL_FACTOR: f32 = table::SURVIVAL_FACTOR;
+    const LEAST_SURVIVAL: f32 = table::LEAST_SURVIVAL;
     const FACING_WEIGHT_Y: f32 = table::FACING_WEIGHT_Y;
     const FACING_WEIGHT_Z: f32 = table::FACING_WEIGHT_Z;
     const GUIDE_AXIS_STEP: f32 = table::GUIDE_AXIS_STEP;

@@ -55,7 +55,7 @@ pub(super) fn stages(
 /// Whether neither the depth nor roulette ends paths within some thousand edges. A kernel that traces whole paths could then run for minutes.
 fn paths_may_not_end(render: &RenderSettings) -> bool {
     let ends = |edge: u32| (1..=LONGEST_FUSED_PATH).contains(&edge);
-    !ends(render.max_depth) && !render.first_roulette().is_some_and(ends)
+    !ends(render.max_depth) && !render.first_roulette(false).is_some_and(ends)
 }
 
 /// All decisions of a plan whose memory is counted, in words, in the order of the data's way. `geometry` and `stages` are the reasons for those.
@@ -103,7 +103,7 @@ pub(super) fn explain(
         let because = packed.piloted.as_deref().unwrap_or(ASKED_FOR);
         decisions.push(Decision::about_light_samples([plan.light_samples, plan.light_samples_depth], because));
     }
-    decisions.extend(packed.roulette.iter().map(|because| Decision::about_roulette(scene.render.first_roulette(), because)));
+    decisions.extend(packed.roulette.iter().map(|because| Decision::about_roulette(scene.render.first_roulette(false), because)));
     decisions.extend(packed.guiding.as_ref().map(|because| Decision::about_directions(!packed.guide.is_empty(), because)));
     let mut add = |about, choice: String, because: String| decisions.push(Decision { about, choice, because });
     if let Some(lanes) = plan.lanes {

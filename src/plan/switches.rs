@@ -66,7 +66,7 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
     switches.enable("ESTIMATOR_MIS", render.estimator == Estimator::Mis);
     switches.enable("ESTIMATOR_NEE", render.estimator == Estimator::Nee);
     switches.enable("HEURISTIC_POWER", render.heuristic == MisHeuristic::Power);
-    switches.enable("ROULETTE", render.first_roulette().is_some());
+    switches.enable("ROULETTE", render.first_roulette(false).is_some());
     enable_sampler(&mut switches, render);
     switches.enable("UNIFORM_HEMISPHERE", render.hemisphere == HemisphereSampling::Uniform);
     let blades = enable_camera(&mut switches, scene);
@@ -118,7 +118,7 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
         ("PORTAL_COUNT", packed.lights.iter().filter(|light| light.is(LightKind::Portal)).count() as u32),
         ("PRIMITIVE_WORDS", (3 * packed.primitives.len() as u32).max(1)),
         ("RAYS_PER_INVOCATION", plan.rays_per_invocation),
-        ("ROULETTE_DEPTH", render.first_roulette().unwrap_or(0)),
+        ("ROULETTE_DEPTH", render.first_roulette(!packed.guide.is_empty()).unwrap_or(0)),
         ("SEQUENCE_BLOCKS", SEQUENCE_BLOCKS),
         ("SEQUENCE_POINTS", plan.sequence_stride() * MAX_SAMPLES_PER_PASS),
         ("SEQUENCE_STRIDE", plan.sequence_stride()),

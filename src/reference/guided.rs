@@ -31,6 +31,11 @@ impl<'a> GuidedBsdf<'a> {
         Self { bsdf, guide: cell.map(|cell| (cell, share)) }
     }
 
+    /// As [`GuideCell::sent_on`]; none where there is no guide.
+    pub fn sent_on(&self) -> Option<[f64; 2]> {
+        self.guide.as_ref().map(|(cell, _)| cell.sent_on())
+    }
+
     /// The non-delta lobes' f·|cosθi|, and the density with which wi is drawn.
     pub fn evaluate(&self, wi: DVec3) -> Evaluation {
         let alone = self.bsdf.evaluate(wi);

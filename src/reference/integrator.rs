@@ -17,16 +17,12 @@ use super::guided::GuidedBsdf;
 use super::intersect::{Outline, Owner, PathTime, Ray, Surface, World};
 use super::lights::{LightSample, Lights};
 use super::mis;
+use super::roulette::{self, Expectation};
 use super::trace::{LightConnection, PathVisitor};
 use super::volume::{Volumes, transmittance};
 use crate::renderer::RenderError;
 use crate::sampling::{CameraDimension, Dimension, Guide, PathSampler, VertexDimension};
 use crate::scene::{Estimator, MaterialId, MaterialKind, NumberOrAuto, RenderSettings, Scene};
-
-/// Edges from which on Russian roulette always has a chance to end the path, whatever its throughput.
-const CERTAIN_ROULETTE_DEPTH: u32 = 64;
-/// Largest probability of surviving from there on.
-const LARGEST_SURVIVAL: f64 = 0.999;
 
 /// A scene made ready for tracing paths.
 #[derive(Debug, Clone)]
@@ -58,6 +54,8 @@ struct Path {
     /// Product of eta² over the refractions so far: undoes the scaling of radiance, so that roulette does not end paths for being
     /// inside glass.
     eta_scale: f64,
+    /// By which roulette ends guided paths.
+    expectation: Expectation,
     /// How the ray's direction was sampled at the last vertex that is no null surface, and where the ray began there. Shadow rays from there
     /// go on through null surfaces as the path does, so both are weighed against each other by the densities that they have there.
     previous: Density,
@@ -173,6 +171,7 @@ impl Integrator {
             throughput: DVec3::ONE,
             radiance: DVec3::ZERO,
             eta_scale: 1.0,
+            expectation: Expectation::default(),
             previous: Density::Delta,
             extinction: DVec3::ZERO,
             depth: 1,
@@ -232,6 +231,7 @@ impl Integrator {
         }
         visitor.scattered(&scattered);
         let BsdfSample { wi, weight, density, eta, is_null } = scattered;
+        let arriving = path.throughput;
         path.throughput *= weight;
         path.eta_scale *= eta * eta;
         path.ray = Ray { origin: surface.point.leave_towards(wi), direction: wi };
@@ -244,7 +244,11 @@ impl Integrator {
         path.previous = density;
         path.lit_from = path.ray.origin;
         let u_roulette = visitor.round_number(random(VertexDimension::Roulette));
-        let survives = self.survives_roulette(path, u_roulette, visitor);
+        let survival = match self.guide {
+            Some(_) => path.expectation.survival(arriving, guided.sent_on(), path.depth),
+            None => roulette::survival(path.throughput * path.eta_scale, path.depth),
+        };
+        let survives = self.survives_roulette(path, survival, u_roulette, visitor);
         path.depth += 1;
         survives
     }
@@ -342,11 +346,10 @@ impl Integrator {
     }
 
     /// Russian roulette: the path goes on with probability q and then counts 1/q times as much, which leaves the mean as it is.
-    fn survives_roulette<V: PathVisitor>(&self, path: &mut Path, u: f64, visitor: &mut V) -> bool {
-        if self.scene.render.first_roulette().is_none_or(|first| path.depth < first) {
+    fn survives_roulette<V: PathVisitor>(&self, path: &mut Path, survival: f64, u: f64, visitor: &mut V) -> bool {
+        if self.scene.render.first_roulette(self.guide.is_some()).is_none_or(|first| path.depth < first) {
             return true;
         }
-        let survival = roulette_survival(path.throughput * path.eta_scale, path.depth);
         visitor.roulette(survival, u < survival);
         if u >= survival {
             return false;
@@ -354,11 +357,6 @@ impl Integrator {
         path.throughput /= survival;
         true
     }
-}
-
-/// The chance of a path of this depth to survive Russian roulette, by its throughput without the scaling of radiance by refraction.
-pub(super) fn roulette_survival(throughput: DVec3, depth: u32) -> f64 {
-    throughput.max_element().min(if depth < CERTAIN_ROULETTE_DEPTH { 1.0 } else { LARGEST_SURVIVAL })
 }
 
 /// A sampled direction, rounded, with the density that belongs to it. Of a narrow lobe that changes much faster than the direction.

@@ -19,6 +19,7 @@ pub mod lights;
 pub mod mis;
 pub mod pilot;
 mod renderer;
+mod roulette;
 pub mod rounding;
 pub mod trace;
 pub mod training;

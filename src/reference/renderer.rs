@@ -137,12 +137,15 @@ impl ReferenceRenderer {
     /// What was decided, where the settings leave it open.
     fn decisions(&self) -> Vec<Decision> {
         let settings = &self.integrator.scene().render;
+        let guided = self.integrator.guide().is_some();
         let Reasons { light_samples, roulette } = &self.because;
         let of_lights =
             light_samples.iter().map(|because| Decision::about_light_samples(settings.several_light_samples(), because));
-        let of_roulette = roulette.iter().map(|because| Decision::about_roulette(settings.first_roulette(), because));
-        let guided = self.integrator.guide().is_some();
-        of_lights.chain(of_roulette).chain(self.guiding.iter().map(|because| Decision::about_directions(guided, because))).collect()
+        let of_roulette = roulette.iter().map(|because| Decision::about_roulette(settings.first_roulette(guided), because));
+        of_lights
+            .chain(of_roulette)
+            .chain(self.guiding.iter().map(|because| Decision::about_directions(guided, because)))
+            .collect()
     }
 
     /// What is met at a pixel's centre at the shutter's opening: the number of the shape and of its material, from 1.

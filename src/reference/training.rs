@@ -21,11 +21,14 @@ use crate::scene::{Guiding, PixelSampler, SamplerKind, Scene};
 
 /// Rounds, each of twice as many paths as the one before.
 const ROUNDS: u32 = 5;
-/// Paths of the last round, which has about twice as many as the picture has pixels.
-const FEWEST_PATHS: u32 = 1 << 12;
-const MOST_PATHS: u32 = 1 << 17;
+/// Paths of the last round, which has about so many as the picture has pixels times this.
+const PATHS_OF_PIXEL: u32 = 8;
+const FEWEST_PATHS: u32 = 1 << 14;
+const MOST_PATHS: u32 = 1 << 19;
 /// Paths that one task traces.
 const PATHS_AT_ONCE: u32 = 256;
+/// What a surface sends on that can be reckoned with.
+const LARGEST_SENT_ON: f64 = 1e30;
 /// Vertices after which a training path is given up.
 const MOST_VERTICES: u32 = 64;
 
@@ -80,7 +83,7 @@ fn can_gain(scene: &Scene) -> bool {
 
 /// Paths of each round.
 fn rounds([width, height]: [u32; 2]) -> impl Iterator<Item = u32> {
-    let pixels = width.saturating_mul(height).saturating_mul(2).clamp(FEWEST_PATHS, MOST_PATHS);
+    let pixels = width.saturating_mul(height).saturating_mul(PATHS_OF_PIXEL).clamp(FEWEST_PATHS, MOST_PATHS);
     let last = pixels.next_power_of_two();
     (0..ROUNDS).rev().map(move |round| last >> round)
 }
@@ -146,6 +149,9 @@ struct Departure {
     /// The path's throughput behind it, and the radiance found before, both as sums over the channels.
     throughput: f64,
     radiance: f64,
+    /// The throughput in front of the surface, and the radiance found before a light was sampled there.
+    incoming: f64,
+    radiance_before: f64,
 }
 
 /// Watches training paths.
@@ -158,6 +164,8 @@ struct Trainee {
     position: DVec3,
     normal: DVec3,
     throughput: DVec3,
+    /// As of a departure.
+    radiance_before: f64,
 }
 
 impl Trainee {
@@ -170,9 +178,11 @@ impl Trainee {
         let radiance = self.radiance;
         for departure in self.departures.drain(..) {
             let arrived = (radiance - departure.radiance) / departure.throughput;
-            // The square counts.
-            if (arrived * arrived).is_finite() {
-                self.arrivals.push(Arrival { radiance: arrived.max(0.0), ..departure.arrival });
+            let since = |before: f64| ((radiance - before).max(0.0) / departure.incoming).min(LARGEST_SENT_ON) as f32;
+            let sent_on = [departure.radiance, departure.radiance_before].map(since);
+            let arrived = arrived.max(0.0) as f32;
+            if arrived.is_finite() {
+                self.arrivals.push(Arrival { radiance: arrived, sent_on, ..departure.arrival });
             }
         }
     }
@@ -193,6 +203,7 @@ impl PathVisitor for Trainee {
     }
 
     fn view(&mut self, view: &View) {
+        self.radiance_before = self.radiance;
         self.normal = view.normal();
     }
 
@@ -206,8 +217,10 @@ impl PathVisitor for Trainee {
             && throughput > 0.0
             && sample.wi.dot(self.normal) > 0.0
         {
-            let arrival = Arrival { position: self.position, normal: self.normal, wi: sample.wi, radiance: 0.0, pdf };
-            self.departures.push(Departure { arrival, throughput, radiance: self.radiance });
+            let [position, normal, wi] = [self.position, self.normal, sample.wi].map(|vector| vector.as_vec3());
+            let arrival = Arrival { position, normal, wi, radiance: 0.0, pdf: pdf as f32, sent_on: [0.0; 2] };
+            let (incoming, radiance_before) = (self.throughput.element_sum(), self.radiance_before);
+            self.departures.push(Departure { arrival, throughput, radiance: self.radiance, incoming, radiance_before });
         }
     }
 

@@ -49,8 +49,8 @@ pub use material::{
 pub use model::Scene;
 pub use motion::{Motion, MotionStep};
 pub use settings::{
-    BlendMode, Estimator, FilmSettings, Filter, FilterKind, Guiding, HemisphereSampling, LightChoice, NumberOrAuto,
-    LightSampling, MisHeuristic, PixelSampler, RenderSettings, SamplerKind,
+    BlendMode, Estimator, FilmSettings, Filter, FilterKind, Guiding, HemisphereSampling, LightChoice, LightSampling,
+    MisHeuristic, NumberOrAuto, PixelSampler, RenderSettings, SamplerKind,
 };
 pub use shape::*;
 pub use sources::{ImageSource, MeshSource, Sources};

@@ -71,6 +71,7 @@ shader_files![
     "shading/seen_light.wgsl",
     "shading/seen_rectangle.wgsl",
     "shading/seen_triangle.wgsl",
+    "shading/roulette.wgsl",
     "shading/scatterer.wgsl",
     "shading/scattering.wgsl",
     "shading/shape_point.wgsl",

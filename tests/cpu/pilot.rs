@@ -5,7 +5,7 @@ use std::path::Path;
 use gpt::load;
 use gpt::reference::ReferenceRenderer;
 use gpt::reference::pilot::settle;
-use gpt::scene::{Estimator, NumberOrAuto, LightSampling, RenderSettings, Scene};
+use gpt::scene::{Estimator, Guiding, LightSampling, NumberOrAuto, RenderSettings, Scene};
 
 const SIZE: [u32; 2] = [256, 256];
 
@@ -88,7 +88,8 @@ fn what_is_given_stays_and_what_cannot_pay_is_not_tried() {
         scene
     };
     assert_eq!(light_samples(&given(|render| (render.light_samples, render.light_samples_depth) = (5.into(), 3))), [5, 3]);
-    let not_tried = [given(|render| render.estimator = Estimator::Bsdf), given(|render| render.max_depth = 1), {
+    let without_lights = |render: &mut RenderSettings| (render.estimator, render.roulette_depth) = (Estimator::Bsdf, 5.into());
+    let not_tried = [given(without_lights), given(|render| render.max_depth = 1), {
         let mut small = scene.clone();
         small.film.size = [255, 256];
         small
@@ -96,7 +97,7 @@ fn what_is_given_stays_and_what_cannot_pay_is_not_tried() {
     for scene in not_tried {
         let settled = settle(&scene).expect("the reference can render the scene");
         assert_eq!((settled.scene.render.several_light_samples(), settled.is_piloted), ([1, 1], false));
-        assert!(settled.because.is_some());
+        assert!(settled.because.light_samples.is_some());
     }
 }
 
@@ -109,7 +110,30 @@ fn nothing_is_tried_where_only_an_even_sky_gives_light() {
         [[light]]\ntype = \"environment\"\nradiance = 1\n";
     let scene = load::load_toml_str(text, "even", Path::new("")).unwrap_or_else(|error| panic!("{error}"));
     let settled = settle(&scene).expect("the reference can render the scene");
-    assert_eq!((settled.because.as_deref(), settled.scene.render.several_light_samples()), (Some("no light is sampled"), [1, 1]));
+    assert_eq!(
+        (settled.because.light_samples.as_deref(), settled.scene.render.several_light_samples()),
+        (Some("no light is sampled"), [1, 1])
+    );
+}
+
+/// Roulette begins where the pilot finds that it pays, a depth that is given stays, and guided paths have a roulette of their own.
+#[test]
+fn roulette_begins_where_it_pays() {
+    let first = |scene: &Scene| settled(scene).roulette_depth;
+    assert_eq!(first(&built_in("cornell")), 5.into());
+    // Three spheres under a sky: few paths go on, and those that do find light.
+    assert_eq!(first(&built_in("spheres")), 0.into());
+    let with = |change: fn(&mut RenderSettings)| {
+        let mut scene = built_in("spheres");
+        change(&mut scene.render);
+        scene
+    };
+    assert_eq!(first(&with(|render| render.roulette_depth = 3.into())), 3.into());
+    assert_eq!(first(&with(|render| render.guiding = Guiding::On)), NumberOrAuto::Auto);
+    // Paths without a limit have to end.
+    assert_ne!(first(&with(|render| render.max_depth = 0)), 0.into());
+    // Light samples may be given while roulette is not.
+    assert_eq!(first(&with(|render| render.light_samples = 1.into())), 0.into());
 }
 
 /// A render whose settings leave it open is, sample by sample, the one whose settings say what the pilot chose, and not that of one light sample.

@@ -61,7 +61,7 @@ fn settings_have_the_documented_defaults_and_can_be_written() {
     let scene = read("");
     assert_eq!(scene.name, "test");
     assert_eq!((scene.film.size, scene.render.spp, scene.render.max_depth), ([512, 512], 256, 16));
-    assert_eq!((scene.render.sampler, scene.render.first_roulette()), (SamplerKind::Sobol, Some(5)));
+    assert_eq!((scene.render.sampler, scene.render.first_roulette(false)), (SamplerKind::Sobol, Some(5)));
     let scene =
         read("[film]\nsize = [8, 6]\n[render]\nspp = 7\nmax_depth = 3\nsampler = \"independent\"\nheuristic = \"balance\"");
     assert_eq!((scene.film.size, scene.render.spp, scene.render.max_depth), ([8, 6], 7, 3));

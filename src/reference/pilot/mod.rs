@@ -15,7 +15,7 @@ use super::intersect::Outline;
 use crate::plan::UNROLL_LIMIT;
 use crate::renderer::RenderError;
 use crate::scene::settings::MOST_LIGHT_SAMPLES;
-use crate::scene::{Estimator, LightSampling, NumberOrAuto, RenderSettings, Scene, SceneSummary};
+use crate::scene::{Estimator, Guiding, LightSampling, NumberOrAuto, RenderSettings, Scene, SceneSummary};
 use roulette::{Effects, ROULETTE_DEPTHS};
 use tried::{Found, InView, Rays, losses_of_roulette};
 
@@ -83,7 +83,8 @@ impl Open {
         Self {
             light_samples: settings.light_samples == NumberOrAuto::Auto,
             light_sampling: settings.light_sampling == LightSampling::Auto,
-            roulette: settings.roulette_depth == NumberOrAuto::Auto,
+            // Guided paths are ended by other means, which a pilot does not know.
+            roulette: settings.roulette_depth == NumberOrAuto::Auto && settings.guiding == Guiding::Off,
         }
     }
 
@@ -187,7 +188,6 @@ fn best_roulette(losses: [f64; ROULETTE_DEPTHS.len()], max_depth: u32) -> (u32, 
     let can_be = |depth: u32| depth > 0 || (1..=MOST_EDGES_WITHOUT_ROULETTE).contains(&max_depth);
     let candidates = ROULETTE_DEPTHS.into_iter().zip(losses).filter(|&(depth, _)| can_be(depth));
     let best = candidates.fold(by_default, |best, other| if other.1 < best.1 { other } else { best });
-    if std::env::var("DBG").is_ok() { eprintln!("{losses:?}"); }
     let (depth, loss) = if best.1 * LEAST_GAIN < 1.0 { best } else { by_default };
     (depth, format!("a pilot found {loss:.2} of the error × cost of depth {}", by_default.0))
 }

@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::tried::Rays;
 use crate::reference::bsdf::BsdfSample;
-use crate::reference::integrator::roulette_survival;
+use crate::reference::roulette;
 use crate::scene::settings::DEFAULT_ROULETTE_DEPTH;
 
 /// First depths at which roulette may end a path, and 0 for none that does. The first is that of the paths that are traced.
@@ -109,7 +109,7 @@ impl PathRecord {
         }
         for (survival, first) in self.survival.iter_mut().zip(ROULETTE_DEPTHS) {
             if first > 0 && self.depth >= first {
-                *survival *= roulette_survival(throughput / *survival, self.depth);
+                *survival *= roulette::survival(throughput / *survival, self.depth);
             }
         }
     }
@@ -127,5 +127,76 @@ impl PathRecord {
             behind += own;
         }
         effects
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reference::bsdf::Density;
+
+    const VERTICES: u32 = 8;
+
+    /// A path on which each vertex takes half of the throughput, and finds light that differs from vertex to vertex.
+    struct Path {
+        /// Of each vertex: the chance to reach it with roulette from some depth on.
+        reached: Vec<f64>,
+    }
+
+    impl Path {
+        fn new(first: u32) -> Self {
+            let mut reached = vec![1.0];
+            for depth in 1..VERTICES {
+                let before = reached[depth as usize - 1];
+                let survives = if first > 0 && depth >= first { (0.5_f64.powi(depth as i32) / before).min(1.0) } else { 1.0 };
+                reached.push(before * survives);
+            }
+            Self { reached }
+        }
+
+        /// The chance that it ends behind vertex `last`, from 0.
+        fn ends_at(&self, last: usize) -> f64 {
+            self.reached[last] - self.reached.get(last + 1).copied().unwrap_or(0.0)
+        }
+
+        fn second_moment(&self) -> f64 {
+            let sample = |last: usize| (0..=last).map(|vertex| light(vertex) / self.reached[vertex]).sum::<f64>();
+            (0..self.reached.len()).map(|last| self.ends_at(last) * sample(last).powi(2)).sum()
+        }
+    }
+
+    /// What is found at a vertex, times the throughput there.
+    fn light(vertex: usize) -> f64 {
+        [0.3, 0.0, 2.0, 1.0, 7.0, 0.1, 4.0, 9.0][vertex] * 0.5_f64.powi(vertex as i32)
+    }
+
+    /// All ends that roulette may give a path, weighed by their chance, tell what roulette from any other depth on does.
+    #[test]
+    fn effects_are_those_of_every_other_roulette() {
+        let own = Path::new(ROULETTE_DEPTHS[OWN]);
+        let half =
+            BsdfSample { wi: DVec3::Y, weight: DVec3::splat(0.5), density: Density::SolidAngle(1.0), eta: 1.0, is_null: false };
+        let mut mean = Effects::default();
+        for last in 0..VERTICES as usize {
+            let mut record = PathRecord::default();
+            for vertex in 0..=last {
+                let chance = own.reached[vertex];
+                record.traced(Rays::PATH);
+                record.met(vertex as u32 + 1, DVec3::splat(0.5_f64.powi(vertex as i32) / chance));
+                record.found(DVec3::splat(light(vertex) / chance));
+                record.scattered(&half);
+            }
+            mean = mean.and(record.effects().times(own.ends_at(last)));
+        }
+        for (first, effect) in ROULETTE_DEPTHS.into_iter().zip(mean.0) {
+            let path = Path::new(first);
+            let more = path.second_moment() - own.second_moment();
+            assert!((effect.variance.x - more).abs() < 1e-9, "from {first} on: {} and {more}", effect.variance.x);
+            let rays: f64 = path.reached.iter().sum();
+            assert!((effect.rays.path - rays).abs() < 1e-9, "from {first} on: {} and {rays}", effect.rays.path);
+        }
+        // The depths differ, so that one taken for another would show.
+        let variances = mean.0.map(|effect| effect.variance.x);
+        assert!(variances[1..].windows(2).all(|pair| (pair[0] - pair[1]).abs() > 0.1), "{variances:?}");
     }
 }

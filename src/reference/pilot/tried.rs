@@ -3,8 +3,8 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::compare::metrics::relative_weight;
 use super::roulette::{Effects, PathRecord, ROULETTE_DEPTHS};
+use crate::compare::metrics::relative_weight;
 use crate::reference::bsdf::BsdfSample;
 use crate::reference::integrator::Integrator;
 use crate::reference::intersect::Surface;

@@ -1,6 +1,6 @@
 //! How a guide is learned from light that arrived along training paths.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::table::{
     BINS, CELL_WORDS, GUIDE_COLUMNS, GUIDE_HEADER_WORDS, GUIDE_ROWS, Guide, WHOLE, bin, facing, packed_axis, unpacked_axis,
@@ -23,17 +23,19 @@ const LEAST_EVEN_SHARE: f64 = 0.03;
 /// What a bin gives to each of its four neighbours: light moves a little from one end of a cell to the other.
 const SPILL: f64 = 0.04;
 
-/// Light that arrived at a point of a surface by one direction.
+/// Light that arrived at a point of a surface by one direction. In single precision: there are millions of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arrival {
-    pub position: DVec3,
+    pub position: Vec3,
     /// On the side from where the point was seen.
-    pub normal: DVec3,
-    pub wi: DVec3,
+    pub normal: Vec3,
+    pub wi: Vec3,
     /// An estimate of the radiance, light left out that light sampling finds.
-    pub radiance: f64,
+    pub radiance: f32,
     /// Density with which the direction was drawn, per steradian.
-    pub pdf: f64,
+    pub pdf: f32,
+    /// Estimates of what the surface sends on, per throughput: of light that comes by way of its scattering, and of all light.
+    pub sent_on: [f32; 2],
 }
 
 /// Boxes of one facing, a range along each axis.
@@ -82,8 +84,8 @@ pub fn learn(arrivals: &[Arrival]) -> Option<Guide> {
     };
     let mut of_facings: [Vec<u32>; 6] = Default::default();
     for (number, arrival) in arrivals.iter().enumerate() {
-        if builder.place(arrival.position).is_some() {
-            of_facings[facing(arrival.normal) as usize].push(number as u32);
+        if builder.place(arrival.position.as_dvec3()).is_some() {
+            of_facings[facing(arrival.normal.as_dvec3()) as usize].push(number as u32);
         }
     }
     for (facing, mut members) in of_facings.into_iter().enumerate() {
@@ -96,7 +98,7 @@ pub fn learn(arrivals: &[Arrival]) -> Option<Guide> {
 fn bounds(arrivals: &[Arrival]) -> [DVec3; 2] {
     let left_out = (OUTLIERS * arrivals.len() as f64) as usize;
     let along = |axis: usize| {
-        let mut places: Vec<f64> = arrivals.iter().map(|arrival| arrival.position[axis]).collect();
+        let mut places: Vec<f64> = arrivals.iter().map(|arrival| f64::from(arrival.position[axis])).collect();
         places.sort_unstable_by(f64::total_cmp);
         [places[left_out], places[places.len() - 1 - left_out]]
     };
@@ -126,7 +128,7 @@ impl Builder<'_> {
             }
             let middle = first + (end - first) / 2;
             let is_before = |number: u32| {
-                let place = self.place(self.arrivals[number as usize].position);
+                let place = self.place(self.arrivals[number as usize].position.as_dvec3());
                 place.is_some_and(|place| place[axis] < middle)
             };
             let (before, behind): (Vec<u32>, Vec<u32>) = members.iter().partition(|number| is_before(**number));
@@ -145,7 +147,7 @@ impl Builder<'_> {
 
     fn add_cell(&mut self, facing: u32, region: Region, members: &[u32]) {
         let arrivals = || members.iter().map(|&number| &self.arrivals[number as usize]);
-        let normal: DVec3 = arrivals().map(|arrival| arrival.normal).sum();
+        let normal: DVec3 = arrivals().map(|arrival| arrival.normal.as_dvec3()).sum();
         let Some(normal) = normal.try_normalize() else { return };
         let axis = packed_axis(normal);
         let frame = Frame::around(unpacked_axis(axis));
@@ -153,10 +155,11 @@ impl Builder<'_> {
         // path will scatter as well (Rath et al. 2020).
         let mut squares = [0.0; BINS];
         for arrival in arrivals() {
-            let (local, cosine) = (frame.to_local(arrival.wi), arrival.wi.dot(arrival.normal));
+            let (local, cosine) = (frame.to_local(arrival.wi.as_dvec3()), f64::from(arrival.wi.dot(arrival.normal)));
             if local.z > 0.0 && cosine > 0.0 {
                 let (row, column) = bin(local);
-                squares[(row * GUIDE_COLUMNS + column) as usize] += arrival.radiance * arrival.radiance * cosine / arrival.pdf;
+                squares[(row * GUIDE_COLUMNS + column) as usize] +=
+                    f64::from(arrival.radiance).powi(2) * cosine / f64::from(arrival.pdf);
             }
         }
         let worths = spilled(&squares.map(f64::sqrt));
@@ -166,7 +169,9 @@ impl Builder<'_> {
         }
         let even = (DOUBT / (DOUBT + members.len() as f64)).max(LEAST_EVEN_SHARE);
         let shares = worths.map(|worth| (1.0 - even) * worth / total + even / BINS as f64);
-        self.cells.extend(packed_cell(axis, &shares));
+        let count = members.len() as f64;
+        let sent_on = [0, 1].map(|which| arrivals().map(|arrival| f64::from(arrival.sent_on[which])).sum::<f64>() / count);
+        self.cells.extend(packed_cell(axis, &shares, sent_on));
         let number = (self.cells.len() / CELL_WORDS) as u32;
         let [width, height, depth] = self.counts;
         let [xs, ys, zs] = region;
@@ -204,7 +209,7 @@ fn spilled(bins: &[f64; BINS]) -> [f64; BINS] {
 }
 
 /// A cell's words: the shares, which sum to one, in 65536ths, none of them 0.
-fn packed_cell(axis: u32, shares: &[f64; BINS]) -> [u32; CELL_WORDS] {
+fn packed_cell(axis: u32, shares: &[f64; BINS], sent_on: [f64; 2]) -> [u32; CELL_WORDS] {
     let free = f64::from(WHOLE - BINS as u32);
     let mut words = [axis; CELL_WORDS];
     let (mut before, mut start) = (0.0, 0);
@@ -214,6 +219,9 @@ fn packed_cell(axis: u32, shares: &[f64; BINS]) -> [u32; CELL_WORDS] {
         let end = if is_last { WHOLE } else { index as u32 + 1 + (f64::min(before, 1.0) * free).round() as u32 };
         words[1 + index] = start | (end - start) << 16;
         start = end;
+    }
+    for (word, sent_on) in words[1 + BINS..].iter_mut().zip(sent_on) {
+        *word = (sent_on as f32).to_bits();
     }
     words
 }

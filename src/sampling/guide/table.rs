@@ -6,7 +6,7 @@
 //!   word of the cells;
 //! - then a word for each facing and box, x first, then y, z and the facing: the cell's number from 1, or 0 where there is no guide;
 //! - [`GUIDE_CELL_WORDS`] for each cell: its axis, and its bins, row after row. Of a bin the lower half is its start, the sum of the shares of all
-//!   bins before it, and the upper half its share, in 65536ths.
+//!   bins before it, and the upper half its share, in 65536ths. Then, as the bits of f32, what a surface there sends on ([`GuideCell::sent_on`]).
 
 use std::f64::consts::PI;
 
@@ -18,12 +18,16 @@ use crate::math::{Frame, octahedron};
 pub const GUIDE_ROWS: u32 = 8;
 pub const GUIDE_COLUMNS: u32 = 16;
 /// Words of a cell.
-pub const GUIDE_CELL_WORDS: u32 = 1 + GUIDE_ROWS * GUIDE_COLUMNS;
+pub const GUIDE_CELL_WORDS: u32 = 1 + GUIDE_ROWS * GUIDE_COLUMNS + 2;
 /// Words before the index.
 pub const GUIDE_HEADER_WORDS: u32 = 8;
 /// Share of the directions that the guide draws, where a surface scatters by diffuse lobes alone. What the guide does not know of is found
 /// less often and then counts for more: with a half, fireflies of paths that training did not find outweighed the gain.
 pub const GUIDED_SHARE: f32 = 0.375;
+/// What a path is expected to bring yet, over what it was expected to bring at first, that is let go on in any case.
+pub const SURVIVAL_FACTOR: f32 = 3.0;
+/// The least chance to go on: what is expected is an estimate.
+pub const LEAST_SURVIVAL: f32 = 0.1;
 /// By these the components of a normal are weighed where the largest says which way it faces: none of 45° lies on a border.
 pub const FACING_WEIGHT_Y: f32 = 1.0078125;
 pub const FACING_WEIGHT_Z: f32 = 1.015625;
@@ -103,6 +107,11 @@ impl GuideCell<'_> {
     #[cfg(test)]
     pub(super) fn frame_of_tests(&self) -> Frame {
         self.frame
+    }
+
+    /// What a surface here sends on, on average, per throughput: of light that comes by way of its scattering, and of all light.
+    pub fn sent_on(&self) -> [f64; 2] {
+        [1, 2].map(|behind| f64::from(f32::from_bits(self.words[BINS + behind])))
     }
 
     fn bin(&self, row: u32, column: u32) -> u32 {

@@ -17,7 +17,8 @@ fn arrivals(normal: DVec3, count: u32) -> Vec<Arrival> {
         let wi = frame.to_world(DVec3::new(sine * angle.cos(), sine * angle.sin(), z));
         let position = frame.to_world(DVec3::new(4.0 * number(index, 2), 4.0 * number(index, 3), 0.0));
         let radiance = if bright(&frame.to_local(wi)) { 50.0 } else { 0.5 };
-        Arrival { position, normal, wi, radiance, pdf: 0.5 / PI }
+        let [position, normal, wi] = [position, normal, wi].map(|vector| vector.as_vec3());
+        Arrival { position, normal, wi, radiance, pdf: (0.5 / PI) as f32, sent_on: [0.25, 1.0] }
     };
     (0..count).map(arrival).collect()
 }

@@ -23,6 +23,8 @@ pub const MOST_LIGHT_SAMPLES_DEPTH: u32 = 3;
 
 /// First depth at which Russian roulette may end a path where neither the scene nor a pilot chooses one.
 pub const DEFAULT_ROULETTE_DEPTH: u32 = 5;
+/// The same of guided paths: what they are expected to bring is known.
+const GUIDED_ROULETTE_DEPTH: u32 = 2;
 
 /// Largest radiance that samples may be clamped to: it is an f32 in shaders.
 const LARGEST_CLAMP: f64 = 1e18;
@@ -137,7 +139,7 @@ settings! {
         }
         /// First depth at which Russian roulette may end a path; 0 = never.
         roulette_depth: NumberOrAuto = NumberOrAuto::Auto => {
-            values: WholeOr(0, MOST_SAMPLES, auto("The depth that a pilot of some thousand paths finds best; 5 where none is rendered.")),
+            values: WholeOr(0, MOST_SAMPLES, auto("The depth that a pilot of some thousand paths finds best; 5 where none is rendered, 2 where paths are guided.")),
             flag: "--roulette-depth",
             placeholder: "N",
             header: "gpt:rouletteDepth",
@@ -278,10 +280,12 @@ impl RenderSettings {
         [self.light_samples_at(1).clamp(1, MOST_LIGHT_SAMPLES), self.light_samples_depth.clamp(1, MOST_LIGHT_SAMPLES_DEPTH)]
     }
 
-    /// The first depth at which Russian roulette may end a path; none where it never does. [`DEFAULT_ROULETTE_DEPTH`] before a pilot has found one.
+    /// The first depth at which Russian roulette may end a path, guided or not; none where it never does. [`DEFAULT_ROULETTE_DEPTH`] before a pilot has
+    /// found one.
     #[doc(hidden)]
-    pub fn first_roulette(&self) -> Option<u32> {
+    pub fn first_roulette(&self, is_guided: bool) -> Option<u32> {
         match self.roulette_depth {
+            NumberOrAuto::Auto if is_guided => Some(GUIDED_ROULETTE_DEPTH),
             NumberOrAuto::Auto => Some(DEFAULT_ROULETTE_DEPTH),
             NumberOrAuto::Number(depth) => (depth > 0).then_some(depth),
         }
@@ -316,7 +320,7 @@ impl RenderSettings {
                 return Err(BadSetting { setting: setting.name, message, help: None });
             }
         }
-        if self.max_depth == 0 && self.first_roulette().is_none() {
+        if self.max_depth == 0 && self.first_roulette(false).is_none() {
             return Err(BadSetting {
                 setting: "roulette_depth",
                 message: "with max_depth = 0 and roulette_depth = 0 paths would never end".to_owned(),

@@ -202,8 +202,8 @@ impl<T: Choice> Field for T {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use super::super::number_or_auto::{NumberOrAuto, auto};
+    use super::*;
     use crate::scene::SamplerKind;
 
     #[test]
