@@ -23,7 +23,7 @@ use crate::packed::{PackError, PackedScene};
 use crate::plan::bindings::Binding;
 use crate::plan::{Plan, PlanOptions, StageMode};
 use crate::reference::pilot::{self, Settled};
-use crate::reference::training;
+use crate::reference::{light_cells, training};
 use crate::renderer::sink::Sink;
 use crate::renderer::state::{BatchState, Tally};
 use crate::renderer::{Batch, Change, DeviceChoice, Ending, Observer, RenderError, RenderReport, Renderer, Stopping};
@@ -43,9 +43,13 @@ pub fn prepare<'a>(
     scene.validate()?;
     let mut settled = pilot::settle(scene)?;
     // Before it is packed, so that the scene is not held in both forms.
+    let light_cells = light_cells::learn_for_device(&settled.scene, &mut settled.integrator)?;
     let learned = training::learn_for_device(&settled.scene, settled.integrator.take())?;
     let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
     let mut packed = PackedScene::for_frame(&settled.scene, traversal, kept).map_err(does_not_fit)?;
+    if let Some(light_cells) = &light_cells {
+        packed.set_light_cells(light_cells).map_err(does_not_fit)?;
+    }
     packed.guide = learned.words().to_vec();
     packed.guiding = learned.because;
     packed.piloted.clone_from(&settled.because);
@@ -64,7 +68,7 @@ pub struct GpuRenderer {
     /// What a camera that moves is put together with.
     center: DVec3,
     environment: PackedEnvironment,
-    /// Paths were traced before the first sample, for a guide or to choose how lights are drawn from.
+    /// Paths were traced before the first sample, for a guide, for cells of lights or to choose how lights are drawn from.
     depends_on_view: bool,
     /// What the next frame's hierarchy may be made of.
     trees: KeptTrees,
@@ -122,7 +126,7 @@ impl GpuRenderer {
             sizer,
             center: scene.center(),
             environment: packed.environment,
-            depends_on_view: packed.guiding.is_some() || settled.is_piloted,
+            depends_on_view: packed.guiding.is_some() || !packed.light_cells.is_empty() || settled.is_piloted,
             trees,
         })
     }

@@ -12,6 +12,7 @@ use super::film::{BAND_ROWS, BandSums, BatchSamples, Group, PixelSum, are_even};
 use super::integrator::Integrator;
 use super::intersect::Ray;
 use super::layer::LayerVisitor;
+use super::light_cells;
 use super::pilot;
 use super::rounding::Rounding;
 use super::trace::{PathTrace, PathVisitor, RayCounter};
@@ -47,7 +48,7 @@ pub struct ReferenceRenderer {
     pixels_in_memory: u64,
     /// Why light samples are as many as they are, where the scene does not say how many.
     piloted: Option<String>,
-    /// Paths were traced before the first sample, for a guide or to choose how lights are drawn from.
+    /// Paths were traced before the first sample, for a guide, for cells of lights or to choose how lights are drawn from.
     depends_on_view: bool,
     build_seconds: f64,
     /// Passes done and how long they took, to size the next.
@@ -114,11 +115,12 @@ impl ReferenceRenderer {
         scene.validate()?;
         let settled = pilot::settle(scene)?;
         let mut integrator = settled.integrator.map_or_else(|| Integrator::new(scene), Ok)?;
+        light_cells::learn(&mut integrator);
         let guiding = training::train(&mut integrator).because;
         Ok(Self {
+            depends_on_view: settled.is_piloted || guiding.is_some() || integrator.light_cells().is_some(),
             integrator,
             layer,
-            depends_on_view: settled.is_piloted || guiding.is_some(),
             piloted: settled.because,
             guiding,
             pixels_in_memory: PIXELS_IN_MEMORY,

@@ -11,6 +11,7 @@ use std::borrow::Cow;
 
 use super::integrator::Integrator;
 use super::intersect::Outline;
+use super::light_cells;
 use crate::plan::UNROLL_LIMIT;
 use crate::renderer::RenderError;
 use crate::scene::settings::MOST_LIGHT_SAMPLES;
@@ -175,7 +176,8 @@ struct Pilot<'a> {
 
 impl<'a> Pilot<'a> {
     fn new(scene: &'a Scene) -> Result<Self, RenderError> {
-        let integrator = Integrator::new(scene)?;
+        let mut integrator = Integrator::new(scene)?;
+        light_cells::learn(&mut integrator);
         let is_simple = integrator.primitive_count() <= UNROLL_LIMIT;
         let costliest_outline = integrator.costliest_outline();
         let [fewest, most] = TRIED_PIXELS;

@@ -63,6 +63,8 @@ choices! {
         Power = "power",
         /// By a tree: near lights that face the point more often than others.
         Tree = "tree",
+        /// By what was found to reach the place before the first sample, hidden lights left out, and by power in one of eight choices.
+        Cells = "cells",
     }
 
     /// Whether paths are guided to where light was found to come from.
