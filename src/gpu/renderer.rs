@@ -23,7 +23,7 @@ use crate::packed::{PackError, PackedScene};
 use crate::plan::bindings::Binding;
 use crate::plan::{Plan, PlanOptions, StageMode};
 use crate::reference::pilot::{self, Settled};
-use crate::reference::{light_cells, training};
+use crate::reference::training;
 use crate::renderer::sink::Sink;
 use crate::renderer::state::{BatchState, Tally};
 use crate::renderer::{Batch, Change, DeviceChoice, Ending, Observer, RenderError, RenderReport, Renderer, Stopping};
@@ -43,7 +43,7 @@ pub fn prepare<'a>(
     scene.validate()?;
     let mut settled = pilot::settle(scene)?;
     // Before it is packed, so that the scene is not held in both forms.
-    let light_cells = light_cells::learn_for_device(&settled.scene, &mut settled.integrator)?;
+    let light_cells = settled.integrator.as_ref().and_then(|integrator| integrator.light_cells().cloned());
     let learned = training::learn_for_device(&settled.scene, settled.integrator.take())?;
     let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
     let mut packed = PackedScene::for_frame(&settled.scene, traversal, kept).map_err(does_not_fit)?;
@@ -53,6 +53,7 @@ pub fn prepare<'a>(
     packed.guide = learned.words().to_vec();
     packed.guiding = learned.because;
     packed.piloted.clone_from(&settled.because);
+    packed.light_choice.clone_from(&settled.light_choice);
     Ok((settled, packed))
 }
 

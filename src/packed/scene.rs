@@ -45,6 +45,8 @@ pub struct PackedScene {
     pub view: View,
     /// From where light arrives, as a table ([`crate::sampling::guide`]); empty until that is learned, and where paths are not guided.
     pub guide: Vec<u32>,
+    /// Why lights are chosen as they are; None where nothing was tried to find out.
+    pub light_choice: Option<String>,
     /// Why light samples are as many as they are; None where the scene says how many.
     pub piloted: Option<String>,
     /// What was decided about guiding paths and why; None where nobody asked for it.
@@ -114,6 +116,7 @@ impl PackedScene {
             motions: world.motion_words,
             view: View::new(scene, &environment),
             guide: Vec::new(),
+            light_choice: None,
             piloted: None,
             guiding: None,
             second_uvs: world.second_uvs,

@@ -99,7 +99,7 @@ pub(super) fn explain(
     add("stages", entries.join(", "), stages);
     if plan.samples_lights() && packed.local_lights > 1 {
         let (choice, because) = light_choice(scene.render.light_choice, packed);
-        add("light choice", choice, because);
+        add("light choice", choice, packed.light_choice.clone().unwrap_or(because));
     }
     if plan.samples_lights() && (plan.light_samples > 1 || packed.piloted.is_some()) {
         let because = packed.piloted.as_deref().unwrap_or(ASKED_FOR);
@@ -148,10 +148,7 @@ fn light_choice(asked_for: LightChoice, packed: &PackedScene) -> (String, String
     let because = match asked_for {
         LightChoice::Power => ASKED_FOR.to_owned(),
         LightChoice::Tree | LightChoice::Cells if by_tree || by_cells => ASKED_FOR.to_owned(),
-        LightChoice::Auto if by_cells => format!("{count} lights inside the scene, at least {FEWEST_LIGHTS}"),
-        LightChoice::Auto if by_tree => {
-            format!("{count} lights inside the scene, at least {FEWEST_LIGHTS}; few pixels or many triangles")
-        }
+        LightChoice::Auto if by_tree => format!("{count} lights inside the scene, at least {FEWEST_LIGHTS}"),
         LightChoice::Auto if count < FEWEST_LIGHTS => format!("{count} lights inside the scene, fewer than {FEWEST_LIGHTS}"),
         LightChoice::Auto | LightChoice::Tree | LightChoice::Cells => {
             format!("{count} lights are too many for a tree, which takes {}", light_tree::MOST_LIGHTS)

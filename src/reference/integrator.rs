@@ -22,7 +22,7 @@ use super::volume::{Volumes, transmittance};
 use crate::math::luminance;
 use crate::renderer::RenderError;
 use crate::sampling::{CameraDimension, Dimension, Guide, LightCells, LitPoint, PathSampler, VertexDimension};
-use crate::scene::{Estimator, MaterialId, MaterialKind, RenderSettings, Scene};
+use crate::scene::{Estimator, LightChoice, MaterialId, MaterialKind, RenderSettings, Scene};
 
 /// Edges from which on Russian roulette always has a chance to end the path, whatever its throughput.
 const CERTAIN_ROULETTE_DEPTH: u32 = 64;
@@ -141,6 +141,12 @@ impl Integrator {
     /// What was learned of lights that are chosen by cells; None where they are chosen otherwise.
     pub fn light_cells(&self) -> Option<&Arc<LightCells>> {
         self.lights.in_cells().map(|(choice, _)| &choice.cells)
+    }
+
+    /// Chooses lights no longer by cells but by the tree.
+    pub(super) fn choose_lights_by_tree(&mut self) {
+        self.scene.render.light_choice = LightChoice::Tree;
+        self.lights.leave_cells();
     }
 
     /// Chooses lights by what was learned, where they are chosen by cells.

@@ -12,7 +12,6 @@ use super::film::{BAND_ROWS, BandSums, BatchSamples, Group, PixelSum, are_even};
 use super::integrator::Integrator;
 use super::intersect::Ray;
 use super::layer::LayerVisitor;
-use super::light_cells;
 use super::pilot;
 use super::rounding::Rounding;
 use super::trace::{PathTrace, PathVisitor, RayCounter};
@@ -115,7 +114,6 @@ impl ReferenceRenderer {
         scene.validate()?;
         let settled = pilot::settle(scene)?;
         let mut integrator = settled.integrator.map_or_else(|| Integrator::new(scene), Ok)?;
-        light_cells::learn(&mut integrator);
         let guiding = training::train(&mut integrator).because;
         Ok(Self {
             depends_on_view: settled.is_piloted || guiding.is_some() || integrator.light_cells().is_some(),

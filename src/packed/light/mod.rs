@@ -137,7 +137,7 @@ pub fn collect(
         light.pmf = table.pmf[index] as f32;
     }
     let local_count = sampler.local_count();
-    let way = LightWay::of(scene, local_count);
+    let way = LightWay::of(scene.render.light_choice, local_count);
     if way != LightWay::Power {
         choose_at_infinity_apart(&mut lights[local_count..], local_count, &sampler.table_at_infinity());
     }

@@ -138,7 +138,7 @@ impl Lights {
             sampler.add(LightGroup::Alone, strength);
             lights.push(SampledLight::Delta(light));
         }
-        let way = LightWay::of(scene, sampler.local_count());
+        let way = LightWay::of(scene.render.light_choice, sampler.local_count());
         let has_tree = way != LightWay::Power;
         let emitters = if has_tree { emitters(scene, world, &lights, &powers) } else { Vec::new() };
         let outside = Outside::of(scene.lights.iter().filter_map(outside_light));
@@ -208,6 +208,16 @@ impl Lights {
             (None, Some(tree)) => tree.probability(from.point, light),
             (None, None) => self.table.pmf[light],
         }
+    }
+
+    /// How many lights inside the scene there are.
+    pub fn local_count(&self) -> usize {
+        self.tree.as_ref().map_or(0, |tree| tree.trails.len())
+    }
+
+    /// Chooses no longer by cells but by the tree.
+    pub fn leave_cells(&mut self) {
+        self.cells = None;
     }
 
     /// How lights are chosen by cells, if they are, and a tree of those inside the scene.

@@ -11,7 +11,7 @@ use std::borrow::Cow;
 
 use super::integrator::Integrator;
 use super::intersect::Outline;
-use super::light_cells;
+use super::light_cells::{self, LightsSettled};
 use crate::plan::UNROLL_LIMIT;
 use crate::renderer::RenderError;
 use crate::scene::settings::MOST_LIGHT_SAMPLES;
@@ -50,6 +50,8 @@ const TRAVERSED: Costs = Costs { light_sample: 0.8, tree_of_lights: 1.4, of_rect
 /// A scene whose settings say how lights are drawn from.
 pub struct Settled<'a> {
     pub scene: Cow<'a, Scene>,
+    /// Why lights are chosen as they are; None where nothing was tried to find out.
+    pub light_choice: Option<String>,
     /// Why light samples are as many as they are; None where the scene says how many.
     pub because: Option<String>,
     /// Paths were traced to find out.
@@ -63,25 +65,45 @@ pub struct Settled<'a> {
 /// # Errors
 /// What the reference cannot render.
 pub fn settle(scene: &Scene) -> Result<Settled<'_>, RenderError> {
+    let LightsSettled { scene, integrator, because } = light_cells::settle(scene)?;
+    let settled = match scene {
+        Cow::Borrowed(scene) => settle_samples(scene, integrator)?,
+        Cow::Owned(scene) => {
+            let settled = settle_samples(&scene, integrator)?;
+            Settled { scene: Cow::Owned(settled.scene.into_owned()), ..settled }
+        }
+    };
+    Ok(Settled { is_piloted: settled.is_piloted || because.is_some(), light_choice: because, ..settled })
+}
+
+/// As [`settle`], where it is settled how lights are chosen.
+fn settle_samples(scene: &Scene, integrator: Option<Integrator>) -> Result<Settled<'_>, RenderError> {
     let settings = &scene.render;
     let [no_count, no_way] = [settings.light_samples == LightSamples::Auto, settings.light_sampling == LightSampling::Auto];
-    let as_it_is = Settled { scene: Cow::Borrowed(scene), because: None, is_piloted: false, integrator: None };
+    let nothing_chosen = |integrator, because: Option<&str>| Settled {
+        scene: Cow::Borrowed(scene),
+        light_choice: None,
+        because: because.map(str::to_owned),
+        is_piloted: false,
+        integrator,
+    };
     if !no_count && !no_way {
-        return Ok(as_it_is);
+        return Ok(nothing_chosen(integrator, None));
     }
     // What nobody has chosen is one light sample, and the area of flat lights.
     if let Some(because) = not_worth_trying(scene) {
-        return Ok(Settled { because: no_count.then(|| because.to_owned()), ..as_it_is });
+        return Ok(nothing_chosen(integrator, Some(because).filter(|_| no_count)));
     }
-    let mut pilot = Pilot::new(scene)?;
+    let mut pilot = Pilot::new(scene, integrator)?;
     let open = [no_count, no_way && pilot.costliest_outline.is_some()];
     if open == [false; 2] {
-        return Ok(Settled { integrator: Some(pilot.integrator), ..as_it_is });
+        return Ok(nothing_chosen(Some(pilot.integrator), None));
     }
     let (settings, because) = choose(&mut pilot, open);
     pilot.integrator.set_light_sampling(&settings);
     Ok(Settled {
         scene: Cow::Owned(Scene { render: settings, ..scene.clone() }),
+        light_choice: None,
         because: no_count.then_some(because),
         is_piloted: true,
         integrator: Some(pilot.integrator),
@@ -175,9 +197,8 @@ struct Pilot<'a> {
 }
 
 impl<'a> Pilot<'a> {
-    fn new(scene: &'a Scene) -> Result<Self, RenderError> {
-        let mut integrator = Integrator::new(scene)?;
-        light_cells::learn(&mut integrator);
+    fn new(scene: &'a Scene, integrator: Option<Integrator>) -> Result<Self, RenderError> {
+        let integrator = integrator.map_or_else(|| Integrator::new(scene), Ok)?;
         let is_simple = integrator.primitive_count() <= UNROLL_LIMIT;
         let costliest_outline = integrator.costliest_outline();
         let [fewest, most] = TRIED_PIXELS;

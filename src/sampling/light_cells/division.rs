@@ -9,7 +9,7 @@ use super::table::{FACINGS, HEADER, LIGHT_CELLS_HEADER_WORDS, LightCells};
 /// Boxes of the grid at most, for each of the facings.
 const MOST_BOXES: usize = 1 << 15;
 /// Cells that there are about at most.
-const MOST_CELLS: usize = 3072;
+const MOST_CELLS: usize = 1024;
 /// Points of a cell from which on it is cut in two, where there are few points.
 const MOST_POINTS: usize = 16;
 /// Share of the points that lie outside the grid along each axis on either side: far ones would make its boxes too large.

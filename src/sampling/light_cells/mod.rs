@@ -65,6 +65,11 @@ impl LightCellChoice {
         &self.local.pmf
     }
 
+    /// The light inside the scene that 32 random bits choose by power.
+    pub fn choose_by_power(&self, bits: u32) -> usize {
+        self.local.choose(bits)
+    }
+
     /// The share of the choices that goes to lights inside the scene.
     fn local_share(&self) -> f64 {
         if self.at_infinity.pmf.is_empty() { 1.0 } else { 0.5 }
