@@ -45,6 +45,8 @@ pub struct ReferenceRenderer {
     guiding: Option<String>,
     /// Most pixels whose samples go together: [`PIXELS_IN_MEMORY`] but for tests.
     pixels_in_memory: u64,
+    /// Why lights are chosen as they are, where that was tried.
+    light_choice: Option<String>,
     /// Why light samples are as many as they are, where the scene does not say how many.
     piloted: Option<String>,
     /// Paths were traced before the first sample, for a guide, for cells of lights or to choose how lights are drawn from.
@@ -119,6 +121,7 @@ impl ReferenceRenderer {
             depends_on_view: settled.is_piloted || guiding.is_some() || integrator.light_cells().is_some(),
             integrator,
             layer,
+            light_choice: settled.light_choice,
             piloted: settled.because,
             guiding,
             pixels_in_memory: PIXELS_IN_MEMORY,
@@ -137,10 +140,12 @@ impl ReferenceRenderer {
     /// What was decided, where the settings leave it open.
     fn decisions(&self) -> Vec<Decision> {
         let settings = &self.integrator.scene().render;
+        let by_cells = self.integrator.light_cells().is_some();
+        let of_choice = self.light_choice.iter().map(|because| Decision::about_light_choice(by_cells, because));
         let of_lights =
             self.piloted.iter().map(|because| Decision::about_light_samples(settings.several_light_samples(), because));
         let guided = self.integrator.guide().is_some();
-        of_lights.chain(self.guiding.iter().map(|because| Decision::about_directions(guided, because))).collect()
+        of_choice.chain(of_lights).chain(self.guiding.iter().map(|because| Decision::about_directions(guided, because))).collect()
     }
 
     /// What is met at a pixel's centre at the shutter's opening: the number of the shape and of its material, from 1.

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::LitPoint;
 use super::list::{Reaching, slots};
+use super::lit_point::LitPoint;
 use super::table::{FACINGS, HEADER, LIGHT_CELLS_HEADER_WORDS, LightCells};
 
 /// Boxes of the grid at most, for each of the facings.

@@ -9,40 +9,17 @@
 
 mod division;
 mod list;
+mod lit_point;
 pub mod table;
 
 use std::sync::Arc;
 
-use glam::DVec3;
-
 pub use division::Division;
 pub use list::Reaching;
+pub use lit_point::LitPoint;
 pub use table::{LightCell, LightCells};
 
 use super::alias::AliasTable;
-use super::guide::table::facing;
-
-/// Where light is sampled from: a point on a surface, and which way the surface faces there.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LitPoint {
-    pub point: DVec3,
-    /// As [`facing`] says.
-    pub facing: u32,
-}
-
-impl LitPoint {
-    /// `normal`: of the surface, on the side from where it is seen.
-    pub fn new(point: DVec3, normal: DVec3) -> Self {
-        Self { point, facing: facing(normal) }
-    }
-}
-
-/// A point of which nothing else matters.
-impl From<DVec3> for LitPoint {
-    fn from(point: DVec3) -> Self {
-        Self { point, facing: 0 }
-    }
-}
 
 /// How a light is chosen: those inside the scene, which are numbered first, by cells and by power; those at infinity by irradiance, in half of the
 /// choices where there are both.

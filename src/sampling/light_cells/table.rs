@@ -8,7 +8,7 @@
 //! - [`LIGHT_CELL_SLOTS`] for each cell, by the number of the light that they name, which is in the lower bits; in the upper ones stands how
 //!   many slots of the cell name it.
 
-use super::LitPoint;
+use super::lit_point::LitPoint;
 
 /// Random bits that say by which of all units a light is chosen: slots of a cell, and those that leave the choice to power.
 pub const LIGHT_UNIT_BITS: u32 = 7;

@@ -53,6 +53,17 @@ impl LightTree {
         Self { nodes, trails, spheres: emitters.iter().map(sphere).collect(), at_infinity }
     }
 
+    /// A sphere around a light inside the scene.
+    pub fn sphere(&self, light: u32) -> (DVec3, f64) {
+        self.spheres[light as usize]
+    }
+
+    /// Lights inside the scene by what they can send at most to a point within a distance of another if nothing is in between, the strongest first: `count`
+    /// of those that `is_wanted`.
+    pub fn strongest(&self, place: (DVec3, f64), count: usize, is_wanted: impl Fn(u32) -> bool) -> Vec<u32> {
+        strongest::strongest(&self.nodes, place, count, is_wanted)
+    }
+
     /// The share of the choices that goes to lights inside the scene.
     pub fn local_share(&self) -> f64 {
         if self.at_infinity.pmf.is_empty() { 1.0 } else { 0.5 }

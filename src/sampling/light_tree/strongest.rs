@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
-use super::{LEAF, LightTree, NUMBER_MASK};
+use super::cluster::{LEAF, LightNode, NUMBER_MASK};
 
 /// A cluster by what it can send at most.
 struct Candidate {
@@ -34,29 +34,22 @@ impl PartialEq for Candidate {
 
 impl Eq for Candidate {}
 
-impl LightTree {
-    /// A sphere around a light inside the scene.
-    pub fn sphere(&self, light: u32) -> (DVec3, f64) {
-        self.spheres[light as usize]
-    }
-
-    /// Lights inside the scene by what they can send at most to a point within `radius` of `center`, the strongest first: `count` of those that
-    /// `is_wanted`.
-    pub fn strongest(&self, (center, radius): (DVec3, f64), count: usize, is_wanted: impl Fn(u32) -> bool) -> Vec<u32> {
-        let (mut found, mut open) = (Vec::new(), BinaryHeap::from([Candidate { most: f64::INFINITY, link: 0 }]));
-        while let Some(Candidate { link, .. }) = open.pop() {
-            let number = link & NUMBER_MASK;
-            if link & LEAF == 0 {
-                let clusters = self.nodes[number as usize].clusters;
-                let candidates = clusters.map(|cluster| Candidate { most: cluster.most(center, radius), link: cluster.link });
-                open.extend(candidates.into_iter().filter(|candidate| candidate.most > 0.0));
-            } else if is_wanted(number) {
-                found.push(number);
-                if found.len() == count {
-                    break;
-                }
+/// Of the tree with these nodes, lights by what they can send at most to a point within `radius` of `center`, the strongest first: `count` of those that
+/// `is_wanted`.
+pub fn strongest(nodes: &[LightNode], (center, radius): (DVec3, f64), count: usize, is_wanted: impl Fn(u32) -> bool) -> Vec<u32> {
+    let (mut found, mut open) = (Vec::new(), BinaryHeap::from([Candidate { most: f64::INFINITY, link: 0 }]));
+    while let Some(Candidate { link, .. }) = open.pop() {
+        let number = link & NUMBER_MASK;
+        if link & LEAF == 0 {
+            let clusters = nodes[number as usize].clusters;
+            let candidates = clusters.map(|cluster| Candidate { most: cluster.most(center, radius), link: cluster.link });
+            open.extend(candidates.into_iter().filter(|candidate| candidate.most > 0.0));
+        } else if is_wanted(number) {
+            found.push(number);
+            if found.len() == count {
+                break;
             }
         }
-        found
     }
+    found
 }

@@ -57,7 +57,7 @@ choices! {
 
     /// How next event estimation chooses among lights.
     pub enum LightChoice {
-        /// By a tree where there are many lights, else by power.
+        /// Where there are many lights, by cells if lists of lights hold most of the light, and by a tree if not; else by power.
         Auto = "auto",
         /// In constant time, by power wherever the light goes, and evenly over groups in three of ten choices.
         Power = "power",
