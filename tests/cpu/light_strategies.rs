@@ -171,9 +171,11 @@ fn hall(triangles: usize) -> Scene {
         );
     }
     if triangles > 0 {
-        let place = |corner: usize| [0.05 * (corner % 50) as f64, 4.0 + 0.01 * (corner % 7) as f64, 0.02 * (corner / 50) as f64];
-        let positions: Vec<[f64; 3]> = (0..triangles + 60).map(place).collect();
-        let faces: Vec<[usize; 3]> = (0..triangles).map(|face| [face, face + 1, face + 51]).collect();
+        let place = |corner: usize| [0.1 * (corner % 50) as f64 - 2.5, 4.0, 0.08 * (corner / 50) as f64 - 2.4];
+        let positions: Vec<[f64; 3]> = (0..triangles + 51).map(place).collect();
+        // None from one end of a row to the other.
+        let faces: Vec<[usize; 3]> =
+            (0..triangles).filter(|face| face % 50 < 49).map(|face| [face, face + 1, face + 51]).collect();
         text += &format!("[[shape]]\ntype = \"mesh\"\npositions = {positions:?}\nfaces = {faces:?}\nmaterial = \"lamp\"\n");
     }
     let mut scene = load(&[&text]);
