@@ -28,7 +28,7 @@ use crate::renderer::sink::Sink;
 use crate::renderer::state::{BatchState, Tally};
 use crate::renderer::{Batch, Change, DeviceChoice, Ending, Observer, RenderError, RenderReport, Renderer, Stopping};
 use crate::sampling::Sampling;
-use crate::scene::{MaterialId, Scene};
+use crate::scene::{LightChoice, MaterialId, RenderSettings, Scene};
 
 /// Packs a scene with all that the CPU finds out before the first sample: how lights are drawn from, where the settings leave that open, and the guide,
 /// where they want one. `kept`: the trees of an earlier frame. The scene comes back with complete settings.
@@ -104,8 +104,17 @@ impl GpuRenderer {
         // Where there is no device, that is what is told, whatever the scene: it may then go to the CPU.
         let device = opening.wait()?;
         let (settled, packed) = prepared?;
+        let is_open = scene.render.light_choice == LightChoice::Auto && !packed.light_cells.is_empty();
+        let pipeline = match Self::pipeline(device.clone(), &settled.scene, &packed, options, start) {
+            // Cells of lights take a buffer more than a tree does, and nobody has asked for them.
+            Err(RenderError::DoesNotFit(_)) if is_open => {
+                let render = RenderSettings { light_choice: LightChoice::Tree, ..scene.render.clone() };
+                let by_tree = Scene { render, ..scene.clone() };
+                return Self::with_trees(OpeningDevice::is_open(&device), &by_tree, options, trees);
+            }
+            pipeline => pipeline?,
+        };
         let scene = &*settled.scene;
-        let pipeline = Self::pipeline(device, scene, &packed, options, start)?;
         let plan = &pipeline.plan;
         let sizer = PassSizer::new(PassLimits {
             stages: plan.stages,
