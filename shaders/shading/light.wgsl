@@ -13,6 +13,9 @@
 #if LIGHT_TREE
 #import shading/light_tree.wgsl
 #endif
+#if LIGHT_CELLS
+#import shading/light_cells.wgsl
+#endif
 #if LIGHTS_BY_PICTURE
 #import shading/light_picture.wgsl
 #endif
@@ -210,6 +213,12 @@ fn environment_pdf_solid_angle(ray: Ray) -> f32 {
     return pdf;
 }
 
+#if LIGHT_CELLS
+// `facing`: as light_facing says of the surface there.
+fn sample_light(reference: vec3<f32>, facing: u32, bits: vec4<u32>) -> LightSample {
+    let choice = choose_light_in(light_cell_at(reference, facing), bits.x);
+    let light = choice.light;
+#else
 fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
 #if LIGHT_TREE
     let choice = choose_light_at(reference, bits.x);
@@ -220,6 +229,7 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
 #else
     let light = choose_light(bits.x);
 #endif
+#endif
     if is_forgotten(light) {
         return no_light();
     }
@@ -228,10 +238,14 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
     let l0 = light_word(light, 0u);
     let kind_flags = bitcast<u32>(l0.x);
     let kind = kind_flags & 255u;
+#if LIGHT_CELLS
+    let pmf = choice.pmf;
+#else
 #if LIGHT_TREE
     let pmf = choice.pmf;
 #else
     let pmf = l0.w;
+#endif
 #endif
     switch kind {
 #if SPHERE_LIGHTS
@@ -289,14 +303,22 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
 
 // Density with which light sampling from `ray.origin` would have drawn the direction that met this emitting surface, the choice of
 // the light included; 0 where light sampling cannot.
+#if LIGHT_CELLS
+fn light_pdf_solid_angle(ray: Ray, facing: u32, surface: Surface) -> f32 {
+#else
 fn light_pdf_solid_angle(ray: Ray, surface: Surface) -> f32 {
+#endif
     if surface.light == NONE {
         return 0.0;
     }
+#if LIGHT_CELLS
+    let pmf = local_light_pmf_in(light_cell_at(ray.origin, facing), surface.light);
+#else
 #if LIGHT_TREE
     let pmf = local_light_pmf(surface.light, ray.origin);
 #else
     let pmf = light_word(surface.light, 0u).w;
+#endif
 #endif
 #if SPHERE_LIGHTS
     if surface.area == 0.0 {
@@ -336,6 +358,15 @@ fn light_pdf_solid_angle(ray: Ray, surface: Surface) -> f32 {
 }
 
 // The light that these bits chose at a point, to be written down where paths are. Elsewhere a tree is not walked twice for nothing: 0.
+#if LIGHT_CELLS
+fn traced_light(point: vec3<f32>, facing: u32, light_bits: u32) -> u32 {
+#if TRACE
+    return choose_light_in(light_cell_at(point, facing), light_bits).light;
+#else
+    return 0u;
+#endif
+}
+#else
 fn traced_light(point: vec3<f32>, light_bits: u32) -> u32 {
 #if !LIGHT_TREE
     return choose_light(light_bits);
@@ -347,3 +378,4 @@ fn traced_light(point: vec3<f32>, light_bits: u32) -> u32 {
 #endif
 #endif
 }
+#endif

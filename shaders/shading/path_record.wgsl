@@ -3,6 +3,9 @@
 #import shading/scatterer.wgsl
 #import shading/scattering.wgsl
 #import shading/surface.wgsl
+#if LIGHT_CELLS
+#import shading/light_cells.wgsl
+#endif
 #if ATTENUATION
 #import shading/volume.wgsl
 #endif
@@ -20,6 +23,10 @@ struct Path {
     sample_in_pass: u32,
     // Vertices at null surfaces so far.
     null_vertices: u32,
+#if LIGHT_CELLS
+    // Which way the surface faces that light was last sampled from, as light_facing says.
+    lit_facing: u32,
+#endif
 #if TRANSPARENT_SHADOWS
     // Where the ray began that went on through the null surfaces last met: light was sampled from there.
     lit_from: vec3<f32>,
@@ -62,6 +69,9 @@ struct Shading {
 fn new_path(ray: Ray, pixel: u32, sample_in_pass: u32) -> Path {
     return Path(
         ray, vec3<f32>(1.0), -1.0, select(1.0, 0.0, HAS_GUIDE), pixel, sample_in_pass, 0u
+#if LIGHT_CELLS
+        , 0u
+#endif
 #if TRANSPARENT_SHADOWS
         , ray.origin
 #endif
@@ -132,6 +142,9 @@ fn extended_path(incoming: Path, surface: Surface, drawn: BsdfSample, throughput
     path.pdf_solid_angle = drawn.pdf_solid_angle;
     path.roulette_scale = roulette_scale;
     path.null_vertices += select(0u, 1u, drawn.is_null);
+#if LIGHT_CELLS
+    path.lit_facing = select(light_facing(surface.facing_normal), incoming.lit_facing, drawn.is_null);
+#endif
 #if TRANSPARENT_SHADOWS
     // Through a null surface goes the ray that was drawn before.
     path.pdf_solid_angle = select(drawn.pdf_solid_angle, incoming.pdf_solid_angle, drawn.is_null);

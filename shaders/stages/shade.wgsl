@@ -32,10 +32,15 @@ fn shade(
         set_path_time(path.pixel, path.sample_in_pass);
 #endif
         shading = shade_vertex(&path, load_hit(slot), vertex_parameters.vertex);
+#if LIGHT_CELLS
+        let radiance = path_state[PLANE_RADIANCE + slot].xyz + shading.radiance;
+        path_state[PLANE_RADIANCE + slot] = vec4<f32>(radiance, bitcast<f32>(path.null_vertices | path.lit_facing << 28u));
+#else
         if HAS_NULL_SURFACES || any(shading.radiance != vec3<f32>(0.0)) {
             let radiance = path_state[PLANE_RADIANCE + slot].xyz + shading.radiance;
             path_state[PLANE_RADIANCE + slot] = vec4<f32>(radiance, bitcast<f32>(path.null_vertices));
         }
+#endif
         if shading.alive {
             store_path(slot, path);
         }

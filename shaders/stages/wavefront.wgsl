@@ -65,8 +65,16 @@ fn load_path(slot: u32) -> Path {
     if HAS_NULL_SURFACES {
         null_vertices = bitcast<u32>(path_state[PLANE_RADIANCE + slot].w);
     }
+#if LIGHT_CELLS
+    // Above the null vertices stands which way the surface faces that light was last sampled from.
+    let vertices_and_facing = bitcast<u32>(path_state[PLANE_RADIANCE + slot].w);
+    null_vertices = vertices_and_facing & 0x0fffffffu;
+#endif
     return Path(
         Ray(p0.xyz, p1.xyz), p2.xyz, p1.w, p2.w, pass_parameters.first_pixel + (identity & 0x00ffffffu), identity >> 24u, null_vertices
+#if LIGHT_CELLS
+        , vertices_and_facing >> 28u
+#endif
 #if TRANSPARENT_SHADOWS
         , path_state[PLANE_LIT_FROM + slot].xyz
 #endif

@@ -9,7 +9,7 @@ use gpt::plan::host::{HostNeeds, host_memory};
 use gpt::plan::{Decision, DeviceLimits, Memory, Plan, PlanOptions};
 use gpt::reference::ReferenceRenderer;
 use gpt::renderer::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
-use gpt::scene::{Guiding, ImportReport, ReportItem, Scene, SceneSummary};
+use gpt::scene::{Guiding, ImportReport, LightChoice, ReportItem, Scene, SceneSummary};
 use gpt::verify;
 use serde::Serialize;
 
@@ -211,6 +211,9 @@ pub fn guess_time(scene: &Scene) -> Result<f64, Failure> {
     // 0 sets no bound.
     small.render.max_depth = if small.render.max_depth == 0 { PROBE_DEPTH } else { small.render.max_depth.min(PROBE_DEPTH) };
     small.render.guiding = Guiding::Off;
+    if small.render.light_choice == LightChoice::Cells {
+        small.render.light_choice = LightChoice::Tree;
+    }
     let mut renderer = ReferenceRenderer::new(&small)?;
     let pixels = |scene: &Scene| scene.film.size.map(f64::from).iter().product::<f64>();
     let start = Instant::now();

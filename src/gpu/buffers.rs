@@ -79,6 +79,10 @@ impl Buffers {
         if compiled("GUIDE") {
             upload(Binding::Guide as u32, memory::GUIDE, bytemuck::cast_slice(&packed.guide), BufferUsages::STORAGE);
         }
+        if compiled("LIGHT_CELLS") {
+            let words = bytemuck::cast_slice(&packed.light_cells);
+            upload(Binding::LightCells as u32, memory::LIGHT_CELLS, words, BufferUsages::STORAGE);
+        }
         if let Some(chunks) = plan.chunks.iter().find(|chunks| chunks.array == TEXELS) {
             for (number, range) in chunks.bindings() {
                 buffers.insert(number, upload_texels(device, &packed.textures, range));

@@ -28,7 +28,7 @@ use crate::renderer::sink::Sink;
 use crate::renderer::state::{BatchState, Tally};
 use crate::renderer::{Batch, Change, DeviceChoice, Ending, Observer, RenderError, RenderReport, Renderer, Stopping};
 use crate::sampling::Sampling;
-use crate::scene::{MaterialId, Scene};
+use crate::scene::{LightChoice, MaterialId, RenderSettings, Scene};
 
 /// Packs a scene with all that the CPU finds out before the first sample: how lights are drawn from and where roulette begins, where the settings leave that open, and the guide,
 /// where they want one. `kept`: the trees of an earlier frame. The scene comes back with complete settings.
@@ -43,13 +43,18 @@ pub fn prepare<'a>(
     scene.validate()?;
     let mut settled = pilot::settle(scene)?;
     // Before it is packed, so that the scene is not held in both forms.
+    let light_cells = settled.integrator.as_ref().and_then(|integrator| integrator.light_cells().cloned());
     let learned = training::learn_for_device(&settled.scene, settled.integrator.take())?;
     let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
     let mut packed = PackedScene::for_frame(&settled.scene, traversal, kept).map_err(does_not_fit)?;
+    if let Some(light_cells) = &light_cells {
+        packed.set_light_cells(light_cells).map_err(does_not_fit)?;
+    }
     packed.guide = learned.words().to_vec();
     packed.guiding = learned.because;
     packed.piloted.clone_from(&settled.because.light_samples);
     packed.roulette.clone_from(&settled.because.roulette);
+    packed.light_choice.clone_from(&settled.because.light_choice);
     Ok((settled, packed))
 }
 
@@ -65,7 +70,7 @@ pub struct GpuRenderer {
     /// What a camera that moves is put together with.
     center: DVec3,
     environment: PackedEnvironment,
-    /// Paths were traced before the first sample, for a guide or to choose how lights are drawn from.
+    /// Paths were traced before the first sample, for a guide, for cells of lights or to choose how lights are drawn from.
     depends_on_view: bool,
     /// What the next frame's hierarchy may be made of.
     trees: KeptTrees,
@@ -100,8 +105,17 @@ impl GpuRenderer {
         // Where there is no device, that is what is told, whatever the scene: it may then go to the CPU.
         let device = opening.wait()?;
         let (settled, packed) = prepared?;
+        let is_open = scene.render.light_choice == LightChoice::Auto && !packed.light_cells.is_empty();
+        let pipeline = match Self::pipeline(device.clone(), &settled.scene, &packed, options, start) {
+            // Cells of lights take a buffer more than a tree does, and nobody has asked for them.
+            Err(RenderError::DoesNotFit(_)) if is_open => {
+                let render = RenderSettings { light_choice: LightChoice::Tree, ..scene.render.clone() };
+                let by_tree = Scene { render, ..scene.clone() };
+                return Self::with_trees(OpeningDevice::is_open(&device), &by_tree, options, trees);
+            }
+            pipeline => pipeline?,
+        };
         let scene = &*settled.scene;
-        let pipeline = Self::pipeline(device, scene, &packed, options, start)?;
         let plan = &pipeline.plan;
         let sizer = PassSizer::new(PassLimits {
             stages: plan.stages,
@@ -123,7 +137,7 @@ impl GpuRenderer {
             sizer,
             center: scene.center(),
             environment: packed.environment,
-            depends_on_view: packed.guiding.is_some() || settled.is_piloted,
+            depends_on_view: packed.guiding.is_some() || !packed.light_cells.is_empty() || settled.is_piloted,
             trees,
         })
     }

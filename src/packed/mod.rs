@@ -15,6 +15,7 @@ pub mod guide;
 pub mod hierarchy;
 pub mod instance;
 pub mod light;
+pub mod light_cells;
 pub mod material;
 pub mod motion;
 pub mod primitive;

@@ -15,6 +15,7 @@ use super::texture::PackedTextures;
 use super::view::View;
 use super::{light, tree, world};
 use crate::binary_tree::parts::KeptTrees;
+use crate::sampling::LightCells;
 use crate::sampling::light_tree::LightNode;
 use crate::scene::Scene;
 
@@ -32,6 +33,9 @@ pub struct PackedScene {
     pub local_lights: usize,
     /// The tree by which those inside the scene are chosen, the root first; empty where they are chosen by power.
     pub light_nodes: Vec<LightNode>,
+    /// Which lights reach which part of the scene, as a table ([`crate::sampling::light_cells`]); empty where they are chosen otherwise. It knows of nothing
+    /// until that is [learned](PackedScene::set_light_cells).
+    pub light_cells: Vec<u32>,
     pub textures: PackedTextures,
     pub environment: PackedEnvironment,
     /// How shapes move (`PackedMotion::words` of `packed::motion`).
@@ -41,6 +45,8 @@ pub struct PackedScene {
     pub view: View,
     /// From where light arrives, as a table ([`crate::sampling::guide`]); empty until that is learned, and where paths are not guided.
     pub guide: Vec<u32>,
+    /// Why lights are chosen as they are; None where nothing was tried to find out.
+    pub light_choice: Option<String>,
     /// Why light samples are as many as they are; None where the scene says how many.
     pub piloted: Option<String>,
     /// Why Russian roulette begins where it does; None where the scene says where.
@@ -84,7 +90,7 @@ impl PackedScene {
         let of_lights = thrown_textures.iter_mut().filter(|mention| **mention != NONE);
         let mut textures = PackedTextures::new(scene, materials.textures_mut().chain(of_lights))?;
         let environment = light::environment(scene, &mut textures)?;
-        let light::SampledLights { mut lights, local_count, nodes } =
+        let light::SampledLights { mut lights, local_count, nodes, cells } =
             light::collect(scene, &mut world, &environment, &thrown_textures, &mut textures)?;
         let places = materials.places(scene);
         world.replace_materials(|material| places[material] as usize);
@@ -106,11 +112,13 @@ impl PackedScene {
             lights,
             local_lights: local_count,
             light_nodes: nodes,
+            light_cells: cells,
             textures,
             environment,
             motions: world.motion_words,
             view: View::new(scene, &environment),
             guide: Vec::new(),
+            light_choice: None,
             piloted: None,
             roulette: None,
             guiding: None,
@@ -118,6 +126,18 @@ impl PackedScene {
         };
         packed.validate()?;
         Ok(packed)
+    }
+
+    /// Chooses lights by what was learned of them, where they are chosen by cells.
+    ///
+    /// # Errors
+    /// [`PackError::Inconsistent`] where kernels could not follow it.
+    pub fn set_light_cells(&mut self, learned: &LightCells) -> Result<(), PackError> {
+        if self.light_cells.is_empty() {
+            return Ok(());
+        }
+        self.light_cells = learned.words().to_vec();
+        self.check_light_cells().map_err(PackError::Inconsistent)
     }
 
     /// Something moves while the shutter is open.

@@ -34,5 +34,7 @@ shared_kinds! {
         Instances = 19 as BINDING_INSTANCES,
         /// [`crate::sampling::guide`].
         Guide = 20 as BINDING_GUIDE,
+        /// [`crate::sampling::light_cells`].
+        LightCells = 21 as BINDING_LIGHT_CELLS,
     }
 }

@@ -94,9 +94,10 @@ impl Plan {
             decisions: Vec::new(),
         };
         plan.chunks = chunks::cut(packed, !uniform_primitives, plan.has_nodes() && !uniform_nodes, limits.max_array);
-        let guided = !packed.guide.is_empty();
-        let other_arrays = u32::from(!uniform_tables) + u32::from(guided);
-        chunks::check(&plan.chunks, other_arrays, guided, limits.max_array, limits)?;
+        let in_cells = switches::chooses_lights_by_cells(scene, packed);
+        let learned = [!packed.guide.is_empty(), in_cells];
+        let other_arrays = u32::from(!uniform_tables) + learned.map(u32::from).iter().sum::<u32>();
+        chunks::check(&plan.chunks, other_arrays, learned, limits.max_array, limits)?;
         plan.switches = switches::choose(scene, packed, &plan);
         plan.switches.enable("TRACE", options.trace);
         plan.switches.enable("PIXEL_LIST", options.pixel_list && !options.trace);
@@ -160,6 +161,9 @@ fn count_memory(packed: &PackedScene, plan: &Plan, width: u32) -> Memory {
     }
     if !packed.guide.is_empty() {
         arrays.push((memory::GUIDE, size_of_val(&packed.guide[..]) as u64));
+    }
+    if plan.switches.enabled.contains("LIGHT_CELLS") {
+        arrays.push((memory::LIGHT_CELLS, size_of_val(&packed.light_cells[..]) as u64));
     }
     if packed.textures.texel_words() > 0 {
         arrays.push((memory::TEXELS, packed.textures.texel_bytes()));

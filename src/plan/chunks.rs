@@ -240,16 +240,26 @@ pub fn cut(packed: &PackedScene, stored_primitives: bool, stored_nodes: bool, li
     arrays
 }
 
-/// Refuses what cannot be bound even in chunks of at most `limit` bytes. `others` counts the scene's further storage buffers, with that of a guide
-/// where paths are `guided`.
+/// Refuses what cannot be bound even in chunks of at most `limit` bytes. `others` counts the scene's further storage buffers, with those of a guide
+/// and of cells of lights, where they were `learned`.
 ///
 /// # Errors
 /// [`PlanError::DoesNotFit`] naming the largest array that is cut, where a stage would need more buffers than the device allows.
-pub fn check(arrays: &[Chunks], others: u32, guided: bool, limit: u64, limits: &DeviceLimits) -> Result<(), PlanError> {
+pub fn check(
+    arrays: &[Chunks],
+    others: u32,
+    [guided, in_cells]: [bool; 2],
+    limit: u64,
+    limits: &DeviceLimits,
+) -> Result<(), PlanError> {
     let needed = arrays.iter().fold(others + OTHER_BUFFERS, |sum, array| sum.saturating_add(array.count));
     let has_instances = arrays.iter().any(|array| array.array == INSTANCES);
-    if (has_instances || guided) && needed > limits.max_storage_buffers && arrays.iter().all(Chunks::is_whole) {
-        let what = if guided { "a guide (`guiding`)" } else { "its instances" };
+    if (has_instances || guided || in_cells) && needed > limits.max_storage_buffers && arrays.iter().all(Chunks::is_whole) {
+        let what = match [guided, in_cells] {
+            [true, _] => "a guide (`guiding`)",
+            [false, true] => "lights in cells (`light_choice`)",
+            [false, false] => "its instances",
+        };
         return Err(PlanError::DoesNotFit(format!(
             "with {what} a stage would need up to {needed} storage buffers, and can have {}",
             limits.max_storage_buffers

@@ -29,6 +29,12 @@ impl Decision {
         Self { about: "roulette", choice, because: because.to_owned() }
     }
 
+    /// How lights are chosen, where that was tried.
+    pub fn about_light_choice(by_cells: bool, because: &str) -> Self {
+        let choice = if by_cells { "by what reaches the place" } else { "by a tree" };
+        Self { about: "light choice", choice: choice.to_owned(), because: because.to_owned() }
+    }
+
     /// How directions are drawn.
     pub fn about_directions(guided: bool, because: &str) -> Self {
         let choice = if guided { "by BSDFs, and by a guide to where light comes from" } else { "by BSDFs alone" };

@@ -9,7 +9,9 @@ use super::model::Plan;
 use super::options::{PlanOptions, TraversalChoice};
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
+use crate::sampling::light_cells::table as light_cells;
 use crate::sampling::light_tree;
+use crate::sampling::light_way::FEWEST_LIGHTS;
 use crate::scene::{LightChoice, RenderSettings, Scene};
 
 const ASKED_FOR: &str = "asked for";
@@ -97,7 +99,7 @@ pub(super) fn explain(
     add("stages", entries.join(", "), stages);
     if plan.samples_lights() && packed.local_lights > 1 {
         let (choice, because) = light_choice(scene.render.light_choice, packed);
-        add("light choice", choice, because);
+        add("light choice", choice, packed.light_choice.clone().unwrap_or(because));
     }
     if plan.samples_lights() && (plan.light_samples > 1 || packed.piloted.is_some()) {
         let because = packed.piloted.as_deref().unwrap_or(ASKED_FOR);
@@ -135,16 +137,21 @@ pub(super) fn explain(
 /// How next event estimation chooses among lights.
 fn light_choice(asked_for: LightChoice, packed: &PackedScene) -> (String, String) {
     let count = packed.local_lights;
-    let by_tree = !packed.light_nodes.is_empty();
-    let choice = if by_tree { format!("by a tree over {count} lights") } else { "by power, in constant time".to_owned() };
+    let [by_tree, by_cells] = [!packed.light_nodes.is_empty(), !packed.light_cells.is_empty()];
+    let choice = match [by_tree, by_cells] {
+        [true, _] => format!("by a tree over {count} lights"),
+        [_, true] => {
+            let cells = light_cells::count(&packed.light_cells);
+            format!("by what reaches the place, {cells} cells over {count} lights")
+        }
+        _ => "by power, in constant time".to_owned(),
+    };
     let because = match asked_for {
         LightChoice::Power => ASKED_FOR.to_owned(),
-        LightChoice::Tree if by_tree => ASKED_FOR.to_owned(),
-        LightChoice::Auto if by_tree => format!("{count} lights inside the scene, at least {}", light_tree::FEWEST_LIGHTS),
-        LightChoice::Auto if count < light_tree::FEWEST_LIGHTS => {
-            format!("{count} lights inside the scene, fewer than {}", light_tree::FEWEST_LIGHTS)
-        }
-        LightChoice::Auto | LightChoice::Tree => {
+        LightChoice::Tree | LightChoice::Cells if by_tree || by_cells => ASKED_FOR.to_owned(),
+        LightChoice::Auto if by_tree => format!("{count} lights inside the scene, at least {FEWEST_LIGHTS}"),
+        LightChoice::Auto if count < FEWEST_LIGHTS => format!("{count} lights inside the scene, fewer than {FEWEST_LIGHTS}"),
+        LightChoice::Auto | LightChoice::Tree | LightChoice::Cells => {
             format!("{count} lights are too many for a tree, which takes {}", light_tree::MOST_LIGHTS)
         }
     };

@@ -4,7 +4,9 @@
 use super::bindings::Binding;
 use super::parameters::{PassParameters, VertexParameters};
 use super::{path_state, trace_record};
-use crate::packed::{NONE, View, blend_weight, bvh4, guide, instance, light, material, motion, primitive, shape, texture, view};
+use crate::packed::{
+    NONE, View, blend_weight, bvh4, guide, instance, light, light_cells, material, motion, primitive, shape, texture, view,
+};
 use crate::shader::shared::{Constant, Constants, SharedStruct, declare_constant};
 
 /// Name under which kernels import it.
@@ -27,6 +29,7 @@ pub fn constants() -> Constants {
         material::constants(),
         blend_weight::constants(),
         light::constants(),
+        light_cells::constants(),
         texture::constants(),
     ]
     .concat()

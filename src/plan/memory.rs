@@ -34,6 +34,9 @@ pub const INSTANCES: &str = "instances";
 /// From where light arrives.
 pub const GUIDE: &str = "guide";
 
+/// Which lights reach which part of the scene.
+pub const LIGHT_CELLS: &str = "light cells";
+
 /// Images and maps.
 pub const TEXELS: &str = "texels";
 

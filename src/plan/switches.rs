@@ -151,6 +151,11 @@ pub fn samples_lights(scene: &Scene, packed: &PackedScene) -> bool {
     !packed.lights.is_empty() && scene.render.max_depth != 1
 }
 
+/// Whether lights are chosen by what reaches the place.
+pub fn chooses_lights_by_cells(scene: &Scene, packed: &PackedScene) -> bool {
+    samples_lights(scene, packed) && !packed.light_cells.is_empty()
+}
+
 /// Whether shadow rays may meet null surfaces, and go on through them.
 pub fn shadows_are_transparent(scene: &Scene, packed: &PackedScene) -> bool {
     samples_lights(scene, packed) && packed.materials.has(LobeKind::Null as u32)
@@ -164,6 +169,7 @@ fn choose_lights(scene: &Scene, packed: &PackedScene, switches: &mut Switches) {
     switches.enable("TRANSPARENT_SHADOWS", shadows_are_transparent(scene, packed));
     switches.enable("ONE_LIGHT", packed.lights.len() == 1);
     switches.enable("LIGHT_TREE", sampled && !packed.light_nodes.is_empty());
+    switches.enable("LIGHT_CELLS", chooses_lights_by_cells(scene, packed));
     let has_surface = |sampling: SurfaceSampling| {
         let is_it = |light: &PackedLight| light.is_surface() && light.shape().is_some_and(|kind| kind.sampling() == sampling);
         packed.lights.iter().any(is_it)

@@ -20,9 +20,10 @@ use super::mis;
 use super::roulette::{self, Expectation};
 use super::trace::{LightConnection, PathVisitor};
 use super::volume::{Volumes, transmittance};
+use crate::math::luminance;
 use crate::renderer::RenderError;
-use crate::sampling::{CameraDimension, Dimension, Guide, PathSampler, VertexDimension};
-use crate::scene::{Estimator, MaterialId, MaterialKind, NumberOrAuto, RenderSettings, Scene};
+use crate::sampling::{CameraDimension, Dimension, Guide, LightCells, LitPoint, PathSampler, VertexDimension};
+use crate::scene::{Estimator, LightChoice, MaterialId, MaterialKind, NumberOrAuto, RenderSettings, Scene};
 
 /// A scene made ready for tracing paths.
 #[derive(Debug, Clone)]
@@ -59,7 +60,7 @@ struct Path {
     /// How the ray's direction was sampled at the last vertex that is no null surface, and where the ray began there. Shadow rays from there
     /// go on through null surfaces as the path does, so both are weighed against each other by the densities that they have there.
     previous: Density,
-    lit_from: DVec3,
+    lit_from: LitPoint,
     /// Of what the ray goes through.
     extinction: DVec3,
     /// Edges of the path up to the end of the ray: the camera's has 1.
@@ -130,6 +131,46 @@ impl Integrator {
         self.lights.set_sampling(settings.light_sampling);
     }
 
+    /// What lights are chosen from.
+    pub(super) fn lights(&self) -> &Lights {
+        &self.lights
+    }
+
+    /// What was learned of lights that are chosen by cells; None where they are chosen otherwise.
+    pub fn light_cells(&self) -> Option<&Arc<LightCells>> {
+        self.lights.in_cells().map(|(choice, _)| &choice.cells)
+    }
+
+    /// Chooses lights no longer by cells but by the tree.
+    pub(super) fn choose_lights_by_tree(&mut self) {
+        self.scene.render.light_choice = LightChoice::Tree;
+        self.lights.leave_cells();
+    }
+
+    /// Chooses lights by what was learned, where they are chosen by cells.
+    pub fn set_light_cells(&mut self, learned: Arc<LightCells>) {
+        self.lights.set_cells(learned);
+    }
+
+    /// What a light brings to a point of a surface when the shutter opens: an estimate by two random numbers of the integral of luminance and cosine, without
+    /// what stands in between and with it. No normal: whatever the cosine.
+    pub(super) fn light_reaching(&self, (point, normal): (DVec3, DVec3), light: usize, numbers: [u32; 2]) -> [f64; 2] {
+        let time = if self.moves { PathTime::new(&self.scene, self.scene.camera.shutter[0]) } else { PathTime::default() };
+        let Some(sample) = self.lights.sample_light(&self.scene, (&self.world, &time), point, (light, 1.0), numbers) else {
+            return [0.0; 2];
+        };
+        let cosine = if normal == DVec3::ZERO { 1.0 } else { sample.wi.dot(normal) };
+        if cosine <= 0.0 {
+            return [0.0; 2];
+        }
+        let share = |surface: &Surface| null_weight(&self.scene, surface, -sample.wi);
+        let lets_through = |material: MaterialId| self.lets_through[material];
+        let ray = Ray { origin: point, direction: sample.wi };
+        let unstopped = self.world.transmittance(ray, sample.distance, sample.target, &time, lets_through, share);
+        let free = luminance(sample.radiance) * cosine / sample.pdf;
+        [free, free * unstopped]
+    }
+
     /// Whether lights are chosen by a tree of them.
     pub fn chooses_lights_by_tree(&self) -> bool {
         self.lights.are_in_tree()
@@ -165,7 +206,7 @@ impl Integrator {
         let mut ray = self.camera.sample(x, y, sampler);
         visitor.round_ray(&mut ray, None);
         let mut path = Path {
-            lit_from: ray.origin,
+            lit_from: ray.origin.into(),
             ray,
             time: self.path_time(sampler),
             throughput: DVec3::ONE,
@@ -214,7 +255,7 @@ impl Integrator {
         let bsdf = Bsdf::new(&self.scene, &surface, wo, visitor.round_number(random(VertexDimension::Blend)));
         visitor.view(&bsdf.view);
         let guided = GuidedBsdf::new(self.guide(), &surface, &bsdf);
-        if !is_last {
+        if !is_last && V::LIGHTS {
             let depth = path.depth;
             for number in 0..self.scene.render.light_samples_at(depth) {
                 self.add_direct_light(path, &surface, (&bsdf, &guided), || sampler.light_bits(vertex, depth, number), visitor);
@@ -242,7 +283,7 @@ impl Integrator {
         }
         path.extinction = self.volumes.extinction_towards(&surface, bsdf.view.front, wi, path.extinction);
         path.previous = density;
-        path.lit_from = path.ray.origin;
+        path.lit_from = LitPoint::new(path.ray.origin, surface.point.normal_towards(wo));
         let u_roulette = visitor.round_number(random(VertexDimension::Roulette));
         let survival = match self.guide {
             Some(_) => path.expectation.survival(arriving, guided.sent_on(), path.depth),
@@ -256,7 +297,7 @@ impl Integrator {
     /// A ray that left the scene finds the environment, shared with the light sample of the surface before.
     fn add_environment<V: PathVisitor>(&self, path: &mut Path, visitor: &mut V) {
         let radiance = self.lights.outside().radiance(path.ray.direction);
-        let light_pdf = || self.lights.environment_pdf(&self.world, path.lit_from, path.ray.direction);
+        let light_pdf = || self.lights.environment_pdf(&self.world, path.lit_from.point, path.ray.direction);
         let weight = self.weight_of_found(path, light_pdf);
         let contribution = path.throughput * radiance * weight;
         path.radiance += contribution;
@@ -303,7 +344,8 @@ impl Integrator {
             return;
         }
         let [choice, u, v] = bits();
-        let reference = surface.point.leave_towards(bsdf.view.wo);
+        let wo = bsdf.view.wo;
+        let reference = LitPoint::new(surface.point.leave_towards(wo), surface.point.normal_towards(wo));
         let magnified = if V::ROUNDS { self.lights.magnifies((&self.world, &path.time), reference, choice) } else { 1.0 };
         let [u, v] = [u, v].map(|bits| visitor.round_bits(bits, magnified));
         let Some(light) = self.lights.sample(&self.scene, (&self.world, &path.time), reference, choice, [u, v]) else { return };

@@ -15,6 +15,7 @@ mod guided;
 pub mod integrator;
 pub mod intersect;
 pub mod layer;
+pub mod light_cells;
 pub mod lights;
 pub mod mis;
 pub mod pilot;

@@ -47,7 +47,7 @@ pub struct ReferenceRenderer {
     pixels_in_memory: u64,
     /// Why settings are what they are that the scene leaves open.
     because: Reasons,
-    /// Paths were traced before the first sample, for a guide or to choose how lights are drawn from.
+    /// Paths were traced before the first sample, for a guide, for cells of lights or to choose how lights are drawn from.
     depends_on_view: bool,
     build_seconds: f64,
     /// Passes done and how long they took, to size the next.
@@ -116,9 +116,9 @@ impl ReferenceRenderer {
         let mut integrator = settled.integrator.map_or_else(|| Integrator::new(scene), Ok)?;
         let guiding = training::train(&mut integrator).because;
         Ok(Self {
+            depends_on_view: settled.is_piloted || guiding.is_some() || integrator.light_cells().is_some(),
             integrator,
             layer,
-            depends_on_view: settled.is_piloted || guiding.is_some(),
             because: settled.because,
             guiding,
             pixels_in_memory: PIXELS_IN_MEMORY,
@@ -138,14 +138,14 @@ impl ReferenceRenderer {
     fn decisions(&self) -> Vec<Decision> {
         let settings = &self.integrator.scene().render;
         let guided = self.integrator.guide().is_some();
-        let Reasons { light_samples, roulette } = &self.because;
+        let by_cells = self.integrator.light_cells().is_some();
+        let Reasons { light_choice, light_samples, roulette } = &self.because;
+        let of_choice = light_choice.iter().map(|because| Decision::about_light_choice(by_cells, because));
         let of_lights =
             light_samples.iter().map(|because| Decision::about_light_samples(settings.several_light_samples(), because));
         let of_roulette = roulette.iter().map(|because| Decision::about_roulette(settings.first_roulette(guided), because));
-        of_lights
-            .chain(of_roulette)
-            .chain(self.guiding.iter().map(|because| Decision::about_directions(guided, because)))
-            .collect()
+        let of_directions = self.guiding.iter().map(|because| Decision::about_directions(guided, because));
+        of_choice.chain(of_lights).chain(of_roulette).chain(of_directions).collect()
     }
 
     /// What is met at a pixel's centre at the shutter's opening: the number of the shape and of its material, from 1.

@@ -22,6 +22,8 @@ pub struct LightConnection {
 
 /// Is told what happens along a path, in this order. Those that do not care leave the methods as they are, at no cost.
 pub trait PathVisitor {
+    /// Whether light is sampled for the path.
+    const LIGHTS: bool = true;
     /// A path or shadow ray is traced.
     fn ray(&mut self, _ray: &Ray) {}
     /// The path met a surface; `throughput` is that of the path up to it, `depth` is that of the ray that met it.

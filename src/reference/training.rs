@@ -120,7 +120,13 @@ pub(super) fn pixel_of(path: u32, [width, height]: [u32; 2]) -> [u32; 2] {
 }
 
 /// Follows a path.
-fn follow<V: PathVisitor>(integrator: &Integrator, sampling: &Sampling, [x, y]: [u32; 2], sample: u32, visitor: &mut V) -> DVec3 {
+pub(super) fn follow<V: PathVisitor>(
+    integrator: &Integrator,
+    sampling: &Sampling,
+    [x, y]: [u32; 2],
+    sample: u32,
+    visitor: &mut V,
+) -> DVec3 {
     let pixel = y.wrapping_mul(integrator.scene().film.size[0]).wrapping_add(x);
     let point = SequencePoint::new(sampling, sample);
     integrator.radiance(x, y, &PathSampler::new(sampling, pixel, &point), visitor)

@@ -16,7 +16,7 @@ use crate::plan::PlanOptions;
 use crate::reference::ReferenceRenderer;
 use crate::reference::layer::layer_scene;
 use crate::renderer::{Observer, RenderError};
-use crate::scene::{Guiding, Scene};
+use crate::scene::{Guiding, LightChoice, Scene};
 
 /// Gives the checkpoint of a layer that is about to be rendered, if it shall have one.
 pub type LayerCheckpoints<'a, E> = &'a mut dyn FnMut(&Renderer, KernelLayer) -> Result<Option<Checkpoint>, E>;
@@ -132,6 +132,7 @@ fn ids(scene: &Scene, [left, top, width, height]: [u32; 4]) -> Result<Arc<LayerP
     // The rays through the pixels' centres need no guide.
     let mut unguided = scene.clone();
     unguided.render.guiding = Guiding::Off;
+    unguided.render.light_choice = LightChoice::Power;
     let reference = ReferenceRenderer::new(&unguided)?;
     let picture = LayerPicture::new([width, height])?;
     for y in 0..height {

@@ -50,6 +50,11 @@ impl LightSampler {
         AliasTable::new(&self.at_infinity.probabilities().collect::<Vec<f64>>())
     }
 
+    /// The probabilities of the lights inside the scene alone; none where there are none.
+    pub fn local_table(&self) -> AliasTable {
+        AliasTable::new(&self.local.probabilities().collect::<Vec<f64>>())
+    }
+
     /// The probabilities of all lights. What lights at infinity send depends on how large the scene is taken to be: together they are as
     /// likely as all others.
     pub fn table(&self) -> AliasTable {

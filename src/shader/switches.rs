@@ -219,6 +219,7 @@ const OF_FEATURES: &[Switch] = &[
     switch("MORE_LOBES").requires(&["MIXTURE"]),
     // What moves stands in the hierarchy, by its attributes.
     switch("MOTION").requires(&["ATTRIBUTES", "BVH"]),
+    switch("LIGHT_CELLS").requires(&["LIGHTS"]).excludes(&["LIGHT_TREE", "ONE_LIGHT"]),
     switch("LIGHT_TREE").requires(&["LIGHTS"]).excludes(&["ONE_LIGHT"]),
     switch("MOVING_LIGHTS").requires(&["MOTION"]),
     switch("NODE_CHUNKS").requires(&["BVH"]).excludes(&["UNIFORM_NODES"]),

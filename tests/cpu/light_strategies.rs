@@ -7,6 +7,7 @@ use gpt::compare::image_tests::{Picture, TileSettings, compare_replications};
 use gpt::film::Band;
 use gpt::load;
 use gpt::reference::ReferenceRenderer;
+use gpt::reference::pilot::settle;
 use gpt::renderer::{RenderRequest, Renderer, Silent};
 use gpt::scene::{
     Estimator, ImageData, ImageTexture, LightChoice, LightSampling, Scene, TextureFilter, TextureKind, TextureWrap,
@@ -149,7 +150,79 @@ fn a_tree_of_lights_changes_no_picture() {
         named("power", lamps(LightChoice::Power, Estimator::Mis)),
         named("tree", lamps(LightChoice::Tree, Estimator::Mis)),
         named("tree, nee", lamps(LightChoice::Tree, Estimator::Nee)),
+        named("cells", lamps(LightChoice::Cells, Estimator::Mis)),
+        named("cells, nee", lamps(LightChoice::Cells, Estimator::Nee)),
     ]);
+}
+
+/// The words by which lights are chosen in cells, if they are.
+fn learned(scene: &Scene) -> Option<Vec<u32>> {
+    let settled = settle(scene).expect("the reference can render the scene");
+    settled.integrator.and_then(|integrator| integrator.light_cells().map(|cells| cells.words().to_vec()))
+}
+
+/// A hall of 8 × 8 small panels, each behind a screen of its own; of one, many triangles.
+fn hall(triangles: usize) -> Scene {
+    let mut text = String::new();
+    for (x, z) in (0..8).flat_map(|x| (0..8).map(move |z| (f64::from(x) - 4.0, f64::from(z) - 4.0))) {
+        text += &format!(
+            "[[shape]]\ntype = \"rectangle\"\ncorner = [{x}, 3, {z}]\nedge_u = [0.2, 0, 0]\nedge_v = [0, 0, 0.2]\nmaterial = \"lamp\"\n\
+             [[shape]]\ntype = \"rectangle\"\ncorner = [{x}, 0.2, {z}]\nedge_u = [0.9, 0, 0]\nedge_v = [0, 2.5, 0]\nmaterial = \"white\"\n"
+        );
+    }
+    if triangles > 0 {
+        let place = |corner: usize| [0.1 * (corner % 50) as f64 - 2.5, 4.0, 0.08 * (corner / 50) as f64 - 2.4];
+        let positions: Vec<[f64; 3]> = (0..triangles + 51).map(place).collect();
+        // None from one end of a row to the other.
+        let faces: Vec<[usize; 3]> =
+            (0..triangles).filter(|face| face % 50 < 49).map(|face| [face, face + 1, face + 51]).collect();
+        text += &format!("[[shape]]\ntype = \"mesh\"\npositions = {positions:?}\nfaces = {faces:?}\nmaterial = \"lamp\"\n");
+    }
+    let mut scene = load(&[&text]);
+    scene.film.size = [96, 96];
+    scene
+}
+
+/// The seed, the number of samples and the way light is sampled change nothing; the camera and the size of the film do.
+#[test]
+fn what_is_learned_of_lights_depends_on_the_scene_and_its_film_alone() {
+    let scene = hall(0);
+    let words = learned(&scene).expect("there are many lights, and `auto` tries them");
+    assert_eq!(learned(&scene).as_ref(), Some(&words), "from run to run");
+    let mut other = scene.clone();
+    (other.render.seed, other.render.spp, other.render.light_choice) = (9, 3, LightChoice::Cells);
+    assert_eq!(learned(&other), Some(words.clone()));
+    let mut larger = scene.clone();
+    larger.film.size = [192, 96];
+    let mut moved = scene.clone();
+    moved.camera.position.x += 0.5;
+    for other in [larger, moved] {
+        assert_ne!(learned(&other), Some(words.clone()));
+    }
+}
+
+/// Lists of lights help where they hold what reaches a place.
+#[test]
+fn cells_of_lights_are_taken_where_lists_hold_the_light() {
+    let choice = |scene: &Scene| settle(scene).expect("the reference can render the scene").scene.render.light_choice;
+    assert_eq!(choice(&hall(0)), LightChoice::Cells);
+    assert_eq!(choice(&hall(3000)), LightChoice::Tree);
+    // Too few pixels, few lights, nothing sampled.
+    let mut small = hall(0);
+    small.film.size = [32, 32];
+    let mut by_bsdf = hall(0);
+    by_bsdf.render.estimator = Estimator::Bsdf;
+    let mut few = load(&[LAMPS]);
+    few.film.size = [96, 96];
+    for scene in [&small, &by_bsdf, &few] {
+        assert_eq!(choice(scene), LightChoice::Auto);
+        assert_eq!(learned(scene), None);
+    }
+    for asked_for in [LightChoice::Power, LightChoice::Tree] {
+        let mut scene = hall(0);
+        scene.render.light_choice = asked_for;
+        assert_eq!((choice(&scene), learned(&scene)), (asked_for, None));
+    }
 }
 
 /// A rectangle, and triangles that are level, aslant and upright.

@@ -324,7 +324,7 @@ fn stages_are_what_was_asked_for() {
     assert!(refused.is_err_and(|error| error.to_string().contains("not by the wavefront")));
 }
 
-/// A tree of lights is made where there are many, or where it is asked for; other kernels hold nothing of it.
+/// A tree of lights is made where there are many, or where it is asked for, and cells where these are; other kernels hold nothing of them.
 #[test]
 fn many_lights_are_chosen_by_a_tree() {
     for (name, choice, tree, reason) in [
@@ -332,11 +332,14 @@ fn many_lights_are_chosen_by_a_tree() {
         ("bazaar", LightChoice::Power, false, "asked for"),
         ("stage", LightChoice::Auto, false, "fewer than 24"),
         ("stage", LightChoice::Tree, true, "asked for"),
+        ("stage", LightChoice::Cells, false, "asked for"),
     ] {
         let mut scene = load::load(Some(name)).expect("it is built in");
         scene.render.light_choice = choice;
         let plan = plan(&scene, &DeviceLimits::default()).expect("it fits");
         assert_eq!(plan.switches.enabled.contains("LIGHT_TREE"), tree, "{name}, {choice:?}");
+        assert_eq!(plan.switches.enabled.contains("LIGHT_CELLS"), choice == LightChoice::Cells, "{name}, {choice:?}");
+        assert_eq!(plan.memory.bytes("light cells") > 0, choice == LightChoice::Cells, "{name}, {choice:?}");
         let decision = plan.decisions.iter().find(|decision| decision.about == "light choice").expect("it is decided");
         assert!(decision.because.contains(reason), "{name}, {choice:?}: {decision:?}");
     }

@@ -148,6 +148,24 @@ fn ordinary_kernels_look_up_no_pixels() {
     }
 }
 
+/// Nor for lights in cells, where they are chosen otherwise.
+#[test]
+fn kernels_hold_nothing_of_cells_of_lights_where_these_are_not_used() {
+    let mut with = all_names();
+    with.remove("LIGHT_TREE");
+    let mut without = with.clone();
+    without.remove("LIGHT_CELLS");
+    for Stage { file, entry, .. } in STAGES.iter().filter(|stage| ["shade", "trace_paths"].contains(&stage.entry)) {
+        let lines = |wanted: &BTreeSet<&'static str>| {
+            let text = compose(file, &shippable(wanted)).expect("it composes").text;
+            let of_cells =
+                |line: &&str| line.contains("light_cell") || line.contains("lit_facing") || line.contains("light_facing");
+            text.lines().filter(of_cells).count()
+        };
+        assert!(lines(&without) == 0 && lines(&with) > 10, "{entry}");
+    }
+}
+
 #[test]
 fn a_planted_mistake_is_found() {
     let mut switches = shippable(&all_names());
@@ -242,9 +260,17 @@ fn no_stage_needs_more_storage_buffers_than_webgpu_promises() {
     for absent in ["ONLY_TRIANGLES_IN_HIERARCHY", "UNIFORM_PRIMITIVES", "UNIFORM_TABLES", "FILM_TEXTURE"] {
         wanted.remove(absent);
     }
-    // Scenes too large for that, and instances or a guide beside everything else, are refused where a device has no more.
-    for absent in ["PRIMITIVE_CHUNKS", "NODE_CHUNKS", "ATTRIBUTE_CHUNKS", "TEXEL_CHUNKS", "INSTANCES", "INSTANCE_CHUNKS", "GUIDE"]
-    {
+    // Scenes too large for that, and instances, a guide or cells of lights beside everything else, are refused where a device has no more.
+    for absent in [
+        "PRIMITIVE_CHUNKS",
+        "NODE_CHUNKS",
+        "ATTRIBUTE_CHUNKS",
+        "TEXEL_CHUNKS",
+        "INSTANCES",
+        "INSTANCE_CHUNKS",
+        "GUIDE",
+        "LIGHT_CELLS",
+    ] {
         wanted.remove(absent);
     }
     for Stage { file, entry, .. } in STAGES {

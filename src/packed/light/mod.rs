@@ -16,8 +16,9 @@ use super::primitive::WorldPrimitive;
 use super::texture::{self, PackedTextures};
 use super::world::WorldGeometry;
 use crate::emission_map::{EmissionMaps, Unrolled};
-use crate::sampling::light_tree::{self, Emitter, LightNode};
-use crate::sampling::{HierarchicalWarp, LightGroup, LightSampler, LightTree};
+use crate::sampling::light_tree::{Emitter, LightNode};
+use crate::sampling::light_way::LightWay;
+use crate::sampling::{AliasTable, HierarchicalWarp, LightCells, LightGroup, LightSampler, LightTree};
 use crate::scene::light::light_table;
 use crate::scene::{Estimator, Light, LightStrength, Scene};
 use record::PORTAL_SHIFT;
@@ -61,6 +62,8 @@ pub struct SampledLights {
     pub local_count: usize,
     /// Of the tree by which those are chosen; empty where they are chosen by power.
     pub nodes: Vec<LightNode>,
+    /// The table by which they are chosen in cells, of which nothing is known yet; empty where they are chosen otherwise.
+    pub cells: Vec<u32>,
 }
 
 /// The textures that the scene's lights throw, as they are [mentioned](texture::mention); NONE where a light throws none.
@@ -134,8 +137,22 @@ pub fn collect(
         light.pmf = table.pmf[index] as f32;
     }
     let local_count = sampler.local_count();
-    if !light_tree::is_by_tree(scene.render.light_choice, local_count) {
-        return Ok(SampledLights { lights, local_count, nodes: Vec::new() });
+    let way = LightWay::of(scene.render.light_choice, local_count);
+    if way != LightWay::Power {
+        choose_at_infinity_apart(&mut lights[local_count..], local_count, &sampler.table_at_infinity());
+    }
+    match way {
+        LightWay::Power => return Ok(SampledLights { lights, local_count, ..SampledLights::default() }),
+        LightWay::Cells => {
+            // By power, those inside the scene are then chosen among themselves as well.
+            let table = sampler.local_table();
+            for (index, light) in lights[..local_count].iter_mut().enumerate() {
+                (light.alias, light.alias_threshold) = (table.alias[index], table.threshold[index]);
+            }
+            let cells = LightCells::default().words().to_vec();
+            return Ok(SampledLights { lights, local_count, cells, ..SampledLights::default() });
+        }
+        LightWay::Tree => {}
     }
     let of_surface = |(primitive, power): (&WorldPrimitive, f64)| {
         Some(emitter(scene, primitive, emissions[primitive.material].as_ref()?, power))
@@ -143,15 +160,19 @@ pub fn collect(
     let surfaces = world.primitives.iter().filter(|primitive| primitive.light != NONE).zip(powers).filter_map(of_surface);
     let delta_lights = scene.lights.iter().filter_map(Light::delta).filter(|light| light.strength.is_positive());
     let emitters: Vec<Emitter> = surfaces.chain(delta_lights.filter_map(|light| Emitter::delta(&light))).collect();
-    let LightTree { nodes, trails, at_infinity } = LightTree::new(&emitters, sampler.table_at_infinity());
+    let LightTree { nodes, trails, .. } = LightTree::new(&emitters, sampler.table_at_infinity());
     for (light, trail) in lights.iter_mut().zip(trails) {
         light.trail = trail;
     }
-    for (index, light) in lights[local_count..].iter_mut().enumerate() {
-        light.alias = local_count as u32 + at_infinity.alias[index];
-        light.alias_threshold = at_infinity.threshold[index];
+    Ok(SampledLights { lights, local_count, nodes, ..SampledLights::default() })
+}
+
+/// Lets lights at infinity, behind `local_count` others, be chosen among themselves.
+fn choose_at_infinity_apart(lights: &mut [PackedLight], local_count: usize, table: &AliasTable) {
+    for (index, light) in lights.iter_mut().enumerate() {
+        light.alias = local_count as u32 + table.alias[index];
+        light.alias_threshold = table.threshold[index];
     }
-    Ok(SampledLights { lights, local_count, nodes })
 }
 
 /// Appends a density to the texels.

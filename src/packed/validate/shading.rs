@@ -12,6 +12,7 @@ use crate::packed::material::{self, PackedMaterial};
 use crate::packed::scene::PackedScene;
 use crate::packed::shape::PrimitiveKind;
 use crate::packed::texture::{self, PackedTexture, PackedTextureKind, TexelFormat};
+use crate::sampling::light_cells::table as light_cells;
 use crate::sampling::{HierarchicalWarp, light_tree};
 use crate::scene::LobeKind;
 use crate::scene::material::{ATTENUATES, FORMS};
@@ -157,7 +158,38 @@ impl PackedScene {
         if numbers_of(LightKind::Environment).count() > 1 {
             return Err("two lights are the environment".to_owned());
         }
-        self.check_light_tree()
+        self.check_light_tree()?;
+        self.check_light_cells()
+    }
+
+    /// Every box names a cell or none, and every slot of a cell a light inside the scene. By power, these are chosen among themselves.
+    pub(in crate::packed) fn check_light_cells(&self) -> Check {
+        let Some((header, rest)) = self.light_cells.split_at_checked(light_cells::HEADER) else {
+            return if self.light_cells.is_empty() { Ok(()) } else { Err("the cells of lights have no header".to_owned()) };
+        };
+        let boxes = header[4..7].iter().try_fold(light_cells::FACINGS, |product, &count| product.checked_mul(count as usize));
+        let first_cell = header[7] as usize;
+        let Some((index, slots)) =
+            boxes.filter(|boxes| light_cells::HEADER + boxes == first_cell).and_then(|boxes| rest.split_at_checked(boxes))
+        else {
+            return Err(format!("the cells of lights begin at {first_cell}, behind {boxes:?} boxes"));
+        };
+        let cells = slots.len() / light_cells::SLOTS;
+        if !slots.len().is_multiple_of(light_cells::SLOTS) || self.light_cells.len() >= NONE as usize {
+            return Err(format!("the cells of lights have {} slots", slots.len()));
+        }
+        if let Some(number) = index.iter().find(|number| **number as usize > cells) {
+            return Err(format!("a box names cell {number} of {cells}"));
+        }
+        if let Some(slot) = slots.iter().find(|slot| (**slot & light_cells::LIGHT_SLOT_MASK) as usize >= self.local_lights) {
+            return Err(format!("a cell names {slot:#x} of {} lights inside the scene", self.local_lights));
+        }
+        let (local, at_infinity) = self.lights.split_at_checked(self.local_lights).unwrap_or_default();
+        let leaves = |light: &PackedLight| light.alias as usize >= self.local_lights;
+        if local.is_empty() || local.iter().any(leaves) || !at_infinity.iter().all(leaves) {
+            return Err("a light stands for one that is chosen otherwise".to_owned());
+        }
+        Ok(())
     }
 
     /// Below each node stand nodes behind it alone, so every way down ends; it ends at a light inside the scene.

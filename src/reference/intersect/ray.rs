@@ -56,6 +56,11 @@ impl SurfacePoint {
         self.error / ROUNDING
     }
 
+    /// The geometric normal on the side that `direction` points to.
+    pub fn normal_towards(&self, direction: DVec3) -> DVec3 {
+        self.normal * 1.0_f64.copysign(direction.dot(self.normal))
+    }
+
     /// The point moved off the surface by its error bound, to the side that `direction` points to. A ray from there in that
     /// direction does not meet the surface again by rounding.
     pub fn leave_towards(&self, direction: DVec3) -> DVec3 {

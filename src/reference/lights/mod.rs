@@ -16,7 +16,9 @@ use glam::{DVec2, DVec3};
 use super::emission::{emitted, mean_exitance};
 use super::intersect::{Outline, Owner, PathTime, PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
 use crate::emission_map::{EmissionMaps, LampPart, Unrolled};
-use crate::sampling::light_tree::{self, Emitter};
+use crate::sampling::light_cells::{LightCellChoice, LightCells, LitPoint};
+use crate::sampling::light_tree::Emitter;
+use crate::sampling::light_way::LightWay;
 use crate::sampling::sampler::uniform;
 use crate::sampling::{AliasTable, HierarchicalWarp, LightGroup, LightSampler, LightTree};
 use crate::scene::light::light_table;
@@ -69,6 +71,8 @@ pub struct Lights {
     table: AliasTable,
     /// Where it is made, lights are chosen by it. Those at infinity have the probabilities of the table all the same.
     tree: Option<LightTree>,
+    /// Where it is made, lights are chosen by it, and the tree is for learning.
+    cells: Option<LightCellChoice>,
     /// Index into `lights` by leaf-order index of the primitive.
     of_primitive: Vec<Option<u32>>,
     outside: Outside,
@@ -134,8 +138,9 @@ impl Lights {
             sampler.add(LightGroup::Alone, strength);
             lights.push(SampledLight::Delta(light));
         }
-        let is_by_tree = light_tree::is_by_tree(scene.render.light_choice, sampler.local_count());
-        let emitters = if is_by_tree { emitters(scene, world, &lights, &powers) } else { Vec::new() };
+        let way = LightWay::of(scene.render.light_choice, sampler.local_count());
+        let has_tree = way != LightWay::Power;
+        let emitters = if has_tree { emitters(scene, world, &lights, &powers) } else { Vec::new() };
         let outside = Outside::of(scene.lights.iter().filter_map(outside_light));
         let irradiance = PI * outside.mean_luminance();
         let mut environment_light = None;
@@ -156,9 +161,11 @@ impl Lights {
             }
         }
         let sampling = scene.render.light_sampling;
-        let tree = is_by_tree.then(|| LightTree::new(&emitters, sampler.table_at_infinity()));
+        let tree = has_tree.then(|| LightTree::new(&emitters, sampler.table_at_infinity()));
+        let by_cells = || LightCellChoice::new(sampler.local_table(), sampler.table_at_infinity());
+        let cells = (way == LightWay::Cells).then(by_cells);
         let table = sampler.table();
-        Self { lights, table, tree, of_primitive, outside, environment_light, first_portal, sampling, warps }
+        Self { lights, table, tree, cells, of_primitive, outside, environment_light, first_portal, sampling, warps }
     }
 
     /// What points of a primitive are drawn by, where that is not evenly.
@@ -172,10 +179,11 @@ impl Lights {
     }
 
     /// The light that 32 random bits choose at a point, and the probability of that.
-    fn choose(&self, point: DVec3, bits: u32) -> (usize, f64) {
-        match &self.tree {
-            Some(tree) => tree.choose(point, bits),
-            None => {
+    fn choose(&self, from: LitPoint, bits: u32) -> (usize, f64) {
+        match (&self.cells, &self.tree) {
+            (Some(cells), _) => cells.choose(from, bits),
+            (None, Some(tree)) => tree.choose(from.point, bits),
+            (None, None) => {
                 let light = self.table.choose(bits);
                 (light, self.table.pmf[light])
             }
@@ -183,19 +191,45 @@ impl Lights {
     }
 
     /// By how much drawing a direction to the light that these bits choose magnifies rounding errors of its random numbers.
-    pub fn magnifies(&self, (world, time): (&World, &PathTime), reference: DVec3, choice: u32) -> f64 {
-        match self.lights[self.choose(reference, choice).0] {
+    pub fn magnifies(&self, (world, time): (&World, &PathTime), from: LitPoint, choice: u32) -> f64 {
+        match self.lights[self.choose(from, choice).0] {
             SampledLight::Area(index) => {
                 let pose = world.pose(index, time);
-                world.primitive(index).element().magnifies(pose, self.sampling, reference)
+                world.primitive(index).element().magnifies(pose, self.sampling, from.point)
             }
             _ => 1.0,
         }
     }
 
     /// The probability with which a light inside the scene is chosen at a point.
-    fn probability(&self, point: DVec3, light: usize) -> f64 {
-        self.tree.as_ref().map_or(self.table.pmf[light], |tree| tree.probability(point, light))
+    fn probability(&self, from: LitPoint, light: usize) -> f64 {
+        match (&self.cells, &self.tree) {
+            (Some(cells), _) => cells.probability(from, light),
+            (None, Some(tree)) => tree.probability(from.point, light),
+            (None, None) => self.table.pmf[light],
+        }
+    }
+
+    /// How many lights inside the scene there are.
+    pub fn local_count(&self) -> usize {
+        self.tree.as_ref().map_or(0, |tree| tree.trails.len())
+    }
+
+    /// Chooses no longer by cells but by the tree.
+    pub fn leave_cells(&mut self) {
+        self.cells = None;
+    }
+
+    /// How lights are chosen by cells, if they are, and a tree of those inside the scene.
+    pub fn in_cells(&self) -> Option<(&LightCellChoice, &LightTree)> {
+        Some((self.cells.as_ref()?, self.tree.as_ref()?))
+    }
+
+    /// Chooses by what was learned, where lights are chosen by cells.
+    pub fn set_cells(&mut self, learned: Arc<LightCells>) {
+        if let Some(cells) = &mut self.cells {
+            cells.cells = learned;
+        }
     }
 
     pub fn is_empty(&self) -> bool {
@@ -209,7 +243,7 @@ impl Lights {
 
     /// Whether those inside the scene are chosen by a tree.
     pub fn are_in_tree(&self) -> bool {
-        self.tree.is_some()
+        self.tree.is_some() && self.cells.is_none()
     }
 
     /// Of those that can be drawn from by solid angle as well as by area, what takes most to be drawn so. None: there are none.
@@ -233,12 +267,24 @@ impl Lights {
     pub fn sample(
         &self,
         scene: &Scene,
+        moment: (&World, &PathTime),
+        from: impl Into<LitPoint>,
+        choice: u32,
+        numbers: [u32; 2],
+    ) -> Option<LightSample> {
+        let from = from.into();
+        self.sample_light(scene, moment, from.point, self.choose(from, choice), numbers)
+    }
+
+    /// As [`Lights::sample`], of a light that was chosen with a probability.
+    pub fn sample_light(
+        &self,
+        scene: &Scene,
         (world, time): (&World, &PathTime),
         reference: DVec3,
-        choice: u32,
+        (light, probability): (usize, f64),
         [u, v]: [u32; 2],
     ) -> Option<LightSample> {
-        let (light, probability) = self.choose(reference, choice);
         let (u1, u2) = (uniform(u), uniform(v));
         let sampled = &self.lights[light];
         let sample = |wi, distance, radiance, pdf, target| {
@@ -311,7 +357,9 @@ impl Lights {
     }
 
     /// Density, per steradian, with which [`Lights::sample`] finds the point `surface` from `reference`; 0 where it cannot.
-    pub fn pdf(&self, (world, time): (&World, &PathTime), reference: DVec3, surface: &Surface) -> f64 {
+    pub fn pdf(&self, (world, time): (&World, &PathTime), from: impl Into<LitPoint>, surface: &Surface) -> f64 {
+        let from = from.into();
+        let reference = from.point;
         let SurfaceId::Primitive(index) = surface.id else { return 0.0 };
         let Some(light) = self.of_primitive[index] else { return 0.0 };
         let pose = world.pose(index, time);
@@ -324,7 +372,7 @@ impl Lights {
                 density * element.pdf(pose, LightSampling::Area, reference, &surface.point)
             }
         };
-        self.probability(reference, light as usize) * pdf
+        self.probability(from, light as usize) * pdf
     }
 }
 

@@ -12,6 +12,7 @@ use std::borrow::Cow;
 
 use super::integrator::Integrator;
 use super::intersect::Outline;
+use super::light_cells::{self, LightsSettled};
 use crate::plan::UNROLL_LIMIT;
 use crate::renderer::RenderError;
 use crate::scene::settings::MOST_LIGHT_SAMPLES;
@@ -64,6 +65,8 @@ pub struct Settled<'a> {
 /// Why settings are what they are; None where the scene says what they are.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Reasons {
+    /// How lights are chosen; None where nothing was tried to find out.
+    pub light_choice: Option<String>,
     /// How many light samples there are.
     pub light_samples: Option<String>,
     /// Where roulette begins.
@@ -95,7 +98,7 @@ impl Open {
     /// The same reason for each of them.
     fn reasons(self, because: &str) -> Reasons {
         let because = |is_open: bool| is_open.then(|| because.to_owned());
-        Reasons { light_samples: because(self.light_samples), roulette: because(self.roulette) }
+        Reasons { light_samples: because(self.light_samples), roulette: because(self.roulette), light_choice: None }
     }
 }
 
@@ -104,19 +107,34 @@ impl Open {
 /// # Errors
 /// What the reference cannot render.
 pub fn settle(scene: &Scene) -> Result<Settled<'_>, RenderError> {
+    let LightsSettled { scene, integrator, because } = light_cells::settle(scene)?;
+    let mut settled = match scene {
+        Cow::Borrowed(scene) => settle_the_rest(scene, integrator)?,
+        Cow::Owned(scene) => {
+            let settled = settle_the_rest(&scene, integrator)?;
+            Settled { scene: Cow::Owned(settled.scene.into_owned()), ..settled }
+        }
+    };
+    settled.is_piloted |= because.is_some();
+    settled.because.light_choice = because;
+    Ok(settled)
+}
+
+/// As [`settle`], where it is settled how lights are chosen.
+fn settle_the_rest(scene: &Scene, integrator: Option<Integrator>) -> Result<Settled<'_>, RenderError> {
     let mut open = Open::of(&scene.render);
-    let as_it_is = |because: Reasons| Settled { scene: Cow::Borrowed(scene), because, is_piloted: false, integrator: None };
+    let as_it_is = |integrator, because| Settled { scene: Cow::Borrowed(scene), because, is_piloted: false, integrator };
     if !open.draws_from_lights() && !open.roulette {
-        return Ok(as_it_is(Reasons::default()));
+        return Ok(as_it_is(integrator, Reasons::default()));
     }
     // What nobody has chosen is one light sample, the area of flat lights, and the default of roulette.
     if let Some(because) = not_worth_trying(scene, open) {
-        return Ok(as_it_is(open.reasons(because)));
+        return Ok(as_it_is(integrator, open.reasons(because)));
     }
-    let mut pilot = Pilot::new(scene)?;
+    let mut pilot = Pilot::new(scene, integrator)?;
     open.light_sampling &= pilot.costliest_outline.is_some();
     if !open.draws_from_lights() && !open.roulette {
-        return Ok(Settled { integrator: Some(pilot.integrator), ..as_it_is(Reasons::default()) });
+        return Ok(as_it_is(Some(pilot.integrator), Reasons::default()));
     }
     let because = choose(&mut pilot, open);
     pilot.integrator.set_light_sampling(&pilot.settings);
@@ -243,8 +261,8 @@ struct Pilot<'a> {
 }
 
 impl<'a> Pilot<'a> {
-    fn new(scene: &'a Scene) -> Result<Self, RenderError> {
-        let integrator = Integrator::new(scene)?;
+    fn new(scene: &'a Scene, integrator: Option<Integrator>) -> Result<Self, RenderError> {
+        let integrator = integrator.map_or_else(|| Integrator::new(scene), Ok)?;
         let is_simple = integrator.primitive_count() <= UNROLL_LIMIT;
         let costliest_outline = integrator.costliest_outline();
         let [fewest, most] = TRIED_PIXELS;

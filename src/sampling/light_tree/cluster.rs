@@ -41,6 +41,9 @@ pub struct LightCluster {
     pub link: u32,
 }
 
+/// Least distance that is reckoned with where points and lights lie among each other, as a share of the radius of both.
+const NEAREST: f64 = 0.25;
+
 /// What a cluster can send to a point.
 #[derive(Debug, Clone, Copy)]
 struct Seen {
@@ -92,6 +95,16 @@ impl LightCluster {
         cosine = if cosine < cosine_of_sphere { cosine * cosine_of_sphere + sine * sine_of_sphere } else { 1.0 };
         let power = if cosine <= reach { 0.0 } else { power * cosine.max(LEAST_COSINE) };
         Seen { power, squared_distance: squared }
+    }
+}
+
+impl LightCluster {
+    /// What it can send at most to a point within `radius` of `center`.
+    pub fn most(&self, center: DVec3, radius: f64) -> f64 {
+        let around = Self { radius: self.radius + radius as f32, ..*self };
+        let seen = around.seen(center);
+        let nearest = (seen.squared_distance.sqrt() - f64::from(around.radius)).max(NEAREST * f64::from(around.radius));
+        seen.power / (nearest * nearest)
     }
 }
 

@@ -14,6 +14,7 @@ mod build;
 mod cluster;
 mod cone;
 mod emitter;
+mod strongest;
 
 pub use cluster::{LEAF, LightCluster, LightNode, NUMBER_MASK, TWO_SIDED};
 pub use emitter::Emitter;
@@ -21,23 +22,11 @@ pub use emitter::Emitter;
 use glam::DVec3;
 
 use super::alias::AliasTable;
-use crate::scene::LightChoice;
 
-/// Fewest lights inside a scene of which a tree is made unless it is asked for: a guess, not a measurement.
-pub const FEWEST_LIGHTS: usize = 24;
 /// Most of them: the tables of more would leave no room for anything else.
 pub const MOST_LIGHTS: usize = 1 << 19;
 /// All random bits but the last value, which would lie in no part.
 const WHOLE_RANGE: u32 = u32::MAX;
-
-/// Whether lights are chosen by a tree, of which so many stand inside the scene.
-pub fn is_by_tree(choice: LightChoice, local_lights: usize) -> bool {
-    match choice {
-        LightChoice::Auto => (FEWEST_LIGHTS..=MOST_LIGHTS).contains(&local_lights),
-        LightChoice::Power => false,
-        LightChoice::Tree => (2..=MOST_LIGHTS).contains(&local_lights),
-    }
-}
 
 /// How a light is chosen: by the tree among those inside the scene, which are numbered first; by irradiance among those at infinity,
 /// which make half of the choices where there are both.
@@ -47,6 +36,8 @@ pub struct LightTree {
     pub nodes: Vec<LightNode>,
     /// Of each light inside the scene, which cluster leads to it: a bit for each node from the root on, lowest first.
     pub trails: Vec<u32>,
+    /// Of each of them, a sphere around it.
+    spheres: Vec<(DVec3, f64)>,
     /// Of the lights at infinity.
     pub at_infinity: AliasTable,
 }
@@ -55,7 +46,22 @@ impl LightTree {
     /// Of two lights or more inside the scene, and what chooses among those at infinity, whose probabilities sum to one or are none.
     pub fn new(emitters: &[Emitter], at_infinity: AliasTable) -> Self {
         let (nodes, trails) = build::build(emitters);
-        Self { nodes, trails, at_infinity }
+        let sphere = |emitter: &Emitter| {
+            let [low, high] = emitter.bounds;
+            (0.5 * (low + high), 0.5 * low.distance(high))
+        };
+        Self { nodes, trails, spheres: emitters.iter().map(sphere).collect(), at_infinity }
+    }
+
+    /// A sphere around a light inside the scene.
+    pub fn sphere(&self, light: u32) -> (DVec3, f64) {
+        self.spheres[light as usize]
+    }
+
+    /// Lights inside the scene by what they can send at most to a point within a distance of another if nothing is in between, the strongest first: `count`
+    /// of those that `is_wanted`.
+    pub fn strongest(&self, place: (DVec3, f64), count: usize, is_wanted: impl Fn(u32) -> bool) -> Vec<u32> {
+        strongest::strongest(&self.nodes, place, count, is_wanted)
     }
 
     /// The share of the choices that goes to lights inside the scene.

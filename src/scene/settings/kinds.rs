@@ -57,12 +57,14 @@ choices! {
 
     /// How next event estimation chooses among lights.
     pub enum LightChoice {
-        /// By a tree where there are many lights, else by power.
+        /// Where there are many lights, by cells if lists of lights hold most of the light, and by a tree if not; else by power.
         Auto = "auto",
         /// In constant time, by power wherever the light goes, and evenly over groups in three of ten choices.
         Power = "power",
         /// By a tree: near lights that face the point more often than others.
         Tree = "tree",
+        /// By what was found to reach the place before the first sample, hidden lights left out, and by power in one of eight choices.
+        Cells = "cells",
     }
 
     /// Whether paths are guided to where light was found to come from.

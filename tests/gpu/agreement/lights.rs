@@ -334,6 +334,30 @@ fn a_tree_of_lights_agrees() {
     assert!(verdict.matching_share() < 0.97, "{verdict:#?}");
 }
 
+/// The same lamps by what reaches the place; as a wavefront, where surfaces let light through, and with several light samples.
+#[test]
+fn cells_of_lights_agree() {
+    let mut bazaar = super::small("bazaar", 48, 8);
+    bazaar.render.light_choice = LightChoice::Cells;
+    assert_agrees("bazaar in cells", &bazaar, &PlanOptions::default());
+    assert_agrees("bazaar in cells", &bazaar, &by_wavefront());
+    bazaar.render.estimator = Estimator::Nee;
+    bazaar.render.light_samples = 3.into();
+    bazaar.render.light_samples_depth = 2;
+    assert_agrees("bazaar in cells, nee", &bazaar, &by_wavefront());
+    let mut few = load(&[SPHERES, MAP, SPOT]);
+    few.render.light_choice = LightChoice::Cells;
+    assert_agrees("few lights in cells", &few, &PlanOptions::default());
+    // The controls: one device chooses by power, or has learned of another camera.
+    let [mut by_power, mut moved] = [few.clone(), few.clone()];
+    by_power.render.light_choice = LightChoice::Power;
+    moved.camera.position.x += 1e-3;
+    for ours in [by_power, moved] {
+        let Some(verdict) = compare_unequal(&ours, &few) else { return };
+        assert!(verdict.matching_share() < 0.97, "{verdict:#?}");
+    }
+}
+
 /// The device renders `ours`, the reference `theirs`.
 pub fn compare_unequal(ours: &Scene, theirs: &Scene) -> Option<Verdict> {
     let device = DEVICE.as_ref()?;

@@ -49,6 +49,9 @@ pub fn follow(scene: &PackedScene) -> Read<()> {
     if !scene.light_nodes.is_empty() {
         kernel.light_tree()?;
     }
+    if !scene.light_cells.is_empty() {
+        kernel.light_cells()?;
+    }
     scene.environment.map.map_or(Ok(()), |map| kernel.map(&map))
 }
 
@@ -370,6 +373,34 @@ impl Kernel<'_> {
             let alias = self.light_word(entry, 0)?[2];
             // One inside the scene would be chosen with another probability than it is weighed by.
             if (alias as usize) < self.scene.local_lights { Err(format!("light {alias} at infinity")) } else { Ok(()) }
+        })
+    }
+
+    /// shading/light_cells.wgsl: every box, every slot of its cell, and the choices by power among lights inside the scene and among the others.
+    fn light_cells(&self) -> Read<()> {
+        let word = |index: u32| {
+            self.step()?;
+            self.scene.light_cells.get(index as usize).copied().ok_or_else(|| format!("word {index} of the cells of lights"))
+        };
+        let mut boxes = 6_u32;
+        for axis in 4..7 {
+            boxes = boxes.wrapping_mul(word(axis)?);
+        }
+        let local = self.scene.local_lights as u32;
+        for index in 0..boxes {
+            let number = word(8_u32.wrapping_add(index))?;
+            for slot in (0..112).filter(|_| number > 0) {
+                let first = word(7)?.wrapping_add(number.wrapping_sub(1).wrapping_mul(112));
+                let light = word(first.wrapping_add(slot))? & 0xf_ffff;
+                // One at infinity would be chosen with another probability than it is weighed by.
+                if light >= local {
+                    return Err(format!("light {light} in a cell"));
+                }
+            }
+        }
+        (0..self.scene.lights.len() as u32).try_for_each(|entry| {
+            let alias = self.light_word(entry, 0)?[2];
+            if (alias < local) == (entry < local) { Ok(()) } else { Err(format!("light {alias} in place of {entry}")) }
         })
     }
 

@@ -41,6 +41,7 @@ enum Place {
     Motion(usize),
     Texel(usize),
     Map(usize),
+    LightCells(usize),
     StackSize,
     PrimitiveCount,
 }
@@ -70,6 +71,7 @@ fn change(scene: &mut PackedScene, place: Place, new: impl Fn(u32) -> u32) {
                 *field = new(*field);
             }
         }
+        Place::LightCells(word) => scene.light_cells[word] = new(scene.light_cells[word]),
         Place::StackSize => scene.hierarchy.stack_size = new(scene.hierarchy.stack_size),
         Place::PrimitiveCount => scene.hierarchy.primitive_count = new(scene.hierarchy.primitive_count),
     }
@@ -108,6 +110,8 @@ fn places(scene: &PackedScene) -> Vec<(Place, bool)> {
     if scene.environment.map.is_some() {
         places.extend((0..8).map(|field| (Place::Map(field), true)));
     }
+    // Where the grid of cells of lights begins, and how large its boxes are, may be anything.
+    places.extend((0..scene.light_cells.len()).map(|word| (Place::LightCells(word), word >= 4)));
     let walks_nodes = scene.hierarchy.traversal == Traversal::Bvh;
     places.extend([(Place::StackSize, walks_nodes), (Place::PrimitiveCount, true)]);
     places
@@ -150,6 +154,7 @@ fn what_was_packed_passes_and_uses_every_array() {
     }
     let any = |holds: fn(&PackedScene) -> bool| scenes.iter().any(|(_, scene)| holds(scene));
     assert!(any(|scene| !scene.motions.is_empty()) && any(|scene| !scene.hierarchy.boxes.is_empty()));
+    assert!(any(|scene| !scene.light_cells.is_empty()));
     assert!(any(|scene| scene.environment.map.is_some_and(|map| map.levels > 1)));
 }
 

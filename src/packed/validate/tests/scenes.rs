@@ -7,6 +7,7 @@ use glam::{DAffine3, DQuat, DVec3, Vec2, Vec3};
 use crate::load::file::delta_light_examples;
 use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
+use crate::sampling::light_cells::table;
 use crate::scene::{
     BlendWeight, Channel, ChannelInput, ColorInput, ColorSpace, ConductorFresnel, Cuboid, Disk, Emission, Environment,
     EnvironmentRadiance, Geometry, Group, ImageData, ImageTexture, Instances, Light, LightChoice, Masking, Material,
@@ -14,7 +15,7 @@ use crate::scene::{
     Shape, Sphere, Texels, Texture, TextureFilter, TextureKind, TextureWrap, ThrownPicture, Transform,
 };
 
-/// By name: walked by kernels, and left to the device. Lights are chosen by a tree in the first.
+/// By name: walked by kernels, and left to the device. Lights are chosen by a tree in the first, by cells in the second.
 pub fn all() -> Vec<(&'static str, PackedScene)> {
     let pack = |mut scene: Scene, traversal, light_choice| {
         scene.render.light_choice = light_choice;
@@ -23,7 +24,18 @@ pub fn all() -> Vec<(&'static str, PackedScene)> {
     let mut with = everything();
     add_instances(&mut with);
     let nodes = pack(with, Traversal::Bvh, LightChoice::Tree);
-    vec![("nodes", nodes), ("boxes", pack(everything(), Traversal::RayQuery, LightChoice::Power))]
+    let mut boxes = pack(everything(), Traversal::RayQuery, LightChoice::Cells);
+    boxes.light_cells = light_cells(boxes.local_lights as u32);
+    vec![("nodes", nodes), ("boxes", boxes)]
+}
+
+/// Two boxes for each facing, and two cells that name all of so many lights.
+fn light_cells(lights: u32) -> Vec<u32> {
+    let mut words = [0.0_f32, 0.0, 0.0, 1.0].map(f32::to_bits).to_vec();
+    words.extend([2, 1, 1, 8 + 12]);
+    words.extend((0..12).map(|number| number % 3));
+    words.extend((0..2 * table::LIGHT_CELL_SLOTS).map(|slot| slot % lights | 1 << table::LIGHT_SLOT_COUNT_SHIFT));
+    words
 }
 
 /// `side` × `side` squares, each of two triangles.

@@ -1,0 +1,101 @@
+// The choice of a light by what reaches the place. src/sampling/light_cells does the same, and says how.
+#import core/layout.wgsl
+#import core/sampler.wgsl
+#import geometry/scene.wgsl
+
+@group(0) @binding(BINDING_LIGHT_CELLS) var<storage, read> light_cells: array<u32>;
+
+struct LightChoice {
+    light: u32,
+    // Probability of the choice.
+    pmf: f32,
+}
+
+// Twice the axis along which a normal is longest, and one more where it points down that axis.
+fn light_facing(normal: vec3<f32>) -> u32 {
+    let weighed = abs(normal) * vec3<f32>(1.0, FACING_WEIGHT_Y, FACING_WEIGHT_Z);
+    let is_x = weighed.x >= weighed.y && weighed.x >= weighed.z;
+    let is_y = weighed.y >= weighed.z;
+    let along = select(select(normal.z, normal.y, is_y), normal.x, is_x);
+    return select(select(4u, 2u, is_y), 0u, is_x) + select(0u, 1u, along < 0.0);
+}
+
+// The first word of the slots of a point's cell; 0 where nothing is known.
+fn light_cell_at(point: vec3<f32>, facing: u32) -> u32 {
+    let origin = bitcast<vec3<f32>>(vec3<u32>(light_cells[0], light_cells[1], light_cells[2]));
+    let grid = vec3<u32>(light_cells[4], light_cells[5], light_cells[6]);
+    let place = (point - origin) * bitcast<f32>(light_cells[3]);
+    if !(all(place >= vec3<f32>(0.0)) && all(place < vec3<f32>(grid))) {
+        return 0u;
+    }
+    let at = min(vec3<u32>(place), grid - 1u);
+    let number = light_cells[LIGHT_CELLS_HEADER_WORDS + ((facing * grid.z + at.z) * grid.y + at.y) * grid.x + at.x];
+    return select(light_cells[7] + (number - 1u) * LIGHT_CELL_SLOTS, 0u, number == 0u);
+}
+
+// The word of a light's record that says how it is chosen by power: (kind and flags; alias threshold; alias; probability).
+fn light_by_power(light: u32) -> vec4<f32> {
+    return tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS];
+}
+
+// The light that 32 random bits choose by power among `count` from number `first` on.
+fn choose_by_power(first: u32, count: u32, bits: u32) -> u32 {
+    let entry = first + multiply_high(bits, count);
+    let word = bitcast<vec4<u32>>(light_by_power(entry));
+    return select(word.z, entry, bits * count < word.y);
+}
+
+// How many slots of a cell name a light.
+fn light_slots(cell: u32, light: u32) -> u32 {
+    var first = 0u;
+    for (var stride = LIGHT_SLOT_STRIDE; stride > 0u; stride >>= 1u) {
+        let last = first + stride - 1u;
+        if last < LIGHT_CELL_SLOTS && (light_cells[cell + last] & LIGHT_SLOT_MASK) < light {
+            first = last + 1u;
+        }
+    }
+    if first == LIGHT_CELL_SLOTS {
+        return 0u;
+    }
+    let slot = light_cells[cell + first];
+    return select(0u, slot >> LIGHT_SLOT_COUNT_SHIFT, (slot & LIGHT_SLOT_MASK) == light);
+}
+
+// The probability of a light inside the scene of which so many slots of a point's cell exist; by power, it has the probability `by_power`.
+fn light_pmf_of_slots(slots: u32, by_power: f32) -> f32 {
+    let share = select(1.0, 0.5, LIGHTS_AT_INFINITY > 0u);
+    return (share * f32(slots) + f32(LIGHT_UNITS_BY_POWER) * by_power) * LIGHT_UNIT;
+}
+
+// The light that 32 random bits choose in a point's cell. Where there are lights at infinity as well, they make half of the choices.
+fn choose_light_in(cell: u32, bits: u32) -> LightChoice {
+    var rest = bits;
+    if LIGHTS_AT_INFINITY > 0u {
+        rest = bits << 1u;
+        if (bits >> 31u) == 1u {
+            let light = choose_by_power(LOCAL_LIGHTS, LIGHTS_AT_INFINITY, rest);
+            return LightChoice(light, light_by_power(light).w);
+        }
+    }
+    if cell == 0u {
+        let light = choose_by_power(0u, LOCAL_LIGHTS, rest);
+        return LightChoice(light, light_by_power(light).w);
+    }
+    let unit = rest >> (32u - LIGHT_UNIT_BITS);
+    if unit >= LIGHT_UNITS_BY_POWER {
+        let slot = light_cells[cell + unit - LIGHT_UNITS_BY_POWER];
+        let light = slot & LIGHT_SLOT_MASK;
+        return LightChoice(light, light_pmf_of_slots(slot >> LIGHT_SLOT_COUNT_SHIFT, light_by_power(light).w));
+    }
+    let light = choose_by_power(0u, LOCAL_LIGHTS, rest << (LIGHT_UNIT_BITS - LIGHT_UNITS_BY_POWER_BITS));
+    return LightChoice(light, light_pmf_of_slots(light_slots(cell, light), light_by_power(light).w));
+}
+
+// The probability with which that chooses a light inside the scene.
+fn local_light_pmf_in(cell: u32, light: u32) -> f32 {
+    let by_power = light_by_power(light).w;
+    if cell == 0u {
+        return by_power;
+    }
+    return light_pmf_of_slots(light_slots(cell, light), by_power);
+}

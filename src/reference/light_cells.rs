@@ -1,0 +1,290 @@
+//! Learning which lights reach which part of a scene, before the first sample ([`crate::sampling::light_cells`]).
+//!
+//! Training paths, with random numbers of their own, tell where the picture's paths scatter. Space is cut into cells by these points. For each
+//! cell, shadow rays go from some of its points to the lights that could send most there if nothing were in between, and what arrives says how
+//! often each is worth choosing. Other rays say how much comes from all other lights: where that is much, as under a lamp of thousands of triangles,
+//! lists of lights do not help, and `auto` takes the tree. All numbers of things are fixed and results are put together in order, so
+//! what is learned depends on the scene, its settings and the size of its film alone, not on its seed.
+
+use std::borrow::Cow;
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::bsdf::{BsdfSample, Density};
+use super::integrator::Integrator;
+use super::intersect::Surface;
+use super::trace::PathVisitor;
+use super::training::{follow, pixel_of};
+use crate::renderer::RenderError;
+use crate::sampling::hash::{dimension_bits, mix};
+use crate::sampling::light_cells::{Division, LightCells, Reaching};
+use crate::sampling::light_way::{FEWEST_LIGHTS, LightWay};
+use crate::sampling::{LitPoint, Sampling};
+use crate::scene::{Estimator, Geometry, LightChoice, PixelSampler, RenderSettings, SamplerKind, Scene, SceneSummary, Shape};
+
+/// Pixels of a film below which learning would take longer than it saves.
+const FEWEST_PIXELS: u64 = 1 << 13;
+/// Triangles above which the reference's hierarchy, which learning needs, takes seconds to build.
+const MOST_TRIANGLES: usize = 1 << 20;
+/// Share of the light that may come from lights which are in no list, where nobody says how lights are chosen.
+const MOST_UNLISTED: f64 = 0.1;
+/// One path for so many pixels says where light is sampled, within these numbers.
+const PIXELS_OF_PATH: u64 = 8;
+const PATHS: [u64; 2] = [1 << 10, 1 << 14];
+/// Paths that one task traces.
+const PATHS_AT_ONCE: u32 = 128;
+/// Vertices after which a path is given up.
+const MOST_VERTICES: u32 = 16;
+/// Lights that are tried in each cell.
+const TRIED_LIGHTS: usize = 96;
+/// Points of a cell from which lights are tried.
+const TRIED_POINTS: usize = 16;
+/// Shadow rays to each light; to each of those from which something arrived by these; and to others.
+const FIRST_RAYS: u32 = 8;
+const FURTHER_RAYS: u32 = 8;
+const OTHER_RAYS: u32 = 16;
+/// What a light is taken to send at the mean of squares where it seems to be hidden, as a share of what it would send if nothing were in between.
+const DOUBT: f64 = 0.01;
+/// Primitives of a box.
+const BOX_PRIMITIVES: usize = 6;
+
+/// A scene whose settings say how lights are chosen.
+pub struct LightsSettled<'a> {
+    pub scene: Cow<'a, Scene>,
+    /// The scene made ready, where that was needed to find out, with what was learned.
+    pub integrator: Option<Integrator>,
+    /// What was found, where lights were tried.
+    pub because: Option<String>,
+}
+
+/// Chooses how lights are chosen, where the scene's settings leave that open and its lights are many, and learns what that needs.
+///
+/// # Errors
+/// What the reference cannot render.
+pub fn settle(scene: &Scene) -> Result<LightsSettled<'_>, RenderError> {
+    let is_open = scene.render.light_choice == LightChoice::Auto;
+    let with = |light_choice| Scene { render: RenderSettings { light_choice, ..scene.render.clone() }, ..scene.clone() };
+    let by_cells = if is_open { Cow::Owned(with(LightChoice::Cells)) } else { Cow::Borrowed(scene) };
+    let as_it_is = LightsSettled { scene: Cow::Borrowed(scene), integrator: None, because: None };
+    let fewest = if is_open { FEWEST_LIGHTS } else { 0 };
+    let is_by_cells = |lights: usize| lights >= fewest && LightWay::of(by_cells.render.light_choice, lights) == LightWay::Cells;
+    if !is_sampled(scene) || !is_by_cells(most_local_lights(scene)) || (is_open && !is_worth_learning(scene)) {
+        return Ok(as_it_is);
+    }
+    let mut integrator = Integrator::new(&by_cells)?;
+    if !is_by_cells(integrator.lights().local_count()) {
+        return Ok(as_it_is);
+    }
+    let Learned { table, unlisted } = learned(&integrator);
+    let percent = 100.0 * unlisted;
+    if is_open && unlisted > MOST_UNLISTED {
+        integrator.choose_lights_by_tree();
+        let because = format!("{percent:.0} % of the light comes from more lights than a place can name");
+        return Ok(LightsSettled {
+            scene: Cow::Owned(with(LightChoice::Tree)),
+            integrator: Some(integrator),
+            because: Some(because),
+        });
+    }
+    let asked_for = if is_open { "" } else { "asked for; " };
+    let because = format!("{asked_for}cells name the lights that {:.1} % of the light comes from", 100.0 - percent);
+    integrator.set_light_cells(Arc::new(table));
+    Ok(LightsSettled { scene: by_cells, integrator: Some(integrator), because: Some(because) })
+}
+
+/// As many lights as may stand inside a scene.
+fn most_local_lights(scene: &Scene) -> usize {
+    let emits = scene.materials_that(|material| material.emission.is_some());
+    let of_shape = |shape: &Shape| match &shape.geometry {
+        _ if !shape.materials().any(|id| emits.get(id) == Some(&true)) => 0,
+        Geometry::Mesh(mesh) => mesh.faces.len(),
+        Geometry::Box(_) => BOX_PRIMITIVES,
+        _ => 1,
+    };
+    scene.shapes.iter().map(of_shape).sum::<usize>() + scene.lights.len()
+}
+
+/// Whether light is sampled at all. Paths of one edge have no vertex to sample it from.
+fn is_sampled(scene: &Scene) -> bool {
+    scene.render.estimator != Estimator::Bsdf && scene.render.max_depth != 1
+}
+
+fn pixel_count(scene: &Scene) -> u64 {
+    scene.film.size.map(u64::from).iter().product()
+}
+
+fn is_worth_learning(scene: &Scene) -> bool {
+    let SceneSummary { triangles, group_triangles, .. } = SceneSummary::of(scene);
+    pixel_count(scene) >= FEWEST_PIXELS && triangles + group_triangles <= MOST_TRIANGLES
+}
+
+/// A point of a surface at which light may be sampled.
+#[derive(Clone, Copy)]
+struct Shaded {
+    at: LitPoint,
+    /// Zero where the surface scatters to either side.
+    normal: DVec3,
+}
+
+/// What came of learning.
+struct Learned {
+    table: LightCells,
+    /// The share of the light that comes from lights in no list, as a mean over cells.
+    unlisted: f64,
+}
+
+/// Learns from a scene whose lights are chosen by cells.
+fn learned(integrator: &Integrator) -> Learned {
+    let shaded = shaded_points(integrator);
+    let points: Vec<LitPoint> = shaded.iter().map(|shaded| shaded.at).collect();
+    let division = Division::new(&points);
+    let of_cell = |(cell, members): (usize, &Vec<u32>)| {
+        let step = members.len().div_ceil(TRIED_POINTS).max(1);
+        let points: Vec<Shaded> = members.iter().step_by(step).map(|&number| shaded[number as usize]).collect();
+        Trial { integrator, points, key: mix(cell as u32 ^ 0x6365_6c6c) }.reaching()
+    };
+    let found: Vec<(Vec<Reaching>, f64)> = division.cells().par_iter().enumerate().map(of_cell).collect();
+    let unlisted = found.iter().map(|(_, unlisted)| unlisted).sum::<f64>() / found.len().max(1) as f64;
+    let reaching: Vec<Vec<Reaching>> = found.into_iter().map(|(reaching, _)| reaching).collect();
+    Learned { table: division.table(&reaching), unlisted }
+}
+
+/// Where training paths scatter, in their order.
+fn shaded_points(integrator: &Integrator) -> Vec<Shaded> {
+    let scene = integrator.scene();
+    let sampling = Sampling {
+        path: SamplerKind::Independent,
+        pixel: PixelSampler::SameAsPath,
+        seed: mix(0x6c69_6768),
+        ..Sampling::from(&scene.render)
+    };
+    let [fewest, most] = PATHS;
+    let count = (pixel_count(scene) / PIXELS_OF_PATH).clamp(fewest, most).next_power_of_two() as u32;
+    let tasks: Vec<u32> = (0..count).step_by(PATHS_AT_ONCE as usize).collect();
+    let of_task = |&start: &u32| {
+        let mut walker = Walker::default();
+        for path in start..start + PATHS_AT_ONCE {
+            follow(integrator, &sampling, pixel_of(path, scene.film.size), path, &mut walker);
+        }
+        walker.shaded
+    };
+    tasks.par_iter().map(of_task).collect::<Vec<_>>().concat()
+}
+
+/// Lights tried from some points of a cell.
+struct Trial<'a> {
+    integrator: &'a Integrator,
+    points: Vec<Shaded>,
+    /// Of its random numbers.
+    key: u32,
+}
+
+impl Trial<'_> {
+    /// What lights send to the points, and the share of the light that comes from all others.
+    fn reaching(&self) -> (Vec<Reaching>, f64) {
+        let Some((choice, tree)) = self.integrator.lights().in_cells() else { return Default::default() };
+        let places = self.points.iter().map(|shaded| shaded.at.point);
+        let [low, high] = places.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], p| [low.min(p), high.max(p)]);
+        let faces = |light: u32| self.points.iter().any(|shaded| shaded.may_see(tree.sphere(light)));
+        let tried = tree.strongest((0.5 * (low + high), 0.5 * low.distance(high)), TRIED_LIGHTS, faces);
+        let mut listed = 0.0;
+        let of_light = |&light: &u32| {
+            let mut sent = self.sent(light, 0..FIRST_RAYS);
+            if sent.arrived > 0.0 {
+                sent = sent + self.sent(light, FIRST_RAYS..FIRST_RAYS + FURTHER_RAYS);
+            }
+            listed += sent.arrived / sent.rays;
+            let square = if sent.arrived > 0.0 { sent.square } else { DOUBT * sent.free_square };
+            let worth = (square / sent.rays).sqrt();
+            (worth > 0.0).then(|| Reaching { light, worth, by_power: choice.by_power()[light as usize] })
+        };
+        let reaching = tried.iter().filter_map(of_light).collect();
+        // Lights chosen by power say what those send that were not tried.
+        let others = (0..OTHER_RAYS).map(|ray| {
+            let light = choice.choose_by_power(dimension_bits(mix(!self.key), ray));
+            let sent = self.sent(light as u32, ray..ray + 1).arrived / choice.by_power()[light];
+            if tried.contains(&(light as u32)) { 0.0 } else { sent }
+        });
+        let unlisted = others.sum::<f64>() / f64::from(OTHER_RAYS);
+        (reaching, if unlisted > 0.0 { unlisted / (unlisted + listed) } else { 0.0 })
+    }
+
+    /// What a light sends to the points along some rays.
+    fn sent(&self, light: u32, rays: Range<u32>) -> Sent {
+        let key = mix(self.key ^ light.wrapping_mul(0x9e37_79b9));
+        let along = |ray: u32| {
+            let from = &self.points[ray as usize % self.points.len()];
+            let numbers = [0, 1].map(|number| dimension_bits(key, 2 * ray + number));
+            let [free, arrived] = self.integrator.light_reaching((from.at.point, from.normal), light as usize, numbers);
+            // The square counts.
+            if (free * free).is_finite() {
+                Sent { arrived, square: arrived * arrived, free_square: free * free, rays: 1.0 }
+            } else {
+                Sent { rays: 1.0, ..Sent::default() }
+            }
+        };
+        rays.map(along).fold(Sent::default(), |sum, sent| sum + sent)
+    }
+}
+
+/// Sums over rays to a light: what arrived along them, its square, and the square of what would have if nothing were in between.
+#[derive(Clone, Copy, Default)]
+struct Sent {
+    arrived: f64,
+    square: f64,
+    free_square: f64,
+    rays: f64,
+}
+
+impl std::ops::Add for Sent {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            arrived: self.arrived + other.arrived,
+            square: self.square + other.square,
+            free_square: self.free_square + other.free_square,
+            rays: self.rays + other.rays,
+        }
+    }
+}
+
+impl Shaded {
+    /// Something in a sphere may be before the surface.
+    fn may_see(&self, (center, radius): (DVec3, f64)) -> bool {
+        self.normal == DVec3::ZERO || (center - self.at.point).dot(self.normal) + radius > 0.0
+    }
+}
+
+/// Notes where paths scatter.
+#[derive(Default)]
+struct Walker {
+    shaded: Vec<Shaded>,
+    at: Option<Shaded>,
+}
+
+impl PathVisitor for Walker {
+    const LIGHTS: bool = false;
+
+    fn surface(&mut self, _depth: u32, surface: &Surface, wo: DVec3, _throughput: DVec3) {
+        let normal = surface.point.normal_towards(wo);
+        self.at = Some(Shaded { at: LitPoint::new(surface.point.leave_towards(wo), normal), normal });
+    }
+
+    fn scattered(&mut self, sample: &BsdfSample) {
+        if let (Density::SolidAngle(_), false, Some(mut at)) = (sample.density, sample.is_null, self.at) {
+            // What a path goes through is lit from behind.
+            if sample.wi.dot(at.normal) < 0.0 {
+                at.normal = DVec3::ZERO;
+            }
+            self.shaded.push(at);
+        }
+    }
+
+    fn gives_up(&mut self, vertices: u32) -> bool {
+        vertices >= MOST_VERTICES
+    }
+}

@@ -1,0 +1,122 @@
+//! Cells of lights as a table, and what is read from it.
+//!
+//! The table consists of words of 32 bits, because each word that a kernel loads costs:
+//!
+//! - from 0 on: where the grid begins, and the inverse size of its boxes, as the bits of f32; how many boxes it has along x, y and z; the first
+//!   word of the cells;
+//! - then a word for each facing and box, x first, then y, z and the facing: the cell's number from 1, or 0 where nothing is known;
+//! - [`LIGHT_CELL_SLOTS`] for each cell, by the number of the light that they name, which is in the lower bits; in the upper ones stands how
+//!   many slots of the cell name it.
+
+use super::lit_point::LitPoint;
+
+/// Random bits that say by which of all units a light is chosen: slots of a cell, and those that leave the choice to power.
+pub const LIGHT_UNIT_BITS: u32 = 7;
+/// The probability of one of these bits' values.
+pub const LIGHT_UNIT: f32 = 1.0 / (1 << LIGHT_UNIT_BITS) as f32;
+/// Of these bits' values, the first so many leave the choice to power, a power of two.
+pub const LIGHT_UNITS_BY_POWER_BITS: u32 = 4;
+pub const LIGHT_UNITS_BY_POWER: u32 = 1 << LIGHT_UNITS_BY_POWER_BITS;
+/// The rest of the values: slots of a cell.
+pub const LIGHT_CELL_SLOTS: u32 = (1 << LIGHT_UNIT_BITS) - LIGHT_UNITS_BY_POWER;
+/// Words before the index.
+pub const LIGHT_CELLS_HEADER_WORDS: u32 = 8;
+/// Where the number of slots stands in a slot, above the number of the light.
+pub const LIGHT_SLOT_COUNT_SHIFT: u32 = 20;
+pub const LIGHT_SLOT_MASK: u32 = (1 << LIGHT_SLOT_COUNT_SHIFT) - 1;
+/// Least power of two of which twice is more than the slots: from there on they are searched by halves.
+pub const LIGHT_SLOT_STRIDE: u32 = 1 << (LIGHT_UNIT_BITS - 1);
+
+/// Words of a cell.
+pub const SLOTS: usize = LIGHT_CELL_SLOTS as usize;
+/// Words before the index.
+pub const HEADER: usize = LIGHT_CELLS_HEADER_WORDS as usize;
+/// Ways that a surface can face.
+pub const FACINGS: usize = 6;
+
+/// Which lights reach which part of a scene.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LightCells {
+    pub(super) words: Vec<u32>,
+}
+
+/// The lights that reach one cell.
+#[derive(Debug, Clone, Copy)]
+pub struct LightCell<'a> {
+    slots: &'a [u32],
+}
+
+/// Nothing is known anywhere.
+impl Default for LightCells {
+    fn default() -> Self {
+        let mut words = vec![0; HEADER];
+        words[HEADER - 1] = LIGHT_CELLS_HEADER_WORDS;
+        Self { words }
+    }
+}
+
+impl LightCells {
+    /// The table, as devices read it.
+    pub fn words(&self) -> &[u32] {
+        &self.words
+    }
+
+    /// How many cells know of lights.
+    pub fn count(&self) -> usize {
+        count(&self.words)
+    }
+
+    fn first_cell(&self) -> usize {
+        self.words[HEADER - 1] as usize
+    }
+
+    /// What is known of a point on a surface.
+    pub fn cell(&self, from: LitPoint) -> Option<LightCell<'_>> {
+        let number = |word: usize| f64::from(f32::from_bits(self.words[word]));
+        let [width, height, depth] = [self.words[4], self.words[5], self.words[6]];
+        let mut boxes = [0; 3];
+        for (axis, count) in [width, height, depth].into_iter().enumerate() {
+            let place = (from.point[axis] - number(axis)) * number(3);
+            if !(place >= 0.0 && place < f64::from(count)) {
+                return None;
+            }
+            boxes[axis] = place as u32;
+        }
+        let index = ((from.facing * depth + boxes[2]) * height + boxes[1]) * width + boxes[0];
+        let number = self.words[(LIGHT_CELLS_HEADER_WORDS + index) as usize];
+        let start = self.first_cell() + SLOTS * (number.checked_sub(1)? as usize);
+        Some(LightCell { slots: &self.words[start..start + SLOTS] })
+    }
+}
+
+/// How many cells a table has.
+pub fn count(words: &[u32]) -> usize {
+    let first = words.get(HEADER - 1).map_or(0, |first| *first as usize);
+    words.len().saturating_sub(first) / SLOTS
+}
+
+impl LightCell<'_> {
+    /// The light that 32 random bits choose.
+    ///
+    /// # Errors
+    /// Where the choice is left to power: the bits to make it by.
+    pub fn choose(&self, bits: u32) -> Result<u32, u32> {
+        let unit = bits >> (32 - LIGHT_UNIT_BITS);
+        match unit.checked_sub(LIGHT_UNITS_BY_POWER) {
+            Some(slot) => Ok(self.slots[slot as usize] & LIGHT_SLOT_MASK),
+            None => Err(bits << (LIGHT_UNIT_BITS - LIGHT_UNITS_BY_POWER_BITS)),
+        }
+    }
+
+    /// How many slots name a light.
+    pub fn slots_of(&self, light: u32) -> u32 {
+        let first = self.slots.partition_point(|slot| slot & LIGHT_SLOT_MASK < light);
+        let found = self.slots.get(first).filter(|slot| **slot & LIGHT_SLOT_MASK == light);
+        found.map_or(0, |slot| slot >> LIGHT_SLOT_COUNT_SHIFT)
+    }
+
+    /// The probability with which a light is chosen here, by slots or by power, by which alone it has the probability `by_power`.
+    pub fn probability(&self, light: u32, by_power: f64) -> f64 {
+        (f64::from(self.slots_of(light)) + f64::from(LIGHT_UNITS_BY_POWER) * by_power) * f64::from(LIGHT_UNIT)
+    }
+}
