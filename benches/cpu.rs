@@ -2,12 +2,10 @@
 //!
 //! Reading scene files and models, packing a scene, building the hierarchy, drawing random numbers, following reference paths.
 
-#![allow(missing_docs, reason = "the macro that gathers the benchmarks makes a public function")]
-
 use std::hint::black_box;
 use std::path::Path;
+use std::time::{Duration, Instant};
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gpt::bench::scenes;
 use gpt::binary_tree::parts::KeptTrees;
 use gpt::choice::Choice;
@@ -19,74 +17,84 @@ use gpt::scene::{RenderSettings, SamplerKind};
 
 /// Triangles of the scenes that are packed.
 const TRIANGLES: [u32; 3] = [1_000, 10_000, 100_000];
+/// Measurements of each, and how long one of them takes at least.
+const MEASUREMENTS: usize = 15;
+const AT_LEAST: Duration = Duration::from_millis(50);
 
-fn parse(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("parse");
-    let text = load::builtin_text("cornell").unwrap_or_default();
-    group.throughput(Throughput::Bytes(text.len() as u64));
-    group.bench_function("cornell.toml", |bencher| bencher.iter(|| load::load_toml_str(text, "cornell", Path::new(""))));
-    // The scene file and the model that it names, both part of the program.
-    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/models/teapot.obj");
-    group.throughput(Throughput::Bytes(std::fs::metadata(model).map_or(0, |file| file.len())));
-    group.bench_function("teapot.obj", |bencher| bencher.iter(|| load::load(Some("teapot-plastic"))));
-    group.finish();
+fn main() {
+    println!("| what | median | lowest | highest |");
+    println!("| --- | --- | --- | --- |");
+    parse();
+    pack();
+    sample();
+    trace();
 }
 
-fn pack(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("pack");
-    group.sample_size(10);
+/// Prints what a call takes, of so many calls at once that the clock is exact.
+fn measure<T>(what: &str, mut call: impl FnMut() -> T) {
+    let mut time = |calls: u32| {
+        let start = Instant::now();
+        (0..calls).for_each(|_| drop(black_box(call())));
+        start.elapsed()
+    };
+    let mut calls = 1;
+    while time(calls) < AT_LEAST && calls < 1 << 30 {
+        calls *= 2;
+    }
+    let mut times: Vec<f64> = (0..MEASUREMENTS).map(|_| time(calls).as_secs_f64() / f64::from(calls)).collect();
+    times.sort_by(f64::total_cmp);
+    let shown = |seconds: f64| match seconds {
+        seconds if seconds >= 1e-3 => format!("{:.3} ms", 1e3 * seconds),
+        seconds if seconds >= 1e-6 => format!("{:.3} µs", 1e6 * seconds),
+        seconds => format!("{:.3} ns", 1e9 * seconds),
+    };
+    let [median, lowest, highest] = [MEASUREMENTS / 2, 0, MEASUREMENTS - 1].map(|rank| shown(times[rank]));
+    println!("| {what} | {median} | {lowest} | {highest} |");
+}
+
+fn parse() {
+    let text = load::builtin_text("cornell").unwrap_or_default();
+    measure("parse cornell.toml", || load::load_toml_str(text, "cornell", Path::new("")));
+    // The scene file and the model that it names, both part of the program.
+    measure("parse teapot.obj", || load::load(Some("teapot-plastic")));
+}
+
+fn pack() {
     for triangles in TRIANGLES {
         let Ok(scene) = scenes::hills(triangles) else { continue };
-        group.throughput(Throughput::Elements(triangles.into()));
-        group.bench_with_input(BenchmarkId::new("flatten", triangles), &scene, |bencher, scene| {
-            bencher.iter(|| PackedScene::new(scene));
-        });
+        measure(&format!("flatten {triangles} triangles"), || PackedScene::new(&scene));
         let geometry = world::collect(&scene);
-        group.bench_with_input(BenchmarkId::new("hierarchy", triangles), &geometry, |bencher, geometry| {
-            bencher.iter(|| tree::build(geometry, Traversal::Bvh, &mut KeptTrees::default()));
+        measure(&format!("hierarchy of {triangles} triangles"), || {
+            tree::build(&geometry, Traversal::Bvh, &mut KeptTrees::default())
         });
     }
-    group.finish();
 }
 
-fn sample(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("sample");
+fn sample() {
     for sampler in SamplerKind::ALL {
         let sampling = Sampling::from(&RenderSettings { sampler, ..RenderSettings::default() });
-        group.throughput(Throughput::Elements(1));
-        group.bench_function(BenchmarkId::new("sequence point", sampler.name()), |bencher| {
-            let mut index = 0_u32;
-            bencher.iter(|| {
-                index = index.wrapping_add(1) & 0xffff;
-                SequencePoint::new(&sampling, black_box(index))
-            });
+        let mut index = 0_u32;
+        measure(&format!("sequence point, {}", sampler.name()), || {
+            index = index.wrapping_add(1) & 0xffff;
+            SequencePoint::new(&sampling, black_box(index))
         });
         let point = SequencePoint::new(&sampling, 77);
-        group.bench_function(BenchmarkId::new("number of a path", sampler.name()), |bencher| {
-            let path = PathSampler::new(&sampling, 1234, &point);
-            bencher.iter(|| path.uniform(black_box(Dimension::vertex(1, VertexDimension::BsdfU))));
+        let path = PathSampler::new(&sampling, 1234, &point);
+        measure(&format!("number of a path, {}", sampler.name()), || {
+            path.uniform(black_box(Dimension::vertex(1, VertexDimension::BsdfU)))
         });
     }
-    group.finish();
 }
 
-fn trace(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("reference path");
+fn trace() {
     for name in ["cornell", "veach-mis"] {
         let Ok(scene) = load::load(Some(name)) else { continue };
         let Ok(renderer) = ReferenceRenderer::new(&scene) else { continue };
         let [width, height] = scene.film.size;
-        group.throughput(Throughput::Elements(1));
-        group.bench_function(name, |bencher| {
-            let mut index = 0_u32;
-            bencher.iter(|| {
-                index = index.wrapping_add(97);
-                renderer.radiance_of_sample(index % width, (index / width) % height, 3)
-            });
+        let mut index = 0_u32;
+        measure(&format!("reference path, {name}"), || {
+            index = index.wrapping_add(97);
+            renderer.radiance_of_sample(index % width, (index / width) % height, 3)
         });
     }
-    group.finish();
 }
-
-criterion_group!(benches, parse, pack, sample, trace);
-criterion_main!(benches);

@@ -131,6 +131,7 @@ impl Selection {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::effort::in_full;
     use crate::load;
     use crate::scene::Scene;
 
@@ -190,12 +191,15 @@ mod tests {
     /// A thousandth too much is explained on steep paths alone, and those are few.
     #[test]
     fn a_mistake_of_a_thousandth_is_not_explained() {
+        let everything = in_full("following all paths that are a thousandth off instead of 150 of a scene");
         for (name, least) in [("cornell", 0.95), ("gallery", 0.9), ("terrace", 0.7)] {
             let reference = ReferenceRenderer::new(&small(name)).expect("it is supported");
-            let wrong: Vec<Differing> = pairs(&reference, |_, value| 1.001 * value).into_iter().filter(differs).collect();
+            let mut wrong: Vec<Differing> = pairs(&reference, |_, value| 1.001 * value).into_iter().filter(differs).collect();
+            let step = if everything { 1 } else { wrong.len().div_ceil(150).max(1) };
+            wrong = wrong.into_iter().step_by(step).collect();
             let unexplained = wrong.iter().filter(|pair| of(pair, &reference) == Cause::Unexplained).count();
             let share = unexplained as f64 / wrong.len() as f64;
-            assert!(wrong.len() > 100 && share > least, "{name}: {share} of {} paths", wrong.len());
+            assert!(wrong.len() > 75 && share > least, "{name}: {share} of {} paths", wrong.len());
         }
     }
 

@@ -1,6 +1,7 @@
 //! `gpt verify`.
 
 use super::*;
+use crate::common::effort::in_full;
 
 #[test]
 fn verify_compares_the_devices_and_says_how_much_matches() {
@@ -110,7 +111,7 @@ fn verify_follows_one_path_on_both_devices() {
 
 #[test]
 fn verify_without_a_scene_tries_closed_forms_and_every_built_in_scene() {
-    if std::env::var("GPT_TEST_GPU").as_deref() == Ok("skip") {
+    if std::env::var("GPT_TEST_GPU").as_deref() == Ok("skip") || !in_full("gpt verify of every built-in scene") {
         return;
     }
     let place = Workplace::new();

@@ -7,5 +7,6 @@ pub mod files;
 pub mod picture;
 pub mod pixel_bits;
 pub mod ray_queries;
+pub mod scenes;
 pub mod sphere;
 pub mod veils;

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use crate::common::scenes::{ELSEWHERE, ENOUGH};
 use gpt::film::KernelLayer;
 use gpt::load;
 use gpt::packed::PackedScene;
@@ -95,6 +96,34 @@ fn built_in_scenes_use_every_switch() {
     anywhere.extend(compiled_in(&[clamped], &hardware, &PlanOptions::default()));
     let missing: Vec<_> = every.filter(|name| !anywhere.contains(name)).collect();
     assert!(missing.is_empty(), "no built-in scene uses {missing:?} on any of these devices");
+}
+
+/// Those that `tests/gpu/agreement` compares in its short form miss nothing that the others have, on the devices that it runs on.
+#[test]
+fn a_few_built_in_scenes_use_every_switch_that_any_uses() {
+    let software = DeviceLimits {
+        software: true,
+        threads: 4,
+        subgroup_size: Some(8),
+        read_write_rgba32float: true,
+        ..DeviceLimits::default()
+    };
+    let of = |name: &str| {
+        let scene = load::load(Some(name)).expect("it is built in");
+        compiled_in(&[scene], &software, &PlanOptions::default())
+    };
+    let all: Vec<(&str, BTreeSet<_>)> = load::builtin_names().map(|name| (name, of(name))).collect();
+    let every: BTreeSet<_> = all.iter().flat_map(|(_, switches)| switches).copied().collect();
+    let covered_without = |left_out: &str| -> BTreeSet<_> {
+        let few = all.iter().filter(|(name, _)| ENOUGH.contains(name) && *name != left_out);
+        few.flat_map(|(_, switches)| switches).copied().collect()
+    };
+    let missing: Vec<_> = every.difference(&covered_without("")).copied().collect();
+    assert_eq!(missing, ELSEWHERE, "beside the scenes of the short form");
+    // The control: none of them can be left out.
+    for name in ENOUGH {
+        assert!(every.difference(&covered_without(name)).count() > missing.len(), "{name} adds nothing");
+    }
 }
 
 /// Software devices trace whole paths in packets wherever they may. One scene makes them go lane by lane too, as hardware does.

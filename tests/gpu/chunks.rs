@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::common::device::DEVICE;
+use crate::common::effort::in_full;
 use crate::common::pixel_bits::pixel_bits;
 use glam::Vec3;
 use gpt::gpu::Device;
@@ -100,7 +101,8 @@ fn counts(plan: &Plan) -> Vec<u32> {
 fn arrays_in_chunks_give_the_same_picture() {
     let Some(device) = DEVICE.as_ref() else { return };
     let scene = grid();
-    for stages in [StageMode::Fused, StageMode::Wavefront] {
+    let wavefront = in_full("arrays in chunks by the wavefront").then_some(StageMode::Wavefront);
+    for stages in [StageMode::Fused].into_iter().chain(wavefront) {
         let (whole, plan) = picture(device, &scene, &options(stages));
         assert!(plan.chunks.iter().all(Chunks::is_whole) && !plan.to_string().contains("in chunks"), "{plan}");
         let (cut, plan) = picture(&small_bindings(device), &scene, &options(stages));

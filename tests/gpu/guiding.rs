@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::common::device::DEVICE;
+use crate::common::effort::in_full;
 use crate::common::picture::render;
 use gpt::compare::{Moments, hypothesis};
 use gpt::gpu::GpuRenderer;
@@ -117,13 +118,15 @@ fn guided_paths_agree_path_by_path() {
     picked.render.blend = gpt::scene::BlendMode::Pick;
     let bvh = PlanOptions { traversal: TraversalChoice::Bvh, ..PlanOptions::default() };
     let wavefront = PlanOptions { stages: Some(StageMode::Wavefront), ..PlanOptions::default() };
-    for (what, scene, options) in [
+    let everywhere = in_full("guided paths of a mixture of a blend by constants");
+    let cases = [
         ("constants", &scene, PlanOptions::default()),
         ("wavefront, several light samples", &several, wavefront),
         ("hierarchy, several light samples", &several, bvh.clone()),
         ("light sampling alone finds emission", &alone, bvh),
         ("one material of a blend", &picked, PlanOptions::default()),
-    ] {
+    ];
+    for (what, scene, options) in cases.into_iter().filter(|(what, ..)| everywhere || *what != "constants") {
         let mut gpu = GpuRenderer::on(device, scene, &options).expect("the scene fits");
         assert!(gpu.plan().switches.enabled.contains("GUIDE"));
         let mut cpu = ReferenceRenderer::new(scene).expect("the scene is supported");

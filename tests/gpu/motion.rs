@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::common::device::DEVICE;
+use crate::common::effort::in_full;
 use crate::common::picture::render;
 use crate::statistics::random::SplitMix64;
 use glam::{DVec3, Vec3};
@@ -17,12 +18,14 @@ use gpt::plan::{PlanOptions, StageMode};
 use gpt::reference::ReferenceRenderer;
 use gpt::scene::{LightSampling, Motion, MotionStep, Scene, Shape, Transform, TransformStep};
 
-/// The picture by the reference, the fused kernel and the wavefront.
-fn pictures(scene: &Scene) -> Vec<(&'static str, Vec<[f32; 3]>)> {
+const BOTH: [(&str, StageMode); 2] = [("gpu, fused", StageMode::Fused), ("gpu, wavefront", StageMode::Wavefront)];
+
+/// The picture by the reference and by these ways to run.
+fn pictures(scene: &Scene, ways: &[(&'static str, StageMode)]) -> Vec<(&'static str, Vec<[f32; 3]>)> {
     let reference = render(&mut ReferenceRenderer::new(scene).expect("the scene is supported"), scene);
     let mut pictures = vec![("cpu", reference)];
     if let Some(device) = DEVICE.as_ref() {
-        for (name, stages) in [("gpu, fused", StageMode::Fused), ("gpu, wavefront", StageMode::Wavefront)] {
+        for &(name, stages) in ways {
             let options = PlanOptions { stages: Some(stages), ..PlanOptions::default() };
             pictures.push((name, render(&mut GpuRenderer::on(device, scene, &options).expect("the scene fits"), scene)));
         }
@@ -108,8 +111,10 @@ fn expected(coverage: fn(f64, f64) -> f64, column: u32, row: u32) -> f64 {
 fn coverage_over_time_follows_its_closed_form() {
     let cases: Vec<Coverage> = coverages().into_iter().chain(cameras()).collect();
     let level = sidak(0.01, 3 * cases.len());
-    for (name, scene, coverage) in cases {
-        for (device, pixels) in pictures(&scene) {
+    let everywhere = in_full("coverage over time by either way to run");
+    for (index, (name, scene, coverage)) in cases.into_iter().enumerate() {
+        let ways = if everywhere { &BOTH[..] } else { &BOTH[index % 2..=index % 2] };
+        for (device, pixels) in pictures(&scene, ways) {
             let mut shares = Moments::default();
             for (index, pixel) in (0..).zip(&pixels) {
                 let expected = expected(coverage, index % SIDE, index / SIDE);
@@ -210,8 +215,9 @@ fn an_instant_is_the_still_scene() {
         let near = |(p, q): (&[f32; 3], &[f32; 3])| p.iter().zip(q).all(|(x, y)| (x - y).abs() <= 1e-3 * (1.0 + x.abs()));
         a.iter().zip(b).filter(|pair| near(*pair)).count() as f64 / a.len() as f64
     };
-    let moving = pictures(&scene);
-    let [still, later] = [0.4, 0.42].map(|time| pictures(&frozen(&scene, time)));
+    let ways = if in_full("an instant by the wavefront") { &BOTH[..] } else { &BOTH[..1] };
+    let moving = pictures(&scene, ways);
+    let [still, later] = [0.4, 0.42].map(|time| pictures(&frozen(&scene, time), ways));
     for (index, (device, picture)) in moving.iter().enumerate() {
         // A path in ten thousand or so takes another turn by rounding, at edges of checks and of shapes.
         let share = equal_share(picture, &still[index].1);

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::common::device::{DEVICE, with_limits};
+use crate::common::effort::in_full;
 use crate::common::pixel_bits::pixel_bits;
 use crate::common::veils::veils;
 use gpt::gpu::{Device, GpuRenderer};
@@ -53,8 +54,15 @@ fn rays_in_packets_meet_what_they_meet_alone() {
     moving.film.size = [32, 24];
     let mut spheres = load::load(Some("spheres")).expect("it is built in");
     spheres.film.size = [48, 27];
-    for (name, mut scene) in [("knot", scene(0)), ("moving", moving), ("spheres", spheres)] {
-        let numbers: &[u32] = if name == "knot" { &[1, 4, 5, 8, 21, 40] } else { &[3, 8, 19] };
+    let everywhere = in_full("packets with eight numbers of samples more, and of the built-in spheres");
+    let spheres = everywhere.then_some(("spheres", spheres));
+    for (name, mut scene) in [("knot", scene(0)), ("moving", moving)].into_iter().chain(spheres) {
+        let numbers: &[u32] = match name {
+            "knot" if everywhere => &[1, 4, 5, 8, 21, 40],
+            "knot" => &[1, 5, 8, 21],
+            _ if everywhere => &[3, 8, 19],
+            _ => &[3, 19],
+        };
         for &spp in numbers {
             scene.render.spp = spp;
             let Some(expected) = picture(alone.as_ref(), &scene, &in_hierarchy()) else { return };
@@ -94,7 +102,9 @@ fn places_taken_by_a_subgroup_at_once_change_nothing() {
     cornell.film.size = [41, 31];
     let mut spheres = load::load(Some("spheres")).expect("it is built in");
     spheres.film.size = [48, 27];
-    for (name, mut scene) in [("knot", scene(0)), ("cornell", cornell), ("spheres", spheres)] {
+    let everywhere = in_full("queues of a knot and of the built-in spheres");
+    let others = [("knot", scene(0)), ("spheres", spheres)].into_iter().filter(|_| everywhere);
+    for (name, mut scene) in [("cornell", cornell)].into_iter().chain(others) {
         for spp in [1, 5, 24] {
             scene.render.spp = spp;
             let Some(expected) = picture(alone.as_ref(), &scene, &wavefront) else { return };
@@ -160,7 +170,11 @@ fn several_light_samples_are_the_same_in_every_kernel() {
         ("veils", veils(), TraversalChoice::default(), 4, 1),
         ("veils in a hierarchy", veils(), TraversalChoice::Bvh, 2, 2),
     ];
-    for (name, mut scene, traversal, count, depth) in cases {
+    let everywhere =
+        in_full("light samples of a knot, of the Cornell box, of moving shapes and of veils as constants in every kernel");
+    for (name, mut scene, traversal, count, depth) in
+        cases.into_iter().filter(|(name, ..)| everywhere || *name == "veils in a hierarchy")
+    {
         (scene.render.light_samples, scene.render.light_samples_depth, scene.render.spp) = (count.into(), depth, 5);
         let what = format!("{name}, {count} light samples at {depth} surfaces");
         let way = |stages| PlanOptions { stages: Some(stages), traversal, ..PlanOptions::default() };

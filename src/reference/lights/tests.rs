@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use super::*;
 use crate::compare::sidak;
+use crate::effort::in_full;
 use crate::load::file::delta_light_examples;
 use crate::math::luminance;
 use crate::reference::warp;
@@ -119,6 +120,7 @@ fn densities_of_light_samples_are_right() {
 fn directions_to_spheres_follow_their_density() {
     let (mut scene, world) = glowing(vec![sphere()]);
     let level = sidak(0.01, REFERENCES.len() * STRATEGIES.len());
+    let samples = if in_full("300,000 directions to a sphere instead of 100,000") { 300_000 } else { 100_000 };
     let Geometry::Sphere(sphere) = sphere() else { panic!("it is a sphere") };
     let cases = STRATEGIES.into_iter().flat_map(|strategy| REFERENCES.map(|reference| (strategy, reference)));
     for (seed, (strategy, reference)) in (0..).zip(cases) {
@@ -141,7 +143,7 @@ fn directions_to_spheres_follow_their_density() {
                 lights.pdf((&world, &PathTime::default()), reference, &world.surface(&ray, &hit, &PathTime::default())) / pmf
             })
         };
-        let report = test_directional_sampler(&bins, 300_000, seed, sample, density);
+        let report = test_directional_sampler(&bins, samples, seed, sample, density);
         assert!(report.passes(level), "{strategy:?} from {reference}: {report:?}");
         let visible = match strategy {
             LightSampling::Cone | LightSampling::Auto => 1.0,
@@ -159,6 +161,7 @@ fn directions_to_spheres_follow_their_density() {
 fn directions_to_triangles_follow_their_density() {
     let (mut scene, world) = glowing(vec![triangle()]);
     let level = sidak(0.01, REFERENCES.len());
+    let samples = if in_full("100,000 directions to a triangle instead of 40,000") { 100_000 } else { 40_000 };
     scene.render.light_sampling = LightSampling::Cone;
     let lights = Lights::new(&scene, &world);
     let mut by_area = lights.clone();
@@ -174,7 +177,7 @@ fn directions_to_triangles_follow_their_density() {
                     lights.pdf((&world, &PathTime::default()), reference, &surface) / lights.table.pmf[0]
                 })
             };
-            test_directional_sampler(&bins, 100_000, seed, |[u1, u2, _]| drawn(u1, u2).map(|drawn| drawn.wi), density)
+            test_directional_sampler(&bins, samples, seed, |[u1, u2, _]| drawn(u1, u2).map(|drawn| drawn.wi), density)
         };
         let report = report_against(&lights);
         // The density ends at an edge, where its integral is known to no more than this.
@@ -194,6 +197,7 @@ fn directions_to_triangles_follow_their_density() {
 fn directions_to_the_environment_and_through_portals_follow_their_density() {
     let cases = [Some(rectangle()), Some(triangle()), Some(disk()), Some(sphere()), None];
     let level = sidak(0.01, 2 * cases.len());
+    let samples = if in_full("200,000 directions through a portal instead of 50,000") { 200_000 } else { 50_000 };
     for (seed, (portal, estimator)) in
         (0..).zip(cases.into_iter().flat_map(|p| [(p.clone(), Estimator::Mis), (p, Estimator::Nee)]))
     {
@@ -216,10 +220,10 @@ fn directions_to_the_environment_and_through_portals_follow_their_density() {
             assert!((drawn.pdf / lights.environment_pdf(&world, reference, drawn.wi) - 1.0).abs() < 1e-6);
             Some(drawn.wi)
         };
-        let report = test_directional_sampler(&bins, 200_000, seed, sample, |wi| lights.environment_pdf(&world, reference, wi));
+        let report = test_directional_sampler(&bins, samples, seed, sample, |wi| lights.environment_pdf(&world, reference, wi));
         assert!(report.passes(level), "{portal:?}: {report:?}");
         assert!((report.integral.value - 1.0).abs() < 5e-3, "{portal:?}: {:?}", report.integral);
-        let without = test_directional_sampler(&bins, 200_000, seed, sample, |wi| lights.outside.pdf(wi));
+        let without = test_directional_sampler(&bins, samples, seed, sample, |wi| lights.outside.pdf(wi));
         assert_eq!(without.passes(level), portal.is_none(), "{portal:?}: {without:?}");
     }
 }

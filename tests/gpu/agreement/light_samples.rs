@@ -14,17 +14,24 @@ use super::{DEVICE, assert_agrees, assert_agrees_on, small, with_limits};
 #[test]
 fn several_light_samples_agree() {
     // An area light; spheres that emit; a sky and things that move; a mesh of thousands of triangles.
-    for (name, count, depth) in [("cornell", 5, 2), ("veach-mis", 2, 1), ("motion-blur", 3, 3), ("knot-plastic", 3, 2)] {
+    let scenes = [("cornell", 5, 2), ("veach-mis", 2, 1), ("motion-blur", 3, 3), ("knot-plastic", 3, 2)];
+    let everywhere = in_full("several light samples of each scene by every way to run, which are by turns");
+    for (index, (name, count, depth)) in scenes.into_iter().enumerate() {
         let mut scene = small(name, 32, 4);
         (scene.render.light_samples, scene.render.light_samples_depth) = (count.into(), depth);
-        let options = PlanOptions { traversal: TraversalChoice::Bvh, ..PlanOptions::default() };
-        assert_agrees(&format!("{name}, {count} light samples, hierarchy"), &scene, &options);
-        if let Some(device) = with_limits(|limits| limits.subgroup_size = None) {
-            assert_agrees_on(&device, &format!("{name}, {count} light samples, rays alone"), &scene, &options);
-        }
-        assert_agrees(&format!("{name}, {count} light samples"), &scene, &PlanOptions::default());
+        let bvh = PlanOptions { traversal: TraversalChoice::Bvh, ..PlanOptions::default() };
         let wavefront = PlanOptions { stages: Some(StageMode::Wavefront), ..PlanOptions::default() };
-        assert_agrees(&format!("{name}, {count} light samples, wavefront"), &scene, &wavefront);
+        let alone = with_limits(|limits| limits.subgroup_size = None);
+        let ways = [
+            ("constants", DEVICE.clone(), PlanOptions::default()),
+            ("hierarchy", DEVICE.clone(), bvh.clone()),
+            ("wavefront", DEVICE.clone(), wavefront),
+            ("rays alone", alone, bvh),
+        ];
+        for (_, (way, device, options)) in ways.iter().enumerate().filter(|(other, _)| everywhere || *other == index) {
+            let Some(device) = device else { return };
+            assert_agrees_on(device, &format!("{name}, {count} light samples, {way}"), &scene, options);
+        }
     }
 }
 
@@ -33,9 +40,11 @@ fn several_light_samples_agree() {
 fn several_light_samples_agree_where_rays_pass_through_surfaces() {
     let mut scene = veils();
     scene.render.spp = 4;
-    for (count, depth) in [(4, 1), (3, 2)] {
+    let everywhere = in_full("light samples behind veils at one and at two surfaces by either way to run");
+    for (index, (count, depth)) in [(4, 1), (3, 2)].into_iter().enumerate() {
         (scene.render.light_samples, scene.render.light_samples_depth) = (count.into(), depth);
-        for stages in [StageMode::Fused, StageMode::Wavefront] {
+        let both = [StageMode::Fused, StageMode::Wavefront];
+        for (_, stages) in both.into_iter().enumerate().filter(|(other, _)| everywhere || *other == index) {
             let options = PlanOptions { stages: Some(stages), ..PlanOptions::default() };
             assert_agrees(&format!("veils, {count} light samples at {depth} surfaces, {stages:?}"), &scene, &options);
         }
@@ -44,12 +53,15 @@ fn several_light_samples_agree_where_rays_pass_through_surfaces() {
 
 #[test]
 fn every_estimator_and_sampler_agrees_on_several_light_samples() {
-    let everywhere = in_full("every number of surfaces with every sampler");
-    for (index, sampler) in (0..).zip(SamplerKind::ALL) {
-        for (other, estimator) in (0..).zip([Estimator::Mis, Estimator::Nee]) {
+    let everywhere = in_full("every number of surfaces and either estimator with every sampler");
+    // The others are in the test below.
+    let samplers = (0..).zip(SamplerKind::ALL).skip(if everywhere { 0 } else { 4 });
+    for (index, sampler) in samplers {
+        let both = (0..).zip([Estimator::Mis, Estimator::Nee]);
+        for (other, estimator) in both.filter(|(other, _)| everywhere || *other == index % 2) {
             let mut scene = small("cornell", 32, 4);
             (scene.render.sampler, scene.render.estimator, scene.render.light_samples) = (sampler, estimator, 3.into());
-            // Every number stands with every estimator, and two of them with every sampler.
+            // Every number stands with some sampler.
             for depth in (1..=3).filter(|depth| everywhere || (index + other) % 3 + 1 == *depth) {
                 scene.render.light_samples_depth = depth;
                 assert_agrees(&format!("{sampler:?}, {estimator:?}, {depth} surfaces"), &scene, &PlanOptions::default());
@@ -62,9 +74,10 @@ fn every_estimator_and_sampler_agrees_on_several_light_samples() {
 /// nothing is laid out for them.
 #[test]
 fn several_light_samples_end_with_the_path() {
-    for (max_depth, estimator) in [(1, Estimator::Mis), (2, Estimator::Mis), (3, Estimator::Nee), (4, Estimator::Bsdf)] {
+    let cases = [(1, Estimator::Mis), (2, Estimator::Mis), (3, Estimator::Nee), (4, Estimator::Bsdf)];
+    for ((max_depth, estimator), sampler) in cases.into_iter().zip(SamplerKind::ALL) {
         let mut scene = small("cornell", 32, 4);
-        (scene.render.max_depth, scene.render.estimator) = (max_depth, estimator);
+        (scene.render.max_depth, scene.render.estimator, scene.render.sampler) = (max_depth, estimator, sampler);
         (scene.render.light_samples, scene.render.light_samples_depth) = (4.into(), 3);
         assert_agrees(&format!("{max_depth} edges, {estimator:?}"), &scene, &PlanOptions::default());
     }

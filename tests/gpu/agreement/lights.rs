@@ -9,6 +9,7 @@ use gpt::scene::{Estimator, Geometry, Light, LightChoice, LightSampling, Mesh, S
 use gpt::verify::{self, Verdict};
 
 use super::{DEVICE, assert_agrees, compare};
+use crate::common::effort::in_full;
 
 /// A floor and two spheres for lights to fall on, and what lamps and portals are made of.
 pub const HEAD: &str = r#"
@@ -94,8 +95,7 @@ angle = 35
 falloff = 10
 "#;
 
-/// A texture as a spot light throws it, and as a projector does.
-const THROWN: &str = r#"
+const SLIDE: &str = r#"
 [[texture]]
 name = "slide"
 type = "checker"
@@ -103,6 +103,10 @@ a = [0.9, 0.2, 0.1]
 b = [0.1, 0.9, 0.8]
 scale = [5, 4]
 rotation = 20
+"#;
+
+/// The slide as a spot light throws it, and as a projector does.
+const THROWN: &str = r#"
 [[light]]
 type = "spot"
 position = [1, 3, 2]
@@ -182,6 +186,13 @@ positions = [[-1, 1, -3], [1, 1, -3], [0, 2.5, -3]]
 faces = [[0, 1, 2]]
 material = "gone"
 portal = true
+[[shape]]
+type = "cylinder"
+from = [-2, 0.5, 2]
+to = [-2, 1.5, 2.2]
+radius = 0.3
+material = "gone"
+portal = true
 "#;
 
 /// These parts after the [`HEAD`]; without any, under a sky of one colour.
@@ -205,15 +216,22 @@ pub fn by_wavefront() -> PlanOptions {
     PlanOptions { traversal, stages, ..PlanOptions::default() }
 }
 
+/// Both estimators that sample lights, each by a way to run of its own; one of them, by turns, where not everything is asked for.
+fn by_turns(everywhere: bool, index: usize) -> impl Iterator<Item = (usize, (Estimator, PlanOptions))> {
+    let both = [(Estimator::Mis, PlanOptions::default()), (Estimator::Nee, by_wavefront())];
+    both.into_iter().enumerate().filter(move |(other, _)| everywhere || *other == index % 2)
+}
+
 #[test]
 fn every_way_of_sampling_spheres_agrees() {
     let mut scene = load(&[SPHERES]);
-    for light_sampling in [LightSampling::Cone, LightSampling::Visible, LightSampling::Area] {
+    let everywhere = in_full("every way of sampling spheres by either way to run");
+    for (index, light_sampling) in [LightSampling::Cone, LightSampling::Visible, LightSampling::Area].into_iter().enumerate() {
         scene.render.light_sampling = light_sampling;
-        assert_agrees(&format!("spheres, {light_sampling:?}"), &scene, &PlanOptions::default());
-        scene.render.estimator = Estimator::Nee;
-        assert_agrees(&format!("spheres, {light_sampling:?}, nee"), &scene, &by_wavefront());
-        scene.render.estimator = Estimator::Mis;
+        for (_, (estimator, way)) in by_turns(everywhere, index) {
+            scene.render.estimator = estimator;
+            assert_agrees(&format!("spheres, {light_sampling:?}, {estimator:?}"), &scene, &way);
+        }
     }
 }
 
@@ -225,27 +243,31 @@ fn every_light_that_is_no_surface_agrees() {
         .filter(|(_, light)| load(&[light]).lights.iter().all(|light| light.delta().is_some()))
         .map(|(_, light)| light.as_str())
         .collect();
-    let more = [
-        ("extreme map", EXTREME_MAP.to_owned()),
-        ("all with a map", delta + MAP + SPHERES),
-        ("thrown pictures", THROWN.to_owned()),
-    ];
-    for (name, lights) in examples.into_iter().chain(more) {
+    let all = ("all with a map", [SLIDE, THROWN, &delta, MAP, SPHERES].concat());
+    // In the short form those that are no part of all.
+    let everywhere = in_full("each light that is no surface alone");
+    let skies = examples.into_iter().filter(|(_, light)| everywhere || light.contains("\"sky\""));
+    let thrown = everywhere.then(|| ("thrown pictures", [SLIDE, THROWN].concat()));
+    let lights = [all, ("extreme map", EXTREME_MAP.to_owned())].into_iter().chain(skies).chain(thrown);
+    for (index, (name, lights)) in lights.enumerate() {
         let mut scene = load(&[&lights]);
-        assert_agrees(name, &scene, &PlanOptions::default());
-        let estimator = if lights == MAP { Estimator::Bsdf } else { Estimator::Nee };
-        scene.render.estimator = estimator;
-        assert_agrees(&format!("{name}, {estimator:?}"), &scene, &by_wavefront());
+        // What is no part of all is compared by one way to run.
+        for (_, (estimator, way)) in by_turns(everywhere || index == 0, index) {
+            scene.render.estimator = if lights == MAP && estimator == Estimator::Nee { Estimator::Bsdf } else { estimator };
+            assert_agrees(&format!("{name}, {:?}", scene.render.estimator), &scene, &way);
+        }
     }
 }
 
 #[test]
 fn portals_of_every_shape_agree() {
-    for (name, light) in [("constant", CONSTANT), ("sky", SKY), ("map", MAP)] {
+    let everywhere = in_full("portals before every sky by either way to run");
+    for (index, (name, light)) in [("constant", CONSTANT), ("sky", SKY), ("map", MAP)].into_iter().enumerate() {
         let mut scene = load(&[PORTALS, light]);
-        assert_agrees(&format!("portals, {name}"), &scene, &PlanOptions::default());
-        scene.render.estimator = Estimator::Nee;
-        assert_agrees(&format!("portals, {name}, nee"), &scene, &by_wavefront());
+        for (_, (estimator, way)) in by_turns(everywhere, index) {
+            scene.render.estimator = estimator;
+            assert_agrees(&format!("portals, {name}, {estimator:?}"), &scene, &way);
+        }
     }
 }
 
@@ -318,7 +340,9 @@ fn a_wide_panel_in_a_coordinate_plane_does_not_shade_itself() {
 #[test]
 fn a_tree_of_lights_agrees() {
     let mut bazaar = super::small("bazaar", 48, 8);
-    assert_agrees("bazaar", &bazaar, &by_wavefront());
+    if in_full("the tree of a bazaar's lights by the wavefront") {
+        assert_agrees("bazaar", &bazaar, &by_wavefront());
+    }
     bazaar.render.estimator = Estimator::Nee;
     bazaar.lights.retain(|light| light.delta().is_some_and(|light| light.cone.is_some()));
     bazaar.render.light_samples = 3.into();
@@ -327,10 +351,11 @@ fn a_tree_of_lights_agrees() {
     let mut few = load(&[SPHERES, MAP, SPOT]);
     few.render.light_choice = LightChoice::Tree;
     assert_agrees("few lights in a tree", &few, &PlanOptions::default());
-    // The control: one device chooses by power.
+    assert_agrees("few lights in a tree, wavefront", &few, &by_wavefront());
+    // The control: the reference chooses by power.
     let mut by_power = few.clone();
     by_power.render.light_choice = LightChoice::Power;
-    let Some(verdict) = compare_unequal(&by_power, &few) else { return };
+    let Some(verdict) = compare_unequal(&few, &by_power) else { return };
     assert!(verdict.matching_share() < 0.97, "{verdict:#?}");
 }
 
@@ -367,26 +392,21 @@ pub fn compare_unequal(ours: &Scene, theirs: &Scene) -> Option<Verdict> {
 }
 
 /// The same comparison notices a spot that opens a degree wider, a picture thrown aslant, a map turned by a degree, spheres drawn from otherwise, and portals that
-/// one device does not know of.
+/// one device does not know of. The reference renders what is changed, so that the device needs few kernels.
 #[test]
 fn other_lights_are_noticed() {
-    let mut cases = Vec::new();
-    let spot = load(&[SPOT]);
-    let mut wider = spot.clone();
-    for light in &mut wider.lights {
+    let thrown = load(&[SLIDE, THROWN]);
+    let mut of_thrown = vec![thrown.clone(); 2];
+    for light in &mut of_thrown[0].lights {
         if let Light::Spot(spot) = light {
             spot.angle_degrees += 1.0;
         }
     }
-    cases.push((wider, spot));
-    let thrown = load(&[THROWN]);
-    let mut aside = thrown.clone();
-    for light in &mut aside.lights {
+    for light in &mut of_thrown[1].lights {
         if let Light::Projector(projector) = light {
             projector.up.x += 1.0;
         }
     }
-    cases.push((aside, thrown));
     let map = load(&[MAP]);
     let mut turned = map.clone();
     for light in &mut turned.lights {
@@ -394,13 +414,11 @@ fn other_lights_are_noticed() {
             environment.rotation_degrees += 1.0;
         }
     }
-    cases.push((turned, map));
     let spheres = load(&[SPHERES]);
     let mut by_area = spheres.clone();
     by_area.render.light_sampling = LightSampling::Area;
-    cases.push((by_area, spheres));
-    cases.push((load(&[SKY]), load(&[PORTALS, SKY])));
-    for (index, (ours, theirs)) in cases.iter().enumerate() {
+    let others = [(&map, &turned), (&spheres, &by_area), (&load(&[PORTALS, CONSTANT]), &load(&[CONSTANT]))];
+    for (index, (ours, theirs)) in of_thrown.iter().map(|changed| (&thrown, changed)).chain(others).enumerate() {
         let Some(verdict) = compare_unequal(ours, theirs) else { return };
         assert!(!verdict.agrees && verdict.matching_share() < 0.97, "change {index}: {verdict:#?}");
     }

@@ -1,15 +1,17 @@
-//! Every material, blend weight, blend and procedural texture: the device's paths against the reference's.
+//! Every material, its textures and what bends its normals: the device's paths against the reference's.
 
 use std::sync::LazyLock;
 
 use glam::DVec3;
 use gpt::load;
-use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
-use gpt::scene::{BlendMode, Estimator, Geometry, Rectangle, Relief, Scene};
+use gpt::plan::PlanOptions;
+use gpt::scene::{Geometry, MaterialKind, Rectangle, Relief, Scene};
 use gpt::verify::path::compare_path;
 
 use super::lights::compare_unequal;
-use super::{DEVICE, assert_agrees, compare};
+use super::wall::Wall;
+use super::{DEVICE, assert_agrees};
+use crate::common::effort::in_full;
 
 /// A sphere and a smooth, textured tetrahedron of the material `m` on a floor, under a lamp, a point light and an environment.
 const STAGE: &str = r#"
@@ -104,7 +106,7 @@ const TEXTURES: [(&str, &str); 5] = [
     ),
 ];
 
-fn stage(material: &str) -> Scene {
+pub fn stage(material: &str) -> Scene {
     let is_used = |name: &str| material.contains(&format!("\"{name}\""));
     let textures: String = TEXTURES.into_iter().filter(|(name, _)| is_used(name)).map(|(_, text)| text).collect();
     let text = format!("{STAGE}{textures}\n[[material]]\nname = \"m\"\n{material}\n");
@@ -118,10 +120,6 @@ pub static BUMPS: LazyLock<tempfile::TempDir> = LazyLock::new(|| {
     image::RgbImage::from_fn(8, 8, texel).save(folder.path().join("bumps.png")).expect("the folder can be written");
     folder
 });
-
-fn blend(first: &str, second: &str, weight: &str) -> String {
-    format!("type = \"blend\"\nmaterials = [\"{first}\", \"{second}\"]\nweight = {weight}")
-}
 
 /// Besides the examples of every type of material.
 const LOBES: &[(&str, &str)] = &[
@@ -178,26 +176,78 @@ const LOBES: &[(&str, &str)] = &[
     ("worley", "type = \"diffuse\"\nreflectance = { texture = \"cells\" }"),
 ];
 
-const BLEND_WEIGHTS: &[(&str, &str)] = &[
-    ("constant", "{ type = \"constant\", value = 0.3 }"),
-    ("facing", "{ type = \"facing\", power = 0.4 }"),
-    ("schlick", "{ type = \"fresnel\", ior = 1.6 }"),
-    ("exact fresnel", "{ type = \"fresnel\", ior = 1.6, exact = true }"),
-    ("texture", "{ type = \"texture\", texture = \"clouds\" }"),
-    ("reverse", "{ type = \"reverse\", of = { type = \"facing\", power = 2 } }"),
-    ("threshold", "{ type = \"threshold\", tau = 0.6, of = { type = \"facing\" } }"),
+/// On a rectangle where the others have a sphere, which has no edges.
+const RELIEFS: &[(&str, &str)] = &[
+    ("heights of a picture", "type = \"diffuse\"\nreflectance = 0.7\nbump_map = \"bumps\"\nbump_scale = 0.3"),
+    ("heights of noise", "type = \"conductor\"\npreset = \"gold\"\nroughness = 0.4\nbump_map = \"clouds\"\nbump_scale = 0.05"),
+    ("heights of cells", "type = \"diffuse\"\nreflectance = 0.7\nbump_map = \"cells\"\nbump_scale = 0.1"),
+    ("heights of triangles", "type = \"diffuse\"\nreflectance = 0.7\nbump_map = \"facets\"\nbump_scale = 0.3"),
     (
-        "threshold of reverse, reversed",
-        "{ type = \"reverse\", of = { type = \"threshold\", tau = 0.4, of = { type = \"reverse\", of = { type = \"facing\" } } } }",
+        "shadowed normals",
+        "type = \"conductor\"\npreset = \"gold\"\nroughness = 0.5\nnormal_map = \"bumps\"\nnormal_scale = 1.5\nnormal_shadowing = true",
     ),
     (
-        "threshold of threshold",
-        "{ type = \"threshold\", tau = 0.5, of = { type = \"reverse\", of = { type = \"threshold\", tau = 0.6, of = { type = \"facing\" } } } }",
+        "mirrored normals",
+        "type = \"conductor\"\npreset = \"gold\"\nroughness = 0.5\nnormal_map = \"bumps\"\nnormal_scale = 4\nnormal_shadowing = true\nnormal_mirroring = true",
     ),
+    ("strong normals", "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 2.5"),
 ];
 
+/// The materials and textures of the stage, but for the place of its shapes.
+fn tables() -> String {
+    let start = STAGE.find("[[material]]").expect("there are materials");
+    let end = STAGE.find("[[shape]]").expect("there are shapes");
+    STAGE[start..end].to_owned() + &TEXTURES.map(|(_, text)| text).concat()
+}
+
+/// A wall of materials: each on a sphere, or a rectangle where it bends normals, and on a smooth, textured tetrahedron.
+pub fn wall(columns: usize, materials: &[(String, String)]) -> Wall {
+    let tetrahedron = &STAGE[STAGE.rfind("[[shape]]").expect("there are shapes")..];
+    let names = materials.iter().map(|(name, _)| name.clone()).collect();
+    Wall::new(columns, &tables(), names, |index, [x, y]| {
+        let (name, material) = &materials[index];
+        let first = if RELIEFS.iter().any(|(relief, _)| relief == name) {
+            format!(
+                "type = \"rectangle\"\ncorner = [{}, {}, 0.1]\nedge_u = [0.45, 0.02, 0]\nedge_v = [0.02, 0.8, -0.15]\n",
+                x - 0.48,
+                y - 0.42
+            )
+        } else {
+            format!(
+                "type = \"sphere\"\ncenter = [0, 0, 0]\nradius = 0.3\ntransform = [{{ rotate = [1, 2, 0.5], degrees = 50 }}, {{ translate = [{}, {}, 0] }}]\n",
+                x - 0.2,
+                y + 0.15
+            )
+        };
+        format!(
+            "[[material]]\nname = \"m{index}\"\n{material}\n[[shape]]\nmaterial = \"m{index}\"\n{first}\
+             {}transform = [{{ translate = [-1.2, 0, 0] }}, {{ scale = 0.24 }}, {{ translate = [{}, {}, 0.3] }}]\n",
+            tetrahedron.replace("material = \"m\"", &format!("material = \"m{index}\"")),
+            x + 0.2,
+            y - 0.15
+        )
+    })
+}
+
+fn owned(materials: &[(&str, &str)]) -> Vec<(String, String)> {
+    materials.iter().map(|(name, material)| ((*name).to_owned(), (*material).to_owned())).collect()
+}
+
+/// The index of the material of a cell.
+pub fn of_cell(scene: &Scene, wall: &[(String, String)], name: &str) -> usize {
+    let index = wall.iter().position(|(other, _)| other == name).expect("the wall has it");
+    let name = format!("m{index}");
+    scene.materials.iter().position(|material| material.name == name).expect("it is a material")
+}
+
+/// The first two are in the built-in scene `examples` as well, which `every_built_in_scene_agrees_path_by_path` compares.
 #[test]
 fn every_lobe_and_texture_agrees() {
+    let materials = [owned(LOBES), owned(RELIEFS)].concat();
+    wall(8, &materials).assert_agrees("lobes and textures", &PlanOptions::default(), |_| {});
+    if !in_full("each example of a material, each lobe and each texture alone") {
+        return;
+    }
     for (name, material) in load::file::material_examples() {
         assert_agrees(name, &stage(&material), &PlanOptions::default());
     }
@@ -206,119 +256,45 @@ fn every_lobe_and_texture_agrees() {
     }
 }
 
+/// The controls of the wall: one of its materials is a little different.
 #[test]
-fn every_blend_weight_agrees_for_both_ways_to_blend() {
-    for (name, weight) in BLEND_WEIGHTS {
-        for mode in [BlendMode::Mixture, BlendMode::Pick] {
-            let mut scene = stage(&blend("red", "mirror", weight));
-            scene.render.blend = mode;
-            assert_agrees(&format!("{name}, {mode:?}"), &scene, &PlanOptions::default());
-        }
-    }
-}
-
-/// Pairs of every kind, nested blends, emission inside and beside blends, and what lets rays pass.
-#[test]
-fn every_kind_of_blend_agrees_in_every_way_to_run() {
-    let inner = |name: &str, body: &str| format!("\n[[material]]\nname = \"{name}\"\n{body}\n");
-    let half = "{ type = \"constant\", value = 0.5 }";
-    let facing = "{ type = \"facing\", power = 0.7 }";
-    let nested = blend("b", "c", facing)
-        + &inner("b", &blend("white", "gold", "{ type = \"texture\", texture = \"cells\" }"))
-        + &inner("c", &(blend("mirror", "d", half) + "\nemission = [0.3, 0.1, 0.2]"))
-        + &inner("d", &blend("red", "glow", "{ type = \"threshold\", tau = 0.5, of = { type = \"facing\" } }"));
-    let glass = "type = \"rough_glass\"\nroughness = 0.5";
-    let scenes = [
-        ("smooth and smooth", blend("red", "gold", facing)),
-        ("smooth and delta", blend("gold", "mirror", half)),
-        ("transmission", blend("red", "g", facing) + &inner("g", glass)),
-        ("nested", nested),
-        ("emission", blend("glow", "white", facing)),
-        ("emission from both sides", blend("glow-both", "mirror", "{ type = \"texture\", texture = \"checks\" }")),
-        ("textured emission", "type = \"emissive\"\nradiance = { texture = \"cells\" }".to_owned()),
-        ("emission beside", blend("red", "white", half) + "\nemission = { texture = \"cells\" }\nemission_two_sided = true"),
-        (
-            "black from behind",
-            blend("front", "mirror", half)
-                + &inner("front", "type = \"plastic\"\nreflectance = [0.7, 0.3, 0.1]\ntwo_sided = false"),
-        ),
-        ("black from behind as a whole", blend("red", "gold", facing) + "\ntwo_sided = false"),
-        (
-            "plastic and principled",
-            blend("p", "q", facing)
-                + &inner("p", "type = \"plastic\"\nreflectance = 0.6")
-                + &inner("q", "type = \"principled\"\nroughness = 0.5\nmetallic = 0.5"),
-        ),
-        ("volume in a blend", blend("red", "v", facing) + &inner("v", AMBER)),
-        ("volume with holes", blend("v", "gone", half) + &inner("v", AMBER)),
-        ("pass", blend("red", "gone", half)),
-        (
-            "pass through a mask",
-            blend("gone", "gold", "{ type = \"threshold\", tau = 0.5, of = { type = \"texture\", texture = \"clouds\" } }"),
-        ),
-    ];
-    let ways = [
-        PlanOptions::default(),
-        PlanOptions { traversal: TraversalChoice::Bvh, stages: Some(StageMode::Wavefront), ..PlanOptions::default() },
-    ];
-    for (index, (name, material)) in scenes.iter().enumerate() {
-        for (mode, way) in [(BlendMode::Mixture, &ways[index % 2]), (BlendMode::Pick, &ways[(index + 1) % 2])] {
-            let mut scene = stage(material);
-            scene.render.blend = mode;
-            scene.render.estimator = [Estimator::Mis, Estimator::Nee, Estimator::Bsdf][index % 3];
-            assert_agrees(&format!("{name}, {mode:?}"), &scene, way);
-        }
-    }
-}
-
-const AMBER: &str = "type = \"principled\"\nmetallic = 0\nroughness = 0.5\ntransmission = 1\nattenuation_color = [0.9, 0.5, 0.1]\nattenuation_distance = 0.6";
-
-/// Light and what it shines on, both within a volume.
-#[test]
-fn a_light_within_a_volume_agrees() {
-    let within = |material: &str| {
-        stage(&format!(
-            "{material}\n[[shape]]\ntype = \"box\"\nmin = [-1.8, -0.9, 0.8]\nmax = [1.8, 0.5, 1.9]\nmaterial = \"m\"\n\
-             [[shape]]\ntype = \"sphere\"\ncenter = [-0.9, -0.2, 1.3]\nradius = 0.3\nmaterial = \"glow\"\n\
-             [[shape]]\ntype = \"sphere\"\ncenter = [0.8, -0.3, 1.3]\nradius = 0.4\nmaterial = \"white\""
-        ))
+fn another_material_on_the_wall_is_noticed() {
+    let materials = [owned(LOBES), owned(RELIEFS)].concat();
+    let wall = wall(8, &materials);
+    let texture = |scene: &Scene, name: &str| {
+        let normal_map = scene.materials[of_cell(scene, &materials, name)].normal_map;
+        normal_map.expect("normals are bent by it")
     };
-    let wavefront = PlanOptions { stages: Some(StageMode::Wavefront), ..PlanOptions::default() };
-    for (name, options) in [("amber", &PlanOptions::default()), ("amber, wavefront", &wavefront)] {
-        assert_agrees(name, &within(AMBER), options);
-    }
-    // A volume a hundredth thicker is noticed.
-    let (scene, off) = (within(AMBER), within(&AMBER.replace("distance = 0.6", "distance = 0.594")));
-    let Some(device) = DEVICE.as_ref() else { return };
-    let mut gpu = gpt::gpu::GpuRenderer::on(device, &off, &PlanOptions::default()).expect("the scene fits");
-    let mut cpu = gpt::reference::ReferenceRenderer::new(&scene).expect("the scene is supported");
-    let verdict = gpt::verify::compare(&scene, &mut gpu, &mut cpu, None).expect("both render");
-    assert!(!verdict.agrees, "{verdict:#?}");
-}
-
-/// Passing through a surface is no edge: what lies behind is seen even by paths of one edge.
-#[test]
-fn passing_does_not_use_up_the_depth() {
-    for depth in [1, 2] {
-        let mut scene = stage(&blend("red", "gone", "{ type = \"constant\", value = 0.5 }"));
-        scene.render.max_depth = depth;
-        assert_agrees(&format!("depth {depth}"), &scene, &PlanOptions::default());
-        let wavefront = PlanOptions { stages: Some(StageMode::Wavefront), ..PlanOptions::default() };
-        assert_agrees(&format!("depth {depth}, wavefront"), &scene, &wavefront);
-    }
-}
-
-/// The comparison notices a weight that is off by 1 %.
-#[test]
-fn a_weight_off_by_a_hundredth_is_noticed() {
-    let scene = stage(&blend("white", "mirror", "{ type = \"constant\", value = 0.5 }"));
-    let off = stage(&blend("white", "mirror", "{ type = \"constant\", value = 0.51 }"));
-    let Some(device) = DEVICE.as_ref() else { return };
-    let mut gpu = gpt::gpu::GpuRenderer::on(device, &off, &PlanOptions::default()).expect("the scene fits");
-    let mut cpu = gpt::reference::ReferenceRenderer::new(&scene).expect("the scene is supported");
-    let verdict = gpt::verify::compare(&scene, &mut gpu, &mut cpu, None).expect("both render");
-    assert!(!verdict.agrees, "{verdict:#?}");
-    assert!(compare(&scene, &PlanOptions::default()).is_some_and(|verdict| verdict.agrees));
+    let heights = |scene: &mut Scene| {
+        let map = texture(scene, "heights of a picture");
+        let Relief::Heights(scale) = &mut scene.textures[map].relief else { panic!("it has heights") };
+        *scale *= 1.2;
+    };
+    let shadows = |scene: &mut Scene| {
+        let map = texture(scene, "shadowed normals");
+        scene.textures[map].shadows_bent_normals = false;
+    };
+    let mirrors = |scene: &mut Scene| {
+        let map = texture(scene, "mirrored normals");
+        scene.textures[map].mirrors_bent_normals = false;
+    };
+    let coat = |scene: &mut Scene| {
+        let coated = of_cell(scene, &materials, "bumpy coat");
+        let MaterialKind::Principled(coat) = &mut scene.materials[coated].kind else { panic!("it is principled") };
+        coat.coat_normal_map = None;
+    };
+    let direction = |scene: &mut Scene| {
+        let brushed = of_cell(scene, &materials, "brushed by a texture");
+        let MaterialKind::Principled(brushed) = &mut scene.materials[brushed].kind else { panic!("it is principled") };
+        brushed.anisotropy_direction = None;
+    };
+    wall.assert_notices(&[
+        ("heights a fifth higher", &heights),
+        ("normals without shadows", &shadows),
+        ("normals without mirrors", &mirrors),
+        ("a coat without its map", &coat),
+        ("a brush without its direction", &direction),
+    ]);
 }
 
 /// Bumps where the other tests have a sphere, which has no edges: a rectangle.
@@ -334,24 +310,10 @@ fn with_edges(material: &str) -> Scene {
 
 #[test]
 fn maps_of_heights_and_scaled_normals_agree() {
-    for (name, material) in [
-        ("heights of a picture", "type = \"diffuse\"\nreflectance = 0.7\nbump_map = \"bumps\"\nbump_scale = 0.3"),
-        (
-            "heights of noise",
-            "type = \"conductor\"\npreset = \"gold\"\nroughness = 0.4\nbump_map = \"clouds\"\nbump_scale = 0.05",
-        ),
-        ("heights of cells", "type = \"diffuse\"\nreflectance = 0.7\nbump_map = \"cells\"\nbump_scale = 0.1"),
-        ("heights of triangles", "type = \"diffuse\"\nreflectance = 0.7\nbump_map = \"facets\"\nbump_scale = 0.3"),
-        (
-            "shadowed normals",
-            "type = \"conductor\"\npreset = \"gold\"\nroughness = 0.5\nnormal_map = \"bumps\"\nnormal_scale = 1.5\nnormal_shadowing = true",
-        ),
-        (
-            "mirrored normals",
-            "type = \"conductor\"\npreset = \"gold\"\nroughness = 0.5\nnormal_map = \"bumps\"\nnormal_scale = 4\nnormal_shadowing = true\nnormal_mirroring = true",
-        ),
-        ("strong normals", "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 2.5"),
-    ] {
+    if !in_full("each map of heights or normals alone") {
+        return;
+    }
+    for (name, material) in RELIEFS {
         assert_agrees(name, &with_edges(material), &PlanOptions::default());
     }
 }
@@ -359,6 +321,9 @@ fn maps_of_heights_and_scaled_normals_agree() {
 /// The control: with the surface's own in place of normals that look away, the picture is another one.
 #[test]
 fn missing_mirrors_of_bent_normals_are_noticed() {
+    if !in_full("bent normals, coats, brushes and heights that are noticed alone, not on a wall") {
+        return;
+    }
     let theirs = with_edges(
         "type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 4\nnormal_shadowing = true\nnormal_mirroring = true",
     );
@@ -371,6 +336,9 @@ fn missing_mirrors_of_bent_normals_are_noticed() {
 /// The control: a coat without its map, and one that lies as the base below it, make another picture.
 #[test]
 fn missing_normals_of_coats_are_noticed() {
+    if !in_full("bent normals, coats, brushes and heights that are noticed alone, not on a wall") {
+        return;
+    }
     let coated =
         "type = \"principled\"\nbase_color = 0.1\nmetallic = 0\nroughness = 0.5\nclearcoat = 1\nclearcoat_roughness = 0.3\n";
     let theirs = stage(&format!("{coated}coat_normal_map = \"bumps\""));
@@ -385,6 +353,9 @@ fn missing_normals_of_coats_are_noticed() {
 /// The control: with the direction of u in place of a texture's, the picture is another one.
 #[test]
 fn missing_directions_of_anisotropy_are_noticed() {
+    if !in_full("bent normals, coats, brushes and heights that are noticed alone, not on a wall") {
+        return;
+    }
     let brushed = "type = \"principled\"\nroughness = 0.4\nanisotropy = 0.9\n";
     let theirs = stage(&format!("{brushed}anisotropy_direction = \"bumps\""));
     let Some(verdict) = compare_unequal(&stage(brushed), &theirs) else { return };
@@ -394,6 +365,9 @@ fn missing_directions_of_anisotropy_are_noticed() {
 /// The control: without the shadow of the surface, the picture is another one.
 #[test]
 fn missing_shadows_of_bent_normals_are_noticed() {
+    if !in_full("bent normals, coats, brushes and heights that are noticed alone, not on a wall") {
+        return;
+    }
     let theirs =
         with_edges("type = \"diffuse\"\nreflectance = 0.7\nnormal_map = \"bumps\"\nnormal_scale = 1.5\nnormal_shadowing = true");
     let mut ours = theirs.clone();
@@ -405,6 +379,9 @@ fn missing_shadows_of_bent_normals_are_noticed() {
 /// The control: a tenth more height is noticed.
 #[test]
 fn other_heights_are_noticed() {
+    if !in_full("bent normals, coats, brushes and heights that are noticed alone, not on a wall") {
+        return;
+    }
     let theirs = with_edges("type = \"diffuse\"\nreflectance = 0.7\nbump_map = \"bumps\"\nbump_scale = 0.3");
     let mut ours = theirs.clone();
     for texture in &mut ours.textures {

@@ -1,5 +1,6 @@
 //! The GPU's picture against the reference's, path by path, for every built-in scene and every way to run it.
 
+mod blends;
 mod features;
 mod flat_lights;
 mod instances;
@@ -11,8 +12,11 @@ mod screens;
 mod shapes;
 mod strategies;
 mod textures;
+mod wall;
 
 use crate::common::device::{DEVICE, with_limits};
+use crate::common::effort::in_full;
+use crate::common::scenes::ENOUGH;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;
 use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
@@ -55,10 +59,13 @@ fn assert_agrees_on(device: &Device, what: &str, scene: &Scene, options: &PlanOp
     assert!(verdict.agrees, "{what}: {verdict:#?}");
 }
 
+/// In the short form, as many as use every switch of the shaders that any of them uses.
 #[test]
 fn every_built_in_scene_agrees_path_by_path() {
-    for name in load::builtin_names() {
-        assert_agrees(name, &small(name, 64, 16), &PlanOptions::default());
+    let everything = in_full("built-in scenes beyond those that use all that kernels have code for");
+    for name in load::builtin_names().filter(|name| everything || ENOUGH.contains(name)) {
+        let (side, spp) = if everything { (64, 16) } else { (48, 8) };
+        assert_agrees(name, &small(name, side, spp), &PlanOptions::default());
     }
 }
 
@@ -94,10 +101,12 @@ fn the_hierarchy_agrees_on_what_moves_and_on_meshes() {
 
 #[test]
 fn every_estimator_sampler_and_heuristic_agrees() {
-    for estimator in [Estimator::Mis, Estimator::Nee, Estimator::Bsdf] {
-        for (sampler, heuristic) in
-            [(SamplerKind::Halton, MisHeuristic::Power), (SamplerKind::Independent, MisHeuristic::Balance)]
-        {
+    let everywhere = in_full("every estimator with either sampler");
+    for (index, estimator) in [Estimator::Mis, Estimator::Nee, Estimator::Bsdf].into_iter().enumerate() {
+        let pairs = [(SamplerKind::Halton, MisHeuristic::Power), (SamplerKind::Independent, MisHeuristic::Balance)];
+        // The heuristic is of use to MIS alone.
+        let is_taken = |other: usize| everywhere || index == 0 || index % 2 == other;
+        for (_, (sampler, heuristic)) in pairs.into_iter().enumerate().filter(|(other, _)| is_taken(*other)) {
             let mut scene = small("spheres", 48, 4);
             scene.render.estimator = estimator;
             scene.render.sampler = sampler;

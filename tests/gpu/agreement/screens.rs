@@ -2,10 +2,11 @@
 
 use gpt::load;
 use gpt::plan::PlanOptions;
-use gpt::scene::LightChoice;
+use gpt::scene::{LightChoice, Scene};
 
 use super::assert_agrees;
 use super::lights::{HEAD, SPOT, by_wavefront, compare_unequal};
+use crate::common::effort::in_full;
 
 /// A screen that shows a picture of few bright texels: as a rectangle, mirrored, leaning, moving, as the faces of a box, as a mesh, as cylinders and as
 /// spheres, from within as well; the picture scaled, turned and repeated, multiplied by another, and a blend's weight; among few lights and among
@@ -46,24 +47,47 @@ fn screens_agree() {
         quad.replace("\"screen\"", "\"stencil\""),
         globe.replace("\"screen\"", "\"worn\""),
     ];
-    for (index, shape) in shapes.iter().enumerate() {
-        let keys = keys[index % keys.len()];
-        for (way, choice) in [(PlanOptions::default(), LightChoice::Power), (by_wavefront(), LightChoice::Tree)] {
-            let text = format!("{HEAD}{picture}{keys}{material}{more}{shape}{SPOT}");
-            let mut scene =
-                load::load_toml_str(&text, "screens.toml", folder.path()).unwrap_or_else(|error| panic!("{error}\n{text}"));
-            scene.render.light_choice = choice;
-            let packed = gpt::packed::PackedScene::new(&scene).expect("it can be packed");
-            assert_eq!(packed.lights.iter().any(|light| light.is_warped()), !shape.contains("mesh"), "screen {index}");
-            assert_agrees(&format!("screen {index}, {choice:?}"), &scene, &way);
-            if choice == LightChoice::Tree {
-                continue;
-            }
-            // The control: the reference draws points by another picture.
-            let mut other = scene.clone();
-            other.textures[0].transform.offset = [0.02, 0.0];
-            let Some(verdict) = compare_unequal(&scene, &other) else { return };
-            assert!(verdict.matching_share() < 0.97, "screen {index}: {verdict:#?}");
+    let load = |shapes: &str, keys: &str| {
+        let text = format!("{HEAD}{picture}{keys}{material}{more}{shapes}{SPOT}");
+        load::load_toml_str(&text, "screens.toml", folder.path()).unwrap_or_else(|error| panic!("{error}\n{text}"))
+    };
+    let is_warped = |scene: &Scene| {
+        let packed = gpt::packed::PackedScene::new(scene).expect("it can be packed");
+        packed.lights.iter().any(|light| light.is_warped())
+    };
+    let ways = [(PlanOptions::default(), LightChoice::Power), (by_wavefront(), LightChoice::Tree)];
+    // All that have the same keys in one room: three scenes, each by one way to run.
+    for (number, keys) in keys.into_iter().enumerate() {
+        let together: String = shapes.iter().skip(number).step_by(3).map(String::as_str).collect();
+        let mut scene = load(&together, keys);
+        let (way, choice) = &ways[number % 2];
+        scene.render.light_choice = *choice;
+        assert!(is_warped(&scene));
+        assert_agrees(&format!("screens {number}, {choice:?}"), &scene, way);
+        // The control: the reference draws points by another picture.
+        if number == 0 {
+            assert_notices(&scene, &format!("screens {number}"));
         }
     }
+    let everywhere = in_full("each kind of screen alone, by either way to run");
+    for (index, shape) in shapes.iter().enumerate() {
+        let mut scene = load(shape, keys[index % keys.len()]);
+        assert_eq!(is_warped(&scene), !shape.contains("mesh"), "screen {index}");
+        for (way, choice) in ways.iter().filter(|_| everywhere) {
+            scene.render.light_choice = *choice;
+            assert_agrees(&format!("screen {index}, {choice:?}"), &scene, way);
+        }
+        if everywhere {
+            scene.render.light_choice = LightChoice::Power;
+            assert_notices(&scene, &format!("screen {index}"));
+        }
+    }
+}
+
+/// A reference that draws points by another picture is noticed.
+fn assert_notices(scene: &Scene, what: &str) {
+    let mut other = scene.clone();
+    other.textures[0].transform.offset = [0.02, 0.0];
+    let Some(verdict) = compare_unequal(scene, &other) else { return };
+    assert!(verdict.matching_share() < 0.97, "{what}: {verdict:#?}");
 }

@@ -2,10 +2,12 @@
 
 use gpt::load::{self, SceneError};
 use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
-use gpt::scene::{Estimator, Geometry, Scene};
+use gpt::scene::{Estimator, Scene};
 
 use super::materials::BUMPS;
-use super::{DEVICE, assert_agrees, compare};
+use super::wall::Wall;
+use super::{DEVICE, assert_agrees};
+use crate::common::effort::in_full;
 
 /// A floor under a shape of the material `m`.
 const STAGE: &str = r#"
@@ -63,15 +65,39 @@ const GLOWING: &str = "type = \"emissive\"\nradiance = [2, 1, 0.5]\ntwo_sided = 
 const ONE_SIDED: &str = "type = \"emissive\"\nradiance = [1, 2, 3]";
 const PATTERNED: &str = "type = \"emissive\"\nradiance = { texture = \"checks\" }\ntwo_sided = true";
 
+/// A shape in a part.
+struct Part {
+    name: String,
+    shape: String,
+    placed: String,
+    material: &'static str,
+    is_infinite: bool,
+}
+
+impl Part {
+    fn scene(&self) -> Scene {
+        stage(&self.shape, &self.placed, self.material).unwrap_or_else(|error| panic!("{}: {error}", self.name))
+    }
+
+    /// Small, in a cell of a wall.
+    fn in_cell(&self, index: usize, [x, y]: [f64; 2]) -> String {
+        let placed = self.placed.trim_end().trim_end_matches(']');
+        format!(
+            "[[material]]\nname = \"m{index}\"\n{}\n{}material = \"m{index}\"\n{placed}, {{ scale = 0.3 }}, {{ translate = [{x}, {y}, 0] }}]\n",
+            self.material, self.shape
+        )
+    }
+}
+
 /// Every shape in all its parts; those that cannot be in one are told from the rest by what they are.
-fn scenes() -> Vec<(String, Scene)> {
-    let mut scenes = Vec::new();
+fn parts() -> Vec<Part> {
+    let mut parts = Vec::new();
     for (name, shape) in load::file::shape_examples() {
         let plain = stage(&shape, TURNED, PLAIN).unwrap_or_else(|error| panic!("{error}"));
         let geometry = plain.shapes[1].geometry.clone();
-        let mut add = |part: &str, placed: &str, material: &str| {
-            let scene = stage(&shape, placed, material).unwrap_or_else(|error| panic!("{name}, {part}: {error}"));
-            scenes.push((format!("{name}, {part}"), scene));
+        let mut add = |part: &str, placed: &str, material: &'static str| {
+            let (shape, placed, is_infinite) = (shape.clone(), placed.to_owned(), geometry.is_infinite());
+            parts.push(Part { name: format!("{name}, {part}"), shape, placed, material, is_infinite });
         };
         add("turned", TURNED, PLAIN);
         add("glowing", TURNED, GLOWING);
@@ -87,16 +113,36 @@ fn scenes() -> Vec<(String, Scene)> {
             add("moving light", &format!("{MOVING}{TURNED}"), GLOWING);
         }
     }
-    scenes
+    parts
+}
+
+/// All that a wall can hold: what is infinite would fill it, and portals would be what all its light comes through.
+fn wall() -> (Vec<Part>, Wall) {
+    let parts: Vec<Part> = parts().into_iter().filter(|part| !part.is_infinite && !part.name.ends_with("portal")).collect();
+    let shared = STAGE.find("[[texture]]").expect("there are textures")..STAGE.rfind("[[shape]]").expect("there is a floor");
+    let tables = format!(
+        "{}{}[[material]]\nname = \"lamp\"\ntype = \"emissive\"\nradiance = [8, 7, 6]\n",
+        &STAGE[shared],
+        &STAGE[STAGE.find("[[light]]").expect("there is a sky")..]
+    );
+    let names = parts.iter().map(|part| part.name.clone()).collect();
+    let wall = Wall::new(8, &tables, names, |index, place| parts[index].in_cell(index, place));
+    (parts, wall)
 }
 
 #[test]
 fn every_shape_agrees_in_every_part() {
     let by_wavefront =
         PlanOptions { traversal: TraversalChoice::Bvh, stages: Some(StageMode::Wavefront), ..PlanOptions::default() };
-    for (index, (name, mut scene)) in scenes().into_iter().enumerate() {
+    let (_, wall) = wall();
+    wall.assert_agrees("shapes", &PlanOptions::default(), |_| {});
+    wall.assert_agrees("shapes, wavefront", &by_wavefront, |scene| scene.render.estimator = Estimator::Nee);
+    let everywhere = in_full("each part of each shape alone");
+    let alone = |part: &Part| part.is_infinite && (part.name.ends_with("turned") || part.name.ends_with("glowing"));
+    for (index, part) in parts().into_iter().filter(|part| everywhere || alone(part)).enumerate() {
+        let (name, mut scene) = (&part.name, part.scene());
         if index % 2 == 0 {
-            assert_agrees(&name, &scene, &PlanOptions::default());
+            assert_agrees(name, &scene, &PlanOptions::default());
         } else {
             scene.render.estimator = Estimator::Nee;
             assert_agrees(&format!("{name}, wavefront"), &scene, &by_wavefront);
@@ -104,19 +150,36 @@ fn every_shape_agrees_in_every_part() {
     }
 }
 
-/// The same comparison notices a shape that is a hundredth larger.
+/// The same comparison notices a shape that is a hundredth larger: each of those on the wall, and what is infinite by itself.
 #[test]
 fn a_shape_off_by_a_hundredth_is_noticed() {
+    let step = || gpt::scene::TransformStep::Scale(glam::DVec3::splat(1.01));
+    let (parts, wall) = wall();
+    // The first two shapes are the floor behind the wall and its lamp.
+    let shape_of = |index: usize| index + 2;
+    assert_eq!(wall.scene.shapes.len(), shape_of(parts.len()));
+    let turned: Vec<usize> = (0..parts.len()).filter(|index| parts[*index].name.ends_with("turned")).collect();
+    assert!(turned.len() > 5);
+    let larger: Vec<_> = turned
+        .iter()
+        .map(|&index| move |scene: &mut Scene| scene.shapes[shape_of(index)].transform.steps.insert(0, step()))
+        .collect();
+    let changes: Vec<(&str, &dyn Fn(&mut Scene))> =
+        turned.iter().zip(&larger).map(|(&index, larger)| (parts[index].name.as_str(), larger as &dyn Fn(&mut Scene))).collect();
+    wall.assert_notices(&changes);
+    let everywhere = in_full("each shape alone that is a hundredth larger");
     let Some(device) = DEVICE.as_ref() else { return };
-    for (name, scene) in scenes().into_iter().filter(|(name, _)| name.ends_with("turned")) {
-        let is_infinite = matches!(scene.shapes[1].geometry, Geometry::Plane(_));
+    for part in self::parts().into_iter().filter(|part| part.name.ends_with("turned") && (everywhere || part.is_infinite)) {
+        let (name, scene) = (&part.name, part.scene());
         let mut larger = scene.clone();
-        let step = gpt::scene::TransformStep::Scale(glam::DVec3::splat(1.01));
-        larger.shapes[1].transform.steps.insert(0, step);
-        let mut gpu = gpt::gpu::GpuRenderer::on(device, &larger, &PlanOptions::default()).expect("the scene fits");
-        let mut cpu = gpt::reference::ReferenceRenderer::new(&scene).expect("the scene is supported");
-        let verdict = gpt::verify::compare(&scene, &mut gpu, &mut cpu, None).expect("both render");
-        assert!(!verdict.agrees || is_infinite && verdict.matching_share() < 1.0, "{name}: {verdict:#?}");
-        assert!(compare(&scene, &PlanOptions::default()).is_some_and(|verdict| verdict.agrees), "{name}");
+        larger.shapes[1].transform.steps.insert(0, step());
+        let mut gpu = gpt::gpu::GpuRenderer::on(device, &scene, &PlanOptions::default()).expect("the scene fits");
+        let mut compare_with = |scene: &Scene| {
+            let mut cpu = gpt::reference::ReferenceRenderer::new(scene).expect("the scene is supported");
+            gpt::verify::compare(scene, &mut gpu, &mut cpu, None).expect("both render")
+        };
+        let verdict = compare_with(&larger);
+        assert!(!verdict.agrees || part.is_infinite && verdict.matching_share() < 1.0, "{name}: {verdict:#?}");
+        assert!(compare_with(&scene).agrees, "{name}");
     }
 }

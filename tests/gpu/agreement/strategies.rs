@@ -7,9 +7,41 @@ use gpt::scene::{Aperture, ApertureShape, Filter, FilterKind, PixelSampler, Proj
 use gpt::verify::{self, Verdict};
 
 use super::{DEVICE, assert_agrees, small};
+use crate::common::effort::in_full;
+
+/// Each sampler of the path beside another of the pixel, another filter and another aperture, through either kind of lens by turns: what the tests below
+/// compare one by one in the long form.
+#[test]
+fn every_sampler_filter_and_aperture_agrees() {
+    let pixel_samplers: Vec<_> = SamplerKind::ALL.map(PixelSampler::Other).into_iter().chain([PixelSampler::Centre]).collect();
+    for (index, pixel_sampler) in pixel_samplers.into_iter().enumerate() {
+        let (kind, radius) = FILTERS[index % FILTERS.len()];
+        let projection = (index % 2 == 1).then_some(Projection::Orthographic { height: 5.0 });
+        let mut scene = through_a_lens(APERTURES[index % APERTURES.len()], projection);
+        // 13 samples make strata of unequal shape.
+        (scene.render.spp, scene.render.seed) = (13, 5);
+        scene.render.sampler = SamplerKind::ALL[(index + 1) % SamplerKind::ALL.len()];
+        scene.render.pixel_sampler = pixel_sampler;
+        scene.film.filter = Filter { kind, radius };
+        let stages = Some(if index == 3 { StageMode::Wavefront } else { StageMode::Fused });
+        let what = format!("{:?}, pixel {pixel_sampler:?}, {kind:?}, {:?}", scene.render.sampler, scene.camera.aperture);
+        assert_agrees(&what, &scene, &PlanOptions { stages, ..PlanOptions::default() });
+    }
+}
+
+const FILTERS: [(FilterKind, f64); 5] = [
+    (FilterKind::Box, 0.5),
+    (FilterKind::Box, 1.3),
+    (FilterKind::Tent, 1.0),
+    (FilterKind::Gaussian, 1.5),
+    (FilterKind::BlackmanHarris, 2.0),
+];
 
 #[test]
 fn every_sampler_agrees() {
+    if !in_full("every sampler alone") {
+        return;
+    }
     for sampler in SamplerKind::ALL {
         // 13 samples make strata of unequal shape; more bounces than sequences cover.
         let mut scene = small("cornell", 32, 13);
@@ -26,6 +58,9 @@ fn every_sampler_agrees() {
 #[test]
 fn every_sampler_of_the_pixel_agrees() {
     let pixel_samplers = SamplerKind::ALL.map(PixelSampler::Other).into_iter().chain([PixelSampler::Centre]);
+    if !in_full("every sampler of the pixel with each of three samplers") {
+        return;
+    }
     for pixel_sampler in pixel_samplers {
         for sampler in [SamplerKind::Independent, SamplerKind::Halton, SamplerKind::Sobol] {
             let mut scene = small("spheres", 24, 5);
@@ -39,13 +74,10 @@ fn every_sampler_of_the_pixel_agrees() {
 
 #[test]
 fn every_filter_agrees() {
-    for (kind, radius) in [
-        (FilterKind::Box, 0.5),
-        (FilterKind::Box, 1.3),
-        (FilterKind::Tent, 1.0),
-        (FilterKind::Gaussian, 1.5),
-        (FilterKind::BlackmanHarris, 2.0),
-    ] {
+    if !in_full("every filter alone") {
+        return;
+    }
+    for (kind, radius) in FILTERS {
         let mut scene = small("spheres", 32, 8);
         scene.film.filter = Filter { kind, radius };
         scene.render.max_depth = 3;
@@ -73,6 +105,9 @@ fn through_a_lens(shape: ApertureShape, projection: Option<Projection>) -> Scene
 #[test]
 fn every_aperture_and_projection_agrees() {
     let parallel = Projection::Orthographic { height: 5.0 };
+    if !in_full("every aperture with either projection") {
+        return;
+    }
     for projection in [None, Some(parallel)] {
         for shape in APERTURES {
             let scene = through_a_lens(shape, projection);
@@ -103,7 +138,7 @@ fn another_sampler_is_noticed() {
     changes[1].render.pixel_sampler = PixelSampler::Other(SamplerKind::Independent);
     changes[2].render.pixel_sampler = PixelSampler::Centre;
     for changed in changes {
-        let Some(verdict) = compare_unequal(&changed, &scene) else { return };
+        let Some(verdict) = compare_unequal(&scene, &changed) else { return };
         assert!(!verdict.agrees && verdict.matching_share() < 0.9, "{verdict:#?}");
     }
 }
@@ -118,7 +153,7 @@ fn another_camera_is_noticed() {
     changes[2].camera.focus_distance *= 1.02;
     changes[3].film.filter = Filter { kind: FilterKind::Tent, radius: 0.5 };
     for (index, changed) in changes.iter().enumerate() {
-        let Some(verdict) = compare_unequal(changed, &scene) else { return };
+        let Some(verdict) = compare_unequal(&scene, changed) else { return };
         assert!(!verdict.agrees && verdict.matching_share() < 0.97, "change {index}: {verdict:#?}");
     }
 }
@@ -142,6 +177,6 @@ fn uniform_hemispheres_agree() {
     let cosine = scene.clone();
     scene.render.hemisphere = HemisphereSampling::Uniform;
     assert_agrees("uniform hemisphere", &scene, &PlanOptions::default());
-    let Some(verdict) = compare_unequal(&cosine, &scene) else { return };
+    let Some(verdict) = compare_unequal(&scene, &cosine) else { return };
     assert!(verdict.matching_share() < 0.5, "{verdict:#?}");
 }

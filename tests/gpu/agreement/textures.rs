@@ -182,12 +182,13 @@ fn another_channel_and_another_place_are_noticed() {
         |scene| product(scene).times = None,
         |scene| product(scene).times = Some(0),
     ];
+    // It is the reference that has the fault, so that the device needs no kernel for each.
+    let mut gpu = gpt::gpu::GpuRenderer::on(device, &scene, &PlanOptions::default()).expect("the scene fits");
     for (number, fault) in faults.into_iter().enumerate() {
         let mut faulty = scene.clone();
         fault(&mut faulty);
-        let mut gpu = gpt::gpu::GpuRenderer::on(device, &faulty, &PlanOptions::default()).expect("the scene fits");
-        let mut cpu = gpt::reference::ReferenceRenderer::new(&scene).expect("the scene is supported");
-        let verdict = gpt::verify::compare(&scene, &mut gpu, &mut cpu, None).expect("both render");
+        let mut cpu = gpt::reference::ReferenceRenderer::new(&faulty).expect("the scene is supported");
+        let verdict = gpt::verify::compare(&faulty, &mut gpu, &mut cpu, None).expect("both render");
         assert!(!verdict.agrees, "fault {number}");
     }
     assert!(compare_on(device, &scene, &PlanOptions::default()).agrees);

@@ -10,6 +10,8 @@ use super::scenes::*;
 /// A scene all of whose pixels have the same expectation.
 pub struct Case {
     pub name: String,
+    /// The number of the scene, of which there is a case for each estimator, and which one this is.
+    pub of_scene: [usize; 2],
     pub scene: Scene,
     pub expected: [f64; 3],
 }
@@ -29,14 +31,16 @@ pub fn all() -> Vec<Case> {
 }
 
 pub fn push(cases: &mut Vec<Case>, name: &str, scene: &Scene, expected: DVec3, estimators: &[Estimator]) {
-    for &estimator in estimators {
+    let number = cases.last().map_or(0, |case| case.of_scene[0] + 1);
+    for (index, &estimator) in estimators.iter().enumerate() {
         let mut scene = scene.clone();
         scene.render.estimator = estimator;
         if estimator == Estimator::Nee {
             // Light sampling alone is the noisiest.
             scene.render.spp *= 3;
         }
-        cases.push(Case { name: format!("{name}, {estimator:?}"), scene, expected: expected.to_array() });
+        let (name, of_scene) = (format!("{name}, {estimator:?}"), [number, index]);
+        cases.push(Case { name, of_scene, scene, expected: expected.to_array() });
     }
 }
 

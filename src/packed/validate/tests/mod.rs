@@ -7,6 +7,7 @@ mod scenes;
 use rayon::prelude::*;
 
 use super::words::{Array, Word};
+use crate::effort::in_full;
 use crate::packed::environment::PackedMap;
 use crate::packed::hierarchy::Traversal;
 use crate::packed::{NONE, PackedScene};
@@ -160,14 +161,19 @@ fn what_was_packed_passes_and_uses_every_array() {
 
 #[test]
 fn no_corrupted_word_leads_a_kernel_out_of_bounds() {
+    // Another part of the corruptions at each word, so that words of a kind meet all of them, and each word some. Words that are free lead
+    // nowhere; a few values each show it.
+    let share = if in_full("15 in 16 corruptions of each word that something is found by") { 1 } else { 16 };
     let mut led_astray = 0;
     for (name, scene) in scenes::all() {
         let corruptions = corruptions(&scene);
         led_astray += places(&scene)
             .into_par_iter()
-            .map(|(place, judged)| {
-                // Words that are free lead nowhere; a few values each show it.
-                let tried = corruptions.iter().enumerate().filter(|(number, _)| judged || number % 8 == 0);
+            .enumerate()
+            .map(|(index, (place, judged))| {
+                let one_in = if judged { share } else { 8 * share.min(8) };
+                assert!(one_in <= corruptions.len(), "each word meets one");
+                let tried = corruptions.iter().enumerate().filter(|(number, _)| (number + index) % one_in == 0);
                 let is_led_astray = |(number, corruption): (usize, &Corruption)| {
                     let mut changed = scene.clone();
                     change(&mut changed, place, corruption);
@@ -179,16 +185,18 @@ fn no_corrupted_word_leads_a_kernel_out_of_bounds() {
             .sum::<usize>();
     }
     // The control: followed without the checks, thousands of them would have read out of bounds or never ended.
-    assert!(led_astray > 5_000, "{led_astray} corruptions lead a kernel astray");
+    assert!(led_astray > 5_000 / share, "{led_astray} corruptions lead a kernel astray");
 }
 
 #[test]
 fn listed_words_are_refused_and_others_are_not() {
     let mut counts = [0; 2];
+    let everywhere = in_full("numbers that are none or huge in seven of eight words");
     for (name, scene) in scenes::all() {
-        for (place, judged) in places(&scene) {
+        for (index, (place, judged)) in places(&scene).into_iter().enumerate() {
             counts[usize::from(judged)] += 1;
-            for value in [BEYOND, f32::NAN.to_bits(), f32::MAX.to_bits()] {
+            let values = [BEYOND, f32::NAN.to_bits(), f32::MAX.to_bits()];
+            for value in values.into_iter().take(if everywhere || index % 8 == 0 { 3 } else { 1 }) {
                 let mut changed = scene.clone();
                 change(&mut changed, place, |_| value);
                 let refused = changed.validate().is_err();
@@ -248,9 +256,11 @@ fn arrays_cut_short_are_refused_where_something_names_their_end() {
         |scene| cut_last(&mut scene.textures.words),
         |scene| cut_last(&mut scene.motions),
     ];
+    let scenes = scenes::all();
     for (number, cut) in cuts.into_iter().enumerate() {
         let mut refused = 0;
-        for (name, mut scene) in scenes::all() {
+        for (name, scene) in &scenes {
+            let mut scene = scene.clone();
             cut(&mut scene);
             assert_safe(&scene, &|| format!("{name}, cut {number}"));
             refused += u32::from(scene.validate().is_err());

@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::*;
+use crate::effort::in_full;
 use crate::scene::material::visible_slopes_below;
 
 fn all_facets() -> Vec<Facets> {
@@ -109,11 +110,11 @@ fn the_narrow_direction_is_the_tangent() {
 /// What microfacets of a plate reflect and let through is what those of a white metal reflect: between them nothing else is lost.
 #[test]
 fn rough_plates_lose_what_metals_lose() {
+    let count = if in_full("200,000 directions of rough plates instead of 100,000") { 200_000 } else { 100_000 };
     for facets in all_facets() {
         for degrees in [10.0, 65.0] {
             let view = view(degrees, 0.0);
             let albedo = |lobe: Lobe| {
-                let count = 200_000;
                 let bsdf = single(lobe, view);
                 let weights =
                     cube_points(count, 7).filter_map(|[u1, u2, u]| bsdf.sample(u, u1, u2)).map(|sample| sample.weight.x);

@@ -170,6 +170,7 @@ impl Cylinder {
 mod tests {
     use super::*;
     use crate::compare::sidak;
+    use crate::effort::in_full;
     use crate::scene::{Geometry, Material, Shape, Transform};
     use crate::statistics::{SphereBins, test_directional_sampler};
 
@@ -248,6 +249,7 @@ mod tests {
         let middle = tube.from + 0.5 * tube.axis;
         let references = [DVec3::new(2.0, 0.3, 1.0), middle + tube.first * 0.2, tube.from + 1.6 * tube.axis];
         let level = sidak(0.01, 2 * references.len());
+        let samples = if in_full("200,000 directions to a cylinder instead of 50,000") { 200_000 } else { 50_000 };
         for (seed, reference) in (0..).zip(references) {
             let bins = SphereBins::uniform(DVec3::Y, 24, 24);
             let visible = |[u1, u2, _]: [f64; 3]| tube.sample(None, LightSampling::Area, reference, u1, u2).map(|drawn| drawn.wi);
@@ -258,15 +260,15 @@ mod tests {
                     tube.pdf(None, LightSampling::Area, reference, &tube.point(&ray.ray, distance, local))
                 })
             };
-            let report = test_directional_sampler(&bins, 200_000, seed, visible, nearest);
+            let report = test_directional_sampler(&bins, samples, seed, visible, nearest);
             assert!(report.passes(level), "{reference}: {report:?}");
             let through =
                 |[u1, u2, _]: [f64; 3]| tube.sample_through(LightSampling::Area, reference, u1, u2).map(|drawn| drawn.wi);
             let both = |wi: DVec3| tube.pdf_through(LightSampling::Area, &ray(reference, wi));
-            let report = test_directional_sampler(&bins, 200_000, seed, through, both);
+            let report = test_directional_sampler(&bins, samples, seed, through, both);
             assert!(report.passes(level) && (report.integral.value - 1.0).abs() < 1e-2, "{reference}, through: {report:?}");
             // From within or before an end each line meets the wall once ahead; elsewhere the one is not the other.
-            let mixed = test_directional_sampler(&bins, 200_000, seed, through, nearest);
+            let mixed = test_directional_sampler(&bins, samples, seed, through, nearest);
             assert_eq!(mixed.passes(level), seed != 0, "{reference}: {mixed:?}");
         }
     }

@@ -1,0 +1,41 @@
+//! Built-in scenes.
+
+/// What the short form of `tests/gpu/agreement` compares. A test holds that among them they use every switch of the shaders that any built-in scene
+/// uses on a software device, but for those below.
+pub const ENOUGH: [&str; 4] = ["examples", "terrace", "bazaar", "arbour"];
+
+/// What other tests of agreement have scenes of: in `tests/gpu/agreement`, and `GUIDE` in `tests/gpu/guiding.rs`.
+pub const ELSEWHERE: [&str; 32] = [
+    "ANISOTROPY_DIRECTIONS",
+    "APERTURE_POLYGON",
+    "AREA_LIGHTS_BY_PICTURE",
+    "BUMP_MAPS",
+    "COAT_NORMALS",
+    "ESTIMATOR_NEE",
+    "FILTER",
+    "FILTER_BOX",
+    "FILTER_CURVE",
+    "GUIDE",
+    "INSTANCES",
+    "LIGHTS_BY_PICTURE",
+    "LIGHT_TEXTURES",
+    "NORMAL_MIRRORING",
+    "NORMAL_SCALES",
+    "NORMAL_SHADOWING",
+    "ORTHOGRAPHIC",
+    "PERLIN",
+    "PICK",
+    "PIXEL_DIGITAL_SHIFT",
+    "PIXEL_HASHED",
+    "PIXEL_ROTATION",
+    "PORTALS",
+    "SECOND_UVS",
+    "SPHERE_LIGHTS_BY_PICTURE",
+    "SPHERE_LIGHTS_BY_POINT",
+    "SPHERE_LIGHTS_VISIBLE_HALF",
+    "SPHERE_POINTS",
+    "TEXTURES_OF_TRIANGLES",
+    "TEXTURE_PRODUCTS",
+    "UNIFORM_HEMISPHERE",
+    "VARYING_LIGHTS",
+];
