@@ -15,7 +15,7 @@ import mitsuba as mi
 import numpy as np
 
 # Of the samplers these two are the best nearly everywhere; the first is the program's own choice. Several light samples pay where direct
-# light is most of the noise, adaptive sampling where noise is uneven.
+# light is most of the noise, adaptive sampling where noise is uneven, a guide where light is hard to find.
 SETTINGS = {
     "Sobol": ["--sampler", "sobol"],
     "Halton": ["--sampler", "halton"],
@@ -26,6 +26,7 @@ SETTINGS = {
     "Sobol, 2 light samples, adaptive": ["--sampler", "sobol", "--light-samples", "2", "--adaptive"],
     "Sobol, 4 light samples, adaptive": ["--sampler", "sobol", "--light-samples", "4", "--adaptive"],
     "Sobol, 8 light samples at 2 surfaces": ["--sampler", "sobol", "--light-samples", "8", "--light-samples-depth", "2"],
+    "Sobol, guided": ["--sampler", "sobol", "--guiding", "on"],
 }
 
 
@@ -53,7 +54,10 @@ class Gpt:
         subprocess.run(run, check=True)
         figures = json.loads(report.read_text(encoding="utf-8"))
         # Where adaptive sampling gave pixels different numbers of samples, they stand in a fourth channel.
-        return np.array(mi.Bitmap(str(picture)), dtype=np.float32)[..., :3], figures["seconds"]["render"], spp
+        seconds = figures["seconds"]["render"]
+        if "--guiding" in SETTINGS[setting]:
+            seconds += figures["seconds"]["build"]  # what a guide takes to learn is no start-up
+        return np.array(mi.Bitmap(str(picture)), dtype=np.float32)[..., :3], seconds, spp
 
 
 if __name__ == "__main__":

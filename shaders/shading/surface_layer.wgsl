@@ -68,6 +68,6 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
         return shading;
     }
     shading.alive = true;
-    *path = extended_path(incoming, surface, drawn, incoming.throughput * drawn.weight);
+    *path = extended_path(incoming, surface, drawn, incoming.throughput * drawn.weight, incoming.roulette_scale);
     return shading;
 }

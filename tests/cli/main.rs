@@ -137,7 +137,7 @@ fn stats_have_the_keys_that_other_programs_rely_on() {
     let place = Workplace::new();
     place.expect(
         0,
-        "render scene.toml --device cpu --spp 4 --size 10x6 --seed 9 --light-samples 3 --light-samples-depth 2 --stats stats.json -q",
+        "render scene.toml --device cpu --spp 4 --size 10x6 --seed 9 --light-samples 3 --light-samples-depth 2 --roulette-depth 5 --stats stats.json -q",
     );
     let stats = place.stats("stats.json");
     for key in ["load", "build", "compile", "render", "write"] {

@@ -5,7 +5,7 @@
 pub const ENOUGH: [&str; 4] = ["examples", "terrace", "bazaar", "arbour"];
 
 /// What other tests of agreement have scenes of: in `tests/gpu/agreement`, and `GUIDE` in `tests/gpu/guiding.rs`.
-pub const ELSEWHERE: [&str; 32] = [
+pub const ELSEWHERE: [&str; 33] = [
     "ANISOTROPY_DIRECTIONS",
     "APERTURE_POLYGON",
     "AREA_LIGHTS_BY_PICTURE",
@@ -18,6 +18,7 @@ pub const ELSEWHERE: [&str; 32] = [
     "GUIDE",
     "INSTANCES",
     "LIGHTS_BY_PICTURE",
+    "LIGHT_CELLS",
     "LIGHT_TEXTURES",
     "NORMAL_MIRRORING",
     "NORMAL_SCALES",

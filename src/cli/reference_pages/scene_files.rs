@@ -227,7 +227,8 @@ impl<'s> Page<'s> {
 fn meaning(value: &Value) -> String {
     let mut meaning = description(value);
     for choice in entry_list(value, "oneOf").filter(|choice| !description(choice).is_empty()) {
-        let _ = write!(meaning, "<br>`{}`: {}", choice["const"], description(choice));
+        let value = if choice["const"].is_null() { "A number".to_owned() } else { format!("`{}`", choice["const"]) };
+        let _ = write!(meaning, "<br>{value}: {}", description(choice));
     }
     if let Some(default) = value.get("default") {
         let _ = write!(meaning, "{}`{default}` when left out.", if meaning.contains("<br>") { "<br>" } else { " " });

@@ -5,6 +5,7 @@
 //! roulette ends paths, by what that would do to the paths of the best way. Random numbers are not those of the picture. Cost is counted, in rays, and not timed. So what is chosen depends on the scene, its settings and the size of its
 //! film: not on the seed, the number of samples, the device or the machine.
 
+mod rays;
 mod roulette;
 mod tried;
 
@@ -17,8 +18,9 @@ use crate::plan::UNROLL_LIMIT;
 use crate::renderer::RenderError;
 use crate::scene::settings::MOST_LIGHT_SAMPLES;
 use crate::scene::{Estimator, Guiding, LightSampling, NumberOrAuto, RenderSettings, Scene, SceneSummary};
+use rays::Rays;
 use roulette::{Effects, ROULETTE_DEPTHS};
-use tried::{Found, InView, Rays, losses_of_roulette};
+use tried::{Found, InView, losses_of_roulette};
 
 /// Pixels of a film below which a pilot would take longer than it saves.
 const FEWEST_PIXELS: u64 = 1 << 16;

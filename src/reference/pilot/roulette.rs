@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use super::tried::Rays;
+use super::rays::Rays;
 use crate::reference::bsdf::BsdfSample;
 use crate::reference::roulette;
 use crate::scene::settings::DEFAULT_ROULETTE_DEPTH;
@@ -167,7 +167,7 @@ mod tests {
 
     /// What is found at a vertex, times the throughput there.
     fn light(vertex: usize) -> f64 {
-        [0.3, 0.0, 2.0, 1.0, 7.0, 0.1, 4.0, 9.0][vertex] * 0.5_f64.powi(vertex as i32)
+        [0.3, 3.0, 2.0, 1.0, 7.0, 0.1, 4.0, 9.0][vertex] * 0.5_f64.powi(vertex as i32)
     }
 
     /// All ends that roulette may give a path, weighed by their chance, tell what roulette from any other depth on does.

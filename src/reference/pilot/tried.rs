@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::rays::Rays;
 use super::roulette::{Effects, PathRecord, ROULETTE_DEPTHS};
 use crate::compare::metrics::relative_weight;
 use crate::reference::bsdf::BsdfSample;
@@ -208,26 +209,6 @@ impl TriedPixel {
         let effects = shown.iter().fold(Effects::default(), |sum, shown| sum.and(shown.effects));
         let rays = shown.iter().fold(Rays::default(), |sum, shown| sum.and(shown.rays));
         (Self { in_view, mean, variance, rays }, effects.times(1.0 / f64::from(PICTURES * SAMPLES)))
-    }
-}
-
-/// Numbers of rays of paths and of shadow rays.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Rays {
-    pub path: f64,
-    pub shadow: f64,
-}
-
-impl Rays {
-    pub const PATH: Self = Self { path: 1.0, shadow: 0.0 };
-    pub const SHADOW: Self = Self { path: 0.0, shadow: 1.0 };
-
-    pub fn times(self, factor: f64) -> Self {
-        Self { path: self.path * factor, shadow: self.shadow * factor }
-    }
-
-    pub fn and(self, other: Self) -> Self {
-        Self { path: self.path + other.path, shadow: self.shadow + other.shadow }
     }
 }
 

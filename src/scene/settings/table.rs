@@ -121,7 +121,7 @@ settings! {
             header: "gpt:lightSamplesDepth",
             compared: true,
         }
-        /// Whether directions are also drawn by a guide, which a hundred thousand paths learn before the first sample.
+        /// Whether directions are also drawn by a guide, which up to a million paths learn before the first sample.
         guiding: Guiding = Guiding::Off => {
             values: Names(Guiding::NAMES),
             flag: "--guiding",
