@@ -213,13 +213,12 @@ fn environment_pdf_solid_angle(ray: Ray) -> f32 {
     return pdf;
 }
 
-#if LIGHT_CELLS
-// `facing`: as light_facing says of the surface there.
+// `facing`: which way the surface there faces, as facing_of says.
 fn sample_light(reference: vec3<f32>, facing: u32, bits: vec4<u32>) -> LightSample {
+#if LIGHT_CELLS
     let choice = choose_light_in(light_cell_at(reference, facing), bits.x);
     let light = choice.light;
 #else
-fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
 #if LIGHT_TREE
     let choice = choose_light_at(reference, bits.x);
     let light = choice.light;
@@ -303,11 +302,7 @@ fn sample_light(reference: vec3<f32>, bits: vec4<u32>) -> LightSample {
 
 // Density with which light sampling from `ray.origin` would have drawn the direction that met this emitting surface, the choice of
 // the light included; 0 where light sampling cannot.
-#if LIGHT_CELLS
 fn light_pdf_solid_angle(ray: Ray, facing: u32, surface: Surface) -> f32 {
-#else
-fn light_pdf_solid_angle(ray: Ray, surface: Surface) -> f32 {
-#endif
     if surface.light == NONE {
         return 0.0;
     }
@@ -358,16 +353,14 @@ fn light_pdf_solid_angle(ray: Ray, surface: Surface) -> f32 {
 }
 
 // The light that these bits chose at a point, to be written down where paths are. Elsewhere a tree is not walked twice for nothing: 0.
-#if LIGHT_CELLS
 fn traced_light(point: vec3<f32>, facing: u32, light_bits: u32) -> u32 {
+#if LIGHT_CELLS
 #if TRACE
     return choose_light_in(light_cell_at(point, facing), light_bits).light;
 #else
     return 0u;
 #endif
-}
 #else
-fn traced_light(point: vec3<f32>, light_bits: u32) -> u32 {
 #if !LIGHT_TREE
     return choose_light(light_bits);
 #else
@@ -377,5 +370,5 @@ fn traced_light(point: vec3<f32>, light_bits: u32) -> u32 {
     return 0u;
 #endif
 #endif
-}
 #endif
+}

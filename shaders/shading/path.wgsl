@@ -59,12 +59,8 @@ fn emitted_radiance(path: Path, surface: Surface, depth: u32) -> vec3<f32> {
         if max_component(emitted) > 0.0 {
             var weight = 1.0;
             if HAS_LIGHTS {
-#if LIGHT_CELLS
-                let of_one = light_pdf_solid_angle(ray_from_lit_vertex(path), path.lit_facing, surface);
+                let of_one = light_pdf_solid_angle(ray_from_lit_vertex(path), facing_of_lit_vertex(path), surface);
                 let pdf_light = f32(light_samples_at(depth - 1u)) * of_one;
-#else
-                let pdf_light = f32(light_samples_at(depth - 1u)) * light_pdf_solid_angle(ray_from_lit_vertex(path), surface);
-#endif
                 weight = emission_weight(path.pdf_solid_angle, pdf_light);
             }
             radiance = path.throughput * emitted * weight;
@@ -109,12 +105,8 @@ fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, ligh
     } else {
         radiance = radiance / count;
     }
-#if LIGHT_CELLS
-    let chosen = traced_light(sampled_from, light_facing(surface.facing_normal), light_bits);
+    let chosen = traced_light(sampled_from, facing_of(surface), light_bits);
     trace_light(light.wi, pdf_light, radiance, weight, chosen, value.pdf_solid_angle);
-#else
-    trace_light(light.wi, pdf_light, radiance, weight, traced_light(sampled_from, light_bits), value.pdf_solid_angle);
-#endif
     return ShadowRay(ray, ray_length, in_layer(radiance, depth + 1u));
 }
 
@@ -122,11 +114,7 @@ fn shadow_ray(path: Path, surface: Surface, depth: u32, light: LightSample, ligh
 fn further_shadow_ray(lit: LitVertex, number: u32) -> ShadowRay {
     let depth = depth_at(lit.path, lit.vertex);
     let light_bits = further_light_bits(lit.path.pixel, lit.path.sample_in_pass, lit.vertex, depth, number);
-#if LIGHT_CELLS
-    let light = sample_light(shading_point(lit.surface), light_facing(lit.surface.facing_normal), light_bits);
-#else
-    let light = sample_light(shading_point(lit.surface), light_bits);
-#endif
+    let light = sample_light(shading_point(lit.surface), facing_of(lit.surface), light_bits);
     let value = evaluate_scatterer(lit.scatterer, lit.surface, -lit.path.ray.direction, light.wi);
     return shadow_ray(lit.path, lit.surface, depth, light, light_bits.x, value);
 }
@@ -162,11 +150,7 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     let samples_light = HAS_LIGHTS && has_non_delta_lobe(scatterer.bsdf) && !last_edge;
     var light = no_light();
     if samples_light {
-#if LIGHT_CELLS
-        light = sample_light(shading_point(surface), light_facing(surface.facing_normal), random);
-#else
-        light = sample_light(shading_point(surface), random);
-#endif
+        light = sample_light(shading_point(surface), facing_of(surface), random);
     }
     let scattering = scatter_by(
         scatterer, surface, wo, samples_light, light.wi, uniform_float(random.w), uniform_float(more_random.x), uniform_float(more_random.y)

@@ -91,6 +91,24 @@ fn ray_from_lit_vertex(path: Path) -> Ray {
 #endif
 }
 
+// Which way a surface faces, where the choice of lights depends on that; else 0.
+fn facing_of(surface: Surface) -> u32 {
+#if LIGHT_CELLS
+    return light_facing(surface.facing_normal);
+#else
+    return 0u;
+#endif
+}
+
+// The same of the surface from which light was last sampled.
+fn facing_of_lit_vertex(path: Path) -> u32 {
+#if LIGHT_CELLS
+    return path.lit_facing;
+#else
+    return 0u;
+#endif
+}
+
 fn no_shadow_ray() -> ShadowRay {
     return ShadowRay(Ray(vec3<f32>(0.0), vec3<f32>(0.0, 0.0, 1.0)), 0.0, vec3<f32>(0.0));
 }

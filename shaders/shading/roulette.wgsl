@@ -3,6 +3,9 @@
 #import core/math.wgsl
 #import shading/path_record.wgsl
 #import shading/scatterer.wgsl
+#if GUIDE
+#import shading/guide.wgsl
+#endif
 
 struct Roulette {
     // The chance to survive.

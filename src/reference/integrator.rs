@@ -255,10 +255,21 @@ impl Integrator {
         let bsdf = Bsdf::new(&self.scene, &surface, wo, visitor.round_number(random(VertexDimension::Blend)));
         visitor.view(&bsdf.view);
         let guided = GuidedBsdf::new(self.guide(), &surface, &bsdf);
+        // By which cells of lights are told apart.
+        let mut lit_normal = surface.point.normal_towards(wo);
+        if V::ROUNDS {
+            visitor.round_direction(&mut lit_normal);
+        }
         if !is_last && V::LIGHTS {
             let depth = path.depth;
             for number in 0..self.scene.render.light_samples_at(depth) {
-                self.add_direct_light(path, &surface, (&bsdf, &guided), || sampler.light_bits(vertex, depth, number), visitor);
+                self.add_direct_light(
+                    path,
+                    (&surface, lit_normal),
+                    (&bsdf, &guided),
+                    || sampler.light_bits(vertex, depth, number),
+                    visitor,
+                );
             }
         }
         let [u1, u2] = [VertexDimension::BsdfU, VertexDimension::BsdfV].map(|number| visitor.round_number(random(number)));
@@ -283,7 +294,7 @@ impl Integrator {
         }
         path.extinction = self.volumes.extinction_towards(&surface, bsdf.view.front, wi, path.extinction);
         path.previous = density;
-        path.lit_from = LitPoint::new(path.ray.origin, surface.point.normal_towards(wo));
+        path.lit_from = LitPoint::new(path.ray.origin, lit_normal);
         let u_roulette = visitor.round_number(random(VertexDimension::Roulette));
         let survival = match self.guide {
             Some(_) => path.expectation.survival(arriving, guided.sent_on(), path.depth),
@@ -334,7 +345,7 @@ impl Integrator {
     fn add_direct_light<V: PathVisitor>(
         &self,
         path: &mut Path,
-        surface: &Surface,
+        (surface, lit_normal): (&Surface, DVec3),
         (bsdf, guided): (&Bsdf, &GuidedBsdf),
         bits: impl Fn() -> [u32; 3],
         visitor: &mut V,
@@ -345,7 +356,7 @@ impl Integrator {
         }
         let [choice, u, v] = bits();
         let wo = bsdf.view.wo;
-        let reference = LitPoint::new(surface.point.leave_towards(wo), surface.point.normal_towards(wo));
+        let reference = LitPoint::new(surface.point.leave_towards(wo), lit_normal);
         let magnified = if V::ROUNDS { self.lights.magnifies((&self.world, &path.time), reference, choice) } else { 1.0 };
         let [u, v] = [u, v].map(|bits| visitor.round_bits(bits, magnified));
         let Some(light) = self.lights.sample(&self.scene, (&self.world, &path.time), reference, choice, [u, v]) else { return };

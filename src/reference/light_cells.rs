@@ -25,8 +25,8 @@ use crate::sampling::light_way::{FEWEST_LIGHTS, LightWay};
 use crate::sampling::{LitPoint, Sampling};
 use crate::scene::{Estimator, Geometry, LightChoice, PixelSampler, RenderSettings, SamplerKind, Scene, SceneSummary, Shape};
 
-/// Pixels of a film below which learning would take longer than it saves.
-const FEWEST_PIXELS: u64 = 1 << 13;
+/// Pixels of a film below which learning would take longer than it saves, as a pilot would.
+const FEWEST_PIXELS: u64 = 1 << 16;
 /// Triangles above which the reference's hierarchy, which learning needs, takes seconds to build.
 const MOST_TRIANGLES: usize = 1 << 20;
 /// Share of the light that may come from lights which are in no list, where nobody says how lights are chosen.

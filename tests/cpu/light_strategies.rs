@@ -180,7 +180,7 @@ fn hall(triangles: usize) -> Scene {
         text += &format!("[[shape]]\ntype = \"mesh\"\npositions = {positions:?}\nfaces = {faces:?}\nmaterial = \"lamp\"\n");
     }
     let mut scene = load(&[&text]);
-    scene.film.size = [96, 96];
+    scene.film.size = [256, 256];
     scene
 }
 
@@ -194,7 +194,7 @@ fn what_is_learned_of_lights_depends_on_the_scene_and_its_film_alone() {
     (other.render.seed, other.render.spp, other.render.light_choice) = (9, 3, LightChoice::Cells);
     assert_eq!(learned(&other), Some(words.clone()));
     let mut larger = scene.clone();
-    larger.film.size = [192, 96];
+    larger.film.size = [512, 256];
     let mut moved = scene.clone();
     moved.camera.position.x += 0.5;
     for other in [larger, moved] {
@@ -210,11 +210,11 @@ fn cells_of_lights_are_taken_where_lists_hold_the_light() {
     assert_eq!(choice(&hall(3000)), LightChoice::Tree);
     // Too few pixels, few lights, nothing sampled.
     let mut small = hall(0);
-    small.film.size = [32, 32];
+    small.film.size = [255, 256];
     let mut by_bsdf = hall(0);
     by_bsdf.render.estimator = Estimator::Bsdf;
     let mut few = load(&[LAMPS]);
-    few.film.size = [96, 96];
+    few.film.size = [256, 256];
     for scene in [&small, &by_bsdf, &few] {
         assert_eq!(choice(scene), LightChoice::Auto);
         assert_eq!(learned(scene), None);
