@@ -186,11 +186,11 @@ fn choose(pilot: &mut Pilot<'_>, open: Open) -> Reasons {
     if open.draws_from_lights() && nothing_to_gain.is_none() {
         best = best_way(pilot, first, open, (&simplest, &in_view));
     }
-    let mut reasons = Reasons::default();
-    reasons.light_samples = open.light_samples.then(|| match nothing_to_gain {
+    let light_samples = open.light_samples.then(|| match nothing_to_gain {
         Some(because) => because.to_owned(),
         None => format!("a pilot found {:.2} of the error × cost of one light sample", best.loss),
     });
+    let mut reasons = Reasons { light_samples, ..Reasons::default() };
     pilot.settings = pilot.way(best);
     if open.roulette {
         let (found, effects) = pilot.try_roulette();

@@ -34,7 +34,7 @@ fn light_cells(lights: u32) -> Vec<u32> {
     let mut words = [0.0_f32, 0.0, 0.0, 1.0].map(f32::to_bits).to_vec();
     words.extend([2, 1, 1, 8 + 12]);
     words.extend((0..12).map(|number| number % 3));
-    words.extend((0..2 * table::LIGHT_CELL_SLOTS).map(|slot| slot % lights | 1 << table::LIGHT_SLOT_COUNT_SHIFT));
+    words.extend((0..2 * table::LIGHT_CELL_SLOTS).map(|slot| (slot % lights) | (1 << table::LIGHT_SLOT_COUNT_SHIFT)));
     words
 }
 
