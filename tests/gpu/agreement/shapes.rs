@@ -5,7 +5,7 @@ use gpt::plan::{PlanOptions, StageMode, TraversalChoice};
 use gpt::scene::{Estimator, Scene};
 
 use super::materials::BUMPS;
-use super::wall::Wall;
+use super::wall::{Change, Wall};
 use super::{DEVICE, assert_agrees};
 use crate::common::effort::in_full;
 
@@ -164,7 +164,7 @@ fn a_shape_off_by_a_hundredth_is_noticed() {
         .iter()
         .map(|&index| move |scene: &mut Scene| scene.shapes[shape_of(index)].transform.steps.insert(0, step()))
         .collect();
-    let changes: Vec<(&str, &dyn Fn(&mut Scene))> =
+    let changes: Vec<Change<'_>> =
         turned.iter().zip(&larger).map(|(&index, larger)| (parts[index].name.as_str(), larger as &dyn Fn(&mut Scene))).collect();
     wall.assert_notices(&changes);
     let everywhere = in_full("each shape alone that is a hundredth larger");

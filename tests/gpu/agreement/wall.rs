@@ -31,6 +31,9 @@ normal = [0, 0, 1]
 material = "floor"
 "#;
 
+/// A name, and what it does to a scene.
+pub type Change<'a> = (&'a str, &'a dyn Fn(&mut Scene));
+
 /// A scene with a name for each of its cells, row by row from the top.
 pub struct Wall {
     pub scene: Scene,
@@ -95,7 +98,7 @@ impl Wall {
     }
 
     /// The control: a reference that renders another wall is noticed. The device has the same kernel each time, and two samples are enough.
-    pub fn assert_notices(&self, changes: &[(&str, &dyn Fn(&mut Scene))]) {
+    pub fn assert_notices(&self, changes: &[Change<'_>]) {
         let Some(device) = DEVICE.as_ref() else { return };
         let mut scene = self.scene.clone();
         scene.render.spp = 2;
