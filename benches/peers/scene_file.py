@@ -72,7 +72,7 @@ def load(path, spp=None, size=None, max_depth=None, exported=True):
         size=tuple(own_size if size is None else size),
         spp=own_spp if spp is None else spp,
         max_depth=own_depth if max_depth is None else max_depth,
-        roulette_depth=render.take("roulette_depth", 5),
+        roulette_depth=5 if (depth := render.take("roulette_depth", 5)) == "auto" else depth,
         camera=camera(Table(root.take("camera"), "[camera]")),
     )
     # All estimate the same integral whatever points and strategies they take.

@@ -3,6 +3,7 @@
 #import core/math.wgsl
 #import core/octahedron.wgsl
 #import core/sampler.wgsl
+#import shading/cell_grid.wgsl
 #import shading/sides.wgsl
 #import shading/surface.wgsl
 
@@ -17,18 +18,6 @@ struct GuideCell {
     axis: vec3<f32>,
 }
 
-// Twice the axis along which a normal is longest, and one more where it points down that axis.
-fn normal_facing(normal: vec3<f32>) -> u32 {
-    let weighed = abs(normal) * vec3<f32>(1.0, FACING_WEIGHT_Y, FACING_WEIGHT_Z);
-    if weighed.x >= weighed.y && weighed.x >= weighed.z {
-        return select(0u, 1u, normal.x < 0.0);
-    }
-    if weighed.y >= weighed.z {
-        return select(2u, 3u, normal.y < 0.0);
-    }
-    return select(4u, 5u, normal.z < 0.0);
-}
-
 // A direction from its place on an octahedron, a byte a coordinate.
 fn guide_axis(packed_axis: u32) -> vec3<f32> {
     let bytes = vec2<i32>(i32(packed_axis << 24u) >> 24u, i32(packed_axis << 16u) >> 24u);
@@ -38,16 +27,13 @@ fn guide_axis(packed_axis: u32) -> vec3<f32> {
 // What is known of a surface whose lobes that scatter in all directions are sampled with this probability.
 fn guide_at(surface: Surface, probability: f32) -> GuideCell {
     var cell: GuideCell;
-    let origin = bitcast<vec3<f32>>(vec3<u32>(guide[0], guide[1], guide[2]));
-    let grid = vec3<u32>(guide[4], guide[5], guide[6]);
-    let place = (surface.position - origin) * bitcast<f32>(guide[3]);
-    let inside = all(place >= vec3<f32>(0.0)) && all(place < vec3<f32>(grid));
-    if probability <= 0.0 || !inside {
+    let begins = vec4<u32>(guide[0], guide[1], guide[2], guide[3]);
+    let counts = vec3<u32>(guide[4], guide[5], guide[6]);
+    let word = grid_word(begins, counts, normal_facing(surface.shading_normal), surface.position);
+    if probability <= 0.0 || word == 0u {
         return cell;
     }
-    let at = min(vec3<u32>(place), grid - 1u);
-    let index = ((normal_facing(surface.shading_normal) * grid.z + at.z) * grid.y + at.y) * grid.x + at.x;
-    let number = guide[GUIDE_HEADER_WORDS + index];
+    let number = guide[word];
     if number == 0u {
         return cell;
     }

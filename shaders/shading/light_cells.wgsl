@@ -2,6 +2,7 @@
 #import core/layout.wgsl
 #import core/sampler.wgsl
 #import geometry/scene.wgsl
+#import shading/cell_grid.wgsl
 
 @group(0) @binding(BINDING_LIGHT_CELLS) var<storage, read> light_cells: array<u32>;
 
@@ -11,25 +12,15 @@ struct LightChoice {
     pmf: f32,
 }
 
-// Twice the axis along which a normal is longest, and one more where it points down that axis.
-fn light_facing(normal: vec3<f32>) -> u32 {
-    let weighed = abs(normal) * vec3<f32>(1.0, FACING_WEIGHT_Y, FACING_WEIGHT_Z);
-    let is_x = weighed.x >= weighed.y && weighed.x >= weighed.z;
-    let is_y = weighed.y >= weighed.z;
-    let along = select(select(normal.z, normal.y, is_y), normal.x, is_x);
-    return select(select(4u, 2u, is_y), 0u, is_x) + select(0u, 1u, along < 0.0);
-}
-
 // The first word of the slots of a point's cell; 0 where nothing is known.
 fn light_cell_at(point: vec3<f32>, facing: u32) -> u32 {
-    let origin = bitcast<vec3<f32>>(vec3<u32>(light_cells[0], light_cells[1], light_cells[2]));
-    let grid = vec3<u32>(light_cells[4], light_cells[5], light_cells[6]);
-    let place = (point - origin) * bitcast<f32>(light_cells[3]);
-    if !(all(place >= vec3<f32>(0.0)) && all(place < vec3<f32>(grid))) {
+    let begins = vec4<u32>(light_cells[0], light_cells[1], light_cells[2], light_cells[3]);
+    let counts = vec3<u32>(light_cells[4], light_cells[5], light_cells[6]);
+    let word = grid_word(begins, counts, facing, point);
+    if word == 0u {
         return 0u;
     }
-    let at = min(vec3<u32>(place), grid - 1u);
-    let number = light_cells[LIGHT_CELLS_HEADER_WORDS + ((facing * grid.z + at.z) * grid.y + at.y) * grid.x + at.x];
+    let number = light_cells[word];
     return select(light_cells[7] + (number - 1u) * LIGHT_CELL_SLOTS, 0u, number == 0u);
 }
 

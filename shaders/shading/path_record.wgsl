@@ -4,7 +4,7 @@
 #import shading/scattering.wgsl
 #import shading/surface.wgsl
 #if LIGHT_CELLS
-#import shading/light_cells.wgsl
+#import shading/cell_grid.wgsl
 #endif
 #if ATTENUATION
 #import shading/volume.wgsl
@@ -24,7 +24,7 @@ struct Path {
     // Vertices at null surfaces so far.
     null_vertices: u32,
 #if LIGHT_CELLS
-    // Which way the surface faces that light was last sampled from, as light_facing says.
+    // Which way the surface faces that light was last sampled from, as normal_facing says.
     lit_facing: u32,
 #endif
 #if TRANSPARENT_SHADOWS
@@ -94,7 +94,7 @@ fn ray_from_lit_vertex(path: Path) -> Ray {
 // Which way a surface faces, where the choice of lights depends on that; else 0.
 fn facing_of(surface: Surface) -> u32 {
 #if LIGHT_CELLS
-    return light_facing(surface.facing_normal);
+    return normal_facing(surface.facing_normal);
 #else
     return 0u;
 #endif
@@ -161,7 +161,7 @@ fn extended_path(incoming: Path, surface: Surface, drawn: BsdfSample, throughput
     path.roulette_scale = roulette_scale;
     path.null_vertices += select(0u, 1u, drawn.is_null);
 #if LIGHT_CELLS
-    path.lit_facing = select(light_facing(surface.facing_normal), incoming.lit_facing, drawn.is_null);
+    path.lit_facing = select(facing_of(surface), incoming.lit_facing, drawn.is_null);
 #endif
 #if TRANSPARENT_SHADOWS
     // Through a null surface goes the ray that was drawn before.

@@ -9,7 +9,6 @@ shared_constants!(constants {
     const LIGHT_UNITS_BY_POWER_BITS: u32 = table::LIGHT_UNITS_BY_POWER_BITS;
     const LIGHT_UNITS_BY_POWER: u32 = table::LIGHT_UNITS_BY_POWER;
     const LIGHT_CELL_SLOTS: u32 = table::LIGHT_CELL_SLOTS;
-    const LIGHT_CELLS_HEADER_WORDS: u32 = table::LIGHT_CELLS_HEADER_WORDS;
     const LIGHT_SLOT_COUNT_SHIFT: u32 = table::LIGHT_SLOT_COUNT_SHIFT;
     const LIGHT_SLOT_MASK: u32 = table::LIGHT_SLOT_MASK;
     const LIGHT_SLOT_STRIDE: u32 = table::LIGHT_SLOT_STRIDE;

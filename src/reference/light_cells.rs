@@ -67,13 +67,13 @@ pub struct LightsSettled<'a> {
 pub fn settle(scene: &Scene) -> Result<LightsSettled<'_>, RenderError> {
     let is_open = scene.render.light_choice == LightChoice::Auto;
     let with = |light_choice| Scene { render: RenderSettings { light_choice, ..scene.render.clone() }, ..scene.clone() };
-    let by_cells = if is_open { Cow::Owned(with(LightChoice::Cells)) } else { Cow::Borrowed(scene) };
     let as_it_is = LightsSettled { scene: Cow::Borrowed(scene), integrator: None, because: None };
-    let fewest = if is_open { FEWEST_LIGHTS } else { 0 };
-    let is_by_cells = |lights: usize| lights >= fewest && LightWay::of(by_cells.render.light_choice, lights) == LightWay::Cells;
+    let (choice, fewest) = if is_open { (LightChoice::Cells, FEWEST_LIGHTS) } else { (scene.render.light_choice, 0) };
+    let is_by_cells = |lights: usize| lights >= fewest && LightWay::of(choice, lights) == LightWay::Cells;
     if !is_sampled(scene) || !is_by_cells(most_local_lights(scene)) || (is_open && !is_worth_learning(scene)) {
         return Ok(as_it_is);
     }
+    let by_cells = if is_open { Cow::Owned(with(choice)) } else { Cow::Borrowed(scene) };
     let mut integrator = Integrator::new(&by_cells)?;
     if !is_by_cells(integrator.lights().local_count()) {
         return Ok(as_it_is);

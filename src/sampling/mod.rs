@@ -8,6 +8,7 @@
 //! differ in their quality and not in what they cost. Dimensions beyond the sequence's last come from the hashed generator.
 
 pub mod alias;
+pub mod cell_grid;
 pub mod dimension;
 pub mod environment;
 pub mod filter;

@@ -12,6 +12,7 @@ use crate::packed::material::{self, PackedMaterial};
 use crate::packed::scene::PackedScene;
 use crate::packed::shape::PrimitiveKind;
 use crate::packed::texture::{self, PackedTexture, PackedTextureKind, TexelFormat};
+use crate::sampling::cell_grid::FACINGS;
 use crate::sampling::light_cells::table as light_cells;
 use crate::sampling::{HierarchicalWarp, light_tree};
 use crate::scene::LobeKind;
@@ -167,7 +168,7 @@ impl PackedScene {
         let Some((header, rest)) = self.light_cells.split_at_checked(light_cells::HEADER) else {
             return if self.light_cells.is_empty() { Ok(()) } else { Err("the cells of lights have no header".to_owned()) };
         };
-        let boxes = header[4..7].iter().try_fold(light_cells::FACINGS, |product, &count| product.checked_mul(count as usize));
+        let boxes = header[4..7].iter().try_fold(FACINGS, |product, &count| product.checked_mul(count as usize));
         let first_cell = header[7] as usize;
         let Some((index, slots)) =
             boxes.filter(|boxes| light_cells::HEADER + boxes == first_cell).and_then(|boxes| rest.split_at_checked(boxes))

@@ -174,26 +174,29 @@ fn pixel_count(scene: &Scene) -> u64 {
 /// Chooses what the settings leave open, and leaves it in the pilot's: how lights are drawn from, then where roulette begins. Returns why.
 fn choose(pilot: &mut Pilot<'_>, open: Open) -> Reasons {
     let first = Tried { sampling: pilot.settings.light_sampling, samples: [1, 1], loss: 1.0 };
-    let simplest = pilot.try_way(first);
+    let (simplest, effects) = pilot.try_with_roulette(first);
+    if !simplest.has_noise() {
+        pilot.settings = pilot.way(first);
+        if open.roulette {
+            pilot.settings.roulette_depth = ROULETTE_DEPTHS[0].into();
+        }
+        return open.reasons("a pilot found no noise");
+    }
     let in_view = InView::new(&mut pilot.integrator, pilot.pixels);
     let mut best = first;
-    let nothing_to_gain = if !simplest.has_noise() {
-        Some("a pilot found no noise")
-    } else {
-        // An environment of one colour is no light that is sampled.
-        (simplest.rays().shadow == 0.0).then_some("no light is sampled")
-    };
-    if open.draws_from_lights() && nothing_to_gain.is_none() {
+    // An environment of one colour is no light that is sampled.
+    let samples_lights = simplest.rays().shadow > 0.0;
+    if open.draws_from_lights() && samples_lights {
         best = best_way(pilot, first, open, (&simplest, &in_view));
     }
-    let light_samples = open.light_samples.then(|| match nothing_to_gain {
-        Some(because) => because.to_owned(),
-        None => format!("a pilot found {:.2} of the error × cost of one light sample", best.loss),
+    let light_samples = open.light_samples.then(|| match samples_lights {
+        false => "no light is sampled".to_owned(),
+        true => format!("a pilot found {:.2} of the error × cost of one light sample", best.loss),
     });
     let mut reasons = Reasons { light_samples, ..Reasons::default() };
     pilot.settings = pilot.way(best);
     if open.roulette {
-        let (found, effects) = pilot.try_roulette();
+        let (found, effects) = if best == first { (simplest, effects) } else { pilot.try_with_roulette(best) };
         let losses = losses_of_roulette(&found, &effects, &in_view, |rays| pilot.cost_of_roulette(rays));
         let (depth, because) = best_roulette(losses, pilot.settings.max_depth);
         pilot.settings.roulette_depth = depth.into();
@@ -292,17 +295,20 @@ impl<'a> Pilot<'a> {
         let settings = self.way(tried);
         self.integrator.set_light_sampling(&settings);
         let mut found = Found::new(&self.integrator, self.pixels);
-        if self.shadow_rays == 0.0 {
-            self.shadow_rays = found.rays().shadow;
-        }
         found.cost = self.cost(found.rays(), &settings);
         found
     }
 
-    /// What the settings' way finds, and what roulette would do to its paths.
-    fn try_roulette(&mut self) -> (Found, Vec<Effects>) {
-        self.integrator.set_light_sampling(&self.settings);
-        Found::with_roulette(&self.integrator, self.pixels)
+    /// As [`Pilot::try_way`], with what roulette would do to its paths. The first way is tried so.
+    fn try_with_roulette(&mut self, tried: Tried) -> (Found, Vec<Effects>) {
+        let settings = self.way(tried);
+        self.integrator.set_light_sampling(&settings);
+        let (mut found, effects) = Found::with_roulette(&self.integrator, self.pixels);
+        if self.shadow_rays == 0.0 {
+            self.shadow_rays = found.rays().shadow;
+        }
+        found.cost = self.cost(found.rays(), &settings);
+        (found, effects)
     }
 
     /// What rays take, in rays of paths, by what kernels take on software devices, where lanes wait for each other.

@@ -2,10 +2,9 @@
 
 use glam::{DVec3, Vec3};
 
-use super::table::{
-    BINS, CELL_WORDS, GUIDE_COLUMNS, GUIDE_HEADER_WORDS, GUIDE_ROWS, Guide, WHOLE, bin, facing, packed_axis, unpacked_axis,
-};
+use super::table::{BINS, CELL_WORDS, GUIDE_COLUMNS, GUIDE_ROWS, Guide, WHOLE, bin, packed_axis, unpacked_axis};
 use crate::math::Frame;
+use crate::sampling::cell_grid::{CellGrid, FACINGS, Region, facing};
 
 /// Boxes of the grid at most, for each of six facings.
 const MOST_BOXES: usize = 1 << 16;
@@ -14,8 +13,6 @@ const MOST_CELLS: usize = 8192;
 /// Arrivals of a cell at least, and from which on it is cut in two.
 const FEWEST_ARRIVALS: usize = 64;
 const MOST_ARRIVALS: usize = 320;
-/// Share of the arrivals that lie outside the grid along each axis on either side: far ones would make its boxes too large.
-const OUTLIERS: f64 = 0.002;
 /// The even share of a histogram that was made of so many arrivals is a half.
 const DOUBT: f64 = 16.0;
 /// Least even share of a histogram.
@@ -38,15 +35,10 @@ pub struct Arrival {
     pub sent_on: [f32; 2],
 }
 
-/// Boxes of one facing, a range along each axis.
-type Region = [[u32; 2]; 3];
-
 /// Puts a guide together.
 struct Builder<'a> {
     arrivals: &'a [Arrival],
-    origin: DVec3,
-    inverse: f64,
-    counts: [u32; 3],
+    grid: CellGrid,
     /// The cells' numbers, by facing and box.
     index: Vec<u32>,
     cells: Vec<u32>,
@@ -58,62 +50,27 @@ pub fn learn(arrivals: &[Arrival]) -> Option<Guide> {
     if arrivals.len() < FEWEST_ARRIVALS {
         return None;
     }
-    let [low, high] = bounds(arrivals);
-    let size = high - low;
-    // Flat scenes have some depth all the same; and no wall stands on the border between two boxes by a round number.
-    let extent = (size.max(DVec3::splat(size.max_element() * 1e-3)) * 1.017).max(DVec3::splat(1e-6));
-    let origin = (low - extent * 0.00731).as_vec3().as_dvec3();
-    let mut side = (extent.element_product() / MOST_BOXES as f64).cbrt();
-    let counts = loop {
-        let counts = (extent / side).ceil().max(DVec3::ONE);
-        if counts.element_product() <= MOST_BOXES as f64 {
-            break counts.to_array().map(|count| count as u32);
-        }
-        side *= 1.03;
-    };
-    let inverse = f64::from((1.0 / side) as f32);
-    let boxes = counts.iter().product::<u32>() as usize;
+    let grid = CellGrid::around(arrivals.iter().map(|arrival| arrival.position.as_dvec3()), MOST_BOXES);
     let mut builder = Builder {
         arrivals,
-        origin,
-        inverse,
-        counts,
-        index: vec![0; 6 * boxes],
+        grid,
+        index: grid.empty_index(),
         cells: Vec::new(),
         most_arrivals: MOST_ARRIVALS.max(2 * arrivals.len() / MOST_CELLS),
     };
-    let mut of_facings: [Vec<u32>; 6] = Default::default();
+    let mut of_facings: [Vec<u32>; FACINGS] = Default::default();
     for (number, arrival) in arrivals.iter().enumerate() {
-        if builder.place(arrival.position.as_dvec3()).is_some() {
+        if grid.place(arrival.position.as_dvec3()).is_some() {
             of_facings[facing(arrival.normal.as_dvec3()) as usize].push(number as u32);
         }
     }
     for (facing, mut members) in of_facings.into_iter().enumerate() {
-        builder.divide(facing as u32, counts.map(|count| [0, count]), &mut members);
+        builder.divide(facing as u32, grid.region(), &mut members);
     }
     (!builder.cells.is_empty()).then(|| builder.finish())
 }
 
-/// The box around all arrivals but a few.
-fn bounds(arrivals: &[Arrival]) -> [DVec3; 2] {
-    let left_out = (OUTLIERS * arrivals.len() as f64) as usize;
-    let along = |axis: usize| {
-        let mut places: Vec<f64> = arrivals.iter().map(|arrival| f64::from(arrival.position[axis])).collect();
-        places.sort_unstable_by(f64::total_cmp);
-        [places[left_out], places[places.len() - 1 - left_out]]
-    };
-    let [x, y, z] = [along(0), along(1), along(2)];
-    [DVec3::new(x[0], y[0], z[0]), DVec3::new(x[1], y[1], z[1])]
-}
-
 impl Builder<'_> {
-    /// The box that a point is in.
-    fn place(&self, position: DVec3) -> Option<[u32; 3]> {
-        let place = (position - self.origin) * self.inverse;
-        let inside = |axis: usize| place[axis] >= 0.0 && place[axis] < f64::from(self.counts[axis]);
-        (0..3).all(inside).then(|| place.to_array().map(|place| place as u32))
-    }
-
     /// Cuts a region in two for as long as both halves have enough arrivals, and makes cells of what is left.
     fn divide(&mut self, facing: u32, region: Region, members: &mut [u32]) {
         if members.len() < FEWEST_ARRIVALS {
@@ -128,7 +85,7 @@ impl Builder<'_> {
             }
             let middle = first + (end - first) / 2;
             let is_before = |number: u32| {
-                let place = self.place(self.arrivals[number as usize].position.as_dvec3());
+                let place = self.grid.place(self.arrivals[number as usize].position.as_dvec3());
                 place.is_some_and(|place| place[axis] < middle)
             };
             let (before, behind): (Vec<u32>, Vec<u32>) = members.iter().partition(|number| is_before(**number));
@@ -173,23 +130,11 @@ impl Builder<'_> {
         let sent_on = [0, 1].map(|which| arrivals().map(|arrival| f64::from(arrival.sent_on[which])).sum::<f64>() / count);
         self.cells.extend(packed_cell(axis, &shares, sent_on));
         let number = (self.cells.len() / CELL_WORDS) as u32;
-        let [width, height, depth] = self.counts;
-        let [xs, ys, zs] = region;
-        for z in zs[0]..zs[1] {
-            for y in ys[0]..ys[1] {
-                let row = ((facing * depth + z) * height + y) * width;
-                self.index[(row + xs[0]) as usize..(row + xs[1]) as usize].fill(number);
-            }
-        }
+        self.grid.fill(&mut self.index, facing, region, number);
     }
 
     fn finish(self) -> Guide {
-        let first = GUIDE_HEADER_WORDS + self.index.len() as u32;
-        let mut words = self.origin.as_vec3().to_array().map(f32::to_bits).to_vec();
-        words.push((self.inverse as f32).to_bits());
-        words.extend(self.counts);
-        words.push(first);
-        words.extend(self.index);
+        let mut words = self.grid.table(&self.index);
         words.extend(self.cells);
         Guide { words }
     }

@@ -1,26 +1,21 @@
 //! A guide as a table, and what is read from it.
 //!
-//! The table consists of words of 32 bits, because each word that a kernel loads costs:
-//!
-//! - from 0 on: where the grid begins, and the inverse size of its boxes, as the bits of f32; how many boxes it has along x, y and z; the first
-//!   word of the cells;
-//! - then a word for each facing and box, x first, then y, z and the facing: the cell's number from 1, or 0 where there is no guide;
-//! - [`GUIDE_CELL_WORDS`] for each cell: its axis, and its bins, row after row. Of a bin the lower half is its start, the sum of the shares of all
-//!   bins before it, and the upper half its share, in 65536ths. Then, as the bits of f32, what a surface there sends on ([`GuideCell::sent_on`]).
+//! It begins as [`crate::sampling::cell_grid`] says, with the cell's number from 1 in the index, or 0 where there is no guide.
+//! Then come [`GUIDE_CELL_WORDS`] for each cell: its axis, and its bins, row after row. Of a bin the lower half is its start, the sum of the shares of all
+//! bins before it, and the upper half its share, in 65536ths. Then, as the bits of f32, what a surface there sends on ([`GuideCell::sent_on`]).
 
 use std::f64::consts::PI;
 
 use glam::DVec3;
 
 use crate::math::{Frame, octahedron};
+use crate::sampling::cell_grid::{CellGrid, GRID_HEADER_WORDS, facing};
 
 /// Bins of a histogram: rows by the squared sine of the angle with the axis, columns around it.
 pub const GUIDE_ROWS: u32 = 8;
 pub const GUIDE_COLUMNS: u32 = 16;
 /// Words of a cell.
 pub const GUIDE_CELL_WORDS: u32 = 1 + GUIDE_ROWS * GUIDE_COLUMNS + 2;
-/// Words before the index.
-pub const GUIDE_HEADER_WORDS: u32 = 8;
 /// Share of the directions that the guide draws, where a surface scatters by diffuse lobes alone. What the guide does not know of is found
 /// less often and then counts for more: with a half, fireflies of paths that training did not find outweighed the gain.
 pub const GUIDED_SHARE: f32 = 0.375;
@@ -28,9 +23,6 @@ pub const GUIDED_SHARE: f32 = 0.375;
 pub const SURVIVAL_FACTOR: f32 = 3.0;
 /// The least chance to go on: what is expected is an estimate.
 pub const LEAST_SURVIVAL: f32 = 0.1;
-/// By these the components of a normal are weighed where the largest says which way it faces: none of 45° lies on a border.
-pub const FACING_WEIGHT_Y: f32 = 1.0078125;
-pub const FACING_WEIGHT_Z: f32 = 1.015625;
 /// Steps of the octahedron's coordinates in which axes are kept.
 pub const GUIDE_AXIS_STEP: f32 = 1.0 / 127.0;
 
@@ -56,19 +48,6 @@ pub struct GuideCell<'a> {
     frame: Frame,
 }
 
-/// Which way a normal faces: twice the axis along which it is longest, and one more where it points down that axis.
-pub fn facing(normal: DVec3) -> u32 {
-    let weighed = normal.abs() * DVec3::new(1.0, f64::from(FACING_WEIGHT_Y), f64::from(FACING_WEIGHT_Z));
-    let axis = if weighed.x >= weighed.y && weighed.x >= weighed.z {
-        0
-    } else if weighed.y >= weighed.z {
-        1
-    } else {
-        2
-    };
-    2 * axis + u32::from(normal[axis as usize] < 0.0)
-}
-
 impl Guide {
     /// The table, as devices read it.
     pub fn words(&self) -> &[u32] {
@@ -85,18 +64,8 @@ impl Guide {
 
     /// What the guide knows of a point on a surface, whose normal is on the side from where it is seen.
     pub fn cell(&self, position: DVec3, normal: DVec3) -> Option<GuideCell<'_>> {
-        let number = |word: usize| f64::from(f32::from_bits(self.words[word]));
-        let [width, height, depth] = [self.words[4], self.words[5], self.words[6]];
-        let mut boxes = [0; 3];
-        for (axis, count) in [width, height, depth].into_iter().enumerate() {
-            let place = (position[axis] - number(axis)) * number(3);
-            if !(place >= 0.0 && place < f64::from(count)) {
-                return None;
-            }
-            boxes[axis] = place as u32;
-        }
-        let index = ((facing(normal) * depth + boxes[2]) * height + boxes[1]) * width + boxes[0];
-        let number = self.words[(GUIDE_HEADER_WORDS + index) as usize];
+        let index = CellGrid::of_table(&self.words).index_of(facing(normal), position)?;
+        let number = self.words[GRID_HEADER_WORDS as usize + index];
         let start = self.first_cell() + CELL_WORDS * (number.checked_sub(1)? as usize);
         let words = &self.words[start..start + CELL_WORDS];
         Some(GuideCell { words, frame: Frame::around(unpacked_axis(words[0])) })

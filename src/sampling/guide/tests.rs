@@ -2,8 +2,9 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::table::{GUIDE_COLUMNS, GUIDE_ROWS, facing};
+use super::table::{GUIDE_COLUMNS, GUIDE_ROWS};
 use super::{Arrival, BINS, Guide, GuideCell, learn};
+use crate::sampling::cell_grid::facing;
 use crate::sampling::hash::mix;
 use crate::sampling::sampler::uniform;
 

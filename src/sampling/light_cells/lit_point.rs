@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::sampling::guide::table::facing;
+use crate::sampling::cell_grid::facing;
 
 /// Where light is sampled from: a point on a surface, and which way the surface faces there.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,14 +1,11 @@
 //! Cells of lights as a table, and what is read from it.
 //!
-//! The table consists of words of 32 bits, because each word that a kernel loads costs:
-//!
-//! - from 0 on: where the grid begins, and the inverse size of its boxes, as the bits of f32; how many boxes it has along x, y and z; the first
-//!   word of the cells;
-//! - then a word for each facing and box, x first, then y, z and the facing: the cell's number from 1, or 0 where nothing is known;
-//! - [`LIGHT_CELL_SLOTS`] for each cell, by the number of the light that they name, which is in the lower bits; in the upper ones stands how
-//!   many slots of the cell name it.
+//! It begins as [`crate::sampling::cell_grid`] says, with the cell's number from 1 in the index, or 0 where nothing is known. Then come
+//! [`LIGHT_CELL_SLOTS`] for each cell, by the number of the light that they name, which is in the lower bits; in the upper ones stands how
+//! many slots of the cell name it.
 
 use super::lit_point::LitPoint;
+use crate::sampling::cell_grid::{CellGrid, GRID_HEADER_WORDS};
 
 /// Random bits that say by which of all units a light is chosen: slots of a cell, and those that leave the choice to power.
 pub const LIGHT_UNIT_BITS: u32 = 7;
@@ -19,8 +16,6 @@ pub const LIGHT_UNITS_BY_POWER_BITS: u32 = 4;
 pub const LIGHT_UNITS_BY_POWER: u32 = 1 << LIGHT_UNITS_BY_POWER_BITS;
 /// The rest of the values: slots of a cell.
 pub const LIGHT_CELL_SLOTS: u32 = (1 << LIGHT_UNIT_BITS) - LIGHT_UNITS_BY_POWER;
-/// Words before the index.
-pub const LIGHT_CELLS_HEADER_WORDS: u32 = 8;
 /// Where the number of slots stands in a slot, above the number of the light.
 pub const LIGHT_SLOT_COUNT_SHIFT: u32 = 20;
 pub const LIGHT_SLOT_MASK: u32 = (1 << LIGHT_SLOT_COUNT_SHIFT) - 1;
@@ -30,9 +25,7 @@ pub const LIGHT_SLOT_STRIDE: u32 = 1 << (LIGHT_UNIT_BITS - 1);
 /// Words of a cell.
 pub const SLOTS: usize = LIGHT_CELL_SLOTS as usize;
 /// Words before the index.
-pub const HEADER: usize = LIGHT_CELLS_HEADER_WORDS as usize;
-/// Ways that a surface can face.
-pub const FACINGS: usize = 6;
+pub const HEADER: usize = GRID_HEADER_WORDS as usize;
 
 /// Which lights reach which part of a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -50,7 +43,7 @@ pub struct LightCell<'a> {
 impl Default for LightCells {
     fn default() -> Self {
         let mut words = vec![0; HEADER];
-        words[HEADER - 1] = LIGHT_CELLS_HEADER_WORDS;
+        words[HEADER - 1] = GRID_HEADER_WORDS;
         Self { words }
     }
 }
@@ -72,18 +65,8 @@ impl LightCells {
 
     /// What is known of a point on a surface.
     pub fn cell(&self, from: LitPoint) -> Option<LightCell<'_>> {
-        let number = |word: usize| f64::from(f32::from_bits(self.words[word]));
-        let [width, height, depth] = [self.words[4], self.words[5], self.words[6]];
-        let mut boxes = [0; 3];
-        for (axis, count) in [width, height, depth].into_iter().enumerate() {
-            let place = (from.point[axis] - number(axis)) * number(3);
-            if !(place >= 0.0 && place < f64::from(count)) {
-                return None;
-            }
-            boxes[axis] = place as u32;
-        }
-        let index = ((from.facing * depth + boxes[2]) * height + boxes[1]) * width + boxes[0];
-        let number = self.words[(LIGHT_CELLS_HEADER_WORDS + index) as usize];
+        let index = CellGrid::of_table(&self.words).index_of(from.facing, from.point)?;
+        let number = self.words[HEADER + index];
         let start = self.first_cell() + SLOTS * (number.checked_sub(1)? as usize);
         Some(LightCell { slots: &self.words[start..start + SLOTS] })
     }
