@@ -19,7 +19,7 @@ pub const GUIDE_CELL_WORDS: u32 = 1 + GUIDE_ROWS * GUIDE_COLUMNS + 2;
 /// Share of the directions that the guide draws, where a surface scatters by diffuse lobes alone. What the guide does not know of is found
 /// less often and then counts for more: with a half, fireflies of paths that training did not find outweighed the gain.
 pub const GUIDED_SHARE: f32 = 0.375;
-/// What a path is expected to bring yet, over what it was expected to bring at first, that is let go on in any case.
+/// A path goes on with a probability of the root of so many times what it is expected to bring yet, over what it was expected to bring at first.
 pub const SURVIVAL_FACTOR: f32 = 3.0;
 /// The least chance to go on: what is expected is an estimate.
 pub const LEAST_SURVIVAL: f32 = 0.1;
