@@ -91,7 +91,9 @@ class Contestant:
         first, again = (process.render(self.settings[0], 1, seed) for seed in range(2))
         # gpt is started anew for every picture; its first one filled the driver's cache of kernels.
         self.start_up = again["wall"] if process.key == "gpt" else process.seconds_to_start + loading + first["wall"]
-        self.idle_cpu = again["cpu"]
+        # Of a render of no samples at all, by those of 1 and 4.
+        more = process.render(self.settings[0], 4, 2)
+        self.idle_cpu = again["cpu"] - (more["cpu"] - again["cpu"]) / (more["spp"] - again["spp"])
 
     def power_for(self, setting, seconds):
         """Of the sample count, a power of two, whose render takes about that long, at least 2."""
@@ -134,7 +136,7 @@ class Contestant:
         return made
 
     def cpu_seconds(self, levels):
-        """Processor seconds of every level, without those of a render of one sample per pixel."""
+        """Processor seconds of every level, without what a render takes before its first sample."""
         return [np.maximum([each["cpu"] - self.idle_cpu for each in self.samples[level.spp]], 1e-3) for level in levels]
 
     def replications(self):

@@ -113,7 +113,9 @@ def lamps(folder):
         tx, tz = x + generator.uniform(1.2, 2.8), z + generator.uniform(1.2, 2.8)
         scene.add("shape", type="box", min=(tx - 0.5, 0.68, tz - 0.35), max=(tx + 0.5, 0.74, tz + 0.35), material="boards")
         scene.add("shape", type="sphere", center=(tx, 0.92, tz), radius=0.18, material="grey")
-        for _ in range(1000 * (room + 1) // 64 - 1000 * room // 64):
+        for number in range(1000 * (room + 1) // 64 - 1000 * room // 64):
+            # No two lie in one plane: where they overlap, one is before the other.
+            lift = 1e-4 * number
             size = 0.02 * 8 ** generator.random()
             power = 0.4 * 60 ** generator.random()
             kind = generator.choice(("sphere", "disk", "rectangle", "triangle"))
@@ -125,16 +127,16 @@ def lamps(folder):
                 py = generator.uniform(0.3, height - 0.2)
                 scene.add("shape", type="sphere", center=(x + px, py, z + pz), radius=size, material=name)
             elif kind == "disk":
-                scene.add("shape", type="disk", center=(x + px, height - 0.01, z + pz), normal=(0, -1, 0), radius=size, material=name)
+                scene.add("shape", type="disk", center=(x + px, height - 0.01 - lift, z + pz), normal=(0, -1, 0), radius=size, material=name)
             elif kind == "rectangle":
                 # On a wall, facing into the room.
                 y = generator.uniform(1.2, 2.4)
                 if generator.random() < 0.5:
-                    scene.rectangle(name, (x + px, y, z + 0.02), (2 * size, 0, 0), (0, 2 * size, 0))
+                    scene.rectangle(name, (x + px, y, z + 0.02 + lift), (2 * size, 0, 0), (0, 2 * size, 0))
                 else:
-                    scene.rectangle(name, (x + side - 0.02, y, z + pz), (0, 0, 2 * size), (0, 2 * size, 0))
+                    scene.rectangle(name, (x + side - 0.02 - lift, y, z + pz), (0, 0, 2 * size), (0, 2 * size, 0))
             else:
-                points = [[x + px + size * math.cos(a), 1.9, z + pz + size * math.sin(a)] for a in (0.0, 2.1, 4.2)]
+                points = [[x + px + size * math.cos(a), 1.9 + lift, z + pz + size * math.sin(a)] for a in (0.0, 2.1, 4.2)]
                 scene.add("shape", type="mesh", material=name)
                 lines = ", ".join("[" + ", ".join(f"{c:.5f}" for c in point) + "]" for point in points)
                 scene.text[-1] += f"positions = [{lines}]\nfaces = [[0, 1, 2]]\n"

@@ -14,7 +14,7 @@ use super::bsdf::{Bsdf, BsdfSample, Density};
 use super::camera::ProjectiveCamera;
 use super::emission::{emitted, null_weight};
 use super::guided::GuidedBsdf;
-use super::intersect::{Outline, Owner, PathTime, Ray, Surface, World};
+use super::intersect::{Hit, Outline, Owner, PathTime, Ray, Surface, World};
 use super::lights::{LightSample, Lights};
 use super::mis;
 use super::roulette::{self, Expectation};
@@ -231,10 +231,26 @@ impl Integrator {
         PathTime::new(&self.scene, open + (close - open) * sampler.uniform(Dimension::camera(CameraDimension::Time)))
     }
 
+    /// The first surface that a path's ray meets; where others are as close but for rounding, one of them.
+    fn first_hit<V: PathVisitor>(&self, ray: &Ray, time: &PathTime, visitor: &mut V) -> Option<Hit> {
+        let first = self.world.closest(*ray, time)?;
+        if !V::ROUNDS {
+            return Some(first);
+        }
+        let magnitude = ray.origin.abs().max(ray.at(first.distance).abs()).max_element();
+        let (farther, number) = visitor.round_first(magnitude);
+        if farther == 0.0 {
+            return Some(first);
+        }
+        let mut met = self.world.hits_before(*ray, first.distance + farther, time);
+        // At an edge, the limit may be what keeps the first from being met again.
+        (!met.is_empty()).then(|| met.swap_remove(number as usize % met.len())).or(Some(first))
+    }
+
     /// Follows the path's ray to the next surface, adds the light found there, and chooses the next ray. False where the path ends.
     fn extend<V: PathVisitor>(&self, path: &mut Path, sampler: &PathSampler, visitor: &mut V) -> bool {
         visitor.ray(&path.ray);
-        let Some(hit) = self.world.closest(path.ray, &path.time) else {
+        let Some(hit) = self.first_hit(&path.ray, &path.time, visitor) else {
             path.throughput *= transmittance(path.extinction, f64::INFINITY);
             self.add_environment(path, visitor);
             return false;

@@ -102,6 +102,11 @@ impl PathVisitor for Rounding {
         ray.origin += error;
     }
 
+    fn round_first(&mut self, magnitude: f64) -> (f64, u32) {
+        self.state = self.state.wrapping_add(0x9e37_79b9);
+        (self.size * magnitude, mix(self.state))
+    }
+
     fn round_surface(&mut self, surface: &mut Surface) {
         self.round_direction(&mut surface.shading_normal);
         if let Some(normal) = &mut surface.coat_normal {

@@ -47,6 +47,11 @@ pub trait PathVisitor {
     const ROUNDS: bool = false;
     /// A ray about to be traced, and the point of a surface that it leaves; none for the camera's.
     fn round_ray(&mut self, _ray: &mut Ray, _left: Option<&SurfacePoint>) {}
+    /// By how much more than the first surface another may be away and be met in its place, where coordinates have this magnitude; and a number
+    /// that chooses among those.
+    fn round_first(&mut self, _magnitude: f64) -> (f64, u32) {
+        (0.0, 0)
+    }
     /// A surface that was met.
     fn round_surface(&mut self, _surface: &mut Surface) {}
     /// A direction of unit length.

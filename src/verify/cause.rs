@@ -203,6 +203,32 @@ mod tests {
         }
     }
 
+    /// Of surfaces in one plane a device may meet any, but nothing else.
+    #[test]
+    fn which_of_two_surfaces_in_one_plane_is_met_is_a_decision() {
+        let text = r#"
+            film = { size = [24, 16] }
+            camera = { position = [0.3, 0.4, 5.0], look_at = [0.1, 0.0, 0.0], vfov = 40 }
+            render = { spp = 1 }
+            material = [{ name = "red", type = "emissive", radiance = [2.0, 0.1, 0.1] }, { name = "blue", type = "emissive", radiance = [0.1, 0.1, 3.0] }]
+            shape = [
+                { type = "rectangle", corner = [-9.0, -9.0, 0.2], edge_u = [18.0, 0.0, 0.0], edge_v = [0.0, 18.0, 0.0], material = "red" },
+                { type = "rectangle", corner = [-7.7, -8.1, 0.2], edge_u = [15.3, 0.0, 0.0], edge_v = [0.0, 16.9, 0.0], material = "blue" },
+            ]
+        "#;
+        let scene = load::load_toml_str(text, "planes", std::path::Path::new(".")).expect("it is sound");
+        let reference = ReferenceRenderer::new(&scene).expect("it is supported");
+        let [red, blue, neither] = [DVec3::new(2.0, 0.1, 0.1), DVec3::new(0.1, 0.1, 3.0), DVec3::new(1.0, 0.1, 1.5)];
+        let causes = |other: fn([DVec3; 3], DVec3) -> DVec3| -> Vec<Cause> {
+            let pairs = pairs(&reference, |_, value| other([red, blue, neither], value));
+            pairs.iter().map(|pair| of(pair, &reference)).collect()
+        };
+        let of_the_other = causes(|[red, blue, _], value| if value.distance(red) < 1e-6 { blue } else { red });
+        assert!(of_the_other.iter().all(|cause| *cause == Cause::Decision), "{of_the_other:?}");
+        let of_neither = causes(|[.., neither], _| 4.0 * neither);
+        assert!(of_neither.iter().all(|cause| *cause == Cause::Unexplained), "{of_neither:?}");
+    }
+
     /// Each of many is as likely to be chosen as any other: of 4000 paths, 100 from every thousand within four standard deviations.
     #[test]
     fn the_selection_is_even() {

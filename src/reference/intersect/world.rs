@@ -198,6 +198,27 @@ impl World {
         closest
     }
 
+    /// What the ray meets before `limit`, each primitive once.
+    pub fn hits_before(&self, ray: Ray, limit: f64, time: &PathTime) -> Vec<Hit> {
+        let prepared = PreparedRay::new(ray);
+        let mut hits = Vec::new();
+        let mut add = |surface, met: Option<(f64, Local)>| {
+            hits.extend(met.map(|(distance, local)| Hit { surface, distance, local }));
+        };
+        for (index, (primitive, _)) in self.infinite.iter().enumerate() {
+            add(SurfaceId::Infinite(index), primitive.intersect(&prepared, limit));
+        }
+        self.hierarchy.traverse(&prepared, limit, |index, limit| {
+            add(SurfaceId::Primitive(index), self.intersect(index, &prepared, limit, time));
+            limit
+        });
+        self.instances.traverse(&prepared, limit, time, |surface, distance, local, limit| {
+            add(surface, Some((distance, local)));
+            limit
+        });
+        hits
+    }
+
     /// The share of light that comes through all that the ray meets but `target` before `limit`: the product of what each surface lets through,
     /// `share`, of those whose materials let any through. `target` is the index of the primitive the ray ends on.
     pub fn transmittance(
