@@ -3,130 +3,19 @@
 //! Every feature is measured in a room beside the same room without it, in turn. *Compiled in* renders the plain room by kernels that hold
 //! the feature's code though nothing there needs it: what "a scene compiles only what it uses" saves. *Used* renders a room that has it.
 
+use std::collections::BTreeSet;
 use std::time::Instant;
 
 use serde::Serialize;
 
+use super::feature_rooms::Feature;
 use super::interval::{Ratio, Spread};
 use super::scenes::Room;
 use super::subject::{BenchError, Devices, SceneSubject, Subject};
 use crate::gpu::{Device, GpuRenderer};
-use crate::plan::{PlanOptions, TraversalChoice};
+use crate::plan::PlanOptions;
 use crate::renderer::{DeviceChoice, Observer, RenderError, RenderRequest, Renderer};
 use crate::scene::Scene;
-
-/// A feature, where it is used, and the switches that compile it.
-pub struct Feature {
-    pub name: &'static str,
-    room: Room,
-    /// Empty where nothing but use brings it in.
-    switches: &'static [&'static str],
-    /// It needs the hierarchy: the plain room is then measured with one as well. What does not move may still stand outside of it, where few
-    /// shapes are faster, so that the two differ by more than the feature.
-    hierarchy: bool,
-}
-
-const TEXTURE: &str = "type = \"diffuse\"\nreflectance = { texture = \"pattern\" }";
-
-/// All that are measured.
-pub fn features() -> Vec<Feature> {
-    let material =
-        |name, material, switches| Feature { name, room: Room { material, ..Room::default() }, switches, hierarchy: false };
-    let textured = |name, more, switches| Feature {
-        name,
-        room: Room { material: TEXTURE, more, ..Room::default() },
-        switches,
-        hierarchy: false,
-    };
-    let with = |name, room, switches| Feature { name, room, switches, hierarchy: false };
-    let plain = Room::default;
-    vec![
-        material("mirror", "type = \"mirror\"\nreflectance = 0.9", &["MIRROR"]),
-        material("glass", "type = \"glass\"\nior = 1.5", &["GLASS"]),
-        material("glossy", "type = \"glossy\"\nreflectance = 0.7\nexponent = 50", &["GLOSSY", "ROUGHNESS"]),
-        material("phong", "type = \"phong\"\ndiffuse = 0.4\nspecular = 0.4\nexponent = 50", &["COLOR1", "PHONG", "ROUGHNESS"]),
-        material("conductor", "type = \"conductor\"\nreflectance = 0.9\nroughness = 0.4", &["CONDUCTOR", "ROUGHNESS"]),
-        material(
-            "rough glass",
-            "type = \"rough_glass\"\nior = 1.5\nroughness = 0.4",
-            &["COLOR1", "NON_DELTA_TRANSMISSION", "ROUGHNESS", "ROUGH_GLASS"],
-        ),
-        with(
-            "blend of two lobes",
-            Room {
-                material: "type = \"blend\"\nmaterials = [\"white\", \"shine\"]\nweight = { type = \"fresnel\", ior = 1.5 }",
-                more: "[[material]]\nname = \"shine\"\ntype = \"mirror\"\nreflectance = 1",
-                ..plain()
-            },
-            &["BLENDS", "MIRROR", "MIXTURE", "MORE_LOBES"],
-        ),
-        textured(
-            "checker texture",
-            "[[texture]]\nname = \"pattern\"\ntype = \"checker\"\na = 0.2\nb = 0.8\nscale = [4, 4]",
-            &["CHECKERS", "PROCEDURAL_TEXTURES", "TEXTURES"],
-        ),
-        textured(
-            "perlin texture",
-            "[[texture]]\nname = \"pattern\"\ntype = \"perlin\"\na = 0.2\nb = 0.8\nscale = 4\noctaves = 4",
-            &["PERLIN", "PROCEDURAL_TEXTURES", "TEXTURES"],
-        ),
-        textured(
-            "worley texture",
-            "[[texture]]\nname = \"pattern\"\ntype = \"worley\"\na = 0.2\nb = 0.8\nscale = 4",
-            &["PROCEDURAL_TEXTURES", "TEXTURES", "WORLEY"],
-        ),
-        with(
-            "sphere",
-            Room { object: "type = \"sphere\"\ncenter = [-0.5, 0.7, -0.4]\nradius = 0.6\nmaterial = \"subject\"", ..plain() },
-            &["SPHERES"],
-        ),
-        with(
-            "point light",
-            Room { more: "[[light]]\ntype = \"point\"\nposition = [0, 1.8, 1]\nintensity = 1", ..plain() },
-            &["POINT_LIGHT"],
-        ),
-        with(
-            "spot light",
-            Room {
-                more: "[[light]]\ntype = \"spot\"\nposition = [0, 1.8, 1]\ndirection = [0, -1, -0.5]\nintensity = 1\nangle = 40",
-                ..plain()
-            },
-            &["SPOT_LIGHT"],
-        ),
-        with(
-            "sky",
-            Room {
-                more: "[[light]]\ntype = \"sky\"\nzenith = [0.4, 0.7, 1.6]\nhorizon = [1.5, 1.4, 1.2]\nground = [0.2, 0.2, 0.15]",
-                ..plain()
-            },
-            &["ENVIRONMENT", "SKY"],
-        ),
-        with(
-            "lens",
-            Room { camera: "aperture = { shape = \"disk\", radius = 0.05 }\nfocus_distance = 4.4", ..plain() },
-            &["LENS"],
-        ),
-        with(
-            "gaussian filter",
-            Room { film: "filter = { type = \"gaussian\", radius = 1.5 }", ..plain() },
-            // A box sampled as another filter's curve is another picture.
-            &[],
-        ),
-        with("halton sampler", Room { render: "sampler = \"halton\"", ..plain() }, &[]),
-        with("independent sampler", Room { render: "sampler = \"independent\"", ..plain() }, &[]),
-        Feature {
-            name: "motion",
-            room: Room {
-                camera: "shutter = [0, 1]",
-                object: "type = \"box\"\nmin = [-0.9, 0, -0.8]\nmax = [-0.1, 1.3, 0]\nmaterial = \"subject\"\n\
-                         motion = [{ translate = [0.1, 0.1, 0] }]",
-                ..plain()
-            },
-            switches: &["ATTRIBUTES", "MOTION"],
-            hierarchy: true,
-        },
-    ]
-}
 
 /// What is wanted.
 #[derive(Debug, Clone)]
@@ -155,7 +44,7 @@ pub struct FeatureCost {
     pub feature: String,
     pub switches: Vec<&'static str>,
     pub off: Variant,
-    /// None where nothing but use compiles it.
+    /// None where it adds no switch, or is never compiled without being used.
     pub compiled_in: Option<Variant>,
     pub used: Variant,
     /// The plain room came out the same with the feature compiled in as without, but for rounding.
@@ -182,16 +71,14 @@ pub fn measure(
         Ok(scene)
     };
     let (plain, with) = (sized(&Room::default())?, sized(&feature.room)?);
-    let plan = |switches: &[&'static str]| PlanOptions {
-        traversal: if feature.hierarchy { TraversalChoice::Bvh } else { TraversalChoice::Auto },
-        compile_in: switches.to_vec(),
-        ..PlanOptions::default()
-    };
-    let mut candidates = vec![Candidate::new(&device, &plain, &plan(&[]), observer)?];
-    if !feature.switches.is_empty() {
-        candidates.push(Candidate::new(&device, &plain, &plan(feature.switches), observer)?);
+    let off = Candidate::new(&device, &plain, &feature.plan(&[]), observer)?;
+    let used = Candidate::new(&device, &with, &feature.plan(&[]), observer)?;
+    let switches = feature.switches(&off.switches, &used.switches);
+    let mut candidates = vec![off];
+    if !switches.is_empty() {
+        candidates.push(Candidate::new(&device, &plain, &feature.plan(&switches), observer)?);
     }
-    candidates.push(Candidate::new(&device, &with, &plan(&[]), observer)?);
+    candidates.push(used);
     for round in 0..=options.rounds {
         for turn in 0..candidates.len() {
             let index = (turn + round as usize) % candidates.len();
@@ -204,18 +91,13 @@ pub fn measure(
     let missing = || BenchError::Internal("a variant was not measured".to_owned());
     let off = variants.next().ok_or_else(missing)?;
     let used = variants.next_back().ok_or_else(missing)?;
-    Ok(FeatureCost {
-        feature: feature.name.to_owned(),
-        switches: feature.switches.to_vec(),
-        off,
-        compiled_in: variants.next(),
-        used,
-        compiled_in_agrees,
-    })
+    Ok(FeatureCost { feature: feature.name.to_owned(), switches, off, compiled_in: variants.next(), used, compiled_in_agrees })
 }
 
 /// A room made ready, and its runs.
 struct Candidate<'a> {
+    /// Those of its kernels.
+    switches: BTreeSet<&'static str>,
     subject: SceneSubject<'a>,
     first_picture_seconds: f64,
     seconds: Vec<f64>,
@@ -229,6 +111,7 @@ impl<'a> Candidate<'a> {
         let mut renderer = GpuRenderer::on(device, scene, plan)?;
         renderer.render(&RenderRequest { rows: 0..scene.film.size[1], samples: 0..1 }, observer, &mut |_| Ok(()))?;
         Ok(Self {
+            switches: renderer.plan().switches.enabled.clone(),
             first_picture_seconds: start.elapsed().as_secs_f64(),
             subject: SceneSubject { renderer: Box::new(renderer), size: scene.film.size, observer },
             seconds: Vec::new(),
@@ -267,29 +150,6 @@ fn agree(one: &[[f32; 3]], other: &[[f32; 3]]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::packed::PackedScene;
-    use crate::plan::{DeviceLimits, Plan};
-    use crate::shader::switches;
-
-    /// A feature's room brings in the switches that are compiled in for it, and the plain room does not.
-    #[test]
-    fn rooms_use_what_they_are_named_for() {
-        let enabled = |room: &Room, feature: &Feature| {
-            let scene = room.scene().unwrap();
-            let packed = PackedScene::new(&scene).unwrap();
-            let traversal = if feature.hierarchy { TraversalChoice::Bvh } else { TraversalChoice::Auto };
-            let options = PlanOptions { traversal, ..PlanOptions::default() };
-            Plan::new(&scene, &packed, &DeviceLimits::default(), &options).unwrap().switches.enabled
-        };
-        for feature in features() {
-            let [off, used] = [&Room::default(), &feature.room].map(|room| enabled(room, &feature));
-            for switch in feature.switches {
-                assert!(switches::find(switch).is_some(), "{}: there is no switch {switch}", feature.name);
-                assert!(used.contains(switch), "{}: its room does not need {switch}: {used:?}", feature.name);
-            }
-            assert!(feature.switches.iter().any(|switch| !off.contains(switch)) || feature.switches.is_empty());
-        }
-    }
 
     /// The check of the pictures lets rounding pass and nothing else.
     #[test]

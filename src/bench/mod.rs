@@ -15,6 +15,7 @@
 pub mod analysis;
 pub mod convergence;
 mod denoised;
+pub mod feature_rooms;
 pub mod features;
 pub mod growth;
 pub mod interval;

@@ -1,6 +1,7 @@
 //! `gpt bench features`.
 
-use gpt::bench::features::{Feature, FeatureCost, FeatureOptions, features, measure};
+use gpt::bench::feature_rooms::{Feature, features};
+use gpt::bench::features::{FeatureCost, FeatureOptions, measure};
 use gpt::bench::machine::Machine;
 use gpt::bench::report::{features_csv, features_page, features_text};
 use gpt::bench::subject::{BenchError, Devices};
