@@ -42,6 +42,15 @@ impl<'a> GuidedBsdf<'a> {
         Evaluation { pdf: self.pdf(wi, alone.pdf), ..alone }
     }
 
+    /// How many times its density a direction would have without the guide, where that is its density with it.
+    pub fn unguided(&self, wi: DVec3, density: Density) -> f64 {
+        match (&self.guide, density) {
+            (None, _) => 1.0,
+            (Some((_, share)), Density::Delta) => 1.0 / (1.0 - share),
+            (Some(_), Density::SolidAngle(pdf)) => self.bsdf.evaluate(wi).pdf / pdf,
+        }
+    }
+
     /// The density of a direction that the BSDF alone draws with density `of_bsdf`.
     fn pdf(&self, wi: DVec3, of_bsdf: f64) -> f64 {
         let Some((cell, share)) = &self.guide else { return of_bsdf };

@@ -297,6 +297,9 @@ impl Integrator {
         if is_last && !scattered.is_null {
             return false;
         }
+        if V::COMPARES {
+            visitor.unguided(guided.unguided(scattered.wi, scattered.density));
+        }
         visitor.scattered(&scattered);
         let BsdfSample { wi, weight, density, eta, is_null } = scattered;
         let arriving = path.throughput;
@@ -402,6 +405,9 @@ impl Integrator {
         let extinction = self.volumes.extinction_towards(surface, bsdf.view.front, light.wi, path.extinction);
         let contribution = unshadowed * unstopped * transmittance(extinction, light.distance);
         path.radiance += contribution;
+        if V::COMPARES {
+            visitor.unguided(guided.unguided(light.wi, Density::SolidAngle(scattering.pdf)));
+        }
         visitor.light(&LightConnection { light, bsdf_pdf: scattering.pdf, weight, visible: unstopped > 0.0, contribution });
     }
 

@@ -22,6 +22,7 @@ pub mod pilot;
 mod renderer;
 mod roulette;
 pub mod rounding;
+mod spread;
 pub mod trace;
 pub mod training;
 mod volume;

@@ -30,6 +30,10 @@ pub trait PathVisitor {
     fn surface(&mut self, _depth: u32, _surface: &Surface, _wo: DVec3, _throughput: DVec3) {}
     /// The surface emits towards the path.
     fn emission(&mut self, _radiance: DVec3, _weight: f64, _contribution: DVec3) {}
+    /// Whether the method below is called.
+    const COMPARES: bool = false;
+    /// The direction of the light sample or of the path that is told of next would have so many times its density without a guide.
+    fn unguided(&mut self, _times: f64) {}
     /// The surface scatters, seen like this.
     fn view(&mut self, _view: &View) {}
     /// A light was sampled and could contribute.

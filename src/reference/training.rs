@@ -13,14 +13,22 @@ use rayon::prelude::*;
 use super::bsdf::{BsdfSample, Density, View};
 use super::integrator::Integrator;
 use super::intersect::Surface;
+use super::pilot;
+use super::spread::{follow, pixel_of};
 use super::trace::{LightConnection, PathVisitor};
+use crate::sampling::Sampling;
 use crate::sampling::guide::{Arrival, Guide, learn};
 use crate::sampling::hash::mix;
-use crate::sampling::{PathSampler, Sampling, SequencePoint};
 use crate::scene::{Guiding, PixelSampler, SamplerKind, Scene};
 
 /// Rounds, each of twice as many paths as the one before.
 const ROUNDS: u32 = 5;
+/// After so many of them a pilot looks for the first time, where guiding is to pay: the rest take nine tenths of the time.
+const FIRST_LOOK: usize = 2;
+/// Error × cost with a guide over that without one: what a guide made of the first rounds leaves at most where learning goes on, and what a guide
+/// has to leave, as learning takes time as well.
+const MOST_LOSS_AT_FIRST: f64 = 0.9;
+const MOST_LOSS: f64 = 0.7;
 /// Paths of the last round, which has about so many as the picture has pixels times this.
 const PATHS_OF_PIXEL: u32 = 8;
 const FEWEST_PATHS: u32 = 1 << 14;
@@ -50,18 +58,27 @@ impl Learned {
 
 /// Learns a guide for the scene of an integrator, and leaves it there, if the scene's settings want one.
 pub fn train(integrator: &mut Integrator) -> Learned {
-    if integrator.scene().render.guiding == Guiding::Off {
+    let guiding = integrator.scene().render.guiding;
+    if guiding == Guiding::Off {
         return Learned::default();
     }
+    let not_at_all = |because: String| Learned { guide: None, because: Some(because) };
     if !can_gain(integrator.scene()) {
-        return Learned { guide: None, because: Some("paths have no bounce that light depends on".to_owned()) };
+        return not_at_all("paths have no bounce that light depends on".to_owned());
     }
-    let (guide, paths) = learned(integrator);
+    let has_to_pay = guiding == Guiding::Auto;
+    if let Some(because) = pilot::why_no_guide(integrator.scene()).filter(|_| has_to_pay) {
+        return not_at_all(because.to_owned());
+    }
+    let Trained { guide, paths, loss } = trained(integrator, has_to_pay);
+    if let Some(loss) = loss.filter(|loss| *loss > MOST_LOSS) {
+        integrator.set_guide(None);
+        return not_at_all(format!("a pilot found {loss:.2} of the error × cost without a guide"));
+    }
     integrator.set_guide(guide.clone());
-    let Some(found) = &guide else {
-        return Learned { guide, because: Some(format!("{paths} paths found no light")) };
-    };
-    let because = format!("asked for; {} cells of {paths} paths", found.cells());
+    let Some(found) = &guide else { return not_at_all(format!("{paths} paths found no light")) };
+    let why = loss.map_or("asked for".to_owned(), |loss| format!("a pilot found {loss:.2} of the error × cost without one"));
+    let because = format!("{why}; {} cells of {paths} paths", found.cells());
     Learned { guide, because: Some(because) }
 }
 
@@ -88,13 +105,28 @@ fn rounds([width, height]: [u32; 2]) -> impl Iterator<Item = u32> {
     (0..ROUNDS).rev().map(move |round| last >> round)
 }
 
-/// All rounds: the guide, and the number of paths that it is made of.
-fn learned(integrator: &mut Integrator) -> (Option<Arc<Guide>>, u32) {
+/// What came of all rounds, or of those up to which it may pay to go on.
+struct Trained {
+    guide: Option<Arc<Guide>>,
+    /// How many paths the guide is made of.
+    paths: u32,
+    /// Error × cost with the guide over that without one, where it has to pay and there is one.
+    loss: Option<f64>,
+}
+
+fn trained(integrator: &mut Integrator, has_to_pay: bool) -> Trained {
     let mut guide = None;
     let mut first = 0;
     let mut before: (Vec<Arrival>, u32) = Default::default();
     let mut used = 0;
-    for count in rounds(integrator.scene().film.size) {
+    let mut loss = None;
+    for (round, count) in rounds(integrator.scene().film.size).enumerate() {
+        if has_to_pay && round == FIRST_LOOK && guide.is_some() {
+            loss = Some(pilot::loss_with_guide(integrator));
+            if loss > Some(MOST_LOSS_AT_FIRST) {
+                return Trained { guide, paths: used, loss };
+            }
+        }
         let (mut arrivals, earlier) = std::mem::take(&mut before);
         let found = arrivals_of(integrator, first, count);
         arrivals.extend_from_slice(&found);
@@ -104,32 +136,16 @@ fn learned(integrator: &mut Integrator) -> (Option<Arc<Guide>>, u32) {
         before = (found, count);
         first += count;
     }
-    (guide, used)
+    if has_to_pay && guide.is_some() {
+        loss = Some(pilot::loss_with_guide(integrator));
+    }
+    Trained { guide, paths: used, loss }
 }
 
 /// The random numbers of training: others than those of the picture, whatever its seed.
 fn training_numbers(scene: &Scene) -> Sampling {
     let seed = mix(mix(scene.render.seed.wrapping_add(0x6775_6964)));
     Sampling { path: SamplerKind::Independent, pixel: PixelSampler::SameAsPath, seed, ..Sampling::from(&scene.render) }
-}
-
-/// A pixel for each path: spread evenly over the film, whatever their number (Roberts's R2 sequence, in integers).
-pub(super) fn pixel_of(path: u32, [width, height]: [u32; 2]) -> [u32; 2] {
-    let scaled = |number: u32, size: u32| ((u64::from(number) * u64::from(size)) >> 32) as u32;
-    [scaled(path.wrapping_mul(3_242_174_889), width), scaled(path.wrapping_mul(2_447_445_414), height)]
-}
-
-/// Follows a path.
-pub(super) fn follow<V: PathVisitor>(
-    integrator: &Integrator,
-    sampling: &Sampling,
-    [x, y]: [u32; 2],
-    sample: u32,
-    visitor: &mut V,
-) -> DVec3 {
-    let pixel = y.wrapping_mul(integrator.scene().film.size[0]).wrapping_add(x);
-    let point = SequencePoint::new(sampling, sample);
-    integrator.radiance(x, y, &PathSampler::new(sampling, pixel, &point), visitor)
 }
 
 /// The light that arrives along a round of training paths, in their order.

@@ -5,6 +5,7 @@
 //! first, then y, z and the facing. `shaders/shading/cell_grid.wgsl` is the device's half.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// Words before the index.
 pub const GRID_HEADER_WORDS: u32 = 8;
@@ -42,7 +43,7 @@ pub fn facing(normal: DVec3) -> u32 {
 
 impl CellGrid {
     /// Around all points but a few, with so many boxes at most for each facing; the same of the same points.
-    pub fn around(points: impl Iterator<Item = DVec3> + Clone, most_boxes: usize) -> Self {
+    pub fn around(points: impl ParallelIterator<Item = DVec3> + Clone, most_boxes: usize) -> Self {
         let [low, high] = bounds(points);
         let size = (high - low).max(DVec3::ZERO);
         // Flat scenes have some depth all the same; and no wall stands on the border between two boxes by a round number.
@@ -120,13 +121,13 @@ impl CellGrid {
 }
 
 /// The box around all points but a few.
-fn bounds(points: impl Iterator<Item = DVec3> + Clone) -> [DVec3; 2] {
+fn bounds(points: impl ParallelIterator<Item = DVec3> + Clone) -> [DVec3; 2] {
     let along = |axis: usize| {
         let mut places: Vec<f64> = points.clone().map(|point| point[axis]).collect();
-        places.sort_unstable_by(f64::total_cmp);
         let left_out = (OUTLIERS * places.len() as f64) as usize;
-        let end = |place: usize| places.get(place).copied().unwrap_or_default();
-        [end(left_out), end(places.len().saturating_sub(1).saturating_sub(left_out))]
+        let last = places.len().saturating_sub(1).saturating_sub(left_out);
+        [left_out, last]
+            .map(|place| if places.is_empty() { 0.0 } else { *places.select_nth_unstable_by(place, f64::total_cmp).1 })
     };
     let [x, y, z] = [along(0), along(1), along(2)];
     [DVec3::new(x[0], y[0], z[0]), DVec3::new(x[1], y[1], z[1])]

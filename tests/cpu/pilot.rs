@@ -5,6 +5,7 @@ use std::path::Path;
 use gpt::load;
 use gpt::reference::ReferenceRenderer;
 use gpt::reference::pilot::settle;
+use gpt::reference::training::learn_for_device;
 use gpt::scene::{Estimator, Guiding, LightSampling, NumberOrAuto, RenderSettings, Scene};
 
 const SIZE: [u32; 2] = [256, 256];
@@ -134,6 +135,21 @@ fn roulette_begins_where_it_pays() {
     assert_ne!(first(&with(|render| render.max_depth = 0)), 0.into());
     // Light samples may be given while roulette is not.
     assert_eq!(first(&with(|render| render.light_samples = 1.into())), 0.into());
+}
+
+/// With `auto` paths are guided neither in pictures for which learning takes too long, nor where it has begun and does not pay.
+#[test]
+fn a_guide_that_does_not_pay_is_given_up() {
+    let because = |size: [u32; 2]| {
+        let mut scene = built_in("cornell");
+        (scene.film.size, scene.render.guiding) = (size, Guiding::Auto);
+        let learned = learn_for_device(&scene, None).expect("the reference can render the scene");
+        assert!(learned.guide.is_none());
+        learned.because.expect("there is a reason")
+    };
+    assert_eq!(because([255, 256]), "learning takes too long for so few pixels");
+    let after_a_pilot = because(SIZE);
+    assert!(after_a_pilot.starts_with("a pilot found 1."), "{after_a_pilot}");
 }
 
 /// A render whose settings leave it open is, sample by sample, the one whose settings say what the pilot chose, and not that of one light sample.

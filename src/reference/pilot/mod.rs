@@ -5,9 +5,14 @@
 //! roulette ends paths, by what that would do to the paths of the best way. Random numbers are not those of the picture. Cost is counted, in rays, and not timed. So what is chosen depends on the scene, its settings and the size of its
 //! film: not on the seed, the number of samples, the device or the machine.
 
+mod cost;
+mod extent;
+mod guiding;
 mod rays;
 mod roulette;
+mod sum;
 mod tried;
+mod unguided;
 
 use std::borrow::Cow;
 
@@ -17,40 +22,20 @@ use super::light_cells::{self, LightsSettled};
 use crate::plan::UNROLL_LIMIT;
 use crate::renderer::RenderError;
 use crate::scene::settings::MOST_LIGHT_SAMPLES;
-use crate::scene::{Estimator, Guiding, LightSampling, NumberOrAuto, RenderSettings, Scene, SceneSummary};
+use crate::scene::{Estimator, Guiding, LightSampling, NumberOrAuto, RenderSettings, Scene};
+use cost::{SIMPLE, TRAVERSED};
+use extent::{has_few_pixels, has_many_triangles, tried_pixels};
+pub use guiding::{loss_with_guide, why_no_guide};
 use rays::Rays;
 use roulette::{Effects, ROULETTE_DEPTHS};
 use tried::{Found, InView, losses_of_roulette};
 
-/// Pixels of a film below which a pilot would take longer than it saves.
-const FEWEST_PIXELS: u64 = 1 << 16;
-/// Triangles above which the reference's hierarchy, which the pilot needs, takes seconds to build.
-const MOST_TRIANGLES: usize = 1 << 20;
-/// One of so many pixels is tried, within these numbers.
-const ONE_OF_PIXELS: u64 = 1 << 10;
-const TRIED_PIXELS: [u64; 2] = [1 << 8, 1 << 10];
 /// What is chosen in place of something simpler has to be so much better: less is noise of the pilot.
 const LEAST_GAIN: f64 = 1.06;
 /// First surfaces of a path at which several light samples are tried.
 const MOST_DEPTH: u32 = 2;
 /// Numbers, each twice the one before, that are tried after the best one.
 const MOST_IN_VAIN: u32 = 2;
-/// What things take, in rays of paths with the surfaces that they meet.
-struct Costs {
-    /// A light sample with its shadow ray.
-    light_sample: f64,
-    /// The way down a tree of lights, and its probability for what paths find.
-    tree_of_lights: f64,
-    /// Drawing its point by solid angle, with the density of what paths find.
-    of_rectangle: f64,
-    of_triangle: f64,
-}
-
-/// Measured on lavapipe (docs/strategies.md): geometry that is code, and geometry in a hierarchy; of triangles there, and of trees where geometry is code,
-/// by what they take in the other.
-const SIMPLE: Costs = Costs { light_sample: 1.0, tree_of_lights: 1.4, of_rectangle: 0.75, of_triangle: 2.2 };
-const TRAVERSED: Costs = Costs { light_sample: 0.8, tree_of_lights: 1.4, of_rectangle: 0.2, of_triangle: 0.6 };
-
 /// Edges of a path at most where one that no roulette ends is considered.
 const MOST_EDGES_WITHOUT_ROULETTE: u32 = 16;
 
@@ -160,15 +145,10 @@ fn not_worth_trying(scene: &Scene, open: Open) -> Option<&'static str> {
     if scene.render.max_depth == 1 {
         return Some("paths have no second edge");
     }
-    if pixel_count(scene) < FEWEST_PIXELS {
+    if has_few_pixels(scene) {
         return Some("a pilot takes too long for so few pixels");
     }
-    let SceneSummary { triangles, group_triangles, .. } = SceneSummary::of(scene);
-    (triangles + group_triangles > MOST_TRIANGLES).then_some("a pilot takes too long for so many triangles")
-}
-
-fn pixel_count(scene: &Scene) -> u64 {
-    scene.film.size.map(u64::from).iter().product()
+    has_many_triangles(scene).then_some("a pilot takes too long for so many triangles")
 }
 
 /// Chooses what the settings leave open, and leaves it in the pilot's: how lights are drawn from, then where roulette begins. Returns why.
@@ -270,8 +250,7 @@ impl<'a> Pilot<'a> {
         let integrator = integrator.map_or_else(|| Integrator::new(scene), Ok)?;
         let is_simple = integrator.primitive_count() <= UNROLL_LIMIT;
         let costliest_outline = integrator.costliest_outline();
-        let [fewest, most] = TRIED_PIXELS;
-        let pixels = (pixel_count(scene) / ONE_OF_PIXELS).clamp(fewest, most) as u32;
+        let pixels = tried_pixels(scene);
         let settings = scene.render.clone();
         Ok(Self { integrator, scene, settings, is_simple, costliest_outline, pixels, shadow_rays: 0.0 })
     }

@@ -8,6 +8,7 @@
 use glam::DVec3;
 
 use super::rays::Rays;
+use super::sum::Sum;
 use crate::reference::bsdf::BsdfSample;
 use crate::reference::roulette;
 use crate::scene::settings::DEFAULT_ROULETTE_DEPTH;
@@ -28,7 +29,7 @@ pub struct Effect {
     pub rays: Rays,
 }
 
-impl Effect {
+impl Sum for Effect {
     fn and(self, other: Self) -> Self {
         Self { variance: self.variance + other.variance, rays: self.rays.and(other.rays) }
     }
@@ -42,12 +43,12 @@ impl Effect {
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Effects(pub OfEach<Effect>);
 
-impl Effects {
-    pub fn and(self, other: Self) -> Self {
+impl Sum for Effects {
+    fn and(self, other: Self) -> Self {
         Self(std::array::from_fn(|index| self.0[index].and(other.0[index])))
     }
 
-    pub fn times(self, factor: f64) -> Self {
+    fn times(self, factor: f64) -> Self {
         Self(self.0.map(|effect| effect.times(factor)))
     }
 }

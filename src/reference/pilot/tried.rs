@@ -5,14 +5,17 @@ use rayon::prelude::*;
 
 use super::rays::Rays;
 use super::roulette::{Effects, PathRecord, ROULETTE_DEPTHS};
+use super::sum::Sum;
+use super::unguided::{Tale, UnguidedRecord};
 use crate::compare::metrics::relative_weight;
 use crate::reference::bsdf::BsdfSample;
 use crate::reference::integrator::Integrator;
 use crate::reference::intersect::Surface;
+use crate::reference::spread::pixel_of;
 use crate::reference::trace::{LightConnection, PathVisitor};
-use crate::reference::training::pixel_of;
 use crate::sampling::hash::mix;
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
+use crate::scene::RenderSettings;
 
 /// Each pixel is tried by so many independent pictures of so many samples.
 const PICTURES: u32 = 4;
@@ -45,7 +48,12 @@ impl Found {
         Self::watched_by::<WatchedRoulette>(integrator, pixels)
     }
 
-    fn watched_by<W: Watcher>(integrator: &Integrator, pixels: u32) -> (Self, Vec<Effects>) {
+    /// As [`Found::new`] of guided paths, with what they tell of unguided ones.
+    pub fn unguided(integrator: &Integrator, pixels: u32) -> (Self, Vec<Tale>) {
+        Self::watched_by::<WatchedGuide>(integrator, pixels)
+    }
+
+    fn watched_by<W: Watcher>(integrator: &Integrator, pixels: u32) -> (Self, Vec<W::Effects>) {
         let pictures = pictures(integrator, PICTURES);
         let of_pixel = |number| TriedPixel::of::<W>(integrator, &pictures, number);
         let (pixels, effects) = (0..pixels).into_par_iter().map(of_pixel).unzip();
@@ -55,6 +63,11 @@ impl Found {
     /// All together.
     pub fn rays(&self) -> Rays {
         self.pixels.iter().fold(Rays::default(), |sum, pixel| sum.and(pixel.rays))
+    }
+
+    /// How many samples there are of each.
+    pub fn samples_of_pixel(&self) -> f64 {
+        f64::from(PICTURES * SAMPLES)
     }
 
     pub fn has_noise(&self) -> bool {
@@ -101,6 +114,26 @@ pub fn losses_of_roulette(
     let loss = |index: usize| (error + more[index]).max(LEAST_ERROR * error) * cost(total.0[index].rays);
     let own = loss(0);
     std::array::from_fn(|index| loss(index) / own)
+}
+
+/// The error of guided paths, and that of unguided ones. Samples depend on each other by their random numbers, which makes the error less than
+/// the variance of a sample says, by the same share either way.
+pub fn errors_of_guiding(found: &Found, tales: &[Tale], in_view: &InView) -> [f64; 2] {
+    let mut beyond = DVec3::ZERO;
+    let mut error = 0.0;
+    let mut variances = [0.0; 2];
+    for (pixel, tale) in found.pixels.iter().zip(tales) {
+        beyond += pixel.mean;
+        let weight = weight(pixel.in_view + pixel.mean);
+        error += pixel.variance.dot(weight);
+        for (variance, moment) in variances.iter_mut().zip([tale.guided, tale.unguided]) {
+            *variance += (moment - pixel.mean * pixel.mean).dot(weight);
+        }
+    }
+    let of_view = in_view.error(beyond / found.pixels.len() as f64);
+    // Without noise a guide makes no difference.
+    let ratio = if variances[0] > 0.0 { variances[1] / variances[0] } else { 1.0 };
+    [error + of_view, error * ratio + of_view]
 }
 
 /// What squared errors are multiplied by.
@@ -153,13 +186,13 @@ fn pictures(integrator: &Integrator, count: u32) -> Vec<Picture> {
 
 impl Picture {
     /// What a pixel shows.
-    fn show<W: Watcher>(&self, integrator: &Integrator, number: u32) -> Shown {
+    fn show<W: Watcher>(&self, integrator: &Integrator, number: u32) -> Shown<W::Effects> {
         let size = integrator.scene().film.size;
         let [x, y] = pixel_of(number, size);
         let pixel = y.wrapping_mul(size[0]).wrapping_add(x);
-        let mut shown = Shown::default();
+        let mut shown: Shown<W::Effects> = Shown::default();
         for point in &self.points {
-            let mut watcher = W::default();
+            let mut watcher = W::new(&integrator.scene().render);
             let found = integrator.radiance(x, y, &PathSampler::new(&self.sampling, pixel, point), &mut watcher);
             let path = watcher.watched();
             // The film leaves out what is not finite, too.
@@ -176,12 +209,12 @@ impl Picture {
 
 /// Light that the first edges of a pixel's paths find, and light beyond those.
 #[derive(Default)]
-struct Shown {
+struct Shown<E> {
     in_view: DVec3,
     beyond: DVec3,
     rays: Rays,
     /// Of all samples together.
-    effects: Effects,
+    effects: E,
 }
 
 /// Of one of them.
@@ -201,30 +234,32 @@ struct TriedPixel {
 }
 
 impl TriedPixel {
-    /// With the effects of roulette on a sample of it.
-    fn of<W: Watcher>(integrator: &Integrator, pictures: &[Picture], number: u32) -> (Self, Effects) {
-        let shown: Vec<Shown> = pictures.iter().map(|picture| picture.show::<W>(integrator, number)).collect();
+    /// With the effects of other ways on a sample of it.
+    fn of<W: Watcher>(integrator: &Integrator, pictures: &[Picture], number: u32) -> (Self, W::Effects) {
+        let shown: Vec<Shown<W::Effects>> = pictures.iter().map(|picture| picture.show::<W>(integrator, number)).collect();
         let [mean, variance] = mean_and_variance(&shown.iter().map(|shown| shown.beyond).collect::<Vec<DVec3>>());
         let in_view = shown.iter().map(|shown| shown.in_view).sum::<DVec3>() / f64::from(PICTURES);
-        let effects = shown.iter().fold(Effects::default(), |sum, shown| sum.and(shown.effects));
+        let effects = shown.iter().fold(W::Effects::default(), |sum, shown| sum.and(shown.effects));
         let rays = shown.iter().fold(Rays::default(), |sum, shown| sum.and(shown.rays));
         (Self { in_view, mean, variance, rays }, effects.times(1.0 / f64::from(PICTURES * SAMPLES)))
     }
 }
 
 /// Follows a path.
-trait Watcher: PathVisitor + Default {
+pub trait Watcher: PathVisitor {
+    /// What other ways would do to it.
+    type Effects: Sum;
+
+    fn new(settings: &RenderSettings) -> Self;
+
     fn watched(&self) -> &Watched;
 
-    /// What roulette from other depths on would do to it.
-    fn effects(&self) -> Effects {
-        Effects::default()
-    }
+    fn effects(&self) -> Self::Effects;
 }
 
 /// A path that is followed.
 #[derive(Default)]
-struct Watched {
+pub struct Watched {
     rays: Rays,
     /// Light of its first edge, on which it may have gone through null surfaces.
     in_view: DVec3,
@@ -232,9 +267,17 @@ struct Watched {
 }
 
 impl Watcher for Watched {
+    type Effects = ();
+
+    fn new(_: &RenderSettings) -> Self {
+        Self::default()
+    }
+
     fn watched(&self) -> &Watched {
         self
     }
+
+    fn effects(&self) {}
 }
 
 impl PathVisitor for Watched {
@@ -276,6 +319,12 @@ struct WatchedRoulette {
 }
 
 impl Watcher for WatchedRoulette {
+    type Effects = Effects;
+
+    fn new(_: &RenderSettings) -> Self {
+        Self::default()
+    }
+
     fn watched(&self) -> &Watched {
         &self.watched
     }
@@ -320,6 +369,78 @@ impl PathVisitor for WatchedRoulette {
         self.watched.light(connection);
         self.record.traced(Rays::SHADOW);
         self.record.found(connection.contribution);
+    }
+
+    fn gives_up(&mut self, vertices: u32) -> bool {
+        self.watched.gives_up(vertices)
+    }
+}
+
+/// A guided path that is followed, and what it tells of unguided ones. Light in view is no part of that: no guide leads to it.
+pub struct WatchedGuide {
+    watched: Watched,
+    pub record: UnguidedRecord,
+}
+
+impl Watcher for WatchedGuide {
+    type Effects = Tale;
+
+    fn new(settings: &RenderSettings) -> Self {
+        Self { watched: Watched::default(), record: UnguidedRecord::new(settings) }
+    }
+
+    fn watched(&self) -> &Watched {
+        &self.watched
+    }
+
+    fn effects(&self) -> Tale {
+        self.record.tale()
+    }
+}
+
+impl PathVisitor for WatchedGuide {
+    const COMPARES: bool = true;
+
+    fn surface(&mut self, depth: u32, surface: &Surface, wo: DVec3, throughput: DVec3) {
+        self.watched.surface(depth, surface, wo, throughput);
+        self.record.traced(Rays::PATH);
+        self.record.met(depth, throughput);
+    }
+
+    fn emission(&mut self, radiance: DVec3, weight: f64, contribution: DVec3) {
+        self.watched.emission(radiance, weight, contribution);
+        if self.watched.scatters {
+            self.record.emission(weight, contribution);
+        }
+    }
+
+    fn unguided(&mut self, times: f64) {
+        self.record.unguided(times);
+    }
+
+    fn light(&mut self, connection: &LightConnection) {
+        self.watched.light(connection);
+        self.record.traced(Rays::SHADOW);
+        self.record.light(connection);
+    }
+
+    fn scattered(&mut self, sample: &BsdfSample) {
+        self.watched.scattered(sample);
+        self.record.scattered(sample);
+    }
+
+    fn roulette(&mut self, survival: f64, survived: bool) {
+        if survived {
+            self.record.survived(survival);
+        }
+    }
+
+    fn escaped(&mut self, radiance: DVec3, weight: f64, contribution: DVec3) {
+        self.watched.escaped(radiance, weight, contribution);
+        self.record.traced(Rays::PATH);
+        if self.watched.scatters {
+            self.record.emission(weight, contribution);
+        }
     }
 
     fn gives_up(&mut self, vertices: u32) -> bool {

@@ -1,6 +1,7 @@
 //! How a guide is learned from light that arrived along training paths.
 
 use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 
 use super::table::{BINS, CELL_WORDS, GUIDE_COLUMNS, GUIDE_ROWS, Guide, WHOLE, bin, packed_axis, unpacked_axis};
 use crate::math::Frame;
@@ -35,14 +36,22 @@ pub struct Arrival {
     pub sent_on: [f32; 2],
 }
 
-/// Puts a guide together.
-struct Builder<'a> {
+/// What a guide is put together from.
+struct Learner<'a> {
     arrivals: &'a [Arrival],
-    grid: CellGrid,
-    /// The cells' numbers, by facing and box.
-    index: Vec<u32>,
-    cells: Vec<u32>,
+    /// The boxes of the grid that they are in, where they are in one.
+    places: Vec<Place>,
     most_arrivals: usize,
+}
+
+/// A box by its numbers along the axes, which are below [`MOST_BOXES`].
+type Place = [u16; 3];
+
+/// Boxes of which the same is known.
+struct Cell {
+    facing: u32,
+    region: Region,
+    words: [u32; CELL_WORDS],
 }
 
 /// Learns a guide; the same of the same arrivals in the same order. None where there are too few.
@@ -50,31 +59,38 @@ pub fn learn(arrivals: &[Arrival]) -> Option<Guide> {
     if arrivals.len() < FEWEST_ARRIVALS {
         return None;
     }
-    let grid = CellGrid::around(arrivals.iter().map(|arrival| arrival.position.as_dvec3()), MOST_BOXES);
-    let mut builder = Builder {
-        arrivals,
-        grid,
-        index: grid.empty_index(),
-        cells: Vec::new(),
-        most_arrivals: MOST_ARRIVALS.max(2 * arrivals.len() / MOST_CELLS),
+    let grid = CellGrid::around(arrivals.par_iter().map(|arrival| arrival.position.as_dvec3()), MOST_BOXES);
+    let place = |arrival: &Arrival| {
+        let place = grid.place(arrival.position.as_dvec3())?;
+        Some((facing(arrival.normal.as_dvec3()) as usize, place.map(|number| number as u16)))
     };
+    let placed: Vec<Option<(usize, Place)>> = arrivals.par_iter().map(place).collect();
     let mut of_facings: [Vec<u32>; FACINGS] = Default::default();
-    for (number, arrival) in arrivals.iter().enumerate() {
-        if grid.place(arrival.position.as_dvec3()).is_some() {
-            of_facings[facing(arrival.normal.as_dvec3()) as usize].push(number as u32);
-        }
+    for (number, facing) in placed.iter().enumerate().filter_map(|(number, placed)| Some((number, placed.as_ref()?.0))) {
+        of_facings[facing].push(number as u32);
     }
-    for (facing, mut members) in of_facings.into_iter().enumerate() {
-        builder.divide(facing as u32, grid.region(), &mut members);
-    }
-    (!builder.cells.is_empty()).then(|| builder.finish())
+    let places = placed.into_par_iter().map(|placed| placed.map_or_else(Place::default, |(_, place)| place)).collect();
+    let learner = Learner { arrivals, places, most_arrivals: MOST_ARRIVALS.max(2 * arrivals.len() / MOST_CELLS) };
+    let of_facing = |(facing, members): (usize, Vec<u32>)| learner.cells(facing as u32, grid.region(), &members);
+    let cells: Vec<Cell> = of_facings.into_par_iter().enumerate().flat_map_iter(of_facing).collect();
+    (!cells.is_empty()).then(|| guide(&grid, &cells))
 }
 
-impl Builder<'_> {
+fn guide(grid: &CellGrid, cells: &[Cell]) -> Guide {
+    let mut index = grid.empty_index();
+    for (number, cell) in cells.iter().enumerate() {
+        grid.fill(&mut index, cell.facing, cell.region, number as u32 + 1);
+    }
+    let mut words = grid.table(&index);
+    words.extend(cells.iter().flat_map(|cell| cell.words));
+    Guide { words }
+}
+
+impl Learner<'_> {
     /// Cuts a region in two for as long as both halves have enough arrivals, and makes cells of what is left.
-    fn divide(&mut self, facing: u32, region: Region, members: &mut [u32]) {
+    fn cells(&self, facing: u32, region: Region, members: &[u32]) -> Vec<Cell> {
         if members.len() < FEWEST_ARRIVALS {
-            return;
+            return Vec::new();
         }
         let mut axes = [0, 1, 2];
         axes.sort_by_key(|&axis| std::cmp::Reverse(region[axis][1] - region[axis][0]));
@@ -84,29 +100,28 @@ impl Builder<'_> {
                 continue;
             }
             let middle = first + (end - first) / 2;
-            let is_before = |number: u32| {
-                let place = self.grid.place(self.arrivals[number as usize].position.as_dvec3());
-                place.is_some_and(|place| place[axis] < middle)
-            };
+            let is_before = |number: u32| u32::from(self.places[number as usize][axis]) < middle;
             let (before, behind): (Vec<u32>, Vec<u32>) = members.iter().partition(|number| is_before(**number));
             let is_enough = |part: &[u32]| part.is_empty() || part.len() >= self.most_arrivals / 8;
             if is_enough(&before) && is_enough(&behind) {
-                for (range, mut part) in [([first, middle], before), ([middle, end], behind)] {
+                let half = |range: [u32; 2], part: &[u32]| {
                     let mut half = region;
                     half[axis] = range;
-                    self.divide(facing, half, &mut part);
-                }
-                return;
+                    self.cells(facing, half, part)
+                };
+                let (mut cells, rest) = rayon::join(|| half([first, middle], &before), || half([middle, end], &behind));
+                cells.extend(rest);
+                return cells;
             }
         }
-        self.add_cell(facing, region, members);
+        self.cell(members).map(|words| Cell { facing, region, words }).into_iter().collect()
     }
 
-    fn add_cell(&mut self, facing: u32, region: Region, members: &[u32]) {
+    /// What is learned of a cell. None where no light arrives.
+    fn cell(&self, members: &[u32]) -> Option<[u32; CELL_WORDS]> {
         let arrivals = || members.iter().map(|&number| &self.arrivals[number as usize]);
         let normal: DVec3 = arrivals().map(|arrival| arrival.normal.as_dvec3()).sum();
-        let Some(normal) = normal.try_normalize() else { return };
-        let axis = packed_axis(normal);
+        let axis = packed_axis(normal.try_normalize()?);
         let frame = Frame::around(unpacked_axis(axis));
         // A direction is worth drawing in proportion to the root of what its squared radiance is on average: that covers what the rest of the
         // path will scatter as well (Rath et al. 2020).
@@ -122,21 +137,13 @@ impl Builder<'_> {
         let worths = spilled(&squares.map(f64::sqrt));
         let total: f64 = worths.iter().sum();
         if total <= 0.0 || !total.is_finite() {
-            return;
+            return None;
         }
         let even = (DOUBT / (DOUBT + members.len() as f64)).max(LEAST_EVEN_SHARE);
         let shares = worths.map(|worth| (1.0 - even) * worth / total + even / BINS as f64);
         let count = members.len() as f64;
         let sent_on = [0, 1].map(|which| arrivals().map(|arrival| f64::from(arrival.sent_on[which])).sum::<f64>() / count);
-        self.cells.extend(packed_cell(axis, &shares, sent_on));
-        let number = (self.cells.len() / CELL_WORDS) as u32;
-        self.grid.fill(&mut self.index, facing, region, number);
-    }
-
-    fn finish(self) -> Guide {
-        let mut words = self.grid.table(&self.index);
-        words.extend(self.cells);
-        Guide { words }
+        Some(packed_cell(axis, &shares, sent_on))
     }
 }
 

@@ -1,5 +1,7 @@
 //! Space cut into cells, by the points that shading was seen to happen at.
 
+use rayon::prelude::*;
+
 use super::list::{Reaching, slots};
 use super::lit_point::LitPoint;
 use super::table::LightCells;
@@ -27,7 +29,7 @@ pub struct Division {
 impl Division {
     /// Of some points; the same of the same points in the same order.
     pub fn new(points: &[LitPoint]) -> Self {
-        let grid = CellGrid::around(points.iter().map(|point| point.point), MOST_BOXES);
+        let grid = CellGrid::around(points.par_iter().map(|point| point.point), MOST_BOXES);
         let mut division = Self { grid, index: grid.empty_index(), cells: Vec::new() };
         let mut of_facings: [Vec<u32>; FACINGS] = Default::default();
         for (number, point) in points.iter().enumerate() {

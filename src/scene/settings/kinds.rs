@@ -73,6 +73,8 @@ choices! {
         Off = "off",
         /// On surfaces that scatter diffusely.
         On = "on",
+        /// As with "on" where a pilot finds, after it has learned, that this has clearly less error × cost; else never.
+        Auto = "auto",
     }
 
     /// What happens where a ray meets a blend of materials.

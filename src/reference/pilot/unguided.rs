@@ -1,0 +1,156 @@
+//! What guided paths tell of paths without a guide.
+//!
+//! A pilot without a guide misjudges it, because it seldom sees the rare bright paths that a guide is for. Guided paths see them, and tell the
+//! variance of both ways: a path that has the density p_g with the guide and p_u without it finds, without it, other contributions c₁, c₂, …,
+//! since throughput goes with one over the density and multiple importance sampling weighs by other densities. With rₖ = p_u / p_g up to where the k-th
+//! is found, roulette's chances included, the mean of Σₖ rₖ cₖ (cₖ + 2 Σ_{j<k} cⱼ) over guided paths is the second moment of a sample without a guide,
+//! and the mean of rₖ over all rays is the number of its rays.
+
+use glam::DVec3;
+
+use super::rays::Rays;
+use super::sum::Sum;
+use crate::reference::bsdf::{BsdfSample, Density};
+use crate::reference::trace::LightConnection;
+use crate::reference::{mis, roulette};
+use crate::scene::{Estimator, MisHeuristic, RenderSettings};
+
+/// What guided paths tell, of a sample.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Tale {
+    /// Second moment of what guided ones find.
+    pub guided: DVec3,
+    /// Second moment of what unguided ones would find, and their rays.
+    pub unguided: DVec3,
+    pub rays: Rays,
+}
+
+impl Sum for Tale {
+    fn and(self, other: Self) -> Self {
+        Self { guided: self.guided + other.guided, unguided: self.unguided + other.unguided, rays: self.rays.and(other.rays) }
+    }
+
+    fn times(self, factor: f64) -> Self {
+        Self { guided: self.guided * factor, unguided: self.unguided * factor, rays: self.rays.times(factor) }
+    }
+}
+
+/// A guided path, and what it would be without the guide.
+pub struct UnguidedRecord {
+    estimator: Estimator,
+    heuristic: MisHeuristic,
+    /// First depth at which roulette may end an unguided path.
+    first_roulette: Option<u32>,
+    /// How many times as likely the path is without the guide, up to where it stands.
+    density: f64,
+    /// The same of the direction that was told of last.
+    times: f64,
+    /// Density with the guide of the direction from the surface before, and how many times that it is without the guide.
+    previous: (Density, f64),
+    throughput: DVec3,
+    eta_scale: f64,
+    depth: u32,
+    /// What the path finds, with the guide and without it, and the second moment of the latter.
+    found: DVec3,
+    unguided: DVec3,
+    moment: DVec3,
+    rays: Rays,
+}
+
+impl UnguidedRecord {
+    pub fn new(settings: &RenderSettings) -> Self {
+        Self {
+            estimator: settings.estimator,
+            heuristic: settings.heuristic,
+            first_roulette: settings.first_roulette(false),
+            density: 1.0,
+            times: 1.0,
+            previous: (Density::Delta, 1.0),
+            throughput: DVec3::ONE,
+            eta_scale: 1.0,
+            depth: 1,
+            found: DVec3::ZERO,
+            unguided: DVec3::ZERO,
+            moment: DVec3::ZERO,
+            rays: Rays::default(),
+        }
+    }
+
+    /// A ray of the path, or a shadow ray, was traced.
+    pub fn traced(&mut self, rays: Rays) {
+        self.rays = self.rays.and(rays.times(self.density));
+    }
+
+    /// The path met a surface.
+    pub fn met(&mut self, depth: u32, throughput: DVec3) {
+        self.depth = depth;
+        self.throughput = throughput;
+    }
+
+    /// See [`crate::reference::trace::PathVisitor::unguided`].
+    pub fn unguided(&mut self, times: f64) {
+        self.times = times;
+    }
+
+    /// Light was sampled.
+    pub fn light(&mut self, connection: &LightConnection) {
+        let LightConnection { light, bsdf_pdf, weight, contribution, .. } = connection;
+        let is_shared = !light.delta && self.estimator == Estimator::Mis;
+        let unguided = if is_shared { mis::weight(self.heuristic, light.pdf, bsdf_pdf * self.times) } else { *weight };
+        self.add(*contribution, [*weight, unguided]);
+    }
+
+    /// The path found light by itself.
+    pub fn emission(&mut self, weight: f64, contribution: DVec3) {
+        let unguided = match self.previous {
+            (Density::SolidAngle(pdf), times) if self.estimator == Estimator::Mis && weight > 0.0 => {
+                let odds = (1.0 / weight - 1.0).max(0.0);
+                let light_pdf = match self.heuristic {
+                    MisHeuristic::Power => pdf * odds.sqrt(),
+                    MisHeuristic::Balance => pdf * odds,
+                };
+                mis::weight(self.heuristic, pdf * times, light_pdf)
+            }
+            _ => weight,
+        };
+        self.add(contribution, [weight, unguided]);
+    }
+
+    /// What the path found counts with another weight without the guide.
+    fn add(&mut self, contribution: DVec3, [weight, unguided]: [f64; 2]) {
+        if contribution == DVec3::ZERO {
+            return;
+        }
+        self.found += contribution;
+        if self.density > 0.0 && unguided > 0.0 {
+            // Throughput goes with one over the density.
+            let own = contribution * (unguided / weight);
+            self.moment += own * (own / self.density + 2.0 * self.unguided);
+            self.unguided += own / self.density;
+        }
+    }
+
+    /// The path goes on, unless roulette ends it.
+    pub fn scattered(&mut self, sample: &BsdfSample) {
+        self.density *= self.times;
+        if sample.is_null {
+            return;
+        }
+        self.previous = (sample.density, self.times);
+        self.eta_scale *= sample.eta * sample.eta;
+        if self.density > 0.0 && self.first_roulette.is_some_and(|first| self.depth >= first) {
+            let throughput = self.throughput * sample.weight * (self.eta_scale / self.density);
+            self.density *= roulette::survival(throughput, self.depth);
+        }
+    }
+
+    /// Roulette let the guided path go on with this chance.
+    pub fn survived(&mut self, survival: f64) {
+        self.density /= survival;
+    }
+
+    /// What the path tells.
+    pub fn tale(&self) -> Tale {
+        Tale { guided: self.found * self.found, unguided: self.moment, rays: self.rays }
+    }
+}
