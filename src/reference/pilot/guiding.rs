@@ -36,8 +36,8 @@ mod tests {
 
     use glam::DVec3;
 
-    use super::super::tried::{WatchedGuide, Watcher};
     use super::super::unguided::Tale;
+    use super::super::watched::{WatchedGuide, Watcher};
     use super::*;
     use crate::compare::Moments;
     use crate::load;

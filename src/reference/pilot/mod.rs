@@ -13,6 +13,7 @@ mod roulette;
 mod sum;
 mod tried;
 mod unguided;
+mod watched;
 
 use std::borrow::Cow;
 

@@ -4,18 +4,15 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::rays::Rays;
-use super::roulette::{Effects, PathRecord, ROULETTE_DEPTHS};
+use super::roulette::{Effects, ROULETTE_DEPTHS};
 use super::sum::Sum;
-use super::unguided::{Tale, UnguidedRecord};
+use super::unguided::Tale;
+use super::watched::{Watched, WatchedGuide, WatchedRoulette, Watcher};
 use crate::compare::metrics::relative_weight;
-use crate::reference::bsdf::BsdfSample;
 use crate::reference::integrator::Integrator;
-use crate::reference::intersect::Surface;
 use crate::reference::spread::pixel_of;
-use crate::reference::trace::{LightConnection, PathVisitor};
 use crate::sampling::hash::mix;
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
-use crate::scene::RenderSettings;
 
 /// Each pixel is tried by so many independent pictures of so many samples.
 const PICTURES: u32 = 4;
@@ -25,8 +22,6 @@ const MORE_PIXELS: u32 = 16;
 const PICTURES_IN_VIEW: u32 = 2;
 /// Least error that another roulette may leave, beside what there was.
 const LEAST_ERROR: f64 = 0.25;
-/// Vertices after which a path is given up.
-const MOST_VERTICES: u32 = 64;
 /// Of the random numbers.
 const SEED: u32 = 0x7069_6c6f;
 
@@ -242,209 +237,6 @@ impl TriedPixel {
         let effects = shown.iter().fold(W::Effects::default(), |sum, shown| sum.and(shown.effects));
         let rays = shown.iter().fold(Rays::default(), |sum, shown| sum.and(shown.rays));
         (Self { in_view, mean, variance, rays }, effects.times(1.0 / f64::from(PICTURES * SAMPLES)))
-    }
-}
-
-/// Follows a path.
-pub trait Watcher: PathVisitor {
-    /// What other ways would do to it.
-    type Effects: Sum;
-
-    fn new(settings: &RenderSettings) -> Self;
-
-    fn watched(&self) -> &Watched;
-
-    fn effects(&self) -> Self::Effects;
-}
-
-/// A path that is followed.
-#[derive(Default)]
-pub struct Watched {
-    rays: Rays,
-    /// Light of its first edge, on which it may have gone through null surfaces.
-    in_view: DVec3,
-    scatters: bool,
-}
-
-impl Watcher for Watched {
-    type Effects = ();
-
-    fn new(_: &RenderSettings) -> Self {
-        Self::default()
-    }
-
-    fn watched(&self) -> &Watched {
-        self
-    }
-
-    fn effects(&self) {}
-}
-
-impl PathVisitor for Watched {
-    fn surface(&mut self, _: u32, _: &Surface, _: DVec3, _: DVec3) {
-        self.rays.path += 1.0;
-    }
-
-    fn emission(&mut self, _: DVec3, _: f64, contribution: DVec3) {
-        if !self.scatters {
-            self.in_view += contribution;
-        }
-    }
-
-    fn scattered(&mut self, sample: &BsdfSample) {
-        self.scatters |= !sample.is_null;
-    }
-
-    fn escaped(&mut self, _: DVec3, _: f64, contribution: DVec3) {
-        self.rays.path += 1.0;
-        if !self.scatters {
-            self.in_view += contribution;
-        }
-    }
-
-    fn light(&mut self, _: &LightConnection) {
-        self.rays.shadow += 1.0;
-    }
-
-    fn gives_up(&mut self, vertices: u32) -> bool {
-        vertices > MOST_VERTICES
-    }
-}
-
-/// A path that is followed, and what it tells of roulette. Light in view is no part of that: no roulette ends paths before it.
-#[derive(Default)]
-struct WatchedRoulette {
-    watched: Watched,
-    record: PathRecord,
-}
-
-impl Watcher for WatchedRoulette {
-    type Effects = Effects;
-
-    fn new(_: &RenderSettings) -> Self {
-        Self::default()
-    }
-
-    fn watched(&self) -> &Watched {
-        &self.watched
-    }
-
-    fn effects(&self) -> Effects {
-        self.record.effects()
-    }
-}
-
-impl WatchedRoulette {
-    fn found(&mut self, contribution: DVec3) {
-        if self.watched.scatters {
-            self.record.found(contribution);
-        }
-    }
-}
-
-impl PathVisitor for WatchedRoulette {
-    fn surface(&mut self, depth: u32, surface: &Surface, wo: DVec3, throughput: DVec3) {
-        self.watched.surface(depth, surface, wo, throughput);
-        self.record.traced(Rays::PATH);
-        self.record.met(depth, throughput);
-    }
-
-    fn emission(&mut self, radiance: DVec3, weight: f64, contribution: DVec3) {
-        self.watched.emission(radiance, weight, contribution);
-        self.found(contribution);
-    }
-
-    fn scattered(&mut self, sample: &BsdfSample) {
-        self.watched.scattered(sample);
-        self.record.scattered(sample);
-    }
-
-    fn escaped(&mut self, radiance: DVec3, weight: f64, contribution: DVec3) {
-        self.watched.escaped(radiance, weight, contribution);
-        self.record.traced(Rays::PATH);
-        self.found(contribution);
-    }
-
-    fn light(&mut self, connection: &LightConnection) {
-        self.watched.light(connection);
-        self.record.traced(Rays::SHADOW);
-        self.record.found(connection.contribution);
-    }
-
-    fn gives_up(&mut self, vertices: u32) -> bool {
-        self.watched.gives_up(vertices)
-    }
-}
-
-/// A guided path that is followed, and what it tells of unguided ones. Light in view is no part of that: no guide leads to it.
-pub struct WatchedGuide {
-    watched: Watched,
-    pub record: UnguidedRecord,
-}
-
-impl Watcher for WatchedGuide {
-    type Effects = Tale;
-
-    fn new(settings: &RenderSettings) -> Self {
-        Self { watched: Watched::default(), record: UnguidedRecord::new(settings) }
-    }
-
-    fn watched(&self) -> &Watched {
-        &self.watched
-    }
-
-    fn effects(&self) -> Tale {
-        self.record.tale()
-    }
-}
-
-impl PathVisitor for WatchedGuide {
-    const COMPARES: bool = true;
-
-    fn surface(&mut self, depth: u32, surface: &Surface, wo: DVec3, throughput: DVec3) {
-        self.watched.surface(depth, surface, wo, throughput);
-        self.record.traced(Rays::PATH);
-        self.record.met(depth, throughput);
-    }
-
-    fn emission(&mut self, radiance: DVec3, weight: f64, contribution: DVec3) {
-        self.watched.emission(radiance, weight, contribution);
-        if self.watched.scatters {
-            self.record.emission(weight, contribution);
-        }
-    }
-
-    fn unguided(&mut self, times: f64) {
-        self.record.unguided(times);
-    }
-
-    fn light(&mut self, connection: &LightConnection) {
-        self.watched.light(connection);
-        self.record.traced(Rays::SHADOW);
-        self.record.light(connection);
-    }
-
-    fn scattered(&mut self, sample: &BsdfSample) {
-        self.watched.scattered(sample);
-        self.record.scattered(sample);
-    }
-
-    fn roulette(&mut self, survival: f64, survived: bool) {
-        if survived {
-            self.record.survived(survival);
-        }
-    }
-
-    fn escaped(&mut self, radiance: DVec3, weight: f64, contribution: DVec3) {
-        self.watched.escaped(radiance, weight, contribution);
-        self.record.traced(Rays::PATH);
-        if self.watched.scatters {
-            self.record.emission(weight, contribution);
-        }
-    }
-
-    fn gives_up(&mut self, vertices: u32) -> bool {
-        self.watched.gives_up(vertices)
     }
 }
 
