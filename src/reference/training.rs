@@ -119,12 +119,11 @@ fn trained(integrator: &mut Integrator, has_to_pay: bool) -> Trained {
     let mut first = 0;
     let mut before: (Vec<Arrival>, u32) = Default::default();
     let mut used = 0;
-    let mut loss = None;
     for (round, count) in rounds(integrator.scene().film.size).enumerate() {
         if has_to_pay && round == FIRST_LOOK && guide.is_some() {
-            loss = Some(pilot::loss_with_guide(integrator));
-            if loss > Some(MOST_LOSS_AT_FIRST) {
-                return Trained { guide, paths: used, loss };
+            let loss = pilot::loss_with_guide(integrator);
+            if loss > MOST_LOSS_AT_FIRST {
+                return Trained { guide, paths: used, loss: Some(loss) };
             }
         }
         let (mut arrivals, earlier) = std::mem::take(&mut before);
@@ -136,9 +135,7 @@ fn trained(integrator: &mut Integrator, has_to_pay: bool) -> Trained {
         before = (found, count);
         first += count;
     }
-    if has_to_pay && guide.is_some() {
-        loss = Some(pilot::loss_with_guide(integrator));
-    }
+    let loss = (has_to_pay && guide.is_some()).then(|| pilot::loss_with_guide(integrator));
     Trained { guide, paths: used, loss }
 }
 

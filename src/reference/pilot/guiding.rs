@@ -36,8 +36,8 @@ mod tests {
 
     use glam::DVec3;
 
-    use super::super::unguided::Tale;
-    use super::super::watched::{WatchedGuide, Watcher};
+    use super::super::unguided::{Tale, UnguidedRecord};
+    use super::super::watched::{Record, Watched};
     use super::*;
     use crate::compare::Moments;
     use crate::load;
@@ -82,9 +82,9 @@ mod tests {
         let sampling = Sampling { path: SamplerKind::Independent, seed, ..Sampling::from(settings) };
         let mut found = [Moments::default(); 2];
         for path in 0..40_000 {
-            let mut watcher = WatchedGuide::new(settings);
+            let mut watcher = Watched::<UnguidedRecord>::new(settings);
             follow(integrator, &sampling, pixel_of(path, integrator.scene().film.size), path, &mut watcher);
-            for (moments, value) in found.iter_mut().zip(value(watcher.record.tale())) {
+            for (moments, value) in found.iter_mut().zip(value(watcher.record.told())) {
                 moments.push(value);
             }
         }

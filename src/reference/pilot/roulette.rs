@@ -9,8 +9,11 @@ use glam::DVec3;
 
 use super::rays::Rays;
 use super::sum::Sum;
+use super::watched::Record;
 use crate::reference::bsdf::BsdfSample;
 use crate::reference::roulette;
+use crate::reference::trace::LightConnection;
+use crate::scene::RenderSettings;
 use crate::scene::settings::DEFAULT_ROULETTE_DEPTH;
 
 /// First depths at which roulette may end a path, and 0 for none that does. The first is that of the paths that are traced.
@@ -66,8 +69,19 @@ pub struct PathRecord {
     rays: OfEach<Rays>,
 }
 
-impl Default for PathRecord {
-    fn default() -> Self {
+impl PathRecord {
+    /// The path found light.
+    fn add(&mut self, contribution: DVec3) {
+        if contribution != DVec3::ZERO {
+            self.found.push((contribution * self.survival[OWN], self.survival));
+        }
+    }
+}
+
+impl Record for PathRecord {
+    type Told = Effects;
+
+    fn new(_: &RenderSettings) -> Self {
         Self {
             survival: [1.0; ROULETTE_DEPTHS.len()],
             throughput: DVec3::ONE,
@@ -77,46 +91,8 @@ impl Default for PathRecord {
             rays: Default::default(),
         }
     }
-}
 
-impl PathRecord {
-    /// A ray of the path, or a shadow ray, was traced.
-    pub fn traced(&mut self, rays: Rays) {
-        for (sum, survival) in self.rays.iter_mut().zip(self.survival) {
-            *sum = sum.and(rays.times(survival / self.survival[OWN]));
-        }
-    }
-
-    /// The path met a surface, with a throughput that roulette has made larger.
-    pub fn met(&mut self, depth: u32, throughput: DVec3) {
-        self.depth = depth;
-        self.throughput = throughput * self.survival[OWN];
-    }
-
-    /// The path found light.
-    pub fn found(&mut self, contribution: DVec3) {
-        if contribution != DVec3::ZERO {
-            self.found.push((contribution * self.survival[OWN], self.survival));
-        }
-    }
-
-    /// The path goes on unless roulette ends it.
-    pub fn scattered(&mut self, sample: &BsdfSample) {
-        self.eta_scale *= sample.eta * sample.eta;
-        let throughput = self.throughput * sample.weight * self.eta_scale;
-        // Null surfaces end no edge.
-        if sample.is_null || throughput.max_element() <= 0.0 {
-            return;
-        }
-        for (survival, first) in self.survival.iter_mut().zip(ROULETTE_DEPTHS) {
-            if first > 0 && self.depth >= first {
-                *survival *= roulette::survival(throughput / *survival, self.depth);
-            }
-        }
-    }
-
-    /// What each depth would do to a sample by what this path tells of it.
-    pub fn effects(&self) -> Effects {
+    fn told(&self) -> Effects {
         let mut effects = Effects(self.rays.map(|rays| Effect { variance: DVec3::ZERO, rays }));
         let mut behind = DVec3::ZERO;
         for (contribution, survival) in self.found.iter().rev() {
@@ -128,6 +104,40 @@ impl PathRecord {
             behind += own;
         }
         effects
+    }
+
+    fn traced(&mut self, rays: Rays) {
+        for (sum, survival) in self.rays.iter_mut().zip(self.survival) {
+            *sum = sum.and(rays.times(survival / self.survival[OWN]));
+        }
+    }
+
+    fn met(&mut self, depth: u32, throughput: DVec3) {
+        self.depth = depth;
+        // Roulette has made it larger.
+        self.throughput = throughput * self.survival[OWN];
+    }
+
+    fn light(&mut self, connection: &LightConnection) {
+        self.add(connection.contribution);
+    }
+
+    fn found(&mut self, _weight: f64, contribution: DVec3) {
+        self.add(contribution);
+    }
+
+    fn scattered(&mut self, sample: &BsdfSample) {
+        self.eta_scale *= sample.eta * sample.eta;
+        let throughput = self.throughput * sample.weight * self.eta_scale;
+        // Null surfaces end no edge.
+        if sample.is_null || throughput.max_element() <= 0.0 {
+            return;
+        }
+        for (survival, first) in self.survival.iter_mut().zip(ROULETTE_DEPTHS) {
+            if first > 0 && self.depth >= first {
+                *survival *= roulette::survival(throughput / *survival, self.depth);
+            }
+        }
     }
 }
 
@@ -179,15 +189,15 @@ mod tests {
             BsdfSample { wi: DVec3::Y, weight: DVec3::splat(0.5), density: Density::SolidAngle(1.0), eta: 1.0, is_null: false };
         let mut mean = Effects::default();
         for last in 0..VERTICES as usize {
-            let mut record = PathRecord::default();
+            let mut record = PathRecord::new(&RenderSettings::default());
             for vertex in 0..=last {
                 let chance = own.reached[vertex];
                 record.traced(Rays::PATH);
                 record.met(vertex as u32 + 1, DVec3::splat(0.5_f64.powi(vertex as i32) / chance));
-                record.found(DVec3::splat(light(vertex) / chance));
+                record.found(1.0, DVec3::splat(light(vertex) / chance));
                 record.scattered(&half);
             }
-            mean = mean.and(record.effects().times(own.ends_at(last)));
+            mean = mean.and(record.told().times(own.ends_at(last)));
         }
         for (first, effect) in ROULETTE_DEPTHS.into_iter().zip(mean.0) {
             let path = Path::new(first);

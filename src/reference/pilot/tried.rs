@@ -4,10 +4,10 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::rays::Rays;
-use super::roulette::{Effects, ROULETTE_DEPTHS};
+use super::roulette::{Effects, PathRecord, ROULETTE_DEPTHS};
 use super::sum::Sum;
-use super::unguided::Tale;
-use super::watched::{Watched, WatchedGuide, WatchedRoulette, Watcher};
+use super::unguided::{Tale, UnguidedRecord};
+use super::watched::{Record, Watched};
 use crate::compare::metrics::relative_weight;
 use crate::reference::integrator::Integrator;
 use crate::reference::spread::pixel_of;
@@ -20,7 +20,7 @@ const SAMPLES: u32 = 16;
 /// Of what is in view, so many times as many pixels are looked at, each by so many pictures.
 const MORE_PIXELS: u32 = 16;
 const PICTURES_IN_VIEW: u32 = 2;
-/// Least error that another roulette may leave, beside what there was.
+/// Least error that another way may leave, beside what there was.
 const LEAST_ERROR: f64 = 0.25;
 /// Of the random numbers.
 const SEED: u32 = 0x7069_6c6f;
@@ -35,24 +35,24 @@ pub struct Found {
 impl Found {
     /// Of so many pixels; the cost is not known yet.
     pub fn new(integrator: &Integrator, pixels: u32) -> Self {
-        Self::watched_by::<Watched>(integrator, pixels).0
+        Self::recorded::<()>(integrator, pixels).0
     }
 
     /// As [`Found::new`], with what roulette from other depths on would do to the paths.
     pub fn with_roulette(integrator: &Integrator, pixels: u32) -> (Self, Vec<Effects>) {
-        Self::watched_by::<WatchedRoulette>(integrator, pixels)
+        Self::recorded::<PathRecord>(integrator, pixels)
     }
 
     /// As [`Found::new`] of guided paths, with what they tell of unguided ones.
     pub fn unguided(integrator: &Integrator, pixels: u32) -> (Self, Vec<Tale>) {
-        Self::watched_by::<WatchedGuide>(integrator, pixels)
+        Self::recorded::<UnguidedRecord>(integrator, pixels)
     }
 
-    fn watched_by<W: Watcher>(integrator: &Integrator, pixels: u32) -> (Self, Vec<W::Effects>) {
+    fn recorded<R: Record>(integrator: &Integrator, pixels: u32) -> (Self, Vec<R::Told>) {
         let pictures = pictures(integrator, PICTURES);
-        let of_pixel = |number| TriedPixel::of::<W>(integrator, &pictures, number);
-        let (pixels, effects) = (0..pixels).into_par_iter().map(of_pixel).unzip();
-        (Self { pixels, cost: 0.0 }, effects)
+        let of_pixel = |number| TriedPixel::of::<R>(integrator, &pictures, number);
+        let (pixels, told) = (0..pixels).into_par_iter().map(of_pixel).unzip();
+        (Self { pixels, cost: 0.0 }, told)
     }
 
     /// All together.
@@ -67,6 +67,18 @@ impl Found {
 
     pub fn has_noise(&self) -> bool {
         self.pixels.iter().any(|pixel| pixel.variance != DVec3::ZERO)
+    }
+
+    /// The pixels, with what their squared errors are multiplied by.
+    fn weighed(&self) -> impl Iterator<Item = (&TriedPixel, DVec3)> {
+        self.pixels.iter().map(|pixel| (pixel, weight(pixel.in_view + pixel.mean)))
+    }
+
+    /// The error of light beyond what is in view, and that of what is.
+    fn errors(&self, in_view: &InView) -> [f64; 2] {
+        let beyond: DVec3 = self.pixels.iter().map(|pixel| pixel.mean).sum();
+        let own = self.weighed().map(|(pixel, weight)| pixel.variance.dot(weight)).sum();
+        [own, in_view.error(beyond / self.pixels.len() as f64)]
     }
 
     /// Error times cost, over that of another way. Errors are relative to what both ways found together: relative to what one of them found alone,
@@ -93,18 +105,13 @@ pub fn losses_of_roulette(
     cost: impl Fn(Rays) -> f64,
 ) -> [f64; ROULETTE_DEPTHS.len()] {
     let total = effects.iter().fold(Effects::default(), |sum, effects| sum.and(*effects));
-    let mut error = 0.0;
     let mut more = [0.0; ROULETTE_DEPTHS.len()];
-    let mut beyond = DVec3::ZERO;
-    for (pixel, effects) in found.pixels.iter().zip(effects) {
-        beyond += pixel.mean;
-        let weight = weight(pixel.in_view + pixel.mean);
-        error += pixel.variance.dot(weight);
+    for ((_, weight), effects) in found.weighed().zip(effects) {
         for (more, effect) in more.iter_mut().zip(effects.0) {
             *more += effect.variance.dot(weight) / f64::from(SAMPLES);
         }
     }
-    error += in_view.error(beyond / found.pixels.len() as f64);
+    let error = found.errors(in_view).iter().sum::<f64>();
     // Both are estimates: roulette makes a part of the error, however it came out.
     let loss = |index: usize| (error + more[index]).max(LEAST_ERROR * error) * cost(total.0[index].rays);
     let own = loss(0);
@@ -114,20 +121,15 @@ pub fn losses_of_roulette(
 /// The error of guided paths, and that of unguided ones. Samples depend on each other by their random numbers, which makes the error less than
 /// the variance of a sample says, by the same share either way.
 pub fn errors_of_guiding(found: &Found, tales: &[Tale], in_view: &InView) -> [f64; 2] {
-    let mut beyond = DVec3::ZERO;
-    let mut error = 0.0;
     let mut variances = [0.0; 2];
-    for (pixel, tale) in found.pixels.iter().zip(tales) {
-        beyond += pixel.mean;
-        let weight = weight(pixel.in_view + pixel.mean);
-        error += pixel.variance.dot(weight);
+    for ((pixel, weight), tale) in found.weighed().zip(tales) {
         for (variance, moment) in variances.iter_mut().zip([tale.guided, tale.unguided]) {
             *variance += (moment - pixel.mean * pixel.mean).dot(weight);
         }
     }
-    let of_view = in_view.error(beyond / found.pixels.len() as f64);
-    // Without noise a guide makes no difference.
-    let ratio = if variances[0] > 0.0 { variances[1] / variances[0] } else { 1.0 };
+    let [error, of_view] = found.errors(in_view);
+    // Without noise a guide makes no difference. Estimates may be less than nothing.
+    let ratio = if variances[0] > 0.0 { (variances[1] / variances[0]).max(LEAST_ERROR) } else { 1.0 };
     [error + of_view, error * ratio + of_view]
 }
 
@@ -149,7 +151,7 @@ impl InView {
         let max_depth = integrator.set_max_depth(1);
         let pictures = pictures(integrator, PICTURES_IN_VIEW);
         let look = |number| {
-            let found = pictures.iter().map(|picture| picture.show::<Watched>(integrator, number).in_view);
+            let found = pictures.iter().map(|picture| picture.show::<()>(integrator, number).in_view);
             mean_and_variance(&found.collect::<Vec<DVec3>>())
         };
         let pixels = (0..MORE_PIXELS * pixels).into_par_iter().map(look).collect();
@@ -181,20 +183,19 @@ fn pictures(integrator: &Integrator, count: u32) -> Vec<Picture> {
 
 impl Picture {
     /// What a pixel shows.
-    fn show<W: Watcher>(&self, integrator: &Integrator, number: u32) -> Shown<W::Effects> {
+    fn show<R: Record>(&self, integrator: &Integrator, number: u32) -> Shown<R::Told> {
         let size = integrator.scene().film.size;
         let [x, y] = pixel_of(number, size);
         let pixel = y.wrapping_mul(size[0]).wrapping_add(x);
-        let mut shown: Shown<W::Effects> = Shown::default();
+        let mut shown: Shown<R::Told> = Shown::default();
         for point in &self.points {
-            let mut watcher = W::new(&integrator.scene().render);
-            let found = integrator.radiance(x, y, &PathSampler::new(&self.sampling, pixel, point), &mut watcher);
-            let path = watcher.watched();
+            let mut path = Watched::<R>::new(&integrator.scene().render);
+            let found = integrator.radiance(x, y, &PathSampler::new(&self.sampling, pixel, point), &mut path);
             // The film leaves out what is not finite, too.
             if found.is_finite() {
                 shown.in_view += path.in_view / f64::from(SAMPLES);
                 shown.beyond += (found - path.in_view) / f64::from(SAMPLES);
-                shown.effects = shown.effects.and(watcher.effects());
+                shown.told = shown.told.and(path.record.told());
             }
             shown.rays = shown.rays.and(path.rays);
         }
@@ -204,12 +205,12 @@ impl Picture {
 
 /// Light that the first edges of a pixel's paths find, and light beyond those.
 #[derive(Default)]
-struct Shown<E> {
+struct Shown<T> {
     in_view: DVec3,
     beyond: DVec3,
     rays: Rays,
-    /// Of all samples together.
-    effects: E,
+    /// By all samples together.
+    told: T,
 }
 
 /// Of one of them.
@@ -229,14 +230,14 @@ struct TriedPixel {
 }
 
 impl TriedPixel {
-    /// With the effects of other ways on a sample of it.
-    fn of<W: Watcher>(integrator: &Integrator, pictures: &[Picture], number: u32) -> (Self, W::Effects) {
-        let shown: Vec<Shown<W::Effects>> = pictures.iter().map(|picture| picture.show::<W>(integrator, number)).collect();
+    /// With what a sample of it tells of other ways.
+    fn of<R: Record>(integrator: &Integrator, pictures: &[Picture], number: u32) -> (Self, R::Told) {
+        let shown: Vec<Shown<R::Told>> = pictures.iter().map(|picture| picture.show::<R>(integrator, number)).collect();
         let [mean, variance] = mean_and_variance(&shown.iter().map(|shown| shown.beyond).collect::<Vec<DVec3>>());
         let in_view = shown.iter().map(|shown| shown.in_view).sum::<DVec3>() / f64::from(PICTURES);
-        let effects = shown.iter().fold(W::Effects::default(), |sum, shown| sum.and(shown.effects));
+        let told = shown.iter().fold(R::Told::default(), |sum, shown| sum.and(shown.told));
         let rays = shown.iter().fold(Rays::default(), |sum, shown| sum.and(shown.rays));
-        (Self { in_view, mean, variance, rays }, effects.times(1.0 / f64::from(PICTURES * SAMPLES)))
+        (Self { in_view, mean, variance, rays }, told.times(1.0 / f64::from(PICTURES * SAMPLES)))
     }
 }
 

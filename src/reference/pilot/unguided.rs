@@ -10,6 +10,7 @@ use glam::DVec3;
 
 use super::rays::Rays;
 use super::sum::Sum;
+use super::watched::Record;
 use crate::reference::bsdf::{BsdfSample, Density};
 use crate::reference::trace::LightConnection;
 use crate::reference::{mis, roulette};
@@ -58,7 +59,26 @@ pub struct UnguidedRecord {
 }
 
 impl UnguidedRecord {
-    pub fn new(settings: &RenderSettings) -> Self {
+    /// What the path found counts with another weight without the guide.
+    fn add(&mut self, contribution: DVec3, [weight, unguided]: [f64; 2]) {
+        if contribution == DVec3::ZERO {
+            return;
+        }
+        self.found += contribution;
+        if self.density > 0.0 && unguided > 0.0 {
+            // Throughput goes with one over the density.
+            let own = contribution * (unguided / weight);
+            self.moment += own * (own / self.density + 2.0 * self.unguided);
+            self.unguided += own / self.density;
+        }
+    }
+}
+
+impl Record for UnguidedRecord {
+    type Told = Tale;
+    const COMPARES: bool = true;
+
+    fn new(settings: &RenderSettings) -> Self {
         Self {
             estimator: settings.estimator,
             heuristic: settings.heuristic,
@@ -76,32 +96,31 @@ impl UnguidedRecord {
         }
     }
 
-    /// A ray of the path, or a shadow ray, was traced.
-    pub fn traced(&mut self, rays: Rays) {
+    fn told(&self) -> Tale {
+        Tale { guided: self.found * self.found, unguided: self.moment, rays: self.rays }
+    }
+
+    fn traced(&mut self, rays: Rays) {
         self.rays = self.rays.and(rays.times(self.density));
     }
 
-    /// The path met a surface.
-    pub fn met(&mut self, depth: u32, throughput: DVec3) {
+    fn met(&mut self, depth: u32, throughput: DVec3) {
         self.depth = depth;
         self.throughput = throughput;
     }
 
-    /// See [`crate::reference::trace::PathVisitor::unguided`].
-    pub fn unguided(&mut self, times: f64) {
+    fn unguided(&mut self, times: f64) {
         self.times = times;
     }
 
-    /// Light was sampled.
-    pub fn light(&mut self, connection: &LightConnection) {
+    fn light(&mut self, connection: &LightConnection) {
         let LightConnection { light, bsdf_pdf, weight, contribution, .. } = connection;
         let is_shared = !light.delta && self.estimator == Estimator::Mis;
         let unguided = if is_shared { mis::weight(self.heuristic, light.pdf, bsdf_pdf * self.times) } else { *weight };
         self.add(*contribution, [*weight, unguided]);
     }
 
-    /// The path found light by itself.
-    pub fn emission(&mut self, weight: f64, contribution: DVec3) {
+    fn found(&mut self, weight: f64, contribution: DVec3) {
         let unguided = match self.previous {
             (Density::SolidAngle(pdf), times) if self.estimator == Estimator::Mis && weight > 0.0 => {
                 let odds = (1.0 / weight - 1.0).max(0.0);
@@ -116,22 +135,7 @@ impl UnguidedRecord {
         self.add(contribution, [weight, unguided]);
     }
 
-    /// What the path found counts with another weight without the guide.
-    fn add(&mut self, contribution: DVec3, [weight, unguided]: [f64; 2]) {
-        if contribution == DVec3::ZERO {
-            return;
-        }
-        self.found += contribution;
-        if self.density > 0.0 && unguided > 0.0 {
-            // Throughput goes with one over the density.
-            let own = contribution * (unguided / weight);
-            self.moment += own * (own / self.density + 2.0 * self.unguided);
-            self.unguided += own / self.density;
-        }
-    }
-
-    /// The path goes on, unless roulette ends it.
-    pub fn scattered(&mut self, sample: &BsdfSample) {
+    fn scattered(&mut self, sample: &BsdfSample) {
         self.density *= self.times;
         if sample.is_null {
             return;
@@ -144,13 +148,7 @@ impl UnguidedRecord {
         }
     }
 
-    /// Roulette let the guided path go on with this chance.
-    pub fn survived(&mut self, survival: f64) {
+    fn survived(&mut self, survival: f64) {
         self.density /= survival;
-    }
-
-    /// What the path tells.
-    pub fn tale(&self) -> Tale {
-        Tale { guided: self.found * self.found, unguided: self.moment, rays: self.rays }
     }
 }

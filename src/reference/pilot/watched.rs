@@ -3,9 +3,7 @@
 use glam::DVec3;
 
 use super::rays::Rays;
-use super::roulette::{Effects, PathRecord};
 use super::sum::Sum;
-use super::unguided::{Tale, UnguidedRecord};
 use crate::reference::bsdf::BsdfSample;
 use crate::reference::intersect::Surface;
 use crate::reference::trace::{LightConnection, PathVisitor};
@@ -14,173 +12,79 @@ use crate::scene::RenderSettings;
 /// Vertices after which a path is given up.
 const MOST_VERTICES: u32 = 64;
 
-/// Follows a path.
-pub trait Watcher: PathVisitor {
-    /// What other ways would do to it.
-    type Effects: Sum;
+/// What a path tells of other ways to trace it. Light in view is no part of that: no other way changes it.
+pub trait Record {
+    type Told: Sum;
+    /// As [`PathVisitor::COMPARES`].
+    const COMPARES: bool = false;
 
     fn new(settings: &RenderSettings) -> Self;
+    /// What it has told by its end.
+    fn told(&self) -> Self::Told;
 
-    fn watched(&self) -> &Watched;
+    /// A ray of the path, or a shadow ray, was traced.
+    fn traced(&mut self, _rays: Rays) {}
+    /// The path met a surface.
+    fn met(&mut self, _depth: u32, _throughput: DVec3) {}
+    /// As [`PathVisitor::unguided`].
+    fn unguided(&mut self, _times: f64) {}
+    /// Light was sampled.
+    fn light(&mut self, _connection: &LightConnection) {}
+    /// The path found light by itself, with this weight by multiple importance sampling.
+    fn found(&mut self, _weight: f64, _contribution: DVec3) {}
+    /// The path goes on, unless roulette ends it.
+    fn scattered(&mut self, _sample: &BsdfSample) {}
+    /// Roulette let the path go on with this chance.
+    fn survived(&mut self, _survival: f64) {}
+}
 
-    fn effects(&self) -> Self::Effects;
+/// Nothing is asked.
+impl Record for () {
+    type Told = ();
+
+    fn new(_: &RenderSettings) -> Self {}
+
+    fn told(&self) {}
 }
 
 /// A path that is followed.
-#[derive(Default)]
-pub struct Watched {
+pub struct Watched<R> {
     pub rays: Rays,
     /// Light of its first edge, on which it may have gone through null surfaces.
     pub in_view: DVec3,
     scatters: bool,
+    pub record: R,
 }
 
-impl Watcher for Watched {
-    type Effects = ();
-
-    fn new(_: &RenderSettings) -> Self {
-        Self::default()
+impl<R: Record> Watched<R> {
+    pub fn new(settings: &RenderSettings) -> Self {
+        Self { rays: Rays::default(), in_view: DVec3::ZERO, scatters: false, record: R::new(settings) }
     }
 
-    fn watched(&self) -> &Watched {
-        self
+    fn traced(&mut self, rays: Rays) {
+        self.rays = self.rays.and(rays);
+        self.record.traced(rays);
     }
 
-    fn effects(&self) {}
-}
-
-impl PathVisitor for Watched {
-    fn surface(&mut self, _: u32, _: &Surface, _: DVec3, _: DVec3) {
-        self.rays.path += 1.0;
-    }
-
-    fn emission(&mut self, _: DVec3, _: f64, contribution: DVec3) {
-        if !self.scatters {
+    fn found(&mut self, weight: f64, contribution: DVec3) {
+        if self.scatters {
+            self.record.found(weight, contribution);
+        } else {
             self.in_view += contribution;
         }
     }
-
-    fn scattered(&mut self, sample: &BsdfSample) {
-        self.scatters |= !sample.is_null;
-    }
-
-    fn escaped(&mut self, _: DVec3, _: f64, contribution: DVec3) {
-        self.rays.path += 1.0;
-        if !self.scatters {
-            self.in_view += contribution;
-        }
-    }
-
-    fn light(&mut self, _: &LightConnection) {
-        self.rays.shadow += 1.0;
-    }
-
-    fn gives_up(&mut self, vertices: u32) -> bool {
-        vertices > MOST_VERTICES
-    }
 }
 
-/// A path that is followed, and what it tells of roulette. Light in view is no part of that: no roulette ends paths before it.
-#[derive(Default)]
-pub struct WatchedRoulette {
-    watched: Watched,
-    record: PathRecord,
-}
+impl<R: Record> PathVisitor for Watched<R> {
+    const COMPARES: bool = R::COMPARES;
 
-impl Watcher for WatchedRoulette {
-    type Effects = Effects;
-
-    fn new(_: &RenderSettings) -> Self {
-        Self::default()
-    }
-
-    fn watched(&self) -> &Watched {
-        &self.watched
-    }
-
-    fn effects(&self) -> Effects {
-        self.record.effects()
-    }
-}
-
-impl WatchedRoulette {
-    fn found(&mut self, contribution: DVec3) {
-        if self.watched.scatters {
-            self.record.found(contribution);
-        }
-    }
-}
-
-impl PathVisitor for WatchedRoulette {
-    fn surface(&mut self, depth: u32, surface: &Surface, wo: DVec3, throughput: DVec3) {
-        self.watched.surface(depth, surface, wo, throughput);
-        self.record.traced(Rays::PATH);
+    fn surface(&mut self, depth: u32, _: &Surface, _: DVec3, throughput: DVec3) {
+        self.traced(Rays::PATH);
         self.record.met(depth, throughput);
     }
 
-    fn emission(&mut self, radiance: DVec3, weight: f64, contribution: DVec3) {
-        self.watched.emission(radiance, weight, contribution);
-        self.found(contribution);
-    }
-
-    fn scattered(&mut self, sample: &BsdfSample) {
-        self.watched.scattered(sample);
-        self.record.scattered(sample);
-    }
-
-    fn escaped(&mut self, radiance: DVec3, weight: f64, contribution: DVec3) {
-        self.watched.escaped(radiance, weight, contribution);
-        self.record.traced(Rays::PATH);
-        self.found(contribution);
-    }
-
-    fn light(&mut self, connection: &LightConnection) {
-        self.watched.light(connection);
-        self.record.traced(Rays::SHADOW);
-        self.record.found(connection.contribution);
-    }
-
-    fn gives_up(&mut self, vertices: u32) -> bool {
-        self.watched.gives_up(vertices)
-    }
-}
-
-/// A guided path that is followed, and what it tells of unguided ones. Light in view is no part of that: no guide leads to it.
-pub struct WatchedGuide {
-    watched: Watched,
-    pub record: UnguidedRecord,
-}
-
-impl Watcher for WatchedGuide {
-    type Effects = Tale;
-
-    fn new(settings: &RenderSettings) -> Self {
-        Self { watched: Watched::default(), record: UnguidedRecord::new(settings) }
-    }
-
-    fn watched(&self) -> &Watched {
-        &self.watched
-    }
-
-    fn effects(&self) -> Tale {
-        self.record.tale()
-    }
-}
-
-impl PathVisitor for WatchedGuide {
-    const COMPARES: bool = true;
-
-    fn surface(&mut self, depth: u32, surface: &Surface, wo: DVec3, throughput: DVec3) {
-        self.watched.surface(depth, surface, wo, throughput);
-        self.record.traced(Rays::PATH);
-        self.record.met(depth, throughput);
-    }
-
-    fn emission(&mut self, radiance: DVec3, weight: f64, contribution: DVec3) {
-        self.watched.emission(radiance, weight, contribution);
-        if self.watched.scatters {
-            self.record.emission(weight, contribution);
-        }
+    fn emission(&mut self, _: DVec3, weight: f64, contribution: DVec3) {
+        self.found(weight, contribution);
     }
 
     fn unguided(&mut self, times: f64) {
@@ -188,13 +92,12 @@ impl PathVisitor for WatchedGuide {
     }
 
     fn light(&mut self, connection: &LightConnection) {
-        self.watched.light(connection);
-        self.record.traced(Rays::SHADOW);
+        self.traced(Rays::SHADOW);
         self.record.light(connection);
     }
 
     fn scattered(&mut self, sample: &BsdfSample) {
-        self.watched.scattered(sample);
+        self.scatters |= !sample.is_null;
         self.record.scattered(sample);
     }
 
@@ -204,15 +107,12 @@ impl PathVisitor for WatchedGuide {
         }
     }
 
-    fn escaped(&mut self, radiance: DVec3, weight: f64, contribution: DVec3) {
-        self.watched.escaped(radiance, weight, contribution);
-        self.record.traced(Rays::PATH);
-        if self.watched.scatters {
-            self.record.emission(weight, contribution);
-        }
+    fn escaped(&mut self, _: DVec3, weight: f64, contribution: DVec3) {
+        self.traced(Rays::PATH);
+        self.found(weight, contribution);
     }
 
     fn gives_up(&mut self, vertices: u32) -> bool {
-        self.watched.gives_up(vertices)
+        vertices > MOST_VERTICES
     }
 }
