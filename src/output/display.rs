@@ -174,6 +174,31 @@ fn filmic(radiance: f64) -> f64 {
 struct Agx {
     inset: DMat3,
     outset: DMat3,
+    toe: Arm,
+    shoulder: Arm,
+}
+
+/// One arm of the sigmoid. The lower one runs backwards.
+#[derive(Debug, Clone)]
+struct Arm {
+    power: f64,
+    /// Makes the arm meet its end of the curve.
+    scale: f64,
+}
+
+impl Arm {
+    /// An arm that rises by `rise` over `run`.
+    fn new(run: f64, rise: f64, power: f64) -> Self {
+        let unbent = Agx::SLOPE * run;
+        let scale = (unbent.powf(-power) * ((unbent / rise).powf(power) - 1.0)).powf(-1.0 / power);
+        Self { power, scale }
+    }
+
+    /// How far it has risen so far from the pivot.
+    fn at(&self, along: f64) -> f64 {
+        let term = Agx::SLOPE * along / self.scale;
+        self.scale * term / (1.0 + term.powf(self.power)).powf(1.0 / self.power)
+    }
 }
 
 impl Agx {
@@ -199,33 +224,25 @@ impl Agx {
             0.079_166_127_460_543_4,
             0.879_142_973_793_104,
         ]);
-        Self { inset, outset: inset.inverse() }
+        let [pivot_x, pivot_y] = Self::PIVOT;
+        let toe = Arm::new(pivot_x, pivot_y, Self::TOE_POWER);
+        let shoulder = Arm::new(1.0 - pivot_x, 1.0 - pivot_y, Self::SHOULDER_POWER);
+        Self { inset, outset: inset.inverse(), toe, shoulder }
     }
 
     /// From scene to display, linear both.
     fn develop(&self, scene: DVec3) -> DVec3 {
         let encoded = (self.inset * scene).map(|value| {
             let stops = (value.max(1e-10) / MIDDLE_GREY).log2();
-            Self::sigmoid(((stops + Self::STOPS_BELOW) / (Self::STOPS_BELOW + Self::STOPS_ABOVE)).clamp(0.0, 1.0))
+            self.sigmoid(((stops + Self::STOPS_BELOW) / (Self::STOPS_BELOW + Self::STOPS_ABOVE)).clamp(0.0, 1.0))
         });
         (self.outset * encoded).map(|value| value.clamp(0.0, 1.0).powf(Self::ENCODING))
     }
 
     /// Through the pivot with the slope; (0, 0) and (1, 1) are its ends.
-    fn sigmoid(x: f64) -> f64 {
+    fn sigmoid(&self, x: f64) -> f64 {
         let [pivot_x, pivot_y] = Self::PIVOT;
-        // Both arms start from the pivot; the lower one runs backwards.
-        let (along, to_end_x, to_end_y, power) = if x >= pivot_x {
-            (x - pivot_x, 1.0 - pivot_x, 1.0 - pivot_y, Self::SHOULDER_POWER)
-        } else {
-            (pivot_x - x, pivot_x, pivot_y, Self::TOE_POWER)
-        };
-        // The scale by which x·s/(1 + (x·s)^p)^(1/p) passes through the end.
-        let rise = Self::SLOPE * to_end_x;
-        let scale = (rise.powf(-power) * ((rise / to_end_y).powf(power) - 1.0)).powf(-1.0 / power);
-        let term = Self::SLOPE * along / scale;
-        let arm = scale * term / (1.0 + term.powf(power)).powf(1.0 / power);
-        if x >= pivot_x { pivot_y + arm } else { pivot_y - arm }
+        if x >= pivot_x { pivot_y + self.shoulder.at(x - pivot_x) } else { pivot_y - self.toe.at(pivot_x - x) }
     }
 }
 
@@ -308,15 +325,16 @@ mod tests {
 
     #[test]
     fn agx_meets_its_pivot_and_ends_with_its_slope() {
+        let agx = Agx::new();
         let [x, y] = Agx::PIVOT;
-        approx::assert_relative_eq!(Agx::sigmoid(x), y, max_relative = 1e-12);
-        approx::assert_relative_eq!(Agx::sigmoid(1.0), 1.0, max_relative = 1e-9);
-        assert!(Agx::sigmoid(0.0).abs() < 1e-9);
+        approx::assert_relative_eq!(agx.sigmoid(x), y, max_relative = 1e-12);
+        approx::assert_relative_eq!(agx.sigmoid(1.0), 1.0, max_relative = 1e-9);
+        assert!(agx.sigmoid(0.0).abs() < 1e-9);
         for side in [-1e-6, 1e-6] {
-            approx::assert_relative_eq!((Agx::sigmoid(x + side) - y) / side, Agx::SLOPE, max_relative = 1e-4);
+            approx::assert_relative_eq!((agx.sigmoid(x + side) - y) / side, Agx::SLOPE, max_relative = 1e-4);
         }
         // Middle grey keeps its hue and becomes 0.5 to the power of 2.2.
-        let grey = Agx::new().develop(DVec3::splat(MIDDLE_GREY));
+        let grey = agx.develop(DVec3::splat(MIDDLE_GREY));
         approx::assert_relative_eq!(grey.x, 0.5_f64.powf(2.2), max_relative = 1e-3);
         // Sixth-order fit of Wrensch 2023 ("Minimal AgX Implementation") to the same curve, good to 4e-3.
         let fit = |x: f64| {
@@ -324,7 +342,7 @@ mod tests {
         };
         for step in 0..=20 {
             let x = f64::from(step) / 20.0;
-            assert!((Agx::sigmoid(x) - fit(x)).abs() < 8e-3, "{x}: {} {}", Agx::sigmoid(x), fit(x));
+            assert!((agx.sigmoid(x) - fit(x)).abs() < 8e-3, "{x}: {} {}", agx.sigmoid(x), fit(x));
         }
         // Bright red fades, where clipping keeps it.
         let fades = |curve| developer(Display { tone_curve: curve, ..Display::default() }).bytes([50.0, 0.5, 0.5])[1];

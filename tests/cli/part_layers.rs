@@ -154,7 +154,7 @@ fn finished_layers_are_not_rendered_again() {
 #[test]
 fn a_layer_that_is_interrupted_goes_on() {
     let place = Workplace::new();
-    let render = "render scene.toml --device cpu --size 64x48 --spp 4000 --aov indirect -o a.exr";
+    let render = "render scene.toml --device cpu --size 64x48 --spp 800 --aov indirect -o a.exr";
     place.expect(0, &format!("{render} -q"));
     let whole = fs::read(place.path("a.exr")).expect("the picture");
     fs::remove_file(place.path("a.exr")).expect("it is there");

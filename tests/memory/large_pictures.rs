@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::counting::{Peak, take_turn};
 use gpt::film::Band;
-use gpt::output::{PictureFile, PictureFormat, PictureSpec, Provenance};
+use gpt::output::{Display, PictureFile, PictureFormat, PictureSpec, Provenance};
 use gpt::scene::{Filter, RenderSettings};
 
 /// 8K: 133 MB of 8-bit pixels at three bytes, 398 MB of floats.
@@ -40,7 +40,8 @@ fn an_8k_picture_takes_a_fraction_of_its_size_in_memory() {
         adaptive: false,
         device: "none".to_owned(),
     };
-    let spec = PictureSpec { width: SIZE[0], height: SIZE[1], provenance: Some(provenance), ..PictureSpec::default() };
+    let (provenance, display) = (Some(provenance), Display::CLIP);
+    let spec = PictureSpec { width: SIZE[0], height: SIZE[1], provenance, display, ..PictureSpec::default() };
     let peak = Peak::from_now();
     let mut files = [("a.exr", PictureFormat::Exr), ("a.png", PictureFormat::Png)].map(|(name, format)| {
         PictureFile::create(&folder.path().join(name), format, &spec).expect("a file in a folder that exists")
