@@ -5,9 +5,11 @@ use std::time::Instant;
 use gpt::binary_tree::parts::KeptTrees;
 use gpt::gpu::{prepare, select_adapter};
 use gpt::load::{self, SceneError, printable};
+use gpt::packed::hierarchy::Traversal;
 use gpt::plan::host::{HostNeeds, host_memory};
-use gpt::plan::{Decision, DeviceLimits, Memory, Plan, PlanOptions};
+use gpt::plan::{Decision, DeviceLimits, Memory, Plan, PlanError, PlanOptions, TraversalChoice};
 use gpt::reference::ReferenceRenderer;
+use gpt::reference::pilot::Settled;
 use gpt::renderer::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
 use gpt::scene::{Guiding, ImportReport, LightChoice, ReportItem, Scene, SceneSummary};
 use gpt::verify;
@@ -16,7 +18,7 @@ use serde::Serialize;
 use super::arguments::CheckArguments;
 use super::exit::{Exit, Failure};
 use super::sequence::bad_frame;
-use super::{reading, terminal};
+use super::{reading, terminal, verified_drivers};
 
 /// Longer side in pixels of the picture by which the time is guessed.
 const PROBE_SIDE: u32 = 16;
@@ -109,9 +111,8 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
     }
     check_frames(&scene)?;
     let options = arguments.traversal.options();
-    let (settled, packed) = prepare(&scene, options.packed_traversal(), &mut KeptTrees::default())?;
-    let (device, limits) = usual_device();
-    let plan = Plan::new(&settled.scene, &packed, &limits, &options).map_err(RenderError::from)?;
+    let (device, limits) = usual_device(&options)?;
+    let (plan, settled) = usual_plan(&scene, &limits, &options)?;
     let summary = SceneSummary::of(&scene);
     let exit = if arguments.strict && !scene.import_report.is_empty() { Exit::Input } else { Exit::Done };
     let cpu_seconds = guess_time(&settled.scene)?;
@@ -188,18 +189,31 @@ pub fn host_needs(scene: &Scene, on_cpu: bool) -> Memory {
 
 /// The device that `--device auto` takes, and what it needs of its memory for the scene.
 pub fn device_memory(scene: &Scene) -> Result<(String, u64), Failure> {
-    let options = PlanOptions::default();
-    let (settled, packed) = prepare(scene, options.packed_traversal(), &mut KeptTrees::default())?;
-    let (device, limits) = usual_device();
-    let plan = Plan::new(&settled.scene, &packed, &limits, &options).map_err(RenderError::from)?;
+    let options = PlanOptions { verified: verified_drivers::known(), ..PlanOptions::default() };
+    let (device, limits) = usual_device(&options)?;
+    let (plan, _) = usual_plan(scene, &limits, &options)?;
     Ok((device, plan.memory.total()))
 }
 
 /// The device that `--device auto` takes; without an adapter, one that has just what WebGPU promises.
-fn usual_device() -> (String, DeviceLimits) {
-    match select_adapter(&DeviceChoice::Auto) {
-        Ok(adapter) => (adapter.get_info().name, DeviceLimits::of(&adapter)),
-        Err(_) => ("a device with the limits that WebGPU promises".to_owned(), DeviceLimits::default()),
+fn usual_device(options: &PlanOptions) -> Result<(String, DeviceLimits), Failure> {
+    let Ok(adapter) = select_adapter(&DeviceChoice::Auto) else {
+        return Ok(("a device with the limits that WebGPU promises".to_owned(), DeviceLimits::default()));
+    };
+    let limits = DeviceLimits::for_plans(&adapter, options).map_err(RenderError::from)?;
+    Ok((adapter.get_info().name, limits))
+}
+
+/// What a render would plan, and the scene with complete settings.
+fn usual_plan<'a>(scene: &'a Scene, limits: &DeviceLimits, options: &PlanOptions) -> Result<(Plan, Settled<'a>), Failure> {
+    let traversal = options.packed_traversal(scene, Some(limits));
+    let (settled, packed) = prepare(scene, traversal, &mut KeptTrees::default())?;
+    match Plan::new(&settled.scene, &packed, limits, options) {
+        // As the renderer does: ray queries that nobody asked for are given up.
+        Err(PlanError::DoesNotFit(_)) if traversal == Traversal::RayQuery && !options.asks_for_ray_queries() => {
+            usual_plan(scene, limits, &PlanOptions { traversal: TraversalChoice::Bvh, ..options.clone() })
+        }
+        plan => Ok((plan.map_err(RenderError::from)?, settled)),
     }
 }
 

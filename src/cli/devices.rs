@@ -3,14 +3,32 @@
 use std::fmt::Write;
 
 use gpt::gpu::{AdapterSummary, list_devices};
+use gpt::plan::VerifiedDrivers;
+use serde::Serialize;
 
 use super::arguments::DevicesArguments;
 use super::exit::{Exit, Failure};
-use super::terminal;
+use super::{terminal, verified_drivers};
+
+/// A device, and what was found out about it.
+#[derive(Serialize)]
+struct Listed {
+    #[serde(flatten)]
+    summary: AdapterSummary,
+    /// `gpt verify --traversal ray-query` passed with this driver.
+    ray_queries_verified: bool,
+}
+
+impl Listed {
+    fn new(summary: AdapterSummary, verified: &VerifiedDrivers) -> Self {
+        Self { ray_queries_verified: verified.contains(&summary.identity), summary }
+    }
+}
 
 /// Lists what can render here. A machine without an adapter still has the CPU, so an empty list is no failure.
 pub fn run(arguments: &DevicesArguments) -> Result<Exit, Failure> {
-    let devices = list_devices();
+    let verified = verified_drivers::known();
+    let devices: Vec<Listed> = list_devices().into_iter().map(|summary| Listed::new(summary, &verified)).collect();
     if arguments.json {
         terminal::answer_json(&devices)?;
     } else {
@@ -19,17 +37,17 @@ pub fn run(arguments: &DevicesArguments) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-fn text(devices: &[AdapterSummary]) -> String {
+fn text(devices: &[Listed]) -> String {
     let mut text = String::new();
     for device in devices {
         describe(&mut text, device);
     }
-    let auto = if devices.iter().any(|device| device.chosen_by_auto) { "" } else { "   <- auto" };
+    let auto = if devices.iter().any(|device| device.summary.chosen_by_auto) { "" } else { "   <- auto" };
     let _ = writeln!(text, "CPU reference (--device cpu){auto}");
     text
 }
 
-fn describe(text: &mut String, device: &AdapterSummary) {
+fn describe(text: &mut String, Listed { summary: device, ray_queries_verified }: &Listed) {
     let auto = if device.chosen_by_auto { "   <- auto" } else { "" };
     let yes_no = |yes: bool| if yes { "yes" } else { "no" };
     let _ = writeln!(text, "{}{auto}", device.name);
@@ -59,7 +77,7 @@ fn describe(text: &mut String, device: &AdapterSummary) {
         "  rgba32float read and write {}, timestamps {}, ray queries {}, subgroups of {least} to {most}",
         yes_no(device.read_write_rgba32float),
         yes_no(device.timestamps),
-        yes_no(device.ray_queries)
+        if *ray_queries_verified { "verified" } else { yes_no(device.ray_queries) }
     );
 }
 

@@ -40,6 +40,7 @@ mod terminal;
 mod test;
 mod traversal;
 mod values;
+mod verified_drivers;
 mod verify;
 mod view;
 mod watch;

@@ -5,11 +5,13 @@ use gpt::plan::{PlanOptions, TraversalChoice};
 use gpt::renderer::DeviceChoice;
 
 use super::exit::Failure;
+use super::verified_drivers;
 
 /// A way, as it is typed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub enum TraversalName {
-    /// Few primitives are tested one by one, others stand in a bounding volume hierarchy; never ray queries
+    /// Few primitives are tested one by one, others stand in a bounding volume hierarchy; on hardware on which `gpt verify --traversal ray-query` passed,
+    /// they are found by ray queries, unless the scene moves or has instances
     #[default]
     Auto,
     /// A bounding volume hierarchy, however few the primitives
@@ -33,7 +35,7 @@ impl TraversalArguments {
             TraversalName::Bvh => TraversalChoice::Bvh,
             TraversalName::RayQuery => TraversalChoice::RayQuery,
         };
-        PlanOptions { traversal, ..PlanOptions::default() }
+        PlanOptions { traversal, verified: verified_drivers::known(), ..PlanOptions::default() }
     }
 
     /// As [`TraversalArguments::options`], for a command that may be told to go without a graphics device.

@@ -18,7 +18,7 @@ use super::arguments::VerifyArguments;
 use super::exit::{Exit, Failure};
 use super::frames::FrameArguments;
 use super::sequence::bad_frame;
-use super::terminal;
+use super::{terminal, verified_drivers};
 
 /// One line of the answer.
 #[derive(Serialize)]
@@ -93,7 +93,31 @@ pub fn run(arguments: &VerifyArguments) -> Result<Exit, Failure> {
         }
     }
     was_planted(arguments, findings.found.iter().any(|finding| finding.planted().is_some()))?;
-    findings.conclude()
+    let is_whole = arguments.scene.is_none() && arguments.size.is_none() && arguments.spp.is_none() && arguments.plant.is_none();
+    let verdict = findings.conclude()?;
+    if is_whole && options.asks_for_ray_queries() {
+        keep_verdict(&device, verdict == Exit::Done);
+    }
+    Ok(verdict)
+}
+
+/// Ray queries that passed are the default from then on, and those that did not no longer are.
+fn keep_verdict(device: &Device, passed: bool) {
+    let Some(file) = verified_drivers::file() else { return };
+    match verified_drivers::keep(&file, &device.driver, passed) {
+        // A software device walks nodes faster.
+        Ok(true) if device.limits.software => {}
+        Ok(true) if passed => {
+            terminal::note(&format!(
+                "ray queries are the default on {} from now on; {} keeps that",
+                device.driver,
+                file.display()
+            ));
+        }
+        Ok(true) => terminal::note(&format!("ray queries are no longer the default on {}", device.driver)),
+        Ok(false) => {}
+        Err(why) => terminal::warn(&format!("that ray queries were verified cannot be kept in {}: {why}", file.display())),
+    }
 }
 
 /// The reference is what every device is held against. By itself it can be held against closed forms.

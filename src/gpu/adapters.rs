@@ -3,6 +3,7 @@
 use serde::Serialize;
 use wgpu::{Adapter, Backend, Backends, DeviceType, Features, Instance, InstanceDescriptor, InstanceFlags, TextureFormat};
 
+use crate::plan::driver_identity;
 use crate::renderer::{DeviceChoice, RenderError};
 
 /// The interfaces worth asking: the ones whose compute shaders meet WebGPU. OpenGL is left out on purpose.
@@ -20,6 +21,9 @@ pub struct AdapterSummary {
     pub backend: String,
     pub kind: AdapterKind,
     pub driver: String,
+    /// Names device and driver in the list of those that were verified.
+    #[serde(skip)]
+    pub identity: String,
     /// `--device auto` takes this one.
     pub chosen_by_auto: bool,
     pub max_storage_binding: u64,
@@ -171,6 +175,7 @@ fn summarise(adapter: &Adapter) -> AdapterSummary {
     AdapterSummary {
         kind: info.device_type.into(),
         backend: format!("{:?}", info.backend),
+        identity: driver_identity(&info),
         driver: [info.driver, info.driver_info].join(" ").trim().to_owned(),
         name: info.name,
         chosen_by_auto: false,

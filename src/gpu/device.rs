@@ -6,18 +6,20 @@ use std::time::Duration;
 
 use super::compiled::CompiledKernels;
 use super::driver_thread::{DriverThread, Fate, OPENING_THREAD, keep_panics_quiet, message};
-use crate::plan::{DeviceLimits, PlanOptions};
+use crate::plan::{DeviceLimits, PlanOptions, driver_identity};
 use crate::renderer::{DeviceChoice, RenderError};
 
 /// A device with its queue, and the first error it reported. Clones are the same device.
 #[derive(Clone)]
 pub struct Device {
     pub name: String,
+    /// With the version of its driver ([`driver_identity`]).
+    pub driver: String,
     pub limits: DeviceLimits,
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
     failure: Arc<Mutex<Option<Failure>>>,
-    driver: Arc<DriverThread>,
+    driver_thread: Arc<DriverThread>,
     /// The kernels that were compiled last, for the next frame of a scene.
     pub(super) kernels: Arc<CompiledKernels>,
 }
@@ -51,6 +53,14 @@ impl OpeningDevice {
             Ok(thread) => Self(Opening::Thread(Some(thread))),
             // The system starts no more threads: then the device opens before anything else is done.
             Err(_) => Self(Opening::Done(Some(Device::open_for(choice, options)))),
+        }
+    }
+
+    /// What is known of the device before it is waited for.
+    pub fn limits(&self) -> Option<&DeviceLimits> {
+        match &self.0 {
+            Opening::Open(device) => Some(&device.limits),
+            Opening::Done(_) | Opening::Thread(_) => None,
         }
     }
 
@@ -113,13 +123,7 @@ impl Device {
     /// As [`Device::open`]; [`RenderError::DoesNotFit`] where the adapter lacks what they ask for.
     pub fn open_for(choice: &DeviceChoice, options: &PlanOptions) -> Result<Self, RenderError> {
         let adapter = super::adapters::select_adapter(choice)?;
-        let mut limits = DeviceLimits::of(&adapter);
-        if options.asks_for_ray_queries() {
-            limits.check_ray_queries(&adapter.get_info().name)?;
-        } else {
-            // What is not enabled is not there.
-            limits.ray_queries = None;
-        }
+        let limits = DeviceLimits::for_plans(&adapter, options)?;
         let mut features = wgpu::Features::empty();
         if limits.read_write_rgba32float {
             features |= wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES;
@@ -130,8 +134,8 @@ impl Device {
         let mut experimental_features = wgpu::ExperimentalFeatures::disabled();
         if limits.ray_queries.is_some() {
             features |= wgpu::Features::EXPERIMENTAL_RAY_QUERY;
-            // SAFETY: it is acknowledged that wgpu's ray queries may have bugs of their own. They are enabled on request alone; what is asked
-            // of them keeps to their contract: ranges are finite and ordered, and hits that kernels report lie within them.
+            // SAFETY: it is acknowledged that wgpu's ray queries may have bugs of their own. They are enabled on request, and where they were
+            // verified; what is asked of them keeps to their contract: ranges are finite and ordered, and hits that kernels report lie within them.
             experimental_features = unsafe { wgpu::ExperimentalFeatures::enabled() };
         }
         // Only measurements ask for the time; nothing else of the device changes by it.
@@ -163,9 +167,10 @@ impl Device {
             _ => remember(&seen, Failure::Lost(message)),
         });
         let usual = if limits.software { SOFTWARE_TIMEOUT } else { DEFAULT_TIMEOUT };
-        let driver = Arc::new(DriverThread::start(options.device_timeout.unwrap_or(usual)));
-        let name = adapter.get_info().name;
-        Ok(Self { name, limits, device, queue, failure, driver, kernels: Arc::default() })
+        let driver_thread = Arc::new(DriverThread::start(options.device_timeout.unwrap_or(usual)));
+        let info = adapter.get_info();
+        let driver = driver_identity(&info);
+        Ok(Self { name: info.name, driver, limits, device, queue, failure, driver_thread, kernels: Arc::default() })
     }
 
     /// The first error since the device was opened.
@@ -223,8 +228,8 @@ impl Device {
     fn wait_after(&self, commands: Option<wgpu::CommandBuffer>) -> Result<(), RenderError> {
         self.check()?;
         let (device, queue) = (self.device.clone(), self.queue.clone());
-        let timeout = Some(self.driver.limit());
-        let polled = self.driver.run(move || {
+        let timeout = Some(self.driver_thread.limit());
+        let polled = self.driver_thread.run(move || {
             if let Some(commands) = commands {
                 queue.submit([commands]);
             }
@@ -234,7 +239,7 @@ impl Device {
         self.check()?;
         let failure = match polled {
             Ok(Ok(())) => return Ok(()),
-            Ok(Err(wgpu::PollError::Timeout)) => Failure::Lost(no_answer(self.driver.limit())),
+            Ok(Err(wgpu::PollError::Timeout)) => Failure::Lost(no_answer(self.driver_thread.limit())),
             Err(Fate::Hangs(waited)) => Failure::Lost(no_answer(waited)),
             Ok(Err(error)) => Failure::Lost(error.to_string()),
             Err(Fate::Panicked(message)) => Failure::Lost(message),

@@ -21,7 +21,7 @@ use crate::packed::hierarchy::Traversal;
 use crate::packed::view::View;
 use crate::packed::{PackError, PackedScene};
 use crate::plan::bindings::Binding;
-use crate::plan::{Plan, PlanOptions, StageMode};
+use crate::plan::{Plan, PlanOptions, StageMode, TraversalChoice};
 use crate::reference::pilot::{self, Settled};
 use crate::reference::training;
 use crate::renderer::sink::Sink;
@@ -101,7 +101,9 @@ impl GpuRenderer {
         mut trees: KeptTrees,
     ) -> Result<Self, RenderError> {
         let start = Instant::now();
-        let prepared = prepare(scene, options.packed_traversal(), &mut trees);
+        let opening = if options.waits_for_device() { OpeningDevice::is_open(&opening.wait()?) } else { opening };
+        let traversal = options.packed_traversal(scene, opening.limits());
+        let prepared = prepare(scene, traversal, &mut trees);
         // Where there is no device, that is what is told, whatever the scene: it may then go to the CPU.
         let device = opening.wait()?;
         let (settled, packed) = prepared?;
@@ -112,6 +114,11 @@ impl GpuRenderer {
                 let render = RenderSettings { light_choice: LightChoice::Tree, ..scene.render.clone() };
                 let by_tree = Scene { render, ..scene.clone() };
                 return Self::with_trees(OpeningDevice::is_open(&device), &by_tree, options, trees);
+            }
+            // Ray queries have bounds of their own, and nobody has asked for them.
+            Err(RenderError::DoesNotFit(_)) if options.traversal == TraversalChoice::Auto && traversal == Traversal::RayQuery => {
+                let by_nodes = PlanOptions { traversal: TraversalChoice::Bvh, ..options.clone() };
+                return Self::with_trees(OpeningDevice::is_open(&device), scene, &by_nodes, trees);
             }
             pipeline => pipeline?,
         };

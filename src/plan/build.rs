@@ -24,7 +24,7 @@ impl Plan {
     /// the scene was packed with another hierarchy than the options say.
     pub fn new(scene: &Scene, packed: &PackedScene, limits: &DeviceLimits, options: &PlanOptions) -> Result<Self, PlanError> {
         let traversal = packed.hierarchy.traversal;
-        if options.packed_traversal() != traversal {
+        if !options.allows(traversal, limits) {
             return Err(PlanError::Internal(format!("the scene was packed for another traversal: {}", traversal.key())));
         }
         let ray_queries = traversal == Traversal::RayQuery;

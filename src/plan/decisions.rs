@@ -3,7 +3,7 @@
 use super::choices::{FilmStorage, GeometryPlacement, StageMode, UNROLL_LIMIT};
 use super::chunks::Chunks;
 use super::decision::Decision;
-use super::limits::DeviceLimits;
+use super::limits::{DeviceLimits, RayQueryDefault};
 use super::memory::{PRIMITIVES, TABLES};
 use super::model::Plan;
 use super::options::{PlanOptions, TraversalChoice};
@@ -78,10 +78,18 @@ pub(super) fn explain(
     add("geometry", placement.into(), geometry);
     match plan.traversal_in_use() {
         Some(Traversal::Bvh) => {
-            let because = "of the forms measured, the one that loads the fewest words";
-            add("hierarchy", format!("four-wide with 8-bit boxes (BVH4), {}", buffer_name(plan.uniform_nodes)), because.into());
+            let mut because = "of the forms measured, the one that loads the fewest words".to_owned();
+            if limits.ray_query_default == RayQueryDefault::Unverified {
+                because +=
+                    "; the device has ray queries, which become the default once `gpt verify --traversal ray-query` has passed";
+            }
+            add("hierarchy", format!("four-wide with 8-bit boxes (BVH4), {}", buffer_name(plan.uniform_nodes)), because);
         }
-        Some(Traversal::RayQuery) => add("hierarchy", "the device's own, by ray queries".into(), ASKED_FOR.into()),
+        Some(Traversal::RayQuery) => {
+            let verified = limits.ray_query_default == RayQueryDefault::Verified;
+            let because = if verified { "verified on this device with this driver" } else { ASKED_FOR };
+            add("hierarchy", "the device's own, by ray queries".into(), because.into());
+        }
         None => {}
     }
     for (name, uniform) in [(PRIMITIVES, plan.uniform_primitives), (TABLES, plan.uniform_tables)] {

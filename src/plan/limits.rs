@@ -42,6 +42,19 @@ pub struct DeviceLimits {
     pub subgroup_size: Option<u32>,
     /// What acceleration structures can hold, where kernels can ask them.
     pub ray_queries: Option<RayQueryLimits>,
+    pub ray_query_default: RayQueryDefault,
+}
+
+/// Whether ray queries are used unasked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum RayQueryDefault {
+    /// Another way is asked for, there are none, or the device is a software one, which follows them more slowly than it walks nodes.
+    #[default]
+    No,
+    /// Hardware has them, and nobody has verified them with this driver.
+    Unverified,
+    /// Hardware has them, and verification passed with this driver.
+    Verified,
 }
 
 /// Limits of acceleration structures.
@@ -70,6 +83,7 @@ impl Default for DeviceLimits {
             subgroups: false,
             subgroup_size: None,
             ray_queries: None,
+            ray_query_default: RayQueryDefault::No,
         }
     }
 }
@@ -104,6 +118,7 @@ impl DeviceLimits {
             subgroup_size: one_size.then_some(info.subgroup_min_size),
             ray_queries: Some(RayQueryLimits { max_primitives: limits.max_blas_primitive_count })
                 .filter(|_| adapter.features().contains(wgpu::Features::EXPERIMENTAL_RAY_QUERY)),
+            ray_query_default: RayQueryDefault::No,
         }
     }
 

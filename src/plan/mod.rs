@@ -27,14 +27,17 @@ pub mod shapes;
 pub mod stages;
 pub mod switches;
 pub mod trace_record;
+mod traversal;
 pub mod unroll;
+mod verified_drivers;
 
 pub use choices::{FilmStorage, GeometryPlacement, MAX_SAMPLES_PER_PASS, StageMode, UNROLL_LIMIT};
 pub use chunks::Chunks;
 pub use decision::Decision;
 pub use error::PlanError;
 pub use fault::Fault;
-pub use limits::{DeviceLimits, RayQueryLimits};
+pub use limits::{DeviceLimits, RayQueryDefault, RayQueryLimits};
 pub use memory::Memory;
 pub use model::Plan;
 pub use options::{PlanOptions, TraversalChoice};
+pub use verified_drivers::{VerifiedDrivers, driver_identity};

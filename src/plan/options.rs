@@ -4,13 +4,14 @@ use std::time::Duration;
 
 use super::choices::StageMode;
 use super::fault::Fault;
+use super::verified_drivers::VerifiedDrivers;
 use crate::film::KernelLayer;
-use crate::packed::hierarchy::Traversal;
 
 /// How rays find what they meet on a graphics device (`--traversal`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum TraversalChoice {
-    /// Few primitives are tested one by one, others stand in a bounding volume hierarchy.
+    /// Few primitives are tested one by one. Others stand in a bounding volume hierarchy, or are found by ray queries where hardware has them, they
+    /// were verified ([`PlanOptions::verified`]) and they can see the scene.
     #[default]
     Auto,
     /// A bounding volume hierarchy, however few the primitives.
@@ -24,6 +25,8 @@ pub enum TraversalChoice {
 pub struct PlanOptions {
     /// With ray queries the device must have been opened for them ([`crate::gpu::Device::open_for`]).
     pub traversal: TraversalChoice,
+    /// Where ray queries are used unasked.
+    pub verified: VerifiedDrivers,
     pub stages: Option<StageMode>,
     /// Let a batch leave pixels out ([`crate::renderer::Batch::selection`]).
     pub pixel_list: bool,
@@ -42,15 +45,12 @@ pub struct PlanOptions {
 }
 
 impl PlanOptions {
-    /// What a scene has to be packed for.
-    pub fn packed_traversal(&self) -> Traversal {
-        match self.traversal {
-            TraversalChoice::RayQuery => Traversal::RayQuery,
-            TraversalChoice::Auto | TraversalChoice::Bvh => Traversal::Bvh,
-        }
+    /// Whether scenes are packed in one way or another by what the device turns out to be.
+    pub fn waits_for_device(&self) -> bool {
+        self.traversal == TraversalChoice::Auto && !self.verified.is_empty()
     }
 
-    /// Whether plans may need ray queries of the device, which has to be opened for them.
+    /// Whether plans need ray queries of the device.
     pub fn asks_for_ray_queries(&self) -> bool {
         self.traversal == TraversalChoice::RayQuery
     }

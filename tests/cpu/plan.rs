@@ -6,7 +6,8 @@ use gpt::packed::PackedScene;
 use gpt::packed::bvh4::Child;
 use gpt::packed::hierarchy::Traversal;
 use gpt::plan::{
-    DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanError, PlanOptions, RayQueryLimits, StageMode, TraversalChoice,
+    DeviceLimits, FilmStorage, GeometryPlacement, Plan, PlanError, PlanOptions, RayQueryDefault, RayQueryLimits, StageMode,
+    TraversalChoice,
 };
 use gpt::scene::{LightChoice, Scene, TransformStep};
 use gpt::shader::compose;
@@ -149,15 +150,48 @@ fn a_scene_packed_for_another_traversal_is_refused() {
             let options = PlanOptions { traversal, ..PlanOptions::default() };
             match Plan::new(&scene, &packed, &limits, &options) {
                 Ok(plan) => {
-                    assert_eq!((options.packed_traversal(), plan.traversal_in_use()), (packed_for, Some(packed_for)));
+                    assert_eq!(
+                        (options.packed_traversal(&scene, Some(&limits)), plan.traversal_in_use()),
+                        (packed_for, Some(packed_for))
+                    );
                     assert_eq!(plan.switches.enabled.contains("BVH"), packed_for == Traversal::Bvh);
                     assert_eq!(plan.switches.enabled.contains("RAY_QUERY"), packed_for == Traversal::RayQuery);
                 }
-                Err(PlanError::Internal(_)) => assert_ne!(options.packed_traversal(), packed_for),
+                Err(PlanError::Internal(_)) => assert_ne!(options.packed_traversal(&scene, Some(&limits)), packed_for),
                 Err(error) => panic!("{error}"),
             }
         }
     }
+}
+
+/// Where verification passed, and nowhere else, ray queries are what `auto` means; and only for scenes that they can see.
+#[test]
+fn verified_ray_queries_are_used_unasked() {
+    let verified = DeviceLimits {
+        ray_queries: Some(RayQueryLimits { max_primitives: 1 << 24 }),
+        ray_query_default: RayQueryDefault::Verified,
+        ..DeviceLimits::default()
+    };
+    let plan = |scene: &Scene, limits: &DeviceLimits, traversal| {
+        let options = PlanOptions { traversal, ..PlanOptions::default() };
+        let packed = PackedScene::for_traversal(scene, options.packed_traversal(scene, Some(limits))).expect("the scene packs");
+        Plan::new(scene, &packed, limits, &options).expect("it fits")
+    };
+    let because = |plan: &Plan| plan.decisions.iter().find(|decision| decision.about == "hierarchy").map(|d| d.because.clone());
+    let still = grid(20);
+    let by_queries = plan(&still, &verified, TraversalChoice::Auto);
+    assert_eq!(by_queries.traversal_in_use(), Some(Traversal::RayQuery));
+    assert_eq!(because(&by_queries).as_deref(), Some("verified on this device with this driver"));
+    assert_eq!(plan(&still, &verified, TraversalChoice::Bvh).traversal_in_use(), Some(Traversal::Bvh));
+    let shipped = |name| load::load(Some(name)).expect("a shipped scene");
+    let few = shipped("cornell");
+    assert_eq!(plan(&few, &verified, TraversalChoice::Auto).traversal_in_use(), None, "constants stay constants");
+    let moving = shipped("motion-blur");
+    assert_eq!(plan(&moving, &verified, TraversalChoice::Auto).traversal_in_use(), Some(Traversal::Bvh));
+    let unverified = DeviceLimits { ray_queries: None, ray_query_default: RayQueryDefault::Unverified, ..verified };
+    let by_nodes = plan(&still, &unverified, TraversalChoice::Auto);
+    assert_eq!(by_nodes.traversal_in_use(), Some(Traversal::Bvh));
+    assert!(because(&by_nodes).is_some_and(|because| because.contains("gpt verify --traversal ray-query")));
 }
 
 /// The stack a traversal needs is found from the tree; every tree of these grids fits what is compiled in.

@@ -11,7 +11,7 @@ use gpt::load::load_toml_str;
 use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
 use gpt::plan::limits::RayQueryLimits;
-use gpt::plan::{DeviceLimits, Plan, PlanError, PlanOptions, StageMode, TraversalChoice};
+use gpt::plan::{DeviceLimits, Plan, PlanError, PlanOptions, RayQueryDefault, StageMode, TraversalChoice};
 use gpt::renderer::{DeviceChoice, RenderError};
 use gpt::scene::Scene;
 
@@ -51,6 +51,10 @@ fn everything() -> Scene {
         );
     }
     load_toml_str(&text, "everything", Path::new("")).expect("the scene is valid")
+}
+
+fn by_nodes() -> PlanOptions {
+    PlanOptions { traversal: TraversalChoice::Bvh, ..PlanOptions::default() }
 }
 
 /// Means of all pixels as bits.
@@ -100,9 +104,31 @@ fn they_are_used_where_they_were_asked_for_and_only_there() {
         (plan.traversal_in_use(), plan.switches.enabled.contains("RAY_QUERY"), plan.switches.enabled.contains("BVH"))
     };
     assert_eq!(way(&by_ray_queries()), (Some(Traversal::RayQuery), true, false));
-    let ours = PlanOptions { traversal: TraversalChoice::Bvh, ..PlanOptions::default() };
-    assert_eq!(way(&ours), (Some(Traversal::Bvh), false, true));
+    assert_eq!(way(&by_nodes()), (Some(Traversal::Bvh), false, true));
     assert_eq!(way(&PlanOptions::default()).0, None);
+}
+
+/// A device whose ray queries were verified uses them unasked, for the same picture; what they cannot see is found by nodes.
+#[test]
+fn verified_they_are_used_unasked() {
+    let Some(device) = RAY_QUERY_DEVICE.as_ref() else { return };
+    let mut verified = device.clone();
+    verified.limits.ray_query_default = RayQueryDefault::Verified;
+    let options = PlanOptions::default();
+    let used = |device: &Device, scene: &Scene| {
+        GpuRenderer::on(device, scene, &options).expect("the scene fits").plan().traversal_in_use()
+    };
+    assert_eq!(used(&verified, &knot()), Some(Traversal::RayQuery));
+    assert!(picture(&verified, &knot(), &options) == picture(device, &knot(), &by_nodes()));
+    // Found out before the scene is packed, and after.
+    assert_eq!(used(&verified, &small("motion-blur", [16, 12], 1)), Some(Traversal::Bvh));
+    verified.limits.ray_queries = Some(RayQueryLimits { max_primitives: 100 });
+    assert_eq!(used(&verified, &knot()), Some(Traversal::Bvh));
+    // The control: nobody verified this one.
+    assert_eq!(
+        GpuRenderer::on(device, &knot(), &options).expect("the scene fits").plan().traversal_in_use(),
+        Some(Traversal::Bvh)
+    );
 }
 
 /// Planes are constants; a structure without anything in it is not built.

@@ -1,0 +1,88 @@
+//! Which way rays go through a scene: what is asked for, what the device has, and what was verified.
+
+use super::error::PlanError;
+use super::limits::{DeviceLimits, RayQueryDefault};
+use super::options::{PlanOptions, TraversalChoice};
+use super::verified_drivers::driver_identity;
+use crate::packed::hierarchy::Traversal;
+use crate::scene::Scene;
+
+impl DeviceLimits {
+    /// Of an adapter that is opened for plans with these options, which then has ray queries only where they may be used.
+    ///
+    /// # Errors
+    /// [`PlanError::DoesNotFit`] where it lacks those that are asked for.
+    pub fn for_plans(adapter: &wgpu::Adapter, options: &PlanOptions) -> Result<Self, PlanError> {
+        let limits = Self::of(adapter);
+        let info = adapter.get_info();
+        if options.asks_for_ray_queries() {
+            limits.check_ray_queries(&info.name)?;
+        }
+        let is_verified = options.verified.contains(&driver_identity(&info));
+        Ok(limits.with_ray_queries(options.traversal, is_verified))
+    }
+
+    /// With ray queries only where they may be used. What is not enabled is not there.
+    fn with_ray_queries(self, traversal: TraversalChoice, is_verified: bool) -> Self {
+        let ray_query_default = match (traversal, self.ray_queries) {
+            (TraversalChoice::Auto, Some(_)) if self.software => RayQueryDefault::No,
+            (TraversalChoice::Auto, Some(_)) if is_verified => RayQueryDefault::Verified,
+            (TraversalChoice::Auto, Some(_)) => RayQueryDefault::Unverified,
+            _ => RayQueryDefault::No,
+        };
+        let are_used = traversal == TraversalChoice::RayQuery || ray_query_default == RayQueryDefault::Verified;
+        Self { ray_queries: self.ray_queries.filter(|_| are_used), ray_query_default, ..self }
+    }
+}
+
+impl PlanOptions {
+    /// What a scene is packed for on a device with these limits; None: one that is not known yet, which [`PlanOptions::waits_for_device`] rules out
+    /// where it matters.
+    pub fn packed_traversal(&self, scene: &Scene, limits: Option<&DeviceLimits>) -> Traversal {
+        match self.traversal {
+            TraversalChoice::RayQuery => Traversal::RayQuery,
+            TraversalChoice::Auto if limits.is_some_and(|limits| limits.ray_query_default == RayQueryDefault::Verified) => {
+                // What ray queries cannot see for other reasons is found once the scene is packed.
+                let is_seen = scene.instances.is_empty() && scene.shapes.iter().all(|shape| shape.motion.is_none());
+                if is_seen { Traversal::RayQuery } else { Traversal::Bvh }
+            }
+            TraversalChoice::Auto | TraversalChoice::Bvh => Traversal::Bvh,
+        }
+    }
+
+    /// Whether a plan for a device with these limits may be made of a scene that is packed so.
+    pub(super) fn allows(&self, traversal: Traversal, limits: &DeviceLimits) -> bool {
+        match self.traversal {
+            TraversalChoice::RayQuery => traversal == Traversal::RayQuery,
+            TraversalChoice::Bvh => traversal == Traversal::Bvh,
+            TraversalChoice::Auto => traversal == Traversal::Bvh || limits.ray_query_default == RayQueryDefault::Verified,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::RayQueryLimits;
+
+    #[test]
+    fn ray_queries_are_there_where_they_may_be_used() {
+        let ray_queries = Some(RayQueryLimits { max_primitives: 1 << 24 });
+        let hardware = DeviceLimits { ray_queries, ..DeviceLimits::default() };
+        let software = DeviceLimits { software: true, ..hardware.clone() };
+        let none = DeviceLimits::default();
+        for (limits, traversal, is_verified, are_there, default) in [
+            (&hardware, TraversalChoice::Auto, true, true, RayQueryDefault::Verified),
+            (&hardware, TraversalChoice::Auto, false, false, RayQueryDefault::Unverified),
+            (&hardware, TraversalChoice::Bvh, true, false, RayQueryDefault::No),
+            (&hardware, TraversalChoice::RayQuery, false, true, RayQueryDefault::No),
+            (&software, TraversalChoice::Auto, true, false, RayQueryDefault::No),
+            (&software, TraversalChoice::RayQuery, false, true, RayQueryDefault::No),
+            (&none, TraversalChoice::Auto, true, false, RayQueryDefault::No),
+        ] {
+            let opened = limits.clone().with_ray_queries(traversal, is_verified);
+            let found = (opened.ray_queries.is_some(), opened.ray_query_default);
+            assert_eq!(found, (are_there, default), "{traversal:?}, verified {is_verified}, software {}", limits.software);
+        }
+    }
+}
