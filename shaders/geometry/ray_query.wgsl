@@ -25,10 +25,11 @@ const DEVICE_ERROR: f32 = 1.0e-6;
 const TINY: f32 = 1.0e-20;
 
 // The nearest of what the structure holds between the distances `after` and before.t; where nothing is, `before`. With
-// RAY_FLAG_TERMINATE_ON_FIRST_HIT anything in between.
-fn hit_by_query(ray: PreparedRay, before: Hit, after: f32, flags: u32) -> Hit {
+// RAY_FLAG_TERMINATE_ON_FIRST_HIT anything in between. Leaves in `after` where to look for what comes behind it.
+fn hit_by_query(ray: PreparedRay, before: Hit, after: ptr<function, f32>, flags: u32) -> Hit {
     var hit = before;
-    var t_min = after;
+    var t_min = *after;
+    var by_device = 0.0;
     var t_max = before.t;
     var query: ray_query;
     for (var count = 0u; count < MOST_QUERIES && t_min < t_max; count++) {
@@ -77,6 +78,7 @@ fn hit_by_query(ray: PreparedRay, before: Hit, after: f32, flags: u32) -> Hit {
         }
         if found.t < hit.t {
             hit = found;
+            by_device = committed.t;
             break;
         }
         // It lies at the ray's end: something may stand before it.
@@ -85,6 +87,8 @@ fn hit_by_query(ray: PreparedRay, before: Hit, after: f32, flags: u32) -> Hit {
         break;
 #endif
     }
+    // Behind both distances, ours and the device's, which would else meet the same primitive for ever.
+    *after = max(max(hit.t, by_device) * (1.0 + DEVICE_ERROR), TINY);
     return hit;
 }
 
@@ -93,7 +97,8 @@ fn closest_hit(traced: Ray, t_max: f32) -> Hit {
     let ray = prepare_ray(traced);
     var hit = no_hit(t_max);
     closest_of_constants(ray, &hit);
-    return hit_by_query(ray, hit, 0.0, RAY_FLAG_NONE);
+    var after = 0.0;
+    return hit_by_query(ray, hit, &after, RAY_FLAG_NONE);
 }
 
 // What share of the light comes through all that lies between the origin and t_max; 0 where something opaque does.
@@ -102,21 +107,20 @@ fn transmittance(traced: Ray, t_max: f32) -> f32 {
     if any_of_constants(ray, t_max) {
         return 0.0;
     }
+    var after = 0.0;
 #if TRANSPARENT_SHADOWS
     // One surface after the other, nearest first: the device's own order may come to a primitive twice.
     var through = transmittance_of_constants(ray, t_max);
-    var t_min = 0.0;
     while through > 0.0 {
-        let hit = hit_by_query(ray, no_hit(t_max), t_min, RAY_FLAG_NONE);
+        let hit = hit_by_query(ray, no_hit(t_max), &after, RAY_FLAG_NONE);
         if hit.primitive == NONE {
             break;
         }
         through *= hit_transmittance(traced, hit, t_max);
-        t_min = hit.t * (1.0 + DEVICE_ERROR);
     }
     return through;
 #else
-    let hit = hit_by_query(ray, no_hit(t_max), 0.0, RAY_FLAG_TERMINATE_ON_FIRST_HIT);
+    let hit = hit_by_query(ray, no_hit(t_max), &after, RAY_FLAG_TERMINATE_ON_FIRST_HIT);
     return select(0.0, 1.0, hit.primitive == NONE);
 #endif
 }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 use std::path::Path;
+use std::time::Duration;
 
 use crate::common::pixel_bits::pixel_bits;
 use crate::common::ray_queries::{RAY_QUERY_DEVICE, by_ray_queries};
@@ -129,6 +130,51 @@ fn verified_they_are_used_unasked() {
         GpuRenderer::on(device, &knot(), &options).expect("the scene fits").plan().traversal_in_use(),
         Some(Traversal::Bvh)
     );
+}
+
+/// Far from the middle, our distance to a veil and the device's differ by more than the step behind it. A shadow ray must neither meet the veil for
+/// ever nor count it twice.
+#[test]
+fn veils_far_from_the_middle_are_passed_once() {
+    if RAY_QUERY_DEVICE.is_none() {
+        return;
+    }
+    let scene = |opacity: f64| {
+        let mut text = format!(
+            "[film]\nsize = [24, 24]\n[render]\nspp = 4\nmax_depth = 2\n[camera]\nposition = [1001.2, 0.1, 0]\nlook_at = [1000, 0, 0]\nvfov = 50\n\
+             [[material]]\nname = \"white\"\ntype = \"diffuse\"\nreflectance = 0.6\n[[material]]\nname = \"veil\"\ntype = \"diffuse\"\n\
+             reflectance = 0.5\nopacity = {opacity}\n[[light]]\ntype = \"point\"\nposition = [1009, 0.2, 0.1]\nintensity = 80\n\
+             [[shape]]\ntype = \"sphere\"\ncenter = [-1000, 0, 0]\nradius = 1\nmaterial = \"white\"\n\
+             [[shape]]\ntype = \"rectangle\"\ncorner = [1000, -2, 2]\nedge_u = [0, 0, -4]\nedge_v = [0, 4, 0]\nmaterial = \"white\"\n"
+        );
+        // Nearly along the rays.
+        for index in 0..40 {
+            let (height, slope) = (0.045 * f64::from(index) - 0.9, 0.05 - 0.1 * f64::from(index % 4));
+            let _ = write!(
+                text,
+                "[[shape]]\ntype = \"mesh\"\npositions = [[1001.5, {height}, 2], [1001.5, {height}, -2], [1008.5, {}, 0.1]]\n\
+                 faces = [[0, 1, 2]]\nmaterial = \"veil\"\n",
+                height + 7.0 * slope
+            );
+        }
+        load_toml_str(&text, "veils", Path::new("")).expect("the scene is valid")
+    };
+    // A hang is a lost device.
+    let hasty = PlanOptions { device_timeout: Some(Duration::from_secs(60)), ..by_ray_queries() };
+    let device = Device::open_for(&DeviceChoice::Gpu, &hasty).expect("it was opened before");
+    let mean = |scene: &Scene, options: &PlanOptions| {
+        let picture = picture(&device, scene, options);
+        picture.iter().map(|pixel| f64::from(f32::from_bits(pixel[0]))).sum::<f64>() / picture.len() as f64
+    };
+    for opacity in [0.0, 0.05] {
+        let [asked, ours] = [by_ray_queries(), by_nodes()].map(|options| mean(&scene(opacity), &options));
+        println!("opacity {opacity}: {asked} by ray queries, {ours} by nodes");
+        assert!((asked / ours - 1.0).abs() < 1e-3, "opacity {opacity}: {asked} by ray queries, {ours} by nodes");
+        // The control: one veil in twenty counted twice would show.
+        let thicker = mean(&scene(opacity + 0.0025), &by_ray_queries());
+        assert!((thicker / ours - 1.0).abs() > 1e-2, "opacity {opacity}: {thicker}");
+    }
+    device.leave_if_lost();
 }
 
 /// Planes are constants; a structure without anything in it is not built.
