@@ -28,7 +28,8 @@ const TINY: f32 = 1.0e-20;
 // RAY_FLAG_TERMINATE_ON_FIRST_HIT anything in between. Leaves in `after` where to look for what comes behind it.
 fn hit_by_query(ray: PreparedRay, before: Hit, after: ptr<function, f32>, flags: u32) -> Hit {
     var hit = before;
-    var t_min = *after;
+    let passed = *after;
+    var t_min = passed;
     var by_device = 0.0;
     var t_max = before.t;
     var query: ray_query;
@@ -41,7 +42,8 @@ fn hit_by_query(ray: PreparedRay, before: Hit, after: ptr<function, f32>, flags:
             let shape = candidate.instance_custom_data + candidate.primitive_index;
             var met = no_hit(min(hit.t, t_max));
             intersect_stored(ray, shape, primitive_words(shape), &met);
-            if met.primitive != NONE {
+            // Each shape is met at its nearest point alone, which may be one that was passed.
+            if met.primitive != NONE && met.t >= passed {
                 let nearest = rayQueryGetCommittedIntersection(&query);
                 if nearest.kind == RAY_QUERY_INTERSECTION_NONE || met.t < nearest.t {
                     hit = met;

@@ -10,7 +10,7 @@ use crate::scene::{ImageData, Light, Scene, SceneSummary, TextureKind};
 pub const HOST_FACTOR: f64 = 2.0;
 
 /// The program itself on the CPU, and with a graphics driver: a software driver compiles kernels, and keeps what it compiles.
-const PROGRAM_BYTES: [u64; 2] = [32 << 20, 170 << 20];
+const PROGRAM_BYTES: [u64; 2] = [22 << 20, 170 << 20];
 /// A triangle as it is read, packed and sorted into a hierarchy.
 const TRIANGLE_BYTES: u64 = 350;
 /// A place where a group stands.

@@ -132,6 +132,17 @@ fn verified_they_are_used_unasked() {
     );
 }
 
+/// A shadow ray meets each shape at its nearest point, and must not come back to it.
+#[test]
+fn shadow_rays_go_on_behind_veils_of_every_shape() {
+    let Some(device) = RAY_QUERY_DEVICE.as_ref() else { return };
+    let mut scene = small("arbour", [32, 20], 2);
+    let expected = picture(device, &scene, &by_nodes());
+    assert!(picture(device, &scene, &by_ray_queries()) == expected);
+    scene.render.seed += 1;
+    assert!(picture(device, &scene, &by_ray_queries()) != expected, "the control: other samples");
+}
+
 /// Far from the middle, our distance to a veil and the device's differ by more than the step behind it. A shadow ray must neither meet the veil for
 /// ever nor count it twice.
 #[test]
