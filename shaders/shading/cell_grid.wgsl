@@ -1,4 +1,4 @@
-// A grid of boxes for each way that a surface can face. src/sampling/cell_grid.rs is the same in f64, and says what tables hold.
+// A grid of boxes for each way that a surface can face. src/sampling/cell_grid.rs computes the same bits, and says what tables hold.
 #import core/layout.wgsl
 
 // Twice the axis along which a normal is longest, and one more where it points down that axis.

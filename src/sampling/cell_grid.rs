@@ -2,9 +2,9 @@
 //!
 //! Words of such a table, because each word that a kernel loads costs: where the grid begins, and the inverse size of its boxes, as the bits of
 //! f32; how many boxes it has along x, y and z; the table's first word behind the index; then the index, a word for each facing and box, x
-//! first, then y, z and the facing. `shaders/shading/cell_grid.wgsl` is the device's half.
+//! first, then y, z and the facing. `shaders/shading/cell_grid.wgsl` is the device's half, and computes the same bits.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 /// Words before the index.
@@ -23,8 +23,8 @@ pub type Region = [[u32; 2]; 3];
 /// Where the boxes are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CellGrid {
-    origin: DVec3,
-    inverse: f64,
+    origin: Vec3,
+    inverse: f32,
     counts: [u32; 3],
 }
 
@@ -48,7 +48,7 @@ impl CellGrid {
         let size = (high - low).max(DVec3::ZERO);
         // Flat scenes have some depth all the same; and no wall stands on the border between two boxes by a round number.
         let extent = (size.max(DVec3::splat(size.max_element() * 1e-3)) * 1.017).max(DVec3::splat(1e-6));
-        let origin = (low - extent * 0.00731).as_vec3().as_dvec3();
+        let origin = (low - extent * 0.00731).as_vec3();
         let mut side = (extent.element_product() / most_boxes as f64).cbrt();
         let counts = loop {
             let counts = (extent / side).ceil().max(DVec3::ONE);
@@ -57,19 +57,19 @@ impl CellGrid {
             }
             side *= 1.03;
         };
-        Self { origin, inverse: f64::from((1.0 / side) as f32), counts }
+        Self { origin, inverse: (1.0 / side) as f32, counts }
     }
 
     /// That of a table.
     pub fn of_table(words: &[u32]) -> Self {
-        let number = |word: usize| f64::from(f32::from_bits(words[word]));
-        Self { origin: DVec3::new(number(0), number(1), number(2)), inverse: number(3), counts: [words[4], words[5], words[6]] }
+        let number = |word: usize| f32::from_bits(words[word]);
+        Self { origin: Vec3::new(number(0), number(1), number(2)), inverse: number(3), counts: [words[4], words[5], words[6]] }
     }
 
     /// A table up to its cells, given the index.
     pub fn table(&self, index: &[u32]) -> Vec<u32> {
-        let mut words = self.origin.as_vec3().to_array().map(f32::to_bits).to_vec();
-        words.push((self.inverse as f32).to_bits());
+        let mut words = self.origin.to_array().map(f32::to_bits).to_vec();
+        words.push(self.inverse.to_bits());
         words.extend(self.counts);
         words.push(GRID_HEADER_WORDS + index.len() as u32);
         words.extend(index);
@@ -91,10 +91,11 @@ impl CellGrid {
         vec![0; FACINGS * self.counts.iter().product::<u32>() as usize]
     }
 
-    /// The box that a point is in.
+    /// The box that a point is in. In f32, as the device has it: of a point far from where the grid begins, it loses more than the error of
+    /// the point, and such errors alone are those by which verification explains that two devices come to different boxes.
     pub fn place(&self, position: DVec3) -> Option<[u32; 3]> {
-        let place = (position - self.origin) * self.inverse;
-        let inside = |axis: usize| place[axis] >= 0.0 && place[axis] < f64::from(self.counts[axis]);
+        let place = (position.as_vec3() - self.origin) * self.inverse;
+        let inside = |axis: usize| place[axis] >= 0.0 && place[axis] < self.counts[axis] as f32;
         (0..3).all(inside).then(|| place.to_array().map(|place| place as u32))
     }
 

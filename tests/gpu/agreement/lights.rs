@@ -373,6 +373,8 @@ fn cells_of_lights_agree() {
     let mut few = load(&[SPHERES, MAP, SPOT]);
     few.render.light_choice = LightChoice::Cells;
     assert_agrees("few lights in cells", &few, &PlanOptions::default());
+    // The grid goes on as the floor does, to the horizon: where it begins, a point loses more than its own error.
+    assert_agrees("stage", &super::small("stage", 64, 16), &PlanOptions::default());
     // The controls: one device chooses by power, or has learned of another camera.
     let [mut by_power, mut moved] = [few.clone(), few.clone()];
     by_power.render.light_choice = LightChoice::Power;
