@@ -74,34 +74,45 @@ pub fn run(arguments: &VerifyArguments) -> Result<Exit, Failure> {
     let device = Device::open_for(&arguments.device, &options)?;
     if let (Some(name), Some(scene)) = (&arguments.scene, named) {
         findings.add(verify_scene(&device, (&name.to_string_lossy(), arguments.frame), &scene, arguments, &options)?)?;
-    } else {
-        for index in 0..closed_forms::count() {
-            findings.add(Finding::ClosedForm(closed_forms::check(index, &device, &options).map_err(failure)?))?;
-        }
-        for name in load::builtin_names() {
-            let scene = load(OsStr::new(name), arguments, None)?;
-            let first_frame = (!scene.animation.is_empty()).then(|| load(OsStr::new(name), arguments, Some(0))).transpose()?;
-            for (scene, frame) in [Some((scene, None)), first_frame.map(|scene| (scene, Some(0)))].iter().flatten() {
-                match verify_scene(&device, (name, *frame), scene, arguments, &options) {
-                    // Not every scene can be traversed in every way; the others still are.
-                    Err(Failure::Render(RenderError::DoesNotFit(why))) if options.asks_for_ray_queries() => {
-                        terminal::warn(&format!("{name} is left out: {why}"));
-                    }
-                    outcome => findings.add(outcome?)?,
+        was_planted(arguments, findings.planted())?;
+        return findings.conclude();
+    }
+    let is_whole = arguments.size.is_none() && arguments.spp.is_none() && arguments.plant.is_none();
+    let verdict = everything(&device, findings, arguments, &options);
+    if is_whole && options.asks_for_ray_queries() {
+        keep_verdict(&device, matches!(verdict, Ok(Exit::Done)));
+    }
+    verdict
+}
+
+/// Verifies the closed forms and all scenes that are built in.
+fn everything(
+    device: &Device,
+    mut findings: Findings,
+    arguments: &VerifyArguments,
+    options: &PlanOptions,
+) -> Result<Exit, Failure> {
+    for index in 0..closed_forms::count() {
+        findings.add(Finding::ClosedForm(closed_forms::check(index, device, options).map_err(failure)?))?;
+    }
+    for name in load::builtin_names() {
+        let scene = load(OsStr::new(name), arguments, None)?;
+        let first_frame = (!scene.animation.is_empty()).then(|| load(OsStr::new(name), arguments, Some(0))).transpose()?;
+        for (scene, frame) in [Some((scene, None)), first_frame.map(|scene| (scene, Some(0)))].iter().flatten() {
+            match verify_scene(device, (name, *frame), scene, arguments, options) {
+                // Not every scene can be traversed in every way; the others still are.
+                Err(Failure::Render(RenderError::DoesNotFit(why))) if options.asks_for_ray_queries() => {
+                    terminal::warn(&format!("{name} is left out: {why}"));
                 }
+                outcome => findings.add(outcome?)?,
             }
         }
     }
-    was_planted(arguments, findings.found.iter().any(|finding| finding.planted().is_some()))?;
-    let is_whole = arguments.scene.is_none() && arguments.size.is_none() && arguments.spp.is_none() && arguments.plant.is_none();
-    let verdict = findings.conclude()?;
-    if is_whole && options.asks_for_ray_queries() {
-        keep_verdict(&device, verdict == Exit::Done);
-    }
-    Ok(verdict)
+    was_planted(arguments, findings.planted())?;
+    findings.conclude()
 }
 
-/// Ray queries that passed are the default from then on, and those that did not no longer are.
+/// Ray queries that passed are the default from then on, and those that did not, or lost the device, no longer are.
 fn keep_verdict(device: &Device, passed: bool) {
     let Some(file) = verified_drivers::file() else { return };
     match verified_drivers::keep(&file, &device.driver, passed) {
@@ -148,6 +159,11 @@ impl Findings {
         }
         self.found.push(finding);
         Ok(())
+    }
+
+    /// Whether some fault was compiled in.
+    fn planted(&self) -> bool {
+        self.found.iter().any(|finding| finding.planted().is_some())
     }
 
     /// Ends the output: with the verdict in one line, or as JSON.
