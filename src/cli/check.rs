@@ -5,9 +5,8 @@ use std::time::Instant;
 use gpt::binary_tree::parts::KeptTrees;
 use gpt::gpu::{prepare, select_adapter};
 use gpt::load::{self, SceneError, printable};
-use gpt::packed::hierarchy::Traversal;
 use gpt::plan::host::{HostNeeds, host_memory};
-use gpt::plan::{Decision, DeviceLimits, Memory, Plan, PlanError, PlanOptions, TraversalChoice};
+use gpt::plan::{Decision, DeviceLimits, Memory, Plan, PlanError, PlanOptions};
 use gpt::reference::ReferenceRenderer;
 use gpt::reference::pilot::Settled;
 use gpt::renderer::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
@@ -18,7 +17,8 @@ use serde::Serialize;
 use super::arguments::CheckArguments;
 use super::exit::{Exit, Failure};
 use super::sequence::bad_frame;
-use super::{reading, terminal, verified_drivers};
+use super::traversal::TraversalArguments;
+use super::{reading, terminal};
 
 /// Longer side in pixels of the picture by which the time is guessed.
 const PROBE_SIDE: u32 = 16;
@@ -189,7 +189,7 @@ pub fn host_needs(scene: &Scene, on_cpu: bool) -> Memory {
 
 /// The device that `--device auto` takes, and what it needs of its memory for the scene.
 pub fn device_memory(scene: &Scene) -> Result<(String, u64), Failure> {
-    let options = PlanOptions { verified: verified_drivers::known(), ..PlanOptions::default() };
+    let options = TraversalArguments::default().options();
     let (device, limits) = usual_device(&options)?;
     let (plan, _) = usual_plan(scene, &limits, &options)?;
     Ok((device, plan.memory.total()))
@@ -208,12 +208,9 @@ fn usual_device(options: &PlanOptions) -> Result<(String, DeviceLimits), Failure
 fn usual_plan<'a>(scene: &'a Scene, limits: &DeviceLimits, options: &PlanOptions) -> Result<(Plan, Settled<'a>), Failure> {
     let traversal = options.packed_traversal(scene, Some(limits));
     let (settled, packed) = prepare(scene, traversal, &mut KeptTrees::default())?;
-    match Plan::new(&settled.scene, &packed, limits, options) {
-        // As the renderer does: ray queries that nobody asked for are given up.
-        Err(PlanError::DoesNotFit(_)) if traversal == Traversal::RayQuery && !options.asks_for_ray_queries() => {
-            usual_plan(scene, limits, &PlanOptions { traversal: TraversalChoice::Bvh, ..options.clone() })
-        }
-        plan => Ok((plan.map_err(RenderError::from)?, settled)),
+    match (Plan::new(&settled.scene, &packed, limits, options), options.by_nodes_instead_of(traversal)) {
+        (Err(PlanError::DoesNotFit(_)), Some(by_nodes)) => usual_plan(scene, limits, &by_nodes),
+        (plan, _) => Ok((plan.map_err(RenderError::from)?, settled)),
     }
 }
 

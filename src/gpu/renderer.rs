@@ -21,7 +21,7 @@ use crate::packed::hierarchy::Traversal;
 use crate::packed::view::View;
 use crate::packed::{PackError, PackedScene};
 use crate::plan::bindings::Binding;
-use crate::plan::{Plan, PlanOptions, StageMode, TraversalChoice};
+use crate::plan::{Plan, PlanOptions, StageMode};
 use crate::reference::pilot::{self, Settled};
 use crate::reference::training;
 use crate::renderer::sink::Sink;
@@ -108,19 +108,20 @@ impl GpuRenderer {
         let device = opening.wait()?;
         let (settled, packed) = prepared?;
         let is_open = scene.render.light_choice == LightChoice::Auto && !packed.light_cells.is_empty();
-        let pipeline = match Self::pipeline(device.clone(), &settled.scene, &packed, options, start) {
+        let pipeline = match (
+            Self::pipeline(device.clone(), &settled.scene, &packed, options, start),
+            options.by_nodes_instead_of(traversal),
+        ) {
             // Cells of lights take a buffer more than a tree does, and nobody has asked for them.
-            Err(RenderError::DoesNotFit(_)) if is_open => {
+            (Err(RenderError::DoesNotFit(_)), _) if is_open => {
                 let render = RenderSettings { light_choice: LightChoice::Tree, ..scene.render.clone() };
                 let by_tree = Scene { render, ..scene.clone() };
                 return Self::with_trees(OpeningDevice::is_open(&device), &by_tree, options, trees);
             }
-            // Ray queries have bounds of their own, and nobody has asked for them.
-            Err(RenderError::DoesNotFit(_)) if options.traversal == TraversalChoice::Auto && traversal == Traversal::RayQuery => {
-                let by_nodes = PlanOptions { traversal: TraversalChoice::Bvh, ..options.clone() };
+            (Err(RenderError::DoesNotFit(_)), Some(by_nodes)) => {
                 return Self::with_trees(OpeningDevice::is_open(&device), scene, &by_nodes, trees);
             }
-            pipeline => pipeline?,
+            (pipeline, _) => pipeline?,
         };
         let scene = &*settled.scene;
         let plan = &pipeline.plan;

@@ -42,6 +42,7 @@ pub struct DeviceLimits {
     pub subgroup_size: Option<u32>,
     /// What acceleration structures can hold, where kernels can ask them.
     pub ray_queries: Option<RayQueryLimits>,
+    /// Whether plans use them unasked.
     pub ray_query_default: RayQueryDefault,
 }
 
@@ -89,7 +90,7 @@ impl Default for DeviceLimits {
 }
 
 impl DeviceLimits {
-    pub fn of(adapter: &wgpu::Adapter) -> Self {
+    pub(super) fn of(adapter: &wgpu::Adapter) -> Self {
         let limits = adapter.limits();
         let features = adapter.get_texture_format_features(wgpu::TextureFormat::Rgba32Float);
         let info = adapter.get_info();

@@ -50,6 +50,13 @@ impl PlanOptions {
         }
     }
 
+    /// What is asked instead where a scene that is packed so does not fit: ray queries have bounds of their own, and are given up where nobody has
+    /// asked for them. None where there is nothing to give up.
+    pub fn by_nodes_instead_of(&self, traversal: Traversal) -> Option<Self> {
+        let unasked = traversal == Traversal::RayQuery && !self.asks_for_ray_queries();
+        unasked.then(|| Self { traversal: TraversalChoice::Bvh, ..self.clone() })
+    }
+
     /// Whether a plan for a device with these limits may be made of a scene that is packed so.
     pub(super) fn allows(&self, traversal: Traversal, limits: &DeviceLimits) -> bool {
         match self.traversal {

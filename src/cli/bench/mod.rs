@@ -12,12 +12,11 @@ use gpt::plan::PlanOptions;
 pub use output::{OnlyStops, command};
 
 use super::exit::{Exit, Failure};
-use super::verified_drivers;
+use super::traversal::TraversalArguments;
 
 /// Does the measurement that was asked for.
 pub fn run(arguments: &BenchArguments) -> Result<Exit, Failure> {
-    let plan =
-        PlanOptions { device_timeout: arguments.device_timeout, verified: verified_drivers::known(), ..PlanOptions::default() };
+    let plan = PlanOptions { device_timeout: arguments.device_timeout, ..TraversalArguments::default().options() };
     match &arguments.bench {
         Bench::Convergence(arguments) => convergence::run(arguments, &plan),
         Bench::Speed(arguments) => speed::run(arguments, plan),

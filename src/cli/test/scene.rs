@@ -24,7 +24,8 @@ use super::report::{Difference, SceneReport, TestPictures, Verdict};
 use crate::cli::bench::OnlyStops;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::shell::{quoted, quoted_path};
-use crate::cli::{terminal, verified_drivers};
+use crate::cli::terminal;
+use crate::cli::traversal::TraversalArguments;
 
 /// Tests a scene, or makes its golden picture. What goes wrong is part of the report.
 pub fn test(job: &Job, arguments: &TestArguments, settings: &TestSettings) -> SceneReport {
@@ -119,11 +120,7 @@ impl<'a> Maker<'a> {
             (DeviceChoice::Auto, true) => DeviceChoice::Gpu,
             (device, _) => device.clone(),
         };
-        let plan = PlanOptions {
-            device_timeout: arguments.device_timeout,
-            verified: verified_drivers::known(),
-            ..PlanOptions::default()
-        };
+        let plan = PlanOptions { device_timeout: arguments.device_timeout, ..TraversalArguments::default().options() };
         let ChosenRenderer { renderer, notice } = Choice::begin(&device, &plan).renderer(scene, &plan)?;
         if let (Some(notice), false) = (notice, arguments.quiet) {
             terminal::note(&notice);
