@@ -47,6 +47,7 @@ def arguments():
     parser.add_argument("scenes", nargs="*", help=f"names out of: {', '.join(scenes.ALL)} (default: all)")
     parser.add_argument("--peers", nargs="+", default=PEERS, choices=PEERS)
     parser.add_argument("--seconds", type=float, default=1.2, help="of the longest render of each renderer (default: 1.2)")
+    parser.add_argument("--choose-seconds", type=float, help="of the renders by which a renderer's setting is chosen (default: a quarter of --seconds)")
     parser.add_argument("--seeds", type=int, default=5, help="replications, at least 3 (default: 5)")
     parser.add_argument("--agreement-spp", type=int, default=48, help="samples per pixel of each of the pictures whose means are compared, four times as many from gpt (default: 48)")
     parser.add_argument("--gpt", type=Path, default=HERE.parents[1] / "target" / "release" / "gpt", help="the program")
@@ -58,6 +59,8 @@ def arguments():
     options = parser.parse_args()
     if options.seeds < 3:
         parser.error("--seeds must be at least 3")
+    if options.choose_seconds is not None and not options.choose_seconds > 0:
+        parser.error("--choose-seconds must be above 0")
     unknown = [name for name in options.scenes if name not in scenes.ALL]
     if unknown:
         parser.error(f"there is no scene {unknown[0]!r}; choose from {', '.join(scenes.ALL)}")
@@ -104,14 +107,15 @@ class Contestant:
                 return max(2, power + round(math.log2(seconds / taken)))
             power += max(1, math.floor(math.log2(seconds / 2 / taken)))
 
-    def choose(self, seconds, settings, known):
-        """Keeps the setting with the least error × time, after two renders with each, and the ladder of sample counts. `known` is the reference, or
-        None where there is none yet; with too few samples to meet a light at all, a renderer's own pictures scatter too little."""
+    def choose(self, seconds, choose_seconds, settings, known):
+        """Keeps the setting with the least error × time, after two renders of `choose_seconds` with each, and the ladder of sample counts. `known` is the
+        reference, or None where there is none yet; with too few samples to meet a light at all, a renderer's own pictures scatter too little."""
         costs = {}
         power = self.power_for(settings[0], seconds)
         if len(settings) > 1:
+            choosing = max(0, power + round(math.log2(choose_seconds / seconds)))
             for setting in settings:
-                tries = [self.process.render(setting, 1 << (power - 2), 91 + seed) for seed in range(2)]
+                tries = [self.process.render(setting, 1 << choosing, 91 + seed) for seed in range(2)]
                 pictures = np.stack([found["picture"] for found in tries]).astype(np.float64)
                 errors = known.errors(pictures) if known else convergence.relative_errors(pictures, pictures.mean(axis=0))
                 costs[setting] = float(errors.mean() * np.mean([found["seconds"] for found in tries]))
@@ -159,7 +163,7 @@ def enter(name, scene, path, options, running):
             # The scalar variant is the same renderer with the same points, only slower: it takes what the fast one chose.
             settings = [chosen] if key == "mitsuba-scalar" and chosen else contestant.settings
             settings = [setting for setting in settings if setting not in scene.biased.get(key, ())]
-            contestant.choose(options.seconds, settings, known)
+            contestant.choose(options.seconds, options.choose_seconds or options.seconds / 4, settings, known)
         except PeerError as error:
             say(f"  {key}: left out of {name}: {error}")
             continue
