@@ -375,7 +375,9 @@ impl Integrator {
         }
         let [choice, u, v] = bits();
         let wo = bsdf.view.wo;
-        let reference = LitPoint::new(surface.point.leave_towards(wo), lit_normal);
+        let mut lit = surface.point.leave_towards(wo);
+        visitor.round_point(&mut lit, surface.point.magnitude());
+        let reference = LitPoint::new(lit, lit_normal);
         let magnified = if V::ROUNDS { self.lights.magnifies((&self.world, &path.time), reference, choice) } else { 1.0 };
         let [u, v] = [u, v].map(|bits| visitor.round_bits(bits, magnified));
         let Some(light) = self.lights.sample(&self.scene, (&self.world, &path.time), reference, choice, [u, v]) else { return };

@@ -94,8 +94,9 @@ impl PathVisitor for Rounding {
         let magnitude = left.map_or_else(|| ray.origin.abs().max_element(), SurfacePoint::magnitude);
         let mut error = self.draw_vector() * (self.size * magnitude);
         if let Some(point) = left {
-            // Along the surface by errors, and above it by as much as kernels lift their rays, up to twice that.
-            let lift = if self.size > 0.0 { (self.draw() + 1.0) * magnitude * POINT_ERROR } else { 0.0 };
+            // Along the surface by errors, and above it by as much as kernels lift their rays, up to twice that, and often by next to nothing: kernels
+            // do not lift rays from a floor at height 0, whose points have no error along its normal.
+            let lift = if self.size > 0.0 { 2.0 * self.draw().abs().powi(4) * magnitude * POINT_ERROR } else { 0.0 };
             let up = point.normal * ray.direction.dot(point.normal).signum();
             error += up * (lift - error.dot(up));
         }
@@ -105,6 +106,10 @@ impl PathVisitor for Rounding {
     fn round_first(&mut self, magnitude: f64) -> (f64, u32) {
         self.state = self.state.wrapping_add(0x9e37_79b9);
         (self.size * magnitude, mix(self.state))
+    }
+
+    fn round_point(&mut self, point: &mut DVec3, magnitude: f64) {
+        *point += self.draw_vector() * (self.size * magnitude);
     }
 
     fn round_surface(&mut self, surface: &mut Surface) {

@@ -56,6 +56,8 @@ pub trait PathVisitor {
     fn round_first(&mut self, _magnitude: f64) -> (f64, u32) {
         (0.0, 0)
     }
+    /// A point of a surface, of numbers of this magnitude, that light is sampled from.
+    fn round_point(&mut self, _point: &mut DVec3, _magnitude: f64) {}
     /// A surface that was met.
     fn round_surface(&mut self, _surface: &mut Surface) {}
     /// A direction of unit length.

@@ -425,3 +425,68 @@ fn other_lights_are_noticed() {
         assert!(!verdict.agrees && verdict.matching_share() < 0.97, "change {index}: {verdict:#?}");
     }
 }
+
+/// A wall beside a thin tube that glows on both sides, and a roll that lies on a floor at height 0.
+const TUBES: &str = r#"
+[film]
+size = [48, 32]
+[render]
+spp = 16
+max_depth = 4
+light_samples = 1
+[camera]
+position = [0, 1.7, 7.5]
+look_at = [0, 0.95, 0]
+vfov = 30
+[[material]]
+name = "grey"
+type = "diffuse"
+reflectance = 0.4
+[[material]]
+name = "neon"
+type = "emissive"
+radiance = [2, 1, 0.5]
+two_sided = true
+[[shape]]
+type = "rectangle"
+corner = [-5, 0, 2.5]
+edge_u = [10, 0, 0]
+edge_v = [0, 0, -6]
+material = "grey"
+[[shape]]
+type = "rectangle"
+corner = [-5, 0, -1.6]
+edge_u = [10, 0, 0]
+edge_v = [0, 5, 0]
+material = "grey"
+[[shape]]
+type = "cylinder"
+from = [1.95, 0.02, -0.9]
+to = [2.15, 1.9, -1.1]
+radius = 0.12
+material = "neon"
+[[shape]]
+type = "cylinder"
+from = [-1.7, 0.25, 1]
+to = [-0.2, 0.25, 0.6]
+radius = 0.25
+material = "grey"
+"#;
+
+/// Points of a tube that are seen from nearly beside them: shadow rays end before the wall in front of them on both devices, or on neither. Where a
+/// device's ray meets that wall is off by more than the reference draws, so one path in some hundreds of those that differ stays unexplained. Ended by another share
+/// of their way, it was one in seventeen.
+#[test]
+fn light_that_grazes_tubes_agrees() {
+    let mut scene = load::load_toml_str(TUBES, "tubes", std::path::Path::new(".")).unwrap_or_else(|error| panic!("{error}"));
+    let seeds = if in_full("a grazed tube with 16 seeds instead of four") { 16 } else { 4 };
+    let [mut followed, mut unexplained] = [0, 0];
+    for seed in 0..seeds {
+        scene.render.seed = seed;
+        let Some(verdict) = compare(&scene, &PlanOptions::default()) else { return };
+        followed += verdict.followed_paths;
+        unexplained += verdict.unexplained_paths.len() as u64;
+    }
+    println!("{unexplained} of {followed} paths are unexplained");
+    assert!(followed > 40 * u64::from(seeds) && 100 * unexplained <= followed, "{unexplained} of {followed}");
+}

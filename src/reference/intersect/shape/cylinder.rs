@@ -35,8 +35,11 @@ pub struct Cylinder {
     second: DVec3,
 }
 
-/// Error of a device's points, relative to the numbers they are made of: `POINT_ERROR` in `shaders/core/math.wgsl`.
+/// What shadow rays of devices allow for: errors of points, relative to the numbers they are made of (`shaders/core/math.wgsl`), of directions, and of
+/// their length (`shaders/shading/light_sample.wgsl`).
 const POINT_ERROR: f64 = 1.0e-6;
+const DIRECTION_ERROR: f64 = 2.5e-7;
+const SHADOW_SHORTENING: f64 = 0.999999;
 
 /// A crossing of a line and the wall: how far along the line, and how high between the ends.
 type Crossing = (f64, f64);
@@ -96,17 +99,14 @@ impl Element for Cylinder {
 
     /// Of the two crossings of the line through both points, one is the point itself, at 1. Their product tells the other, which is in the
     /// way if it lies between and on the wall. Where the line all but touches the wall, the two are closer than shadow rays come to what they
-    /// go to: those end before a light by the error of its points in single precision, and the point counts as seen.
+    /// go to: those end before a light by their errors in single precision, and the point counts as seen.
     fn hides(&self, from: DVec3, point: &SurfacePoint) -> bool {
         let (low, start) = self.parts(from - self.from);
         let (high, end) = self.parts(point.position - self.from);
         let across = end - start;
         let other = (start.length_squared() - self.radius * self.radius) / across.length_squared();
         let height = low + (high - low) * other;
-        let way = point.position - from;
-        let size = self.from.abs() + self.axis.abs() + self.radius;
-        let early = POINT_ERROR * point.normal.abs().dot(size) / way.dot(point.normal).abs();
-        other > 0.0 && other < 1.0 - early.min(0.5) && (0.0..=1.0).contains(&height)
+        other > 0.0 && other < self.end_of_shadow_ray(point.position - from, point.normal) && (0.0..=1.0).contains(&height)
     }
 
     /// Both crossings of a ray are drawn.
@@ -129,6 +129,16 @@ impl Cylinder {
     fn parts(&self, place: DVec3) -> (f64, DVec3) {
         let height = place.dot(self.axis) / self.axis.length_squared();
         (height, place - self.axis * height)
+    }
+
+    /// Where a device's shadow ray along `way` ends before a point with this normal, as a share of the way: `area_light_sample` in
+    /// `shaders/shading/light.wgsl`.
+    fn end_of_shadow_ray(&self, way: DVec3, normal: DVec3) -> f64 {
+        let error = POINT_ERROR * normal.abs().dot(self.from.abs() + self.axis.abs() + self.radius);
+        let along_normal = way.dot(normal).abs();
+        let own = (error / along_normal).min(0.5);
+        let early = (own + DIRECTION_ERROR * way.length() / along_normal).min(own.max(0.01));
+        (1.0 - early) * SHADOW_SHORTENING
     }
 
     /// By how much it reaches over its ends, as a share of its length: enough for rounding to leave no gap to what it meets there.
