@@ -23,11 +23,10 @@ use crate::scene::{Guiding, PixelSampler, SamplerKind, Scene};
 
 /// Rounds, each of twice as many paths as the one before.
 const ROUNDS: u32 = 5;
-/// After so many of them a pilot looks for the first time, where guiding is to pay: the rest take nine tenths of the time.
-const FIRST_LOOK: usize = 2;
-/// Error × cost with a guide over that without one: what a guide made of the first rounds leaves at most where learning goes on, and what a guide
-/// has to leave, as learning takes time as well.
-const MOST_LOSS_AT_FIRST: f64 = 0.9;
+/// After so many of them a pilot looks whether guiding pays, where it has to, and so much is the most that a guide may leave of the error × cost without
+/// one, where learning goes on, or at last where it stays. A guide learns more than twice as much in the rounds to come as in those before: in the `cellar` it leaves
+/// 0.76, 0.51, 0.34 and 0.25 of the error. Learning takes time as well, so at last it has to give more than nothing.
+const MOST_LOSSES: [(usize, f64); 4] = [(2, 1.4), (3, 1.1), (4, 0.85), (ROUNDS as usize, MOST_LOSS)];
 const MOST_LOSS: f64 = 0.7;
 /// Paths of the last round, which has about so many as the picture has pixels times this.
 const PATHS_OF_PIXEL: u32 = 8;
@@ -115,28 +114,28 @@ struct Trained {
 }
 
 fn trained(integrator: &mut Integrator, has_to_pay: bool) -> Trained {
-    let mut guide = None;
+    let mut trained = Trained { guide: None, paths: 0, loss: None };
     let mut first = 0;
     let mut before: (Vec<Arrival>, u32) = Default::default();
-    let mut used = 0;
     for (round, count) in rounds(integrator.scene().film.size).enumerate() {
-        if has_to_pay && round == FIRST_LOOK && guide.is_some() {
-            let loss = pilot::loss_with_guide(integrator);
-            if loss > MOST_LOSS_AT_FIRST {
-                return Trained { guide, paths: used, loss: Some(loss) };
-            }
-        }
         let (mut arrivals, earlier) = std::mem::take(&mut before);
         let found = arrivals_of(integrator, first, count);
         arrivals.extend_from_slice(&found);
-        used = earlier + count;
-        guide = learn(&arrivals).map(Arc::new);
-        integrator.set_guide(guide.clone());
+        trained.guide = learn(&arrivals).map(Arc::new);
+        trained.paths = earlier + count;
+        integrator.set_guide(trained.guide.clone());
+        let look = MOST_LOSSES.iter().find(|(rounds, _)| has_to_pay && trained.guide.is_some() && *rounds == round + 1);
+        if let Some((_, most)) = look {
+            let loss = pilot::loss_with_guide(integrator);
+            trained.loss = Some(loss);
+            if loss > *most {
+                break;
+            }
+        }
         before = (found, count);
         first += count;
     }
-    let loss = (has_to_pay && guide.is_some()).then(|| pilot::loss_with_guide(integrator));
-    Trained { guide, paths: used, loss }
+    trained
 }
 
 /// The random numbers of training: others than those of the picture, whatever its seed.

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::common::effort::in_full;
 use gpt::load;
 use gpt::reference::ReferenceRenderer;
 use gpt::reference::pilot::settle;
@@ -150,6 +151,19 @@ fn a_guide_that_does_not_pay_is_given_up() {
     assert_eq!(because([255, 256]), "learning takes too long for so few pixels");
     let after_a_pilot = because(SIZE);
     assert!(after_a_pilot.starts_with("a pilot found 1."), "{after_a_pilot}");
+}
+
+/// In the cellar a guide of the first two rounds takes as much as it gives, and one of all rounds pays.
+#[test]
+fn a_guide_that_pays_late_is_kept() {
+    if !in_full("learning a guide of all rounds that has to pay") {
+        return;
+    }
+    let mut scene = built_in("cellar");
+    scene.render.guiding = Guiding::Auto;
+    let learned = learn_for_device(&scene, None).expect("the reference can render the scene");
+    let because = learned.because.expect("there is a reason");
+    assert!(learned.guide.is_some() && because.starts_with("a pilot found 0."), "{because}");
 }
 
 /// A render whose settings leave it open is, sample by sample, the one whose settings say what the pilot chose, and not that of one light sample.

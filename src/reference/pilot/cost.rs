@@ -15,5 +15,5 @@ pub struct Costs {
 
 /// Measured on lavapipe (docs/strategies.md; guides: docs/performance.md): geometry that is code, and geometry in a hierarchy; of triangles there, and of trees where geometry is code,
 /// by what they take in the other.
-pub const SIMPLE: Costs = Costs { guide: 2.5, light_sample: 1.0, tree_of_lights: 1.4, of_rectangle: 0.75, of_triangle: 2.2 };
+pub const SIMPLE: Costs = Costs { guide: 1.5, light_sample: 1.0, tree_of_lights: 1.4, of_rectangle: 0.75, of_triangle: 2.2 };
 pub const TRAVERSED: Costs = Costs { guide: 0.8, light_sample: 0.8, tree_of_lights: 1.4, of_rectangle: 0.2, of_triangle: 0.6 };
