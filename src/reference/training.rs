@@ -23,10 +23,11 @@ use crate::scene::{Guiding, PixelSampler, SamplerKind, Scene};
 
 /// Rounds, each of twice as many paths as the one before.
 const ROUNDS: u32 = 5;
-/// After so many of them a pilot looks whether guiding pays, where it has to, and so much is the most that a guide may leave of the error × cost without
-/// one, where learning goes on, or at last where it stays. A guide learns more than twice as much in the rounds to come as in those before: in the `cellar` it leaves
-/// 0.76, 0.51, 0.34 and 0.25 of the error. Learning takes time as well, so at last it has to give more than nothing.
+/// After so many of them a pilot looks whether guiding pays, where it has to. Error × cost with the guide, over that without one, may be so much at
+/// most, or learning ends and paths are not guided. A guide still improves, so early looks allow more: in the `cellar` it leaves 0.76, 0.51, 0.34 and
+/// 0.25 of the error.
 const MOST_LOSSES: [(usize, f64); 4] = [(2, 1.4), (3, 1.1), (4, 0.85), (ROUNDS as usize, MOST_LOSS)];
+/// What a guide of all rounds may leave at most: learning takes time as well.
 const MOST_LOSS: f64 = 0.7;
 /// Paths of the last round, which has about so many as the picture has pixels times this.
 const PATHS_OF_PIXEL: u32 = 8;
