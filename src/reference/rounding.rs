@@ -94,9 +94,11 @@ impl PathVisitor for Rounding {
         let magnitude = left.map_or_else(|| ray.origin.abs().max_element(), SurfacePoint::magnitude);
         let mut error = self.draw_vector() * (self.size * magnitude);
         if let Some(point) = left {
-            // Along the surface by errors, and above it by as much as kernels lift their rays, up to twice that, and often by next to nothing: kernels
-            // do not lift rays from a floor at height 0, whose points have no error along its normal.
-            let lift = if self.size > 0.0 { 2.0 * self.draw().abs().powi(4) * magnitude * POINT_ERROR } else { 0.0 };
+            // Along the surface by errors, and above it by as much as kernels lift their rays, up to twice that: by the error along the normal, which
+            // is nothing on a floor at height 0, and elsewhere no more than the largest.
+            let along_normal = point.normal.abs().dot(point.position.abs());
+            let magnitude = if self.draw() < 0.0 { magnitude } else { along_normal };
+            let lift = if self.size > 0.0 { (self.draw() + 1.0) * magnitude * POINT_ERROR } else { 0.0 };
             let up = point.normal * ray.direction.dot(point.normal).signum();
             error += up * (lift - error.dot(up));
         }
