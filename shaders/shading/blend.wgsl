@@ -32,6 +32,13 @@ struct WeightedPart {
 #endif
 }
 
+fn part_material(run: PartRun, index: u32) -> u32 {
+    if run.first == NONE {
+        return run.material;
+    }
+    return bitcast<u32>(tables[FIRST_PART_WORD + run.first + index].x);
+}
+
 fn weighted_part(run: PartRun, index: u32, cosine: f32, uv: TextureCoordinates) -> WeightedPart {
     if run.first == NONE {
 #if ONE_SIDED

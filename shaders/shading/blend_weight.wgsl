@@ -4,7 +4,9 @@
 #import core/math.wgsl
 #import geometry/scene.wgsl
 #import shading/coordinates.wgsl
+#if WEIGHTS_BY_ANGLE
 #import shading/fresnel.wgsl
+#endif
 #if TEXTURES
 #import shading/texture.wgsl
 #endif
@@ -14,6 +16,7 @@ fn blend_weight(index: u32, cosine: f32, uv: TextureCoordinates) -> f32 {
     let flags = bitcast<u32>(h.x);
     var w = h.y;
     switch flags & 255u {
+#if WEIGHTS_BY_ANGLE
         case WEIGHT_FACING: {
             w = select(pow(cosine, h.y), 0.0, cosine <= 0.0);
         }
@@ -26,6 +29,7 @@ fn blend_weight(index: u32, cosine: f32, uv: TextureCoordinates) -> f32 {
         case WEIGHT_FRESNEL_EXACT: {
             w = 1.0 - fresnel_dielectric(cosine, h.y);
         }
+#endif
 #if TEXTURES
         case WEIGHT_TEXTURE, WEIGHT_CHANNEL: {
             let color = texture_color(bitcast<u32>(h.w), uv);

@@ -37,15 +37,19 @@ fn hit_transmittance(ray: Ray, hit: Hit, limit: f32) -> f32 {
 }
 
 #if BLENDS
+fn is_null_part(run: PartRun, index: u32) -> bool {
+    let material = part_material(run, index);
+    return (bitcast<u32>(tables[material * MATERIAL_WORDS].w) & 255u) == NULL_SURFACES;
+}
+
 // The weights of all null parts of a surface's material, seen along `wo`.
 fn null_weight(surface: Surface, wo: vec3<f32>) -> f32 {
     let cosine = clamp(dot(wo, surface.shading_normal), 0.0, 1.0);
     let run = part_run(surface.material);
     var sum = 0.0;
     for (var index = 0u; index < run.count; index++) {
-        let part = weighted_part(run, index, cosine, surface.uv);
-        if (bitcast<u32>(tables[part.material * MATERIAL_WORDS].w) & 255u) == NULL_SURFACES {
-            sum += part.weight;
+        if is_null_part(run, index) {
+            sum += weighted_part(run, index, cosine, surface.uv).weight;
         }
     }
     return min(sum, 1.0);

@@ -84,6 +84,12 @@ impl PackedBlendWeight {
         if reversed { Self { kind_and_flags: packed.kind_and_flags ^ REVERSED, ..packed } } else { packed }
     }
 
+    /// It depends on the angle from which the surface is seen.
+    pub(super) fn is_by_angle(&self) -> bool {
+        let kinds = [WeightKind::Facing, WeightKind::FresnelSchlick, WeightKind::FresnelExact];
+        kinds.iter().any(|kind| *kind as u32 == self.kind_and_flags & !FLAGS)
+    }
+
     /// 1 where the weight is at least tau, else 0.
     fn thresholded(self, tau: f64) -> Self {
         let reversed = self.kind_and_flags & REVERSED != 0;

@@ -337,6 +337,11 @@ impl PackedMaterials {
         Ok(packed)
     }
 
+    /// Some weight of a blend depends on the angle from which a surface is seen.
+    pub fn has_weights_by_angle(&self) -> bool {
+        self.weights.iter().any(PackedBlendWeight::is_by_angle)
+    }
+
     /// Some part of a blend is black from behind.
     pub fn has_front_only_parts(&self) -> bool {
         self.parts.iter().any(|part| part.factor_count & PART_FRONT_ONLY != 0)

@@ -292,6 +292,8 @@ const OF_FEATURES: &[Switch] = &[
     switch("UNIFORM_PRIMITIVES"),
     switch("UNIFORM_TABLES"),
     switch("VARYING_LIGHTS").requires(&["EMISSION", "LIGHTS"]),
+    // Some weight of a blend depends on the angle from which it is seen.
+    switch("WEIGHTS_BY_ANGLE").requires(&["BLENDS"]),
     switch("WORLEY").requires(&["PROCEDURAL_TEXTURES"]),
 ];
 
