@@ -27,7 +27,7 @@ fn blend_weight(index: u32, cosine: f32, uv: TextureCoordinates) -> f32 {
             w = 1.0 - mix(away2 * away2 * away, 1.0, r * r);
         }
         case WEIGHT_FRESNEL_EXACT: {
-            w = 1.0 - fresnel_dielectric(cosine, h.y);
+            w = fresnel_dielectric(cosine, h.y).transmitted;
         }
 #endif
 #if TEXTURES

@@ -23,11 +23,25 @@ fn relative_ior(lobe: Lobe, surface: Surface) -> f32 {
     return select(1.0 / lobe.ior, lobe.ior, surface.front);
 }
 
-// Share of reflection in sampling a dielectric.
-fn reflection_probability(lobe: Lobe, reflected: f32) -> f32 {
-    let reflection = reflected * max_component(lobe.color0);
-    let total = reflection + (1.0 - reflected) * max_component(lobe.color1);
-    return select(0.0, reflection / total, total > 0.0);
+// What a boundary reflects and transmits before its colours, and how probably sampling chooses either; in proportion to the light that it carries.
+struct DielectricSplit {
+    fresnel: Fresnel,
+    choose_reflection: f32,
+    choose_transmission: f32,
+}
+
+fn dielectric_split(lobe: Lobe, fresnel: Fresnel) -> DielectricSplit {
+    let reflection = fresnel.reflected * max_component(lobe.color0);
+    let transmission = fresnel.transmitted * max_component(lobe.color1);
+    let total = reflection + transmission;
+    if total <= 0.0 {
+        return DielectricSplit(fresnel, 0.0, 1.0);
+    }
+    return DielectricSplit(fresnel, reflection / total, transmission / total);
+}
+
+fn carries_light(lobe: Lobe, fresnel: Fresnel) -> bool {
+    return max(max_component(lobe.color0) * fresnel.reflected, max_component(lobe.color1) * fresnel.transmitted) > 0.0;
 }
 
 // A direction that a smooth boundary reflects or refracts.
@@ -35,48 +49,48 @@ fn sample_delta_dielectric(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: 
     let n = surface.shading_normal;
     let cosine = min(dot(wo, n), 1.0);
     let eta = relative_ior(lobe, surface);
-    let reflected = fresnel_dielectric(cosine, eta);
-    if max(max_component(lobe.color0) * reflected, max_component(lobe.color1) * (1.0 - reflected)) <= 0.0 {
+    let fresnel = fresnel_dielectric(cosine, eta);
+    if !carries_light(lobe, fresnel) {
         return no_sample();
     }
-    let probability = reflection_probability(lobe, reflected);
-    if choice < probability {
+    let split = dielectric_split(lobe, fresnel);
+    if choice < split.choose_reflection {
         let wi = 2.0 * cosine * n - wo;
         if dot(wi, surface.facing_normal) <= 0.0 {
             return no_sample();
         }
-        return BsdfSample(wi, lobe.color0 * (reflected / probability), -1.0, 1.0, false);
+        return BsdfSample(wi, lobe.color0 * (fresnel.reflected / split.choose_reflection), -1.0, 1.0, false);
     }
     let wi = refracted(n, wo, eta);
     if dot(wi, surface.facing_normal) >= 0.0 {
         return no_sample();
     }
     // Radiance is squeezed into a smaller cone where it enters the denser side.
-    let weight = (1.0 - reflected) / ((1.0 - probability) * eta * eta);
+    let weight = fresnel.transmitted / (split.choose_transmission * eta * eta);
     return BsdfSample(wi, lobe.color1 * weight, -1.0, eta * eta, false);
 }
 
-// Share that a plate with two boundaries reflects: light goes to and fro between them. From either side it is the denser.
-fn plate_reflectance(lobe: Lobe, cosine: f32) -> f32 {
-    let reflected = fresnel_dielectric(cosine, lobe.ior);
-    return 2.0 * reflected / (1.0 + reflected);
+// What a plate with two boundaries reflects and transmits: light goes to and fro between them. From either side it is the denser.
+fn fresnel_plate(lobe: Lobe, cosine: f32) -> Fresnel {
+    let once = fresnel_dielectric(cosine, lobe.ior);
+    return Fresnel(2.0 * once.reflected / (1.0 + once.reflected), once.transmitted / (1.0 + once.reflected));
 }
 
 // A direction that a smooth plate reflects, or the one straight on.
 fn sample_delta_plate(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32) -> BsdfSample {
     let n = surface.shading_normal;
     let cosine = min(dot(wo, n), 1.0);
-    let reflected = plate_reflectance(lobe, cosine);
-    if max(max_component(lobe.color0) * reflected, max_component(lobe.color1) * (1.0 - reflected)) <= 0.0 {
+    let fresnel = fresnel_plate(lobe, cosine);
+    if !carries_light(lobe, fresnel) {
         return no_sample();
     }
-    let probability = reflection_probability(lobe, reflected);
-    if choice < probability {
+    let split = dielectric_split(lobe, fresnel);
+    if choice < split.choose_reflection {
         let wi = 2.0 * cosine * n - wo;
         if dot(wi, surface.facing_normal) <= 0.0 {
             return no_sample();
         }
-        return BsdfSample(wi, lobe.color0 * (reflected / probability), -1.0, 1.0, false);
+        return BsdfSample(wi, lobe.color0 * (fresnel.reflected / split.choose_reflection), -1.0, 1.0, false);
     }
-    return BsdfSample(-wo, lobe.color1 * ((1.0 - reflected) / (1.0 - probability)), -1.0, 1.0, false);
+    return BsdfSample(-wo, lobe.color1 * (fresnel.transmitted / split.choose_transmission), -1.0, 1.0, false);
 }

@@ -6,16 +6,29 @@ fn transmitted_cosine2(cosine: f32, eta: f32) -> f32 {
     return ((eta - 1.0) * (eta + 1.0) + cosine * cosine) / (eta * eta);
 }
 
-// Unpolarised Fresnel reflectance of a dielectric; eta = transmitted over incident index of refraction.
-fn fresnel_dielectric(cosine: f32, eta: f32) -> f32 {
+// Shares of unpolarised light; their sum is 1.
+struct Fresnel {
+    reflected: f32,
+    transmitted: f32,
+}
+
+// What a dielectric reflects and transmits by Fresnel's equations; eta = transmitted over incident index of refraction. Both shares are accurate
+// where they are small: at grazing angles 1 - reflected would have lost its digits.
+fn fresnel_dielectric(cosine: f32, eta: f32) -> Fresnel {
     let cosine2 = transmitted_cosine2(cosine, eta);
     if cosine2 <= 0.0 {
-        return 1.0;
+        return Fresnel(1.0, 0.0);
     }
     let cosine_transmitted = sqrt(cosine2);
-    let parallel = (eta * cosine - cosine_transmitted) / (eta * cosine + cosine_transmitted);
-    let perpendicular = (cosine - eta * cosine_transmitted) / (cosine + eta * cosine_transmitted);
-    return 0.5 * (parallel * parallel + perpendicular * perpendicular);
+    let parallel_sum = eta * cosine + cosine_transmitted;
+    let perpendicular_sum = cosine + eta * cosine_transmitted;
+    let parallel = (eta * cosine - cosine_transmitted) / parallel_sum;
+    let perpendicular = (cosine - eta * cosine_transmitted) / perpendicular_sum;
+    let product = eta * cosine * cosine_transmitted;
+    return Fresnel(
+        0.5 * (parallel * parallel + perpendicular * perpendicular),
+        2.0 * (product / (parallel_sum * parallel_sum) + product / (perpendicular_sum * perpendicular_sum))
+    );
 }
 
 // Schlick's approximation, of what is reflected at normal incidence.

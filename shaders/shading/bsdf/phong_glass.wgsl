@@ -18,23 +18,22 @@ fn phong_glass_sampling_weight(lobe: Lobe) -> f32 {
 fn evaluate_phong_glass(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) -> BsdfValue {
     let n = surface.shading_normal;
     let eta = relative_ior(lobe, surface);
-    let reflected = fresnel_dielectric(min(dot(wo, n), 1.0), eta);
-    let probability = reflection_probability(lobe, reflected);
+    let split = dielectric_split(lobe, fresnel_dielectric(min(dot(wo, n), 1.0), eta));
     if on_wo_side(surface, wi) {
         let spread = cosine_power_pdf(mirrored(surface, wo), lobe.roughness, wi);
-        return BsdfValue(lobe.color0 * (reflected * spread), probability * spread);
+        return BsdfValue(lobe.color0 * (split.fresnel.reflected * spread), split.choose_reflection * spread);
     }
-    if reflected < 1.0 && on_far_side(surface, wi) {
+    if split.fresnel.transmitted > 0.0 && on_far_side(surface, wi) {
         let spread = cosine_power_pdf(refracted(n, wo, eta), lobe.roughness, wi);
-        return BsdfValue(lobe.color1 * ((1.0 - reflected) * spread / (eta * eta)), (1.0 - probability) * spread);
+        return BsdfValue(lobe.color1 * (split.fresnel.transmitted * spread / (eta * eta)), split.choose_transmission * spread);
     }
     return no_value();
 }
 
 fn sample_phong_glass(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
     let eta = relative_ior(lobe, surface);
-    let reflected = fresnel_dielectric(min(dot(wo, surface.shading_normal), 1.0), eta);
-    let reflects = choice < reflection_probability(lobe, reflected);
+    let split = dielectric_split(lobe, fresnel_dielectric(min(dot(wo, surface.shading_normal), 1.0), eta));
+    let reflects = choice < split.choose_reflection;
     var axis = mirrored(surface, wo);
     if !reflects {
         axis = refracted(surface.shading_normal, wo, eta);

@@ -21,16 +21,16 @@ fn evaluate_plastic(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<f32>) 
         return no_value();
     }
     let cosine = dot(wi, surface.shading_normal);
-    let reflected_o = fresnel_dielectric(min(dot(wo, surface.shading_normal), 1.0), lobe.ior);
-    let reflected_i = fresnel_dielectric(min(cosine, 1.0), lobe.ior);
+    let fresnel_o = fresnel_dielectric(min(dot(wo, surface.shading_normal), 1.0), lobe.ior);
+    let fresnel_i = fresnel_dielectric(min(cosine, 1.0), lobe.ior);
     return BsdfValue(
-        plastic_base(lobe, 1.0 - reflected_o, 1.0 - reflected_i) * cosine,
-        (1.0 - plastic_specular_share(lobe, reflected_o)) * hemisphere_pdf(cosine)
+        plastic_base(lobe, fresnel_o.transmitted, fresnel_i.transmitted) * cosine,
+        (1.0 - plastic_specular_share(lobe, fresnel_o.reflected)) * hemisphere_pdf(cosine)
     );
 }
 
 fn sample_plastic(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
-    let reflected = fresnel_dielectric(min(dot(wo, surface.shading_normal), 1.0), lobe.ior);
+    let reflected = fresnel_dielectric(min(dot(wo, surface.shading_normal), 1.0), lobe.ior).reflected;
     let probability = plastic_specular_share(lobe, reflected);
     if choice < probability {
         let wi = mirrored(surface, wo);

@@ -43,21 +43,20 @@ fn rough_glass_value(lobe: Lobe, facets: Facets, o: vec3<f32>, i: vec3<f32>, m: 
     if o_m <= 0.0 || (i_m > 0.0) != reflects {
         return no_value();
     }
-    let reflected = fresnel_dielectric(min(o_m, 1.0), eta);
-    let probability = reflection_probability(lobe, reflected);
+    let split = dielectric_split(lobe, fresnel_dielectric(min(o_m, 1.0), eta));
     let lambda_o = facet_lambda(facets, o);
     let visible = facet_distribution(facets, m) * o_m / o.z;
     let shadowing = facet_shadowing(facets, lambda_o, facet_lambda(facets, i));
     let pdf_m = visible / (1.0 + lambda_o);
     if reflects {
         let jacobian = 1.0 / (4.0 * o_m);
-        return BsdfValue(lobe.color0 * (reflected * visible * shadowing * jacobian), probability * pdf_m * jacobian);
+        return BsdfValue(lobe.color0 * (split.fresnel.reflected * visible * shadowing * jacobian), split.choose_reflection * pdf_m * jacobian);
     }
     let refraction = i_m + o_m / eta;
     let jacobian = -i_m / (refraction * refraction);
     return BsdfValue(
-        lobe.color1 * ((1.0 - reflected) * visible * shadowing * jacobian / (eta * eta)),
-        (1.0 - probability) * pdf_m * jacobian
+        lobe.color1 * (split.fresnel.transmitted * visible * shadowing * jacobian / (eta * eta)),
+        split.choose_transmission * pdf_m * jacobian
     );
 }
 
@@ -70,9 +69,8 @@ fn sample_rough_glass(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, 
     let o = to_local(frame, wo);
     let m = sample_visible_normal(facets, o, u, v);
     let eta = relative_ior(lobe, surface);
-    let reflected = fresnel_dielectric(clamp(dot(o, m), 0.0, 1.0), eta);
-    let probability = reflection_probability(lobe, reflected);
-    let reflects = choice < probability;
+    let split = dielectric_split(lobe, fresnel_dielectric(clamp(dot(o, m), 0.0, 1.0), eta));
+    let reflects = choice < split.choose_reflection;
     var i = 2.0 * dot(o, m) * m - o;
     if !reflects {
         i = refracted(m, o, eta);
@@ -88,8 +86,9 @@ fn sample_rough_glass(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, 
     let lambda_o = facet_lambda(facets, o);
     let masking = facet_shadowing_of_visible(facets, lambda_o, facet_lambda(facets, i));
     if reflects {
-        return BsdfSample(wi, lobe.color0 * (reflected / probability * masking), value.pdf_solid_angle, 1.0, false);
+        let weight = split.fresnel.reflected / split.choose_reflection * masking;
+        return BsdfSample(wi, lobe.color0 * weight, value.pdf_solid_angle, 1.0, false);
     }
-    let weight = (1.0 - reflected) / ((1.0 - probability) * eta * eta) * masking;
+    let weight = split.fresnel.transmitted / (split.choose_transmission * eta * eta) * masking;
     return BsdfSample(wi, lobe.color1 * weight, value.pdf_solid_angle, eta * eta, false);
 }

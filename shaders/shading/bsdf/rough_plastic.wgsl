@@ -44,7 +44,7 @@ fn evaluate_rough_plastic(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: vec3<
     let m = normalize(o + i);
     let lambda_o = facet_lambda(facets, o);
     let common_factor = facet_distribution(facets, m) / (4.0 * o.z);
-    let reflected = fresnel_dielectric(clamp(dot(o, m), 0.0, 1.0), lobe.ior);
+    let reflected = fresnel_dielectric(clamp(dot(o, m), 0.0, 1.0), lobe.ior).reflected;
     let specular = lobe.color1 * (reflected * common_factor * facet_shadowing(facets, lambda_o, facet_lambda(facets, i)));
     let transmitted = plastic_transmittance(lobe, o.z);
     let diffuse = plastic_base(lobe, transmitted, plastic_transmittance(lobe, i.z)) * i.z;

@@ -31,16 +31,15 @@ fn evaluate_rough_thin_glass(lobe: Lobe, surface: Surface, wo: vec3<f32>, wi: ve
 
 // `i` is on wo's side, whether light comes from there or from the other one.
 fn rough_thin_glass_value(lobe: Lobe, facets: Facets, o: vec3<f32>, i: vec3<f32>, m: vec3<f32>, reflects: bool) -> BsdfValue {
-    let reflected = plate_reflectance(lobe, clamp(dot(o, m), 0.0, 1.0));
-    let probability = reflection_probability(lobe, reflected);
+    let split = dielectric_split(lobe, fresnel_plate(lobe, clamp(dot(o, m), 0.0, 1.0)));
     let lambda_o = facet_lambda(facets, o);
     let common_factor = facet_distribution(facets, m) / (4.0 * o.z);
     let shadowed = common_factor * facet_shadowing(facets, lambda_o, facet_lambda(facets, i));
     let pdf = common_factor / (1.0 + lambda_o);
     if reflects {
-        return BsdfValue(lobe.color0 * (reflected * shadowed), probability * pdf);
+        return BsdfValue(lobe.color0 * (split.fresnel.reflected * shadowed), split.choose_reflection * pdf);
     }
-    return BsdfValue(lobe.color1 * ((1.0 - reflected) * shadowed), (1.0 - probability) * pdf);
+    return BsdfValue(lobe.color1 * (split.fresnel.transmitted * shadowed), split.choose_transmission * pdf);
 }
 
 fn sample_rough_thin_glass(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
@@ -51,9 +50,8 @@ fn sample_rough_thin_glass(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: 
     let frame = facet_frame(facets, surface);
     let o = to_local(frame, wo);
     let m = sample_visible_normal(facets, o, u, v);
-    let reflected = plate_reflectance(lobe, clamp(dot(o, m), 0.0, 1.0));
-    let probability = reflection_probability(lobe, reflected);
-    let reflects = choice < probability;
+    let split = dielectric_split(lobe, fresnel_plate(lobe, clamp(dot(o, m), 0.0, 1.0)));
+    let reflects = choice < split.choose_reflection;
     let i = 2.0 * dot(o, m) * m - o;
     let wi = frame_to_world(frame, vec3<f32>(i.xy, select(-i.z, i.z, reflects)));
     if i.z <= 0.0 || reflects != (dot(wi, surface.facing_normal) > 0.0) {
@@ -65,7 +63,9 @@ fn sample_rough_thin_glass(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: 
     }
     let masking = facet_shadowing_of_visible(facets, facet_lambda(facets, o), facet_lambda(facets, i));
     if reflects {
-        return BsdfSample(wi, lobe.color0 * (reflected / probability * masking), value.pdf_solid_angle, 1.0, false);
+        let weight = split.fresnel.reflected / split.choose_reflection * masking;
+        return BsdfSample(wi, lobe.color0 * weight, value.pdf_solid_angle, 1.0, false);
     }
-    return BsdfSample(wi, lobe.color1 * ((1.0 - reflected) / (1.0 - probability) * masking), value.pdf_solid_angle, 1.0, false);
+    let weight = split.fresnel.transmitted / split.choose_transmission * masking;
+    return BsdfSample(wi, lobe.color1 * weight, value.pdf_solid_angle, 1.0, false);
 }
