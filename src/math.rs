@@ -2,6 +2,9 @@
 
 use glam::{DVec3, Vec3};
 
+/// Relative size of the error of a surface point that devices compute in f32, as kernels bound it: `POINT_ERROR` in `shaders/core/math.wgsl`.
+pub const POINT_ERROR: f64 = 1.0e-6;
+
 /// Luminance of a linear Rec.709 colour.
 pub fn luminance(color: DVec3) -> f64 {
     color.dot(DVec3::new(0.2126, 0.7152, 0.0722))

@@ -10,13 +10,11 @@ use glam::DVec3;
 use super::bsdf::{BsdfSample, Density};
 use super::intersect::{Ray, Surface, SurfacePoint};
 use super::trace::{LightConnection, PathVisitor};
+use crate::math::POINT_ERROR;
 use crate::sampling::hash::mix;
 
 /// Relative size of one rounding to f32.
 const UNIT: f64 = 0.5 * f32::EPSILON as f64;
-/// Rounding errors of a computed surface point, as kernels bound them: `POINT_ERROR` in `shaders/core/math.wgsl`. They start rays
-/// that much above the surface.
-const POINT_ERROR: f64 = 1.0e-6;
 
 /// Random numbers are below 1: the largest that samplers give.
 const LARGEST_NUMBER: f64 = 1.0 - 1.0 / 16_777_216.0;

@@ -98,7 +98,8 @@ fn traverse_together(
     let inverse_direction = world_inverse;
 #endif
     var stack = packet_at_root();
-    // Software devices run what a branch leaves out, with all lanes masked; only loops end. So nodes have one, and primitives have one.
+    // All lanes are at the same place. Nodes have a loop, up to the next leaf, and its primitives have one: in a single loop both would be run at
+    // every turn, with all lanes masked in one of them.
     loop {
         loop {
             descend_together(ray, inverse_direction, hit.t, &stack);

@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 use super::placement::Placement;
 use super::primitive::Primitive;
 use crate::emission_map::Unrolled;
+use crate::math::POINT_ERROR;
 use crate::reference::intersect::element::{Element, area_to_solid_angle};
 use crate::reference::intersect::hierarchy::PreparedRay;
 use crate::reference::intersect::normal_map::Tangents;
@@ -35,9 +36,7 @@ pub struct Cylinder {
     second: DVec3,
 }
 
-/// What shadow rays of devices allow for: errors of points, relative to the numbers they are made of (`shaders/core/math.wgsl`), of directions, and of
-/// their length (`shaders/shading/light_sample.wgsl`).
-const POINT_ERROR: f64 = 1.0e-6;
+/// What shadow rays of devices allow for beside the error of points: errors of directions, and of their length (`shaders/shading/light_sample.wgsl`).
 const DIRECTION_ERROR: f64 = 2.5e-7;
 const SHADOW_SHORTENING: f64 = 0.999999;
 
