@@ -108,21 +108,23 @@ class Contestant:
             power += max(1, math.floor(math.log2(seconds / 2 / taken)))
 
     def choose(self, seconds, choose_seconds, settings, known):
-        """Keeps the setting with the least error × time, after two renders of `choose_seconds` with each, and the ladder of sample counts. `known` is the
-        reference, or None where there is none yet; with too few samples to meet a light at all, a renderer's own pictures scatter too little."""
+        """Keeps the setting with the least error × time, after two renders of `choose_seconds` with each, and the ladder of sample counts. Learning counts
+        with the share that it has in a render of `seconds`. `known` is the reference, or None where there is none yet; with too few samples to meet a
+        light at all, a renderer's own pictures scatter too little."""
         costs = {}
         power = self.power_for(settings[0], seconds)
+        self.choosing = 1 << max(0, power + round(math.log2(choose_seconds / seconds)))
         if len(settings) > 1:
-            choosing = max(0, power + round(math.log2(choose_seconds / seconds)))
             for setting in settings:
-                tries = [self.process.render(setting, 1 << choosing, 91 + seed) for seed in range(2)]
+                tries = [self.process.render(setting, self.choosing, 91 + seed) for seed in range(2)]
                 pictures = np.stack([found["picture"] for found in tries]).astype(np.float64)
                 errors = known.errors(pictures) if known else convergence.relative_errors(pictures, pictures.mean(axis=0))
-                costs[setting] = float(errors.mean() * np.mean([found["seconds"] for found in tries]))
+                seconds_taken = [found["seconds"] - found["learning"] * (1 - self.choosing / (1 << power)) for found in tries]
+                costs[setting] = float(errors.mean() * np.mean(seconds_taken))
         self.costs = costs
         self.setting = min(costs, key=costs.get) if costs else settings[0]
         # What is compiled for a sample count is compiled now. Some samplers round the count: no step is taken twice.
-        self.ladder = sorted({round(self.process.render(self.setting, 1 << (power - back), 93)["spp"]) for back in range(3)})
+        self.ladder = sorted({round(self.process.prepare(self.setting, 1 << (power - back))) for back in range(3)})
 
     def render(self, spp, seed):
         found = self.process.render(self.setting, spp, seed)
@@ -168,7 +170,9 @@ def enter(name, scene, path, options, running):
             say(f"  {key}: left out of {name}: {error}")
             continue
         if key == "gpt":
-            tries = [process.render(contestant.setting, contestant.ladder[-1], 95 + seed)["picture"] for seed in range(3)]
+            # Four times the samples of the pictures that are judged by it, and no more than are rendered anyway.
+            enough = next((spp for spp in contestant.ladder if spp >= 4 * contestant.choosing), contestant.ladder[-1])
+            tries = [process.render(contestant.setting, enough, 95 + seed)["picture"] for seed in range(3)]
             known = convergence.reference(np.stack(tries).astype(np.float64))
         if key == "mitsuba-llvm":
             chosen = contestant.setting

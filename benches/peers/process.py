@@ -62,6 +62,10 @@ class Process:
     def settings(self):
         return self.ask("settings")["settings"]
 
+    def prepare(self, setting, spp):
+        """Compiles what a render needs. The samples per pixel that it will take."""
+        return self.ask("prepare", setting=setting, spp=spp)["spp"]
+
     def render(self, setting, spp, seed):
         """The answer, with the picture in it."""
         picture = self.folder / f"{self.key}.npy"

@@ -2,11 +2,14 @@
 
 {"order": "load", "scene": FILE, "size": [w, h]}      → {"seconds": …}: to read the scene and be ready
 {"order": "settings"}                                 → {"settings": […]}: what this renderer can be set to for this scene
+{"order": "prepare", "setting": S, "spp": N}          → {"spp"}: compiles what that render needs; the samples per pixel it will really take
 {"order": "render", "setting": S, "spp": N, "seed": K, "picture": FILE}
-                                                      → {"seconds", "wall", "cpu", "spp"}: of the render alone; the picture as FILE (.npy)
+                                                      → {"seconds", "learning", "wall", "cpu", "spp"}: of the render alone, and what of its seconds
+                                                        is the same for any number of samples; the picture as FILE (.npy)
 
-A renderer is an object with the methods `load(path, size)`, `settings()` and `render(setting, spp, seed)`; the latter returns the picture
-(rows from the top, RGB), the seconds of the render without loading and compiling, and the samples per pixel it really took.
+A renderer is an object with the methods `load(path, size)`, `settings()`, `prepare(setting, spp)` and `render(setting, spp, seed)`; the latter returns
+the picture (rows from the top, RGB), the seconds of the render without loading and compiling, and the samples per pixel it really took. What learns
+before its first sample has an attribute `learning_seconds`, a part of the seconds of its last render.
 """
 
 import json
@@ -42,8 +45,10 @@ def obey(renderer, order):
         return {"seconds": time.perf_counter() - start}
     if order["order"] == "settings":
         return {"settings": renderer.settings()}
+    if order["order"] == "prepare":
+        return {"spp": renderer.prepare(order["setting"], order["spp"])}
     picture, seconds, spp = renderer.render(order["setting"], order["spp"], order["seed"])
-    answer = {"seconds": seconds, "wall": time.perf_counter() - start, "cpu": cpu_seconds() - cpu, "spp": spp}
+    answer = {"seconds": seconds, "learning": getattr(renderer, "learning_seconds", 0.0), "wall": time.perf_counter() - start, "cpu": cpu_seconds() - cpu, "spp": spp}
     np.save(order["picture"], np.asarray(picture, dtype=np.float32))
     return answer
 

@@ -33,6 +33,9 @@ class Cycles:
     def settings(self):
         return list(SETTINGS)
 
+    def prepare(self, setting, spp):
+        return spp  # nothing is compiled
+
     def render(self, setting, spp, seed):
         cycles, file = self.scene.cycles, Path(self.folder.name) / "picture.exr"
         cycles.sampling_pattern, cycles.use_light_tree, cycles.use_adaptive_sampling = SETTINGS[setting]

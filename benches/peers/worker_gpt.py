@@ -45,18 +45,27 @@ class Gpt:
     def settings(self):
         return list(SETTINGS)
 
-    def render(self, setting, spp, seed):
-        picture, report = (Path(self.folder.name) / name for name in ("picture.exr", "stats.json"))
-        run = [*self.command, *SETTINGS[setting], "--spp", str(spp), "--seed", str(seed), "-o", str(picture), "--stats", str(report)]
+    def prepare(self, setting, spp):
         if (setting, spp) not in self.warm:
             self.warm.add((setting, spp))
-            subprocess.run(run, check=True)  # the driver compiles on first use, and keeps what it compiled
-        subprocess.run(run, check=True)
+            self.run(setting, spp, 0)  # the driver compiles on first use, and keeps what it compiled
+        return spp
+
+    def run(self, setting, spp, seed):
+        """The files of the picture and of its figures."""
+        picture, report = (Path(self.folder.name) / name for name in ("picture.exr", "stats.json"))
+        options = ["--spp", str(spp), "--seed", str(seed), "-o", str(picture), "--stats", str(report)]
+        subprocess.run([*self.command, *SETTINGS[setting], *options], check=True)
+        return picture, report
+
+    def render(self, setting, spp, seed):
+        self.prepare(setting, spp)
+        picture, report = self.run(setting, spp, seed)
         figures = json.loads(report.read_text(encoding="utf-8"))
         # Where adaptive sampling gave pixels different numbers of samples, they stand in a fourth channel.
-        seconds = figures["seconds"]["render"]
-        if "--guiding" in SETTINGS[setting]:
-            seconds += figures["seconds"]["build"]  # what a guide takes to learn is no start-up
+        # What a guide takes to learn is no start-up.
+        self.learning_seconds = figures["seconds"]["build"] if "--guiding" in SETTINGS[setting] else 0.0
+        seconds = figures["seconds"]["render"] + self.learning_seconds
         return np.array(mi.Bitmap(str(picture)), dtype=np.float32)[..., :3], seconds, spp
 
 

@@ -34,6 +34,9 @@ class LuxCore:
     def settings(self):
         return list(SETTINGS)
 
+    def prepare(self, setting, spp):
+        return spp  # nothing is compiled
+
     def render(self, setting, spp, seed):
         config = pyluxcore.RenderConfig(export_luxcore.configuration(self.plan, spp, seed, *SETTINGS[setting]), self.scene)
         session = pyluxcore.RenderSession(config)

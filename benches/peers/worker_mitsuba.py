@@ -45,12 +45,16 @@ class Mitsuba:
                 self.sensors[sampler, spp] = mi.load_dict(self.export.sensor(self.plan, sampler))
         return self.sensors[sampler, spp]
 
-    def render(self, setting, spp, seed):
+    def prepare(self, setting, spp):
         sensor = self.sensor(setting, spp)
         taken = sensor.sampler().sample_count()  # some samplers round
         if self.compiles and (setting, taken) not in self.warm:
             self.warm.add((setting, taken))
-            self.picture(sensor, taken, seed + (1 << 16))  # compiles the kernels
+            self.picture(sensor, taken, 1 << 16)  # compiles the kernels
+        return taken
+
+    def render(self, setting, spp, seed):
+        sensor, taken = self.sensor(setting, spp), self.prepare(setting, spp)
         start = time.perf_counter()
         picture = self.picture(sensor, taken, seed)
         return picture, time.perf_counter() - start, taken
