@@ -45,6 +45,32 @@ pub fn top_down(nodes: &[Bvh2Node]) -> Vec<(usize, usize)> {
     order
 }
 
+/// Steps from the root to the deepest leaf.
+pub fn reached(nodes: &[Bvh2Node]) -> usize {
+    below(nodes, 0, 0)
+}
+
+/// Down to so many steps from the root, halves are looked at side by side.
+const SIDE_BY_SIDE: usize = 8;
+
+fn below(nodes: &[Bvh2Node], index: usize, depth: usize) -> usize {
+    if depth < SIDE_BY_SIDE && !nodes[index].is_leaf() {
+        let first = nodes[index].first_index as usize;
+        let (left, right) = rayon::join(|| below(nodes, first, depth + 1), || below(nodes, first + 1, depth + 1));
+        return left.max(right);
+    }
+    let mut deepest = depth;
+    let mut pending = vec![(index as u32, depth)];
+    while let Some((index, depth)) = pending.pop() {
+        deepest = deepest.max(depth);
+        let node = &nodes[index as usize];
+        if !node.is_leaf() {
+            pending.extend([(node.first_index + 1, depth + 1), (node.first_index, depth + 1)]);
+        }
+    }
+    deepest
+}
+
 /// A limit that a balanced tree of so many leaves keeps with room to spare.
 pub fn nearly_balanced(leaves: usize) -> usize {
     (leaves.next_power_of_two().ilog2() as usize + 8).min(DEEPEST)

@@ -3,7 +3,7 @@
 //! The clusters are made here (`clustering`), since obvhs takes quadratic time over boxes that stand in a row or coincide; obvhs improves them.
 
 mod clustering;
-mod depth;
+pub mod depth;
 pub mod parts;
 
 use obvhs::BvhBuildParams;
@@ -18,20 +18,37 @@ pub fn build(boxes: &[Aabb], parameters: &BvhBuildParams) -> Bvh2 {
         return Bvh2::default();
     }
     let (mut tree, tied) = clustering::cluster(boxes, parameters.search_depth_threshold);
-    let mut optimizer = ReinsertionOptimizer::default();
-    optimizer.run(&mut tree, parameters.reinsertion_batch_ratio, None);
+    improve(&mut tree, parameters.reinsertion_batch_ratio);
     // Leaves are joined where testing their primitives costs less than another node. Fewer nodes are worth another attempt to move them.
     collapse(&mut tree, parameters.max_prims_per_leaf, parameters.collapse_traversal_cost);
-    let ratio = parameters.reinsertion_batch_ratio * parameters.post_collapse_reinsertion_batch_ratio_multiplier;
-    optimizer.run(&mut tree, ratio, None);
+    improve(&mut tree, parameters.reinsertion_batch_ratio * parameters.post_collapse_reinsertion_batch_ratio_multiplier);
     // Reinsertion makes chains of boxes that coincide, since one place is as good as another.
     depth::limit_depth(&mut tree, if tied { depth::nearly_balanced(boxes.len()) } else { depth::DEEPEST });
     tree
 }
 
+/// What obvhs tries to move at a time, one after the other, as shares of a ratio of all nodes.
+const SHARES: [f32; 4] = [1.0, 0.6, 0.4, 0.3];
+/// obvhs looks for better places by a stack of 192 entries at least, and panics where a deeper tree needs more.
+const DEEPEST_TO_IMPROVE: usize = 190;
+
+/// Moves nodes to where boxes become smaller (Meister and Bittner 2018), as long as the tree is not too deep. Slivers that lie across each other make
+/// it so: chains of them then grow at every turn, take ever more time, and are balanced in the end.
+fn improve(tree: &mut Bvh2, ratio: f32) {
+    let mut optimizer = ReinsertionOptimizer::default();
+    for share in SHARES {
+        if depth::reached(&tree.nodes) > DEEPEST_TO_IMPROVE {
+            return;
+        }
+        optimizer.run(tree, ratio, Some(vec![share]));
+    }
+}
+
 #[cfg(test)]
 pub(crate) mod tests {
     use glam::Vec3A;
+
+    use obvhs::ploc::PlocBuilder;
 
     use super::depth::top_down;
     use super::*;
@@ -88,22 +105,43 @@ pub(crate) mod tests {
         }
     }
 
+    fn as_obvhs_builds(boxes: &[Aabb]) -> Bvh2 {
+        let BvhBuildParams { ploc_search_distance, sort_precision, search_depth_threshold, reinsertion_batch_ratio, .. } =
+            parameters();
+        let indices = (0..boxes.len() as u32).collect();
+        let mut tree = PlocBuilder::new().build(ploc_search_distance, boxes, indices, sort_precision, search_depth_threshold);
+        let mut optimizer = ReinsertionOptimizer::default();
+        optimizer.run(&mut tree, reinsertion_batch_ratio, Some(SHARES.to_vec()));
+        collapse(&mut tree, parameters().max_prims_per_leaf, parameters().collapse_traversal_cost);
+        let ratio = reinsertion_batch_ratio * parameters().post_collapse_reinsertion_batch_ratio_multiplier;
+        optimizer.run(&mut tree, ratio, Some(SHARES.to_vec()));
+        tree
+    }
+
+    /// Slivers as of a polygon with many corners that is cut into triangles: each lies across many others.
+    #[test]
+    fn slivers_across_each_other_make_a_tree() {
+        let count = 60_000_u32;
+        let corner = |index: u32| {
+            let (sine, cosine) = (f64::from(index) / f64::from(count) * std::f64::consts::TAU).sin_cos();
+            Vec3A::new(cosine as f32, sine as f32, 0.0)
+        };
+        // The fan about a corner.
+        let sliver = |index: u32| Aabb::from_points(&[corner(0), corner(index), corner(index + 1)]);
+        let boxes: Vec<Aabb> = (1..count).map(sliver).collect();
+        let reached = checked_depth(&build(&boxes, &BvhBuildParams { reinsertion_batch_ratio: 0.3, ..parameters() }), &boxes);
+        assert!(reached <= depth::DEEPEST, "{reached}");
+    }
+
     #[test]
     fn other_trees_are_as_obvhs_builds_them() {
-        struct Bounds(Aabb);
-        impl obvhs::Boundable for Bounds {
-            fn aabb(&self) -> Aabb {
-                self.0
-            }
-        }
         for count in [1, 2, 3, 500, 9000_u32] {
             let fraction = |index: u32, factor: u32| (index.wrapping_mul(factor) % 10_007) as f32 / 100.0;
             let boxes: Vec<Aabb> = (0..count)
                 .map(|index| around(Vec3A::new(fraction(index, 7919), fraction(index, 104_729), fraction(index, 1_299_709)), 0.4))
                 .collect();
-            let bounds: Vec<Bounds> = boxes.iter().map(|bounds| Bounds(*bounds)).collect();
             let ours = build(&boxes, &parameters());
-            let theirs = obvhs::bvh2::builder::build_bvh2(&bounds, parameters(), &mut std::time::Duration::default());
+            let theirs = as_obvhs_builds(&boxes);
             assert_eq!(ours.primitive_indices, theirs.primitive_indices);
             assert_eq!(ours.nodes.len(), theirs.nodes.len());
             assert!(ours.nodes.iter().zip(&theirs.nodes).all(|(a, b)| a.first_index == b.first_index && a.aabb() == b.aabb()));
