@@ -43,15 +43,15 @@ fn entry_distances(words: NodeWords, origin: vec3<f32>, inverse_direction: vec3<
     let low = vec3<u32>(n1.z, n1.w, n2.x);
     let near_words = select(low, n2.yzw, backward);
     let far_words = select(n2.yzw, low, backward);
-    // Not the constant: compilers make bit operations of comparisons with it, which take longer than a maximum.
-    let zero = vec4<f32>(t_max * 0.0);
     let limit = t_max * WIDER;
     let far_scale = scale * WIDER;
     let far_offset = offset * WIDER;
-    let near = larger(
+    let plane = larger(
         larger(unpack_bytes(near_words.x) * scale.x + offset.x, unpack_bytes(near_words.y) * scale.y + offset.y),
-        larger(zero, unpack_bytes(near_words.z) * scale.z + offset.z)
+        unpack_bytes(near_words.z) * scale.z + offset.z
     );
+    // Not below 0, by the bits: of a comparison with the constant 0 compilers make operations on masks, which take longer than a maximum.
+    let near = bitcast<vec4<f32>>(max(bitcast<vec4<i32>>(plane), vec4<i32>(0)));
     let far = smaller(
         smaller(unpack_bytes(far_words.x) * far_scale.x + far_offset.x, unpack_bytes(far_words.y) * far_scale.y + far_offset.y),
         smaller(vec4<f32>(limit), unpack_bytes(far_words.z) * far_scale.z + far_offset.z)

@@ -31,10 +31,10 @@ fn forget_the_old_shape(tree: &mut Bvh2) {
     tree.max_depth = tree.max_depth.max(DEEPEST + 1);
 }
 
-/// Nodes with their depths, parents before children.
+/// Nodes with their depths, parents before children. A tree over nothing has none.
 pub fn top_down(nodes: &[Bvh2Node]) -> Vec<(usize, usize)> {
     let mut order = Vec::with_capacity(nodes.len());
-    let mut pending = vec![(0, 0)];
+    let mut pending: Vec<(usize, usize)> = if nodes.is_empty() { Vec::new() } else { vec![(0, 0)] };
     while let Some((index, depth)) = pending.pop() {
         order.push((index, depth));
         if !nodes[index].is_leaf() {

@@ -51,27 +51,24 @@ pub struct KeptTrees(Mutex<HashMap<u64, Kept>>);
 
 struct Kept {
     boxes: Vec<Aabb>,
-    most: u32,
     tree: Arc<Bvh2>,
     is_used: bool,
 }
 
 impl KeptTrees {
-    /// The tree that `build` makes of the boxes and of how many a leaf may hold.
-    pub fn tree(&self, boxes: &[Aabb], most: u32, build: Build<'_>) -> Arc<Bvh2> {
+    /// The tree that `build` makes of the boxes.
+    pub fn tree(&self, boxes: &[Aabb], build: Build<'_>) -> Arc<Bvh2> {
         let mut hasher = DefaultHasher::new();
-        hasher.write_u32(most);
         boxes.iter().flat_map(bits).for_each(|word| hasher.write_u32(word));
         let key = hasher.finish();
         if let Some(kept) = self.lock().get_mut(&key)
-            && kept.most == most
             && are_same(&kept.boxes, boxes)
         {
             kept.is_used = true;
             return Arc::clone(&kept.tree);
         }
-        let tree = Arc::new(build(boxes, most));
-        self.lock().insert(key, Kept { boxes: boxes.to_vec(), most, tree: Arc::clone(&tree), is_used: true });
+        let tree = Arc::new(build(boxes));
+        self.lock().insert(key, Kept { boxes: boxes.to_vec(), tree: Arc::clone(&tree), is_used: true });
         tree
     }
 
@@ -85,8 +82,8 @@ impl KeptTrees {
     }
 }
 
-/// What builds a tree of boxes, and of how many a leaf may hold.
-pub type Build<'b> = &'b (dyn Fn(&[Aabb], u32) -> Bvh2 + Sync);
+/// What builds a tree with a box in each leaf.
+pub type Build<'b> = &'b (dyn Fn(&[Aabb]) -> Bvh2 + Sync);
 
 fn bits(bounds: &Aabb) -> impl Iterator<Item = u32> {
     bounds.min.to_array().into_iter().chain(bounds.max.to_array()).map(f32::to_bits)
@@ -97,10 +94,10 @@ fn are_same(some: &[Aabb], others: &[Aabb]) -> bool {
 }
 
 /// A tree over boxes that move in parts, which together have each box once.
-pub fn build_of_parts(boxes: &[Aabb], parts: &[Part], most: u32, kept: &KeptTrees, build: Build<'_>) -> Bvh2 {
+pub fn build_of_parts(boxes: &[Aabb], parts: &[Part], kept: &KeptTrees, build: Build<'_>) -> Bvh2 {
     let of_part = |part: &Part| {
         let own: Vec<Aabb> = part.members.iter().map(|&index| boxes[index as usize]).collect();
-        fitted(&own, part.reference.as_ref(), most, kept, build)
+        fitted(&own, part.reference.as_ref(), kept, build)
     };
     let (parts, trees): (Vec<&Part>, Vec<Arc<Bvh2>>) =
         parts.par_iter().filter(|part| !part.members.is_empty()).map(|part| (part, of_part(part))).unzip();
@@ -113,7 +110,7 @@ pub fn build_of_parts(boxes: &[Aabb], parts: &[Part], most: u32, kept: &KeptTree
         return Bvh2::default();
     }
     let roots: Vec<Aabb> = treelets.iter().map(|&(part, node)| *trees[part].nodes[node].aabb()).collect();
-    let mut tree = join(&build(&roots, 1), &treelets, &trees);
+    let mut tree = join(&build(&roots), &treelets, &trees);
     for (part, of_part) in parts.iter().zip(&trees) {
         tree.primitive_indices.extend(of_part.primitive_indices.iter().map(|&index| part.members[index as usize]));
     }
@@ -122,11 +119,11 @@ pub fn build_of_parts(boxes: &[Aabb], parts: &[Part], most: u32, kept: &KeptTree
 }
 
 /// A part's own tree.
-fn fitted(boxes: &[Aabb], reference: Option<&Pose>, most: u32, kept: &KeptTrees, build: Build<'_>) -> Arc<Bvh2> {
+fn fitted(boxes: &[Aabb], reference: Option<&Pose>, kept: &KeptTrees, build: Build<'_>) -> Arc<Bvh2> {
     let Some(pose) = reference.filter(|pose| pose.unevenness <= UNEVEN && pose.boxes.len() == boxes.len()) else {
-        return kept.tree(boxes, most, build);
+        return kept.tree(boxes, build);
     };
-    let built = kept.tree(&pose.boxes, most, build);
+    let built = kept.tree(&pose.boxes, build);
     if are_same(&pose.boxes, boxes) {
         return built;
     }

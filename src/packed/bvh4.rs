@@ -6,6 +6,7 @@
 use obvhs::bvh2::Bvh2;
 
 use super::grid::{Box3, Grid};
+use super::widening::Widening;
 use crate::shader::shared::shared_constants;
 
 /// What stands in a node's place for a child.
@@ -88,10 +89,11 @@ impl Node {
     }
 }
 
-/// The nodes, and the order of the primitives.
-pub fn build(binary: &Bvh2) -> (Vec<Node>, Vec<usize>) {
+/// The nodes, and the order of the primitives. Leaves hold up to `most`.
+pub fn build(binary: &Bvh2, most: u32) -> (Vec<Node>, Vec<usize>) {
     let mut nodes = vec![Node::default()];
-    let mut collapse = Collapse { binary, nodes: &mut nodes, order: Vec::with_capacity(binary.primitive_indices.len()) };
+    let order = Vec::with_capacity(binary.primitive_indices.len());
+    let mut collapse = Collapse { binary, widening: Widening::new(binary, most), nodes: &mut nodes, order };
     if !binary.nodes.is_empty() {
         collapse.root();
     }
@@ -108,6 +110,7 @@ struct Place {
 
 struct Collapse<'a> {
     binary: &'a Bvh2,
+    widening: Widening<'a>,
     nodes: &'a mut Vec<Node>,
     /// Primitive indices in leaf order.
     order: Vec<usize>,
@@ -118,10 +121,13 @@ impl Collapse<'_> {
         Place { bounds: self.binary.nodes[node].aabb().into(), node }
     }
 
+    fn widen(&self, node: usize) -> Vec<Place> {
+        self.widening.children(node).into_iter().map(|node| self.child(node)).collect()
+    }
+
     fn root(&mut self) {
-        let root = &self.binary.nodes[0];
         // Last in, first out: what a ray visits one after the other stands close together.
-        let children = if root.is_leaf() { vec![self.child(0)] } else { self.widen(0) };
+        let children = if self.widening.leaf(0).is_some() { vec![self.child(0)] } else { self.widen(0) };
         let mut pending = vec![(0_usize, children)];
         while let Some((slot, children)) = pending.pop() {
             let first_child = self.nodes.len() as u32;
@@ -130,13 +136,10 @@ impl Collapse<'_> {
             node.first_child = first_child;
             node.first_primitive_and_sizes = first_primitive;
             for (place, child) in children.iter().enumerate() {
-                let binary = &self.binary.nodes[child.node];
                 node.exponents_and_flags |= 1 << (28 + place);
-                if binary.is_leaf() {
-                    let first = binary.first_index as usize;
-                    let leaf = &self.binary.primitive_indices[first..first + binary.prim_count as usize];
-                    self.order.extend(leaf.iter().map(|&index| index as usize));
-                    node.first_primitive_and_sizes |= (binary.prim_count - 1) << (24 + 2 * place);
+                if let Some(leaf) = self.widening.leaf(child.node) {
+                    node.first_primitive_and_sizes |= (leaf.len() as u32 - 1) << (24 + 2 * place);
+                    self.order.extend(leaf);
                 } else {
                     node.exponents_and_flags |= 1 << (24 + place);
                     pending.push((self.nodes.len(), self.widen(child.node)));
@@ -145,21 +148,6 @@ impl Collapse<'_> {
             }
             self.nodes[slot] = node;
         }
-    }
-
-    /// Up to four descendants of an inner binary node, found by opening the largest again and again.
-    fn widen(&self, node: usize) -> Vec<Place> {
-        let first = self.binary.nodes[node].first_index as usize;
-        let mut children = vec![self.child(first), self.child(first + 1)];
-        while children.len() < 4 {
-            let area = |child: &Place| self.binary.nodes[child.node].aabb().half_area();
-            let openable = children.iter().enumerate().filter(|(_, c)| !self.binary.nodes[c.node].is_leaf());
-            let Some((largest, _)) = openable.max_by(|(_, a), (_, b)| area(a).total_cmp(&area(b))) else { break };
-            let first = self.binary.nodes[children[largest].node].first_index as usize;
-            children[largest] = self.child(first);
-            children.push(self.child(first + 1));
-        }
-        children
     }
 }
 

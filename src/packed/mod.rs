@@ -27,6 +27,7 @@ pub mod texture;
 pub mod tree;
 pub mod validate;
 pub mod view;
+mod widening;
 pub mod world;
 
 pub use constants::NONE;

@@ -101,11 +101,8 @@ fn of_two_levels(world: &WorldGeometry, inside: &[usize], kept: &KeptTrees) -> (
         .par_iter()
         .map(|group| {
             let boxes: Vec<Aabb> = group.primitives.iter().filter_map(WorldPrimitive::bounds).map(as_box).collect();
-            bvh4::build(&*if world.posed.is_some() {
-                kept.tree(&boxes, MAX_LEAF, &binary_tree)
-            } else {
-                Arc::new(binary_tree(&boxes, MAX_LEAF))
-            })
+            let binary = if world.posed.is_some() { kept.tree(&boxes, &binary_tree) } else { Arc::new(binary_tree(&boxes)) };
+            bvh4::build(&binary, MAX_LEAF)
         })
         .collect();
     let upper: Vec<Vec<Box3>> = groups.iter().map(|(nodes, _)| instance::upper_boxes(nodes, 0)).collect();
@@ -119,10 +116,10 @@ fn of_two_levels(world: &WorldGeometry, inside: &[usize], kept: &KeptTrees) -> (
     // A ray is brought into the space of each instance of a leaf that it meets, so where they are many each has a box of its own.
     let most = if world.instances.len() > inside.len() { 1 } else { MAX_LEAF };
     let binary = match &world.posed {
-        None => binary_tree(&boxes, most),
-        Some(posed) => build_of_parts(&boxes, &parts(world, inside, posed, boxes.len()), most, kept, &binary_tree),
+        None => binary_tree(&boxes),
+        Some(posed) => build_of_parts(&boxes, &parts(world, inside, posed, boxes.len()), kept, &binary_tree),
     };
-    let (mut nodes, leaves) = bvh4::build(&binary);
+    let (mut nodes, leaves) = bvh4::build(&binary, most);
     let slot = |index: usize| match inside.get(index) {
         Some(&index) => Slot::Primitive(index as u32),
         None => Slot::Instance((index - inside.len()) as u32),
@@ -155,13 +152,13 @@ fn as_box((low, high): (Vec3, Vec3)) -> Aabb {
     Aabb::new(low.into(), high.into())
 }
 
-/// A binary tree over boxes, leaves of which hold up to `most`.
-fn binary_tree(boxes: &[Aabb], most: u32) -> Bvh2 {
+/// A binary tree over boxes, with a box in each leaf.
+fn binary_tree(boxes: &[Aabb]) -> Bvh2 {
     let few = boxes.len() <= REINSERT_MANY;
     let parameters = BvhBuildParams {
         reinsertion_batch_ratio: if few { 0.3 } else { PARAMETERS.reinsertion_batch_ratio },
-        max_prims_per_leaf: most,
-        collapse_traversal_cost: 1.0,
+        post_collapse_reinsertion_batch_ratio_multiplier: 1.0,
+        max_prims_per_leaf: 1,
         ..PARAMETERS
     };
     binary_tree::build(boxes, &parameters)

@@ -6,8 +6,8 @@ use crate::binary_tree;
 use crate::binary_tree::tests::checked_depth;
 use crate::scene::animation::unevenness;
 
-fn build(boxes: &[Aabb], most: u32) -> Bvh2 {
-    let parameters = BvhBuildParams { max_prims_per_leaf: most, collapse_traversal_cost: 1.0, ..BvhBuildParams::medium_build() };
+fn build(boxes: &[Aabb]) -> Bvh2 {
+    let parameters = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::medium_build() };
     binary_tree::build(boxes, &parameters)
 }
 
@@ -118,13 +118,13 @@ fn are_equal(a: &Bvh2, b: &Bvh2) -> bool {
 fn a_fitted_tree_holds_everything_and_finds_the_same_hits_as_one_built_anew() {
     let stage = stage();
     let kept = KeptTrees::default();
-    let before = build_of_parts(&boxes_of(&stage.at(0.0, 2.0)), &stage.parts(), 4, &kept, &build);
+    let before = build_of_parts(&boxes_of(&stage.at(0.0, 2.0)), &stage.parts(), &kept, &build);
     for (angle, offset) in [(0.3, 1.0), (0.7, 0.1), (2.0, 0.0), (3.0, -1.5)] {
         let triangles = stage.at(angle, offset);
         let boxes = boxes_of(&triangles);
-        let tree = build_of_parts(&boxes, &stage.parts(), 4, &kept, &build);
+        let tree = build_of_parts(&boxes, &stage.parts(), &kept, &build);
         checked_depth(&tree, &boxes);
-        let anew = build(&boxes, 4);
+        let anew = build(&boxes);
         let ((of_fitted, steps), (of_anew, least)) = (hits(&tree, &triangles), hits(&anew, &triangles));
         assert!(of_fitted.iter().flatten().count() > 200, "rays meet something");
         assert_eq!(of_fitted, of_anew);
@@ -140,22 +140,22 @@ fn a_tree_does_not_depend_on_those_before_it() {
     let mut kept = KeptTrees::default();
     for offset in [2.0, 0.1, 0.0, 2.0] {
         let boxes = boxes_of(&stage.at(offset, offset));
-        let one_of_several = build_of_parts(&boxes, &stage.parts(), 4, &kept, &build);
+        let one_of_several = build_of_parts(&boxes, &stage.parts(), &kept, &build);
         kept.forget_unused();
-        let alone = build_of_parts(&boxes, &stage.parts(), 4, &KeptTrees::default(), &build);
+        let alone = build_of_parts(&boxes, &stage.parts(), &KeptTrees::default(), &build);
         assert!(are_equal(&one_of_several, &alone));
         // The control: without poses for reference it is another.
         let rest = [Part { members: (0..boxes.len() as u32).collect(), reference: None }];
-        assert!(!are_equal(&alone, &build_of_parts(&boxes, &rest, 4, &kept, &build)));
+        assert!(!are_equal(&alone, &build_of_parts(&boxes, &rest, &kept, &build)));
     }
 }
 
 #[test]
 fn what_is_kept_is_not_built_again_until_it_is_forgotten() {
     let builds = std::sync::atomic::AtomicUsize::new(0);
-    let counted = |boxes: &[Aabb], most: u32| {
+    let counted = |boxes: &[Aabb]| {
         builds.fetch_add(usize::from(boxes.len() == 700), std::sync::atomic::Ordering::Relaxed);
-        build(boxes, most)
+        build(boxes)
     };
     let stage = stage();
     let mut kept = KeptTrees::default();
@@ -168,7 +168,7 @@ fn what_is_kept_is_not_built_again_until_it_is_forgotten() {
         let boxes = boxes_of(&moved(&stage.rest, Affine3A::from_mat3(reference)));
         let unevenness = unevenness((Mat3::from(now.matrix3) * reference.inverse()).as_dmat3());
         parts[0].reference = Some(Pose { boxes, unevenness });
-        let tree = build_of_parts(&boxes_of(&triangles), &parts, 4, &kept, &counted);
+        let tree = build_of_parts(&boxes_of(&triangles), &parts, &kept, &counted);
         kept.forget_unused();
         checked_depth(&tree, &boxes_of(&triangles));
         builds.load(std::sync::atomic::Ordering::Relaxed) - before
@@ -199,9 +199,9 @@ fn what_is_kept_is_not_built_again_until_it_is_forgotten() {
 #[test]
 fn nothing_and_little_have_trees() {
     let kept = KeptTrees::default();
-    assert!(build_of_parts(&[], &[Part::default()], 4, &kept, &build).nodes.is_empty());
+    assert!(build_of_parts(&[], &[Part::default()], &kept, &build).nodes.is_empty());
     let boxes = boxes_of(&soup(2));
     let parts =
         [0, 1].map(|index| Part { members: vec![index], reference: Some(Pose { boxes: vec![boxes[0]], unevenness: 1.0 }) });
-    checked_depth(&build_of_parts(&boxes, &parts, 4, &kept, &build), &boxes);
+    checked_depth(&build_of_parts(&boxes, &parts, &kept, &build), &boxes);
 }
