@@ -203,8 +203,7 @@ fn polygons_of_many_corners() {
         let mut model = String::new();
         for corner in 0..count {
             let (sine, cosine) = (corner as f64 / count as f64 * std::f64::consts::TAU).sin_cos();
-            // Teeth as long as they are wide. Among spikes, whose boxes overlap, ear clipping takes quadratic time (docs/stress.md).
-            let radius = if corner % 2 == 0 { 1.0 } else { 1.0 - std::f64::consts::TAU / count as f64 };
+            let radius = if corner % 2 == 0 { 1.0 } else { 0.9 };
             let _ = writeln!(model, "v {} {} 0", radius * cosine, radius * sine);
         }
         let corners: String = (1..=count).map(|corner| format!(" {corner}")).collect();
