@@ -62,10 +62,10 @@ class Gpt:
         self.prepare(setting, spp)
         picture, report = self.run(setting, spp, seed)
         figures = json.loads(report.read_text(encoding="utf-8"))
-        # Where adaptive sampling gave pixels different numbers of samples, they stand in a fourth channel.
         # What a guide takes to learn is no start-up.
         self.learning_seconds = figures["seconds"]["build"] if "--guiding" in SETTINGS[setting] else 0.0
         seconds = figures["seconds"]["render"] + self.learning_seconds
+        # Where adaptive sampling gave pixels different numbers of samples, they stand in a fourth channel.
         return np.array(mi.Bitmap(str(picture)), dtype=np.float32)[..., :3], seconds, spp
 
 

@@ -127,27 +127,41 @@ fn leaves_below(nodes: &[Bvh2Node], index: usize) -> Vec<Bvh2Node> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use glam::Vec3A;
 
     use super::*;
     use crate::binary_tree::tests::{around, checked_depth};
 
-    #[test]
-    fn chains_are_cut_off_at_the_limit() {
-        let count = 3000;
-        let boxes: Vec<Aabb> = (0..count).map(|radius| around(Vec3A::ZERO, radius as f32 + 1.0)).collect();
-        // Every inner node holds one leaf and the rest of the chain.
-        let mut tree = Bvh2 { primitive_indices: (0..count).collect(), ..Bvh2::default() };
+    /// Every inner node holds one leaf and the rest of the chain.
+    pub fn chain(boxes: &[Aabb]) -> Bvh2 {
+        let count = boxes.len();
+        let mut tree = Bvh2 { primitive_indices: (0..count as u32).collect(), ..Bvh2::default() };
+        // Around the first boxes, so many as stand in a node.
+        let around: Vec<Aabb> = boxes
+            .iter()
+            .scan(Aabb::empty(), |all, bounds| {
+                *all = all.union(bounds);
+                Some(*all)
+            })
+            .collect();
         tree.nodes.push(Bvh2Node::default());
         let mut slot = 0;
-        for radius in (1..count).rev() {
+        for index in (1..count).rev() {
             let first = tree.nodes.len();
-            tree.nodes[slot] = Bvh2Node::new(boxes[radius as usize], 0, first as u32);
-            tree.nodes.extend([Bvh2Node::default(), Bvh2Node::new(boxes[radius as usize], 1, radius)]);
+            tree.nodes[slot] = Bvh2Node::new(around[index], 0, first as u32);
+            tree.nodes.extend([Bvh2Node::default(), Bvh2Node::new(boxes[index], 1, index as u32)]);
             slot = first;
         }
         tree.nodes[slot] = Bvh2Node::new(boxes[0], 1, 0);
+        tree
+    }
+
+    #[test]
+    fn chains_are_cut_off_at_the_limit() {
+        let count = 3000_u32;
+        let boxes: Vec<Aabb> = (0..count).map(|radius| around(Vec3A::ZERO, radius as f32 + 1.0)).collect();
+        let mut tree = chain(&boxes);
         // The control: it is as deep as it is long.
         assert_eq!(checked_depth(&tree, &boxes), count as usize - 1);
         limit_depth(&mut tree, DEEPEST);

@@ -47,9 +47,9 @@ fn improve(tree: &mut Bvh2, ratio: f32) {
 #[cfg(test)]
 pub(crate) mod tests {
     use glam::Vec3A;
-
     use obvhs::ploc::PlocBuilder;
 
+    use super::depth::tests::chain;
     use super::depth::top_down;
     use super::*;
 
@@ -118,19 +118,17 @@ pub(crate) mod tests {
         tree
     }
 
-    /// Slivers as of a polygon with many corners that is cut into triangles: each lies across many others.
     #[test]
-    fn slivers_across_each_other_make_a_tree() {
-        let count = 60_000_u32;
-        let corner = |index: u32| {
-            let (sine, cosine) = (f64::from(index) / f64::from(count) * std::f64::consts::TAU).sin_cos();
-            Vec3A::new(cosine as f32, sine as f32, 0.0)
-        };
-        // The fan about a corner.
-        let sliver = |index: u32| Aabb::from_points(&[corner(0), corner(index), corner(index + 1)]);
-        let boxes: Vec<Aabb> = (1..count).map(sliver).collect();
-        let reached = checked_depth(&build(&boxes, &BvhBuildParams { reinsertion_batch_ratio: 0.3, ..parameters() }), &boxes);
-        assert!(reached <= depth::DEEPEST, "{reached}");
+    fn a_tree_that_is_too_deep_for_obvhs_is_left_as_it_is() {
+        let places =
+            |count: u32| (0..count).map(|index| around(Vec3A::X * (index * 7919 % count) as f32, 0.4)).collect::<Vec<_>>();
+        for (count, is_left) in [(100, false), (3000, true)] {
+            let mut tree = chain(&places(count));
+            let before: Vec<(u32, Aabb)> = tree.nodes.iter().map(|node| (node.first_index, *node.aabb())).collect();
+            improve(&mut tree, 0.3);
+            let same = tree.nodes.iter().map(|node| (node.first_index, *node.aabb())).eq(before);
+            assert_eq!(same, is_left, "a chain of {count}");
+        }
     }
 
     #[test]
