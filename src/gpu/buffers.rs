@@ -4,11 +4,12 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use wgpu::BufferUsages;
 use wgpu::util::DeviceExt;
-use wgpu::{BufferUsages, TextureFormat};
 
 use super::acceleration::Acceleration;
 use super::device::Device;
+use super::film_memory::Film;
 use crate::packed::PackedScene;
 use crate::packed::texture::PackedTextures;
 use crate::plan::bindings::Binding;
@@ -16,7 +17,7 @@ use crate::plan::chunks::{ATTRIBUTES, INSTANCES, NODES, PRIMITIVES, TEXELS};
 use crate::plan::parameters::{PassParameters, VertexParameters};
 use crate::plan::path_state::{COUNTS, DISPATCH_SIZE_WORDS};
 use crate::plan::trace_record::TRACE_BYTES;
-use crate::plan::{FilmStorage, MAX_SAMPLES_PER_PASS, Plan, StageMode, memory};
+use crate::plan::{MAX_SAMPLES_PER_PASS, Plan, StageMode, memory};
 
 /// Vertices that one submission can hold; longer paths take further submissions.
 pub const VERTICES_PER_SUBMISSION: u32 = 32;
@@ -29,17 +30,10 @@ pub const TAKEN_PIXELS: u64 = 4 * 6;
 /// Distance between the parameters of successive vertices: the largest alignment a device may ask for.
 const VERTEX_STRIDE: usize = 256;
 
-/// One of the two halves of the film.
-pub enum FilmHalf {
-    Texture(wgpu::Texture),
-    Buffer(wgpu::Buffer),
-}
-
 /// All device memory of a render.
 pub struct Buffers {
     buffers: BTreeMap<u32, wgpu::Buffer>,
-    pub film: [FilmHalf; 2],
-    film_views: [Option<wgpu::TextureView>; 2],
+    pub film: Film,
     acceleration: Option<Acceleration>,
     pub bytes: u64,
 }
@@ -124,16 +118,11 @@ impl Buffers {
             }
         }
         let acceleration = if compiled("RAY_QUERY") { Acceleration::build(device, packed) } else { None };
-        let film = ["film sum", "film compensation"].map(|label| film_half(device, plan, width, label));
-        let film_views = film.each_ref().map(|half| match half {
-            FilmHalf::Texture(texture) => Some(texture.create_view(&Default::default())),
-            FilmHalf::Buffer(_) => None,
-        });
         let film_bytes = u64::from(width) * u64::from(plan.band_rows) * memory::FILM_BYTES;
         let bytes = buffers.values().map(wgpu::Buffer::size).sum::<u64>()
             + film_bytes
             + acceleration.as_ref().map_or(0, |acceleration| acceleration.bytes);
-        Self { buffers, film, film_views, acceleration, bytes }
+        Self { buffers, film: Film::new(device, plan, width), acceleration, bytes }
     }
 
     /// The buffer of a binding; None for what this plan does not have.
@@ -144,10 +133,7 @@ impl Buffers {
     /// What a bind group needs for binding `number`.
     pub fn resource(&self, number: u32) -> Option<wgpu::BindingResource<'_>> {
         if let Some(half) = number.checked_sub(Binding::FilmSum as u32).filter(|half| *half < 2) {
-            return Some(match (&self.film[half as usize], &self.film_views[half as usize]) {
-                (FilmHalf::Buffer(buffer), _) => buffer.as_entire_binding(),
-                (FilmHalf::Texture(_), view) => wgpu::BindingResource::TextureView(view.as_ref()?),
-            });
+            return self.film.resource(half as usize);
         }
         if number == Binding::Acceleration as u32 {
             return Some(self.acceleration.as_ref()?.structure.as_binding());
@@ -195,25 +181,4 @@ fn upload_texels(device: &Device, textures: &PackedTextures, range: Range<usize>
     }
     buffer.unmap();
     buffer
-}
-
-fn film_half(device: &Device, plan: &Plan, width: u32, label: &'static str) -> FilmHalf {
-    match plan.film {
-        FilmStorage::Texture => FilmHalf::Texture(device.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some(label),
-            size: wgpu::Extent3d { width, height: plan.band_rows, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: TextureFormat::Rgba32Float,
-            usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        })),
-        FilmStorage::Buffer => FilmHalf::Buffer(device.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some(label),
-            size: u64::from(width) * u64::from(plan.band_rows) * memory::FILM_BYTES / 2,
-            usage: BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        })),
-    }
 }

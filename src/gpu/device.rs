@@ -145,6 +145,8 @@ impl Device {
             required_features: features,
             required_limits: adapter.limits(),
             experimental_features,
+            // Scenes, paths and films are few large arrays: blocks of many megabytes, which a driver takes milliseconds to pin, would stay empty.
+            memory_hints: wgpu::MemoryHints::MemoryUsage,
             ..Default::default()
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
@@ -269,13 +271,18 @@ impl Device {
 
     /// Reads a whole buffer that can be mapped, once everything submitted is done.
     pub fn read(&self, buffer: &wgpu::Buffer) -> Result<Vec<u8>, RenderError> {
-        buffer.map_async(wgpu::MapMode::Read, .., |_| {});
+        self.read_mapped(buffer, buffer.size(), <[u8]>::to_vec)
+    }
+
+    /// What `look` makes of the first bytes of a buffer that can be mapped, once everything submitted is done.
+    pub fn read_mapped<T>(&self, buffer: &wgpu::Buffer, bytes: u64, look: impl FnOnce(&[u8]) -> T) -> Result<T, RenderError> {
+        buffer.map_async(wgpu::MapMode::Read, ..bytes, |_| {});
         self.wait()?;
-        let view = buffer.get_mapped_range(..).map_err(|error| RenderError::Internal(error.to_string()))?;
-        let bytes = view.to_vec();
+        let view = buffer.get_mapped_range(..bytes).map_err(|error| RenderError::Internal(error.to_string()))?;
+        let seen = look(&view);
         drop(view);
         buffer.unmap();
-        Ok(bytes)
+        Ok(seen)
     }
 }
 

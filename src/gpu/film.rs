@@ -2,14 +2,13 @@
 
 use std::ops::Range;
 
-use super::buffers::FilmHalf;
+use rayon::prelude::*;
+
 use super::device::Device;
+use super::film_memory::{Film, FilmHalf, PIXEL_BYTES, row_stride, rows_at_once};
 use crate::film::{Band, rounded};
 use crate::renderer::state::FilmState;
 use crate::renderer::{Batch, RenderError};
-
-/// Pixels that are read at once, in whole rows: what is copied on the way stays small.
-const PIXELS_AT_ONCE: u32 = 1 << 20;
 
 /// Sums of a run of pixels, and what their rounding lost: the two halves of the film.
 pub type Halves = (Vec<[f32; 4]>, Vec<[f32; 4]>);
@@ -18,15 +17,19 @@ pub type Halves = (Vec<[f32; 4]>, Vec<[f32; 4]>);
 ///
 /// # Errors
 /// What the device reports.
-pub fn read_rows(device: &Device, film: &[FilmHalf; 2], width: u32, rows: Range<u32>) -> Result<Halves, RenderError> {
-    Ok((read_half(device, &film[0], width, rows.clone())?, read_half(device, &film[1], width, rows)?))
+pub fn read_rows(device: &Device, film: &Film, width: u32, rows: Range<u32>) -> Result<Halves, RenderError> {
+    let [sums, compensations] = &film.halves;
+    Ok((
+        read_half(device, sums, &film.readback, width, rows.clone())?,
+        read_half(device, compensations, &film.readback, width, rows)?,
+    ))
 }
 
 /// All sums of a band.
 ///
 /// # Errors
 /// What the device reports.
-pub fn read_band(device: &Device, film: &[FilmHalf; 2], [width, rows]: [u32; 2]) -> Result<FilmState, RenderError> {
+pub fn read_band(device: &Device, film: &Film, [width, rows]: [u32; 2]) -> Result<FilmState, RenderError> {
     let pixels = width as usize * rows as usize;
     let (mut sums, mut compensations) = (Vec::with_capacity(pixels), Vec::with_capacity(pixels));
     for rows in runs_of_rows(width, rows) {
@@ -41,12 +44,12 @@ pub fn read_band(device: &Device, film: &[FilmHalf; 2], [width, rows]: [u32; 2])
 ///
 /// # Errors
 /// What the device reports.
-pub fn write_band(device: &Device, film: &[FilmHalf; 2], [width, rows]: [u32; 2], state: &FilmState) -> Result<(), RenderError> {
+pub fn write_band(device: &Device, film: &Film, [width, rows]: [u32; 2], state: &FilmState) -> Result<(), RenderError> {
     for rows in runs_of_rows(width, rows) {
         let pixels = rows.start as usize * width as usize..rows.end as usize * width as usize;
         let (sums, compensations): Halves = pixels.map(|pixel| state.single(pixel)).unzip();
-        write_half(device, &film[0], width, rows.clone(), &sums);
-        write_half(device, &film[1], width, rows, &compensations);
+        write_half(device, &film.halves[0], width, rows.clone(), &sums);
+        write_half(device, &film.halves[1], width, rows, &compensations);
         // What is on its way stays small.
         device.submit_and_wait(device.device.create_command_encoder(&Default::default()).finish())?;
     }
@@ -59,47 +62,58 @@ fn write_half(device: &Device, half: &FilmHalf, width: u32, rows: Range<u32>, pi
         FilmHalf::Texture(texture) => device.queue.write_texture(
             wgpu::TexelCopyTextureInfo { origin: wgpu::Origin3d { x: 0, y: rows.start, z: 0 }, ..texture.as_image_copy() },
             bytes,
-            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(width * 16), rows_per_image: None },
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(width * PIXEL_BYTES), rows_per_image: None },
             wgpu::Extent3d { width, height: rows.len() as u32, depth_or_array_layers: 1 },
         ),
-        FilmHalf::Buffer(buffer) => device.queue.write_buffer(buffer, u64::from(width) * 16 * u64::from(rows.start), bytes),
+        FilmHalf::Buffer(buffer) => {
+            device.queue.write_buffer(buffer, u64::from(width * PIXEL_BYTES) * u64::from(rows.start), bytes)
+        }
     }
 }
 
 /// A band's rows in runs that are small enough to be copied at once.
 fn runs_of_rows(width: u32, rows: u32) -> impl Iterator<Item = Range<u32>> {
-    let at_once = (PIXELS_AT_ONCE / width).max(1);
+    let at_once = rows_at_once(width);
     (0..rows).step_by(at_once as usize).map(move |row| row..(row + at_once).min(rows))
 }
 
-/// Rows of one half of the film, counted within the band.
-pub fn read_half(device: &Device, half: &FilmHalf, width: u32, rows: Range<u32>) -> Result<Vec<[f32; 4]>, RenderError> {
-    let row_bytes = width * 16;
+/// Rows of one half of the film, counted within the band: at most [`rows_at_once`], which the buffer has room for.
+fn read_half(
+    device: &Device,
+    half: &FilmHalf,
+    readback: &wgpu::Buffer,
+    width: u32,
+    rows: Range<u32>,
+) -> Result<Vec<[f32; 4]>, RenderError> {
+    let row_bytes = width * PIXEL_BYTES;
     let mut encoder = device.device.create_command_encoder(&Default::default());
-    let (target, stride) = match half {
+    let stride = match half {
         FilmHalf::Texture(texture) => {
-            let stride = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-            let target = device.readback_buffer(u64::from(stride) * rows.len() as u64);
+            let stride = row_stride(width);
             let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(stride), rows_per_image: None };
             let origin = wgpu::Origin3d { x: 0, y: rows.start, z: 0 };
             encoder.copy_texture_to_buffer(
                 wgpu::TexelCopyTextureInfo { origin, ..texture.as_image_copy() },
-                wgpu::TexelCopyBufferInfo { buffer: &target, layout },
+                wgpu::TexelCopyBufferInfo { buffer: readback, layout },
                 wgpu::Extent3d { width, height: rows.len() as u32, depth_or_array_layers: 1 },
             );
-            (target, stride)
+            stride
         }
         FilmHalf::Buffer(buffer) => {
             let size = u64::from(row_bytes) * rows.len() as u64;
-            let target = device.readback_buffer(size);
-            encoder.copy_buffer_to_buffer(buffer, u64::from(row_bytes) * u64::from(rows.start), &target, 0, size);
-            (target, row_bytes)
+            encoder.copy_buffer_to_buffer(buffer, u64::from(row_bytes) * u64::from(rows.start), readback, 0, size);
+            row_bytes
         }
     };
     device.submit_and_wait(encoder.finish())?;
-    let bytes = device.read(&target)?;
-    let rows = bytes.chunks(stride as usize).map(|row| &row[..row_bytes as usize]);
-    Ok(rows.flat_map(|row| row.chunks_exact(16).map(bytemuck::pod_read_unaligned)).collect())
+    let mut pixels = vec![[0.0; 4]; width as usize * rows.len()];
+    device.read_mapped(readback, u64::from(stride) * rows.len() as u64, |bytes| {
+        let targets = pixels.par_chunks_exact_mut(width as usize);
+        targets.zip(bytes.par_chunks_exact(stride as usize)).for_each(|(target, row)| {
+            bytemuck::cast_slice_mut(target).copy_from_slice(&row[..row_bytes as usize]);
+        });
+    })?;
+    Ok(pixels)
 }
 
 /// What of a band was rendered.
@@ -147,29 +161,58 @@ fn means(
     pixels_before: &mut u32,
     batch: &Batch<'_>,
 ) -> Band {
-    let first = (first_row * width) as usize;
-    let mut samples = batch.request.samples.len() as u32;
-    let (mut mean, mut remainder) = (Vec::with_capacity(sums.len()), Vec::with_capacity(sums.len()));
-    let mut second_moment = Vec::with_capacity(sums.len());
-    let mut counts = Vec::with_capacity(if reached.with_counts { sums.len() } else { 0 });
-    for (pixel, (sum, compensation)) in sums.iter().zip(compensations).enumerate() {
-        let takes_part = batch.takes_part(first + pixel, width);
-        let has_samples = takes_part && *pixels_before < reached.pixels;
-        let count = if has_samples { sum[3] as u32 } else { 0 };
-        if takes_part {
-            samples = samples.min(count);
-            *pixels_before += 1;
-        }
-        if reached.with_counts {
-            counts.push(count);
-        }
-        let per_sample = |x: f64| if count > 0 { x / f64::from(count) } else { 0.0 };
-        // The true sum is the stored one less what its compensation still owes.
-        let (nearest, rest) = rounded([0, 1, 2].map(|c| per_sample(f64::from(sum[c]) - f64::from(compensation[c]))));
-        mean.push(nearest);
-        remainder.push(rest);
-        second_moment.push(per_sample(f64::from(compensation[3])) as f32);
+    let columns = width as usize;
+    let first_pixel_of = |row: usize| (first_row as usize + row) * columns;
+    let rows = sums.len() / columns;
+    // Of each row, how many pixels that take part stand above it.
+    let before: Vec<u32> = (0..rows)
+        .map(|row| {
+            let first = first_pixel_of(row);
+            let taking_part = if batch.selects() {
+                (first..first + columns).filter(|pixel| batch.takes_part(*pixel, width)).count() as u32
+            } else {
+                width
+            };
+            std::mem::replace(pixels_before, *pixels_before + taking_part)
+        })
+        .collect();
+    let pixels = sums.len();
+    let (mut mean, mut remainder) = (vec![[0.0; 3]; pixels], vec![[0.0; 3]; pixels]);
+    let (mut second_moment, mut counts) = (vec![0.0; pixels], vec![0; pixels]);
+    let targets = (mean.par_chunks_exact_mut(columns), remainder.par_chunks_exact_mut(columns));
+    let more_targets = (second_moment.par_chunks_exact_mut(columns), counts.par_chunks_exact_mut(columns));
+    let sources = (sums.par_chunks_exact(columns), compensations.par_chunks_exact(columns));
+    let fewest = (targets, more_targets, sources, before.par_iter()).into_par_iter().enumerate().map(
+        |(row, ((mean, remainder), (second_moment, counts), (sums, compensations), before))| {
+            let (mut fewest, mut before) = (u32::MAX, *before);
+            for column in 0..columns {
+                let (sum, compensation) = (sums[column], compensations[column]);
+                let takes_part = batch.takes_part(first_pixel_of(row) + column, width);
+                let has_samples = takes_part && before < reached.pixels;
+                let count = if has_samples { sum[3] as u32 } else { 0 };
+                if takes_part {
+                    fewest = fewest.min(count);
+                    before += 1;
+                }
+                counts[column] = count;
+                let per_sample = |x: f64| if count > 0 { x / f64::from(count) } else { 0.0 };
+                // The true sum is the stored one less what its compensation still owes.
+                (mean[column], remainder[column]) =
+                    rounded([0, 1, 2].map(|c| per_sample(f64::from(sum[c]) - f64::from(compensation[c]))));
+                second_moment[column] = per_sample(f64::from(compensation[3])) as f32;
+            }
+            fewest
+        },
+    );
+    let samples = fewest.min().unwrap_or(u32::MAX).min(batch.request.samples.len() as u32);
+    Band {
+        first_row,
+        width,
+        rows: rows as u32,
+        samples,
+        counts: reached.with_counts.then_some(counts),
+        mean,
+        remainder,
+        second_moment,
     }
-    let rows = (sums.len() / width as usize) as u32;
-    Band { first_row, width, rows, samples, counts: reached.with_counts.then_some(counts), mean, remainder, second_moment }
 }

@@ -8,6 +8,7 @@ mod compiled;
 pub mod device;
 mod driver_thread;
 mod film;
+mod film_memory;
 pub mod kernels;
 pub mod passes;
 pub mod pipeline;

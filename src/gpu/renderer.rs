@@ -158,7 +158,7 @@ impl GpuRenderer {
         Self::with_trees(opening, scene, options, KeptTrees::default())
     }
 
-    /// Plans, uploads and compiles; for a film in bands where the device has no memory for all of it.
+    /// Plans, uploads and compiles; for a film in bands and fewer paths where the device has no memory for all of it.
     fn pipeline(
         device: Device,
         scene: &Scene,
@@ -171,7 +171,7 @@ impl GpuRenderer {
             Pipeline::new(device, plan, scene, packed, start)
         };
         let mut with_less = device.clone();
-        match (on(device), with_less.limits.with_small_film(scene.film.size)) {
+        match (on(device), with_less.limits.with_less_memory(scene.film.size)) {
             (Err(RenderError::DoesNotFit(_)), Some(limits)) if with_less.forget_refusal() => {
                 with_less.limits = limits;
                 on(with_less)

@@ -1,6 +1,6 @@
 //! What happens along one path on the device, vertex by vertex.
 
-use super::film::read_half;
+use super::film::read_rows;
 use super::passes::Pass;
 use super::pipeline::Pipeline;
 use crate::packed::NONE;
@@ -91,7 +91,7 @@ pub(super) fn trace(
     let bytes = pipeline.device.read_start(source, TRACE_BYTES)?;
     let words: Vec<[f32; 4]> = bytes.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect();
     let vertices = words.chunks_exact(TRACE_WORDS as usize).map_while(|words| read_vertex(words, scene_materials)).collect();
-    let sums = read_half(&pipeline.device, &pipeline.buffers.film[0], pipeline.width, 0..1)?;
+    let (sums, _) = read_rows(&pipeline.device, &pipeline.buffers.film, pipeline.width, 0..1)?;
     let [r, g, b, _] = sums[x as usize];
     Ok(GpuPathTrace { vertices, radiance: [r, g, b] })
 }

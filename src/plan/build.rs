@@ -16,6 +16,9 @@ use crate::scene::material::ATTENUATES;
 use crate::shader::Switches;
 use crate::shader::switches::contradiction;
 
+/// A device that can bind fewer storage buffers to a stage than this may need them for chunks, a guide or cells of lights.
+const MANY_STORAGE_BUFFERS: u32 = 16;
+
 impl Plan {
     /// Decides.
     ///
@@ -43,7 +46,10 @@ impl Plan {
             extinction: packed.materials.materials.iter().any(|material| material.has_form(ATTENUATES)),
         };
         let state_bytes = remembered.bytes();
-        let (stages, why_stages) = decisions::stages(geometry, &scene.render, limits, options);
+        let path_capacity = limits.paths_with_shadow_rays(state_bytes, u64::from(light_samples) * memory::SHADOW_RAY_BYTES);
+        let of_scene = switches::of_scene(scene, packed);
+        let needs = decisions::Needs { features: of_scene.enabled.len(), light_samples, path_capacity };
+        let (stages, why_stages) = decisions::stages(geometry, needs, &scene.render, limits, options);
         // On software devices the arithmetic of a step through a hierarchy costs the same for one lane as for all, so the lanes of a subgroup
         // go through it as one packet, whose stack lies in registers, an entry a lane (shaders/geometry/software/packet.wgsl). Geometry that is code is
         // met by all lanes anyway, and there a lane that starts its next path at once gains.
@@ -64,10 +70,11 @@ impl Plan {
         let film = limits.film_storage(scene.film.size, options.pixel_list);
         let tables = packed.tables().words;
         let uniform_limit = u64::from(limits.max_uniform_binding);
+        // Software devices read uniform buffers faster than storage. Real GPUs serialise reads by lanes that differ (docs/performance.md).
         let fits_uniform = |bytes: usize| bytes as u64 <= uniform_limit.min(limits.max_array);
-        let uniform_primitives = fits_uniform(size_of_val(&packed.primitives[..]));
-        let uniform_tables = 16 * tables.len() as u64 <= uniform_limit;
-        // Real GPUs serialise divergent reads of uniform buffers; software ones read them faster than storage.
+        let prefers_uniform = limits.software || limits.max_storage_buffers < MANY_STORAGE_BUFFERS;
+        let uniform_primitives = prefers_uniform && fits_uniform(size_of_val(&packed.primitives[..]));
+        let uniform_tables = prefers_uniform && 16 * tables.len() as u64 <= uniform_limit;
         let uniform_nodes = limits.software && !ray_queries && fits_uniform(packed.hierarchy.uniform_node_bytes());
         let band_rows = limits.band_rows(scene.film.size, film, options.pixel_list);
         let mut plan = Self {
@@ -79,7 +86,7 @@ impl Plan {
             chunks: Vec::new(),
             stages,
             film,
-            path_capacity: limits.paths_with_shadow_rays(state_bytes, u64::from(light_samples) * memory::SHADOW_RAY_BYTES),
+            path_capacity,
             rays_per_invocation: if limits.software { 32 } else { 1 },
             lanes,
             subgroup_queues,
@@ -98,7 +105,7 @@ impl Plan {
         let learned = [!packed.guide.is_empty(), in_cells];
         let other_arrays = u32::from(!uniform_tables) + learned.map(u32::from).iter().sum::<u32>();
         chunks::check(&plan.chunks, other_arrays, learned, limits.max_array, limits)?;
-        plan.switches = switches::choose(scene, packed, &plan);
+        plan.switches = switches::choose(of_scene, scene, packed, &plan);
         plan.switches.enable("TRACE", options.trace);
         plan.switches.enable("PIXEL_LIST", options.pixel_list && !options.trace);
         let makes_samples = matches!(options.layer, None | Some(KernelLayer::Squares));

@@ -34,24 +34,56 @@ pub(super) fn geometry(packed: &PackedScene, options: &PlanOptions) -> (Geometry
     }
 }
 
+/// Features of a scene up to which the kernel that traces whole paths is the faster one on hardware. Larger kernels hold more registers, and their
+/// lanes are further apart. Of 16 scenes on one card, those with fewer took 0.3 to 1.04 of the wavefront's time, but for two with four light samples,
+/// and those with more 1.25 to 3.7 times (docs/performance.md).
+const MOST_FUSED_FEATURES: usize = 34;
+/// Light samples at a surface from which on queues of shadow rays are the faster way through a hierarchy on hardware, and the paths in flight that this
+/// takes: with fewer, queues run dry.
+const QUEUED_LIGHT_SAMPLES: u32 = 4;
+const QUEUED_PATHS: u32 = 1 << 20;
+
+/// What of a scene decides how its stages run on hardware.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Needs {
+    /// Switches that it turns on.
+    pub features: usize,
+    pub light_samples: u32,
+    /// Paths in flight of the wavefront.
+    pub path_capacity: u32,
+}
+
 /// How stages run, and why.
 pub(super) fn stages(
     geometry: GeometryPlacement,
+    needs: Needs,
     render: &RenderSettings,
     limits: &DeviceLimits,
     options: &PlanOptions,
 ) -> (StageMode, String) {
+    let Needs { features, light_samples, path_capacity } = needs;
+    let fills_queues = light_samples >= QUEUED_LIGHT_SAMPLES && path_capacity >= QUEUED_PATHS;
     let (stages, because) = match options.stages {
-        _ if options.trace => (StageMode::Fused, "one path is followed from its start to its end"),
-        Some(stages) => (stages, ASKED_FOR),
-        None if paths_may_not_end(render) => (StageMode::Wavefront, "paths may be so long that the host has to look in between"),
+        _ if options.trace => (StageMode::Fused, "one path is followed from its start to its end".into()),
+        Some(stages) => (stages, ASKED_FOR.into()),
+        None if paths_may_not_end(render) => {
+            (StageMode::Wavefront, "paths may be so long that the host has to look in between".into())
+        }
         // Software devices move every word on its own: there, paths kept in registers beat queues whatever the geometry
         // (docs/performance.md).
-        None if limits.software => (StageMode::Fused, "a software device moves each word of a queue on its own"),
-        None if geometry == GeometryPlacement::Unrolled => (StageMode::Fused, "without a hierarchy, rays take equally long"),
-        None => (StageMode::Wavefront, "rays take differently long, and queues keep the lanes of hardware together"),
+        None if limits.software => (StageMode::Fused, "a software device moves each word of a queue on its own".into()),
+        None if features > MOST_FUSED_FEATURES => {
+            (StageMode::Wavefront, format!("one kernel would hold {features} features, more than {MOST_FUSED_FEATURES}"))
+        }
+        None if geometry == GeometryPlacement::Hierarchy && fills_queues => {
+            (StageMode::Wavefront, format!("queues keep the shadow rays of {light_samples} light samples together"))
+        }
+        None => (
+            StageMode::Fused,
+            format!("a kernel of {features} features, at most {MOST_FUSED_FEATURES}, keeps paths in registers"),
+        ),
     };
-    (stages, because.into())
+    (stages, because)
 }
 
 /// Whether neither the depth nor roulette ends paths within some thousand edges. A kernel that traces whole paths could then run for minutes.
@@ -93,7 +125,13 @@ pub(super) fn explain(
         None => {}
     }
     for (name, uniform) in [(PRIMITIVES, plan.uniform_primitives), (TABLES, plan.uniform_tables)] {
-        add(name, buffer_name(uniform).into(), size_in_uniform(plan.memory.bytes(name), limits));
+        let bytes = plan.memory.bytes(name);
+        let because = if uniform || bytes > u64::from(limits.max_uniform_binding) {
+            size_in_uniform(bytes, limits)
+        } else {
+            "hardware reads uniform buffers lane by lane where lanes differ".to_owned()
+        };
+        add(name, buffer_name(uniform).into(), because);
     }
     if !packed.instances.is_empty() {
         let (count, groups) = (packed.instances.len(), packed.hierarchy.roots.len());

@@ -7,6 +7,12 @@ use super::path_state::PathMemory;
 /// Bytes that the queue of shadow rays takes at most: five million of them keep any device busy.
 const MOST_SHADOW_RAY_BYTES: u64 = 256 << 20;
 
+/// Paths in flight: a software device's fit its caches; on hardware the last vertices of a pass, to which few paths come, still fill the card.
+const SOFTWARE_PATHS: u64 = 1 << 18;
+const HARDWARE_PATHS: u64 = 1 << 21;
+/// Where a device has no memory for more.
+const FEWEST_PATHS: u32 = 1 << 18;
+
 /// Pixels of a film that samples go over as a whole: those of an 8K picture, which take 1 GiB. Larger pictures are rendered in bands.
 const MOST_FILM_PIXELS: u64 = 1 << 25;
 /// Pixels of a band where the device has no memory for more, which take 32 MiB.
@@ -100,7 +106,7 @@ impl DeviceLimits {
         let specific = adapter.features().contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
         let max_array = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
         let max_workgroups = limits.max_compute_workgroups_per_dimension;
-        let wanted_paths: u64 = if software { 1 << 18 } else { 1 << 20 };
+        let wanted_paths: u64 = if software { SOFTWARE_PATHS } else { HARDWARE_PATHS };
         let most_paths = (max_array / PathMemory::MOST.bytes()).min(u64::from(max_workgroups) * 64);
         Self {
             max_storage_binding: limits.max_storage_buffer_binding_size,
@@ -141,10 +147,14 @@ impl DeviceLimits {
         u64::from(self.path_capacity).min(binding / state_bytes).min(by_shadow_rays) as u32
     }
 
-    /// The same, for a device that turned out to have no memory for a film of this size; None where a smaller one would not help.
-    pub fn with_small_film(&self, [width, height]: [u32; 2]) -> Option<Self> {
+    /// The same, for a device that turned out to have no memory for a film of this size or for so many paths; None where fewer would not help.
+    pub fn with_less_memory(&self, [width, height]: [u32; 2]) -> Option<Self> {
         let is_large = u64::from(width) * u64::from(height) > FEWEST_FILM_PIXELS && self.film_pixels > FEWEST_FILM_PIXELS;
-        is_large.then(|| Self { film_pixels: FEWEST_FILM_PIXELS, ..self.clone() })
+        (is_large || self.path_capacity > FEWEST_PATHS).then(|| Self {
+            film_pixels: self.film_pixels.min(FEWEST_FILM_PIXELS),
+            path_capacity: self.path_capacity.min(FEWEST_PATHS),
+            ..self.clone()
+        })
     }
 
     /// Rows of a band: all of the picture's, where memory and the device's limits allow it.

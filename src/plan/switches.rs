@@ -20,17 +20,12 @@ use crate::shader::Switches;
 /// Stacks of a lane have a multiple of so many entries.
 const STACK_STEP: u32 = 8;
 
-pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
+/// What the scene needs, whatever device it is rendered on.
+pub fn of_scene(scene: &Scene, packed: &PackedScene) -> Switches {
     let mut switches = Switches::default();
     let render = &scene.render;
 
     choose_shapes(packed, &mut switches);
-    switches.enable("BVH", plan.has_nodes());
-    switches.enable("RAY_QUERY", plan.traversal_in_use() == Some(Traversal::RayQuery));
-    switches.enable("PACKETS", plan.lanes.is_some());
-    switches.enable("UNIFORM_NODES", plan.has_nodes() && plan.uniform_nodes);
-    switches.enable("UNIFORM_PRIMITIVES", plan.uniform_primitives);
-    switches.enable("UNIFORM_TABLES", plan.uniform_tables);
     switches.enable("ATTRIBUTES", packed.has_attributes());
     switches.enable("TEXTURES", !packed.textures.textures.is_empty());
     let has_texture = |kind: PackedTextureKind| packed.textures.textures.iter().any(|texture| texture.kind() == kind as u32);
@@ -70,6 +65,19 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
     enable_sampler(&mut switches, render);
     switches.enable("UNIFORM_HEMISPHERE", render.hemisphere == HemisphereSampling::Uniform);
     let blades = enable_camera(&mut switches, scene);
+    switches.constants.insert("BLADES", blades);
+    switches
+}
+
+/// Adds to what the scene needs how the plan goes about it.
+pub fn choose(mut switches: Switches, scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
+    let render = &scene.render;
+    switches.enable("BVH", plan.has_nodes());
+    switches.enable("RAY_QUERY", plan.traversal_in_use() == Some(Traversal::RayQuery));
+    switches.enable("PACKETS", plan.lanes.is_some());
+    switches.enable("UNIFORM_NODES", plan.has_nodes() && plan.uniform_nodes);
+    switches.enable("UNIFORM_PRIMITIVES", plan.uniform_primitives);
+    switches.enable("UNIFORM_TABLES", plan.uniform_tables);
     switches.enable("FILM_TEXTURE", plan.film == FilmStorage::Texture);
     switches.enable("TAKEN_PIXELS", plan.pixel_takers.is_some());
     switches.enable("SUBGROUP_QUEUES", plan.subgroup_queues);
@@ -80,7 +88,6 @@ pub fn choose(scene: &Scene, packed: &PackedScene, plan: &Plan) -> Switches {
     let map = packed.environment.map.unwrap_or_default();
     let first_light = |kind: LightKind| packed.lights.iter().position(|light| light.is(kind)).unwrap_or(0) as u32;
     switches.constants.extend([
-        ("BLADES", blades),
         ("CORRELATED_ALBEDO_WORD", albedo_word(albedos.height_correlated)),
         ("SEPARABLE_ALBEDO_WORD", albedo_word(albedos.separable)),
         ("SHEEN_ALBEDO_WORD", albedo_word(albedos.sheen)),
