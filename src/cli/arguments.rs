@@ -17,6 +17,7 @@ use super::bench::BenchArguments;
 use super::choice::by_name;
 use super::denoise::DenoiseArguments;
 use super::exit::Exit;
+use super::film::FilmArguments;
 use super::frames::{FrameArguments, FrameList, parse_frame};
 use super::installing_arguments::{CompletionsArguments, ManArguments};
 use super::machine_progress::ProgressFormat;
@@ -327,6 +328,8 @@ pub struct VerifyArguments {
     pub device_timeout: Option<Duration>,
     #[command(flatten)]
     pub traversal: TraversalArguments,
+    #[command(flatten)]
+    pub film: FilmArguments,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -353,6 +356,8 @@ pub struct CheckArguments {
     pub plan: bool,
     #[command(flatten)]
     pub traversal: TraversalArguments,
+    #[command(flatten)]
+    pub film: FilmArguments,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

@@ -110,7 +110,7 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
         terminal::warn(warning);
     }
     check_frames(&scene)?;
-    let options = arguments.traversal.options();
+    let options = PlanOptions { film: arguments.film.storage(), ..arguments.traversal.options() };
     let (device, limits) = usual_device(&options)?;
     let (plan, settled) = usual_plan(&scene, &limits, &options)?;
     let summary = SceneSummary::of(&scene);

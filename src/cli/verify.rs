@@ -61,7 +61,8 @@ impl Finding {
 /// Verifies one scene, or the closed forms and all scenes that are built in, and prints the verdicts; or follows one path.
 pub fn run(arguments: &VerifyArguments) -> Result<Exit, Failure> {
     let device_timeout = arguments.device_timeout;
-    let options = PlanOptions { fault: arguments.plant, device_timeout, ..arguments.traversal.options() };
+    let film = arguments.film.storage_on(&arguments.device)?;
+    let options = PlanOptions { fault: arguments.plant, film, device_timeout, ..arguments.traversal.options() };
     if arguments.device == DeviceChoice::Cpu {
         return verify_reference(arguments);
     }

@@ -67,7 +67,7 @@ impl Plan {
         // Known practice on hardware, and on lavapipe no slower (docs/notes/2026-11-22-wavefront-queues.md).
         let subgroup_queues = stages == StageMode::Wavefront && limits.subgroups;
         let width = scene.film.size[0];
-        let film = limits.film_storage(scene.film.size, options.pixel_list);
+        let (film, why_film) = decisions::film(scene.film.size, limits, options)?;
         let tables = packed.tables().words;
         let uniform_limit = u64::from(limits.max_uniform_binding);
         // Software devices read uniform buffers faster than storage. Real GPUs serialise reads by lanes that differ (docs/performance.md).
@@ -137,7 +137,8 @@ impl Plan {
         }
         plan.memory = count_memory(packed, &plan, width);
         plan.memory.check(limits)?;
-        plan.decisions = decisions::explain(&plan, scene, packed, limits, why_geometry, why_stages);
+        let reasons = decisions::Reasons { geometry: why_geometry, stages: why_stages, film: why_film };
+        plan.decisions = decisions::explain(&plan, scene, packed, limits, reasons);
         Ok(plan)
     }
 }

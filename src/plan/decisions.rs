@@ -3,6 +3,7 @@
 use super::choices::{FilmStorage, GeometryPlacement, StageMode, UNROLL_LIMIT};
 use super::chunks::Chunks;
 use super::decision::Decision;
+use super::error::PlanError;
 use super::limits::{DeviceLimits, RayQueryDefault};
 use super::memory::{PRIMITIVES, TABLES};
 use super::model::Plan;
@@ -92,14 +93,44 @@ fn paths_may_not_end(render: &RenderSettings) -> bool {
     !ends(render.max_depth) && !render.first_roulette(false).is_some_and(ends)
 }
 
-/// All decisions of a plan whose memory is counted, in words, in the order of the data's way. `geometry` and `stages` are the reasons for those.
+/// Where the film of a picture of this size lives, and why.
+///
+/// # Errors
+/// [`PlanError::DoesNotFit`] where textures are asked for that the device does not have.
+pub(super) fn film(
+    size: [u32; 2],
+    limits: &DeviceLimits,
+    options: &PlanOptions,
+) -> Result<(FilmStorage, &'static str), PlanError> {
+    match options.film {
+        Some(FilmStorage::Texture) if !limits.film_fits_textures(size) => Err(PlanError::DoesNotFit(format!(
+            "the device cannot read and write textures of four floats that are {} pixels wide; without `--film textures` it renders all the same",
+            size[0]
+        ))),
+        Some(film) => Ok((film, ASKED_FOR)),
+        None => Ok(match limits.film_storage(size, options.pixel_list) {
+            FilmStorage::Texture => (FilmStorage::Texture, "the device reads and writes them"),
+            FilmStorage::Buffer => {
+                (FilmStorage::Buffer, "the device cannot read and write textures of four floats, or none so large")
+            }
+        }),
+    }
+}
+
+/// Why those choices are what they are.
+pub(super) struct Reasons {
+    pub geometry: String,
+    pub stages: String,
+    pub film: &'static str,
+}
+
+/// All decisions of a plan whose memory is counted, in words, in the order of the data's way.
 pub(super) fn explain(
     plan: &Plan,
     scene: &Scene,
     packed: &PackedScene,
     limits: &DeviceLimits,
-    geometry: String,
-    stages: String,
+    reasons: Reasons,
 ) -> Vec<Decision> {
     let mut decisions = materials(scene, packed).into_iter().collect::<Vec<_>>();
     let mut add = |about, choice: String, because: String| decisions.push(Decision { about, choice, because });
@@ -107,7 +138,7 @@ pub(super) fn explain(
         GeometryPlacement::Unrolled => "written into the kernels as constants",
         GeometryPlacement::Hierarchy => "triangles in a hierarchy; few other shapes as constants",
     };
-    add("geometry", placement.into(), geometry);
+    add("geometry", placement.into(), reasons.geometry);
     match plan.traversal_in_use() {
         Some(Traversal::Bvh) => {
             let mut because = "of the forms measured, the one that loads the fewest words".to_owned();
@@ -142,7 +173,7 @@ pub(super) fn explain(
         add("in chunks", cut.join(", "), format!("one binding holds {} KiB", limits.max_array >> 10));
     }
     let entries: Vec<&str> = plan.pipeline().map(|stage| stage.entry).collect();
-    add("stages", entries.join(", "), stages);
+    add("stages", entries.join(", "), reasons.stages);
     if plan.samples_lights() && packed.local_lights > 1 {
         let (choice, because) = light_choice(scene.render.light_choice, packed);
         add("light choice", choice, packed.light_choice.clone().unwrap_or(because));
@@ -163,10 +194,11 @@ pub(super) fn explain(
             if plan.subgroup_queues { ("subgroup", "the device has subgroups") } else { ("path", "the device has no subgroups") };
         add("queues", format!("one atomic a {taker}"), because.into());
     }
-    let (film, because) = match plan.film {
-        FilmStorage::Texture => ("rgba32float storage textures", "the device reads and writes them"),
-        FilmStorage::Buffer => ("storage buffers", "the device cannot read and write textures of four floats, or none so large"),
+    let film = match plan.film {
+        FilmStorage::Texture => "rgba32float storage textures",
+        FilmStorage::Buffer => "storage buffers",
     };
+    let because = reasons.film;
     let height = scene.film.size[1];
     if plan.band_rows < height {
         add(

@@ -168,10 +168,18 @@ impl DeviceLimits {
         ((most_pixels / u64::from(width)) as u32).clamp(1, rows_of_storage).min(height)
     }
 
+    /// Whether textures can hold rows of a film of this size.
+    pub fn film_fits_textures(&self, [width, _]: [u32; 2]) -> bool {
+        self.read_write_rgba32float && width <= self.max_texture_side
+    }
+
     /// Where the film is kept: in textures, unless they cannot hold it or buffers hold more of it.
     pub fn film_storage(&self, size: [u32; 2], pixels_are_listed: bool) -> FilmStorage {
         let rows = |film| self.band_rows(size, film, pixels_are_listed);
-        let fits = self.read_write_rgba32float && size[0] <= self.max_texture_side;
-        if fits && rows(FilmStorage::Texture) >= rows(FilmStorage::Buffer) { FilmStorage::Texture } else { FilmStorage::Buffer }
+        if self.film_fits_textures(size) && rows(FilmStorage::Texture) >= rows(FilmStorage::Buffer) {
+            FilmStorage::Texture
+        } else {
+            FilmStorage::Buffer
+        }
     }
 }

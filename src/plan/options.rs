@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::choices::StageMode;
+use super::choices::{FilmStorage, StageMode};
 use super::fault::Fault;
 use super::verified_drivers::VerifiedDrivers;
 use crate::film::KernelLayer;
@@ -28,6 +28,8 @@ pub struct PlanOptions {
     /// Where ray queries are used unasked.
     pub verified: VerifiedDrivers,
     pub stages: Option<StageMode>,
+    /// Where the film's sums live; textures are refused where the device cannot read and write them.
+    pub film: Option<FilmStorage>,
     /// Let a batch leave pixels out ([`crate::renderer::Batch::selection`]).
     pub pixel_list: bool,
     /// Write down what happens along a path, for [`crate::gpu::GpuRenderer::trace`]; one kernel then traces whole paths.

@@ -39,6 +39,26 @@ fn verify_ends_with_its_verdict() {
     assert!(warned.contains("cannot be kept in taken/below"), "{warned}");
 }
 
+/// Either place for the film's sums can be asked for, and the plan says which one it takes.
+#[test]
+fn the_film_is_where_it_is_asked_to_be() {
+    if std::env::var("GPT_TEST_GPU").as_deref() == Ok("skip") {
+        return;
+    }
+    let place = Workplace::new();
+    for (film, words) in [("textures", "rgba32float storage textures"), ("buffers", "storage buffers")] {
+        let plan = text(&place.run(&format!("check cornell --plan --film {film}")).stdout);
+        let line = plan.lines().find(|line| line.starts_with("film  ") && line.contains("rows together")).unwrap_or_default();
+        assert!(line.contains(words) && line.contains("(asked for)"), "{plan}");
+        let green = text(&place.run(&format!("verify cornell --size 24x24 --spp 2 --film {film}")).stdout);
+        assert!(green.ends_with("\nGREEN: it agrees\n"), "{green}");
+    }
+    for arguments in ["verify --device cpu --film buffers", "bench speed scene.toml --device cpu --film textures"] {
+        let stderr = place.expect(2, arguments);
+        assert!(stderr.contains("leave out --film"), "gpt {arguments}: {stderr}");
+    }
+}
+
 /// Without a graphics device, the CPU is held against closed forms, and nothing else.
 #[test]
 fn verify_on_the_cpu_holds_the_reference_against_closed_forms() {

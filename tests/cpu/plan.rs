@@ -156,8 +156,20 @@ fn the_film_goes_into_buffers_where_textures_cannot_be_read_and_written() {
     let with = DeviceLimits { read_write_rgba32float: true, ..DeviceLimits::default() };
     assert_eq!(plan(&scene, &with).expect("it fits").film, FilmStorage::Texture);
     assert_eq!(plan(&scene, &DeviceLimits::default()).expect("it fits").film, FilmStorage::Buffer);
-    let narrow = DeviceLimits { max_texture_side: 256, ..with };
+    let narrow = DeviceLimits { max_texture_side: 256, ..with.clone() };
     assert_eq!(plan(&scene, &narrow).expect("it fits").film, FilmStorage::Buffer);
+    // What is asked for is taken or refused.
+    let asked = |film, limits: &DeviceLimits| {
+        Plan::new(&scene, &packed(&scene), limits, &PlanOptions { film: Some(film), ..PlanOptions::default() })
+    };
+    let in_buffers = asked(FilmStorage::Buffer, &with).expect("it fits");
+    assert_eq!(in_buffers.film, FilmStorage::Buffer);
+    assert!(in_buffers.to_string().contains("storage buffers, all 360 rows together (asked for)"), "{in_buffers}");
+    assert_eq!(asked(FilmStorage::Texture, &with).expect("it fits").film, FilmStorage::Texture);
+    for limits in [DeviceLimits::default(), narrow] {
+        let refused = asked(FilmStorage::Texture, &limits);
+        assert!(refused.is_err_and(|error| error.to_string().contains("640 pixels wide; without `--film textures`")));
+    }
 }
 
 /// A film has all its rows on the device, so that samples go over all of it first, up to what the device can hold; from there on device memory

@@ -10,6 +10,7 @@ use gpt::renderer::DeviceChoice;
 use gpt::scene::settings::MOST_SAMPLES;
 
 use crate::cli::choice::by_name;
+use crate::cli::film::FilmArguments;
 use crate::cli::setting_flags::SettingAxes;
 use crate::cli::traversal::TraversalArguments;
 use crate::cli::values::{parse_device, parse_seconds, parse_size};
@@ -80,6 +81,8 @@ pub struct SpeedArguments {
     pub stages: Option<StagesName>,
     #[command(flatten)]
     pub traversal: TraversalArguments,
+    #[command(flatten)]
+    pub film: FilmArguments,
     /// What grows [default: everything, and the scenes as they are]
     #[arg(long, value_name = "WHAT,…", value_delimiter = ',', value_parser = by_name::<Growth>())]
     pub growth: Vec<Growth>,

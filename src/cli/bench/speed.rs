@@ -31,7 +31,8 @@ pub fn run(arguments: &SpeedArguments, plan: PlanOptions) -> Result<Exit, Failur
     for warning in scenes.iter().flat_map(|scene| &scene.warnings) {
         terminal::warn(warning);
     }
-    let plan = PlanOptions { device_timeout: plan.device_timeout, ..arguments.traversal.options_on(&arguments.device)? };
+    let film = arguments.film.storage_on(&arguments.device)?;
+    let plan = PlanOptions { device_timeout: plan.device_timeout, film, ..arguments.traversal.options_on(&arguments.device)? };
     let options = SpeedOptions {
         device: arguments.device.clone(),
         stages: arguments.stages.map(|stages| match stages {
