@@ -115,11 +115,12 @@ class Contestant:
         power = self.power_for(settings[0], seconds)
         self.choosing = 1 << max(0, power + round(math.log2(choose_seconds / seconds)))
         if len(settings) > 1:
-            for setting in settings:
-                tries = [self.process.render(setting, self.choosing, 91 + seed) for seed in range(2)]
-                pictures = np.stack([found["picture"] for found in tries]).astype(np.float64)
-                errors = known.errors(pictures) if known else convergence.relative_errors(pictures, pictures.mean(axis=0))
-                seconds_taken = [found["seconds"] - found["learning"] * (1 - self.choosing / (1 << power)) for found in tries]
+            tries = {setting: [self.process.render(setting, self.choosing, 91 + seed) for seed in range(2)] for setting in settings}
+            pictures = {setting: np.stack([found["picture"] for found in made]).astype(np.float64) for setting, made in tries.items()}
+            brightness = None if known else convergence.brightness(list(pictures.values()))
+            for setting, made in tries.items():
+                errors = known.errors(pictures[setting]) if known else convergence.relative_errors(pictures[setting], brightness)
+                seconds_taken = [found["seconds"] - found["learning"] * (1 - self.choosing / (1 << power)) for found in made]
                 costs[setting] = float(errors.mean() * np.mean(seconds_taken))
         self.costs = costs
         self.setting = min(costs, key=costs.get) if costs else settings[0]
@@ -138,7 +139,7 @@ class Contestant:
             pictures = np.stack([each["picture"] for each in found]).astype(np.float64)
             seconds = np.array([each["seconds"] for each in found])
             own = self.process.key == "gpt"
-            made.append(convergence.Level(spp, seconds, convergence.relative_errors(pictures, known.picture) if own else known.errors(pictures)))
+            made.append(convergence.Level(spp, seconds, convergence.relative_errors(pictures, known.brightness) if own else known.errors(pictures)))
         return made
 
     def cpu_seconds(self, levels):
@@ -217,7 +218,8 @@ def agreements(scene, path, options, ready):
 
 def evaluate(scene, ready, judgements):
     replications = {key: contestant.replications() for key, contestant in ready.items()}
-    known = convergence.reference(replications["gpt"])
+    alike = [pictures for key, pictures in replications.items() if key == "gpt" or judgements[key].verdict != "differ"]
+    known = convergence.reference(replications["gpt"], convergence.brightness(alike))
     levels = {key: contestant.levels(known) for key, contestant in ready.items()}
     result = {"size": list(scene.size), "left_out": scene.without, "renderers": {}, "pairs": {}}
     for key, contestant in ready.items():

@@ -1,9 +1,12 @@
 """Time to equal error, from replications of pictures at several sample counts.
 
-The error is the relative mean squared error as `gpt compare` defines it: (a − b)² / (b² + 0.01), averaged over pixels and channels. The
+The error is the relative mean squared error as `gpt compare` defines it: (a − b)² / (c² + 0.01), averaged over pixels and channels. The
 reference b is the mean of all that gpt rendered of the scene, and its own noise, which its replications tell, is taken off. For gpt's own
 pictures it is their mean instead: of K pictures with different seeds, Σ (x − mean)² / (K − 1) is the variance of one of them without
 bias. That gpt's mean is the others' as well is what agreement.py shows.
+
+The brightness c that errors are relative to is of all renderers together, the less noisy ones counting more. Relative to what a renderer
+found alone, its own fireflies would hide themselves: where they are, the brightness is theirs.
 """
 
 from dataclasses import dataclass
@@ -14,13 +17,15 @@ RELATIVE_EPSILON = 1e-2
 # The variance of a mean falls at least as fast as 1/N; with the best points in smooth scenes a little faster than N to the −1.5. What a fit
 # finds beyond that is noise, and would be blown up where it is carried far.
 SLOPES = (-1.6, -1.0)
+# How often the weights of renderers are found anew.
+BRIGHTNESS_ROUNDS = 4
 
 
-def relative_errors(pictures, reference):
-    """The relative mean squared error of each of the pictures (first axis) about their own mean, without bias on the average."""
+def relative_errors(pictures, brightness):
+    """The mean squared error of each of the pictures (first axis) about their own mean, relative to a brightness, without bias on the average."""
     count = len(pictures)
     squares = (pictures - pictures.mean(axis=0)) ** 2 * (count / (count - 1))
-    return (squares / (reference**2 + RELATIVE_EPSILON)).mean(axis=(1, 2, 3))
+    return (squares / (brightness**2 + RELATIVE_EPSILON)).mean(axis=(1, 2, 3))
 
 
 @dataclass
@@ -28,18 +33,31 @@ class Reference:
     """The mean of independent pictures and how uncertain it is."""
 
     picture: np.ndarray
+    brightness: np.ndarray
+    """What errors are relative to."""
     noise: float
     """Its own expected relative mean squared error."""
 
     def errors(self, pictures):
         """The relative mean squared error of each of the pictures (first axis), which took no part in the reference."""
-        squares = (pictures - self.picture) ** 2 / (self.picture**2 + RELATIVE_EPSILON)
+        squares = (pictures - self.picture) ** 2 / (self.brightness**2 + RELATIVE_EPSILON)
         return np.maximum(squares.mean(axis=(1, 2, 3)) - self.noise, 1e-12)
 
 
-def reference(pictures):
+def reference(pictures, brightness=None):
+    """Of replications; errors are relative to their own mean where no brightness is given."""
     mean = pictures.mean(axis=0)
-    return Reference(mean, float(relative_errors(pictures, mean).mean()) / len(pictures))
+    brightness = mean if brightness is None else brightness
+    return Reference(mean, brightness, float(relative_errors(pictures, brightness).mean()) / len(pictures))
+
+
+def brightness(replications):
+    """The mean of several renderers' pictures, each counting by how little noise its replications have relative to that mean."""
+    means = [pictures.mean(axis=0) for pictures in replications]
+    found = np.mean(means, axis=0)
+    for _ in range(BRIGHTNESS_ROUNDS):
+        found = np.average(means, axis=0, weights=[1 / max(reference(pictures, found).noise, 1e-12) for pictures in replications])
+    return found
 
 
 @dataclass

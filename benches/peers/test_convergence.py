@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 
 from agreement import judge
-from convergence import Level, ratio, reference, relative_errors, slope, time_to
+from convergence import Level, brightness, ratio, reference, relative_errors, slope, time_to
 
 
 def pictures(spp, seeds, generator, sigma=0.3, mean=0.5):
@@ -37,6 +37,13 @@ class Statistics(unittest.TestCase):
     def test_missing_light_is_an_error_though_nothing_scatters(self):
         known = reference(pictures(256, 5, self.generator))
         self.assertAlmostEqual(known.errors(np.zeros((3, 64, 64, 3))).mean(), 0.25 / 0.26, delta=0.01)
+
+    def test_fireflies_do_not_hide_themselves_where_another_renderer_has_none(self):
+        fireflies = np.full((3, 64, 64, 3), 0.5) + 20 * (self.generator.random((3, 64, 64, 1)) < 1e-2)
+        clean = pictures(64, 3, self.generator, mean=0.7)
+        expected = 20**2 * 1e-2 * (1 - 1e-2) / (0.7**2 + 0.01)
+        self.assertAlmostEqual(relative_errors(fireflies, brightness([fireflies, clean])).mean() / expected, 1.0, delta=0.1)
+        self.assertLess(relative_errors(fireflies, fireflies.mean(axis=0)).mean() / expected, 0.2)
 
     def test_slope_of_random_points(self):
         self.assertAlmostEqual(slope(levels(0.01, self.generator)), -1.0, delta=0.05)

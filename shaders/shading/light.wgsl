@@ -3,6 +3,7 @@
 #import core/math.wgsl
 #import core/sampler.wgsl
 #import shading/delta_lights.wgsl
+#import shading/distant_light.wgsl
 #import shading/light_record.wgsl
 #import shading/light_sample.wgsl
 #import shading/outside.wgsl
@@ -201,22 +202,24 @@ fn sample_area_light(light: u32, kind_flags: u32, reference: vec3<f32>, pmf: f32
 }
 #endif
 
-// Density with which light sampling from `ray.origin` draws the ray's direction for the environment, by whichever way; 0 where it does not.
-fn environment_pdf_solid_angle(ray: Ray) -> f32 {
+// Density with which light sampling from `ray.origin`, in a cell of lights, draws the ray's direction for the environment, by whichever way; 0 where it
+// does not.
+fn environment_pdf_solid_angle(ray: Ray, cell: u32) -> f32 {
     var pdf = 0.0;
 #if ENVIRONMENT_LIGHT
-    pdf += light_word(ENVIRONMENT_LIGHT_INDEX, 0u).w * outside_pdf(ray.direction);
+    pdf += distant_light_pmf(ENVIRONMENT_LIGHT_INDEX, cell) * outside_pdf(ray.direction);
 #endif
 #if PORTALS
-    pdf += portals_pdf(ray);
+    pdf += portals_pdf(ray, cell);
 #endif
     return pdf;
 }
 
 // `facing`: which way the surface there faces, as facing_of says.
 fn sample_light(reference: vec3<f32>, facing: u32, bits: vec4<u32>) -> LightSample {
+    let cell = cell_of_lights(reference, facing);
 #if LIGHT_CELLS
-    let choice = choose_light_in(light_cell_at(reference, facing), bits.x);
+    let choice = choose_light_in(cell, bits.x);
     let light = choice.light;
 #else
 #if LIGHT_TREE
@@ -269,7 +272,7 @@ fn sample_light(reference: vec3<f32>, facing: u32, bits: vec4<u32>) -> LightSamp
             let drawn = sample_outside(bits.y, bits.z);
             var pdf = pmf * drawn.pdf_solid_angle;
 #if PORTALS
-            pdf += portals_pdf(Ray(reference, drawn.wi));
+            pdf += portals_pdf(Ray(reference, drawn.wi), cell);
 #endif
             if pdf <= 0.0 {
                 return no_light();
@@ -280,7 +283,7 @@ fn sample_light(reference: vec3<f32>, facing: u32, bits: vec4<u32>) -> LightSamp
 #if PORTALS
         case LIGHT_PORTAL: {
             let wi = sample_portal(light, reference, u, v);
-            let pdf = environment_pdf_solid_angle(Ray(reference, wi));
+            let pdf = environment_pdf_solid_angle(Ray(reference, wi), cell);
             // By rounding, a direction to a portal's very edge may miss it.
             if pdf <= 0.0 {
                 return no_light();
@@ -307,7 +310,7 @@ fn light_pdf_solid_angle(ray: Ray, facing: u32, surface: Surface) -> f32 {
         return 0.0;
     }
 #if LIGHT_CELLS
-    let pmf = local_light_pmf_in(light_cell_at(ray.origin, facing), surface.light);
+    let pmf = light_pmf_in(cell_of_lights(ray.origin, facing), surface.light);
 #else
 #if LIGHT_TREE
     let pmf = local_light_pmf(surface.light, ray.origin);
@@ -356,7 +359,7 @@ fn light_pdf_solid_angle(ray: Ray, facing: u32, surface: Surface) -> f32 {
 fn traced_light(point: vec3<f32>, facing: u32, light_bits: u32) -> u32 {
 #if LIGHT_CELLS
 #if TRACE
-    return choose_light_in(light_cell_at(point, facing), light_bits).light;
+    return choose_light_in(cell_of_lights(point, facing), light_bits).light;
 #else
     return 0u;
 #endif

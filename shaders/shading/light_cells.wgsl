@@ -29,11 +29,11 @@ fn light_by_power(light: u32) -> vec4<f32> {
     return tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS];
 }
 
-// The light that 32 random bits choose by power among `count` from number `first` on.
-fn choose_by_power(first: u32, count: u32, bits: u32) -> u32 {
-    let entry = first + multiply_high(bits, count);
+// The light that 32 random bits choose by power.
+fn choose_by_power(bits: u32) -> u32 {
+    let entry = multiply_high(bits, LIGHT_COUNT);
     let word = bitcast<vec4<u32>>(light_by_power(entry));
-    return select(word.z, entry, bits * count < word.y);
+    return select(word.z, entry, bits * LIGHT_COUNT < word.y);
 }
 
 // How many slots of a cell name a light.
@@ -52,38 +52,29 @@ fn light_slots(cell: u32, light: u32) -> u32 {
     return select(0u, slot >> LIGHT_SLOT_COUNT_SHIFT, (slot & LIGHT_SLOT_MASK) == light);
 }
 
-// The probability of a light inside the scene of which so many slots of a point's cell exist; by power, it has the probability `by_power`.
+// The probability of a light that so many slots of a point's cell name; by power, it has the probability `by_power`.
 fn light_pmf_of_slots(slots: u32, by_power: f32) -> f32 {
-    let share = select(1.0, 0.5, LIGHTS_AT_INFINITY > 0u);
-    return (share * f32(slots) + f32(LIGHT_UNITS_BY_POWER) * by_power) * LIGHT_UNIT;
+    return (f32(slots) + f32(LIGHT_UNITS_BY_POWER) * by_power) * LIGHT_UNIT;
 }
 
-// The light that 32 random bits choose in a point's cell. Where there are lights at infinity as well, they make half of the choices.
+// The light that 32 random bits choose in a point's cell.
 fn choose_light_in(cell: u32, bits: u32) -> LightChoice {
-    var rest = bits;
-    if LIGHTS_AT_INFINITY > 0u {
-        rest = bits << 1u;
-        if (bits >> 31u) == 1u {
-            let light = choose_by_power(LOCAL_LIGHTS, LIGHTS_AT_INFINITY, rest);
-            return LightChoice(light, light_by_power(light).w);
-        }
-    }
     if cell == 0u {
-        let light = choose_by_power(0u, LOCAL_LIGHTS, rest);
+        let light = choose_by_power(bits);
         return LightChoice(light, light_by_power(light).w);
     }
-    let unit = rest >> (32u - LIGHT_UNIT_BITS);
+    let unit = bits >> (32u - LIGHT_UNIT_BITS);
     if unit >= LIGHT_UNITS_BY_POWER {
         let slot = light_cells[cell + unit - LIGHT_UNITS_BY_POWER];
         let light = slot & LIGHT_SLOT_MASK;
         return LightChoice(light, light_pmf_of_slots(slot >> LIGHT_SLOT_COUNT_SHIFT, light_by_power(light).w));
     }
-    let light = choose_by_power(0u, LOCAL_LIGHTS, rest << (LIGHT_UNIT_BITS - LIGHT_UNITS_BY_POWER_BITS));
+    let light = choose_by_power(bits << (LIGHT_UNIT_BITS - LIGHT_UNITS_BY_POWER_BITS));
     return LightChoice(light, light_pmf_of_slots(light_slots(cell, light), light_by_power(light).w));
 }
 
-// The probability with which that chooses a light inside the scene.
-fn local_light_pmf_in(cell: u32, light: u32) -> f32 {
+// The probability with which that chooses a light.
+fn light_pmf_in(cell: u32, light: u32) -> f32 {
     let by_power = light_by_power(light).w;
     if cell == 0u {
         return by_power;

@@ -6,6 +6,7 @@
 #import core/math.wgsl
 #import core/sampler.wgsl
 #import shading/bsdf.wgsl
+#import shading/distant_light.wgsl
 #import shading/layer.wgsl
 #import shading/light.wgsl
 #import shading/light_sample.wgsl
@@ -42,7 +43,9 @@ fn escaped_radiance(path: Path, depth: u32) -> vec3<f32> {
     var weight = 1.0;
     // After the camera or a delta lobe no light sample could have found it.
     if HAS_ENVIRONMENT_SAMPLED && path.pdf_solid_angle >= 0.0 {
-        let pdf_light = f32(light_samples_at(depth - 1u)) * environment_pdf_solid_angle(ray_from_lit_vertex(path));
+        let ray = ray_from_lit_vertex(path);
+        let of_one = environment_pdf_solid_angle(ray, cell_of_lights(ray.origin, facing_of_lit_vertex(path)));
+        let pdf_light = f32(light_samples_at(depth - 1u)) * of_one;
         weight = emission_weight(path.pdf_solid_angle, pdf_light);
         radiance *= weight;
     }

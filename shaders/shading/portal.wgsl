@@ -2,6 +2,7 @@
 #import core/layout.wgsl
 #import core/math.wgsl
 #import geometry/prepared_ray.wgsl
+#import shading/distant_light.wgsl
 #import shading/light_record.wgsl
 #import shading/shapes.wgsl
 #if SPHERE_LIGHTS
@@ -27,12 +28,12 @@ fn portal_pdf(light: u32, ray: PreparedRay) -> f32 {
     return shape_direction_pdf(kind, ray, light_word(light, 1u), light_word(light, 2u).xyz, light_word(light, 3u).xyz);
 }
 
-// All portals together, the choice of one included.
-fn portals_pdf(ray: Ray) -> f32 {
+// All portals together, the choice of one in a cell of lights included.
+fn portals_pdf(ray: Ray, cell: u32) -> f32 {
     let prepared = prepare_ray(ray);
     var sum = 0.0;
     for (var light = FIRST_PORTAL; light < FIRST_PORTAL + PORTAL_COUNT; light++) {
-        sum += light_word(light, 0u).w * portal_pdf(light, prepared);
+        sum += distant_light_pmf(light, cell) * portal_pdf(light, prepared);
     }
     return sum;
 }

@@ -28,6 +28,7 @@ use crate::renderer::sink::Sink;
 use crate::renderer::state::{BatchState, Tally};
 use crate::renderer::{Batch, Change, DeviceChoice, Ending, Observer, RenderError, RenderReport, Renderer, Stopping};
 use crate::sampling::Sampling;
+use crate::sampling::light_way::MANY_LIGHTS;
 use crate::scene::{LightChoice, MaterialId, RenderSettings, Scene};
 
 /// Packs a scene with all that the CPU finds out before the first sample: how lights are drawn from and where roulette begins, where the settings leave that open, and the guide,
@@ -112,11 +113,11 @@ impl GpuRenderer {
             Self::pipeline(device.clone(), &settled.scene, &packed, options, start),
             options.by_nodes_instead_of(traversal),
         ) {
-            // Cells of lights take a buffer more than a tree does, and nobody has asked for them.
+            // Cells of lights take a buffer more, and nobody has asked for them.
             (Err(RenderError::DoesNotFit(_)), _) if is_open => {
-                let render = RenderSettings { light_choice: LightChoice::Tree, ..scene.render.clone() };
-                let by_tree = Scene { render, ..scene.clone() };
-                return Self::with_trees(OpeningDevice::is_open(&device), &by_tree, options, trees);
+                let light_choice = if packed.local_lights < MANY_LIGHTS { LightChoice::Power } else { LightChoice::Tree };
+                let without = Scene { render: RenderSettings { light_choice, ..scene.render.clone() }, ..scene.clone() };
+                return Self::with_trees(OpeningDevice::is_open(&device), &without, options, trees);
             }
             (Err(RenderError::DoesNotFit(_)), Some(by_nodes)) => {
                 return Self::with_trees(OpeningDevice::is_open(&device), scene, &by_nodes, trees);

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::sampling::light_way::LightWay;
+
 /// One decision, in words.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Decision {
@@ -30,8 +32,12 @@ impl Decision {
     }
 
     /// How lights are chosen, where that was tried.
-    pub fn about_light_choice(by_cells: bool, because: &str) -> Self {
-        let choice = if by_cells { "by what reaches the place" } else { "by a tree" };
+    pub fn about_light_choice(way: LightWay, because: &str) -> Self {
+        let choice = match way {
+            LightWay::Power => "by power",
+            LightWay::Tree => "by a tree",
+            LightWay::Cells => "by what reaches the place",
+        };
         Self { about: "light choice", choice: choice.to_owned(), because: because.to_owned() }
     }
 

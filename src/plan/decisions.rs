@@ -12,7 +12,7 @@ use crate::packed::PackedScene;
 use crate::packed::hierarchy::Traversal;
 use crate::sampling::light_cells::table as light_cells;
 use crate::sampling::light_tree;
-use crate::sampling::light_way::FEWEST_LIGHTS;
+use crate::sampling::light_way::MANY_LIGHTS;
 use crate::scene::{LightChoice, RenderSettings, Scene};
 
 const ASKED_FOR: &str = "asked for";
@@ -174,7 +174,7 @@ pub(super) fn explain(
     }
     let entries: Vec<&str> = plan.pipeline().map(|stage| stage.entry).collect();
     add("stages", entries.join(", "), reasons.stages);
-    if plan.samples_lights() && packed.local_lights > 1 {
+    if plan.samples_lights() && (packed.local_lights > 1 || packed.light_choice.is_some()) {
         let (choice, because) = light_choice(scene.render.light_choice, packed);
         add("light choice", choice, packed.light_choice.clone().unwrap_or(because));
     }
@@ -220,15 +220,15 @@ fn light_choice(asked_for: LightChoice, packed: &PackedScene) -> (String, String
         [true, _] => format!("by a tree over {count} lights"),
         [_, true] => {
             let cells = light_cells::count(&packed.light_cells);
-            format!("by what reaches the place, {cells} cells over {count} lights")
+            format!("by what reaches the place, {cells} cells over {} lights", packed.lights.len())
         }
         _ => "by power, in constant time".to_owned(),
     };
     let because = match asked_for {
         LightChoice::Power => ASKED_FOR.to_owned(),
         LightChoice::Tree | LightChoice::Cells if by_tree || by_cells => ASKED_FOR.to_owned(),
-        LightChoice::Auto if by_tree => format!("{count} lights inside the scene, at least {FEWEST_LIGHTS}"),
-        LightChoice::Auto if count < FEWEST_LIGHTS => format!("{count} lights inside the scene, fewer than {FEWEST_LIGHTS}"),
+        LightChoice::Auto if by_tree => format!("{count} lights inside the scene, at least {MANY_LIGHTS}"),
+        LightChoice::Auto if count < MANY_LIGHTS => format!("{count} lights inside the scene, fewer than {MANY_LIGHTS}"),
         LightChoice::Auto | LightChoice::Tree | LightChoice::Cells => {
             format!("{count} lights are too many for a tree, which takes {}", light_tree::MOST_LIGHTS)
         }

@@ -22,6 +22,7 @@ use super::trace::{LightConnection, PathVisitor};
 use super::volume::{Volumes, transmittance};
 use crate::math::luminance;
 use crate::renderer::RenderError;
+use crate::sampling::light_way::LightWay;
 use crate::sampling::{CameraDimension, Dimension, Guide, LightCells, LitPoint, PathSampler, VertexDimension};
 use crate::scene::{Estimator, LightChoice, MaterialId, MaterialKind, NumberOrAuto, RenderSettings, Scene};
 
@@ -131,6 +132,19 @@ impl Integrator {
         self.lights.set_sampling(settings.light_sampling);
     }
 
+    /// Chooses lights in another one of the ways that were made ready; `auto` is power.
+    pub(super) fn set_light_choice(&mut self, choice: LightChoice) {
+        if choice == self.scene.render.light_choice {
+            return;
+        }
+        self.scene.render.light_choice = choice;
+        self.lights.set_way(match choice {
+            LightChoice::Auto | LightChoice::Power => LightWay::Power,
+            LightChoice::Tree => LightWay::Tree,
+            LightChoice::Cells => LightWay::Cells,
+        });
+    }
+
     /// What lights are chosen from.
     pub(super) fn lights(&self) -> &Lights {
         &self.lights
@@ -138,25 +152,19 @@ impl Integrator {
 
     /// What was learned of lights that are chosen by cells; None where they are chosen otherwise.
     pub fn light_cells(&self) -> Option<&Arc<LightCells>> {
-        self.lights.in_cells().map(|(choice, _)| &choice.cells)
+        self.lights.in_cells().filter(|_| self.lights.way() == LightWay::Cells).map(|(choice, _)| &choice.cells)
     }
 
-    /// Chooses lights no longer by cells but by the tree.
-    pub(super) fn choose_lights_by_tree(&mut self) {
-        self.scene.render.light_choice = LightChoice::Tree;
-        self.lights.leave_cells();
-    }
-
-    /// Chooses lights by what was learned, where they are chosen by cells.
+    /// Keeps what was learned, where lights may be chosen by cells.
     pub fn set_light_cells(&mut self, learned: Arc<LightCells>) {
         self.lights.set_cells(learned);
     }
 
     /// What a light brings to a point of a surface when the shutter opens: an estimate by two random numbers of the integral of luminance and cosine, without
     /// what stands in between and with it. No normal: whatever the cosine.
-    pub(super) fn light_reaching(&self, (point, normal): (DVec3, DVec3), light: usize, numbers: [u32; 2]) -> [f64; 2] {
+    pub(super) fn light_reaching(&self, (from, normal): (LitPoint, DVec3), chosen: (usize, f64), numbers: [u32; 2]) -> [f64; 2] {
         let time = if self.moves { PathTime::new(&self.scene, self.scene.camera.shutter[0]) } else { PathTime::default() };
-        let Some(sample) = self.lights.sample_light(&self.scene, (&self.world, &time), point, (light, 1.0), numbers) else {
+        let Some(sample) = self.lights.sample_light(&self.scene, (&self.world, &time), from, chosen, numbers) else {
             return [0.0; 2];
         };
         let cosine = if normal == DVec3::ZERO { 1.0 } else { sample.wi.dot(normal) };
@@ -165,15 +173,15 @@ impl Integrator {
         }
         let share = |surface: &Surface| null_weight(&self.scene, surface, -sample.wi);
         let lets_through = |material: MaterialId| self.lets_through[material];
-        let ray = Ray { origin: point, direction: sample.wi };
+        let ray = Ray { origin: from.point, direction: sample.wi };
         let unstopped = self.world.transmittance(ray, sample.distance, sample.target, &time, lets_through, share);
         let free = luminance(sample.radiance) * cosine / sample.pdf;
         [free, free * unstopped]
     }
 
-    /// Whether lights are chosen by a tree of them.
-    pub fn chooses_lights_by_tree(&self) -> bool {
-        self.lights.are_in_tree()
+    /// How lights are chosen.
+    pub fn light_way(&self) -> LightWay {
+        self.lights.way()
     }
 
     /// Lets roulette end paths from this depth on.
@@ -327,7 +335,7 @@ impl Integrator {
     /// A ray that left the scene finds the environment, shared with the light sample of the surface before.
     fn add_environment<V: PathVisitor>(&self, path: &mut Path, visitor: &mut V) {
         let radiance = self.lights.outside().radiance(path.ray.direction);
-        let light_pdf = || self.lights.environment_pdf(&self.world, path.lit_from.point, path.ray.direction);
+        let light_pdf = || self.lights.environment_pdf(&self.world, path.lit_from, path.ray.direction);
         let weight = self.weight_of_found(path, light_pdf);
         let contribution = path.throughput * radiance * weight;
         path.radiance += contribution;

@@ -21,8 +21,8 @@ use super::trace::PathVisitor;
 use crate::renderer::RenderError;
 use crate::sampling::hash::{dimension_bits, mix};
 use crate::sampling::light_cells::{Division, LightCells, Reaching};
-use crate::sampling::light_way::{FEWEST_LIGHTS, LightWay};
-use crate::sampling::{LitPoint, Sampling};
+use crate::sampling::light_way::{LightWay, MANY_LIGHTS};
+use crate::sampling::{LightTree, LitPoint, Sampling};
 use crate::scene::{Estimator, Geometry, LightChoice, PixelSampler, RenderSettings, SamplerKind, Scene, SceneSummary, Shape};
 
 /// Pixels of a film below which learning would take longer than it saves, as a pilot would.
@@ -42,10 +42,14 @@ const MOST_VERTICES: u32 = 16;
 const TRIED_LIGHTS: usize = 96;
 /// Points of a cell from which lights are tried.
 const TRIED_POINTS: usize = 16;
+/// Groups of lights at infinity that are tried in each cell.
+const TRIED_GROUPS: usize = 16;
 /// Shadow rays to each light; to each of those from which something arrived by these; and to others.
 const FIRST_RAYS: u32 = 8;
 const FURTHER_RAYS: u32 = 8;
 const OTHER_RAYS: u32 = 16;
+/// Where few lights are tried, so many times as many.
+const MOST_ROUNDS: usize = 4;
 /// What a light is taken to send at the mean of squares where it seems to be hidden, as a share of what it would send if nothing were in between.
 const DOUBT: f64 = 0.01;
 /// Primitives of a box.
@@ -58,45 +62,55 @@ pub struct LightsSettled<'a> {
     pub integrator: Option<Integrator>,
     /// What was found, where lights were tried.
     pub because: Option<String>,
+    /// Cells of lights were learned, and whether they are better than a choice by power is to be found out.
+    pub is_undecided: bool,
 }
 
-/// Chooses how lights are chosen, where the scene's settings leave that open and its lights are many, and learns what that needs.
+/// Chooses how lights are chosen, where the scene's settings leave that open and its lights are many, and learns what that needs. Of few lights it learns what
+/// a pilot compares with a choice by power.
 ///
 /// # Errors
 /// What the reference cannot render.
 pub fn settle(scene: &Scene) -> Result<LightsSettled<'_>, RenderError> {
     let is_open = scene.render.light_choice == LightChoice::Auto;
     let with = |light_choice| Scene { render: RenderSettings { light_choice, ..scene.render.clone() }, ..scene.clone() };
-    let as_it_is = LightsSettled { scene: Cow::Borrowed(scene), integrator: None, because: None };
-    let (choice, fewest) = if is_open { (LightChoice::Cells, FEWEST_LIGHTS) } else { (scene.render.light_choice, 0) };
-    let is_by_cells = |lights: usize| lights >= fewest && LightWay::of(choice, lights) == LightWay::Cells;
-    if !is_sampled(scene) || !is_by_cells(most_local_lights(scene)) || (is_open && !is_worth_learning(scene)) {
+    let as_it_is = LightsSettled { scene: Cow::Borrowed(scene), integrator: None, because: None, is_undecided: false };
+    let wanted = is_open || scene.render.light_choice == LightChoice::Cells;
+    if !wanted || !is_sampled(scene) || most_lights(scene) < 2 || (is_open && !is_worth_learning(scene)) {
         return Ok(as_it_is);
     }
-    let by_cells = if is_open { Cow::Owned(with(choice)) } else { Cow::Borrowed(scene) };
+    let by_cells = if is_open { Cow::Owned(with(LightChoice::Cells)) } else { Cow::Borrowed(scene) };
     let mut integrator = Integrator::new(&by_cells)?;
-    if !is_by_cells(integrator.lights().local_count()) {
-        return Ok(as_it_is);
+    let (count, groups) = (integrator.lights().local_count(), integrator.lights().group_count());
+    let has_few = count < MANY_LIGHTS;
+    if integrator.light_way() != LightWay::Cells || (is_open && has_few && groups < 2) {
+        integrator.set_light_choice(scene.render.light_choice);
+        return Ok(LightsSettled { integrator: Some(integrator), ..as_it_is });
     }
     let Learned { table, unlisted } = learned(&integrator);
+    integrator.set_light_cells(Arc::new(table));
+    if is_open && has_few {
+        integrator.set_light_choice(LightChoice::Auto);
+        return Ok(LightsSettled { integrator: Some(integrator), is_undecided: true, ..as_it_is });
+    }
     let percent = 100.0 * unlisted;
     if is_open && unlisted > MOST_UNLISTED {
-        integrator.choose_lights_by_tree();
+        integrator.set_light_choice(LightChoice::Tree);
         let because = format!("{percent:.0} % of the light comes from more lights than a place can name");
         return Ok(LightsSettled {
             scene: Cow::Owned(with(LightChoice::Tree)),
             integrator: Some(integrator),
             because: Some(because),
+            is_undecided: false,
         });
     }
     let asked_for = if is_open { "" } else { "asked for; " };
     let because = format!("{asked_for}cells name the lights that {:.1} % of the light comes from", 100.0 - percent);
-    integrator.set_light_cells(Arc::new(table));
-    Ok(LightsSettled { scene: by_cells, integrator: Some(integrator), because: Some(because) })
+    Ok(LightsSettled { scene: by_cells, integrator: Some(integrator), because: Some(because), is_undecided: false })
 }
 
-/// As many lights as may stand inside a scene.
-fn most_local_lights(scene: &Scene) -> usize {
+/// As many lights as there may be.
+fn most_lights(scene: &Scene) -> usize {
     let emits = scene.materials_that(|material| material.emission.is_some());
     let of_shape = |shape: &Shape| match &shape.geometry {
         _ if !shape.materials().any(|id| emits.get(id) == Some(&true)) => 0,
@@ -132,7 +146,7 @@ struct Shaded {
 /// What came of learning.
 struct Learned {
     table: LightCells,
-    /// The share of the light that comes from lights in no list, as a mean over cells.
+    /// The share of the light from inside the scene that comes from lights in no list, as a mean over cells.
     unlisted: f64,
 }
 
@@ -182,43 +196,78 @@ struct Trial<'a> {
     key: u32,
 }
 
+/// What is tried on its own.
+enum Source {
+    /// A light inside the scene.
+    Inside(usize),
+    /// Lights at infinity of which any may draw a direction that others could draw as well.
+    Outside(Range<usize>),
+}
+
 impl Trial<'_> {
-    /// What lights send to the points, and the share of the light that comes from all others.
+    /// What lights send to the points, and of that from inside the scene the share that comes from lights which were not tried.
     fn reaching(&self) -> (Vec<Reaching>, f64) {
-        let Some((choice, tree)) = self.integrator.lights().in_cells() else { return Default::default() };
-        let places = self.points.iter().map(|shaded| shaded.at.point);
-        let [low, high] = places.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], p| [low.min(p), high.max(p)]);
-        let faces = |light: u32| self.points.iter().any(|shaded| shaded.may_see(tree.sphere(light)));
-        let tried = tree.strongest((0.5 * (low + high), 0.5 * low.distance(high)), TRIED_LIGHTS, faces);
-        let mut listed = 0.0;
-        let of_light = |&light: &u32| {
-            let mut sent = self.sent(light, 0..FIRST_RAYS);
-            if sent.arrived > 0.0 {
-                sent = sent + self.sent(light, FIRST_RAYS..FIRST_RAYS + FURTHER_RAYS);
-            }
-            listed += sent.arrived / sent.rays;
-            let square = if sent.arrived > 0.0 { sent.square } else { DOUBT * sent.free_square };
-            let worth = (square / sent.rays).sqrt();
-            (worth > 0.0).then(|| Reaching { light, worth, by_power: choice.by_power()[light as usize] })
+        let lights = self.integrator.lights();
+        let Some((choice, tree)) = lights.in_cells() else { return Default::default() };
+        let inside = tree.map_or_else(|| (0..lights.local_count() as u32).collect(), |tree| self.strongest(tree));
+        let outside: Vec<Range<usize>> = lights.groups_at_infinity().take(TRIED_GROUPS).collect();
+        let rounds = (TRIED_LIGHTS / (inside.len() + outside.len()).max(1)).clamp(1, MOST_ROUNDS) as u32;
+        let sent = |source: &Source| {
+            let first = FIRST_RAYS * rounds;
+            let sent = self.sent(source, 0..first);
+            if sent.arrived > 0.0 { sent + self.sent(source, first..first + FURTHER_RAYS * rounds) } else { sent }
         };
-        let reaching = tried.iter().filter_map(of_light).collect();
+        let mut reaching = Vec::new();
+        let mut add = |light: usize, worth: f64| {
+            reaching.extend((worth > 0.0).then(|| Reaching { light: light as u32, worth, by_power: choice.by_power()[light] }));
+        };
+        let mut listed = 0.0;
+        for &light in &inside {
+            let sent = sent(&Source::Inside(light as usize));
+            listed += sent.arrived / sent.rays;
+            add(light as usize, sent.worth());
+        }
+        for group in outside {
+            let worth = sent(&Source::Outside(group.clone())).worth();
+            let whole: f64 = choice.by_power()[group.clone()].iter().sum();
+            group.for_each(|light| add(light, worth * choice.by_power()[light] / whole));
+        }
         // Lights chosen by power say what those send that were not tried.
         let others = (0..OTHER_RAYS).map(|ray| {
             let light = choice.choose_by_power(dimension_bits(mix(!self.key), ray));
-            let sent = self.sent(light as u32, ray..ray + 1).arrived / choice.by_power()[light];
-            if tried.contains(&(light as u32)) { 0.0 } else { sent }
+            if light >= lights.local_count() || inside.contains(&(light as u32)) {
+                return 0.0;
+            }
+            self.sent(&Source::Inside(light), ray..ray + 1).arrived / choice.by_power()[light]
         });
         let unlisted = others.sum::<f64>() / f64::from(OTHER_RAYS);
         (reaching, if unlisted > 0.0 { unlisted / (unlisted + listed) } else { 0.0 })
     }
 
-    /// What a light sends to the points along some rays.
-    fn sent(&self, light: u32, rays: Range<u32>) -> Sent {
-        let key = mix(self.key ^ light.wrapping_mul(0x9e37_79b9));
+    /// The lights that could send most to the points if nothing were in between.
+    fn strongest(&self, tree: &LightTree) -> Vec<u32> {
+        let places = self.points.iter().map(|shaded| shaded.at.point);
+        let [low, high] = places.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], p| [low.min(p), high.max(p)]);
+        let faces = |light: u32| self.points.iter().any(|shaded| shaded.may_see(tree.sphere(light)));
+        tree.strongest((0.5 * (low + high), 0.5 * low.distance(high)), TRIED_LIGHTS, faces)
+    }
+
+    /// What a source sends to the points along some rays.
+    fn sent(&self, source: &Source, rays: Range<u32>) -> Sent {
+        let first = match source {
+            Source::Inside(light) => *light,
+            Source::Outside(group) => group.start,
+        };
+        let key = mix(self.key ^ (first as u32).wrapping_mul(0x9e37_79b9));
         let along = |ray: u32| {
             let from = &self.points[ray as usize % self.points.len()];
             let numbers = [0, 1].map(|number| dimension_bits(key, 2 * ray + number));
-            let [free, arrived] = self.integrator.light_reaching((from.at.point, from.normal), light as usize, numbers);
+            let (chosen, whole) = match source {
+                Source::Inside(light) => ((*light, 1.0), 1.0),
+                Source::Outside(group) => self.out_of(group.clone(), dimension_bits(mix(key), ray)),
+            };
+            let [free, arrived] =
+                self.integrator.light_reaching((from.at, from.normal), chosen, numbers).map(|sent| sent * whole);
             // The square counts.
             if (free * free).is_finite() {
                 Sent { arrived, square: arrived * arrived, free_square: free * free, rays: 1.0 }
@@ -227,6 +276,20 @@ impl Trial<'_> {
             }
         };
         rays.map(along).fold(Sent::default(), |sum, sent| sum + sent)
+    }
+
+    /// The light of a group that random bits choose by power, with its probability among all lights, and that of the group. While nothing is learned, lights that
+    /// draw the same directions have these probabilities as well.
+    fn out_of(&self, group: Range<usize>, bits: u32) -> ((usize, f64), f64) {
+        let by_power = self.integrator.lights().in_cells().map_or(&[][..], |(choice, _)| choice.by_power());
+        let whole: f64 = group.clone().map(|light| by_power[light]).sum();
+        let mut left = whole * f64::from(bits) / 4_294_967_296.0;
+        let is_it = |&light: &usize| {
+            left -= by_power[light];
+            left < 0.0
+        };
+        let light = group.clone().find(is_it).unwrap_or(group.end - 1);
+        ((light, by_power[light]), whole)
     }
 }
 
@@ -249,6 +312,14 @@ impl std::ops::Add for Sent {
             free_square: self.free_square + other.free_square,
             rays: self.rays + other.rays,
         }
+    }
+}
+
+impl Sent {
+    /// What the light is worth choosing for: the root of the mean square, with some doubt where nothing arrived.
+    fn worth(self) -> f64 {
+        let square = if self.arrived > 0.0 { self.square } else { DOUBT * self.free_square };
+        (square / self.rays).sqrt()
     }
 }
 

@@ -45,14 +45,19 @@ impl LightSampler {
         self.local.lights.len()
     }
 
+    /// How many lights there are.
+    pub fn count(&self) -> usize {
+        self.local.lights.len() + self.at_infinity.lights.len()
+    }
+
+    /// How many groups they make.
+    pub fn group_count(&self) -> usize {
+        self.local.groups.len() + self.at_infinity.groups.len()
+    }
+
     /// The probabilities of the lights at infinity alone; none where there are none.
     pub fn table_at_infinity(&self) -> AliasTable {
         AliasTable::new(&self.at_infinity.probabilities().collect::<Vec<f64>>())
-    }
-
-    /// The probabilities of the lights inside the scene alone; none where there are none.
-    pub fn local_table(&self) -> AliasTable {
-        AliasTable::new(&self.local.probabilities().collect::<Vec<f64>>())
     }
 
     /// The probabilities of all lights. What lights at infinity send depends on how large the scene is taken to be: together they are as

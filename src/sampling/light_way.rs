@@ -1,33 +1,35 @@
-//! Which way lights inside a scene are chosen.
+//! Which way lights are chosen.
 
+use super::light_sampler::LightSampler;
 use super::light_tree::MOST_LIGHTS;
 use crate::scene::LightChoice;
 
-/// Fewest lights inside a scene that are chosen otherwise than by power unless that is asked for: a guess, not a measurement.
-pub const FEWEST_LIGHTS: usize = 24;
+/// Lights inside a scene from which on there are many: `auto` tries cells of lights, and takes a tree where these hold too little. Of fewer, a pilot compares
+/// cells with a choice by power. A guess, not a measurement.
+pub const MANY_LIGHTS: usize = 24;
 
-/// How lights inside a scene are chosen.
+/// How lights are chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LightWay {
     /// By [`super::light_sampler`].
     Power,
-    /// By [`super::light_tree`].
+    /// Those inside the scene by [`super::light_tree`].
     Tree,
     /// By [`super::light_cells`].
     Cells,
 }
 
 impl LightWay {
-    /// Of so many lights inside the scene. `auto` is the tree where nothing was [tried](crate::reference::light_cells::settle).
-    pub fn of(choice: LightChoice, local_lights: usize) -> Self {
-        let fewest = if choice == LightChoice::Auto { FEWEST_LIGHTS } else { 2 };
-        if !(fewest..=MOST_LIGHTS).contains(&local_lights) {
-            return Self::Power;
-        }
+    /// Of these lights. `auto` is the tree of many lights and power of few where nothing was [tried](crate::reference::light_cells::settle).
+    pub fn of(choice: LightChoice, lights: &LightSampler) -> Self {
+        let local = lights.local_count();
+        let can_be = |fewest: usize, way| if (fewest..=MOST_LIGHTS).contains(&local) { way } else { Self::Power };
         match choice {
             LightChoice::Power => Self::Power,
-            LightChoice::Auto | LightChoice::Tree => Self::Tree,
-            LightChoice::Cells => Self::Cells,
+            LightChoice::Auto => can_be(MANY_LIGHTS, Self::Tree),
+            LightChoice::Tree => can_be(2, Self::Tree),
+            LightChoice::Cells if lights.count() > 1 => can_be(1, Self::Cells),
+            LightChoice::Cells => Self::Power,
         }
     }
 }

@@ -41,6 +41,7 @@ shader_files![
     "shading/blend_weight.wgsl",
     "shading/bsdf.wgsl",
     "shading/dielectric.wgsl",
+    "shading/distant_light.wgsl",
     "shading/cell_grid.wgsl",
     "shading/coat.wgsl",
     "shading/constant_environment.wgsl",

@@ -364,9 +364,10 @@ fn check_says_what_is_in_the_scene() {
     // What kernels are made of is for those who ask.
     assert!(report.starts_with("valid\n") && !report.contains("compiled in") && summary["plan"].is_null(), "{report}");
     assert!(text(&place.run("check scene.toml --plan").stdout).contains("compiled in"));
-    // So many light samples as a pilot finds best, of pictures that are worth one.
+    // Lights chosen as a pilot finds best, and so many light samples, of pictures that are worth one.
     for (scene, because) in [
-        ("veach-mis", "light samples  2 at each of the first 2 surfaces (a pilot found"),
+        ("veach-mis", "cells over 5 lights (a pilot found"),
+        ("workshop", "light samples  2 at each of the first 2 surfaces (a pilot found"),
         ("scene.toml", "light samples  1 (a pilot takes too long"),
     ] {
         let report = text(&place.run(&format!("check {scene} --plan")).stdout);

@@ -156,6 +156,24 @@ fn a_tree_of_lights_changes_no_picture() {
     ]);
 }
 
+/// Cells choose the environment and its portals as well as lamps and the sun.
+#[test]
+fn cells_of_lights_at_infinity_change_no_picture() {
+    let sun = "[[light]]\ntype = \"directional\"\ndirection = [-0.4, -1, -0.3]\nirradiance = 0.5\n";
+    let lit = |light_choice, estimator| {
+        let mut scene = load(&[LAMP, SKY, PORTAL, sun]);
+        (scene.render.light_choice, scene.render.estimator) = (light_choice, estimator);
+        scene.render.spp *= if estimator == Estimator::Nee { 2 } else { 1 };
+        scene
+    };
+    let named = |name: &str, scene| (name.to_owned(), scene);
+    assert_all_agree(vec![
+        named("power", lit(LightChoice::Power, Estimator::Mis)),
+        named("cells", lit(LightChoice::Cells, Estimator::Mis)),
+        named("cells, nee", lit(LightChoice::Cells, Estimator::Nee)),
+    ]);
+}
+
 /// The words by which lights are chosen in cells, if they are.
 fn learned(scene: &Scene) -> Option<Vec<u32>> {
     let settled = settle(scene).expect("the reference can render the scene");
@@ -208,14 +226,14 @@ fn cells_of_lights_are_taken_where_lists_hold_the_light() {
     let choice = |scene: &Scene| settle(scene).expect("the reference can render the scene").scene.render.light_choice;
     assert_eq!(choice(&hall(0)), LightChoice::Cells);
     assert_eq!(choice(&hall(3000)), LightChoice::Tree);
-    // Too few pixels, few lights, nothing sampled.
+    // Too few pixels, one light, nothing sampled.
     let mut small = hall(0);
     small.film.size = [255, 256];
     let mut by_bsdf = hall(0);
     by_bsdf.render.estimator = Estimator::Bsdf;
-    let mut few = load(&[LAMPS]);
-    few.film.size = [256, 256];
-    for scene in [&small, &by_bsdf, &few] {
+    let mut one = load(&[LAMP]);
+    one.film.size = [256, 256];
+    for scene in [&small, &by_bsdf, &one] {
         assert_eq!(choice(scene), LightChoice::Auto);
         assert_eq!(learned(scene), None);
     }
@@ -224,6 +242,32 @@ fn cells_of_lights_are_taken_where_lists_hold_the_light() {
         scene.render.light_choice = asked_for;
         assert_eq!((choice(&scene), learned(&scene)), (asked_for, None));
     }
+}
+
+/// Of few lights, where what power prefers does not reach what is lit by the others: a lamp in a box that is open to one side, beside a strong one behind a wall. Not
+/// where all of them light what is seen, nor where there are several triangles of one lamp.
+#[test]
+fn cells_of_few_lights_are_taken_where_a_pilot_finds_them_better() {
+    let settled = |parts: &[&str]| {
+        let mut scene = load(parts);
+        scene.film.size = [256, 256];
+        let settled = settle(&scene).expect("the reference can render the scene");
+        let has_cells = settled.integrator.is_some_and(|integrator| integrator.light_cells().is_some());
+        assert_eq!(has_cells, settled.scene.render.light_choice == LightChoice::Cells);
+        (settled.scene.render.light_choice, settled.because.light_choice)
+    };
+    let strong = "[[shape]]\ntype = \"rectangle\"\ncorner = [-4, 0.1, -4.5]\nedge_u = [8, 0, 0]\nedge_v = [0, 3, 0]\nmaterial = \"lamp\"\n\
+                  [[shape]]\ntype = \"rectangle\"\ncorner = [-6, 0, -4]\nedge_u = [12, 0, 0]\nedge_v = [0, 5, 0]\nmaterial = \"white\"\n";
+    let weak = "[[shape]]\ntype = \"sphere\"\ncenter = [0.9, 0.5, 0.7]\nradius = 0.1\nmaterial = \"lamp\"\n";
+    let (choice, because) = settled(&[strong, weak]);
+    assert_eq!(choice, LightChoice::Cells, "{because:?}");
+    let above = |x: &str| LAMP.replace("[0.8, 1.8, 0.7]\nradius = 0.5", &format!("[{x}, 40, 0.7]\nradius = 3"));
+    let (choice, because) = settled(&[&above("4"), &above("-4")]);
+    assert_eq!(choice, LightChoice::Power, "{because:?}");
+    assert!(because.is_some_and(|because| because.contains("error × cost of power")));
+    let panel = "[[shape]]\ntype = \"mesh\"\npositions = [[-1, 2, -1], [1, 2, -1], [1, 2, 1], [-1, 2, 1]]\nfaces = [[0, 1, 2], [0, 2, 3]]\n\
+                 material = \"lamp\"\n";
+    assert_eq!(settled(&[panel]), (LightChoice::Auto, None));
 }
 
 /// A rectangle, and triangles that are level, aslant and upright.

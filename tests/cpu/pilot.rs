@@ -7,7 +7,7 @@ use gpt::load;
 use gpt::reference::ReferenceRenderer;
 use gpt::reference::pilot::settle;
 use gpt::reference::training::learn_for_device;
-use gpt::scene::{Estimator, Guiding, LightSampling, NumberOrAuto, RenderSettings, Scene};
+use gpt::scene::{Estimator, Guiding, LightChoice, LightSampling, NumberOrAuto, RenderSettings, Scene};
 
 const SIZE: [u32; 2] = [256, 256];
 
@@ -64,7 +64,9 @@ fn floor_under_a_lamp(lamp: Lamp, half_width: f64, height: f64) -> Scene {
 #[test]
 fn several_light_samples_are_taken_where_they_pay() {
     assert_eq!(light_samples(&built_in("cornell")), [1, 1]);
-    let [count, _] = light_samples(&built_in("veach-mis"));
+    let mut by_power = built_in("veach-mis");
+    by_power.render.light_choice = LightChoice::Power;
+    let [count, _] = light_samples(&by_power);
     assert!(count > 1, "{count}");
 }
 
@@ -166,12 +168,12 @@ fn a_guide_that_pays_late_is_kept() {
     assert!(learned.guide.is_some() && because.starts_with("a pilot found 0."), "{because}");
 }
 
-/// A render whose settings leave it open is, sample by sample, the one whose settings say what the pilot chose, and not that of one light sample.
+/// A render whose settings leave it open is, sample by sample, the one whose settings say what the pilot chose, and not that of one light sample by power.
 #[test]
 fn what_is_chosen_is_what_is_rendered() {
     let open = built_in("veach-mis");
     let with = |settings: RenderSettings| Scene { render: settings, ..open.clone() };
-    let one = with(RenderSettings { light_samples: 1.into(), ..open.render.clone() });
+    let one = with(RenderSettings { light_choice: LightChoice::Power, light_samples: 1.into(), ..open.render.clone() });
     let radiance = |scene: &Scene| -> Vec<[f64; 3]> {
         let renderer = ReferenceRenderer::new(scene).expect("the reference can render the scene");
         (0..64).map(|number| renderer.radiance_of_sample(4 * number, 200, number)).collect()

@@ -137,22 +137,13 @@ pub fn collect(
         light.pmf = table.pmf[index] as f32;
     }
     let local_count = sampler.local_count();
-    let way = LightWay::of(scene.render.light_choice, local_count);
-    if way != LightWay::Power {
-        choose_at_infinity_apart(&mut lights[local_count..], local_count, &sampler.table_at_infinity());
-    }
-    match way {
+    match LightWay::of(scene.render.light_choice, &sampler) {
         LightWay::Power => return Ok(SampledLights { lights, local_count, ..SampledLights::default() }),
         LightWay::Cells => {
-            // By power, those inside the scene are then chosen among themselves as well.
-            let table = sampler.local_table();
-            for (index, light) in lights[..local_count].iter_mut().enumerate() {
-                (light.alias, light.alias_threshold) = (table.alias[index], table.threshold[index]);
-            }
             let cells = LightCells::default().words().to_vec();
             return Ok(SampledLights { lights, local_count, cells, ..SampledLights::default() });
         }
-        LightWay::Tree => {}
+        LightWay::Tree => choose_at_infinity_apart(&mut lights[local_count..], local_count, &sampler.table_at_infinity()),
     }
     let of_surface = |(primitive, power): (&WorldPrimitive, f64)| {
         Some(emitter(scene, primitive, emissions[primitive.material].as_ref()?, power))

@@ -163,7 +163,7 @@ impl PackedScene {
         self.check_light_cells()
     }
 
-    /// Every box names a cell or none, and every slot of a cell a light inside the scene. By power, these are chosen among themselves.
+    /// Every box names a cell or none, and every slot of a cell a light.
     pub(in crate::packed) fn check_light_cells(&self) -> Check {
         let Some((header, rest)) = self.light_cells.split_at_checked(light_cells::HEADER) else {
             return if self.light_cells.is_empty() { Ok(()) } else { Err("the cells of lights have no header".to_owned()) };
@@ -182,15 +182,11 @@ impl PackedScene {
         if let Some(number) = index.iter().find(|number| **number as usize > cells) {
             return Err(format!("a box names cell {number} of {cells}"));
         }
-        if let Some(slot) = slots.iter().find(|slot| (**slot & light_cells::LIGHT_SLOT_MASK) as usize >= self.local_lights) {
-            return Err(format!("a cell names {slot:#x} of {} lights inside the scene", self.local_lights));
+        match slots.iter().find(|slot| (**slot & light_cells::LIGHT_SLOT_MASK) as usize >= self.lights.len()) {
+            Some(slot) => Err(format!("a cell names {slot:#x} of {} lights", self.lights.len())),
+            None if self.lights.is_empty() => Err("there are cells and no lights".to_owned()),
+            None => Ok(()),
         }
-        let (local, at_infinity) = self.lights.split_at_checked(self.local_lights).unwrap_or_default();
-        let leaves = |light: &PackedLight| light.alias as usize >= self.local_lights;
-        if local.is_empty() || local.iter().any(leaves) || !at_infinity.iter().all(leaves) {
-            return Err("a light stands for one that is chosen otherwise".to_owned());
-        }
-        Ok(())
     }
 
     /// Below each node stand nodes behind it alone, so every way down ends; it ends at a light inside the scene.

@@ -9,6 +9,7 @@ mod thrown_picture;
 
 use std::collections::HashMap;
 use std::f64::consts::PI;
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
@@ -68,10 +69,16 @@ enum SampledLight {
 #[derive(Debug, Clone)]
 pub struct Lights {
     lights: Vec<SampledLight>,
+    /// How many of them stand inside the scene; those at infinity are numbered behind.
+    local_count: usize,
+    /// How many groups they make.
+    group_count: usize,
+    way: LightWay,
     table: AliasTable,
-    /// Where it is made, lights are chosen by it. Those at infinity have the probabilities of the table all the same.
+    /// Of several lights inside the scene, where they may be chosen by it or by cells, which are learned by its help. Those at infinity have the
+    /// probabilities of the table all the same.
     tree: Option<LightTree>,
-    /// Where it is made, lights are chosen by it, and the tree is for learning.
+    /// Where lights may be chosen by them.
     cells: Option<LightCellChoice>,
     /// Index into `lights` by leaf-order index of the primitive.
     of_primitive: Vec<Option<u32>>,
@@ -138,9 +145,7 @@ impl Lights {
             sampler.add(LightGroup::Alone, strength);
             lights.push(SampledLight::Delta(light));
         }
-        let way = LightWay::of(scene.render.light_choice, sampler.local_count());
-        let has_tree = way != LightWay::Power;
-        let emitters = if has_tree { emitters(scene, world, &lights, &powers) } else { Vec::new() };
+        let local_count = sampler.local_count();
         let outside = Outside::of(scene.lights.iter().filter_map(outside_light));
         let irradiance = PI * outside.mean_luminance();
         let mut environment_light = None;
@@ -161,11 +166,26 @@ impl Lights {
             }
         }
         let sampling = scene.render.light_sampling;
-        let tree = has_tree.then(|| LightTree::new(&emitters, sampler.table_at_infinity()));
-        let by_cells = || LightCellChoice::new(sampler.local_table(), sampler.table_at_infinity());
-        let cells = (way == LightWay::Cells).then(by_cells);
+        let (way, group_count) = (LightWay::of(scene.render.light_choice, &sampler), sampler.group_count());
+        let has_tree = way != LightWay::Power && local_count > 1;
+        let tree = has_tree.then(|| LightTree::new(&emitters(scene, world, &lights, &powers), sampler.table_at_infinity()));
         let table = sampler.table();
-        Self { lights, table, tree, cells, of_primitive, outside, environment_light, first_portal, sampling, warps }
+        let cells = (way == LightWay::Cells).then(|| LightCellChoice::new(table.clone()));
+        Self {
+            lights,
+            local_count,
+            group_count,
+            way,
+            table,
+            tree,
+            cells,
+            of_primitive,
+            outside,
+            environment_light,
+            first_portal,
+            sampling,
+            warps,
+        }
     }
 
     /// What points of a primitive are drawn by, where that is not evenly.
@@ -180,10 +200,10 @@ impl Lights {
 
     /// The light that 32 random bits choose at a point, and the probability of that.
     fn choose(&self, from: LitPoint, bits: u32) -> (usize, f64) {
-        match (&self.cells, &self.tree) {
-            (Some(cells), _) => cells.choose(from, bits),
-            (None, Some(tree)) => tree.choose(from.point, bits),
-            (None, None) => {
+        match (self.way, &self.cells, &self.tree) {
+            (LightWay::Cells, Some(cells), _) => cells.choose(from, bits),
+            (LightWay::Tree, _, Some(tree)) => tree.choose(from.point, bits),
+            _ => {
                 let light = self.table.choose(bits);
                 (light, self.table.pmf[light])
             }
@@ -201,35 +221,52 @@ impl Lights {
         }
     }
 
-    /// The probability with which a light inside the scene is chosen at a point.
+    /// The probability with which a light is chosen at a point.
     fn probability(&self, from: LitPoint, light: usize) -> f64 {
-        match (&self.cells, &self.tree) {
-            (Some(cells), _) => cells.probability(from, light),
-            (None, Some(tree)) => tree.probability(from.point, light),
-            (None, None) => self.table.pmf[light],
+        match (self.way, &self.cells, &self.tree) {
+            (LightWay::Cells, Some(cells), _) => cells.probability(from, light),
+            (LightWay::Tree, _, Some(tree)) if light < self.local_count => tree.probability(from.point, light),
+            _ => self.table.pmf[light],
         }
     }
 
     /// How many lights inside the scene there are.
     pub fn local_count(&self) -> usize {
-        self.tree.as_ref().map_or(0, |tree| tree.trails.len())
+        self.local_count
     }
 
-    /// Chooses no longer by cells but by the tree.
-    pub fn leave_cells(&mut self) {
-        self.cells = None;
+    /// How many lights there are that differ by more than where on one surface they lie, or by which way one environment is drawn from.
+    pub fn group_count(&self) -> usize {
+        self.group_count
     }
 
-    /// How lights are chosen by cells, if they are, and a tree of those inside the scene.
-    pub fn in_cells(&self) -> Option<(&LightCellChoice, &LightTree)> {
-        Some((self.cells.as_ref()?, self.tree.as_ref()?))
+    /// Lights at infinity, the environment and its portals together.
+    pub fn groups_at_infinity(&self) -> impl Iterator<Item = Range<usize>> {
+        let environment = self.environment_light.unwrap_or(self.first_portal)..self.lights.len();
+        let alone = (self.local_count..environment.start).map(|light| light..light + 1);
+        alone.chain((!environment.is_empty()).then_some(environment))
     }
 
-    /// Chooses by what was learned, where lights are chosen by cells.
+    /// How lights are chosen by cells, where they may be, and a tree of those inside the scene, where they are several.
+    pub fn in_cells(&self) -> Option<(&LightCellChoice, Option<&LightTree>)> {
+        Some((self.cells.as_ref()?, self.tree.as_ref()))
+    }
+
+    /// Keeps what was learned, where lights may be chosen by cells.
     pub fn set_cells(&mut self, learned: Arc<LightCells>) {
         if let Some(cells) = &mut self.cells {
             cells.cells = learned;
         }
+    }
+
+    /// Chooses lights in another way, out of those that were made ready.
+    pub fn set_way(&mut self, way: LightWay) {
+        self.way = way;
+    }
+
+    /// How lights are chosen.
+    pub fn way(&self) -> LightWay {
+        self.way
     }
 
     pub fn is_empty(&self) -> bool {
@@ -239,11 +276,6 @@ impl Lights {
     /// Draws points of surfaces in another way.
     pub fn set_sampling(&mut self, sampling: LightSampling) {
         self.sampling = sampling;
-    }
-
-    /// Whether those inside the scene are chosen by a tree.
-    pub fn are_in_tree(&self) -> bool {
-        self.tree.is_some() && self.cells.is_none()
     }
 
     /// Of those that can be drawn from by solid angle as well as by area, what takes most to be drawn so. None: there are none.
@@ -273,7 +305,7 @@ impl Lights {
         numbers: [u32; 2],
     ) -> Option<LightSample> {
         let from = from.into();
-        self.sample_light(scene, moment, from.point, self.choose(from, choice), numbers)
+        self.sample_light(scene, moment, from, self.choose(from, choice), numbers)
     }
 
     /// As [`Lights::sample`], of a light that was chosen with a probability.
@@ -281,10 +313,11 @@ impl Lights {
         &self,
         scene: &Scene,
         (world, time): (&World, &PathTime),
-        reference: DVec3,
+        from: LitPoint,
         (light, probability): (usize, f64),
         [u, v]: [u32; 2],
     ) -> Option<LightSample> {
+        let reference = from.point;
         let (u1, u2) = (uniform(u), uniform(v));
         let sampled = &self.lights[light];
         let sample = |wi, distance, radiance, pdf, target| {
@@ -323,12 +356,12 @@ impl Lights {
             }
             SampledLight::Environment => {
                 let drawn = self.outside.sample(u, v)?;
-                let pdf = probability * drawn.pdf + self.portal_pdf(world, reference, drawn.wi);
+                let pdf = probability * drawn.pdf + self.portal_pdf(world, from, drawn.wi);
                 sample(drawn.wi, f64::INFINITY, drawn.radiance, pdf, None)
             }
             SampledLight::Portal(portal) => {
                 let wi = world.portals()[portal].element().sample_through(LightSampling::Cone, reference, u1, u2)?.wi;
-                let pdf = self.environment_pdf(world, reference, wi);
+                let pdf = self.environment_pdf(world, from, wi);
                 // By rounding, a direction to a portal's very edge may miss it.
                 if pdf > 0.0 { sample(wi, f64::INFINITY, self.outside.radiance(wi), pdf, None) } else { None }
             }
@@ -337,23 +370,20 @@ impl Lights {
 
     /// Density, per steradian, with which [`Lights::sample`] draws the direction `wi` for the environment, by whichever way; 0 where it
     /// cannot.
-    pub fn environment_pdf(&self, world: &World, reference: DVec3, wi: DVec3) -> f64 {
-        let itself = self.environment_light.map_or(0.0, |light| self.table.pmf[light] * self.outside.pdf(wi));
-        itself + self.portal_pdf(world, reference, wi)
+    pub fn environment_pdf(&self, world: &World, from: impl Into<LitPoint>, wi: DVec3) -> f64 {
+        let from = from.into();
+        let itself = self.environment_light.map_or(0.0, |light| self.probability(from, light) * self.outside.pdf(wi));
+        itself + self.portal_pdf(world, from, wi)
     }
 
-    fn portal_pdf(&self, world: &World, reference: DVec3, wi: DVec3) -> f64 {
-        let chosen = &self.table.pmf[self.first_portal.min(self.table.pmf.len())..];
-        if chosen.is_empty() || world.portals().is_empty() {
+    fn portal_pdf(&self, world: &World, from: LitPoint, wi: DVec3) -> f64 {
+        let portals = self.first_portal..self.lights.len();
+        if portals.is_empty() {
             return 0.0;
         }
-        let ray = PreparedRay::new(Ray { origin: reference, direction: wi });
-        world
-            .portals()
-            .iter()
-            .zip(chosen)
-            .map(|(portal, pmf)| pmf * portal.element().pdf_through(LightSampling::Cone, &ray))
-            .sum()
+        let ray = PreparedRay::new(Ray { origin: from.point, direction: wi });
+        let through = |portal: &Primitive| portal.element().pdf_through(LightSampling::Cone, &ray);
+        world.portals().iter().zip(portals).map(|(portal, light)| self.probability(from, light) * through(portal)).sum()
     }
 
     /// Density, per steradian, with which [`Lights::sample`] finds the point `surface` from `reference`; 0 where it cannot.

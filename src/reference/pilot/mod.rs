@@ -1,7 +1,7 @@
 //! How lights are drawn from, and where Russian roulette begins, where nobody says so: a pilot renders some pixels and compares error times cost.
 //!
-//! It decides how many light samples the first surfaces take, and whether points on rectangles and triangles are drawn by solid angle
-//! ([`LightSampling::Auto`]): all ways are tried with the same paths, so they differ by the noise of direct light alone. Then it decides from which depth on
+//! It decides whether few lights are chosen by cells, how many light samples the first surfaces take, and whether points on rectangles and triangles are
+//! drawn by solid angle ([`LightSampling::Auto`]): all ways are tried with the same paths, so they differ by the noise of direct light alone. Then it decides from which depth on
 //! roulette ends paths, by what that would do to the paths of the best way. Random numbers are not those of the picture. Cost is counted, in rays, and not timed. So what is chosen depends on the scene, its settings and the size of its
 //! film: not on the seed, the number of samples, the device or the machine.
 
@@ -22,8 +22,9 @@ use super::intersect::Outline;
 use super::light_cells::{self, LightsSettled};
 use crate::plan::UNROLL_LIMIT;
 use crate::renderer::RenderError;
+use crate::sampling::light_way::LightWay;
 use crate::scene::settings::MOST_LIGHT_SAMPLES;
-use crate::scene::{Estimator, Guiding, LightSampling, NumberOrAuto, RenderSettings, Scene};
+use crate::scene::{Estimator, Guiding, LightChoice, LightSampling, NumberOrAuto, RenderSettings, Scene};
 use cost::{SIMPLE, TRAVERSED};
 use extent::{has_few_pixels, has_many_triangles, tried_pixels};
 pub use guiding::{loss_with_guide, why_no_guide};
@@ -64,14 +65,17 @@ pub struct Reasons {
 /// What settings leave open.
 #[derive(Clone, Copy, PartialEq)]
 struct Open {
+    /// Whether lights are chosen by cells, which were learned.
+    light_choice: bool,
     light_samples: bool,
     light_sampling: bool,
     roulette: bool,
 }
 
 impl Open {
-    fn of(settings: &RenderSettings) -> Self {
+    fn of(settings: &RenderSettings, light_choice: bool) -> Self {
         Self {
+            light_choice,
             light_samples: settings.light_samples == NumberOrAuto::Auto,
             light_sampling: settings.light_sampling == LightSampling::Auto,
             // Guided paths are ended by other means, which a pilot does not know.
@@ -80,13 +84,17 @@ impl Open {
     }
 
     fn draws_from_lights(self) -> bool {
-        self.light_samples || self.light_sampling
+        self.light_choice || self.light_samples || self.light_sampling
     }
 
     /// The same reason for each of them.
     fn reasons(self, because: &str) -> Reasons {
         let because = |is_open: bool| is_open.then(|| because.to_owned());
-        Reasons { light_samples: because(self.light_samples), roulette: because(self.roulette), light_choice: None }
+        Reasons {
+            light_choice: because(self.light_choice),
+            light_samples: because(self.light_samples),
+            roulette: because(self.roulette),
+        }
     }
 }
 
@@ -95,22 +103,22 @@ impl Open {
 /// # Errors
 /// What the reference cannot render.
 pub fn settle(scene: &Scene) -> Result<Settled<'_>, RenderError> {
-    let LightsSettled { scene, integrator, because } = light_cells::settle(scene)?;
+    let LightsSettled { scene, integrator, because, is_undecided } = light_cells::settle(scene)?;
     let mut settled = match scene {
-        Cow::Borrowed(scene) => settle_the_rest(scene, integrator)?,
+        Cow::Borrowed(scene) => settle_the_rest(scene, integrator, is_undecided)?,
         Cow::Owned(scene) => {
-            let settled = settle_the_rest(&scene, integrator)?;
+            let settled = settle_the_rest(&scene, integrator, is_undecided)?;
             Settled { scene: Cow::Owned(settled.scene.into_owned()), ..settled }
         }
     };
     settled.is_piloted |= because.is_some();
-    settled.because.light_choice = because;
+    settled.because.light_choice = settled.because.light_choice.or(because);
     Ok(settled)
 }
 
-/// As [`settle`], where it is settled how lights are chosen.
-fn settle_the_rest(scene: &Scene, integrator: Option<Integrator>) -> Result<Settled<'_>, RenderError> {
-    let mut open = Open::of(&scene.render);
+/// As [`settle`], after lights were tried; `has_cells`: cells of lights were learned and may be chosen.
+fn settle_the_rest(scene: &Scene, integrator: Option<Integrator>, has_cells: bool) -> Result<Settled<'_>, RenderError> {
+    let mut open = Open::of(&scene.render, has_cells);
     let as_it_is = |integrator, because| Settled { scene: Cow::Borrowed(scene), because, is_piloted: false, integrator };
     if !open.draws_from_lights() && !open.roulette {
         return Ok(as_it_is(integrator, Reasons::default()));
@@ -125,6 +133,7 @@ fn settle_the_rest(scene: &Scene, integrator: Option<Integrator>) -> Result<Sett
         return Ok(as_it_is(Some(pilot.integrator), Reasons::default()));
     }
     let because = choose(&mut pilot, open);
+    pilot.integrator.set_light_choice(pilot.settings.light_choice);
     pilot.integrator.set_light_sampling(&pilot.settings);
     pilot.integrator.set_roulette_depth(pilot.settings.roulette_depth);
     Ok(Settled {
@@ -154,7 +163,8 @@ fn not_worth_trying(scene: &Scene, open: Open) -> Option<&'static str> {
 
 /// Chooses what the settings leave open, and leaves it in the pilot's: how lights are drawn from, then where roulette begins. Returns why.
 fn choose(pilot: &mut Pilot<'_>, open: Open) -> Reasons {
-    let first = Tried { sampling: pilot.settings.light_sampling, samples: [1, 1], loss: 1.0 };
+    let light_choice = if open.light_choice { LightChoice::Power } else { pilot.settings.light_choice };
+    let first = Tried { light_choice, sampling: pilot.settings.light_sampling, samples: [1, 1], loss: 1.0 };
     let (simplest, effects) = pilot.try_with_roulette(first);
     if !simplest.has_noise() {
         pilot.settings = pilot.way(first);
@@ -164,17 +174,27 @@ fn choose(pilot: &mut Pilot<'_>, open: Open) -> Reasons {
         return open.reasons("a pilot found no noise");
     }
     let in_view = InView::new(&mut pilot.integrator, pilot.pixels);
-    let mut best = first;
+    let (mut chosen, mut best, mut loss_by_cells) = (first, first, 1.0);
     // An environment of one colour is no light that is sampled.
     let samples_lights = simplest.rays().shadow > 0.0;
     if open.draws_from_lights() && samples_lights {
-        best = best_way(pilot, first, open, (&simplest, &in_view));
+        if open.light_choice {
+            let by_cells = Tried { light_choice: LightChoice::Cells, ..first };
+            loss_by_cells = pilot.try_way(by_cells).loss_of_outliers_over(&simplest, &in_view);
+            if loss_by_cells * LEAST_GAIN < first.loss {
+                chosen = Tried { loss: loss_by_cells, ..by_cells };
+            }
+        }
+        best = best_way(pilot, chosen, open, (&simplest, &in_view));
     }
-    let light_samples = open.light_samples.then(|| match samples_lights {
-        false => "no light is sampled".to_owned(),
-        true => format!("a pilot found {:.2} of the error × cost of one light sample", best.loss),
-    });
-    let mut reasons = Reasons { light_samples, ..Reasons::default() };
+    let found = |what: String| if samples_lights { format!("a pilot found {what}") } else { "no light is sampled".to_owned() };
+    let of_choice = || found(format!("that cells of lights have {loss_by_cells:.2} of the error × cost of power"));
+    let of_samples = || found(format!("{:.2} of the error × cost of one light sample", best.loss / chosen.loss));
+    let mut reasons = Reasons {
+        light_choice: open.light_choice.then(of_choice),
+        light_samples: open.light_samples.then(of_samples),
+        roulette: None,
+    };
     pilot.settings = pilot.way(best);
     if open.roulette {
         let (found, effects) = if best == first { (simplest, effects) } else { pilot.try_with_roulette(best) };
@@ -196,9 +216,9 @@ fn best_roulette(losses: [f64; ROULETTE_DEPTHS.len()], max_depth: u32) -> (u32, 
     (depth, format!("a pilot found {loss:.2} of the error × cost of depth {}", by_default.0))
 }
 
-/// The best way to draw from lights, from the simplest on.
-fn best_way(pilot: &mut Pilot<'_>, simplest: Tried, open: Open, beside: (&Found, &InView)) -> Tried {
-    let mut best = simplest;
+/// The best way to draw from lights, from a simple one on.
+fn best_way(pilot: &mut Pilot<'_>, simple: Tried, open: Open, beside: (&Found, &InView)) -> Tried {
+    let mut best = simple;
     if open.light_sampling {
         best = pilot.better(best, Tried { sampling: LightSampling::Cone, ..best }, beside);
     }
@@ -224,6 +244,7 @@ fn most_depth(settings: &RenderSettings) -> u32 {
 /// A way to draw from lights.
 #[derive(Clone, Copy, PartialEq)]
 struct Tried {
+    light_choice: LightChoice,
     sampling: LightSampling,
     /// How many light samples at how many first surfaces.
     samples: [u32; 2],
@@ -263,17 +284,23 @@ impl<'a> Pilot<'a> {
     }
 
     /// The settings with another way to draw from lights; a number of light samples that is given stays.
-    fn way(&self, Tried { sampling, samples: [count, depth], .. }: Tried) -> RenderSettings {
-        let mut settings = RenderSettings { light_sampling: sampling, ..self.settings.clone() };
+    fn way(&self, Tried { light_choice, sampling, samples: [count, depth], .. }: Tried) -> RenderSettings {
+        let mut settings = RenderSettings { light_choice, light_sampling: sampling, ..self.settings.clone() };
         if settings.light_samples == NumberOrAuto::Auto {
             (settings.light_samples, settings.light_samples_depth) = (count.into(), depth);
         }
         settings
     }
 
-    fn try_way(&mut self, tried: Tried) -> Found {
+    fn set_way(&mut self, tried: Tried) -> RenderSettings {
         let settings = self.way(tried);
+        self.integrator.set_light_choice(settings.light_choice);
         self.integrator.set_light_sampling(&settings);
+        settings
+    }
+
+    fn try_way(&mut self, tried: Tried) -> Found {
+        let settings = self.set_way(tried);
         let mut found = Found::new(&self.integrator, self.pixels);
         found.cost = self.cost(found.rays(), &settings);
         found
@@ -281,8 +308,7 @@ impl<'a> Pilot<'a> {
 
     /// As [`Pilot::try_way`], with what roulette would do to its paths. The first way is tried so.
     fn try_with_roulette(&mut self, tried: Tried) -> (Found, Vec<Effects>) {
-        let settings = self.way(tried);
-        self.integrator.set_light_sampling(&settings);
+        let settings = self.set_way(tried);
         let (mut found, effects) = Found::with_roulette(&self.integrator, self.pixels);
         if self.shadow_rays == 0.0 {
             self.shadow_rays = found.rays().shadow;
@@ -313,7 +339,11 @@ impl<'a> Pilot<'a> {
             Some(Outline::Rectangle) => costs.of_rectangle,
             Some(Outline::Triangle) => costs.of_triangle,
         };
-        let of_choice = if self.integrator.chooses_lights_by_tree() { costs.tree_of_lights } else { 0.0 };
+        let of_choice = match self.integrator.light_way() {
+            LightWay::Power => 0.0,
+            LightWay::Tree => costs.tree_of_lights,
+            LightWay::Cells => costs.cells_of_lights,
+        };
         costs.light_sample + of_choice + of_point
     }
 }

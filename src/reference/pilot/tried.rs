@@ -20,6 +20,8 @@ const SAMPLES: u32 = 16;
 /// Of what is in view, so many times as many pixels are looked at, each by so many pictures.
 const MORE_PIXELS: u32 = 16;
 const PICTURES_IN_VIEW: u32 = 2;
+/// Pixels that the brightness is averaged over which outliers are relative to.
+const PIXELS_OF_PATCH: usize = 16;
 /// Least error that another way may leave, beside what there was.
 const LEAST_ERROR: f64 = 0.25;
 /// Of the random numbers.
@@ -84,15 +86,33 @@ impl Found {
     /// Error times cost, over that of another way. Errors are relative to what both ways found together: relative to what one of them found alone,
     /// its own outliers would count for less than those of the other.
     pub fn loss_over(&self, other: &Self, in_view: &InView) -> f64 {
+        let together: Vec<DVec3> = self.together(other).collect();
+        self.loss_beside(other, in_view, &together)
+    }
+
+    /// As [`Found::loss_over`] of a way that makes outliers darker and more frequent. Errors are relative to what was found around a pixel: relative to what was
+    /// found in it, an outlier would count the same however bright it is.
+    pub fn loss_of_outliers_over(&self, other: &Self, in_view: &InView) -> f64 {
+        let mut patches = Patches::new(self.pixels.len());
+        (0..).zip(self.together(other)).for_each(|(number, found)| patches.add(number, found));
+        let around: Vec<DVec3> = (0..self.pixels.len() as u32).map(|number| patches.mean_around(number)).collect();
+        self.loss_beside(other, in_view, &around)
+    }
+
+    /// What two ways found beyond what is in view.
+    fn together(&self, other: &Self) -> impl Iterator<Item = DVec3> {
+        self.pixels.iter().zip(&other.pixels).map(|(own, others)| 0.5 * (own.mean + others.mean))
+    }
+
+    /// With errors relative to so much light beyond what is in view.
+    fn loss_beside(&self, other: &Self, in_view: &InView, beyond: &[DVec3]) -> f64 {
         let mut errors = [0.0; 2];
-        let mut beyond = DVec3::ZERO;
-        for (own, others) in self.pixels.iter().zip(&other.pixels) {
-            beyond += 0.5 * (own.mean + others.mean);
-            let weight = weight(own.in_view + 0.5 * (own.mean + others.mean));
+        for ((own, others), beyond) in self.pixels.iter().zip(&other.pixels).zip(beyond) {
+            let weight = weight(own.in_view + *beyond);
             errors[0] += own.variance.dot(weight);
             errors[1] += others.variance.dot(weight);
         }
-        let of_view = in_view.error(beyond / self.pixels.len() as f64);
+        let of_view = in_view.error(self.together(other).sum::<DVec3>() / self.pixels.len() as f64);
         (errors[0] + of_view) * self.cost / ((errors[1] + of_view) * other.cost)
     }
 }
@@ -131,6 +151,38 @@ pub fn errors_of_guiding(found: &Found, tales: &[Tale], in_view: &InView) -> [f6
     // Without noise a guide makes no difference. Estimates may be less than nothing.
     let ratio = if variances[0] > 0.0 { (variances[1] / variances[0]).max(LEAST_ERROR) } else { 1.0 };
     [error + of_view, error * ratio + of_view]
+}
+
+/// Means of light over patches of the film.
+struct Patches {
+    side: u32,
+    /// The sum over a patch's pixels, and how many they are.
+    sums: Vec<(DVec3, f64)>,
+}
+
+impl Patches {
+    /// As many to a side of the film as give each about [`PIXELS_OF_PATCH`] out of so many pixels that are tried.
+    fn new(pixels: usize) -> Self {
+        let side = (pixels / PIXELS_OF_PATCH).isqrt().max(1) as u32;
+        Self { side, sums: vec![(DVec3::ZERO, 0.0); (side * side) as usize] }
+    }
+
+    fn index(&self, number: u32) -> usize {
+        let [column, row] = pixel_of(number, [self.side; 2]);
+        (row * self.side + column) as usize
+    }
+
+    /// What was found at the pixel with this number.
+    fn add(&mut self, number: u32, found: DVec3) {
+        let index = self.index(number);
+        let (sum, count) = &mut self.sums[index];
+        (*sum, *count) = (*sum + found, *count + 1.0);
+    }
+
+    fn mean_around(&self, number: u32) -> DVec3 {
+        let (sum, count) = self.sums[self.index(number)];
+        sum / count
+    }
 }
 
 /// What squared errors are multiplied by.

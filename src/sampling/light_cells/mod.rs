@@ -1,5 +1,5 @@
-//! Which lights reach which part of a scene, as a table that both devices read: next event estimation chooses by it where a scene has many
-//! lights that stand behind walls for most of its surfaces.
+//! Which lights reach which part of a scene, as a table that both devices read: next event estimation chooses by it where a scene has lights
+//! that do not reach most of its surfaces, or are much stronger there than elsewhere: many lamps behind walls, or a lamp and a window.
 //!
 //! Space is cut into cells, by position and by which way a surface faces. Each cell has a list of slots, every slot as likely as any other, that
 //! name the lights found to reach it ([`crate::reference::light_cells`]): a light that brings more has more of them. A fixed share of the
@@ -21,62 +21,46 @@ pub use table::{LightCell, LightCells};
 
 use super::alias::AliasTable;
 
-/// How a light is chosen: those inside the scene, which are numbered first, by cells and by power; those at infinity by irradiance, in half of the
-/// choices where there are both.
+/// How a light is chosen: by cells and by power.
 #[derive(Debug, Clone)]
 pub struct LightCellChoice {
     pub cells: Arc<LightCells>,
-    /// Of the lights inside the scene, by power.
-    local: AliasTable,
-    at_infinity: AliasTable,
+    by_power: AliasTable,
 }
 
 impl LightCellChoice {
-    /// Nothing is learned yet. The probabilities of either table sum to one, or there are none.
-    pub fn new(local: AliasTable, at_infinity: AliasTable) -> Self {
-        Self { cells: Arc::default(), local, at_infinity }
+    /// Nothing is learned yet: all choices are made by power, by a table of all lights.
+    pub fn new(by_power: AliasTable) -> Self {
+        Self { cells: Arc::default(), by_power }
     }
 
-    /// The probabilities of the lights inside the scene by power.
+    /// The probabilities of the lights by power.
     pub fn by_power(&self) -> &[f64] {
-        &self.local.pmf
+        &self.by_power.pmf
     }
 
-    /// The light inside the scene that 32 random bits choose by power.
+    /// The light that 32 random bits choose by power.
     pub fn choose_by_power(&self, bits: u32) -> usize {
-        self.local.choose(bits)
-    }
-
-    /// The share of the choices that goes to lights inside the scene.
-    fn local_share(&self) -> f64 {
-        if self.at_infinity.pmf.is_empty() { 1.0 } else { 0.5 }
+        self.by_power.choose(bits)
     }
 
     /// The light that 32 random bits choose at a point, and the probability of that.
     pub fn choose(&self, from: LitPoint, bits: u32) -> (usize, f64) {
-        let mut rest = bits;
-        if !self.at_infinity.pmf.is_empty() {
-            rest = bits << 1;
-            if bits >> 31 == 1 {
-                let light = self.at_infinity.choose(rest);
-                return (self.local.pmf.len() + light, 0.5 * self.at_infinity.pmf[light]);
-            }
-        }
         let cell = self.cells.cell(from);
-        let light = match cell.map(|cell| cell.choose(rest)) {
+        let light = match cell.map(|cell| cell.choose(bits)) {
             Some(Ok(light)) => light as usize,
-            Some(Err(rest)) => self.local.choose(rest),
-            None => self.local.choose(rest),
+            Some(Err(rest)) => self.by_power.choose(rest),
+            None => self.by_power.choose(bits),
         };
         (light, self.probability_in(cell, light))
     }
 
     fn probability_in(&self, cell: Option<LightCell<'_>>, light: usize) -> f64 {
-        let by_power = self.local.pmf[light];
-        self.local_share() * cell.map_or(by_power, |cell| cell.probability(light as u32, by_power))
+        let by_power = self.by_power.pmf[light];
+        cell.map_or(by_power, |cell| cell.probability(light as u32, by_power))
     }
 
-    /// The probability with which [`LightCellChoice::choose`] chooses a light inside the scene at a point.
+    /// The probability with which [`LightCellChoice::choose`] chooses a light at a point.
     pub fn probability(&self, from: LitPoint, light: usize) -> f64 {
         self.probability_in(self.cells.cell(from), light)
     }

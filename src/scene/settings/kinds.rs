@@ -57,13 +57,13 @@ choices! {
 
     /// How next event estimation chooses among lights.
     pub enum LightChoice {
-        /// Where there are many lights, by cells if lists of lights hold most of the light, and by a tree if not; else by power.
+        /// Of many lights, by cells if lists of lights hold most of the light, and by a tree if not; of few, by power or by cells, whichever a pilot of some thousand paths finds better.
         Auto = "auto",
         /// In constant time, by power wherever the light goes, and evenly over groups in three of ten choices.
         Power = "power",
         /// By a tree: near lights that face the point more often than others.
         Tree = "tree",
-        /// By what was found to reach the place before the first sample, hidden lights left out, and by power in one of eight choices.
+        /// By what was found to reach the place before the first sample, the environment included and hidden lights left out, and by power in one of eight choices.
         Cells = "cells",
     }
 

@@ -376,7 +376,7 @@ impl Kernel<'_> {
         })
     }
 
-    /// shading/light_cells.wgsl: every box, every slot of its cell, and the choices by power among lights inside the scene and among the others.
+    /// shading/light_cells.wgsl: every box, every slot of its cell, and the choice by power.
     fn light_cells(&self) -> Read<()> {
         let word = |index: u32| {
             self.step()?;
@@ -386,21 +386,20 @@ impl Kernel<'_> {
         for axis in 4..7 {
             boxes = boxes.wrapping_mul(word(axis)?);
         }
-        let local = self.scene.local_lights as u32;
+        let count = self.scene.lights.len() as u32;
         for index in 0..boxes {
             let number = word(8_u32.wrapping_add(index))?;
             for slot in (0..112).filter(|_| number > 0) {
                 let first = word(7)?.wrapping_add(number.wrapping_sub(1).wrapping_mul(112));
                 let light = word(first.wrapping_add(slot))? & 0xf_ffff;
-                // One at infinity would be chosen with another probability than it is weighed by.
-                if light >= local {
+                if light >= count {
                     return Err(format!("light {light} in a cell"));
                 }
             }
         }
-        (0..self.scene.lights.len() as u32).try_for_each(|entry| {
+        (0..count).try_for_each(|entry| {
             let alias = self.light_word(entry, 0)?[2];
-            if (alias < local) == (entry < local) { Ok(()) } else { Err(format!("light {alias} in place of {entry}")) }
+            if alias < count { Ok(()) } else { Err(format!("light {alias} in place of {entry}")) }
         })
     }
 

@@ -25,7 +25,7 @@ pub fn all() -> Vec<(&'static str, PackedScene)> {
     add_instances(&mut with);
     let nodes = pack(with, Traversal::Bvh, LightChoice::Tree);
     let mut boxes = pack(everything(), Traversal::RayQuery, LightChoice::Cells);
-    boxes.light_cells = light_cells(boxes.local_lights as u32);
+    boxes.light_cells = light_cells(boxes.lights.len() as u32);
     vec![("nodes", nodes), ("boxes", boxes)]
 }
 
