@@ -30,6 +30,10 @@ SETTINGS = {
 }
 
 
+# Enough for adaptive sampling to begin.
+WARMING_SAMPLES = 16
+
+
 class Gpt:
     def __init__(self, program, device):
         mi.set_variant("scalar_rgb")
@@ -46,9 +50,10 @@ class Gpt:
         return list(SETTINGS)
 
     def prepare(self, setting, spp):
-        if (setting, spp) not in self.warm:
-            self.warm.add((setting, spp))
-            self.run(setting, spp, 0)  # the driver compiles on first use, and keeps what it compiled
+        # The driver compiles on first use, and keeps what it compiled. Kernels do not depend on how many samples there are.
+        if setting not in self.warm:
+            self.warm.add(setting)
+            self.run(setting, min(spp, WARMING_SAMPLES), 0)
         return spp
 
     def run(self, setting, spp, seed):
