@@ -4,6 +4,7 @@
 #import core/sampler.wgsl
 #import shading/delta_lights.wgsl
 #import shading/distant_light.wgsl
+#import shading/light_by_power.wgsl
 #import shading/light_record.wgsl
 #import shading/light_sample.wgsl
 #import shading/outside.wgsl
@@ -119,18 +120,6 @@ fn varying_sphere_sample(light: u32, reference: vec3<f32>, two_sided: bool, pmf:
 }
 #endif
 #endif
-
-// Constant time; the same choice in integers on every device (AliasTable::choose).
-fn choose_light(bits: u32) -> u32 {
-#if ONE_LIGHT
-    return 0u;
-#else
-    let entry = multiply_high(bits, LIGHT_COUNT);
-    let remainder = bits * LIGHT_COUNT;
-    let word = bitcast<vec4<u32>>(light_word(entry, 0u));
-    return select(word.z, entry, remainder < word.y);
-#endif
-}
 
 #if AREA_LIGHTS
 // A point on a light, seen from `reference`: density by area turned into density by solid angle.

@@ -1,8 +1,8 @@
 // The choice of a light by what reaches the place. src/sampling/light_cells does the same, and says how.
 #import core/layout.wgsl
-#import core/sampler.wgsl
-#import geometry/scene.wgsl
 #import shading/cell_grid.wgsl
+#import shading/light_by_power.wgsl
+#import shading/light_record.wgsl
 
 @group(0) @binding(BINDING_LIGHT_CELLS) var<storage, read> light_cells: array<u32>;
 
@@ -22,18 +22,6 @@ fn light_cell_at(point: vec3<f32>, facing: u32) -> u32 {
     }
     let number = light_cells[word];
     return select(light_cells[7] + (number - 1u) * LIGHT_CELL_SLOTS, 0u, number == 0u);
-}
-
-// The word of a light's record that says how it is chosen by power: (kind and flags; alias threshold; alias; probability).
-fn light_by_power(light: u32) -> vec4<f32> {
-    return tables[FIRST_LIGHT_WORD + light * LIGHT_WORDS];
-}
-
-// The light that 32 random bits choose by power.
-fn choose_by_power(bits: u32) -> u32 {
-    let entry = multiply_high(bits, LIGHT_COUNT);
-    let word = bitcast<vec4<u32>>(light_by_power(entry));
-    return select(word.z, entry, bits * LIGHT_COUNT < word.y);
 }
 
 // How many slots of a cell name a light.
@@ -60,22 +48,22 @@ fn light_pmf_of_slots(slots: u32, by_power: f32) -> f32 {
 // The light that 32 random bits choose in a point's cell.
 fn choose_light_in(cell: u32, bits: u32) -> LightChoice {
     if cell == 0u {
-        let light = choose_by_power(bits);
-        return LightChoice(light, light_by_power(light).w);
+        let light = choose_light(bits);
+        return LightChoice(light, light_word(light, 0u).w);
     }
     let unit = bits >> (32u - LIGHT_UNIT_BITS);
     if unit >= LIGHT_UNITS_BY_POWER {
         let slot = light_cells[cell + unit - LIGHT_UNITS_BY_POWER];
         let light = slot & LIGHT_SLOT_MASK;
-        return LightChoice(light, light_pmf_of_slots(slot >> LIGHT_SLOT_COUNT_SHIFT, light_by_power(light).w));
+        return LightChoice(light, light_pmf_of_slots(slot >> LIGHT_SLOT_COUNT_SHIFT, light_word(light, 0u).w));
     }
-    let light = choose_by_power(bits << (LIGHT_UNIT_BITS - LIGHT_UNITS_BY_POWER_BITS));
-    return LightChoice(light, light_pmf_of_slots(light_slots(cell, light), light_by_power(light).w));
+    let light = choose_light(bits << (LIGHT_UNIT_BITS - LIGHT_UNITS_BY_POWER_BITS));
+    return LightChoice(light, light_pmf_of_slots(light_slots(cell, light), light_word(light, 0u).w));
 }
 
 // The probability with which that chooses a light.
 fn light_pmf_in(cell: u32, light: u32) -> f32 {
-    let by_power = light_by_power(light).w;
+    let by_power = light_word(light, 0u).w;
     if cell == 0u {
         return by_power;
     }

@@ -54,6 +54,7 @@ shader_files![
     "shading/hemisphere.wgsl",
     "shading/layer.wgsl",
     "shading/light.wgsl",
+    "shading/light_by_power.wgsl",
     "shading/light_cells.wgsl",
     "shading/light_tree.wgsl",
     "shading/light_picture.wgsl",

@@ -244,7 +244,7 @@ fn cells_of_lights_are_taken_where_lists_hold_the_light() {
     }
 }
 
-/// Of few lights, where what power prefers does not reach what is lit by the others: a lamp in a box that is open to one side, beside a strong one behind a wall. Not
+/// Of few lights, where what power prefers does not reach what is lit by the others: a weak lamp beside a strong one behind a wall. Not
 /// where all of them light what is seen, nor where there are several triangles of one lamp.
 #[test]
 fn cells_of_few_lights_are_taken_where_a_pilot_finds_them_better() {
