@@ -51,6 +51,7 @@ def arguments():
     parser.add_argument("--seeds", type=int, default=5, help="replications, at least 3 (default: 5)")
     parser.add_argument("--agreement-spp", type=int, default=48, help="samples per pixel of each of the pictures whose means are compared, four times as many from gpt (default: 48)")
     parser.add_argument("--gpt", type=Path, default=HERE.parents[1] / "target" / "release" / "gpt", help="the program")
+    parser.add_argument("--settings", nargs="+", help="the settings of gpt that are tried, by name (default: all)")
     parser.add_argument("--device", default="auto", help="gpt's device (default: auto)")
     parser.add_argument("--cycles-python", default=os.environ.get("GPT_CYCLES_PYTHON", sys.executable), help="the Python that has bpy (default: $GPT_CYCLES_PYTHON, else this one)")
     parser.add_argument("--json", type=Path, default=Path("peers.json"), help="all numbers (default: peers.json)")
@@ -86,11 +87,13 @@ def say(text):
 class Contestant:
     """A renderer in one scene, with all that it has rendered."""
 
-    def __init__(self, process, path, size):
+    def __init__(self, process, path, size, wanted):
         self.process, self.samples = process, {}
         process.start()
         loading = process.load(path, size)
-        self.settings = process.settings()
+        self.settings = [setting for setting in process.settings() if not wanted or setting in wanted]
+        if not self.settings:
+            raise PeerError(f"{process.key} has none of the settings {wanted}")
         first, again = (process.render(self.settings[0], 1, seed) for seed in range(2))
         # gpt is started anew for every picture; its first one filled the driver's cache of kernels.
         self.start_up = again["wall"] if process.key == "gpt" else process.seconds_to_start + loading + first["wall"]
@@ -162,7 +165,7 @@ def enter(name, scene, path, options, running):
             say(f"  {key}: left out, {reason}")
             continue
         try:
-            contestant = Contestant(process, path, scene.size)
+            contestant = Contestant(process, path, scene.size, options.settings if key == "gpt" else None)
             # The scalar variant is the same renderer with the same points, only slower: it takes what the fast one chose.
             settings = [chosen] if key == "mitsuba-scalar" and chosen else contestant.settings
             settings = [setting for setting in settings if setting not in scene.biased.get(key, ())]

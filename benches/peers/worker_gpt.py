@@ -27,6 +27,7 @@ SETTINGS = {
     "Sobol, 4 light samples, adaptive": ["--sampler", "sobol", "--light-samples", "4", "--adaptive"],
     "Sobol, 8 light samples at 2 surfaces": ["--sampler", "sobol", "--light-samples", "8", "--light-samples-depth", "2"],
     "Sobol, guided": ["--sampler", "sobol", "--guiding", "on"],
+    "Sobol, guided by few paths": ["--sampler", "sobol", "--guiding", "on", "--guiding-paths", "65536"],
 }
 
 

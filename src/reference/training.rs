@@ -19,17 +19,17 @@ use super::trace::{LightConnection, PathVisitor};
 use crate::sampling::Sampling;
 use crate::sampling::guide::{Arrival, Guide, learn};
 use crate::sampling::hash::mix;
-use crate::scene::{Guiding, PixelSampler, SamplerKind, Scene};
+use crate::scene::{Guiding, NumberOrAuto, PixelSampler, SamplerKind, Scene};
 
 /// Rounds, each of twice as many paths as the one before.
-const ROUNDS: u32 = 5;
+const ROUNDS: usize = 5;
 /// After so many of them a pilot looks whether guiding pays, where it has to. Error × cost with the guide, over that without one, may be so much at
 /// most, or learning ends and paths are not guided. A guide still improves, so early looks allow more: in the `cellar` it leaves 0.76, 0.51, 0.34 and
 /// 0.25 of the error.
-const MOST_LOSSES: [(usize, f64); 4] = [(2, 1.4), (3, 1.1), (4, 0.85), (ROUNDS as usize, MOST_LOSS)];
+const MOST_LOSSES: [(usize, f64); 4] = [(2, 1.4), (3, 1.1), (4, 0.85), (ROUNDS, MOST_LOSS)];
 /// What a guide of all rounds may leave at most: learning takes time as well.
-const MOST_LOSS: f64 = 0.7;
-/// Paths of the last round, which has about so many as the picture has pixels times this.
+const MOST_LOSS: f64 = 0.8;
+/// Paths of the last round for each pixel of the picture, where the scene does not say how many there are.
 const PATHS_OF_PIXEL: u32 = 8;
 const FEWEST_PATHS: u32 = 1 << 14;
 const MOST_PATHS: u32 = 1 << 19;
@@ -98,11 +98,17 @@ fn can_gain(scene: &Scene) -> bool {
     scene.render.max_depth != 1
 }
 
-/// Paths of each round.
-fn rounds([width, height]: [u32; 2]) -> impl Iterator<Item = u32> {
-    let pixels = width.saturating_mul(height).saturating_mul(PATHS_OF_PIXEL).clamp(FEWEST_PATHS, MOST_PATHS);
-    let last = pixels.next_power_of_two();
-    (0..ROUNDS).rev().map(move |round| last >> round)
+/// Paths of each round, as whole tasks.
+fn rounds(scene: &Scene) -> [u32; ROUNDS] {
+    let [width, height] = scene.film.size;
+    let last = match scene.render.guiding_paths {
+        NumberOrAuto::Number(paths) => paths,
+        NumberOrAuto::Auto => {
+            let of_pixels = width.saturating_mul(height).saturating_mul(PATHS_OF_PIXEL);
+            of_pixels.clamp(FEWEST_PATHS, MOST_PATHS).next_power_of_two()
+        }
+    };
+    std::array::from_fn(|round| (last >> (ROUNDS - 1 - round)).next_multiple_of(PATHS_AT_ONCE))
 }
 
 /// What came of all rounds, or of those up to which it may pay to go on.
@@ -118,7 +124,7 @@ fn trained(integrator: &mut Integrator, has_to_pay: bool) -> Trained {
     let mut trained = Trained { guide: None, paths: 0, loss: None };
     let mut first = 0;
     let mut before: (Vec<Arrival>, u32) = Default::default();
-    for (round, count) in rounds(integrator.scene().film.size).enumerate() {
+    for (round, count) in rounds(integrator.scene()).into_iter().enumerate() {
         let (mut arrivals, earlier) = std::mem::take(&mut before);
         let found = arrivals_of(integrator, first, count);
         arrivals.extend_from_slice(&found);

@@ -144,7 +144,7 @@ fn roulette_begins_where_it_pays() {
 #[test]
 fn a_guide_that_does_not_pay_is_given_up() {
     let because = |size: [u32; 2]| {
-        let mut scene = built_in("cornell");
+        let mut scene = built_in("veach-mis");
         (scene.film.size, scene.render.guiding) = (size, Guiding::Auto);
         let learned = learn_for_device(&scene, None).expect("the reference can render the scene");
         assert!(learned.guide.is_none());
@@ -153,6 +153,20 @@ fn a_guide_that_does_not_pay_is_given_up() {
     assert_eq!(because([255, 256]), "learning takes too long for so few pixels");
     let after_a_pilot = because(SIZE);
     assert!(after_a_pilot.starts_with("a pilot found 1."), "{after_a_pilot}");
+}
+
+/// The last two rounds of learning make the guide, and the scene may say how many paths they have, which are traced by the 256.
+#[test]
+fn a_guide_learns_of_as_many_paths_as_are_wanted() {
+    let because = |paths: NumberOrAuto| {
+        let mut scene = built_in("cornell");
+        (scene.film.size, scene.render.guiding, scene.render.guiding_paths) = ([32, 24], Guiding::On, paths);
+        learn_for_device(&scene, None).expect("the reference can render the scene").because.expect("there is a reason")
+    };
+    for (paths, both) in [(NumberOrAuto::Auto, 24_576), (4096.into(), 6144), (5000.into(), 5120 + 2560)] {
+        let because = because(paths);
+        assert!(because.ends_with(&format!(" cells of {both} paths")), "{because}");
+    }
 }
 
 /// In the cellar a guide of the first two rounds takes as much as it gives, and one of all rounds pays.

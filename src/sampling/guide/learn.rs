@@ -11,15 +11,15 @@ use crate::sampling::cell_grid::{CellGrid, FACINGS, Region, facing};
 const MOST_BOXES: usize = 1 << 16;
 /// Cells that there are about at most; four times as many where arrivals are spread badly.
 const MOST_CELLS: usize = 8192;
-/// Arrivals of a cell at least, and from which on it is cut in two.
+/// Arrivals of a cell at least, and from which on it is cut in two: fewer are noisier than a smaller cell is truer, and many cells are read slowly.
 const FEWEST_ARRIVALS: usize = 64;
-const MOST_ARRIVALS: usize = 320;
+const MOST_ARRIVALS: usize = 3072;
 /// The even share of a histogram that was made of so many arrivals is a half.
 const DOUBT: f64 = 16.0;
 /// Least even share of a histogram.
 const LEAST_EVEN_SHARE: f64 = 0.03;
 /// What a bin gives to each of its four neighbours: light moves a little from one end of a cell to the other.
-const SPILL: f64 = 0.04;
+const SPILL: f64 = 0.1;
 
 /// Light that arrived at a point of a surface by one direction. In single precision: there are millions of them.
 #[derive(Debug, Clone, Copy, PartialEq)]

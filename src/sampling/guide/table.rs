@@ -17,8 +17,8 @@ pub const GUIDE_COLUMNS: u32 = 16;
 /// Words of a cell.
 pub const GUIDE_CELL_WORDS: u32 = 1 + GUIDE_ROWS * GUIDE_COLUMNS + 2;
 /// Share of the directions that the guide draws, where a surface scatters by diffuse lobes alone. What the guide does not know of is found
-/// less often and then counts for more: with a half, fireflies of paths that training did not find outweighed the gain.
-pub const GUIDED_SHARE: f32 = 0.375;
+/// less often and then counts for more: more pays where a guide learned long, and less where it learned little.
+pub const GUIDED_SHARE: f32 = 0.5625;
 /// A path goes on with a probability of the root of so many times what it is expected to bring yet, over what it was expected to bring at first.
 pub const SURVIVAL_FACTOR: f32 = 3.0;
 /// The least chance to go on: what is expected is an estimate.

@@ -21,6 +21,10 @@ pub const MOST_LIGHT_SAMPLES: u32 = 16;
 /// Most edges of a path whose surfaces take more than one: their points stand in a table that has to fit a uniform buffer.
 pub const MOST_LIGHT_SAMPLES_DEPTH: u32 = 3;
 
+/// Paths of the last round in which a guide is learned: fewer find too little, and of more the host would have to hold too much.
+const FEWEST_GUIDING_PATHS: u32 = 1 << 12;
+const MOST_GUIDING_PATHS: u32 = 1 << 20;
+
 /// First depth at which Russian roulette may end a path where neither the scene nor a pilot chooses one.
 pub const DEFAULT_ROULETTE_DEPTH: u32 = 5;
 /// The same of guided paths: what they are expected to bring is known.
@@ -127,6 +131,14 @@ settings! {
             flag: "--guiding",
             placeholder: "GUIDING",
             header: "gpt:guiding",
+            compared: true,
+        }
+        /// Paths of the last of five rounds in which a guide is learned, each of which has twice as many as the one before. Fewer take less time, more know more.
+        guiding_paths: NumberOrAuto = NumberOrAuto::Auto => {
+            values: WholeOr(FEWEST_GUIDING_PATHS, MOST_GUIDING_PATHS, auto("Eight for each pixel, from 16,384 to 524,288.")),
+            flag: "--guiding-paths",
+            placeholder: "N",
+            header: "gpt:guidingPaths",
             compared: true,
         }
         /// What happens where a ray meets a blend of materials.
