@@ -24,8 +24,7 @@ use crate::scene::{Guiding, NumberOrAuto, PixelSampler, SamplerKind, Scene};
 /// Rounds, each of twice as many paths as the one before.
 const ROUNDS: usize = 5;
 /// After so many of them a pilot looks whether guiding pays, where it has to. Error × cost with the guide, over that without one, may be so much at
-/// most, or learning ends and paths are not guided. A guide still improves, so early looks allow more: in the `cellar` it leaves 0.76, 0.51, 0.34 and
-/// 0.25 of the error.
+/// most, or learning ends and paths are not guided. A guide still improves, so early looks allow more.
 const MOST_LOSSES: [(usize, f64); 4] = [(2, 1.4), (3, 1.1), (4, 0.85), (ROUNDS, MOST_LOSS)];
 /// What a guide of all rounds may leave at most: learning takes time as well.
 const MOST_LOSS: f64 = 0.8;
