@@ -91,9 +91,11 @@ class Contestant:
         self.process, self.samples = process, {}
         process.start()
         loading = process.load(path, size)
-        self.settings = [setting for setting in process.settings() if not wanted or setting in wanted]
-        if not self.settings:
-            raise PeerError(f"{process.key} has none of the settings {wanted}")
+        known = process.settings()
+        unknown = [setting for setting in wanted or [] if setting not in known]
+        if unknown:
+            raise PeerError(f"there is no setting {unknown[0]!r}; choose from {'; '.join(known)}")
+        self.settings = wanted or known
         first, again = (process.render(self.settings[0], 1, seed) for seed in range(2))
         # gpt is started anew for every picture; its first one filled the driver's cache of kernels.
         self.start_up = again["wall"] if process.key == "gpt" else process.seconds_to_start + loading + first["wall"]

@@ -169,7 +169,7 @@ fn a_guide_learns_of_as_many_paths_as_are_wanted() {
     }
 }
 
-/// In the cellar a guide of the first two rounds takes as much as it gives, and one of all rounds pays.
+/// In the cellar a guide of all rounds pays, and early looks do not end it.
 #[test]
 fn a_guide_that_pays_late_is_kept() {
     if !in_full("learning a guide of all rounds that has to pay") {

@@ -11,7 +11,7 @@ use crate::sampling::cell_grid::{CellGrid, FACINGS, Region, facing};
 const MOST_BOXES: usize = 1 << 16;
 /// Cells that there are about at most; four times as many where arrivals are spread badly.
 const MOST_CELLS: usize = 8192;
-/// Arrivals of a cell at least, and from which on it is cut in two: fewer are noisier than a smaller cell is truer, and many cells are read slowly.
+/// Arrivals of a cell at least, and from which on it is cut in two. A histogram of some hundred is mostly noise, and many cells are read slowly.
 const FEWEST_ARRIVALS: usize = 64;
 const MOST_ARRIVALS: usize = 3072;
 /// The even share of a histogram that was made of so many arrivals is a half.
