@@ -27,7 +27,8 @@ SETTINGS = {
     "Sobol, 4 light samples, adaptive": ["--sampler", "sobol", "--light-samples", "4", "--adaptive"],
     "Sobol, 8 light samples at 2 surfaces": ["--sampler", "sobol", "--light-samples", "8", "--light-samples-depth", "2"],
     "Sobol, guided": ["--sampler", "sobol", "--guiding", "on"],
-    "Sobol, guided by few paths": ["--sampler", "sobol", "--guiding", "on", "--guiding-paths", "65536"],
+    "Sobol, guided by 65536 paths": ["--sampler", "sobol", "--guiding", "on", "--guiding-paths", "65536"],
+    "Sobol, guided by 196608 paths": ["--sampler", "sobol", "--guiding", "on", "--guiding-paths", "196608"],
 }
 
 
