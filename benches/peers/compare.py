@@ -104,13 +104,15 @@ class Contestant:
         self.idle_cpu = again["cpu"] - (more["cpu"] - again["cpu"]) / (more["spp"] - again["spp"])
 
     def power_for(self, setting, seconds):
-        """Of the sample count, a power of two, whose render takes about that long, at least 2."""
+        """Of the sample count, a power of two, whose render takes about that long with what it learns, at least 2."""
         power = 2
         while True:
-            taken = max(self.process.render(setting, 1 << power, 90)["seconds"], 1e-3)
-            if taken > seconds / 3 or power >= 16:
-                return max(2, power + round(math.log2(seconds / taken)))
-            power += max(1, math.floor(math.log2(seconds / 2 / taken)))
+            found = self.process.render(setting, 1 << power, 90)
+            taken = max(found["seconds"] - found["learning"], 1e-3)
+            left = max(seconds - found["learning"], taken)
+            if taken > left / 3 or power >= 16:
+                return max(2, power + round(math.log2(left / taken)))
+            power += max(1, math.floor(math.log2(left / 2 / taken)))
 
     def choose(self, seconds, choose_seconds, settings, known):
         """Keeps the setting with the least error × time, after two renders of `choose_seconds` with each, and the ladder of sample counts. Learning counts
@@ -129,6 +131,8 @@ class Contestant:
                 costs[setting] = float(errors.mean() * np.mean(seconds_taken))
         self.costs = costs
         self.setting = min(costs, key=costs.get) if costs else settings[0]
+        if self.setting != settings[0]:
+            power = self.power_for(self.setting, seconds)
         # What is compiled for a sample count is compiled now. Some samplers round the count: no step is taken twice.
         self.ladder = sorted({round(self.process.prepare(self.setting, 1 << (power - back))) for back in range(3)})
 
