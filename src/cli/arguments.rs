@@ -247,6 +247,9 @@ pub struct PlanArguments {
     pub aov: Vec<Layer>,
     #[command(flatten)]
     pub settings: SettingFlags,
+    /// Refuse what `gpt render --strict` refuses (exit code 3), and have the chunks rendered with it
+    #[arg(long)]
+    pub strict: bool,
 }
 
 #[derive(Debug, Args)]

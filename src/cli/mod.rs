@@ -40,6 +40,7 @@ mod shell;
 mod terminal;
 mod test;
 mod traversal;
+mod typed;
 mod values;
 mod verified_drivers;
 mod verify;
@@ -48,10 +49,9 @@ mod watch;
 
 use std::process::ExitCode;
 
-use clap::Parser;
-
-use arguments::{Arguments, Command};
+use arguments::Command;
 use exit::Exit;
+use typed::Typed;
 
 /// Sees to it that work is done where the system starts no more threads: then by one.
 fn start_threads() {
@@ -66,8 +66,8 @@ fn start_threads() {
 pub fn run() -> ExitCode {
     terminal::install_error_style();
     start_threads();
-    let arguments = match Arguments::try_parse() {
-        Ok(arguments) => arguments,
+    let (arguments, typed) = match Typed::parse(std::env::args_os()) {
+        Ok(parsed) => parsed,
         Err(error) => {
             // Help and version are answers, not errors, though clap hands them over the same way. A closed stdout has no reader.
             let _ = error.print();
@@ -76,12 +76,12 @@ pub fn run() -> ExitCode {
     };
     let outcome = match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
-        Command::Plan(arguments) => plan::run(&arguments),
+        Command::Plan(arguments) => plan::run(&arguments, &typed),
         Command::Merge(arguments) => merge::run(&arguments),
         Command::Denoise(arguments) => denoise::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
-        Command::Test(arguments) => test::run(&arguments),
-        Command::Verify(arguments) => verify::run(&arguments),
+        Command::Test(arguments) => test::run(&arguments, &typed),
+        Command::Verify(arguments) => verify::run(&arguments, &typed),
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),

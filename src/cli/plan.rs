@@ -1,10 +1,11 @@
 //! `gpt plan`.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use gpt::Scene;
 use gpt::film::Layer;
-use gpt::load;
+use gpt::load::{self, LoadOptions, ModelView, SceneSource};
 use gpt::merge::chunks;
 use gpt::plan::host::{HostNeeds, host_memory};
 use gpt::render::options::PARTS_OF_STRATA;
@@ -16,6 +17,7 @@ use super::exit::{Exit, Failure};
 use super::frames::{FrameArguments, FrameList};
 use super::layers::MATTES_OF_PARTS;
 use super::sequence::bad_frame;
+use super::typed::{CommandLine, Typed};
 use super::{settings, terminal};
 
 /// The chunks of a job, for schedulers. Its keys stay as they are; new ones may be added.
@@ -73,18 +75,29 @@ struct ExitCodes {
 const MERGE_PROGRAM_BYTES: u64 = 32 << 20;
 const MERGE_BYTES: u64 = 40 + 40;
 
+/// Arguments of `gpt plan` that chunks have in words of their own. All others are passed on to `gpt render` as they were typed.
+const OF_THE_PLAN: [&str; 4] = ["chunks", "frames", "output", "spp"];
+
 /// Prints the chunks of a job as JSON.
-pub fn run(arguments: &PlanArguments) -> Result<Exit, Failure> {
-    let mut scene = load::load_with(Some(&arguments.scene), &arguments.access.options(false))?;
+pub fn run(arguments: &PlanArguments, typed: &Typed) -> Result<Exit, Failure> {
+    let source = SceneSource::parse(Some(&arguments.scene))?;
+    if matches!(source, SceneSource::StandardInput) {
+        return Err(Failure::usage("chunks are rendered by other processes, which do not have this standard input: name a file"));
+    }
+    let view = ModelView { size: arguments.size, ..ModelView::default() };
+    let mut scene = source.load(&LoadOptions { view, ..arguments.access.options(arguments.strict) })?;
+    if let Some(summary) = scene.import_report.summary().filter(|_| arguments.strict) {
+        return Err(load::SceneError::in_file(&scene.name, summary).into());
+    }
     settings::apply_to(arguments.size, &arguments.settings, &mut scene)?;
     match &arguments.frames {
-        Some(frames) => plan_frames(arguments, &scene, frames),
-        None => plan_samples(arguments, &scene),
+        Some(frames) => plan_frames((arguments, typed), &scene, frames),
+        None => plan_samples((arguments, typed), &scene),
     }
 }
 
 /// Chunks of whole frames: nothing is left to join.
-fn plan_frames(arguments: &PlanArguments, scene: &Scene, frames: &FrameList) -> Result<Exit, Failure> {
+fn plan_frames((arguments, typed): (&PlanArguments, &Typed), scene: &Scene, frames: &FrameList) -> Result<Exit, Failure> {
     let FrameList(numbers) = frames;
     let count = numbers.len() as u32;
     if arguments.chunks > count {
@@ -106,23 +119,22 @@ fn plan_frames(arguments: &PlanArguments, scene: &Scene, frames: &FrameList) -> 
     let output = output.display().to_string();
     let cut = chunks(count, arguments.chunks).enumerate().map(|(index, range)| {
         let frames = FrameList::words(&numbers[range.start as usize..range.end as usize]);
-        let mut command = render_command(arguments);
-        command.extend(["--frames".into(), frames.clone(), "--spp".into(), spp.to_string()]);
-        command.extend(["--resume".into(), "-o".into(), output.clone()]);
-        Chunk {
+        let command = render_command(arguments, typed).with_option("--frames", &frames).with_option("--spp", spp.to_string());
+        let command = command.with_flag("--resume").with_option("-o", &output);
+        Ok(Chunk {
             index: index as u32,
             frames: Some(frames),
             first_sample: 0,
             spp,
             output: output.clone(),
-            shell: shell(&command),
-            command,
+            shell: command.to_string(),
+            command: words(&command)?,
             device_bytes,
             host_bytes,
             cpu_seconds: seconds * range.len() as f64,
-        }
+        })
     });
-    let chunks = cut.collect();
+    let chunks = cut.collect::<Result<_, Failure>>()?;
     let scene = scene.name.clone();
     terminal::answer_json(&Job { scene, width, height, spp, device, chunks, merge: None, exit_codes: ExitCodes::default() })?;
     Ok(Exit::Done)
@@ -134,26 +146,27 @@ fn host_bytes(scene: &Scene) -> u64 {
     host_memory(scene, &HostNeeds { pixels, checkpoint: true, ..HostNeeds::default() }).total()
 }
 
-/// The words with which every chunk's command begins: the scene, and what is set for it.
-fn render_command(arguments: &PlanArguments) -> Vec<String> {
-    let mut command: Vec<String> = vec!["gpt".into(), "render".into(), arguments.scene.to_string_lossy().into_owned()];
-    if let Some([width, height]) = arguments.size {
-        command.extend(["--size".into(), format!("{width}x{height}")]);
-    }
-    for assignment in arguments.settings.0.iter().filter(|assignment| assignment.setting().name != "spp") {
-        command.extend([assignment.setting().flag.into(), assignment.value().to_string()]);
-    }
-    if !arguments.aov.is_empty() {
-        command.extend(["--aov".into(), Layer::list(&arguments.aov)]);
-    }
-    if let Some(root) = &arguments.access.assets_root {
-        command.extend(["--assets-root".into(), root.display().to_string()]);
-    }
-    command
+/// The command with which every chunk's begins: the scene, and all that was said of how it is read and rendered.
+fn render_command(arguments: &PlanArguments, typed: &Typed) -> CommandLine {
+    CommandLine::new("render").with(&arguments.scene).with_options(typed.options_but(&OF_THE_PLAN))
+}
+
+/// The words of a command for JSON.
+///
+/// # Errors
+/// A usage error where one is no text.
+fn words(command: &CommandLine) -> Result<Vec<String>, Failure> {
+    let no_text = |word: OsString| {
+        Failure::usage(format!(
+            "{}: this name is not in UTF-8, so JSON cannot hold it: give it another one",
+            word.to_string_lossy()
+        ))
+    };
+    command.words().map_err(no_text)
 }
 
 /// Chunks of the samples of one picture, and the command that joins them.
-fn plan_samples(arguments: &PlanArguments, scene: &Scene) -> Result<Exit, Failure> {
+fn plan_samples((arguments, typed): (&PlanArguments, &Typed), scene: &Scene) -> Result<Exit, Failure> {
     let spp = scene.render.spp;
     if arguments.chunks > spp {
         return Err(Failure::usage(format!(
@@ -183,28 +196,31 @@ fn plan_samples(arguments: &PlanArguments, scene: &Scene) -> Result<Exit, Failur
         .map(|(index, samples)| {
             let (index, count) = (index as u32, samples.len() as u32);
             let output = part(index);
-            let mut command = render_command(arguments);
-            command.extend(["--first-sample".into(), samples.start.to_string(), "--spp".into(), count.to_string()]);
-            command.extend(["--resume".into(), "-o".into(), output.clone()]);
-            Chunk {
+            let command = render_command(arguments, typed).with_option("--first-sample", samples.start.to_string());
+            let command = command.with_option("--spp", count.to_string()).with_flag("--resume").with_option("-o", &output);
+            Ok(Chunk {
                 index,
                 frames: None,
                 first_sample: samples.start,
                 spp: count,
                 output,
-                shell: shell(&command),
-                command,
+                shell: command.to_string(),
+                command: words(&command)?,
                 device_bytes,
                 host_bytes,
                 cpu_seconds: seconds * f64::from(count) / f64::from(spp),
-            }
+            })
         })
-        .collect();
+        .collect::<Result<_, Failure>>()?;
+    let command = cut.iter().fold(CommandLine::new("merge"), |command, chunk| command.with(&chunk.output));
+    let command = command.with_option("--spp", spp.to_string()).with_option("-o", &output);
     let output = output.display().to_string();
-    let mut command: Vec<String> = vec!["gpt".into(), "merge".into()];
-    command.extend(cut.iter().map(|chunk| chunk.output.clone()));
-    command.extend(["--spp".into(), spp.to_string(), "-o".into(), output.clone()]);
-    let merge = Merge { output, shell: shell(&command), command, host_bytes: MERGE_PROGRAM_BYTES + pixels * MERGE_BYTES };
+    let merge = Merge {
+        output,
+        shell: command.to_string(),
+        command: words(&command)?,
+        host_bytes: MERGE_PROGRAM_BYTES + pixels * MERGE_BYTES,
+    };
     let [width, height] = scene.film.size;
     let (scene, exit_codes) = (scene.name.clone(), ExitCodes::default());
     terminal::answer_json(&Job { scene, width, height, spp, device, chunks: cut, merge: Some(merge), exit_codes })?;
@@ -217,22 +233,41 @@ impl Default for ExitCodes {
     }
 }
 
-/// The words of a command as a POSIX shell reads them.
-fn shell(command: &[String]) -> String {
-    let plain = |word: &str| {
-        !word.is_empty() && word.chars().all(|letter| letter.is_ascii_alphanumeric() || "-_./:,=+@%".contains(letter))
-    };
-    let quoted = |word: &String| if plain(word) { word.clone() } else { format!("'{}'", word.replace('\'', r"'\''")) };
-    command.iter().map(quoted).collect::<Vec<_>>().join(" ")
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::typed::subcommand;
     use super::*;
 
+    /// Every argument of `gpt plan` is one of the plan's own, or `gpt render` has it too and every chunk's command tells it.
     #[test]
-    fn shells_read_the_words_as_they_are() {
-        let words = ["gpt", "my scene.toml", "it's", "--spp", "4", ""].map(str::to_owned);
-        assert_eq!(shell(&words), r"gpt 'my scene.toml' 'it'\''s' --spp 4 ''");
+    fn chunks_take_every_argument() {
+        let render = subcommand("render");
+        for argument in subcommand("plan").get_arguments().filter(|argument| !argument.is_positional()) {
+            let id = argument.get_id().as_str();
+            if id == "help" || OF_THE_PLAN.contains(&id) {
+                continue;
+            }
+            let same = render.get_arguments().find(|one| one.get_id() == argument.get_id());
+            let names = same.map(|one| (one.get_long(), one.get_short()));
+            assert_eq!(names, Some((argument.get_long(), argument.get_short())), "gpt render has no {id}");
+        }
+        for id in OF_THE_PLAN {
+            assert!(subcommand("plan").get_arguments().any(|argument| argument.get_id() == id), "{id}");
+        }
+    }
+
+    #[test]
+    fn what_was_said_of_the_scene_is_said_to_every_chunk() {
+        let said = ["-D", "spp=4 5", "--camera", "left eye", "--variant=-red", "--assets-root", "a b", "--file-timeout", "9"];
+        let plan =
+            ["gpt", "plan", "my room.xml", "--chunks", "2", "--spp", "8", "--strict", "--aov", "albedo,depth", "-o", "a.exr"];
+        let (arguments, typed) = Typed::parse(plan.iter().chain(&said).map(OsString::from)).expect("valid arguments");
+        let super::super::arguments::Command::Plan(arguments) = arguments.command else { panic!("another command") };
+        let words = render_command(&arguments, &typed).words().expect("text");
+        assert_eq!(words[..3], ["gpt", "render", "my room.xml"]);
+        for word in ["spp=4 5", "left eye", "--variant=-red", "a b", "9", "--strict", "albedo,depth"] {
+            assert!(words.iter().any(|one| one == word), "{word} in {words:?}");
+        }
+        assert!(words.iter().all(|word| !["8", "a.exr", "--chunks"].contains(&word.as_str())), "{words:?}");
     }
 }

@@ -18,6 +18,7 @@ use super::arguments::VerifyArguments;
 use super::exit::{Exit, Failure};
 use super::frames::FrameArguments;
 use super::sequence::bad_frame;
+use super::typed::{CommandLine, Typed};
 use super::{terminal, verified_drivers};
 
 /// One line of the answer.
@@ -59,7 +60,7 @@ impl Finding {
 }
 
 /// Verifies one scene, or the closed forms and all scenes that are built in, and prints the verdicts; or follows one path.
-pub fn run(arguments: &VerifyArguments) -> Result<Exit, Failure> {
+pub fn run(arguments: &VerifyArguments, typed: &Typed) -> Result<Exit, Failure> {
     let device_timeout = arguments.device_timeout;
     let film = arguments.film.storage_on(&arguments.device)?;
     let options = PlanOptions { fault: arguments.plant, film, device_timeout, ..arguments.traversal.options() };
@@ -74,12 +75,12 @@ pub fn run(arguments: &VerifyArguments) -> Result<Exit, Failure> {
     let named = arguments.scene.as_deref().map(|name| load(name, arguments, arguments.frame)).transpose()?;
     let device = Device::open_for(&arguments.device, &options)?;
     if let (Some(name), Some(scene)) = (&arguments.scene, named) {
-        findings.add(verify_scene(&device, (&name.to_string_lossy(), arguments.frame), &scene, arguments, &options)?)?;
+        findings.add(verify_scene(&device, (&name.to_string_lossy(), arguments.frame), &scene, (arguments, typed), &options)?)?;
         was_planted(arguments, findings.planted())?;
         return findings.conclude();
     }
     let is_whole = arguments.size.is_none() && arguments.spp.is_none() && arguments.plant.is_none();
-    let verdict = everything(&device, findings, arguments, &options);
+    let verdict = everything(&device, findings, (arguments, typed), &options);
     if is_whole && options.asks_for_ray_queries() {
         keep_verdict(&device, matches!(verdict, Ok(Exit::Done)));
     }
@@ -90,7 +91,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<Exit, Failure> {
 fn everything(
     device: &Device,
     mut findings: Findings,
-    arguments: &VerifyArguments,
+    (arguments, typed): (&VerifyArguments, &Typed),
     options: &PlanOptions,
 ) -> Result<Exit, Failure> {
     for index in 0..closed_forms::count() {
@@ -100,7 +101,7 @@ fn everything(
         let scene = load(OsStr::new(name), arguments, None)?;
         let first_frame = (!scene.animation.is_empty()).then(|| load(OsStr::new(name), arguments, Some(0))).transpose()?;
         for (scene, frame) in [Some((scene, None)), first_frame.map(|scene| (scene, Some(0)))].iter().flatten() {
-            match verify_scene(device, (name, *frame), scene, arguments, options) {
+            match verify_scene(device, (name, *frame), scene, (arguments, typed), options) {
                 // Not every scene can be traversed in every way; the others still are.
                 Err(Failure::Render(RenderError::DoesNotFit(why))) if options.asks_for_ray_queries() => {
                     terminal::warn(&format!("{name} is left out: {why}"));
@@ -245,13 +246,13 @@ fn verify_scene(
     device: &Device,
     (name, frame): (&str, Option<u32>),
     scene: &Scene,
-    arguments: &VerifyArguments,
+    (arguments, typed): (&VerifyArguments, &Typed),
     options: &PlanOptions,
 ) -> Result<Finding, Failure> {
     let share = if arguments.size.is_none() { shares::of_builtin(name) } else { None };
     let verdict = verify::verify_on(device, scene, options, share)?;
     if !verdict.agrees {
-        leave_evidence(&arguments.evidence, scene, &verdict, &path_command((name, frame), scene, &verdict, arguments));
+        leave_evidence(&arguments.evidence, scene, &verdict, &path_command((name, frame), scene, &verdict, typed));
     }
     Ok(Finding::Scene(verdict))
 }
@@ -302,24 +303,23 @@ fn scene_line(verdict: &Verdict) -> String {
     text
 }
 
-/// The command that prints the worst path.
-fn path_command((name, frame): (&str, Option<u32>), scene: &Scene, verdict: &Verdict, arguments: &VerifyArguments) -> String {
+/// What the command that prints the worst path says in words of its own, or does without.
+const NOT_OF_THE_PATH: [&str; 5] = ["size", "seed", "frame", "json", "evidence"];
+
+/// The command that prints the worst path. Stratified samplers draw by the number of samples, which is passed on where it was typed.
+fn path_command((name, frame): (&str, Option<u32>), scene: &Scene, verdict: &Verdict, typed: &Typed) -> String {
     let [x, y, sample] = verdict.path_to_follow();
-    let mut command = format!(
-        "gpt verify {name} --size {}x{} --seed {} --pixel {x},{y} --sample {sample}",
-        verdict.width, verdict.height, scene.render.seed
-    );
+    let mut command = CommandLine::new("verify")
+        .with(name)
+        .with_options(typed.options_but(&NOT_OF_THE_PATH))
+        .with_option("--size", format!("{}x{}", verdict.width, verdict.height))
+        .with_option("--seed", scene.render.seed.to_string())
+        .with_option("--pixel", format!("{x},{y}"))
+        .with_option("--sample", sample.to_string());
     if let Some(frame) = frame {
-        let _ = write!(command, " --frame {frame}");
+        command = command.with_option("--frame", frame.to_string());
     }
-    // Stratified samplers draw by the number of samples.
-    if let Some(spp) = arguments.spp {
-        let _ = write!(command, " --spp {spp}");
-    }
-    if let Some(fault) = arguments.plant {
-        let _ = write!(command, " --plant {}", fault.name());
-    }
-    command
+    command.to_string()
 }
 
 /// Writes pictures, and says how to look further. Where they cannot be written the verdict stands all the same.

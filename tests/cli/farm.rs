@@ -56,6 +56,54 @@ fn a_plan_is_what_its_commands_do() {
     place.expect(3, "plan none.toml --chunks 1");
 }
 
+/// A chunk is rendered by a process that knows its command alone, in which all that was said of the scene must stand.
+#[test]
+fn chunks_render_the_scene_that_was_planned() {
+    let place = Workplace::new();
+    let sensor = |name: &str, x: i32| {
+        format!(
+            "<sensor type=\"perspective\" id=\"{name}\"><float name=\"fov\" value=\"40\"/><film type=\"hdrfilm\"><integer name=\"width\" \
+             value=\"12\"/><integer name=\"height\" value=\"8\"/></film><transform name=\"to_world\"><lookat origin=\"{x}, 0, 5\" \
+             target=\"0, 0, 0\" up=\"0, 1, 0\"/></transform></sensor>"
+        )
+    };
+    let room = format!(
+        "<scene version=\"3.0.0\">{}{}<default name=\"grey\" value=\"0.9\"/><shape type=\"sphere\"><bsdf type=\"diffuse\">\
+         <rgb name=\"reflectance\" value=\"$grey\"/></bsdf></shape><emitter type=\"constant\"/></scene>",
+        sensor("front", 0),
+        sensor("left eye's", -2)
+    );
+    fs::write(place.path("my room.xml"), room).expect("the scene");
+    let said = ["-D", "grey=0.1 0.2 0.3", "--camera", "left eye's", "--assets-root", ".", "--seed", "3"];
+    let run = |before: &[&str]| {
+        let output = place.command("").args(before).output().expect("the program starts");
+        assert_eq!(output.status.code(), Some(0), "{before:?}: {}", text(&output.stderr));
+        output
+    };
+    let plan = run(&[&["plan", "my room.xml", "--chunks", "2", "--spp", "8", "-o", "p q.exr"], said.as_slice()].concat());
+    let plan: Value = serde_json::from_slice(&plan.stdout).expect("JSON");
+    let chunks = plan["chunks"].as_array().expect("a list").iter();
+    for command in chunks.chain([&plan["merge"]]) {
+        let words: Vec<&str> = command["command"].as_array().expect("words").iter().filter_map(Value::as_str).collect();
+        run(&words[1..]);
+        // A shell reads the same words.
+        #[cfg(unix)]
+        {
+            let printed = format!("gpt() {{ printf '%s\\n' gpt \"$@\"; }}; {}", command["shell"].as_str().expect("text"));
+            let output = Command::new("sh").args(["-c", &printed]).output().expect("a shell");
+            assert_eq!(text(&output.stdout).lines().collect::<Vec<_>>(), words);
+        }
+    }
+    let whole = ["render", "my room.xml", "-q", "--spp", "8", "-o", "whole.exr"];
+    run(&[whole.as_slice(), said.as_slice()].concat());
+    assert!(most_units(&place.image("whole.exr"), &place.image("p q.exr")) <= 1);
+    // The control: without what was said it is another picture.
+    run(&whole);
+    assert!(most_units(&place.image("whole.exr"), &place.image("p q.exr")) > 100);
+    // What came on standard input is not there for another process.
+    place.expect(2, "plan - --chunks 1");
+}
+
 /// A camera that moves, and the frames of it from one render.
 fn animation() -> Workplace {
     let place = Workplace::new();

@@ -67,7 +67,7 @@ fn golden_pictures_are_made_and_changes_are_found_and_accepted() {
     let (_, red) = report(&place, &format!("{TEST} lit"));
     let command = red["scenes"][0]["commands"][1].as_str().expect("a command");
     let [render, compare] = command.split(" && ").collect::<Vec<_>>()[..] else { panic!("{command}") };
-    place.expect(0, &render.replacen("gpt render", "render --device cpu -q", 1));
+    place.expect(0, &render.replacen("gpt render", "render -q", 1));
     place.expect(7, compare.strip_prefix("gpt ").expect("a command of ours"));
     assert!(place.path("now.html").is_file());
 

@@ -16,6 +16,7 @@ use serde::Serialize;
 pub use arguments::TestArguments;
 
 use super::exit::{Exit, Failure};
+use super::typed::Typed;
 use super::{interrupt, terminal};
 use report::{SceneReport, Verdict};
 
@@ -38,9 +39,9 @@ struct Report<'a> {
 }
 
 /// Tests each scene of a folder, and reports.
-pub fn run(arguments: &TestArguments) -> Result<Exit, Failure> {
+pub fn run(arguments: &TestArguments, typed: &Typed) -> Result<Exit, Failure> {
     let started = Instant::now();
-    let jobs = folder::jobs(arguments)?;
+    let jobs = folder::jobs(arguments, typed)?;
     interrupt::install()?;
     let settings = arguments.settings(jobs.len());
     let mut reports = Vec::with_capacity(jobs.len());

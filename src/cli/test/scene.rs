@@ -19,18 +19,18 @@ use gpt::render::choice::{Choice, ChosenRenderer};
 use gpt::renderer::{DeviceChoice, Renderer};
 
 use super::arguments::TestArguments;
-use super::folder::{Job, bless_command};
+use super::folder::Job;
 use super::report::{Difference, SceneReport, TestPictures, Verdict};
 use crate::cli::bench::OnlyStops;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::shell::{quoted, quoted_path};
 use crate::cli::terminal;
 use crate::cli::traversal::TraversalArguments;
+use crate::cli::typed::CommandLine;
 
 /// Tests a scene, or makes its golden picture. What goes wrong is part of the report.
 pub fn test(job: &Job, arguments: &TestArguments, settings: &TestSettings) -> SceneReport {
     let started = Instant::now();
-    let mut report = blank(job, arguments);
+    let mut report = blank(job);
     if let Err(failure) = test_into(job, arguments, settings, &mut report) {
         report.verdict = Verdict::Failed;
         report.failure = Some(Exit::from(&failure));
@@ -40,18 +40,7 @@ pub fn test(job: &Job, arguments: &TestArguments, settings: &TestSettings) -> Sc
     report
 }
 
-fn blank(job: &Job, arguments: &TestArguments) -> SceneReport {
-    let folder = quoted_path(&arguments.folder);
-    let mut again = format!("gpt test {folder} {}", quoted(&job.name));
-    if arguments.seed != 0 {
-        again += &format!(" --seed {}", arguments.seed);
-    }
-    if (arguments.change - TestSettings::default().change).abs() > 1e-12 {
-        again += &format!(" --change {}%", 100.0 * arguments.change);
-    }
-    if let Some(candidates) = &arguments.candidate_dir {
-        again += &format!(" --candidate-dir {}", quoted_path(candidates));
-    }
+fn blank(job: &Job) -> SceneReport {
     SceneReport {
         scene: job.name.clone(),
         file: job.file.display().to_string(),
@@ -72,7 +61,7 @@ fn blank(job: &Job, arguments: &TestArguments) -> SceneReport {
         flip_of_noise: None,
         scene_changed: None,
         seconds: 0.0,
-        commands: vec![again],
+        commands: vec![job.again.to_string()],
         failure: None,
         pictures: None,
     }
@@ -90,7 +79,7 @@ fn test_into(job: &Job, arguments: &TestArguments, settings: &TestSettings, repo
     [report.width, report.height] = scene.film.size;
     let is_missing = !job.golden.exists();
     if is_missing && !arguments.bless && !arguments.update {
-        let command = bless_command(job, &arguments.folder);
+        let command = job.bless_command();
         return Err(Failure::BadScene(format!("there is no golden picture {}; `{command}` makes it", job.golden.display())));
     }
     let golden = if arguments.bless || is_missing { None } else { Some(Golden::read(&job.golden)?) };
@@ -148,7 +137,7 @@ fn make_golden(job: &Job, settings: &TestSettings, maker: &mut Maker, report: &m
     report.flip_of_noise = golden.flip_of_noise;
     report.message = shortcomings(detection.change, settings, non_finite_samples);
     if report.differences.is_empty() {
-        report.commands = vec![bless_command(job, job.file.parent().unwrap_or(Path::new(".")))];
+        report.commands = vec![job.bless_command()];
     }
     Ok(())
 }
@@ -200,12 +189,9 @@ fn render_and_judge(
     report.differences = differences.iter().map(Difference::from).collect();
     report.flip = Some(map.mean());
     report.message = shortcomings(detection.change, settings, non_finite_samples);
-    report.commands.push(format!(
-        "gpt render {} --spp {} --seed {seed} -o now.exr && gpt compare now.exr {} --html now.html",
-        quoted_path(&job.file),
-        detection.samples,
-        quoted_path(&job.golden)
-    ));
+    let render = CommandLine::new("render").with(&job.file).with_options(job.on_device.clone());
+    let render = render.with_option("--spp", detection.samples.to_string()).with_option("--seed", seed.to_string());
+    report.commands.push(format!("{} && {}", render.with_option("-o", "now.exr"), compare(Path::new("now.exr"), &job.golden)));
     let differs = !differences.is_empty() || looks_different(arguments, report);
     report.verdict = if differs { Verdict::Differs } else { Verdict::Agrees };
     report.pictures = Some(TestPictures { golden: golden.mean.clone(), now: picture, tiles: first_look, flip: map });
@@ -255,11 +241,16 @@ fn test_candidate(
                 .to_owned(),
         );
     }
-    report.commands.push(format!("gpt compare {} {} --html now.html", quoted_path(&path), quoted_path(&job.golden)));
+    report.commands.push(compare(&path, &job.golden).to_string());
     let differs = !report.differences.is_empty() || looks_different(arguments, report);
     report.verdict = if differs { Verdict::Differs } else { Verdict::Agrees };
     report.pictures = Some(TestPictures { golden: golden.mean, now: candidate.mean, tiles: compared, flip: map });
     Ok(())
+}
+
+/// The command that shows how a picture and its golden picture differ.
+fn compare(picture: &Path, golden: &Path) -> CommandLine {
+    CommandLine::new("compare").with(picture).with(golden).with_option("--html", "now.html")
 }
 
 /// The picture of a scene in a folder, whatever its format.
