@@ -95,12 +95,14 @@ struct Scattering {
     drawn: BsdfSample,
 }
 
-// With the shadow that the surface throws on a bent normal.
+// With the shadow that the surface throws on a bent normal. What goes straight on through a null surface meets no normal.
 fn shadowed(scattering: Scattering, surface: Surface, light_wi: vec3<f32>) -> Scattering {
 #if NORMAL_SHADOWING
     var found = scattering;
     found.towards_light.value *= normal_shadowing(surface.unbent_normal, surface.shading_normal, light_wi);
-    found.drawn.weight *= normal_shadowing(surface.unbent_normal, surface.shading_normal, found.drawn.wi);
+    if !found.drawn.is_null {
+        found.drawn.weight *= normal_shadowing(surface.unbent_normal, surface.shading_normal, found.drawn.wi);
+    }
     return found;
 #else
     return scattering;

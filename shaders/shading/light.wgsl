@@ -309,6 +309,13 @@ fn light_pdf_solid_angle(ray: Ray, facing: u32, surface: Surface) -> f32 {
 #endif
 #if SPHERE_LIGHTS
     if surface.area == 0.0 {
+#if TRANSPARENT_SHADOWS
+        // A ray that went through the near side has met the far one, to which no direction is drawn from outside.
+        let away = ray.origin - surface.sphere.xyz;
+        if !surface.front && dot(away, away) > surface.sphere.w * surface.sphere.w {
+            return 0.0;
+        }
+#endif
 #if SPHERE_LIGHTS_BY_PICTURE
         if (bitcast<u32>(light_word(surface.light, 0u).x) & LIGHT_WARPED) != 0u {
             let to_lamp = surface.position - ray.origin;

@@ -1,13 +1,44 @@
 // What a surface lets through of the light that a shadow ray brings: the weight of its null parts. src/reference/emission.rs looks weights up alike.
 #import core/layout.wgsl
 #import core/math.wgsl
+#import geometry/prepared_ray.wgsl
+#import geometry/records.wgsl
 #import geometry/scene.wgsl
+#import geometry/shapes.wgsl
+#if MOTION
+#import geometry/placed.wgsl
+#endif
 #import shading/surface.wgsl
 #if BLENDS
 #import shading/blend.wgsl
 #endif
 
-// Of the primitive that a ray meets at `hit`, 0 where it is opaque. A sphere is met again on its far side, if that is nearer than `limit`.
+#if BLENDS
+// Where the ray crosses the primitive that it meets at `hit` once more before `limit`; its primitive is NONE where it does not. Groups of
+// instances consist of triangles, which are crossed once.
+fn crossed_again(ray: Ray, hit: Hit, limit: f32) -> Hit {
+    var again = no_hit(limit);
+#if INSTANCES
+    if hit.instance != NONE {
+        return again;
+    }
+#endif
+#if MOTION
+    let placed = placed_primitive(primitive_words(hit.primitive));
+    let words = PrimitiveWords(placed.p0, placed.p1, placed.p2);
+#else
+    let words = primitive_words(hit.primitive);
+#endif
+    let found = intersect_again(prepare_ray(ray), limit, primitive_kind(words.w0.w), words.w0.xyz, words.w1.xyz, words.w2.xyz);
+    if found.x > 0.0 {
+        again = world_hit(found.x, hit.primitive, found.y, found.z);
+    }
+    return again;
+}
+#endif
+
+// The share of light that comes through the primitive that a ray meets at `hit`, and through its far side where that is nearer than `limit`; 0
+// where it is opaque.
 fn hit_transmittance(ray: Ray, hit: Hit, limit: f32) -> f32 {
     let material = hit_material(hit);
     var share = 0.0;
@@ -15,19 +46,11 @@ fn hit_transmittance(ray: Ray, hit: Hit, limit: f32) -> f32 {
 #if BLENDS
         share = 1.0;
         var met = hit;
-        var count = 1;
-        for (var number = 0; number < count; number++) {
-            let surface = hit_surface(ray, met);
-            share *= null_weight(surface, -ray.direction);
-#if SPHERES
-            // The distances of both sides from the point next to the center are the same.
-            let middle = dot(surface.sphere.xyz - ray.origin, ray.direction);
-            let far = 2.0 * middle - met.t;
-            if number == 0 && surface.sphere.w > 0.0 && met.t < middle && far < limit {
-                count = 2;
-                met.t = far;
+        for (var crossing = 0; crossing < 2 && met.primitive != NONE; crossing++) {
+            share *= null_weight(hit_surface(ray, met), -ray.direction);
+            if crossing == 0 {
+                met = crossed_again(ray, hit, limit);
             }
-#endif
         }
 #else
         share = 1.0;

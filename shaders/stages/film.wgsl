@@ -1,4 +1,4 @@
-// The band's film. Per pixel: (sum of radiance, sample count) and (what the sum's rounding lost, sum of squared luminance).
+// The band's film. Per pixel: (sum of radiance, sample count as count_word writes it) and (what the sum's rounding lost, sum of squared luminance).
 #import core/layout.wgsl
 #import core/math.wgsl
 #import core/parameters.wgsl
@@ -44,9 +44,22 @@ fn store_film(pixel_in_band: u32, sum: vec4<f32>, compensation: vec4<f32>) {
 }
 #endif
 
+// A number of samples, below 2^31, as a float of the same information: single precision itself counts to 2^24. The bits are moved so that the
+// float is neither denormal nor infinite nor NaN, which devices may change on the way. src/film/count.rs is the same for the host.
+fn count_word(count: u32) -> f32 {
+    return bitcast<f32>(((count & 0x00800000u) << 8u) | (((count >> 24u) + 1u) << 23u) | (count & 0x007fffffu));
+}
+
+fn count_in(word: f32) -> u32 {
+    let bits = bitcast<u32>(word);
+    let high = max((bits >> 23u) & 255u, 1u) - 1u;
+    return (high << 24u) | ((bits >> 8u) & 0x00800000u) | (bits & 0x007fffffu);
+}
+
 // A pixel of the film on its way through registers.
 struct FilmPixel {
-    sum: vec4<f32>,
+    sum: vec3<f32>,
+    count: u32,
     compensation: vec4<f32>,
     // Refused samples since it was loaded.
     refused: u32,
@@ -62,7 +75,9 @@ fn load_film_pixel(pixel_in_band: u32) -> FilmPixel {
         return FilmPixel();
     }
     var pixel = FilmPixel();
-    pixel.sum = load_film_sum(pixel_in_band);
+    let sum = load_film_sum(pixel_in_band);
+    pixel.sum = sum.xyz;
+    pixel.count = count_in(sum.w);
     pixel.compensation = load_film_compensation(pixel_in_band);
     return pixel;
 }
@@ -123,28 +138,28 @@ fn add_sample(pixel: ptr<function, FilmPixel>, found: vec3<f32>) {
 #else
     let radiance = sample;
 #endif
-    (*pixel).sum.w += 1.0;
+    (*pixel).count++;
     let l = luminance(radiance);
     if !is_finite(l * l) || !is_finite(max_component(abs(radiance))) {
 #if LAYER_OF_SURFACES
         // Nothing was met: the mean is over the samples that met something.
-        (*pixel).sum.w -= 1.0;
+        (*pixel).count--;
 #else
         (*pixel).refused++;
 #endif
         return;
     }
-    let old = (*pixel).sum.xyz;
+    let old = (*pixel).sum;
     let y = radiance - (*pixel).compensation.xyz;
     let sum = opaque(old + y);
     let lost = opaque(sum - old) - y;
-    (*pixel).sum = vec4<f32>(sum, (*pixel).sum.w);
-    let squares = with_square((*pixel).compensation.w, l * l, u32((*pixel).sum.w));
+    (*pixel).sum = sum;
+    let squares = with_square((*pixel).compensation.w, l * l, (*pixel).count);
     (*pixel).compensation = vec4<f32>(lost, squares);
 }
 
 fn store_film_pixel(pixel_in_band: u32, pixel: FilmPixel) {
-    store_film(pixel_in_band, pixel.sum, pixel.compensation);
+    store_film(pixel_in_band, vec4<f32>(pixel.sum, count_word(pixel.count)), pixel.compensation);
     if pixel.refused > 0u {
         count_refused_samples(pixel.refused);
     }

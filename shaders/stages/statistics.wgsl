@@ -1,4 +1,4 @@
-// What a render counts on the device.
+// What a render counts on the device: src/plan/counters.rs says which words.
 #import core/layout.wgsl
 #import core/parameters.wgsl
 
@@ -10,71 +10,46 @@ fn count_refused_samples(samples: u32) {}
 
 fn count_clamped_samples(samples: u32, units: u32) {}
 #else
-#if PIXEL_LIST
-// The counts: rays traced (low and high word); samples refused because they were not finite; samples that were clamped, and 1024ths of the
-// clamp that this took of their luminance (low and high word); pixels of the pass that were taken. Then the pixels, in the same binding lest a stage need more than
-// eight storage buffers, the band's pixels in the order in which passes take them.
 struct Statistics {
-    counts: array<atomic<u32>, 8>,
+    counters: array<atomic<u32>, COUNTER_WORDS>,
+#if PIXEL_LIST
+    // The band's pixels in the order in which passes take them, in the same binding lest a stage need more than eight storage buffers.
     pixels: array<u32>,
+#endif
 }
 
 @group(0) @binding(BINDING_STATISTICS) var<storage, read_write> statistics: Statistics;
 
-fn count_rays(rays: u32) {
-    let before = atomicAdd(&statistics.counts[0], rays);
-    if before + rays < before {
-        atomicAdd(&statistics.counts[1], 1u);
+// Adds to a counter of two words, the low one first.
+fn count(counter: u32, number: u32) {
+    let before = atomicAdd(&statistics.counters[counter], number);
+    if before + number < before {
+        atomicAdd(&statistics.counters[counter + 1u], 1u);
     }
+}
+
+fn count_rays(rays: u32) {
+    count(RAYS_COUNTER, rays);
 }
 
 fn count_refused_samples(samples: u32) {
-    atomicAdd(&statistics.counts[2], samples);
+    count(REFUSED_COUNTER, samples);
 }
 
 fn count_clamped_samples(samples: u32, units: u32) {
-    atomicAdd(&statistics.counts[3], samples);
-    let before = atomicAdd(&statistics.counts[4], units);
-    if before + units < before {
-        atomicAdd(&statistics.counts[5], 1u);
-    }
-}
-
-fn take_pixels(count: u32) -> u32 {
-    return atomicAdd(&statistics.counts[6], count);
-}
-
-// Of the pixel with this index in the pass.
-fn listed_pixel_in_band(index: u32) -> u32 {
-    return statistics.pixels[pass_parameters.first_pixel_in_band + index];
-}
-#else
-// Rays traced (low and high word); samples refused because they were not finite; samples that were clamped, and 1024ths of the clamp that this
-// took of their luminance (low and high word); pixels of the pass that were taken.
-@group(0) @binding(BINDING_STATISTICS) var<storage, read_write> statistics: array<atomic<u32>, 8>;
-
-fn count_rays(rays: u32) {
-    let before = atomicAdd(&statistics[0], rays);
-    if before + rays < before {
-        atomicAdd(&statistics[1], 1u);
-    }
-}
-
-fn count_refused_samples(samples: u32) {
-    atomicAdd(&statistics[2], samples);
-}
-
-fn count_clamped_samples(samples: u32, units: u32) {
-    atomicAdd(&statistics[3], samples);
-    let before = atomicAdd(&statistics[4], units);
-    if before + units < before {
-        atomicAdd(&statistics[5], 1u);
-    }
+    count(CLAMPED_COUNTER, samples);
+    count(CLAMPED_UNITS_COUNTER, units);
 }
 
 // Index in the pass of the first of `count` pixels that nobody took before; beyond the pass's pixels where none is left.
 fn take_pixels(count: u32) -> u32 {
-    return atomicAdd(&statistics[6], count);
+    return atomicAdd(&statistics.counters[TAKEN_COUNTER], count);
+}
+
+#if PIXEL_LIST
+// The pixel with this index in the pass.
+fn listed_pixel_in_band(index: u32) -> u32 {
+    return statistics.pixels[pass_parameters.first_pixel_in_band + index];
 }
 #endif
 #endif

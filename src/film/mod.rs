@@ -1,7 +1,9 @@
 //! What rendering produces: finished rows of pixels, and layers beside them.
 
+mod count;
 mod layer;
 
+pub use count::{count_in, count_word};
 pub use layer::{KernelLayer, Layer, PartChannels};
 
 use crate::math::luminance;

@@ -14,6 +14,7 @@ use crate::packed::PackedScene;
 use crate::packed::texture::PackedTextures;
 use crate::plan::bindings::Binding;
 use crate::plan::chunks::{ATTRIBUTES, INSTANCES, NODES, PRIMITIVES, TEXELS};
+use crate::plan::counters::{COUNTER_WORDS, TAKEN_COUNTER};
 use crate::plan::parameters::{PassParameters, VertexParameters};
 use crate::plan::path_state::{COUNTS, DISPATCH_SIZE_WORDS};
 use crate::plan::trace_record::TRACE_BYTES;
@@ -22,11 +23,9 @@ use crate::plan::{MAX_SAMPLES_PER_PASS, Plan, StageMode, memory};
 /// Vertices that one submission can hold; longer paths take further submissions.
 pub const VERTICES_PER_SUBMISSION: u32 = 32;
 /// Bytes of the statistics; the list of a band's pixels follows them.
-pub const STATISTICS_BYTES: u64 = 4 * STATISTICS_WORDS as u64;
-/// Numbers that kernels count: see `shaders/stages/statistics.wgsl`.
-pub const STATISTICS_WORDS: usize = 8;
+pub const STATISTICS_BYTES: u64 = 4 * COUNTER_WORDS as u64;
 /// Where the number of a pass's pixels that were taken stands among them, in bytes.
-pub const TAKEN_PIXELS: u64 = 4 * 6;
+pub const TAKEN_PIXELS: u64 = 4 * TAKEN_COUNTER as u64;
 /// Distance between the parameters of successive vertices: the largest alignment a device may ask for.
 const VERTEX_STRIDE: usize = 256;
 

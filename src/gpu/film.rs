@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::device::Device;
 use super::film_memory::{Film, FilmHalf, PIXEL_BYTES, row_stride, rows_at_once};
-use crate::film::{Band, rounded};
+use crate::film::{Band, count_in, rounded};
 use crate::renderer::state::FilmState;
 use crate::renderer::{Batch, RenderError};
 
@@ -189,7 +189,7 @@ fn means(
                 let (sum, compensation) = (sums[column], compensations[column]);
                 let takes_part = batch.takes_part(first_pixel_of(row) + column, width);
                 let has_samples = takes_part && before < reached.pixels;
-                let count = if has_samples { sum[3] as u32 } else { 0 };
+                let count = if has_samples { count_in(sum[3]) } else { 0 };
                 if takes_part {
                     fewest = fewest.min(count);
                     before += 1;

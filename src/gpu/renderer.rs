@@ -7,7 +7,7 @@ use std::time::Instant;
 use glam::DVec3;
 
 use super::band::{BandProgress, Sweeps};
-use super::buffers::{STATISTICS_BYTES, STATISTICS_WORDS};
+use super::buffers::STATISTICS_BYTES;
 use super::device::{Device, OpeningDevice};
 use super::film::{self, Reached, deliver_band};
 use super::passes::{PassLimits, PassSizer};
@@ -21,6 +21,7 @@ use crate::packed::hierarchy::Traversal;
 use crate::packed::view::View;
 use crate::packed::{PackError, PackedScene};
 use crate::plan::bindings::Binding;
+use crate::plan::counters::{CLAMPED_COUNTER, CLAMPED_UNITS_COUNTER, COUNTER_WORDS, RAYS_COUNTER, REFUSED_COUNTER};
 use crate::plan::{Plan, PlanOptions, StageMode};
 use crate::reference::pilot::{self, Settled};
 use crate::reference::training;
@@ -238,18 +239,17 @@ impl GpuRenderer {
 
     /// What was counted since the batch began, `samples` of them in this band.
     pub(super) fn tally(&self, samples: u64, sweeps: &Sweeps<'_>) -> Result<Tally, RenderError> {
-        let [low, high, non_finite_samples, clamped_samples, units_low, units_high, ..] =
-            self.pipeline.read_words::<STATISTICS_WORDS>(Binding::Statistics)?;
-        let joined = |high: u32, low: u32| u64::from(high) << 32 | u64::from(low);
+        let words = self.pipeline.read_words::<{ COUNTER_WORDS as usize }>(Binding::Statistics)?;
+        let counted = |counter: u32| u64::from(words[counter as usize + 1]) << 32 | u64::from(words[counter as usize]);
         let samples = sweeps.finished.get() + samples;
         // `prepare` counts the wavefront's rays to later vertices; those to the first are the paths themselves.
         let camera_rays = if self.pipeline.plan.stages == StageMode::Wavefront { samples - sweeps.before.samples } else { 0 };
         Ok(Tally {
-            rays: sweeps.before.rays + joined(high, low) + camera_rays,
+            rays: sweeps.before.rays + counted(RAYS_COUNTER) + camera_rays,
             samples,
-            non_finite_samples: sweeps.before.non_finite_samples + u64::from(non_finite_samples),
-            clamped_samples: sweeps.before.clamped_samples + u64::from(clamped_samples),
-            clamped_units: sweeps.before.clamped_units + joined(units_high, units_low),
+            non_finite_samples: sweeps.before.non_finite_samples + counted(REFUSED_COUNTER),
+            clamped_samples: sweeps.before.clamped_samples + counted(CLAMPED_COUNTER),
+            clamped_units: sweeps.before.clamped_units + counted(CLAMPED_UNITS_COUNTER),
         })
     }
 }

@@ -7,6 +7,7 @@ pub mod bindings;
 mod build;
 pub mod choices;
 pub mod chunks;
+pub mod counters;
 mod decision;
 mod decisions;
 mod error;

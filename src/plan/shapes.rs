@@ -1,6 +1,6 @@
 //! The WGSL files that hand each primitive on to the functions in its own files, by the table of shapes.
 
-use crate::packed::shape::{PrimitiveKind, SurfaceCoordinates, SurfaceSampling};
+use crate::packed::shape::{Curvature, PrimitiveKind, SurfaceCoordinates, SurfaceSampling};
 
 /// Name under which kernels import the tests of rays.
 pub const GEOMETRY_FILE: &str = "geometry/shapes.wgsl";
@@ -16,8 +16,8 @@ fn finite() -> impl Iterator<Item = PrimitiveKind> {
     all().filter(|kind| !kind.is_infinite())
 }
 
-/// The text of [`GEOMETRY_FILE`]. A primitive `NAME` has the function `intersect_NAME`, and `move_NAME` unless it is infinite; only those that
-/// the plan turns on are compiled.
+/// The text of [`GEOMETRY_FILE`]. A primitive `NAME` has the function `intersect_NAME`, `intersect_NAME_again` where a ray can cross it twice, and
+/// `move_NAME` unless it is infinite; only those that the plan turns on are compiled.
 pub fn geometry_wgsl() -> String {
     let mut text = "// Written by src/plan/shapes.rs.\n#import core/layout.wgsl\n#import geometry/prepared_ray.wgsl\n".to_owned();
     text += "#if MOTION\n#import geometry/motion.wgsl\n#endif\n";
@@ -30,7 +30,12 @@ pub fn geometry_wgsl() -> String {
         finite().map(|kind| (kind, kind.switch_in_hierarchy(), format!("intersect_{}(ray, t_max, p0, p1, p2)", kind.file())));
     let signature = format!("intersect_held(ray: PreparedRay, t_max: f32, kind: u32, {points}) -> vec3<f32>");
     text += &dispatch(&signature, held, "vec3<f32>(-1.0, 0.0, 0.0)");
-    text += "\n#if MOTION\n// The points of a primitive's record as a motion has moved them.\n";
+    text += "\n#if TRANSPARENT_SHADOWS\n// Where a ray crosses a primitive after its first crossing, as intersect_held: (t or -1, and where it is met).\n";
+    let again = all().filter(|kind| kind.curvature() == Curvature::Curved);
+    let again = again.map(|kind| (kind, kind.switch(), format!("intersect_{}_again(ray, t_max, p0, p1, p2)", kind.file())));
+    let signature = format!("intersect_again(ray: PreparedRay, t_max: f32, kind: u32, {points}) -> vec3<f32>");
+    text += &dispatch(&signature, again, "vec3<f32>(-1.0, 0.0, 0.0)");
+    text += "#endif\n\n#if MOTION\n// The points of a primitive's record as a motion has moved them.\n";
     let moved = finite().map(|kind| (kind, kind.switch(), format!("move_{}(motion, p0, p1, p2)", kind.file())));
     let otherwise = "MovedPoints(p0, p1, p2, vec3<f32>(0.0))";
     text + &dispatch(&format!("move_shape(motion: Motion, kind: u32, {points}) -> MovedPoints"), moved, otherwise) + "#endif\n"

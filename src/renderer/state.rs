@@ -3,6 +3,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use crate::film::{count_in, count_word};
+
 /// Most samples per pixel of one sweep. A sweep that one device began, another ends.
 pub const MOST_SAMPLES_PER_SWEEP: u32 = crate::plan::MAX_SAMPLES_PER_PASS;
 
@@ -50,7 +52,7 @@ pub struct Tally {
 /// Sums over the samples of each pixel, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FilmState {
-    /// As a graphics device sums: (radiance, number of samples), and (what the radiance's rounding lost, squared luminance).
+    /// As a graphics device sums: (radiance, [number of samples](crate::film::count_word)), and (what the radiance's rounding lost, squared luminance).
     Single { sums: Vec<[f32; 4]>, compensations: Vec<[f32; 4]> },
     /// As the CPU reference sums: (radiance, squared luminance), and numbers of samples.
     Double { sums: Vec<[f64; 4]>, samples: Vec<u32> },
@@ -87,7 +89,7 @@ impl FilmState {
                 let radiance = [r, g, b];
                 let [high_r, high_g, high_b] = radiance.map(|sum| sum as f32);
                 let [low_r, low_g, low_b] = radiance.map(|sum| (f64::from(sum as f32) - sum) as f32);
-                ([high_r, high_g, high_b, samples[pixel] as f32], [low_r, low_g, low_b, squares as f32])
+                ([high_r, high_g, high_b, count_word(samples[pixel])], [low_r, low_g, low_b, squares as f32])
             }
         }
     }
@@ -100,7 +102,7 @@ impl FilmState {
                 let ([r, g, b, count], [lost_r, lost_g, lost_b, squares]) = (sums[pixel], compensations[pixel]);
                 // The true sum is the stored one less what its compensation still owes.
                 let sum = [(r, lost_r), (g, lost_g), (b, lost_b)].map(|(sum, lost)| f64::from(sum) - f64::from(lost));
-                ([sum[0], sum[1], sum[2], f64::from(squares)], count as u32)
+                ([sum[0], sum[1], sum[2], f64::from(squares)], count_in(count))
             }
         }
     }

@@ -133,7 +133,7 @@ light_table!(light_files);
 
 /// The files of each primitive in the table of shapes.
 macro_rules! shape_files {
-    ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident)?,)*) => {
+    ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident $curvature:ident)?,)*) => {
         const SHAPES: &[(&str, &str)] = &[$($(
             (
                 concat!("geometry/shape/", stringify!($file), ".wgsl"),

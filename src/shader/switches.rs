@@ -65,7 +65,7 @@ macro_rules! names_but {
 
 /// Switches for each primitive in the table of shapes.
 macro_rules! shapes {
-    ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident)?,)*) => {
+    ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident $curvature:ident)?,)*) => {
         /// Kinds of primitive that a hierarchy holds.
         const HELD: &[&str] = names_but!(Infinite "S_IN_HIERARCHY" [] $($(($sampling $capitals))?)*);
 

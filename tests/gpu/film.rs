@@ -6,11 +6,13 @@ use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;
 use gpt::plan::{FilmStorage, PlanOptions, StageMode};
 use gpt::reference::ReferenceRenderer;
-use gpt::renderer::{Observer, RenderRequest, Renderer, Silent};
+use gpt::renderer::state::{BatchState, FilmState, Tally};
+use gpt::renderer::{Batch, Observer, RenderRequest, Renderer, Silent};
 use gpt::scene::Scene;
 use gpt::verify;
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
 fn render(scene: &Scene, (device, options): &Way, samples: Range<u32>) -> Option<Vec<Band>> {
@@ -81,6 +83,45 @@ fn sums_hold_their_precision_at_65536_samples() {
     // The control: a plain f32 sum of the same samples misses the same bound.
     let plain: f32 = std::iter::repeat_n(LIGHT[0] as f32, SPP as usize).sum();
     assert!((f64::from(plain) / f64::from(SPP) / LIGHT[0] - 1.0).abs() > 1e-6);
+}
+
+/// Single precision counts to 2²⁴: a count in it stays there, while the sum goes on and the picture grows too bright. A render that begins with
+/// almost as many samples ends with the light's radiance and all of its samples.
+#[test]
+fn samples_are_counted_beyond_the_numbers_of_single_precision() {
+    const BEFORE: u32 = (1 << 24) - 2;
+    const SPP: u32 = BEFORE + 64;
+    let mut scene = light_in_view();
+    scene.render.spp = SPP;
+    let sum = LIGHT.map(|light| light * f64::from(BEFORE));
+    let state = BatchState {
+        rows: 0..4,
+        done: BEFORE,
+        sweep: 0,
+        reached: 0,
+        film: Arc::new(FilmState::Double { sums: vec![[sum[0], sum[1], sum[2], 0.0]; 16], samples: vec![BEFORE; 16] }),
+        tally: Tally::default(),
+    };
+    let request = RenderRequest { rows: 0..4, samples: 0..SPP };
+    let check = |what: &str, renderer: &mut dyn Renderer| {
+        let mut bands = Vec::new();
+        let mut on_band = |band| {
+            bands.push(band);
+            Ok(())
+        };
+        let batch = Batch { resume: Some(&state), ..Batch::of(&request) };
+        renderer.render_batch(&batch, &Silent, &mut on_band).expect("it renders");
+        assert_eq!(bands[0].samples, SPP, "{what}");
+        for (value, expected) in bands[0].mean.iter().flat_map(|pixel| pixel.iter().zip(LIGHT)) {
+            // One sample too few in the count is 6e-8 of the radiance, 62 of them are 3.7e-6.
+            assert!((f64::from(*value) / expected - 1.0).abs() < 1e-6, "{what}: {value} instead of {expected}");
+        }
+    };
+    check("cpu", &mut ReferenceRenderer::new(&scene).expect("it is supported"));
+    for (device, options) in ways() {
+        let Some(device) = device.as_ref() else { return };
+        check(&format!("{options:?}"), &mut GpuRenderer::on(device, &scene, &options).expect("the scene fits"));
+    }
 }
 
 #[test]

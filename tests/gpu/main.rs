@@ -11,6 +11,7 @@ mod checkpoints;
 mod chunks;
 mod clamp;
 mod closed_forms;
+mod estimators;
 mod film;
 mod guiding;
 mod layers;

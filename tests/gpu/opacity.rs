@@ -101,17 +101,29 @@ fn veils_multiply_the_light_of_a_point_light() {
     // ρ/π · I/d²
     let free = 0.5 / std::f64::consts::PI * 2.0 / 16.0;
     let ball = "[[shape]]\ntype = \"sphere\"\ncenter = [0, 3, 0]\nradius = 0.5\nmaterial = \"veil\"\n".to_owned();
+    let tube = |from: &str, to: &str| {
+        format!("[[shape]]\ntype = \"cylinder\"\nfrom = {from}\nto = {to}\nradius = 0.4\nmaterial = \"veil\"\n")
+    };
+    let round = ball.clone() + &tube("[-1, 2.6, 0.1]", "[1, 1.4, 0.1]");
     let rows = [
         ("nothing", String::new(), 1.0),
         ("a veil", sheet("veil", 1.0, true), 0.6),
         ("a veil blended with nothing", sheet("half", 1.0, true), 0.8),
         ("two veils", sheet("veil", 1.0, true) + &sheet("half", 2.0, false), 0.48),
         ("both sides of a ball", ball.clone(), 0.36),
+        ("both walls of a tube", tube("[-1, 3, 0.2]", "[1, 3, 0.2]"), 0.36),
+        ("one wall of a tube that the light is in", tube("[-1, 4, 0.2]", "[1, 4, 0.2]"), 0.6),
+        ("one wall of a tube through its open end", tube("[0.02, 4.5, 0.2]", "[-0.8, 2, 0.2]"), 0.6),
+        ("a tube without a wall in the way", tube("[0, 1, 0.2]", "[0, 2, 0.2]"), 1.0),
         ("a thin square", sheet("squares", 2.0, true), 0.85),
         ("a thick square", sheet("squares", 2.0, false), 0.6),
         ("a hole", sheet("cut", 2.0, true), 1.0),
         ("beside a hole", sheet("cut", 2.0, false), 0.0),
-        ("all", sheet("cut", 1.5, true) + &sheet("squares", 2.0, false) + &sheet("veil", 1.0, true) + &ball, 0.6 * 0.6 * 0.36),
+        (
+            "all",
+            sheet("cut", 1.5, true) + &sheet("squares", 2.0, false) + &sheet("veil", 1.0, true) + &round,
+            0.6 * 0.6 * 0.36 * 0.36,
+        ),
         ("an opaque sheet behind", sheet("veil", 1.0, true) + &sheet("floor", 2.0, true), 0.0),
     ];
     let everywhere = in_full("each kind of veil by every way to run");
@@ -133,6 +145,51 @@ fn veils_multiply_the_light_of_a_point_light() {
             check(way, green(&render(&mut GpuRenderer::on(device, &scene, &options).expect("the scene fits"), &scene)));
         }
     }
+}
+
+/// What is seen through a surface that is there in part is as bright as the part that is not there says, wherever a map bends the normals of the rest.
+/// The rest is black here, so every path goes through, and carries that share exactly.
+#[test]
+fn bent_normals_do_not_dim_what_is_behind() {
+    let text = |bump: &str, reflectance: f64| {
+        format!(
+            r#"
+film.size = [8, 6]
+render = {{ spp = 16, max_depth = 3 }}
+camera = {{ position = [0, 1, 4], look_at = [0, 0, -1], vfov = 40 }}
+light = [{{ type = "environment", radiance = [1, 2, 4] }}]
+texture = [{{ name = "hills", type = "perlin", scale = 7, a = 0, b = 1 }}]
+material = [{{ name = "veil", type = "diffuse", reflectance = {reflectance}, opacity = 0.4{bump} }}]
+shape = [{{ type = "rectangle", corner = [-30, 0, 30], edge_u = [60, 0, 0], edge_v = [0, 0, -60], material = "veil" }}]
+"#
+        )
+    };
+    let bump = ", bump_map = \"hills\", bump_scale = 30, normal_shadowing = true";
+    let mirrored = format!("{bump}, normal_mirroring = true");
+    for bump in ["", bump, &mirrored] {
+        let scene = load(&text(bump, 0.0));
+        let check = |device: &str, pixels: &[[f32; 3]]| {
+            // The last rows see the veil.
+            for [r, g, b] in &pixels[32..] {
+                for (value, expected) in [(r, 0.6), (g, 1.2), (b, 2.4)] {
+                    assert!(
+                        (f64::from(*value) - expected).abs() < 1e-5 * expected,
+                        "{device}, {bump}: {value} and not {expected}"
+                    );
+                }
+            }
+        };
+        check("cpu", &render(&mut ReferenceRenderer::new(&scene).expect("it is supported"), &scene));
+        let Some(device) = DEVICE.as_ref() else { continue };
+        check("gpu", &render(&mut GpuRenderer::on(device, &scene, &PlanOptions::default()).expect("the scene fits"), &scene));
+    }
+    // The control: what the rest reflects is dimmed where its normals are bent.
+    let mean = |bump: &str| {
+        let scene = load(&text(bump, 0.9));
+        let pixels = render(&mut ReferenceRenderer::new(&scene).expect("it is supported"), &scene);
+        pixels[32..].iter().map(|pixel| f64::from(pixel[1])).sum::<f64>()
+    };
+    assert!(mean(bump) < 0.99 * mean(&bump.replace("true", "false")), "{} {}", mean(bump), mean(&bump.replace("true", "false")));
 }
 
 /// Veils of every kind before an area light, a round one, a map of the sky, and glossy and diffuse surfaces that see them.

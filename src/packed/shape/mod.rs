@@ -15,7 +15,7 @@ pub use placement::Placement;
 
 /// A module for each row of the table of shapes, and what chooses among them and their primitives.
 macro_rules! modules {
-    ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident)?,)*) => {
+    ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident $curvature:ident)?,)*) => {
         $(mod $module;)*
         $($(pub use $module::$primitive;)?)*
 
@@ -48,6 +48,12 @@ macro_rules! modules {
             pub fn coordinates(self) -> SurfaceCoordinates {
                 match self {
                     $($(Self::$primitive => SurfaceCoordinates::$coordinates,)?)*
+                }
+            }
+
+            pub fn curvature(self) -> Curvature {
+                match self {
+                    $($(Self::$primitive => Curvature::$curvature,)?)*
                 }
             }
 
@@ -180,6 +186,15 @@ pub enum SurfaceCoordinates {
     /// From the normal, by functions of its own.
     Normal,
     None,
+}
+
+/// How often a ray can cross a primitive: both crossings of what is curved stand in the way of a shadow ray.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Curvature {
+    /// Once.
+    Flat,
+    /// Twice.
+    Curved,
 }
 
 /// Numbers of kinds, and what kernels share with the shapes' own files.

@@ -26,6 +26,11 @@ pub trait Element: Debug + Send + Sync {
     /// Distance along the ray and local coordinates of the first crossing beyond the ray's origin and before `limit`.
     fn intersect(&self, ray: &PreparedRay, limit: f64) -> Option<(f64, Local)>;
 
+    /// The crossing behind the one that [`Element::intersect`] finds, before `limit`. None: there is none, as on what is flat.
+    fn intersect_again(&self, _ray: &PreparedRay, _limit: f64) -> Option<(f64, Local)> {
+        None
+    }
+
     /// The point a ray meets after `distance`, taken back onto the element.
     fn point(&self, ray: &Ray, distance: f64, local: Local) -> SurfacePoint;
 
@@ -101,15 +106,22 @@ pub trait Element: Debug + Send + Sync {
         false
     }
 
-    /// A direction from `from` to a point of it. None where the point cannot be seen from there because the element itself is in the way.
-    /// `pose`: where it has moved to; `strategy`: how spheres, rectangles and triangles are sampled.
-    fn sample(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3, u1: f64, u2: f64) -> Option<Direction> {
+    /// A direction from `from` to a point of it. None where the point cannot be seen from there because the element itself is in the way and
+    /// `is_opaque`. `pose`: where it has moved to; `strategy`: how spheres, rectangles and triangles are sampled.
+    fn sample(
+        &self,
+        (pose, is_opaque): (Option<&Pose>, bool),
+        strategy: LightSampling,
+        from: DVec3,
+        u1: f64,
+        u2: f64,
+    ) -> Option<Direction> {
         let (at_rest, local) = self.sample_seen(pose, strategy, from, u1, u2)?;
-        let is_hidden = self.hides(pose.map_or(from, |pose| pose.place_at_rest(from)), &at_rest);
+        let is_hidden = is_opaque && self.hides(pose.map_or(from, |pose| pose.place_at_rest(from)), &at_rest);
         if is_hidden { None } else { self.towards(pose, strategy, from, &at_rest, local) }
     }
 
-    /// The same at rest, of points that the element hides as well, uniform over the area unless it says otherwise.
+    /// A direction at rest, also to points that the element hides, uniform over the area unless it says otherwise.
     fn sample_through(&self, _strategy: LightSampling, from: DVec3, u1: f64, u2: f64) -> Option<Direction> {
         let (at_rest, local) = self.sample_area(u1, u2)?;
         self.towards(None, LightSampling::Area, from, &at_rest, local)

@@ -172,6 +172,14 @@ impl World {
         }
     }
 
+    fn intersect_again(&self, index: usize, ray: &PreparedRay, limit: f64, time: &PathTime) -> Option<(f64, Local)> {
+        let element = self.primitives[index].element();
+        match self.pose(index, time) {
+            None => element.intersect_again(ray, limit),
+            Some(pose) => element.intersect_again(&PreparedRay::new(pose.ray_to_rest(&ray.ray)), limit),
+        }
+    }
+
     /// The first surface the ray meets.
     pub fn closest(&self, ray: Ray, time: &PathTime) -> Option<Hit> {
         let prepared = PreparedRay::new(ray);
@@ -219,8 +227,9 @@ impl World {
         hits
     }
 
-    /// The share of light that comes through all that the ray meets but `target` before `limit`: the product of what each surface lets through,
-    /// `share`, of those whose materials let any through. `target` is the index of the primitive the ray ends on.
+    /// The share of light that comes through all that the ray meets before `limit`: the product of what each surface lets through,
+    /// `share`, of those whose materials let any through. `target` is the index of the primitive the ray ends on, which is not in its own way
+    /// where it is opaque: no direction is drawn to what it hides.
     pub fn transmittance(
         &self,
         ray: Ray,
@@ -239,12 +248,11 @@ impl World {
             }
             let near = self.surface(&ray, &Hit { surface, distance, local }, time);
             product *= share(&near);
-            // What is round is met again on its far side; instances are of triangles.
-            let within = Ray { origin: near.point.leave_towards(ray.direction), direction: ray.direction };
+            // The far side of what is curved; instances are of triangles.
             if let SurfaceId::Primitive(index) = surface
-                && let Some((distance, local)) = self.intersect(index, &PreparedRay::new(within), limit - distance, time)
+                && let Some((distance, local)) = self.intersect_again(index, &prepared, limit, time)
             {
-                product *= share(&self.surface(&within, &Hit { surface, distance, local }, time));
+                product *= share(&self.surface(&ray, &Hit { surface, distance, local }, time));
             }
             product > 0.0
         };
@@ -257,7 +265,7 @@ impl World {
         }
         let mut blocked = false;
         self.hierarchy.traverse(&prepared, limit, |index, limit| {
-            if Some(index) != target
+            if (Some(index) != target || lets_through(self.owner(SurfaceId::Primitive(index)).material))
                 && let Some((distance, local)) = self.intersect(index, &prepared, limit, time)
                 && !meet(SurfaceId::Primitive(index), distance, local)
             {

@@ -23,7 +23,7 @@ use crate::sampling::light_way::LightWay;
 use crate::sampling::sampler::uniform;
 use crate::sampling::{AliasTable, HierarchicalWarp, LightGroup, LightSampler, LightTree};
 use crate::scene::light::light_table;
-use crate::scene::{Estimator, Light, LightSampling, LightStrength, MaterialId, Scene};
+use crate::scene::{Estimator, Light, LightSampling, LightStrength, MaterialId, MaterialKind, Scene};
 use delta::DeltaLight;
 pub use outside::Outside;
 
@@ -87,6 +87,8 @@ pub struct Lights {
     environment_light: Option<usize>,
     /// Index of the first portal among the lights.
     first_portal: usize,
+    /// By material: light comes through, so a surface of it hides no part of itself from light samples.
+    lets_through: Vec<bool>,
     sampling: LightSampling,
     /// By material and way: what points of shapes that are unrolled so are drawn by, where that is not evenly.
     warps: HashMap<(MaterialId, Unrolled), Arc<HierarchicalWarp>>,
@@ -106,7 +108,7 @@ pub struct LightSample {
     pub pdf: f64,
     /// The direction was the only one the light has.
     pub delta: bool,
-    /// The primitive the segment ends on. It is convex seen from outside and hollow from inside, so it cannot block itself.
+    /// The primitive the segment ends on. Where it is opaque, the direction leads to a part of it that it does not hide.
     pub target: Option<usize>,
 }
 
@@ -183,6 +185,7 @@ impl Lights {
             outside,
             environment_light,
             first_portal,
+            lets_through: scene.materials_that(|material| matches!(material.kind, MaterialKind::Pass)),
             sampling,
             warps,
         }
@@ -334,13 +337,14 @@ impl Lights {
         match *sampled {
             SampledLight::Area(index) => {
                 let (element, pose) = (world.primitive(index).element(), world.pose(index, time));
+                let place = (pose, !self.lets_through[world.owner(SurfaceId::Primitive(index)).material]);
                 let (direction, density) = match self.warp(world, index) {
-                    None => (element.sample(pose, self.sampling, reference, u1, u2)?, 1.0),
+                    None => (element.sample(place, self.sampling, reference, u1, u2)?, 1.0),
                     Some((unrolled, warp)) => {
                         let drawn = warp.sample(u, v);
                         let (below, area) = unrolled.area_below(drawn.v, warp.height);
                         let numbers = element.numbers_of_place(pose, DVec2::new(drawn.u, below));
-                        (element.sample(pose, LightSampling::Area, reference, numbers.x, numbers.y)?, drawn.density / area)
+                        (element.sample(place, LightSampling::Area, reference, numbers.x, numbers.y)?, drawn.density / area)
                     }
                 };
                 let surface = world.surface_at(index, direction.point, direction.local, time);

@@ -85,7 +85,7 @@ fn densities_of_light_samples_are_right() {
         let lights = Lights::new(&scene, &world);
         let of_area = lights.table.pmf[0];
         for reference in REFERENCES {
-            let draw = |u1, u2| world.primitive(0).element().sample(None, strategy, reference, u1, u2);
+            let draw = |u1, u2| world.primitive(0).element().sample((None, true), strategy, reference, u1, u2);
             let map = |[u1, u2]: [f64; 2]| draw(u1, u2).map_or(DVec3::NAN, |direction| direction.wi);
             let mut seen = 0;
             for (u1, u2) in (0..16).flat_map(|i| (0..16).map(move |j| (f64::from(i) + 0.5, f64::from(j) + 0.5))) {
@@ -135,7 +135,8 @@ fn directions_to_spheres_follow_their_density() {
             (-5..6).map(|i| f64::from(i) / 6.0).collect()
         };
         let bins = SphereBins::with_cosine_edges(to_center, &edges, 10);
-        let sample = |[u1, u2, _]: [f64; 3]| world.primitive(0).element().sample(None, strategy, reference, u1, u2).map(|d| d.wi);
+        let sample =
+            |[u1, u2, _]: [f64; 3]| world.primitive(0).element().sample((None, true), strategy, reference, u1, u2).map(|d| d.wi);
         let density = |wi: DVec3| {
             let ray = Ray { origin: reference, direction: wi.normalize() };
             let pmf = lights.table.pmf[0];
@@ -168,7 +169,7 @@ fn directions_to_triangles_follow_their_density() {
     by_area.set_sampling(LightSampling::Area);
     let bins = SphereBins::uniform(DVec3::new(0.3, 1.0, 0.2), 24, 24);
     for (seed, reference) in (0..).zip(REFERENCES) {
-        let drawn = |u1, u2| world.primitive(0).element().sample(None, LightSampling::Cone, reference, u1, u2);
+        let drawn = |u1, u2| world.primitive(0).element().sample((None, true), LightSampling::Cone, reference, u1, u2);
         let report_against = |lights: &Lights| {
             let density = |wi: DVec3| {
                 let ray = Ray { origin: reference, direction: wi.normalize() };

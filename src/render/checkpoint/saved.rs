@@ -30,12 +30,13 @@ pub struct Saved {
 pub struct StepsState {
     pub place: Place,
     pub tally: Tally,
-    /// Sums of the picture: weighted radiance, and weights.
-    pub radiance: Vec<[f32; 4]>,
+    /// Sums of the picture: means by their numbers of samples, and these.
+    pub radiance: Vec<[f32; 3]>,
+    pub counts: Vec<u32>,
     /// Per row: the samples per pixel that are spent.
-    pub row_samples: Vec<f32>,
+    pub row_samples: Vec<f64>,
     /// Of each stream: the sums of the pixels that are looked at.
-    pub streams: Vec<Vec<[f32; 4]>>,
+    pub streams: Vec<Vec<[f64; 4]>>,
     /// Times that the error was looked at, and the last estimate with its bound.
     pub looks: u32,
     pub error: Option<(f64, f64)>,
@@ -129,6 +130,7 @@ impl Saved {
         };
         let steps = self.steps.as_ref().map(|steps| {
             arrays.push(bytemuck::cast_slice(&steps.radiance));
+            arrays.push(bytemuck::cast_slice(&steps.counts));
             arrays.push(bytemuck::cast_slice(&steps.row_samples));
             arrays.extend(steps.streams.iter().map(|sums| bytemuck::cast_slice(sums)));
             arrays.extend(steps.doublings.iter().map(|means| bytemuck::cast_slice(means)));
@@ -186,6 +188,7 @@ impl Saved {
                 place: header.place,
                 tally: tally(header.tally),
                 radiance: content.array(header.pixels)?,
+                counts: content.array(header.pixels)?,
                 row_samples: content.array(header.rows)?,
                 streams: header.streams.iter().map(|items| content.array(*items)).collect::<Result<_, _>>()?,
                 looks: header.looks,
@@ -235,7 +238,8 @@ mod tests {
             let steps = StepsState {
                 place: Place { stage: 1, interval: 2, next: 3, requests: 4, stream: 5 },
                 tally: tally([4, 5, 6, 7, 8]),
-                radiance: vec![[0.5; 4]; 6],
+                radiance: vec![[0.5; 3]; 6],
+                counts: vec![3; 6],
                 row_samples: vec![1.0, 2.0, 3.0],
                 streams: vec![vec![[1.0; 4]; 2], vec![[2.0; 4]; 2]],
                 looks: 7,

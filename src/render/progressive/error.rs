@@ -33,8 +33,8 @@ pub struct ErrorEstimator {
     total_pixels: u64,
     /// Index of each pixel looked at, ascending.
     pixels: Vec<u64>,
-    /// Per stream: weighted sums of these pixels, and of their weights, which are samples.
-    sums: Vec<Vec<[f32; 4]>>,
+    /// Per stream: sums of these pixels' means, each by its number of samples, and of these numbers.
+    sums: Vec<Vec<[f64; 4]>>,
     looks: u32,
 }
 
@@ -50,14 +50,14 @@ impl ErrorEstimator {
     }
 
     /// Goes on from the sums and looks of an earlier render; None where they are of another size.
-    pub fn with_sums(mut self, sums: Vec<Vec<[f32; 4]>>, looks: u32) -> Option<Self> {
+    pub fn with_sums(mut self, sums: Vec<Vec<[f64; 4]>>, looks: u32) -> Option<Self> {
         let fits = sums.len() == self.sums.len() && sums.iter().all(|sums| sums.len() == self.pixels.len());
         (self.sums, self.looks) = (sums, looks);
         fits.then_some(self)
     }
 
     /// Of each stream: the sums of the pixels that are looked at.
-    pub fn sums(&self) -> &[Vec<[f32; 4]>] {
+    pub fn sums(&self) -> &[Vec<[f64; 4]>] {
         &self.sums
     }
 
@@ -68,14 +68,14 @@ impl ErrorEstimator {
 
     /// Adds a stream's band, of the pixels that took part.
     pub fn add(&mut self, stream: u32, band: &Band, selection: Option<&[bool]>) {
-        let weight = band.samples as f32;
+        let weight = f64::from(band.samples);
         let first = u64::from(band.first_row) * u64::from(self.width);
         let start = self.pixels.partition_point(|pixel| *pixel < first);
         let end = self.pixels.partition_point(|pixel| *pixel < first + band.mean.len() as u64);
         let sums = &mut self.sums[stream as usize];
         for (sum, pixel) in sums[start..end].iter_mut().zip(&self.pixels[start..end]) {
             if selection.is_none_or(|selection| selection[*pixel as usize]) {
-                let [r, g, b] = band.mean[(pixel - first) as usize];
+                let [r, g, b] = band.mean[(pixel - first) as usize].map(f64::from);
                 sum.iter_mut().zip([r, g, b, 1.0]).for_each(|(sum, mean)| *sum += weight * mean);
             }
         }
@@ -91,8 +91,7 @@ impl ErrorEstimator {
         for pixel in 0..self.pixels.len() {
             let mut error = 0.0;
             for channel in 0..3 {
-                let values = (0..streams)
-                    .map(|stream| f64::from(self.sums[stream][pixel][channel]) / f64::from(self.sums[stream][pixel][3]));
+                let values = (0..streams).map(|stream| self.sums[stream][pixel][channel] / self.sums[stream][pixel][3]);
                 error += squared_error_of_mean(values) / 3.0;
             }
             sum += error;
@@ -169,7 +168,7 @@ mod tests {
             }
         }
         assert!(
-            estimator.pixels.iter().zip(&estimator.sums[1]).all(|(pixel, sum)| sum[0] == 2.0 * *pixel as f32 && sum[3] == 2.0)
+            estimator.pixels.iter().zip(&estimator.sums[1]).all(|(pixel, sum)| sum[0] == 2.0 * *pixel as f64 && sum[3] == 2.0)
         );
         assert_eq!(estimator.look().mean, 0.0);
     }

@@ -97,6 +97,7 @@ impl Sink for StepBatch<'_> {
             place: self.place,
             tally: self.tally,
             radiance: self.picture.radiance().to_vec(),
+            counts: self.picture.counts().to_vec(),
             row_samples: self.picture.row_samples().to_vec(),
             streams: self.estimator.as_ref().map_or_else(Vec::new, |estimator| estimator.sums().to_vec()),
             looks: self.estimator.as_ref().map_or(0, |estimator| estimator.looks()),

@@ -7,64 +7,72 @@ use crate::film::Band;
 /// Rows handed over at once.
 const BAND_ROWS: usize = 64;
 
-/// Weighted sums over batches: 16 bytes a pixel. Batches are few (they grow with what is done), so f32 keeps six digits.
+/// Weighted sums over batches: 16 bytes a pixel. Batches are few (they grow with what is done), so f32 keeps six digits of radiance.
 pub struct Picture {
     width: usize,
     height: usize,
-    /// Sums of weighted means, and of weights, which are samples.
-    radiance: Vec<[f32; 4]>,
+    /// Per pixel: the sum of means, each by its number of samples.
+    radiance: Vec<[f32; 3]>,
+    /// Per pixel: the number of samples.
+    counts: Vec<u32>,
     /// Per row: the samples per pixel that are spent, on average over the film where pixels have different numbers.
-    samples: Vec<f32>,
+    samples: Vec<f64>,
 }
 
 impl Picture {
     pub fn new([width, height]: [u32; 2]) -> Self {
         let (width, height) = (width as usize, height as usize);
-        Self { width, height, radiance: vec![[0.0; 4]; width * height], samples: vec![0.0; height] }
+        let pixels = width * height;
+        Self { width, height, radiance: vec![[0.0; 3]; pixels], counts: vec![0; pixels], samples: vec![0.0; height] }
     }
 
     /// Adds the means of a band's samples, of the pixels that took part; `share` of the film's pixels did.
     pub fn add(&mut self, band: &Band, selection: Option<&[bool]>, share: f64) {
         let first_row = band.first_row as usize;
         let first = first_row * self.width;
-        for (pixel, (sum, mean)) in self.radiance[first..].iter_mut().zip(&band.mean).enumerate() {
+        for (pixel, mean) in band.mean.iter().enumerate() {
             if selection.is_none_or(|selection| selection[first + pixel]) {
-                let weight = band.counts.as_ref().map_or(band.samples, |counts| counts[pixel]) as f32;
-                for (sum, mean) in sum.iter_mut().zip(mean) {
-                    *sum += weight * mean;
+                let count = band.counts.as_ref().map_or(band.samples, |counts| counts[pixel]);
+                for (sum, mean) in self.radiance[first + pixel].iter_mut().zip(mean) {
+                    *sum += count as f32 * mean;
                 }
-                sum[3] += weight;
+                self.counts[first + pixel] = self.counts[first + pixel].saturating_add(count);
             }
         }
-        let spent = (f64::from(band.samples) * share) as f32;
+        let spent = f64::from(band.samples) * share;
         self.samples[first_row..first_row + band.rows as usize].iter_mut().for_each(|sum| *sum += spent);
     }
 
     /// As [`Picture::new`], with sums of earlier batches; None where they are of another size.
-    pub fn with_sums([width, height]: [u32; 2], radiance: Vec<[f32; 4]>, samples: Vec<f32>) -> Option<Self> {
+    pub fn with_sums([width, height]: [u32; 2], radiance: Vec<[f32; 3]>, counts: Vec<u32>, samples: Vec<f64>) -> Option<Self> {
         let (width, height) = (width as usize, height as usize);
-        let fits = radiance.len() == width * height && samples.len() == height;
-        fits.then_some(Self { width, height, radiance, samples })
+        let fits = radiance.len() == width * height && counts.len() == radiance.len() && samples.len() == height;
+        fits.then_some(Self { width, height, radiance, counts, samples })
     }
 
-    /// Sums of weighted means, and of weights.
-    pub fn radiance(&self) -> &[[f32; 4]] {
+    /// Per pixel: the sum of means, each by its number of samples.
+    pub fn radiance(&self) -> &[[f32; 3]] {
         &self.radiance
     }
 
+    /// Per pixel: the number of samples.
+    pub fn counts(&self) -> &[u32] {
+        &self.counts
+    }
+
     /// Per row: the samples per pixel that are spent.
-    pub fn row_samples(&self) -> &[f32] {
+    pub fn row_samples(&self) -> &[f64] {
         &self.samples
     }
 
     /// Samples per pixel of the row that has fewest.
     pub fn samples(&self) -> f64 {
-        f64::from(self.samples.iter().copied().fold(f32::INFINITY, f32::min))
+        self.samples.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
     /// All samples that were to be spent are: so many per pixel, but for those that numbers of samples in powers of two leave over.
     pub fn settle(&mut self, samples: u32) {
-        self.samples.fill(samples as f32);
+        self.samples.fill(f64::from(samples));
     }
 
     /// Hands over the rows that have samples, from the top.
@@ -72,15 +80,14 @@ impl Picture {
     /// # Errors
     /// What the receiver says.
     pub fn deliver(&self, on_band: &mut dyn FnMut(Band) -> io::Result<()>) -> io::Result<()> {
-        let first = self.radiance.first().map_or(0.0, |sum| sum[3]);
-        let with_counts = self.radiance.iter().any(|sum| sum[3] != first);
+        let with_counts = self.counts.iter().any(|count| *count != self.counts[0]);
         let mut row = 0;
         while row < self.height {
             // A band has one number of samples.
             let samples = self.samples[row];
             let alike = self.samples[row..].iter().take(BAND_ROWS).take_while(|other| **other == samples).count();
             let pixels = row * self.width..(row + alike) * self.width;
-            if self.radiance[pixels].iter().any(|sum| sum[3] > 0.0) {
+            if self.counts[pixels].iter().any(|count| *count > 0) {
                 on_band(self.band(row, alike, samples, with_counts))?;
             }
             row += alike;
@@ -88,16 +95,17 @@ impl Picture {
         Ok(())
     }
 
-    fn band(&self, first_row: usize, rows: usize, samples: f32, with_counts: bool) -> Band {
-        let pixels = &self.radiance[first_row * self.width..(first_row + rows) * self.width];
-        let mean = |[r, g, b, weight]: &[f32; 4]| [r, g, b].map(|sum| if *weight > 0.0 { sum / weight } else { 0.0 });
+    fn band(&self, first_row: usize, rows: usize, samples: f64, with_counts: bool) -> Band {
+        let pixels = first_row * self.width..(first_row + rows) * self.width;
+        let counts = &self.counts[pixels.clone()];
+        let mean = |(sum, count): (&[f32; 3], &u32)| sum.map(|sum| if *count > 0 { sum / *count as f32 } else { 0.0 });
         Band {
             first_row: first_row as u32,
             width: self.width as u32,
             rows: rows as u32,
             samples: samples as u32,
-            counts: with_counts.then(|| pixels.iter().map(|sum| sum[3] as u32).collect()),
-            mean: pixels.iter().map(mean).collect(),
+            counts: with_counts.then(|| counts.to_vec()),
+            mean: self.radiance[pixels].iter().zip(counts).map(mean).collect(),
             ..Band::default()
         }
     }

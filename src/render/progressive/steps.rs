@@ -103,8 +103,8 @@ impl<'a> Work<'a> {
 
     /// Goes on from the state of an earlier render; None where it is of another picture.
     pub fn go_on_from(&mut self, saved: Saved) -> Option<()> {
-        let StepsState { place, tally, radiance, row_samples, streams, looks, error, doublings, levels } = saved.steps?;
-        self.picture = Picture::with_sums(self.size, radiance, row_samples)?;
+        let StepsState { place, tally, radiance, counts, row_samples, streams, looks, error, doublings, levels } = saved.steps?;
+        self.picture = Picture::with_sums(self.size, radiance, counts, row_samples)?;
         self.estimator = match self.estimator.take() {
             Some(estimator) => Some(estimator.with_sums(streams, looks)?),
             None => None,

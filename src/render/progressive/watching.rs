@@ -90,11 +90,11 @@ fn rows_of(state: &BatchState, batch: &Batch<'_>, width: u32, before: Option<&Pi
         let has_samples = state.done > 0 || (pixel as u32) < state.reached;
         let is_known = has_samples && pixel < state.film.len() && batch.takes_part(first + pixel, width);
         let (sums, count) = if is_known { state.film.double(pixel) } else { ([0.0; 4], 0) };
-        let [r, g, b, weight] = before.map_or([0.0; 4], |picture| picture.radiance()[first + pixel].map(f64::from));
-        let samples = f64::from(count) + weight;
-        let share = if samples > 0.0 { samples.recip() } else { 0.0 };
+        let [r, g, b] = before.map_or([0.0; 3], |picture| picture.radiance()[first + pixel].map(f64::from));
+        let samples = count.saturating_add(before.map_or(0, |picture| picture.counts()[first + pixel]));
+        let share = if samples > 0 { f64::from(samples).recip() } else { 0.0 };
         band.mean.push(rounded([(sums[0] + r) * share, (sums[1] + g) * share, (sums[2] + b) * share]).0);
-        counts.push(samples as u32);
+        counts.push(samples);
         // Sums of squares are those of this batch alone.
         if before.is_none() {
             band.second_moment.push((sums[3] * share) as f32);
@@ -194,7 +194,7 @@ mod tests {
         assert_eq!((band.first_row, band.rows, band.samples), (1, 2, 0));
         assert_eq!(band.counts, Some(vec![2, 0, 2, 2, 0, 0]), "one takes no part, and two are not reached");
         assert_eq!((band.mean[0], band.mean[1], band.second_moment[0]), ([1.0, 2.0, 3.0], [0.0; 3], 4.0));
-        let before = Picture::with_sums([3, 3], vec![[4.0, 4.0, 4.0, 2.0]; 9], vec![2.0; 3]).expect("its size");
+        let before = Picture::with_sums([3, 3], vec![[4.0; 3]; 9], vec![2; 9], vec![2.0; 3]).expect("its size");
         let band = rows_of(&state(), &batch, 3, Some(&before));
         assert_eq!((band.mean[0], band.mean[1]), ([1.5, 2.0, 2.5], [2.0; 3]));
         assert_eq!(band.counts, Some(vec![4, 2, 4, 4, 2, 2]));

@@ -19,24 +19,24 @@ use model::ShapeModel;
 ///
 /// A row: variant of [`Geometry`], type of its data, module, name in scene files. Then, unless it is made of another shape's primitives, its
 /// own primitive: its name; that of its files in `shaders/geometry/shape` and `shaders/shading/shape`, and of their functions; what the
-/// names of its number and switches hold; its `SurfaceSampling` and its `SurfaceCoordinates` (`packed/shape`).
+/// names of its number and switches hold; its `SurfaceSampling`, its `SurfaceCoordinates` and its `Curvature` (`packed/shape`).
 macro_rules! shape_table {
     ($what:ident) => {
         $what! {
-            Mesh(Arc<Mesh>) mesh "mesh" => Triangle triangle TRIANGLE Area Edges,
-            Sphere(Sphere) sphere "sphere" => Sphere sphere SPHERE Own Normal,
-            Rectangle(Rectangle) rectangle "rectangle" => Quad quad QUAD Area Edges,
-            Disk(Disk) disk "disk" => Disk disk DISK Area None,
+            Mesh(Arc<Mesh>) mesh "mesh" => Triangle triangle TRIANGLE Area Edges Flat,
+            Sphere(Sphere) sphere "sphere" => Sphere sphere SPHERE Own Normal Curved,
+            Rectangle(Rectangle) rectangle "rectangle" => Quad quad QUAD Area Edges Flat,
+            Disk(Disk) disk "disk" => Disk disk DISK Area None Flat,
             Box(Cuboid) cuboid "box",
-            Cylinder(Cylinder) cylinder "cylinder" => Cylinder cylinder CYLINDER Area Edges,
-            Plane(Plane) plane "plane" => Plane plane PLANE Infinite None,
+            Cylinder(Cylinder) cylinder "cylinder" => Cylinder cylinder CYLINDER Area Edges Curved,
+            Plane(Plane) plane "plane" => Plane plane PLANE Infinite None Flat,
         }
     };
 }
 pub(crate) use shape_table;
 
 macro_rules! geometries {
-    ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident)?,)*) => {
+    ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident $curvature:ident)?,)*) => {
         $(mod $module;)*
 
         /// A surface in its own space.

@@ -27,7 +27,7 @@ use crate::scene::{Geometry, MaterialId, MaterialKind, Shape, Transform};
 
 /// The entries of a scene file, by the rows of the table of shapes.
 macro_rules! entries {
-    ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident)?,)*) => {
+    ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident $curvature:ident)?,)*) => {
         $(mod $module;)*
 
         /// A surface.

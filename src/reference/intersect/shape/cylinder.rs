@@ -50,6 +50,12 @@ impl Element for Cylinder {
         Some((distance, Local::new(0.0, height)))
     }
 
+    fn intersect_again(&self, ray: &PreparedRay, limit: f64) -> Option<(f64, Local)> {
+        let mut ahead = self.crossings(&ray.ray).into_iter().flatten().filter(|&(distance, _)| distance > 0.0);
+        let (distance, height) = ahead.nth(1).filter(|&(distance, _)| distance < limit)?;
+        Some((distance, Local::new(0.0, height)))
+    }
+
     fn point(&self, ray: &Ray, distance: f64, local: Local) -> SurfacePoint {
         let (_, across) = self.parts(ray.at(distance) - self.from);
         self.at(across.normalize_or_zero(), local.y)
@@ -261,7 +267,8 @@ mod tests {
         let samples = if in_full("200,000 directions to a cylinder instead of 50,000") { 200_000 } else { 50_000 };
         for (seed, reference) in (0..).zip(references) {
             let bins = SphereBins::uniform(DVec3::Y, 24, 24);
-            let visible = |[u1, u2, _]: [f64; 3]| tube.sample(None, LightSampling::Area, reference, u1, u2).map(|drawn| drawn.wi);
+            let visible =
+                |[u1, u2, _]: [f64; 3]| tube.sample((None, true), LightSampling::Area, reference, u1, u2).map(|drawn| drawn.wi);
             let nearest = |wi: DVec3| {
                 let ray = ray(reference, wi);
                 let met = tube.intersect(&ray, f64::INFINITY);

@@ -12,7 +12,7 @@ pub use triangle::Triangle;
 
 /// A module for each row of the table of shapes, and what chooses among them.
 macro_rules! modules {
-    ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident)?,)*) => {
+    ($($variant:ident($type:ty) $module:ident $name:literal $(=> $primitive:ident $file:ident $capitals:ident $sampling:ident $coordinates:ident $curvature:ident)?,)*) => {
         $(mod $module;)*
 
         /// The primitives of a shape in the world, each with the number of the face it is: of a mesh, or of a box (−x +x −y +y −z +z).

@@ -36,6 +36,11 @@ impl Element for Sphere {
         self.distance(&ray.ray, limit).map(|distance| (distance, Local::ZERO))
     }
 
+    fn intersect_again(&self, ray: &PreparedRay, limit: f64) -> Option<(f64, Local)> {
+        let [near, far] = self.crossings(&ray.ray)?;
+        (near > 0.0 && far < limit).then_some((far, Local::ZERO))
+    }
+
     fn point(&self, ray: &Ray, distance: f64, _: Local) -> SurfacePoint {
         self.towards(ray.at(distance))
     }
@@ -71,7 +76,15 @@ impl Element for Sphere {
         tangents(self.own_direction(normal)).map(|own| Tangents::along(to_world * own.along_u, to_world * own.along_v))
     }
 
-    fn sample(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3, u1: f64, u2: f64) -> Option<Direction> {
+    /// From outside never to a point of the far side, be the sphere opaque or not: [`Element::pdf`] is 0 there.
+    fn sample(
+        &self,
+        (pose, _): (Option<&Pose>, bool),
+        strategy: LightSampling,
+        from: DVec3,
+        u1: f64,
+        u2: f64,
+    ) -> Option<Direction> {
         let sphere = self.moved(pose);
         match strategy {
             LightSampling::Cone | LightSampling::Auto => sphere.sample_cone(from, u1, u2),
@@ -80,7 +93,7 @@ impl Element for Sphere {
     }
 
     fn sample_through(&self, strategy: LightSampling, from: DVec3, u1: f64, u2: f64) -> Option<Direction> {
-        self.sample(None, strategy, from, u1, u2)
+        self.sample((None, true), strategy, from, u1, u2)
     }
 
     fn pdf(&self, pose: Option<&Pose>, strategy: LightSampling, from: DVec3, point: &SurfacePoint) -> f64 {
@@ -106,7 +119,7 @@ impl Sphere {
 
     /// Roots of |o + t·d − c|² = r² with the discriminant taken from the chord's distance to the centre, which keeps its precision
     /// for small spheres far away (Haines et al. 2019), and the smaller root from the product of both.
-    fn distance(&self, ray: &Ray, limit: f64) -> Option<f64> {
+    fn crossings(&self, ray: &Ray) -> Option<[f64; 2]> {
         let to_origin = ray.origin - self.center;
         let a = ray.direction.length_squared();
         let b = -to_origin.dot(ray.direction);
@@ -118,8 +131,12 @@ impl Sphere {
         let c = to_origin.length_squared() - self.radius * self.radius;
         let q = b + discriminant.sqrt().copysign(b);
         let (first, second) = (c / q, q / a);
-        let (near, far) = if first < second { (first, second) } else { (second, first) };
-        [near, far].into_iter().find(|&distance| distance > 0.0).filter(|&distance| distance < limit)
+        Some(if first < second { [first, second] } else { [second, first] })
+    }
+
+    /// The first of them ahead of the ray's origin, where it lies before `limit`.
+    fn distance(&self, ray: &Ray, limit: f64) -> Option<f64> {
+        self.crossings(ray)?.into_iter().find(|&distance| distance > 0.0).filter(|&distance| distance < limit)
     }
 
     /// The point of the sphere in the direction of `near`.
@@ -170,6 +187,10 @@ impl Sphere {
     fn pdf_at_rest(&self, strategy: LightSampling, from: DVec3, point: &SurfacePoint) -> f64 {
         let area = 4.0 * PI * self.radius * self.radius;
         let outside = (self.center - from).length() > self.radius;
+        // A ray that went through the near side has met the far one, to which no direction is drawn.
+        if outside && (point.position - from).dot(point.normal) > 0.0 {
+            return 0.0;
+        }
         match strategy {
             LightSampling::Cone | LightSampling::Auto => self.cone_pdf(from),
             LightSampling::Visible if outside => area_to_solid_angle(0.5 * area, from, point),
@@ -213,7 +234,7 @@ mod tests {
     fn small_spheres_far_away_keep_their_density() {
         // 1 − cosθmax is 5·10⁻¹³ here: formed as a difference it would have lost four digits.
         let sphere = Sphere { center: DVec3::new(0.0, 0.0, 1e6), radius: 1.0, to_local: DMat3::IDENTITY };
-        let direction = sphere.sample(None, LightSampling::Cone, DVec3::ZERO, 0.99, 0.3).expect("the sphere can be seen");
+        let direction = sphere.sample((None, true), LightSampling::Cone, DVec3::ZERO, 0.99, 0.3).expect("the sphere can be seen");
         let solid_angle = PI * 1e-12;
         assert!((direction.pdf_solid_angle * solid_angle - 1.0).abs() < 1e-9);
         let offset = DVec2::new(direction.wi.x, direction.wi.y).length() * 1e6;

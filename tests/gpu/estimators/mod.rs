@@ -1,0 +1,131 @@
+//! Light samples, paths alone, and both together estimate one integral, so their means are one, on either device. A device that agrees with the
+//! reference shares its mistakes; a way of sampling does not share those of another.
+
+mod scenes;
+
+use std::path::Path;
+
+use crate::common::device::DEVICE;
+use crate::common::effort::in_full;
+use gpt::compare::{Moments, hypothesis, sidak};
+use gpt::gpu::GpuRenderer;
+use gpt::load;
+use gpt::plan::{Fault, PlanOptions};
+use gpt::reference::ReferenceRenderer;
+use gpt::renderer::{RenderRequest, Renderer, Silent};
+use gpt::scene::{Estimator, Scene};
+use scenes::Features;
+
+/// Pictures whose random numbers are independent: their means are nearly normal.
+const PICTURES: u32 = 16;
+
+/// The mean of green over the picture, of each of [`PICTURES`].
+fn means(renderer: &mut dyn Renderer, scene: &Scene) -> Moments {
+    let (spp, [width, height]) = (scene.render.spp, scene.film.size);
+    (0..PICTURES)
+        .map(|number| {
+            let mut sum = 0.0;
+            let request = RenderRequest { rows: 0..height, samples: number * spp..(number + 1) * spp };
+            let report = renderer.render(&request, &Silent, &mut |band| {
+                sum += band.mean.iter().map(|pixel| f64::from(pixel[1])).sum::<f64>();
+                Ok(())
+            });
+            report.expect("it renders");
+            sum / f64::from(width * height)
+        })
+        .collect()
+}
+
+/// A way to the mean of a picture, by its estimator, its device and random numbers of its own.
+struct Way {
+    name: String,
+    found: Moments,
+}
+
+fn load(text: &str) -> Scene {
+    load::load_toml_str(text, "features", Path::new(".")).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+fn by_reference(text: &str, estimator: Estimator, seed: u32) -> Way {
+    let mut scene = load(text);
+    (scene.render.estimator, scene.render.seed) = (estimator, seed);
+    let mut renderer = ReferenceRenderer::new(&scene).expect("it is supported");
+    Way { name: format!("{estimator:?} on the CPU"), found: means(&mut renderer, &scene) }
+}
+
+/// None without a device.
+fn by_device(text: &str, estimator: Estimator, seed: u32, fault: Option<Fault>) -> Option<Way> {
+    let device = DEVICE.as_ref()?;
+    let mut scene = load(text);
+    (scene.render.estimator, scene.render.seed) = (estimator, seed);
+    let options = PlanOptions { fault, ..PlanOptions::default() };
+    let mut renderer = GpuRenderer::on(device, &scene, &options).expect("the scene fits");
+    Some(Way { name: format!("{estimator:?} on the device"), found: means(&mut renderer, &scene) })
+}
+
+/// Every estimator on every device.
+fn all_ways(text: &str) -> Vec<Way> {
+    let numbered = (1..).zip([Estimator::Bsdf, Estimator::Nee, Estimator::Mis]);
+    let both = |(seed, estimator)| [Some(by_reference(text, estimator, seed)), by_device(text, estimator, seed + 10, None)];
+    numbered.flat_map(both).flatten().collect()
+}
+
+/// The pair of ways whose means are least likely to be one, and the probability of that; of many pairs, it is as many times as likely.
+fn worst_pair(ways: &[Way]) -> (f64, String) {
+    let pairs = (0..ways.len()).flat_map(|index| ways[..index].iter().map(move |other| (&ways[index], other)));
+    let judged = pairs.map(|(way, other)| (hypothesis::welch_t_test(&way.found, &other.found).p_value, way, other));
+    let (p, way, other) = judged.min_by(|a, b| a.0.total_cmp(&b.0)).expect("there are two ways at least");
+    let mean = |way: &Way| format!("{}: {:.6} ± {:.6}", way.name, way.found.mean(), way.found.standard_error());
+    (p, format!("{}, {}: p = {p:.1e}", mean(way), mean(other)))
+}
+
+/// Scenes of one test together reject what is true with this probability.
+const LEVEL: f64 = 1e-3;
+
+/// Pairs among six ways.
+const PAIRS: usize = 15;
+
+/// Renders each scene in every way, and returns those whose means differ.
+fn disagreements(scenes: &[(String, Features)]) -> Vec<String> {
+    let level = sidak(LEVEL, PAIRS * scenes.len());
+    let mut found = Vec::new();
+    for (name, features) in scenes {
+        let (p, pair) = worst_pair(&all_ways(&features.scene()));
+        println!("{name}: {pair}");
+        if p < level {
+            found.push(format!("{name}: {pair}\n{}", features.scene()));
+        }
+    }
+    found
+}
+
+#[test]
+fn estimators_agree_where_they_once_did_not() {
+    let scenes = scenes::remembered().map(|(name, features)| (name.to_owned(), features));
+    let found = disagreements(&scenes);
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn estimators_agree_on_features_at_random() {
+    let count = if in_full("estimators on 60 scenes at random instead of 3") { 60 } else { 3 };
+    let scenes: Vec<_> = (0..count).map(|number| (format!("scene {number}"), Features::at_random(number))).collect();
+    let found = disagreements(&scenes);
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+/// The control: weights of light samples and paths that do not add up to 1, and a floor that reflects a twentieth more for one of the estimators, are
+/// noticed.
+#[test]
+fn estimators_that_differ_are_noticed() {
+    let (_, features) = scenes::remembered()[0];
+    let text = features.scene();
+    let paths_alone = by_reference(&text, Estimator::Bsdf, 1);
+    let brighter = by_reference(&text.replace("reflectance = 0.6 }", "reflectance = 0.63 }"), Estimator::Mis, 2);
+    let level = sidak(LEVEL, PAIRS * scenes::remembered().len());
+    let (p, pair) = worst_pair(&[paths_alone, brighter]);
+    assert!(p < level, "{pair}");
+    let Some(wrong) = by_device(&text, Estimator::Mis, 3, Some(Fault::Mis)) else { return };
+    let (p, pair) = worst_pair(&[by_reference(&text, Estimator::Bsdf, 1), wrong]);
+    assert!(p < level, "{pair}");
+}

@@ -1,0 +1,213 @@
+//! Small scenes at random: one body, one lamp, and every feature that may stand between them in some of its forms.
+
+/// A body under a lamp above a floor. Whatever the body lets through shows the floor, in pictures and in shadows alike.
+#[derive(Debug, Clone, Copy)]
+pub struct Features {
+    pub body: &'static str,
+    pub opacity: &'static str,
+    pub relief: &'static str,
+    pub sides: &'static str,
+    pub glow: &'static str,
+    pub shape: Shape,
+    pub motion: &'static str,
+    pub lamp: &'static str,
+    pub lamp_shape: &'static str,
+    pub settings: &'static str,
+}
+
+/// Where the body's surface is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shape {
+    Sheet,
+    Box,
+    Mesh,
+    Instance,
+    Ball,
+    Tube,
+    Disk,
+    /// A sheet that the floor gets all of its light through.
+    Cover,
+}
+
+impl Shape {
+    /// A map can bend its normals.
+    fn takes_relief(self) -> bool {
+        matches!(self, Self::Sheet | Self::Box | Self::Mesh | Self::Instance | Self::Cover)
+    }
+
+    /// It has texture coordinates.
+    fn takes_textures(self) -> bool {
+        self != Self::Disk
+    }
+}
+
+const BODIES: &[&str] = &[
+    "type = \"diffuse\", reflectance = [0.8, 0.6, 0.4]",
+    "type = \"conductor\", preset = \"copper\", roughness = 0.6",
+    "type = \"plastic\", reflectance = 0.5",
+    "type = \"principled\", base_color = [0.7, 0.5, 0.3], metallic = 0.2, roughness = 0.6, clearcoat = 0.4, clearcoat_roughness = 0.4",
+    "type = \"principled\", base_color = 0.9, metallic = 0, roughness = 0.6, transmission = 0.7, thin = true",
+    "type = \"rough_glass\", ior = 1.3, alpha = 0.4",
+    "type = \"mirror\"",
+];
+const WHOLE: &str = "";
+const OPACITIES: &[&str] = &[
+    WHOLE,
+    ", opacity = 0.5",
+    ", opacity = { texture = \"squares\", channel = \"g\", factor = 0.8 }",
+    ", opacity = { texture = \"squares\", channel = \"g\", cutoff = 0.5 }",
+];
+const FLAT: &str = "";
+const RELIEFS: &[&str] = &[
+    FLAT,
+    ", bump_map = \"hills\", bump_scale = 0.3",
+    ", bump_map = \"hills\", bump_scale = 0.3, normal_shadowing = true",
+    ", bump_map = \"hills\", bump_scale = 0.3, normal_shadowing = true, normal_mirroring = true",
+];
+const SIDES: &[&str] = &["", "", ", two_sided = false"];
+const GLOWS: &[&str] = &["", "", ", emission = 0.6", ", emission = [0.4, 0.7, 0.5], emission_two_sided = true"];
+const SHAPES: &[Shape] = &[Shape::Sheet, Shape::Box, Shape::Mesh, Shape::Instance, Shape::Ball, Shape::Tube, Shape::Disk];
+const MOTIONS: &[&str] = &["", "", ", motion = [{ rotate = [0, 1, 0.2], degrees = 40 }, { translate = [0.3, 0.1, 0] }]"];
+const LAMPS: &[&str] = &[
+    "type = \"emissive\", radiance = 3, two_sided = true",
+    "type = \"diffuse\", reflectance = 0.5, emission = 5, emission_two_sided = true, opacity = 0.6",
+    "type = \"diffuse\", reflectance = 0.5, emission = 8, opacity = { texture = \"squares\", channel = \"g\" }",
+];
+/// Shapes of the lamp, and surroundings that light without one.
+const LAMP_SHAPES: &[&str] = &[
+    "type = \"rectangle\", corner = [-1.5, 2.6, -1.5], edge_u = [3, 0, 0], edge_v = [0, 0, 3]",
+    "type = \"sphere\", center = [0.8, 2.8, 0.6], radius = 0.9",
+    "type = \"cylinder\", from = [-1.5, 2.7, 0.4], to = [1.5, 2.7, -0.4], radius = 0.5",
+    "type = \"box\", min = [-1, 2.3, -1], max = [1, 2.8, 1]",
+    SKY,
+];
+const SKY: &str = "sky";
+const SETTINGS: &[&str] = &[
+    "light_choice = \"power\"",
+    "light_choice = \"tree\", heuristic = \"balance\"",
+    "light_choice = \"cells\"",
+    "light_choice = \"power\", light_samples = 3, blend = \"pick\"",
+    "light_choice = \"power\", light_sampling = \"area\"",
+];
+
+/// Bodies and lamps that once were wrong, each in its own way.
+pub fn remembered() -> [(&'static str, Features); 5] {
+    let plain = Features {
+        body: BODIES[0],
+        opacity: OPACITIES[1],
+        relief: FLAT,
+        sides: SIDES[0],
+        glow: GLOWS[0],
+        shape: Shape::Tube,
+        motion: MOTIONS[0],
+        lamp: LAMPS[0],
+        lamp_shape: LAMP_SHAPES[0],
+        settings: SETTINGS[0],
+    };
+    let bent_veil = Features {
+        body: "type = \"diffuse\", reflectance = 0.05",
+        relief: ", bump_map = \"hills\", bump_scale = 30, normal_shadowing = true",
+        shape: Shape::Cover,
+        lamp_shape: SKY,
+        ..plain
+    };
+    let veiled_lamp = Features { lamp: LAMPS[1], shape: Shape::Sheet, ..plain };
+    [
+        ("a veiled tube has two walls in the way of a shadow ray", plain),
+        ("a moving one as well", Features { motion: MOTIONS[2], ..plain }),
+        ("normals bent on a veil do not dim light that comes through it", bent_veil),
+        (
+            "a veiled ball shows its far side, which light samples do not reach",
+            Features { lamp_shape: LAMP_SHAPES[1], ..veiled_lamp },
+        ),
+        ("a veiled tube lights through its own wall", Features { lamp_shape: LAMP_SHAPES[2], ..veiled_lamp }),
+    ]
+}
+
+impl Features {
+    /// One of each feature's forms, by a number; forms that do not go together are left out.
+    pub fn at_random(number: u64) -> Self {
+        let mut state = number;
+        let mut one_of = |count: usize| {
+            // SplitMix64 (Steele, Lea and Flood 2014).
+            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let mixed = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            ((mixed ^ (mixed >> 31)) % count as u64) as usize
+        };
+        let shape = SHAPES[one_of(SHAPES.len())];
+        let mut features = Self {
+            body: BODIES[one_of(BODIES.len())],
+            opacity: OPACITIES[one_of(OPACITIES.len())],
+            relief: RELIEFS[one_of(RELIEFS.len())],
+            sides: SIDES[one_of(SIDES.len())],
+            glow: GLOWS[one_of(GLOWS.len())],
+            shape,
+            motion: MOTIONS[one_of(MOTIONS.len())],
+            lamp: LAMPS[one_of(LAMPS.len())],
+            lamp_shape: LAMP_SHAPES[one_of(LAMP_SHAPES.len())],
+            settings: SETTINGS[one_of(SETTINGS.len())],
+        };
+        if !shape.takes_relief() {
+            features.relief = FLAT;
+        }
+        if !shape.takes_textures() && features.opacity.contains("texture") {
+            features.opacity = OPACITIES[1];
+        }
+        if shape == Shape::Instance {
+            // Groups of instances hold no lights.
+            features.glow = GLOWS[0];
+        }
+        features
+    }
+
+    /// The scene file.
+    pub fn scene(&self) -> String {
+        let Self { body, opacity, relief, sides, glow, shape, motion, lamp, lamp_shape, settings } = self;
+        let rotated = "transform = [{ rotate = [1, 0.3, 0], degrees = 35 }, { translate = [0, 1.1, 0] }]";
+        let mesh = "type = \"mesh\", positions = [[-0.9, -0.1, 0.8], [0.9, 0.2, 0.8], [0.9, -0.2, -0.8], [-0.9, 0.2, -0.8]], \
+                    uvs = [[0, 0], [1, 0], [1, 1], [0, 1]], faces = [[0, 1, 2], [0, 2, 3]]";
+        let place = match shape {
+            Shape::Sheet => {
+                format!("type = \"rectangle\", corner = [-0.8, 0, 0.8], edge_u = [1.6, 0, 0], edge_v = [0, 0, -1.6], {rotated}")
+            }
+            Shape::Cover => "type = \"rectangle\", corner = [-30, 3, 30], edge_u = [60, 0, 0], edge_v = [0, 0, -60]".to_owned(),
+            Shape::Box => format!("type = \"box\", min = [-0.6, -0.4, -0.5], max = [0.6, 0.4, 0.5], {rotated}"),
+            Shape::Mesh | Shape::Instance => format!("{mesh}, {rotated}"),
+            Shape::Ball => format!("type = \"sphere\", center = [0, 0, 0], radius = 0.7, {rotated}"),
+            Shape::Tube => format!("type = \"cylinder\", from = [-0.9, 0, 0], to = [0.9, 0, 0], radius = 0.5, {rotated}"),
+            Shape::Disk => format!("type = \"disk\", center = [0, 0, 0], normal = [0, 1, 0], radius = 0.8, {rotated}"),
+        };
+        let instanced = *shape == Shape::Instance;
+        let motion_of_shape = if instanced { "" } else { motion };
+        let body_shape = format!("{{ {place}, material = \"body\"{motion_of_shape} }}");
+        let group =
+            if instanced { format!("group = [{{ name = \"bodies\", shape = [{body_shape}] }}]\n") } else { String::new() };
+        let instance = if instanced { format!("instance = [{{ group = \"bodies\"{motion} }}]\n") } else { String::new() };
+        let body_shape = if instanced { String::new() } else { format!("  {body_shape},\n") };
+        let (light, lamp_shape) = if *lamp_shape == SKY {
+            ("light = [{ type = \"sky\", zenith = [0.3, 0.5, 0.9], horizon = 0.8, ground = 0.3 }]\n", String::new())
+        } else {
+            ("", format!("  {{ {lamp_shape}, material = \"lamp\" }},\n"))
+        };
+        format!(
+            r#"
+film.size = [16, 12]
+render = {{ spp = 32, max_depth = 5, sampler = "independent", roulette_depth = 4, {settings} }}
+camera = {{ position = [0.3, 2.2, 4.5], look_at = [0, 0.7, 0], vfov = 36, shutter = [0, 1] }}
+texture = [
+  {{ name = "squares", type = "checker", a = [1, 0.9, 0], b = [0, 0.3, 0.5], scale = [4, 3] }},
+  {{ name = "hills", type = "perlin", scale = 5, a = 0, b = 1 }},
+]
+material = [
+  {{ name = "floor", type = "diffuse", reflectance = 0.6 }},
+  {{ name = "lamp", {lamp} }},
+  {{ name = "body", {body}{opacity}{relief}{sides}{glow} }},
+]
+shape = [
+  {{ type = "rectangle", corner = [-3, 0, 3], edge_u = [6, 0, 0], edge_v = [0, 0, -6], material = "floor" }},
+{body_shape}{lamp_shape}]
+{group}{instance}{light}"#
+        )
+    }
+}
