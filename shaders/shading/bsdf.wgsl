@@ -95,7 +95,7 @@ struct Scattering {
     drawn: BsdfSample,
 }
 
-// With the shadow that the surface throws on a bent normal. What goes straight on through a null surface meets no normal.
+// With the shadow that the surface throws on a bent normal. Light that goes straight on through a null surface meets no normal.
 fn shadowed(scattering: Scattering, surface: Surface, light_wi: vec3<f32>) -> Scattering {
 #if NORMAL_SHADOWING
     var found = scattering;

@@ -14,7 +14,7 @@
 #endif
 
 #if BLENDS
-// Where the ray crosses the primitive that it meets at `hit` once more before `limit`; its primitive is NONE where it does not. Groups of
+// The second crossing, before `limit`, of a ray and the primitive that it meets at `hit`; its primitive is NONE where there is none. Groups of
 // instances consist of triangles, which are crossed once.
 fn crossed_again(ray: Ray, hit: Hit, limit: f32) -> Hit {
     var again = no_hit(limit);

@@ -1,4 +1,4 @@
-// What a render counts on the device: src/plan/counters.rs says which words.
+// Counters of a render on the device; src/plan/counters.rs says which words they are.
 #import core/layout.wgsl
 #import core/parameters.wgsl
 

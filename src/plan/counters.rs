@@ -1,4 +1,4 @@
-//! What kernels count, and where: words of the statistics' buffer.
+//! Counters of kernels, and their words in the statistics' buffer.
 
 use crate::shader::shared::shared_constants;
 
@@ -9,7 +9,7 @@ shared_constants!(constants {
     pub const REFUSED_COUNTER: u32 = 2;
     /// Samples that were brighter than the setting `clamp` allows.
     pub const CLAMPED_COUNTER: u32 = 4;
-    /// What that took of their luminance, in [`CLAMP_UNITS`](crate::renderer::state::CLAMP_UNITS) of the radiance that is allowed.
+    /// The luminance that clamping took, in [`CLAMP_UNITS`](crate::renderer::state::CLAMP_UNITS) of the radiance that is allowed.
     pub const CLAMPED_UNITS_COUNTER: u32 = 6;
     /// Pixels of the pass that were taken: one word.
     pub const TAKEN_COUNTER: u32 = 8;

@@ -52,7 +52,7 @@ pub struct Tally {
 /// Sums over the samples of each pixel, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FilmState {
-    /// As a graphics device sums: (radiance, [number of samples](crate::film::count_word)), and (what the radiance's rounding lost, squared luminance).
+    /// The sums of a graphics device: (radiance, [number of samples](crate::film::count_word)), and (what the radiance's rounding lost, squared luminance).
     Single { sums: Vec<[f32; 4]>, compensations: Vec<[f32; 4]> },
     /// As the CPU reference sums: (radiance, squared luminance), and numbers of samples.
     Double { sums: Vec<[f64; 4]>, samples: Vec<u32> },

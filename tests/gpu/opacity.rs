@@ -147,8 +147,8 @@ fn veils_multiply_the_light_of_a_point_light() {
     }
 }
 
-/// What is seen through a surface that is there in part is as bright as the part that is not there says, wherever a map bends the normals of the rest.
-/// The rest is black here, so every path goes through, and carries that share exactly.
+/// A scene behind a veil is as bright as the opacity says, wherever a map bends the veil's normals.
+/// The veil itself is black here, so every path goes through, and carries that share exactly.
 #[test]
 fn bent_normals_do_not_dim_what_is_behind() {
     let text = |bump: &str, reflectance: f64| {

@@ -4,7 +4,7 @@
 #import geometry/motion.wgsl
 #endif
 
-// Where a ray's line crosses the sphere, nearer and farther; not above 0 where it does not. Roots are taken relative to the point of closest
+// The crossings of a ray's line and the sphere, nearer and farther; not above 0 where there are none. Roots are taken relative to the point of closest
 // approach, which keeps them accurate for small and far spheres (Haines et al., Ray Tracing Gems, chapter 7).
 fn sphere_crossings(ray: PreparedRay, center: vec3<f32>, radius: f32) -> vec2<f32> {
     let to_center = center - ray.origin;

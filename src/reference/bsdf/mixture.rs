@@ -125,7 +125,7 @@ impl Bsdf {
     pub fn sample(&self, u_lobe: f64, u1: f64, u2: f64) -> Option<BsdfSample> {
         let (chosen, u_own) = self.choose(u_lobe)?;
         let sample = chosen.lobe.sample(&self.view, u_own, u1, u2)?;
-        // What goes straight on through a null surface meets no normal.
+        // Light that goes straight on through a null surface meets no normal.
         let shadowing = if sample.is_null { 1.0 } else { self.view.shadowing(sample.wi) };
         if self.lobes.others.is_empty() {
             return Some(BsdfSample { weight: sample.weight * (chosen.weight * shadowing), ..sample });

@@ -15,7 +15,7 @@ pub struct Features {
     pub settings: &'static str,
 }
 
-/// Where the body's surface is.
+/// The shape of the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
     Sheet,
@@ -35,7 +35,7 @@ impl Shape {
         matches!(self, Self::Sheet | Self::Box | Self::Mesh | Self::Instance | Self::Cover)
     }
 
-    /// It has texture coordinates.
+    /// Whether textures can lie on it.
     fn takes_textures(self) -> bool {
         self != Self::Disk
     }
