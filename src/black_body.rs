@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::math::xyz_to_rec709;
+
 /// Wavelengths that are added up, nm: a tenth of what the eye sees of a black body changes within a hundred of them.
 const SHORTEST: u32 = 360;
 const LONGEST: u32 = 830;
@@ -12,14 +14,7 @@ const SECOND_CONSTANT: f64 = 1.438_776_877e7;
 /// Linear Rec.709 colour of a black body of this temperature in kelvin, its largest channel 1. Below some 1900 K the colour lies outside of
 /// Rec.709: the blue channel is then 0.
 pub fn black_body(kelvin: f64) -> DVec3 {
-    let [x, y, z] = tristimulus(kelvin).to_array();
-    // From XYZ to the primaries of Rec. ITU-R BT.709.
-    let linear = DVec3::new(
-        3.240_969_941_904_521 * x - 1.537_383_177_570_093 * y - 0.498_610_760_293_003 * z,
-        -0.969_243_636_280_87 * x + 1.875_967_501_507_72 * y + 0.041_555_057_407_175 * z,
-        0.055_630_079_696_993 * x - 0.203_976_958_888_976 * y + 1.056_971_514_242_878 * z,
-    )
-    .max(DVec3::ZERO);
+    let linear = xyz_to_rec709(tristimulus(kelvin)).max(DVec3::ZERO);
     linear / linear.max_element()
 }
 

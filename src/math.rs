@@ -10,6 +10,16 @@ pub fn luminance(color: DVec3) -> f64 {
     color.dot(DVec3::new(0.2126, 0.7152, 0.0722))
 }
 
+/// Linear Rec.709 of CIE XYZ: the inverse of the primaries and the white of Rec. ITU-R BT.709.
+pub fn xyz_to_rec709(xyz: DVec3) -> DVec3 {
+    let [x, y, z] = xyz.to_array();
+    DVec3::new(
+        3.240_969_941_904_521 * x - 1.537_383_177_570_093 * y - 0.498_610_760_293_003 * z,
+        -0.969_243_636_280_87 * x + 1.875_967_501_507_72 * y + 0.041_555_057_407_175 * z,
+        0.055_630_079_696_993 * x - 0.203_976_958_888_976 * y + 1.056_971_514_242_878 * z,
+    )
+}
+
 /// As [`luminance`], in single precision, of a film's pixel.
 pub fn luminance_f32([r, g, b]: [f32; 3]) -> f32 {
     0.2126 * r + 0.7152 * g + 0.0722 * b

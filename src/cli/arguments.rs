@@ -147,7 +147,7 @@ pub struct RenderArguments {
     /// No progress on stderr
     #[arg(short, long, help_heading = REPORT)]
     pub quiet: bool,
-    /// Exit with code 6 if a sample was not finite, and with code 3 where something else would stand for a missing texture or material, or an import is not exact
+    /// Exit with code 6 if a sample was not finite, and with code 3 where something else would stand for what is missing or wrong in a model or a material, or an import is not exact
     #[arg(long, help_heading = REPORT)]
     pub strict: bool,
 }
@@ -351,7 +351,7 @@ pub struct CheckArguments {
     pub scene: Option<OsString>,
     #[command(flatten)]
     pub access: AccessArguments,
-    /// Exit with code 3 where something else would stand for a missing texture or material, or an import is not exact
+    /// Exit with code 3 where something else would stand for what is missing or wrong in a model or a material, or an import is not exact
     #[arg(long)]
     pub strict: bool,
     /// Print also how the device would render it: the plan with its reasons, and which parts of the kernels are compiled

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use super::builtin::embedded;
 use super::error::{SceneError, show};
 use super::reading::ReadingProgress;
+use super::spelling::names::{folded, unquoted};
 use crate::input::{self, AnyFile};
 use crate::scene::Mesh;
 
@@ -124,26 +125,32 @@ impl Files {
         Err(io::Error::new(ErrorKind::PermissionDenied, message))
     }
 
-    /// Looks for a file that was written on another machine: as written, with folders separated by backslashes, in other case, and by its name
-    /// alone beside the file that names it.
+    /// Looks for a file that was written on another machine: as written, without quotes, with folders separated by backslashes, in other case or
+    /// with accents taken apart, and by its name alone beside the file that names it.
     pub fn find(&self, folder: &Path, written: &str) -> Option<Found> {
-        let exact = folder.join(written);
-        if self.is_file(&exact) {
-            return Some(Found { path: exact, is_substitute: false });
+        if let Some(path) = self.find_exactly(folder, written) {
+            return Some(Found { path, is_substitute: false });
         }
-        let slashed = written.replace('\\', "/");
+        let slashed = slashed(written);
         let relative = Path::new(&slashed);
-        let direct = folder.join(relative);
-        if self.is_file(&direct) {
-            return Some(Found { path: direct, is_substitute: false });
-        }
         let beside = relative.file_name().map(Path::new);
         let elsewhere = in_any_case(folder, relative).or_else(|| in_any_case(folder, beside?));
         elsewhere.filter(|path| input::is_file(path)).map(|path| Found { path, is_substitute: true })
     }
+
+    /// The same, where its name is written as it is but for quotes and backslashes, which also escape blanks; this looks into no folder.
+    pub fn find_exactly(&self, folder: &Path, written: &str) -> Option<PathBuf> {
+        let escaped = || written.contains("\\ ").then(|| folder.join(written.replace("\\ ", " ")));
+        let mut places = [Some(folder.join(written)), Some(folder.join(slashed(written))), escaped()].into_iter().flatten();
+        places.find(|path| self.is_file(path))
+    }
 }
 
-/// The path whose parts are named so but for upper and lower case.
+fn slashed(written: &str) -> String {
+    unquoted(written).replace('\\', "/")
+}
+
+/// The path whose parts are named so but for upper and lower case, and for characters that are composed or taken apart.
 fn in_any_case(folder: &Path, relative: &Path) -> Option<PathBuf> {
     let mut path = folder.to_owned();
     for part in relative.components() {
@@ -156,13 +163,10 @@ fn in_any_case(folder: &Path, relative: &Path) -> Option<PathBuf> {
             path = exact;
             continue;
         }
-        let wanted = name.to_string_lossy().to_lowercase();
+        let wanted = folded(&name.to_string_lossy());
         let entries = fs::read_dir(if path.as_os_str().is_empty() { Path::new(".") } else { &path }).ok()?;
-        let mut fitting: Vec<_> = entries
-            .flatten()
-            .map(|entry| entry.file_name())
-            .filter(|name| name.to_string_lossy().to_lowercase() == wanted)
-            .collect();
+        let mut fitting: Vec<_> =
+            entries.flatten().map(|entry| entry.file_name()).filter(|name| folded(&name.to_string_lossy()) == wanted).collect();
         // The order of a folder's entries is none.
         fitting.sort();
         path.push(fitting.first()?);
@@ -197,8 +201,22 @@ mod tests {
         assert_eq!(found("textures/wood.png"), expect("Textures/Wood.PNG", true));
         assert_eq!(found("C:\\Users\\me\\Stone.png"), expect("stone.png", true));
         assert_eq!(found("/absent/stone.png"), expect("stone.png", true));
+        assert_eq!(found("\"stone.png\""), expect("stone.png", false));
+        fs::write(folder.path().join("my wood.png"), "").unwrap();
+        assert_eq!(found("my\\ wood.png"), expect("my wood.png", false));
         assert_eq!(found("absent.png"), None);
         assert_eq!(found(".."), None);
+    }
+
+    #[test]
+    fn files_are_found_whose_accents_are_taken_apart() {
+        for (on_disk, written) in [("Mo\u{308}bel.png", "Möbel.png"), ("Möbel.png", "Mo\u{308}bel.png")] {
+            let folder = tempfile::tempdir().unwrap();
+            fs::write(folder.path().join(on_disk), "").unwrap();
+            // A file system may take both names for one.
+            assert!(Files::default().find(folder.path(), written).is_some(), "{written}");
+            assert!(Files::default().find(folder.path(), "Mobel.png").is_none(), "the control");
+        }
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! From a file, a model or a name to a [`Scene`](crate::scene::Scene).
 //!
 //! - [`source`]: what a person may name as the scene.
-//! - [`mod@file`]: scene files in TOML; `obj`, `ply`: models, of which `model` is what they have in common; `image_file`: textures and environment maps.
+//! - [`mod@file`]: scene files in TOML; `obj`, `ply`: models, of which `model` is what they have in common, `spelling` how their texts
+//!   say it, and `mends` what is wrong in them and replaced; `image_file`: textures and environment maps.
 //! - `mitsuba`, `gltf`: scenes of other programs, which become scene files in the terms of `import`.
 //! - `framing`: camera, ground and light for a model that comes without them; `view`: what a person may say of that; `presets`: materials by name.
 //! - `builtin_scenes`: scenes that are part of the program, among them `examples`, made of all examples; `builtin`: the files they name.
@@ -25,6 +26,7 @@ mod image_file;
 mod import;
 mod import_file;
 mod memory;
+mod mends;
 mod mitsuba;
 mod model;
 mod obj;
@@ -34,6 +36,7 @@ mod presets;
 mod printable;
 mod reading;
 pub mod source;
+mod spelling;
 mod toml_text;
 mod view;
 

@@ -1,8 +1,9 @@
 //! What files of models have in common.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use crate::scene::Mesh;
 
@@ -40,8 +41,8 @@ pub struct ModelFile {
     pub attributes: Vec<MeshAttribute>,
     /// What could not be taken as written, in sentences.
     pub warnings: Vec<String>,
-    /// What is missing and has something else in its place, in words that follow the file's name.
-    pub substitutes: Vec<String>,
+    /// What is missing or wrong and has something else in its place, and in which file that is.
+    pub substitutes: Vec<(PathBuf, Substitute)>,
 }
 
 /// Numbers of a mesh beside positions, normals and texture coordinates.
@@ -62,11 +63,41 @@ pub struct Part {
     pub material: Option<usize>,
 }
 
-/// One `newmtl` and where it stands.
-#[derive(Debug, Clone)]
+/// Something that stands in the place of what a file should have: a warning, or an error where nothing may be replaced.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Substitute {
+    /// Where, if it is in a line; counts from 1.
+    pub line: Option<usize>,
+    /// In words that follow the file's name.
+    pub what: String,
+}
+
+/// One `newmtl` and what it says. Numbers that it does not say, or not so that they can be read, are not there.
+#[derive(Debug, Clone, Default)]
 pub struct MtlMaterial {
     pub file: PathBuf,
-    pub material: tobj::Material,
+    pub name: String,
+    /// `Kd`, `Ks`, `Ke` and `Tf`: from 0 up.
+    pub colours: BTreeMap<MtlKey, DVec3>,
+    /// All others of one number, within the ranges of [`MtlKey`].
+    pub numbers: BTreeMap<MtlKey, f64>,
+    /// From 0 to 10.
+    pub illumination: Option<u8>,
+    /// What stands after `map_Kd` and others, and in which line.
+    pub maps: BTreeMap<MtlKey, (usize, String)>,
     /// No library has it.
     pub is_missing: bool,
 }
+
+impl MtlMaterial {
+    pub fn colour(&self, key: MtlKey) -> Option<DVec3> {
+        self.colours.get(&key).copied()
+    }
+
+    pub fn number(&self, key: MtlKey) -> Option<f64> {
+        self.numbers.get(&key).copied()
+    }
+}
+
+/// The name of a key of MTL as it is most often spelled; upper and lower case do not matter.
+pub type MtlKey = &'static str;

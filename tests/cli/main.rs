@@ -20,6 +20,7 @@ mod kills;
 mod mattes;
 mod memory_stated;
 mod models;
+mod odd_models;
 #[cfg(unix)]
 mod on_unix;
 mod outputs;

@@ -213,6 +213,47 @@ fn polygons_of_many_corners() {
     });
 }
 
+/// Every kind of statement that is mended, so many times.
+#[test]
+fn models_full_of_odd_statements() {
+    let _turn = take_turn();
+    assert_linear("odd statements", 2000, |count| {
+        let continued = "\\\n".repeat(count);
+        let blanks = "x ".repeat(count);
+        let mut model = format!("g {blanks}\nmtllib {blanks}a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 {continued} 2 3\n");
+        let mut library = format!("newmtl {blanks}\nmap_Kd {}\nKd 1 {continued} 0 0\n", "-s 1 ".repeat(count));
+        for index in 0..count {
+            let _ = writeln!(
+                model,
+                "v nan {index} 0\nvn nan 0 1\nvt x\nusemtl n{index} # a\nf 1 2\nf 0 1 2\nf 1 2 {}\nf 1/-1/-1 2/-1/-1 3/9999999/-1\nf 1 / 2 3 {}, 2\n\
+                 # a comment \\\nnonsense {index}\nf 1//{index} 2 3",
+                index + 4,
+                index % 3 + 1
+            );
+            let _ = writeln!(library, "newmtl n{index} # a\nKd nan\nNs -1\nillum {index}\nodd{index} 1\nKd spectral a\nmap_Bump");
+        }
+        let folder = folder_with(&[("model.obj", model.as_bytes()), ("a.mtl", library.as_bytes())]);
+        let scene = load::load(folder.path().join("model.obj").to_str()).unwrap_or_else(|error| panic!("{error}"));
+        assert!((10..60).contains(&scene.warnings.len()), "{:?}", scene.warnings);
+    });
+    assert_linear("odd numbers", 10_000, |count| {
+        let header = format!(
+            "ply\nformat ascii 1.0\nelement vertex {count}\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\n\
+            property float ny\nproperty float nz\nelement face {count}\nproperty list uchar int vertex_indices\nend_header\n"
+        );
+        let mut data = String::new();
+        for index in 0..count {
+            let _ = writeln!(data, "{} {} {} nan 0 1", index % 7, index / 7, if index % 5 == 4 { "nan" } else { "0" });
+        }
+        for index in 0..count {
+            let _ = writeln!(data, "3 {} {} {} 9", index % 9, index, index / 2);
+        }
+        let folder = folder_with(&[("model.ply", (header + &data).as_bytes())]);
+        let scene = load::load(folder.path().join("model.ply").to_str()).unwrap_or_else(|error| panic!("{error}"));
+        assert!((1..10).contains(&scene.warnings.len()), "{:?}", scene.warnings);
+    });
+}
+
 #[test]
 fn mistakes_at_the_end_of_long_lines() {
     let _turn = take_turn();

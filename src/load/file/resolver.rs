@@ -15,6 +15,7 @@ use crate::load::access::Access;
 use crate::load::error::{MOST_ERRORS, SceneError, show};
 use crate::load::files::Files;
 use crate::load::image_file::{Picture, Pictures};
+use crate::load::model::Substitute;
 use crate::scene::animation::Deformation;
 use crate::scene::texture::range_of_texture;
 use crate::scene::{Channel, ChannelInput, ColorInput, ColorSpace, ImageData, Material, MaterialId, Mesh, Scene, TextureId};
@@ -125,15 +126,19 @@ impl<'a> Resolver<'a> {
         self.pictures.files()
     }
 
-    /// Notes that something missing was replaced.
+    /// Notes that something missing or wrong in a file was replaced.
     ///
     /// # Errors
     /// The same, where that is not allowed.
-    pub(super) fn substitute(&mut self, file: &Path, what: String) -> Result<(), SceneError> {
+    pub(super) fn substitute(&mut self, file: &Path, Substitute { line, what }: Substitute) -> Result<(), SceneError> {
+        let error = match line {
+            Some(line) => SceneError::in_line(show(file), line, what),
+            None => SceneError::in_file(show(file), what),
+        };
         if self.strict {
-            return Err(SceneError::in_file(show(file), what).with_help("without --strict, magenta stands for what is missing"));
+            return Err(error.with_help("without --strict, this is a warning"));
         }
-        self.scene.warnings.push(format!("{}: {what}", show(file)));
+        self.scene.warnings.push(error.to_string());
         Ok(())
     }
 

@@ -8,11 +8,11 @@ use glam::DAffine3;
 
 use super::document::Reader;
 use super::input::{Input, Texels};
+use super::mesh_file::ReadMesh;
 use super::plugin::Plugin;
 use crate::load::error::SceneError;
 use crate::load::files::Files;
 use crate::load::import::{Description, Entry, FileReference, Keys, matrix_value};
-use crate::scene::Mesh;
 
 /// A mesh of a file: the file, its format, and the bits of the mesh's number.
 pub type MeshKey = (PathBuf, String, u64);
@@ -39,7 +39,7 @@ pub struct Converter<'a> {
     pub attributes_of_meshes: HashMap<String, (usize, Rc<HashMap<String, Input>>)>,
     pub meshes: HashMap<String, FileReference>,
     /// Files of meshes as they stand.
-    pub read_meshes: HashMap<MeshKey, Result<Mesh, SceneError>>,
+    pub read_meshes: HashMap<MeshKey, Result<ReadMesh, SceneError>>,
     /// Of all shapes, copies counted.
     pub triangles: u64,
     /// How often instances at the top name a group.

@@ -14,6 +14,7 @@ use super::shape::{Looks, turn_inside_out};
 use crate::load::error::{SceneError, show};
 use crate::load::files::Files;
 use crate::load::import::{Blocks, Keys, smooth_by_index};
+use crate::load::model::Substitute;
 use crate::load::{obj, ply};
 use crate::scene::Mesh;
 
@@ -50,11 +51,15 @@ impl Converter<'_> {
             return self.mesh_keys(plugin, file, map).map(Some);
         }
         let file: MeshKey = (path.clone(), plugin.name.clone(), index.to_bits());
-        let mut mesh = match self.read_meshes.remove(&file) {
+        let ReadMesh { mut mesh, mends } = match self.read_meshes.remove(&file) {
             Some(known) => known,
             None => read(self.files, &file),
         }
         .map_err(|error| error.with_help(format!("{} names it", plugin.place)))?;
+        for mend in mends {
+            let line = mend.line.map_or_else(String::new, |line| format!("line {line}: "));
+            self.approximate(plugin, &format!("`{}`", show(&path)), line + &mend.what);
+        }
         if mesh.drop_degenerate_faces() > 0 && mesh.faces.is_empty() {
             self.drop(plugin, "mesh without a face that has area", "it is left out");
             return Ok(None);
@@ -145,12 +150,19 @@ impl Converter<'_> {
 /// Elements whose plugins read files.
 const FORMATS: [&str; 3] = ["obj", "ply", "serialized"];
 
+/// A mesh as its file has it, and what in the file was wrong and has something else in its place.
+pub struct ReadMesh {
+    mesh: Mesh,
+    mends: Vec<Substitute>,
+}
+
 /// Reads a mesh. The error is that of the file, or why it is none.
-fn read(files: &Files, (path, format, index): &MeshKey) -> Result<Mesh, SceneError> {
+fn read(files: &Files, (path, format, index): &MeshKey) -> Result<ReadMesh, SceneError> {
     let file = match format.as_str() {
         "serialized" => {
             let mesh = serialized::load(files, path, f64::from_bits(*index));
-            return mesh.map_err(|reason| SceneError::in_file(show(path), reason));
+            let mesh = mesh.map_err(|reason| SceneError::in_file(show(path), reason))?;
+            return Ok(ReadMesh { mesh, mends: Vec::new() });
         }
         "ply" => ply::load(files, path)?,
         _ => obj::load(files, path, false)?,
@@ -171,7 +183,7 @@ fn read(files: &Files, (path, format, index): &MeshKey) -> Result<Mesh, SceneErr
     if format == "obj" && !all_normals {
         join_vertices(&mut mesh);
     }
-    Ok(mesh)
+    Ok(ReadMesh { mesh, mends: file.substitutes.into_iter().map(|(_, mend)| mend).collect() })
 }
 
 /// One vertex for all of the same place and texture coordinates.

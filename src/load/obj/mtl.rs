@@ -1,83 +1,78 @@
-//! MTL files: checked line by line, then read by `tobj`, which panics on a colour of fewer than three numbers.
+//! MTL files: each statement by itself, and what it says wrongly is mended.
 
-use std::collections::BTreeSet;
+use std::borrow::Cow;
+use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
+
+use glam::DVec3;
 
 use crate::load::encoding;
 use crate::load::error::{SceneError, show};
 use crate::load::files::{Files, MOST_LIBRARY_BYTES};
-use crate::load::model::MtlMaterial;
+use crate::load::mends::Mends;
+use crate::load::model::{MtlKey, MtlMaterial, Substitute};
 use crate::load::printable::short_list;
-use crate::scene::{Channel, ColorSpace};
+use crate::load::spelling::lines::{Statements, before_spaced_comment, first_word, trimmed, without_comment, words};
+use crate::load::spelling::names::{canonical, unquoted};
+use crate::load::spelling::numbers::{integer, number};
+use crate::math::xyz_to_rec709;
 
 /// All MTL files of one model.
 #[derive(Default)]
 pub struct Libraries {
     files: BTreeSet<PathBuf>,
     pub materials: Vec<MtlMaterial>,
+    /// Places of the materials by their names in canonical form.
+    places: HashMap<String, usize>,
     pub warnings: Vec<String>,
-    /// What is missing.
-    pub substitutes: Vec<String>,
+    /// What is missing or mended, and the file where that is.
+    pub substitutes: Vec<(PathBuf, Substitute)>,
 }
 
-/// An image and how it lies on the surface, from `map_Kd`'s options.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TextureMap {
-    /// As it is written.
-    pub file: String,
-    /// Factors of u and v (`-s`).
-    pub scale: [f64; 2],
-    /// Added to u and v after scaling (`-o`).
-    pub offset: [f64; 2],
-    /// Do not repeat (`-clamp on`).
-    pub clamp: bool,
-    /// How texels are stored (`-colorspace`), where that is said.
-    pub space: Option<ColorSpace>,
-    /// Of which a number is taken (`-imfchan`), where that is said; `l`, the luminance, is red in a grey picture.
-    pub channel: Option<Channel>,
-    /// Options that were left out.
-    pub unsupported: Vec<String>,
-}
-
-/// Keys that have an effect here. All others are named.
-const HONOURED: [&str; 27] = [
-    "newmtl",
-    "Kd",
-    "Ks",
-    "Ke",
-    "Ns",
-    "Ni",
-    "d",
-    "Tr",
-    "Tf",
-    "illum",
-    "map_Kd",
-    "map_Ke",
-    "map_d",
-    "Pr",
-    "Pm",
-    "Ps",
-    "Pc",
-    "Pcr",
-    "aniso",
-    "anisor",
-    "map_Pr",
-    "map_Pm",
-    "map_Ps",
-    "map_Pc",
-    "map_Pcr",
-    "map_aniso",
-    "norm",
+/// Keys whose value is a colour from 0 up.
+const COLOURS: [MtlKey; 4] = ["Kd", "Ks", "Ke", "Tf"];
+/// Keys whose value is a number, and between which ones.
+const NUMBERS: [(MtlKey, [f64; 2]); 11] = [
+    ("Ns", [0.0, 1e9]),
+    ("Ni", [0.1, 10.0]),
+    ("d", [0.0, 1.0]),
+    ("Tr", [0.0, 1.0]),
+    ("Pr", [0.0, 1.0]),
+    ("Pm", [0.0, 1.0]),
+    ("Ps", [0.0, 1.0]),
+    ("Pc", [0.0, 1.0]),
+    ("Pcr", [0.0, 1.0]),
+    ("aniso", [0.0, 1.0]),
+    ("anisor", [-1e9, 1e9]),
 ];
+/// Keys whose value is a picture, and how else they are spelled.
+const MAPS: [(MtlKey, &[&str]); 12] = [
+    ("map_Kd", &[]),
+    ("map_Ke", &["map_emissive"]),
+    ("map_d", &["map_opacity"]),
+    ("map_Pr", &[]),
+    ("map_Pm", &[]),
+    ("map_Ps", &[]),
+    ("map_Pc", &[]),
+    ("map_Pcr", &[]),
+    ("map_aniso", &[]),
+    ("norm", &["map_norm", "map_kn"]),
+    ("map_Bump", &["bump"]),
+    // Read by nobody, and known to end a line before them.
+    ("newmtl", &[]),
+];
+/// Keys that mean nothing to a path tracer, or tell how others are to be shown.
+const HARMLESS: [&str; 5] = ["sharpness", "map_ka", "map_aat", "interpolatemap", "km"];
+/// Larger numbers are no colours.
+const LARGEST: f64 = 1e18;
 
 impl Libraries {
     /// Reads what stands after each `mtllib`: one name, which may contain blanks, or several.
-    pub fn read(&mut self, files: &Files, model: &Path, libraries: &[String]) -> Result<(), SceneError> {
+    pub fn read(&mut self, files: &Files, model: &Path, libraries: &[(usize, String)]) -> Result<(), SceneError> {
         let folder = model.parent().unwrap_or(Path::new(""));
         let mut seen = BTreeSet::new();
-        for written in libraries.iter().filter(|written| seen.insert(written.as_str())) {
-            let names = if folder.join(written).exists() { vec![written.as_str()] } else { split_names(files, folder, written) };
-            for name in names {
+        for (line, written) in libraries.iter().filter(|(_, written)| seen.insert(written.as_str())) {
+            for name in names(files, folder, written) {
                 let found = files.find(folder, name);
                 let file = found.as_ref().map_or_else(|| folder.join(name), |found| found.path.clone());
                 if !self.files.insert(file.clone()) {
@@ -87,223 +82,412 @@ impl Libraries {
                     let warning = format!("{}: there is no material library {name}; {} is taken", show(model), show(&file));
                     self.warnings.push(warning);
                 }
-                self.read_file(files, file)?;
+                match files.read(&file, MOST_LIBRARY_BYTES) {
+                    Ok(bytes) => self.add(&file, &bytes),
+                    Err(error) => {
+                        let what = format!("the material library {} cannot be read: {error}", show(&file));
+                        self.substitutes.push((model.to_owned(), Substitute { line: Some(*line), what }));
+                    }
+                }
             }
         }
         Ok(())
     }
 
-    /// What `tobj` wants: the materials and the place of each name.
-    pub fn for_tobj<Places: FromIterator<(String, usize)>>(&self) -> (Vec<tobj::Material>, Places) {
-        let names = self.materials.iter().enumerate().map(|(place, entry)| (entry.material.name.clone(), place)).collect();
-        (self.materials.iter().map(|entry| entry.material.clone()).collect(), names)
+    /// The place of the material that a `usemtl` names. A name may contain the sign of a comment, and a comment may stand behind it.
+    pub fn find(&self, written: &str) -> Option<usize> {
+        let exact = |name: &str| self.places.get(canonical(name).as_ref()).copied();
+        exact(written).or_else(|| exact(before_spaced_comment(written)?)).or_else(|| exact(unquoted(written)))
     }
 
-    fn read_file(&mut self, files: &Files, file: PathBuf) -> Result<(), SceneError> {
-        let bytes = match files.read(&file, MOST_LIBRARY_BYTES) {
-            Ok(bytes) => bytes,
-            Err(error) => {
-                self.substitutes.push(format!("the material library {} cannot be read: {error}", show(&file)));
-                return Ok(());
-            }
-        };
-        let (text, encoding) = encoding::decode(&bytes);
-        let told = encoding.map(|encoding| format!("{}: it is not in UTF-8, and read as {encoding}", show(&file)));
+    /// Adds a material that stands for one that no library has, and gives its place.
+    pub fn add_missing(&mut self, model: &Path, name: &str) -> usize {
+        self.places.insert(canonical(name).into_owned(), self.materials.len());
+        self.materials.push(MtlMaterial {
+            file: model.to_owned(),
+            name: name.to_owned(),
+            is_missing: true,
+            ..Default::default()
+        });
+        self.materials.len() - 1
+    }
+
+    fn add(&mut self, file: &Path, bytes: &[u8]) {
+        let (text, encoding) = encoding::decode(bytes);
+        let told = encoding.map(|encoding| format!("{}: it is not in UTF-8, and read as {encoding}", show(file)));
         self.warnings.extend(told);
-        let (text, without_effect) = check(&show(&file), &text)?;
+        let mut library = Library::default();
+        for (line, statement) in Statements::new(&text, is_statement) {
+            library.statement(line, &statement);
+        }
+        let Library { materials, mut mends, without_effect } = library;
+        for (line, mut material) in materials {
+            material.file = file.to_owned();
+            let name = material.name.clone();
+            let commented = before_spaced_comment(&name).filter(|short| !short.is_empty());
+            let place = self.materials.len();
+            match self.places.get(canonical(&name).as_ref()) {
+                // The specification searches the libraries in their order.
+                Some(_) => mends.add("a material is there twice, and the first one counts", line, &name),
+                None => {
+                    self.places.insert(canonical(&name).into_owned(), place);
+                    for other in [Some(unquoted(&name)), commented].into_iter().flatten() {
+                        self.places.entry(canonical(other).into_owned()).or_insert(place);
+                    }
+                    self.materials.push(material);
+                }
+            }
+        }
         if !without_effect.is_empty() {
-            let list = short_list(&without_effect.into_iter().collect::<Vec<_>>());
-            self.warnings.push(format!("{}: keys that have no effect: {list}", show(&file)));
-        }
-        let loaded = tobj::load_mtl_buf(&mut text.as_bytes());
-        let (materials, _) = loaded.map_err(|error| SceneError::in_file(show(&file), error.to_string()))?;
-        self.materials.extend(materials.into_iter().map(|material| MtlMaterial {
-            file: file.clone(),
-            material,
-            is_missing: false,
-        }));
-        Ok(())
-    }
-}
-
-/// The text with every colour as three numbers, and the keys in it that have no effect.
-fn check(name: &str, text: &str) -> Result<(String, BTreeSet<String>), SceneError> {
-    let mut checked = String::with_capacity(text.len());
-    let mut without_effect = BTreeSet::new();
-    for (index, line) in text.lines().enumerate() {
-        let wrong = |message: String| SceneError::in_line(name, index + 1, message);
-        let line = line.trim();
-        let (key, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
-        let rest = rest.trim();
-        match key {
-            "Kd" | "Ks" | "Ke" | "Tf" => {
-                let [r, g, b] = colour(rest).map_err(|reason| wrong(format!("{key}: {reason}")))?;
-                checked.push_str(&format!("{key} {r} {g} {b}\n"));
-                continue;
-            }
-            "Ns" | "Ni" | "d" | "Tr" => {
-                let [value, ..] = colour(rest).map_err(|reason| wrong(format!("{key}: {reason}")))?;
-                checked.push_str(&format!("{key} {value}\n"));
-                continue;
-            }
-            "illum" if rest.parse::<u8>().is_err() => {
-                return Err(wrong(format!("illum: expected an illumination model from 0 to 10, found `{rest}`")));
-            }
-            "newmtl" | "map_Kd" | "map_Ke" | "map_d" if rest.is_empty() => {
-                return Err(wrong(format!("{key}: the name is missing")));
-            }
-            // The ambient colour has no meaning in a path tracer.
-            "Ka" => continue,
-            "" => {}
-            key if key.starts_with('#') || HONOURED.contains(&key) => {}
-            key => {
-                without_effect.insert(key.chars().take(40).collect());
-                continue;
+            let list = short_list(&without_effect.iter().collect::<Vec<_>>());
+            let what = format!("keys that have no effect: {list}");
+            if without_effect.iter().all(|key| HARMLESS.contains(&key.to_ascii_lowercase().as_str())) {
+                self.warnings.push(format!("{}: {what}", show(file)));
+            } else {
+                self.substitutes.push((file.to_owned(), Substitute { line: None, what }));
             }
         }
-        checked.push_str(line);
-        checked.push('\n');
-    }
-    Ok((checked, without_effect))
-}
-
-/// One or three numbers from 0 up.
-fn colour(rest: &str) -> Result<[f64; 3], String> {
-    let values: Vec<f64> = rest
-        .split_whitespace()
-        .map(|word| word.parse().ok().filter(|value| (0.0..=1e18).contains(value)).ok_or(word))
-        .collect::<Result<_, _>>()
-        .map_err(|word| format!("expected numbers from 0 to 1e18, found `{word}`"))?;
-    match values[..] {
-        [grey] => Ok([grey; 3]),
-        [r, g, b] => Ok([r, g, b]),
-        _ => Err(format!("expected 1 or 3 numbers, found {}", values.len())),
+        self.substitutes.extend(mends.into_substitutes().into_iter().map(|mend| (file.to_owned(), mend)));
     }
 }
 
-/// One name with blanks, or several.
-fn split_names<'w>(files: &Files, folder: &Path, written: &'w str) -> Vec<&'w str> {
-    let names: Vec<&str> = written.split_whitespace().collect();
-    if names.len() > 1 && names.iter().all(|name| files.find(folder, name).is_none()) { vec![written] } else { names }
+/// One name with blanks, or several, of which some may have blanks: the longest that are there.
+fn names<'w>(files: &Files, folder: &Path, written: &'w str) -> Vec<&'w str> {
+    /// Names of more words than that are one name alone.
+    const MOST_WORDS: usize = 8;
+    let is_there = |name: &str| files.find_exactly(folder, name).is_some();
+    if is_there(written) {
+        return vec![written];
+    }
+    let whole = before_spaced_comment(written).unwrap_or(written);
+    let place = |word: &str| word.as_ptr() as usize - whole.as_ptr() as usize;
+    let mut spans: Vec<std::ops::Range<usize>> = Vec::new();
+    for word in words(whole) {
+        let end = place(word) + word.len();
+        match spans.last_mut() {
+            // A backslash escapes the blank behind it.
+            Some(last) if whole[..last.end].ends_with('\\') => last.end = end,
+            _ => spans.push(place(word)..end),
+        }
+    }
+    let mut names = Vec::new();
+    let mut any = false;
+    let mut first = 0;
+    while first < spans.len() {
+        let name = |last: usize| &whole[spans[first].start..spans[last].end];
+        let found = (first..spans.len().min(first + MOST_WORDS)).rev().find(|&last| is_there(name(last)));
+        any |= found.is_some();
+        names.push(name(found.unwrap_or(first)));
+        first = found.unwrap_or(first) + 1;
+    }
+    if any {
+        return names;
+    }
+    // In another case, say, or not at all.
+    let is_found = |name: &&str| files.find(folder, name).is_some();
+    let libraries = names.iter().filter(|name| name.to_ascii_lowercase().ends_with(".mtl")).count();
+    if is_found(&whole) || (libraries < 2 && !names.iter().any(is_found)) { vec![whole] } else { names }
 }
 
-impl TextureMap {
-    /// Parses `[options] file`.
-    pub fn parse(written: &str) -> Result<Self, String> {
-        let mut map = Self {
-            file: String::new(),
-            scale: [1.0; 2],
-            offset: [0.0; 2],
-            clamp: false,
-            space: None,
-            channel: None,
-            unsupported: Vec::new(),
+/// A material library that is being read.
+#[derive(Default)]
+struct Library {
+    /// Each with the line of its `newmtl`.
+    materials: Vec<(usize, MtlMaterial)>,
+    mends: Mends,
+    without_effect: BTreeSet<String>,
+}
+
+fn is_statement(line: &str) -> bool {
+    let (key, _) = first_word(line);
+    key.eq_ignore_ascii_case("illum") || key.eq_ignore_ascii_case("Ka") || known(key).is_some()
+}
+
+/// What a key's value is.
+enum Kind {
+    Colour(MtlKey),
+    Number(MtlKey, [f64; 2]),
+    Map(MtlKey),
+}
+
+fn known(key: &str) -> Option<Kind> {
+    let same = |name: &&str| name.eq_ignore_ascii_case(key);
+    if let Some(colour) = COLOURS.into_iter().find(|name| same(name)) {
+        return Some(Kind::Colour(colour));
+    }
+    if let Some((number, range)) = NUMBERS.into_iter().find(|(name, _)| same(name)) {
+        return Some(Kind::Number(number, range));
+    }
+    MAPS.into_iter().find(|(name, others)| same(name) || others.iter().any(&same)).map(|(map, _)| Kind::Map(map))
+}
+
+impl Library {
+    fn statement(&mut self, line: usize, statement: &str) {
+        let (key, rest) = first_word(statement);
+        if key.eq_ignore_ascii_case("newmtl") {
+            if rest.is_empty() {
+                self.mends.add("`newmtl` without a name begins a material without one", line, statement);
+            }
+            self.materials.push((line, MtlMaterial { name: trimmed(rest).to_owned(), ..Default::default() }));
+            return;
+        }
+        // The ambient colour has no meaning in a path tracer.
+        if key.eq_ignore_ascii_case("Ka") {
+            return;
+        }
+        let known = known(key);
+        let is_illum = key.eq_ignore_ascii_case("illum");
+        if known.is_none() && !is_illum {
+            self.without_effect.insert(key.chars().take(40).collect());
+            return;
+        }
+        let Self { materials, mends, .. } = self;
+        let Some((_, material)) = materials.last_mut() else {
+            mends.add("what stands before the first `newmtl` is left out", line, statement);
+            return;
         };
-        let mut rest = written.trim();
-        while rest.starts_with('-') {
-            let (option, after) = next_word(rest);
-            rest = after;
-            match option {
-                "-s" => rest = numbers(rest, &mut map.scale)?,
-                "-o" => rest = numbers(rest, &mut map.offset)?,
-                "-clamp" => {
-                    let (state, after) = next_word(rest);
-                    map.clamp = state == "on";
-                    rest = after;
+        match known {
+            Some(Kind::Colour(key)) => {
+                if let Some(colour) = colour(mends, line, statement) {
+                    material.colours.insert(key, colour);
                 }
-                "-colorspace" => {
-                    let (name, after) = next_word(rest);
-                    rest = after;
-                    map.space = match name.to_ascii_lowercase().as_str() {
-                        "srgb" => Some(ColorSpace::Srgb),
-                        "linear" | "raw" | "non-color" => Some(ColorSpace::Linear),
-                        other => return Err(format!("the colour space `{other}` is neither `sRGB` nor `linear`")),
-                    };
-                }
-                "-t" => rest = numbers(rest, &mut [0.0; 2])?,
-                "-mm" => rest = next_word(next_word(rest).1).1,
-                "-imfchan" => {
-                    let (name, after) = next_word(rest);
-                    map.channel = Some(match name {
-                        "r" | "l" => Channel::R,
-                        "g" => Channel::G,
-                        "b" => Channel::B,
-                        "m" => Channel::A,
-                        other => return Err(format!("the channel `{other}` is none of r, g, b, m and l")),
-                    });
-                    rest = after;
-                }
-                "-blendu" | "-blendv" | "-cc" | "-boost" | "-texres" | "-bm" | "-type" => rest = next_word(rest).1,
-                other => return Err(format!("the texture option `{other}` is not known")),
             }
-            if !["-s", "-o", "-clamp", "-colorspace", "-imfchan", "-blendu", "-blendv", "-texres"].contains(&option) {
-                map.unsupported.push(option.to_owned());
+            Some(Kind::Number(key, range)) => {
+                if let Some(value) = value(mends, line, statement, range) {
+                    material.numbers.insert(key, value);
+                }
+                let [d, tr] = ["d", "Tr"].map(|key| material.number(key));
+                if let (Some(d), Some(tr), "d" | "Tr") = (d, tr, key)
+                    && (d + tr - 1.0).abs() > 1e-3
+                {
+                    mends.add("`d` and `Tr` contradict each other, and `d` counts", line, statement);
+                }
             }
+            Some(Kind::Map(_)) if rest.is_empty() => mends.add("a map without a file is left out", line, statement),
+            Some(Kind::Map(key)) => {
+                material.maps.insert(key, (line, trimmed(rest).to_owned()));
+            }
+            None => match illumination(mends, line, statement) {
+                Some(model) => material.illumination = Some(model),
+                None => mends.add("`illum` that is no number from 0 to 10 is left out", line, statement),
+            },
         }
-        if rest.is_empty() {
-            return Err(format!("`{written}` names no image"));
-        }
-        rest.clone_into(&mut map.file);
-        Ok(map)
     }
 }
 
-/// Reads one to three numbers, the second and third being optional.
-fn numbers<'a>(rest: &'a str, into: &mut [f64; 2]) -> Result<&'a str, String> {
-    let mut rest = rest;
-    for place in 0..3 {
-        let (word, after) = next_word(rest);
-        match word.parse::<f64>() {
-            Ok(value) if value.is_finite() && value.abs() < 1e18 => {
-                // One factor alone is that of u; the third is for volumes.
-                if let Some(slot) = into.get_mut(place) {
-                    *slot = value;
-                }
-                rest = after;
-            }
-            _ if place == 0 => return Err(format!("expected a number, found `{word}`")),
-            _ => break,
-        }
+fn illumination(mends: &mut Mends, line: usize, statement: &str) -> Option<u8> {
+    let mut rest = words(first_word(without_comment(statement)).1);
+    let model = integer(rest.next()?)?;
+    if rest.next().is_some() {
+        mends.add("what follows a number is left out", line, statement);
     }
-    Ok(rest)
+    (0.0..=10.0).contains(&model.value).then_some(model.value as u8)
 }
 
-fn next_word(text: &str) -> (&str, &str) {
-    let (word, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
-    (word, rest.trim_start())
+/// The number after a key, within its range. None where none can be read.
+fn value(mends: &mut Mends, line: usize, statement: &str, [least, most]: [f64; 2]) -> Option<f64> {
+    let (_, mut rest) = first_word(without_comment(statement));
+    if let Some(after) = rest.strip_prefix("-halo") {
+        mends.add("`-halo`, which lets the edges of a shape be clearer than its middle, has no effect", line, statement);
+        rest = after;
+    }
+    let numbers = numbers(mends, line, statement, rest);
+    let Some(&value) = numbers.as_deref().and_then(<[f64]>::first) else {
+        mends.add("a number that cannot be read is as if it were not there", line, statement);
+        return None;
+    };
+    // Some programs repeat a number for red, green and blue.
+    if numbers.is_some_and(|numbers| numbers.iter().any(|other| *other != value)) {
+        mends.add("what follows a number is left out", line, statement);
+    }
+    // 0 stands for an index of refraction that nobody gave.
+    if value <= 0.0 && least > 0.0 {
+        mends.add("a number that can be nowhere is as if it were not there", line, statement);
+        return None;
+    }
+    if !(least..=most).contains(&value) {
+        mends.add("the nearest number that can be stands for one that cannot", line, statement);
+    }
+    Some(value.clamp(least, most))
+}
+
+/// The colour after a key: one number, three, or three of CIE XYZ after `xyz`. None where none can be read.
+fn colour(mends: &mut Mends, line: usize, statement: &str) -> Option<DVec3> {
+    let (_, rest) = first_word(without_comment(statement));
+    let (word, after) = first_word(rest);
+    if word.eq_ignore_ascii_case("spectral") {
+        mends.add("a spectrum in a file is not read: the colour is as if it were not there", line, statement);
+        return None;
+    }
+    let is_xyz = word.eq_ignore_ascii_case("xyz");
+    let rest = if is_xyz || word.eq_ignore_ascii_case("rgb") { after } else { rest };
+    let numbers = numbers(mends, line, statement, rest);
+    let colour = match numbers.as_deref() {
+        Some([grey]) => DVec3::splat(*grey),
+        Some([r, g]) => {
+            mends.add("a colour of two numbers has its second one for blue too", line, statement);
+            DVec3::new(*r, *g, *g)
+        }
+        Some([r, g, b, more @ ..]) => {
+            if !more.is_empty() {
+                mends.add("what follows three numbers of a colour is left out", line, statement);
+            }
+            DVec3::new(*r, *g, *b)
+        }
+        _ => {
+            mends.add("a colour that cannot be read is as if it were not there", line, statement);
+            return None;
+        }
+    };
+    if is_xyz {
+        let linear = xyz_to_rec709(colour);
+        if linear.min_element() < -1e-3 {
+            mends.add("a colour outside of Rec.709 loses what is below 0", line, statement);
+        }
+        return Some(linear.max(DVec3::ZERO));
+    }
+    if colour.min_element() < 0.0 {
+        mends.add("0 stands for colours below", line, statement);
+    }
+    Some(colour.max(DVec3::ZERO))
+}
+
+/// All numbers of a statement. None where a word is none.
+fn numbers(mends: &mut Mends, line: usize, statement: &str, rest: &str) -> Option<Vec<f64>> {
+    let mut rest = Cow::Borrowed(rest);
+    // `0.5, 0.5, 0.5` and `0.5,0.5,0.5`, but not the decimal commas of `0,5 0,5 0,5`.
+    if rest.contains(',') && (rest.contains('.') || rest.matches(',').count() >= 2 && words(&rest).count() == 1) {
+        rest = rest.replace(',', " ").into();
+    }
+    let mut is_odd = matches!(rest, Cow::Owned(_));
+    let mut values = Vec::new();
+    for word in words(&rest) {
+        let number = number::<f64>(word).filter(|number| number.value.abs() <= LARGEST)?;
+        is_odd |= number.is_odd;
+        values.push(number.value);
+    }
+    if is_odd {
+        mends.add("numbers in an odd spelling are read as what they most likely are", line, statement);
+    }
+    Some(values)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn texture_options_are_read() {
-        let map = TextureMap::parse("-s 2 3 1 -o 0.5 -clamp on my wood.png");
-        let expected = TextureMap {
-            file: "my wood.png".to_owned(),
-            scale: [2.0, 3.0],
-            offset: [0.5, 0.0],
-            clamp: true,
-            space: None,
-            channel: None,
-            unsupported: Vec::new(),
-        };
-        assert_eq!(map, Ok(expected));
-        let space = |written: &str| TextureMap::parse(written).map(|map| (map.space, map.file));
-        assert_eq!(space("-colorspace sRGB a.png"), Ok((Some(ColorSpace::Srgb), "a.png".to_owned())));
-        assert_eq!(space("-colorspace linear a.png"), Ok((Some(ColorSpace::Linear), "a.png".to_owned())));
-        assert!(space("-colorspace red a.png").is_err());
-        assert!(TextureMap::parse("-s wood.png").is_err());
-        assert!(TextureMap::parse("-clamp on").is_err());
-        assert!(TextureMap::parse("-nonsense 3 wood.png").is_err());
+    fn read(text: &str) -> Libraries {
+        let mut libraries = Libraries::default();
+        libraries.add(Path::new("a.mtl"), text.as_bytes());
+        libraries
+    }
+
+    /// The first material of a library, and what was mended.
+    fn material(keys: &str) -> (MtlMaterial, Vec<String>) {
+        let mut libraries = read(&format!("newmtl a\n{keys}\n"));
+        let told = libraries.substitutes.iter().map(|(_, mend)| format!("{}: {}", mend.line.unwrap_or(0), mend.what)).collect();
+        (libraries.materials.swap_remove(0), told)
     }
 
     #[test]
-    fn a_short_colour_is_grey_and_a_wrong_one_names_its_line() {
-        let (text, _) = check("a.mtl", "newmtl a\nKd 0.5\nKa 1\nmap_Kd a.png").unwrap_or_default();
-        assert_eq!(text, "newmtl a\nKd 0.5 0.5 0.5\nmap_Kd a.png\n");
-        let error = check("a.mtl", "newmtl a\nKd 0.5 0.5").map_err(|error| error.to_string());
-        assert_eq!(error, Err("a.mtl:2:1: Kd: expected 1 or 3 numbers, found 2".to_owned()));
+    fn what_is_right_needs_no_mend() {
+        let (material, told) = material(
+            "\tKd .5 0 0 # red\nKs 0.5\nKe 1 2 3\nTf 1 1 1\r\nNs 1e3\nNi 1.5 \nd 0.5\nillum 2 # phong\nmap_Kd a.png\n\nKa 1 1\nPr .1\n\
+             bump -bm 2 h.png",
+        );
+        assert!(told.is_empty(), "{told:?}");
+        assert_eq!(material.colour("Kd"), Some(DVec3::new(0.5, 0.0, 0.0)));
+        assert_eq!(material.colour("Ks"), Some(DVec3::splat(0.5)));
+        assert_eq!((material.number("Ns"), material.number("Ni"), material.number("d")), (Some(1000.0), Some(1.5), Some(0.5)));
+        assert_eq!(material.illumination, Some(2));
+        assert_eq!(material.maps["map_Kd"].1, "a.png");
+        assert_eq!(material.maps["map_Bump"].1, "-bm 2 h.png");
+    }
+
+    #[test]
+    fn keys_are_known_in_any_case() {
+        let (material, told) = material("kd 1 0 0\nMAP_KD a.png\nMap_bump h.png\nNEWMTL b");
+        assert!(told.is_empty(), "{told:?}");
+        assert_eq!(material.colour("Kd"), Some(DVec3::X));
+        assert_eq!(material.maps.len(), 2);
+    }
+
+    #[test]
+    fn one_odd_statement_is_mended_and_named() {
+        let colour = |text: &str| material(text).0.colour("Kd");
+        let rows: [(&str, Option<DVec3>); 12] = [
+            ("Kd 0.5 0.25", Some(DVec3::new(0.5, 0.25, 0.25))),
+            ("Kd", None),
+            ("Kd nan", None),
+            ("Kd 1 nan 0", None),
+            ("Kd red", None),
+            ("Kd 1e400", None),
+            ("Kd spectral file.rfl 1", None),
+            ("Kd -1 0 1", Some(DVec3::Z)),
+            ("Kd 1 0 0 1", Some(DVec3::X)),
+            ("Kd 0,5 0,25 1", Some(DVec3::new(0.5, 0.25, 1.0))),
+            ("Kd 0.5, 0.25, 1", Some(DVec3::new(0.5, 0.25, 1.0))),
+            ("Kd 0.5f 0.25f 1.0f", Some(DVec3::new(0.5, 0.25, 1.0))),
+        ];
+        for (text, expected) in rows {
+            assert_eq!(colour(text), expected, "{text}");
+            let told = material(text).1;
+            assert!(told.len() == 1 && told[0].starts_with("2: ") && told[0].contains(text), "{text}: {told:?}");
+        }
+        let number = |text: &str, key: MtlKey| material(text).0.number(key);
+        let rows: [(&str, MtlKey, Option<f64>); 10] = [
+            ("d -halo 0.5", "d", Some(0.5)),
+            ("d 1.5", "d", Some(1.0)),
+            ("Tr -1", "Tr", Some(0.0)),
+            ("d", "d", None),
+            ("d x", "d", None),
+            ("Ns -3", "Ns", Some(0.0)),
+            ("Ni 100", "Ni", Some(10.0)),
+            ("Ni 0", "Ni", None),
+            ("Pr 2", "Pr", Some(1.0)),
+            ("Ns 10 20", "Ns", Some(10.0)),
+        ];
+        for (text, key, expected) in rows {
+            assert_eq!(number(text, key), expected, "{text}");
+            assert_eq!(material(text).1.len(), 1, "{text}: {:?}", material(text).1);
+        }
+        for text in ["illum", "illum glass", "illum 11", "illum -1", "illum 2.5", "map_Kd", "newmtl", "d 0.5\nTr 0.2"] {
+            assert_eq!(material(text).1.len(), 1, "{text}: {:?}", material(text).1);
+        }
+        assert_eq!(material("illum 2.0").0.illumination, Some(2));
+    }
+
+    #[test]
+    fn xyz_is_a_colour_of_cie() {
+        // The white of Rec.709 is D65.
+        let (white, told) = material("Kd xyz 0.9504559 1.0 1.0890577");
+        assert!(told.is_empty(), "{told:?}");
+        assert!(white.colour("Kd").is_some_and(|colour| (colour - DVec3::ONE).abs().max_element() < 1e-4), "{white:?}");
+        let (green, told) = material("Kd xyz 0 1 0");
+        assert_eq!(told.len(), 1);
+        assert!(green.colour("Kd").is_some_and(|colour| colour.x == 0.0 && colour.y > 1.8), "{green:?}");
+    }
+
+    #[test]
+    fn the_first_of_two_materials_counts_and_what_stands_before_all_is_left_out() {
+        let libraries = read("Kd 1 0 0\nnewmtl a\nKd 0 1 0\nnewmtl a\nKd 0 0 1\nnewmtl Material #25\nnewmtl b # the second\n");
+        assert_eq!(libraries.materials[0].colour("Kd"), Some(DVec3::Y));
+        assert_eq!(libraries.substitutes.len(), 2, "{:?}", libraries.substitutes);
+        assert_eq!([" a", "Material #25", "b", "b # again", "\"a\""].map(|name| libraries.find(name)), [0, 1, 2, 2, 0].map(Some));
+        assert_eq!(libraries.find("A"), None);
+    }
+
+    #[test]
+    fn composed_and_decomposed_names_are_one() {
+        let libraries = read("newmtl Mo\u{308}bel\n");
+        assert_eq!(libraries.find("Möbel"), Some(0));
+    }
+
+    #[test]
+    fn comments_and_continued_lines() {
+        let (material, told) = material("# a \\\nKd 1 0 \\\n0\nmap_Kd C:\\textures\\\nNs 3");
+        assert!(told.is_empty(), "{told:?}");
+        assert_eq!(material.colour("Kd"), Some(DVec3::X));
+        assert_eq!(material.number("Ns"), Some(3.0));
     }
 }

@@ -100,17 +100,17 @@ fn shapes_without_area_are_refused() {
     }
 }
 
+/// What is wrong with one statement is a warning that names its line, and an error with `--strict` (tests/cli/odd_models.rs).
 #[test]
-fn bad_models_name_file_and_line() {
+fn models_without_a_face_that_can_be_rendered_are_refused() {
     let positions = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     let rows = [
-        ("f 1 2 4", "bad.obj:4:1: the face uses position 4, but there are only 3"),
-        ("f -1 -2 -4", "bad.obj:4:1: the face uses position -4, but there are only 3"),
-        ("f 0 1 2", "bad.obj:4:1: indices count from 1, or back from -1; found 0"),
-        ("f 1/1 2/1 3/1", "bad.obj:4:1: the face uses uv coordinate 1, but there are only 0"),
-        ("f 1 2 x", "bad.obj:4:1: `x` is not an index"),
-        ("v nan 0 0\nf 1 2 3", "bad.obj:4:1: the position has the coordinate nan"),
-        ("v 1 2\nf 1 2 3", "bad.obj:4:1: a position has 4 numbers, found 2"),
+        (
+            "f 1 2 4",
+            "none of its faces can be read: line 4: faces with a corner that is no vertex of the file are left out: `f 1 2 4`",
+        ),
+        ("f 1 2", "none of its faces can be read: line 4: faces of fewer than three corners"),
+        ("v nan 0 0\nf 1 2 4", "none of its faces can be read: line 4: faces with a corner whose position"),
         ("", "bad.obj: there is nothing to render in the model: it has no faces"),
         ("f 1 2 2", "bad.obj: there is nothing to render in the model: none of its faces has an area"),
     ];

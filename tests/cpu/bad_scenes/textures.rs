@@ -65,23 +65,3 @@ fn bad_products_of_textures_name_the_key() {
     let message = load(["second", ""], "reflectance = 0.5\nbump_map = \"first\"").err().unwrap_or_default();
     assert!(message.contains("normal and bump maps cannot be products"), "{message}");
 }
-
-#[test]
-fn bad_material_libraries_name_file_and_line() {
-    let model = format!("mtllib a.mtl\nusemtl a\n{TRIANGLE}");
-    let rows = [
-        ("newmtl a\nKd 0.5 0.5\n", "a.mtl:2:1: Kd: expected 1 or 3 numbers, found 2"),
-        ("newmtl a\nKd red\n", "a.mtl:2:1: Kd: expected numbers from 0 to 1e18, found `red`"),
-        ("newmtl a\nKe nan 0 0\n", "a.mtl:2:1: Ke: expected numbers"),
-        ("newmtl\n", "a.mtl:1:1: newmtl: the name is missing"),
-        ("newmtl a\nillum glass\n", "a.mtl:2:1: illum: expected an illumination model"),
-        ("newmtl a\nd 1.5\n", "a.mtl: the material `a` has d or Tr outside 0 to 1"),
-        ("newmtl a\nmap_Kd -s wood.png\n", "the material `a`: map_Kd: expected a number"),
-        ("newmtl a\nillum 4\nNi 100\n", "the index of refraction Ni = 100"),
-    ];
-    for (library, expected) in rows {
-        let folder = folder_with(&[("a.obj", model.as_bytes()), ("a.mtl", library.as_bytes())]);
-        let error = load::load(folder.path().join("a.obj").to_str()).map(|_| ()).unwrap_err().to_string();
-        assert!(error.contains(expected), "{error}");
-    }
-}

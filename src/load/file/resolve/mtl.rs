@@ -9,6 +9,7 @@
 //! | `illum` ≥ 2 and `Ks` above 0 | phong: `Kd` times `map_Kd`, `Ks`, exponent `Ns` |
 //! | else | diffuse `Kd` times `map_Kd` |
 //! | `Ke` | emission, from the front |
+//! | `map_Bump`, `bump` | heights: 1 stands for `-bm` scene units; or normals, where the picture shows some |
 
 use std::path::Path;
 
@@ -18,11 +19,12 @@ use super::mtl_principled::is_principled;
 use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::Resolver;
 use crate::load::formats;
-use crate::load::model::MtlMaterial;
+use crate::load::mends::Mends;
+use crate::load::model::{MtlKey, MtlMaterial, Substitute};
 use crate::load::obj::TextureMap;
 use crate::scene::{
-    BlendWeight, Channel, ColorInput, ColorSpace, Emission, ImageTexture, Material, MaterialId, MaterialKind, Principled, Relief,
-    Texture, TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,
+    BlendWeight, Channel, ColorInput, ColorSpace, Emission, ImageData, ImageTexture, Material, MaterialId, MaterialKind,
+    Principled, Relief, Texture, TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,
 };
 
 /// Stands for what is missing. No material looks so by chance.
@@ -51,11 +53,11 @@ impl Resolver<'_> {
     pub(in crate::load::file) fn mtl_material(&mut self, written: &MtlMaterial) -> Result<MaterialId, SceneError> {
         if written.is_missing {
             let kind = MaterialKind::Diffuse { reflectance: ColorInput::Constant(MAGENTA) };
-            let name = format!("{} (missing)", written.material.name);
+            let name = format!("{} (missing)", written.name);
             return Ok(self.add(Material { name, kind, normal_map: None, emission: None, two_sided: true }));
         }
-        let mut opacity = self.opacity(written)?;
-        if opacity == 0.0 && written.material.dissolve_texture.is_some() {
+        let mut opacity = opacity(written);
+        if opacity == 0.0 && written.maps.contains_key("map_d") {
             // Beside a map the number is often 0, which would leave nothing of it.
             opacity = 1.0;
         }
@@ -64,17 +66,17 @@ impl Resolver<'_> {
         let transmits = |principled: &Principled| principled.transmission != ColorInput::grey(0.0);
         let see_through = matches!(&kind, MaterialKind::Glass { .. } | MaterialKind::Pass)
             || matches!(&kind, MaterialKind::Principled(principled) if transmits(principled));
-        let normal_map = self.mtl_normal_map(written)?;
+        let normal_map = self.mtl_relief(written)?;
         let mask = self.mtl_mask(written, opacity)?;
         let whole = mask.is_none() && (opacity >= 1.0 || see_through);
         // A blend's normals are its own, not those of a part.
         let own_map = normal_map.filter(|_| whole);
-        let material = Material { name: written.material.name.clone(), kind, normal_map: own_map, emission, two_sided: true };
+        let material = Material { name: written.name.clone(), kind, normal_map: own_map, emission, two_sided: true };
         let id = self.add(material);
         if whole {
             return Ok(id);
         }
-        let name = &written.material.name;
+        let name = &written.name;
         let pass = self.add(Material {
             name: format!("{name} (what is behind)"),
             kind: MaterialKind::Pass,
@@ -101,22 +103,21 @@ impl Resolver<'_> {
     }
 
     fn mtl_kind(&mut self, written: &MtlMaterial, opacity: f64) -> Result<MaterialKind, SceneError> {
-        let material = &written.material;
-        let specular = colour(material.specular).unwrap_or(DVec3::ZERO);
-        let illumination = material.illumination_model.unwrap_or(2);
-        let ior = f64::from(material.optical_density.unwrap_or(1.0));
+        let specular = written.colour("Ks").unwrap_or(DVec3::ZERO);
+        let illumination = written.illumination.unwrap_or(2);
+        let ior = written.number("Ni").unwrap_or(1.0);
         if is_principled(written) && opacity > 0.0 {
             return self.mtl_principled(written, opacity);
         }
         if matches!(illumination, 4 | 6 | 7) || (opacity > 0.0 && opacity < 1.0 && (ior - 1.0).abs() > 1e-3) {
-            return self.mtl_glass(written, ior);
+            return Ok(self.mtl_glass(written, ior));
         }
         if opacity == 0.0 {
             return Ok(MaterialKind::Pass);
         }
-        let polished = colour(material.diffuse) == Some(DVec3::ZERO)
+        let polished = written.colour("Kd") == Some(DVec3::ZERO)
             && specular.min_element() > 0.9
-            && material.shininess.is_some_and(|exponent| exponent >= 1000.0);
+            && written.number("Ns").is_some_and(|exponent| exponent >= 1000.0);
         if matches!(illumination, 3 | 5) || polished {
             let tint = if specular.max_element() > 0.0 { specular } else { DVec3::ONE };
             return Ok(MaterialKind::Mirror { reflectance: ColorInput::Constant(self.at_most_one(written, "Ks", tint)) });
@@ -140,7 +141,7 @@ impl Resolver<'_> {
         };
         let [of_diffuse, of_specular] = shares(brightest, specular);
         if of_specular < 1.0 {
-            let name = &written.material.name;
+            let name = &written.name;
             let as_well = if of_diffuse < 1.0 { format!(" and Kd by {of_diffuse:.3}") } else { String::new() };
             self.warn(
                 written,
@@ -149,62 +150,85 @@ impl Resolver<'_> {
         }
         let specular = specular * of_specular;
         let diffuse = if of_diffuse == 1.0 { diffuse } else { diffuse.scaled(DVec3::splat(of_diffuse)) };
-        let exponent = f64::from(written.material.shininess.unwrap_or(0.0)).max(0.0);
+        let exponent = written.number("Ns").unwrap_or(0.0);
         Ok(MaterialKind::Phong { diffuse, specular: ColorInput::Constant(specular), exponent: ColorInput::grey(exponent) })
     }
 
-    fn mtl_glass(&mut self, written: &MtlMaterial, ior: f64) -> Result<MaterialKind, SceneError> {
-        let name = &written.material.name;
-        if !(0.1..=10.0).contains(&ior) {
-            let message = format!("the material `{name}` has the index of refraction Ni = {ior}, possible are 0.1 to 10");
-            return Err(SceneError::in_file(show(&written.file), message));
-        }
-        let filter = written.material.unknown_param.get("Tf").and_then(|text| {
-            let values: Vec<f64> = text.split_whitespace().map_while(|word| word.parse().ok()).collect();
-            <[f64; 3]>::try_from(values).ok().map(DVec3::from_array)
-        });
-        let transmittance = filter.map_or(DVec3::ONE, |filter| self.at_most_one(written, "Tf", filter));
-        Ok(MaterialKind::Glass {
+    fn mtl_glass(&mut self, written: &MtlMaterial, ior: f64) -> MaterialKind {
+        let transmittance = written.colour("Tf").map_or(DVec3::ONE, |filter| self.at_most_one(written, "Tf", filter));
+        MaterialKind::Glass {
             ior,
             reflectance: ColorInput::grey(1.0),
             transmittance: ColorInput::Constant(transmittance),
             thin: false,
-        })
-    }
-
-    pub(super) fn mtl_diffuse(&mut self, written: &MtlMaterial) -> Result<ColorInput, SceneError> {
-        let tint = colour(written.material.diffuse);
-        let tint = tint.map(|tint| self.at_most_one(written, "Kd", tint));
-        match written.material.diffuse_texture.clone() {
-            Some(map) => self.mtl_texture(written, "map_Kd", &map, tint, None),
-            None => Ok(tint.map_or(ColorInput::grey(0.8), ColorInput::Constant)),
         }
     }
 
-    fn mtl_emission(&mut self, written: &MtlMaterial) -> Result<Option<Emission>, SceneError> {
-        let factor = colour(written.material.emissive);
-        let radiance = match (written.material.unknown_param.get("map_Ke").cloned(), factor) {
-            (_, Some(factor)) if factor.max_element() == 0.0 => return Ok(None),
-            (Some(map), factor) => self.mtl_texture(written, "map_Ke", &map, factor, None)?,
-            (None, Some(factor)) => ColorInput::Constant(factor),
-            (None, None) => return Ok(None),
-        };
-        Ok(Some(Emission { radiance, two_sided: false }))
+    pub(super) fn mtl_diffuse(&mut self, written: &MtlMaterial) -> Result<ColorInput, SceneError> {
+        let tint = written.colour("Kd").map(|tint| self.at_most_one(written, "Kd", tint));
+        let texture = self.mtl_texture(written, "map_Kd", tint, None)?;
+        Ok(texture.unwrap_or_else(|| tint.map_or(ColorInput::grey(0.8), ColorInput::Constant)))
     }
 
-    /// Magenta stands for a picture that cannot be read.
+    fn mtl_emission(&mut self, written: &MtlMaterial) -> Result<Option<Emission>, SceneError> {
+        let factor = written.colour("Ke");
+        if factor.is_some_and(|factor| factor.max_element() == 0.0) {
+            return Ok(None);
+        }
+        let radiance = self.mtl_texture(written, "map_Ke", factor, None)?.or(factor.map(ColorInput::Constant));
+        Ok(radiance.map(|radiance| Emission { radiance, two_sided: false }))
+    }
+
+    /// What stands after a key of a picture.
+    pub(super) fn mtl_map(&mut self, written: &MtlMaterial, key: MtlKey) -> Result<Option<TextureMap>, SceneError> {
+        let Some((line, text)) = written.maps.get(key) else { return Ok(None) };
+        let folder = written.file.parent().unwrap_or(Path::new(""));
+        let mut mends = Mends::default();
+        let is_there = |name: &str| self.files().find_exactly(folder, name).is_some();
+        let map = TextureMap::parse(text, *line, &is_there, &mut mends);
+        if key != "map_Bump" && map.range[0] != 0.0 {
+            mends.add("`-mm` has no effect unless it multiplies alone", *line, text);
+        }
+        for mend in mends.into_substitutes() {
+            self.substitute(&written.file, mend)?;
+        }
+        Ok(Some(map))
+    }
+
+    /// The picture that a key names, times a tint; none where the key is not there. Magenta stands for one that cannot be read.
     pub(super) fn mtl_texture(
         &mut self,
         written: &MtlMaterial,
-        key: &str,
-        map: &str,
+        key: MtlKey,
         tint: Option<DVec3>,
         space: Option<ColorSpace>,
-    ) -> Result<ColorInput, SceneError> {
-        let of_material = |message: String| format!("the material `{}`: {key}: {message}", written.material.name);
+    ) -> Result<Option<ColorInput>, SceneError> {
+        let Some(map) = self.mtl_map(written, key)? else { return Ok(None) };
+        let Some(texture) = self.mtl_picture(written, key, &map, space)? else {
+            return Ok(Some(ColorInput::Constant(MAGENTA * tint.map_or(1.0, DVec3::max_element).max(0.5))));
+        };
+        let tint = tint.unwrap_or(DVec3::ONE) * map.gain();
+        Ok(Some(if tint == DVec3::ONE { ColorInput::Texture(texture) } else { ColorInput::ScaledTexture(texture, tint) }))
+    }
+
+    /// The picture of a map as a texture. None where it cannot be read, which is told.
+    pub(super) fn mtl_picture(
+        &mut self,
+        written: &MtlMaterial,
+        key: MtlKey,
+        map: &TextureMap,
+        space: Option<ColorSpace>,
+    ) -> Result<Option<TextureId>, SceneError> {
+        let of_material = |message: String| format!("the material `{}`: {key}: {message}", written.name);
+        let line = written.maps.get(key).map(|(line, _)| *line);
         let folder = written.file.parent().unwrap_or(Path::new(""));
-        let map = TextureMap::parse(map).map_err(|message| SceneError::in_file(show(&written.file), of_material(message)))?;
         let space = space.or(map.space);
+        let instead = if matches!(key, "norm" | "map_Bump") { "the surface stays as it is" } else { "magenta stands for it" };
+        if map.file.is_empty() {
+            let what = of_material(format!("it names no picture; {instead}"));
+            self.substitute(&written.file, Substitute { line, what })?;
+            return Ok(None);
+        }
         let found = self.files().find(folder, &map.file);
         let path = found.as_ref().map_or_else(|| folder.join(&map.file), |found| found.path.clone());
         if found.is_some_and(|found| found.is_substitute) {
@@ -214,67 +238,76 @@ impl Resolver<'_> {
             Ok((image, _)) => image,
             Err(reason) => {
                 let advice = formats::unread_picture(&path).map_or_else(String::new, |advice| format!(" ({advice})"));
-                let what = of_material(format!("{}: {reason}{advice}; magenta stands for it", show(&path)));
-                self.substitute(&written.file, what)?;
-                return Ok(ColorInput::Constant(MAGENTA * tint.map_or(1.0, DVec3::max_element).max(0.5)));
+                let what = of_material(format!("{}: {reason}{advice}; {instead}", show(&path)));
+                self.substitute(&written.file, Substitute { line, what })?;
+                return Ok(None);
             }
         };
-        if !map.unsupported.is_empty() {
-            let options = map.unsupported.join(", ");
-            self.warn(written, &format!("texture options without effect: {options}"));
-        }
-        let texture = self.scene.textures.len();
-        self.scene.textures.push(Texture {
-            name: show(&path),
-            kind: TextureKind::Image(ImageTexture {
-                image,
-                wrap: if map.clamp { TextureWrap::Clamp } else { TextureWrap::Repeat },
-                filter: TextureFilter::Bilinear,
-                scale: map.scale,
-            }),
-            transform: UvTransform { offset: map.offset, ..UvTransform::default() },
-            relief: Relief::default(),
-            shadows_bent_normals: false,
-            mirrors_bent_normals: false,
-            by_second_uvs: false,
-            times: None,
+        let kind = TextureKind::Image(ImageTexture {
+            image,
+            wrap: if map.clamp { TextureWrap::Clamp } else { TextureWrap::Repeat },
+            filter: TextureFilter::Bilinear,
+            scale: map.scale,
         });
+        let transform = UvTransform { offset: map.offset, ..UvTransform::default() };
+        self.scene.textures.push(Texture { transform, ..Texture::new(show(&path), kind) });
         self.linear_textures.push(space == Some(ColorSpace::Linear));
-        Ok(match tint {
-            Some(tint) if tint != DVec3::ONE => ColorInput::ScaledTexture(texture, tint),
-            _ => ColorInput::Texture(texture),
-        })
+        Ok(Some(self.scene.textures.len() - 1))
     }
 
-    /// `d`, or 1 − `Tr`; 1 where neither is written.
-    fn opacity(&self, written: &MtlMaterial) -> Result<f64, SceneError> {
-        let transparency = written.material.unknown_param.get("Tr").and_then(|text| text.parse::<f64>().ok());
-        let opacity = written.material.dissolve.map(f64::from).or(transparency.map(|transparency| 1.0 - transparency));
-        let opacity = opacity.unwrap_or(1.0);
-        if (0.0..=1.0).contains(&opacity) {
-            return Ok(opacity);
+    /// The texture by which normals are bent: that of `norm`, a map of normals, or of `map_Bump`. The latter holds heights, of which 1 stands for
+    /// the bump multiplier (`-bm`) in scene units, as in Blender's node of bumps and in three.js; but Blender and others write maps of normals
+    /// there, whose strength the multiplier then is.
+    fn mtl_relief(&mut self, written: &MtlMaterial) -> Result<Option<TextureId>, SceneError> {
+        let is_both = written.maps.contains_key("norm") && written.maps.contains_key("map_Bump");
+        if is_both {
+            let what = format!("the material `{}` has `norm` and `map_Bump`, and `norm` counts", written.name);
+            self.substitute(&written.file, Substitute { line: None, what })?;
         }
-        let name = &written.material.name;
-        Err(SceneError::in_file(show(&written.file), format!("the material `{name}` has d or Tr outside 0 to 1")))
+        let key = if written.maps.contains_key("norm") { "norm" } else { "map_Bump" };
+        let Some(map) = self.mtl_map(written, key)? else { return Ok(None) };
+        let Some(texture) = self.mtl_picture(written, key, &map, Some(ColorSpace::Linear))? else { return Ok(None) };
+        let shows_normals =
+            matches!(&self.scene.textures[texture].kind, TextureKind::Image(image) if shows_normals(&image.image));
+        let relief = if key == "norm" || shows_normals {
+            Relief::Normals(map.bump)
+        } else {
+            // What is added to all heights is no slope.
+            Relief::Heights(map.bump * map.range[1])
+        };
+        let line = written.maps.get(key).map(|(line, _)| *line);
+        if key == "map_Bump" && map.channel.is_some() && !shows_normals && !self.is_grey(texture) {
+            let what =
+                format!("the material `{}`: {key}: heights are the picture's luminance, whatever `-imfchan` says", written.name);
+            self.substitute(&written.file, Substitute { line, what })?;
+        }
+        if key != "norm" && shows_normals {
+            let message = format!("the material `{}`: {key}: {} is a map of normals, and taken as one", written.name, map.file);
+            self.warn(written, &message);
+        }
+        self.scene.textures[texture].relief = relief;
+        Ok(Some(texture))
+    }
+
+    fn is_grey(&self, texture: TextureId) -> bool {
+        let TextureKind::Image(image) = &self.scene.textures[texture].kind else { return false };
+        image.image.texels.colors().all(|texel| texel.x == texel.y && texel.y == texel.z)
     }
 
     /// `map_d`: the alpha channel where the picture has one, else red, times `d`. None where there is no map, or it cannot be read.
     fn mtl_mask(&mut self, written: &MtlMaterial, opacity: f64) -> Result<Option<BlendWeight>, SceneError> {
-        let Some(map) = written.material.dissolve_texture.clone() else { return Ok(None) };
-        let wanted = TextureMap::parse(&map).ok().and_then(|map| map.channel);
-        let Some(texture) = self.mtl_texture(written, "map_d", &map, None, Some(ColorSpace::Linear))?.texture() else {
-            return Ok(None);
-        };
+        let Some(map) = self.mtl_map(written, "map_d")? else { return Ok(None) };
+        let Some(texture) = self.mtl_picture(written, "map_d", &map, Some(ColorSpace::Linear))? else { return Ok(None) };
         let kind = &self.scene.textures[texture].kind;
         let has_alpha = matches!(kind, TextureKind::Image(image) if image.image.has_alpha);
-        let channel = wanted.unwrap_or(if has_alpha { Channel::A } else { Channel::R });
+        let channel = map.channel.unwrap_or(if has_alpha { Channel::A } else { Channel::R });
         Ok(Some(BlendWeight::Channel { texture, channel, factor: opacity }))
     }
 
     /// A reflectance above 1 would make energy.
     fn at_most_one(&mut self, written: &MtlMaterial, key: &str, colour: DVec3) -> DVec3 {
         if colour.max_element() > 1.0 {
-            self.warn(written, &format!("{key} of the material `{}` is above 1 and taken as 1", written.material.name));
+            self.warn(written, &format!("{key} of the material `{}` is above 1 and taken as 1", written.name));
         }
         colour.min(DVec3::ONE)
     }
@@ -284,14 +317,23 @@ impl Resolver<'_> {
     }
 }
 
-/// As single precision wrote it: 0.8 stays 0.8.
-fn colour(written: Option<[f32; 3]>) -> Option<DVec3> {
-    written.map(|channels| DVec3::from_array(channels.map(shortest)))
+/// `d`, or 1 − `Tr`; 1 where neither is written.
+fn opacity(written: &MtlMaterial) -> f64 {
+    let transparency = written.number("Tr");
+    written.number("d").or(transparency.map(|transparency| 1.0 - transparency)).unwrap_or(1.0)
 }
 
-/// The double nearest to the shortest decimal number that reads as this float.
-fn shortest(value: f32) -> f64 {
-    value.to_string().parse().unwrap_or(f64::from(value))
+/// Whether most texels are directions of about unit length on the upper side: then it is a map of normals. Heights are grey.
+fn shows_normals(image: &ImageData) -> bool {
+    let step = (image.texels.len() / 4096).max(1);
+    let is_direction = |index: usize| {
+        let texel = image.texels.color(index).as_dvec3();
+        let length = (2.0 * texel - 1.0).length();
+        (0.8..1.2).contains(&length) && texel.z > 0.5 && texel.z > texel.x.min(texel.y) + 0.05
+    };
+    let looked_at = (0..image.texels.len()).step_by(step);
+    let count = looked_at.len();
+    looked_at.filter(|&index| is_direction(index)).count() * 10 >= count * 9
 }
 
 #[cfg(test)]

@@ -2,25 +2,24 @@
 
 use glam::DVec3;
 
-use crate::load::error::{SceneError, show};
+use crate::load::error::SceneError;
 use crate::load::file::resolver::Resolver;
-use crate::load::model::MtlMaterial;
-use crate::scene::{ChannelInput, ColorInput, ColorSpace, Masking, MaterialKind, Principled, TextureId};
+use crate::load::model::{MtlKey, MtlMaterial};
+use crate::scene::{Channel, ChannelInput, ColorInput, ColorSpace, Masking, MaterialKind, Principled};
 
 /// Keys of which one makes a material this kind.
-const KEYS: [&str; 4] = ["Pr", "Pm", "map_Pr", "map_Pm"];
+const KEYS: [MtlKey; 4] = ["Pr", "Pm", "map_Pr", "map_Pm"];
 
 /// Others, unless they are 0.
-const KEYS_OF_SOME: [&str; 6] = ["Ps", "Pc", "aniso", "map_Ps", "map_Pc", "map_aniso"];
+const KEYS_OF_SOME: [MtlKey; 6] = ["Ps", "Pc", "aniso", "map_Ps", "map_Pc", "map_aniso"];
 /// MTL has no key for the roughness of sheen; this is what Blender, which writes `Ps`, begins with.
 const SHEEN_ROUGHNESS: f64 = 0.5;
 
 /// It says its roughness or how much of a metal it is, or has a coat, sheen or a direction.
 pub fn is_principled(written: &MtlMaterial) -> bool {
-    let params = &written.material.unknown_param;
-    let is_zero = |text: &String| text.split_whitespace().all(|word| word.parse() == Ok(0.0));
-    KEYS.iter().any(|key| params.contains_key(*key))
-        || KEYS_OF_SOME.iter().any(|key| params.get(*key).is_some_and(|text| !is_zero(text)))
+    let is_written = |key: &MtlKey| written.maps.contains_key(key) || written.numbers.contains_key(key);
+    let is_some = |key: &MtlKey| written.maps.contains_key(key) || written.number(key).is_some_and(|number| number != 0.0);
+    KEYS.iter().any(is_written) || KEYS_OF_SOME.iter().any(is_some)
 }
 
 impl Resolver<'_> {
@@ -28,15 +27,14 @@ impl Resolver<'_> {
     /// the same once more in the older way, have no effect.
     pub(super) fn mtl_principled(&mut self, written: &MtlMaterial, opacity: f64) -> Result<MaterialKind, SceneError> {
         let base_color = self.mtl_diffuse(written)?;
-        let ior = f64::from(written.material.optical_density.unwrap_or(1.5));
-        let ior = if (1.0..=10.0).contains(&ior) { ior } else { 1.5 };
-        let anisotropy = self.mtl_scalar(written, "aniso", 0.0)?;
-        let sheen = self.mtl_scalar(written, "Ps", 0.0)?;
-        let rotation = number(written, "anisor")?.unwrap_or(0.0);
+        let ior = written.number("Ni").filter(|ior| (1.0..=10.0).contains(ior)).unwrap_or(1.5);
+        let anisotropy = self.mtl_scalar(written, ["aniso", "map_aniso"], 0.0)?;
+        let sheen = self.mtl_scalar(written, ["Ps", "map_Ps"], 0.0)?;
+        let rotation = written.number("anisor").unwrap_or(0.0);
         Ok(MaterialKind::Principled(Box::new(Principled {
             base_color,
-            metallic: self.mtl_scalar(written, "Pm", 0.0)?,
-            roughness: self.mtl_scalar(written, "Pr", 0.5)?,
+            metallic: self.mtl_scalar(written, ["Pm", "map_Pm"], 0.0)?,
+            roughness: self.mtl_scalar(written, ["Pr", "map_Pr"], 0.5)?,
             ior,
             specular: ColorInput::grey(1.0),
             specular_color: ColorInput::grey(1.0),
@@ -47,8 +45,8 @@ impl Resolver<'_> {
             sheen_roughness: ColorInput::grey(if sheen == ColorInput::grey(0.0) { 0.0 } else { SHEEN_ROUGHNESS }),
             sheen_color: sheen,
             energy_compensation: false,
-            clearcoat: self.mtl_scalar(written, "Pc", 0.0)?,
-            clearcoat_roughness: self.mtl_scalar(written, "Pcr", 0.0)?,
+            clearcoat: self.mtl_scalar(written, ["Pc", "map_Pc"], 0.0)?,
+            clearcoat_roughness: self.mtl_scalar(written, ["Pcr", "map_Pcr"], 0.0)?,
             coat_normal_map: None,
             anisotropy: Some(anisotropy).filter(|strength| *strength != ColorInput::grey(0.0)),
             anisotropy_direction: None,
@@ -58,29 +56,19 @@ impl Resolver<'_> {
         })))
     }
 
-    /// The texture of `norm`, a map of normals; `map_Bump` holds heights and says nothing of their unit.
-    pub(super) fn mtl_normal_map(&mut self, written: &MtlMaterial) -> Result<Option<TextureId>, SceneError> {
-        let Some(map) = written.material.unknown_param.get("norm").cloned() else { return Ok(None) };
-        Ok(self.mtl_texture(written, "norm", &map, None, Some(ColorSpace::Linear))?.texture())
-    }
-
     /// A number from 0 to 1, perhaps times the red channel of a map.
-    fn mtl_scalar(&mut self, written: &MtlMaterial, key: &str, otherwise: f64) -> Result<ColorInput, SceneError> {
-        let factor = number(written, key)?;
-        if let Some(wrong) = factor.filter(|factor| *factor > 1.0) {
-            let name = &written.material.name;
-            self.warn(written, &format!("{key} of the material `{name}` is {wrong}: 1 is taken"));
-        }
-        let factor = factor.map(|factor| factor.min(1.0));
-        let map_key = format!("map_{key}");
-        let Some(map) = written.material.unknown_param.get(&map_key).cloned() else {
-            return Ok(ColorInput::grey(factor.unwrap_or(otherwise)));
-        };
+    fn mtl_scalar(
+        &mut self,
+        written: &MtlMaterial,
+        [key, map_key]: [MtlKey; 2],
+        otherwise: f64,
+    ) -> Result<ColorInput, SceneError> {
+        let factor = written.number(key);
+        let Some(map) = self.mtl_map(written, map_key)? else { return Ok(ColorInput::grey(factor.unwrap_or(otherwise))) };
         // Beside a map the number is often 0, which would leave nothing of it.
-        let factor = DVec3::splat(factor.filter(|factor| *factor > 0.0).unwrap_or(1.0));
-        let texture = self.mtl_texture(written, &map_key, &map, None, Some(ColorSpace::Linear))?;
-        let channel = crate::scene::Channel::R;
-        Ok(match texture.texture() {
+        let factor = DVec3::splat(factor.filter(|factor| *factor > 0.0).unwrap_or(1.0) * map.gain());
+        let channel = map.channel.unwrap_or(Channel::R);
+        Ok(match self.mtl_picture(written, map_key, &map, Some(ColorSpace::Linear))? {
             Some(texture) => ColorInput::Channel(ChannelInput { texture, channel, factor, is_squared: false }),
             None => ColorInput::grey(otherwise),
         })
@@ -88,17 +76,5 @@ impl Resolver<'_> {
 }
 
 fn is_glass(written: &MtlMaterial) -> bool {
-    matches!(written.material.illumination_model, Some(4 | 6 | 7 | 9))
-}
-
-fn number(written: &MtlMaterial, key: &str) -> Result<Option<f64>, SceneError> {
-    let Some(text) = written.material.unknown_param.get(key) else { return Ok(None) };
-    let value: Option<f64> = text.split_whitespace().next().and_then(|word| word.parse().ok());
-    match value.filter(|value| (0.0..=1e18).contains(value)) {
-        Some(value) => Ok(Some(value)),
-        None => {
-            let message = format!("the material `{}`: {key}: expected a number from 0 up, found `{text}`", written.material.name);
-            Err(SceneError::in_file(show(&written.file), message))
-        }
-    }
+    matches!(written.illumination, Some(4 | 6 | 7 | 9))
 }

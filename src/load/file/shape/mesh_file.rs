@@ -10,7 +10,7 @@ use glam::{Vec2, Vec3};
 use crate::load::error::{SceneError, show};
 use crate::load::file::resolver::{LoadedMesh, Resolver};
 use crate::load::file::wording::did_you_mean_name;
-use crate::load::model::{ModelFile, ModelFormat, Part};
+use crate::load::model::{ModelFile, ModelFormat, Part, Substitute};
 use crate::load::{obj, ply};
 use crate::scene::{ColorInput, Material, MaterialId, MaterialKind, Mesh, MeshSource};
 
@@ -53,11 +53,17 @@ impl Resolver<'_> {
             self.check_replaced(&file, replaced, span)?;
         }
         self.scene.warnings.append(&mut file.warnings);
-        for what in std::mem::take(&mut file.substitutes) {
-            self.substitute(path, what)?;
+        for (file, substitute) in std::mem::take(&mut file.substitutes) {
+            self.substitute(&file, substitute)?;
         }
         let loaded = match material {
-            Some(material) => LoadedMesh { mesh: Arc::new(merge(file, smooth)), material },
+            Some(material) => {
+                let lacks_uvs = |part: &Part| part.mesh.uvs.is_empty();
+                if file.parts.iter().any(lacks_uvs) && !file.parts.iter().all(lacks_uvs) && self.uses_texture(material) {
+                    self.substitute(path, without_uvs(&self.scene.materials[material].name))?;
+                }
+                LoadedMesh { mesh: Arc::new(merge(file, smooth)), material }
+            }
             None => self.with_own_materials(path, file, smooth, replaced)?,
         };
         let name = |(of_file, id): &(String, MaterialId)| (of_file.clone(), self.scene.materials[*id].name.clone());
@@ -70,7 +76,7 @@ impl Resolver<'_> {
     /// What is replaced is there.
     fn check_replaced(&self, file: &ModelFile, replaced: &[(String, MaterialId)], span: &Range<usize>) -> Result<(), SceneError> {
         let numbers: BTreeSet<String> = file.face_groups.iter().flatten().map(u32::to_string).collect();
-        let named = file.materials.iter().map(|entry| entry.material.name.as_str());
+        let named = file.materials.iter().map(|entry| entry.name.as_str());
         let known: Vec<&str> = named.chain(numbers.iter().map(String::as_str)).collect();
         let Some((unknown, _)) = replaced.iter().find(|(name, _)| !known.contains(&name.as_str())) else { return Ok(()) };
         let help = did_you_mean_name(unknown, &known);
@@ -90,24 +96,21 @@ impl Resolver<'_> {
         }
         let replacement = |name: &str| replaced.iter().find(|(known, _)| known == name).map(|(_, id)| *id);
         let mut used: Vec<Option<MaterialId>> = vec![None; file.materials.len()];
-        let any_uvs = file.parts.iter().any(|part| !part.mesh.uvs.is_empty());
         for Part { mesh, material } in &mut file.parts {
             let id = match *material {
                 Some(index) => match used[index] {
                     Some(id) => id,
-                    None => *used[index].insert(match replacement(&file.materials[index].material.name) {
+                    None => *used[index].insert(match replacement(&file.materials[index].name) {
                         Some(id) => id,
                         None => self.mtl_material(&file.materials[index])?,
                     }),
                 },
                 None => self.material_of_unnamed_faces(),
             };
-            if any_uvs && mesh.uvs.is_empty() && self.uses_texture(id) {
-                let name = &self.scene.materials[id].name;
-                let message = format!("faces of the material `{name}` have a texture and no uv coordinates");
-                return Err(SceneError::in_file(show(path), message));
+            if mesh.uvs.is_empty() && self.uses_texture(id) {
+                self.substitute(path, without_uvs(&self.scene.materials[id].name))?;
+                mesh.uvs = vec![Vec2::ZERO; mesh.positions.len()];
             }
-            mesh.uvs.resize(if any_uvs { mesh.positions.len() } else { 0 }, Vec2::ZERO);
             mesh.face_materials = vec![id; mesh.faces.len()];
         }
         Ok(with_fewest_materials(merge(file, smooth)))
@@ -135,9 +138,8 @@ impl Resolver<'_> {
         if mesh.uvs.is_empty()
             && let Some(&id) = named.values().find(|&&id| self.uses_texture(id))
         {
-            let name = &self.scene.materials[id].name;
-            let message = format!("faces of the material `{name}` have a texture and no uv coordinates");
-            return Err(SceneError::in_file(show(path), message));
+            self.substitute(path, without_uvs(&self.scene.materials[id].name))?;
+            mesh.uvs = vec![Vec2::ZERO; mesh.positions.len()];
         }
         Ok(with_fewest_materials(mesh))
     }
@@ -159,6 +161,13 @@ impl Resolver<'_> {
     }
 }
 
+/// What stands for texture coordinates that a file does not have.
+fn without_uvs(material: &str) -> Substitute {
+    let what =
+        format!("faces of the material `{material}` have a texture and no uv coordinates: the texture at (0, 0) is everywhere");
+    Substitute { line: None, what }
+}
+
 /// A mesh whose faces all have a material, which is the shape's where it is the same for all.
 fn with_fewest_materials(mut mesh: Mesh) -> LoadedMesh {
     let material = mesh.face_materials[0];
@@ -173,9 +182,6 @@ fn merge(mut file: ModelFile, smooth: Option<bool>) -> Mesh {
     let has_normals = |part: &Part| !part.mesh.normals.is_empty();
     let some = file.parts.iter().any(has_normals);
     let all = file.parts.iter().all(has_normals);
-    if !file.parts.iter().all(|part| !part.mesh.uvs.is_empty()) {
-        file.parts.iter_mut().for_each(|part| part.mesh.uvs.clear());
-    }
     if some && !all {
         for part in file.parts.iter_mut().filter(|part| part.mesh.normals.is_empty()) {
             if smooth == Some(true) { part.mesh.compute_smooth_normals() } else { part.mesh.compute_flat_normals() }
