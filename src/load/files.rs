@@ -138,7 +138,7 @@ impl Files {
         elsewhere.filter(|path| input::is_file(path)).map(|path| Found { path, is_substitute: true })
     }
 
-    /// The same, where its name is written as it is but for quotes and backslashes, which also escape blanks; this looks into no folder.
+    /// Looks for a file whose name is written as it is but for quotes and backslashes, which also escape blanks; this looks into no folder.
     pub fn find_exactly(&self, folder: &Path, written: &str) -> Option<PathBuf> {
         let escaped = || written.contains("\\ ").then(|| folder.join(written.replace("\\ ", " ")));
         let mut places = [Some(folder.join(written)), Some(folder.join(slashed(written))), escaped()].into_iter().flatten();

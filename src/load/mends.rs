@@ -1,4 +1,4 @@
-//! What was wrong in a model's file and has something else in its place, so that one odd statement does not refuse a whole model.
+//! Mends of a model's file: wrong statements that have something else in their place, so that one of them does not refuse a whole model.
 
 use std::collections::BTreeMap;
 
@@ -27,7 +27,7 @@ impl Mends {
         self.count(what, Some(line), || quote(written));
     }
 
-    /// The same of what stands in no line; `example` says where it is.
+    /// Counts a mend that stands in no line; `example` says where it is.
     pub fn add_at(&mut self, what: &'static str, example: impl FnOnce() -> String) {
         self.count(what, None, example);
     }

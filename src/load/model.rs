@@ -41,7 +41,7 @@ pub struct ModelFile {
     pub attributes: Vec<MeshAttribute>,
     /// What could not be taken as written, in sentences.
     pub warnings: Vec<String>,
-    /// What is missing or wrong and has something else in its place, and in which file that is.
+    /// Missing and wrong things that have something else in their place, and in which file each of them is.
     pub substitutes: Vec<(PathBuf, Substitute)>,
 }
 
@@ -66,7 +66,7 @@ pub struct Part {
 /// Something that stands in the place of what a file should have: a warning, or an error where nothing may be replaced.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Substitute {
-    /// Where, if it is in a line; counts from 1.
+    /// The line, if it is in one; counts from 1.
     pub line: Option<usize>,
     /// In words that follow the file's name.
     pub what: String,
@@ -81,9 +81,9 @@ pub struct MtlMaterial {
     pub colours: BTreeMap<MtlKey, DVec3>,
     /// All others of one number, within the ranges of [`MtlKey`].
     pub numbers: BTreeMap<MtlKey, f64>,
-    /// From 0 to 10.
+    /// A number from 0 to 10.
     pub illumination: Option<u8>,
-    /// What stands after `map_Kd` and others, and in which line.
+    /// The values of `map_Kd` and others, each with its line.
     pub maps: BTreeMap<MtlKey, (usize, String)>,
     /// No library has it.
     pub is_missing: bool,

@@ -26,7 +26,7 @@ fn pixels(place: &Workplace, scene: &str) -> Vec<[f32; 3]> {
     place.image("a.exr").pixels
 }
 
-/// What was refused or lost before renders as the plain quad does, with a warning that `--strict` makes an error.
+/// Models that were refused or lost a face before render as the plain quad does, with a warning that `--strict` makes an error.
 #[test]
 fn the_rest_of_a_model_is_rendered() {
     let place = place();

@@ -17,7 +17,7 @@ use crate::load::spelling::names::unquoted;
 use crate::load::spelling::numbers::integer;
 use crate::scene::Mesh;
 
-/// What stands after each `mtllib`, and its line.
+/// The value of each `mtllib`, and its line.
 pub fn libraries(text: &str) -> Vec<(usize, String)> {
     let written = |(line, statement): (usize, std::borrow::Cow<'_, str>)| {
         let (word, rest) = first_word(&statement);
@@ -26,7 +26,7 @@ pub fn libraries(text: &str) -> Vec<(usize, String)> {
     Statements::new(text, super::is_statement).filter_map(written).collect()
 }
 
-/// What a model has that is not rendered, and is no fault.
+/// Contents of a model that are not rendered, and are no fault.
 #[derive(Debug, Default)]
 pub struct LeftOut {
     pub points_and_lines: usize,

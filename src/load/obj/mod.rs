@@ -70,7 +70,7 @@ fn nothing(name: &str, left_out: &faces::LeftOut, mends: Mends) -> SceneError {
 /// Statements that say nothing about surfaces here: groups, smoothing, display attributes.
 const HARMLESS: [&str; 12] =
     ["o", "g", "s", "mg", "usemap", "maplib", "lod", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj"];
-/// Those of free-form curves and surfaces, and of what older versions had for them.
+/// Statements of free-form curves and surfaces, and of what older versions had for them.
 const FREE_FORM: [&str; 24] = [
     "vp", "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv", "sp", "end", "con", "ctech",
     "stech", "bsp", "bzp", "cdc", "cdp", "res", "call", "csh",
@@ -80,7 +80,7 @@ const READ: [&str; 8] = ["v", "vt", "vn", "f", "fo", "l", "p", "usemtl"];
 #[cfg(test)]
 mod tests;
 
-/// Whether a line begins a statement, and is not the rest of the one before it: names may begin with any word.
+/// True where a line begins a statement, and is not the rest of the one before it: names may begin with any word.
 fn is_statement(line: &str) -> bool {
     let (word, rest) = first_word(line);
     let is = |names: &[&str]| names.iter().any(|name| word.eq_ignore_ascii_case(name));

@@ -25,7 +25,7 @@ pub struct Libraries {
     /// Places of the materials by their names in canonical form.
     places: HashMap<String, usize>,
     pub warnings: Vec<String>,
-    /// What is missing or mended, and the file where that is.
+    /// Missing and mended things, each with the file where it is.
     pub substitutes: Vec<(PathBuf, Substitute)>,
 }
 
@@ -203,7 +203,7 @@ fn is_statement(line: &str) -> bool {
     key.eq_ignore_ascii_case("illum") || key.eq_ignore_ascii_case("Ka") || known(key).is_some()
 }
 
-/// What a key's value is.
+/// The kind of a key's value.
 enum Kind {
     Colour(MtlKey),
     Number(MtlKey, [f64; 2]),

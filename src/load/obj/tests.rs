@@ -33,7 +33,7 @@ fn area(mesh: &Mesh) -> f32 {
 /// A quad of area 4.
 const Q: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
 
-/// What has one meaning is read without a word.
+/// Statements of one meaning are read without a word.
 #[test]
 fn statements_are_spelled_in_many_ways() {
     let lines = |text: &str| format!("{Q}{text}\n");
@@ -68,7 +68,7 @@ fn statements_are_spelled_in_many_ways() {
         lines("vn 0 0 1\nvt 0 0\nf 1//1 2/1 3/1/1 4"),
         lines("f 1/ 2/ 3/ 4/"),
         lines("f 1// 2// 3// 4//"),
-        // What nobody uses may be anything.
+        // Vertices that nobody uses may be anything.
         lines("v nan nan nan\nvn nan nan nan\nvt x\nv\nf 1 2 3 4"),
         lines("f 1 1 2 3 4 1"),
         lines("mg 1 2\nlod 3\nbevel on\nf 1 2 3 4"),

@@ -1,4 +1,4 @@
-//! What stands after `map_Kd` and its like in an MTL file: a picture, and options before or behind it.
+//! The value of `map_Kd` and its like in an MTL file: a picture, and options before or behind it.
 
 use crate::load::mends::Mends;
 use crate::load::spelling::lines::{before_spaced_comment, first_word, trimmed, words};
@@ -9,7 +9,7 @@ use crate::scene::{Channel, ColorSpace};
 /// An image and how it lies on the surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TextureMap {
-    /// As it is written; empty where none is.
+    /// The name as it is written; empty where none is.
     pub file: String,
     /// Factors of u and v (`-s`).
     pub scale: [f64; 2],
@@ -19,11 +19,11 @@ pub struct TextureMap {
     pub clamp: bool,
     /// How texels are stored (`-colorspace`), where that is said.
     pub space: Option<ColorSpace>,
-    /// Of which a number is taken (`-imfchan`), where that is said; `l`, the luminance, is red in a grey picture.
+    /// The channel of which a number is taken (`-imfchan`), where that is said; `l`, the luminance, is red in a grey picture.
     pub channel: Option<Channel>,
     /// The factor of heights (`-bm`).
     pub bump: f64,
-    /// What is added to a texel, and before that its factor (`-mm`).
+    /// The number that is added to a texel, and before that its factor (`-mm`).
     pub range: [f64; 2],
 }
 
@@ -42,9 +42,9 @@ impl Default for TextureMap {
     }
 }
 
-/// What follows an option.
+/// The values that follow an option.
 enum Values {
-    /// From one number to so many.
+    /// One number to so many.
     Numbers(usize),
     Word(&'static [&'static str]),
 }
@@ -123,7 +123,7 @@ impl TextureMap {
                         behind
                     } else {
                         mends.add("a texture's option without the word that belongs there is left out", line, rest);
-                        // What stands there is another word, or the picture's name already.
+                        // The word there is a wrong one, or the picture's name already.
                         if behind.is_empty() || word.starts_with('-') || is_there(after) { after } else { behind }
                     }
                 }
@@ -187,7 +187,7 @@ fn take_numbers<'w>(text: &'w str, most: usize, is_there: &dyn Fn(&str) -> bool)
     (numbers, rest)
 }
 
-/// Where the first word stands that is an option's name, behind another word.
+/// The place of the first word that is an option's name, behind another word.
 fn first_option(name: &str) -> Option<usize> {
     let place = |word: &str| word.as_ptr() as usize - name.as_ptr() as usize;
     let is_option = |word: &&str| OPTIONS.iter().any(|(option, _)| word.eq_ignore_ascii_case(option));

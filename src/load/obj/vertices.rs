@@ -18,11 +18,11 @@ pub struct Vertices {
     pub normals: Vec<Vec3>,
     /// Positions that carry a colour.
     pub coloured: usize,
-    /// Where it is written what cannot be read: the lines of positions, texture coordinates and normals, by their indices.
+    /// Positions, texture coordinates and normals that cannot be read: their lines by their indices.
     pub unread: [HashMap<u32, (usize, String)>; 3],
 }
 
-/// Which list an index of a face's corner is for, in the order in which a corner has them.
+/// The list that an index of a face's corner is for, in the order in which a corner has them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     Position,
@@ -31,7 +31,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// What a statement adds to.
+    /// The list that a statement adds to.
     pub fn of(word: &str) -> Option<Self> {
         match word {
             "v" | "V" => Some(Self::Position),

@@ -7,7 +7,7 @@ use crate::load::mends::Mends;
 use crate::load::spelling::lines::{Lines, first_word, trimmed};
 use crate::load::spelling::numbers::number;
 
-/// Where numbers come from. `None` of what it reads means that the file ended; what is no number is not finite.
+/// The source of numbers. `None` of what it reads means that the file ended; what is no number is not finite.
 pub enum Data<'d> {
     Binary { reader: &'d mut dyn BufRead, big_endian: bool, failure: Option<io::Error> },
     Text(Text<'d>),
@@ -28,7 +28,7 @@ pub struct Text<'t> {
 /// How elements lie in lines. The specification wants a line for each; readers differ in whether they care.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Layout {
-    /// As many lines as elements: what a line has too many or too few is its own fault.
+    /// There are as many lines as elements: numbers that a line has too many or too few are its own fault.
     Lines,
     /// More lines: an element may go on in the next one.
     Continued,
@@ -56,7 +56,7 @@ impl<'t> Text<'t> {
         Self { lines: Lines::new(text), before, layout, line: (0, "", ""), is_spoiled: false }
     }
 
-    /// Whether there is another line, which it goes to.
+    /// Goes to the next line. False where there is none.
     fn next_line(&mut self) -> bool {
         match self.lines.find(|(_, line)| has_data(line)) {
             Some((number, line)) => {

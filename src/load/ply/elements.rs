@@ -1,4 +1,4 @@
-//! What the properties of a PLY file's elements mean, by the names that programs give them.
+//! The meaning of the properties of a PLY file's elements, by the names that programs give them.
 
 use glam::Vec3;
 
@@ -18,7 +18,7 @@ const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 /// Names of the number that a face has in place of a material.
 const GROUPS: [&str; 2] = ["material_index", "material_indices"];
 
-/// What becomes of a property.
+/// The use that a property is put to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// A coordinate of the position.
@@ -43,7 +43,7 @@ pub struct Roles {
 }
 
 impl Roles {
-    /// Of vertices; `with_rest` makes attributes of properties by other names.
+    /// The roles of vertices' properties; `with_rest` makes attributes of properties by other names.
     pub fn of_vertices(element: &Element, with_rest: bool) -> Self {
         let role = |name: &str| {
             let among = |lists: &[&[&str]]| lists.iter().position(|names| names.contains(&name));
@@ -56,7 +56,7 @@ impl Roles {
         Self::new(element, with_rest, |name, kind| role(name).filter(|_| matches!(kind, Kind::Scalar(_))))
     }
 
-    /// Of faces and strips.
+    /// The roles of the properties of faces and strips.
     pub fn of_faces(element: &Element, with_rest: bool) -> Self {
         Self::new(element, with_rest, |name, kind| match kind {
             Kind::List { .. } => CORNERS.contains(&name).then_some(Role::Corners),
@@ -111,7 +111,7 @@ impl Rest {
         self.count - 1
     }
 
-    /// What has neither one channel nor three, nor four of which the last is no colour, is left out.
+    /// Attributes that have neither one channel nor three, nor four of which the last is no colour, are left out.
     fn end_of_declarations(&mut self) {
         self.declared.retain(|(_, places)| matches!(places.len(), 1 | 3 | 4));
         self.values = vec![Vec::new(); self.declared.len()];

@@ -57,7 +57,7 @@ pub enum Type {
     U64,
     F32,
     F64,
-    /// Of a name that is not known; text needs none.
+    /// A name that is not known; text needs none.
     Unknown,
 }
 
@@ -105,7 +105,7 @@ impl Type {
         }
     }
 
-    /// What the largest integer stands for, where integers stand for shares of 1.
+    /// The factor of a number, where integers stand for shares of 1.
     pub fn share(self) -> f64 {
         match self {
             Self::U8 => 1.0 / 255.0,

@@ -238,7 +238,7 @@ impl Model {
             roles.rest.push(&numbers);
             Some(())
         });
-        // What there is of the last face, where the file ends within it.
+        // The last face is cut where the file ends within it.
         corners.truncate(ends.last().copied().unwrap_or(0));
         self.groups = groups;
         self.attributes.extend(roles.rest.attributes(true));

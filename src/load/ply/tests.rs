@@ -143,7 +143,7 @@ fn mended(bytes: &[u8]) -> (Mesh, Vec<(Option<usize>, String)>) {
     (file.parts.remove(0).mesh, told)
 }
 
-/// What has one meaning is read without a word.
+/// Data of one meaning are read without a word.
 #[test]
 fn text_may_lie_in_any_lines() {
     let plain = mesh(&text(HEADER, &format!("{SQUARE}4 0 1 2 3\n")));

@@ -113,12 +113,12 @@ impl<'t> Iterator for Statements<'t> {
     }
 }
 
-/// What stands before a comment, of statements whose words never contain its sign.
+/// The part before a comment, of statements whose words never contain its sign.
 pub fn without_comment(statement: &str) -> &str {
     statement.split('#').next().unwrap_or("").trim_end_matches(is_blank)
 }
 
-/// What stands before a comment, of names, which may contain its sign, but rarely behind a blank. None where there is no comment.
+/// The part before a comment, of names, which may contain its sign, but rarely behind a blank. None where there is no comment.
 pub fn before_spaced_comment(name: &str) -> Option<&str> {
     let place = name.match_indices('#').map(|(place, _)| place).find(|&place| name[..place].ends_with(is_blank))?;
     Some(name[..place].trim_end_matches(is_blank))

@@ -10,7 +10,7 @@ pub struct Number<F> {
     pub is_odd: bool,
 }
 
-/// What a word says, where that is a finite number. Understood beside decimal numbers: `1,5` of languages with decimal commas, `1.5f` of C,
+/// The number that a word says, where it is finite. Understood beside decimal numbers: `1,5` of languages with decimal commas, `1.5f` of C,
 /// `1.5D3` of Fortran, `0x1f`, a minus sign of typography, and commas or semicolons behind. All spellings of infinity and of what is no number
 /// (`inf`, `1.#IND`, `1e400`) give none.
 pub fn number<F: FromStr + Copy + Into<f64> + FromHex>(word: &str) -> Option<Number<F>> {
@@ -43,7 +43,7 @@ pub fn number<F: FromStr + Copy + Into<f64> + FromHex>(word: &str) -> Option<Num
     (finite.is_finite() && plain.contains(|digit: char| digit.is_ascii_digit())).then_some(Number { value, is_odd: true })
 }
 
-/// What a hexadecimal integer becomes.
+/// Numbers that hexadecimal integers become.
 pub trait FromHex {
     fn from_hex(value: f64) -> Self;
 }

@@ -100,7 +100,7 @@ fn shapes_without_area_are_refused() {
     }
 }
 
-/// What is wrong with one statement is a warning that names its line, and an error with `--strict` (tests/cli/odd_models.rs).
+/// A fault of one statement is a warning that names its line, and an error with `--strict` (tests/cli/odd_models.rs).
 #[test]
 fn models_without_a_face_that_can_be_rendered_are_refused() {
     let positions = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";

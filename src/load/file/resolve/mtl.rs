@@ -179,7 +179,7 @@ impl Resolver<'_> {
         Ok(radiance.map(|radiance| Emission { radiance, two_sided: false }))
     }
 
-    /// What stands after a key of a picture.
+    /// The value of a picture's key, parsed.
     pub(super) fn mtl_map(&mut self, written: &MtlMaterial, key: MtlKey) -> Result<Option<TextureMap>, SceneError> {
         let Some((line, text)) = written.maps.get(key) else { return Ok(None) };
         let folder = written.file.parent().unwrap_or(Path::new(""));
@@ -272,7 +272,7 @@ impl Resolver<'_> {
         let relief = if key == "norm" || shows_normals {
             Relief::Normals(map.bump)
         } else {
-            // What is added to all heights is no slope.
+            // A base that all heights have is no slope.
             Relief::Heights(map.bump * map.range[1])
         };
         let line = written.maps.get(key).map(|(line, _)| *line);
@@ -323,7 +323,7 @@ fn opacity(written: &MtlMaterial) -> f64 {
     written.number("d").or(transparency.map(|transparency| 1.0 - transparency)).unwrap_or(1.0)
 }
 
-/// Whether most texels are directions of about unit length on the upper side: then it is a map of normals. Heights are grey.
+/// True where most texels are directions of about unit length on the upper side: then it is a map of normals. Heights are grey.
 fn shows_normals(image: &ImageData) -> bool {
     let step = (image.texels.len() / 4096).max(1);
     let is_direction = |index: usize| {

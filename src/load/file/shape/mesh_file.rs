@@ -161,7 +161,7 @@ impl Resolver<'_> {
     }
 }
 
-/// What stands for texture coordinates that a file does not have.
+/// The substitute for texture coordinates that a file does not have.
 fn without_uvs(material: &str) -> Substitute {
     let what =
         format!("faces of the material `{material}` have a texture and no uv coordinates: the texture at (0, 0) is everywhere");
