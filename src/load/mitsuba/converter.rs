@@ -8,14 +8,21 @@ use glam::DAffine3;
 
 use super::document::Reader;
 use super::input::{Input, Texels};
-use super::mesh_file::ReadMesh;
 use super::plugin::Plugin;
 use crate::load::error::SceneError;
 use crate::load::files::Files;
 use crate::load::import::{Description, Entry, FileReference, Keys, matrix_value};
+use crate::load::model::Substitute;
+use crate::scene::Mesh;
 
 /// A mesh of a file: the file, its format, and the bits of the mesh's number.
 pub type MeshKey = (PathBuf, String, u64);
+
+/// A mesh as its file has it, and what in the file was wrong and has something else in its place.
+pub struct ReadMesh {
+    pub mesh: Mesh,
+    pub mends: Vec<Substitute>,
+}
 
 /// A description in the making.
 pub struct Converter<'a> {

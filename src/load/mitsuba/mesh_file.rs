@@ -7,14 +7,13 @@ use std::rc::Rc;
 use glam::{DAffine3, Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::converter::{Converter, MeshKey};
+use super::converter::{Converter, MeshKey, ReadMesh};
 use super::plugin::{Plugin, PropertyValue};
 use super::serialized;
 use super::shape::{Looks, turn_inside_out};
 use crate::load::error::{SceneError, show};
 use crate::load::files::Files;
 use crate::load::import::{Blocks, Keys, smooth_by_index};
-use crate::load::model::Substitute;
 use crate::load::{obj, ply};
 use crate::scene::Mesh;
 
@@ -149,12 +148,6 @@ impl Converter<'_> {
 
 /// Elements whose plugins read files.
 const FORMATS: [&str; 3] = ["obj", "ply", "serialized"];
-
-/// A mesh as its file has it, and what in the file was wrong and has something else in its place.
-pub struct ReadMesh {
-    mesh: Mesh,
-    mends: Vec<Substitute>,
-}
 
 /// Reads a mesh. The error is that of the file, or why it is none.
 fn read(files: &Files, (path, format, index): &MeshKey) -> Result<ReadMesh, SceneError> {

@@ -6,8 +6,8 @@ use std::path::Path;
 use glam::{DVec3, Vec2, Vec3};
 
 use super::mtl::Libraries;
+use super::statements::{FREE_FORM, HARMLESS, is_statement};
 use super::vertices::{Kind, Vertices};
-use super::{FREE_FORM, HARMLESS};
 use crate::load::mends::Mends;
 use crate::load::model::{ModelFile, Part, Substitute};
 use crate::load::polygon::triangulate;
@@ -23,7 +23,7 @@ pub fn libraries(text: &str) -> Vec<(usize, String)> {
         let (word, rest) = first_word(&statement);
         (word.eq_ignore_ascii_case("mtllib") && !rest.is_empty()).then(|| (line, unquoted(rest).to_owned()))
     };
-    Statements::new(text, super::is_statement).filter_map(written).collect()
+    Statements::new(text, is_statement).filter_map(written).collect()
 }
 
 /// Contents of a model that are not rendered, and are no fault.
@@ -105,7 +105,7 @@ impl<'a> Faces<'a> {
     }
 
     pub fn read(&mut self, text: &str) {
-        for (line, statement) in Statements::new(text, super::is_statement) {
+        for (line, statement) in Statements::new(text, is_statement) {
             let (word, rest) = first_word(&statement);
             if let Some(kind) = Kind::of(word) {
                 self.so_far[kind as usize] += 1;

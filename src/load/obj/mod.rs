@@ -6,6 +6,7 @@
 
 mod faces;
 mod mtl;
+mod statements;
 mod texture_map;
 mod vertices;
 
@@ -16,7 +17,6 @@ use crate::load::error::{SceneError, show};
 use crate::load::files::{Files, MOST_MODEL_BYTES};
 use crate::load::mends::Mends;
 use crate::load::model::{ModelFile, Substitute};
-use crate::load::spelling::lines::{first_word, words};
 use faces::Faces;
 pub use texture_map::TextureMap;
 use vertices::Vertices;
@@ -67,29 +67,5 @@ fn nothing(name: &str, left_out: &faces::LeftOut, mends: Mends) -> SceneError {
     SceneError::in_file(name, format!("there is nothing to render in the model: {why}"))
 }
 
-/// Statements that say nothing about surfaces here: groups, smoothing, display attributes.
-const HARMLESS: [&str; 12] =
-    ["o", "g", "s", "mg", "usemap", "maplib", "lod", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj"];
-/// Statements of free-form curves and surfaces, and of what older versions had for them.
-const FREE_FORM: [&str; 24] = [
-    "vp", "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv", "sp", "end", "con", "ctech",
-    "stech", "bsp", "bzp", "cdc", "cdp", "res", "call", "csh",
-];
-const READ: [&str; 8] = ["v", "vt", "vn", "f", "fo", "l", "p", "usemtl"];
-
 #[cfg(test)]
 mod tests;
-
-/// True where a line begins a statement, and is not the rest of the one before it: names may begin with any word.
-fn is_statement(line: &str) -> bool {
-    let (word, rest) = first_word(line);
-    let is = |names: &[&str]| names.iter().any(|name| word.eq_ignore_ascii_case(name));
-    let counts =
-        ["v", "vt", "vn", "vp", "f", "fo", "l", "p", "s", "parm", "deg", "curv", "surf", "trim", "hole", "sp", "con", "res"];
-    if is(&counts) {
-        return words(rest)
-            .next()
-            .is_some_and(|word| word.starts_with(|start: char| start.is_ascii_digit() || "+-.uvo".contains(start)));
-    }
-    word.eq_ignore_ascii_case("mtllib") || is(&READ) || is(&HARMLESS) || is(&FREE_FORM)
-}

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 
 use glam::{Vec2, Vec3};
 
+use super::statements::is_statement;
 use crate::load::mends::Mends;
 use crate::load::model::FARTHEST;
 use crate::load::spelling::lines::{Statements, first_word, without_comment, words};
@@ -83,7 +84,7 @@ impl Numbers {
 impl Vertices {
     pub fn read(text: &str, mends: &mut Mends) -> Self {
         let mut vertices = Self::default();
-        for (line, statement) in Statements::new(text, super::is_statement) {
+        for (line, statement) in Statements::new(text, is_statement) {
             let (word, rest) = first_word(&statement);
             let Some(kind) = Kind::of(word) else { continue };
             vertices.statement(kind, line, &statement, without_comment(rest), mends);
