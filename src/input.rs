@@ -3,13 +3,15 @@
 //! A pipe, a device or a socket may never end, or never begin. Each is refused before it is opened. A file whose file system is gone ends in an
 //! error ([`crate::patience`]).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fs::{self, File};
 use std::io::{self, BufRead, ErrorKind, Read, Seek};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
+use crate::output::FileIdentity;
 use crate::patience::{self, PatientFile};
 
 /// A regular file that is being read.
@@ -114,17 +116,58 @@ fn opened() -> MutexGuard<'static, BTreeMap<PathBuf, Option<Stamp>>> {
     OPENED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// The names by which files were opened.
+static NAMES: LazyLock<Mutex<HashMap<FileIdentity, PathBuf>>> = LazyLock::new(Mutex::default);
+
+fn names() -> MutexGuard<'static, HashMap<FileIdentity, PathBuf>> {
+    NAMES.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 fn remember(path: &Path, stamp: Option<Stamp>) {
     // What is not there has no real path; it has one once it is.
     if let Ok(real) = canonical(path).or_else(|_| std::path::absolute(path)) {
+        if stamp.is_some() {
+            names().insert(FileIdentity::of(&real), real.clone());
+        }
         opened().insert(real, stamp);
     }
 }
 
 /// Whether this file was opened by [`open`], by whatever name.
 pub fn was_opened(path: &Path) -> bool {
-    let real = canonical(path);
-    real.is_ok_and(|real| matches!(opened().get(&real), Some(Some(_))))
+    let Ok(real) = canonical(path) else { return false };
+    if matches!(opened().get(&real), Some(Some(_))) {
+        return true;
+    }
+    // A hard link. The system gives numbers of files that are gone to new ones.
+    let identity = FileIdentity::of(&real);
+    let other = names().get(&identity).cloned();
+    other.is_some_and(|other| FileIdentity::of(&other) == identity)
+}
+
+/// Whether files that were read are kept from being written.
+static IS_PROTECTING: AtomicBool = AtomicBool::new(false);
+
+/// From now on, no file is written that was read: for a program that does one thing and ends. A library's process reads what it wrote, and writes it
+/// again.
+pub fn protect_inputs() {
+    IS_PROTECTING.store(true, Ordering::Relaxed);
+}
+
+/// Whether this file must not be written.
+pub fn is_protected(path: &Path) -> bool {
+    IS_PROTECTING.load(Ordering::Relaxed) && was_opened(path)
+}
+
+/// Reads a file that may be written again, such as a picture that the program made. One that was read before as anything else is not.
+pub fn as_own<T>(path: &Path, read: impl FnOnce() -> T) -> T {
+    let was_an_input = was_opened(path);
+    let done = read();
+    if !was_an_input && let Ok(real) = canonical(path).or_else(|_| std::path::absolute(path)) {
+        names().remove(&FileIdentity::of(&real));
+        opened().remove(&real);
+    }
+    done
 }
 
 /// Files that are not what they were when they were opened, or when they were last [accepted](accept_changes). None where their file system does
@@ -230,6 +273,26 @@ mod tests {
         // It is written anew; until then there is nothing to see.
         fs::write(&path, "four").unwrap();
         assert!(seen(&path) && was_opened(&path));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn inputs_are_known_by_all_of_their_names() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::write(at("read"), "one").unwrap();
+        fs::hard_link(at("read"), at("hard")).unwrap();
+        std::os::unix::fs::symlink("read", at("soft")).unwrap();
+        fs::write(at("other"), "one").unwrap();
+        assert!(!was_opened(&at("read")));
+        as_own(&at("read"), || read(&at("read"), 100)).unwrap();
+        assert!(!was_opened(&at("read")) && !was_opened(&at("hard")));
+        read(&at("read"), 100).unwrap();
+        as_own(&at("read"), || read(&at("read"), 100)).unwrap();
+        assert!(["read", "hard", "soft"].iter().all(|name| was_opened(&at(name))) && !was_opened(&at("other")));
+        // An editor puts a new file in its place, and another file may get the old one's number.
+        fs::rename(at("other"), at("read")).unwrap();
+        assert!(was_opened(&at("read")) && !was_opened(&at("hard")));
     }
 
     #[cfg(unix)]

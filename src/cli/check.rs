@@ -1,15 +1,13 @@
 //! `gpt check`.
 
-use std::time::Instant;
-
 use gpt::binary_tree::parts::KeptTrees;
 use gpt::gpu::{prepare, select_adapter};
 use gpt::load::{self, SceneError, printable};
 use gpt::plan::host::{HostNeeds, host_memory};
 use gpt::plan::{Decision, DeviceLimits, Memory, Plan, PlanError, PlanOptions};
-use gpt::reference::ReferenceRenderer;
+use gpt::reference::Integrator;
 use gpt::reference::pilot::Settled;
-use gpt::renderer::{DeviceChoice, RenderError, RenderRequest, Renderer, Silent};
+use gpt::renderer::{DeviceChoice, RenderError};
 use gpt::scene::{Guiding, ImportReport, LightChoice, ReportItem, Scene, SceneSummary};
 use gpt::verify;
 use serde::Serialize;
@@ -24,6 +22,9 @@ use super::{reading, terminal};
 const PROBE_SIDE: u32 = 16;
 /// Most surfaces that its paths meet: in closed mirrors they would go on for ever.
 const PROBE_DEPTH: u32 = 1000;
+
+/// Seconds after which paths are given up. What is rendered does not depend on them.
+const MOST_GUESSING: f64 = 3.0;
 
 /// Most frames of a scene with keyframes that are looked at, but for one.
 const MOST_FRAMES: f64 = 500.0;
@@ -47,6 +48,11 @@ struct Report<'a> {
     cpu_host_bytes: u64,
     /// That the CPU would take for the picture, by a few samples.
     cpu_seconds: f64,
+    /// It takes longer: paths meet so much that they were given up.
+    cpu_seconds_is_least: bool,
+    /// Why no pilot chose what the settings leave open, where paths take too much work for one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pilot_left_out: Option<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     plan: Option<PlanReport<'a>>,
 }
@@ -115,7 +121,7 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
     let (plan, settled) = usual_plan(&scene, &limits, &options)?;
     let summary = SceneSummary::of(&scene);
     let exit = if arguments.strict && !scene.import_report.is_empty() { Exit::Input } else { Exit::Done };
-    let cpu_seconds = guess_time(&settled.scene)?;
+    let time = guess_time(&settled.scene)?;
     let host = host_needs(&scene, false);
     if arguments.json {
         let compiled_in = plan.switches.enabled.iter().copied().collect();
@@ -129,7 +135,9 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
             device_bytes: plan.memory.total(),
             host_bytes: host.total(),
             cpu_host_bytes: host_needs(&scene, true).total(),
-            cpu_seconds,
+            cpu_seconds: time.seconds,
+            cpu_seconds_is_least: time.is_least,
+            pilot_left_out: settled.because.left_out.as_deref(),
             plan: arguments.plan.then(|| PlanReport { decisions: &plan.decisions, compiled_in }),
         })?;
         return Ok(exit);
@@ -139,9 +147,15 @@ pub fn run(arguments: &CheckArguments) -> Result<Exit, Failure> {
         1 => ", with a warning".to_owned(),
         count => format!(", with {count} warnings"),
     };
-    let time = in_words(cpu_seconds);
+    let least = if time.is_least { "more than " } else { "" };
+    let time = format!("{least}{}", in_words(time.seconds));
+    let pilot = settled
+        .because
+        .left_out
+        .as_ref()
+        .map_or_else(String::new, |why| format!("pilot      left out, so that settings are the usual ones: {why}\n"));
     let answer = format!(
-        "valid{warnings}\n{summary}memory     {} on {device}\nhost       {host}, by estimate\ntime       {time} on the CPU, by a few samples; a graphics card takes a fraction\n",
+        "valid{warnings}\n{summary}memory     {} on {device}\nhost       {host}, by estimate\ntime       {time} on the CPU, by a few samples; a graphics card takes a fraction\n{pilot}",
         plan.memory
     );
     terminal::answer(&answer)?;
@@ -214,8 +228,16 @@ fn usual_plan<'a>(scene: &'a Scene, limits: &DeviceLimits, options: &PlanOptions
     }
 }
 
-/// Seconds that the CPU would take, by one sample of each pixel of a small picture; too few where paths meet more than a thousand surfaces.
-pub fn guess_time(scene: &Scene) -> Result<f64, Failure> {
+/// What the CPU would take for the picture, as far as a few paths tell.
+#[derive(Debug, Clone, Copy)]
+pub struct GuessedTime {
+    pub seconds: f64,
+    /// Paths take longer than anybody waits for a guess.
+    pub is_least: bool,
+}
+
+/// The time that the CPU would take, by one sample of each pixel of a small picture; too little where paths meet more than a thousand surfaces.
+pub fn guess_time(scene: &Scene) -> Result<GuessedTime, Failure> {
     let mut small = scene.clone();
     verify::shrink(&mut small, PROBE_SIDE);
     small.render.spp = 1;
@@ -225,11 +247,10 @@ pub fn guess_time(scene: &Scene) -> Result<f64, Failure> {
     if small.render.light_choice == LightChoice::Cells {
         small.render.light_choice = LightChoice::Tree;
     }
-    let mut renderer = ReferenceRenderer::new(&small)?;
     let pixels = |scene: &Scene| scene.film.size.map(f64::from).iter().product::<f64>();
-    let start = Instant::now();
-    renderer.render(&RenderRequest { rows: 0..small.film.size[1], samples: 0..1 }, &Silent, &mut |_| Ok(()))?;
-    Ok(start.elapsed().as_secs_f64() * pixels(scene) / pixels(&small) * f64::from(scene.render.spp))
+    let of_path = Integrator::new(&small)?.time_of_path(pixels(&small) as u32, MOST_GUESSING);
+    let seconds = of_path.seconds * pixels(scene) * f64::from(scene.render.spp);
+    Ok(GuessedTime { seconds, is_least: of_path.is_least })
 }
 
 fn in_words(seconds: f64) -> String {

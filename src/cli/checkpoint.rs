@@ -43,6 +43,12 @@ impl CheckpointArguments {
     }
 }
 
+/// The state that is kept beside pictures, where one is.
+pub fn state_beside(arguments: &CheckpointArguments, outputs: &[PathBuf]) -> Option<PathBuf> {
+    let first = outputs.iter().find(|path| !is_stdout(path)).filter(|_| arguments.is_asked_for());
+    first.map(|path| path_beside(path))
+}
+
 fn first_file(outputs: &[(PathBuf, PictureFormat)]) -> Option<&Path> {
     outputs.iter().map(|(path, _)| path.as_path()).find(|path| !is_stdout(path))
 }

@@ -14,7 +14,7 @@ use super::bench::command;
 use super::denoise::{BIAS_KEY, DENOISER_KEY};
 use super::difference_page::{self, Section, Shown};
 use super::exit::{Exit, Failure};
-use super::terminal;
+use super::{outputs, terminal};
 
 /// Pixels along the side of the page's tiles.
 const PAGE_TILE: u32 = 8;
@@ -35,6 +35,7 @@ struct Verdict<'a> {
 /// Compares two pictures and prints the verdict.
 pub fn run(arguments: &CompareArguments) -> Result<Exit, Failure> {
     let tolerance = tolerance(arguments)?;
+    outputs::check(arguments.html.as_deref(), [arguments.picture.as_path(), arguments.reference.as_path()])?;
     let picture = read_image(&arguments.picture)?;
     let reference = read_image(&arguments.reference)?;
     let comparison = compare(&picture, &reference)?;

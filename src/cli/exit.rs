@@ -153,6 +153,8 @@ impl From<&Failure> for Exit {
             Failure::Render(RenderError::NoDevice(_) | RenderError::DoesNotFit(_)) => Self::Device,
             Failure::Render(RenderError::DeviceLost(_)) => Self::DeviceLost,
             Failure::Render(RenderError::Internal(_) | RenderError::Output(_)) => Self::OtherFailure,
+            Failure::Output(OutputError::Input { .. }) => Self::Usage,
+            Failure::Outputs(all) if all.iter().all(|one| matches!(one, OutputError::Input { .. })) => Self::Usage,
             Failure::Output(_) | Failure::Outputs(_) | Failure::Other(_) => Self::OtherFailure,
             Failure::Interrupted | Failure::InterruptedWithState(_) => Self::Interrupted,
         }

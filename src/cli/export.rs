@@ -1,23 +1,25 @@
 //! `gpt export`.
 
+use std::path::Path;
+
 use gpt::load::{self, SceneError};
-use gpt::output::{AtomicFile, check_target};
+use gpt::output::AtomicFile;
 use gpt::scene_writer;
 
 use super::arguments::ExportArguments;
 use super::exit::{Exit, Failure};
-use super::terminal;
+use super::{outputs, terminal};
 
 /// Writes a scene as one of Mitsuba, with what it embeds beside it.
 pub fn run(arguments: &ExportArguments) -> Result<Exit, Failure> {
     let target = &arguments.output;
-    check_target(target)?;
+    outputs::check([target.as_path()], [Path::new(&arguments.scene)])?;
     if target.extension().is_none_or(|ending| !ending.eq_ignore_ascii_case("xml")) {
         return Err(Failure::usage(format!("{} does not end in .xml, as a scene of Mitsuba does", target.display())));
     }
     let options = arguments.access.options(arguments.strict);
     let scene = load::load_with(Some(&arguments.scene), &options)?;
-    let name = std::path::Path::new(&arguments.scene).display().to_string();
+    let name = Path::new(&arguments.scene).display().to_string();
     let written = scene_writer::as_mitsuba(&scene, &name, target)?;
     if let Some(summary) = written.report.summary() {
         if arguments.strict {
@@ -26,6 +28,10 @@ pub fn run(arguments: &ExportArguments) -> Result<Exit, Failure> {
         let items = written.report.dropped.iter().chain(&written.report.approximated);
         items.for_each(|item| terminal::warn(&format!("{}: {}: {}", item.place, item.what, item.instead)));
     }
+    outputs::check(
+        written.files.iter().map(|(path, _)| path.as_path()).filter(|path| path.exists()).chain([target.as_path()]),
+        None,
+    )?;
     for (path, bytes) in &written.files {
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder).map_err(|error| Failure::Other(format!("{}: {error}", folder.display())))?;

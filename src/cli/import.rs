@@ -3,18 +3,18 @@
 use std::path::Path;
 
 use gpt::load::{self, SceneError, SceneSource};
-use gpt::output::{AtomicFile, check_target};
+use gpt::output::AtomicFile;
 use gpt::scene_writer;
 use rayon::prelude::*;
 
 use super::arguments::ImportArguments;
 use super::exit::{Exit, Failure};
-use super::{reading, terminal};
+use super::{outputs, reading, terminal};
 
 /// Writes a scene of another program, or a model, as a scene file, with the meshes and pictures that it embeds beside it.
 pub fn run(arguments: &ImportArguments) -> Result<Exit, Failure> {
     let target = arguments.output.clone();
-    check_target(&target)?;
+    outputs::check([target.as_path()], [arguments.scene.as_path()])?;
     if target.extension().is_none_or(|ending| !ending.eq_ignore_ascii_case("toml")) {
         return Err(Failure::usage(format!("{} does not end in .toml, as a scene file does", target.display())));
     }
@@ -33,6 +33,11 @@ pub fn run(arguments: &ImportArguments) -> Result<Exit, Failure> {
         }
         terminal::warn(&summary);
     }
+    // All of them, before the first is written.
+    outputs::check(
+        written.files.iter().map(|(path, _)| path.as_path()).filter(|path| path.exists()).chain([target.as_path()]),
+        None,
+    )?;
     for folder in written.files.iter().filter_map(|(path, _)| path.parent()) {
         std::fs::create_dir_all(folder).map_err(|error| Failure::Other(format!("{}: {error}", folder.display())))?;
     }

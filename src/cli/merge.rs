@@ -1,6 +1,6 @@
 //! `gpt merge`.
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use gpt::denoise::library::Library;
 use gpt::merge::{MergeError, Merged, PartHeader, merge};
@@ -35,11 +35,9 @@ struct Report {
 
 /// Joins parts to a picture.
 pub fn run(arguments: &MergeArguments) -> Result<Exit, Failure> {
-    let outputs = output_formats(&arguments.outputs, None)?;
-    let is_part = |path: &Path| arguments.parts.iter().any(|part| same_file(part, path));
-    if let Some((path, _)) = outputs.iter().find(|(path, _)| is_part(path)) {
-        return Err(Failure::usage(format!("{} is one of the parts, and would be overwritten", path.display())));
-    }
+    let beside = denoise::files_beside(arguments.denoise, &arguments.outputs);
+    let parts = arguments.parts.iter().map(PathBuf::as_path);
+    let outputs = output_formats(&arguments.outputs, beside.iter().map(PathBuf::as_path), parts)?;
     if arguments.denoise {
         denoise::raw_output(&outputs)?;
         // Its absence is told before anything is read.
@@ -80,11 +78,6 @@ pub fn run(arguments: &MergeArguments) -> Result<Exit, Failure> {
         denoise::denoise_render(&Library::open()?, &outputs, spec.display, arguments.json)?;
     }
     Ok(Exit::Done)
-}
-
-/// Whether two paths lead to one file that is there.
-fn same_file(a: &Path, b: &Path) -> bool {
-    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
 fn report(arguments: &MergeArguments, parts: usize, merged: &Merged, outputs: Vec<String>) -> Report {

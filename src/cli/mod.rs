@@ -22,6 +22,7 @@ mod layers;
 mod machine_progress;
 mod merge;
 mod model_arguments;
+mod outputs;
 mod picture_arguments;
 mod pictures;
 mod plan;
@@ -66,6 +67,7 @@ fn start_threads() {
 pub fn run() -> ExitCode {
     terminal::install_error_style();
     start_threads();
+    gpt::output::protect_inputs();
     let (arguments, typed) = match Typed::parse(std::env::args_os()) {
         Ok(parsed) => parsed,
         Err(error) => {

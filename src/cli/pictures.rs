@@ -6,9 +6,10 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use gpt::film::Band;
-use gpt::output::{OutputError, PICTURE_ENDINGS, PictureFile, PictureFormat, PictureSpec, STDOUT, check_target, follow_links};
+use gpt::output::{OutputError, PICTURE_ENDINGS, PictureFile, PictureFormat, PictureSpec, STDOUT};
 
 use super::exit::Failure;
+use super::outputs;
 
 /// All picture files of a render.
 pub struct Pictures {
@@ -135,12 +136,17 @@ fn samples_of(band: &Band) -> [u32; 2] {
     [band.samples, most.unwrap_or(band.samples)]
 }
 
-/// The formats that the paths' endings ask for, once it is sure that files can be put there. `-` is standard output, as EXR.
+/// The formats that the paths' endings ask for, once it is sure that files can be put there. `-` is standard output, as EXR. `others`: files that are
+/// written beside the pictures. `inputs`: files that are read.
 ///
 /// # Errors
-/// Usage errors for unknown endings, and for a file named twice, in whatever way; missing folders.
-pub fn output_formats(paths: &[PathBuf], stats: Option<&Path>) -> Result<Vec<(PathBuf, PictureFormat)>, Failure> {
-    let mut outputs = Vec::with_capacity(paths.len());
+/// Usage errors for unknown endings, and as [`outputs::check`].
+pub fn output_formats<'a>(
+    paths: &'a [PathBuf],
+    others: impl IntoIterator<Item = &'a Path>,
+    inputs: impl IntoIterator<Item = &'a Path>,
+) -> Result<Vec<(PathBuf, PictureFormat)>, Failure> {
+    let mut formats = Vec::with_capacity(paths.len());
     for path in paths {
         let format = if is_stdout(path) { Some(PictureFormat::Exr) } else { PictureFormat::from_path(path) };
         let format = format.ok_or_else(|| Failure::Usage {
@@ -152,30 +158,15 @@ pub fn output_formats(paths: &[PathBuf], stats: Option<&Path>) -> Result<Vec<(Pa
                 "-o - writes a picture to standard output, which is a terminal here: send it to a file or a program",
             ));
         }
-        outputs.push((path.clone(), format));
+        formats.push((path.clone(), format));
     }
-    let mut targets: Vec<_> = paths.iter().map(PathBuf::as_path).chain(stats).map(|path| (meant(path), path)).collect();
-    targets.sort();
-    if let Some(pair) = targets.windows(2).find(|pair| pair[0].0 == pair[1].0) {
-        return Err(match [pair[0].1, pair[1].1].map(|path| path.display().to_string()) {
-            [a, b] if a == b => Failure::usage(format!("{a} is named twice")),
-            [a, b] => Failure::usage(format!("one file is named twice, as {a} and as {b}")),
-        });
-    }
-    for path in paths.iter().map(PathBuf::as_path).chain(stats).filter(|path| !is_stdout(path)) {
-        check_target(path)?;
-    }
-    Ok(outputs)
+    outputs::check(paths.iter().map(PathBuf::as_path).chain(others), inputs)?;
+    Ok(formats)
 }
 
 /// Whether the path means standard output.
 pub fn is_stdout(path: &Path) -> bool {
     path == Path::new(STDOUT)
-}
-
-/// What a path means, links followed; what cannot be followed is told when it is to be written.
-fn meant(path: &Path) -> PathBuf {
-    if is_stdout(path) { path.to_owned() } else { follow_links(path).unwrap_or_else(|_| path.to_owned()) }
 }
 
 #[cfg(test)]
@@ -185,12 +176,14 @@ mod tests {
     #[test]
     fn endings_duplicates_and_folders_are_checked() {
         let paths = |names: &[&str]| names.iter().map(PathBuf::from).collect::<Vec<_>>();
-        let formats = output_formats(&paths(&["a.exr", "b.PNG"]), None).unwrap();
+        let formats = output_formats(&paths(&["a.exr", "b.PNG"]), None, None).unwrap();
         assert_eq!(formats.iter().map(|(_, format)| *format).collect::<Vec<_>>(), [PictureFormat::Exr, PictureFormat::Png]);
-        assert!(matches!(output_formats(&paths(&["a.tif"]), None), Err(Failure::Usage { .. })));
-        assert!(matches!(output_formats(&paths(&["a.exr", "b.exr", "./a.exr"]), None), Err(Failure::Usage { .. })));
-        assert!(matches!(output_formats(&paths(&["a.exr"]), Some(Path::new("a.exr"))), Err(Failure::Usage { .. })));
-        assert!(matches!(output_formats(&paths(&["-"]), Some(Path::new("-"))), Err(Failure::Usage { .. })));
-        assert!(matches!(output_formats(&paths(&["no/such/folder/a.exr"]), None), Err(Failure::Output(_))));
+        assert!(matches!(output_formats(&paths(&["a.tif"]), None, None), Err(Failure::Usage { .. })));
+        assert!(matches!(output_formats(&paths(&["a.exr", "b.exr", "./a.exr"]), None, None), Err(Failure::Usage { .. })));
+        assert!(matches!(output_formats(&paths(&["a.exr"]), Some(Path::new("a.exr")), None), Err(Failure::Usage { .. })));
+        assert!(matches!(output_formats(&paths(&["-"]), Some(Path::new("-")), None), Err(Failure::Usage { .. })));
+        let input = std::iter::once(Path::new("./a.exr"));
+        assert!(matches!(output_formats(&paths(&["a.exr"]), None, input), Err(Failure::Output(OutputError::Input { .. }))));
+        assert!(matches!(output_formats(&paths(&["no/such/folder/a.exr"]), None, None), Err(Failure::Output(_))));
     }
 }

@@ -112,7 +112,7 @@ fn plan_frames((arguments, typed): (&PlanArguments, &Typed), scene: &Scene, fram
     wanted.check_names("-o", std::iter::once(output.as_path()))?;
     let first = scene.at_frame(f64::from(numbers[0])).map_err(|error| bad_frame(scene, &error))?;
     let (device, device_bytes) = device_memory(&first)?;
-    let seconds = guess_time(&first)?;
+    let seconds = guess_time(&first)?.seconds;
     let [width, height] = scene.film.size;
     let host_bytes = host_bytes(scene);
     let spp = scene.render.spp;
@@ -182,7 +182,7 @@ fn plan_samples((arguments, typed): (&PlanArguments, &Typed), scene: &Scene) -> 
         return Err(Failure::usage(format!("--chunks with the layer cryptomatte: {MATTES_OF_PARTS}")));
     }
     let (device, device_bytes) = device_memory(scene)?;
-    let seconds = guess_time(scene)?;
+    let seconds = guess_time(scene)?.seconds;
     let pixels = scene.film.size.map(u64::from).iter().product::<u64>();
     let host_bytes = host_bytes(scene);
     let output = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.exr", scene.name)));

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use gpt::denoise::library::Library;
 use gpt::load::{self, LoadOptions, SceneSource};
-use gpt::output::{PartSpec, PictureFormat, PictureSpec, Provenance, check_target};
+use gpt::output::{PartSpec, PictureFormat, PictureSpec, Provenance, check_is_no_input, check_target};
 use gpt::plan::host::{HostNeeds, host_memory};
 use gpt::plan::memory::FILM_BYTES;
 use gpt::plan::{DeviceLimits, PlanOptions};
@@ -36,7 +36,8 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     frames.check_names("-o", arguments.outputs.iter().map(PathBuf::as_path))?;
     let first = |path: &Path| named(path, frames.first_number());
     let first_outputs: Vec<PathBuf> = arguments.outputs.iter().map(|path| first(path)).collect();
-    let formats = output_formats(&first_outputs, arguments.stats.as_deref().map(first).as_deref())?;
+    let others = written_beside(arguments, &first_outputs);
+    let formats = output_formats(&first_outputs, others.iter().map(PathBuf::as_path), named_inputs(arguments))?;
     let outputs: Vec<(PathBuf, PictureFormat)> =
         arguments.outputs.iter().zip(formats).map(|(path, (_, format))| (path.clone(), format)).collect();
     let mut on_stdout = arguments.outputs.iter().map(PathBuf::as_path).chain(arguments.stats.as_deref());
@@ -78,6 +79,21 @@ pub fn run(arguments: &RenderArguments) -> Result<Exit, Failure> {
     let exit = scene(arguments, &options, &outputs, &mut Some(ready), &live, started)?;
     live.close(exit != Exit::Interrupted);
     Ok(exit)
+}
+
+/// Files that are written beside the pictures.
+fn written_beside(arguments: &RenderArguments, first_outputs: &[PathBuf]) -> Vec<PathBuf> {
+    let stats = arguments.stats.as_deref().map(|path| named(path, arguments.frames.first_number()));
+    let is_denoised = arguments.denoise && !arguments.estimate.is_part();
+    let state = checkpoint::state_beside(&arguments.checkpoint, first_outputs);
+    let others = stats.into_iter().chain(arguments.save_scene.clone()).chain(state);
+    others.chain(denoise::files_beside(is_denoised, first_outputs)).collect()
+}
+
+/// Files that are read because the command line names them.
+fn named_inputs(arguments: &RenderArguments) -> impl Iterator<Item = &Path> {
+    let scene = arguments.scene.as_deref().map(Path::new).filter(|path| !is_stdout(path));
+    scene.into_iter().chain(arguments.environment.as_deref())
 }
 
 /// Reads the scene and renders it. What is ready when it begins stays so where the scene is wrong; without it a device is opened. What rendered the
@@ -212,11 +228,8 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
 /// No output is one of the files that the scene was read from.
 fn check_inputs(outputs: &[(PathBuf, PictureFormat)], arguments: &RenderArguments) -> Result<(), Failure> {
     let others = arguments.stats.as_deref().into_iter().chain(arguments.save_scene.as_deref());
-    let mut targets = outputs.iter().map(|(path, _)| path.as_path()).chain(others);
-    match targets.find(|path| !is_stdout(path) && load::was_read(path)) {
-        Some(path) => Err(Failure::usage(format!("{} is a file of the scene, and would be overwritten", path.display()))),
-        None => Ok(()),
-    }
+    let targets = outputs.iter().map(|(path, _)| path.as_path()).chain(others);
+    Ok(targets.filter(|path| !is_stdout(path)).try_for_each(check_is_no_input)?)
 }
 
 /// What is told before it is taken: 32 bytes a pixel of the rows that the film has at a time, and all that the host needs.

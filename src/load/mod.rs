@@ -55,11 +55,6 @@ pub use reading::ReadingProgress;
 pub use source::{SceneSource, load, load_with};
 pub use view::{ModelView, Up};
 
-/// Whether a scene that this process read is made of this file, by whatever name.
-pub fn was_read(path: &std::path::Path) -> bool {
-    crate::input::was_opened(path)
-}
-
 /// Files of the scenes that this process read that have changed since, or since [`accept_changes`].
 pub fn changed_files() -> Vec<std::path::PathBuf> {
     crate::input::changed()

@@ -85,7 +85,7 @@ impl PartHeader {
     /// A file that is no part, or whose render broke off.
     pub fn read(path: &Path) -> Result<Self, MergeError> {
         let failure = |what: String| MergeError::Part { path: path.to_owned(), what };
-        let file = input::open_to_decode(path).map_err(|error| failure(error.to_string()))?;
+        let file = Box::new(input::open(path).map_err(|error| failure(error.to_string()))?);
         let meta =
             MetaData::read_from_buffered(file, false).map_err(|error| failure(format!("it is no EXR picture: {error}")))?;
         let header = meta.headers.first().ok_or_else(|| failure("it is no EXR picture".to_owned()))?;

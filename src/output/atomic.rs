@@ -13,6 +13,7 @@ use std::sync::{Mutex, PoisonError};
 use tempfile::{Builder, NamedTempFile};
 
 use super::error::OutputError;
+use crate::input;
 use crate::patience;
 
 const PREFIX: &str = ".gpt-";
@@ -38,7 +39,7 @@ impl AtomicFile {
     /// Opens the temporary file beside `path`.
     ///
     /// # Errors
-    /// A folder that is missing or that must not be written to, and a target that is no ordinary file.
+    /// A folder that is missing or that must not be written to, and a target that is no ordinary file, or one that is read.
     pub fn create(path: &Path) -> Result<Self, OutputError> {
         check_target(path)?;
         let failure = |source| OutputError::Write { path: path.to_owned(), source };
@@ -84,6 +85,8 @@ impl AtomicFile {
     /// # Errors
     /// As [`AtomicFile::commit`].
     pub fn commit_as(mut self, target: &Path) -> Result<(), OutputError> {
+        // It may have been read in the meantime.
+        check_is_no_input(target)?;
         let temporary = self.temporary.take().ok_or_else(|| self.failure(io::Error::other("the file is closed")))?;
         let handle = temporary.as_file().try_clone().map_err(|source| self.failure(source))?;
         patience::within(move || handle.sync_all()).map_err(|source| self.failure(source))?;
@@ -118,15 +121,24 @@ impl Drop for AtomicFile {
     }
 }
 
-/// Whether a file could be put at `path`: its folder exists and nothing but an ordinary file is in its place. Asked before a
+/// Whether a file could be put at `path`: its folder exists and nothing but an ordinary file is in its place, one that was not read. Asked before a
 /// render, so that hours of work do not end at a mistyped folder.
 ///
 /// # Errors
-/// [`OutputError::NoFolder`] and [`OutputError::BadTarget`].
+/// [`OutputError::NoFolder`], [`OutputError::BadTarget`] and [`OutputError::Input`].
 pub fn check_target(path: &Path) -> Result<(), OutputError> {
+    check_is_no_input(path)?;
     let asked = path.to_owned();
     let checked = patience::within(move || Ok(check_now(&asked)));
     checked.unwrap_or_else(|source| Err(OutputError::Write { path: path.to_owned(), source }))
+}
+
+/// Whether a file is none that was read, where [those are kept](input::protect_inputs).
+///
+/// # Errors
+/// [`OutputError::Input`].
+pub fn check_is_no_input(path: &Path) -> Result<(), OutputError> {
+    if input::is_protected(path) { Err(OutputError::Input { path: path.to_owned() }) } else { Ok(()) }
 }
 
 fn check_now(path: &Path) -> Result<(), OutputError> {

@@ -10,6 +10,9 @@ pub enum OutputError {
     NoFolder { path: PathBuf, folder: PathBuf },
     #[error("{}: {what}", path.display())]
     BadTarget { path: PathBuf, what: &'static str },
+    /// The file was read by this process.
+    #[error("{} is a file that is read, and would be overwritten: name another output", path.display())]
+    Input { path: PathBuf },
     #[error("cannot write {}: {source}", path.display())]
     Write { path: PathBuf, source: io::Error },
     #[error("cannot write {}: {what}", path.display())]

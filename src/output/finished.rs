@@ -33,7 +33,7 @@ pub fn is_finished_picture(path: &Path, format: PictureFormat, spec: &PictureSpe
             PictureFormat::Png => png_agrees(path, spec),
             PictureFormat::Jpeg | PictureFormat::Hdr => text_agrees(path, format, spec),
         }
-        && read_image(path).is_ok_and(has_size)
+        && input::as_own(path, || read_image(path)).is_ok_and(has_size)
 }
 
 /// The entries that decide what is shown.

@@ -8,7 +8,7 @@ use super::replications::Replications;
 use crate::film::Band;
 use crate::output::{
     Channels, ExrOptions, Image, LayerChannel, LayerPicture, LayerSource, OutputError, PictureFile, PictureFormat, PictureSpec,
-    Provenance, ReadError,
+    Provenance, ReadError, as_own,
 };
 
 /// Channels of the variance of a sample, and of the number of samples.
@@ -79,7 +79,8 @@ impl Golden {
     /// # Errors
     /// A file that cannot be read, or lacks what a test needs.
     pub fn read(path: &Path) -> Result<Self, PictureTestError> {
-        let file = Channels::read(path)?;
+        // Blessing writes it again.
+        let file = as_own(path, || Channels::read(path))?;
         let lacking = |what: &str| {
             let help = "`gpt test --bless` makes one that has it, and so does `gpt render --aov variance,samples`";
             PictureTestError::Unsuitable(format!("{}: a golden picture has {what}; {help}", path.display()))

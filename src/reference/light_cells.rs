@@ -18,6 +18,7 @@ use super::integrator::Integrator;
 use super::intersect::Surface;
 use super::spread::{follow, pixel_of};
 use super::trace::PathVisitor;
+use super::work;
 use crate::renderer::RenderError;
 use crate::sampling::hash::{dimension_bits, mix};
 use crate::sampling::light_cells::{Division, LightCells, Reaching};
@@ -36,6 +37,12 @@ const PIXELS_OF_PATH: u64 = 8;
 const PATHS: [u64; 2] = [1 << 10, 1 << 14];
 /// Paths that one task traces.
 const PATHS_AT_ONCE: u32 = 128;
+/// Work at most of these paths, and work after which no further cell is tried.
+const MOST_WORK: u64 = 8 * work::SECOND;
+/// Paths that are traced whatever they take.
+const FEWEST_AFFORDABLE: u32 = 8;
+/// Cells between two looks at the work that is done.
+const CELLS_AT_ONCE: usize = 8;
 /// Vertices after which a path is given up.
 const MOST_VERTICES: u32 = 16;
 /// Lights that are tried in each cell.
@@ -87,7 +94,9 @@ pub fn settle(scene: &Scene) -> Result<LightsSettled<'_>, RenderError> {
         integrator.set_light_choice(scene.render.light_choice);
         return Ok(LightsSettled { integrator: Some(integrator), ..as_it_is });
     }
-    let Learned { table, unlisted } = learned(&integrator);
+    let Some(Learned { table, unlisted }) = learned(&integrator, is_open) else {
+        return Ok(without_cells(integrator, has_few, with));
+    };
     integrator.set_light_cells(Arc::new(table));
     if is_open && has_few {
         integrator.set_light_choice(LightChoice::Auto);
@@ -107,6 +116,18 @@ pub fn settle(scene: &Scene) -> Result<LightsSettled<'_>, RenderError> {
     let asked_for = if is_open { "" } else { "asked for; " };
     let because = format!("{asked_for}cells name the lights that {:.1} % of the light comes from", 100.0 - percent);
     Ok(LightsSettled { scene: by_cells, integrator: Some(integrator), because: Some(because), is_undecided: false })
+}
+
+/// What `auto` takes where learning takes too long: a tree of many lights, and power of few.
+fn without_cells<'a>(mut integrator: Integrator, has_few: bool, with: impl Fn(LightChoice) -> Scene) -> LightsSettled<'a> {
+    let choice = if has_few { LightChoice::Power } else { LightChoice::Tree };
+    integrator.set_light_choice(choice);
+    LightsSettled {
+        scene: Cow::Owned(with(choice)),
+        integrator: Some(integrator),
+        because: Some("which lights reach a place takes too long to learn, since paths meet so much".to_owned()),
+        is_undecided: false,
+    }
 }
 
 /// As many lights as there may be.
@@ -150,9 +171,15 @@ struct Learned {
     unlisted: f64,
 }
 
-/// Learns from a scene whose lights are chosen by cells.
-fn learned(integrator: &Integrator) -> Learned {
-    let shaded = shaded_points(integrator);
+/// Learns from a scene whose lights are chosen by cells. None where that `has_to_be_whole` and takes too much work; else less is learned then, and cells that
+/// were not tried choose by power.
+fn learned(integrator: &Integrator, has_to_be_whole: bool) -> Option<Learned> {
+    let wanted = path_count(integrator.scene());
+    let affordable = (MOST_WORK as f64 / work::of_path(integrator).max(1.0)) as u32;
+    if has_to_be_whole && affordable < wanted {
+        return None;
+    }
+    let shaded = shaded_points(integrator, wanted.min(affordable.max(FEWEST_AFFORDABLE)));
     let points: Vec<LitPoint> = shaded.iter().map(|shaded| shaded.at).collect();
     let division = Division::new(&points);
     let of_cell = |(cell, members): (usize, &Vec<u32>)| {
@@ -160,14 +187,35 @@ fn learned(integrator: &Integrator) -> Learned {
         let points: Vec<Shaded> = members.iter().step_by(step).map(|&number| shaded[number as usize]).collect();
         Trial { integrator, points, key: mix(cell as u32 ^ 0x6365_6c6c) }.reaching()
     };
-    let found: Vec<(Vec<Reaching>, f64)> = division.cells().par_iter().enumerate().map(of_cell).collect();
+    let cells: Vec<(usize, &Vec<u32>)> = division.cells().iter().enumerate().collect();
+    let (mut found, mut spent): (Vec<(Vec<Reaching>, f64)>, u64) = (Vec::with_capacity(cells.len()), 0);
+    for some in cells.chunks(CELLS_AT_ONCE) {
+        if spent > MOST_WORK {
+            if has_to_be_whole {
+                return None;
+            }
+            break;
+        }
+        let tried: Vec<_> = some.par_iter().map(|cell| work::of(|| of_cell(*cell))).collect();
+        for (reaching, work) in tried {
+            found.push(reaching);
+            spent += work;
+        }
+    }
+    found.resize_with(cells.len(), Default::default);
     let unlisted = found.iter().map(|(_, unlisted)| unlisted).sum::<f64>() / found.len().max(1) as f64;
     let reaching: Vec<Vec<Reaching>> = found.into_iter().map(|(reaching, _)| reaching).collect();
-    Learned { table: division.table(&reaching), unlisted }
+    Some(Learned { table: division.table(&reaching), unlisted })
 }
 
-/// Where training paths scatter, in their order.
-fn shaded_points(integrator: &Integrator) -> Vec<Shaded> {
+/// How many paths say where light is sampled.
+fn path_count(scene: &Scene) -> u32 {
+    let [fewest, most] = PATHS;
+    (pixel_count(scene) / PIXELS_OF_PATH).clamp(fewest, most).next_power_of_two() as u32
+}
+
+/// Where so many training paths scatter, in their order.
+fn shaded_points(integrator: &Integrator, count: u32) -> Vec<Shaded> {
     let scene = integrator.scene();
     let sampling = Sampling {
         path: SamplerKind::Independent,
@@ -175,12 +223,10 @@ fn shaded_points(integrator: &Integrator) -> Vec<Shaded> {
         seed: mix(0x6c69_6768),
         ..Sampling::from(&scene.render)
     };
-    let [fewest, most] = PATHS;
-    let count = (pixel_count(scene) / PIXELS_OF_PATH).clamp(fewest, most).next_power_of_two() as u32;
     let tasks: Vec<u32> = (0..count).step_by(PATHS_AT_ONCE as usize).collect();
     let of_task = |&start: &u32| {
         let mut walker = Walker::default();
-        for path in start..start + PATHS_AT_ONCE {
+        for path in start..(start + PATHS_AT_ONCE).min(count) {
             follow(integrator, &sampling, pixel_of(path, scene.film.size), path, &mut walker);
         }
         walker.shaded

@@ -27,6 +27,7 @@ pub mod trace;
 pub mod training;
 mod volume;
 pub mod warp;
+pub mod work;
 
 pub use integrator::Integrator;
 pub use renderer::ReferenceRenderer;

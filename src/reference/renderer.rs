@@ -139,7 +139,7 @@ impl ReferenceRenderer {
         let settings = &self.integrator.scene().render;
         let guided = self.integrator.guide().is_some();
         let way = self.integrator.light_way();
-        let Reasons { light_choice, light_samples, roulette } = &self.because;
+        let Reasons { light_choice, light_samples, roulette, .. } = &self.because;
         let of_choice = light_choice.iter().map(|because| Decision::about_light_choice(way, because));
         let of_lights =
             light_samples.iter().map(|because| Decision::about_light_samples(settings.several_light_samples(), because));

@@ -16,6 +16,7 @@ use super::intersect::Surface;
 use super::pilot;
 use super::spread::{follow, pixel_of};
 use super::trace::{LightConnection, PathVisitor};
+use super::work;
 use crate::sampling::Sampling;
 use crate::sampling::guide::{Arrival, Guide, learn};
 use crate::sampling::hash::mix;
@@ -32,6 +33,10 @@ const MOST_LOSS: f64 = 0.8;
 const PATHS_OF_PIXEL: u32 = 8;
 const FEWEST_PATHS: u32 = 1 << 14;
 const MOST_PATHS: u32 = 1 << 19;
+/// Work of all rounds at most: a guide may be asked to learn for minutes, and does where paths take what they usually do.
+const MOST_WORK: f64 = 600.0 * work::SECOND as f64;
+/// Paths of the first round at least.
+const FEWEST_OF_ROUND: u32 = 64;
 /// Paths that one task traces.
 const PATHS_AT_ONCE: u32 = 256;
 /// What a surface sends on that can be reckoned with.
@@ -69,7 +74,11 @@ pub fn train(integrator: &mut Integrator) -> Learned {
     if let Some(because) = pilot::why_no_guide(integrator.scene()).filter(|_| has_to_pay) {
         return not_at_all(because.to_owned());
     }
-    let Trained { guide, paths, loss } = trained(integrator, has_to_pay);
+    let of_path = work::of_path(integrator);
+    let Some(rounds) = affordable(rounds(integrator.scene()), of_path, has_to_pay) else {
+        return not_at_all(pilot::too_much_work(of_path));
+    };
+    let Trained { guide, paths, loss } = trained(integrator, rounds, has_to_pay);
     if let Some(loss) = loss.filter(|loss| *loss > MOST_LOSS) {
         integrator.set_guide(None);
         return not_at_all(format!("a pilot found {loss:.2} of the error × cost without a guide"));
@@ -110,6 +119,17 @@ fn rounds(scene: &Scene) -> [u32; ROUNDS] {
     std::array::from_fn(|round| (last >> (ROUNDS - 1 - round)).next_multiple_of(PATHS_AT_ONCE))
 }
 
+/// The rounds, or smaller ones where paths take so much work that all would take longer than a person waits. None: even those would, or a guide that
+/// has to pay would be learned from fewer paths than it is worth.
+fn affordable(rounds: [u32; ROUNDS], of_path: f64, has_to_pay: bool) -> Option<[u32; ROUNDS]> {
+    let fits = |rounds: &[u32; ROUNDS]| f64::from(rounds.iter().sum::<u32>()) * of_path <= MOST_WORK;
+    let halves = std::iter::successors(Some(rounds), |rounds| Some(rounds.map(|count| count / 2)));
+    let smaller = halves.take_while(|rounds| rounds[0] >= FEWEST_OF_ROUND).find(fits);
+    smaller
+        .filter(|smaller| !has_to_pay || *smaller == rounds)
+        .map(|rounds| rounds.map(|count| count.next_multiple_of(PATHS_AT_ONCE)))
+}
+
 /// What came of all rounds, or of those up to which it may pay to go on.
 struct Trained {
     guide: Option<Arc<Guide>>,
@@ -119,11 +139,11 @@ struct Trained {
     loss: Option<f64>,
 }
 
-fn trained(integrator: &mut Integrator, has_to_pay: bool) -> Trained {
+fn trained(integrator: &mut Integrator, rounds: [u32; ROUNDS], has_to_pay: bool) -> Trained {
     let mut trained = Trained { guide: None, paths: 0, loss: None };
     let mut first = 0;
     let mut before: (Vec<Arrival>, u32) = Default::default();
-    for (round, count) in rounds(integrator.scene()).into_iter().enumerate() {
+    for (round, count) in rounds.into_iter().enumerate() {
         let (mut arrivals, earlier) = std::mem::take(&mut before);
         let found = arrivals_of(integrator, first, count);
         arrivals.extend_from_slice(&found);

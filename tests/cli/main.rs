@@ -24,6 +24,7 @@ mod odd_models;
 #[cfg(unix)]
 mod on_unix;
 mod outputs;
+mod overwriting;
 mod part_layers;
 mod parts;
 mod picture_tests;

@@ -66,7 +66,7 @@ fn files_of_the_scene_are_not_overwritten() {
     let links: &[&str] = if cfg!(unix) { &["-o link.exr"] } else { &[] };
     for output in ["--stats map.toml", "-o sky.exr", "-o a.png -o ./sky.exr"].iter().chain(links) {
         let said = place.expect(2, &format!("render map.toml --device cpu --spp 1 {output}"));
-        assert!(said.contains("is a file of the scene, and would be overwritten"), "{said}");
+        assert!(said.contains("is a file that is read, and would be overwritten"), "{said}");
     }
     assert!(fs::read(place.path("sky.exr")).expect("the map") == sky);
     assert!(fs::read_to_string(place.path("map.toml")).expect("the scene") == with_map);

@@ -13,7 +13,7 @@ use crate::common::files::folder_with;
 use crate::counting::{bytes_ever, take_turn};
 use gpt::load;
 use gpt::packed::PackedScene;
-use gpt::reference::ReferenceRenderer;
+use gpt::reference::{Integrator, ReferenceRenderer};
 use gpt::scene::Scene;
 
 const HEAD: &str = "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvfov = 40\n[[light]]\ntype = \"environment\"\nradiance = 1\n\
@@ -85,6 +85,120 @@ fn assert_linear(what: &str, size: usize, work: impl Fn(usize) + Sync) {
     // A busy machine lengthens one measurement now and then, and quadratic work all of them.
     let reports: Vec<String> = (0..4).map_while(|_| excess(size, &work)).collect();
     assert!(reports.len() < 4, "{what}: {reports:?}");
+}
+
+/// Pilots and learning trace paths whose number is fixed, so that what they take must be bounded by what a path takes. On one thread.
+fn assert_bounded(what: &str, size: usize, scene: impl Fn(usize) -> Scene + Sync) {
+    const MOST: Duration = Duration::from_secs(30);
+    let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let measure = |size: usize| {
+        let scene = scene(size);
+        let time_of = |work: &(dyn Fn() + Sync)| {
+            one_thread.install(|| {
+                let start = time_of_thread();
+                work();
+                time_of_thread() - start
+            })
+        };
+        let without_pilots = time_of(&|| drop(black_box(Integrator::new(&scene).expect("it can be rendered"))));
+        // With pilots, learning, and what `gpt check` guesses the time by.
+        let all = time_of(&|| {
+            black_box(ReferenceRenderer::new(&scene).expect("it can be rendered"));
+            let integrator = Integrator::new(&scene).expect("it can be rendered");
+            black_box(integrator.time_of_path(256, 1.0));
+        });
+        (all.saturating_sub(without_pilots), all)
+    };
+    let (once, twice) = (measure(size), measure(2 * size));
+    let report = format!("{what}, {size}: {once:.1?}, {}: {twice:.1?}", 2 * size);
+    assert!(twice.0 < 3 * once.0 + Duration::from_secs(2) && twice.0 < MOST, "{report}");
+}
+
+/// A mesh of so many faces, at these corners and of this material.
+fn pile(material: &str, count: usize) -> String {
+    let faces = "[0, 1, 2], ".repeat(count);
+    format!(
+        "[[material]]\nname = \"p\"\n{material}\n[[shape]]\ntype = \"mesh\"\nmaterial = \"p\"\npositions = [[-2,-2,0],[2,-2,0],[0,2,0]]\nfaces = [{faces}]\n"
+    )
+}
+
+const LAMP: &str = "[[light]]\ntype = \"point\"\nposition = [1, 2, 4]\nintensity = 5\n";
+
+#[test]
+fn pilots_of_surfaces_in_one_place() {
+    let _turn = take_turn();
+    for (what, material, size) in [
+        ("opaque", "type = \"diffuse\"\nreflectance = 0.5", 20_000),
+        ("veiled", "type = \"diffuse\"\nreflectance = 0.5\nopacity = 0.5", 4000),
+        ("clear", "type = \"diffuse\"\nreflectance = 0.5\nopacity = 0.001", 4000),
+        ("glass", "type = \"glass\"\nior = 1.5", 20_000),
+        ("lamps", "type = \"emissive\"\nradiance = 2", 10_000),
+    ] {
+        assert_bounded(what, size, |count| read(&format!("{HEAD}{LAMP}{}", pile(material, count))));
+    }
+}
+
+#[test]
+fn pilots_of_lamps_and_guides_among_much() {
+    let _turn = take_turn();
+    let veil = "type = \"diffuse\"\nreflectance = 0.5\nopacity = 0.5";
+    let lamps: String =
+        (0..40).map(|lamp| format!("[[light]]\ntype = \"point\"\nposition = [{}, 2, 4]\nintensity = 5\n", lamp - 20)).collect();
+    for settings in ["light_choice = \"cells\"", "light_choice = \"auto\"", "guiding = \"on\"", "guiding = \"auto\""] {
+        assert_bounded(settings, 4000, |count| read(&format!("[render]\n{settings}\n{HEAD}{lamps}{}", pile(veil, count))));
+    }
+}
+
+#[test]
+fn pilots_of_needles_across_each_other() {
+    let _turn = take_turn();
+    assert_bounded("needles", 20_000, |count| {
+        let mut positions = String::new();
+        let mut faces = String::new();
+        for index in 0..count {
+            let (sine, cosine) = (index as f64 * 2.399_963).sin_cos();
+            let depth = index as f64 / count as f64;
+            let _ = write!(
+                positions,
+                "[{},{},{depth}],[{},{},{depth}],[{},{},{}],",
+                -3.0 * cosine,
+                -3.0 * sine,
+                3.0 * cosine,
+                3.0 * sine,
+                3.0 * cosine,
+                3.0 * sine + 1e-3,
+                depth + 1e-3
+            );
+            let _ = write!(faces, "[{},{},{}],", 3 * index, 3 * index + 1, 3 * index + 2);
+        }
+        read(&format!("{HEAD}{LAMP}[[shape]]\ntype = \"mesh\"\nmaterial = \"m\"\npositions = [{positions}]\nfaces = [{faces}]\n"))
+    });
+}
+
+#[test]
+fn pilots_of_instances_in_one_place() {
+    let _turn = take_turn();
+    assert_bounded("instances", 10_000, |count| {
+        let group = "[[group]]\nname = \"g\"\n[[group.shape]]\ntype = \"mesh\"\nmaterial = \"m\"\npositions = [[-2,-2,0],[2,-2,0],[0,2,0]]\nfaces = [[0,1,2]]\n";
+        let places = "[[instance]]\ngroup = \"g\"\n".repeat(count);
+        read(&format!("{HEAD}{LAMP}{group}{places}"))
+    });
+}
+
+#[test]
+fn pilots_of_deep_blends() {
+    let _turn = take_turn();
+    assert_bounded("blends", 2000, |count| {
+        let mut text = format!("{HEAD}{LAMP}[[material]]\nname = \"g\"\ntype = \"glossy\"\nexponent = 20\nreflectance = 0.5\n");
+        let mut inner = "g".to_owned();
+        for index in 0..count {
+            let _ = writeln!(text, "[[material]]\nname = \"b{index}\"\ntype = \"blend\"\nmaterials = [\"{inner}\", \"g\"]");
+            let _ = writeln!(text, "weight = {{ type = \"constant\", value = 0.999 }}");
+            inner = format!("b{index}");
+        }
+        let corners = "positions = [[-2,-2,0],[2,-2,0],[0,2,0]]\nfaces = [[0,1,2]]";
+        read(&format!("{text}[[shape]]\ntype = \"mesh\"\nmaterial = \"{inner}\"\n{corners}\n"))
+    });
 }
 
 /// The control: what is quadratic, in time or in memory, is noticed.

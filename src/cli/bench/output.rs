@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
-use gpt::output::{AtomicFile, OutputError};
+use gpt::output::{AtomicFile, OutputError, check_target};
 use gpt::renderer::Observer;
 use serde::Serialize;
 
@@ -39,6 +39,7 @@ impl Results {
     pub fn prepare(arguments: &OutputArguments, bench: &'static str) -> Result<Self, Failure> {
         let folder = arguments.output.clone().unwrap_or_else(|| Path::new("gpt-bench").join(bench));
         std::fs::create_dir_all(&folder).map_err(|source| OutputError::Write { path: folder.clone(), source })?;
+        files(&folder, bench).iter().try_for_each(|path| check_target(path))?;
         Ok(Self { folder, bench, quiet: arguments.quiet, last: RefCell::default() })
     }
 
@@ -55,13 +56,18 @@ impl Results {
     /// What the file system says.
     pub fn write(&self, results: &impl Serialize, csv: &[u8], page: &str) -> Result<(), Failure> {
         let json = serde_json::to_vec_pretty(results).map_err(|error| Failure::Other(error.to_string()))?;
-        AtomicFile::write(&self.folder.join(format!("{}.json", self.bench)), &json)?;
-        AtomicFile::write(&self.folder.join(format!("{}.csv", self.bench)), csv)?;
-        let report = self.folder.join("report.html");
+        let [json_file, csv_file, report] = files(&self.folder, self.bench);
+        AtomicFile::write(&json_file, &json)?;
+        AtomicFile::write(&csv_file, csv)?;
         AtomicFile::write(&report, page.as_bytes())?;
         self.say(&format!("wrote {} with {}.json and {}.csv beside it", report.display(), self.bench, self.bench));
         Ok(())
     }
+}
+
+/// The numbers, the rows and the page.
+fn files(folder: &Path, bench: &str) -> [PathBuf; 3] {
+    [format!("{bench}.json"), format!("{bench}.csv"), "report.html".to_owned()].map(|name| folder.join(name))
 }
 
 /// What was typed.

@@ -9,7 +9,7 @@ use gpt::denoise::bias::Bias;
 use gpt::denoise::library::{Library, OidnError};
 use gpt::denoise::{Raw, denoise};
 use gpt::film::Band;
-use gpt::output::{Channels, Display, Image, OutputError, PictureFile, PictureFormat, PictureSpec, read_image};
+use gpt::output::{Channels, Display, Image, OutputError, PictureFile, PictureFormat, PictureSpec, as_own, read_image};
 use serde::Serialize;
 
 pub use arguments::DenoiseArguments;
@@ -34,10 +34,7 @@ struct Report<'a> {
 
 /// Denoises a picture.
 pub fn run(arguments: &DenoiseArguments) -> Result<Exit, Failure> {
-    let outputs = output_formats(&arguments.outputs, None)?;
-    if let Some((path, _)) = outputs.iter().find(|(path, _)| is_same(path, &arguments.picture)) {
-        return Err(Failure::usage(format!("{} is the raw picture, and would be overwritten", path.display())));
-    }
+    let outputs = output_formats(&arguments.outputs, None, Some(arguments.picture.as_path()))?;
     let raw = read_raw(&arguments.picture)?;
     let library = Library::open()?;
     let done = denoise_into(&library, &raw, &outputs, arguments.display.display())?;
@@ -130,28 +127,31 @@ pub fn denoise_render(
 ) -> Result<(), Failure> {
     let raw = raw_output(outputs)?;
     let beside = beside(outputs);
-    let done = denoise_into(library, &read_raw(raw)?, &beside, display)?;
+    // The next render of the same scene writes it again.
+    let picture = as_own(raw, || read_raw(raw))?;
+    let done = denoise_into(library, &picture, &beside, display)?;
     if !quiet {
         terminal::note(&done.sentence(&beside));
     }
     Ok(())
 }
 
-/// The names of the denoised pictures beside those of a render: `name.denoised.exr` beside `name.exr`.
-fn beside(outputs: &[(PathBuf, PictureFormat)]) -> Vec<(PathBuf, PictureFormat)> {
-    let named = |path: &Path| {
-        let mut name = path.file_stem().unwrap_or_default().to_os_string();
-        name.push(".denoised.");
-        name.push(path.extension().unwrap_or_default());
-        path.with_file_name(name)
-    };
-    let files = outputs.iter().filter(|(path, _)| !is_stdout(path));
-    files.map(|(path, format)| (named(path), *format)).collect()
+/// The name of the denoised picture beside one of a render: `name.denoised.exr` beside `name.exr`.
+fn denoised_name(path: &Path) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_os_string();
+    name.push(".denoised.");
+    name.push(path.extension().unwrap_or_default());
+    path.with_file_name(name)
 }
 
-/// Whether two paths lead to one file that is there.
-fn is_same(a: &Path, b: &Path) -> bool {
-    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+fn beside(outputs: &[(PathBuf, PictureFormat)]) -> Vec<(PathBuf, PictureFormat)> {
+    let files = outputs.iter().filter(|(path, _)| !is_stdout(path));
+    files.map(|(path, format)| (denoised_name(path), *format)).collect()
+}
+
+/// The files that denoising writes beside pictures; none where nothing is denoised.
+pub fn files_beside(is_asked_for: bool, outputs: &[PathBuf]) -> Vec<PathBuf> {
+    outputs.iter().filter(|path| is_asked_for && !is_stdout(path)).map(|path| denoised_name(path)).collect()
 }
 
 impl From<OidnError> for Failure {

@@ -17,8 +17,17 @@ pub use arguments::TestArguments;
 
 use super::exit::{Exit, Failure};
 use super::typed::Typed;
-use super::{interrupt, terminal};
+use super::{interrupt, outputs, terminal};
 use report::{SceneReport, Verdict};
+
+/// No report replaces another, a scene, or one of the pictures.
+fn check_reports(arguments: &TestArguments, jobs: &[folder::Job]) -> Result<(), Failure> {
+    let reports = [arguments.html.as_deref(), arguments.junit.as_deref()].into_iter().flatten();
+    let candidates = arguments.candidate_dir.iter().flat_map(|folder| std::fs::read_dir(folder).into_iter().flatten().flatten());
+    let candidates: Vec<PathBuf> = candidates.map(|entry| entry.path()).collect();
+    let of_jobs = jobs.iter().flat_map(|job| [job.file.as_path(), job.golden.as_path()]);
+    outputs::check(reports, of_jobs.chain(candidates.iter().map(PathBuf::as_path)))
+}
 
 /// The page that is written where nobody asked for one and something differs.
 const DEFAULT_PAGE: &str = "gpt-test.html";
@@ -42,6 +51,7 @@ struct Report<'a> {
 pub fn run(arguments: &TestArguments, typed: &Typed) -> Result<Exit, Failure> {
     let started = Instant::now();
     let jobs = folder::jobs(arguments, typed)?;
+    check_reports(arguments, &jobs)?;
     interrupt::install()?;
     let settings = arguments.settings(jobs.len());
     let mut reports = Vec::with_capacity(jobs.len());

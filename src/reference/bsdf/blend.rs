@@ -5,6 +5,7 @@
 
 use super::blend_weight;
 use super::lookup::Lookup;
+use crate::reference::work;
 use crate::scene::{BlendWeight, Material, MaterialId, MaterialKind, Scene};
 
 /// Calls `visit` with the material itself, the blends in it and the plain materials at their ends, each before its own parts, the first of two before the
@@ -32,7 +33,9 @@ fn walk<'a>(
     let mut next = Some((material, 1.0, true));
     // Second parts that wait for the first to be walked through. Plain materials never touch it.
     let mut waiting = Vec::new();
+    let mut parts_walked = 0;
     while let Some((id, weight, two_sided)) = next.take().or_else(|| waiting.pop()) {
+        parts_walked += 1;
         let part = &scene.materials[id];
         let two_sided = two_sided && part.two_sided;
         visit(part, weight, two_sided);
@@ -42,4 +45,5 @@ fn walk<'a>(
             waiting.extend(parts.into_iter().filter(|&(_, weight, _)| weight > 0.0));
         }
     }
+    work::add(work::PART * parts_walked);
 }

@@ -9,6 +9,7 @@ use super::lookup::Lookup;
 use super::scatter::{BsdfSample, Density, Evaluation, Scatter};
 use super::view::View;
 use crate::reference::intersect::{Surface, UvSet};
+use crate::reference::work;
 use crate::scene::{BlendMode, Material, MaterialId, Scene};
 
 /// The largest lobe number: random numbers are multiples of 2⁻²⁴ below 1.
@@ -111,6 +112,9 @@ impl Bsdf {
 
     /// The non-delta lobes' f·|cosθi| and density.
     pub fn evaluate(&self, wi: DVec3) -> Evaluation {
+        if !self.lobes.others.is_empty() {
+            work::add(work::PART * self.lobes.others.len() as u64);
+        }
         let mut sum = Evaluation::default();
         for weighted in self.lobes.iter() {
             let Evaluation { value, pdf } = weighted.lobe.evaluate(&self.view, wi);

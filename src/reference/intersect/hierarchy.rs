@@ -6,6 +6,7 @@ use obvhs::aabb::Aabb;
 
 use super::ray::Ray;
 use crate::binary_tree;
+use crate::reference::work;
 
 /// A ray with what intersection tests need of it over and over.
 #[derive(Debug, Clone, Copy)]
@@ -99,22 +100,31 @@ impl Hierarchy {
     /// `visit` gives back the limit from there on; a negative one ends the search.
     pub fn traverse(&self, ray: &PreparedRay, mut limit: f64, mut visit: impl FnMut(usize, f64) -> f64) {
         let Some(root) = self.nodes.first().filter(|root| ray.enter(root, limit).is_some()) else {
+            work::add(1);
             return;
         };
+        let mut tests = 1;
         let mut waiting = Stack::default();
         let mut node = root;
         loop {
             if node.count > 0 {
+                tests += u64::from(node.count);
                 for place in node.first..node.first + node.count {
                     limit = visit(place as usize, limit);
                 }
-            } else if let Some(near) = self.descend(node, ray, limit, &mut waiting) {
-                node = near;
-                continue;
+            } else {
+                tests += 2;
+                if let Some(near) = self.descend(node, ray, limit, &mut waiting) {
+                    node = near;
+                    continue;
+                }
             }
             node = loop {
                 match waiting.pop() {
-                    None => return,
+                    None => {
+                        work::add(tests);
+                        return;
+                    }
                     Some((next, entry)) if f64::from(entry) <= limit => break &self.nodes[next as usize],
                     Some(_) => {}
                 }

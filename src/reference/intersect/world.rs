@@ -12,6 +12,7 @@ use super::pose::{self, PathTime, Pose};
 use super::ray::{Local, Ray, SurfacePoint};
 use super::shape::{self, Placement, Primitive};
 use crate::emission_map::LampPart;
+use crate::reference::work;
 use crate::renderer::RenderError;
 use crate::scene::{MaterialId, MaterialKind, Scene, Shape};
 use crate::texture::Coordinates;
@@ -182,6 +183,7 @@ impl World {
 
     /// The first surface the ray meets.
     pub fn closest(&self, ray: Ray, time: &PathTime) -> Option<Hit> {
+        work::add(self.infinite.len() as u64);
         let prepared = PreparedRay::new(ray);
         let mut closest = None;
         let mut limit = f64::INFINITY;
@@ -239,6 +241,7 @@ impl World {
         lets_through: impl Fn(MaterialId) -> bool,
         share: impl Fn(&Surface) -> f64,
     ) -> f64 {
+        work::add(self.infinite.len() as u64);
         let prepared = PreparedRay::new(ray);
         let mut product = 1.0;
         let mut meet = |surface: SurfaceId, distance: f64, local: Local| {
@@ -246,6 +249,7 @@ impl World {
                 product = 0.0;
                 return false;
             }
+            work::add(work::VEIL);
             let near = self.surface(&ray, &Hit { surface, distance, local }, time);
             product *= share(&near);
             // The far side of what is curved; instances are of triangles.

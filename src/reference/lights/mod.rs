@@ -16,6 +16,7 @@ use glam::{DVec2, DVec3};
 
 use super::emission::{emitted, mean_exitance};
 use super::intersect::{Outline, Owner, PathTime, PreparedRay, Primitive, Ray, Surface, SurfaceId, World};
+use super::work;
 use crate::emission_map::{EmissionMaps, LampPart, Unrolled};
 use crate::sampling::light_cells::{LightCellChoice, LightCells, LitPoint};
 use crate::sampling::light_tree::Emitter;
@@ -385,6 +386,7 @@ impl Lights {
         if portals.is_empty() {
             return 0.0;
         }
+        work::add(work::PART * portals.len() as u64);
         let ray = PreparedRay::new(Ray { origin: from.point, direction: wi });
         let through = |portal: &Primitive| portal.element().pdf_through(LightSampling::Cone, &ray);
         world.portals().iter().zip(portals).map(|(portal, light)| self.probability(from, light) * through(portal)).sum()

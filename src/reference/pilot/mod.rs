@@ -20,6 +20,7 @@ use std::borrow::Cow;
 use super::integrator::Integrator;
 use super::intersect::Outline;
 use super::light_cells::{self, LightsSettled};
+use super::work;
 use crate::plan::UNROLL_LIMIT;
 use crate::renderer::RenderError;
 use crate::sampling::light_way::LightWay;
@@ -41,6 +42,10 @@ const MOST_IN_VAIN: u32 = 2;
 /// Edges of a path at most where one that no roulette ends is considered.
 const MOST_EDGES_WITHOUT_ROULETTE: u32 = 16;
 
+/// Work of the first way that is tried, at most, and work after which no further way is: so that a pilot takes seconds, whatever the scene.
+const MOST_WORK_OF_WAY: f64 = 8.0 * work::SECOND as f64;
+const MOST_WORK: u64 = 32 * work::SECOND;
+
 /// A scene whose settings say how lights are drawn from and where roulette begins.
 pub struct Settled<'a> {
     pub scene: Cow<'a, Scene>,
@@ -60,6 +65,8 @@ pub struct Reasons {
     pub light_samples: Option<String>,
     /// Where roulette begins.
     pub roulette: Option<String>,
+    /// Why nothing was tried, where paths take too much work.
+    pub left_out: Option<String>,
 }
 
 /// What settings leave open.
@@ -94,6 +101,7 @@ impl Open {
             light_choice: because(self.light_choice),
             light_samples: because(self.light_samples),
             roulette: because(self.roulette),
+            left_out: None,
         }
     }
 }
@@ -128,6 +136,12 @@ fn settle_the_rest(scene: &Scene, integrator: Option<Integrator>, has_cells: boo
         return Ok(as_it_is(integrator, open.reasons(because)));
     }
     let mut pilot = Pilot::new(scene, integrator)?;
+    let of_path = work::of_path(&pilot.integrator);
+    if of_path * Found::paths(pilot.pixels) > MOST_WORK_OF_WAY {
+        let because = too_much_work(of_path);
+        let reasons = Reasons { left_out: Some(because.clone()), ..open.reasons(&because) };
+        return Ok(as_it_is(Some(pilot.integrator), reasons));
+    }
     open.light_sampling &= pilot.costliest_outline.is_some();
     if !open.draws_from_lights() && !open.roulette {
         return Ok(as_it_is(Some(pilot.integrator), Reasons::default()));
@@ -142,6 +156,11 @@ fn settle_the_rest(scene: &Scene, integrator: Option<Integrator>, has_cells: boo
         is_piloted: true,
         integrator: Some(pilot.integrator),
     })
+}
+
+/// Why nothing is tried where paths take so much.
+pub fn too_much_work(of_path: f64) -> String {
+    format!("a pilot takes too long where a path takes {of_path:.1e} tests of what it may meet")
 }
 
 /// Why nothing is tried, if so.
@@ -178,7 +197,7 @@ fn choose(pilot: &mut Pilot<'_>, open: Open) -> Reasons {
     // An environment of one colour is no light that is sampled.
     let samples_lights = simplest.rays().shadow > 0.0;
     if open.draws_from_lights() && samples_lights {
-        if open.light_choice {
+        if open.light_choice && pilot.spent <= MOST_WORK {
             let by_cells = Tried { light_choice: LightChoice::Cells, ..first };
             loss_by_cells = pilot.try_way(by_cells).loss_of_outliers_over(&simplest, &in_view);
             if loss_by_cells * LEAST_GAIN < first.loss {
@@ -194,9 +213,12 @@ fn choose(pilot: &mut Pilot<'_>, open: Open) -> Reasons {
         light_choice: open.light_choice.then(of_choice),
         light_samples: open.light_samples.then(of_samples),
         roulette: None,
+        left_out: None,
     };
     pilot.settings = pilot.way(best);
-    if open.roulette {
+    if open.roulette && best != first && pilot.spent > MOST_WORK {
+        reasons.roulette = Some("a pilot had no time left to try it".to_owned());
+    } else if open.roulette {
         let (found, effects) = if best == first { (simplest, effects) } else { pilot.try_with_roulette(best) };
         let losses = losses_of_roulette(&found, &effects, &in_view, |rays| pilot.cost_of_roulette(rays));
         let (depth, because) = best_roulette(losses, pilot.settings.max_depth);
@@ -265,6 +287,8 @@ struct Pilot<'a> {
     pixels: u32,
     /// Of the first way that was tried.
     shadow_rays: f64,
+    /// Work of all ways that were tried.
+    spent: u64,
 }
 
 impl<'a> Pilot<'a> {
@@ -274,11 +298,14 @@ impl<'a> Pilot<'a> {
         let costliest_outline = integrator.costliest_outline();
         let pixels = tried_pixels(scene);
         let settings = scene.render.clone();
-        Ok(Self { integrator, scene, settings, is_simple, costliest_outline, pixels, shadow_rays: 0.0 })
+        Ok(Self { integrator, scene, settings, is_simple, costliest_outline, pixels, shadow_rays: 0.0, spent: 0 })
     }
 
     /// The better of two ways, both beside the simplest.
     fn better(&mut self, best: Tried, other: Tried, (simplest, in_view): (&Found, &InView)) -> Tried {
+        if self.spent > MOST_WORK {
+            return best;
+        }
         let loss = self.try_way(other).loss_over(simplest, in_view);
         if loss * LEAST_GAIN < best.loss { Tried { loss, ..other } } else { best }
     }
@@ -302,6 +329,7 @@ impl<'a> Pilot<'a> {
     fn try_way(&mut self, tried: Tried) -> Found {
         let settings = self.set_way(tried);
         let mut found = Found::new(&self.integrator, self.pixels);
+        self.spent += found.work;
         found.cost = self.cost(found.rays(), &settings);
         found
     }
@@ -310,6 +338,7 @@ impl<'a> Pilot<'a> {
     fn try_with_roulette(&mut self, tried: Tried) -> (Found, Vec<Effects>) {
         let settings = self.set_way(tried);
         let (mut found, effects) = Found::with_roulette(&self.integrator, self.pixels);
+        self.spent += found.work;
         if self.shadow_rays == 0.0 {
             self.shadow_rays = found.rays().shadow;
         }

@@ -11,6 +11,7 @@ use super::watched::{Record, Watched};
 use crate::compare::metrics::relative_weight;
 use crate::reference::integrator::Integrator;
 use crate::reference::spread::pixel_of;
+use crate::reference::work;
 use crate::sampling::hash::mix;
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
 
@@ -19,6 +20,8 @@ const PICTURES: u32 = 4;
 const SAMPLES: u32 = 16;
 /// Of what is in view, so many times as many pixels are looked at, each by so many pictures.
 const MORE_PIXELS: u32 = 16;
+/// Work after which no more are looked at.
+const MOST_WORK_IN_VIEW: u64 = 8 * work::SECOND;
 const PICTURES_IN_VIEW: u32 = 2;
 /// Pixels that the brightness is averaged over which outliers are relative to.
 const PIXELS_OF_PATCH: usize = 16;
@@ -30,8 +33,10 @@ const SEED: u32 = 0x7069_6c6f;
 /// What came of a way.
 pub struct Found {
     pixels: Vec<TriedPixel>,
-    /// What its paths take.
+    /// What its paths take, in rays of paths.
     pub cost: f64,
+    /// What it took to find out ([`work`]).
+    pub work: u64,
 }
 
 impl Found {
@@ -52,9 +57,15 @@ impl Found {
 
     fn recorded<R: Record>(integrator: &Integrator, pixels: u32) -> (Self, Vec<R::Told>) {
         let pictures = pictures(integrator, PICTURES);
-        let of_pixel = |number| TriedPixel::of::<R>(integrator, &pictures, number);
-        let (pixels, told) = (0..pixels).into_par_iter().map(of_pixel).unzip();
-        (Self { pixels, cost: 0.0 }, told)
+        let of_pixel = |number| work::of(|| TriedPixel::of::<R>(integrator, &pictures, number));
+        let (tried, works): (Vec<_>, Vec<u64>) = (0..pixels).into_par_iter().map(of_pixel).unzip();
+        let (pixels, told) = tried.into_iter().unzip();
+        (Self { pixels, cost: 0.0, work: works.into_iter().sum() }, told)
+    }
+
+    /// Paths that are traced for so many pixels, of each way.
+    pub fn paths(pixels: u32) -> f64 {
+        f64::from(pixels) * f64::from(PICTURES * SAMPLES)
     }
 
     /// All together.
@@ -195,6 +206,8 @@ fn weight(mean: DVec3) -> DVec3 {
 pub struct InView {
     /// Mean and variance of pixels.
     pixels: Vec<[DVec3; 2]>,
+    /// So many times as many as are tried.
+    times: u32,
 }
 
 impl InView {
@@ -206,15 +219,24 @@ impl InView {
             let found = pictures.iter().map(|picture| picture.show::<()>(integrator, number).in_view);
             mean_and_variance(&found.collect::<Vec<DVec3>>())
         };
-        let pixels = (0..MORE_PIXELS * pixels).into_par_iter().map(look).collect();
+        let (mut found, mut times, mut spent) = (Vec::new(), 0, 0);
+        while times < MORE_PIXELS && spent <= MOST_WORK_IN_VIEW {
+            let numbers = times * pixels..(times + 1) * pixels;
+            let looked: Vec<_> = numbers.into_par_iter().map(|number| work::of(|| look(number))).collect();
+            for (pixel, work) in looked {
+                found.push(pixel);
+                spent += work;
+            }
+            times += 1;
+        }
         integrator.set_max_depth(max_depth);
-        Self { pixels }
+        Self { pixels: found, times }
     }
 
     /// Of as many pixels as are tried, where so much light comes from beyond what is in view.
     fn error(&self, beyond: DVec3) -> f64 {
         let error: f64 = self.pixels.iter().map(|[mean, variance]| variance.dot(weight(*mean + beyond))).sum();
-        error / f64::from(MORE_PIXELS)
+        error / f64::from(self.times)
     }
 }
 

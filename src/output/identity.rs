@@ -1,0 +1,74 @@
+//! Which file a path means, whatever it is called.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::atomic::follow_links;
+use crate::patience;
+
+/// A file, by what it is and not by one of its names: two paths mean one file where these are equal.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum FileIdentity {
+    /// Device and number of a file that is there, so that hard links are one file, and names in other case where the file system knows none.
+    Number(u64, u64),
+    /// Where it would stand, or stands on systems that number no files; links are followed.
+    Place(PathBuf),
+}
+
+impl FileIdentity {
+    /// Of the file to which a path leads, whether it is there or not.
+    pub fn of(path: &Path) -> Self {
+        let asked = path.to_owned();
+        let found = patience::within(move || Ok(Self::now(&asked)));
+        found.unwrap_or_else(|_| Self::Place(path.to_owned()))
+    }
+
+    /// As [`FileIdentity::of`], of a file system that answers.
+    fn now(path: &Path) -> Self {
+        if let Some(number) = fs::metadata(path).ok().and_then(|metadata| Self::number(&metadata)) {
+            return number;
+        }
+        let place = follow_links(path).unwrap_or_else(|_| path.to_owned());
+        // Names there differ by more than their case.
+        let has_no_case = cfg!(any(windows, target_os = "macos"));
+        Self::Place(if has_no_case { PathBuf::from(place.to_string_lossy().to_lowercase()) } else { place })
+    }
+
+    #[cfg(unix)]
+    fn number(metadata: &fs::Metadata) -> Option<Self> {
+        use std::os::unix::fs::MetadataExt as _;
+        Some(Self::Number(metadata.dev(), metadata.ino()))
+    }
+
+    #[cfg(not(unix))]
+    fn number(_metadata: &fs::Metadata) -> Option<Self> {
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_file_is_one_by_all_of_its_names() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        let of = |name: &str| FileIdentity::of(&at(name));
+        fs::create_dir(at("below")).unwrap();
+        fs::write(at("a"), "a").unwrap();
+        fs::write(at("b"), "a").unwrap();
+        assert_eq!(of("a"), of("below/../a"));
+        assert_ne!(of("a"), of("b"));
+        // What is not there yet.
+        assert_eq!(of("new"), of("./below/../new"));
+        assert_ne!(of("new"), of("newer"));
+        #[cfg(unix)]
+        {
+            fs::hard_link(at("a"), at("hard")).unwrap();
+            std::os::unix::fs::symlink("a", at("soft")).unwrap();
+            std::os::unix::fs::symlink("new", at("dangling")).unwrap();
+            assert!(of("hard") == of("a") && of("soft") == of("a") && of("dangling") == of("new"));
+        }
+    }
+}
