@@ -35,8 +35,9 @@ const FEWEST_PATHS: u32 = 1 << 14;
 const MOST_PATHS: u32 = 1 << 19;
 /// Work of all rounds at most: a guide may be asked to learn for minutes, and does where paths take what they usually do.
 const MOST_WORK: f64 = 600.0 * work::SECOND as f64;
-/// Paths of the first round at least.
-const FEWEST_OF_ROUND: u32 = 64;
+/// A path that takes more meets thousands of surfaces in one place; then learning takes no longer than a pilot does.
+const UNUSUAL_WORK: f64 = 16_384.0;
+const MOST_WORK_OF_UNUSUAL: f64 = 8.0 * work::SECOND as f64;
 /// Paths that one task traces.
 const PATHS_AT_ONCE: u32 = 256;
 /// What a surface sends on that can be reckoned with.
@@ -76,7 +77,7 @@ pub fn train(integrator: &mut Integrator) -> Learned {
     }
     let of_path = work::of_path(integrator);
     let Some(rounds) = affordable(rounds(integrator.scene()), of_path, has_to_pay) else {
-        return not_at_all(pilot::too_much_work(of_path));
+        return not_at_all(pilot::too_much_work("learning", of_path));
     };
     let Trained { guide, paths, loss } = trained(integrator, rounds, has_to_pay);
     if let Some(loss) = loss.filter(|loss| *loss > MOST_LOSS) {
@@ -122,9 +123,10 @@ fn rounds(scene: &Scene) -> [u32; ROUNDS] {
 /// The rounds, or smaller ones where paths take so much work that all would take longer than a person waits. None: even those would, or a guide that
 /// has to pay would be learned from fewer paths than it is worth.
 fn affordable(rounds: [u32; ROUNDS], of_path: f64, has_to_pay: bool) -> Option<[u32; ROUNDS]> {
-    let fits = |rounds: &[u32; ROUNDS]| f64::from(rounds.iter().sum::<u32>()) * of_path <= MOST_WORK;
+    let most = if of_path > UNUSUAL_WORK { MOST_WORK_OF_UNUSUAL } else { MOST_WORK };
+    let fits = |rounds: &[u32; ROUNDS]| f64::from(rounds.iter().sum::<u32>()) * of_path <= most;
     let halves = std::iter::successors(Some(rounds), |rounds| Some(rounds.map(|count| count / 2)));
-    let smaller = halves.take_while(|rounds| rounds[0] >= FEWEST_OF_ROUND).find(fits);
+    let smaller = halves.take_while(|rounds| rounds[0] >= PATHS_AT_ONCE).find(fits);
     smaller
         .filter(|smaller| !has_to_pay || *smaller == rounds)
         .map(|rounds| rounds.map(|count| count.next_multiple_of(PATHS_AT_ONCE)))

@@ -3,14 +3,29 @@
 mod control_groups;
 
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
+/// The last answer, and when it was given.
+static KNOWN: Mutex<Option<(Instant, u64)>> = Mutex::new(None);
+/// For so long it is taken for true.
+const VALID: Duration = Duration::from_millis(50);
 /// Where nothing says how much there is.
 const UNKNOWN: u64 = 16 << 30;
 
 /// Bytes that this process may still take, as far as the system says: what is free, within the limits of the process (`ulimit -v`) and of the control
 /// groups that it is in, as containers and batch systems set them.
 pub fn available() -> u64 {
-    available_under(Path::new("/"))
+    // Who reads a scene of thousands of entries asks for each of them, and the system takes its time to answer.
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    match *known {
+        Some((asked, bytes)) if asked.elapsed() < VALID => bytes,
+        _ => {
+            let bytes = available_under(Path::new("/"));
+            *known = Some((Instant::now(), bytes));
+            bytes
+        }
+    }
 }
 
 /// The same by the files of a system that are in this folder.

@@ -138,7 +138,7 @@ fn settle_the_rest(scene: &Scene, integrator: Option<Integrator>, has_cells: boo
     let mut pilot = Pilot::new(scene, integrator)?;
     let of_path = work::of_path(&pilot.integrator);
     if of_path * Found::paths(pilot.pixels) > MOST_WORK_OF_WAY {
-        let because = too_much_work(of_path);
+        let because = too_much_work("a pilot", of_path);
         let reasons = Reasons { left_out: Some(because.clone()), ..open.reasons(&because) };
         return Ok(as_it_is(Some(pilot.integrator), reasons));
     }
@@ -159,8 +159,8 @@ fn settle_the_rest(scene: &Scene, integrator: Option<Integrator>, has_cells: boo
 }
 
 /// Why nothing is tried where paths take so much.
-pub fn too_much_work(of_path: f64) -> String {
-    format!("a pilot takes too long where a path takes {of_path:.1e} tests of what it may meet")
+pub fn too_much_work(what: &str, of_path: f64) -> String {
+    format!("{what} takes too long where a path takes {of_path:.1e} tests of what it may meet")
 }
 
 /// Why nothing is tried, if so.
