@@ -1,0 +1,57 @@
+"""What does not agree with Mitsuba 3.9.1, and why. A row of which every scene agrees fails the comparison, so that this list stays true.
+
+A row is a pattern of names of scenes, the verdict that they have unless they agree, and the reason. Verdicts: `differs`, `refused here`, `refused there`,
+`refused by both`, `blind` (5 % more light would not be noticed) and `tests nothing` (Mitsuba's picture does not depend on the parameter)."""
+
+KNOWN = [
+    # Mitsuba does not read it.
+    (r"rgb in hexadecimal$|rgb: value: hexadecimal in capitals", "refused there", "Mitsuba 3 reads no hexadecimal colours; 0.6 did"),
+    (r"spectrum of three values$", "refused there", "Mitsuba 3 reads no colour in `<spectrum>`; 0.6 did"),
+    (r"rawconstant of three$", "refused there", "it takes a vector, and no `<rgb>`"),
+    (r": (ir)?regular plugin$", "refused there", "written as plugins, these have no colour in Mitsuba's RGB mode"),
+    (r"blackbody plugin", "refused there", "it has no colour in Mitsuba's RGB mode"),
+    (r"^bsdf diffuse: reflectance: above 1$", "refused there", "Mitsuba refuses reflectances above 1; here it is a warning"),
+    (r"^bsdf blendbsdf: weight: not given$", "refused there", "Mitsuba's blend needs its weight"),
+    (r"^bsdf conductor: material: (Ni|Pd|Pt|Ti|Cs)$", "refused there", "the package of PyPI has no file of this metal"),
+    (r"^bsdf roughconductor: alpha_u: not given$", "refused there", "Mitsuba wants `alpha_u` and `alpha_v` together"),
+    (r"^bsdf roughdielectric: int_ior, ext_ior: equal$", "refused there", "Mitsuba refuses equal indices"),
+    (r"^bsdf bumpmap: texture: a checkerboard$", "refused there", "Mitsuba has no slope of a checkerboard"),
+    (r"^document boolean: value: blanks$", "refused there", "Mitsuba wants no blanks"),
+    (r"^document (color|srgb): |^old version scene: spelling: srgb", "refused there", "Mitsuba 3 does not have the element; 0.6 did"),
+    (r"^document float: value: (long|suffix)$", "refused there", "Mitsuba 3 does not read the spelling"),
+    (r"^document point: value: point of x alone$", "refused there", "Mitsuba 3 wants all three"),
+    (r"^emitter spot: texture: rgb$", "refused there", "Mitsuba wants a texture that varies"),
+    (r"^integrator none: ", "refused there", "Mitsuba wants an integrator"),
+    (r"^old version bsdf ", "refused there", "Mitsuba 3 does not have the plugin; 0.6 did"),
+    (r"^old version scene: spelling: uvscale$", "refused there", "Mitsuba 3 brings `uscale` and `vscale` up to date alone"),
+    (r"^sensor (perspective|thinlens): to_world: (uniform|uneven)? ?(scale|shear)", "refused there", "Mitsuba's cameras take no scale"),
+    (r"^texture mesh_attribute: name: one that is not there$", "refused there", "Mitsuba refuses the scene"),
+    (r"^document boolean: value: 1$|^document rgb: value: (four|two|hexadecimal, short)$|^document scene: structure: default (in braces|within a word)$|^sensor thinlens: aperture_radius: not given$", "refused by both", "it is not valid"),
+    # Mitsuba is wrong, or says that it does not mean it.
+    (r"^document transform: steps: rotate about an axis that is not of length 1$", "differs", "Mitsuba 3 makes no rotation of it; 0.6 divided by the length"),
+    (r"^emitter (directional: direction, to_world: to_world with a scale|projector: to_world: scaled|projector: to_world: scaled in the world|envmap: to_world: scaled)$", "differs", "Mitsuba's light takes the scale for brightness or size"),
+    (r"^bsdf (blendbsdf|mask): bsdf: .*(mirror|glass|plastic)", "differs", "Mitsuba's blends count mirrors and glass wrongly, in which one direction alone is possible"),
+    (r"^sampler stratified: jitter: false$", "differs", "Mitsuba's samples lie on a grid, which is not what a pixel's mean is"),
+    (r"^integrator (ptracer: max_depth: 3|direct: bsdf_samples: 0)$", "differs", "what cannot be sampled from a light is missing there"),
+    (r"^bsdf plastic: int_ior, ext_ior: int_ior by name$", "differs", "Mitsuba takes a polynomial for the mean of Fresnel's equations; here it is integrated"),
+    (r"^shape (sphere|cylinder): .*(uneven|shear)", "differs", "Mitsuba warns that it takes no uneven scale, and draws something round"),
+]
+
+_OWN = "a key or a value of gpt's own scene files"
+_OLD = "of version 0.6, and not of Mitsuba 3"
+_LEFT_OUT = "left out here with a warning"
+_NOTHING = "of Mitsuba's own doing, without a bearing on what is compared"
+
+# Words of the importer that no scene here holds, by the reason.
+_WORDS = {
+    _OWN: "rough_glass transmittance normal_map normal_scale bump_map bump_scale normal_shadowing normal_mirroring pass emissive blend coat r black "
+    "mixture linear to_poles coat_normal_map materials separable hidden gold copper silver aluminium aluminum face vertex mesh",
+    _OLD: "ext_eta sample_all use_fast_approx disney bump thickness sigma_a specular_sampling_rate camera luminaire cache max_smooth_angle collapse "
+    "optimize kd_tree load_materials has_vertex_normals silica srgb_d65 animation strict_normals monochrome samples hide_environment sample_center "
+    "bdpt mlt pssmlt erpt volpath_simple photonmapper irrcache sppm mis path_mis multichannel adaptive scramble dimension telecentric "
+    "perspective_rdist thinlens_rdist banner high_quality_edges attach_log exposure key burn tonemap_method file_name channel_names label "
+    "max_anisotropy to_srgb channel int_i_o_r ext_i_o_r diffuse_amount specular_amount gamma sun collimated subsurface",
+    _LEFT_OUT: "medium volume phase hair linecurve bsplinecurve heightfield sdfgrid ellipsoids ellipsoidsmesh deformable",
+    _NOTHING: "silhouette_discontinuity srf stokes prb prb_basic prbvolpath data rgbe",
+}
+NOT_IN_SCENES = {word: reason for reason, words in _WORDS.items() for word in words.split()}

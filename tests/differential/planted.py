@@ -1,0 +1,36 @@
+"""Scenes in which one side is given a value that is off by a little: the comparison has to find each of them.
+
+A row is the name of a scene, what is replaced in its text, and by what. This program renders the changed scene, Mitsuba the scene as it is."""
+
+PLANTED = [
+    ("bsdf diffuse: reflectance: rgb of three", 'value="0.7, 0.3, 0.1"', 'value="0.735, 0.3, 0.1"'),
+    ("bsdf diffuse: reflectance: bitmap", '<texture type="bitmap" name="reflectance">', '<texture type="bitmap" name="reflectance"><transform name="to_uv"><scale x="-1" y="1" z="1"/></transform>'),
+    ("bsdf diffuse: reflectance: bitmap", '<texture type="bitmap" name="reflectance">', '<texture type="bitmap" name="reflectance"><boolean name="raw" value="true"/>'),
+    ("bsdf plastic: int_ior, ext_ior: int_ior of 1.9", 'name="int_ior" value="1.9"', 'name="int_ior" value="1.8"'),
+    ("bsdf roughconductor: alpha: float", 'name="alpha" value="0.15"', 'name="alpha" value="0.16"'),
+    ("bsdf roughconductor: distribution: ggx, alpha 0.3", 'value="ggx"', 'value="beckmann"'),
+    ("bsdf roughdielectric: distribution: ggx, alpha 0.3", 'name="alpha" value="0.3"', 'name="alpha" value="0.33"'),
+    ("bsdf dielectric: int_ior, ext_ior: int_ior of 1.33", 'value="1.33"', 'value="1.37"'),
+    ("bsdf conductor: material: Au", 'value="Au"', 'value="Cu"'),
+    ("bsdf blendbsdf: weight: float", 'name="weight" value="0.15"', 'name="weight" value="0.17"'),
+    ("bsdf mask: opacity: float", 'name="opacity" value="0.15"', 'name="opacity" value="0.17"'),
+    ("texture bitmap: to_uv: translation", 'x="0.2" y="0.35"', 'x="0.22" y="0.35"'),
+    ("texture bitmap: wrap_mode: repeat, nearest", 'value="repeat"', 'value="clamp"'),
+    ("texture bitmap: filter_type: bilinear", 'value="bilinear"', 'value="nearest"'),
+    ("emitter point: intensity: rgb of three", 'value="3, 2, 1"', 'value="3, 2, 1.05"'),
+    ("emitter spot: cutoff_angle: 30", 'value="30"', 'value="31"'),
+    ("emitter envmap: to_world: about y by 40", 'angle="40"', 'angle="43"'),
+    ("emitter envmap: scale: 2", 'name="scale" value="2"', 'name="scale" value="2.08"'),
+    ("emitter directional: direction, to_world: direction", 'x="-0.4" y="-0.6"', 'x="-0.4" y="-0.64"'),
+    ("sensor perspective: fov: 40", 'name="fov" value="40"', 'name="fov" value="40.6"'),
+    ("sensor perspective: principal_point_offset_x: 0.2", 'value="0.2"', 'value="0.19"'),
+    ("sensor thinlens: aperture_radius: 0.5", 'name="aperture_radius" value="0.5"', 'name="aperture_radius" value="0.6"'),
+    ("film hdrfilm: crop: in the middle", 'name="crop_offset_x" value="7"', 'name="crop_offset_x" value="8"'),
+    ("rfilter tent: radius: 2", 'name="radius" value="2"', 'name="radius" value="1.8"'),
+    ("shape sphere: center, radius: radius", 'name="radius" value="0.6"', 'name="radius" value="0.63"'),
+    ("shape obj: to_world: translation", 'x="0.4" y="-0.3"', 'x="0.42" y="-0.3"'),
+    ("shape rectangle: to_world: uneven scale", 'x="1.2" y="0.6"', 'x="1.2" y="0.65"'),
+    ("shape ply: flip_tex_coords: true", 'name="flip_tex_coords" value="true"', 'name="flip_tex_coords" value="false"'),
+    ("shape obj: face_normals: true", 'name="face_normals" value="true"', 'name="face_normals" value="false"'),
+    ("integrator path: max_depth: 3", 'name="max_depth" value="3"', 'name="max_depth" value="4"'),
+]
