@@ -9,7 +9,7 @@
   against_mitsuba.py --quick             few samples, and no controls: what differs by much
 
 Each scene is held against Mitsuba's picture of it by z-tests (judge.py). Three controls belong to that: 5 % more light has to be found in each
-scene that agrees; Mitsuba's own picture has to change with the parameter that the scene is about; and the small changes of planted.py have to be
+scene that agrees; Mitsuba's own picture has to change with the parameter that the scene is about; and the small changes of mitsuba_scenes/planted.py have to be
 found. coverage.py holds the scenes against the words of the importer's source.
 
 Exit status 0 if each scene comes out as known_mitsuba.py says it does and all controls hold, 7 otherwise.
@@ -40,7 +40,7 @@ import judge
 import table
 from known_mitsuba import KNOWN, NOT_IN_SCENES
 from mitsuba_scenes import bsdfs, documents, emitters, files, sensors, shapes, textures
-from planted import PLANTED
+from mitsuba_scenes.planted import PLANTED
 from programs import ROOT, Gpt
 
 MODULES = (bsdfs, textures, emitters, shapes, sensors, documents)
@@ -80,7 +80,7 @@ class Mitsuba:
         folder.mkdir(parents=True, exist_ok=True)
 
     def render(self, scene, text, stage, definitions=()):
-        key = hashlib.sha256(f"{self.mitsuba.__version__} {STAGES[stage]} {files.version()} {definitions} {text}".encode()).hexdigest()[:24]
+        key = hashlib.sha256(f"{self.mitsuba.__version__} {STAGES[stage]} {files.version(scene.parent, text)} {definitions} {text}".encode()).hexdigest()[:24]
         kept = self.folder / f"{key}.npy"
         if kept.exists():
             return judge.of_replications(numpy.load(kept))
@@ -235,7 +235,7 @@ def planted(cases):
     for name, old, new in PLANTED:
         case = by_name[name]
         if old not in case.xml:
-            raise SystemExit(f"planted.py: {name} does not hold {old}")
+            raise SystemExit(f"mitsuba_scenes/planted.py: {name} does not hold {old}")
         made.append(dataclasses.replace(case, form=f"{case.form}, with {new[-60:]}", xml=case.xml.replace(old, new), planted_in=case.xml, other=None))
     return made
 

@@ -1,9 +1,9 @@
 """The files that scenes name: pictures, spectra and meshes, made anew for each run."""
 
 import hashlib
+import re
 import struct
 import zlib
-from pathlib import Path
 
 import numpy
 
@@ -18,9 +18,10 @@ OBJ, OBJ_BARE, OBJ_SMOOTH, PLY, PLY_BINARY, PLY_ATTRIBUTES, SERIALIZED = "block.
 INCLUDED, INCLUDED_BSDF = "included.xml", "included-bsdf.xml"
 
 
-def version():
-    """Of what is written: kept pictures of other files do not count."""
-    return hashlib.sha256(Path(__file__).read_bytes()).hexdigest()
+def version(folder, text):
+    """Of the files that a scene names: kept pictures of other files do not count."""
+    named = sorted({name for name in re.findall(r'"([\w.-]+\.\w+)"', text) if (folder / name).is_file()})
+    return hashlib.sha256(b"".join((folder / name).read_bytes() for name in named)).hexdigest()
 
 
 def write(folder, mitsuba):
@@ -126,7 +127,7 @@ def _flat():
         for corner, uv in zip(corners, _UVS):
             positions.append(corner)
             # Bent a little, so that interpolation shows.
-            bent = normal + 0.7 * corner / numpy.linalg.norm(corner)
+            bent = normal + 0.3 * corner / numpy.linalg.norm(corner)
             normals.append(bent / numpy.linalg.norm(bent))
             uvs.append(uv)
         faces += [(first, first + 1, first + 2), (first, first + 2, first + 3)]

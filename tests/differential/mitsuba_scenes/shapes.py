@@ -104,8 +104,9 @@ def meshes():
     turn = transform(rotate(0.3, 1, 0.2, 35))
     for name, (filename,) in MESHES.items():
         rig = lambda *more, surface=PAINT: shown(shape(name, filename, turn, *more, surface))
-        yield Case("shape", name, "face_normals", "true", rig(flag("face_normals", True)), rig())
-        yield Case("shape", name, "face_normals", "false", rig(flag("face_normals", False)), rig(flag("face_normals", True)))
+        metal = bsdf("roughconductor", string("material", "none"), number("alpha", 0.2))
+        yield Case("shape", name, "face_normals", "true", rig(flag("face_normals", True), surface=metal), rig(surface=metal))
+        yield Case("shape", name, "face_normals", "false", rig(flag("face_normals", False), surface=metal), rig(flag("face_normals", True), surface=metal))
         if name != "serialized":
             for value in (True, False):
                 yield Case("shape", name, "flip_tex_coords", str(value).lower(), rig(flag("flip_tex_coords", value)), rig(flag("flip_tex_coords", not value)))
