@@ -6,6 +6,7 @@
 #import shading/blend_weight.wgsl
 #import shading/coordinates.wgsl
 #import shading/lobe.wgsl
+#import shading/seen.wgsl
 
 struct PartRun {
     // NONE: the material itself is the only part.
@@ -39,7 +40,7 @@ fn part_material(run: PartRun, index: u32) -> u32 {
     return bitcast<u32>(tables[FIRST_PART_WORD + run.first + index].x);
 }
 
-fn weighted_part(run: PartRun, index: u32, cosine: f32, uv: TextureCoordinates) -> WeightedPart {
+fn weighted_part(run: PartRun, index: u32, seen: Seen, uv: TextureCoordinates) -> WeightedPart {
     if run.first == NONE {
 #if ONE_SIDED
         return WeightedPart(run.material, 1.0, is_front_only(run.material));
@@ -56,7 +57,7 @@ fn weighted_part(run: PartRun, index: u32, cosine: f32, uv: TextureCoordinates) 
     let count = part.z;
 #endif
     for (var factor = part.y; factor < part.y + count; factor++) {
-        weight *= blend_weight(factor, cosine, uv);
+        weight *= blend_weight(factor, seen, uv);
     }
 #if ONE_SIDED
     return WeightedPart(part.x, weight, (part.z & PART_FRONT_ONLY) != 0u);
@@ -66,16 +67,16 @@ fn weighted_part(run: PartRun, index: u32, cosine: f32, uv: TextureCoordinates) 
 }
 
 // Σ wᵢ Leᵢ, and what the blend emits by itself.
-fn material_emission(material: u32, cosine: f32, front: bool, uv: TextureCoordinates) -> vec3<f32> {
-    var radiance = own_emission(material, front, uv);
+fn material_emission(material: u32, seen: Seen, uv: TextureCoordinates) -> vec3<f32> {
+    var radiance = own_emission(material, seen.front, uv);
     if (bitcast<u32>(tables[material * MATERIAL_WORDS + 2u].w) & PARTS_EMIT) != 0u {
         let run = part_run(material);
         // Behind the parts stand the inner blends that emit by themselves.
         let count = run.count + bitcast<u32>(tables[material * MATERIAL_WORDS + 1u].z);
         for (var index = 0u; index < count; index++) {
-            let part = weighted_part(run, index, cosine, uv);
+            let part = weighted_part(run, index, seen, uv);
             if part.weight > 0.0 {
-                radiance += part.weight * own_emission(part.material, front, uv);
+                radiance += part.weight * own_emission(part.material, seen.front, uv);
             }
         }
     }

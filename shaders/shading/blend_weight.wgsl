@@ -4,6 +4,7 @@
 #import core/math.wgsl
 #import geometry/scene.wgsl
 #import shading/coordinates.wgsl
+#import shading/seen.wgsl
 #if WEIGHTS_BY_ANGLE
 #import shading/fresnel.wgsl
 #endif
@@ -11,9 +12,10 @@
 #import shading/texture.wgsl
 #endif
 
-fn blend_weight(index: u32, cosine: f32, uv: TextureCoordinates) -> f32 {
+fn blend_weight(index: u32, seen: Seen, uv: TextureCoordinates) -> f32 {
     let h = tables[FIRST_BLEND_WEIGHT_WORD + index];
     let flags = bitcast<u32>(h.x);
+    let cosine = seen.cosine;
     var w = h.y;
     switch flags & 255u {
 #if WEIGHTS_BY_ANGLE
@@ -28,6 +30,16 @@ fn blend_weight(index: u32, cosine: f32, uv: TextureCoordinates) -> f32 {
         }
         case WEIGHT_FRESNEL_EXACT: {
             w = fresnel_dielectric(cosine, h.y).transmitted;
+        }
+#endif
+#if WEIGHTS_BY_SIDE
+        case WEIGHT_FRONT: {
+            w = select(0.0, 1.0, seen.front);
+        }
+#endif
+#if WEIGHTS_BY_VIEWER
+        case WEIGHT_CAMERA: {
+            w = select(0.0, 1.0, seen.by_camera);
         }
 #endif
 #if TEXTURES

@@ -4,6 +4,7 @@
 #endif
 #import shading/coordinates.wgsl
 #import shading/scattering.wgsl
+#import shading/seen.wgsl
 #import shading/surface.wgsl
 #if BLENDS
 #export shading/blend.wgsl
@@ -22,13 +23,13 @@ struct Bsdf {
 #if PICK
 // One part of the blend per hit, chosen with its weight as probability; from then on it is the whole material.
 fn pick_part(surface: Surface, wo: vec3<f32>, choice: f32) -> WeightedPart {
-    let cosine = clamp(dot(wo, surface.shading_normal), 0.0, 1.0);
+    let seen = seen_along(surface, wo);
     let run = part_run(surface.material);
     var below = 0.0;
     var chosen: WeightedPart;
     chosen.material = run.material;
     for (var index = 0u; index < run.count; index++) {
-        let part = weighted_part(run, index, cosine, surface.uv);
+        let part = weighted_part(run, index, seen, surface.uv);
         if part.weight > 0.0 {
             // The last part of any weight takes what rounding leaves over.
             chosen = part;
@@ -62,9 +63,9 @@ fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
 #endif
 
 #if !BLENDS
-// Radiance that a material sends out at an angle of the given cosine with its normal.
-fn material_emission(material: u32, cosine: f32, front: bool, uv: TextureCoordinates) -> vec3<f32> {
-    return own_emission(material, front, uv);
+// Radiance that a material sends out towards where it is seen from.
+fn material_emission(material: u32, seen: Seen, uv: TextureCoordinates) -> vec3<f32> {
+    return own_emission(material, seen.front, uv);
 }
 #endif
 

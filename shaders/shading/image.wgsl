@@ -103,7 +103,7 @@ fn texel_halves(image: Image, index: u32, numbers: vec3<u32>) -> vec3<u32> {
 // v = 0 is the bottom row.
 fn image_color(image: Image, st: vec2<f32>) -> vec3<f32> {
     let size = image.size;
-    let wrap = (image.flags >> WRAP_SHIFT) & 3u;
+    let wrap = (vec2<u32>(image.flags) >> vec2<u32>(WRAP_SHIFT, WRAP_V_SHIFT)) & vec2<u32>(3u);
     let position = vec2<f32>(st.x, 1.0 - st.y) * vec2<f32>(size);
     let is_nearest = (image.flags & TEXTURE_NEAREST) != 0u;
     let corner = floor(position - select(0.5, 0.0, is_nearest));
@@ -122,8 +122,8 @@ fn image_color(image: Image, st: vec2<f32>) -> vec3<f32> {
     var high = vec3<f32>(-INFINITY_DISTANCE);
 #endif
     for (var number = 0; number < count; number++) {
-        let x = wrapped_texel(i32(corner.x) + (number & 1), size.x, wrap);
-        let y = wrapped_texel(i32(corner.y) + (number >> 1u), size.y, wrap);
+        let x = wrapped_texel(i32(corner.x) + (number & 1), size.x, wrap.x);
+        let y = wrapped_texel(i32(corner.y) + (number >> 1u), size.y, wrap.y);
         let color = texel(image, x, y);
         row = mix(left, color, blend.x);
 #if TEXTURES_OF_TRIANGLES
@@ -154,12 +154,12 @@ fn image_gradient(image: Image, st: vec2<f32>) -> vec2<f32> {
 #if TEXTURES_OF_TRIANGLES
     blend = select(blend, vec2<f32>(0.0), (image.flags & TEXTURE_TRIANGLES) != 0u);
 #endif
-    let wrap = (image.flags >> WRAP_SHIFT) & 3u;
+    let wrap = (vec2<u32>(image.flags) >> vec2<u32>(WRAP_SHIFT, WRAP_V_SHIFT)) & vec2<u32>(3u);
     // Upper left, upper right, lower left and lower right.
     var heights = vec4<f32>(0.0);
     for (var number = 0; number < 4; number++) {
-        let x = wrapped_texel(i32(corner.x) + (number & 1), image.size.x, wrap);
-        let y = wrapped_texel(i32(corner.y) + (number >> 1u), image.size.y, wrap);
+        let x = wrapped_texel(i32(corner.x) + (number & 1), image.size.x, wrap.x);
+        let y = wrapped_texel(i32(corner.y) + (number >> 1u), image.size.y, wrap.y);
         heights[number] = luminance(texel(image, x, y));
     }
     let across = heights.yw - heights.xz;

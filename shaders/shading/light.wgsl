@@ -33,6 +33,7 @@
 #if VARYING_LIGHTS
 #import shading/bsdf.wgsl
 #import shading/coordinates.wgsl
+#import shading/seen.wgsl
 #if ATTRIBUTES
 #import shading/attributes.wgsl
 #endif
@@ -69,7 +70,7 @@ fn varying_radiance(light: u32, point: ShapePoint, wo: vec3<f32>) -> vec3<f32> {
     own_normal = mapped_normal(material, kind, first, own_normal, point, coordinates);
 #endif
     let shading_normal = shading_normal_towards(own_normal, select(-point.normal, point.normal, front), wo);
-    return material_emission(material, clamp(dot(wo, shading_normal), 0.0, 1.0), front, coordinates);
+    return material_emission(material, seen_by_light(clamp(dot(wo, shading_normal), 0.0, 1.0), front), coordinates);
 }
 
 #if SPHERE_LIGHTS_BY_PICTURE
@@ -115,7 +116,7 @@ fn varying_sphere_sample(light: u32, reference: vec3<f32>, two_sided: bool, pmf:
     let wo = -light_sample.wi;
     cosine = clamp(dot(shading_normal_towards(mapped, select(normal, -normal, inside), wo), wo), 0.0, 1.0);
 #endif
-    light_sample.radiance *= material_emission(material, cosine, !inside, only_coordinates(uv));
+    light_sample.radiance *= material_emission(material, seen_by_light(cosine, !inside), only_coordinates(uv));
     return light_sample;
 }
 #endif

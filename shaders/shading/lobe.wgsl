@@ -56,7 +56,7 @@ fn load_further(lobe: ptr<function, Lobe>, material: u32, uv: TextureCoordinates
 #if COAT_NORMALS
 #if SECOND_UVS
     if ((*lobe).kind & COAT_NORMAL_MAP) != 0u {
-        (*lobe).coat_by_second = lies_by_second_uvs(bitcast<u32>(tables[first + COAT_NORMAL_PARAMETER].w));
+        (*lobe).coat_by_second = bends_by_second_uvs(bitcast<u32>(tables[first + COAT_NORMAL_PARAMETER].w));
     }
 #endif
 #endif

@@ -6,12 +6,13 @@
 #import shading/lobe.wgsl
 #import shading/lobes.wgsl
 #import shading/scattering.wgsl
+#import shading/seen.wgsl
 #import shading/surface.wgsl
 
 // Every lobe is evaluated, one is sampled. All diffuse ones together are one, the first: a blend of Lamberts is a Lambert.
 struct Bsdf {
     run: PartRun,
-    cosine: f32,
+    seen: Seen,
     // Σ wᵢ ρᵢ over the diffuse lobes.
     diffuse: vec3<f32>,
     // The sum of all lobes' sampling weights: the denominator of their probabilities.
@@ -35,7 +36,7 @@ struct WeightedLobe {
 }
 
 fn load_weighted_lobe(bsdf: Bsdf, index: u32, surface: Surface) -> WeightedLobe {
-    let part = weighted_part(bsdf.run, index, bsdf.cosine, surface.uv);
+    let part = weighted_part(bsdf.run, index, bsdf.seen, surface.uv);
     var weighted: WeightedLobe;
 #if ONE_SIDED
     if part.front_only && !surface.front {
@@ -53,10 +54,9 @@ fn load_weighted_lobe(bsdf: Bsdf, index: u32, surface: Surface) -> WeightedLobe 
 }
 
 fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
-    let cosine = clamp(dot(wo, surface.shading_normal), 0.0, 1.0);
     var bsdf: Bsdf;
     bsdf.run = part_run(surface.material);
-    bsdf.cosine = cosine;
+    bsdf.seen = seen_along(surface, wo);
     for (var index = 0u; index < bsdf.run.count; index++) {
         let weighted = load_weighted_lobe(bsdf, index, surface);
         if weighted.weight > 0.0 && lobe_kind(weighted.lobe) == DIFFUSE {

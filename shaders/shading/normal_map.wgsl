@@ -51,7 +51,7 @@ fn mapped_normal(material: u32, kind: u32, first: u32, shading: vec3<f32>, point
         normal = normalize(shading);
     }
     let by_second = lies_by_second_uvs(texture);
-    let tangents = tangents_of_set(kind, first, point, by_second);
+    let tangents = tangents_of_set(kind, first, point, bends_by_second_uvs(texture));
 #if BUMP_MAPS
     if (bitcast<u32>(texture_word(texture, 0u).x) & TEXTURE_HEIGHTS) != 0u {
         let per_uv = 1.0 / edge_area(kind, first, by_second);

@@ -57,8 +57,7 @@ fn escaped_radiance(path: Path, depth: u32) -> vec3<f32> {
 fn emitted_radiance(path: Path, surface: Surface, depth: u32) -> vec3<f32> {
     var radiance = vec3<f32>(0.0);
     if HAS_EMISSION {
-        let cosine = clamp(dot(-path.ray.direction, surface.shading_normal), 0.0, 1.0);
-        let emitted = material_emission(surface.material, cosine, surface.front, surface.uv);
+        let emitted = material_emission(surface.material, seen_along(surface, -path.ray.direction), surface.uv);
         if max_component(emitted) > 0.0 {
             var weight = 1.0;
             if HAS_LIGHTS {
@@ -135,7 +134,10 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
         shading.radiance = escaped_radiance(incoming, depth);
         return shading;
     }
-    let surface = hit_surface(incoming.ray, hit);
+    var surface = hit_surface(incoming.ray, hit);
+#if WEIGHTS_BY_VIEWER
+    surface.by_camera = depth == 1u;
+#endif
     // A hit in an instance may come without its distance.
     incoming.throughput = arriving_throughput(incoming, distance(surface.position, incoming.ray.origin));
     trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);

@@ -14,6 +14,7 @@
 #import shading/attributes.wgsl
 #endif
 #if COAT_NORMALS
+#import shading/seen.wgsl
 #import shading/tangents.wgsl
 #endif
 #if MOTION
@@ -35,6 +36,10 @@ struct Surface {
     uv: TextureCoordinates,
     // wo is on the side where the normal points.
     front: bool,
+#if WEIGHTS_BY_VIEWER
+    // A ray of the camera met it that nothing has scattered.
+    by_camera: bool,
+#endif
     // How far along its normal the true surface can lie from `position`.
     error: f32,
     material: u32,
@@ -61,6 +66,15 @@ struct Surface {
     second_along_v: vec3<f32>,
 #endif
 #endif
+}
+
+// How it is seen along `wo`.
+fn seen_along(surface: Surface, wo: vec3<f32>) -> Seen {
+    var seen = seen_by_light(clamp(dot(wo, surface.shading_normal), 0.0, 1.0), surface.front);
+#if WEIGHTS_BY_VIEWER
+    seen.by_camera = surface.by_camera;
+#endif
+    return seen;
 }
 
 // An interpolated or mapped normal on wo's side; the facing normal where there is none or wo is below its horizon.
@@ -196,7 +210,11 @@ fn hit_surface(ray: Ray, hit: Hit) -> Surface {
 #endif
 #endif
     return Surface(
-        point.position, facing_normal, shading_normal, coordinates, front, POINT_ERROR * dot(abs(facing_normal), size) + point.error,
+        point.position, facing_normal, shading_normal, coordinates, front,
+#if WEIGHTS_BY_VIEWER
+        false,
+#endif
+        POINT_ERROR * dot(abs(facing_normal), size) + point.error,
         material, bitcast<u32>(p1.w), point.area, sphere
 #if TANGENTS
         , tangents.along_u, tangents.along_v

@@ -50,7 +50,10 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
         shading.radiance = vec3<f32>(NOTHING_MET);
         return shading;
     }
-    let surface = hit_surface(incoming.ray, hit);
+    var surface = hit_surface(incoming.ray, hit);
+#if WEIGHTS_BY_VIEWER
+    surface.by_camera = depth_at(incoming, vertex) == 1u;
+#endif
     incoming.throughput = arriving_throughput(incoming, distance(surface.position, incoming.ray.origin));
     trace_surface(surface.position, surface.shading_normal, surface.material);
     var drawn = no_sample();

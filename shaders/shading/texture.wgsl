@@ -29,6 +29,11 @@ fn lies_by_second_uvs(texture: u32) -> bool {
 #endif
 }
 
+// The directions of a normal map that is this texture follow the second texture coordinates.
+fn bends_by_second_uvs(texture: u32) -> bool {
+    return lies_by_second_uvs(texture) && (bitcast<u32>(texture_word(texture, 0u).x) & TEXTURE_BENDS_BY_FIRST_UVS) == 0u;
+}
+
 // Where in itself a texture is looked up.
 fn texture_place(texture: u32, coordinates: TextureCoordinates) -> vec2<f32> {
     let t1 = texture_word(texture, 1u);

@@ -67,12 +67,12 @@ fn is_null_part(run: PartRun, index: u32) -> bool {
 
 // The weights of all null parts of a surface's material, seen along `wo`.
 fn null_weight(surface: Surface, wo: vec3<f32>) -> f32 {
-    let cosine = clamp(dot(wo, surface.shading_normal), 0.0, 1.0);
+    let seen = seen_along(surface, wo);
     let run = part_run(surface.material);
     var sum = 0.0;
     for (var index = 0u; index < run.count; index++) {
         if is_null_part(run, index) {
-            sum += weighted_part(run, index, cosine, surface.uv).weight;
+            sum += weighted_part(run, index, seen, surface.uv).weight;
         }
     }
     return min(sum, 1.0);

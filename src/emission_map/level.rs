@@ -13,13 +13,13 @@ pub struct Level {
 }
 
 impl Level {
-    fn at(&self, x: i64, y: i64, wrap: TextureWrap) -> f64 {
-        self.values[wrap.index(y, self.height) * self.width + wrap.index(x, self.width)]
+    fn at(&self, x: i64, y: i64, wrap: [TextureWrap; 2]) -> f64 {
+        self.values[wrap[1].index(y, self.height) * self.width + wrap[0].index(x, self.width)]
     }
 
     /// So many times as fine, an even number, with the means of what is interpolated between the middles of cells: in each fine cell it is linear
     /// along either axis, so its mean is the value in the middle.
-    pub fn interpolated(&self, times: usize, wrap: TextureWrap) -> Self {
+    pub fn interpolated(&self, times: usize, wrap: [TextureWrap; 2]) -> Self {
         let (width, height) = (times * self.width, times * self.height);
         // Of a fine cell: the cell before its middle, and how far behind that one's middle it lies.
         let place = |fine: usize| {
@@ -35,7 +35,7 @@ impl Level {
     }
 
     /// With the mean over each cell of what is interpolated between the middles of cells.
-    pub fn spread(&self, wrap: TextureWrap) -> Self {
+    pub fn spread(&self, wrap: [TextureWrap; 2]) -> Self {
         let weighted = |before: f64, here: f64, after: f64| (before + 6.0 * here + after) / 8.0;
         let across = |x: i64, y: i64| weighted(self.at(x - 1, y, wrap), self.at(x, y, wrap), self.at(x + 1, y, wrap));
         let value = |x: i64, y: i64| weighted(across(x, y - 1), across(x, y), across(x, y + 1));
@@ -72,7 +72,7 @@ impl Level {
 
     /// The mean over a convex part of the plane, which the square is repeated over as `wrap` says. Of a part without area, over its box. None where
     /// it lies over more than `most` cells along either axis.
-    pub fn mean_over(&self, corners: &[DVec2], wrap: TextureWrap, most: f64) -> Option<f64> {
+    pub fn mean_over(&self, corners: &[DVec2], wrap: [TextureWrap; 2], most: f64) -> Option<f64> {
         let size = DVec2::new(self.width as f64, self.height as f64);
         let placed: Vec<DVec2> = corners.iter().map(|corner| *corner * size).collect();
         let low = placed.iter().copied().reduce(DVec2::min)?;

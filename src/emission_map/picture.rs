@@ -21,7 +21,7 @@ const FINE_TEXELS: [usize; 2] = [1 << 16, 1 << 20];
 pub struct Picture {
     /// From finest to coarsest.
     levels: Vec<Level>,
-    wrap: TextureWrap,
+    wrap: [TextureWrap; 2],
     /// From texture coordinates to those in which the picture is the unit square, u to the right and v upward.
     scale: DVec2,
     rotation: DMat2,

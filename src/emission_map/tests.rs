@@ -26,7 +26,7 @@ fn lamp(image: ImageTexture, rotation_degrees: f64) -> Scene {
     scene
 }
 
-fn image(size: [u32; 2], filter: TextureFilter, wrap: TextureWrap, texel: impl Fn(u32, u32) -> f32) -> ImageTexture {
+fn image(size: [u32; 2], filter: TextureFilter, wrap: [TextureWrap; 2], texel: impl Fn(u32, u32) -> f32) -> ImageTexture {
     let [width, height] = size;
     let texels: Vec<Vec3> =
         (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| Vec3::splat(texel(x, y))).collect();
@@ -42,11 +42,12 @@ fn part(corners: [DVec2; 3]) -> LampPart {
     LampPart::Triangle(corners.map(Coordinates::from))
 }
 
-const EACH: [(TextureFilter, TextureWrap); 4] = [
-    (TextureFilter::Nearest, TextureWrap::Clamp),
-    (TextureFilter::Bilinear, TextureWrap::Repeat),
-    (TextureFilter::Bilinear, TextureWrap::Clamp),
-    (TextureFilter::Bilinear, TextureWrap::Mirror),
+const EACH: [(TextureFilter, [TextureWrap; 2]); 5] = [
+    (TextureFilter::Nearest, [TextureWrap::Clamp; 2]),
+    (TextureFilter::Bilinear, [TextureWrap::Repeat; 2]),
+    (TextureFilter::Bilinear, [TextureWrap::Clamp; 2]),
+    (TextureFilter::Bilinear, [TextureWrap::Mirror; 2]),
+    (TextureFilter::Bilinear, [TextureWrap::Clamp, TextureWrap::Mirror]),
 ];
 
 /// By the midpoint rule over what the reference looks up.
@@ -66,7 +67,7 @@ fn means_are_those_of_what_is_looked_up() {
 #[test]
 fn no_texel_is_overlooked() {
     let scene = lamp(
-        image([900, 700], TextureFilter::Nearest, TextureWrap::Repeat, |x, y| f32::from(u8::from((x, y) == (431, 77)))),
+        image([900, 700], TextureFilter::Nearest, [TextureWrap::Repeat; 2], |x, y| f32::from(u8::from((x, y) == (431, 77)))),
         0.0,
     );
     let maps = EmissionMaps::new(&scene);
@@ -103,7 +104,7 @@ fn rectangles_are_drawn_by_what_they_show() {
         let even = lamp(image([8, 8], filter, wrap, |x, y| 0.5 + 0.5 * noise(x, y)), 0.0);
         assert!(EmissionMaps::new(&even).warp(0, Unrolled::Evenly).is_none());
     }
-    let black = lamp(image([2, 2], TextureFilter::Nearest, TextureWrap::Clamp, |_, _| 0.0), 0.0);
+    let black = lamp(image([2, 2], TextureFilter::Nearest, [TextureWrap::Clamp; 2], |_, _| 0.0), 0.0);
     assert!(EmissionMaps::new(&black).warp(0, Unrolled::Evenly).is_none());
 }
 
@@ -119,7 +120,7 @@ fn functions_are_looked_at_in_points() {
         TextureKind::Worley { scale: 6.0, a, b, seed: 1 },
     ];
     for (index, is_product) in (0..kinds.len()).flat_map(|index| [(index, false), (index, true)]) {
-        let mut scene = lamp(image([7, 5], TextureFilter::Bilinear, TextureWrap::Repeat, noise), 0.0);
+        let mut scene = lamp(image([7, 5], TextureFilter::Bilinear, [TextureWrap::Repeat; 2], noise), 0.0);
         scene.textures.push(Texture::new("other", scene.textures[0].kind.clone()));
         scene.textures[0].kind = kinds[index].clone();
         scene.textures[0].times = is_product.then_some(1);
@@ -155,7 +156,7 @@ fn no_point_of_a_function_has_density_0() {
     };
     let blend = |size: u32| {
         let mut scene = lamp(
-            image([size, size], TextureFilter::Nearest, TextureWrap::Clamp, |x, y| f32::from(u8::from((x, y) == (2, 1)))),
+            image([size, size], TextureFilter::Nearest, [TextureWrap::Clamp; 2], |x, y| f32::from(u8::from((x, y) == (2, 1)))),
             0.0,
         );
         scene.materials[0].emission = Some(Emission { radiance: ColorInput::grey(7.0), two_sided: false });

@@ -1,5 +1,6 @@
 //! Image files as linear texels.
 
+use std::io::Cursor;
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -49,6 +50,30 @@ pub struct Picture {
 /// floating-point numbers linear. The error says what is wrong with the file, without its name.
 pub fn read_image(path: &Path, color_space: Option<ColorSpace>) -> Result<ImageData, String> {
     Pictures::new(Files::default()).read(path, color_space).map(|picture| picture.image)
+}
+
+/// A picture of one texel with these numbers from 0 to 1, as PNG.
+pub fn one_texel(numbers: [f64; 3]) -> Result<Vec<u8>, String> {
+    let texel = image::Rgb(numbers.map(|number| (65_535.0 * number).round() as u16));
+    let mut encoded = Cursor::new(Vec::new());
+    let picture = image::ImageBuffer::<image::Rgb<u16>, Vec<u16>>::from_pixel(1, 1, texel);
+    DynamicImage::ImageRgb16(picture).write_to(&mut encoded, ImageFormat::Png).map_err(|error| error.to_string())?;
+    Ok(encoded.into_inner())
+}
+
+/// A picture of one channel, as PNG: 1 less the alpha of an encoded picture, times a factor.
+pub fn inverted_alpha(bytes: &[u8], factor: f64) -> Result<Vec<u8>, String> {
+    let invalid = |error: image::ImageError| format!("is not a valid image: {error}");
+    let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|error| error.to_string())?;
+    let mut limits = Limits::default();
+    (limits.max_image_width, limits.max_image_height) = (Some(LARGEST_SIDE), Some(LARGEST_SIDE));
+    reader.limits(limits);
+    let alpha = reader.decode().map_err(invalid)?.into_rgba8();
+    let byte = |alpha: u8| (255.0 * (1.0 - factor * f64::from(alpha) / 255.0)).round().clamp(0.0, 255.0) as u8;
+    let grey = image::GrayImage::from_fn(alpha.width(), alpha.height(), |x, y| image::Luma([byte(alpha.get_pixel(x, y).0[3])]));
+    let mut encoded = Cursor::new(Vec::new());
+    grey.write_to(&mut encoded, ImageFormat::Png).map_err(invalid)?;
+    Ok(encoded.into_inner())
 }
 
 impl Pictures {

@@ -16,6 +16,10 @@ shared_kinds! {
         Texture = 4 as WEIGHT_TEXTURE,
         /// The first channel of a texture times the value.
         Channel = 5 as WEIGHT_CHANNEL,
+        /// 1 from the front, 0 from behind.
+        Front = 6 as WEIGHT_FRONT,
+        /// 1 for rays of the camera that nothing has scattered, else 0.
+        Camera = 7 as WEIGHT_CAMERA,
     }
 }
 
@@ -53,9 +57,12 @@ pub(super) fn constant_weight(weight: &BlendWeight) -> Option<f64> {
         BlendWeight::Threshold { tau, of } => constant_weight(of).map(|value| f64::from(u8::from(value >= *tau))),
         // x⁰
         BlendWeight::Facing { power } if *power == 0.0 => Some(1.0),
-        BlendWeight::Facing { .. } | BlendWeight::Fresnel { .. } | BlendWeight::Texture { .. } | BlendWeight::Channel { .. } => {
-            None
-        }
+        BlendWeight::Facing { .. }
+        | BlendWeight::Fresnel { .. }
+        | BlendWeight::Front
+        | BlendWeight::Camera
+        | BlendWeight::Texture { .. }
+        | BlendWeight::Channel { .. } => None,
     }
 }
 
@@ -73,6 +80,8 @@ impl PackedBlendWeight {
             BlendWeight::Facing { power } => plain(WeightKind::Facing, *power, NONE),
             BlendWeight::Fresnel { ior, exact: false } => plain(WeightKind::FresnelSchlick, *ior, NONE),
             BlendWeight::Fresnel { ior, exact: true } => plain(WeightKind::FresnelExact, *ior, NONE),
+            BlendWeight::Front => plain(WeightKind::Front, 0.0, NONE),
+            BlendWeight::Camera => plain(WeightKind::Camera, 0.0, NONE),
             BlendWeight::Texture { texture } => plain(WeightKind::Texture, 0.0, *texture as u32),
             BlendWeight::Channel { texture, channel, factor } => {
                 // The first one stands there anyway.
@@ -86,7 +95,20 @@ impl PackedBlendWeight {
 
     /// It depends on the angle from which the surface is seen.
     pub(super) fn is_by_angle(&self) -> bool {
-        let kinds = [WeightKind::Facing, WeightKind::FresnelSchlick, WeightKind::FresnelExact];
+        self.is_one_of(&[WeightKind::Facing, WeightKind::FresnelSchlick, WeightKind::FresnelExact])
+    }
+
+    /// It depends on the side from which the surface is seen.
+    pub(super) fn is_by_side(&self) -> bool {
+        self.is_one_of(&[WeightKind::Front])
+    }
+
+    /// It depends on what sees the surface: the camera, or something else.
+    pub(super) fn is_by_viewer(&self) -> bool {
+        self.is_one_of(&[WeightKind::Camera])
+    }
+
+    fn is_one_of(&self, kinds: &[WeightKind]) -> bool {
         kinds.iter().any(|kind| *kind as u32 == self.kind_and_flags & !FLAGS)
     }
 

@@ -342,6 +342,16 @@ impl PackedMaterials {
         self.weights.iter().any(PackedBlendWeight::is_by_angle)
     }
 
+    /// Some weight of a blend depends on the side from which a surface is seen.
+    pub fn has_weights_by_side(&self) -> bool {
+        self.weights.iter().any(PackedBlendWeight::is_by_side)
+    }
+
+    /// Some weight of a blend is another for the camera.
+    pub fn has_weights_by_viewer(&self) -> bool {
+        self.weights.iter().any(PackedBlendWeight::is_by_viewer)
+    }
+
     /// Some part of a blend is black from behind.
     pub fn has_front_only_parts(&self) -> bool {
         self.parts.iter().any(|part| part.factor_count & PART_FRONT_ONLY != 0)

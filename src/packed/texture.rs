@@ -48,8 +48,11 @@ shared_constants!(flags {
     pub(super) const TEXTURE_MIRRORS: u32 = 1 << 20;
     /// Of any kind: it lies by the second texture coordinates.
     pub(super) const TEXTURE_BY_SECOND_UVS: u32 = 1 << 21;
-    /// Where the way of wrapping stands.
+    /// Likewise, beside that: directions of a normal map follow the first ones.
+    pub(super) const TEXTURE_BENDS_BY_FIRST_UVS: u32 = 1 << 24;
+    /// Where the way of wrapping along u stands, and that along v.
     pub(super) const WRAP_SHIFT: u32 = 8;
+    pub(super) const WRAP_V_SHIFT: u32 = 22;
     /// Where an image's format stands, and the flag of floating-point texels that have alpha.
     pub(super) const FORMAT_SHIFT: u32 = 11;
     pub(super) const FLOAT_ALPHA: u32 = 1 << 13;
@@ -58,8 +61,13 @@ shared_constants!(flags {
 });
 
 /// Of an image, beside its kind.
-pub(super) const IMAGE_FLAGS: u32 =
-    TEXTURE_NEAREST | TEXTURE_TRIANGLES | 3 << WRAP_SHIFT | 3 << FORMAT_SHIFT | FLOAT_ALPHA | 7 << CHANNEL_SHIFT;
+pub(super) const IMAGE_FLAGS: u32 = TEXTURE_NEAREST
+    | TEXTURE_TRIANGLES
+    | 3 << WRAP_SHIFT
+    | 3 << WRAP_V_SHIFT
+    | 3 << FORMAT_SHIFT
+    | FLOAT_ALPHA
+    | 7 << CHANNEL_SHIFT;
 
 /// Kinds, flags and sizes, for WGSL.
 pub fn constants() -> Constants {
@@ -70,7 +78,7 @@ pub fn constants() -> Constants {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct PackedTexture {
-    /// Kind in bits 0 to 7; of an image, bits 8 and 9: 0 repeat, 1 clamp, 2 mirror, bit 10: nearest, bits 11 and 12: its [`TexelFormat`],
+    /// Kind in bits 0 to 7; of an image, bits 8 and 9: 0 repeat, 1 clamp, 2 mirror along u, bits 22 and 23 along v, bit 10: nearest, bits 11 and 12: its [`TexelFormat`],
     /// bit 13: floating-point texels have alpha, from bit 14 on the channel, and bit 17: triangles.
     pub kind_and_flags: u32,
     /// Of an image: index of its first word in the texels. Of noise: its seed.
@@ -271,7 +279,8 @@ impl Packing {
                 | if heights { TEXTURE_HEIGHTS } else { 0 }
                 | if texture.shadows_bent_normals { TEXTURE_SHADOWS } else { 0 }
                 | if texture.mirrors_bent_normals { TEXTURE_MIRRORS } else { 0 }
-                | if texture.by_second_uvs { TEXTURE_BY_SECOND_UVS } else { 0 },
+                | if texture.by_second_uvs { TEXTURE_BY_SECOND_UVS } else { 0 }
+                | if texture.bends_by_first_uvs { TEXTURE_BENDS_BY_FIRST_UVS } else { 0 },
             a: [packed.a[0], packed.a[1], packed.a[2], scale as f32],
             offset: texture.transform.offset.map(|x| x as f32),
             cosine_sine: axis.as_vec2().to_array(),
@@ -281,11 +290,11 @@ impl Packing {
     }
 
     fn add_image(&mut self, image: &ImageTexture, channel: Option<Channel>) -> Result<PackedTexture, PackError> {
-        let wrap = match image.wrap {
+        let [wrap_u, wrap_v] = image.wrap.map(|wrap| match wrap {
             TextureWrap::Repeat => 0,
             TextureWrap::Clamp => 1,
             TextureWrap::Mirror => 2,
-        };
+        });
         let filter = match image.filter {
             TextureFilter::Bilinear => 0,
             TextureFilter::Nearest => TEXTURE_NEAREST,
@@ -307,7 +316,8 @@ impl Packing {
         }
         Ok(PackedTexture {
             kind_and_flags: PackedTextureKind::Image as u32
-                | wrap << WRAP_SHIFT
+                | wrap_u << WRAP_SHIFT
+                | wrap_v << WRAP_V_SHIFT
                 | filter
                 | (format as u32) << FORMAT_SHIFT
                 | alpha

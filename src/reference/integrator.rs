@@ -264,6 +264,7 @@ impl Integrator {
             return false;
         };
         let mut surface = self.world.surface(&path.ray, &hit, &path.time);
+        surface.by_camera = path.depth == 1;
         visitor.round_surface(&mut surface);
         let wo = -path.ray.direction;
         path.throughput *= transmittance(path.extinction, surface.point.position.distance(path.ray.origin));

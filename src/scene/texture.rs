@@ -89,6 +89,8 @@ pub struct Texture {
     pub transform: UvTransform,
     /// It lies by the second texture coordinates of meshes that have two.
     pub by_second_uvs: bool,
+    /// Of a normal map that lies by the second ones: its directions are nevertheless those in which the first grow.
+    pub bends_by_first_uvs: bool,
     /// Another texture by which it is multiplied, channel by channel; that one is multiplied by none.
     pub times: Option<TextureId>,
     pub relief: Relief,
@@ -122,6 +124,7 @@ impl Texture {
             kind,
             transform: UvTransform::default(),
             by_second_uvs: false,
+            bends_by_first_uvs: false,
             times: None,
             relief: Relief::default(),
             shadows_bent_normals: false,
@@ -257,7 +260,8 @@ impl TextureKind {
 #[derive(Debug, Clone)]
 pub struct ImageTexture {
     pub image: Arc<ImageData>,
-    pub wrap: TextureWrap,
+    /// Along u and along v.
+    pub wrap: [TextureWrap; 2],
     pub filter: TextureFilter,
     /// Factors of u and v.
     pub scale: [f64; 2],

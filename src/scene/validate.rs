@@ -116,6 +116,7 @@ impl Scene {
                 }
                 BlendWeight::Reverse { of } => of,
                 BlendWeight::Threshold { tau, of } if tau.is_finite() => of,
+                BlendWeight::Front | BlendWeight::Camera => return Ok(()),
                 BlendWeight::Constant { value } if (0.0..=1.0).contains(value) => return Ok(()),
                 BlendWeight::Facing { power } if power.is_finite() && *power >= 0.0 => return Ok(()),
                 BlendWeight::Fresnel { ior, .. } if is_positive(*ior) => return Ok(()),

@@ -30,6 +30,7 @@ pub fn texture(id: TextureId, writer: &mut Writer<'_>) -> String {
     }
     out += &pair("offset", texture.transform.offset, 0.0);
     out += &flag("second_uvs", texture.by_second_uvs);
+    out += &flag("bends_by_first_uvs", texture.bends_by_first_uvs);
     if let Some(other) = texture.times {
         out += &line("times", &writer.textures.quoted(other));
     }
@@ -42,17 +43,20 @@ fn image_texture(texture: &ImageTexture, writer: &mut Writer<'_>) -> String {
         ColorSpace::Srgb => "srgb",
         ColorSpace::Linear => "linear",
     });
-    let wrap = match texture.wrap {
-        TextureWrap::Repeat => None,
-        TextureWrap::Clamp => Some("clamp"),
-        TextureWrap::Mirror => Some("mirror"),
+    let name = |wrap: TextureWrap| match wrap {
+        TextureWrap::Repeat => "repeat",
+        TextureWrap::Clamp => "clamp",
+        TextureWrap::Mirror => "mirror",
     };
+    let [along_u, along_v] = texture.wrap;
+    let wrap = Some(along_u).filter(|wrap| *wrap != TextureWrap::Repeat).map(name);
+    let wrap_v = Some(along_v).filter(|wrap| *wrap != along_u).map(name);
     let filter = match texture.filter {
         TextureFilter::Bilinear => None,
         TextureFilter::Nearest => Some("nearest"),
         TextureFilter::Triangle => Some("triangle"),
     };
-    let names = [("color_space", space), ("wrap", wrap), ("filter", filter)];
+    let names = [("color_space", space), ("wrap", wrap), ("wrap_v", wrap_v), ("filter", filter)];
     let written = names.into_iter().filter_map(|(key, name)| Some(line(key, &text(name?))));
     line("type", &text("image")) + &line("file", &file) + &written.collect::<String>() + &pair("scale", texture.scale, 1.0)
 }

@@ -72,6 +72,7 @@ shader_files![
     "shading/planted.wgsl",
     "shading/plastic.wgsl",
     "shading/portal.wgsl",
+    "shading/seen.wgsl",
     "shading/seen_light.wgsl",
     "shading/seen_rectangle.wgsl",
     "shading/seen_triangle.wgsl",

@@ -38,7 +38,7 @@ mod tests {
     fn slopes_are_those_of_look_ups() {
         let texels: Vec<_> = (0..20).map(|index| Vec3::splat(((index * 7) % 11) as f32)).collect();
         let image = Arc::new(ImageData { width: 5, height: 4, texels: texels.into(), has_alpha: false });
-        let image = |filter| ImageTexture { image: image.clone(), wrap: TextureWrap::Repeat, filter, scale: [2.0, -1.0] };
+        let image = |filter| ImageTexture { image: image.clone(), wrap: [TextureWrap::Repeat; 2], filter, scale: [2.0, -1.0] };
         let (a, b) = (DVec3::new(0.1, 0.2, 0.0), DVec3::new(0.9, 0.4, 3.0));
         let kinds = [
             TextureKind::Image(image(TextureFilter::Bilinear)),

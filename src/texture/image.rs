@@ -47,9 +47,9 @@ pub fn luminance_gradient(texture: &ImageTexture, uv: DVec2) -> DVec2 {
     DVec2::new(right, -down) * size
 }
 
-fn texel(image: &ImageData, wrap: TextureWrap, position: DVec2) -> DVec4 {
-    let x = wrapped(position.x, image.width, wrap);
-    let y = wrapped(position.y, image.height, wrap);
+fn texel(image: &ImageData, wrap: [TextureWrap; 2], position: DVec2) -> DVec4 {
+    let x = wrapped(position.x, image.width, wrap[0]);
+    let y = wrapped(position.y, image.height, wrap[1]);
     DVec4::from(image.texels.get(y * image.width as usize + x).map(f64::from))
 }
 
@@ -73,7 +73,7 @@ mod tests {
     fn ramp(wrap: TextureWrap, filter: TextureFilter) -> ImageTexture {
         let texels: Vec<_> = (0..6).map(|i| Vec3::new((i % 3) as f32, (i / 3 * 10) as f32, 0.0)).collect();
         let image = Arc::new(ImageData { width: 3, height: 2, texels: texels.into(), has_alpha: false });
-        ImageTexture { image, wrap, filter, scale: [1.0, 1.0] }
+        ImageTexture { image, wrap: [wrap; 2], filter, scale: [1.0, 1.0] }
     }
 
     #[test]

@@ -312,7 +312,7 @@ fn mesh_of_screen(side: u32) -> String {
 fn with_picture(mut scene: Scene, filter: TextureFilter, texel: impl Fn(u32, u32) -> f32) -> Scene {
     let texels: Vec<Vec3> = (0..64).map(|index| Vec3::splat(texel(index % 8, index / 8))).collect();
     let image = Arc::new(ImageData { width: 8, height: 8, texels: texels.into(), has_alpha: false });
-    scene.textures[0].kind = TextureKind::Image(ImageTexture { image, wrap: TextureWrap::Clamp, filter, scale: [1.0, 1.0] });
+    scene.textures[0].kind = TextureKind::Image(ImageTexture { image, wrap: [TextureWrap::Clamp; 2], filter, scale: [1.0, 1.0] });
     scene
 }
 

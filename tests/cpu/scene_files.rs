@@ -239,7 +239,7 @@ fn material_libraries_become_materials() {
     };
     assert_eq!(tint, DVec3::splat(0.5));
     let TextureKind::Image(image) = &scene.textures[texture].kind else { panic!("not an image") };
-    assert_eq!((image.scale, image.wrap), ([2.0, 3.0], TextureWrap::Clamp));
+    assert_eq!((image.scale, image.wrap), ([2.0, 3.0], [TextureWrap::Clamp; 2]));
     // 128/255 decoded from sRGB.
     assert!(image.image.texels.color(0).abs_diff_eq(Vec3::new(0.215_860_5, 0.0, 1.0), 1e-6));
     let face_materials: Vec<&str> = mesh(&scene).face_materials.iter().map(|&id| scene.materials[id].name.as_str()).collect();

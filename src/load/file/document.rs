@@ -10,7 +10,7 @@ use toml::de::{DeTable, DeValue};
 use super::reader::{self, Mistake, Node};
 use super::wording;
 use crate::load::error::{MOST_ERRORS, SceneError};
-use crate::load::import::Origin;
+use crate::load::import::{Origin, Text};
 
 /// A scene file's text.
 #[derive(Clone)]
@@ -18,6 +18,8 @@ pub struct Document<'a> {
     /// How errors call the file.
     pub name: &'a str,
     pub text: &'a str,
+    /// What is imported, as text that is parsed by itself: blank as far as `text` goes, so that places in both are told apart.
+    imported: &'a str,
     /// What parts of the text were made from, where no person wrote it.
     pub origins: &'a [Origin],
     /// What the text was parsed into, if it was: large texts take long.
@@ -26,7 +28,21 @@ pub struct Document<'a> {
 
 impl<'a> Document<'a> {
     pub fn new(name: &'a str, text: &'a str, origins: &'a [Origin]) -> Self {
-        Self { name, text, origins, tree: Arc::default() }
+        Self { name, text, imported: "", origins, tree: Arc::default() }
+    }
+
+    /// The same text with what it imports, whose text begins as [`Self::room_for_imports`] does: the lists of both are read as one.
+    pub fn with_imports<'b>(&self, imported: &'b Text) -> Document<'b>
+    where
+        'a: 'b,
+    {
+        let Text { text, origins } = imported;
+        Document { name: self.name, text: self.text, imported: text, origins, tree: Arc::default() }
+    }
+
+    /// Blank text in the place of this one.
+    pub fn room_for_imports(&self) -> String {
+        " ".repeat(self.text.len()) + "\n"
     }
 
     /// Reads the text into the types of what is written.
@@ -96,10 +112,12 @@ impl<'a> Document<'a> {
         if let Some(tree) = self.tree.get() {
             return Ok(tree);
         }
-        match DeTable::parse(self.text) {
-            Ok(root) => Ok(self.tree.get_or_init(|| Spanned::new(root.span(), DeValue::Table(root.into_inner())))),
-            Err(error) => Err(self.syntax_error(&error)),
+        let mut root = DeTable::parse(self.text).map_err(|error| self.syntax_error(&error, self.text))?;
+        if !self.imported.is_empty() {
+            let imported = DeTable::parse(self.imported).map_err(|error| self.syntax_error(&error, self.imported))?;
+            join(root.get_mut(), imported.into_inner());
         }
+        Ok(self.tree.get_or_init(|| Spanned::new(root.span(), DeValue::Table(root.into_inner()))))
     }
 
     /// The table of the whole text.
@@ -108,10 +126,10 @@ impl<'a> Document<'a> {
     }
 
     /// A text that does not parse has no tree, in which the key would be looked up.
-    fn syntax_error(&self, error: &toml::de::Error) -> SceneError {
+    fn syntax_error(&self, error: &toml::de::Error, text: &str) -> SceneError {
         let span = error.span().unwrap_or(0..self.text.len().min(1));
         let message = match error.message() {
-            "duplicate key" => format!("duplicate key `{}`", self.text.get(span.clone()).unwrap_or_default()),
+            "duplicate key" => format!("duplicate key `{}`", text.get(span.clone()).unwrap_or_default()),
             other => wording::in_plain_words(other).0,
         };
         self.error_at(span, String::new(), message)
@@ -140,6 +158,20 @@ impl<'a> Document<'a> {
         let mut innermost = Innermost { wanted: span, path: String::new(), width: usize::MAX };
         innermost.search_table(root, "");
         innermost.path
+    }
+}
+
+/// Appends the lists of another table, and takes over what only that one has. A person's own value of another kind stays, and is told about.
+fn join<'a>(table: &mut DeTable<'a>, other: DeTable<'a>) {
+    for (key, value) in other {
+        let span = value.span();
+        match (table.get_mut(key.get_ref().as_ref()).map(Spanned::get_mut), value.into_inner()) {
+            (Some(DeValue::Array(list)), DeValue::Array(more)) => more.into_iter().for_each(|entry| list.push(entry)),
+            (Some(_), _) => {}
+            (None, value) => {
+                table.insert(key, Spanned::new(span, value));
+            }
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! `[[import]]`: scenes of other programs within one of ours.
 //!
-//! What is imported becomes text of a scene file behind the text that a person wrote, with names of its own: the two are then read as one.
+//! What is imported becomes text of a scene file of its own, with names of its own: the lists of both are then read as one, however a person
+//! wrote theirs.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -48,13 +49,14 @@ struct Imports {
     import: Vec<ImportEntry>,
 }
 
-/// A text with all that it imports.
+/// All that a text imports.
 pub struct Expanded {
     pub text: Text,
     pub report: ImportReport,
+    pub warnings: Vec<String>,
 }
 
-/// Puts what the document imports behind its text, and what that brings along among the files. None where nothing is imported.
+/// Reads what the document imports, and puts what that brings along among the files. None where nothing is imported.
 pub fn expand<'a>(
     document: &Document<'a>,
     access: &mut Access,
@@ -69,12 +71,15 @@ pub fn expand<'a>(
         return Ok(None);
     }
     let has_camera = root.contains_key("camera");
-    let lights = root.get("light").map_or("", |lights| document.text.get(lights.span()).unwrap_or_default());
-    let has_environment = ["\"environment\"", "\"sky\""].iter().any(|kind| lights.contains(kind) || document.text.contains(kind));
+    let lights = root.get("light").and_then(|lights| lights.get_ref().as_array());
+    let is_environment = |kind: &str| ["environment", "sky"].contains(&kind);
+    let has_environment = lights.is_some_and(|lights| {
+        let kinds = lights.iter().filter_map(|light| light.get_ref().get("type")?.get_ref().as_str());
+        kinds.into_iter().any(is_environment)
+    });
     let Imports { import } = document.read_key("import")?;
-    let mut expanded = Expanded { text: Text::default(), report: ImportReport::default() };
-    expanded.text.text.push_str(document.text);
-    expanded.text.text.push('\n');
+    let mut expanded = Expanded { text: Text::default(), report: ImportReport::default(), warnings: Vec::new() };
+    expanded.text.text = document.room_for_imports();
     let mut camera_is_open = !has_camera;
     let mut environment_is_open = !has_environment;
     for (place, entry) in import.iter().enumerate() {
@@ -104,6 +109,7 @@ pub fn expand<'a>(
             held => description.held_path(held).to_string_lossy().into_owned(),
         };
         expanded.text.push(&description, &file_name);
+        expanded.warnings.extend(description.warnings(&entry.file.value, access.strict)?);
         expanded.report.append(description.report);
     }
     Ok(Some(expanded))

@@ -60,8 +60,8 @@ fn load_document<'a>(document: Document<'a>, folder: &'a Path, mut access: Acces
     match import::expand(&document, &mut access, folder)? {
         None => load_whole(document, folder, access),
         Some(expanded) => {
-            let Text { text, origins } = &expanded.text;
-            let mut scene = load_whole(Document::new(document.name, text, origins), folder, access)?;
+            let mut scene = load_whole(document.with_imports(&expanded.text), folder, access)?;
+            scene.warnings.splice(0..0, expanded.warnings);
             scene.import_report = expanded.report;
             Ok(scene)
         }
@@ -73,7 +73,9 @@ pub(super) fn load_description(description: Description, name: &str, mut access:
     let mut text = Text::default();
     text.push(&description, &|file| description.held_path(file).to_string_lossy().into_owned());
     description.hold_in(&mut access.files, Path::new(""));
+    let warnings = description.warnings(name, access.strict)?;
     let mut scene = load_whole(Document::new(name, &text.text, &text.origins), Path::new(""), access)?;
+    scene.warnings.splice(0..0, warnings);
     scene.import_report = description.report;
     Ok(scene)
 }

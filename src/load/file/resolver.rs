@@ -53,7 +53,7 @@ pub struct Resolver<'a> {
     /// What paths in the file are relative to.
     pub(super) folder: &'a Path,
     pub(super) pictures: Pictures,
-    strict: bool,
+    pub(super) strict: bool,
     /// What is wrong so far, where reading goes on to find more.
     pub(super) errors: Vec<SceneError>,
     pub(super) scene: Scene,

@@ -11,6 +11,8 @@ use super::meshopt;
 use crate::load::error::show;
 use crate::load::files::{Files, MOST_MODEL_BYTES};
 
+/// Bytes to which buffers are padded.
+const PADDING: u64 = 4;
 /// Most elements of an accessor without a buffer, whose elements are 0.
 const MOST_ZEROS: u64 = 1 << 24;
 /// Most bytes that packed views take once they are unpacked, for each byte of the files and beside a first amount.
@@ -38,7 +40,8 @@ impl<'r> Buffers<'r> {
                 None if index == 0 && binary.is_some() => binary.take().unwrap_or_default(),
                 None => return Err(of_buffer("it names no file, and the file brings no data for it".to_owned())),
             };
-            if (bytes.len() as u64) < buffer.byte_length && !is_stand_in {
+            // What is missing of a padding is not needed.
+            if bytes.len() as u64 + PADDING <= buffer.byte_length && !is_stand_in {
                 let message = format!("it has {} bytes, and {} are said to be there", bytes.len(), buffer.byte_length);
                 return Err(of_buffer(message));
             }
@@ -73,7 +76,9 @@ impl<'r> Buffers<'r> {
 
     fn range(&self, buffer: usize, offset: u64, length: u64) -> Result<&[u8], String> {
         let bytes = self.buffers.get(buffer).ok_or_else(|| format!("there is no buffers[{buffer}]"))?;
-        let end = offset.checked_add(length).filter(|end| *end <= bytes.len() as u64);
+        let there = bytes.len() as u64;
+        let end = offset.checked_add(length).filter(|end| offset <= there && *end < there + PADDING);
+        let end = end.map(|end| end.min(there));
         let end =
             end.ok_or_else(|| format!("its bytes from {offset} on, {length} of them, lie beyond the end of buffers[{buffer}]"))?;
         Ok(&bytes[offset as usize..end as usize])
@@ -103,6 +108,12 @@ impl<'r> Buffers<'r> {
         let kind = Component::of(accessor.component_type).map_err(of_accessor)?;
         let decode = |bytes: &[u8]| kind.number(bytes, accessor.normalized);
         self.elements(accessor, width, kind, decode).map(|numbers| (numbers, width)).map_err(of_accessor)
+    }
+
+    /// The largest integer that an accessor's elements can be, where they are none that stand for fractions.
+    pub fn largest_of_whole_numbers(&self, index: usize) -> Option<f32> {
+        let accessor = self.root.accessors.get(index).filter(|accessor| !accessor.normalized)?;
+        Component::of(accessor.component_type).ok()?.largest()
     }
 
     /// Elements of an accessor of indices.
@@ -219,15 +230,30 @@ impl Component {
     /// `bytes` are as many as the size says.
     fn number(self, bytes: &[u8], normalized: bool) -> f32 {
         let [a, b, c, d]: [u8; 4] = std::array::from_fn(|at| bytes.get(at).copied().unwrap_or(0));
-        let (value, largest) = match self {
-            Self::I8 => (f32::from(a as i8), 127.0),
-            Self::U8 => (f32::from(a), 255.0),
-            Self::I16 => (f32::from(i16::from_le_bytes([a, b])), 32_767.0),
-            Self::U16 => (f32::from(u16::from_le_bytes([a, b])), 65_535.0),
-            Self::U32 => (u32::from_le_bytes([a, b, c, d]) as f32, u32::MAX as f32),
-            Self::F32 => return f32::from_le_bytes([a, b, c, d]),
+        let value = match self {
+            Self::I8 => f32::from(a as i8),
+            Self::U8 => f32::from(a),
+            Self::I16 => f32::from(i16::from_le_bytes([a, b])),
+            Self::U16 => f32::from(u16::from_le_bytes([a, b])),
+            Self::U32 => u32::from_le_bytes([a, b, c, d]) as f32,
+            Self::F32 => f32::from_le_bytes([a, b, c, d]),
         };
-        if normalized { (value / largest).max(-1.0) } else { value }
+        match self.largest().filter(|_| normalized) {
+            Some(largest) => (value / largest).max(-1.0),
+            None => value,
+        }
+    }
+
+    /// The largest integer; None of other numbers.
+    fn largest(self) -> Option<f32> {
+        Some(match self {
+            Self::I8 => 127.0,
+            Self::U8 => 255.0,
+            Self::I16 => 32_767.0,
+            Self::U16 => 65_535.0,
+            Self::U32 => u32::MAX as f32,
+            Self::F32 => return None,
+        })
     }
 
     fn index(self, bytes: &[u8]) -> u32 {

@@ -3,45 +3,21 @@
 use std::collections::HashMap;
 use std::path::PathBuf;
 
+use glam::DAffine3;
+
 use super::buffers::Buffers;
+use super::clipping::Clipping;
 use super::json::Root;
+use super::known::{EXTENSIONS, Unread, WITH_FALLBACK, find_unread};
 use super::made::{MadeMaterial, MadePrimitive, WeightTrack};
+use super::picture::{TextureRole, UvsOf};
 use crate::load::files::Files;
 use crate::load::import::{Description, FileReference, Place};
 use crate::load::printable::short_list;
 
-/// Extensions that are read; what of them is not exact is in the report.
-pub const KNOWN: [&str; 24] = [
-    "KHR_lights_punctual",
-    "KHR_texture_transform",
-    "KHR_mesh_quantization",
-    "EXT_meshopt_compression",
-    "KHR_meshopt_compression",
-    "EXT_mesh_gpu_instancing",
-    "EXT_texture_webp",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
-    "KHR_materials_volume",
-    "KHR_materials_clearcoat",
-    "KHR_materials_sheen",
-    "KHR_materials_anisotropy",
-    "KHR_materials_iridescence",
-    "KHR_materials_dispersion",
-    "KHR_materials_diffuse_transmission",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_unlit",
-    "KHR_materials_variants",
-    // Metadata.
-    "KHR_xmp",
-    "KHR_xmp_json_ld",
-    "KHR_animation_pointer",
-];
-
-/// What makes textures differ: which it is, whether its texels are numbers, where it lies, whether on the second coordinates, and by which texture
+/// What makes textures differ: which it is, what its texels are, where it lies, whether on the second coordinates, and by which texture
 /// it is multiplied.
-type TextureKey = (usize, bool, Option<[u64; 5]>, bool, Option<String>);
+type TextureKey = (usize, TextureRole, Option<[u64; 5]>, UvsOf, Option<String>);
 
 /// A description in the making. Errors are sentences without the file's name.
 pub struct Importer<'a> {
@@ -52,7 +28,6 @@ pub struct Importer<'a> {
     pub buffers: Buffers<'a>,
     pub scene: Description,
     pub materials: HashMap<Option<usize>, MadeMaterial>,
-    /// By index, whether texels are numbers, and placement.
     pub textures: HashMap<TextureKey, String>,
     pub pictures: HashMap<usize, FileReference>,
     /// Of primitives that nothing of a node bends, by mesh and place in it.
@@ -61,6 +36,10 @@ pub struct Importer<'a> {
     pub weight_tracks: HashMap<usize, WeightTrack>,
     /// Of all shapes, copies counted.
     pub triangles: u64,
+    /// Where meshes stand, by their index.
+    pub places: HashMap<usize, Vec<DAffine3>>,
+    /// What the camera shows, where one was chosen.
+    pub clipping: Option<Clipping>,
     /// The variant of materials that is shown.
     pub variant: Option<usize>,
 }
@@ -75,12 +54,23 @@ impl Importer<'_> {
         self.scene.report.drop(what, place, instead);
     }
 
-    pub fn report_extensions(&mut self) {
+    pub fn approximate(&mut self, what: impl Into<String>, key: &str, instead: &str) {
+        let place = self.place(key).to_string();
+        self.scene.report.approximate(what, place, instead);
+    }
+
+    /// Names what the file says and nothing here reads.
+    pub fn report_unread(&mut self, json: &[u8]) {
+        let unread = find_unread(json);
         for extension in &self.root.extensions_used {
-            let is_draco = extension == "KHR_draco_mesh_compression" || extension == "KHR_texture_basisu";
-            if !KNOWN.contains(&extension.as_str()) && !is_draco {
+            let is_known = EXTENSIONS.iter().any(|(known, _)| known == extension) || WITH_FALLBACK.contains(&extension.as_str());
+            // Others are named where they stand.
+            if !is_known && unread.iter().all(|unread| unread.what != *extension) {
                 self.drop(extension.as_str(), "extensionsUsed", "it has no effect");
             }
+        }
+        for Unread { what, place, instead } in unread {
+            self.drop(what, &place, instead);
         }
         let names = super::variant::names(self.root);
         if self.variant.is_none() && !names.is_empty() {

@@ -36,9 +36,8 @@ objects! {
         extensions_required: Vec<String>,
         extensions: Extensions,
     }
-    /// What every version has.
-    Head { asset: Value, }
-    Asset { version: String, min_version: Option<String>, }
+    /// Versions are text, and were numbers in drafts.
+    Asset { version: Option<Value>, min_version: Option<Value>, }
     Scene { nodes: Vec<usize>, }
     Node {
         name: Option<String>,
@@ -98,10 +97,10 @@ objects! {
     TextureInfo { index: usize, tex_coord: u64, scale: Option<f64>, strength: Option<f64>, extensions: Extensions, }
     Texture { sampler: Option<usize>, source: Option<usize>, extensions: Extensions, }
     Image { name: Option<String>, uri: Option<String>, mime_type: Option<String>, buffer_view: Option<usize>, }
-    Sampler { mag_filter: Option<u64>, wrap_s: Option<u64>, wrap_t: Option<u64>, }
+    Sampler { mag_filter: Option<u64>, min_filter: Option<u64>, wrap_s: Option<u64>, wrap_t: Option<u64>, }
     Camera { name: Option<String>, perspective: Option<Perspective>, orthographic: Option<Orthographic>, }
-    Perspective { yfov: f64, aspect_ratio: Option<f64>, }
-    Orthographic { xmag: f64, ymag: f64, }
+    Perspective { yfov: f64, aspect_ratio: Option<f64>, znear: Option<f64>, zfar: Option<f64>, }
+    Orthographic { xmag: f64, ymag: f64, znear: Option<f64>, zfar: Option<f64>, }
     Animation { channels: Vec<Channel>, samplers: Vec<AnimationSampler>, }
     Channel { sampler: usize, target: Target, }
     Target { node: Option<usize>, path: String, }
@@ -129,6 +128,14 @@ objects! {
         mode: String,
         filter: Option<String>,
     }
+    /// KHR_materials_pbrSpecularGlossiness
+    SpecularGlossiness {
+        diffuse_factor: Option<[f64; 4]>,
+        diffuse_texture: Option<TextureInfo>,
+        specular_factor: Option<[f64; 3]>,
+        glossiness_factor: Option<f64>,
+        specular_glossiness_texture: Option<TextureInfo>,
+    }
     /// EXT_mesh_gpu_instancing
     Instances { attributes: Map<String, Value>, }
 }
@@ -137,4 +144,20 @@ objects! {
 pub fn extension<T: Default + for<'de> Deserialize<'de>>(extensions: &Extensions, name: &str) -> Result<Option<T>, String> {
     let Some(value) = extensions.get(name) else { return Ok(None) };
     T::deserialize(value).map(Some).map_err(|error| format!("{name}: {error}"))
+}
+
+/// Whole numbers as such where they are written as fractions, and nothing where `null` is written.
+pub fn tightened(value: Value) -> Value {
+    match value {
+        Value::Number(number) => {
+            let whole = number.as_f64().filter(|number| !number.is_sign_negative() && number.fract() == 0.0 && *number < 9e15);
+            whole.filter(|_| number.is_f64()).map_or(Value::Number(number), |whole| Value::from(whole as u64))
+        }
+        Value::Array(values) => values.into_iter().map(tightened).collect(),
+        Value::Object(entries) => {
+            let written = entries.into_iter().filter(|(_, value)| !value.is_null());
+            Value::Object(written.map(|(key, value)| (key, tightened(value))).collect())
+        }
+        other => other,
+    }
 }

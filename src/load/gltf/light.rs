@@ -1,5 +1,7 @@
 //! KHR_lights_punctual. Candela and lux are taken for watts, as nits of emission are.
 
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
 use glam::{DAffine3, DVec3};
 
 use super::importer::Importer;
@@ -19,12 +21,16 @@ impl Importer<'_> {
             .ok_or_else(|| format!("there is no {NAME}.lights[{number}]"))?;
         let light =
             <Light as serde::Deserialize>::deserialize(light).map_err(|error| format!("{NAME}.lights[{number}]: {error}"))?;
-        let colour = DVec3::from(light.color.unwrap_or([1.0; 3])) * light.intensity.unwrap_or(1.0);
-        if !(colour.is_finite() && colour.min_element() >= 0.0) {
-            return Err(format!("{NAME}.lights[{number}]: its light is below 0"));
-        }
         let key = format!("nodes[{index}]");
-        if light.range.is_some() {
+        let stated = DVec3::from(light.color.unwrap_or([1.0; 3])) * light.intensity.unwrap_or(1.0);
+        let colour = stated.max(DVec3::ZERO);
+        if !stated.is_finite() {
+            return Err(format!("{NAME}.lights[{number}]: its light is out of range"));
+        }
+        if colour != stated {
+            self.approximate("light below 0", &key, "it is taken for 0");
+        }
+        if light.range.is_some() && light.r#type != "directional" {
             self.drop("range of a light", &key, "its light reaches everywhere");
         }
         let direction = world_direction(&map, DVec3::NEG_Z).ok_or("its transform leaves no direction")?;
@@ -33,15 +39,28 @@ impl Importer<'_> {
             "directional" => Keys::of_type("directional").with("direction", direction).with("irradiance", colour),
             "spot" => {
                 let cone = light.spot.clone().unwrap_or_default();
-                let outer = cone.outer_cone_angle.unwrap_or(std::f64::consts::FRAC_PI_4).to_degrees();
-                let inner = cone.inner_cone_angle.unwrap_or(0.0).to_degrees();
-                if !(outer > 0.0 && outer <= 90.0 && (0.0..=outer).contains(&inner)) {
-                    return Err(format!("{NAME}.lights[{number}]: its cone goes from {inner} to {outer} degrees"));
+                let stated = [cone.inner_cone_angle.unwrap_or(0.0), cone.outer_cone_angle.unwrap_or(FRAC_PI_4)];
+                let outer = stated[1].min(FRAC_PI_2);
+                let inner = stated[0].max(0.0).min(outer);
+                if outer <= 0.0 {
+                    self.drop("spot light without a cone", &key, "it is left out");
+                    return Ok(());
                 }
+                if [inner, outer] != stated {
+                    self.approximate(
+                        "cone of a spot light",
+                        &key,
+                        "its angles are taken within 0 and a right angle, the inner within the outer",
+                    );
+                }
+                let [inner, outer] = [inner, outer].map(f64::to_degrees);
                 let keys = Keys::of_type("spot").with("position", map.translation).with("direction", direction);
                 keys.with("intensity", colour).with("angle", outer).with("falloff", inner).with("curve", "square")
             }
-            other => return Err(format!("{NAME}.lights[{number}]: there is no light of type `{other}`")),
+            other => {
+                self.drop(format!("light of type `{other}`"), &key, "it is left out");
+                return Ok(());
+            }
         };
         self.scene.lights.push(Entry { place: self.place(&key), keys });
         Ok(())

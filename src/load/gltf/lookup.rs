@@ -7,7 +7,7 @@
 
 use glam::{DAffine2, DMat2, DVec2};
 
-use super::json::{Material, TextureInfo, TextureTransform, extension};
+use super::json::{Material, SpecularGlossiness, TextureInfo, TextureTransform, extension};
 use super::made::Coordinates;
 
 /// Textures of extensions that materials are made of.
@@ -90,8 +90,12 @@ impl Lookup {
 impl Lookups {
     pub fn of(material: &Material) -> Result<Self, String> {
         let pbr = &material.pbr_metallic_roughness;
-        let plain =
-            [&pbr.base_color_texture, &pbr.metallic_roughness_texture, &material.normal_texture, &material.emissive_texture];
+        let glossy = extension::<SpecularGlossiness>(&material.extensions, "KHR_materials_pbrSpecularGlossiness")?;
+        let [base, second] = match &glossy {
+            Some(glossy) => [&glossy.diffuse_texture, &glossy.specular_glossiness_texture],
+            None => [&pbr.base_color_texture, &pbr.metallic_roughness_texture],
+        };
+        let plain = [base, second, &material.normal_texture, &material.emissive_texture];
         let mut lookups = plain.into_iter().flatten().map(Lookup::of).collect::<Result<Vec<_>, _>>()?;
         for (name, keys) in OF_EXTENSIONS {
             let Some(object) = material.extensions.get(name).and_then(serde_json::Value::as_object) else { continue };

@@ -31,6 +31,17 @@ pub struct Paint {
     pub has_alpha: bool,
 }
 
+/// In what form a primitive has its material.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Form {
+    /// What multiplies the base colour.
+    pub paint: Option<Paint>,
+    /// The mesh's first texture coordinates are for directions alone, and its textures lie by the second ones.
+    pub is_framed: bool,
+    /// Only the camera sees it.
+    pub is_outline: bool,
+}
+
 /// What a primitive became.
 #[derive(Debug, Clone)]
 pub struct MadePrimitive {

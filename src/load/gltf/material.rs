@@ -3,13 +3,18 @@
 use glam::{DAffine2, DVec3};
 
 use super::importer::Importer;
-use super::json::{Material, TextureInfo, extension};
+use super::json::{Material, SpecularGlossiness, TextureInfo, extension};
 use super::lookup::{Lookup, Lookups};
-use super::made::{Coordinates, MadeMaterial, Paint};
+use super::made::{Coordinates, Form, MadeMaterial};
+use super::picture::{TextureRole, UvsOf};
 use crate::load::import::{Entry, Keys, Value};
 
-/// Index of refraction where nothing is said.
+/// Index of refraction where nothing is said, and the largest that scene files have.
 const IOR: f64 = 1.5;
+const LARGEST_IOR: f64 = 10.0;
+const GLOSSY: &str = "KHR_materials_pbrSpecularGlossiness";
+const SPECULAR: &str = "KHR_materials_specular";
+const VOLUME: &str = "KHR_materials_volume";
 
 impl Importer<'_> {
     /// The material of a primitive; None for the one that the specification gives where none is named.
@@ -18,12 +23,12 @@ impl Importer<'_> {
             return Ok(made.clone());
         }
         let made = match index {
-            None => self.make_material(&Material::default(), "(default)", String::new()),
+            None => self.make_material(&Material::default(), "(default)", String::new(), &Form::default()),
             Some(index) => {
                 let material =
                     self.root.materials.get(index).cloned().ok_or_else(|| format!("there is no materials[{index}]"))?;
                 let name = material.name.clone().unwrap_or_else(|| format!("material {index}"));
-                self.make_material(&material, &name, format!("materials[{index}]"))
+                self.make_material(&material, &name, format!("materials[{index}]"), &Form::default())
             }
         };
         let made = made.map_err(|message| match index {
@@ -34,27 +39,23 @@ impl Importer<'_> {
         Ok(made)
     }
 
-    /// The material once more, its base colour multiplied by a texture of vertex colours.
-    pub fn painted_material(&mut self, index: Option<usize>, paint: &Paint) -> Result<MadeMaterial, String> {
+    /// The material once more, in another form.
+    pub fn material_as(&mut self, index: Option<usize>, form: &Form) -> Result<MadeMaterial, String> {
         let material = index.and_then(|index| self.root.materials.get(index)).cloned().unwrap_or_default();
-        let name = material.name.clone().unwrap_or_else(|| "painted".to_owned());
+        let name = material.name.clone().unwrap_or_else(|| "(default)".to_owned());
         let place = index.map_or_else(String::new, |index| format!("materials[{index}]"));
-        self.make_painted_material(&material, &name, place, Some(paint))
+        let made = self.make_material(&material, &name, place, form)?;
+        // What takes the place of the material takes that of its other forms too.
+        if let Some(original) = self.materials.get(&index) {
+            self.scene.material_variants.insert(made.name.clone(), original.name.clone());
+        }
+        Ok(made)
     }
 
-    fn make_material(&mut self, material: &Material, name: &str, place: String) -> Result<MadeMaterial, String> {
-        self.make_painted_material(material, name, place, None)
-    }
-
-    fn make_painted_material(
-        &mut self,
-        material: &Material,
-        name: &str,
-        place: String,
-        paint: Option<&Paint>,
-    ) -> Result<MadeMaterial, String> {
+    fn make_material(&mut self, material: &Material, name: &str, place: String, form: &Form) -> Result<MadeMaterial, String> {
         let lookups = Lookups::of(material)?;
-        let mut surface = Surface { importer: self, material, place, lookups, coordinates: None, paint };
+        let glossy = extension(&material.extensions, GLOSSY)?;
+        let mut surface = Surface { importer: self, material, place, lookups, coordinates: None, form, glossy };
         let keys = surface.keys()?;
         let coordinates = surface.coordinates;
         let place = surface.place;
@@ -73,12 +74,22 @@ struct Surface<'s, 'i> {
     place: String,
     lookups: Lookups,
     coordinates: Option<Coordinates>,
-    /// What multiplies the base colour.
-    paint: Option<&'s Paint>,
+    form: &'s Form,
+    /// What KHR_materials_pbrSpecularGlossiness says in place of metal and roughness.
+    glossy: Option<SpecularGlossiness>,
+}
+
+/// What the base of a material reflects, in the terms of scene files.
+struct BaseLayer {
+    metallic: Value,
+    roughness: Value,
+    ior: f64,
+    specular: Value,
+    specular_color: Value,
 }
 
 impl Surface<'_, '_> {
-    fn number(&mut self, of: &str, key: &str, default: f64) -> f64 {
+    fn number(&self, of: &str, key: &str, default: f64) -> f64 {
         let value = self.material.extensions.get(of).and_then(|object| object.get(key)).and_then(serde_json::Value::as_f64);
         value.unwrap_or(default)
     }
@@ -91,16 +102,45 @@ impl Surface<'_, '_> {
         self.importer.scene.report.drop(what, self.importer.place(&self.place).to_string(), instead);
     }
 
+    /// A number within limits, reported where it is beyond them.
+    fn within(&mut self, value: f64, [least, most]: [f64; 2], key: &str) -> f64 {
+        let possible = if value.is_nan() { least } else { value.clamp(least, most) };
+        if possible != value {
+            self.approximate(&format!("{key} beyond {least} to {most}"), "the nearest possible value is taken");
+        }
+        possible
+    }
+
+    /// The same of three numbers.
+    fn colour_within(&mut self, colour: DVec3, limits: [f64; 2], key: &str) -> DVec3 {
+        let possible = colour.clamp(DVec3::splat(limits[0]), DVec3::splat(limits[1]));
+        if possible != colour {
+            self.approximate(&format!("{key} beyond {} to {}", limits[0], limits[1]), "the nearest possible value is taken");
+        }
+        possible
+    }
+
+    /// The factor of the base colour and its texture.
+    fn base_colour(&self) -> ([f64; 4], Option<TextureInfo>) {
+        let pbr = &self.material.pbr_metallic_roughness;
+        let (factor, texture) = match &self.glossy {
+            Some(glossy) => (glossy.diffuse_factor, &glossy.diffuse_texture),
+            None => (pbr.base_color_factor, &pbr.base_color_texture),
+        };
+        (factor.unwrap_or([1.0; 4]), texture.clone())
+    }
+
     fn keys(&mut self) -> Result<Keys, String> {
-        let pbr = self.material.pbr_metallic_roughness.clone();
-        let factor = pbr.base_color_factor.unwrap_or([1.0; 4]);
-        let colour = DVec3::new(factor[0], factor[1], factor[2]).clamp(DVec3::ZERO, DVec3::ONE);
-        let base = match &pbr.base_color_texture {
+        let (factor, texture) = self.base_colour();
+        let key = if self.glossy.is_some() { "diffuseFactor" } else { "baseColorFactor" };
+        let colour = self.colour_within(DVec3::new(factor[0], factor[1], factor[2]), [0.0, 1.0], key);
+        let alpha = self.within(factor[3], [0.0, 1.0], key);
+        let base = match &texture {
             Some(info) => {
                 let name = self.base_texture(info)?;
                 reference(&name, colour)
             }
-            None => self.paint.map_or_else(|| constant(colour), |paint| reference(&paint.texture, colour)),
+            None => self.form.paint.as_ref().map_or_else(|| constant(colour), |paint| reference(&paint.texture, colour)),
         };
         self.report_extensions();
         let mut keys = if self.material.extensions.contains_key("KHR_materials_unlit") {
@@ -111,51 +151,90 @@ impl Surface<'_, '_> {
         };
         self.normal_map(&mut keys)?;
         self.emission(&mut keys)?;
-        self.see_through(keys, factor[3])
+        let keys = self.see_through(keys, alpha)?;
+        Ok(self.culled(keys))
     }
 
-    /// What scatters light: the metallic-roughness material with its extensions.
+    /// What the base reflects: metal and dielectric, or specular and glossiness, whose colour of reflection is that along the normal.
+    fn base_layer(&mut self) -> Result<BaseLayer, String> {
+        if let Some(glossy) = self.glossy.clone() {
+            let colour = DVec3::from(glossy.specular_factor.unwrap_or([1.0; 3]));
+            let colour = self.colour_within(colour, [0.0, 1.0], "specularFactor") / normal_reflectance(LARGEST_IOR);
+            let glossiness = self.within(glossy.glossiness_factor.unwrap_or(1.0), [0.0, 1.0], "glossinessFactor");
+            let (specular_color, roughness) = match glossy.specular_glossiness_texture {
+                None => (constant(colour), Value::Number(1.0 - glossiness)),
+                Some(info) => {
+                    let role = TextureRole::OfGlossiness(glossiness.to_bits());
+                    let roughness = self.lookup(&info, role, "glossiness", None)?;
+                    (self.texture(&info, TextureRole::Colour, colour, "specular")?, of_channel(Some(&roughness), "r", 1.0))
+                }
+            };
+            let [metallic, specular] = [0.0, 1.0].map(Value::Number);
+            return Ok(BaseLayer { metallic, roughness, ior: LARGEST_IOR, specular, specular_color });
+        }
+        let pbr = self.material.pbr_metallic_roughness.clone();
+        let map = match &pbr.metallic_roughness_texture {
+            Some(info) => self.texture_name(info, TextureRole::Numbers, "metallic and roughness")?,
+            None => None,
+        };
+        let metallic = self.within(pbr.metallic_factor.unwrap_or(1.0), [0.0, 1.0], "metallicFactor");
+        let roughness = self.within(pbr.roughness_factor.unwrap_or(1.0), [0.0, 1.0], "roughnessFactor");
+        let (ior, reflected) = self.ior();
+        let tint = self.tint(SPECULAR, "specularColorFactor", DVec3::ONE, [f64::MAX, reflected], "specularColorTexture")?;
+        Ok(BaseLayer {
+            // Of the texture, green is roughness and blue metallic.
+            metallic: of_channel(map.as_deref(), "b", metallic),
+            roughness: of_channel(map.as_deref(), "g", roughness),
+            ior,
+            specular: self.factor(SPECULAR, "specularFactor", 1.0, "specularTexture", "a")?,
+            specular_color: tint,
+        })
+    }
+
+    /// The index of refraction, and by what its reflectance is to be multiplied. One of 0 stands for a surface that reflects as its specular colour
+    /// says (KHR_materials_ior), as one without bounds would.
+    fn ior(&mut self) -> (f64, f64) {
+        let stated = self.number("KHR_materials_ior", "ior", IOR);
+        match stated {
+            0.0 => (LARGEST_IOR, 1.0 / normal_reflectance(LARGEST_IOR)),
+            large if large > LARGEST_IOR => {
+                self.approximate("ior beyond 10", "it reflects as stated, and bends light as 10 does");
+                (LARGEST_IOR, normal_reflectance(large.min(1e9)) / normal_reflectance(LARGEST_IOR))
+            }
+            _ => (self.within(stated, [1.0, LARGEST_IOR], "ior"), 1.0),
+        }
+    }
+
+    /// What scatters light: the base with its extensions.
     fn lit(&mut self, base: Value) -> Result<Keys, String> {
-        const SPECULAR: &str = "KHR_materials_specular";
         const TRANSMISSION: &str = "KHR_materials_transmission";
         const CLEARCOAT: &str = "KHR_materials_clearcoat";
         const ANISOTROPY: &str = "KHR_materials_anisotropy";
         const SHEEN: &str = "KHR_materials_sheen";
-        let pbr = self.material.pbr_metallic_roughness.clone();
-        let map = match &pbr.metallic_roughness_texture {
-            Some(info) => self.texture_name(info, "metallic and roughness")?,
-            None => None,
-        };
-        // Of the texture, green is roughness and blue metallic.
-        let share = |factor: Option<f64>| factor.unwrap_or(1.0).clamp(0.0, 1.0);
-        let metallic = of_channel(map.as_deref(), "b", share(pbr.metallic_factor));
-        let roughness = of_channel(map.as_deref(), "g", share(pbr.roughness_factor));
-        let specular = self.factor(SPECULAR, "specularFactor", 1.0, "specularTexture", "a")?;
+        let BaseLayer { metallic, roughness, ior, specular, specular_color } = self.base_layer()?;
         let transmission = self.factor(TRANSMISSION, "transmissionFactor", 0.0, "transmissionTexture", "r")?;
         let clearcoat = self.factor(CLEARCOAT, "clearcoatFactor", 0.0, "clearcoatTexture", "r")?;
-        let sheen = self.tint(SHEEN, "sheenColorFactor", [DVec3::ZERO, DVec3::ONE], "sheenColorTexture")?;
+        let sheen = self.tint(SHEEN, "sheenColorFactor", DVec3::ZERO, [1.0, 1.0], "sheenColorTexture")?;
         let [none, one] = [0.0, 1.0].map(Value::Number);
         if [&metallic, &transmission, &specular, &clearcoat, &sheen].into_iter().all(|share| *share == none) {
             return Ok(Keys::of_type("diffuse").with("reflectance", base));
         }
-        let ior = self.number("KHR_materials_ior", "ior", IOR);
         let mut keys =
             Keys::of_type("principled").with("base_color", base).with("metallic", metallic).with("roughness", roughness);
-        keys.set("ior", if ior == 0.0 { 10.0 } else { ior.clamp(1.0, 10.0) });
+        keys.set("ior", ior);
         if specular != one {
             keys.set("specular", specular);
         }
-        let tint = self.tint(SPECULAR, "specularColorFactor", [DVec3::ONE, DVec3::MAX], "specularColorTexture")?;
-        if tint != one {
-            keys.set("specular_color", tint);
+        if specular_color != one {
+            keys.set("specular_color", specular_color);
         }
         if transmission != none {
             keys.set("transmission", transmission);
             // What has no volume is a wall without thickness.
-            if self.number("KHR_materials_volume", "thicknessFactor", 0.0) == 0.0 {
-                keys.set("thin", true);
-            } else {
+            if self.has_volume() {
                 self.attenuation(&mut keys);
+            } else {
+                keys.set("thin", true);
             }
         }
         if sheen != none {
@@ -168,7 +247,7 @@ impl Surface<'_, '_> {
             keys.set("clearcoat", clearcoat);
             keys.set("clearcoat_roughness", roughness);
             if let Some(info) = self.texture_of(CLEARCOAT, "clearcoatNormalTexture")?
-                && let Some(name) = self.texture_name(&info, "clearcoatNormalTexture")?
+                && let Some(name) = self.texture_name(&info, TextureRole::Normals, "clearcoatNormalTexture")?
             {
                 keys.set("coat_normal_map", name);
                 if let Some(scale) = info.scale.filter(|scale| *scale != 1.0) {
@@ -180,7 +259,7 @@ impl Surface<'_, '_> {
         if anisotropy != none {
             keys.set("anisotropy", anisotropy);
             if let Some(info) = self.texture_of(ANISOTROPY, "anisotropyTexture")?
-                && let Some(name) = self.texture_name(&info, "anisotropyTexture")?
+                && let Some(name) = self.texture_name(&info, TextureRole::Numbers, "anisotropyTexture")?
             {
                 keys.set("anisotropy_direction", name);
             }
@@ -193,9 +272,10 @@ impl Surface<'_, '_> {
 
     /// A factor of an extension, times a channel of its texture.
     fn factor(&mut self, of: &str, key: &str, default: f64, texture: &str, channel: &str) -> Result<Value, String> {
-        let factor = self.number(of, key, default).clamp(0.0, 1.0);
+        let factor = self.number(of, key, default);
+        let factor = self.within(factor, [0.0, 1.0], key);
         let map = match self.texture_of(of, texture)? {
-            Some(info) if factor > 0.0 => self.texture_name(&info, texture)?,
+            Some(info) if factor > 0.0 => self.texture_name(&info, TextureRole::Numbers, texture)?,
             _ => None,
         };
         Ok(of_channel(map.as_deref(), channel, factor))
@@ -209,12 +289,12 @@ impl Surface<'_, '_> {
         }
     }
 
-    /// A colour of an extension, times its texture; `limits` are what it is where it is not written, and the most that it can be.
-    fn tint(&mut self, of: &str, key: &str, limits: [DVec3; 2], texture: &str) -> Result<Value, String> {
-        let [default, most] = limits;
-        let factor = self.colour(of, key).unwrap_or(default).clamp(DVec3::ZERO, most);
+    /// A colour of an extension, at most so much, times a factor and its texture.
+    fn tint(&mut self, of: &str, key: &str, default: DVec3, [most, times]: [f64; 2], texture: &str) -> Result<Value, String> {
+        let colour = self.colour(of, key).unwrap_or(default);
+        let factor = self.colour_within(colour, [0.0, most], key) * times;
         match self.texture_of(of, texture)? {
-            Some(info) if factor != DVec3::ZERO => self.texture(&info, false, factor, texture),
+            Some(info) if factor != DVec3::ZERO => self.texture(&info, TextureRole::Colour, factor, texture),
             _ => Ok(constant(factor)),
         }
     }
@@ -226,11 +306,42 @@ impl Surface<'_, '_> {
         <[f64; 3]>::try_from(channels?).ok().map(DVec3::from)
     }
 
+    /// What it encloses is filled with it. Both sides of such a surface are there (KHR_materials_volume).
+    fn has_volume(&self) -> bool {
+        let transmission = self.number("KHR_materials_transmission", "transmissionFactor", 0.0);
+        transmission > 0.0 && self.number(VOLUME, "thicknessFactor", 0.0) > 0.0
+    }
+
+    /// Nothing where it is seen from behind, unless both sides are there.
+    fn culled(&mut self, keys: Keys) -> Keys {
+        if self.material.double_sided || self.has_volume() || keys.text("type") == Some("pass") {
+            return keys;
+        }
+        if self.form.is_outline {
+            let keys = self.over_nothing(keys, Keys::of_type("front"), "surface");
+            return self.over_nothing(keys, Keys::of_type("camera"), "outline");
+        }
+        self.over_nothing(keys, Keys::of_type("front"), "front")
+    }
+
+    /// A surface by its share, else what is behind. The whole keeps the light and the normals of the surface.
+    fn over_nothing(&mut self, keys: Keys, share: Keys, what: &str) -> Keys {
+        let on_whole =
+            |key: &str| ["normal_map", "normal_scale"].contains(&key) || what == "front" && key.starts_with("emission");
+        let (of_whole, of_part): (Vec<_>, Vec<_>) = keys.0.into_iter().partition(|(key, _)| on_whole(key));
+        let mut mixed = self.mixed(Keys(of_part), Keys::of_type("pass"), share, what);
+        mixed.0.extend(of_whole);
+        mixed
+    }
+
     /// What takes light within a volume. Without a distance, or white, nothing does.
     fn attenuation(&mut self, keys: &mut Keys) {
-        const VOLUME: &str = "KHR_materials_volume";
         let distance = self.number(VOLUME, "attenuationDistance", f64::INFINITY);
-        let colour = self.colour(VOLUME, "attenuationColor").unwrap_or(DVec3::ONE).clamp(DVec3::ZERO, DVec3::ONE);
+        let colour = self.colour(VOLUME, "attenuationColor").unwrap_or(DVec3::ONE);
+        let colour = self.colour_within(colour, [0.0, 1.0], "attenuationColor");
+        if distance <= 0.0 {
+            self.approximate("attenuationDistance not above 0", "the volume takes no light");
+        }
         if distance.is_finite() && distance > 0.0 && colour != DVec3::ONE {
             keys.set("attenuation_color", constant(colour));
             keys.set("attenuation_distance", distance);
@@ -248,12 +359,15 @@ impl Surface<'_, '_> {
         let cutoff = match self.material.alpha_mode.as_deref() {
             None | Some("OPAQUE") => return Ok(keys),
             Some("MASK") => Some(self.material.alpha_cutoff.unwrap_or(0.5)),
-            Some(_) => None,
+            Some("BLEND") => None,
+            Some(other) => {
+                self.approximate(&format!("alphaMode {other}"), "the surface is opaque");
+                return Ok(keys);
+            }
         };
-        let factor = factor.clamp(0.0, 1.0);
-        let map = match self.material.pbr_metallic_roughness.base_color_texture.clone() {
+        let map = match self.base_colour().1 {
             Some(info) => Some(self.base_texture(&info)?),
-            None => self.paint.filter(|paint| paint.has_alpha).map(|paint| paint.texture.clone()),
+            None => self.form.paint.as_ref().filter(|paint| paint.has_alpha).map(|paint| paint.texture.clone()),
         };
         let share = match (map, cutoff) {
             (None, Some(cutoff)) => return Ok(if factor < cutoff { Keys::of_type("pass") } else { keys }),
@@ -265,19 +379,12 @@ impl Surface<'_, '_> {
                 Keys::of_type("threshold").with("tau", cutoff).with("of", channel_weight(&map, "a", factor))
             }
         };
-        // The whole surface has the light and the normals of its opaque part.
-        let (on_whole, of_part): (Vec<_>, Vec<_>) =
-            keys.0.into_iter().partition(|(key, _)| ["normal_map", "normal_scale"].contains(key));
-        let mut mixed = self.mixed(Keys(of_part), Keys::of_type("pass"), share, "surface");
-        mixed.0.extend(on_whole);
-        Ok(mixed)
+        Ok(self.over_nothing(keys, share, "surface"))
     }
 
     fn normal_map(&mut self, keys: &mut Keys) -> Result<(), String> {
         let Some(info) = self.material.normal_texture.clone() else { return Ok(()) };
-        if let Value::Table(texture) = self.texture(&info, true, DVec3::ONE, "normal")?
-            && let Some(name) = texture.text("texture")
-        {
+        if let Some(name) = self.texture_name(&info, TextureRole::Normals, "normal")? {
             keys.set("normal_map", name);
             if let Some(scale) = info.scale.filter(|scale| *scale != 1.0) {
                 keys.set("normal_scale", scale);
@@ -287,13 +394,15 @@ impl Surface<'_, '_> {
     }
 
     fn emission(&mut self, keys: &mut Keys) -> Result<(), String> {
-        let strength = self.number("KHR_materials_emissive_strength", "emissiveStrength", 1.0).max(0.0);
-        let factor = DVec3::from(self.material.emissive_factor).max(DVec3::ZERO) * strength;
+        let strength = self.number("KHR_materials_emissive_strength", "emissiveStrength", 1.0);
+        let strength = self.within(strength, [0.0, f64::MAX], "emissiveStrength");
+        // Above 1 it is as bright as it says.
+        let factor = self.colour_within(DVec3::from(self.material.emissive_factor), [0.0, f64::MAX], "emissiveFactor") * strength;
         if factor == DVec3::ZERO {
             return Ok(());
         }
         let emission = match self.material.emissive_texture.clone() {
-            Some(info) => self.texture(&info, false, factor, "emission")?,
+            Some(info) => self.texture(&info, TextureRole::Colour, factor, "emission")?,
             None => constant(factor),
         };
         if keys.text("type") == Some("emissive") {
@@ -309,18 +418,13 @@ impl Surface<'_, '_> {
 
     /// Names what of known extensions has no effect.
     fn report_extensions(&mut self) {
-        const PARTS: [(&str, &str); 4] = [
-            ("KHR_materials_iridescence", "there is no thin film"),
-            ("KHR_materials_dispersion", "all colours are bent alike"),
-            ("KHR_materials_diffuse_transmission", "light does not come through"),
-            ("KHR_materials_pbrSpecularGlossiness", "the metallic-roughness parameters count"),
+        const PARTS: [(&str, &str, &str); 3] = [
+            ("KHR_materials_iridescence", "iridescenceFactor", "there is no thin film"),
+            ("KHR_materials_dispersion", "dispersion", "all colours are bent alike"),
+            ("KHR_materials_diffuse_transmission", "diffuseTransmissionFactor", "light does not come through"),
         ];
-        let volume = self.material.extensions.get("KHR_materials_volume");
-        if volume.is_some_and(|volume| volume.get("thicknessTexture").is_some()) {
-            self.drop("KHR_materials_volume: thicknessTexture", "thickness is that of the shape");
-        }
-        for (name, instead) in PARTS {
-            if self.material.extensions.contains_key(name) {
+        for (name, key, instead) in PARTS {
+            if self.number(name, key, 0.0) != 0.0 {
                 self.drop(name, instead);
             }
         }
@@ -340,33 +444,33 @@ impl Surface<'_, '_> {
     }
 
     /// The name of a texture of numbers.
-    fn texture_name(&mut self, info: &TextureInfo, what: &str) -> Result<Option<String>, String> {
-        let Value::Table(keys) = self.texture(info, true, DVec3::ONE, what)? else { return Ok(None) };
+    fn texture_name(&mut self, info: &TextureInfo, role: TextureRole, what: &str) -> Result<Option<String>, String> {
+        let Value::Table(keys) = self.texture(info, role, DVec3::ONE, what)? else { return Ok(None) };
         Ok(keys.text("texture").map(str::to_owned))
     }
 
     /// `{ texture = … }`, or a constant where there is no picture.
-    fn texture(&mut self, info: &TextureInfo, linear: bool, factor: DVec3, what: &str) -> Result<Value, String> {
-        let name = self.lookup(info, linear, what, None)?;
+    fn texture(&mut self, info: &TextureInfo, role: TextureRole, factor: DVec3, what: &str) -> Result<Value, String> {
+        let name = self.lookup(info, role, what, None)?;
         Ok(reference(&name, factor))
     }
 
     /// The base colour's texture, multiplied by the vertex colours; its name.
     fn base_texture(&mut self, info: &TextureInfo) -> Result<String, String> {
-        self.lookup(info, false, "base colour", self.paint.map(|paint| paint.texture.as_str()))
+        self.lookup(info, TextureRole::Colour, "base colour", self.form.paint.as_ref().map(|paint| paint.texture.as_str()))
     }
 }
 
 impl Surface<'_, '_> {
     /// The texture of a lookup, multiplied by another; its name.
-    fn lookup(&mut self, info: &TextureInfo, linear: bool, what: &str, times: Option<&str>) -> Result<String, String> {
+    fn lookup(&mut self, info: &TextureInfo, role: TextureRole, what: &str, times: Option<&str>) -> Result<String, String> {
         let lookup = Lookup::of(info)?;
         let coordinates = self.lookups.coordinates;
         if Some(lookup.set) == coordinates.second {
             self.coordinates.get_or_insert(coordinates);
             // On coordinates as they are written every placement can be said.
             let placement = lookup.about(&DAffine2::IDENTITY).flatten();
-            return self.importer.texture(info.index, linear, placement, true, times);
+            return self.importer.texture(info.index, role, placement, UvsOf::Second, times);
         }
         if lookup.set != coordinates.set {
             let message = format!("set of texture coordinates of the {what}");
@@ -378,8 +482,14 @@ impl Surface<'_, '_> {
             None
         });
         self.coordinates.get_or_insert(coordinates);
-        self.importer.texture(info.index, linear, placement, false, times)
+        let by = if self.form.is_framed { UvsOf::Framed } else { UvsOf::First };
+        self.importer.texture(info.index, role, placement, by, times)
     }
+}
+
+/// What a surface of an index of refraction reflects along its normal.
+fn normal_reflectance(ior: f64) -> f64 {
+    ((ior - 1.0) / (ior + 1.0)).powi(2)
 }
 
 /// A texture of colours, times a factor.

@@ -1,29 +1,39 @@
 //! glTF 2.0 in its two forms: JSON (`.gltf`) and binary (`.glb`).
 //!
-//! `json` is the file as it is written, `buffers` the numbers that it names. Meshes become meshes of their own for each primitive, with
+//! `container` is what the file is packed in, `json` the file as it is written, `known` the table of the specification's keys, `buffers` the
+//! numbers that it names. Meshes become meshes of their own for each primitive, with
 //! the texture coordinates that the primitive's material wants. Texture coordinates run downward there and upward here.
 
 mod animation;
 mod bending;
 mod buffers;
+mod clipping;
+mod container;
 mod importer;
 mod json;
+mod known;
 mod light;
 mod lookup;
 mod made;
 mod material;
 mod meshopt;
 mod node;
+mod outline;
 mod picture;
 mod primitive;
+mod tangents;
 mod variant;
 
 use std::collections::HashMap;
 use std::path::Path;
 
+use serde::Deserialize;
+
 use self::buffers::Buffers;
-use self::importer::{Importer, KNOWN};
-use self::json::{Asset, Head, Root};
+use self::container::{Container, UPGRADE_COMMAND, check_version};
+use self::importer::Importer;
+use self::json::{Asset, Root};
+use self::known::EXTENSIONS;
 use super::error::{SceneError, show};
 use super::files::{Files, MOST_MODEL_BYTES};
 use super::import::Description;
@@ -38,18 +48,12 @@ pub fn load(files: &Files, path: &Path, camera: Option<&str>, variant: Option<&s
     let name = show(path);
     let refuse = |message: String| SceneError::in_file(&name, message);
     let bytes = files.read(path, MOST_MODEL_BYTES).map_err(|error| refuse(format!("cannot be read: {error}")))?;
-    let (json, binary) = split(&bytes).map_err(refuse)?;
-    let json = json.strip_prefix(&[0xef, 0xbb, 0xbf]).unwrap_or(json);
-    let root: Root = serde_json::from_slice(json).map_err(|error| {
-        // Other versions have other types where this one has lists.
-        if let Some(reason) = serde_json::from_slice(json).ok().and_then(|head: Head| check_old_version(head.asset).err()) {
-            return refuse(reason);
-        }
-        let message = error.to_string();
-        let what = message.rsplit_once(" at line").map_or(message.as_str(), |(what, _)| what).to_owned();
-        SceneError::in_line(&name, error.line(), format!("is not valid glTF: {what}"))
+    let Container { json, binary, oddity } = container::split(&bytes).map_err(|message| {
+        let is_old = message.contains("glTF 1.0");
+        let error = refuse(message);
+        if is_old { error.with_help(format!("`{UPGRADE_COMMAND}` makes glTF 2.0 of it")) } else { error }
     })?;
-    check_version(&root.asset).map_err(refuse)?;
+    let root = read(json, &name)?;
     check_extensions(&root, &name)?;
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
     let buffers = Buffers::load(files, &folder, &root, binary).map_err(refuse)?;
@@ -67,64 +71,50 @@ pub fn load(files: &Files, path: &Path, camera: Option<&str>, variant: Option<&s
         meshes: HashMap::new(),
         triangles: 0,
         weight_tracks: HashMap::new(),
+        places: HashMap::new(),
+        clipping: None,
         variant: variant::chosen(&root, variant).map_err(refuse)?,
     };
-    importer.report_extensions();
+    if let Some(oddity) = oddity {
+        importer.approximate("container", "", &format!("{oddity}; what is there is read"));
+    }
+    if root.asset.version.is_none() {
+        importer.approximate("file without asset.version", "asset", "it is taken for glTF 2.0");
+    }
+    importer.report_unread(json);
     importer.scene(camera).map_err(refuse)?;
+    importer.report_clipping();
     Ok(importer.scene)
 }
 
-/// The JSON, and the data that a binary file brings.
-fn split(bytes: &[u8]) -> Result<(&[u8], Option<Vec<u8>>), String> {
-    if !bytes.starts_with(b"glTF") {
-        return Ok((bytes, None));
-    }
-    let number = |at: usize| -> Result<usize, String> {
-        let word = bytes.get(at..at + 4).ok_or("the file ends early")?;
-        Ok(u32::from_le_bytes([word[0], word[1], word[2], word[3]]) as usize)
-    };
-    let version = number(4)?;
-    if version != 2 {
-        return Err(format!("is binary glTF of version {version}; version 2 is read"));
-    }
-    let chunk = |at: usize| -> Result<(&[u8], usize), String> {
-        let length = number(at)?;
-        let end = at.checked_add(8).and_then(|start| start.checked_add(length)).filter(|end| *end <= bytes.len());
-        let end = end.ok_or_else(|| format!("the file ends early: a chunk of {length} bytes begins at byte {at}"))?;
-        Ok((&bytes[at + 8..end], end))
-    };
-    let (json, mut at) = chunk(12)?;
-    if bytes.get(16..20) != Some(b"JSON") {
-        return Err("its first chunk is not JSON".to_owned());
-    }
-    while at + 8 <= bytes.len() {
-        let is_binary = bytes.get(at + 4..at + 8) == Some(b"BIN\0");
-        let (content, end) = chunk(at)?;
-        if is_binary {
-            return Ok((json, Some(content.to_vec())));
+/// The objects of the JSON. Other versions are named plainly, and what writers of loose JSON leave (`1.0` for an index, `null` for what is not there) is
+/// taken as it is meant.
+fn read(json: &[u8], name: &str) -> Result<Root, SceneError> {
+    let refuse = |message: String| SceneError::in_file(name, message);
+    let old = |message: String| refuse(message).with_help(format!("`{UPGRADE_COMMAND}` makes glTF 2.0 of it"));
+    let root: Root = match serde_json::from_slice(json) {
+        Ok(root) => root,
+        Err(error) => {
+            let value = serde_json::from_slice::<serde_json::Value>(json).ok();
+            if let Some(value) = &value {
+                let asset: Asset = value.get("asset").and_then(|asset| Asset::deserialize(asset).ok()).unwrap_or_default();
+                let is_table = |key: &&str| value.get(*key).is_some_and(serde_json::Value::is_object);
+                let has_tables = ["accessors", "buffers", "materials", "meshes", "nodes", "scenes"].iter().any(is_table);
+                check_version(&asset, has_tables).map_err(old)?;
+            }
+            let meant = value.and_then(|value| Root::deserialize(json::tightened(value)).ok());
+            meant.ok_or_else(|| {
+                let message = error.to_string();
+                let what = message.rsplit_once(" at line").map_or(message.as_str(), |(what, _)| what).to_owned();
+                SceneError::in_line(name, error.line(), format!("is not valid glTF: {what}"))
+            })?
         }
-        at = end;
+    };
+    check_version(&root.asset, false).map_err(old)?;
+    if root.asset.version.is_none() && root.meshes.is_empty() && root.nodes.is_empty() {
+        return Err(refuse("is not glTF: it states no asset.version, and has neither meshes nor nodes".to_owned()));
     }
-    Ok((json, None))
-}
-
-/// The first version's drafts wrote a number.
-fn check_old_version(asset: serde_json::Value) -> Result<(), String> {
-    if let Some(version) = asset.get("version").and_then(serde_json::Value::as_f64).filter(|version| *version < 2.0) {
-        return Err(format!("is glTF of version {version}; version 2.0 is read"));
-    }
-    serde_json::from_value(asset).map_or(Ok(()), |asset| check_version(&asset))
-}
-
-fn check_version(asset: &Asset) -> Result<(), String> {
-    let version = asset.min_version.as_deref().unwrap_or(&asset.version);
-    if asset.version.is_empty() {
-        return Err("is not glTF: it states no asset.version".to_owned());
-    }
-    if version.split('.').next() != Some("2") || asset.min_version.as_deref().is_some_and(|least| least != "2.0") {
-        return Err(format!("is glTF of version {version}; version 2.0 is read"));
-    }
-    Ok(())
+    Ok(root)
 }
 
 fn check_extensions(root: &Root, name: &str) -> Result<(), SceneError> {
@@ -139,7 +129,7 @@ fn check_extensions(root: &Root, name: &str) -> Result<(), SceneError> {
                 return Err(refused("needs the extension KHR_texture_basisu, which is not read".to_owned())
                     .with_help(format!("`{BASIS_COMMAND}` makes PNG of its pictures")));
             }
-            known if KNOWN.contains(&known) => {}
+            known if EXTENSIONS.iter().any(|(name, _)| *name == known) => {}
             other => return Err(refused(format!("needs the extension {other}, which is not read"))),
         }
     }

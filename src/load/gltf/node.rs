@@ -1,20 +1,27 @@
 //! Nodes: what stands where.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::RangeInclusive;
 
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3, DVec4};
 
+use super::clipping::Clipping;
 use super::importer::Importer;
 use super::json::{Instances, Node, extension};
 use super::made::{Bending, MadePrimitive, MovingNodes};
 use crate::load::import::{Entry, Keys, camera_keys, matrix_value, pays_as_instances};
 use crate::load::memory;
 use crate::load::printable::short_list;
+use crate::scene::Mesh;
 
 /// Bytes that a triangle takes once it is packed, with its share of the hierarchy.
 const TRIANGLE_BYTES: u64 = 200;
 /// Most shapes of a scene.
 const MOST_SHAPES: usize = 1 << 20;
+/// Degrees that a scene's camera may have.
+const FIELDS_OF_VIEW: RangeInclusive<f64> = 0.001..=179.0;
+/// Widths of pictures over their heights.
+const ASPECTS: RangeInclusive<f64> = 0.01..=100.0;
 /// The longer side in pixels of a picture whose camera states how wide it is.
 const LONGER_SIDE: f64 = 512.0;
 
@@ -23,6 +30,8 @@ const LONGER_SIDE: f64 = 512.0;
 pub struct Placed {
     pub node: usize,
     map: DAffine3,
+    /// Neither it nor a node around it is hidden (KHR_node_visibility). Cameras and joints count all the same.
+    is_visible: bool,
 }
 
 impl Importer<'_> {
@@ -30,16 +39,31 @@ impl Importer<'_> {
         let placed = self.placed_nodes()?;
         let moving = self.animate(&placed)?;
         self.choose_camera(&placed, camera, &moving)?;
+        for placed in &placed {
+            if let Some(mesh) = self.root.nodes[placed.node].mesh {
+                self.places.entry(mesh).or_default().push(placed.map);
+            }
+        }
+        for &Placed { node, .. } in &placed {
+            let is_nothing = |rotation: [f64; 4]| DVec4::from_array(rotation).try_normalize().is_none();
+            if self.root.nodes[node].rotation.is_some_and(is_nothing) {
+                self.approximate("rotation of length 0", &format!("nodes[{node}]"), "the node is not turned");
+            }
+        }
         let mut world = vec![None; self.root.nodes.len()];
         placed.iter().for_each(|placed| world[placed.node] = Some(placed.map));
         // Of each mesh that keeps its form: the nodes that show it, and where.
         let mut copies: BTreeMap<usize, Vec<Placed>> = BTreeMap::new();
-        for &Placed { node: index, map } in &placed {
+        for &Placed { node: index, map, .. } in placed.iter().filter(|placed| placed.is_visible) {
             let node = &self.root.nodes[index];
             // What moves or is bent by itself is a shape of its own.
             let Some(mesh) = node.mesh.filter(|_| self.has_mesh_of_others(index, &moving)) else { continue };
             let maps = self.instances(node).map_err(|message| format!("nodes[{index}]: {message}"))?;
-            copies.entry(mesh).or_default().extend(maps.into_iter().map(|own| Placed { node: index, map: map * own }));
+            copies.entry(mesh).or_default().extend(maps.into_iter().map(|own| Placed {
+                node: index,
+                map: map * own,
+                is_visible: true,
+            }));
         }
         let mut stored_once = BTreeSet::new();
         for (mesh, copies) in &copies {
@@ -47,7 +71,7 @@ impl Importer<'_> {
                 stored_once.insert(*mesh);
             }
         }
-        for Placed { node: index, map } in placed {
+        for Placed { node: index, map, .. } in placed.into_iter().filter(|placed| placed.is_visible) {
             let of_node = |message: String| format!("nodes[{index}]: {message}");
             let node = &self.root.nodes[index];
             let name = moving.get(&index);
@@ -96,7 +120,7 @@ impl Importer<'_> {
             return Ok(false);
         }
         for flat in copies.iter().filter(|placed| !is_whole(placed)) {
-            self.drop("mesh without extent", &format!("nodes[{}]", flat.node), "it is left out: its node scales it by 0");
+            self.flat_mesh(flat.node, mesh, flat.map)?;
         }
         let places: Vec<DAffine3> = copies.iter().filter(is_whole).map(|placed| placed.map).collect();
         if !places.is_empty() {
@@ -120,8 +144,9 @@ impl Importer<'_> {
         };
         let mut seen = vec![false; self.root.nodes.len()];
         let mut placed = Vec::new();
-        let mut to_visit: Vec<Placed> = roots.into_iter().rev().map(|node| Placed { node, map: DAffine3::IDENTITY }).collect();
-        while let Some(Placed { node: index, map: around }) = to_visit.pop() {
+        let mut to_visit: Vec<Placed> =
+            roots.into_iter().rev().map(|node| Placed { node, map: DAffine3::IDENTITY, is_visible: true }).collect();
+        while let Some(Placed { node: index, map: around, is_visible }) = to_visit.pop() {
             let node = self.root.nodes.get(index).ok_or_else(|| format!("there is no nodes[{index}]"))?;
             if std::mem::replace(&mut seen[index], true) {
                 return Err(format!("nodes[{index}] has several parents, or is its own ancestor"));
@@ -130,8 +155,9 @@ impl Importer<'_> {
             if !map.is_finite() {
                 return Err(format!("nodes[{index}]: its transform leaves the range of numbers"));
             }
-            placed.push(Placed { node: index, map });
-            to_visit.extend(node.children.iter().rev().map(|&child| Placed { node: child, map }));
+            let is_visible = is_visible && !is_hidden(node);
+            placed.push(Placed { node: index, map, is_visible });
+            to_visit.extend(node.children.iter().rev().map(|&child| Placed { node: child, map, is_visible }));
         }
         Ok(placed)
     }
@@ -169,7 +195,7 @@ impl Importer<'_> {
         Ok(())
     }
 
-    fn camera(&mut self, Placed { node, map }: Placed) -> Result<(), String> {
+    fn camera(&mut self, Placed { node, map, .. }: Placed) -> Result<(), String> {
         let index = self.root.nodes[node].camera.unwrap_or_default();
         let camera = self.root.cameras.get(index).cloned().ok_or_else(|| format!("there is no cameras[{index}]"))?;
         let axis = |axis: DVec3| axis.try_normalize().ok_or("the transform of the camera leaves no direction to look along");
@@ -181,10 +207,17 @@ impl Importer<'_> {
         let aspect = match (&camera.perspective, &camera.orthographic) {
             (Some(perspective), _) => {
                 let degrees = perspective.yfov.to_degrees();
-                if !(0.001..=179.0).contains(&degrees) {
+                if !(degrees > 0.0 && degrees < 180.0) {
                     return Err(format!("cameras[{index}]: `yfov` is {} radians", perspective.yfov));
                 }
-                keys.set("vfov", degrees);
+                if !FIELDS_OF_VIEW.contains(&degrees) {
+                    self.approximate(
+                        "field of view of a camera",
+                        &format!("cameras[{index}]"),
+                        "the nearest possible one is taken",
+                    );
+                }
+                keys.set("vfov", degrees.clamp(*FIELDS_OF_VIEW.start(), *FIELDS_OF_VIEW.end()));
                 perspective.aspect_ratio
             }
             (None, Some(window)) => {
@@ -193,14 +226,22 @@ impl Importer<'_> {
                 }
                 keys.set("projection", "orthographic");
                 keys.set("height", 2.0 * window.ymag.abs());
+                if window.ymag < 0.0 || window.xmag < 0.0 {
+                    self.approximate("window of a camera below 0", &format!("cameras[{index}]"), "the picture is not mirrored");
+                }
                 Some((window.xmag / window.ymag).abs())
             }
             (None, None) => return Err(format!("cameras[{index}] is neither perspective nor orthographic")),
         };
-        if let Some(aspect) = aspect.filter(|aspect| (0.01..=100.0).contains(aspect)) {
+        let possible = aspect.filter(|aspect| ASPECTS.contains(aspect));
+        if possible.is_none() && aspect.is_some() {
+            self.approximate("aspect of a camera", &format!("cameras[{index}]"), "the picture is as large as without it");
+        }
+        if let Some(aspect) = possible {
             let size = [LONGER_SIDE * aspect.min(1.0), LONGER_SIDE / aspect.max(1.0)].map(|side| side.round().max(1.0) as i64);
             self.scene.film.set("size", crate::load::import::list(size));
         }
+        self.clipping = Some(Clipping::of(&camera, index, (map.translation, forward, up)));
         self.scene.camera = Some(Entry { place: self.place(&format!("cameras[{index}]")), keys });
         Ok(())
     }
@@ -253,8 +294,7 @@ impl Importer<'_> {
         let map = if skinning.is_some() { DAffine3::IDENTITY } else { map };
         let volume = map.matrix3.determinant();
         if volume == 0.0 || !volume.is_finite() || is_flat(map.matrix3) {
-            self.drop("mesh without extent", &format!("nodes[{index}]"), "it is left out: its node scales it by 0");
-            return Ok(());
+            return self.flat_mesh(index, mesh, map);
         }
         let track = self.weight_tracks.get(&index).cloned();
         let bending = Bending { skinning: skinning.as_ref(), weights: node.weights.as_deref(), track: track.as_ref() };
@@ -280,6 +320,38 @@ impl Importer<'_> {
         }
         Ok(())
     }
+}
+
+impl Importer<'_> {
+    /// The mesh of a node that leaves no volume of it: what lies in a plane then, by the normals of its faces.
+    fn flat_mesh(&mut self, index: usize, mesh: usize, map: DAffine3) -> Result<(), String> {
+        let count = self.root.meshes.get(mesh).map_or(0, |mesh| mesh.primitives.len());
+        for primitive in 0..count {
+            let of_primitive = |message: String| format!("meshes[{mesh}].primitives[{primitive}]: {message}");
+            let Some(made) = self.primitive(mesh, primitive, Bending::default()).map_err(of_primitive)? else { continue };
+            let place = self.place(&format!("nodes[{index}]"));
+            let mut flat = self.scene.mesh(&made.file).map(|mesh| Mesh::clone(mesh)).unwrap_or_default();
+            flat.positions.iter_mut().for_each(|at| *at = map.transform_point3(at.as_dvec3()).as_vec3());
+            flat.normals.clear();
+            flat.smooth = false;
+            flat.drop_degenerate_faces();
+            if flat.faces.is_empty() || !map.is_finite() {
+                self.drop("mesh without extent", &format!("nodes[{index}]"), "it is left out: its node scales it by 0");
+                continue;
+            }
+            self.triangles += flat.faces.len() as u64;
+            let file = self.scene.hold_mesh("flat", flat);
+            let keys = mesh_keys(MadePrimitive { file, smooth: false, deformation: None, ..made });
+            self.scene.shapes.push(Entry { place, keys });
+        }
+        Ok(())
+    }
+}
+
+/// `visible = false` of KHR_node_visibility.
+fn is_hidden(node: &Node) -> bool {
+    let visibility = node.extensions.get("KHR_node_visibility").and_then(|visibility| visibility.get("visible"));
+    visibility.and_then(serde_json::Value::as_bool) == Some(false)
 }
 
 fn mesh_keys(made: MadePrimitive) -> Keys {

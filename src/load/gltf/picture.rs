@@ -4,78 +4,174 @@ use std::path::Path;
 
 use super::buffers::{file_of, read_uri};
 use super::importer::Importer;
-use super::json::Image;
+use super::json::{Image, Texture};
 use super::lookup::Placement;
-use crate::load::import::{Entry, FileReference, Keys};
+use crate::load::error::show;
+use crate::load::files::MOST_MODEL_BYTES;
+use crate::load::image_file::{inverted_alpha, one_texel};
+use crate::load::import::{Entry, FileReference, HeldContent, Keys, list};
 
+const REPEAT: u64 = 10_497;
 const CLAMP: u64 = 33_071;
 const MIRROR: u64 = 33_648;
 const NEAREST: u64 = 9728;
+const LINEAR: u64 = 9729;
+/// Of minification, with the nearest of two mipmaps or between them.
+const NEAREST_MIPMAPS: [u64; 2] = [9984, 9986];
+const LINEAR_MIPMAPS: [u64; 2] = [9985, 9987];
+
+/// Extensions whose pictures are not read, and their formats.
+const UNREAD_FORMATS: [(&str, &str); 3] =
+    [("KHR_texture_basisu", "Basis or KTX2"), ("EXT_texture_avif", "AVIF"), ("MSFT_texture_dds", "DDS")];
+
+/// What a texture's texels are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum TextureRole {
+    /// Colours in sRGB.
+    Colour,
+    /// Numbers as they are.
+    Numbers,
+    /// Directions of a normal map.
+    Normals,
+    /// Numbers that are made of its alpha: roughness of glossiness, 1 − alpha times the factor of these bits.
+    OfGlossiness(u64),
+}
+
+/// By which of a mesh's texture coordinates a texture lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum UvsOf {
+    First,
+    Second,
+    /// The second, where the first are there for directions alone.
+    Framed,
+}
+
+/// What stands for a picture that cannot be read: magenta, as for those of OBJ; for numbers 1, so that factors count alone; no bend.
+fn stand_in(role: TextureRole) -> [f64; 3] {
+    match role {
+        TextureRole::Colour => [1.0, 0.0, 1.0],
+        TextureRole::Numbers | TextureRole::OfGlossiness(_) => [1.0; 3],
+        TextureRole::Normals => [0.5, 0.5, 1.0],
+    }
+}
+
+/// In words, that pictures of a format are not read.
+fn unread(format: &str) -> String {
+    match format {
+        "Basis or KTX2" => format!("is in {format}, which is not read: `{}` makes PNG of it", super::BASIS_COMMAND),
+        _ => format!("is in {format}, which is not read: save it as PNG"),
+    }
+}
 
 impl Importer<'_> {
-    /// The name of a texture whose texels are colours in sRGB, or numbers as they are. `placement`: how it lies on the mesh's coordinates, which are
-    /// the second ones where `by_second`. `times`: the texture by which it is multiplied.
+    /// The name of a texture. `placement`: how it lies on the mesh's coordinates. `times`: the texture by which it is multiplied.
     pub fn texture(
         &mut self,
         index: usize,
-        linear: bool,
+        role: TextureRole,
         placement: Option<Placement>,
-        by_second: bool,
+        by: UvsOf,
         times: Option<&str>,
     ) -> Result<String, String> {
-        let key = (index, linear, placement.map(Placement::bits), by_second, times.map(str::to_owned));
+        let key = (index, role, placement.map(Placement::bits), by, times.map(str::to_owned));
         if let Some(name) = self.textures.get(&key) {
             return Ok(name.clone());
         }
-        let of_texture = |message: String| format!("textures[{index}]: {message}");
         let texture = self.root.textures.get(index).cloned().ok_or_else(|| format!("there is no textures[{index}]"))?;
-        let webp =
-            texture.extensions.get("EXT_texture_webp").and_then(|webp| webp.get("source")).and_then(|source| source.as_u64());
-        let source = texture.source.or(webp.and_then(|source| usize::try_from(source).ok()));
-        let Some(source) = source else {
-            let message = if texture.extensions.contains_key("KHR_texture_basisu") {
-                format!("its picture is in Basis or KTX2, which is not read: `{}` makes PNG of it", super::BASIS_COMMAND)
-            } else {
-                "it has no picture that is read here".to_owned()
+        let place = format!("textures[{index}]");
+        let found = self.source(&texture).and_then(|source| {
+            let image = self.root.images.get(source).cloned().ok_or_else(|| format!("there is no images[{source}]"))?;
+            let file = self.picture(source, &image).map_err(|message| format!("images[{source}]: {message}"))?;
+            let file = match role {
+                TextureRole::OfGlossiness(factor) => self.roughness(&file, f64::from_bits(factor), source)?,
+                _ => file,
             };
-            return Err(of_texture(message));
+            Ok((file, image.name.filter(|name| !name.is_empty()).unwrap_or_else(|| format!("image {source}"))))
+        });
+        let stand_in = stand_in(role);
+        let mut keys = Keys::of_type("image");
+        keys.set("color_space", if role == TextureRole::Colour { "srgb" } else { "linear" });
+        let wanted = match found {
+            Ok((file, wanted)) => {
+                keys.set("file", file);
+                keys.set("fallback", list(stand_in));
+                wanted
+            }
+            Err(reason) => {
+                self.approximate("picture that cannot be read", &place, &format!("the colour {stand_in:?}: {reason}"));
+                self.scene.substitutes.push(format!("{place}: {reason}; the colour {stand_in:?} stands for it"));
+                keys.set("file", self.scene.hold_bytes("stand-in", "png", one_texel(stand_in)?));
+                format!("texture {index}")
+            }
         };
-        let image = self.root.images.get(source).cloned().ok_or_else(|| of_texture(format!("there is no images[{source}]")))?;
-        let file = self.picture(source, &image).map_err(|message| format!("images[{source}]: {message}"))?;
-        let wanted = image.name.clone().filter(|name| !name.is_empty()).unwrap_or_else(|| format!("image {source}"));
         let name = self.scene.free_texture_name(&wanted);
-        let mut keys = Keys::new().with("name", name.as_str()).with("type", "image").with("file", file);
-        keys.set("color_space", if linear { "linear" } else { "srgb" });
         if let Some(sampler) = texture.sampler {
-            let sampler =
-                self.root.samplers.get(sampler).ok_or_else(|| of_texture(format!("there is no samplers[{sampler}]")))?;
-            if sampler.wrap_s.unwrap_or(0) != sampler.wrap_t.unwrap_or(0) {
-                let place = self.place(&format!("textures[{index}]")).to_string();
-                self.scene.report.approximate("wrapping that differs between s and t", place, "that of s is taken");
-            }
-            match sampler.wrap_s {
-                Some(CLAMP) => keys.set("wrap", "clamp"),
-                Some(MIRROR) => keys.set("wrap", "mirror"),
-                _ => {}
-            }
-            if sampler.mag_filter == Some(NEAREST) {
-                keys.set("filter", "nearest");
-            }
+            self.sampler(sampler, &mut keys, &place)?;
         }
         if let Some(Placement { scale, rotation_degrees, offset }) = placement {
             keys.set("scale", scale);
             keys.set("rotation", rotation_degrees);
             keys.set("offset", offset);
         }
-        if by_second {
+        if by != UvsOf::First {
             keys.set("second_uvs", true);
+        }
+        if by == UvsOf::Framed && role == TextureRole::Normals {
+            keys.set("bends_by_first_uvs", true);
         }
         if let Some(times) = times {
             keys.set("times", times);
         }
-        self.scene.textures.push(Entry { place: self.place(&format!("textures[{index}]")), keys });
+        let mut named = Keys::new().with("name", name.as_str());
+        named.0.extend(keys.0);
+        self.scene.textures.push(Entry { place: self.place(&place), keys: named });
         self.textures.insert(key, name.clone());
         Ok(name)
+    }
+
+    /// The image of a texture.
+    fn source(&self, texture: &Texture) -> Result<usize, String> {
+        let of =
+            |name: &str| texture.extensions.get(name)?.get("source")?.as_u64().and_then(|source| usize::try_from(source).ok());
+        let found = texture.source.or_else(|| of("EXT_texture_webp"));
+        found.ok_or_else(|| match UNREAD_FORMATS.iter().find(|(name, _)| texture.extensions.contains_key(*name)) {
+            Some((_, what)) => unread(what),
+            None => "it names no picture".to_owned(),
+        })
+    }
+
+    /// How texels are interpolated, and what is beyond the picture. Where nothing is said of magnification, it is as for minification.
+    fn sampler(&mut self, index: usize, keys: &mut Keys, place: &str) -> Result<(), String> {
+        let sampler = self.root.samplers.get(index).cloned().ok_or_else(|| format!("{place}: there is no samplers[{index}]"))?;
+        let mut wrap = |wrap: Option<u64>, key: &str| match wrap {
+            None | Some(REPEAT) => "repeat",
+            Some(CLAMP) => "clamp",
+            Some(MIRROR) => "mirror",
+            Some(other) => {
+                self.approximate(format!("{key} {other}"), &format!("samplers[{index}]"), "the picture is repeated");
+                "repeat"
+            }
+        };
+        let [along_s, along_t] = [wrap(sampler.wrap_s, "wrapS"), wrap(sampler.wrap_t, "wrapT")];
+        if along_s != "repeat" {
+            keys.set("wrap", along_s);
+        }
+        if along_t != along_s {
+            keys.set("wrap_v", along_t);
+        }
+        let known = [NEAREST, LINEAR].iter().chain(&NEAREST_MIPMAPS).chain(&LINEAR_MIPMAPS);
+        for (key, filter) in [("magFilter", sampler.mag_filter), ("minFilter", sampler.min_filter)] {
+            if let Some(filter) = filter
+                && known.clone().all(|known| *known != filter)
+            {
+                self.approximate(format!("{key} {filter}"), &format!("samplers[{index}]"), "texels are interpolated");
+            }
+        }
+        let is_nearest = |filter: u64| filter == NEAREST || NEAREST_MIPMAPS.contains(&filter);
+        if sampler.mag_filter.or(sampler.min_filter).is_some_and(is_nearest) {
+            keys.set("filter", "nearest");
+        }
+        Ok(())
     }
 
     fn picture(&mut self, index: usize, image: &Image) -> Result<FileReference, String> {
@@ -89,11 +185,7 @@ impl Importer<'_> {
                     .extension()
                     .is_some_and(|ending| ending.eq_ignore_ascii_case("ktx2") || ending.eq_ignore_ascii_case("basis"))
                 {
-                    return Err(format!(
-                        "{} is in Basis or KTX2, which is not read: `{}` makes PNG of it",
-                        path.display(),
-                        super::BASIS_COMMAND
-                    ));
+                    return Err(format!("{} {}", path.display(), unread("Basis or KTX2")));
                 }
                 FileReference::Disk(path)
             }
@@ -111,15 +203,34 @@ impl Importer<'_> {
         Ok(file)
     }
 
+    /// The roughness that a picture's glossiness stands for, as a picture of its own.
+    fn roughness(&mut self, file: &FileReference, factor: f64, index: usize) -> Result<FileReference, String> {
+        let bytes = match file {
+            FileReference::Disk(path) => {
+                self.files.read(path, MOST_MODEL_BYTES).map_err(|error| format!("{}: cannot be read: {error}", show(path)))?
+            }
+            FileReference::Held(held) => match self.scene.held.get(*held) {
+                Some((_, HeldContent::Bytes(bytes))) => bytes.to_vec().into(),
+                _ => return Err("it is no picture".to_owned()),
+            },
+        };
+        let inverted = inverted_alpha(&bytes, factor)?;
+        Ok(self.scene.hold_bytes(&format!("roughness-{index}"), "png", inverted))
+    }
+
     /// The bytes themselves say their format.
     fn hold_picture(&mut self, index: usize, image: &Image, bytes: Vec<u8>) -> Result<FileReference, String> {
         let ending = match &bytes[..] {
             [0x89, b'P', b'N', b'G', ..] => "png",
             [0xff, 0xd8, ..] => "jpg",
             [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => "webp",
-            [0xab, b'K', b'T', b'X', ..] => {
-                return Err(format!("it is in KTX2, which is not read: `{}` makes PNG of it", super::BASIS_COMMAND));
-            }
+            [0xab, b'K', b'T', b'X', ..] => return Err(unread("Basis or KTX2")),
+            [b'D', b'D', b'S', b' ', ..] => return Err(unread("DDS")),
+            [_, _, _, _, b'f', b't', b'y', b'p', b'a', b'v', b'i', b'f' | b's', ..] => return Err(unread("AVIF")),
+            [b'G', b'I', b'F', b'8', ..] => "gif",
+            [b'B', b'M', ..] => "bmp",
+            [b'I', b'I', 42, 0, ..] | [b'M', b'M', 0, 42, ..] => "tif",
+            [b'#', b'?', ..] => "hdr",
             _ => return Err("it is neither PNG nor JPEG nor WebP".to_owned()),
         };
         let name = image.name.clone().unwrap_or_else(|| format!("image-{index}"));

@@ -5,7 +5,7 @@ use serde_json::{Map, Value};
 
 use super::importer::Importer;
 use super::json::Primitive;
-use super::made::{Bending, Coordinates, MadePrimitive, Paint};
+use super::made::{Bending, Coordinates, Form, MadePrimitive, Paint};
 use super::variant;
 use crate::load::import::{Blocks, Entry, Keys};
 use crate::load::model::{FARTHEST, MeshAttribute};
@@ -31,7 +31,8 @@ impl Importer<'_> {
         let key = format!("meshes[{mesh}].primitives[{index}]");
         let mode = primitive.mode.unwrap_or(4);
         if !(4..=6).contains(&mode) {
-            let what = if mode == 0 { "points" } else { "lines" };
+            let other = format!("mode {mode}");
+            let what = ["points", "lines", "lines", "lines"].get(mode as usize).map_or(other.as_str(), |what| what);
             self.drop(what, &key, "they have no surface and are left out");
             return Ok(None);
         }
@@ -48,6 +49,12 @@ impl Importer<'_> {
         complete_normals(&mut built);
         let colours = self.colours(&primitive, material.coordinates, built.positions.len(), &key)?;
         self.coordinates(&primitive, material.coordinates, &mut built, &key)?;
+        let can_be_split = !is_bent && colours.is_none();
+        let is_framed = self.frame(&primitive, material.coordinates, &mut built, can_be_split, &key)?;
+        let mut form = Form { is_framed, is_outline: self.is_outline(mesh, named, &built), paint: None };
+        if form.is_outline {
+            self.approximate("outline: a closed surface that looks inward", &key, "the camera alone sees it");
+        }
         if is_bent && built.drop_degenerate_faces() > 0 {
             self.drop("face without area of a mesh that is bent", &key, "it is left out, at frames where it has area too");
         }
@@ -67,7 +74,10 @@ impl Importer<'_> {
                 keys.set("second_uvs", true);
             }
             self.scene.textures.push(Entry { place: self.place(&key), keys });
-            material = self.painted_material(named, &Paint { texture: name, has_alpha: colours.alpha.is_some() })?;
+            form.paint = Some(Paint { texture: name, has_alpha: colours.alpha.is_some() });
+        }
+        if form != Form::default() {
+            material = self.material_as(named, &form)?;
         }
         built.smooth = !built.normals.is_empty();
         let (triangles, smooth) = (built.faces.len() as u64, built.smooth);
@@ -106,6 +116,9 @@ impl Importer<'_> {
         if let Some(index) = indices.iter().find(|index| **index as usize >= count) {
             return Err(format!("a face uses vertex {index}, but there are only {count} (counted from 0)"));
         }
+        if mode == 4 && !indices.len().is_multiple_of(3) {
+            self.drop("indices that make no whole triangle", key, "the last ones are left out");
+        }
         Ok(Some(Mesh { positions, normals, faces: triangles(&indices, mode), ..Mesh::default() }))
     }
 
@@ -118,7 +131,12 @@ impl Importer<'_> {
         key: &str,
     ) -> Result<Option<Colours>, String> {
         let Some(accessor) = accessor(&primitive.attributes, "COLOR_0")? else { return Ok(None) };
-        let (numbers, channels) = self.buffers.numbers(accessor, &["VEC3", "VEC4"])?;
+        let (mut numbers, channels) = self.buffers.numbers(accessor, &["VEC3", "VEC4"])?;
+        // Colours are fractions, whether integers say so or not.
+        if let Some(largest) = self.buffers.largest_of_whole_numbers(accessor) {
+            self.approximate("COLOR_0 of integers that are not normalized", key, "they are taken for fractions");
+            numbers.iter_mut().for_each(|number| *number /= largest);
+        }
         let value = |number: f32| if number.is_finite() { number.clamp(0.0, 1.0) } else { 0.0 };
         let values: Vec<Vec3> = numbers
             .chunks_exact(channels)

@@ -10,6 +10,7 @@ use super::keys::{FileReference, Keys, Value, list};
 use super::outline::{corners, outline};
 use super::place_file::{PLACE_NUMBERS, PlaceFormat, place_rows, write_places};
 use super::placed::{matrix_of, matrix_value};
+use crate::load::error::SceneError;
 use crate::load::files::Files;
 use crate::scene::{ImportReport, Mesh};
 
@@ -40,6 +41,8 @@ pub struct Description {
     /// Materials that are others for some meshes, by their names, and those others.
     pub material_variants: HashMap<String, String>,
     pub report: ImportReport,
+    /// What something else stands for because it cannot be read, in words; whoever is strict refuses that.
+    pub substitutes: Vec<String>,
     pub(super) group_names: Names,
     pub(super) material_names: Names,
     pub(super) texture_names: Names,
@@ -100,6 +103,19 @@ const MOST_WRITTEN_PLACES: usize = 16;
 const MOST_POINTS: usize = 1 << 23;
 
 impl Description {
+    /// What stands for something that cannot be read, as warnings.
+    ///
+    /// # Errors
+    /// The first of them, where that is not allowed.
+    pub fn warnings(&self, name: &str, strict: bool) -> Result<Vec<String>, SceneError> {
+        match self.substitutes.first() {
+            Some(first) if strict => {
+                Err(SceneError::in_file(name, first.clone()).with_help("without --strict, something stands for what is missing"))
+            }
+            _ => Ok(self.substitutes.iter().map(|what| format!("{name}: {what}")).collect()),
+        }
+    }
+
     /// An empty one, whose surfaces glow up to a radiance and light nothing.
     pub fn with_glow(glow: f64) -> Self {
         Self { glow, ..Self::default() }
@@ -122,10 +138,10 @@ impl Description {
         self.instances.push(Entry { place: place.clone(), keys });
     }
 
-    /// Whether a material of this name gives light.
+    /// Whether a material of this name, or a part of it, gives light.
     pub fn gives_light(&self, name: &str) -> bool {
-        let emits = |entry: &Entry| ["emission", "radiance"].iter().any(|key| entry.keys.get(key).is_some());
-        self.materials.iter().any(|entry| entry.keys.text("name") == Some(name) && emits(entry))
+        let find = |name: &str| self.materials.iter().find(|entry| entry.keys.text("name") == Some(name));
+        shines(name, &find, &|_| true)
     }
 
     /// Where an instance stands.
@@ -205,11 +221,13 @@ impl Description {
 
     /// A light, or a material of a shape that gives more light than a glow.
     pub fn has_light(&self) -> bool {
-        let shines = |value: &Value| brightest(value) > self.glow;
-        let gives_light = |entry: &Entry| ["emission", "radiance"].iter().any(|key| entry.keys.get(key).is_some_and(shines));
+        let is_enough = |value: &Value| brightest(value) > self.glow;
         // Instances give none.
+        let used: HashSet<&str> = self.shapes.iter().filter_map(|shape| shape.keys.text("material")).collect();
+        let named: HashMap<&str, &Entry> =
+            self.materials.iter().filter_map(|entry| Some((entry.keys.text("name")?, entry))).collect();
         let lamps: HashSet<&str> =
-            self.materials.iter().filter(|entry| gives_light(entry)).filter_map(|entry| entry.keys.text("name")).collect();
+            used.into_iter().filter(|name| shines(name, &|name| named.get(name).copied(), &is_enough)).collect();
         let is_lamp = |shape: &Entry| shape.keys.text("material").is_some_and(|name| lamps.contains(name));
         !self.lights.is_empty() || self.shapes.iter().any(is_lamp)
     }
@@ -280,6 +298,23 @@ impl Description {
     pub fn free_texture_name(&mut self, wanted: &str) -> String {
         self.texture_names.free(wanted)
     }
+}
+
+/// Whether a material, or a part of it, gives light that is enough. What many blends are made of is looked at once.
+fn shines<'e>(name: &str, find: &dyn Fn(&str) -> Option<&'e Entry>, is_enough: &dyn Fn(&Value) -> bool) -> bool {
+    let mut seen = HashSet::new();
+    let mut to_visit: Vec<&Entry> = find(name).into_iter().collect();
+    while let Some(entry) = to_visit.pop() {
+        if !entry.keys.text("name").is_some_and(|name| seen.insert(name)) {
+            continue;
+        }
+        if ["emission", "radiance"].iter().any(|key| entry.keys.get(key).is_some_and(is_enough)) {
+            return true;
+        }
+        let parts = if let Some(Value::List(parts)) = entry.keys.get("materials") { &parts[..] } else { &[] };
+        to_visit.extend(parts.iter().filter_map(|part| if let Value::Text(part) = part { find(part) } else { None }));
+    }
+    false
 }
 
 fn transform_of(shape: &Entry) -> DAffine3 {

@@ -51,8 +51,8 @@ impl PackedScene {
         }
         for (index, weight) in materials.weights.iter().enumerate() {
             let kind = weight.kind_and_flags & 255;
-            let known = kind <= WeightKind::Channel as u32 && weight.kind_and_flags & !(255 | blend_weight::FLAGS) == 0;
-            let looks_up = kind >= WeightKind::Texture as u32;
+            let known = kind <= WeightKind::Camera as u32 && weight.kind_and_flags & !(255 | blend_weight::FLAGS) == 0;
+            let looks_up = [WeightKind::Texture, WeightKind::Channel].iter().any(|looking| *looking as u32 == kind);
             if !known || looks_up != (weight.texture != NONE) {
                 return Err(format!("weight {index} is of kind {:#x} and has texture {}", weight.kind_and_flags, weight.texture));
             }
@@ -113,15 +113,15 @@ impl PackedScene {
         let PackedTexture { kind_and_flags, first_texel_or_seed, width_or_octaves, height, .. } = *texture;
         let is = |kind: PackedTextureKind| texture.kind() == kind as u32;
         let flags = if is(PackedTextureKind::Image) { texture::IMAGE_FLAGS } else { 0 };
-        let wrap = kind_and_flags >> texture::WRAP_SHIFT & 3;
+        let wraps = [texture::WRAP_SHIFT, texture::WRAP_V_SHIFT].map(|shift| kind_and_flags >> shift & 3);
         let is_product = |number: u32| self.textures.textures.get(number as usize - 1).is_none_or(|other| other.times != 0);
         if texture.times != 0 && is_product(texture.times) {
             return Err(format!("is multiplied by texture {}, which is none or a product", texture.times - 1));
         }
         let of_normals = texture::TEXTURE_HEIGHTS | texture::TEXTURE_SHADOWS | texture::TEXTURE_MIRRORS;
-        let flags = flags | of_normals | texture::TEXTURE_BY_SECOND_UVS;
+        let flags = flags | of_normals | texture::TEXTURE_BY_SECOND_UVS | texture::TEXTURE_BENDS_BY_FIRST_UVS;
         let is_known = texture.kind() <= PackedTextureKind::Worley as u32 && kind_and_flags & !(255 | flags) == 0;
-        if !is_known || wrap > 2 || texture.channel() > 4 {
+        if !is_known || wraps.into_iter().any(|wrap| wrap > 2) || texture.channel() > 4 {
             return Err(format!("is of kind {kind_and_flags:#x}"));
         }
         if is(PackedTextureKind::Perlin) && width_or_octaves > MOST_OCTAVES {

@@ -19,6 +19,8 @@ pub fn weight(blend_weight: &BlendWeight, lookup: &Lookup) -> f64 {
         BlendWeight::Fresnel { ior, exact: false } => {
             1.0 - schlick_reflectance(cosine, DVec3::splat(normal_incidence_reflectance(ior))).x
         }
+        BlendWeight::Front => f64::from(u8::from(lookup.front)),
+        BlendWeight::Camera => f64::from(u8::from(lookup.by_camera)),
         BlendWeight::Texture { texture } => {
             luminance(texture::look_up(&lookup.scene.textures, texture, lookup.uv)).clamp(0.0, 1.0)
         }
@@ -45,9 +47,12 @@ pub fn mean_weight(blend_weight: &BlendWeight) -> f64 {
 fn constant_weight(blend_weight: &BlendWeight) -> Option<f64> {
     match blend_weight {
         BlendWeight::Constant { value } => Some(*value),
-        BlendWeight::Facing { .. } | BlendWeight::Fresnel { .. } | BlendWeight::Texture { .. } | BlendWeight::Channel { .. } => {
-            None
-        }
+        BlendWeight::Facing { .. }
+        | BlendWeight::Fresnel { .. }
+        | BlendWeight::Front
+        | BlendWeight::Camera
+        | BlendWeight::Texture { .. }
+        | BlendWeight::Channel { .. } => None,
         BlendWeight::Reverse { of } => constant_weight(of).map(|weight| 1.0 - weight),
         BlendWeight::Threshold { tau, of } => constant_weight(of).map(|weight| if weight >= *tau { 1.0 } else { 0.0 }),
     }

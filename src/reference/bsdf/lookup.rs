@@ -14,11 +14,21 @@ pub struct Lookup<'a> {
     pub uv: Coordinates,
     /// Cosine of the angle between wo and the shading normal, in [0, 1].
     pub cosine: f64,
+    /// wo is on the front side.
+    pub front: bool,
+    /// The camera sees it, and nothing in between.
+    pub by_camera: bool,
 }
 
 impl<'a> Lookup<'a> {
     pub fn new(scene: &'a Scene, surface: &Surface, view: &View) -> Self {
-        Self { scene, uv: surface.coordinates(), cosine: view.wo.dot(view.normal()).clamp(0.0, 1.0) }
+        Self {
+            scene,
+            uv: surface.coordinates(),
+            cosine: view.wo.dot(view.normal()).clamp(0.0, 1.0),
+            front: view.front,
+            by_camera: surface.by_camera,
+        }
     }
 
     pub(super) fn color(&self, input: &ColorInput) -> DVec3 {

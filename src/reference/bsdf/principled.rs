@@ -291,7 +291,7 @@ impl Scatter for Principled {
         let coat_texel = written.coat_normal_map.map(|map| NormalTexel {
             texel: lookup.color(&ColorInput::Texture(map.texture)),
             scale: map.scale,
-            set: UvSet::of(&lookup.scene.textures[map.texture]),
+            set: UvSet::of_directions(&lookup.scene.textures[map.texture]),
         });
         let turned = written.anisotropy_rotation_degrees.to_radians();
         let direction = written.anisotropy_direction.and_then(|map| {

@@ -78,6 +78,11 @@ impl UvSet {
     pub fn of(texture: &Texture) -> Self {
         if texture.by_second_uvs { Self::Second } else { Self::First }
     }
+
+    /// The coordinates along which a normal map that is this texture has its directions.
+    pub fn of_directions(texture: &Texture) -> Self {
+        if texture.bends_by_first_uvs { Self::First } else { Self::of(texture) }
+    }
 }
 
 /// The normal maps of a scene's materials.
@@ -115,7 +120,7 @@ impl NormalMaps {
         tangents: impl FnOnce(UvSet) -> Option<Tangents>,
     ) -> DVec3 {
         let Some(texture) = self.of_material[material] else { return normal };
-        let Some(tangents) = tangents(UvSet::of(&self.textures[texture])) else { return normal };
+        let Some(tangents) = tangents(UvSet::of_directions(&self.textures[texture])) else { return normal };
         let bent = match self.textures[texture].relief {
             Relief::Normals(scale) => {
                 let texel = texture::look_up(&self.textures, texture, uv);

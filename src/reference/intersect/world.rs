@@ -46,6 +46,8 @@ pub struct Surface {
     pub tangents: Option<Tangents>,
     /// The same of the second ones of a mesh that has two.
     pub second_tangents: Option<Tangents>,
+    /// A ray of the camera met it that nothing has scattered.
+    pub by_camera: bool,
 }
 
 impl Surface {
@@ -325,6 +327,7 @@ impl World {
                     second_uv: None,
                     tangents: None,
                     second_tangents: None,
+                    by_camera: false,
                 }
             }
         }
@@ -380,6 +383,7 @@ impl World {
             second_uv,
             tangents,
             second_tangents,
+            by_camera: false,
         }
     }
 }

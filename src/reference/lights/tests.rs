@@ -252,7 +252,7 @@ fn points_of_pictures_follow_their_density() {
         scene.shapes[0].transform.steps.push(crate::scene::TransformStep::Scale(DVec3::new(side, 1.0, 1.0)));
         let texels: Vec<Vec3> = (0..20).map(|at| Vec3::splat(if at == 6 { 9.0 } else { 0.1 * at as f32 + 0.05 })).collect();
         let image = ImageData { width: 5, height: 4, texels: texels.into(), has_alpha: false };
-        let (wrap, filter) = (TextureWrap::Clamp, TextureFilter::Bilinear);
+        let (wrap, filter) = ([TextureWrap::Clamp; 2], TextureFilter::Bilinear);
         let picture = ImageTexture { image: Arc::new(image), wrap, filter, scale: [1.0, 1.0] };
         scene.textures.push(Texture::new("picture", TextureKind::Image(picture)));
         scene.materials[0].emission = Some(Emission { radiance: ColorInput::Texture(0), two_sided: true });

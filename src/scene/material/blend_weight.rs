@@ -18,6 +18,10 @@ pub enum BlendWeight {
         ior: f64,
         exact: bool,
     },
+    /// w0 = 1 where the front is seen, 0 from behind.
+    Front,
+    /// w0 = 1 for rays of the camera that nothing has scattered, 0 for others and for light.
+    Camera,
     /// w0 = luminance of the texture.
     Texture {
         texture: TextureId,
@@ -45,7 +49,7 @@ impl BlendWeight {
         match self {
             Self::Texture { .. } | Self::Channel { .. } => true,
             Self::Reverse { of } | Self::Threshold { of, .. } => of.uses_texture(),
-            Self::Constant { .. } | Self::Facing { .. } | Self::Fresnel { .. } => false,
+            Self::Constant { .. } | Self::Facing { .. } | Self::Fresnel { .. } | Self::Front | Self::Camera => false,
         }
     }
 }

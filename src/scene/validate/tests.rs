@@ -54,7 +54,8 @@ fn pixels(width: u32, height: u32) -> Arc<ImageData> {
 fn scene() -> Scene {
     let mut scene = Scene::default();
     scene.film.size = [8, 4];
-    let image = ImageTexture { image: pixels(2, 3), wrap: TextureWrap::Repeat, filter: TextureFilter::Bilinear, scale: [1.0; 2] };
+    let image =
+        ImageTexture { image: pixels(2, 3), wrap: [TextureWrap::Repeat; 2], filter: TextureFilter::Bilinear, scale: [1.0; 2] };
     let [a, b] = [DVec3::ZERO, DVec3::ONE];
     for (name, kind) in [
         ("picture", TextureKind::Image(image)),

@@ -92,3 +92,109 @@ fn what_is_wrong_is_told_where_it_stands() {
         assert!(message.contains("scene.toml:") && message.contains(said), "{import}: {message}");
     }
 }
+
+const MITSUBA: &str = "<scene version=\"3.0.0\"><shape type=\"sphere\"><float name=\"radius\" value=\"0.5\"/>\
+    <bsdf type=\"diffuse\"><texture type=\"checkerboard\" name=\"reflectance\"/></bsdf></shape>\
+    <emitter type=\"point\"><point name=\"position\" value=\"1, 2, 3\"/></emitter></scene>";
+
+/// Every list of a scene file with one entry: its key, and the keys of the entry.
+const LISTS: [(&str, &str); 7] = [
+    ("texture", "name = \"squares\"; type = \"checker\"; a = 0.2; b = 0.8"),
+    ("material", "name = \"own\"; type = \"diffuse\"; reflectance = { texture = \"squares\" }"),
+    ("shape", "type = \"sphere\"; center = [1, 1, 0]; radius = 0.3; material = \"own\"; node = \"mover\""),
+    (
+        "group",
+        "name = \"pair\"; shape = [{ type = \"mesh\", positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], faces = [[0, 1, 2]], uvs = [[0, 0], [1, 0], [0, 1]], material = \"own\" }]",
+    ),
+    ("instance", "group = \"pair\"; transform = [{ translate = [-1, 0.5, 0] }]"),
+    ("light", "type = \"environment\"; radiance = 0.5"),
+    ("node", "name = \"mover\"; keyframes = [{ time = 0, translate = [0, 0, 0] }, { time = 1, translate = [1, 0, 0] }]"),
+];
+
+/// The scene with these lists written inline, the others as tables. `import` is inline where `inline_import` says so.
+fn mixed(imported: &str, inline: &dyn Fn(&str) -> bool, inline_import: bool) -> String {
+    let (mut head, mut tail) = (String::new(), String::new());
+    for (key, entry) in LISTS {
+        if inline(key) {
+            head += &format!("{key} = [\n  {{ {} }},\n]\n", entry.replace(';', ","));
+        } else {
+            tail += &format!("[[{key}]]\n{}\n", entry.replace("; ", "\n"));
+        }
+    }
+    if inline_import {
+        head += &format!("import = [{{ file = \"{imported}\" }}]\n");
+    } else {
+        tail += &format!("[[import]]\nfile = \"{imported}\"\n");
+    }
+    format!("camera = {{ position = [0, 0, 5], look_at = [0, 0, 0], vfov = 50 }}\n{head}{tail}")
+}
+
+/// Lists written inline and as tables stand beside every kind of import alike.
+#[test]
+fn lists_of_either_form_stand_beside_imports() {
+    let model = File::new().binary();
+    let json = File::new().text();
+    for imported in ["a.glb", "a.gltf", "a.xml"] {
+        let read = |text: &str| {
+            let files =
+                [("a.glb", &model[..]), ("a.gltf", &json), ("a.xml", MITSUBA.as_bytes()), ("scene.toml", text.as_bytes())];
+            Folder::new(&files).valid("scene.toml")
+        };
+        let tables = read(&mixed(imported, &|_| false, false));
+        assert_eq!((tables.shapes.len(), tables.lights.len(), tables.instances.len()), (2, 2, 1), "{imported}");
+        let expected = picture(&tables);
+        for inline_import in [false, true] {
+            assert_eq!(picture(&read(&mixed(imported, &|_| true, inline_import))), expected, "{imported}");
+            for (only, _) in LISTS {
+                let scene = read(&mixed(imported, &|key| key == only, inline_import));
+                assert_eq!(picture(&scene), expected, "{imported}: {only} inline");
+            }
+        }
+        // The control: without its own light the scene is darker.
+        let darker = mixed(imported, &|_| true, true).replace("radiance = 0.5", "radiance = 0.1");
+        assert_ne!(picture(&read(&darker)), expected, "{imported}");
+    }
+}
+
+/// Mistakes in either form are told in the line in which they stand, and so are those of lists that are none.
+#[test]
+fn mistakes_beside_imports_are_told_in_their_lines() {
+    let refused = |text: &str| refusal(folder(text).load("scene.toml"));
+    for (key, entry) in LISTS {
+        for inline in [true, false] {
+            let text = mixed("a.glb", &|other| inline || other != key, inline);
+            let wrong = entry.replacen(" = ", "x = ", 1);
+            let text = if inline {
+                text.replace(&entry.replace(';', ","), &wrong.replace(';', ","))
+            } else {
+                text.replace(&entry.replace("; ", "\n"), &wrong.replace("; ", "\n"))
+            };
+            let unknown = wrong.split(" = ").next().expect("a key");
+            let line = 1 + text.lines().position(|line| line.contains(&format!("{unknown} = "))).expect("it is written");
+            let message = refused(&text);
+            // A kind that is missing is told about its table.
+            let near = [line, line - 1].map(|line| format!("scene.toml:{line}:"));
+            assert!(near.iter().any(|place| message.contains(place)), "{key}, inline {inline}: {line}: {message}\n{text}");
+        }
+        let text = mixed("a.glb", &|_| true, true).replace(&format!("{key} = [\n"), &format!("{key} = 5\nother = [\n"));
+        let message = refused(&text);
+        let line = 1 + text.lines().position(|line| line == format!("{key} = 5")).expect("it is written");
+        assert!(message.contains(&format!("scene.toml:{line}:")), "{key}: {message}");
+    }
+}
+
+/// An environment is a light of the scene that says so, and not a name that reads like one.
+#[test]
+fn a_name_like_sky_is_no_environment() {
+    let mut file = File::new();
+    file.root["materials"][0]["name"] = "sky".into();
+    let xml = "<scene version=\"3.0.0\"><shape type=\"sphere\"/><emitter type=\"constant\"/></scene>";
+    let text = format!(
+        "{CAMERA}[[material]]\nname = \"sky\"\ntype = \"diffuse\"\nreflectance = 0.5\n[[import]]\nfile = \"a.xml\"\n[[light]]\ntype = \"point\"\nposition = [0, 0, 9]\nintensity = 1\n"
+    );
+    let scene = Folder::new(&[("a.xml", xml.as_bytes()), ("scene.toml", text.as_bytes())]).valid("scene.toml");
+    assert_eq!(scene.lights.len(), 2);
+    let own = text.replace("type = \"point\"\nposition = [0, 0, 9]\nintensity = 1", "type = \"environment\"\nradiance = 1");
+    let scene = Folder::new(&[("a.xml", xml.as_bytes()), ("scene.toml", own.as_bytes())]).valid("scene.toml");
+    assert_eq!(scene.lights.len(), 1);
+}

@@ -47,6 +47,7 @@ type = "image"
 file = "texture.png"
 filter = "nearest"
 wrap = "clamp"
+wrap_v = "mirror"
 [[material]]
 name = "painted"
 type = "diffuse"

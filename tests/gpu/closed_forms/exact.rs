@@ -105,7 +105,7 @@ fn emission_follows_its_texture() {
     let mut scene = looking_down_z();
     let texels = vec![Vec3::ZERO, Vec3::ONE];
     let image = Arc::new(ImageData { width: 2, height: 1, texels: texels.into(), has_alpha: false });
-    let image = ImageTexture { image, wrap: TextureWrap::Clamp, filter: TextureFilter::Nearest, scale: [1.0; 2] };
+    let image = ImageTexture { image, wrap: [TextureWrap::Clamp; 2], filter: TextureFilter::Nearest, scale: [1.0; 2] };
     scene.textures.push(Texture::new("halves", TextureKind::Image(image)));
     let emission = Emission { radiance: ColorInput::ScaledTexture(0, DVec3::splat(3.0)), two_sided: false };
     let light = material(&mut scene, MaterialKind::Emissive, Some(emission));

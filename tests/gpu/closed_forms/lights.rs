@@ -74,7 +74,7 @@ fn from_points_and_afar(cases: &mut Vec<Case>) {
         // A ramp from red at the left to green at the right; texels of two columns in the middle interpolate it exactly.
         let ramp = Texels::Float(vec![[1.0, 0.0, 0.5], [0.0, 1.0, 0.5]]);
         let image = Arc::new(ImageData { width: 2, height: 1, texels: ramp, has_alpha: false });
-        let (wrap, filter) = (TextureWrap::Clamp, TextureFilter::Bilinear);
+        let (wrap, filter) = ([TextureWrap::Clamp; 2], TextureFilter::Bilinear);
         scene.textures.push(Texture::new("ramp", TextureKind::Image(ImageTexture { image, wrap, filter, scale: [0.5, 1.0] })));
         scene.textures[0].transform.offset = [0.25, 0.0];
         let u = 0.5 + side * place;

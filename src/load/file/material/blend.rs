@@ -18,8 +18,11 @@ material_keys! {
 }
 
 impl MaterialKeys for Keys {
-    const EXAMPLES: &'static [&'static str] =
-        &["materials = [\"red\", \"mirror\"]\nweight = { type = \"fresnel\", ior = 1.5, exact = true }"];
+    const EXAMPLES: &'static [&'static str] = &[
+        "materials = [\"red\", \"mirror\"]\nweight = { type = \"fresnel\", ior = 1.5, exact = true }",
+        "materials = [\"red\", \"mirror\"]\nweight = { type = \"front\" }",
+        "materials = [\"mirror\", \"red\"]\nweight = { type = \"camera\" }",
+    ];
 
     fn kind(&self, resolver: &Resolver<'_>) -> Result<MaterialKind, SceneError> {
         Ok(MaterialKind::Blend {

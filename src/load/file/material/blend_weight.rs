@@ -19,6 +19,8 @@ pub enum BlendWeightEntry {
     Constant(ConstantWeight),
     Facing(FacingWeight),
     Fresnel(FresnelWeight),
+    Front(NoKeys),
+    Camera(NoKeys),
     Texture(TextureWeight),
     Reverse(ReverseWeight),
     Threshold(ThresholdWeight),
@@ -48,6 +50,12 @@ pub struct FresnelWeight {
     #[serde(default)]
     exact: bool,
 }
+
+/// "front": w0 = 1 where the front is seen, 0 from behind. "camera": w0 = 1 for rays of the camera that nothing has scattered, 0 for all others
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+#[schemars(rename = "PlainWeight")]
+pub struct NoKeys {}
 
 /// w0 = luminance of a texture, or one of its channels
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -82,6 +90,8 @@ impl BlendWeightEntry {
             Self::Constant(keys) => BlendWeight::Constant { value: keys.value.0 },
             Self::Facing(keys) => BlendWeight::Facing { power: keys.power.map_or(1.0, |power| power.0) },
             Self::Fresnel(keys) => BlendWeight::Fresnel { ior: ior_or_default(keys.ior), exact: keys.exact },
+            Self::Front(NoKeys {}) => BlendWeight::Front,
+            Self::Camera(NoKeys {}) => BlendWeight::Camera,
             Self::Texture(keys) => keys.resolve(resolver)?,
             Self::Reverse(keys) => BlendWeight::Reverse { of: Box::new(keys.of.resolve(resolver)?) },
             Self::Threshold(keys) => BlendWeight::Threshold { tau: keys.tau.0, of: Box::new(keys.of.resolve(resolver)?) },
@@ -126,6 +136,8 @@ pub fn write(weight: &BlendWeight, writer: &Writer<'_>) -> String {
         BlendWeight::Constant { value } => ("constant", vec![("value", number(*value))]),
         BlendWeight::Facing { power } => ("facing", vec![("power", number(*power))]),
         BlendWeight::Fresnel { ior, exact } => ("fresnel", vec![("ior", number(*ior)), ("exact", exact.to_string())]),
+        BlendWeight::Front => ("front", Vec::new()),
+        BlendWeight::Camera => ("camera", Vec::new()),
         BlendWeight::Texture { texture } => ("texture", vec![("texture", writer.textures.quoted(*texture))]),
         BlendWeight::Channel { texture, channel, factor } => {
             let name = ("texture", writer.textures.quoted(*texture));

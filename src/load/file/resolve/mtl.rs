@@ -245,7 +245,7 @@ impl Resolver<'_> {
         };
         let kind = TextureKind::Image(ImageTexture {
             image,
-            wrap: if map.clamp { TextureWrap::Clamp } else { TextureWrap::Repeat },
+            wrap: [if map.clamp { TextureWrap::Clamp } else { TextureWrap::Repeat }; 2],
             filter: TextureFilter::Bilinear,
             scale: map.scale,
         });

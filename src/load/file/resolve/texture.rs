@@ -28,7 +28,7 @@ impl Resolver<'_> {
             let kind = self.note(kind).unwrap_or(TextureKind::Checker { a: DVec3::ZERO, b: DVec3::ZERO, scale: [1.0; 2] });
             self.linear_textures
                 .push(matches!(entry, TextureEntry::Image(ImageEntry { color_space: Some(ColorSpaceEntry::Linear), .. })));
-            let CommonKeys { name, rotation, offset, second_uvs, .. } = entry.common();
+            let CommonKeys { name, rotation, offset, second_uvs, bends_by_first_uvs, .. } = entry.common();
             let transform = UvTransform {
                 rotation_degrees: rotation.map_or(0.0, |rotation| rotation.0),
                 offset: offset.map_or([0.0; 2], |offset| offset.map(|shift| shift.0)),
@@ -36,7 +36,14 @@ impl Resolver<'_> {
             let by_second_uvs = second_uvs.unwrap_or(false);
             let times = self.times(index, written);
             let times = self.note(times).flatten();
-            self.scene.textures.push(Texture { transform, by_second_uvs, times, ..Texture::new(name.value.clone(), kind) });
+            let bends_by_first_uvs = bends_by_first_uvs.unwrap_or(false);
+            self.scene.textures.push(Texture {
+                transform,
+                by_second_uvs,
+                bends_by_first_uvs,
+                times,
+                ..Texture::new(name.value.clone(), kind)
+            });
         }
         Ok(())
     }
@@ -56,7 +63,11 @@ impl Resolver<'_> {
 
     fn texture_kind(&mut self, entry: &TextureEntry) -> Result<TextureKind, SceneError> {
         Ok(match entry {
-            TextureEntry::Image(image) => TextureKind::Image(self.image_texture(image)?),
+            TextureEntry::Image(image) => match (self.image_texture(image), &image.fallback) {
+                (Ok(texture), _) => TextureKind::Image(texture),
+                (Err(error), Some(fallback)) => self.fallback(error, fallback.0)?,
+                (Err(error), None) => return Err(error),
+            },
             TextureEntry::Checker(checker) => {
                 TextureKind::Checker { a: checker.a.0, b: checker.b.0, scale: factors(checker.scale) }
             }
@@ -98,11 +109,11 @@ impl Resolver<'_> {
     fn image_texture(&mut self, written: &ImageEntry) -> Result<ImageTexture, SceneError> {
         Ok(ImageTexture {
             image: self.image(&written.file, written.color_space.map(Into::into))?,
-            wrap: match written.wrap {
+            wrap: [written.wrap, written.wrap_v.or(written.wrap)].map(|wrap| match wrap {
                 None | Some(WrapEntry::Repeat) => TextureWrap::Repeat,
                 Some(WrapEntry::Clamp) => TextureWrap::Clamp,
                 Some(WrapEntry::Mirror) => TextureWrap::Mirror,
-            },
+            }),
             filter: match written.filter {
                 None | Some(TextureFilterEntry::Bilinear) => TextureFilter::Bilinear,
                 Some(TextureFilterEntry::Nearest) => TextureFilter::Nearest,
@@ -110,6 +121,16 @@ impl Resolver<'_> {
             },
             scale: factors(written.scale),
         })
+    }
+
+    /// A colour in the place of a picture that cannot be read.
+    fn fallback(&mut self, error: SceneError, colour: DVec3) -> Result<TextureKind, SceneError> {
+        if self.strict {
+            return Err(error.with_help("without --strict, its `fallback` stands for it"));
+        }
+        let [r, g, b] = colour.to_array();
+        self.scene.warnings.push(format!("{error}; the colour [{r}, {g}, {b}] stands for it"));
+        Ok(TextureKind::Checker { a: colour, b: colour, scale: [1.0; 2] })
     }
 
     /// Reads the image file that a key names.

@@ -27,6 +27,7 @@ pub struct CommonKeys<'e> {
     pub rotation: Option<Number>,
     pub offset: Option<Exactly<Number, 2>>,
     pub second_uvs: Option<bool>,
+    pub bends_by_first_uvs: Option<bool>,
     /// The texture by which it is multiplied.
     pub times: Option<&'e Located<String>>,
 }
@@ -47,14 +48,17 @@ macro_rules! texture_entries {
             pub offset: Option<Exactly<Number, 2>>,
             /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates.
             pub second_uvs: Option<bool>,
+            /// Of a normal map with `second_uvs`: red and green point along the directions in which `uvs` grow all the same.
+            pub bends_by_first_uvs: Option<bool>,
             /// The name of another texture by which it is multiplied, channel by channel, and which has no `times` itself. Not for normal and bump maps.
             pub times: Option<Located<String>>,
         }
 
         impl $entry {
             fn common(&self) -> CommonKeys<'_> {
-                let Self { name, rotation, offset, second_uvs, times, .. } = self;
-                CommonKeys { name, rotation: *rotation, offset: *offset, second_uvs: *second_uvs, times: times.as_ref() }
+                let Self { name, rotation, offset, second_uvs, bends_by_first_uvs, times, .. } = self;
+                let (second_uvs, bends_by_first_uvs) = (*second_uvs, *bends_by_first_uvs);
+                CommonKeys { name, rotation: *rotation, offset: *offset, second_uvs, bends_by_first_uvs, times: times.as_ref() }
             }
         }
     )*};
@@ -67,12 +71,16 @@ texture_entries! {
         file: Located<String>,
         /// "srgb" for integer formats, "linear" for floating-point ones when left out.
         color_space: Option<ColorSpaceEntry>,
-        /// "repeat" when left out.
+        /// What is beyond the picture; "repeat" when left out.
         wrap: Option<WrapEntry>,
+        /// The same above and below it, along v; `wrap` when left out.
+        wrap_v: Option<WrapEntry>,
         /// "bilinear" when left out.
         filter: Option<TextureFilterEntry>,
         /// Factors of u and v, [1, 1] when left out.
         scale: Option<Exactly<Number, 2>>,
+        /// The colour that stands in the picture's place where the file cannot be read, with a warning. Without it, and with --strict, the scene is refused.
+        fallback: Option<Rgb<Any>>,
     }
 
     /// Two colours in squares.

@@ -294,7 +294,7 @@ impl Kernel<'_> {
     }
 
     fn image(&self, first: u32, [width, height]: [i32; 2], flags: u32, first_value: u32) -> Read<()> {
-        let wrap = flags >> 8 & 3;
+        let [wrap_u, wrap_v] = [8, 22].map(|shift| flags >> shift & 3);
         let channel = flags >> 14 & 7;
         let (words, values) = match flags >> 11 & 3 {
             0 => (1, 256),
@@ -310,7 +310,7 @@ impl Kernel<'_> {
         let ends = |size: i32| [i32::MIN, -1, 0, size.wrapping_sub(1), size, i32::MAX];
         for x in ends(width) {
             for y in ends(height) {
-                let (column, row) = (wrapped(x, width, wrap)?, wrapped(y, height, wrap)?);
+                let (column, row) = (wrapped(x, width, wrap_u)?, wrapped(y, height, wrap_v)?);
                 let place = row.wrapping_mul(width).wrapping_add(column) as u32;
                 let last = if words >= 3 && channel > 0 { channel } else { words.min(3) };
                 (0..last).try_for_each(|word| {

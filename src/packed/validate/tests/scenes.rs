@@ -108,8 +108,9 @@ fn add_instances(scene: &mut Scene) {
 fn everything() -> Scene {
     let mut scene = Scene::default();
     let [a, b] = [DVec3::splat(0.1), DVec3::splat(0.9)];
-    let picture =
-        |width, wrap, filter| TextureKind::Image(ImageTexture { image: image(width, 2), wrap, filter, scale: [2.0, 1.0] });
+    let picture = |width, wrap, filter| {
+        TextureKind::Image(ImageTexture { image: image(width, 2), wrap: [wrap, TextureWrap::Mirror], filter, scale: [2.0, 1.0] })
+    };
     for kind in [
         picture(2, TextureWrap::Repeat, TextureFilter::Bilinear),
         picture(3, TextureWrap::Mirror, TextureFilter::Nearest),

@@ -18,7 +18,7 @@ fn sheen_and_volumes_are_read() {
         (**principled).clone()
     };
     let written = material(
-        json!({ "sheenColorFactor": [0.5, 0.25, 1.5], "sheenRoughnessFactor": 0.75 }),
+        json!({ "sheenColorFactor": [0.5, 0.25, 1.0], "sheenRoughnessFactor": 0.75 }),
         json!({ "thicknessFactor": 1.0, "attenuationColor": [1.0, 0.5, 0.0], "attenuationDistance": 2.5 }),
     );
     assert_eq!(written.sheen_color, ColorInput::Constant(DVec3::new(0.5, 0.25, 1.0)));
@@ -105,6 +105,7 @@ fn with_normals() -> File {
     file.root["materials"][0] = json!({
         "pbrMetallicRoughness": { "baseColorFactor": [0.7, 0.4, 0.2, 1.0], "metallicFactor": 0.5, "roughnessFactor": 0.6 },
         "normalTexture": { "index": 0, "scale": 2.0 },
+        "doubleSided": true,
     });
     file
 }
