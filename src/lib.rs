@@ -97,6 +97,7 @@ pub mod output;
 pub mod packed;
 #[doc(hidden)]
 pub mod patience;
+mod picture_file;
 #[doc(hidden)]
 pub mod picture_test;
 #[doc(hidden)]

@@ -33,6 +33,12 @@ impl Picture {
         image.map(Self).ok_or_else(|| PyValueError::new_err("a picture has rows, columns, and three channels"))
     }
 
+    /// What the file says of its pixels that is not used.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.0.warnings().to_vec()
+    }
+
     #[getter]
     fn __array_interface__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let shape = [self.0.height() as usize, self.0.width() as usize, 3];

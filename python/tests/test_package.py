@@ -196,6 +196,12 @@ class Files(unittest.TestCase):
         picture.save(path)
         again = gpt.Picture.open(path)
         self.assertEqual(again.pixels.tolist(), picture.pixels.tolist())
+        self.assertEqual((again.warnings, picture.warnings), ([], []))
+        wide = self.folder / "wide.hdr"
+        wide.write_bytes(b"#?RADIANCE\nEXPOSURE=2\nPIXASPECT=2\n\n-Y 1 +X 1\n" + bytes([128, 64, 32, 129]))
+        read = gpt.Picture.open(wide)
+        self.assertEqual((read.pixels.tolist(), len(read.warnings)), ([[[0.5, 0.25, 0.125]]], 1))
+        self.assertIn("PIXASPECT", read.warnings[0])
         for same in (again, path, picture.pixels, picture.pixels.astype(np.float64)):
             comparison = gpt.compare(same, picture)
             self.assertEqual((comparison.mse, comparison.largest, comparison.psnr), (0, 0, float("inf")))

@@ -175,7 +175,9 @@ fn reference(
     say: &mut dyn FnMut(&str),
 ) -> Result<Reference, BenchError> {
     if let Some(path) = &options.reference {
-        return Reference::from_file(path, scene.film.size);
+        let reference = Reference::from_file(path, scene.film.size)?;
+        reference.warnings.iter().for_each(|warning| say(warning));
+        return Ok(reference);
     }
     let store = Store { folder: options.store.clone() };
     let renderer = devices.prepare(scene, &first.device)?;

@@ -24,6 +24,7 @@ impl Subject for DenoisedSubject<'_> {
             (sum(|run| run.seconds), sum(|run| run.build_seconds), sum(|run| run.compile_seconds));
         let start = Instant::now();
         let raw = Raw {
+            placed: None,
             picture: run.picture,
             albedo: Some(albedo.picture.pixels),
             normal: Some(normal.picture.pixels),

@@ -12,6 +12,7 @@ use crate::compare::relative_weight;
 use crate::film::Band;
 use crate::output::{
     AtomicFile, Display, Image, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, as_own, read_image,
+    read_picture,
 };
 use crate::scene::{self, Scene};
 
@@ -39,6 +40,8 @@ pub struct Reference {
     pub spp: Option<u32>,
     /// Where it comes from, for people.
     pub origin: String,
+    /// What its file says that is not used.
+    pub warnings: Vec<String>,
 }
 
 impl Reference {
@@ -47,7 +50,8 @@ impl Reference {
     /// # Errors
     /// A file that cannot be read, a picture of another size, and one with values that are not finite.
     pub fn from_file(path: &Path, size: [u32; 2]) -> Result<Self, BenchError> {
-        let image = read_image(path)?;
+        let picture = read_picture(path)?;
+        let (warnings, image) = (picture.warnings(path), picture.image);
         if [image.width, image.height] != size {
             return Err(crate::compare::SizeMismatch { sizes: [size, [image.width, image.height]] }.into());
         }
@@ -57,7 +61,7 @@ impl Reference {
                 path.display()
             )));
         }
-        Ok(Self { image, own_error: None, spp: None, origin: path.display().to_string() })
+        Ok(Self { image, own_error: None, spp: None, origin: path.display().to_string(), warnings })
     }
 
     /// Renders [`PARTS`] pictures and takes their mean; at least `spp` samples per pixel in all.
@@ -79,7 +83,7 @@ impl Reference {
         let mean = pixels.iter().map(|pixel| pixel.map(|moments| moments.mean() as f32)).collect();
         let image = Image { width: size[0], height: size[1], pixels: mean };
         let own_error = Some(own_error(&pixels, &image));
-        Ok(Self { image, own_error, spp: Some(part_spp * PARTS), origin: "rendered".to_owned() })
+        Ok(Self { image, own_error, spp: Some(part_spp * PARTS), origin: "rendered".to_owned(), warnings: Vec::new() })
     }
 
     /// What to subtract from a measured error, and how well that is known: zeros where nothing is known.
@@ -137,6 +141,7 @@ impl Store {
             own_error: Some(record.own_error),
             spp: Some(record.spp),
             origin: format!("made earlier, kept in {}", paths[0].display()),
+            warnings: Vec::new(),
         })
     }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 use gpt::choice::Choice;
 use gpt::compare::flip::{PIXELS_PER_DEGREE, flip};
 use gpt::compare::{Comparison, Metric, Picture, TileSettings, compare, compare_paired};
-use gpt::output::{AtomicFile, Channels, Image, PictureKind, read_image};
+use gpt::output::{AtomicFile, Channels, Image, PictureKind, read_picture};
 use serde::Serialize;
 
 use super::arguments::CompareArguments;
@@ -36,10 +36,13 @@ struct Verdict<'a> {
 pub fn run(arguments: &CompareArguments) -> Result<Exit, Failure> {
     let tolerance = tolerance(arguments)?;
     outputs::check(arguments.html.as_deref(), [arguments.picture.as_path(), arguments.reference.as_path()])?;
-    let picture = read_image(&arguments.picture)?;
-    let reference = read_image(&arguments.reference)?;
+    let [picture, reference] = [&arguments.picture, &arguments.reference].map(|path| read_picture(path));
+    let (picture, reference) = (picture?, reference?);
+    let mut warnings = picture.warnings(&arguments.picture);
+    warnings.extend(reference.warnings(&arguments.reference));
+    let (picture, reference) = (picture.image, reference.image);
     let comparison = compare(&picture, &reference)?;
-    let warnings: Vec<String> = different_kinds(arguments).into_iter().collect();
+    warnings.extend(different_kinds(arguments));
     warnings.iter().for_each(|warning| terminal::warn(warning));
     [&arguments.picture, &arguments.reference].into_iter().for_each(|path| tell_of_denoising(path));
     let equal = comparison.within(arguments.metric, tolerance);

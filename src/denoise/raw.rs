@@ -1,6 +1,6 @@
 //! What is denoised.
 
-use crate::output::{Channels, Image};
+use crate::output::{Channels, Image, PartSpec, ReadPicture, cut};
 
 /// A picture to be denoised, with what helps to tell its noise from its detail.
 pub struct Raw {
@@ -10,21 +10,29 @@ pub struct Raw {
     pub normal: Option<Vec<[f32; 3]>>,
     /// Variance of each pixel's mean, where the file has it.
     pub variances: Option<Vec<[f32; 3]>>,
+    /// Where it lies in the picture that it is a part of, where it is one: black pixels around it would bleed into it.
+    pub placed: Option<PartSpec>,
 }
 
 impl Raw {
     /// Takes the picture and its layers, as `gpt render --aov albedo,normal,variance,samples` names them, from a file.
-    pub fn of(picture: Image, file: &Channels) -> Self {
-        let counts = file.channel("SampleCount");
-        let variances = file.colours(["Variance.R", "Variance.G", "Variance.B"]).zip(counts).map(|(variances, counts)| {
-            let of_mean = |(pixel, count): ([f32; 3], &f32)| pixel.map(|variance| variance / count.max(1.0));
+    pub fn of(ReadPicture { image, covered, .. }: ReadPicture, file: &Channels) -> Self {
+        let film = [image.width, image.height];
+        let [column, row, width, height] = covered;
+        let of_part = |pixels: Vec<[f32; 3]>| cut(&pixels, film[0], covered);
+        let colours = |names: [&str; 3]| file.colours(names).map(of_part);
+        let counts = file.channel("SampleCount").map(|counts| cut(counts, film[0], covered));
+        let variances = colours(["Variance.R", "Variance.G", "Variance.B"]).zip(counts).map(|(variances, counts)| {
+            let of_mean = |(pixel, count): ([f32; 3], f32)| pixel.map(|variance| variance / count.max(1.0));
             variances.into_iter().zip(counts).map(of_mean).collect()
         });
+        let is_whole = covered == [0, 0, film[0], film[1]];
         Self {
-            picture,
-            albedo: file.colours(["Albedo.R", "Albedo.G", "Albedo.B"]),
-            normal: file.colours(["N.X", "N.Y", "N.Z"]),
+            picture: if is_whole { image } else { Image { width, height, pixels: of_part(image.pixels) } },
+            albedo: colours(["Albedo.R", "Albedo.G", "Albedo.B"]),
+            normal: colours(["N.X", "N.Y", "N.Z"]),
             variances,
+            placed: (!is_whole).then_some(PartSpec { film, origin: [column, row] }),
         }
     }
 

@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::access::Access;
+use super::environment_map::{self, EnvironmentMap};
 use super::error::{SceneError, show};
-use super::files::Files;
 use super::image_file::Pictures;
 use super::view::{ModelView, Up};
 use crate::scene::{
@@ -115,17 +116,29 @@ fn sphere_around(points: &[DVec3]) -> (DVec3, f64) {
 }
 
 /// Puts a lat-long map in the place of the scene's environment.
-pub fn light_by(scene: &mut Scene, map: &Path, files: Files) -> Result<(), SceneError> {
+pub fn light_by(scene: &mut Scene, map: &Path, Access { files, strict }: Access) -> Result<(), SceneError> {
     let read = Pictures::new(files).read(map, None).map_err(|reason| SceneError::in_file(show(map), reason))?;
     scene.warnings.extend(read.change.map(|change| format!("{}: {change}", show(map))));
-    if let Some(bits) = read.integer_bits {
-        scene.warnings.push(format!("{}: the map has colours of {bits} bits, of which none is brighter than 1", show(map)));
+    if let Some(note) = read.notes.first().filter(|_| strict) {
+        return Err(SceneError::in_file(show(map), note.clone()).with_help("without --strict, this is a warning"));
     }
-    let image = Arc::new(read.image);
-    scene.sources.add_image(&image, ImageSource { path: map.to_owned(), color_space: None, scale: 1.0 });
+    let notes = read.notes.into_iter().chain(environment_map::notes(read.integer_bits, &read.hints));
+    scene.warnings.extend(notes.map(|note| format!("{}: {note}", show(map))));
+    let converted = environment_map::converted(&read.image, &read.hints);
+    let converted = converted.map_err(|reason| SceneError::in_file(show(map), reason))?;
+    let (image, rows, rotation_degrees) = match converted {
+        Some(EnvironmentMap { image, rows, rotation_degrees }) => (Arc::new(image), rows, rotation_degrees),
+        None => {
+            let image = Arc::new(read.image);
+            if read.is_plain {
+                scene.sources.add_image(&image, ImageSource { path: map.to_owned(), color_space: None, scale: 1.0 });
+            }
+            (image, MapRows::Inside, 0.0)
+        }
+    };
     scene.lights.retain(|light| !light.is_environment());
     let radiance = EnvironmentRadiance::Map(image);
-    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: MapRows::Inside }));
+    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees, rows }));
     Ok(())
 }
 

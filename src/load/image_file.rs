@@ -1,18 +1,18 @@
-//! Image files as linear texels.
+//! The pictures of a scene as linear texels, out of one budget of memory.
 
 use std::io::Cursor;
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use exr::meta::MetaData;
-use exr::prelude::{ReadChannels, ReadLayers, f16};
-use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, Rgba};
+use exr::prelude::f16;
+use image::{DynamicImage, ImageFormat, ImageReader, Limits, Rgba};
 
 use super::files::Files;
 use super::memory;
 use crate::input::AnyFile;
 use crate::math::srgb_to_linear;
+use crate::picture_file::{Hints, PictureFile};
 use crate::scene::{Channel, ColorSpace, ImageData, Texels};
 
 /// Most texels on a side.
@@ -44,6 +44,11 @@ pub struct Picture {
     pub integer_bits: Option<u16>,
     /// What was changed in it, in words.
     pub change: Option<String>,
+    /// What its header says that is not used, in sentences without the file's name.
+    pub notes: Vec<String>,
+    pub hints: Hints,
+    /// Other programs see the same in the file, whatever of its header they read.
+    pub is_plain: bool,
 }
 
 /// Reads an image and turns it into linear colours. Without a colour space, formats of integers are taken to be sRGB and those of
@@ -93,30 +98,44 @@ impl Pictures {
 
     /// As [`read_image`], out of this budget.
     pub fn read(&self, path: &Path, color_space: Option<ColorSpace>) -> Result<Picture, String> {
-        let is_exr = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr"));
-        let mut picture = if is_exr { self.read_exr(path, color_space)? } else { self.read_other(path, color_space)? };
-        picture.change = clamp(&mut picture.image)?;
-        Ok(picture)
+        let file = PictureFile::open(self.open(path)?, path, color_space)?;
+        let integer_bits = match &file {
+            PictureFile::Coded(file) => Some(file.bits()).filter(|bits| *bits <= 16),
+            _ => None,
+        };
+        let (notes, hints, is_plain) = (file.notes().to_vec(), file.hints(), file.is_plain());
+        let most_kept = if integer_bits == Some(8) { 4 } else { MOST_KEPT };
+        let mut beyond = 0;
+        let mut image = self.decode([file.size(), file.data_size()], most_kept, || texels(file, &mut beyond))?;
+        let beyond =
+            (beyond > 0).then(|| format!("{beyond} texels have colours beyond Rec. 709: 0 stands for what is negative in them"));
+        let change = [beyond, clamp(&mut image)?].into_iter().flatten().reduce(|a, b| format!("{a}; {b}"));
+        Ok(Picture { image, integer_bits, change, notes, hints, is_plain })
     }
 
     fn open(&self, path: &Path) -> Result<AnyFile, String> {
         self.files.open(path).map_err(|error| format!("cannot be read: {error}"))
     }
 
-    /// Calls `decode` if there is room for the picture, which will take so many bytes a texel at most.
+    /// Calls `decode` if there is room for the picture, of which so much is shown and so much decoded, and which will take so many bytes a texel at
+    /// most.
     fn decode(
         &self,
-        [width, height]: [u32; 2],
+        sizes: [[u32; 2]; 2],
         most_kept: u64,
         decode: impl FnOnce() -> Result<ImageData, String>,
     ) -> Result<ImageData, String> {
-        if width == 0 || height == 0 {
-            return Err(format!("the image is empty: {width} x {height} pixels"));
+        for [width, height] in sizes {
+            if width == 0 || height == 0 {
+                return Err(format!("the image is empty: {width} x {height} pixels"));
+            }
+            if width.max(height) > LARGEST_SIDE {
+                return Err(format!("the image is too large: {width} x {height} pixels, at most {LARGEST_SIDE} on a side"));
+            }
         }
-        if width.max(height) > LARGEST_SIDE {
-            return Err(format!("the image is too large: {width} x {height} pixels, at most {LARGEST_SIDE} on a side"));
-        }
-        let texels = u64::from(width) * u64::from(height);
+        let area = |[width, height]: [u32; 2]| u64::from(width) * u64::from(height);
+        let [width, height] = if area(sizes[1]) > area(sizes[0]) { sizes[1] } else { sizes[0] };
+        let texels = area([width, height]);
         let most = most_kept * texels;
         let needed = self.kept.fetch_add(most, Ordering::Relaxed) + most + WHILE_DECODED * texels;
         if needed > self.budget {
@@ -134,71 +153,29 @@ impl Pictures {
         self.kept.fetch_sub(most.saturating_sub(kept), Ordering::Relaxed);
         decoded
     }
-
-    fn read_other(&self, path: &Path, color_space: Option<ColorSpace>) -> Result<Picture, String> {
-        let reader = guess(path, self.open(path)?)?;
-        if reader.format().is_none() {
-            return Err("is not an image in a format known here (PNG, JPEG, EXR, HDR, TIFF, BMP, TGA, WebP, GIF, PNM)".to_owned());
-        }
-        let decoder = reader.into_decoder().map_err(|error| format!("is not a valid image: {error}"))?;
-        let ((width, height), color) = (decoder.dimensions(), decoder.color_type());
-        let bits = color.bits_per_pixel() / u16::from(color.channel_count());
-        drop(decoder);
-        let mut integer_bits = None;
-        let image = self.decode([width, height], if bits == 8 { 4 } else { MOST_KEPT }, || {
-            let mut reader = guess(path, self.open(path)?)?;
-            let mut limits = Limits::no_limits();
-            limits.max_image_width = Some(width);
-            limits.max_image_height = Some(height);
-            // A decoder's own tables besides the pixels, of which even small pictures have some.
-            limits.max_alloc = Some((16 * u64::from(width) * u64::from(height)).max(1 << 26));
-            reader.limits(limits);
-            let image = reader.decode().map_err(|error| format!("is not a valid image: {error}"))?;
-            let bits = image.color().bits_per_pixel() / u16::from(image.color().channel_count());
-            let is_float = matches!(image, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_));
-            integer_bits = (!is_float).then_some(bits);
-            Ok(image_data(image, color_space))
-        })?;
-        Ok(Picture { image, integer_bits, change: None })
-    }
-
-    fn read_exr(&self, path: &Path, color_space: Option<ColorSpace>) -> Result<Picture, String> {
-        let space = color_space.unwrap_or(ColorSpace::Linear);
-        let metadata = MetaData::read_from_buffered(self.open(path)?, false);
-        let metadata = metadata.map_err(|error| format!("is not a valid EXR: {error}"))?;
-        let side = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
-        // Which layer is read is found out on the way: the largest stands for it.
-        let sizes = metadata.headers.iter().map(|header| [side(header.layer_size.x()), side(header.layer_size.y())]);
-        let size = sizes.max_by_key(|[width, height]| u64::from(*width) * u64::from(*height)).unwrap_or([0, 0]);
-        let image = self.decode(size, MOST_KEPT, || {
-            let create = move |size: exr::math::Vec2<usize>, _: &_| Collected {
-                width: size.x(),
-                height: size.y(),
-                texels: vec![[0.0; 4]; size.area()],
-                space,
-            };
-            let set =
-                |collected: &mut Collected, position: exr::math::Vec2<usize>, (red, green, blue, alpha): (f32, f32, f32, f32)| {
-                    let [red, green, blue] = [red, green, blue].map(|value| decode(value, collected.space));
-                    collected.texels[position.y() * collected.width + position.x()] = [red, green, blue, alpha];
-                };
-            let reader = exr::prelude::read().no_deep_data().largest_resolution_level().rgba_channels(create, set);
-            let read = reader.first_valid_layer().all_attributes().from_buffered(self.open(path)?);
-            let picture = read.map_err(|error| format!("is not an EXR with channels R, G and B: {error}"))?;
-            let Collected { width, height, texels, .. } = picture.layer_data.channel_data.pixels;
-            Ok(from_floats([width as u32, height as u32], texels))
-        })?;
-        Ok(Picture { image, integer_bits: None, change: None })
-    }
 }
 
-fn guess(path: &Path, file: AnyFile) -> Result<ImageReader<AnyFile>, String> {
-    let mut reader = ImageReader::new(file);
-    // The ending says what a file without a signature is, as TGA files are.
-    if let Ok(format) = ImageFormat::from_path(path) {
-        reader.set_format(format);
+/// The texels of a picture whose header was read. Colours of other primaries may be negative as Rec. 709's; `beyond` counts those.
+fn texels(file: PictureFile, beyond: &mut usize) -> Result<ImageData, String> {
+    if let PictureFile::Coded(file) = file {
+        return file.decode_codes().map(|(image, space)| image_data(image, space));
     }
-    reader.with_guessed_format().map_err(|error| format!("cannot be read: {error}"))
+    let size @ [width, height] = file.size();
+    let converts = file.converts();
+    let mut texels = vec![file.empty(); width as usize * height as usize];
+    file.decode(&mut |[column, row], pixels| {
+        let start = row * width as usize + column;
+        texels[start..start + pixels.len()].copy_from_slice(pixels);
+    })?;
+    if converts {
+        let is_negative = |value: &f32| *value < 0.0 && value.is_finite();
+        for texel in texels.iter_mut().filter(|texel| texel[..3].iter().any(is_negative)) {
+            // Rounding alone is not worth a word.
+            *beyond += usize::from(texel[..3].iter().any(|value| *value < -1e-3));
+            texel[..3].iter_mut().filter(|value| is_negative(value)).for_each(|value| *value = 0.0);
+        }
+    }
+    Ok(from_floats(size, texels))
 }
 
 /// Makes the few texels possible that are negative or not finite, as filters and overflow leave them in many maps.
@@ -252,10 +229,8 @@ fn from_floats([width, height]: [u32; 2], texels: Vec<[f32; 4]>) -> ImageData {
     ImageData { width, height, texels, has_alpha }
 }
 
-fn image_data(image: DynamicImage, color_space: Option<ColorSpace>) -> ImageData {
+fn image_data(image: DynamicImage, space: ColorSpace) -> ImageData {
     let is_float = matches!(image, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_));
-    let default = if is_float { ColorSpace::Linear } else { ColorSpace::Srgb };
-    let space = color_space.unwrap_or(default);
     let (width, height) = (image.width(), image.height());
     let eight_bits = matches!(image.color().bytes_per_pixel() / image.color().channel_count(), 1);
     if is_float {
@@ -279,14 +254,6 @@ fn decode(value: f32, space: ColorSpace) -> f32 {
         ColorSpace::Srgb => srgb_to_linear(value),
         ColorSpace::Linear => value,
     }
-}
-
-/// A picture whose rows are collected as they are decoded.
-struct Collected {
-    width: usize,
-    height: usize,
-    texels: Vec<[f32; 4]>,
-    space: ColorSpace,
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 //!
 //! - [`source`]: what a person may name as the scene.
 //! - [`mod@file`]: scene files in TOML; `obj`, `ply`: models, of which `model` is what they have in common, `spelling` how their texts
-//!   say it, and `mends` what is wrong in them and replaced; `image_file`: textures and environment maps.
+//!   say it, and `mends` what is wrong in them and replaced; `image_file`: textures and environment maps, and `environment_map`: what of those is
+//!   no lat-long map as it stands.
 //! - `mitsuba`, `gltf`: scenes of other programs, which become scene files in the terms of `import`.
 //! - `framing`: camera, ground and light for a model that comes without them; `view`: what a person may say of that; `presets`: materials by name.
 //! - `builtin_scenes`: scenes that are part of the program, among them `examples`, made of all examples; `builtin`: the files they name.
@@ -14,6 +15,7 @@ mod builtin;
 mod builtin_scenes;
 mod deformation_file;
 mod encoding;
+mod environment_map;
 pub mod error;
 mod examples;
 mod excerpt;

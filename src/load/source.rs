@@ -62,7 +62,7 @@ impl SceneSource {
     pub fn load(&self, options: &LoadOptions) -> Result<Scene, SceneError> {
         let mut scene = self.load_as_it_is(options)?;
         if let Some(map) = &options.view.environment {
-            framing::light_by(&mut scene, map, options.access()?.files)?;
+            framing::light_by(&mut scene, map, options.access()?)?;
         }
         Ok(scene)
     }

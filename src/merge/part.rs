@@ -4,15 +4,14 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use exr::image::{AnyChannels, FlatSamples};
-use exr::meta::MetaData;
-use exr::meta::attribute::AttributeValue;
-use exr::prelude::{ReadChannels, ReadLayers};
+use exr::meta::attribute::{AttributeValue, SampleType};
+use exr::prelude::Vec2;
 
 use crate::choice::Choice;
 use crate::film::{KernelLayer, Layer, PartChannels};
 use crate::input;
 use crate::output::{CROP_KEY, LAYERS_KEY, Provenance, part_channels};
+use crate::picture_file::open_exr::{self, Windows};
 use crate::render::cryptomatte;
 use crate::scene::settings::SETTINGS;
 use crate::scene::{Filter, FilterKind, RenderSettings};
@@ -35,9 +34,6 @@ pub enum MergeError {
 /// Entries of a header in which parts of one picture may differ.
 const OWN: [&str; 7] =
     ["gpt:device", "gpt:firstSample", "gpt:samples", "gpt:samplesWanted", "gpt:complete", "gpt:brokenOff", CROP_KEY];
-
-/// Pixels of a part from which on several threads decompress it.
-const WORTH_THREADS: u64 = 1 << 16;
 
 /// What a part says of itself.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,15 +81,19 @@ impl PartHeader {
     /// A file that is no part, or whose render broke off.
     pub fn read(path: &Path) -> Result<Self, MergeError> {
         let failure = |what: String| MergeError::Part { path: path.to_owned(), what };
-        let file = Box::new(input::open(path).map_err(|error| failure(error.to_string()))?);
-        let meta =
-            MetaData::read_from_buffered(file, false).map_err(|error| failure(format!("it is no EXR picture: {error}")))?;
-        let header = meta.headers.first().ok_or_else(|| failure("it is no EXR picture".to_owned()))?;
+        let mut file: input::AnyFile = Box::new(input::open(path).map_err(|error| failure(error.to_string()))?);
+        let headers = open_exr::headers(&mut file).map_err(|what| failure(format!("it {what}")))?;
+        let header = &headers[0];
         let has = |name: &str| header.channels.list.iter().any(|channel| channel.name.eq(name));
         if !part_channels().all(has) {
             return Err(failure(
                 "it is no part of a picture: `gpt render --first-sample A --spp N` or `--crop X,Y,W,H` writes parts".to_owned(),
             ));
+        }
+        let mut oddities = open_exr::oddities(header);
+        oddities.extend((headers.len() > 1).then(|| "it has several parts of OpenEXR".to_owned()));
+        if let Some(oddity) = oddities.first() {
+            return Err(failure(format!("{oddity}: another program changed it, and only files of `gpt render` are joined")));
         }
         let text = |value: &AttributeValue| match value {
             AttributeValue::I32(number) => Some(number.to_string()),
@@ -110,14 +110,9 @@ impl PartHeader {
         if number("gpt:brokenOff")? != 0 || samples == 0 {
             return Err(failure("its render broke off; render it again".to_owned()));
         }
-        let side = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
-        let window = header.shared_attributes.display_window.size;
-        let film = [side(window.width()), side(window.height())];
-        let place = header.own_attributes.layer_position;
-        let [x, y] = [place.x(), place.y()].map(|place| u32::try_from(place).unwrap_or(u32::MAX));
-        let region = [x, y, side(header.layer_size.width()), side(header.layer_size.height())];
-        let fits = x.checked_add(region[2]).is_some_and(|end| end <= film[0])
-            && y.checked_add(region[3]).is_some_and(|end| end <= film[1]);
+        let windows = Windows::of(header);
+        let (film, region) = (windows.size(), windows.covered());
+        let fits = region[2..] == windows.data_size();
         let end = first.checked_add(samples).filter(|_| fits);
         let end = end.ok_or_else(|| failure("its header contradicts itself".to_owned()))?;
         let layers = Layer::from_list(entries.get(LAYERS_KEY).map_or("", String::as_str))
@@ -214,23 +209,27 @@ impl PartHeader {
     /// A file that is damaged.
     pub fn pixels(&self) -> Result<PartPixels, MergeError> {
         let failure = |what: String| MergeError::Part { path: self.path.clone(), what };
-        let file = input::open_to_decode(&self.path).map_err(|error| failure(error.to_string()))?;
-        let reader =
-            exr::prelude::read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer().all_attributes();
-        let [_, _, width, height] = self.region.map(u64::from);
-        // A reader with threads starts as many as there are cores for each file, which takes longer than a small one.
-        let reader = if width * height < WORTH_THREADS { reader.non_parallel() } else { reader };
-        let image = reader.from_buffered(file).map_err(|error| failure(error.to_string()))?;
-        let AnyChannels { list } = image.layer_data.channel_data;
-        let mut found: BTreeMap<String, FlatSamples> =
-            list.into_iter().map(|channel| (channel.name.to_string(), channel.sample_data)).collect();
-        let pixels = self.region[2] as usize * self.region[3] as usize;
-        let mut channel = |name: &str| match found.remove(name) {
-            Some(FlatSamples::F32(values)) if values.len() == pixels => Ok(values),
-            // Numbers of shapes and materials.
-            Some(FlatSamples::U32(values)) if values.len() == pixels => Ok(values.iter().map(|value| *value as f32).collect()),
-            _ => Err(failure(format!("its channel {name} is not as this program writes it"))),
-        };
+        let open = || input::open_to_decode(&self.path).map_err(|error| failure(error.to_string()));
+        let headers = open_exr::headers(&mut open()?).map_err(|what| failure(format!("it {what}")))?;
+        let list = &headers[0].channels.list;
+        let [width, height] = [self.region[2] as usize, self.region[3] as usize];
+        // Numbers of shapes and materials are whole ones.
+        let is_read = |kind: SampleType| matches!(kind, SampleType::F32 | SampleType::U32);
+        let whole = list.iter().enumerate().filter(|(_, channel)| is_read(channel.sample_type) && channel.sampling == Vec2(1, 1));
+        let wanted: Vec<usize> = whole.map(|(place, _)| place).collect();
+        let mut planes = vec![vec![0.0; width * height]; wanted.len()];
+        open_exr::read_lines(open()?, 0, &wanted, |(channel, [column, row], numbers)| {
+            let plane = wanted.iter().position(|of| *of == channel).map(|plane| &mut planes[plane]);
+            let start = row * width + column;
+            if let Some(place) = plane.and_then(|plane| plane.get_mut(start..start + numbers.len())) {
+                place.copy_from_slice(numbers);
+            }
+        })
+        .map_err(&failure)?;
+        let name = |place: &usize| list[*place].name.to_string();
+        let mut found: BTreeMap<String, Vec<f32>> = wanted.iter().map(name).zip(planes).collect();
+        let unknown = |name: &str| failure(format!("its channel {name} is not as this program writes it"));
+        let mut channel = |name: &str| found.remove(name).ok_or_else(|| unknown(name));
         let mut of_kernel = |kernel: KernelLayer| {
             let PartChannels { values, remainders, count } = kernel.part_channels();
             Ok(KernelChannels {

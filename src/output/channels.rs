@@ -4,11 +4,13 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use exr::meta::attribute::AttributeValue;
-use exr::prelude::{ReadChannels, ReadLayers};
+use exr::prelude::Vec2;
 
-use super::read::{ReadError, open_exr, sample};
+use super::read::{ReadError, check_size};
+use crate::input::{self, AnyFile};
+use crate::picture_file::open_exr::{ExrFile, read_lines};
 
-/// The first part of an EXR file.
+/// The part of an EXR file that is the picture, in its display window; outside of its data window, numbers are 0.
 #[derive(Debug, Clone, Default)]
 pub struct Channels {
     pub width: u32,
@@ -29,25 +31,27 @@ impl Channels {
     }
 
     fn read_or_say(path: &Path) -> Result<Self, String> {
-        let image = exr::prelude::read()
-            .no_deep_data()
-            .largest_resolution_level()
-            .all_channels()
-            .first_valid_layer()
-            .all_attributes()
-            .from_buffered(open_exr(path)?)
-            .map_err(|error| error.to_string())?;
-        let layer = image.layer_data;
-        let (width, height) = (layer.size.width(), layer.size.height());
-        let whole = layer.channel_data.list.iter().filter(|channel| channel.sample_data.len() == width * height);
-        let values = whole
-            .map(|channel| {
-                let samples = (0..width * height).map(|index| sample(&channel.sample_data, index)).collect();
-                (channel.name.to_string(), samples)
-            })
-            .collect();
-        let attributes = layer
-            .attributes
+        let open = || -> Result<AnyFile, String> { Ok(Box::new(input::open(path).map_err(|error| error.to_string())?)) };
+        let file = ExrFile::open(open()?, None).map_err(|what| format!("it {what}"))?;
+        let (header, windows) = (file.header(), file.windows());
+        let size @ [width, height] = windows.size();
+        check_size(size)?;
+        check_size(windows.data_size())?;
+        // Channels of reduced resolution hold no layer of a picture.
+        let whole = header.channels.list.iter().enumerate().filter(|(_, channel)| channel.sampling == Vec2(1, 1));
+        let wanted: Vec<usize> = whole.map(|(place, _)| place).collect();
+        let mut planes = vec![vec![0.0; width as usize * height as usize]; wanted.len()];
+        read_lines(open()?, file.part(), &wanted, |(channel, at, numbers)| {
+            let plane = wanted.iter().position(|of| *of == channel);
+            if let (Some(plane), Some(([column, row], numbers))) = (plane, windows.place(at, numbers)) {
+                let start = row * width as usize + column;
+                planes[plane][start..start + numbers.len()].copy_from_slice(numbers);
+            }
+        })?;
+        let name = |place: &usize| header.channels.list[*place].name.to_string();
+        let values = wanted.iter().map(name).zip(planes).collect();
+        let attributes = header
+            .own_attributes
             .other
             .iter()
             .filter_map(|(name, value)| match value {
@@ -56,7 +60,7 @@ impl Channels {
                 _ => None,
             })
             .collect();
-        Ok(Self { width: width as u32, height: height as u32, values, attributes })
+        Ok(Self { width, height, values, attributes })
     }
 
     /// The values of a channel.

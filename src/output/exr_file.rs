@@ -234,7 +234,7 @@ fn header(spec: &PictureSpec, samples: u32, completeness: Completeness, have_cou
         header.own_attributes.other.insert(header_text(key), AttributeValue::Text(header_text(text)));
     }
     header.shared_attributes.chromaticities = Some(REC_709);
-    if let Some(PartSpec { film, origin }) = spec.part {
+    if let Some(PartSpec { film, origin }) = spec.part.or(spec.placed) {
         let [x, y] = origin.map(|place| i32::try_from(place).unwrap_or(i32::MAX));
         header.own_attributes.layer_position = Vec2(x, y);
         header.shared_attributes.display_window = IntegerBounds::from_dimensions((film[0] as usize, film[1] as usize));

@@ -3,18 +3,18 @@
 use std::io::Read;
 use std::path::Path;
 
-use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, Text};
 
 use super::developed::software;
 use super::format::PictureFormat;
 use super::picture::is_finished;
 use super::provenance::{COMPLETE_KEY, Entry, SAMPLES_KEY};
-use super::read::{Image, read_image};
+use super::read::{ReadPicture, read_picture};
 use super::rows::Completeness;
-use super::spec::PictureSpec;
+use super::spec::{PartSpec, PictureSpec};
 use super::{exr_file, hdr_file, jpeg_file, png_file};
 use crate::input;
+use crate::picture_file::open_exr;
 
 /// Entries of headers that do not decide what a picture shows.
 const INCIDENTAL: [&str; 5] = ["gpt:version", "gpt:scene", "gpt:device", SAMPLES_KEY, COMPLETE_KEY];
@@ -25,7 +25,16 @@ const LONGEST_START: u64 = 70_000;
 /// Whether a readable picture stands there that was made of the same scene with the same settings, and whose render did not break off. The
 /// device does not matter.
 pub fn is_finished_picture(path: &Path, format: PictureFormat, spec: &PictureSpec) -> bool {
-    let has_size = |image: Image| (image.width, image.height) == (spec.width, spec.height);
+    let size = [spec.width, spec.height];
+    // In an EXR file, a part lies where it belongs in the whole picture.
+    let (shown, origin) = match spec.part.or(spec.placed) {
+        Some(PartSpec { film, origin }) if format == PictureFormat::Exr => (film, origin),
+        _ => (size, [0, 0]),
+    };
+    let fits = |picture: ReadPicture| {
+        let ReadPicture { image, notes, covered } = picture;
+        [image.width, image.height] == shown && covered == [origin[0], origin[1], size[0], size[1]] && notes.is_empty()
+    };
     input::is_file(path)
         && is_finished(path)
         && match format {
@@ -33,7 +42,7 @@ pub fn is_finished_picture(path: &Path, format: PictureFormat, spec: &PictureSpe
             PictureFormat::Png => png_agrees(path, spec),
             PictureFormat::Jpeg | PictureFormat::Hdr => text_agrees(path, format, spec),
         }
-        && input::as_own(path, || read_image(path)).is_ok_and(has_size)
+        && input::as_own(path, || read_picture(path)).is_ok_and(fits)
 }
 
 /// The entries that decide what is shown.
@@ -43,10 +52,8 @@ fn decisive(spec: &PictureSpec) -> impl Iterator<Item = (&'static str, Entry)> {
 }
 
 fn exr_agrees(path: &Path, spec: &PictureSpec) -> bool {
-    let Some(meta) = input::open_to_decode(path).ok().and_then(|file| MetaData::read_from_buffered(file, false).ok()) else {
-        return false;
-    };
-    let Some(header) = meta.headers.first() else { return false };
+    let headers = input::open_to_decode(path).ok().and_then(|mut file| open_exr::headers(&mut file).ok());
+    let Some(header) = headers.as_ref().and_then(|headers| headers.first()) else { return false };
     if header.channels.list.iter().any(|channel| channel.name.eq("Remainder.R")) != spec.part.is_some() {
         return false;
     }

@@ -33,5 +33,5 @@ pub use identity::FileIdentity;
 pub use layers::{LayerChannel, LayerPicture, LayerSource, sample_variance};
 pub use picture::{PictureFile, STDOUT};
 pub use provenance::{CROP_KEY, LAYERS_KEY, Provenance};
-pub use read::{Image, PictureKind, ReadError, read_image};
+pub use read::{Image, PictureKind, ReadError, ReadPicture, cut, read_image, read_picture};
 pub use spec::{ExrCompression, ExrOptions, PartSpec, PictureSpec};

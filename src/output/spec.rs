@@ -67,6 +67,8 @@ pub struct PictureSpec {
     pub provenance: Option<Provenance>,
     /// Of a part that `gpt merge` joins with others: float files hold what that needs.
     pub part: Option<PartSpec>,
+    /// Of what was made of such a part and is none: an EXR file says where in the whole picture it lies.
+    pub placed: Option<PartSpec>,
 }
 
 impl PictureSpec {

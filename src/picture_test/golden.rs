@@ -8,7 +8,7 @@ use super::replications::Replications;
 use crate::film::Band;
 use crate::output::{
     Channels, ExrOptions, Image, LayerChannel, LayerPicture, LayerSource, OutputError, PictureFile, PictureFormat, PictureSpec,
-    Provenance, ReadError, as_own,
+    Provenance, ReadError, as_own, read_picture,
 };
 
 /// Channels of the variance of a sample, and of the number of samples.
@@ -34,6 +34,8 @@ pub struct Golden {
     pub flip_of_noise: Option<f64>,
     /// Digest of the scene that it shows; None where the file does not say.
     pub scene_hash: Option<String>,
+    /// What its header says that is not used, with the file's name.
+    pub warnings: Vec<String>,
 }
 
 impl Golden {
@@ -46,6 +48,7 @@ impl Golden {
             replications: Some(renders.count()),
             flip_of_noise: Some(flip_of_noise),
             scene_hash: Some(scene_hash),
+            warnings: Vec::new(),
         }
     }
 
@@ -85,7 +88,13 @@ impl Golden {
             let help = "`gpt test --bless` makes one that has it, and so does `gpt render --aov variance,samples`";
             PictureTestError::Unsuitable(format!("{}: a golden picture has {what}; {help}", path.display()))
         };
-        let pixels = file.colours(["R", "G", "B"]).ok_or_else(|| lacking("the channels R, G and B"))?;
+        if file.colours(["R", "G", "B"]).is_none() {
+            return Err(lacking("the channels R, G and B"));
+        }
+        let picture = read_picture(path)?;
+        if picture.covered != [0, 0, file.width, file.height] {
+            return Err(lacking("every pixel of its picture, and not a part of them"));
+        }
         let variances = file.colours(VARIANCE).ok_or_else(|| lacking("the channels Variance.R, Variance.G and Variance.B"))?;
         let counts = file.channel(COUNT).ok_or_else(|| lacking("the channel SampleCount"))?;
         let fewest = counts.iter().copied().fold(f32::INFINITY, f32::min);
@@ -94,7 +103,8 @@ impl Golden {
         }
         let number = |key: &str| file.attribute(key).and_then(|text| text.parse::<u32>().ok()).filter(|number| *number >= 2);
         Ok(Self {
-            mean: Image { width: file.width, height: file.height, pixels },
+            warnings: picture.warnings(path),
+            mean: picture.image,
             variances,
             samples: fewest as u32,
             replications: number(REPLICATIONS_KEY),
@@ -145,6 +155,8 @@ pub struct Candidate {
     /// Variance of each pixel's mean, where the file says it.
     pub variances: Option<Vec<[f32; 3]>>,
     pub samples: Option<u32>,
+    /// What its header says that is not used, with the file's name.
+    pub warnings: Vec<String>,
 }
 
 impl Candidate {
@@ -153,7 +165,8 @@ impl Candidate {
     /// # Errors
     /// A file that cannot be read.
     pub fn read(path: &Path) -> Result<Self, ReadError> {
-        let mean = crate::output::read_image(path)?;
+        let picture = read_picture(path)?;
+        let (warnings, mean) = (picture.warnings(path), picture.image);
         let noise = Channels::read(path).ok().and_then(|file| {
             let counts = file.channel(COUNT)?;
             let of_mean = |variance: f32, count: f32| variance / count.max(1.0);
@@ -163,6 +176,6 @@ impl Candidate {
             (variances.len() == mean.pixels.len() && fewest >= 2.0).then_some((variances, fewest as u32))
         });
         let (variances, samples) = noise.unzip();
-        Ok(Self { mean, variances, samples })
+        Ok(Self { mean, variances, samples, warnings })
     }
 }

@@ -7,7 +7,7 @@ use super::progressive::Outcome;
 use crate::compare::{self, Comparison};
 use crate::error::Error;
 use crate::film::Band;
-use crate::output::{self, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, read_image};
+use crate::output::{self, OutputError, PictureFile, PictureFormat, PictureSpec, Provenance, read_picture};
 
 /// A picture: linear Rec. 709 radiance, row by row from the top.
 #[derive(Debug, Clone)]
@@ -15,6 +15,8 @@ pub struct Image {
     pixels: output::Image,
     /// Of a picture that was rendered; None where it was read.
     rendered: Option<Rendered>,
+    /// Of a picture that was read.
+    warnings: Vec<String>,
 }
 
 /// What is known of a render beside its pixels.
@@ -45,21 +47,29 @@ impl Image {
         }
         let fewest_samples = if rows == height { fewest_samples } else { 0 };
         let pixels = output::Image { width, height, pixels };
-        Self { pixels, rendered: Some(Rendered { provenance, outcome, fewest_samples, counts }) }
+        Self { pixels, rendered: Some(Rendered { provenance, outcome, fewest_samples, counts }), warnings: Vec::new() }
     }
 
     /// A picture of these pixels, row by row from the top; None where there is no pixel, or their number is not `width * height`.
     pub fn from_pixels(width: u32, height: u32, pixels: Vec<[f32; 3]>) -> Option<Self> {
         let is_picture = !pixels.is_empty() && pixels.len() as u64 == u64::from(width) * u64::from(height);
-        is_picture.then_some(Self { pixels: output::Image { width, height, pixels }, rendered: None })
+        is_picture.then_some(Self { pixels: output::Image { width, height, pixels }, rendered: None, warnings: Vec::new() })
     }
 
-    /// Reads an OpenEXR file, or a PNG, JPEG, Radiance HDR or another of the common formats, by its content. Integers are taken for sRGB.
+    /// Reads an OpenEXR file, or a PNG, JPEG, Radiance HDR or another of the common formats, by its content, in its display window. Integers are
+    /// taken for sRGB where the file says nothing else.
     ///
     /// # Errors
     /// [`Error::Read`].
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
-        Ok(Self { pixels: read_image(path.as_ref())?, rendered: None })
+        let path = path.as_ref();
+        let read = read_picture(path)?;
+        Ok(Self { warnings: read.warnings(path), pixels: read.image, rendered: None })
+    }
+
+    /// What the file of a picture that was read says of it that is not used, such as the shape of pixels, in sentences.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 
     /// Columns.

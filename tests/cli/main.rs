@@ -27,6 +27,7 @@ mod outputs;
 mod overwriting;
 mod part_layers;
 mod parts;
+mod picture_files;
 mod picture_tests;
 mod traversal;
 mod verify;

@@ -50,7 +50,7 @@ fn layers_of_regions_are_those_of_the_whole_picture() {
                     let of = |values: &[f32], start: usize| -> Vec<u32> {
                         values[start..start + columns].iter().map(|value| value.to_bits()).collect()
                     };
-                    let (ours, theirs) = (of(part, row * columns), of(whole, (y + row) * 24 + x));
+                    let (ours, theirs) = (of(part, (y + row) * 24 + x), of(whole, (y + row) * 24 + x));
                     assert_eq!(ours, theirs, "{device}, {name}: {layer}, row {row}");
                 }
             }

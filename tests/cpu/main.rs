@@ -18,6 +18,7 @@ mod imports;
 mod instances;
 mod light_strategies;
 mod models;
+mod picture_files;
 mod picture_test;
 mod pilot;
 mod plan;

@@ -57,8 +57,13 @@ class Picture:
 
     @staticmethod
     def open(path: Path) -> Picture:
-        """Reads an OpenEXR file, or a PNG, JPEG, HDR and others, whose integers are taken for sRGB."""
+        """Reads an OpenEXR file, in its display window, or a PNG, JPEG, HDR and others, whose integers are taken for sRGB where they say nothing else."""
         return Picture(_native.Picture.open(os.fspath(path)), {}, {})
+
+    @property
+    def warnings(self) -> List[str]:
+        """What the file of a picture that was read says of its pixels that is not used, such as their shape."""
+        return self._native.warnings
 
     @property
     def pixels(self) -> Pixels:

@@ -13,7 +13,13 @@ fn measure(settings: Vec<Synthetic>, reference_spp: Option<u32>, schedule: &Samp
     let mut truth = Synthetic { sigma, ..Synthetic::default() };
     let reference = match reference_spp {
         Some(spp) => Reference::render(&mut truth, spp).unwrap(),
-        None => Reference { image: truth.converged(), own_error: Some(Default::default()), spp: None, origin: String::new() },
+        None => Reference {
+            image: truth.converged(),
+            own_error: Some(Default::default()),
+            spp: None,
+            origin: String::new(),
+            warnings: Vec::new(),
+        },
     };
     let mut subjects: Vec<Box<dyn Subject>> = settings.into_iter().map(|one| Box::new(one) as Box<dyn Subject>).collect();
     let (observations, interrupted) = observe_schedule(&mut subjects, &reference, schedule, &mut |_| {}).unwrap();

@@ -9,7 +9,7 @@ use gpt::denoise::bias::Bias;
 use gpt::denoise::library::{Library, OidnError};
 use gpt::denoise::{Raw, denoise};
 use gpt::film::Band;
-use gpt::output::{Channels, Display, Image, OutputError, PictureFile, PictureFormat, PictureSpec, as_own, read_image};
+use gpt::output::{Channels, Display, Image, OutputError, PartSpec, PictureFile, PictureFormat, PictureSpec, as_own, read_picture};
 use serde::Serialize;
 
 pub use arguments::DenoiseArguments;
@@ -69,7 +69,12 @@ impl Denoised {
 
 /// A picture with the layers that help to denoise it.
 fn read_raw(picture: &Path) -> Result<Raw, Failure> {
-    Ok(Raw::of(read_image(picture)?, &Channels::read(picture)?))
+    let read = read_picture(picture)?;
+    read.warnings(picture).iter().for_each(|warning| terminal::warn(warning));
+    if read.covered[2..].contains(&0) {
+        return Err(Failure::BadScene(format!("{}: it has no pixel in its display window", picture.display())));
+    }
+    Ok(Raw::of(read, &Channels::read(picture)?))
 }
 
 /// Denoises a picture, and writes what comes of it.
@@ -87,7 +92,7 @@ fn denoise_into(
     let denoiser = format!("Open Image Denoise {}", library.version()?);
     let notes = vec![(DENOISER_KEY.to_owned(), denoiser.clone()), (BIAS_KEY.to_owned(), bias.to_string())];
     for (path, format) in outputs {
-        write(&denoised, path, *format, (display, notes.clone()))?;
+        write(&denoised, path, *format, (display, notes.clone(), raw.placed))?;
     }
     Ok(Denoised { denoiser, layers: raw.layers(), bias })
 }
@@ -96,10 +101,11 @@ fn write(
     image: &Image,
     path: &Path,
     format: PictureFormat,
-    (display, notes): (Display, Vec<(String, String)>),
+    (display, notes, placed): (Display, Vec<(String, String)>, Option<PartSpec>),
 ) -> Result<(), OutputError> {
     let Image { width, height, ref pixels } = *image;
-    let mut file = PictureFile::create(path, format, &PictureSpec { width, height, display, notes, ..PictureSpec::default() })?;
+    let mut file =
+        PictureFile::create(path, format, &PictureSpec { width, height, display, notes, placed, ..PictureSpec::default() })?;
     let band = Band { width, rows: height, mean: pixels.clone(), ..Band::default() };
     file.write_band(&Arc::new(band)).map_err(|source| OutputError::Write { path: path.to_owned(), source })?;
     file.finish()

@@ -83,6 +83,7 @@ fn test_into(job: &Job, arguments: &TestArguments, settings: &TestSettings, repo
         return Err(Failure::BadScene(format!("there is no golden picture {}; `{command}` makes it", job.golden.display())));
     }
     let golden = if arguments.bless || is_missing { None } else { Some(Golden::read(&job.golden)?) };
+    golden.iter().flat_map(|golden| &golden.warnings).for_each(|warning| terminal::warn(warning));
     let mut maker = Maker::new(&scene, arguments)?;
     report.device = Some(maker.renderer.device().to_owned());
     if let Some(golden) = golden {
@@ -217,6 +218,7 @@ fn test_candidate(
     let path = candidate_file(job, folder)?;
     let golden = Golden::read(&job.golden)?;
     let candidate = Candidate::read(&path)?;
+    golden.warnings.iter().chain(&candidate.warnings).for_each(|warning| terminal::warn(warning));
     report.file = path.display().to_string();
     [report.width, report.height] = [candidate.mean.width, candidate.mean.height];
     report.golden_spp = Some(golden.samples);

@@ -16,6 +16,7 @@ use crate::load::error::{MOST_ERRORS, SceneError, show};
 use crate::load::files::Files;
 use crate::load::image_file::{Picture, Pictures};
 use crate::load::model::Substitute;
+use crate::picture_file::Hints;
 use crate::scene::animation::Deformation;
 use crate::scene::texture::range_of_texture;
 use crate::scene::{Channel, ChannelInput, ColorInput, ColorSpace, ImageData, Material, MaterialId, Mesh, Scene, TextureId};
@@ -29,11 +30,16 @@ pub struct CachedImage {
     pub integer_bits: Option<u16>,
     /// What was changed in it, until it was told.
     pub change: Option<String>,
+    /// What its header says that is not used, until it was told.
+    pub notes: Vec<String>,
+    pub hints: Hints,
+    /// Other programs see the same in the file.
+    pub is_plain: bool,
 }
 
 impl From<Picture> for CachedImage {
-    fn from(picture: Picture) -> Self {
-        Self { image: Arc::new(picture.image), integer_bits: picture.integer_bits, change: picture.change }
+    fn from(Picture { image, integer_bits, change, notes, hints, is_plain }: Picture) -> Self {
+        Self { image: Arc::new(image), integer_bits, change, notes, hints, is_plain }
     }
 }
 
@@ -139,6 +145,23 @@ impl<'a> Resolver<'a> {
             return Err(error.with_help("without --strict, this is a warning"));
         }
         self.scene.warnings.push(error.to_string());
+        Ok(())
+    }
+
+    /// What the header of a picture that was read says that matters for some uses alone.
+    pub(super) fn hints(&self, file: &Path, space: Option<ColorSpace>) -> Hints {
+        self.images.get(&(file.to_owned(), space)).map_or_else(Hints::default, |cached| cached.hints.clone())
+    }
+
+    /// Notes what a picture's header says that is not used.
+    ///
+    /// # Errors
+    /// The same, where that is not allowed.
+    pub(super) fn name_unused(&mut self, file: &Path, note: &str) -> Result<(), String> {
+        if self.strict {
+            return Err(format!("{note}; without --strict, this is a warning"));
+        }
+        self.scene.warnings.push(format!("{}: {note}", show(file)));
         Ok(())
     }
 

@@ -7,12 +7,14 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::keys::LightKeys;
+use crate::load::environment_map;
 use crate::load::error::{SceneError, show};
 use crate::load::file::colour::Rgb;
 use crate::load::file::keyframes::{EnvironmentKeyEntry, InterpolationName, WrittenLightTrack};
 use crate::load::file::resolver::Resolver;
 use crate::load::file::value::{Checked, LARGEST, Located, NonNegative, Number};
 use crate::load::file::writer::{Writer, colour, line, number};
+use crate::picture_file::Envelope;
 use crate::scene::animation::LightTrack;
 use crate::scene::{Environment, EnvironmentRadiance, ImageData, ImageSource, MapRows};
 
@@ -57,19 +59,16 @@ impl LightKeys for Keys {
 
     fn resolve(&self, resolver: &mut Resolver<'_>, span: &Range<usize>) -> Result<Environment, SceneError> {
         let scale = self.scale.as_ref().map_or(1.0, |scale| scale.value.0);
+        let rotation_degrees = self.rotate.map_or(0.0, |rotate| rotate.0);
         let radiance = match (&self.radiance, &self.file) {
             (Some(radiance), None) => EnvironmentRadiance::Constant(radiance.value.0 * scale),
-            (None, Some(file)) => self.map(resolver, file, scale)?,
+            (None, Some(file)) => return self.map(resolver, file, (scale, rotation_degrees)),
             (Some(radiance), Some(_)) => {
                 return Err(resolver.error(&radiance.span, "an environment has either `radiance` or `file`"));
             }
             (None, None) => return Err(resolver.error(span, "an environment needs the key `radiance` or `file`")),
         };
-        let rows = match self.rows {
-            Some(Rows::ToPoles) => MapRows::ToPoles,
-            Some(Rows::Inside) | None => MapRows::Inside,
-        };
-        Ok(Environment { radiance, rotation_degrees: self.rotate.map_or(0.0, |rotate| rotate.0), rows })
+        Ok(Environment { radiance, rotation_degrees, rows: self.rows.map_or(MapRows::Inside, MapRows::from) })
     }
 
     fn track(&self, resolver: &Resolver<'_>) -> Result<Option<LightTrack>, SceneError> {
@@ -104,18 +103,39 @@ impl LightKeys for Keys {
     }
 }
 
-impl Keys {
-    fn map(&self, resolver: &mut Resolver<'_>, file: &Located<String>, scale: f64) -> Result<EnvironmentRadiance, SceneError> {
-        let (image, integer_bits) = resolver.image_and_bits(file, None)?;
-        if let Some(bits) = integer_bits {
-            let name = show(&resolver.path(&file.value));
-            resolver.scene.warnings.push(format!(
-                "{name}: the map has colours of {bits} bits, which are taken for sRGB and made linear: none is brighter than 1, and the sun \
-                 is no brighter than a cloud; maps for lighting are EXR or HDR"
-            ));
+impl From<Rows> for MapRows {
+    fn from(rows: Rows) -> Self {
+        match rows {
+            Rows::Inside => Self::Inside,
+            Rows::ToPoles => Self::ToPoles,
         }
+    }
+}
+
+impl Keys {
+    fn map(
+        &self,
+        resolver: &mut Resolver<'_>,
+        file: &Located<String>,
+        (scale, rotation_degrees): (f64, f64),
+    ) -> Result<Environment, SceneError> {
+        let (image, integer_bits) = resolver.image_and_bits(file, None)?;
+        let path = resolver.path(&file.value);
+        let hints = resolver.hints(&path, None);
+        for note in environment_map::notes(integer_bits, &hints) {
+            resolver.scene.warnings.push(format!("{}: {note}", show(&path)));
+        }
+        // Whoever says where rows lie does not ask the file.
+        let asks = self.rows.is_none() || hints.envelope == Some(Envelope::Cube);
+        let converted = if asks { environment_map::converted(&image, &hints) } else { Ok(None) };
+        let converted = converted.map_err(|reason| resolver.error(&file.span, format!("{}: {reason}", show(&path))))?;
+        let (image, rows, turned) = match converted {
+            Some(map) => (Arc::new(map.image), map.rows, map.rotation_degrees),
+            None => (image, self.rows.map_or(MapRows::Inside, MapRows::from), 0.0),
+        };
+        let rotation_degrees = rotation_degrees + turned;
         if scale == 1.0 {
-            return Ok(EnvironmentRadiance::Map(image));
+            return Ok(Environment { radiance: EnvironmentRadiance::Map(image), rotation_degrees, rows });
         }
         let texels: Vec<_> = image.texels.colors().map(|texel| texel * scale as f32).collect();
         if let Some(written) = &self.scale
@@ -129,6 +149,6 @@ impl Keys {
         if let Some(source) = resolver.scene.sources.image(&image).cloned() {
             resolver.scene.sources.add_image(&scaled, ImageSource { scale, ..source });
         }
-        Ok(EnvironmentRadiance::Map(scaled))
+        Ok(Environment { radiance: EnvironmentRadiance::Map(scaled), rotation_degrees, rows })
     }
 }

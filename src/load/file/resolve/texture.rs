@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 use std::collections::hash_map::Entry;
+use std::mem::take;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -13,6 +14,7 @@ use crate::load::file::resolver::{CachedImage, Resolver};
 use crate::load::file::syntax::{ColorSpaceEntry, CommonKeys, ImageEntry, TextureEntry, TextureFilterEntry, WrapEntry};
 use crate::load::file::value::{Checked, Exactly, Located, Number, Positive};
 use crate::load::formats;
+use crate::picture_file::Envelope;
 use crate::scene::validate::MOST_OCTAVES;
 use crate::scene::{
     ColorSpace, ImageData, ImageSource, ImageTexture, Texture, TextureFilter, TextureId, TextureKind, TextureWrap, UvTransform,
@@ -107,13 +109,39 @@ impl Resolver<'_> {
     }
 
     fn image_texture(&mut self, written: &ImageEntry) -> Result<ImageTexture, SceneError> {
+        let space = written.color_space.map(Into::into);
+        let image = self.image(&written.file, space)?;
+        let path = self.path(&written.file.value);
+        let hints = self.hints(&path, space);
+        if hints.envelope == Some(Envelope::Cube) {
+            let note = "its envmap is a cube, which only environments use: as a texture, it lies flat";
+            self.name_unused(&path, note)
+                .map_err(|reason| self.error(&written.file.span, format!("{}: {reason}", show(&path))))?;
+        }
+        let by_file = match hints.wrap_modes.as_deref().filter(|_| written.wrap.is_none()) {
+            None => [TextureWrap::Repeat; 2],
+            Some(modes) => match wraps_of(modes) {
+                Some(wraps) => wraps,
+                None => {
+                    let note = format!(
+                        "its wrapmodes is `{modes}`, which is not used: the texture repeats unless its key `wrap` says otherwise"
+                    );
+                    self.name_unused(&path, &note)
+                        .map_err(|reason| self.error(&written.file.span, format!("{}: {reason}", show(&path))))?;
+                    [TextureWrap::Repeat; 2]
+                }
+            },
+        };
+        let written_wraps = [written.wrap, written.wrap_v.or(written.wrap)];
+        let wrap = std::array::from_fn(|axis| match written_wraps[axis] {
+            None => by_file[axis],
+            Some(WrapEntry::Repeat) => TextureWrap::Repeat,
+            Some(WrapEntry::Clamp) => TextureWrap::Clamp,
+            Some(WrapEntry::Mirror) => TextureWrap::Mirror,
+        });
         Ok(ImageTexture {
-            image: self.image(&written.file, written.color_space.map(Into::into))?,
-            wrap: [written.wrap, written.wrap_v.or(written.wrap)].map(|wrap| match wrap {
-                None | Some(WrapEntry::Repeat) => TextureWrap::Repeat,
-                Some(WrapEntry::Clamp) => TextureWrap::Clamp,
-                Some(WrapEntry::Mirror) => TextureWrap::Mirror,
-            }),
+            image,
+            wrap,
             filter: match written.filter {
                 None | Some(TextureFilterEntry::Bilinear) => TextureFilter::Bilinear,
                 Some(TextureFilterEntry::Nearest) => TextureFilter::Nearest,
@@ -164,12 +192,17 @@ impl Resolver<'_> {
             Entry::Occupied(entry) => entry.into_mut(),
             Entry::Vacant(entry) => entry.insert(self.pictures.read(path, space)?.into()),
         };
-        let source = ImageSource { path: path.to_owned(), color_space: space, scale: 1.0 };
-        self.scene.sources.add_image(&cached.image, source);
+        // What is written of a scene names files that everyone reads alike; of others, their pixels are written anew.
+        if cached.is_plain {
+            let source = ImageSource { path: path.to_owned(), color_space: space, scale: 1.0 };
+            self.scene.sources.add_image(&cached.image, source);
+        }
         if let Some(change) = cached.change.take() {
             self.scene.warnings.push(format!("{}: {change}", show(path)));
         }
-        Ok((cached.image.clone(), cached.integer_bits))
+        let (notes, read) = (take(&mut cached.notes), (cached.image.clone(), cached.integer_bits));
+        notes.iter().try_for_each(|note| self.name_unused(path, note))?;
+        Ok(read)
     }
 }
 
@@ -180,6 +213,18 @@ impl From<ColorSpaceEntry> for ColorSpace {
             ColorSpaceEntry::Linear => Self::Linear,
         }
     }
+}
+
+/// How a texture goes on along u and v by what its file says, of both or of each (`wrapmodes` of OpenEXR); None of what no texture here does.
+fn wraps_of(modes: &str) -> Option<[TextureWrap; 2]> {
+    let along = |mode: &str| match mode.trim() {
+        "periodic" => Some(TextureWrap::Repeat),
+        "clamp" => Some(TextureWrap::Clamp),
+        "mirror" => Some(TextureWrap::Mirror),
+        _ => None,
+    };
+    let (horizontal, vertical) = modes.split_once(',').unwrap_or((modes, modes));
+    Some([along(horizontal)?, along(vertical)?])
 }
 
 fn factor(written: Option<Checked<Positive>>) -> f64 {

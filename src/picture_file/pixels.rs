@@ -1,0 +1,34 @@
+//! What all formats hand over: pixels, and what headers say that matters for some uses alone.
+
+use crate::scene::ColorSpace;
+
+/// How the light of all directions lies in a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Envelope {
+    /// Latitude and longitude, the first and the last row on the poles, the first and the last column in the same place.
+    LatLong,
+    /// Six faces, one below the other.
+    Cube,
+}
+
+/// What a header says that matters for some uses of the picture alone.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Hints {
+    /// How the light of all directions lies in it.
+    pub envelope: Option<Envelope>,
+    /// How a texture goes on beyond its edges: `black`, `clamp`, `periodic` or `mirror`, of both axes or one after the other.
+    pub wrap_modes: Option<String>,
+    /// It was seen from some place, as renders of Radiance are.
+    pub has_view: bool,
+}
+
+/// Takes pixels side by side, from a column and a row of the display window on: red, green, blue and alpha, linear unless said otherwise.
+pub type Sink<'s> = &'s mut dyn FnMut([usize; 2], &[[f32; 4]]);
+
+/// A value as a colour space has it, linear.
+pub fn linear(value: f32, space: ColorSpace) -> f32 {
+    match space {
+        ColorSpace::Srgb => crate::math::srgb_to_linear(value),
+        ColorSpace::Linear => value,
+    }
+}
