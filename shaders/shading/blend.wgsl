@@ -39,7 +39,7 @@ fn part_material(run: PartRun, index: u32) -> u32 {
     return bitcast<u32>(tables[FIRST_PART_WORD + run.first + index].x);
 }
 
-fn weighted_part(run: PartRun, index: u32, cosine: f32, uv: TextureCoordinates) -> WeightedPart {
+fn weighted_part(run: PartRun, index: u32, cosine: f32, front: bool, uv: TextureCoordinates) -> WeightedPart {
     if run.first == NONE {
 #if ONE_SIDED
         return WeightedPart(run.material, 1.0, is_front_only(run.material));
@@ -56,7 +56,7 @@ fn weighted_part(run: PartRun, index: u32, cosine: f32, uv: TextureCoordinates) 
     let count = part.z;
 #endif
     for (var factor = part.y; factor < part.y + count; factor++) {
-        weight *= blend_weight(factor, cosine, uv);
+        weight *= blend_weight(factor, cosine, front, uv);
     }
 #if ONE_SIDED
     return WeightedPart(part.x, weight, (part.z & PART_FRONT_ONLY) != 0u);
@@ -73,7 +73,7 @@ fn material_emission(material: u32, cosine: f32, front: bool, uv: TextureCoordin
         // Behind the parts stand the inner blends that emit by themselves.
         let count = run.count + bitcast<u32>(tables[material * MATERIAL_WORDS + 1u].z);
         for (var index = 0u; index < count; index++) {
-            let part = weighted_part(run, index, cosine, uv);
+            let part = weighted_part(run, index, cosine, front, uv);
             if part.weight > 0.0 {
                 radiance += part.weight * own_emission(part.material, front, uv);
             }

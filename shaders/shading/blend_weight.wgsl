@@ -11,7 +11,8 @@
 #import shading/texture.wgsl
 #endif
 
-fn blend_weight(index: u32, cosine: f32, uv: TextureCoordinates) -> f32 {
+// `cosine` with the normal on the side of `front` from which the surface is seen.
+fn blend_weight(index: u32, cosine: f32, front: bool, uv: TextureCoordinates) -> f32 {
     let h = tables[FIRST_BLEND_WEIGHT_WORD + index];
     let flags = bitcast<u32>(h.x);
     var w = h.y;
@@ -19,6 +20,9 @@ fn blend_weight(index: u32, cosine: f32, uv: TextureCoordinates) -> f32 {
 #if WEIGHTS_BY_ANGLE
         case WEIGHT_FACING: {
             w = select(pow(cosine, h.y), 0.0, cosine <= 0.0);
+        }
+        case WEIGHT_FRONT: {
+            w = select(0.0, 1.0, front);
         }
         case WEIGHT_FRESNEL_SCHLICK: {
             let r = (h.y - 1.0) / (h.y + 1.0);

@@ -28,7 +28,7 @@ fn pick_part(surface: Surface, wo: vec3<f32>, choice: f32) -> WeightedPart {
     var chosen: WeightedPart;
     chosen.material = run.material;
     for (var index = 0u; index < run.count; index++) {
-        let part = weighted_part(run, index, cosine, surface.uv);
+        let part = weighted_part(run, index, cosine, surface.front, surface.uv);
         if part.weight > 0.0 {
             // The last part of any weight takes what rounding leaves over.
             chosen = part;

@@ -35,7 +35,7 @@ struct WeightedLobe {
 }
 
 fn load_weighted_lobe(bsdf: Bsdf, index: u32, surface: Surface) -> WeightedLobe {
-    let part = weighted_part(bsdf.run, index, bsdf.cosine, surface.uv);
+    let part = weighted_part(bsdf.run, index, bsdf.cosine, surface.front, surface.uv);
     var weighted: WeightedLobe;
 #if ONE_SIDED
     if part.front_only && !surface.front {

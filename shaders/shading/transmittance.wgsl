@@ -72,7 +72,7 @@ fn null_weight(surface: Surface, wo: vec3<f32>) -> f32 {
     var sum = 0.0;
     for (var index = 0u; index < run.count; index++) {
         if is_null_part(run, index) {
-            sum += weighted_part(run, index, cosine, surface.uv).weight;
+            sum += weighted_part(run, index, cosine, surface.front, surface.uv).weight;
         }
     }
     return min(sum, 1.0);

@@ -118,7 +118,7 @@ fn mean_luminance(scene: &Scene, material: MaterialId) -> f64 {
 fn weight_at(scene: &Scene, weight: &BlendWeight, uv: Option<Coordinates>) -> Option<f64> {
     match *weight {
         BlendWeight::Constant { value } => Some(value),
-        BlendWeight::Facing { .. } | BlendWeight::Fresnel { .. } => None,
+        BlendWeight::Facing { .. } | BlendWeight::Front | BlendWeight::Fresnel { .. } => None,
         BlendWeight::Texture { texture } => Some(luminance(texture::look_up(&scene.textures, texture, uv?)).clamp(0.0, 1.0)),
         BlendWeight::Channel { texture, channel, factor } => {
             Some((factor * texture::look_up_channel(&scene.textures, texture, channel, uv?)).clamp(0.0, 1.0))

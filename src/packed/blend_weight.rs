@@ -12,10 +12,11 @@ shared_kinds! {
         Facing = 1 as WEIGHT_FACING,
         FresnelSchlick = 2 as WEIGHT_FRESNEL_SCHLICK,
         FresnelExact = 3 as WEIGHT_FRESNEL_EXACT,
+        Front = 4 as WEIGHT_FRONT,
         /// The luminance of a texture.
-        Texture = 4 as WEIGHT_TEXTURE,
+        Texture = 5 as WEIGHT_TEXTURE,
         /// The first channel of a texture times the value.
-        Channel = 5 as WEIGHT_CHANNEL,
+        Channel = 6 as WEIGHT_CHANNEL,
     }
 }
 
@@ -53,9 +54,11 @@ pub(super) fn constant_weight(weight: &BlendWeight) -> Option<f64> {
         BlendWeight::Threshold { tau, of } => constant_weight(of).map(|value| f64::from(u8::from(value >= *tau))),
         // x⁰
         BlendWeight::Facing { power } if *power == 0.0 => Some(1.0),
-        BlendWeight::Facing { .. } | BlendWeight::Fresnel { .. } | BlendWeight::Texture { .. } | BlendWeight::Channel { .. } => {
-            None
-        }
+        BlendWeight::Facing { .. }
+        | BlendWeight::Front
+        | BlendWeight::Fresnel { .. }
+        | BlendWeight::Texture { .. }
+        | BlendWeight::Channel { .. } => None,
     }
 }
 
@@ -71,6 +74,7 @@ impl PackedBlendWeight {
         let packed = match weight {
             BlendWeight::Constant { value } => plain(WeightKind::Constant, *value, NONE),
             BlendWeight::Facing { power } => plain(WeightKind::Facing, *power, NONE),
+            BlendWeight::Front => plain(WeightKind::Front, 0.0, NONE),
             BlendWeight::Fresnel { ior, exact: false } => plain(WeightKind::FresnelSchlick, *ior, NONE),
             BlendWeight::Fresnel { ior, exact: true } => plain(WeightKind::FresnelExact, *ior, NONE),
             BlendWeight::Texture { texture } => plain(WeightKind::Texture, 0.0, *texture as u32),
@@ -84,9 +88,9 @@ impl PackedBlendWeight {
         if reversed { Self { kind_and_flags: packed.kind_and_flags ^ REVERSED, ..packed } } else { packed }
     }
 
-    /// It depends on the angle from which the surface is seen.
+    /// It depends on the angle or the side from which the surface is seen.
     pub(super) fn is_by_angle(&self) -> bool {
-        let kinds = [WeightKind::Facing, WeightKind::FresnelSchlick, WeightKind::FresnelExact];
+        let kinds = [WeightKind::Facing, WeightKind::Front, WeightKind::FresnelSchlick, WeightKind::FresnelExact];
         kinds.iter().any(|kind| *kind as u32 == self.kind_and_flags & !FLAGS)
     }
 

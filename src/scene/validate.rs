@@ -117,6 +117,7 @@ impl Scene {
                 BlendWeight::Reverse { of } => of,
                 BlendWeight::Threshold { tau, of } if tau.is_finite() => of,
                 BlendWeight::Constant { value } if (0.0..=1.0).contains(value) => return Ok(()),
+                BlendWeight::Front => return Ok(()),
                 BlendWeight::Facing { power } if power.is_finite() && *power >= 0.0 => return Ok(()),
                 BlendWeight::Fresnel { ior, .. } if is_positive(*ior) => return Ok(()),
                 _ => return Err("a number of the blend's weight is out of its range".into()),
@@ -221,6 +222,9 @@ pub(super) fn check_camera(camera: &Camera) -> Check {
     }
     if !camera.shift.into_iter().all(f64::is_finite) {
         return Err("its shift must be finite".into());
+    }
+    if !(camera.stretch.is_finite() && camera.stretch != 0.0) {
+        return Err("its stretch must be finite and not 0".into());
     }
     let [open, close] = camera.shutter;
     if !(open.is_finite() && close.is_finite() && open <= close) {

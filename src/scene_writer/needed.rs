@@ -97,6 +97,6 @@ fn texture_of_weight(weight: &BlendWeight) -> Option<TextureId> {
     match weight {
         BlendWeight::Texture { texture } | BlendWeight::Channel { texture, .. } => Some(*texture),
         BlendWeight::Reverse { of } | BlendWeight::Threshold { of, .. } => texture_of_weight(of),
-        BlendWeight::Constant { .. } | BlendWeight::Facing { .. } | BlendWeight::Fresnel { .. } => None,
+        BlendWeight::Constant { .. } | BlendWeight::Facing { .. } | BlendWeight::Front | BlendWeight::Fresnel { .. } => None,
     }
 }

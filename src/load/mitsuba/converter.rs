@@ -36,9 +36,11 @@ pub struct Converter<'a> {
     pub both_sides: bool,
     /// Materials that give light, by their keys.
     pub lamps: HashMap<String, String>,
-    /// That of shapes without a BSDF.
-    pub default_material: Option<usize>,
+    /// Those of shapes without a BSDF, without light and with it.
+    pub default_materials: [Option<usize>; 2],
     pub textures: HashMap<(*const Plugin, bool, Texels, Option<usize>), Input>,
+    /// Pictures that were made of others, by the file, whether its texels are linear and whether they are directions; None where the file says the same.
+    pub made_pictures: HashMap<(PathBuf, bool, bool), Option<FileReference>>,
     /// The attributes of the mesh whose material is being made, where it looks any up: by their names as `vertex_color`, and a number of
     /// the mesh.
     pub attributes: Option<(usize, Rc<HashMap<String, Input>>)>,

@@ -14,6 +14,7 @@ pub fn weight(blend_weight: &BlendWeight, lookup: &Lookup) -> f64 {
     match *blend_weight {
         BlendWeight::Constant { value } => value,
         BlendWeight::Facing { power } => cosine.powf(power).clamp(0.0, 1.0),
+        BlendWeight::Front => f64::from(u8::from(lookup.front)),
         // As seen from outside, on either side.
         BlendWeight::Fresnel { ior, exact: true } => 1.0 - dielectric_reflectance(cosine, ior),
         BlendWeight::Fresnel { ior, exact: false } => {
@@ -45,9 +46,11 @@ pub fn mean_weight(blend_weight: &BlendWeight) -> f64 {
 fn constant_weight(blend_weight: &BlendWeight) -> Option<f64> {
     match blend_weight {
         BlendWeight::Constant { value } => Some(*value),
-        BlendWeight::Facing { .. } | BlendWeight::Fresnel { .. } | BlendWeight::Texture { .. } | BlendWeight::Channel { .. } => {
-            None
-        }
+        BlendWeight::Facing { .. }
+        | BlendWeight::Front
+        | BlendWeight::Fresnel { .. }
+        | BlendWeight::Texture { .. }
+        | BlendWeight::Channel { .. } => None,
         BlendWeight::Reverse { of } => constant_weight(of).map(|weight| 1.0 - weight),
         BlendWeight::Threshold { tau, of } => constant_weight(of).map(|weight| if weight >= *tau { 1.0 } else { 0.0 }),
     }

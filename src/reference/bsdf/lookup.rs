@@ -14,11 +14,13 @@ pub struct Lookup<'a> {
     pub uv: Coordinates,
     /// Cosine of the angle between wo and the shading normal, in [0, 1].
     pub cosine: f64,
+    /// It is seen from its front.
+    pub front: bool,
 }
 
 impl<'a> Lookup<'a> {
     pub fn new(scene: &'a Scene, surface: &Surface, view: &View) -> Self {
-        Self { scene, uv: surface.coordinates(), cosine: view.wo.dot(view.normal()).clamp(0.0, 1.0) }
+        Self { scene, uv: surface.coordinates(), cosine: view.wo.dot(view.normal()).clamp(0.0, 1.0), front: view.front }
     }
 
     pub(super) fn color(&self, input: &ColorInput) -> DVec3 {

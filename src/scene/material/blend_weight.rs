@@ -13,6 +13,8 @@ pub enum BlendWeight {
     Facing {
         power: f64,
     },
+    /// w0 = 1 where the surface is seen from its front, else 0.
+    Front,
     /// w0 = 1 − R; R by Schlick, or by the dielectric equations where `exact`.
     Fresnel {
         ior: f64,
@@ -45,7 +47,7 @@ impl BlendWeight {
         match self {
             Self::Texture { .. } | Self::Channel { .. } => true,
             Self::Reverse { of } | Self::Threshold { of, .. } => of.uses_texture(),
-            Self::Constant { .. } | Self::Facing { .. } | Self::Fresnel { .. } => false,
+            Self::Constant { .. } | Self::Facing { .. } | Self::Front | Self::Fresnel { .. } => false,
         }
     }
 }

@@ -30,6 +30,8 @@ pub struct Keys {
     scale: Option<Located<Checked<NonNegative>>>,
     /// Degrees about +Y, counter-clockwise seen from above.
     rotate: Option<Number>,
+    /// Exchanges the map's left and right before it is turned; false when left out.
+    mirror: Option<Located<bool>>,
     /// Where the first and the last row of the map lie: half a row from the poles when left out.
     rows: Option<Rows>,
     /// What it is at frames (`--frame`, `--frames`, `--time`); without one it is what the other keys say.
@@ -52,14 +54,15 @@ impl LightKeys for Keys {
     type Light = Environment;
 
     const EXAMPLES: &'static [&'static str] =
-        &["radiance = [0.2, 0.5, 1]", "file = \"map.exr\"\nscale = 1.5\nrotate = 40", "file = \"map.exr\"\nrows = \"to_poles\""];
+        &["radiance = [0.2, 0.5, 1]", "file = \"map.exr\"\nscale = 1.5\nrotate = 40", "file = \"map.exr\"\nrows = \"to_poles\"\nmirror = true"];
     const STRENGTH: &'static str = "radiance";
 
     fn resolve(&self, resolver: &mut Resolver<'_>, span: &Range<usize>) -> Result<Environment, SceneError> {
         let scale = self.scale.as_ref().map_or(1.0, |scale| scale.value.0);
+        let mirrored = self.mirror.as_ref().is_some_and(|mirror| mirror.value);
         let radiance = match (&self.radiance, &self.file) {
             (Some(radiance), None) => EnvironmentRadiance::Constant(radiance.value.0 * scale),
-            (None, Some(file)) => self.map(resolver, file, scale)?,
+            (None, Some(file)) => self.map(resolver, file, (scale, mirrored))?,
             (Some(radiance), Some(_)) => {
                 return Err(resolver.error(&radiance.span, "an environment has either `radiance` or `file`"));
             }
@@ -69,7 +72,7 @@ impl LightKeys for Keys {
             Some(Rows::ToPoles) => MapRows::ToPoles,
             Some(Rows::Inside) | None => MapRows::Inside,
         };
-        Ok(Environment { radiance, rotation_degrees: self.rotate.map_or(0.0, |rotate| rotate.0), rows })
+        Ok(Environment { radiance, rotation_degrees: self.rotate.map_or(0.0, |rotate| rotate.0), rows, mirrored })
     }
 
     fn track(&self, resolver: &Resolver<'_>) -> Result<Option<LightTrack>, SceneError> {
@@ -100,12 +103,20 @@ impl LightKeys for Keys {
         if environment.rows == MapRows::ToPoles {
             out += &line("rows", "\"to_poles\"");
         }
+        if environment.mirrored {
+            out += &line("mirror", "true");
+        }
         out
     }
 }
 
 impl Keys {
-    fn map(&self, resolver: &mut Resolver<'_>, file: &Located<String>, scale: f64) -> Result<EnvironmentRadiance, SceneError> {
+    fn map(
+        &self,
+        resolver: &mut Resolver<'_>,
+        file: &Located<String>,
+        (scale, mirrored): (f64, bool),
+    ) -> Result<EnvironmentRadiance, SceneError> {
         let (image, integer_bits) = resolver.image_and_bits(file, None)?;
         if let Some(bits) = integer_bits {
             let name = show(&resolver.path(&file.value));
@@ -114,10 +125,13 @@ impl Keys {
                  is no brighter than a cloud; maps for lighting are EXR or HDR"
             ));
         }
-        if scale == 1.0 {
+        if scale == 1.0 && !mirrored {
             return Ok(EnvironmentRadiance::Map(image));
         }
-        let texels: Vec<_> = image.texels.colors().map(|texel| texel * scale as f32).collect();
+        let mut texels: Vec<_> = image.texels.colors().map(|texel| texel * scale as f32).collect();
+        if mirrored {
+            texels.chunks_mut(image.width as usize).for_each(|row| row.reverse());
+        }
         if let Some(written) = &self.scale
             && texels.iter().any(|texel| texel.max_element() > LARGEST as f32)
         {

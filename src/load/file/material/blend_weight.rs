@@ -18,6 +18,7 @@ use crate::scene::{BlendWeight, TextureId, TextureKind};
 pub enum BlendWeightEntry {
     Constant(ConstantWeight),
     Facing(FacingWeight),
+    Front(FrontWeight),
     Fresnel(FresnelWeight),
     Texture(TextureWeight),
     Reverse(ReverseWeight),
@@ -37,6 +38,11 @@ pub struct FacingWeight {
     /// 1 when left out.
     power: Option<Checked<NonNegative>>,
 }
+
+/// w0 = 1 where the surface is seen from its front, else 0: each side has a material of its own
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct FrontWeight {}
 
 /// w0 = 1 − R
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -81,6 +87,7 @@ impl BlendWeightEntry {
         Ok(match self {
             Self::Constant(keys) => BlendWeight::Constant { value: keys.value.0 },
             Self::Facing(keys) => BlendWeight::Facing { power: keys.power.map_or(1.0, |power| power.0) },
+            Self::Front(FrontWeight {}) => BlendWeight::Front,
             Self::Fresnel(keys) => BlendWeight::Fresnel { ior: ior_or_default(keys.ior), exact: keys.exact },
             Self::Texture(keys) => keys.resolve(resolver)?,
             Self::Reverse(keys) => BlendWeight::Reverse { of: Box::new(keys.of.resolve(resolver)?) },
@@ -125,6 +132,7 @@ pub fn write(weight: &BlendWeight, writer: &Writer<'_>) -> String {
     let (type_name, keys) = match weight {
         BlendWeight::Constant { value } => ("constant", vec![("value", number(*value))]),
         BlendWeight::Facing { power } => ("facing", vec![("power", number(*power))]),
+        BlendWeight::Front => ("front", Vec::new()),
         BlendWeight::Fresnel { ior, exact } => ("fresnel", vec![("ior", number(*ior)), ("exact", exact.to_string())]),
         BlendWeight::Texture { texture } => ("texture", vec![("texture", writer.textures.quoted(*texture))]),
         BlendWeight::Channel { texture, channel, factor } => {

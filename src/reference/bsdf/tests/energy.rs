@@ -169,7 +169,7 @@ fn principled(keys: &str) -> Lobe {
          [[material]]\nname = \"m\"\ntype = \"principled\"\n{keys}"
     );
     let scene = load_toml_str(&text, "test.toml", Path::new("")).unwrap_or_else(|error| panic!("{error}"));
-    let lookup = Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0 };
+    let lookup = Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, front: true };
     Lobe::of(&scene.materials[0].kind, &lookup).expect("it scatters")
 }
 

@@ -146,7 +146,7 @@ fn examples() -> Vec<(String, Lobe, f64)> {
         let scene = load_toml_str(&text, "example.toml", Path::new("")).unwrap_or_else(|error| panic!("{name}: {error}"));
         let kind = &scene.materials.last().expect("it has the example").kind;
         assert_eq!(kind.type_name(), name);
-        let lobe = Lobe::of(kind, &Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0 });
+        let lobe = Lobe::of(kind, &Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, front: true });
         let parameters = kind.lobe();
         assert_eq!(lobe.map(|lobe| lobe.kind()), parameters.as_ref().map(|parameters| parameters.lobe), "{name}");
         let parameters = parameters?;
