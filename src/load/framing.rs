@@ -70,7 +70,12 @@ fn add_lights(scene: &mut Scene, rectangle: Rectangle) {
     };
     add(scene, "(light)", light, Geometry::Rectangle(rectangle));
     let radiance = EnvironmentRadiance::Constant(DVec3::splat(SKY));
-    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: MapRows::Inside, mirrored: false }));
+    scene.lights.push(Light::Environment(Environment {
+        radiance,
+        rotation_degrees: 0.0,
+        rows: MapRows::Inside,
+        mirrored: false,
+    }));
 }
 
 /// Where ground, light and camera stand.
@@ -125,7 +130,12 @@ pub fn light_by(scene: &mut Scene, map: &Path, files: Files) -> Result<(), Scene
     scene.sources.add_image(&image, ImageSource { path: map.to_owned(), color_space: None, scale: 1.0 });
     scene.lights.retain(|light| !light.is_environment());
     let radiance = EnvironmentRadiance::Map(image);
-    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: MapRows::Inside, mirrored: false }));
+    scene.lights.push(Light::Environment(Environment {
+        radiance,
+        rotation_degrees: 0.0,
+        rows: MapRows::Inside,
+        mirrored: false,
+    }));
     Ok(())
 }
 

@@ -60,7 +60,10 @@ pub fn read(files: &Files, path: &Path, options: &LoadOptions) -> Result<Descrip
     let is_bare = description.shapes.is_empty() && description.instances.is_empty();
     // A camera and surroundings make a picture without surfaces.
     if is_bare && description.lights.is_empty() && description.camera.is_none() {
-        return Err(SceneError::in_file(name, "there is nothing to render in the scene: it has no surfaces, no lights and no camera"));
+        return Err(SceneError::in_file(
+            name,
+            "there is nothing to render in the scene: it has no surfaces, no lights and no camera",
+        ));
     }
     Ok(description)
 }

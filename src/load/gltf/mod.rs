@@ -71,7 +71,11 @@ pub fn load(files: &Files, path: &Path, camera: Option<&str>, variant: Option<&s
     };
     importer.report_extensions();
     importer.scene(camera).map_err(refuse)?;
-    Ok(importer.scene)
+    let scene = importer.scene;
+    if !root.meshes.is_empty() && scene.shapes.is_empty() && scene.instances.is_empty() {
+        return Err(refuse("there is nothing to render in the scene: it shows none of its meshes' faces".to_owned()));
+    }
+    Ok(scene)
 }
 
 /// The JSON, and the data that a binary file brings.

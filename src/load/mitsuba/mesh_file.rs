@@ -89,8 +89,7 @@ impl Converter<'_> {
             self.take_attributes(plugin, &path, &key, &mut mesh)?;
         }
         if textured && mesh.uvs.is_empty() {
-            self.approximate(plugin, "texture on a mesh without texture coordinates", "the texture at (0, 0) is everywhere");
-            mesh.uvs = vec![Vec2::ZERO; mesh.positions.len()];
+            barycentric_coordinates(&mut mesh);
         }
         if !textured {
             mesh.uvs.clear();
@@ -215,6 +214,17 @@ fn smooth_once_placed(mesh: &mut Mesh, map: DMat3) {
     let (back, sign) = (map.transpose(), map.determinant().signum());
     let turned = |normal: &Vec3| (back * normal.as_dvec3() * sign).normalize_or(DVec3::Z).as_vec3();
     mesh.normals = placed.normals.iter().map(turned).collect();
+}
+
+/// Texture coordinates of what has none: on every face (0, 0), (1, 0) and (0, 1) in its corners.
+fn barycentric_coordinates(mesh: &mut Mesh) {
+    let corners: Vec<usize> = mesh.faces.iter().flatten().map(|corner| *corner as usize).collect();
+    mesh.positions = corners.iter().map(|corner| mesh.positions[*corner]).collect();
+    if !mesh.normals.is_empty() {
+        mesh.normals = corners.iter().map(|corner| mesh.normals[*corner]).collect();
+    }
+    mesh.uvs = [Vec2::ZERO, Vec2::X, Vec2::Y].into_iter().cycle().take(corners.len()).collect();
+    mesh.faces = (0..mesh.faces.len() as u32).map(|face| [3 * face, 3 * face + 1, 3 * face + 2]).collect();
 }
 
 /// Normals of no length are computed.

@@ -63,6 +63,7 @@ pub fn load(files: &Files, path: &Path, options: &Options) -> Result<Description
         world: DAffine3::IDENTITY,
         materials: HashMap::new(),
         both_sides: false,
+        clip: None,
         lamps: HashMap::new(),
         default_materials: [None; 2],
         textures: HashMap::new(),
@@ -115,7 +116,7 @@ impl Converter<'_> {
             }
         }
         self.finish_groups();
-        Ok(())
+        self.report_clipped()
     }
 
     fn choose_sensor(&self, root: &Rc<Plugin>, options: &Options) -> Result<Option<Rc<Plugin>>, SceneError> {

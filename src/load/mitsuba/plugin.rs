@@ -35,7 +35,8 @@ pub struct Within {
     pub uses_bitmap: bool,
     /// An attribute of a mesh.
     pub uses_attribute: bool,
-    pub has_bump_map: bool,
+    /// A map of normals or heights.
+    pub has_relief: bool,
 }
 
 #[derive(Debug)]
@@ -94,14 +95,14 @@ impl Plugin {
             uses_texture: ["texture", "spectrum"].contains(&kind) && !CONSTANT.contains(&name) || self.has("alpha_u"),
             uses_bitmap: kind == "texture" && name == "bitmap",
             uses_attribute: kind == "texture" && name == "mesh_attribute",
-            has_bump_map: ["bumpmap", "bump"].contains(&name),
+            has_relief: ["bumpmap", "bump", "normalmap"].contains(&name),
         };
         let all = self.children.iter().map(|child| child.plugin.within).fold(own, |a, b| Within {
             depth: a.depth.max(b.depth),
             uses_texture: a.uses_texture || b.uses_texture,
             uses_bitmap: a.uses_bitmap || b.uses_bitmap,
             uses_attribute: a.uses_attribute || b.uses_attribute,
-            has_bump_map: a.has_bump_map || b.has_bump_map,
+            has_relief: a.has_relief || b.has_relief,
         });
         self.within = Within { depth: all.depth + 1, ..all };
     }

@@ -86,7 +86,8 @@ impl References {
     /// A `<ref>` that names nothing, one that leads back to itself, or plugins that lie too deep within each other.
     pub fn resolve(mut self, root: Draft) -> Result<Rc<Plugin>, SceneError> {
         // What nothing could name is in error as well.
-        let unsound = self.aliases.values().find(|alias| !self.written.contains_key(&alias.of) && !self.aliases.contains_key(&alias.of));
+        let unsound =
+            self.aliases.values().find(|alias| !self.written.contains_key(&alias.of) && !self.aliases.contains_key(&alias.of));
         if let Some(Alias { of, place }) = unsound {
             return Err(unknown(of, place));
         }

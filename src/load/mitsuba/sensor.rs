@@ -36,7 +36,7 @@ impl Converter<'_> {
         ]);
         plugin.without_effect(&["shading_samples", "emitter_samples", "bsdf_samples", "sample_center"]);
         if plugin.flag("hide_emitters", false)? {
-            self.drop(plugin, "integrator: `hide_emitters`", "emitters are seen");
+            self.scene.render.set("emitters", "hidden");
         }
         match plugin.name.as_str() {
             "direct" => {
@@ -92,6 +92,7 @@ impl Converter<'_> {
     pub fn sensor(&mut self, plugin: &Rc<Plugin>) -> Result<(), SceneError> {
         plugin.visited.set(true);
         plugin.without_effect(&["near_clip", "far_clip", "srf"]);
+        self.clip = Some(plugin.clone());
         let film = self.film(plugin)?;
         if let Some(sampler) = plugin.first_of("sampler") {
             sampler.visited.set(true);
@@ -151,6 +152,27 @@ impl Converter<'_> {
             other => return Err(plugin.error(format!("the sensor `{other}` cannot be said here; a perspective one can"))),
         }
         self.scene.camera = Some(Entry { place: plugin.place.clone(), keys });
+        Ok(())
+    }
+
+    /// Tells of surfaces that are nearer or farther than the sensor sees there; here it sees them.
+    pub fn report_clipped(&mut self) -> Result<(), SceneError> {
+        let Some(plugin) = self.clip.take().filter(|plugin| plugin.has("near_clip") || plugin.has("far_clip")) else {
+            return Ok(());
+        };
+        let (near, far) = (plugin.number_or("near_clip", 1e-2)?, plugin.number_or("far_clip", 1e4)?);
+        let to_world = self.world * plugin.transform("to_world")?;
+        let forward = to_world.matrix3.z_axis.normalize_or_zero();
+        let depths = self.scene.points().into_iter().map(|point| (point - to_world.translation).dot(forward));
+        let (is_near, is_far) = depths
+            .filter(|depth| *depth > 0.0)
+            .fold((false, false), |(is_near, is_far), depth| (is_near || depth < near, is_far || depth > far));
+        for (name, is_clipped) in [("near_clip", is_near), ("far_clip", is_far)] {
+            if is_clipped {
+                let what = format!("{}: `{name}`", plugin.title());
+                self.drop(&plugin, &what, "what lies beyond it is seen");
+            }
+        }
         Ok(())
     }
 

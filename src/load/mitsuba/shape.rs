@@ -116,8 +116,11 @@ impl Converter<'_> {
         if within.uses_attribute && within.uses_bitmap {
             self.drop(plugin, "texture beside an attribute of a mesh", "its texture coordinates are those of the attribute");
         }
-        let Some((keys, map)) =
-            self.geometry(plugin, (around, own), Looks { textured, flip, attributes: within.uses_attribute, bumped: within.has_bump_map })?
+        let Some((keys, map)) = self.geometry(
+            plugin,
+            (around, own),
+            Looks { textured, flip, attributes: within.uses_attribute, bumped: within.has_relief },
+        )?
         else {
             return Ok(());
         };
@@ -146,7 +149,9 @@ impl Converter<'_> {
             "sphere" => self.sphere(plugin, map, looks)?,
             "rectangle" => {
                 let (u, v) = (DVec3::new(2.0, 0.0, 0.0), DVec3::new(0.0, 2.0, 0.0));
-                if flip && textured {
+                // Of maps of normals, the sides of a mesh are known.
+                let mirrors = map.matrix3.determinant() < 0.0;
+                if (flip && textured) || (mirrors && looks.bumped) {
                     self.made_mesh(plugin, key("rectangle"), flip, map, square)?
                 } else if flip {
                     // The front follows edge_u × edge_v.
@@ -181,7 +186,7 @@ impl Converter<'_> {
                     return Err(plugin.error("the cylinder has no length or no radius"));
                 };
                 let (x, y) = along.any_orthonormal_pair();
-                if is_uniform(&map) && !flip {
+                if is_uniform(&map) && !flip && !looks.bumped {
                     let tube = Keys::of_type("cylinder").with("radius", radius);
                     if !textured {
                         return Ok(Some((tube.with("from", p0).with("to", p1), map)));
@@ -192,7 +197,7 @@ impl Converter<'_> {
                 }
                 self.approximate(
                     plugin,
-                    "shape `cylinder` scaled unevenly or turned inside out",
+                    "shape `cylinder` scaled unevenly, turned inside out or with a map of normals or heights",
                     "256 triangles with interpolated normals",
                 );
                 let own = DAffine3 { matrix3: DMat3::from_cols(x * radius, y * radius, axis), translation: p0 };
@@ -242,7 +247,7 @@ impl Converter<'_> {
         }
         self.approximate(
             plugin,
-            "shape `sphere` turned inside out or with a bump map",
+            "shape `sphere` turned inside out or with a map of normals or heights",
             "16,000 triangles with interpolated normals",
         );
         let own = DAffine3::from_translation(center) * DAffine3::from_scale(DVec3::splat(radius));
@@ -305,7 +310,7 @@ pub struct Looks {
     pub flip: bool,
     /// Numbers of its vertices or faces are.
     pub attributes: bool,
-    /// Heights are: what has no edges becomes triangles.
+    /// Normals or heights are: what has no edges becomes triangles.
     pub bumped: bool,
 }
 

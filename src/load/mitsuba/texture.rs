@@ -53,7 +53,7 @@ impl Converter<'_> {
     pub fn scalar(&mut self, plugin: &Plugin, name: &str, default: f64) -> Result<Input, SceneError> {
         Ok(match self.input(plugin, name, Role::Surface, Texels::Numbers, default)? {
             // A colour in place of a number is the mean of its channels there.
-            Input::Constant(colour) => Input::grey(colour.element_sum() / 3.0),
+            Input::Constant(colour) => Input::Constant(grey_of(colour)),
             texture => texture,
         })
     }
@@ -188,8 +188,10 @@ impl Converter<'_> {
             *colour = self.mean(&input);
         }
         // Mitsuba's checkerboard of numbers (`eval_1`) has the fields of its checkerboard of colours (`eval`) the other way round.
+        // A colour counts as a number by the mean of its channels.
         if texels != Texels::Colours {
             colours.swap(0, 1);
+            colours = colours.map(grey_of);
         }
         // Two squares along each unit.
         let map = DAffine2::from_scale(DVec2::splat(2.0)) * uv_map(plugin)? * before;
@@ -208,6 +210,12 @@ impl Converter<'_> {
         self.scene.textures.push(Entry { place: plugin.place.clone(), keys: named });
         Input::Texture(name, DVec3::ONE)
     }
+}
+
+/// The mean of its channels.
+fn grey_of(colour: DVec3) -> DVec3 {
+    let is_grey = colour.min_element() == colour.max_element();
+    if is_grey { colour } else { DVec3::splat(colour.element_sum() / 3.0) }
 }
 
 fn is_texture(plugin: &Plugin) -> bool {

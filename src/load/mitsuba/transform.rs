@@ -50,7 +50,8 @@ pub fn step(place: &Place, tag: &str, get: &mut Attributes) -> Result<DAffine3, 
 /// Rodrigues' formula. Version 3 takes an axis as it is, where those before took one of length 1 along it: another length distorts.
 fn rotation(axis: DVec3, angle: f64) -> DMat3 {
     let (sine, cosine) = angle.sin_cos();
-    let across = DMat3::from_cols(DVec3::new(0.0, axis.z, -axis.y), DVec3::new(-axis.z, 0.0, axis.x), DVec3::new(axis.y, -axis.x, 0.0));
+    let across =
+        DMat3::from_cols(DVec3::new(0.0, axis.z, -axis.y), DVec3::new(-axis.z, 0.0, axis.x), DVec3::new(axis.y, -axis.x, 0.0));
     let along = DMat3::from_cols(axis * axis.x, axis * axis.y, axis * axis.z);
     DMat3::from_diagonal(DVec3::splat(cosine)) + across * sine + along * (1.0 - cosine)
 }

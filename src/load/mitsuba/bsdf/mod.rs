@@ -41,8 +41,11 @@ impl Converter<'_> {
             return Ok(plain);
         }
         if keys.text("type") == Some("pass") {
-            self.approximate(shape, "light of a shape that is not there (`null`)", "the shape stops light");
-            keys = Keys::new().with("name", "").with("type", "emissive").with("radiance", light.value());
+            // It lets all light through, and adds its own.
+            let black = self.extra(shape, "black", Keys::of_type("diffuse").with("reflectance", 0.0));
+            let through = Keys::of_type("constant").with("value", 1.0);
+            keys = Keys::new().with("name", "").with("type", "blend").with("materials", vec![Value::Text(plain.clone()), black]);
+            keys = keys.with("weight", through).with("emission", light.value());
         } else {
             keys.set("emission", light.value());
         }

@@ -60,7 +60,8 @@ pub fn principled(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keye
     if anisotropic > 0.0 {
         keys.set("anisotropy", anisotropic.clamp(0.0, 1.0));
     }
-    Ok((keys, see_through))
+    // A thin one scatters on both sides.
+    Ok((keys, see_through || plugin.name == "principledthin"))
 }
 
 fn is(input: &Input, value: f64) -> bool {

@@ -11,7 +11,8 @@ fn principled(keys: &str) -> Lobe {
          [[material]]\nname = \"m\"\ntype = \"principled\"\n{keys}"
     );
     let scene = load_toml_str(&text, "test.toml", Path::new("")).unwrap_or_else(|error| panic!("{error}"));
-    Lobe::of(&scene.materials[0].kind, &Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, front: true }).expect("it scatters")
+    Lobe::of(&scene.materials[0].kind, &Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, front: true })
+        .expect("it scatters")
 }
 
 /// The same with a map of the coat's own that has this texel here.

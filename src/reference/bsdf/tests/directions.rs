@@ -16,7 +16,8 @@ fn brushed(texel: DVec3, directed: bool, keys: &str) -> Lobe {
         // Scene files take pictures alone.
         principled.anisotropy_direction = directed.then_some(0);
     }
-    Lobe::of(&scene.materials[0].kind, &Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, front: true }).expect("it scatters")
+    Lobe::of(&scene.materials[0].kind, &Lookup { scene: &scene, uv: DVec2::ZERO.into(), cosine: 1.0, front: true })
+        .expect("it scatters")
 }
 
 /// A texture of one direction is a rotation by its angle, whatever the texel's length; blue is the strength, and a rotation is added.
