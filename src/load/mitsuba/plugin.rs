@@ -37,6 +37,8 @@ pub struct Within {
     pub uses_attribute: bool,
     /// A map of normals or heights.
     pub has_relief: bool,
+    /// One of heights.
+    pub has_bump_map: bool,
 }
 
 #[derive(Debug)]
@@ -96,6 +98,7 @@ impl Plugin {
             uses_bitmap: kind == "texture" && name == "bitmap",
             uses_attribute: kind == "texture" && name == "mesh_attribute",
             has_relief: ["bumpmap", "bump", "normalmap"].contains(&name),
+            has_bump_map: ["bumpmap", "bump"].contains(&name),
         };
         let all = self.children.iter().map(|child| child.plugin.within).fold(own, |a, b| Within {
             depth: a.depth.max(b.depth),
@@ -103,6 +106,7 @@ impl Plugin {
             uses_bitmap: a.uses_bitmap || b.uses_bitmap,
             uses_attribute: a.uses_attribute || b.uses_attribute,
             has_relief: a.has_relief || b.has_relief,
+            has_bump_map: a.has_bump_map || b.has_bump_map,
         });
         self.within = Within { depth: all.depth + 1, ..all };
     }

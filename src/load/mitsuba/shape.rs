@@ -113,6 +113,10 @@ impl Converter<'_> {
         let within = bsdf.as_ref().map(|bsdf| bsdf.within).unwrap_or_default();
         let textured = within.uses_texture || matches!(light, Some(super::input::Input::Texture(..)));
         let flip = plugin.flag("flip_normals", false)?;
+        if within.has_bump_map && own.matrix3.determinant() < 0.0 {
+            let instead = "it is seen as in a mirror; version 3.9.1 shows the back of what keeps its normals";
+            self.approximate(plugin, "bump map on a mirrored shape", instead);
+        }
         if within.uses_attribute && within.uses_bitmap {
             self.drop(plugin, "texture beside an attribute of a mesh", "its texture coordinates are those of the attribute");
         }
