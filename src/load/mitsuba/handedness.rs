@@ -87,7 +87,8 @@ impl Turned {
         }
         let whole = FileReference::Held(index);
         let Some(mesh) = scene.mesh(&whole).filter(|mesh| !mesh.uvs.is_empty()).cloned() else { return vec![(whole, false)] };
-        let (mirrored, others): (Vec<[u32; 3]>, Vec<[u32; 3]>) = mesh.faces.iter().partition(|face| is_mirrored(&mesh, **face) != mirrors);
+        let (mirrored, others): (Vec<[u32; 3]>, Vec<[u32; 3]>) =
+            mesh.faces.iter().partition(|face| is_mirrored(&mesh, **face) != mirrors);
         let mut parts = Vec::new();
         if mirrored.is_empty() {
             parts.push((whole, false));

@@ -336,8 +336,9 @@ impl<'w> Writer<'w> {
             "checker" => {
                 let colour_of = |key: &str| vector(&texture, key).unwrap_or_else(|| colour(&texture, key));
                 // Two squares along each unit there.
-                let steps =
-                    format!("{before}<scale x=\"{u}\" y=\"{v}\"/>{turn}<translate x=\"{x}\" y=\"{y}\"/><scale x=\"0.5\" y=\"0.5\"/>");
+                let steps = format!(
+                    "{before}<scale x=\"{u}\" y=\"{v}\"/>{turn}<translate x=\"{x}\" y=\"{y}\"/><scale x=\"0.5\" y=\"0.5\"/>"
+                );
                 // Fields of numbers lie the other way round there.
                 let (first, second) = if is_number { ("color1", "color0") } else { ("color0", "color1") };
                 Element::new("texture", "checkerboard")
