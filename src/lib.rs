@@ -142,8 +142,8 @@ pub use {
     render::verify::verify,
     renderer::{DeviceChoice, Observer, RenderReport, Silent},
     scene::{
-        BlendMode, Estimator, FilmSettings, Filter, FilterKind, Guiding, HemisphereSampling, LightChoice, LightSampling,
-        MisHeuristic, NumberOrAuto, PixelSampler, RenderSettings, SamplerKind, Scene,
+        BlendMode, Emitters, Estimator, FilmSettings, Filter, FilterKind, Guiding, HemisphereSampling, LightChoice,
+        LightSampling, MisHeuristic, NumberOrAuto, PixelSampler, RenderSettings, SamplerKind, Scene,
     },
     verify::Verdict,
 };

@@ -7,6 +7,7 @@
 #import core/sampler.wgsl
 #import shading/bsdf.wgsl
 #import shading/distant_light.wgsl
+#import shading/hidden_emitters.wgsl
 #import shading/layer.wgsl
 #import shading/light.wgsl
 #import shading/light_sample.wgsl
@@ -36,7 +37,7 @@ fn emission_weight(pdf_solid_angle: f32, pdf_light: f32) -> f32 {
 
 // Radiance that a path gains where its ray, of this depth, leaves the scene.
 fn escaped_radiance(path: Path, depth: u32) -> vec3<f32> {
-    if !HAS_ENVIRONMENT {
+    if !HAS_ENVIRONMENT || (HAS_HIDDEN_EMITTERS && depth == 1u) {
         return vec3<f32>(0.0);
     }
     var radiance = path.throughput * outside_radiance(path.ray.direction);
@@ -142,6 +143,11 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
     incoming.throughput = arriving_throughput(incoming, distance(surface.position, incoming.ray.origin));
     trace_arrival(incoming.ray.direction, incoming.pdf_solid_angle, incoming.throughput, hit.primitive);
     trace_surface(surface.position, surface.shading_normal, surface.material);
+    if HAS_HIDDEN_EMITTERS && depth == 1u && gives_light(surface.material) {
+        shading.alive = true;
+        *path = path_behind(incoming, surface);
+        return shading;
+    }
     shading.radiance = emitted_radiance(incoming, surface, depth);
 
     // The last edge may go on through null surfaces.

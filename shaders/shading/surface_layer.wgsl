@@ -4,6 +4,7 @@
 #import core/math.wgsl
 #import core/parameters.wgsl
 #import core/sampler.wgsl
+#import shading/hidden_emitters.wgsl
 #import shading/path_record.wgsl
 #import shading/scatterer.wgsl
 #import shading/scattering.wgsl
@@ -56,6 +57,11 @@ fn shade_vertex(path: ptr<function, Path>, hit: Hit, vertex: u32) -> Shading {
 #endif
     incoming.throughput = arriving_throughput(incoming, distance(surface.position, incoming.ray.origin));
     trace_surface(surface.position, surface.shading_normal, surface.material);
+    if HAS_HIDDEN_EMITTERS && depth_at(incoming, vertex) == 1u && gives_light(surface.material) {
+        shading.alive = true;
+        *path = path_behind(incoming, surface);
+        return shading;
+    }
     var drawn = no_sample();
     if depth_at(incoming, vertex) < MAX_DEPTH {
         let random = random_block(incoming.pixel, incoming.sample_in_pass, 2u * vertex);

@@ -71,7 +71,12 @@ fn add_lights(scene: &mut Scene, rectangle: Rectangle) {
     };
     add(scene, "(light)", light, Geometry::Rectangle(rectangle));
     let radiance = EnvironmentRadiance::Constant(DVec3::splat(SKY));
-    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: MapRows::Inside }));
+    scene.lights.push(Light::Environment(Environment {
+        radiance,
+        rotation_degrees: 0.0,
+        rows: MapRows::Inside,
+        mirrored: false,
+    }));
 }
 
 /// Where ground, light and camera stand.
@@ -138,7 +143,7 @@ pub fn light_by(scene: &mut Scene, map: &Path, Access { files, strict }: Access)
     };
     scene.lights.retain(|light| !light.is_environment());
     let radiance = EnvironmentRadiance::Map(image);
-    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees, rows }));
+    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees, rows, mirrored: false }));
     Ok(())
 }
 

@@ -57,8 +57,13 @@ pub fn read(files: &Files, path: &Path, options: &LoadOptions) -> Result<Descrip
             ));
         }
     };
-    if description.shapes.is_empty() && description.instances.is_empty() {
-        return Err(SceneError::in_file(name, "there is nothing to render in the scene: it has no surfaces"));
+    let is_bare = description.shapes.is_empty() && description.instances.is_empty();
+    // A camera and surroundings make a picture without surfaces.
+    if is_bare && description.lights.is_empty() && description.camera.is_none() {
+        return Err(SceneError::in_file(
+            name,
+            "there is nothing to render in the scene: it has no surfaces, no lights and no camera",
+        ));
     }
     Ok(description)
 }
@@ -118,7 +123,13 @@ fn frame(description: &mut Description, name: &str) -> Result<(), SceneError> {
         description.lights.push(sky());
         return Ok(());
     }
-    let stage = Stage::around(&description.points(), name)?;
+    let points = description.points();
+    if points.is_empty() && lit {
+        let keys = Keys::new().with("position", DVec3::ZERO).with("look_at", DVec3::NEG_Z).with("vfov", FIELD_OF_VIEW);
+        description.camera = Some(Entry { keys, ..Entry::default() });
+        return Ok(());
+    }
+    let stage = Stage::around(&points, name)?;
     let camera = &stage.camera;
     let keys = Keys::new().with("position", camera.position).with("look_at", camera.look_at).with("vfov", FIELD_OF_VIEW);
     description.camera = Some(Entry { keys, ..Entry::default() });

@@ -67,7 +67,7 @@ fn pose(camera: &Camera, scene: &Scene) -> [[f32; 4]; POSE_WORDS] {
         Projection::Perspective { vertical_fov_degrees } => ((0.5 * vertical_fov_degrees).to_radians().tan(), 1.0),
         Projection::Orthographic { height } => (0.5 * height, 0.0),
     };
-    let half_width = half_height * width / height;
+    let half_width = half_height * width / height * camera.stretch;
     let shift = right * (2.0 * half_width * camera.shift[0]) + up * (2.0 * half_height * camera.shift[1]);
     let radius = camera.aperture.map_or(0.0, |aperture| aperture.radius);
     [

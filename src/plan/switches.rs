@@ -13,7 +13,7 @@ use crate::sampling::Decorrelation;
 use crate::scene::material::{self, ANISOTROPIC, SEPARABLE_MASKING};
 use crate::scene::{ApertureShape, Filter, FilterKind, HemisphereSampling, MapRows, Projection};
 use crate::scene::{
-    BlendMode, Estimator, LightSampling, LobeKind, LobeSupport, MisHeuristic, PixelSampler, RenderSettings, Scene,
+    BlendMode, Emitters, Estimator, LightSampling, LobeKind, LobeSupport, MisHeuristic, PixelSampler, RenderSettings, Scene,
 };
 use crate::shader::Switches;
 
@@ -63,6 +63,9 @@ pub fn of_scene(scene: &Scene, packed: &PackedScene) -> Switches {
     switches.enable("HEURISTIC_POWER", render.heuristic == MisHeuristic::Power);
     switches.enable("ROULETTE", render.first_roulette(false).is_some());
     enable_sampler(&mut switches, render);
+    let hides = render.emitters == Emitters::Hidden;
+    switches.enable("HIDDEN_EMITTERS", hides);
+    switches.enable("NULL_SURFACES", hides || switches.enabled.contains("NULL_SURFACES"));
     switches.enable("UNIFORM_HEMISPHERE", render.hemisphere == HemisphereSampling::Uniform);
     let blades = enable_camera(&mut switches, scene);
     switches.constants.insert("BLADES", blades);

@@ -28,7 +28,7 @@ struct Pose {
     right: DVec3,
     up: DVec3,
     backward: DVec3,
-    /// Half the window's width and height, at distance 1 if it is perspective.
+    /// Half the window's width and height, at distance 1 if it is perspective; the width is below 0 where the picture is mirrored.
     half_extent: DVec2,
     /// Distance of the plane in focus along the viewing direction.
     focus_distance: f64,
@@ -56,7 +56,7 @@ impl Pose {
             right,
             up,
             backward,
-            half_extent: DVec2::new(half_height * size.x / size.y, half_height),
+            half_extent: DVec2::new(half_height * size.x / size.y * camera.stretch, half_height),
             focus_distance: camera.focus_distance,
         }
     }

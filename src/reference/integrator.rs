@@ -24,7 +24,9 @@ use crate::math::luminance;
 use crate::renderer::RenderError;
 use crate::sampling::light_way::LightWay;
 use crate::sampling::{CameraDimension, Dimension, Guide, LightCells, LitPoint, PathSampler, VertexDimension};
-use crate::scene::{Estimator, LightChoice, MaterialId, MaterialKind, NumberOrAuto, RenderSettings, Scene};
+use crate::scene::{
+    ColorInput, Emission, Emitters, Estimator, LightChoice, MaterialId, MaterialKind, NumberOrAuto, RenderSettings, Scene,
+};
 
 /// A scene made ready for tracing paths.
 #[derive(Debug, Clone)]
@@ -39,6 +41,8 @@ pub struct Integrator {
     moves: bool,
     /// Of each material: some light goes straight through it.
     lets_through: Vec<bool>,
+    /// Of each material: it, or a part of its blend, gives light, and the camera does not see it.
+    hidden: Vec<bool>,
     volumes: Volumes,
     /// From where light arrives, where that was learned.
     guide: Option<Arc<Guide>>,
@@ -82,8 +86,11 @@ impl Integrator {
         let instances_move = scene.instances.iter().any(|instances| instances.motion.is_some());
         let moves = instances_move || scene.shapes.iter().any(|shape| shape.motion.is_some());
         let lets_through = scene.materials_that(|material| matches!(material.kind, MaterialKind::Pass));
+        let hides = scene.render.emitters == Emitters::Hidden;
+        let is_bright = |emission: &Emission| emission.radiance != ColorInput::Constant(DVec3::ZERO);
+        let hidden = scene.materials_that(|material| hides && material.emission.as_ref().is_some_and(is_bright));
         let volumes = Volumes::new(scene);
-        Ok(Self { scene: scene.clone(), center, world, lights, camera, moves, lets_through, volumes, guide: None })
+        Ok(Self { scene: scene.clone(), center, world, lights, camera, moves, lets_through, hidden, volumes, guide: None })
     }
 
     /// Draws directions by a guide as well, or by none.
@@ -120,8 +127,15 @@ impl Integrator {
     pub fn owner_at_centre(&self, x: u32, y: u32) -> Option<Owner> {
         let ray = self.camera.ray(f64::from(x) + 0.5, f64::from(y) + 0.5, DVec2::ZERO, 0.0);
         let time = if self.moves { PathTime::new(&self.scene, self.scene.camera.shutter[0]) } else { PathTime::default() };
-        let hit = self.world.closest(ray, &time)?;
-        Some(self.world.surface(&ray, &hit, &time).owner)
+        let mut ray = ray;
+        loop {
+            let hit = self.world.closest(ray, &time)?;
+            let surface = self.world.surface(&ray, &hit, &time);
+            if !self.hidden[surface.owner.material] {
+                return Some(surface.owner);
+            }
+            ray.origin = surface.point.leave_towards(ray.direction);
+        }
     }
 
     /// Draws from lights as these settings say; all others stay.
@@ -260,7 +274,11 @@ impl Integrator {
         visitor.ray(&path.ray);
         let Some(hit) = self.first_hit(&path.ray, &path.time, visitor) else {
             path.throughput *= transmittance(path.extinction, f64::INFINITY);
-            self.add_environment(path, visitor);
+            if path.depth == 1 && self.scene.render.emitters == Emitters::Hidden {
+                visitor.escaped(DVec3::ZERO, 1.0, DVec3::ZERO);
+            } else {
+                self.add_environment(path, visitor);
+            }
             return false;
         };
         let mut surface = self.world.surface(&path.ray, &hit, &path.time);
@@ -269,6 +287,10 @@ impl Integrator {
         let wo = -path.ray.direction;
         path.throughput *= transmittance(path.extinction, surface.point.position.distance(path.ray.origin));
         visitor.surface(path.depth, &surface, wo, path.throughput);
+        if path.depth == 1 && self.hidden[surface.owner.material] {
+            self.go_behind(path, &surface, visitor);
+            return true;
+        }
         self.add_emission(path, &surface, wo, visitor);
         // At the greatest depth the ray goes on through null surfaces alone, and only blends have those: plain `pass` surfaces are not in the world.
         let is_last = path.depth == self.scene.render.max_depth;
@@ -331,6 +353,15 @@ impl Integrator {
         let survives = self.survives_roulette(path, survival, u_roulette, visitor);
         path.depth += 1;
         survives
+    }
+
+    /// The camera's ray goes through a surface that is not to be seen, as through a null surface.
+    fn go_behind<V: PathVisitor>(&self, path: &mut Path, surface: &Surface, visitor: &mut V) {
+        let wi = path.ray.direction;
+        visitor.scattered(&BsdfSample { wi, weight: DVec3::ONE, density: Density::Delta, eta: 1.0, is_null: true });
+        path.ray = Ray { origin: surface.point.leave_towards(wi), direction: wi };
+        visitor.round_ray(&mut path.ray, Some(&surface.point));
+        path.vertex += 1;
     }
 
     /// A ray that left the scene finds the environment, shared with the light sample of the surface before.

@@ -16,6 +16,8 @@ pub struct Camera {
     /// How far the window lies to the right of the camera's axis and above it, in its own widths and heights: rays stay parallel to what they
     /// were, so that upright edges stay upright.
     pub shift: [f64; 2],
+    /// How many times as wide the window is as the picture's pixels say, were they square; below 0 the picture is mirrored.
+    pub stretch: f64,
     /// None: a pinhole.
     pub aperture: Option<Aperture>,
     /// Distance along the viewing direction of the plane in focus; used with an aperture.
@@ -32,6 +34,7 @@ impl Default for Camera {
             up: DVec3::Y,
             projection: Projection::Perspective { vertical_fov_degrees: 40.0 },
             shift: [0.0; 2],
+            stretch: 1.0,
             aperture: None,
             focus_distance: 1.0,
             shutter: [0.0, 1.0],

@@ -71,6 +71,8 @@ pub struct Environment {
     /// Rotation about +Y, counter-clockwise seen from above.
     pub rotation_degrees: f64,
     pub rows: MapRows,
+    /// The columns of the map run the other way than its file has them.
+    pub mirrored: bool,
 }
 
 /// Where the rows of a lat-long map lie between the poles.

@@ -49,7 +49,7 @@ pub use material::{
 pub use model::Scene;
 pub use motion::{Motion, MotionStep};
 pub use settings::{
-    BlendMode, Estimator, FilmSettings, Filter, FilterKind, Guiding, HemisphereSampling, LightChoice, LightSampling,
+    BlendMode, Emitters, Estimator, FilmSettings, Filter, FilterKind, Guiding, HemisphereSampling, LightChoice, LightSampling,
     MisHeuristic, NumberOrAuto, PixelSampler, RenderSettings, SamplerKind,
 };
 pub use shape::*;

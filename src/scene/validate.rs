@@ -223,6 +223,9 @@ pub(super) fn check_camera(camera: &Camera) -> Check {
     if !camera.shift.into_iter().all(f64::is_finite) {
         return Err("its shift must be finite".into());
     }
+    if !(camera.stretch.is_finite() && camera.stretch != 0.0) {
+        return Err("its stretch must be finite and not 0".into());
+    }
     let [open, close] = camera.shutter;
     if !(open.is_finite() && close.is_finite() && open <= close) {
         return Err("the shutter closes before it opens".into());

@@ -63,6 +63,9 @@ fn camera(camera: &Camera) -> String {
     if camera.shift != [0.0; 2] {
         out += &line("shift", &numbers(&camera.shift));
     }
+    if camera.stretch != 1.0 {
+        out += &line("stretch", &number(camera.stretch));
+    }
     if let Some(aperture) = &camera.aperture {
         out += &line("aperture", &opening(aperture));
     }

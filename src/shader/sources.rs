@@ -52,6 +52,7 @@ shader_files![
     "shading/guide.wgsl",
     "shading/guided.wgsl",
     "shading/hemisphere.wgsl",
+    "shading/hidden_emitters.wgsl",
     "shading/layer.wgsl",
     "shading/light.wgsl",
     "shading/light_by_power.wgsl",

@@ -190,6 +190,8 @@ const OF_FEATURES: &[Switch] = &[
     // Layers of surfaces follow mirrors and glass alone.
     switch("GUIDE").excludes(&["LAYER_OF_SURFACES"]),
     switch("HEURISTIC_POWER"),
+    // Rays of the camera go through what gives light, as they do through null surfaces.
+    switch("HIDDEN_EMITTERS").requires(&["NULL_SURFACES"]),
     switch("FURTHER_PARAMETERS"),
     switch("IMAGES").requires(&["TEXELS", "TEXTURES"]).one_of(TEXEL_FORMATS),
     switch("INSTANCES").requires(&["BVH", "TRIANGLES_IN_HIERARCHY"]),

@@ -84,7 +84,11 @@ pub fn load(files: &Files, path: &Path, camera: Option<&str>, variant: Option<&s
     importer.report_unread(json);
     importer.scene(camera).map_err(refuse)?;
     importer.report_clipping();
-    Ok(importer.scene)
+    let scene = importer.scene;
+    if !root.meshes.is_empty() && scene.shapes.is_empty() && scene.instances.is_empty() {
+        return Err(refuse("there is nothing to render in the scene: it shows none of its meshes' faces".to_owned()));
+    }
+    Ok(scene)
 }
 
 /// The objects of the JSON. Other versions are named plainly, and what writers of loose JSON leave (`1.0` for an index, `null` for what is not there) is

@@ -79,25 +79,42 @@ pub fn disk() -> Mesh {
     mesh
 }
 
-/// The cube from −1 to 1 with texture coordinates from 0 to 1 on every side.
+/// The square from −1 to 1 in the plane z = 0 with its front at +Z and texture coordinates from 0 to 1.
+pub fn square() -> Mesh {
+    let mut mesh = Mesh::default();
+    side(&mut mesh, Vec3::new(-1.0, -1.0, 0.0), Vec3::X, Vec3::Y);
+    mesh
+}
+
+/// The cube from −1 to 1 with texture coordinates from 0 to 1 on every side, which lie as Mitsuba has them: seen from outside, mirrored.
 pub fn unit_cube() -> Mesh {
     let mut mesh = Mesh::default();
-    for axis in 0..3 {
-        for sign in [-1.0_f32, 1.0] {
-            let mut normal = Vec3::ZERO;
-            normal[axis] = sign;
-            let mut u = Vec3::ZERO;
-            u[(axis + 1) % 3] = 1.0;
-            let v = normal.cross(u);
-            let first = mesh.positions.len() as u32;
-            for (x, y) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)] {
-                mesh.positions.push(normal + u * (2.0 * x - 1.0) + v * (2.0 * y - 1.0));
-                mesh.uvs.push(Vec2::new(x, y));
-            }
-            mesh.faces.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
-        }
-    }
+    let (x, y, z) = (Vec3::X, Vec3::Y, Vec3::Z);
+    // Where u and v are 0, and where they grow to.
+    let sides = [
+        (-x - y - z, z, x),
+        (x + y + z, -x, -z),
+        (x - y + z, y, -z),
+        (-x - y + z, y, x),
+        (-x - y - z, y, z),
+        (-x + y - z, -y, x),
+    ];
+    sides.into_iter().for_each(|(corner, along_u, along_v)| side(&mut mesh, corner, along_u, along_v));
     mesh
+}
+
+/// Adds a square of side 2 whose front is away from the origin, or at +Z around it.
+fn side(mesh: &mut Mesh, corner: Vec3, along_u: Vec3, along_v: Vec3) {
+    let first = mesh.positions.len() as u32;
+    for (u, v) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)] {
+        mesh.positions.push(corner + 2.0 * (u * along_u + v * along_v));
+        mesh.uvs.push(Vec2::new(u, v));
+    }
+    let middle = corner + along_u + along_v;
+    let outward = if middle == Vec3::ZERO { Vec3::Z } else { middle };
+    let faces = [[first, first + 1, first + 2], [first, first + 2, first + 3]];
+    let is_turned = along_u.cross(along_v).dot(outward) < 0.0;
+    mesh.faces.extend(faces.map(|[a, b, c]| if is_turned { [a, c, b] } else { [a, b, c] }));
 }
 
 #[cfg(test)]
@@ -107,12 +124,12 @@ mod tests {
     /// Fronts face away from the middle, or along +Z.
     #[test]
     fn fronts_are_outside() {
-        for mesh in [grid_sphere(), cylinder(), unit_cube(), disk()] {
-            assert!(mesh.faces.len() > 4 && mesh.uvs.len() == mesh.positions.len());
+        for mesh in [grid_sphere(), cylinder(), unit_cube(), disk(), square()] {
+            assert!(mesh.faces.len() >= 2 && mesh.uvs.len() == mesh.positions.len());
             for &face in &mesh.faces {
                 let normal = mesh.face_normal(face).expect("it has area");
                 let middle: DVec3 = face.iter().map(|&index| mesh.positions[index as usize].as_dvec3()).sum::<DVec3>() / 3.0;
-                let outward = if mesh.normals.is_empty() && mesh.faces.len() > 12 {
+                let outward = if mesh.normals.is_empty() && mesh.faces.len() != 12 {
                     DVec3::Z
                 } else {
                     middle - DVec3::new(0.0, 0.0, middle.z.clamp(0.0, 1.0) * 0.5)

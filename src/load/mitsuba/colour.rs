@@ -105,9 +105,11 @@ pub fn between(samples: &[(f64, f64)], wavelength: f64) -> f64 {
 }
 
 impl Spectrum {
-    /// As linear Rec.709, without negative parts.
+    /// As linear Rec.709, without negative parts; of a surface as bright as it says, which may be above 1.
     pub fn color(&self, role: Role) -> DVec3 {
         let colour = match self {
+            // A light of equal energy is not white.
+            Self::Uniform(value) if role == Role::Light => from_xyz(DVec3::splat(*value)),
             Self::Uniform(value) => DVec3::splat(*value),
             Self::Samples(samples) => integrate(role, |wavelength| between(samples, wavelength)),
             Self::BlackBody(kelvin, scale) => integrate(role, |wavelength| scale * planck(wavelength, *kelvin)),

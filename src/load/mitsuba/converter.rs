@@ -34,11 +34,15 @@ pub struct Converter<'a> {
     /// By the plugin, whether it is within one that has two sides, and the mesh whose attributes it looks up.
     pub materials: HashMap<(*const Plugin, bool, Option<usize>), usize>,
     pub both_sides: bool,
+    /// The sensor, where what it does not see is still to be told.
+    pub clip: Option<Rc<Plugin>>,
     /// Materials that give light, by their keys.
     pub lamps: HashMap<String, String>,
-    /// That of shapes without a BSDF.
-    pub default_material: Option<usize>,
+    /// Those of shapes without a BSDF, without light and with it.
+    pub default_materials: [Option<usize>; 2],
     pub textures: HashMap<(*const Plugin, bool, Texels, Option<usize>), Input>,
+    /// Pictures that were made of others, by the file, whether its texels are linear and whether they are directions; None where the file says the same.
+    pub made_pictures: HashMap<(PathBuf, bool, bool), Option<FileReference>>,
     /// The attributes of the mesh whose material is being made, where it looks any up: by their names as `vertex_color`, and a number of
     /// the mesh.
     pub attributes: Option<(usize, Rc<HashMap<String, Input>>)>,

@@ -1,15 +1,15 @@
 //! From XML to plugins: includes, aliases and references resolved.
 
 use std::cell::Cell;
-use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use roxmltree::{Document, Node};
+use roxmltree::{Document, Node, ParsingOptions};
 
-use super::nesting::{DEEPEST, check_depth};
+use super::nesting::check_depth;
 use super::parameters::Parameters;
-use super::plugin::{Child, Plugin, Within, error_at};
+use super::plugin::{Plugin, Within, error_at};
+use super::references::{Draft, Part, References, Target};
 use super::versions::{modern_kind, modern_name, old_texture_coordinates};
 use crate::load::encoding;
 use crate::load::error::{SceneError, show};
@@ -48,7 +48,7 @@ pub struct Reader<'a> {
     /// Folders in which files are looked for, the scene's first.
     pub folders: Vec<PathBuf>,
     parameters: Parameters,
-    by_id: HashMap<String, Rc<Plugin>>,
+    references: References,
     pub report: ImportReport,
     included: usize,
 }
@@ -74,7 +74,7 @@ impl<'a> Reader<'a> {
             files,
             folders: vec![folder],
             parameters: Parameters::new(definitions),
-            by_id: HashMap::new(),
+            references: References::default(),
             report: ImportReport::default(),
             included: 0,
         }
@@ -84,13 +84,13 @@ impl<'a> Reader<'a> {
     pub fn scene(&mut self, path: &Path) -> Result<Rc<Plugin>, SceneError> {
         let scene = self.file(path, 0)?;
         match self.parameters.unknown() {
-            None => Ok(Rc::new(scene)),
+            None => std::mem::take(&mut self.references).resolve(scene),
             Some(key) => Err(SceneError::in_file(show(path), format!("nothing in the scene is called ${key}"))
                 .with_help("-D gives a value to a parameter that the file names as $key or declares by <default name=\"key\">")),
         }
     }
 
-    fn file(&mut self, path: &Path, depth: usize) -> Result<Plugin, SceneError> {
+    fn file(&mut self, path: &Path, depth: usize) -> Result<Draft, SceneError> {
         let name = show(path);
         let bytes = self
             .files
@@ -98,7 +98,9 @@ impl<'a> Reader<'a> {
             .map_err(|error| SceneError::in_file(&name, format!("cannot be read: {error}")))?;
         let (text, _) = encoding::decode(&bytes);
         check_depth(&name, &text)?;
-        let document = Document::parse(&text).map_err(|error| {
+        // Older scenes name the type of their document; entities that lead to themselves are refused by the parser.
+        let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
+        let document = Document::parse_with_options(&text, options).map_err(|error| {
             let message = error.to_string();
             let what = message.rsplit_once(" at ").map_or(message.as_str(), |(what, _)| what).to_owned();
             SceneError::in_line(&name, error.pos().row as usize, format!("is not valid XML: {what}"))
@@ -117,33 +119,30 @@ impl<'a> Reader<'a> {
             return self.plugin(source, root, depth);
         }
         // An included file may be a single plugin.
-        let mut around = empty_plugin("scene", source.place(root));
+        let mut around = Draft { plugin: empty_plugin("scene", source.place(root)), parts: Vec::new() };
         self.element(source, root, &mut around, depth)?;
         Ok(around)
     }
 
-    fn plugin(&mut self, source: Source, node: Node, depth: usize) -> Result<Plugin, SceneError> {
+    fn plugin(&mut self, source: Source, node: Node, depth: usize) -> Result<Draft, SceneError> {
         let place = source.place(node);
         let mut plugin = empty_plugin(modern_kind(node.tag_name().name()), place);
         plugin.name = self.attribute(source, node, "type")?.unwrap_or_default();
         plugin.id = self.attribute(source, node, "id")?.unwrap_or_default();
+        let mut draft = Draft { plugin, parts: Vec::new() };
         for child in node.children() {
             if child.is_element() {
-                self.element(source, child, &mut plugin, depth)?;
+                self.element(source, child, &mut draft, depth)?;
             } else if child.is_text() && child.text().is_some_and(|text| !text.trim().is_empty()) {
                 return Err(error_at(&source.place(child), "there is text outside of an element's attributes"));
             }
         }
-        old_texture_coordinates(&mut plugin);
-        plugin.summarize();
-        if plugin.within.depth > DEEPEST {
-            return Err(plugin.error(format!("plugins lie more than {DEEPEST} deep within each other, references followed")));
-        }
-        Ok(plugin)
+        old_texture_coordinates(&mut draft.plugin);
+        Ok(draft)
     }
 
     /// Reads one element into the plugin around it.
-    fn element(&mut self, source: Source, node: Node, around: &mut Plugin, depth: usize) -> Result<(), SceneError> {
+    fn element(&mut self, source: Source, node: Node, around: &mut Draft, depth: usize) -> Result<(), SceneError> {
         let tag = node.tag_name().name();
         let place = source.place(node);
         match tag {
@@ -159,37 +158,31 @@ impl<'a> Reader<'a> {
             "include" => self.include(source, node, around, depth)?,
             "alias" => {
                 let (id, new) = (self.needed(source, node, "id")?, self.needed(source, node, "as")?);
-                let plugin = self.known(&place, &id)?;
-                if self.by_id.insert(new.clone(), plugin).is_some() {
-                    return Err(error_at(&place, format!("a second plugin has the id `{new}`")));
-                }
+                self.references.alias(new, id, place)?;
             }
             "ref" => {
                 let id = self.needed(source, node, "id")?;
-                let plugin = self.known(&place, &id)?;
                 let name = self.property_name(source, node)?;
-                around.children.push(Child { name, plugin, used: Cell::new(false) });
+                around.parts.push(Part { name, target: Target::Named(id, place) });
             }
             "spectrum" | "texture" if node.attribute("type").is_none() && node.attribute("value").is_some() => {
-                self.property(source, node, around)?;
+                self.property(source, node, &mut around.plugin)?;
             }
             "spectrum" if node.attribute("type").is_none() && node.attribute("filename").is_some() => {
-                self.property(source, node, around)?;
+                self.property(source, node, &mut around.plugin)?;
             }
             _ if PLUGINS.contains(&tag) => {
                 let name = self.property_name(source, node)?;
-                let plugin = Rc::new(self.plugin(source, node, depth)?);
-                if !plugin.id.is_empty() && self.by_id.insert(plugin.id.clone(), plugin.clone()).is_some() {
-                    return Err(error_at(&place, format!("a second plugin has the id `{}`", plugin.id)));
-                }
-                around.children.push(Child { name, plugin, used: Cell::new(false) });
+                let draft = self.plugin(source, node, depth)?;
+                let target = self.references.note(draft)?;
+                around.parts.push(Part { name, target });
             }
-            _ => self.property(source, node, around)?,
+            _ => self.property(source, node, &mut around.plugin)?,
         }
         Ok(())
     }
 
-    fn include(&mut self, source: Source, node: Node, around: &mut Plugin, depth: usize) -> Result<(), SceneError> {
+    fn include(&mut self, source: Source, node: Node, around: &mut Draft, depth: usize) -> Result<(), SceneError> {
         let place = source.place(node);
         let written = self.needed(source, node, "filename")?;
         self.included += 1;
@@ -199,22 +192,19 @@ impl<'a> Reader<'a> {
             return Err(error_at(&place, message).with_help("a file cannot include itself"));
         }
         let path = self.find(&written).ok_or_else(|| error_at(&place, format!("there is no file {written}")))?;
-        let included = self.file(&path, depth + 1)?;
-        around.children.extend(included.children);
-        around.properties.extend(included.properties);
+        let mut included = self.file(&path, depth + 1)?;
+        // A plugin by itself takes the name that the including file gives it.
+        if let (Some(name), [part]) = (self.attribute(source, node, "name")?, &mut included.parts[..]) {
+            part.name = modern_name(&name);
+        }
+        around.parts.extend(included.parts);
+        around.plugin.properties.extend(included.plugin.properties);
         Ok(())
     }
 
     /// A file that the scene names, in the folder of the scene or one that `<path>` adds.
     pub fn find(&self, written: &str) -> Option<PathBuf> {
         self.folders.iter().find_map(|folder| self.files.find(folder, written)).map(|found| found.path)
-    }
-
-    fn known(&self, place: &Place, id: &str) -> Result<Rc<Plugin>, SceneError> {
-        self.by_id
-            .get(id)
-            .cloned()
-            .ok_or_else(|| error_at(place, format!("there is no plugin with the id `{id}` above this line")))
     }
 
     /// An attribute with parameters filled in.

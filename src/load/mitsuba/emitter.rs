@@ -191,14 +191,16 @@ impl Converter<'_> {
         let path = self.reader.find(written).ok_or_else(|| plugin.error(format!("there is no file {written}")))?;
         let scale = plugin.number_or("scale", 1.0)?;
         // Upright once the world is turned.
-        let turn = self.world.matrix3 * plugin.transform("to_world")?.matrix3;
-        if turn.determinant() <= 0.0 {
-            self.drop(plugin, "mirroring `to_world` of an environment map", "the map is not mirrored");
+        let mut turn = self.world.matrix3 * plugin.transform("to_world")?.matrix3;
+        let mirrors = turn.determinant() < 0.0;
+        if mirrors {
+            turn.x_axis = -turn.x_axis;
         }
         let degrees = turn.x_axis.z.atan2(turn.x_axis.x) * -180.0 / PI;
         // Mitsuba's columns lie as ours do; its first and last row lie on the poles.
         let keys = Keys::of_type("environment").with("file", FileReference::Disk(path)).with("rows", "to_poles");
         let keys = if scale == 1.0 { keys } else { keys.with("scale", scale) };
+        let keys = keys.with_some("mirror", mirrors.then_some(true));
         Ok(keys.with("rotate", degrees))
     }
 }

@@ -1,13 +1,13 @@
 //! Normal maps on mirrored texture coordinates.
 //!
-//! There, green points across the normal and the tangent, wherever v grows; here, to where v grows. What has mirrored coordinates gets others whose
+//! There, green points across the normal and the tangent, wherever v grows; here, to where v grows. A mirror exchanges both. What has mirrored coordinates gets others whose
 //! v runs the other way, and a material whose textures are turned over to make up for it: all pictures lie as before, and green points as there.
 
 use std::collections::{HashMap, HashSet};
 
 use glam::{DVec2, DVec3, Vec2};
 
-use crate::load::import::{Description, Entry, FileReference, Keys, Value, list};
+use crate::load::import::{Description, Entry, FileReference, Keys, Value, list, matrix_of};
 use crate::scene::Mesh;
 
 /// Turns over what is mirrored and has a normal map.
@@ -52,7 +52,8 @@ fn parts(material: &Keys) -> impl Iterator<Item = &str> {
 /// What was turned over before: a mesh file's parts, materials and textures, by their names.
 #[derive(Default)]
 struct Turned {
-    meshes: HashMap<usize, Vec<(FileReference, bool)>>,
+    /// Of meshes at rest and of those that a mirror shows.
+    meshes: HashMap<(usize, bool), Vec<(FileReference, bool)>>,
     materials: HashMap<String, String>,
     textures: HashMap<String, String>,
 }
@@ -66,7 +67,8 @@ impl Turned {
         let (material, Some(Value::File(FileReference::Held(index)))) = (material.to_owned(), shape.keys.get("file")) else {
             return vec![shape];
         };
-        let parts = self.mesh(scene, *index);
+        let mirrors = shape.keys.get("transform").and_then(matrix_of).is_some_and(|map| map.matrix3.determinant() < 0.0);
+        let parts = self.mesh(scene, *index, mirrors);
         let part = |(file, is_turned): (FileReference, bool)| {
             let mut part = shape.clone();
             part.keys.set("file", file);
@@ -79,13 +81,14 @@ impl Turned {
     }
 
     /// The faces that are as they should be, and those that were turned over.
-    fn mesh(&mut self, scene: &mut Description, index: usize) -> Vec<(FileReference, bool)> {
-        if let Some(parts) = self.meshes.get(&index) {
+    fn mesh(&mut self, scene: &mut Description, index: usize, mirrors: bool) -> Vec<(FileReference, bool)> {
+        if let Some(parts) = self.meshes.get(&(index, mirrors)) {
             return parts.clone();
         }
         let whole = FileReference::Held(index);
         let Some(mesh) = scene.mesh(&whole).filter(|mesh| !mesh.uvs.is_empty()).cloned() else { return vec![(whole, false)] };
-        let (mirrored, others): (Vec<[u32; 3]>, Vec<[u32; 3]>) = mesh.faces.iter().partition(|face| is_mirrored(&mesh, **face));
+        let (mirrored, others): (Vec<[u32; 3]>, Vec<[u32; 3]>) =
+            mesh.faces.iter().partition(|face| is_mirrored(&mesh, **face) != mirrors);
         let mut parts = Vec::new();
         if mirrored.is_empty() {
             parts.push((whole, false));
@@ -99,7 +102,7 @@ impl Turned {
             }
             parts.push((scene.hold_mesh(&format!("{name}-mirrored"), turned), true));
         }
-        self.meshes.insert(index, parts.clone());
+        self.meshes.insert((index, mirrors), parts.clone());
         parts
     }
 

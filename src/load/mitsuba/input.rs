@@ -38,11 +38,14 @@ impl Input {
     }
 }
 
-/// How the texels of a picture are read.
+/// What the texels of a picture are wanted for. Files of integers hold all of them in sRGB unless they are `raw`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Texels {
-    /// Colours, which files of integers hold in sRGB.
     Colours,
-    /// Numbers as they are.
+    /// Their luminance.
     Numbers,
+    /// Their luminance, of which slopes are taken.
+    Heights,
+    /// Directions.
+    Normals,
 }

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::path::Path;
 use std::rc::Rc;
 
-use glam::{DAffine3, Vec2, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
 use super::converter::{Converter, MeshKey, ReadMesh};
@@ -13,7 +13,7 @@ use super::serialized;
 use super::shape::{Looks, turn_inside_out};
 use crate::load::error::{SceneError, show};
 use crate::load::files::Files;
-use crate::load::import::{Blocks, Keys, smooth_by_index};
+use crate::load::import::{Blocks, Keys, is_uniform, smooth_by_index};
 use crate::load::{obj, ply};
 use crate::scene::Mesh;
 
@@ -21,10 +21,11 @@ impl Converter<'_> {
     pub fn mesh_shape(
         &mut self,
         plugin: &Rc<Plugin>,
-        map: DAffine3,
+        (around, own): (DAffine3, DAffine3),
         looks: Looks,
     ) -> Result<Option<(Keys, DAffine3)>, SceneError> {
         let Looks { textured, flip, attributes, .. } = looks;
+        let map = around * own;
         plugin.without_effect(&[
             "max_smooth_angle",
             "collapse",
@@ -44,7 +45,10 @@ impl Converter<'_> {
         if plugin.has("max_smooth_angle") {
             self.approximate(plugin, "`max_smooth_angle`", "normals are as the file has them, or smooth everywhere");
         }
-        let key = format!("{} {index} {flat} {flip} {turn_uv} {textured} {attributes} {}", path.display(), plugin.name);
+        // Normals that no file has are made once the mesh is where `to_world` puts it.
+        let (mirrors, uneven) = (own.matrix3.determinant() < 0.0, !flat && !is_uniform(&own));
+        let by_map = if uneven { format!("{:?}", own.matrix3) } else { format!("{mirrors}") };
+        let key = format!("{} {index} {flat} {flip} {turn_uv} {textured} {attributes} {by_map} {}", path.display(), plugin.name);
         if let Some(file) = self.meshes.get(&key).cloned() {
             self.attributes = self.attributes_of_meshes.get(&key).cloned();
             return self.mesh_keys(plugin, file, map).map(Some);
@@ -63,15 +67,19 @@ impl Converter<'_> {
             self.drop(plugin, "mesh without a face that has area", "it is left out");
             return Ok(None);
         }
+        let lacks_normals = flat || mesh.normals.is_empty();
         if flat {
             mesh.normals.clear();
-        } else if mesh.normals.is_empty() {
+        } else if lacks_normals && uneven {
+            smooth_once_placed(&mut mesh, own.matrix3);
+        } else if lacks_normals {
             smooth_by_index(&mut mesh);
         } else {
             complete_normals(&mut mesh);
         }
         mesh.smooth = !mesh.normals.is_empty();
-        if flip {
+        // Faces that a mirror turns over decide where their fronts are, unless the file has normals.
+        if flip != (mirrors && lacks_normals) {
             turn_inside_out(&mut mesh);
         }
         if turn_uv {
@@ -81,8 +89,7 @@ impl Converter<'_> {
             self.take_attributes(plugin, &path, &key, &mut mesh)?;
         }
         if textured && mesh.uvs.is_empty() {
-            self.approximate(plugin, "texture on a mesh without texture coordinates", "the texture at (0, 0) is everywhere");
-            mesh.uvs = vec![Vec2::ZERO; mesh.positions.len()];
+            barycentric_coordinates(&mut mesh);
         }
         if !textured {
             mesh.uvs.clear();
@@ -197,6 +204,27 @@ fn join_vertices(mesh: &mut Mesh) {
     }
     mesh.faces = old.faces.iter().map(|face| face.map(|corner| new[corner as usize])).collect();
     mesh.drop_degenerate_faces();
+}
+
+/// Gives the mesh the normals that become those of its faces where a map puts it.
+fn smooth_once_placed(mesh: &mut Mesh, map: DMat3) {
+    let mut placed = mesh.clone();
+    placed.positions.iter_mut().for_each(|position| *position = (map * position.as_dvec3()).as_vec3());
+    smooth_by_index(&mut placed);
+    let (back, sign) = (map.transpose(), map.determinant().signum());
+    let turned = |normal: &Vec3| (back * normal.as_dvec3() * sign).normalize_or(DVec3::Z).as_vec3();
+    mesh.normals = placed.normals.iter().map(turned).collect();
+}
+
+/// Texture coordinates of what has none: on every face (0, 0), (1, 0) and (0, 1) in its corners.
+fn barycentric_coordinates(mesh: &mut Mesh) {
+    let corners: Vec<usize> = mesh.faces.iter().flatten().map(|corner| *corner as usize).collect();
+    mesh.positions = corners.iter().map(|corner| mesh.positions[*corner]).collect();
+    if !mesh.normals.is_empty() {
+        mesh.normals = corners.iter().map(|corner| mesh.normals[*corner]).collect();
+    }
+    mesh.uvs = [Vec2::ZERO, Vec2::X, Vec2::Y].into_iter().cycle().take(corners.len()).collect();
+    mesh.faces = (0..mesh.faces.len() as u32).map(|face| [3 * face, 3 * face + 1, 3 * face + 2]).collect();
 }
 
 /// Normals of no length are computed.

@@ -4,6 +4,7 @@
 //! brought up to date; the other modules say in the terms of scene files what each kind of plugin means. Whatever no module asked for ends up in the
 //! report.
 
+mod bitmap;
 mod bsdf;
 mod colour;
 mod converter;
@@ -18,6 +19,7 @@ mod number;
 mod parameters;
 mod plugin;
 mod property;
+mod references;
 mod sensor;
 mod serialized;
 mod shape;
@@ -61,9 +63,11 @@ pub fn load(files: &Files, path: &Path, options: &Options) -> Result<Description
         world: DAffine3::IDENTITY,
         materials: HashMap::new(),
         both_sides: false,
+        clip: None,
         lamps: HashMap::new(),
-        default_material: None,
+        default_materials: [None; 2],
         textures: HashMap::new(),
+        made_pictures: HashMap::new(),
         attributes: None,
         attributes_of_meshes: HashMap::new(),
         meshes: HashMap::new(),
@@ -89,7 +93,7 @@ impl Converter<'_> {
             self.integrator(integrator)?;
         }
         let sensor = self.choose_sensor(root, options)?;
-        self.find_world(root, sensor.as_ref())?;
+        self.find_world(root)?;
         if let Some(sensor) = &sensor {
             self.sensor(sensor)?;
         }
@@ -112,7 +116,7 @@ impl Converter<'_> {
             }
         }
         self.finish_groups();
-        Ok(())
+        self.report_clipped()
     }
 
     fn choose_sensor(&self, root: &Rc<Plugin>, options: &Options) -> Result<Option<Rc<Plugin>>, SceneError> {

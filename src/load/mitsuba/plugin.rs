@@ -35,6 +35,9 @@ pub struct Within {
     pub uses_bitmap: bool,
     /// An attribute of a mesh.
     pub uses_attribute: bool,
+    /// A map of normals or heights.
+    pub has_relief: bool,
+    /// One of heights.
     pub has_bump_map: bool,
 }
 
@@ -94,6 +97,7 @@ impl Plugin {
             uses_texture: ["texture", "spectrum"].contains(&kind) && !CONSTANT.contains(&name) || self.has("alpha_u"),
             uses_bitmap: kind == "texture" && name == "bitmap",
             uses_attribute: kind == "texture" && name == "mesh_attribute",
+            has_relief: ["bumpmap", "bump", "normalmap"].contains(&name),
             has_bump_map: ["bumpmap", "bump"].contains(&name),
         };
         let all = self.children.iter().map(|child| child.plugin.within).fold(own, |a, b| Within {
@@ -101,6 +105,7 @@ impl Plugin {
             uses_texture: a.uses_texture || b.uses_texture,
             uses_bitmap: a.uses_bitmap || b.uses_bitmap,
             uses_attribute: a.uses_attribute || b.uses_attribute,
+            has_relief: a.has_relief || b.has_relief,
             has_bump_map: a.has_bump_map || b.has_bump_map,
         });
         self.within = Within { depth: all.depth + 1, ..all };

@@ -75,6 +75,11 @@ impl Reader<'_> {
         for step in node.children().filter(Node::is_element) {
             let place = source.place(step);
             let mut get = |name: &str| self.attribute(source, step, name);
+            if step.has_tag_name("rotate") && (transform::vector(&place, &mut get, 0.0)?.length() - 1.0).abs() > 1e-3 {
+                let instead = "it is taken as it is, as version 3 does, which distorts; those before took one of length 1";
+                self.report.approximate("axis of a rotation of another length than 1", place.to_string(), instead);
+            }
+            let mut get = |name: &str| self.attribute(source, step, name);
             map = transform::step(&place, step.tag_name().name(), &mut get)? * map;
         }
         Ok(map)

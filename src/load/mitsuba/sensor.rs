@@ -36,7 +36,7 @@ impl Converter<'_> {
         ]);
         plugin.without_effect(&["shading_samples", "emitter_samples", "bsdf_samples", "sample_center"]);
         if plugin.flag("hide_emitters", false)? {
-            self.drop(plugin, "integrator: `hide_emitters`", "emitters are seen");
+            self.scene.render.set("emitters", "hidden");
         }
         match plugin.name.as_str() {
             "direct" => {
@@ -71,22 +71,19 @@ impl Converter<'_> {
         Ok(())
     }
 
-    /// Environment maps stand upright here: what turns one otherwise turns the whole scene the other way. Cameras that mirror do the same.
-    pub fn find_world(&mut self, root: &Rc<Plugin>, sensor: Option<&Rc<Plugin>>) -> Result<(), SceneError> {
+    /// Environment maps stand upright here: what turns one otherwise turns the whole scene the other way.
+    pub fn find_world(&mut self, root: &Rc<Plugin>) -> Result<(), SceneError> {
         let map = root.children.iter().find(|child| child.plugin.kind == "emitter" && child.plugin.name == "envmap");
         if let Some(map) = map {
-            let turn = map.plugin.transform("to_world")?.matrix3;
+            let mut turn = map.plugin.transform("to_world")?.matrix3;
+            // A mirrored map is its mirror image, turned.
+            if turn.determinant() < 0.0 {
+                turn.x_axis = -turn.x_axis;
+            }
             let columns = [turn.x_axis, turn.y_axis, turn.z_axis].map(|axis| axis.normalize_or_zero());
             let turn = DMat3::from_cols(columns[0], columns[1], columns[2]);
             if (turn.y_axis - DVec3::Y).length() > 1e-9 && turn.determinant() > 0.0 {
                 self.world = DAffine3::from_quat(DQuat::from_mat3(&turn).inverse());
-            }
-        }
-        if let Some(sensor) = sensor {
-            let to_world = self.world * sensor.transform("to_world")?;
-            let [left, up, forward] = [to_world.matrix3.x_axis, to_world.matrix3.y_axis, to_world.matrix3.z_axis];
-            if up.cross(forward).dot(left) < 0.0 {
-                self.drop(sensor, "mirroring `to_world` of the sensor", "the picture is not mirrored");
             }
         }
         Ok(())
@@ -95,6 +92,7 @@ impl Converter<'_> {
     pub fn sensor(&mut self, plugin: &Rc<Plugin>) -> Result<(), SceneError> {
         plugin.visited.set(true);
         plugin.without_effect(&["near_clip", "far_clip", "srf"]);
+        self.clip = Some(plugin.clone());
         let film = self.film(plugin)?;
         if let Some(sampler) = plugin.first_of("sampler") {
             sampler.visited.set(true);
@@ -112,27 +110,41 @@ impl Converter<'_> {
         if up.cross(forward).length() < 1e-6 {
             return Err(degenerate());
         }
-        let focus = plugin.number("focus_distance")?.filter(|distance| *distance > 0.0);
-        let mut keys = camera_keys(to_world.translation, forward, up, focus.unwrap_or(1.0));
+        let side = to_world.matrix3.x_axis;
+        let mirrors = up.cross(forward).dot(side) < 0.0;
+        // What is far away is in focus where nothing is said.
+        let far = plugin.number_or("far_clip", 1e4)?;
+        let focus = plugin.number("focus_distance")?;
+        let mut keys = camera_keys(to_world.translation, forward, up, focus.filter(|distance| *distance > 0.0).unwrap_or(1.0));
         let [close, open] = [plugin.number("shutter_close")?, plugin.number("shutter_open")?];
         if close.is_some() || open.is_some() {
             keys.set("shutter", [open.unwrap_or(0.0), close.or(open).unwrap_or(0.0)]);
         }
         match plugin.name.as_str() {
             "orthographic" | "telecentric" => {
-                let height = 2.0 * to_world.matrix3.x_axis.length() * film.size[1] / film.size[0] * film.crop[1] / film.size[1];
+                let (width, height) = (side.length(), to_world.matrix3.y_axis.length());
+                if (side.dot(to_world.matrix3.y_axis) / (width * height)).abs() > 1e-6 {
+                    self.approximate(plugin, "shear of an orthographic sensor", "it is scaled and turned alone");
+                }
                 keys.set("projection", "orthographic");
-                keys.set("height", height);
+                keys.set("height", 2.0 * height * film.size[1] / film.size[0] * film.crop[1] / film.size[1]);
+                let stretch = if (width / height - 1.0).abs() < 1e-9 { 1.0 } else { width / height };
+                keys = keys.with_some("stretch", (stretch != 1.0 && !mirrors).then_some(stretch));
+                keys = keys.with_some("stretch", mirrors.then_some(-stretch));
                 self.shift(plugin, &film, &mut keys);
             }
             "perspective" | "thinlens" | "perspective_rdist" | "thinlens_rdist" => {
                 let vertical = self.field_of_view(plugin, &film)?;
                 keys.set("vfov", vertical);
+                keys = keys.with_some("stretch", mirrors.then_some(-1.0));
                 self.shift(plugin, &film, &mut keys);
                 if plugin.name.starts_with("thinlens") {
                     let radius = plugin.number("aperture_radius")?;
                     let radius = radius.ok_or_else(|| plugin.error("a thin lens needs `aperture_radius`"))?;
-                    let distance = focus.ok_or_else(|| plugin.error("a thin lens needs `focus_distance`, above 0"))?;
+                    let distance = focus.unwrap_or(far);
+                    if distance.is_nan() || distance <= 0.0 {
+                        return Err(plugin.error(format!("`focus_distance` is above 0, not {distance}")));
+                    }
                     keys.set("aperture", Keys::new().with("shape", "disk").with("radius", radius));
                     keys.set("focus_distance", distance);
                 }
@@ -140,6 +152,27 @@ impl Converter<'_> {
             other => return Err(plugin.error(format!("the sensor `{other}` cannot be said here; a perspective one can"))),
         }
         self.scene.camera = Some(Entry { place: plugin.place.clone(), keys });
+        Ok(())
+    }
+
+    /// Tells of surfaces that are nearer or farther than the sensor sees there; here it sees them.
+    pub fn report_clipped(&mut self) -> Result<(), SceneError> {
+        let Some(plugin) = self.clip.take().filter(|plugin| plugin.has("near_clip") || plugin.has("far_clip")) else {
+            return Ok(());
+        };
+        let (near, far) = (plugin.number_or("near_clip", 1e-2)?, plugin.number_or("far_clip", 1e4)?);
+        let to_world = self.world * plugin.transform("to_world")?;
+        let forward = to_world.matrix3.z_axis.normalize_or_zero();
+        let depths = self.scene.points().into_iter().map(|point| (point - to_world.translation).dot(forward));
+        let (is_near, is_far) = depths
+            .filter(|depth| *depth > 0.0)
+            .fold((false, false), |(is_near, is_far), depth| (is_near || depth < near, is_far || depth > far));
+        for (name, is_clipped) in [("near_clip", is_near), ("far_clip", is_far)] {
+            if is_clipped {
+                let what = format!("{}: `{name}`", plugin.title());
+                self.drop(&plugin, &what, "what lies beyond it is seen");
+            }
+        }
         Ok(())
     }
 

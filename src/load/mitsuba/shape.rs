@@ -8,7 +8,9 @@ use super::converter::{Converter, StoredGroup};
 use super::emitter;
 use super::plugin::Plugin;
 use crate::load::error::SceneError;
-use crate::load::import::{Entry, FileReference, Keys, cylinder, disk, grid_sphere, is_uniform, pays_as_instances, unit_cube};
+use crate::load::import::{
+    Entry, FileReference, Keys, cylinder, disk, grid_sphere, is_uniform, pays_as_instances, square, unit_cube,
+};
 use crate::load::memory;
 use crate::scene::Mesh;
 
@@ -31,7 +33,8 @@ impl Converter<'_> {
         if depth > DEEPEST_GROUP {
             return Err(plugin.error(format!("groups of shapes lie more than {DEEPEST_GROUP} deep within each other")));
         }
-        let map = around * plugin.transform("to_world")?;
+        let own = plugin.transform("to_world")?;
+        let map = around * own;
         let well = map.is_finite() && map.matrix3.determinant().abs() > 0.0;
         if !well {
             return Err(plugin.error("`to_world` flattens the shape or leaves the range of numbers"));
@@ -58,7 +61,7 @@ impl Converter<'_> {
                 }
                 groups.iter().into_iter().try_for_each(|group| self.placed_shape(group, map, depth + 1))
             }
-            _ => self.surface(plugin, map),
+            _ => self.surface(plugin, around, own),
         }
     }
 
@@ -102,18 +105,26 @@ impl Converter<'_> {
         }
     }
 
-    fn surface(&mut self, plugin: &Rc<Plugin>, map: DAffine3) -> Result<(), SceneError> {
+    /// A shape by its own `to_world` and what stands around it.
+    fn surface(&mut self, plugin: &Rc<Plugin>, around: DAffine3, own: DAffine3) -> Result<(), SceneError> {
         let bsdf = plugin.first_of("bsdf").cloned();
         let light = plugin.first_of("emitter").cloned();
         let light = light.map(|light| emitter::area_radiance(self, &light)).transpose()?.flatten();
         let within = bsdf.as_ref().map(|bsdf| bsdf.within).unwrap_or_default();
         let textured = within.uses_texture || matches!(light, Some(super::input::Input::Texture(..)));
         let flip = plugin.flag("flip_normals", false)?;
+        if within.has_bump_map && own.matrix3.determinant() < 0.0 {
+            let instead = "it is seen as in a mirror; version 3.9.1 shows the back of what keeps its normals";
+            self.approximate(plugin, "bump map on a mirrored shape", instead);
+        }
         if within.uses_attribute && within.uses_bitmap {
             self.drop(plugin, "texture beside an attribute of a mesh", "its texture coordinates are those of the attribute");
         }
-        let Some((keys, map)) =
-            self.geometry(plugin, map, Looks { textured, flip, attributes: within.uses_attribute, bumped: within.has_bump_map })?
+        let Some((keys, map)) = self.geometry(
+            plugin,
+            (around, own),
+            Looks { textured, flip, attributes: within.uses_attribute, bumped: within.has_relief },
+        )?
         else {
             return Ok(());
         };
@@ -129,18 +140,25 @@ impl Converter<'_> {
     }
 
     /// Keys of the geometry and the transform that is left; None where there is nothing to render.
-    fn geometry(&mut self, plugin: &Rc<Plugin>, map: DAffine3, looks: Looks) -> Result<Option<(Keys, DAffine3)>, SceneError> {
+    fn geometry(
+        &mut self,
+        plugin: &Rc<Plugin>,
+        (around, own): (DAffine3, DAffine3),
+        looks: Looks,
+    ) -> Result<Option<(Keys, DAffine3)>, SceneError> {
+        let map = around * own;
         let Looks { textured, flip, .. } = looks;
         let key = |name: &str| format!("({name}) {flip}");
         Ok(Some(match plugin.name.as_str() {
             "sphere" => self.sphere(plugin, map, looks)?,
             "rectangle" => {
                 let (u, v) = (DVec3::new(2.0, 0.0, 0.0), DVec3::new(0.0, 2.0, 0.0));
-                if flip {
+                // Of maps of normals, the sides of a mesh are known.
+                let mirrors = map.matrix3.determinant() < 0.0;
+                if (flip && textured) || (mirrors && looks.bumped) {
+                    self.made_mesh(plugin, key("rectangle"), flip, map, square)?
+                } else if flip {
                     // The front follows edge_u × edge_v.
-                    if textured {
-                        self.approximate(plugin, "texture on a rectangle with `flip_normals`", "u and v are exchanged");
-                    }
                     (rectangle(DVec3::new(-1.0, -1.0, 0.0), v, u), map)
                 } else {
                     (rectangle(DVec3::new(-1.0, -1.0, 0.0), u, v), map)
@@ -172,7 +190,7 @@ impl Converter<'_> {
                     return Err(plugin.error("the cylinder has no length or no radius"));
                 };
                 let (x, y) = along.any_orthonormal_pair();
-                if is_uniform(&map) && !flip {
+                if is_uniform(&map) && !flip && !looks.bumped {
                     let tube = Keys::of_type("cylinder").with("radius", radius);
                     if !textured {
                         return Ok(Some((tube.with("from", p0).with("to", p1), map)));
@@ -183,13 +201,13 @@ impl Converter<'_> {
                 }
                 self.approximate(
                     plugin,
-                    "shape `cylinder` scaled unevenly or turned inside out",
+                    "shape `cylinder` scaled unevenly, turned inside out or with a map of normals or heights",
                     "256 triangles with interpolated normals",
                 );
                 let own = DAffine3 { matrix3: DMat3::from_cols(x * radius, y * radius, axis), translation: p0 };
                 self.made_mesh(plugin, key("cylinder"), flip, map * own, cylinder)?
             }
-            "obj" | "ply" | "serialized" => return self.mesh_shape(plugin, map, looks),
+            "obj" | "ply" | "serialized" => return self.mesh_shape(plugin, (around, own), looks),
             "hair" | "linecurve" | "bsplinecurve" | "heightfield" | "sdfgrid" | "ellipsoids" | "ellipsoidsmesh"
             | "deformable" => {
                 for property in &plugin.properties {
@@ -208,13 +226,21 @@ impl Converter<'_> {
     }
 
     fn sphere(&mut self, plugin: &Rc<Plugin>, map: DAffine3, looks: Looks) -> Result<(Keys, DAffine3), SceneError> {
-        let Looks { textured, flip, bumped, .. } = looks;
+        let Looks { textured, bumped, .. } = looks;
         let center = plugin.vector("center")?.unwrap_or(DVec3::ZERO);
         let radius = plugin.number_or("radius", 1.0)?;
         if radius.is_nan() || radius <= 0.0 {
             return Err(plugin.error(format!("the radius of a sphere is above 0, not {radius}")));
         }
-        if is_uniform(&map) && !flip && !bumped {
+        // A mirror turns spheres inside out there, unlike other shapes.
+        let flip = looks.flip != (map.matrix3.determinant() < 0.0);
+        let map = if is_uniform(&map) {
+            map
+        } else {
+            self.approximate(plugin, "shape `sphere` scaled unevenly", "a sphere as wide as it is along x, as version 3 has it");
+            evened(&map)
+        };
+        if !flip && !bumped {
             if !textured {
                 return Ok((Keys::of_type("sphere").with("center", center).with("radius", radius), map));
             }
@@ -225,7 +251,7 @@ impl Converter<'_> {
         }
         self.approximate(
             plugin,
-            "shape `sphere` scaled unevenly, turned inside out or with a bump map",
+            "shape `sphere` turned inside out or with a map of normals or heights",
             "16,000 triangles with interpolated normals",
         );
         let own = DAffine3::from_translation(center) * DAffine3::from_scale(DVec3::splat(radius));
@@ -288,12 +314,22 @@ pub struct Looks {
     pub flip: bool,
     /// Numbers of its vertices or faces are.
     pub attributes: bool,
-    /// Heights are: what has no edges becomes triangles.
+    /// Normals or heights are: what has no edges becomes triangles.
     pub bumped: bool,
 }
 
 fn rectangle(corner: DVec3, edge_u: DVec3, edge_v: DVec3) -> Keys {
     Keys::of_type("rectangle").with("corner", corner).with("edge_u", edge_u).with("edge_v", edge_v)
+}
+
+/// The map that turns as this one does and scales as it scales x.
+fn evened(map: &DAffine3) -> DAffine3 {
+    let scale = map.matrix3.x_axis.length();
+    let x = map.matrix3.x_axis / scale;
+    // Nothing is flat: that was refused.
+    let y = map.matrix3.y_axis.reject_from_normalized(x).normalize();
+    let z = x.cross(y) * map.matrix3.determinant().signum();
+    DAffine3 { matrix3: DMat3::from_cols(x, y, z) * scale, translation: map.translation }
 }
 
 /// Fronts become backs.

@@ -11,7 +11,7 @@ use super::converter::Converter;
 use super::input::{Input, Texels};
 use super::plugin::{Plugin, PropertyValue, Spectrum};
 use crate::load::error::SceneError;
-use crate::load::import::{Entry, FileReference, Keys};
+use crate::load::import::{Entry, Keys};
 
 impl Converter<'_> {
     /// A colour of light that leaves something: any amount.
@@ -33,9 +33,29 @@ impl Converter<'_> {
         }
     }
 
+    /// A property of a surface for each colour, of any size.
+    pub fn surface_number(&mut self, plugin: &Plugin, name: &str, default: f64) -> Result<Input, SceneError> {
+        self.input(plugin, name, Role::Surface, Texels::Colours, default)
+    }
+
+    /// A number for which there can be no texture here: the mean of one is taken, and told.
+    pub fn plain_number(&mut self, plugin: &Plugin, name: &str, default: f64) -> Result<f64, SceneError> {
+        let input = self.scalar(plugin, name, default)?;
+        let mean = self.mean(&input);
+        if input.constant().is_none() {
+            let what = format!("texture of `{name}` of {}", plugin.title());
+            self.approximate(plugin, &what, "its mean is taken");
+        }
+        Ok(mean.x)
+    }
+
     /// A number, perhaps from a texture.
     pub fn scalar(&mut self, plugin: &Plugin, name: &str, default: f64) -> Result<Input, SceneError> {
-        self.input(plugin, name, Role::Surface, Texels::Numbers, default)
+        Ok(match self.input(plugin, name, Role::Surface, Texels::Numbers, default)? {
+            // A colour in place of a number is the mean of its channels there.
+            Input::Constant(colour) => Input::Constant(grey_of(colour)),
+            texture => texture,
+        })
     }
 
     fn input(&mut self, plugin: &Plugin, name: &str, role: Role, texels: Texels, default: f64) -> Result<Input, SceneError> {
@@ -85,6 +105,13 @@ impl Converter<'_> {
                 let colour = self.input(plugin, name, role, texels, 1.0)?;
                 self.scaled(plugin, colour)
             }
+            // A texture within is taken as it is in modes of three colours.
+            "d65" if plugin.children.iter().any(|child| is_texture(&child.plugin)) => {
+                let within = plugin.children.iter().find(|child| is_texture(&child.plugin));
+                within.iter().for_each(|child| child.used.set(true));
+                plugin.without_effect(&["scale"]);
+                within.map_or(Ok(Input::grey(1.0)), |child| self.texture(&child.plugin, role, texels))
+            }
             "d65" => {
                 let colour = self.input(plugin, "color", role, texels, 1.0)?;
                 self.scaled(plugin, colour)
@@ -129,55 +156,8 @@ impl Converter<'_> {
         }
     }
 
-    fn bitmap(&mut self, plugin: &Rc<Plugin>, texels: Texels, before: DAffine2) -> Result<Input, SceneError> {
-        if plugin.first_of("texture").is_some() || plugin.has("data") || plugin.has("bitmap") {
-            return Err(plugin.error("a bitmap is read from a file here, and this one names none"));
-        }
-        let written = plugin.text("filename")?.ok_or_else(|| plugin.error("a bitmap needs the string `filename`"))?;
-        let path = self.reader.find(written).ok_or_else(|| plugin.error(format!("there is no file {written}")))?;
-        let raw = plugin.flag("raw", false)? || texels == Texels::Numbers;
-        let gamma = plugin.number("gamma")?;
-        if gamma.is_some_and(|gamma| gamma != 1.0 && gamma != -1.0 && (gamma - 2.2).abs() > 0.3) {
-            self.approximate(plugin, "gamma of a bitmap", "sRGB's curve is taken");
-        }
-        let linear = raw || gamma == Some(1.0);
-        let filter = plugin.text("filter_type")?.unwrap_or("bilinear");
-        let wrap = match plugin.text("wrap_mode")?.unwrap_or("repeat") {
-            "repeat" => "repeat",
-            "mirror" => "mirror",
-            "clamp" => "clamp",
-            other => {
-                let what = format!("wrap_mode `{other}`");
-                self.approximate(plugin, &what, "`clamp` is taken");
-                "clamp"
-            }
-        };
-        plugin.without_effect(&["format", "accel", "to_uv", "max_anisotropy", "cache", "to_srgb"]);
-        let channel = plugin.text("channel")?;
-        if channel.is_some() {
-            self.drop(plugin, "channel of a bitmap", "all of its channels are taken");
-        }
-        let is_float =
-            path.extension().is_some_and(|ending| ["exr", "hdr", "rgbe", "pfm"].iter().any(|e| ending.eq_ignore_ascii_case(e)));
-        let mut keys = Keys::new()
-            .with("type", "image")
-            .with("file", FileReference::Disk(path.clone()))
-            .with_some("color_space", (linear && !is_float || texels == Texels::Numbers).then_some("linear"));
-        if wrap != "repeat" {
-            keys.set("wrap", wrap);
-        }
-        if filter == "nearest" {
-            keys.set("filter", "nearest");
-        }
-        // v runs downward: 1 − v is looked up.
-        let down = DAffine2 { matrix2: DMat2::from_diagonal(DVec2::new(1.0, -1.0)), translation: DVec2::Y };
-        let keys = self.placed_texture(plugin, keys, down * uv_map(plugin)? * before);
-        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-        Ok(self.add_texture(plugin, &stem, keys))
-    }
-
     /// The map of texture coordinates as scale, rotation and offset.
-    fn placed_texture(&mut self, plugin: &Plugin, mut keys: Keys, map: DAffine2) -> Keys {
+    pub fn placed_texture(&mut self, plugin: &Plugin, mut keys: Keys, map: DAffine2) -> Keys {
         let (x, y) = (map.matrix2.x_axis, map.matrix2.y_axis);
         if x.dot(y).abs() > 1e-9 * x.length() * y.length() {
             self.approximate(plugin, "shear of texture coordinates", "they are turned and scaled alone");
@@ -202,14 +182,16 @@ impl Converter<'_> {
         let mut colours = [DVec3::ZERO; 2];
         for (colour, (name, default)) in colours.iter_mut().zip([("color0", 0.4), ("color1", 0.2)]) {
             let input = self.input(plugin, name, role, Texels::Colours, default)?;
-            *colour = input.constant().unwrap_or_else(|| {
-                self.drop(plugin, "texture within a checkerboard", "a grey is taken");
-                DVec3::splat(default)
-            });
+            if input.constant().is_none() {
+                self.approximate(plugin, "texture within a checkerboard", "its mean is taken");
+            }
+            *colour = self.mean(&input);
         }
         // Mitsuba's checkerboard of numbers (`eval_1`) has the fields of its checkerboard of colours (`eval`) the other way round.
-        if texels == Texels::Numbers {
+        // A colour counts as a number by the mean of its channels.
+        if texels != Texels::Colours {
             colours.swap(0, 1);
+            colours = colours.map(grey_of);
         }
         // Two squares along each unit.
         let map = DAffine2::from_scale(DVec2::splat(2.0)) * uv_map(plugin)? * before;
@@ -230,8 +212,18 @@ impl Converter<'_> {
     }
 }
 
+/// The mean of its channels.
+fn grey_of(colour: DVec3) -> DVec3 {
+    let is_grey = colour.min_element() == colour.max_element();
+    if is_grey { colour } else { DVec3::splat(colour.element_sum() / 3.0) }
+}
+
+fn is_texture(plugin: &Plugin) -> bool {
+    ["texture", "spectrum"].contains(&plugin.kind.as_str())
+}
+
 /// `to_uv` in the plane.
-fn uv_map(plugin: &Plugin) -> Result<DAffine2, SceneError> {
+pub fn uv_map(plugin: &Plugin) -> Result<DAffine2, SceneError> {
     let map = plugin.transform("to_uv")?;
     let (x, y) = (map.matrix3.x_axis.truncate(), map.matrix3.y_axis.truncate());
     Ok(DAffine2 { matrix2: DMat2::from_cols(x, y), translation: map.translation.truncate() })

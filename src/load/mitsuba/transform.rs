@@ -22,8 +22,10 @@ pub fn step(place: &Place, tag: &str, get: &mut Attributes) -> Result<DAffine3, 
             let axis = vector(place, get, 0.0)?;
             let angle = get("angle")?.ok_or_else(|| error_at(place, "<rotate> needs the attribute `angle`"))?;
             let angle = parse_number(place, &angle)?;
-            let axis = axis.try_normalize().ok_or_else(|| error_at(place, "the axis of a rotation has no length"))?;
-            Ok(DAffine3::from_axis_angle(axis, angle.to_radians()))
+            if axis.try_normalize().is_none() {
+                return Err(error_at(place, "the axis of a rotation has no length"));
+            }
+            Ok(DAffine3::from_mat3(rotation(axis, angle.to_radians())))
         }
         "lookat" | "lookAt" => {
             let mut point =
@@ -43,6 +45,15 @@ pub fn step(place: &Place, tag: &str, get: &mut Attributes) -> Result<DAffine3, 
         }
         _ => Err(error_at(place, format!("<{tag}> is no step of a transform: translate, scale, rotate, lookat, matrix"))),
     }
+}
+
+/// Rodrigues' formula. Version 3 takes an axis as it is, where those before took one of length 1 along it: another length distorts.
+fn rotation(axis: DVec3, angle: f64) -> DMat3 {
+    let (sine, cosine) = angle.sin_cos();
+    let across =
+        DMat3::from_cols(DVec3::new(0.0, axis.z, -axis.y), DVec3::new(-axis.z, 0.0, axis.x), DVec3::new(axis.y, -axis.x, 0.0));
+    let along = DMat3::from_cols(axis * axis.x, axis * axis.y, axis * axis.z);
+    DMat3::from_diagonal(DVec3::splat(cosine)) + across * sine + along * (1.0 - cosine)
 }
 
 /// `x`, `y` and `z`, or `value` with one number or three.

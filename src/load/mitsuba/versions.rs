@@ -37,7 +37,7 @@ pub fn modern_name(name: &str) -> String {
     }
 }
 
-/// `uscale` and its like, which became `to_uv` in version 2.
+/// `uscale` and its like, which became `to_uv` in version 2. Version 3 reads them as scale × (uv + offset); those before 2 did as scale × uv + offset.
 pub fn old_texture_coordinates(plugin: &mut Plugin) {
     if plugin.kind != "texture" {
         return;
@@ -59,7 +59,7 @@ pub fn old_texture_coordinates(plugin: &mut Plugin) {
     plugin.properties.retain(|property| !["uscale", "vscale", "uvscale", "uoffset", "voffset"].contains(&property.name.as_str()));
     plugin.properties.push(Property {
         name: "to_uv".to_owned(),
-        value: PropertyValue::Transform(DAffine3::from_translation(offset) * DAffine3::from_scale(scale)),
+        value: PropertyValue::Transform(DAffine3::from_scale(scale) * DAffine3::from_translation(offset)),
         place: plugin.place.clone(),
         used: Cell::new(false),
     });

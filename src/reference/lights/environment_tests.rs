@@ -24,7 +24,7 @@ fn map(width: u32, height: u32, rotation: f64, texel: impl Fn(u32, u32) -> Vec3)
 fn map_of([width, height]: [u32; 2], rotation: f64, rows: MapRows, texel: impl Fn(u32, u32) -> Vec3) -> Outside {
     let texels: Vec<_> = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect();
     let radiance = EnvironmentRadiance::Map(Arc::new(ImageData { width, height, texels: texels.into(), has_alpha: false }));
-    of_light(Light::Environment(Environment { radiance, rotation_degrees: rotation, rows }))
+    of_light(Light::Environment(Environment { radiance, rotation_degrees: rotation, rows, mirrored: false }))
 }
 
 fn sky(zenith: f64, horizon: f64, ground: f64) -> Outside {
@@ -39,7 +39,8 @@ fn dotted(width: u32, height: u32, x: u32, y: u32) -> Outside {
 fn environments() -> Vec<(&'static str, Outside)> {
     let noise = |x: u32, y: u32| Vec3::new((x * 37 % 11) as f32, (y * 17 % 5) as f32 + 0.1, ((x + y) * 7 % 13) as f32);
     let radiance = EnvironmentRadiance::Constant(DVec3::ONE);
-    let constant = of_light(Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: MapRows::Inside }));
+    let constant =
+        of_light(Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: MapRows::Inside, mirrored: false }));
     vec![
         ("1 x 1", map(1, 1, 0.0, |_, _| Vec3::ONE)),
         ("2 x 1", map(2, 1, 0.0, |x, _| Vec3::splat(1.0 + 4.0 * x as f32))),

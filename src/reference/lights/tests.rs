@@ -334,7 +334,10 @@ fn lights_are_chosen_by_power_and_evenly() {
     }
     // An environment is chosen half of the time, and only where BSDF sampling leaves it to light sampling.
     let radiance = EnvironmentRadiance::Constant(DVec3::ONE);
-    scene.lights.insert(0, Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: Default::default() }));
+    scene.lights.insert(
+        0,
+        Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: Default::default(), mirrored: false }),
+    );
     assert_eq!(Lights::new(&scene, &world).table.pmf.len(), 3);
     scene.render.estimator = Estimator::Nee;
     let pmf = Lights::new(&scene, &world).table.pmf;

@@ -77,6 +77,14 @@ choices! {
         Auto = "auto",
     }
 
+    /// Whether light sources are in the picture.
+    pub enum Emitters {
+        /// As anything else is.
+        Seen = "seen",
+        /// The camera looks through surfaces that give light, and sees nothing where it would see the surroundings. Mirrors, glass and shadows show both.
+        Hidden = "hidden",
+    }
+
     /// What happens where a ray meets a blend of materials.
     pub enum BlendMode {
         /// Every lobe of a blend is evaluated, one is sampled.

@@ -8,7 +8,8 @@ use std::fmt;
 use serde::{Serialize, Serializer};
 
 use super::kinds::{
-    BlendMode, Estimator, Guiding, HemisphereSampling, LightChoice, LightSampling, MisHeuristic, PixelSampler, SamplerKind,
+    BlendMode, Emitters, Estimator, Guiding, HemisphereSampling, LightChoice, LightSampling, MisHeuristic, PixelSampler,
+    SamplerKind,
 };
 use super::number_or_auto::{NumberOrAuto, auto};
 use super::row::settings;
@@ -140,6 +141,14 @@ settings! {
             placeholder: "N",
             header: "gpt:guidingPaths",
             compared: true,
+        }
+        /// Whether the camera sees what gives light.
+        emitters: Emitters = Emitters::Seen => {
+            values: Names(Emitters::NAMES),
+            flag: "--emitters",
+            placeholder: "EMITTERS",
+            header: "gpt:emitters",
+            compared: false,
         }
         /// What happens where a ray meets a blend of materials.
         blend: BlendMode = BlendMode::Mixture => {

@@ -112,7 +112,12 @@ fn scene() -> Scene {
         curve: Default::default(),
         picture: None,
     });
-    let map = Environment { radiance: EnvironmentRadiance::Map(pixels(4, 2)), rotation_degrees: 0.0, rows: Default::default() };
+    let map = Environment {
+        radiance: EnvironmentRadiance::Map(pixels(4, 2)),
+        rotation_degrees: 0.0,
+        rows: Default::default(),
+        mirrored: false,
+    };
     scene.lights = vec![
         Light::Point(PointLight { position: b, intensity: b }),
         spot,
@@ -146,7 +151,7 @@ fn each_mistake_is_named_with_its_part() {
         scene.materials[0].emission = Some(Emission { radiance, two_sided: false });
     }
     fn environment(radiance: EnvironmentRadiance) -> Light {
-        Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: Default::default() })
+        Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: Default::default(), mirrored: false })
     }
     let cases: &[(Change, &str)] = &[
         (|s| s.film.size = [0, 4], "film: size: a picture of 0 x 4 pixels is empty"),

@@ -49,7 +49,9 @@ impl<'w> Writer<'w> {
         };
         let one_sided = flag(material, "two_sided") == Some(false) && kind != "emissive";
         // A blend of see-through parts cannot be two-sided there.
-        let bsdf = if is_transparent || one_sided || self.lets_light_through(&name, 0) {
+        // One side and the other are said by the blend.
+        let has_sides = table(material, "weight").is_some_and(|weight| text(weight, "type") == Some("front"));
+        let bsdf = if is_transparent || one_sided || has_sides || self.lets_light_through(&name, 0) {
             bsdf
         } else {
             Element::new("bsdf", "twosided").with(bsdf)
@@ -85,6 +87,18 @@ impl<'w> Writer<'w> {
 
     fn named(&self, name: &str) -> Option<&Table> {
         entries(self.scene, "material").into_iter().find(|material| text(*material, "name") == Some(name))
+    }
+
+    /// It, or a part of it at any depth, looks up a texture.
+    pub fn shows_texture(&self, name: &str, depth: usize) -> bool {
+        let Some(material) = self.named(name) else { return false };
+        let is_texture = |(key, value): (&String, &Value)| {
+            let names = ["normal_map", "bump_map", "coat_normal_map"];
+            names.contains(&key.as_str()) || value.as_table().is_some_and(|of| of.contains_key("texture"))
+        };
+        let parts = material.get("materials").and_then(Value::as_array);
+        let mut parts = parts.into_iter().flatten().filter_map(Value::as_str);
+        material.iter().any(is_texture) || depth < 100 && parts.any(|part| self.shows_texture(part, depth + 1))
     }
 
     /// A part of it does, at any depth.
@@ -154,12 +168,14 @@ impl<'w> Writer<'w> {
         let element = match PRESETS.iter().find(|(ours, _)| Some(*ours) == preset) {
             Some((_, theirs)) => element.string("material", theirs),
             None if material.contains_key("eta") => element.rgb("eta", colour(material, "eta")).rgb("k", colour(material, "k")),
+            // What reflects all light does so at every angle.
+            None if number(material, "reflectance") == Some(1.0) => element.string("material", "none"),
             None => {
                 self.approximate("conductor by its reflectance", place, "its reflectance does not rise at grazing angles");
                 self.with_colour(element.string("material", "none"), "specular_reflectance", material, "reflectance")?
             }
         };
-        let element = match material.contains_key("reflectance") {
+        let element = match material.contains_key("reflectance") && number(material, "reflectance") != Some(1.0) {
             true => element,
             false => self.with_colour(element, "specular_reflectance", material, "specular_reflectance")?,
         };
@@ -208,6 +224,7 @@ impl<'w> Writer<'w> {
                 if material.contains_key("roughness") {
                     self.approximate("texture of roughness", place, "it is taken for its square");
                 }
+                self.drop_others(&of, &["texture"], place);
                 let name = text(&of, "texture").unwrap_or_default().to_owned();
                 Ok(element.with(self.texture(&name, "alpha", true)?))
             }
@@ -227,6 +244,9 @@ impl<'w> Writer<'w> {
         let [first, second] = &parts[..] else { return Ok(Element::new("bsdf", "null")) };
         // A share of what is behind is a mask there, and only a mask lets shadow rays through.
         let is_mask = self.named(second).is_some_and(|part| text(part, "type") == Some("pass"));
+        if kind == "front" {
+            return Ok(Element::new("bsdf", "twosided").reference(first).reference(second));
+        }
         let share = if is_mask { "opacity" } else { "weight" };
         // Mitsuba's weight is the second one's share.
         let element = Element::new("bsdf", if is_mask { "mask" } else { "blendbsdf" });
@@ -281,7 +301,12 @@ impl<'w> Writer<'w> {
         }
     }
 
-    fn texture(&mut self, name: &str, role: &str, raw: bool) -> Result<Element, SceneError> {
+    fn texture(&mut self, name: &str, role: &str, is_number: bool) -> Result<Element, SceneError> {
+        self.texture_behind(name, role, is_number, "")
+    }
+
+    /// A texture whose coordinates are first changed by these steps.
+    pub fn texture_behind(&mut self, name: &str, role: &str, is_number: bool, before: &str) -> Result<Element, SceneError> {
         let found = entries(self.scene, "texture").into_iter().find(|texture| text(*texture, "name") == Some(name));
         let Some(texture) = found.map(Keys::of) else {
             return Err(SceneError::in_file(self.name, format!("there is no texture named `{name}`")));
@@ -295,10 +320,10 @@ impl<'w> Writer<'w> {
         let element = match kind {
             "image" => {
                 let file = self.file(text(&texture, "file").unwrap_or_default());
-                let raw = text(&texture, "color_space") == Some("linear") || raw;
+                let raw = text(&texture, "color_space") == Some("linear");
                 // v runs downward over a picture there.
                 let steps = format!(
-                    "<scale x=\"{u}\" y=\"{v}\"/>{turn}<translate x=\"{x}\" y=\"{y}\"/><scale y=\"-1\"/><translate y=\"1\"/>"
+                    "{before}<scale x=\"{u}\" y=\"{v}\"/>{turn}<translate x=\"{x}\" y=\"{y}\"/><scale y=\"-1\"/><translate y=\"1\"/>"
                 );
                 Element::new("texture", "bitmap")
                     .named(role)
@@ -311,12 +336,15 @@ impl<'w> Writer<'w> {
             "checker" => {
                 let colour_of = |key: &str| vector(&texture, key).unwrap_or_else(|| colour(&texture, key));
                 // Two squares along each unit there.
-                let steps =
-                    format!("<scale x=\"{u}\" y=\"{v}\"/>{turn}<translate x=\"{x}\" y=\"{y}\"/><scale x=\"0.5\" y=\"0.5\"/>");
+                let steps = format!(
+                    "{before}<scale x=\"{u}\" y=\"{v}\"/>{turn}<translate x=\"{x}\" y=\"{y}\"/><scale x=\"0.5\" y=\"0.5\"/>"
+                );
+                // Fields of numbers lie the other way round there.
+                let (first, second) = if is_number { ("color1", "color0") } else { ("color0", "color1") };
                 Element::new("texture", "checkerboard")
                     .named(role)
-                    .rgb("color0", colour_of("a"))
-                    .rgb("color1", colour_of("b"))
+                    .rgb(first, colour_of("a"))
+                    .rgb(second, colour_of("b"))
                     .transform("to_uv", &steps)
             }
             other => {

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use toml::Table;
 
-use self::keys::{Keys, colour, entries, integer, number, numbers, table, text, vector};
+use self::keys::{Keys, colour, entries, flag, integer, number, numbers, table, text, vector};
 use self::xml::{Element, Xml};
 use super::scene_file::scene_text;
 use crate::load::SceneError;
@@ -112,6 +112,8 @@ impl Writer<'_> {
         let integrator = Element::new("integrator", "path")
             .integer("max_depth", if depth == 0 { -1 } else { depth })
             .integer("rr_depth", if roulette == 0 { 1_000_000 } else { roulette });
+        let hides = render.and_then(|render| text(render, "emitters")) == Some("hidden");
+        let integrator = if hides { integrator.boolean("hide_emitters", true) } else { integrator };
         self.xml.push(integrator);
     }
 
@@ -148,26 +150,36 @@ impl Writer<'_> {
         let position = vector(camera, "position").unwrap_or(DVec3::Z);
         let look_at = vector(camera, "look_at").unwrap_or(DVec3::ZERO);
         let up = vector(camera, "up").unwrap_or(DVec3::Y);
-        let place = format!(
-            "<lookat origin=\"{}\" target=\"{}\" up=\"{}\"/>",
-            xml::triple(position),
-            xml::triple(look_at),
-            xml::triple(up)
-        );
+        let stretch = number(camera, "stretch").unwrap_or(1.0);
+        let place = xml::look_at(position, look_at, up);
         let mut sensor = match (text(camera, "projection"), number(camera, "height")) {
             (Some("orthographic"), Some(height)) => {
                 let scale = height / 2.0 * size[0] / size[1];
+                let across = scale * stretch;
+                // +X is to the left there.
+                let beside = numbers(camera, "shift").filter(|shift| shift.len() == 2).map_or(String::new(), |shift| {
+                    format!("<translate x=\"{}\" y=\"{}\"/>", -2.0 * across * shift[0], height * shift[1])
+                });
                 Element::new("sensor", "orthographic")
-                    .transform("to_world", &format!("<scale x=\"{scale}\" y=\"{scale}\"/>{place}"))
+                    .transform("to_world", &format!("<scale x=\"{across}\" y=\"{scale}\"/>{beside}{place}"))
             }
             _ => {
                 let aperture =
                     table(camera, "aperture").filter(|aperture| number(*aperture, "radius").is_some_and(|radius| radius > 0.0));
                 let kind = if aperture.is_some() { "thinlens" } else { "perspective" };
+                if stretch.abs() != 1.0 {
+                    self.drop("stretch", "camera", "the picture is as wide as its pixels say");
+                }
+                let mirror = if stretch < 0.0 { "<scale x=\"-1\"/>" } else { "" };
                 let mut sensor = Element::new("sensor", kind)
                     .string("fov_axis", "y")
                     .float("fov", number(camera, "vfov").unwrap_or(40.0))
-                    .transform("to_world", &place);
+                    .transform("to_world", &format!("{mirror}{place}"));
+                if kind == "perspective"
+                    && let Some([right, above]) = numbers(camera, "shift").as_deref()
+                {
+                    sensor = sensor.float("principal_point_offset_x", *right).float("principal_point_offset_y", -above);
+                }
                 if let Some(aperture) = aperture {
                     if text(aperture, "shape").is_some_and(|shape| shape != "disk") {
                         self.approximate("aperture that is no disk", "camera.aperture", "a disk of the same radius is taken");
@@ -196,15 +208,29 @@ impl Writer<'_> {
                     (vector(light, "position").unwrap_or_default(), vector(light, "direction").unwrap_or(DVec3::Z));
                 let angle = number(light, "angle").unwrap_or(90.0);
                 let falloff = number(light, "falloff").unwrap_or(angle);
-                if falloff < angle {
+                if falloff < angle && text(light, "curve") != Some("linear") {
                     self.approximate("falloff of a spot light", place, "it is straight in the angle, not smooth in its cosine");
                 }
-                Element::new("emitter", "spot")
-                    .transform("to_world", &xml::look_along(position, direction))
+                let _ = light.contains_key("curve");
+                let aim = match vector(light, "up") {
+                    Some(up) => xml::look_at(position, position + direction, up),
+                    None => xml::look_along(position, direction),
+                };
+                let emitter = Element::new("emitter", "spot")
+                    .transform("to_world", &aim)
                     .float("cutoff_angle", angle)
                     .float("beam_width", falloff)
-                    .rgb("intensity", colour(light, "intensity"))
+                    .rgb("intensity", colour(light, "intensity"));
+                match text(light, "texture") {
+                    // Its picture stands mirrored there.
+                    Some(name) => {
+                        let mirror = "<scale x=\"-1\"/><translate x=\"1\"/>";
+                        emitter.with(self.texture_behind(name, "texture", false, mirror)?)
+                    }
+                    None => emitter,
+                }
             }
+            "projector" => self.projector(light, place)?,
             "directional" => Element::new("emitter", "directional")
                 .vector("direction", vector(light, "direction").unwrap_or(DVec3::NEG_Y))
                 .rgb("irradiance", colour(light, "irradiance")),
@@ -218,6 +244,33 @@ impl Writer<'_> {
         Ok(true)
     }
 
+    /// What it throws is 1/π of the irradiance.
+    fn projector(&mut self, light: &Keys<'_>, place: &str) -> Result<Element, SceneError> {
+        let (position, direction) =
+            (vector(light, "position").unwrap_or_default(), vector(light, "direction").unwrap_or(DVec3::Z));
+        let up = vector(light, "up").unwrap_or(DVec3::Y);
+        let strength = colour(light, "irradiance") / std::f64::consts::PI;
+        let emitter = Element::new("emitter", "projector")
+            .transform("to_world", &xml::look_at(position, position + direction, up))
+            .string("fov_axis", "y")
+            .float("fov", number(light, "vfov").unwrap_or(40.0));
+        let aspect = number(light, "aspect");
+        let Some(name) = text(light, "texture") else {
+            if aspect.is_some_and(|aspect| aspect != 1.0) {
+                self.drop("aspect", place, "what is thrown is a square");
+            }
+            return Ok(emitter.rgb("irradiance", strength));
+        };
+        // The picture's own.
+        let _ = aspect;
+        if strength.min_element() != strength.max_element() {
+            self.approximate("colour of a projector with a texture", place, "its mean multiplies the texture");
+        }
+        let upside_down = "<scale y=\"-1\"/><translate y=\"1\"/>";
+        let texture = self.texture_behind(name, "irradiance", false, upside_down)?;
+        Ok(emitter.float("scale", strength.element_sum() / 3.0).with(texture))
+    }
+
     fn environment(&mut self, light: &Keys<'_>, place: &str) -> Result<Element, SceneError> {
         let scale = number(light, "scale").unwrap_or(1.0);
         let Some(file) = text(light, "file") else {
@@ -229,11 +282,12 @@ impl Writer<'_> {
             self.approximate("rows of an environment map", place, "they stand half a row nearer to the poles");
         }
         let degrees = number(light, "rotate").unwrap_or(0.0);
+        let mirror = if flag(light, "mirror") == Some(true) { "<scale x=\"-1\"/>" } else { "" };
         let file = self.file(file);
         Ok(Element::new("emitter", "envmap")
             .string("filename", &file)
             .float("scale", scale)
-            .transform("to_world", &format!("<rotate y=\"1\" angle=\"{degrees}\"/>")))
+            .transform("to_world", &format!("{mirror}<rotate y=\"1\" angle=\"{degrees}\"/>")))
     }
 
     /// The name of a file as the scene of Mitsuba has it: absolute, or of one that is written beside it.

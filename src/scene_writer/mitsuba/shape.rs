@@ -51,11 +51,25 @@ impl Writer<'_> {
             self.drop("portal", place, "its directions are not sampled by themselves");
         }
         let around = shape.get("transform").map_or(DAffine3::IDENTITY, transform);
+        let mirrors = around.matrix3.determinant() < 0.0;
+        let textured = text(shape, "material").is_some_and(|name| self.shows_texture(name, 0));
         let (element, own) = match text(shape, "type").unwrap_or_default() {
-            "mesh" => (self.mesh(shape, place)?, DAffine3::IDENTITY),
+            "mesh" => {
+                let element = self.mesh(shape, place)?;
+                // A mirror turns faces over there, unless normals of the file say where their fronts are.
+                let turns = mirrors && flag(shape, "smooth") == Some(false);
+                (if turns { element.boolean("flip_normals", true) } else { element }, DAffine3::IDENTITY)
+            }
             "sphere" => {
-                let element = Element::new("shape", "sphere").point("center", vector(shape, "center").unwrap_or_default());
-                (element.float("radius", number(shape, "radius").unwrap_or(1.0)), DAffine3::IDENTITY)
+                let (center, radius) = (vector(shape, "center").unwrap_or_default(), number(shape, "radius").unwrap_or(1.0));
+                let element = Element::new("shape", "sphere");
+                // There a mirror turns spheres inside out.
+                let element = if mirrors { element.boolean("flip_normals", true) } else { element };
+                if textured {
+                    (element.float("radius", radius), DAffine3::from_translation(center) * about_z())
+                } else {
+                    (element.point("center", center).float("radius", radius), DAffine3::IDENTITY)
+                }
             }
             "rectangle" => {
                 let axis = |key: &str| vector(shape, key).unwrap_or(DVec3::X);
@@ -76,7 +90,15 @@ impl Writer<'_> {
             "cylinder" => {
                 let end = |key: &str| vector(shape, key).unwrap_or_default();
                 let element = Element::new("shape", "cylinder").point("p0", end("from")).point("p1", end("to"));
-                (element.float("radius", number(shape, "radius").unwrap_or(1.0)), DAffine3::IDENTITY)
+                let element = element.float("radius", number(shape, "radius").unwrap_or(1.0));
+                let along = end("to") - end("from");
+                let is_upright = end("from") == DVec3::ZERO && along.truncate() == glam::DVec2::ZERO && along.z > 0.0;
+                // Texture coordinates go round the other way there.
+                let own = DAffine3::from_scale(DVec3::new(1.0, -1.0, 1.0));
+                if textured && !is_upright {
+                    self.approximate("texture on shape `cylinder`", place, "it is turned about the axis");
+                }
+                (element, if textured && is_upright { own } else { DAffine3::IDENTITY })
             }
             "plane" => {
                 self.approximate("shape `plane`", place, "a rectangle of 20,000 units is taken");
@@ -89,6 +111,9 @@ impl Writer<'_> {
                 return Ok(None);
             }
         };
+        if let (true, Some(kind @ ("box" | "disk" | "plane"))) = (textured, text(shape, "type")) {
+            self.approximate(&format!("texture on shape `{kind}`"), place, "it lies otherwise there");
+        }
         let map = around * own;
         let element = if map == DAffine3::IDENTITY { element } else { element.transform("to_world", &matrix(&map)) };
         let element = match text(shape, "material") {
@@ -133,6 +158,11 @@ impl Writer<'_> {
         let element = if kind == "obj" { element.boolean("flip_tex_coords", false) } else { element };
         Ok(if smooth == Some(false) { element.boolean("face_normals", true) } else { element })
     }
+}
+
+/// The axis about which texture coordinates of spheres turn is +Z there and +Y here.
+fn about_z() -> DAffine3 {
+    DAffine3::from_mat3(DMat3::from_cols(DVec3::Y, DVec3::NEG_Z, DVec3::NEG_X).transpose())
 }
 
 /// No material has this name.

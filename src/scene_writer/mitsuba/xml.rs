@@ -129,8 +129,12 @@ pub fn triple(DVec3 { x, y, z }: DVec3) -> String {
 
 /// The step that puts +Z along a direction.
 pub fn look_along(position: DVec3, direction: DVec3) -> String {
-    let up = direction.normalize_or(DVec3::Z).any_orthonormal_vector();
-    format!("<lookat origin=\"{}\" target=\"{}\" up=\"{}\"/>", triple(position), triple(position + direction), triple(up))
+    look_at(position, position + direction, direction.normalize_or(DVec3::Z).any_orthonormal_vector())
+}
+
+/// The same with +Y to this side.
+pub fn look_at(position: DVec3, target: DVec3, up: DVec3) -> String {
+    format!("<lookat origin=\"{}\" target=\"{}\" up=\"{}\"/>", triple(position), triple(target), triple(up))
 }
 
 /// `<matrix>`

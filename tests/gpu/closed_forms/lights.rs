@@ -114,7 +114,12 @@ fn map(scene: &mut Scene, width: u32, height: u32, texel: impl Fn(u32, u32) -> f
     let texels: Vec<_> =
         (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| Vec3::splat(texel(x, y))).collect();
     let radiance = EnvironmentRadiance::Map(Arc::new(ImageData { width, height, texels: texels.into(), has_alpha: false }));
-    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees: 30.0, rows: Default::default() }));
+    scene.lights.push(Light::Environment(Environment {
+        radiance,
+        rotation_degrees: 30.0,
+        rows: Default::default(),
+        mirrored: false,
+    }));
 }
 
 /// A constant map is a constant environment; a single bright texel gives the integral of its interpolated light.

@@ -84,5 +84,10 @@ pub fn cube_mesh() -> Geometry {
 
 pub fn environment(scene: &mut Scene, radiance: f64) {
     let radiance = EnvironmentRadiance::Constant(DVec3::splat(radiance));
-    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees: 0.0, rows: Default::default() }));
+    scene.lights.push(Light::Environment(Environment {
+        radiance,
+        rotation_degrees: 0.0,
+        rows: Default::default(),
+        mirrored: false,
+    }));
 }

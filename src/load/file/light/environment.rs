@@ -32,6 +32,8 @@ pub struct Keys {
     scale: Option<Located<Checked<NonNegative>>>,
     /// Degrees about +Y, counter-clockwise seen from above.
     rotate: Option<Number>,
+    /// Exchanges the map's left and right before it is turned; false when left out.
+    mirror: Option<Located<bool>>,
     /// Where the first and the last row of the map lie: half a row from the poles when left out.
     rows: Option<Rows>,
     /// What it is at frames (`--frame`, `--frames`, `--time`); without one it is what the other keys say.
@@ -54,21 +56,22 @@ impl LightKeys for Keys {
     type Light = Environment;
 
     const EXAMPLES: &'static [&'static str] =
-        &["radiance = [0.2, 0.5, 1]", "file = \"map.exr\"\nscale = 1.5\nrotate = 40", "file = \"map.exr\"\nrows = \"to_poles\""];
+        &["radiance = [0.2, 0.5, 1]", "file = \"map.exr\"\nscale = 1.5\nrotate = 40", "file = \"map.exr\"\nrows = \"to_poles\"\nmirror = true"];
     const STRENGTH: &'static str = "radiance";
 
     fn resolve(&self, resolver: &mut Resolver<'_>, span: &Range<usize>) -> Result<Environment, SceneError> {
         let scale = self.scale.as_ref().map_or(1.0, |scale| scale.value.0);
         let rotation_degrees = self.rotate.map_or(0.0, |rotate| rotate.0);
+        let mirrored = self.mirror.as_ref().is_some_and(|mirror| mirror.value);
         let radiance = match (&self.radiance, &self.file) {
             (Some(radiance), None) => EnvironmentRadiance::Constant(radiance.value.0 * scale),
-            (None, Some(file)) => return self.map(resolver, file, (scale, rotation_degrees)),
+            (None, Some(file)) => return self.map(resolver, file, (scale, rotation_degrees, mirrored)),
             (Some(radiance), Some(_)) => {
                 return Err(resolver.error(&radiance.span, "an environment has either `radiance` or `file`"));
             }
             (None, None) => return Err(resolver.error(span, "an environment needs the key `radiance` or `file`")),
         };
-        Ok(Environment { radiance, rotation_degrees, rows: self.rows.map_or(MapRows::Inside, MapRows::from) })
+        Ok(Environment { radiance, rotation_degrees, rows: self.rows.map_or(MapRows::Inside, MapRows::from), mirrored })
     }
 
     fn track(&self, resolver: &Resolver<'_>) -> Result<Option<LightTrack>, SceneError> {
@@ -99,6 +102,9 @@ impl LightKeys for Keys {
         if environment.rows == MapRows::ToPoles {
             out += &line("rows", "\"to_poles\"");
         }
+        if environment.mirrored {
+            out += &line("mirror", "true");
+        }
         out
     }
 }
@@ -117,7 +123,7 @@ impl Keys {
         &self,
         resolver: &mut Resolver<'_>,
         file: &Located<String>,
-        (scale, rotation_degrees): (f64, f64),
+        (scale, rotation_degrees, mirrored): (f64, f64, bool),
     ) -> Result<Environment, SceneError> {
         let (image, integer_bits) = resolver.image_and_bits(file, None)?;
         let path = resolver.path(&file.value);
@@ -133,11 +139,15 @@ impl Keys {
             Some(map) => (Arc::new(map.image), map.rows, map.rotation_degrees),
             None => (image, self.rows.map_or(MapRows::Inside, MapRows::from), 0.0),
         };
-        let rotation_degrees = rotation_degrees + turned;
-        if scale == 1.0 {
-            return Ok(Environment { radiance: EnvironmentRadiance::Map(image), rotation_degrees, rows });
+        // A mirror turns the other way what lies behind it.
+        let rotation_degrees = rotation_degrees + if mirrored { -turned } else { turned };
+        if scale == 1.0 && !mirrored {
+            return Ok(Environment { radiance: EnvironmentRadiance::Map(image), rotation_degrees, rows, mirrored });
         }
-        let texels: Vec<_> = image.texels.colors().map(|texel| texel * scale as f32).collect();
+        let mut texels: Vec<_> = image.texels.colors().map(|texel| texel * scale as f32).collect();
+        if mirrored {
+            texels.chunks_mut(image.width as usize).for_each(|row| row.reverse());
+        }
         if let Some(written) = &self.scale
             && texels.iter().any(|texel| texel.max_element() > LARGEST as f32)
         {
@@ -149,6 +159,6 @@ impl Keys {
         if let Some(source) = resolver.scene.sources.image(&image).cloned() {
             resolver.scene.sources.add_image(&scaled, ImageSource { scale, ..source });
         }
-        Ok(Environment { radiance: EnvironmentRadiance::Map(scaled), rotation_degrees, rows })
+        Ok(Environment { radiance: EnvironmentRadiance::Map(scaled), rotation_degrees, rows, mirrored })
     }
 }

@@ -29,12 +29,19 @@ impl Resolver<'_> {
         {
             return Err(self.error(&written.span, "the shutter closes before it opens"));
         }
+        let stretch = written.stretch.as_ref().map_or(1.0, |stretch| stretch.value.0);
+        if let Some(written) = &written.stretch
+            && !(1e-6..=1e6).contains(&stretch.abs())
+        {
+            return Err(self.error(&written.span, format!("a stretch is from 1e-6 to 1e6, or that below 0, and not {stretch}")));
+        }
         self.scene.camera = Camera {
             position,
             look_at,
             up,
             projection: self.projection(written)?,
             shift: written.shift.map_or([0.0; 2], |shift| shift.map(|part| part.0)),
+            stretch,
             aperture,
             focus_distance: written.focus_distance.map_or((look_at - position).length(), |distance| distance.0),
             shutter,

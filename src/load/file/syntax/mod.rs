@@ -144,6 +144,9 @@ pub struct CameraTable {
     /// How far the picture's middle lies to the right of the camera's axis and above it, in widths and heights of the picture; [0, 0] when left
     /// out.
     pub shift: Option<Exactly<Number, 2>>,
+    /// Factor of what the picture shows from side to side, 1 when left out: at 2 all is half as wide as it should be. Below 0, left and right are
+    /// exchanged, so that -1 is a mirror's picture.
+    pub stretch: Option<Located<Number>>,
     /// The lens opening; a pinhole when left out.
     pub aperture: Option<Located<ApertureEntry>>,
     /// Distance along the viewing direction of the plane in focus; needed with an aperture.

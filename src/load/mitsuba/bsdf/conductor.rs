@@ -15,18 +15,18 @@ use crate::load::mitsuba::plugin::{Plugin, PropertyValue};
 pub fn conductor(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, SceneError> {
     let tint = converter.reflectance(plugin, "specular_reflectance", 1.0)?;
     let material = plugin.text("material")?.map(str::to_owned);
-    let given = plugin.has("eta") || plugin.has("k");
+    // `k` alone changes nothing where a material is named.
+    let given = plugin.has("eta") || material.as_deref().is_none_or(is_none) && plugin.has("k");
     let fresnel = match material.as_deref() {
         _ if plugin.name == "mirror" => None,
-        Some("none" | "None") => None,
-        Some(name) if !given => Some(metals::conductor(name).unwrap_or_else(|| {
+        _ if given => Some(complex(converter, plugin)?),
+        None => None,
+        Some(name) if is_none(name) => None,
+        Some(name) => Some(metals::conductor(name).unwrap_or_else(|| {
             let what = format!("conductor of the material `{name}`");
             converter.approximate(plugin, &what, "chromium is taken");
             metals::conductor("cr").unwrap_or_default()
         })),
-        None if !given && plugin.name == "conductor" && !plugin.has("specular_reflectance") => None,
-        None if !given => Some(metals::conductor("cu").unwrap_or_default()),
-        _ => Some(complex(converter, plugin)?),
     };
     let rough = plugin.name == "roughconductor";
     let Some(fresnel) = fresnel else {
@@ -34,12 +34,11 @@ pub fn conductor(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed
         if !rough {
             return Ok((Keys::of_type("mirror").with("reflectance", tint.value()), false));
         }
-        let keys = Keys::of_type("conductor").with("reflectance", tint.value());
-        let keys = with_roughness(converter, plugin, keys)?;
+        let mut keys = Keys::of_type("conductor").with("reflectance", 1.0);
         if tint.constant() != Some(DVec3::ONE) {
-            converter.approximate(plugin, "roughconductor without Fresnel term", "its reflectance rises to 1 at grazing angles");
+            keys.set("specular_reflectance", tint.value());
         }
-        return Ok((keys, false));
+        return Ok((with_roughness(converter, plugin, keys)?, false));
     };
     let mut keys = Keys::of_type("conductor");
     keys.0.extend(fresnel.0);
@@ -52,15 +51,19 @@ pub fn conductor(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed
     Ok((keys, false))
 }
 
+fn is_none(material: &str) -> bool {
+    material.eq_ignore_ascii_case("none")
+}
+
 /// `eta` and `k`, relative to what is outside.
 fn complex(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keys, SceneError> {
     let mut constant = |name: &str, default: f64| -> Result<DVec3, SceneError> {
-        let input = converter.scalar(plugin, name, default)?;
-        Ok(input.constant().unwrap_or_else(|| {
+        let input = converter.surface_number(plugin, name, default)?;
+        if input.constant().is_none() {
             let what = format!("texture of `{name}` of a conductor");
-            converter.drop(plugin, &what, format!("{default} is taken"));
-            DVec3::splat(default)
-        }))
+            converter.approximate(plugin, &what, "its mean is taken");
+        }
+        Ok(converter.mean(&input))
     };
     let (eta, k) = (constant("eta", 0.0)?, constant("k", 1.0)?);
     let outside = outside(plugin, "ext_eta")?;

@@ -31,7 +31,7 @@ impl Converter<'_> {
     ) -> Result<String, SceneError> {
         let made = match bsdf {
             Some(bsdf) => self.bsdf(bsdf, 0)?,
-            None => self.default_bsdf(),
+            None => self.default_bsdf(light.is_some()),
         };
         let entry = &self.scene.materials[made];
         let plain = entry.keys.text("name").unwrap_or_default().to_owned();
@@ -41,8 +41,11 @@ impl Converter<'_> {
             return Ok(plain);
         }
         if keys.text("type") == Some("pass") {
-            self.approximate(shape, "light of a shape that is not there (`null`)", "the shape stops light");
-            keys = Keys::new().with("name", "").with("type", "emissive").with("radiance", light.value());
+            // It lets all light through, and adds its own.
+            let black = self.extra(shape, "black", Keys::of_type("diffuse").with("reflectance", 0.0));
+            let through = Keys::of_type("constant").with("value", 1.0);
+            keys = Keys::new().with("name", "").with("type", "blend").with("materials", vec![Value::Text(plain.clone()), black]);
+            keys = keys.with("weight", through).with("emission", light.value());
         } else {
             keys.set("emission", light.value());
         }
@@ -59,17 +62,17 @@ impl Converter<'_> {
         Ok(name)
     }
 
-    /// Mitsuba's surface without a BSDF is a grey diffuse one.
-    fn default_bsdf(&mut self) -> usize {
-        const NAME: &str = "(no bsdf)";
-        let known = self.default_material;
+    /// Mitsuba's surface without a BSDF is a grey diffuse one, and black where it gives light.
+    fn default_bsdf(&mut self, is_lamp: bool) -> usize {
+        let known = self.default_materials[usize::from(is_lamp)];
         let material = known.unwrap_or_else(|| {
-            let keys = Keys::new().with("name", NAME).with("type", "diffuse").with("reflectance", 0.5).with("two_sided", false);
-            self.scene.free_material_name(NAME);
-            self.scene.materials.push(Entry { keys, ..Entry::default() });
+            let (name, reflectance) = if is_lamp { ("(no bsdf, a lamp)", 0.0) } else { ("(no bsdf)", 0.5) };
+            let name = self.scene.free_material_name(name);
+            let keys = Keys::new().with("name", name).with("type", "diffuse").with("reflectance", reflectance);
+            self.scene.materials.push(Entry { keys: keys.with("two_sided", false), ..Entry::default() });
             self.scene.materials.len() - 1
         });
-        self.default_material = Some(material);
+        self.default_materials[usize::from(is_lamp)] = Some(material);
         material
     }
 

@@ -24,14 +24,7 @@ pub fn plastic(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keyed, 
         keys.set("nonlinear", true);
     }
     if plugin.name == "roughplastic" {
-        let alpha = converter.scalar(plugin, "alpha", 0.1)?;
-        let alpha = alpha.constant().map_or_else(
-            || {
-                converter.drop(plugin, "texture of the roughness of plastic", "0.1 is taken");
-                0.1
-            },
-            |alpha| alpha.x.clamp(0.0, 1.0),
-        );
+        let alpha = converter.plain_number(plugin, "alpha", 0.1)?.clamp(0.0, 1.0);
         keys = with_distribution(converter, plugin, keys.with("alpha", alpha))?;
     }
     Ok((keys, false))

@@ -52,15 +52,16 @@ pub fn principled(converter: &mut Converter, plugin: &Rc<Plugin>) -> Result<Keye
     let coat = converter.scalar(plugin, "clearcoat", 0.0)?;
     if !is(&coat, 0.0) {
         keys.set("clearcoat", clamped(&coat).value());
-        let gloss = plugin.number("clearcoat_gloss").ok().flatten().unwrap_or(0.0).clamp(0.0, 1.0);
+        let gloss = converter.plain_number(plugin, "clearcoat_gloss", 0.0)?.clamp(0.0, 1.0);
         // The coat's width goes from 0.1 to 0.001 there; a roughness is its root.
         keys.set("clearcoat_roughness", (0.1 + (0.001 - 0.1) * gloss).sqrt());
     }
-    let anisotropic = converter.scalar(plugin, "anisotropic", 0.0)?;
-    if let Some(strength) = anisotropic.constant().filter(|strength| strength.x > 0.0) {
-        keys.set("anisotropy", strength.x.clamp(0.0, 1.0));
+    let anisotropic = converter.plain_number(plugin, "anisotropic", 0.0)?;
+    if anisotropic > 0.0 {
+        keys.set("anisotropy", anisotropic.clamp(0.0, 1.0));
     }
-    Ok((keys, see_through))
+    // A thin one scatters on both sides.
+    Ok((keys, see_through || plugin.name == "principledthin"))
 }
 
 fn is(input: &Input, value: f64) -> bool {

@@ -15,13 +15,21 @@ use crate::load::mitsuba::plugin::Plugin;
 
 pub fn two_sided(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
     let within = plugin.children_of("bsdf");
-    if within.len() > 1 && !Rc::ptr_eq(within[0], within[1]) {
-        converter.drop(plugin, "second side of bsdf `twosided`", "the first one's is on both sides");
+    let differ = within.len() > 1 && !Rc::ptr_eq(within[0], within[1]);
+    if within.len() > 2 {
+        return Err(plugin.error(format!("a surface has two sides, and this one {} bsdfs for them", within.len())));
     }
     let outside = std::mem::replace(&mut converter.both_sides, true);
-    let within = converter.within(plugin, depth);
+    let made = if differ { sides(converter, plugin, depth) } else { converter.within(plugin, depth).map(|(keys, _)| keys) };
     converter.both_sides = outside;
-    within.map(|(keys, _)| (keys, true))
+    made.map(|keys| (keys, true))
+}
+
+/// The first BSDF on the front, the second one on the back.
+fn sides(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keys, SceneError> {
+    let Parts { names, relief } = converter.parts(plugin, depth)?;
+    let keys = Keys::of_type("blend").with("materials", names).with("weight", Keys::of_type("front"));
+    Ok(with_relief(keys, relief))
 }
 
 pub fn mask(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) -> Result<Keyed, SceneError> {
@@ -52,7 +60,7 @@ pub fn bump_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) ->
         converter.drop(&map, "texture `checkerboard` as a bump map", "it has steps and no slopes, and bends no normals");
         return Ok((keys, two_sided));
     }
-    Ok(match converter.texture(&map, Role::Surface, Texels::Numbers)? {
+    Ok(match converter.texture(&map, Role::Surface, Texels::Heights)? {
         Input::Texture(name, factor) => {
             if keys.get("clearcoat").is_some() {
                 converter.approximate(plugin, "bump map of a coat", "it bends what is below the coat alone");
@@ -81,7 +89,7 @@ pub fn normal_map(converter: &mut Converter, plugin: &Rc<Plugin>, depth: usize) 
     let map = plugin.child("normalmap").or_else(|| plugin.first_of("texture")).cloned();
     let map = map.ok_or_else(|| plugin.error("a normal map needs a texture within"))?;
     let (keys, two_sided) = converter.within(plugin, depth)?;
-    Ok(match converter.texture(&map, Role::Surface, Texels::Numbers)? {
+    Ok(match converter.texture(&map, Role::Surface, Texels::Normals)? {
         Input::Texture(name, _) => {
             let keys = with_coat(keys, &name).with("normal_map", name);
             let keys = shadowed(plugin, keys)?;

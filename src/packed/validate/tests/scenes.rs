@@ -202,6 +202,11 @@ fn everything() -> Scene {
         }
     }
     let radiance = EnvironmentRadiance::Map(image(5, 3));
-    scene.lights.push(Light::Environment(Environment { radiance, rotation_degrees: 30.0, rows: Default::default() }));
+    scene.lights.push(Light::Environment(Environment {
+        radiance,
+        rotation_degrees: 30.0,
+        rows: Default::default(),
+        mirrored: false,
+    }));
     scene
 }
