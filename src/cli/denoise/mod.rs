@@ -9,7 +9,9 @@ use gpt::denoise::bias::Bias;
 use gpt::denoise::library::{Library, OidnError};
 use gpt::denoise::{Raw, denoise};
 use gpt::film::Band;
-use gpt::output::{Channels, Display, Image, OutputError, PartSpec, PictureFile, PictureFormat, PictureSpec, as_own, read_picture};
+use gpt::output::{
+    Channels, Display, Image, OutputError, PartSpec, PictureFile, PictureFormat, PictureSpec, as_own, read_picture,
+};
 use serde::Serialize;
 
 pub use arguments::DenoiseArguments;

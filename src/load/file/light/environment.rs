@@ -55,8 +55,11 @@ enum Rows {
 impl LightKeys for Keys {
     type Light = Environment;
 
-    const EXAMPLES: &'static [&'static str] =
-        &["radiance = [0.2, 0.5, 1]", "file = \"map.exr\"\nscale = 1.5\nrotate = 40", "file = \"map.exr\"\nrows = \"to_poles\"\nmirror = true"];
+    const EXAMPLES: &'static [&'static str] = &[
+        "radiance = [0.2, 0.5, 1]",
+        "file = \"map.exr\"\nscale = 1.5\nrotate = 40",
+        "file = \"map.exr\"\nrows = \"to_poles\"\nmirror = true",
+    ];
     const STRENGTH: &'static str = "radiance";
 
     fn resolve(&self, resolver: &mut Resolver<'_>, span: &Range<usize>) -> Result<Environment, SceneError> {
