@@ -91,7 +91,7 @@ mod tests {
         let tile = |index: usize| index / SIDE as usize >= 48 && index % SIDE as usize >= 48;
         let smooth = (0..count).map(|index| [0.5 * if tile(index) { brighter } else { 1.0 }; 3]).collect();
         let variances = have_variances.then(|| vec![[0.01; 3]; count]);
-        (Raw { picture: of(noisy), albedo: None, normal: None, variances }, of(smooth))
+        (Raw { picture: of(noisy), albedo: None, normal: None, variances, placed: None }, of(smooth))
     }
 
     #[test]
