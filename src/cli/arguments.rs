@@ -25,7 +25,7 @@ use super::model_arguments::ModelArguments;
 use super::picture_arguments::{DisplayArguments, ExrArguments};
 use super::setting_flags::SettingFlags;
 use super::settings::EstimateArguments;
-use super::test::TestArguments;
+use super::test_arguments::TestArguments;
 use super::traversal::TraversalArguments;
 use super::values::{parse_device, parse_pixel, parse_seconds, parse_size};
 use super::view::ViewArguments;

@@ -40,6 +40,7 @@ mod settings;
 mod shell;
 mod terminal;
 mod test;
+mod test_arguments;
 mod traversal;
 mod typed;
 mod values;

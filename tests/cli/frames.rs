@@ -145,7 +145,9 @@ fn frames_go_together_with_regions_layers_and_progress() {
     place.expect(0, &format!("{render} --crop 4,2,10,8 -o part.#.exr"));
     let (whole, part) = (place.image("whole.3.exr"), place.image("part.3.exr"));
     let row = |image: &Image, start: u32| image.pixels[start as usize..start as usize + 10].to_vec();
-    assert_eq!(row(&whole, 2 * 24 + 4), row(&part, 0));
+    // A part is read as the picture that it is a part of, black around it.
+    assert_eq!(row(&whole, 2 * 24 + 4), row(&part, 2 * 24 + 4));
+    assert_eq!(row(&part, 0), [[0.0; 3]; 10]);
     let output = place.run(&format!("{render} --time-limit 100 --progress json -o p.#.exr"));
     assert_eq!(output.status.code(), Some(0));
     let lines = text(&output.stdout);

@@ -161,7 +161,8 @@ fn polygons_relative_indices_and_degenerate_triangles_are_read() {
     let folder = folder_with(&[("model.obj", text.as_bytes())]);
     let scene = model(folder.path());
     assert_eq!(mesh(&scene).faces.len(), 3);
-    assert!(scene.warnings[0].ends_with("model.obj: 1 triangles without area were left out"), "{:?}", scene.warnings);
+    let told = |what: &str| scene.warnings.iter().any(|warning| warning.ends_with(what));
+    assert!(told("model.obj: 1 triangles without area were left out"), "{:?}", scene.warnings);
 }
 
 const LIBRARY: &str = "

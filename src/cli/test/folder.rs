@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use gpt::picture_test::TestSettings;
 
-use super::arguments::TestArguments;
 use crate::cli::exit::Failure;
+use crate::cli::test_arguments::TestArguments;
 use crate::cli::typed::{CommandLine, Typed};
 
 /// Where golden pictures are, below the folder of the scenes.

@@ -1,6 +1,5 @@
 //! `gpt test`: a picture test that knows noise.
 
-mod arguments;
 mod folder;
 mod junit;
 mod page;
@@ -13,9 +12,8 @@ use std::time::Instant;
 use gpt::output::AtomicFile;
 use serde::Serialize;
 
-pub use arguments::TestArguments;
-
 use super::exit::{Exit, Failure};
+use super::test_arguments::TestArguments;
 use super::typed::Typed;
 use super::{interrupt, outputs, terminal};
 use report::{SceneReport, Verdict};

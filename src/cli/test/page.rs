@@ -1,9 +1,9 @@
 //! The page that shows what a test found.
 
-use super::arguments::TestArguments;
 use super::report::{SceneReport, Verdict};
 use crate::cli::bench::command;
 use crate::cli::difference_page::{self, Section, Shown};
+use crate::cli::test_arguments::TestArguments;
 
 /// Scenes that differ first.
 pub fn page(arguments: &TestArguments, reports: &[SceneReport]) -> String {

@@ -18,12 +18,12 @@ use gpt::plan::PlanOptions;
 use gpt::render::choice::{Choice, ChosenRenderer};
 use gpt::renderer::{DeviceChoice, Renderer};
 
-use super::arguments::TestArguments;
 use super::folder::Job;
 use super::report::{Difference, SceneReport, TestPictures, Verdict};
 use crate::cli::bench::OnlyStops;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::terminal;
+use crate::cli::test_arguments::TestArguments;
 use crate::cli::traversal::TraversalArguments;
 use crate::cli::typed::CommandLine;
 
