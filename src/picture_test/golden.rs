@@ -91,7 +91,7 @@ impl Golden {
         if file.colours(["R", "G", "B"]).is_none() {
             return Err(lacking("the channels R, G and B"));
         }
-        let picture = read_picture(path)?;
+        let picture = as_own(path, || read_picture(path))?;
         if picture.covered != [0, 0, file.width, file.height] {
             return Err(lacking("every pixel of its picture, and not a part of them"));
         }
