@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
-use crate::output::FileIdentity;
+use crate::file_identity::FileIdentity;
 use crate::patience::{self, PatientFile};
 
 /// A regular file that is being read.

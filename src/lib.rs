@@ -80,6 +80,7 @@ pub mod denoise;
 #[doc(hidden)]
 pub mod emission_map;
 mod error;
+mod file_identity;
 #[doc(hidden)]
 pub mod film;
 #[doc(hidden)]

@@ -5,10 +5,9 @@
 
 use std::path::Path;
 
-use gpt::output::{FileIdentity, OutputError, check_target};
+use gpt::output::{FileIdentity, OutputError, STDOUT, check_target};
 
 use super::exit::Failure;
-use super::pictures::is_stdout;
 
 /// Whether all of these can be written beside each other, and beside the files that are read.
 ///
@@ -36,4 +35,9 @@ pub fn check<'a>(outputs: impl IntoIterator<Item = &'a Path>, inputs: impl IntoI
 /// The file that a path means; None is standard output.
 fn meant(path: &Path) -> Option<FileIdentity> {
     (!is_stdout(path)).then(|| FileIdentity::of(path))
+}
+
+/// Whether the path means standard output.
+pub fn is_stdout(path: &Path) -> bool {
+    path == Path::new(STDOUT)
 }

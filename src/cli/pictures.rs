@@ -6,10 +6,11 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use gpt::film::Band;
-use gpt::output::{OutputError, PICTURE_ENDINGS, PictureFile, PictureFormat, PictureSpec, STDOUT};
+use gpt::output::{OutputError, PICTURE_ENDINGS, PictureFile, PictureFormat, PictureSpec};
 
 use super::exit::Failure;
 use super::outputs;
+pub use super::outputs::is_stdout;
 
 /// All picture files of a render.
 pub struct Pictures {
@@ -162,11 +163,6 @@ pub fn output_formats<'a>(
     }
     outputs::check(paths.iter().map(PathBuf::as_path).chain(others), inputs)?;
     Ok(formats)
-}
-
-/// Whether the path means standard output.
-pub fn is_stdout(path: &Path) -> bool {
-    path == Path::new(STDOUT)
 }
 
 #[cfg(test)]

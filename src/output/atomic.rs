@@ -13,13 +13,12 @@ use std::sync::{Mutex, PoisonError};
 use tempfile::{Builder, NamedTempFile};
 
 use super::error::OutputError;
+use crate::file_identity::{folder_of, follow_links};
 use crate::input;
 use crate::patience;
 
 const PREFIX: &str = ".gpt-";
 const SUFFIX: &str = ".part";
-/// Links that lead from one to the next, at most: as many as Linux follows.
-const MOST_LINKS: usize = 40;
 
 /// Temporary files that exist now; a process that ends without unwinding removes them by [`remove_unfinished`].
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -157,27 +156,6 @@ fn check_now(path: &Path) -> Result<(), OutputError> {
     }
 }
 
-/// The file that is meant by a path, whether it exists or not: links are followed, the folder is the one that the system calls so. Two paths
-/// that mean one file become equal.
-///
-/// # Errors
-/// Links that lead in a circle.
-pub fn follow_links(path: &Path) -> io::Result<PathBuf> {
-    let mut path = path.to_owned();
-    for _ in 0..MOST_LINKS {
-        let Ok(to) = fs::read_link(&path) else {
-            let (folder, name) = (folder_of(&path), path.file_name());
-            // A folder that is missing is told by who looks for it.
-            return Ok(match (fs::canonicalize(folder), name) {
-                (Ok(folder), Some(name)) => folder.join(name),
-                _ => fs::canonicalize(&path).unwrap_or(path),
-            });
-        };
-        path = folder_of(&path).join(to);
-    }
-    Err(io::Error::other(format!("{} leads through too many links", path.display())))
-}
-
 /// Removes the temporary files of every [`AtomicFile`] that is open. For use right before the process ends at once.
 pub fn remove_unfinished() {
     for path in unfinished().drain(..) {
@@ -189,13 +167,6 @@ pub fn remove_unfinished() {
 fn unfinished() -> std::sync::MutexGuard<'static, Vec<PathBuf>> {
     // The list is whole whatever panicked while holding it.
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-fn folder_of(path: &Path) -> &Path {
-    match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    }
 }
 
 fn temporary_beside(target: &Path) -> io::Result<NamedTempFile> {

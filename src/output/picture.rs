@@ -11,13 +11,14 @@ use std::thread::{self, JoinHandle};
 use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, Text};
 
-use super::atomic::{AtomicFile, follow_links};
+use super::atomic::AtomicFile;
 use super::error::OutputError;
 use super::format::PictureFormat;
 use super::provenance::BROKEN_OFF_KEY;
 use super::rows::{Completeness, Message, Rows};
 use super::spec::PictureSpec;
 use super::{exr_file, hdr_file, jpeg_file, png_file};
+use crate::file_identity::follow_links;
 use crate::film::Band;
 use crate::input;
 use crate::patience::{self, Watched};

@@ -18,7 +18,7 @@ use super::integrator::Integrator;
 use super::intersect::Surface;
 use super::spread::{follow, pixel_of};
 use super::trace::PathVisitor;
-use super::work;
+use super::{work, work_of_path};
 use crate::renderer::RenderError;
 use crate::sampling::hash::{dimension_bits, mix};
 use crate::sampling::light_cells::{Division, LightCells, Reaching};
@@ -175,7 +175,7 @@ struct Learned {
 /// were not tried choose by power.
 fn learned(integrator: &Integrator, has_to_be_whole: bool) -> Option<Learned> {
     let wanted = path_count(integrator.scene());
-    let affordable = (MOST_WORK as f64 / work::of_path(integrator).max(1.0)) as u32;
+    let affordable = (MOST_WORK as f64 / work_of_path::of_path(integrator).max(1.0)) as u32;
     if has_to_be_whole && affordable < wanted {
         return None;
     }

@@ -28,6 +28,7 @@ pub mod training;
 mod volume;
 pub mod warp;
 pub mod work;
+pub mod work_of_path;
 
 pub use integrator::Integrator;
 pub use renderer::ReferenceRenderer;

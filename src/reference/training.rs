@@ -16,7 +16,7 @@ use super::intersect::Surface;
 use super::pilot;
 use super::spread::{follow, pixel_of};
 use super::trace::{LightConnection, PathVisitor};
-use super::work;
+use super::{work, work_of_path};
 use crate::sampling::Sampling;
 use crate::sampling::guide::{Arrival, Guide, learn};
 use crate::sampling::hash::mix;
@@ -75,7 +75,7 @@ pub fn train(integrator: &mut Integrator) -> Learned {
     if let Some(because) = pilot::why_no_guide(integrator.scene()).filter(|_| has_to_pay) {
         return not_at_all(because.to_owned());
     }
-    let of_path = work::of_path(integrator);
+    let of_path = work_of_path::of_path(integrator);
     let Some(rounds) = affordable(rounds(integrator.scene()), of_path, has_to_pay) else {
         return not_at_all(pilot::too_much_work("learning", of_path));
     };

@@ -3,18 +3,18 @@
 
 use glam::DVec3;
 
-use super::importer::Importer;
 use super::json::Camera;
 
 /// What a camera shows.
 #[derive(Debug, Clone, Copy)]
 pub struct Clipping {
-    camera: usize,
+    /// Its index in the file.
+    pub camera: usize,
     pub position: DVec3,
     /// To the right, up, and forward.
     axes: [DVec3; 3],
-    near: f64,
-    far: f64,
+    pub near: f64,
+    pub far: f64,
     /// Half of the window: of a perspective camera at distance 1.
     half: [f64; 2],
     is_perspective: bool,
@@ -43,26 +43,10 @@ impl Clipping {
     }
 
     /// How far a point in the picture lies before the camera; None of one beside it or behind.
-    fn depth_of(&self, point: DVec3) -> Option<f64> {
+    pub fn depth_of(&self, point: DVec3) -> Option<f64> {
         let [across, upward, depth] = self.axes.map(|axis| axis.dot(point - self.position));
         let width = if self.is_perspective { depth } else { 1.0 };
         let is_shown = depth > 0.0 && across.abs() <= self.half[0] * width && upward.abs() <= self.half[1] * width;
         is_shown.then_some(depth)
-    }
-}
-
-impl Importer<'_> {
-    /// Reports what the camera's planes would cut away.
-    pub fn report_clipping(&mut self) {
-        let Some(clipping) = self.clipping else { return };
-        let mut depths: Vec<f64> = self.scene.points().into_iter().filter_map(|point| clipping.depth_of(point)).collect();
-        depths.sort_unstable_by(f64::total_cmp);
-        let place = format!("cameras[{}]", clipping.camera);
-        if depths.first().is_some_and(|nearest| *nearest < clipping.near) {
-            self.drop("znear of a camera", &place, "what lies before it is shown");
-        }
-        if depths.last().is_some_and(|farthest| *farthest > clipping.far) {
-            self.drop("zfar of a camera", &place, "what lies beyond it is shown");
-        }
     }
 }

@@ -80,3 +80,19 @@ impl Importer<'_> {
         }
     }
 }
+
+impl Importer<'_> {
+    /// Reports what the camera's planes would cut away.
+    pub fn report_clipping(&mut self) {
+        let Some(clipping) = self.clipping else { return };
+        let mut depths: Vec<f64> = self.scene.points().into_iter().filter_map(|point| clipping.depth_of(point)).collect();
+        depths.sort_unstable_by(f64::total_cmp);
+        let place = format!("cameras[{}]", clipping.camera);
+        if depths.first().is_some_and(|nearest| *nearest < clipping.near) {
+            self.drop("znear of a camera", &place, "what lies before it is shown");
+        }
+        if depths.last().is_some_and(|farthest| *farthest > clipping.far) {
+            self.drop("zfar of a camera", &place, "what lies beyond it is shown");
+        }
+    }
+}

@@ -20,7 +20,7 @@ use std::borrow::Cow;
 use super::integrator::Integrator;
 use super::intersect::Outline;
 use super::light_cells::{self, LightsSettled};
-use super::work;
+use super::{work, work_of_path};
 use crate::plan::UNROLL_LIMIT;
 use crate::renderer::RenderError;
 use crate::sampling::light_way::LightWay;
@@ -136,7 +136,7 @@ fn settle_the_rest(scene: &Scene, integrator: Option<Integrator>, has_cells: boo
         return Ok(as_it_is(integrator, open.reasons(because)));
     }
     let mut pilot = Pilot::new(scene, integrator)?;
-    let of_path = work::of_path(&pilot.integrator);
+    let of_path = work_of_path::of_path(&pilot.integrator);
     if of_path * Found::paths(pilot.pixels) > MOST_WORK_OF_WAY {
         let because = too_much_work("a pilot", of_path);
         let reasons = Reasons { left_out: Some(because.clone()), ..open.reasons(&because) };

@@ -1,10 +1,12 @@
 //! Which file a path means, whatever it is called.
 
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
-use super::atomic::follow_links;
 use crate::patience;
+
+/// Links that lead from one to the next, at most: as many as Linux follows.
+const MOST_LINKS: usize = 40;
 
 /// A file, by what it is and not by one of its names: two paths mean one file where these are equal.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -43,6 +45,35 @@ impl FileIdentity {
     #[cfg(not(unix))]
     fn number(_metadata: &fs::Metadata) -> Option<Self> {
         None
+    }
+}
+
+/// The file that is meant by a path, whether it exists or not: links are followed, the folder is the one that the system calls so. Two paths
+/// that mean one file become equal.
+///
+/// # Errors
+/// Links that lead in a circle.
+pub fn follow_links(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        let Ok(to) = fs::read_link(&path) else {
+            let (folder, name) = (folder_of(&path), path.file_name());
+            // A folder that is missing is told by who looks for it.
+            return Ok(match (fs::canonicalize(folder), name) {
+                (Ok(folder), Some(name)) => folder.join(name),
+                _ => fs::canonicalize(&path).unwrap_or(path),
+            });
+        };
+        path = folder_of(&path).join(to);
+    }
+    Err(io::Error::other(format!("{} leads through too many links", path.display())))
+}
+
+/// The folder that a path's last name stands in.
+pub fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
     }
 }
 
