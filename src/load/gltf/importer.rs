@@ -10,7 +10,7 @@ use super::clipping::Clipping;
 use super::json::Root;
 use super::known::{EXTENSIONS, Unread, WITH_FALLBACK, find_unread};
 use super::made::{MadeMaterial, MadePrimitive, WeightTrack};
-use super::picture::{TextureRole, UvsOf};
+use super::texture_role::{TextureRole, UvsOf};
 use crate::load::files::Files;
 use crate::load::import::{Description, FileReference, Place};
 use crate::load::printable::short_list;

@@ -6,7 +6,7 @@ use super::importer::Importer;
 use super::json::{Material, SpecularGlossiness, TextureInfo, extension};
 use super::lookup::{Lookup, Lookups};
 use super::made::{Coordinates, Form, MadeMaterial};
-use super::picture::{TextureRole, UvsOf};
+use super::texture_role::{TextureRole, UvsOf};
 use crate::load::import::{Entry, Keys, Value};
 
 /// Index of refraction where nothing is said, and the largest that scene files have.

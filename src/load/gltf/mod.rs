@@ -22,6 +22,7 @@ mod outline;
 mod picture;
 mod primitive;
 mod tangents;
+mod texture_role;
 mod variant;
 
 use std::collections::HashMap;

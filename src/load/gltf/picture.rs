@@ -6,6 +6,7 @@ use super::buffers::{file_of, read_uri};
 use super::importer::Importer;
 use super::json::{Image, Texture};
 use super::lookup::Placement;
+use super::texture_role::{TextureRole, UvsOf};
 use crate::load::error::show;
 use crate::load::files::MOST_MODEL_BYTES;
 use crate::load::image_file::{inverted_alpha, one_texel};
@@ -23,28 +24,6 @@ const LINEAR_MIPMAPS: [u64; 2] = [9985, 9987];
 /// Extensions whose pictures are not read, and their formats.
 const UNREAD_FORMATS: [(&str, &str); 3] =
     [("KHR_texture_basisu", "Basis or KTX2"), ("EXT_texture_avif", "AVIF"), ("MSFT_texture_dds", "DDS")];
-
-/// What a texture's texels are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum TextureRole {
-    /// Colours in sRGB.
-    Colour,
-    /// Numbers as they are.
-    Numbers,
-    /// Directions of a normal map.
-    Normals,
-    /// Numbers that are made of its alpha: roughness of glossiness, 1 − alpha times the factor of these bits.
-    OfGlossiness(u64),
-}
-
-/// By which of a mesh's texture coordinates a texture lies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum UvsOf {
-    First,
-    Second,
-    /// The second, where the first are there for directions alone.
-    Framed,
-}
 
 /// What stands for a picture that cannot be read: magenta, as for those of OBJ; for numbers 1, so that factors count alone; no bend.
 fn stand_in(role: TextureRole) -> [f64; 3] {
