@@ -291,7 +291,7 @@ fn rows() -> Vec<Row> {
         Row("SAMPLER.wrapS", "/samplers/0/wrapS", json!([33_071, 33_648, 1]), &[]),
         Row("SAMPLER.wrapT", "/samplers/0/wrapT", json!([33_071, 33_648, 1]), &[]),
         Row("PERSPECTIVE.aspectRatio", "/cameras/0/perspective/aspectRatio", json!([null, 0.0, 1.0, 1e9]), &[]),
-        Row("PERSPECTIVE.yfov", "/cameras/0/perspective/yfov", json!([0.0, -1.0, 1.0, 3.14, 4.0, 1e-9]), &[]),
+        Row("PERSPECTIVE.yfov", "/cameras/0/perspective/yfov", json!([0.0, -1.0, 1.0, 3.1, 4.0, 1e-9]), &[]),
         Row("PERSPECTIVE.zfar", "/cameras/0/perspective/zfar", json!([1.0]), &[]),
         Row("PERSPECTIVE.znear", "/cameras/0/perspective/znear", json!([50.0]), &[]),
         Row("ORTHOGRAPHIC.xmag", "/cameras/1/orthographic/xmag", json!([0.0, -3.0, 1.0]), ORTHOGRAPHIC),
