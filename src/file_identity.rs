@@ -13,19 +13,19 @@ const MOST_LINKS: usize = 40;
 pub enum FileIdentity {
     /// Device and number of a file that is there, so that hard links are one file, and names in other case where the file system knows none.
     Number(u64, u64),
-    /// Where it would stand, or stands on systems that number no files; links are followed.
+    /// The place where it would stand, or stands on systems that number no files; links are followed.
     Place(PathBuf),
 }
 
 impl FileIdentity {
-    /// Of the file to which a path leads, whether it is there or not.
+    /// The identity of the file to which a path leads, be it there or not.
     pub fn of(path: &Path) -> Self {
         let asked = path.to_owned();
         let found = patience::within(move || Ok(Self::now(&asked)));
         found.unwrap_or_else(|_| Self::Place(path.to_owned()))
     }
 
-    /// As [`FileIdentity::of`], of a file system that answers.
+    /// Does the work of [`FileIdentity::of`], on a file system that answers.
     fn now(path: &Path) -> Self {
         if let Some(number) = fs::metadata(path).ok().and_then(|metadata| Self::number(&metadata)) {
             return number;
@@ -91,7 +91,7 @@ mod tests {
         fs::write(at("b"), "a").unwrap();
         assert_eq!(of("a"), of("below/../a"));
         assert_ne!(of("a"), of("b"));
-        // What is not there yet.
+        // A file that is not there yet.
         assert_eq!(of("new"), of("./below/../new"));
         assert_ne!(of("new"), of("newer"));
         #[cfg(unix)]

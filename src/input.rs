@@ -145,7 +145,7 @@ pub fn was_opened(path: &Path) -> bool {
     other.is_some_and(|other| FileIdentity::of(&other) == identity)
 }
 
-/// Whether files that were read are kept from being written.
+/// True once files that were read are kept from being written.
 static IS_PROTECTING: AtomicBool = AtomicBool::new(false);
 
 /// From now on, no file is written that was read: for a program that does one thing and ends. A library's process reads what it wrote, and writes it
@@ -154,7 +154,7 @@ pub fn protect_inputs() {
     IS_PROTECTING.store(true, Ordering::Relaxed);
 }
 
-/// Whether this file must not be written.
+/// True where this file must not be written.
 pub fn is_protected(path: &Path) -> bool {
     IS_PROTECTING.load(Ordering::Relaxed) && was_opened(path)
 }

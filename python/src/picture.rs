@@ -33,7 +33,7 @@ impl Picture {
         image.map(Self).ok_or_else(|| PyValueError::new_err("a picture has rows, columns, and three channels"))
     }
 
-    /// What the file says of its pixels that is not used.
+    /// Properties of its pixels that the file states and nothing uses.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.0.warnings().to_vec()

@@ -1,7 +1,7 @@
 // How a surface is seen: what the weights of its blends may depend on.
 
 struct Seen {
-    // Of the angle between the direction from where it is seen and the shading normal, from 0 to 1.
+    // The cosine of the angle between the direction from where it is seen and the shading normal, from 0 to 1.
     cosine: f32,
     front: bool,
 #if WEIGHTS_BY_VIEWER

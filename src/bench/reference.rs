@@ -40,7 +40,7 @@ pub struct Reference {
     pub spp: Option<u32>,
     /// Where it comes from, for people.
     pub origin: String,
-    /// What its file says that is not used.
+    /// Properties of its pixels that its file states and nothing uses.
     pub warnings: Vec<String>,
 }
 

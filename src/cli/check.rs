@@ -228,7 +228,7 @@ fn usual_plan<'a>(scene: &'a Scene, limits: &DeviceLimits, options: &PlanOptions
     }
 }
 
-/// What the CPU would take for the picture, as far as a few paths tell.
+/// The time of the picture on the CPU, as far as a few paths tell.
 #[derive(Debug, Clone, Copy)]
 pub struct GuessedTime {
     pub seconds: f64,

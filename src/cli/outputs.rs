@@ -1,6 +1,6 @@
-//! What a command is told to write, before it does anything: each file once, and none that it is told to read.
+//! The files that a command is told to write, before it does anything: each once, and none that it is told to read.
 //!
-//! What else it reads, such as textures of a scene, is known once it has done so; files are then refused as they are opened for writing
+//! Other files that it reads, such as textures of a scene, are known once it has done so; they are then refused as they are opened for writing
 //! ([`gpt::output::protect_inputs`]).
 
 use std::path::Path;
@@ -9,7 +9,7 @@ use gpt::output::{FileIdentity, OutputError, STDOUT, check_target};
 
 use super::exit::Failure;
 
-/// Whether all of these can be written beside each other, and beside the files that are read.
+/// Checks that all of these can be written beside each other, and beside the files that are read.
 ///
 /// # Errors
 /// Usage errors where one file is named twice, in whatever way, and where one is read; missing folders.
@@ -37,7 +37,7 @@ fn meant(path: &Path) -> Option<FileIdentity> {
     (!is_stdout(path)).then(|| FileIdentity::of(path))
 }
 
-/// Whether the path means standard output.
+/// True where the path means standard output.
 pub fn is_stdout(path: &Path) -> bool {
     path == Path::new(STDOUT)
 }

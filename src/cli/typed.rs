@@ -1,4 +1,4 @@
-//! What was typed, and command lines that say it again to another process: of a plan's chunks, and in hints.
+//! The words that were typed, and command lines that say them again to another process: of a plan's chunks, and in hints.
 //!
 //! They are made from what clap read, whichever arguments there are, so that a new one is passed on without anybody thinking of it.
 
@@ -38,7 +38,7 @@ impl Typed {
         self.options(|name| !left_out.contains(&name))
     }
 
-    /// Of the options with these names, those that were typed.
+    /// The options with these names, as far as they were typed.
     pub fn options_of(&self, names: &[&str]) -> Vec<OsString> {
         self.options(|name| names.contains(&name))
     }
@@ -126,7 +126,7 @@ impl CommandLine {
     }
 }
 
-/// As a POSIX shell reads it.
+/// A word in the quotation of a POSIX shell.
 impl fmt::Display for CommandLine {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let quoted: Vec<String> = self.0.iter().map(|word| quoted(&word.to_string_lossy())).collect();
@@ -196,7 +196,7 @@ mod tests {
         }
     }
 
-    /// What decides how a scene is read has the same name wherever a scene is read.
+    /// Options that decide how a scene is read have one name wherever a scene is read.
     #[test]
     fn access_is_said_alike_by_every_command() {
         let access = AccessArguments::augment_args(Command::new("gpt"));

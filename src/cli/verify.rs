@@ -303,7 +303,7 @@ fn scene_line(verdict: &Verdict) -> String {
     text
 }
 
-/// What the command that prints the worst path says in words of its own, or does without.
+/// Options that the command for the worst path replaces by its own words, or leaves out.
 const NOT_OF_THE_PATH: [&str; 5] = ["size", "seed", "frame", "json", "evidence"];
 
 /// The command that prints the worst path. Stratified samplers draw by the number of samples, which is passed on where it was typed.

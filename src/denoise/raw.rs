@@ -10,7 +10,7 @@ pub struct Raw {
     pub normal: Option<Vec<[f32; 3]>>,
     /// Variance of each pixel's mean, where the file has it.
     pub variances: Option<Vec<[f32; 3]>>,
-    /// Where it lies in the picture that it is a part of, where it is one: black pixels around it would bleed into it.
+    /// The place in the whole picture, where it is a part of one: black pixels around it would bleed into it.
     pub placed: Option<PartSpec>,
 }
 

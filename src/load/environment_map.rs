@@ -15,7 +15,7 @@ pub struct EnvironmentMap {
     pub rotation_degrees: f64,
 }
 
-/// What to say of a picture that is taken for a map, in sentences without the file's name.
+/// Warnings about a picture that is taken for a map, in sentences without the file's name.
 pub fn notes(integer_bits: Option<u16>, hints: &Hints) -> Vec<String> {
     let of_bits = integer_bits.map(|bits| {
         format!(
@@ -85,13 +85,13 @@ fn lat_long(cube: &ImageData, side: usize) -> ImageData {
     ImageData { width: width as u32, height: height as u32, texels: texels.into(), has_alpha: false }
 }
 
-/// Where a point of a lat-long map lies: u = atan2(x, −z)/2π, v = acos(y)/π.
+/// The place of a direction in a lat-long map: u = atan2(x, −z)/2π, v = acos(y)/π.
 fn direction(u: f64, v: f64) -> DVec3 {
     let (turn, sine) = (TAU * u, (PI * v).sin());
     DVec3::new(sine * turn.sin(), (PI * v).cos(), -sine * turn.cos())
 }
 
-/// What a cube shows in a direction, bilinearly. Faces are +X, −X, +Y, −Y, +Z and −Z, each as it is seen from within, with +Y up and, looking at
+/// The colour of a cube in a direction, bilinearly. Faces are +X, −X, +Y, −Y, +Z and −Z, each as it is seen from within, with +Y up and, looking at
 /// +Y or −Y, with +Z below or above.
 fn look_up(cube: &ImageData, side: usize, towards: DVec3) -> DVec3 {
     let largest = towards.abs().max_element();

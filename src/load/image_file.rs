@@ -44,7 +44,7 @@ pub struct Picture {
     pub integer_bits: Option<u16>,
     /// What was changed in it, in words.
     pub change: Option<String>,
-    /// What its header says that is not used, in sentences without the file's name.
+    /// Properties that its header states and nothing uses, in sentences without the file's name.
     pub notes: Vec<String>,
     pub hints: Hints,
     /// Other programs see the same in the file, whatever of its header they read.

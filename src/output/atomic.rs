@@ -120,7 +120,7 @@ impl Drop for AtomicFile {
     }
 }
 
-/// Whether a file could be put at `path`: its folder exists and nothing but an ordinary file is in its place, one that was not read. Asked before a
+/// Checks that a file could be put at `path`: its folder exists and nothing but an ordinary file is in its place, one that was not read. Asked before a
 /// render, so that hours of work do not end at a mistyped folder.
 ///
 /// # Errors
@@ -132,7 +132,7 @@ pub fn check_target(path: &Path) -> Result<(), OutputError> {
     checked.unwrap_or_else(|source| Err(OutputError::Write { path: path.to_owned(), source }))
 }
 
-/// Whether a file is none that was read, where [those are kept](input::protect_inputs).
+/// Checks that a file is none that was read, where [those are kept](input::protect_inputs).
 ///
 /// # Errors
 /// [`OutputError::Input`].

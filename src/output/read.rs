@@ -55,7 +55,7 @@ pub struct ReadError {
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadPicture {
     pub image: Image,
-    /// What the header says that is not used, in sentences without the file's name.
+    /// Properties that the header states and nothing uses, in sentences without the file's name.
     pub notes: Vec<String>,
     /// The part that has pixels of the file, where the rest is black: first column and row, width and height.
     pub covered: [u32; 4],

@@ -67,7 +67,7 @@ pub struct PictureSpec {
     pub provenance: Option<Provenance>,
     /// Of a part that `gpt merge` joins with others: float files hold what that needs.
     pub part: Option<PartSpec>,
-    /// Of what was made of such a part and is none: an EXR file says where in the whole picture it lies.
+    /// The place of a picture that was made of a part and is none itself: an EXR file says where in the whole picture it lies.
     pub placed: Option<PartSpec>,
 }
 

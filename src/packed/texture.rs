@@ -50,7 +50,7 @@ shared_constants!(flags {
     pub(super) const TEXTURE_BY_SECOND_UVS: u32 = 1 << 21;
     /// Likewise, beside that: directions of a normal map follow the first ones.
     pub(super) const TEXTURE_BENDS_BY_FIRST_UVS: u32 = 1 << 24;
-    /// Where the way of wrapping along u stands, and that along v.
+    /// Bits of the way of wrapping along u, and of that along v.
     pub(super) const WRAP_SHIFT: u32 = 8;
     pub(super) const WRAP_V_SHIFT: u32 = 22;
     /// Where an image's format stands, and the flag of floating-point texels that have alpha.

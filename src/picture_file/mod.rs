@@ -107,7 +107,7 @@ impl PictureFile {
         }
     }
 
-    /// What its header says that matters for some uses alone.
+    /// Properties that its header states and that matter for some uses alone.
     pub fn hints(&self) -> Hints {
         match self {
             Self::OpenExr(file) => file.hints().clone(),
@@ -116,7 +116,7 @@ impl PictureFile {
         }
     }
 
-    /// What its header says that is not used, in sentences without the file's name.
+    /// Properties that its header states and nothing uses, in sentences without the file's name.
     pub fn notes(&self) -> &[String] {
         match self {
             Self::OpenExr(file) => file.notes(),

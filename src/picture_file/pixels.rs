@@ -1,4 +1,4 @@
-//! What all formats hand over: pixels, and what headers say that matters for some uses alone.
+//! The result of all formats: pixels, and properties of headers that matter for some uses alone.
 
 use crate::scene::ColorSpace;
 
@@ -11,7 +11,7 @@ pub enum Envelope {
     Cube,
 }
 
-/// What a header says that matters for some uses of the picture alone.
+/// Properties that a header states and that matter for some uses of the picture alone.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Hints {
     /// How the light of all directions lies in it.

@@ -7,7 +7,7 @@ const SAME: f64 = 1e-3;
 /// Responses of cones to X, Y and Z (Lam 1985, "Metamerism and colour constancy", called Bradford), row by row.
 const BRADFORD: [[f64; 3]; 3] = [[0.8951, 0.2664, -0.1614], [-0.7502, 1.7135, 0.0367], [0.0389, -0.0685, 1.0296]];
 
-/// Where red, green, blue and white of a picture lie, in CIE 1931 xy.
+/// The red, green, blue and white of a picture, in CIE 1931 xy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Primaries {
     pub red: DVec2,

@@ -34,7 +34,7 @@ pub struct Golden {
     pub flip_of_noise: Option<f64>,
     /// Digest of the scene that it shows; None where the file does not say.
     pub scene_hash: Option<String>,
-    /// What its header says that is not used, with the file's name.
+    /// Properties that its header states and nothing uses, with the file's name.
     pub warnings: Vec<String>,
 }
 
@@ -155,7 +155,7 @@ pub struct Candidate {
     /// Variance of each pixel's mean, where the file says it.
     pub variances: Option<Vec<[f32; 3]>>,
     pub samples: Option<u32>,
-    /// What its header says that is not used, with the file's name.
+    /// Properties that its header states and nothing uses, with the file's name.
     pub warnings: Vec<String>,
 }
 

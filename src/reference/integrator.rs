@@ -41,7 +41,7 @@ pub struct Integrator {
     moves: bool,
     /// Of each material: some light goes straight through it.
     lets_through: Vec<bool>,
-    /// Of each material: it, or a part of its blend, gives light, and the camera does not see it.
+    /// By material: it, or a part of its blend, gives light, and the camera does not see it.
     hidden: Vec<bool>,
     volumes: Volumes,
     /// From where light arrives, where that was learned.

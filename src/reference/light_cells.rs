@@ -118,7 +118,7 @@ pub fn settle(scene: &Scene) -> Result<LightsSettled<'_>, RenderError> {
     Ok(LightsSettled { scene: by_cells, integrator: Some(integrator), because: Some(because), is_undecided: false })
 }
 
-/// What `auto` takes where learning takes too long: a tree of many lights, and power of few.
+/// The choice of `auto` where learning takes too long: a tree of many lights, and power of few.
 fn without_cells<'a>(mut integrator: Integrator, has_few: bool, with: impl Fn(LightChoice) -> Scene) -> LightsSettled<'a> {
     let choice = if has_few { LightChoice::Power } else { LightChoice::Tree };
     integrator.set_light_choice(choice);
@@ -214,7 +214,7 @@ fn path_count(scene: &Scene) -> u32 {
     (pixel_count(scene) / PIXELS_OF_PATH).clamp(fewest, most).next_power_of_two() as u32
 }
 
-/// Where so many training paths scatter, in their order.
+/// The points where so many training paths scatter, in their order.
 fn shaded_points(integrator: &Integrator, count: u32) -> Vec<Shaded> {
     let scene = integrator.scene();
     let sampling = Sampling {

@@ -10,7 +10,7 @@ use crate::sampling::Sampling;
 use crate::sampling::hash::mix;
 use crate::scene::{PixelSampler, SamplerKind};
 
-/// What a path takes that meets nothing that is counted, for each of its vertices.
+/// The work of each vertex of a path that meets nothing that is counted.
 const VERTEX: u64 = 64;
 
 /// Paths by which work is judged, in batches: a batch is traced where those before it took less than [`MOST_JUDGING`].
@@ -22,7 +22,7 @@ const MOST_OF_PATH: u64 = work::SECOND / 4;
 /// Vertices after which a path is given up, as pilots do.
 const MOST_VERTICES: u32 = 64;
 
-/// What a path of this scene takes, light samples included, by the mean of a few that are spread over the film: the same ones, whatever the seed.
+/// The work of a path of this scene, light samples included, by the mean of a few that are spread over the film: the same ones, whatever the seed.
 pub fn of_path(integrator: &Integrator) -> f64 {
     let scene = integrator.scene();
     let sampling = Sampling {

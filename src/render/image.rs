@@ -15,7 +15,7 @@ pub struct Image {
     pixels: output::Image,
     /// Of a picture that was rendered; None where it was read.
     rendered: Option<Rendered>,
-    /// Of a picture that was read.
+    /// Warnings about a picture that was read.
     warnings: Vec<String>,
 }
 
@@ -67,7 +67,7 @@ impl Image {
         Ok(Self { warnings: read.warnings(path), pixels: read.image, rendered: None })
     }
 
-    /// What the file of a picture that was read says of it that is not used, such as the shape of pixels, in sentences.
+    /// Properties that the file of a picture states and nothing uses, such as the shape of pixels, in sentences.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
     }

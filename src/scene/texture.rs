@@ -89,7 +89,7 @@ pub struct Texture {
     pub transform: UvTransform,
     /// It lies by the second texture coordinates of meshes that have two.
     pub by_second_uvs: bool,
-    /// Of a normal map that lies by the second ones: its directions are nevertheless those in which the first grow.
+    /// A normal map that lies by the second ones bends along the directions in which the first grow.
     pub bends_by_first_uvs: bool,
     /// Another texture by which it is multiplied, channel by channel; that one is multiplied by none.
     pub times: Option<TextureId>,

@@ -100,7 +100,7 @@ fn chunks_render_the_scene_that_was_planned() {
     // The control: without what was said it is another picture.
     run(&whole);
     assert!(most_units(&place.image("whole.exr"), &place.image("p q.exr")) > 100);
-    // What came on standard input is not there for another process.
+    // Standard input is not there for another process.
     place.expect(2, "plan - --chunks 1");
 }
 

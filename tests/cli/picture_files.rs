@@ -47,7 +47,7 @@ fn a_region_is_a_texture_and_an_environment_in_its_place() {
     let place = Workplace::new();
     place.expect(0, &format!("{RENDER} --crop 6,4,10,8 -o part.exr"));
     let part = place.image("part.exr");
-    // The same pixels in a file without windows.
+    // These pixels in a file without windows.
     let pixel = |at: Vec2<usize>| {
         let [red, green, blue] = part.pixels[at.y() * 24 + at.x()];
         (red, green, blue)

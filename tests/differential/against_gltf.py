@@ -39,7 +39,7 @@ from programs import ROOT, Gpt
 SAMPLES = ((1024, 1), (8192, 2))
 # More light than a test may overlook.
 CONTROL = 1.02
-# What no chance explains is not rendered again.
+# Differences that no chance explains are not rendered again.
 PLAIN = 100.0
 
 

@@ -44,9 +44,9 @@ from mitsuba_scenes.planted import PLANTED
 from programs import ROOT, Gpt
 
 MODULES = (bsdfs, textures, emitters, shapes, sensors, documents)
-# Of a scene at first, and where something is in doubt: renders of Mitsuba's, samples of a pixel in each, and ours in all.
+# Numbers for a scene at first, and where something is in doubt: renders of Mitsuba's, samples of a pixel in each, and ours in all.
 STAGES = ((16, 16, 256), (32, 48, 1536))
-# What no chance explains is not rendered again.
+# Differences that no chance explains are not rendered again.
 PLAIN = 100.0
 # More light than a test may overlook.
 CONTROL = 1.05

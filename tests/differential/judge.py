@@ -11,7 +11,7 @@ import numpy
 
 # Pixels along each side of a tile.
 TILE = 4
-# What may differ without a test noticing, as a share of the mean: one program counts in single precision and interpolates tables of Fresnel's
+# The share of the mean that may differ without a test noticing: one program counts in single precision and interpolates tables of Fresnel's
 # equations and of spectra.
 ROUNDING = 1e-3
 # Radiance below which nothing is judged.
@@ -41,7 +41,7 @@ class Picture:
 @dataclass
 class Judgement:
     largest_z: float
-    # Of the tests of this scene that come from the same radiance, how seldom such a z is.
+    # The probability of such a z among the tests of this scene that come from one radiance.
     chance: float
     # The channels' means, ours over theirs less 1.
     difference: list

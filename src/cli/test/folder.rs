@@ -20,7 +20,7 @@ pub struct Job {
     pub golden: PathBuf,
     /// The command that tests it once more, as it was tested among the others.
     pub again: CommandLine,
-    /// What was typed of the device, for commands that render it.
+    /// The words that were typed about the device, for commands that render on it.
     pub on_device: Vec<OsString>,
 }
 
@@ -31,7 +31,7 @@ impl Job {
     }
 }
 
-/// What the test of one scene does not say as it was typed: what is done with its outcome, and the probability of false alarms, which is shared
+/// Flags that the test of one scene does not repeat: they say what is done with its outcome, or the probability of false alarms, which is shared
 /// by all scenes of a run.
 const NOT_OF_ONE_SCENE: [&str; 7] = ["bless", "update", "json", "junit", "html", "quiet", "false_alarms"];
 const OF_THE_DEVICE: [&str; 3] = ["device", "require_device", "device_timeout"];

@@ -18,7 +18,7 @@ pub struct Document<'a> {
     /// How errors call the file.
     pub name: &'a str,
     pub text: &'a str,
-    /// What is imported, as text that is parsed by itself: blank as far as `text` goes, so that places in both are told apart.
+    /// Imported text, which is parsed by itself: blank as far as `text` goes, so that places in both are told apart.
     imported: &'a str,
     /// What parts of the text were made from, where no person wrote it.
     pub origins: &'a [Origin],
@@ -31,7 +31,7 @@ impl<'a> Document<'a> {
         Self { name, text, imported: "", origins, tree: Arc::default() }
     }
 
-    /// The same text with what it imports, whose text begins as [`Self::room_for_imports`] does: the lists of both are read as one.
+    /// Joins the text with its imports, whose text begins as [`Self::room_for_imports`] does: the lists of both are read as one.
     pub fn with_imports<'b>(&self, imported: &'b Text) -> Document<'b>
     where
         'a: 'b,

@@ -1,6 +1,6 @@
 //! `[[import]]`: scenes of other programs within one of ours.
 //!
-//! What is imported becomes text of a scene file of its own, with names of its own: the lists of both are then read as one, however a person
+//! An import becomes text of a scene file of its own, with names of its own: the lists of both are then read as one, however a person
 //! wrote theirs.
 
 use std::borrow::Cow;

@@ -30,7 +30,7 @@ pub struct CachedImage {
     pub integer_bits: Option<u16>,
     /// What was changed in it, until it was told.
     pub change: Option<String>,
-    /// What its header says that is not used, until it was told.
+    /// Properties that its header states and nothing uses, until they were told.
     pub notes: Vec<String>,
     pub hints: Hints,
     /// Other programs see the same in the file.
@@ -148,7 +148,7 @@ impl<'a> Resolver<'a> {
         Ok(())
     }
 
-    /// What the header of a picture that was read says that matters for some uses alone.
+    /// Properties of a picture that was read which matter for some uses alone.
     pub(super) fn hints(&self, file: &Path, space: Option<ColorSpace>) -> Hints {
         self.images.get(&(file.to_owned(), space)).map_or_else(Hints::default, |cached| cached.hints.clone())
     }

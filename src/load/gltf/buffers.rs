@@ -40,7 +40,7 @@ impl<'r> Buffers<'r> {
                 None if index == 0 && binary.is_some() => binary.take().unwrap_or_default(),
                 None => return Err(of_buffer("it names no file, and the file brings no data for it".to_owned())),
             };
-            // What is missing of a padding is not needed.
+            // Missing bytes of a padding are not needed.
             if bytes.len() as u64 + PADDING <= buffer.byte_length && !is_stand_in {
                 let message = format!("it has {} bytes, and {} are said to be there", bytes.len(), buffer.byte_length);
                 return Err(of_buffer(message));

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::json::Camera;
 
-/// What a camera shows.
+/// The part of the world that a camera shows.
 #[derive(Debug, Clone, Copy)]
 pub struct Clipping {
     /// Its index in the file.
@@ -21,7 +21,7 @@ pub struct Clipping {
 }
 
 impl Clipping {
-    /// Of a camera at a position, which looks forward and has its upper side up.
+    /// The clipping of a camera at a position, which looks forward and has its upper side up.
     pub fn of(camera: &Camera, index: usize, (position, forward, up): (DVec3, DVec3, DVec3)) -> Self {
         let (half, near, far) = match (&camera.perspective, &camera.orthographic) {
             (Some(perspective), _) => {

@@ -1,4 +1,4 @@
-//! What a file is packed in: the JSON alone, or the chunks of a binary file; and which version of glTF it is.
+//! The container of a file: the JSON alone, or the chunks of a binary file; and the version of glTF.
 //!
 //! Older writers left paddings out or counted them wrongly, ended the JSON with zeros, or forgot the version. Where nothing else can be meant, the
 //! file is read as it is meant.
@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::json::Asset;
 
-/// What makes glTF 2.0 of glTF 1.0.
+/// The command that makes glTF 2.0 of glTF 1.0.
 pub const UPGRADE_COMMAND: &str = "npx gltf-pipeline -i IN -o OUT.glb";
 /// Bytes to which chunks of binary files are padded.
 const ALIGNMENT: usize = 4;
@@ -17,7 +17,7 @@ pub struct Container<'b> {
     pub json: &'b [u8],
     /// The data that a binary file brings.
     pub binary: Option<Vec<u8>>,
-    /// What is odd about it, in words.
+    /// Its oddity, in words.
     pub oddity: Option<String>,
 }
 
@@ -47,7 +47,7 @@ pub fn split(bytes: &[u8]) -> Result<Container<'_>, String> {
     let mut at = end;
     while at + 8 <= bytes.len() {
         let kind = |at: usize| bytes.get(at + 4..at + 8);
-        // Where a length leaves out the padding, the next chunk begins behind that.
+        // A length that leaves out the padding is followed by the padding, and then by the next chunk.
         let padded = at.next_multiple_of(ALIGNMENT);
         if kind(at) != Some(b"BIN\0") && kind(padded) == Some(b"BIN\0") {
             at = padded;

@@ -15,7 +15,7 @@ use crate::load::files::Files;
 use crate::load::import::{Description, FileReference, Place};
 use crate::load::printable::short_list;
 
-/// What makes textures differ: which it is, what its texels are, where it lies, whether on the second coordinates, and by which texture
+/// The properties that tell textures apart: index, role of the texels, placement, coordinates, and the texture by which
 /// it is multiplied.
 type TextureKey = (usize, TextureRole, Option<[u64; 5]>, UvsOf, Option<String>);
 
@@ -36,9 +36,9 @@ pub struct Importer<'a> {
     pub weight_tracks: HashMap<usize, WeightTrack>,
     /// Of all shapes, copies counted.
     pub triangles: u64,
-    /// Where meshes stand, by their index.
+    /// Places of meshes, by the meshes' index.
     pub places: HashMap<usize, Vec<DAffine3>>,
-    /// What the camera shows, where one was chosen.
+    /// The part of the world that the camera shows, where one was chosen.
     pub clipping: Option<Clipping>,
     /// The variant of materials that is shown.
     pub variant: Option<usize>,

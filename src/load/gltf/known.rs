@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
-/// What is done without a key.
+/// The report on a key that is passed over.
 const NO_EFFECT: &str = "it has no effect";
 
 /// A key of an object.
@@ -14,7 +14,7 @@ pub struct Key {
     holds: Holds,
 }
 
-/// What a key is for.
+/// The purpose of a key.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// It changes what is shown, or is reported by whoever reads it.
@@ -25,7 +25,7 @@ pub enum Role {
     Unread(&'static str),
 }
 
-/// What stands behind a key.
+/// The kind of value behind a key.
 pub enum Holds {
     Value,
     Object(&'static Object),
@@ -38,7 +38,7 @@ pub enum Holds {
 
 /// An object: its keys, and the extensions that it may have.
 pub struct Object {
-    /// As this table calls it.
+    /// Its name in this table.
     #[cfg_attr(not(test), allow(dead_code, reason = "tests tell objects apart by it"))]
     name: &'static str,
     pub keys: &'static [Key],
@@ -253,7 +253,7 @@ objects! {
         object("sheenRoughnessTexture", &TEXTURE_INFO),
     ];
     ANISOTROPY [read("anisotropyStrength"), read("anisotropyRotation"), object("anisotropyTexture", &TEXTURE_INFO)];
-    // Of these three, the whole is reported where it would show.
+    // These three are reported as a whole where they would show.
     IRIDESCENCE [
         read("iridescenceFactor"),
         aside("iridescenceTexture"),
@@ -283,7 +283,7 @@ objects! {
         "EXT_texture_avif": UNREAD_PICTURE,
         "MSFT_texture_dds": UNREAD_PICTURE;
     PICTURE [read("source")];
-    // What stands in its place is reported where there is no other picture.
+    // Its stand-in is reported where there is no other picture.
     UNREAD_PICTURE [aside("source")];
     IMAGE [read("uri"), aside("mimeType"), read("bufferView")];
     SAMPLER [read("magFilter"), read("minFilter"), read("wrapS"), read("wrapT")];
@@ -308,7 +308,7 @@ objects! {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unread {
     pub what: String,
-    /// As `materials[3]`.
+    /// The place in the file, such as `materials[3]`.
     pub place: String,
     pub instead: &'static str,
 }
@@ -329,7 +329,7 @@ struct Walk<'f> {
     found: &'f mut Vec<Unread>,
 }
 
-/// What is meant to stand at a place.
+/// The value that is meant to stand at a place.
 #[derive(Clone, Copy)]
 enum At {
     Object(&'static Object),
@@ -354,7 +354,7 @@ impl Walk<'_> {
         Walk { at, place: format!("{}{dot}{step}", self.place), found: self.found }
     }
 
-    /// What stands behind a key, which is noted where nothing reads it.
+    /// The value behind a key, which is noted where nothing reads it.
     fn behind(&mut self, name: &str) -> At {
         match self.at {
             At::Object(object) => match object.keys.iter().find(|key| key.name == name) {
@@ -436,7 +436,7 @@ impl<'de> Visitor<'de> for Walk<'_> {
     }
 }
 
-/// What an attribute of a primitive, or of a morph target, is for.
+/// The purpose of an attribute of a primitive, or of a morph target.
 pub fn role_of_attribute(name: &str, of_target: bool) -> Role {
     let set_of =
         |prefix: &str| name.strip_prefix(prefix).is_some_and(|set| !set.is_empty() && set.bytes().all(|b| b.is_ascii_digit()));
@@ -446,7 +446,7 @@ pub fn role_of_attribute(name: &str, of_target: bool) -> Role {
         "COLOR_0" if !of_target => Role::Read,
         _ if is_set && !of_target => Role::Read,
         _ if set_of("COLOR_") && !of_target => Role::Unread("COLOR_0 alone multiplies the base colour"),
-        // Those of applications have no meaning of their own.
+        // Attributes of applications have no meaning of their own.
         _ if name.starts_with('_') => Role::Aside,
         _ if of_target => Role::Unread("it stays as it is without the target"),
         _ => Role::Unread(NO_EFFECT),

@@ -34,7 +34,7 @@ pub struct Paint {
 /// In what form a primitive has its material.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Form {
-    /// What multiplies the base colour.
+    /// The factor of the base colour.
     pub paint: Option<Paint>,
     /// The mesh's first texture coordinates are for directions alone, and its textures lie by the second ones.
     pub is_framed: bool,

@@ -45,7 +45,7 @@ impl Importer<'_> {
         let name = material.name.clone().unwrap_or_else(|| "(default)".to_owned());
         let place = index.map_or_else(String::new, |index| format!("materials[{index}]"));
         let made = self.make_material(&material, &name, place, form)?;
-        // What takes the place of the material takes that of its other forms too.
+        // A material that takes the place of this one takes that of its other forms too.
         if let Some(original) = self.materials.get(&index) {
             self.scene.material_variants.insert(made.name.clone(), original.name.clone());
         }
@@ -75,11 +75,11 @@ struct Surface<'s, 'i> {
     lookups: Lookups,
     coordinates: Option<Coordinates>,
     form: &'s Form,
-    /// What KHR_materials_pbrSpecularGlossiness says in place of metal and roughness.
+    /// The factors of KHR_materials_pbrSpecularGlossiness, in place of metal and roughness.
     glossy: Option<SpecularGlossiness>,
 }
 
-/// What the base of a material reflects, in the terms of scene files.
+/// The reflectance of a material's base, in the terms of scene files.
 struct BaseLayer {
     metallic: Value,
     roughness: Value,
@@ -111,7 +111,7 @@ impl Surface<'_, '_> {
         possible
     }
 
-    /// The same of three numbers.
+    /// Three numbers that are held within their range in this way.
     fn colour_within(&mut self, colour: DVec3, limits: [f64; 2], key: &str) -> DVec3 {
         let possible = colour.clamp(DVec3::splat(limits[0]), DVec3::splat(limits[1]));
         if possible != colour {
@@ -155,7 +155,7 @@ impl Surface<'_, '_> {
         Ok(self.culled(keys))
     }
 
-    /// What the base reflects: metal and dielectric, or specular and glossiness, whose colour of reflection is that along the normal.
+    /// The reflectance of the base: metal and dielectric, or specular and glossiness, whose colour of reflection is that along the normal.
     fn base_layer(&mut self) -> Result<BaseLayer, String> {
         if let Some(glossy) = self.glossy.clone() {
             let colour = DVec3::from(glossy.specular_factor.unwrap_or([1.0; 3]));
@@ -182,7 +182,7 @@ impl Surface<'_, '_> {
         let (ior, reflected) = self.ior();
         let tint = self.tint(SPECULAR, "specularColorFactor", DVec3::ONE, [f64::MAX, reflected], "specularColorTexture")?;
         Ok(BaseLayer {
-            // Of the texture, green is roughness and blue metallic.
+            // Green of the texture is roughness, and blue is metallic.
             metallic: of_channel(map.as_deref(), "b", metallic),
             roughness: of_channel(map.as_deref(), "g", roughness),
             ior,
@@ -205,7 +205,7 @@ impl Surface<'_, '_> {
         }
     }
 
-    /// What scatters light: the base with its extensions.
+    /// The scattering material: the base with its extensions.
     fn lit(&mut self, base: Value) -> Result<Keys, String> {
         const TRANSMISSION: &str = "KHR_materials_transmission";
         const CLEARCOAT: &str = "KHR_materials_clearcoat";
@@ -306,7 +306,7 @@ impl Surface<'_, '_> {
         <[f64; 3]>::try_from(channels?).ok().map(DVec3::from)
     }
 
-    /// What it encloses is filled with it. Both sides of such a surface are there (KHR_materials_volume).
+    /// A medium fills the body that it encloses. Both sides of such a surface are there (KHR_materials_volume).
     fn has_volume(&self) -> bool {
         let transmission = self.number("KHR_materials_transmission", "transmissionFactor", 0.0);
         transmission > 0.0 && self.number(VOLUME, "thicknessFactor", 0.0) > 0.0
@@ -487,7 +487,7 @@ impl Surface<'_, '_> {
     }
 }
 
-/// What a surface of an index of refraction reflects along its normal.
+/// The reflectance along the normal of a surface of an index of refraction.
 fn normal_reflectance(ior: f64) -> f64 {
     ((ior - 1.0) / (ior + 1.0)).powi(2)
 }

@@ -17,7 +17,7 @@ const CLAMP: u64 = 33_071;
 const MIRROR: u64 = 33_648;
 const NEAREST: u64 = 9728;
 const LINEAR: u64 = 9729;
-/// Of minification, with the nearest of two mipmaps or between them.
+/// The filters of minification with the nearest texel, with the nearest of two mipmaps or between them.
 const NEAREST_MIPMAPS: [u64; 2] = [9984, 9986];
 const LINEAR_MIPMAPS: [u64; 2] = [9985, 9987];
 
@@ -25,7 +25,7 @@ const LINEAR_MIPMAPS: [u64; 2] = [9985, 9987];
 const UNREAD_FORMATS: [(&str, &str); 3] =
     [("KHR_texture_basisu", "Basis or KTX2"), ("EXT_texture_avif", "AVIF"), ("MSFT_texture_dds", "DDS")];
 
-/// What stands for a picture that cannot be read: magenta, as for those of OBJ; for numbers 1, so that factors count alone; no bend.
+/// The stand-in for a picture that cannot be read: magenta, as for those of OBJ; for numbers 1, so that factors count alone; no bend.
 fn stand_in(role: TextureRole) -> [f64; 3] {
     match role {
         TextureRole::Colour => [1.0, 0.0, 1.0],

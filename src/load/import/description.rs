@@ -41,7 +41,7 @@ pub struct Description {
     /// Materials that are others for some meshes, by their names, and those others.
     pub material_variants: HashMap<String, String>,
     pub report: ImportReport,
-    /// What something else stands for because it cannot be read, in words; whoever is strict refuses that.
+    /// Unreadable things for which a stand-in was found, in words; whoever is strict refuses them.
     pub substitutes: Vec<String>,
     pub(super) group_names: Names,
     pub(super) material_names: Names,
@@ -103,7 +103,7 @@ const MOST_WRITTEN_PLACES: usize = 16;
 const MOST_POINTS: usize = 1 << 23;
 
 impl Description {
-    /// What stands for something that cannot be read, as warnings.
+    /// Warnings of stand-ins for things that cannot be read.
     ///
     /// # Errors
     /// The first of them, where that is not allowed.
@@ -138,7 +138,7 @@ impl Description {
         self.instances.push(Entry { place: place.clone(), keys });
     }
 
-    /// Whether a material of this name, or a part of it, gives light.
+    /// True where a material of this name, or a part of it, gives light.
     pub fn gives_light(&self, name: &str) -> bool {
         let find = |name: &str| self.materials.iter().find(|entry| entry.keys.text("name") == Some(name));
         shines(name, &find, &|_| true)
@@ -300,7 +300,7 @@ impl Description {
     }
 }
 
-/// Whether a material, or a part of it, gives light that is enough. What many blends are made of is looked at once.
+/// True where a material, or a part of it, gives enough light. Parts that many blends share are looked at once.
 fn shines<'e>(name: &str, find: &dyn Fn(&str) -> Option<&'e Entry>, is_enough: &dyn Fn(&Value) -> bool) -> bool {
     let mut seen = HashSet::new();
     let mut to_visit: Vec<&Entry> = find(name).into_iter().collect();

@@ -90,7 +90,7 @@ pub fn square() -> Mesh {
 pub fn unit_cube() -> Mesh {
     let mut mesh = Mesh::default();
     let (x, y, z) = (Vec3::X, Vec3::Y, Vec3::Z);
-    // Where u and v are 0, and where they grow to.
+    // The point where u and v are 0, and the directions in which they grow.
     let sides = [
         (-x - y - z, z, x),
         (x + y + z, -x, -z),

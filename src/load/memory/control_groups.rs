@@ -3,7 +3,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
-/// Where the kernel says which groups a process is in, and where their files are.
+/// The kernel's files that say which groups a process is in, and where their files are.
 const GROUPS: &str = "proc/self/cgroup";
 const MOUNTS: &str = "proc/self/mountinfo";
 
@@ -42,12 +42,12 @@ fn left_by(root: &Path, line: &str, mounts: &[Mount]) -> Option<u64> {
     of_version.filter_map(|mount| mount.folders(Path::new(group)).filter_map(|folder| left_in(root, &folder, names)).min()).min()
 }
 
-/// What one group leaves.
+/// The memory that one group leaves.
 fn left_in(root: &Path, folder: &Path, names: &Names) -> Option<u64> {
     let folder = root.join(folder.strip_prefix("/").unwrap_or(folder));
     let text = |name: &str| std::fs::read_to_string(folder.join(name)).ok();
     let number = |name: &str| text(name)?.trim().parse::<u64>().ok();
-    // Where there is no limit, the file says `max`, or a number beyond all memory.
+    // Without a limit, the file says `max`, or a number beyond all memory.
     let limit = names.limits.iter().filter_map(|name| number(name)).min()?;
     let used = number(names.used)?;
     let row = |text: String| {
@@ -58,7 +58,7 @@ fn left_in(root: &Path, folder: &Path, names: &Names) -> Option<u64> {
     Some(limit.saturating_sub(used.saturating_sub(reclaimable)))
 }
 
-/// Where a hierarchy of groups is mounted.
+/// The folder at which a hierarchy of groups is mounted.
 struct Mount {
     /// The group that stands at the place.
     group: PathBuf,
@@ -149,7 +149,7 @@ pub mod tests {
         assert_eq!(left(system.root()), None);
         for (name, text, expected) in [
             (&max, "1000\n", 600),
-            // What the kernel gives back when it is asked for counts as free.
+            // Memory that the kernel gives back when it is asked for it counts as free.
             (&stat, "anon 100\ninactive_file 150\nactive_file 70\n", 750),
             (&high, "900\n", 650),
             // More is used than is allowed.

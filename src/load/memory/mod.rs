@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 static KNOWN: Mutex<Option<(Instant, u64)>> = Mutex::new(None);
 /// For so long it is taken for true.
 const VALID: Duration = Duration::from_millis(50);
-/// Where nothing says how much there is.
+/// The memory that is assumed where nothing says how much there is.
 const UNKNOWN: u64 = 16 << 30;
 
 /// Bytes that this process may still take, as far as the system says: what is free, within the limits of the process (`ulimit -v`) and of the control
@@ -28,7 +28,7 @@ pub fn available() -> u64 {
     }
 }
 
-/// The same by the files of a system that are in this folder.
+/// Free memory by the files of a system that are in this folder.
 fn available_under(root: &Path) -> u64 {
     let read = |path: &str| std::fs::read_to_string(root.join(path)).ok();
     let free = read("proc/meminfo").and_then(|text| kibibytes(&text, "MemAvailable:"));

@@ -105,7 +105,7 @@ pub fn between(samples: &[(f64, f64)], wavelength: f64) -> f64 {
 }
 
 impl Spectrum {
-    /// As linear Rec.709, without negative parts; of a surface as bright as it says, which may be above 1.
+    /// The colour in linear Rec.709, without negative parts; a surface's is as bright as it says, which may be above 1.
     pub fn color(&self, role: Role) -> DVec3 {
         let colour = match self {
             // A light of equal energy is not white.

@@ -38,7 +38,7 @@ pub struct Converter<'a> {
     pub clip: Option<Rc<Plugin>>,
     /// Materials that give light, by their keys.
     pub lamps: HashMap<String, String>,
-    /// Those of shapes without a BSDF, without light and with it.
+    /// The materials of shapes without a BSDF, without light and with it.
     pub default_materials: [Option<usize>; 2],
     pub textures: HashMap<(*const Plugin, bool, Texels, Option<usize>), Input>,
     /// Pictures that were made of others, by the file, whether its texels are linear and whether they are directions; None where the file says the same.

@@ -52,7 +52,7 @@ fn parts(material: &Keys) -> impl Iterator<Item = &str> {
 /// What was turned over before: a mesh file's parts, materials and textures, by their names.
 #[derive(Default)]
 struct Turned {
-    /// Of meshes at rest and of those that a mirror shows.
+    /// The handedness of meshes at rest and of those that a mirror shows.
     meshes: HashMap<(usize, bool), Vec<(FileReference, bool)>>,
     materials: HashMap<String, String>,
     textures: HashMap<String, String>,

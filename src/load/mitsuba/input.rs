@@ -38,7 +38,7 @@ impl Input {
     }
 }
 
-/// What the texels of a picture are wanted for. Files of integers hold all of them in sRGB unless they are `raw`.
+/// The use of a picture's texels. Files of integers hold all of them in sRGB unless they are `raw`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Texels {
     Colours,

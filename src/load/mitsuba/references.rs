@@ -19,12 +19,12 @@ pub struct Draft {
 /// A plugin within another one.
 #[derive(Debug)]
 pub struct Part {
-    /// What the plugin around calls it; empty where it says nothing.
+    /// The name that the plugin around gives it; empty where there is none.
     pub name: String,
     pub target: Target,
 }
 
-/// What stands within a plugin.
+/// The elements within a plugin.
 #[derive(Debug)]
 pub enum Target {
     /// The plugin itself.
@@ -85,7 +85,7 @@ impl References {
     /// # Errors
     /// A `<ref>` that names nothing, one that leads back to itself, or plugins that lie too deep within each other.
     pub fn resolve(mut self, root: Draft) -> Result<Rc<Plugin>, SceneError> {
-        // What nothing could name is in error as well.
+        // Elements that nothing could name are in error as well.
         let unsound =
             self.aliases.values().find(|alias| !self.written.contains_key(&alias.of) && !self.aliases.contains_key(&alias.of));
         if let Some(Alias { of, place }) = unsound {

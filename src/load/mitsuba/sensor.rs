@@ -112,7 +112,7 @@ impl Converter<'_> {
         }
         let side = to_world.matrix3.x_axis;
         let mirrors = up.cross(forward).dot(side) < 0.0;
-        // What is far away is in focus where nothing is said.
+        // Without a distance, far things are in focus.
         let far = plugin.number_or("far_clip", 1e4)?;
         let focus = plugin.number("focus_distance")?;
         let mut keys = camera_keys(to_world.translation, forward, up, focus.filter(|distance| *distance > 0.0).unwrap_or(1.0));

@@ -153,7 +153,7 @@ impl Converter<'_> {
             "sphere" => self.sphere(plugin, map, looks)?,
             "rectangle" => {
                 let (u, v) = (DVec3::new(2.0, 0.0, 0.0), DVec3::new(0.0, 2.0, 0.0));
-                // Of maps of normals, the sides of a mesh are known.
+                // The sides of a mesh with a map of normals are known.
                 let mirrors = map.matrix3.determinant() < 0.0;
                 if (flip && textured) || (mirrors && looks.bumped) {
                     self.made_mesh(plugin, key("rectangle"), flip, map, square)?

@@ -1,4 +1,4 @@
-//! What files of integers say of their colours: ICC profiles, and the chunks of PNG.
+//! Colours of files of integers: ICC profiles, and the chunks of PNG.
 
 use std::borrow::Cow;
 
@@ -13,7 +13,7 @@ use crate::scene::ColorSpace;
 
 /// Codes of 16 bits by which two profiles may differ and count as one: half a code of 8 bits.
 const SAME: u16 = 128;
-/// What PNG files write for the curve of sRGB.
+/// The gamma that PNG files write for the curve of sRGB.
 const SRGB_GAMMA: [f32; 2] = [0.44, 0.47];
 
 /// How the integers of a file become sRGB's, or linear numbers.

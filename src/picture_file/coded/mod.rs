@@ -24,7 +24,7 @@ pub struct CodedFile {
     orientation: Orientation,
     /// How colours are coded; None: as the format has them, numbers of floating point linear and others in sRGB.
     color_space: Option<ColorSpace>,
-    /// What the file's colours are instead of sRGB.
+    /// The file's colours where they are not sRGB.
     profile: Option<Box<moxcms::ColorProfile>>,
     /// It says itself that its integers are linear.
     is_linear: bool,
@@ -42,7 +42,7 @@ impl CodedFile {
         let mut of_png = Ok(None);
         match format {
             ImageFormat::Png => {
-                // What is no PNG the decoder says itself.
+                // A file that is no PNG is refused by the decoder itself.
                 if let Ok(reader) = png::Decoder::new(&mut file).read_info() {
                     of_png = colours::of_png(reader.info());
                     if reader.info().animation_control.is_some_and(|control| control.num_frames > 1) {
@@ -118,7 +118,7 @@ impl CodedFile {
         &self.notes
     }
 
-    /// As [`super::PictureFile::is_plain`].
+    /// Answers [`super::PictureFile::is_plain`].
     pub fn is_plain(&self) -> bool {
         self.profile.is_none() && !self.is_linear && self.orientation == Orientation::NoTransforms
     }
@@ -155,7 +155,7 @@ impl CodedFile {
         Ok((image, color_space.unwrap_or(default)))
     }
 
-    /// As [`super::PictureFile::decode`].
+    /// Does the work of [`super::PictureFile::decode`].
     pub fn decode(self, sink: Sink<'_>) -> Result<(), String> {
         let (image, space) = self.decode_codes()?;
         let width = image.width() as usize;

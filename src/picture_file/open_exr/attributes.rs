@@ -29,7 +29,7 @@ const PLAIN: [&str; 16] = [
     "",
 ];
 
-/// What the header says of the numbers.
+/// The meaning of the numbers by the header.
 #[derive(Debug, Clone)]
 pub struct Attributes {
     pub primaries: Primaries,

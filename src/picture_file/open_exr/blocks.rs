@@ -15,7 +15,7 @@ use exr::prelude::{Compression, f16};
 use super::windows::Windows;
 use crate::input::AnyFile;
 
-/// What to do with a file that is not read as it was saved.
+/// Advice for a file that is not read as it was saved.
 pub const RESAVE: &str = "`oiiotool IN.exr --compression zip -o OUT.exr` (openimageio-tools) saves it anew";
 
 /// Pixels from which on several threads decompress: as many as there are cores start for each file, which takes longer than a small one.
@@ -62,7 +62,7 @@ pub fn read_lines(mut file: AnyFile, part: usize, wanted: &[usize], mut take: im
     read.map_err(|error| error.to_string())
 }
 
-/// Whether some channel has fewer numbers than pixels.
+/// True where some channel has fewer numbers than pixels.
 pub fn is_subsampled(header: &Header) -> bool {
     header.channels.list.iter().any(|channel| channel.sampling != Vec2(1, 1))
 }
@@ -77,7 +77,7 @@ fn numbers_of(kind: SampleType, bytes: &[u8], numbers: &mut Vec<f32>) {
     }
 }
 
-/// As [`read_lines`], of a part some of whose channels have fewer numbers than pixels, which the library's own reader refuses. The file stands behind
+/// Reads the lines of a part some of whose channels have fewer numbers than pixels, which the library's own reader refuses. The file stands behind
 /// its headers.
 fn subsampled_lines(
     mut file: AnyFile,

@@ -7,7 +7,7 @@ use exr::meta::header::Header;
 /// Names of layers that hold the picture itself beside its ingredients, in lower case; the first that a file has is taken.
 const BEAUTY: [&str; 8] = ["combined", "beauty", "rgba", "rgb", "composite", "image", "color", "colour"];
 
-/// What a channel is by the end of its name.
+/// The meaning of a channel by the end of its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Role {
     Red,
@@ -59,7 +59,7 @@ pub struct Colours {
     pub part: usize,
     pub mixture: Mixture,
     pub alpha: Option<usize>,
-    /// What names the channels before their last word; empty of plain ones.
+    /// The words before the channels' last one; empty for plain channels.
     pub layer: String,
     pub notes: Vec<String>,
 }

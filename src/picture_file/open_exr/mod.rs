@@ -54,7 +54,7 @@ pub fn headers(file: &mut AnyFile) -> Result<Vec<Header>, String> {
     Ok(meta.headers.into_iter().collect())
 }
 
-/// What a header says of its pixels beside where they lie: nothing of a picture that stands in squares, in linear Rec. 709.
+/// Oddities that a header states of its pixels beside where they lie: none for a picture in squares, in linear Rec. 709.
 pub fn oddities(header: &Header) -> Vec<String> {
     let mut notes = Vec::new();
     Attributes::of(header, Some(ColorSpace::Linear), &mut notes);
@@ -101,12 +101,12 @@ impl ExrFile {
         &self.attributes.hints
     }
 
-    /// As [`super::PictureFile::converts`].
+    /// Answers [`super::PictureFile::converts`].
     pub fn converts(&self) -> bool {
         self.attributes.matrix.is_some() || matches!(self.colours.mixture, Mixture::LuminanceChroma(_))
     }
 
-    /// As [`super::PictureFile::is_plain`].
+    /// Answers [`super::PictureFile::is_plain`].
     pub fn is_plain(&self) -> bool {
         let [width, height] = self.windows.size();
         let is_whole = self.windows.covered() == [0, 0, width, height] && self.windows.data_size() == [width, height];
@@ -115,12 +115,12 @@ impl ExrFile {
         is_whole && is_rgb && !self.converts() && !blocks::is_subsampled(&self.header)
     }
 
-    /// What stands where it has no pixel.
+    /// The value where it has no pixel.
     pub fn empty(&self) -> [f32; 4] {
         [0.0, 0.0, 0.0, if self.colours.alpha.is_some() { 0.0 } else { 1.0 }]
     }
 
-    /// As [`super::PictureFile::decode`].
+    /// Does the work of [`super::PictureFile::decode`].
     pub fn decode(self, sink: Sink<'_>) -> Result<(), String> {
         let Self { file, header, windows, colours, attributes } = self;
         let (space, matrix) = (attributes.color_space, attributes.matrix);

@@ -1,4 +1,4 @@
-//! Where the pixels of a part lie in its display window.
+//! The place of a part's pixels in its display window.
 
 use exr::meta::header::Header;
 
@@ -53,13 +53,13 @@ impl Windows {
         [start[0], start[1], sides[0], sides[1]]
     }
 
-    /// Whether the display window shows any pixel of so many columns and rows of the data window, from these on.
+    /// True where the display window shows any pixel of so many columns and rows of the data window, from these on.
     pub fn show(&self, [column, row]: [usize; 2], [width, height]: [usize; 2]) -> bool {
         let [columns, rows] = self.shown();
         column < columns[1] && column + width > columns[0] && row < rows[1] && row + height > rows[0]
     }
 
-    /// Of pixels side by side in a row of the data window, those that are shown, and where the first one lies in the display window.
+    /// The pixels of a run in a row of the data window that are shown, and the place of the first one in the display window.
     pub fn place<'p, T>(&self, [column, row]: [usize; 2], pixels: &'p [T]) -> Option<([usize; 2], &'p [T])> {
         let [columns, rows] = self.shown();
         let (first, end) = (column.max(columns[0]), (column + pixels.len()).min(columns[1]));

@@ -77,7 +77,7 @@ impl Resolution {
     }
 }
 
-/// What the header says.
+/// The statements of the header.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RadianceHeader {
     pub resolution: Resolution,

@@ -39,12 +39,12 @@ impl RadianceFile {
         &self.header.notes
     }
 
-    /// As [`super::PictureFile::converts`].
+    /// Answers [`super::PictureFile::converts`].
     pub fn converts(&self) -> bool {
         self.header.matrix.is_some()
     }
 
-    /// As [`super::PictureFile::is_plain`].
+    /// Answers [`super::PictureFile::is_plain`].
     pub fn is_plain(&self) -> bool {
         self.header.matrix.is_none() && self.header.resolution.is_usual()
     }
@@ -54,7 +54,7 @@ impl RadianceFile {
         self.header.has_view
     }
 
-    /// As [`super::PictureFile::decode`].
+    /// Does the work of [`super::PictureFile::decode`].
     pub fn decode(self, sink: Sink<'_>) -> Result<(), String> {
         let Self { file, header: RadianceHeader { resolution, matrix, .. }, color_space } = self;
         let [lines, length] = resolution.scan_lines();

@@ -33,9 +33,9 @@ const SEED: u32 = 0x7069_6c6f;
 /// What came of a way.
 pub struct Found {
     pixels: Vec<TriedPixel>,
-    /// What its paths take, in rays of paths.
+    /// The cost of its paths, in rays of paths.
     pub cost: f64,
-    /// What it took to find out ([`work`]).
+    /// The work that went into finding out ([`work`]).
     pub work: u64,
 }
 

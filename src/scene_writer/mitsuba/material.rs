@@ -168,7 +168,7 @@ impl<'w> Writer<'w> {
         let element = match PRESETS.iter().find(|(ours, _)| Some(*ours) == preset) {
             Some((_, theirs)) => element.string("material", theirs),
             None if material.contains_key("eta") => element.rgb("eta", colour(material, "eta")).rgb("k", colour(material, "k")),
-            // What reflects all light does so at every angle.
+            // A surface that reflects all light does so at every angle.
             None if number(material, "reflectance") == Some(1.0) => element.string("material", "none"),
             None => {
                 self.approximate("conductor by its reflectance", place, "its reflectance does not rise at grazing angles");

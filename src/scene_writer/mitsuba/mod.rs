@@ -244,7 +244,7 @@ impl Writer<'_> {
         Ok(true)
     }
 
-    /// What it throws is 1/π of the irradiance.
+    /// The radiance that it throws is 1/π of the irradiance.
     fn projector(&mut self, light: &Keys<'_>, place: &str) -> Result<Element, SceneError> {
         let (position, direction) =
             (vector(light, "position").unwrap_or_default(), vector(light, "direction").unwrap_or(DVec3::Z));

@@ -132,7 +132,7 @@ pub fn look_along(position: DVec3, direction: DVec3) -> String {
     look_at(position, position + direction, direction.normalize_or(DVec3::Z).any_orthonormal_vector())
 }
 
-/// The same with +Y to this side.
+/// A look-at with +Y to this side.
 pub fn look_at(position: DVec3, target: DVec3, up: DVec3) -> String {
     format!("<lookat origin=\"{}\" target=\"{}\" up=\"{}\"/>", triple(position), triple(target), triple(up))
 }

@@ -113,7 +113,7 @@ fn pictures_stand_upright_by_their_exif() {
     for orientation in 1..=8_u8 {
         let picture = read("a.png", &png(&[(b"eXIf", &exif(orientation))]));
         let size = if orientation < 5 { [3, 2] } else { [2, 3] };
-        // Where the picture's column and row are found in the file (TIFF 6.0, Orientation).
+        // The place of the picture's column and row in the file (TIFF 6.0, Orientation).
         expect(&picture, size, 1e-6, |column, row| {
             let (column, row) = match orientation {
                 1 => (column, row),

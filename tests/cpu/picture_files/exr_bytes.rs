@@ -21,7 +21,7 @@ pub struct ExrBytes {
     pub compression: Compression,
     /// Name, type and content.
     pub attributes: Vec<(&'static str, &'static str, Vec<u8>)>,
-    /// Of the file: its version and what it needs.
+    /// The version of the file and its flags.
     pub flags: u32,
 }
 

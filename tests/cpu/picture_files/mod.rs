@@ -21,7 +21,7 @@ fn read(name: &str, bytes: &[u8]) -> ReadPicture {
     assert_eq!([texture.width, texture.height], [picture.image.width, picture.image.height], "{name}");
     for (place, pixel) in picture.image.pixels.iter().enumerate() {
         let texel = texture.texels.color(place).to_array();
-        // What is negative is no colour of a texture.
+        // A negative number is no colour of a texture.
         let same = texel.iter().zip(pixel).all(|(a, b)| (a - b.max(0.0)).abs() <= 1e-5 * (1.0 + b.abs()));
         assert!(same, "{name}: {texel:?} and {pixel:?} at {place}");
     }

@@ -134,7 +134,7 @@ fn luminance_and_chroma_become_colours() {
             let file = ExrBytes { compression, ..ExrBytes::new([40, 36], luminance_chroma(step)) };
             let picture = read("a.exr", &file.bytes());
             expect(&picture, [40, 36], tolerance, smooth);
-            // Where there are numbers of all three, nothing lies between.
+            // Pixels that have numbers of all three are not interpolated.
             let pixel = picture.image.pixels[20 * 40 + 20];
             assert!(pixel.iter().zip(smooth(20, 20)).all(|(a, b)| (a - b).abs() < 1e-4), "{compression}: {pixel:?}");
             assert!(picture.notes.is_empty());
@@ -244,7 +244,7 @@ fn other_primaries_become_rec_709() {
     let half = ["B", "G", "R"].map(|name| Channel { name, step: [1, 1], number: |_, _| 0.5 });
     let srgb = ExrBytes::new([2, 2], half.into()).with("colorInteropID", "string", b"srgb_rec709_scene");
     expect(&of(srgb), [2, 2], 1e-5, |_, _| [0.214_041_1; 3]);
-    // What is neutral becomes white: D65 where the numbers say a warmer one is.
+    // The neutral colour becomes white: D65 where the numbers say a warmer one is.
     let warm = chromaticities(&[0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329], ones()).with_floats(
         "adoptedNeutral",
         "v2f",
@@ -271,7 +271,7 @@ fn what_is_not_used_is_named_and_strict_refuses_it() {
     expect_named("a.exr", &plain().with("multiView", "stringvector", &views).bytes(), "left");
     let apart = ExrBytes { data: [9, 9, 2, 2], display: [0, 0, 4, 4], ..plain() };
     expect_named("a.exr", &apart.bytes(), "displayWindow");
-    // What says nothing of pixels is not named.
+    // Attributes that say nothing of pixels are not named.
     let file = plain()
         .with_floats("whiteLuminanceOfTheRoom", "float", &[3.0])
         .with("owner", "string", b"me")
@@ -318,7 +318,7 @@ fn textures_go_on_as_their_file_says_unless_the_scene_does() {
     assert_eq!(wrap(b"black,black", ""), ([TextureWrap::Repeat; 2], 1));
 }
 
-/// What a direction shows in the environments below: a colour that changes linearly, so that interpolation keeps it.
+/// The colour in a direction of the environments below, which changes linearly, so that interpolation keeps it.
 fn sky([x, y, z]: [f64; 3]) -> [f32; 3] {
     [2.0 + x as f32, 2.0 + y as f32, 2.0 + z as f32]
 }
@@ -377,7 +377,7 @@ fn environments_lie_as_envmap_says() {
             assert!(is_near, "envmap {kind}, {direction:?}: {found:?} and not {expected:?}");
         }
     }
-    // What is no cube is refused.
+    // A map that is no cube is refused.
     std::fs::write(folder.path().join("a.exr"), ExrBytes::new([2, 2], ones()).with("envmap", "envmap", &[1]).bytes())
         .expect("the picture");
     assert!(scene(folder.path(), AS_MAP, false).expect_err("it is refused").contains("cube"));

@@ -698,7 +698,7 @@ def lights_on(metallic):
             share = numpy.clip(cosine * scale - math.cos(cone[1]) * scale, 0, 1)
             return 20 * share**2 / distance**2
 
-        # What glTF calls a recommendation.
+        # Recommendations of glTF.
         yield case(f"spot, {form}", {"type": "spot", "intensity": 20, "spot": written}, under(straight, radiant), translation=straight.tolist())
 
 

@@ -27,7 +27,7 @@ class Triangles:
 @dataclass
 class Hit:
     position: numpy.ndarray
-    # Of the face, towards the viewer.
+    # The normal of the face, towards the viewer.
     normal: numpy.ndarray
     # Towards the viewer.
     view: numpy.ndarray

@@ -34,7 +34,7 @@ def of_surface(name):
     ]
 
 
-# What is tried in slots that go the same way as another one.
+# Values that are tried in slots that go the way of another one.
 SHORT = ("rgb of three", "float", "spectrum of pairs", "bitmap", "bitmap, raw")
 SHORT_NUMBERS = ("float", "rgb of three", "grey bitmap", "coloured bitmap, raw", "checkerboard")
 

@@ -35,7 +35,7 @@ impl Shape {
         matches!(self, Self::Sheet | Self::Box | Self::Mesh | Self::Instance | Self::Cover)
     }
 
-    /// Whether textures can lie on it.
+    /// True where textures can lie on it.
     fn takes_textures(self) -> bool {
         self != Self::Disk
     }

@@ -192,7 +192,7 @@ impl Resolver<'_> {
             Entry::Occupied(entry) => entry.into_mut(),
             Entry::Vacant(entry) => entry.insert(self.pictures.read(path, space)?.into()),
         };
-        // What is written of a scene names files that everyone reads alike; of others, their pixels are written anew.
+        // A written scene names files that everyone reads alike; pixels of others are written anew.
         if cached.is_plain {
             let source = ImageSource { path: path.to_owned(), color_space: space, scale: 1.0 };
             self.scene.sources.add_image(&cached.image, source);

@@ -11,7 +11,7 @@ use crate::load::files::Files;
 use crate::load::gltf::load;
 use crate::load::import::{HeldContent, Text, write_ply};
 
-/// What of the table is tested elsewhere: numbers that are packed, and what is left of a buffer whose views are all packed.
+/// Keys of the table that are tested elsewhere: numbers that are packed, and the rest of a buffer whose views are all packed.
 const ELSEWHERE: [&str; 2] = ["PACKED", "STAND_IN"];
 
 /// A file that has an object of every kind.
@@ -189,7 +189,7 @@ fn set(root: &mut Value, pointer: &str, value: &Value) {
     }
 }
 
-/// Where a key stands in the file, what it may be instead of what it is there, and what else is written in both.
+/// The place of a key in the file, the values that it takes in turn, and further text for both files.
 struct Row(&'static str, &'static str, Value, &'static [(&'static str, &'static str)]);
 
 fn rows() -> Vec<Row> {
@@ -485,7 +485,7 @@ fn what_is_unknown_is_found_everywhere() {
     let mut count = 0;
     plant(&mut planted, &mut count);
     let found = find_unread(planted.to_string().as_bytes());
-    // What is passed over as a whole has nothing found in it.
+    // An object that is passed over as a whole has nothing found in it.
     let places: BTreeSet<&str> = found.iter().map(|unread| unread.place.as_str()).collect();
     assert_eq!((found.len(), places.len()), (count, count), "{found:#?}");
     let unknown = json!({ "nodes": [{ "extensions": { "X_unknown": {}, "KHR_xmp": {} } }], "extensions": { "KHR_lights_punctual": {

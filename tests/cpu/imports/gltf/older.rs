@@ -110,7 +110,7 @@ fn versions_are_told_plainly() {
     );
 }
 
-/// What nothing reads is named, each with its place.
+/// Keys that nothing reads are named, each with its place.
 #[test]
 fn what_is_not_read_is_named() {
     let mut file = File::new();

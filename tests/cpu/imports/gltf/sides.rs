@@ -1,4 +1,4 @@
-//! What is seen from behind, outlines, hidden nodes, and nodes that leave no volume.
+//! Surfaces seen from behind, outlines, hidden nodes, and nodes that leave no volume.
 
 use super::*;
 

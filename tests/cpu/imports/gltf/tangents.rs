@@ -72,7 +72,7 @@ fn wrapping_differs_between_s_and_t() {
     assert_eq!(super::picture(&folder.written("a.gltf")), super::picture(&scene));
 }
 
-/// What cannot be read has another colour in its place, and is told.
+/// A texture that cannot be read has another colour in its place, and is told.
 #[test]
 fn pictures_that_cannot_be_read_have_stand_ins() {
     let broken: &[u8] = &[0x89, b'P', b'N', b'G', 1, 2, 3];
@@ -139,7 +139,7 @@ fn specular_and_glossiness_take_the_place_of_metal_and_roughness() {
     assert!((specular * reflected(made.ior) - DVec3::new(0.2, 0.3, 0.4)).length() < 1e-9, "{specular} {}", made.ior);
     let made = glossy(&mut file, json!({}));
     assert_eq!((made.base_color, made.roughness), (ColorInput::grey(1.0), ColorInput::grey(0.0)));
-    // Of the texture, alpha is glossiness.
+    // Alpha of the texture is glossiness.
     let picture = file.bytes(&plain([128, 128, 128, 102]));
     let uvs = file.add("VEC2", &[0.0, 0.0, 1.0, 0.0, 0.5, 0.25]);
     file.root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(uvs);

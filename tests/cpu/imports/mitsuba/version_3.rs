@@ -1,4 +1,4 @@
-//! What version 3 of Mitsuba decides otherwise than one would guess, or than its versions before 2 did.
+//! Rules of Mitsuba's version 3 that differ from what one would guess, or from its versions before 2.
 
 use gpt::scene::{Camera, EnvironmentRadiance, Geometry, Light, MaterialKind, Texture, TextureKind};
 use gpt::{DeviceChoice, RenderOptions};
@@ -67,7 +67,7 @@ fn numbers_of_pictures_are_decoded() {
         ("roughness", r#"<bsdf type="principled">TEXTURE</bsdf>"#),
         ("metallic", r#"<bsdf type="principled">TEXTURE</bsdf>"#),
     ];
-    // As sRGB's curve has them: 128, and 200, 100 and 50 by the luminance of Rec.709.
+    // Values of sRGB's curve: 128, and 200, 100 and 50 by the luminance of Rec.709.
     let rows = [
         ("grey.png", false, 0.215_861),
         ("grey.png", true, 0.501_961),
@@ -171,7 +171,7 @@ const GREEN: [f32; 3] = [0.0, 1.0, 0.0];
 const BLUE: [f32; 3] = [0.0, 0.0, 1.0];
 const YELLOW: [f32; 3] = [1.0, 1.0, 0.0];
 
-/// Of each face of a cube that is turned to the camera, what Mitsuba 3.9.1 shows in the quarters.
+/// The quarters of each face of a cube that is turned to the camera, as Mitsuba 3.9.1 shows them.
 #[test]
 fn pictures_lie_on_cubes_as_there() {
     let rows = [
@@ -237,7 +237,7 @@ fn mirrors_turn_what_they_turn_there() {
     }
 }
 
-/// What has no normals gets them where `to_world` puts it: those of an uneven scale are other ones.
+/// Meshes without normals get them where `to_world` puts them: an uneven scale makes other ones.
 #[test]
 fn normals_are_made_once_a_mesh_is_placed() {
     let roof = |z: f64| format!("v -1 -1 0\nv 0 -1 {z}\nv 0 1 {z}\nv -1 1 0\nv 1 -1 0\nv 1 1 0\nf 1 2 3 4\nf 2 5 6 3\n");
@@ -350,7 +350,7 @@ fn sensors_mirror_and_stretch() {
     assert!((camera("orthographic", r#"<scale x="-3" y="0.5"/>"#).0.stretch + 6.0).abs() < 1e-12);
 }
 
-/// What a mirrored map shows ahead of the camera is what the plain one shows on the other side.
+/// A mirrored map shows ahead of the camera what the plain one shows on the other side.
 #[test]
 fn maps_are_mirrored() {
     let map = |steps: &str| {
