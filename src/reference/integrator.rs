@@ -24,9 +24,7 @@ use crate::math::luminance;
 use crate::renderer::RenderError;
 use crate::sampling::light_way::LightWay;
 use crate::sampling::{CameraDimension, Dimension, Guide, LightCells, LitPoint, PathSampler, VertexDimension};
-use crate::scene::{
-    ColorInput, Emission, Emitters, Estimator, LightChoice, MaterialId, MaterialKind, NumberOrAuto, RenderSettings, Scene,
-};
+use crate::scene::{ColorInput, Emission, Emitters, Estimator, LightChoice, MaterialId, NumberOrAuto, RenderSettings, Scene};
 
 /// A scene made ready for tracing paths.
 #[derive(Debug, Clone)]
@@ -39,8 +37,6 @@ pub struct Integrator {
     camera: ProjectiveCamera,
     /// Something does.
     moves: bool,
-    /// Of each material: some light goes straight through it.
-    lets_through: Vec<bool>,
     /// By material: it, or a part of its blend, gives light, and the camera does not see it.
     hidden: Vec<bool>,
     volumes: Volumes,
@@ -85,12 +81,11 @@ impl Integrator {
         let camera = ProjectiveCamera::of(scene);
         let instances_move = scene.instances.iter().any(|instances| instances.motion.is_some());
         let moves = instances_move || scene.shapes.iter().any(|shape| shape.motion.is_some());
-        let lets_through = scene.materials_that(|material| matches!(material.kind, MaterialKind::Pass));
         let hides = scene.render.emitters == Emitters::Hidden;
         let is_bright = |emission: &Emission| emission.radiance != ColorInput::Constant(DVec3::ZERO);
         let hidden = scene.materials_that(|material| hides && material.emission.as_ref().is_some_and(is_bright));
         let volumes = Volumes::new(scene);
-        Ok(Self { scene: scene.clone(), center, world, lights, camera, moves, lets_through, hidden, volumes, guide: None })
+        Ok(Self { scene: scene.clone(), center, world, lights, camera, moves, hidden, volumes, guide: None })
     }
 
     /// Draws directions by a guide as well, or by none.
@@ -185,12 +180,16 @@ impl Integrator {
         if cosine <= 0.0 {
             return [0.0; 2];
         }
-        let share = |surface: &Surface| null_weight(&self.scene, surface, -sample.wi);
-        let lets_through = |material: MaterialId| self.lets_through[material];
-        let ray = Ray { origin: from.point, direction: sample.wi };
-        let unstopped = self.world.transmittance(ray, sample.distance, sample.target, &time, lets_through, share);
+        let unstopped = self.unstopped(Ray { origin: from.point, direction: sample.wi }, &sample, &time);
         let free = luminance(sample.radiance) * cosine / sample.pdf;
         [free, free * unstopped]
+    }
+
+    /// The share of a sample's light that comes through everything between the origin of its shadow ray and the light.
+    fn unstopped(&self, shadow_ray: Ray, light: &LightSample, time: &PathTime) -> f64 {
+        let share = |surface: &Surface| null_weight(&self.scene, surface, -shadow_ray.direction);
+        let lets_through = |material: MaterialId| self.lights.lets_through(material);
+        self.world.transmittance(shadow_ray, light.distance, light.target, time, lets_through, share)
     }
 
     /// How lights are chosen.
@@ -440,9 +439,7 @@ impl Integrator {
         let mut ray = Ray { origin: surface.point.leave_towards(light.wi), direction: light.wi };
         visitor.round_ray(&mut ray, Some(&surface.point));
         visitor.ray(&ray);
-        let share = |surface: &Surface| null_weight(&self.scene, surface, -light.wi);
-        let lets_through = |material: MaterialId| self.lets_through[material];
-        let unstopped = self.world.transmittance(ray, light.distance, light.target, &path.time, lets_through, share);
+        let unstopped = self.unstopped(ray, &light, &path.time);
         let unshadowed = path.throughput * scattering.value * light.radiance * (weight / light.pdf);
         let extinction = self.volumes.extinction_towards(surface, bsdf.view.front, light.wi, path.extinction);
         let contribution = unshadowed * unstopped * transmittance(extinction, light.distance);

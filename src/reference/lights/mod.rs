@@ -273,6 +273,11 @@ impl Lights {
         self.way
     }
 
+    /// Some light goes straight through surfaces of this material.
+    pub fn lets_through(&self, material: MaterialId) -> bool {
+        self.lets_through[material]
+    }
+
     pub fn is_empty(&self) -> bool {
         self.lights.is_empty()
     }
@@ -338,7 +343,7 @@ impl Lights {
         match *sampled {
             SampledLight::Area(index) => {
                 let (element, pose) = (world.primitive(index).element(), world.pose(index, time));
-                let place = (pose, !self.lets_through[world.owner(SurfaceId::Primitive(index)).material]);
+                let place = (pose, !self.lets_through(world.owner(SurfaceId::Primitive(index)).material));
                 let (direction, density) = match self.warp(world, index) {
                     None => (element.sample(place, self.sampling, reference, u1, u2)?, 1.0),
                     Some((unrolled, warp)) => {

@@ -77,9 +77,9 @@ choices! {
         Auto = "auto",
     }
 
-    /// Whether light sources are in the picture.
+    /// The presence of light sources in the picture.
     pub enum Emitters {
-        /// As anything else is.
+        /// They are seen like anything else.
         Seen = "seen",
         /// The camera looks through surfaces that give light, and sees nothing where it would see the surroundings. Mirrors, glass and shadows show both.
         Hidden = "hidden",

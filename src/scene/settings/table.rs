@@ -142,7 +142,7 @@ settings! {
             header: "gpt:guidingPaths",
             compared: true,
         }
-        /// Whether the camera sees what gives light.
+        /// The presence of light sources in the picture: seen by the camera, or hidden from it.
         emitters: Emitters = Emitters::Seen => {
             values: Names(Emitters::NAMES),
             flag: "--emitters",

@@ -48,7 +48,7 @@ macro_rules! texture_entries {
             pub offset: Option<Exactly<Number, 2>>,
             /// It lies by `second_uvs` of meshes; shapes without them are looked up by their only texture coordinates.
             pub second_uvs: Option<bool>,
-            /// Of a normal map with `second_uvs`: red and green point along the directions in which `uvs` grow all the same.
+            /// A normal map with `second_uvs` and this key has red and green along the directions in which `uvs` grow.
             pub bends_by_first_uvs: Option<bool>,
             /// The name of another texture by which it is multiplied, channel by channel, and which has no `times` itself. Not for normal and bump maps.
             pub times: Option<Located<String>>,
@@ -71,9 +71,9 @@ texture_entries! {
         file: Located<String>,
         /// "srgb" for integer formats, "linear" for floating-point ones when left out.
         color_space: Option<ColorSpaceEntry>,
-        /// What is beyond the picture; "repeat" when left out.
+        /// The way the texture goes on beyond the picture; "repeat" when left out.
         wrap: Option<WrapEntry>,
-        /// The same above and below it, along v; `wrap` when left out.
+        /// The way it goes on above and below the picture, along v; `wrap` when left out.
         wrap_v: Option<WrapEntry>,
         /// "bilinear" when left out.
         filter: Option<TextureFilterEntry>,
