@@ -4,6 +4,7 @@
 #import geometry/records.wgsl
 #import geometry/scene.wgsl
 #import shading/coordinates.wgsl
+#import shading/seen.wgsl
 #import shading/shapes.wgsl
 #if INSTANCES
 #import geometry/instance.wgsl
@@ -14,7 +15,6 @@
 #import shading/attributes.wgsl
 #endif
 #if COAT_NORMALS
-#import shading/seen.wgsl
 #import shading/tangents.wgsl
 #endif
 #if MOTION
