@@ -6,6 +6,7 @@ mod array;
 mod errors;
 mod layers;
 mod picture;
+mod process;
 mod scene;
 mod watching;
 

@@ -8,6 +8,7 @@ use pyo3::types::PyDict;
 
 use crate::array::interface;
 use crate::errors::raised;
+use crate::process;
 
 /// A picture: linear radiance, rendered, read or made of numbers.
 #[pyclass(frozen, module = "gpt_pathtracer._native")]
@@ -18,6 +19,7 @@ impl Picture {
     /// Reads a file.
     #[staticmethod]
     fn open(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        process::check()?;
         py.detach(|| gpt::Image::open(path)).map(Self).map_err(raised)
     }
 
@@ -47,6 +49,7 @@ impl Picture {
 
     /// Writes a file.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        process::check()?;
         py.detach(|| self.0.save(path)).map_err(raised)
     }
 }

@@ -18,6 +18,7 @@ use crate::array::Array;
 use crate::errors::raised;
 use crate::layers::arrays;
 use crate::picture::Picture;
+use crate::process;
 use crate::watching::watched;
 
 /// A scene that was read.
@@ -47,6 +48,7 @@ impl Scene {
     /// Reads a scene file, a model, a scene of another program, or a built-in scene.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf, strict: bool, definitions: Vec<(String, String)>) -> PyResult<Self> {
+        process::check()?;
         let options = LoadOptions { strict, definitions, ..LoadOptions::default() };
         let load = || {
             let scene = load_with(Some(path.as_os_str()), &options)?;
@@ -61,6 +63,7 @@ impl Scene {
     /// Reads the text of a scene file.
     #[staticmethod]
     fn from_toml(py: Python<'_>, text: &str, folder: PathBuf) -> PyResult<Self> {
+        process::check()?;
         py.detach(|| load_toml_str(text, "scene", &folder)).map(Self).map_err(|error| raised(error.into()))
     }
 
@@ -101,6 +104,7 @@ impl Scene {
         adaptive: bool,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Rendered> {
+        process::check()?;
         let wanted = layers.iter().map(|name| layer_of(name)).collect::<PyResult<Vec<_>>>()?;
         let options = RenderOptions {
             device: device_of(device)?,
@@ -146,6 +150,7 @@ fn layer_of(name: &str) -> PyResult<Layer> {
 /// Whether a device and the CPU reference agree on a scene, as JSON.
 #[pyfunction]
 pub fn verify(py: Python<'_>, scene: &Scene, size: Option<(u32, u32)>, spp: Option<u32>, device: &str) -> PyResult<String> {
+    process::check()?;
     let choice = device_of(device)?;
     let mut scene = scene.0.clone();
     scene.render.spp = spp.unwrap_or(gpt::verify::DEFAULT_SPP);

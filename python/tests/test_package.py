@@ -231,6 +231,38 @@ class Files(unittest.TestCase):
         with self.assertRaises(ValueError):
             gpt.compare(np.zeros((2, 3)), np.zeros((2, 3)))
 
+    def test_of_pixels_that_are_no_numbers_nothing_is_said(self):
+        comparison = gpt.compare(np.full((2, 3, 3), np.nan, np.float32), np.ones((2, 3, 3), np.float32))
+        for value in (comparison.mse, comparison.relmse, comparison.mae, comparison.psnr):
+            self.assertTrue(np.isnan(value), comparison)
+        # The control.
+        equal = gpt.compare(np.ones((2, 3, 3), np.float32), np.ones((2, 3, 3), np.float32))
+        self.assertEqual((equal.relmse, equal.psnr), (0.0, float("inf")))
+
+    @unittest.skipUnless(hasattr(os, "fork"), "processes are forked on Unix alone")
+    def test_a_forked_process_says_that_it_cannot_render(self):
+        def forked(before):
+            """What a forked process prints; `before` is done before it is forked."""
+            text = f"""
+import os, sys
+import gpt_pathtracer as gpt
+SCENE = {SCENE!r}
+{before}
+child = os.fork()
+if child == 0:
+    try:
+        print(gpt.Scene.from_toml(SCENE).render(device="cpu", spp=1).pixels.shape, flush=True)
+    except gpt.Error as error:
+        print("refused:", error, flush=True)
+    os._exit(0)
+os.waitpid(child, 0)
+"""
+            return subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, timeout=60).stdout
+
+        self.assertIn("refused: this process was forked", forked('gpt.Scene.from_toml(SCENE).render(device="cpu", spp=1)'))
+        # The control: whoever has not used it yet may.
+        self.assertIn("(16, 24, 3)", forked(""))
+
     def test_the_program_is_there(self):
         said = subprocess.run([PROGRAM, "--version"], capture_output=True, text=True, check=True).stdout
         self.assertEqual(said.strip(), f"gpt {gpt.__version__}")

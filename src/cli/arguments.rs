@@ -164,12 +164,30 @@ pub struct ScenesArguments {
     pub name: Option<String>,
 }
 
-/// Which files a scene may name.
+/// Which files a scene may name, and how long they are waited for.
+#[derive(Debug, Default, Args)]
+pub struct FileArguments {
+    /// Refuse files that the scene names outside of this folder, wherever links lead
+    #[arg(long, value_name = "DIR", help_heading = SCENE, global = true)]
+    pub assets_root: Option<PathBuf>,
+    /// Give up files whose file system does not answer for so long, when they are read and when they are written
+    #[arg(long, value_name = "SECONDS", default_value = "120", value_parser = parse_seconds, help_heading = SCENE, global = true)]
+    pub file_timeout: Duration,
+}
+
+impl FileArguments {
+    /// What reading a scene may do. From now on, files are waited for as long as that is asked for.
+    pub fn options(&self, strict: bool) -> LoadOptions {
+        patience::set_limit(self.file_timeout);
+        LoadOptions { assets_root: self.assets_root.clone(), strict, ..LoadOptions::default() }
+    }
+}
+
+/// Which files a scene may name, and what is shown of one that holds several things.
 #[derive(Debug, Default, Args)]
 pub struct AccessArguments {
-    /// Refuse files that the scene names outside of this folder, wherever links lead
-    #[arg(long, value_name = "DIR", help_heading = SCENE)]
-    pub assets_root: Option<PathBuf>,
+    #[command(flatten)]
+    pub files: FileArguments,
     /// Give a value to a parameter that a Mitsuba file names as $KEY; may be given several times
     #[arg(short = 'D', value_name = "KEY=VALUE", value_parser = parse_definition)]
     pub definitions: Vec<(String, String)>,
@@ -179,22 +197,16 @@ pub struct AccessArguments {
     /// Show this variant of the materials of a glTF that has several
     #[arg(long, value_name = "NAME")]
     pub variant: Option<String>,
-    /// Give up files whose file system does not answer for so long, when they are read and when they are written
-    #[arg(long, value_name = "SECONDS", default_value = "120", value_parser = parse_seconds, help_heading = SCENE)]
-    pub file_timeout: Duration,
 }
 
 impl AccessArguments {
-    /// What reading a scene may do. From now on, files are waited for as long as that is asked for.
+    /// As [`FileArguments::options`].
     pub fn options(&self, strict: bool) -> LoadOptions {
-        patience::set_limit(self.file_timeout);
         LoadOptions {
-            assets_root: self.assets_root.clone(),
-            strict,
             definitions: self.definitions.clone(),
             camera: self.camera.clone(),
             variant: self.variant.clone(),
-            ..LoadOptions::default()
+            ..self.files.options(strict)
         }
     }
 }
@@ -205,7 +217,7 @@ pub struct GoalArguments {
     /// Stop after this time since the program's start, with a whole picture of fewer samples per pixel
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, conflicts_with = "crop")]
     pub time_limit: Option<Duration>,
-    /// Stop once the picture's relative mean squared error is below X with 95 % confidence; --spp is then the most it may take
+    /// Stop once the picture's relative mean squared error is below X by what was sampled, with a margin for chance; light that no path has found is not in it. --spp is then the most it may take
     #[arg(long, value_name = "X", value_parser = parse_target, conflicts_with_all = ["first_sample", "crop"])]
     pub target_error: Option<f64>,
     /// Give noisy pixels more samples and calm ones fewer, --spp on average; unbiased

@@ -11,6 +11,7 @@ use serde::Serialize;
 use super::arguments::MergeArguments;
 use super::exit::{Exit, Failure};
 use super::pictures::{Pictures, output_formats};
+use super::render_summary::{FEW_PATHS_DECIDE, in_words};
 use super::{denoise, terminal};
 
 /// What was joined, for other programs. Its keys stay as they are; new ones may be added.
@@ -24,9 +25,11 @@ struct Report {
     end_sample: u32,
     /// What is missing, in words.
     missing: Option<String>,
-    /// Relative mean squared error: what is expected, and what it is below with 95 % confidence.
+    /// Relative mean squared error: the estimate by what parts differ by, and with a margin for chance.
     expected_error: Option<f64>,
     error_bound: Option<f64>,
+    /// Few bright paths, or few pixels, make most of it: it is rough, and mostly too low.
+    tails_decide: Option<bool>,
     target_error: Option<f64>,
     /// How many more parts as long as the longest it would take to reach the target.
     parts_to_target: Option<u64>,
@@ -90,6 +93,7 @@ fn report(arguments: &MergeArguments, parts: usize, merged: &Merged, outputs: Ve
         missing: merged.missing.as_ref().map(ToString::to_string),
         expected_error: merged.error.map(|error| error.mean),
         error_bound: merged.error.map(|error| error.upper),
+        tails_decide: merged.error.map(|error| error.tails_decide()),
         target_error: arguments.target_error,
         parts_to_target: arguments.target_error.and_then(|target| merged.parts_to_reach(target)),
         outputs,
@@ -105,8 +109,10 @@ fn tell(report: &Report, merged: &Merged) {
         terminal::warn(&format!("the picture is not whole: {missing}"));
     }
     if let Some(error) = merged.error {
-        let (mean, upper) = (error.mean, error.upper);
-        terminal::note(&format!("relative mean squared error: {mean:.3e} expected, below {upper:.3e} with 95 % confidence"));
+        terminal::note(&format!("relative mean squared error: {}", in_words(error)));
+        if error.tails_decide() {
+            terminal::warn(FEW_PATHS_DECIDE);
+        }
     }
     match (report.target_error, report.parts_to_target) {
         (Some(target), Some(0)) => terminal::note(&format!("the error of {target} is reached")),

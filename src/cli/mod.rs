@@ -50,24 +50,42 @@ mod view;
 mod watch;
 
 use std::process::ExitCode;
+use std::thread::{self, available_parallelism};
 
 use arguments::Command;
 use exit::Exit;
 use typed::Typed;
 
-/// Sees to it that work is done where the system starts no more threads: then by one.
+/// Starts the threads that do the work, as many as there are cores; where the system starts no more, fewer, down to this one. They are all started now:
+/// rayon panics where it cannot start them later, and a pool that failed cannot be asked for again.
 fn start_threads() {
-    let trial = rayon::ThreadPoolBuilder::new().build();
-    if trial.is_err() {
-        // If that fails too, what needs it says so.
-        let _ = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global();
+    let mut threads = available_parallelism().map_or(1, usize::from);
+    while threads > 1 && !can_start(threads) {
+        threads /= 2;
     }
+    let mut builder = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    if threads == 1 {
+        builder = builder.use_current_thread();
+    }
+    // If that fails all the same, what needs it says so.
+    let _ = builder.build_global();
+}
+
+/// Whether the system starts so many threads at a time. They are over when this returns.
+fn can_start(threads: usize) -> bool {
+    let started: Vec<_> = (0..threads).map_while(|_| thread::Builder::new().spawn(thread::park).ok()).collect();
+    let can = started.len() == threads;
+    for thread in started {
+        thread.thread().unpark();
+        // It does nothing that could panic.
+        let _ = thread.join();
+    }
+    can
 }
 
 /// Parses the program's arguments, does what they say and turns the outcome into the process's exit code.
 pub fn run() -> ExitCode {
     terminal::install_error_style();
-    start_threads();
     gpt::output::protect_inputs();
     let (arguments, typed) = match Typed::parse(std::env::args_os()) {
         Ok(parsed) => parsed,
@@ -77,6 +95,7 @@ pub fn run() -> ExitCode {
             return if error.use_stderr() { Exit::Usage.into() } else { Exit::Done.into() };
         }
     };
+    start_threads();
     let outcome = match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments, &typed),

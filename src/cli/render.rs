@@ -211,7 +211,7 @@ fn frame(frame: Frame<'_>, ready: Ready) -> Result<Done, Failure> {
     tell(&stats, &summary, arguments.quiet);
     kept.tell();
     progress.end(!broke_off && summary.failures.is_empty(), &stats.outputs);
-    tell_of_error(arguments, outcome.error, outcome.stop);
+    tell_of_error(arguments, scene, outcome.error, outcome.stop);
     if !summary.failures.is_empty() {
         return Err(Failure::Outputs(summary.failures));
     }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use gpt::output::AtomicFile;
 use gpt::render::stats::Stats;
-use gpt::{ErrorEstimate, Stop};
+use gpt::{ErrorEstimate, Scene, Stop};
 use serde::Serialize;
 
 use super::arguments::RenderArguments;
@@ -12,18 +12,31 @@ use super::exit::Failure;
 use super::pictures::{PictureSummary, is_stdout};
 use super::terminal;
 
-/// Whether the picture is as good as was asked for.
-pub fn tell_of_error(arguments: &RenderArguments, error: Option<ErrorEstimate>, stop: Stop) {
-    let (Some(target), Some(ErrorEstimate { mean, upper })) = (arguments.goal.target_error, error) else { return };
+/// Whether the picture is as good as was asked for, and what the answer is worth.
+pub fn tell_of_error(arguments: &RenderArguments, scene: &Scene, error: Option<ErrorEstimate>, stop: Stop) {
+    let (Some(target), Some(error)) = (arguments.goal.target_error, error) else { return };
     if stop != Stop::TargetError {
-        terminal::warn(&format!(
-            "the relative mean squared error of {target} was not reached: {mean:.3e} is expected, and it is below {upper:.3e} with \
-             95 % confidence"
-        ));
+        terminal::warn(&format!("the relative mean squared error of {target} was not reached: {}", in_words(error)));
     } else if !arguments.quiet {
-        terminal::note(&format!("relative mean squared error: {mean:.3e} expected, below {upper:.3e} with 95 % confidence"));
+        terminal::note(&format!("relative mean squared error: {}", in_words(error)));
+    }
+    if error.tails_decide() {
+        terminal::warn(FEW_PATHS_DECIDE);
+    } else if scene.has_light_by_chance() {
+        terminal::warn(LIGHT_BY_CHANCE);
     }
 }
+
+/// The estimate with its margin.
+pub fn in_words(ErrorEstimate { mean, upper, .. }: ErrorEstimate) -> String {
+    format!("{mean:.3e} by what was sampled, below {upper:.3e} with a margin for chance (95 %)")
+}
+
+/// What is said where what was sampled shows that an estimate is worth little.
+pub const FEW_PATHS_DECIDE: &str = "few bright paths, or few pixels, make most of the estimated error: it is rough, and mostly too low; more samples tell more";
+/// What is said where the scene shows it.
+const LIGHT_BY_CHANCE: &str = "lamps shine through glass or by mirrors in this scene, which paths find by chance: light that none has found is not in the \
+    estimate, and the error may be far larger";
 
 /// Writes statistics to a file, or to standard output.
 ///

@@ -8,6 +8,7 @@ use gpt::picture_test::TestSettings;
 use gpt::renderer::DeviceChoice;
 use gpt::scene::settings::MOST_SAMPLES;
 
+use crate::cli::arguments::FileArguments;
 use crate::cli::values::{parse_device, parse_seconds};
 
 /// Groups of `gpt test --help`.
@@ -24,6 +25,8 @@ pub struct TestArguments {
     /// Scenes by their names, without the ending [default: all of the folder]
     #[arg(value_name = "SCENE")]
     pub scenes: Vec<String>,
+    #[command(flatten)]
+    pub files: FileArguments,
     /// Make the golden pictures of these scenes, and accept what they show
     #[arg(long, help_heading = GOLDEN, conflicts_with_all = ["update", "candidate_dir"])]
     pub bless: bool,

@@ -49,7 +49,8 @@ pub struct Extreme {
     pub channel: usize,
 }
 
-/// Everything that is known of two pictures of one size. Means and metrics leave out pixels that are not finite in either picture.
+/// Everything that is known of two pictures of one size. Means and metrics leave out pixels that are not finite in either picture; where none is left,
+/// they are not numbers (JSON says null).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Comparison {
     /// Columns of both pictures.
@@ -131,8 +132,9 @@ impl Sums {
         self.pixels += 1;
     }
 
+    /// Not numbers where there is no pixel to compare: nothing would be said of them by 0.
     fn means(&self, sums: [f64; 3]) -> [f64; 3] {
-        sums.map(|sum| if self.pixels == 0 { 0.0 } else { sum / self.pixels as f64 })
+        sums.map(|sum| if self.pixels == 0 { f64::NAN } else { sum / self.pixels as f64 })
     }
 
     fn metric(&self, sums: [f64; 3]) -> MetricValue {
@@ -202,6 +204,18 @@ mod tests {
 
     fn image(pixels: &[[f32; 3]]) -> Image {
         Image { width: pixels.len() as u32, height: 1, pixels: pixels.to_vec() }
+    }
+
+    #[test]
+    fn of_pixels_that_are_no_numbers_nothing_is_said() {
+        let comparison = compare(&image(&[[f32::NAN; 3]; 2]), &image(&[[1.0; 3]; 2])).unwrap();
+        for metric in Metric::ALL {
+            assert!(comparison.value(metric).all.is_nan(), "{metric:?}");
+            assert!(!comparison.within(Some(metric), 1e9));
+        }
+        assert!(comparison.means[0][0].is_nan() && comparison.non_finite_pixels == [2, 0]);
+        // The control: one finite pixel is compared.
+        assert_eq!(compare(&image(&[[f32::NAN; 3], [2.0; 3]]), &image(&[[1.0; 3]; 2])).unwrap().mse.all, 1.0);
     }
 
     #[test]

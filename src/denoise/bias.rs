@@ -9,6 +9,9 @@ use crate::output::Image;
 
 /// Pixels along a tile's side.
 const TILE: u32 = 16;
+/// A change of a tile's energy, as a share, that is told even where noise may be all of it: of a small bright thing few samples know much, so the noise
+/// that is expected is as large as what the thing is worth, and would explain that it is gone.
+const NOTABLE: f64 = 0.1;
 
 /// By how much a denoised picture differs from the raw one.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -21,6 +24,10 @@ pub struct Bias {
     pub biased_tiles: usize,
     /// The largest change of a tile's energy beyond noise, as a share; 0 where there is none.
     pub largest: f64,
+    /// Other tiles whose energy changed by more than a tenth in some channel: the raw picture's noise is too large there to tell what that is.
+    pub undecided_tiles: usize,
+    /// The largest change of their energy, as a share; 0 where there is none.
+    pub largest_undecided: f64,
     /// Whether the noise is that of measured samples; else it is what a tile's pixels scatter by.
     pub noise_is_measured: bool,
 }
@@ -46,13 +53,19 @@ impl Bias {
     fn found(compared: &ImageComparison, noise_is_measured: bool) -> Self {
         let change = |finding: &Finding| if finding.first == 0.0 { 0.0 } else { finding.second / finding.first - 1.0 };
         let is_biased = |finding: &&Finding| finding.test.p_value < compared.tile_level;
-        let biased = compared.tiles.chunks(3).filter(|channels| channels.iter().any(|finding| is_biased(&finding)));
-        let changes = compared.tiles.iter().filter(is_biased).map(change);
+        let is_notable = |finding: &&Finding| change(finding).abs() > NOTABLE;
+        let (biased, others): (Vec<&[Finding]>, Vec<&[Finding]>) =
+            compared.tiles.chunks(3).partition(|channels| channels.iter().any(|finding| is_biased(&finding)));
+        let undecided: Vec<&[Finding]> =
+            others.into_iter().filter(|channels| channels.iter().any(|finding| is_notable(&finding))).collect();
+        let larger = |a: f64, b: f64| if b.abs() > a.abs() { b } else { a };
         Self {
             whole: compared.whole.each_ref().map(change),
             tiles: compared.tiles.len() / 3,
-            biased_tiles: biased.count(),
-            largest: changes.fold(0.0, |largest: f64, change| if change.abs() > largest.abs() { change } else { largest }),
+            biased_tiles: biased.len(),
+            largest: compared.tiles.iter().filter(is_biased).map(change).fold(0.0, larger),
+            undecided_tiles: undecided.len(),
+            largest_undecided: undecided.iter().flat_map(|channels| channels.iter()).map(change).fold(0.0, larger),
             noise_is_measured,
         }
     }
@@ -71,7 +84,12 @@ impl std::fmt::Display for Bias {
                 self.tiles,
                 100.0 * self.largest
             ),
+        }?;
+        if self.undecided_tiles == 0 {
+            return Ok(());
         }
+        let (count, most) = (self.undecided_tiles, 100.0 * self.largest_undecided);
+        write!(out, "; in {count} the change is above {:.0} % ({most:+.1} % at most), and noise too large to tell whether that is bias", 100.0 * NOTABLE)
     }
 }
 
@@ -92,6 +110,24 @@ mod tests {
         let smooth = (0..count).map(|index| [0.5 * if tile(index) { brighter } else { 1.0 }; 3]).collect();
         let variances = have_variances.then(|| vec![[0.01; 3]; count]);
         (Raw { picture: of(noisy), albedo: None, normal: None, variances, placed: None }, of(smooth))
+    }
+
+    /// A lamp of which each of its pixels has a sample or two: noise would explain that it is gone, and that it is gone is told.
+    #[test]
+    fn a_small_bright_thing_that_is_gone_is_told_of() {
+        let (mut raw, denoised) = pictures(1.0, true);
+        let lamp = [20 * SIDE as usize + 20, 20 * SIDE as usize + 21];
+        for pixel in lamp {
+            // Of 16 samples one met it, as one in 16 does: the deviation of the mean is what the mean is.
+            raw.picture.pixels[pixel] = [500.0; 3];
+            raw.variances.as_mut().expect("they are there")[pixel] = [500.0 * 500.0; 3];
+        }
+        let bias = Bias::of(&raw, &denoised).expect("one size");
+        assert_eq!((bias.biased_tiles, bias.undecided_tiles), (0, 1), "{bias}");
+        assert!(bias.largest_undecided < -0.8 && bias.to_string().contains("in 1 the change is above 10 % (-8"), "{bias}");
+        // The control: without the lamp, nothing is told.
+        let (raw, denoised) = pictures(1.0, true);
+        assert!(!Bias::of(&raw, &denoised).expect("one size").to_string().contains("above"));
     }
 
     #[test]

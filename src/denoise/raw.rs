@@ -1,6 +1,6 @@
 //! What is denoised.
 
-use crate::output::{Channels, Image, PartSpec, ReadPicture, cut};
+use crate::output::{Channels, Image, PartSpec, ReadPicture, SAMPLE_COUNT, cut};
 
 /// A picture to be denoised, with what helps to tell its noise from its detail.
 pub struct Raw {
@@ -21,7 +21,7 @@ impl Raw {
         let [column, row, width, height] = covered;
         let of_part = |pixels: Vec<[f32; 3]>| cut(&pixels, film[0], covered);
         let colours = |names: [&str; 3]| file.colours(names).map(of_part);
-        let counts = file.channel("SampleCount").map(|counts| cut(counts, film[0], covered));
+        let counts = file.channel(SAMPLE_COUNT).map(|counts| cut(counts, film[0], covered));
         let variances = colours(["Variance.R", "Variance.G", "Variance.B"]).zip(counts).map(|(variances, counts)| {
             let of_mean = |(pixel, count): ([f32; 3], f32)| pixel.map(|variance| variance / count.max(1.0));
             variances.into_iter().zip(counts).map(of_mean).collect()

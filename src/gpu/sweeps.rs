@@ -17,6 +17,15 @@ use crate::renderer::{Ending, RenderError};
 /// Sweeps are planned to take so much of the time that is left.
 const CAUTION: f64 = 0.95;
 
+/// A device that had memory enough to begin, and then has not, fails as one that is lost does: what was rendered is saved, and it may do better another
+/// time.
+fn midway(error: RenderError) -> RenderError {
+    match error {
+        RenderError::DoesNotFit(message) => RenderError::DeviceLost(message),
+        error => error,
+    }
+}
+
 impl GpuRenderer {
     fn run_pass(&self, band: &BandProgress, pass: &Pass, sweeps: &Sweeps<'_>) -> Result<Option<Ending>, RenderError> {
         self.pipeline.write_pass(band.first_row, pass, &sweeps.sampling);
@@ -129,7 +138,9 @@ impl GpuRenderer {
     ) -> Result<Option<Ending>, RenderError> {
         let (batch, width) = (sweeps.batch, self.size[0]);
         let mut snapshot = Snapshot::new();
-        let ended = match self.render_band(band, sweeps, begun, &mut snapshot, sink) {
+        let rendered = self.render_band(band, sweeps, begun, &mut snapshot, sink);
+        let has_begun = band.samples_done > 0 || sweeps.finished.get() > 0 || sweeps.before.samples > 0;
+        let ended = match rendered.map_err(|error| if has_begun { midway(error) } else { error }) {
             Err(error @ RenderError::DeviceLost(_)) => {
                 // What was finished before the band counts, where nothing was read of it.
                 keep_between(sink, true, snapshot.state().unwrap_or(begun))?;
@@ -150,7 +161,7 @@ impl GpuRenderer {
                 next_row = band.first_row + band.rows;
                 sink.band(band)
             });
-            if let Err(error) = delivered {
+            if let Err(error) = delivered.map_err(midway) {
                 if matches!(error, RenderError::DeviceLost(_)) {
                     // What was handed over of the band is not handed over again.
                     if next_row == band.first_row {

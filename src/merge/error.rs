@@ -2,7 +2,11 @@
 //!
 //! With m of n samples of a pixel, a part's mean has the variance σ²/m if parts are independent; then Σ m (x − x̄)² / (K − 1) over K parts is
 //! an estimate of σ², and σ²/n the squared error of the mean of all. Parts of one low-discrepancy sequence complete each other, so the truth is
-//! rather better. Errors are relative to the mean of the other parts, as in [`crate::render::progressive::error`].
+//! rather better.
+//!
+//! Errors are relative to the joint mean of all parts. The mean of the other parts, by which streams of one render are measured
+//! ([`crate::render::progressive::error`]), is no measure here: a short part beside a long one has others that are few and noisy, and where they are dark
+//! by chance the quotient is anything.
 
 use crate::compare::RELATIVE_EPSILON;
 use crate::render::progressive::error::{ErrorEstimate, standard_deviations};
@@ -43,40 +47,49 @@ impl PartsError {
 
     /// The relative mean squared error of the mean of all parts; None where too few pixels are in several parts.
     pub fn estimate(&self) -> Option<ErrorEstimate> {
-        let errors: Vec<(f64, f64)> = self.values.iter().filter_map(|values| squared_error(values)).collect();
+        let errors: Vec<PixelError> = self.values.iter().filter_map(|values| squared_error(values)).collect();
         let count = errors.len() as f64;
         if errors.is_empty() || errors.len() * 2 < self.pixels.len() {
             return None;
         }
-        let mean = errors.iter().map(|(error, _)| error).sum::<f64>() / count;
-        let mean_square = errors.iter().map(|(error, _)| error * error).sum::<f64>() / count;
-        let freedom = errors.iter().map(|(_, freedom)| freedom).sum::<f64>() / count;
+        let mean = errors.iter().map(|error| error.squared).sum::<f64>() / count;
+        let mean_square = errors.iter().map(|error| error.squared * error.squared).sum::<f64>() / count;
+        let freedom = errors.iter().map(|error| error.freedom).sum::<f64>() / count;
         // As for streams: what the error itself, its estimate, and the choice of pixels vary by.
         let of_error = 2.0 * mean_square / self.total_pixels as f64;
         let of_estimate = 2.0 * mean_square / (count * freedom);
         let unseen = 1.0 - count / self.total_pixels as f64;
         let of_choice = unseen * (mean_square - mean * mean).max(0.0) / count;
         let deviation = (of_error + of_estimate + of_choice).sqrt();
-        Some(ErrorEstimate { mean, upper: mean + standard_deviations(1) * deviation })
+        let by_one = if mean > 0.0 { errors.iter().map(|error| error.by_one).sum::<f64>() / (count * mean) } else { 0.0 };
+        let effective_pixels = if mean > 0.0 { count * mean * mean / mean_square } else { count };
+        Some(ErrorEstimate { mean, upper: mean + standard_deviations(1) * deviation, by_one, effective_pixels })
     }
 }
 
-/// Estimated squared relative error of a pixel's mean, averaged over the channels, and its degrees of freedom.
-fn squared_error(values: &[([f32; 3], f32)]) -> Option<(f64, f64)> {
+/// What the parts say of a pixel.
+struct PixelError {
+    /// Estimated squared relative error of its mean, averaged over the channels.
+    squared: f64,
+    /// What of it is by the part that adds most.
+    by_one: f64,
+    /// Degrees of freedom.
+    freedom: f64,
+}
+
+fn squared_error(values: &[([f32; 3], f32)]) -> Option<PixelError> {
     let freedom = values.len().checked_sub(1).filter(|freedom| *freedom > 0)? as f64;
     let samples: f64 = values.iter().map(|(_, count)| f64::from(*count)).sum();
-    let mut error = 0.0;
+    let (mut squared, mut by_one) = (0.0, 0.0);
     for channel in 0..3 {
         let total: f64 = values.iter().map(|(mean, count)| f64::from(mean[channel]) * f64::from(*count)).sum();
         let mean = total / samples;
-        let of_part = |(value, count): &([f32; 3], f32)| {
-            let (value, count) = (f64::from(value[channel]), f64::from(*count));
-            let others = (total - value * count) / (samples - count);
-            count * (value - mean).powi(2) / (others * others + RELATIVE_EPSILON)
-        };
-        error += values.iter().map(of_part).sum::<f64>() / (freedom * samples) / 3.0;
+        let of_part = |(value, count): &([f32; 3], f32)| f64::from(*count) * (f64::from(value[channel]) - mean).powi(2);
+        let scale = 1.0 / ((mean * mean + RELATIVE_EPSILON) * freedom * samples * 3.0);
+        squared += scale * values.iter().map(of_part).sum::<f64>();
+        by_one += scale * values.iter().map(of_part).fold(0.0, f64::max);
     }
-    Some((error, freedom))
+    Some(PixelError { squared, by_one, freedom })
 }
 
 #[cfg(test)]

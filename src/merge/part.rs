@@ -10,8 +10,8 @@ use exr::prelude::Vec2;
 use crate::choice::Choice;
 use crate::film::{KernelLayer, Layer, PartChannels};
 use crate::input;
-use crate::output::{CROP_KEY, LAYERS_KEY, Provenance, part_channels};
-use crate::picture_file::open_exr::{self, Windows};
+use crate::output::{CROP_KEY, LAYERS_KEY, Provenance, SAMPLE_COUNT, part_channels};
+use crate::picture_file::open_exr::{self, DIGEST_KEY, Windows};
 use crate::render::cryptomatte;
 use crate::scene::settings::SETTINGS;
 use crate::scene::{Filter, FilterKind, RenderSettings};
@@ -32,8 +32,8 @@ pub enum MergeError {
 }
 
 /// Entries of a header in which parts of one picture may differ.
-const OWN: [&str; 7] =
-    ["gpt:device", "gpt:firstSample", "gpt:samples", "gpt:samplesWanted", "gpt:complete", "gpt:brokenOff", CROP_KEY];
+const OWN: [&str; 8] =
+    ["gpt:device", "gpt:firstSample", "gpt:samples", "gpt:samplesWanted", "gpt:complete", "gpt:brokenOff", CROP_KEY, DIGEST_KEY];
 
 /// What a part says of itself.
 #[derive(Debug, Clone, PartialEq)]
@@ -218,7 +218,11 @@ impl PartHeader {
         let whole = list.iter().enumerate().filter(|(_, channel)| is_read(channel.sample_type) && channel.sampling == Vec2(1, 1));
         let wanted: Vec<usize> = whole.map(|(place, _)| place).collect();
         let mut planes = vec![vec![0.0; width * height]; wanted.len()];
-        open_exr::read_lines(open()?, 0, &wanted, |(channel, [column, row], numbers)| {
+        let mut strange = None;
+        open_exr::read_checked_lines(open()?, &wanted, |(channel, [column, row], numbers)| {
+            if let Some(place) = numbers.iter().position(|number| !number.is_finite()) {
+                strange.get_or_insert((channel, [column + place, row], numbers[place]));
+            }
             let plane = wanted.iter().position(|of| *of == channel).map(|plane| &mut planes[plane]);
             let start = row * width + column;
             if let Some(place) = plane.and_then(|plane| plane.get_mut(start..start + numbers.len())) {
@@ -226,6 +230,10 @@ impl PartHeader {
             }
         })
         .map_err(&failure)?;
+        if let Some((channel, [column, row], number)) = strange {
+            let name = &list[channel].name;
+            return Err(failure(format!("its channel {name} holds {number} at {column}, {row}, which is no finite number")));
+        }
         let name = |place: &usize| list[*place].name.to_string();
         let mut found: BTreeMap<String, Vec<f32>> = wanted.iter().map(name).zip(planes).collect();
         let unknown = |name: &str| failure(format!("its channel {name} is not as this program writes it"));
@@ -241,7 +249,28 @@ impl PartHeader {
         let kernels = self.kernels().map(&mut of_kernel).collect::<Result<_, MergeError>>()?;
         let channels = part_channels().map(&mut channel).collect::<Result<_, _>>()?;
         let fixed = self.fixed_channels().map(&mut channel).collect::<Result<_, _>>()?;
-        Ok(PartPixels { channels, kernels, fixed })
+        let pixels = PartPixels { channels, kernels, fixed };
+        self.check_counts(&pixels).map_err(failure)?;
+        Ok(pixels)
+    }
+}
+
+impl PartHeader {
+    /// Checks that pixels have the numbers of samples of which the header tells.
+    fn check_counts(&self, pixels: &PartPixels) -> Result<(), String> {
+        let width = self.region[2] as usize;
+        // A time limit may leave pixels with more samples than the least finished one has, and none with more than were wanted.
+        let most = self.entries.get("gpt:samplesWanted").and_then(|text| text.parse().ok()).unwrap_or(u32::MAX);
+        let [least, most] = [self.samples.len() as f64, f64::from(most).max(self.samples.len() as f64)];
+        let is_possible = |count: f32| count.fract() == 0.0 && (least..=most).contains(&f64::from(count));
+        let strange = pixels.counts().iter().position(|count| !is_possible(*count));
+        if let Some(place) = strange {
+            let [column, row] = [place % width, place / width];
+            let (count, told) = (pixels.counts()[place], self.samples.len());
+            return Err(format!("its channel SampleCount holds {count} at {column}, {row}, and its header says {told} samples"));
+        }
+        let of_layers = pixels.kernels.iter().find_map(|kernel| kernel.counts.iter().find(|count| **count < 0.0));
+        of_layers.map_or(Ok(()), |count| Err(format!("a layer has {count} samples of a pixel")))
     }
 }
 
@@ -265,6 +294,10 @@ fn filter(text: &str) -> Filter {
 }
 
 impl PartPixels {
+    fn counts(&self) -> &[f32] {
+        part_channels().position(|name| name == SAMPLE_COUNT).map_or(&[], |place| &self.channels[place])
+    }
+
     /// A pixel, counted within the part.
     pub fn at(&self, pixel: usize) -> PartPixel {
         // In the order of their names: blue, green and red, their remainders, the number of samples, and the variances.
@@ -279,6 +312,24 @@ impl PartPixels {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_of_samples_are_those_of_the_header() {
+        let header = PartHeader::for_tests([2, 1], [0, 0, 2, 1], 16..20);
+        let check = |count: f32| {
+            let channels = part_channels().map(|name| vec![1.0, if name == SAMPLE_COUNT { count } else { 1.0 }]);
+            let mut channels: Vec<_> = channels.collect();
+            let place = part_channels().position(|name| name == SAMPLE_COUNT).expect("it is there");
+            channels[place][0] = 4.0;
+            header.check_counts(&PartPixels { channels, kernels: Vec::new(), fixed: Vec::new() })
+        };
+        for wrong in [f32::NAN, -24.0, 0.0, 3.0, 4.5, f32::INFINITY] {
+            let said = check(wrong).expect_err("it is refused");
+            assert!(said.contains("SampleCount holds") && said.contains("at 1, 0") && said.contains("4 samples"), "{said}");
+        }
+        // What a time limit left of more samples, where the header does not say how many were wanted.
+        assert!(check(4.0).is_ok() && check(6.0).is_ok(), "the control");
+    }
 
     #[test]
     fn filters_are_read_as_they_are_told() {

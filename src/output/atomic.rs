@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -84,14 +84,68 @@ impl AtomicFile {
     /// # Errors
     /// As [`AtomicFile::commit`].
     pub fn commit_as(mut self, target: &Path) -> Result<(), OutputError> {
+        self.put(target)
+    }
+
+    /// As [`AtomicFile::commit_as`], for what took long to make: where it cannot be put there, it goes to another name in the folder, or else into the
+    /// system's folder of temporary files.
+    ///
+    /// # Errors
+    /// As [`AtomicFile::commit`]; [`OutputError::Kept`] where it is kept elsewhere.
+    pub fn commit_or_keep(mut self, target: &Path) -> Result<(), OutputError> {
+        self.put(target).map_err(|error| match self.keep(target) {
+            Some(place) => OutputError::Kept { error: Box::new(error), place },
+            None => error,
+        })
+    }
+
+    fn put(&mut self, target: &Path) -> Result<(), OutputError> {
         // It may have been read in the meantime.
         check_is_no_input(target)?;
         let temporary = self.temporary.take().ok_or_else(|| self.failure(io::Error::other("the file is closed")))?;
-        let handle = temporary.as_file().try_clone().map_err(|source| self.failure(source))?;
-        patience::within(move || handle.sync_all()).map_err(|source| self.failure(source))?;
         let (place, folder) = (target.to_owned(), folder_of(target).to_owned());
-        let renamed = patience::within(move || temporary.persist(&place).map(drop).map_err(|error| error.error));
-        renamed.and_then(|()| patience::within(move || flush_folder(&folder))).map_err(|source| self.failure(source))
+        let put = patience::within(move || {
+            if let Err(error) = temporary.as_file().sync_all() {
+                return Ok(Err((error, temporary)));
+            }
+            Ok(temporary.persist(&place).map(drop).map_err(|error| (error.error, error.file)))
+        });
+        match put {
+            Ok(Ok(())) => patience::within(move || flush_folder(&folder)).map_err(|source| self.failure(source)),
+            Ok(Err((source, temporary))) => {
+                self.temporary = Some(temporary);
+                Err(self.failure(source))
+            }
+            Err(source) => Err(self.failure(source)),
+        }
+    }
+
+    /// Puts the file anywhere else: beside its place, or where temporary files are. None: nowhere.
+    fn keep(&mut self, target: &Path) -> Option<PathBuf> {
+        let mut temporary = self.temporary.take()?;
+        let [stem, ending] = [target.file_stem(), target.extension()].map(|part| part.unwrap_or_default().to_string_lossy());
+        let (stem, ending) = (stem.into_owned(), ending.into_owned());
+        let names = (1..100).map(move |number| format!("{stem}.kept-{number}.{ending}"));
+        let places: Vec<PathBuf> = names.map(|name| target.with_file_name(name)).collect();
+        let suffix = format!(".{}", target.extension().unwrap_or_default().to_string_lossy());
+        let kept = patience::within(move || {
+            for place in places.into_iter().filter(|place| !place.exists()) {
+                match temporary.persist_noclobber(&place) {
+                    Ok(_) => return Ok(place),
+                    Err(error) => temporary = error.file,
+                }
+                // Other names do not help where the folder takes none.
+                if !place.exists() {
+                    break;
+                }
+            }
+            let mut elsewhere = Builder::new().prefix("gpt-kept-").suffix(&suffix).tempfile()?;
+            temporary.as_file_mut().rewind()?;
+            io::copy(temporary.as_file_mut(), &mut elsewhere)?;
+            elsewhere.as_file().sync_all()?;
+            elsewhere.keep().map(|(_, place)| place).map_err(|error| error.error)
+        });
+        kept.ok()
     }
 
     /// Writes `bytes` as the whole file at `path`.
@@ -280,6 +334,34 @@ mod tests {
         let mut left = entries(folder.path());
         left.sort();
         assert_eq!(left, [".gpt-notes", "a.exr", "b.exr"]);
+    }
+
+    /// As a folder of its name would be, or a folder that is gone.
+    #[test]
+    fn what_has_no_place_any_more_is_kept_elsewhere() {
+        let folder = tempfile::tempdir().unwrap();
+        let below = folder.path().join("below");
+        fs::create_dir(&below).unwrap();
+        let written = |path: &Path| {
+            let file = AtomicFile::create(path).unwrap();
+            file.handle().unwrap().write_all(b"hours of work").unwrap();
+            file
+        };
+        let spoils: [(fn(&Path) -> io::Result<()>, bool); 2] =
+            [(|path| fs::create_dir(path), true), (|path| fs::remove_dir_all(folder_of(path)), false)];
+        for (name, (spoil, is_beside)) in ["a", "b"].into_iter().zip(spoils) {
+            let path = below.join(name).with_extension("exr");
+            let file = written(&path);
+            spoil(&path).unwrap();
+            let Err(OutputError::Kept { place, .. }) = file.commit_or_keep(&path) else { panic!("it is kept") };
+            assert_eq!(fs::read(&place).unwrap(), b"hours of work");
+            assert_eq!(place == below.join("a.kept-1.exr"), is_beside, "{}", place.display());
+            fs::remove_file(place).unwrap();
+        }
+        // The control.
+        let path = folder.path().join("a.exr");
+        written(&path).commit_or_keep(&path).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"hours of work");
     }
 
     #[cfg(unix)]

@@ -6,6 +6,7 @@ use super::display::{Developer, Exposure, Meter};
 use super::provenance::{BROKEN_OFF_KEY, COMPLETE_KEY, Entry, SAMPLES_KEY};
 use super::rows::{Abandoned, Completeness, Rows};
 use super::spec::PictureSpec;
+use super::temporary::{in_temporary_folder, temporary_file};
 
 /// Hands over the picture's rows as sRGB, three bytes a pixel, from the top; then waits until the render is over. Automatic exposure has to
 /// see the whole picture first, which waits in a temporary file, not in memory. Errors are sentences.
@@ -29,11 +30,11 @@ pub(super) fn developed_rows(
     }
     let in_words = |error: std::io::Error| error.to_string();
     let mut meter = Meter::default();
-    let mut waiting = BufWriter::new(tempfile::tempfile().map_err(in_words)?);
+    let mut waiting = BufWriter::new(temporary_file().map_err(in_words)?);
     for _ in 0..spec.height {
         let row = rows.next_row().map_err(abandoned)?.mean;
         meter.add(row);
-        waiting.write_all(bytemuck::cast_slice(row)).map_err(in_words)?;
+        waiting.write_all(bytemuck::cast_slice(row)).map_err(in_temporary_folder).map_err(in_words)?;
     }
     let completeness = rows.wait_for_finish().map_err(abandoned)?;
     let developer = Developer::new(&spec.display, &meter);

@@ -14,39 +14,49 @@ use exr::meta::header::Header;
 use exr::meta::{BlockDescription, Headers, MetaData};
 use exr::prelude::{Compression, Vec2, f16};
 
-use super::layers::{LayerChannel, LayerPicture, LayerSource, sample_variance};
+use super::layers::{LayerChannel, LayerPicture, LayerSource, SAMPLE_COUNT, sample_variance};
 use super::provenance::{self, LAYERS_KEY};
 use super::rows::{Completeness, Row, Rows};
 use super::spec::{ExrCompression, PartSpec, PictureSpec};
 use crate::film::{Layer, variance};
+use crate::picture_file::open_exr::{self, DIGEST_KEY, LineDigests};
 
 /// Blocks compressed at once. Each takes 32 rows of memory, so more would be felt at 8K.
 const COMPRESSING_THREADS: usize = 4;
-/// Channels of every file, and the one of pixels that differ in their numbers of samples.
+/// Channels of every file.
 const COLOURS: [&str; 3] = ["R", "G", "B"];
-const COUNT: &str = "SampleCount";
 /// Channels of a part, in alphabetical order: what rounding to a colour lost is its remainder, and variances are those of samples, as in layers.
 const PART: [&str; 10] =
-    ["B", "G", "R", "Remainder.B", "Remainder.G", "Remainder.R", COUNT, "Variance.B", "Variance.G", "Variance.R"];
+    ["B", "G", "R", "Remainder.B", "Remainder.G", "Remainder.R", SAMPLE_COUNT, "Variance.B", "Variance.G", "Variance.R"];
 /// Bytes before the header in every file: the magic number and the version.
 const PREAMBLE_BYTES: u64 = 8;
 
 /// Encodes all rows of the picture. The error is a sentence.
 pub(super) fn write<W: Write + Seek>(mut writer: W, mut rows: Rows, spec: &PictureSpec) -> Result<(), String> {
     let have_counts = rows.have_counts().map_err(|_| "the render broke off".to_owned())?;
-    let first = header(spec, spec.samples_wanted(), Completeness::Finished, have_counts);
+    let mut first = header(spec, spec.samples_wanted(), Completeness::Finished, have_counts);
+    state_digest(&mut first, &open_exr::placeholder());
     let headers: Headers = [first].into_iter().collect();
     let channels = channels(spec, have_counts);
-    exr::block::write(&mut writer, headers, true, |meta, chunks| write_blocks(&meta, chunks, (&mut rows, &channels)))
-        .map_err(|error| error.to_string())?;
+    let mut digests = LineDigests::default();
+    exr::block::write(&mut writer, headers, true, |meta, chunks| {
+        write_blocks(&meta, chunks, (&mut rows, &channels, &mut digests))
+    })
+    .map_err(|error| error.to_string())?;
 
-    // The header went out before the samples were counted, and with its attributes in no order, for they were in a hash map. Numbers have a
-    // fixed length, so it is written again in place, sorted: equal pictures are equal files.
+    // The header went out before the samples were counted and the pixels hashed, and with its attributes in no order, for they were in a hash map.
+    // Numbers and digests have a fixed length, so it is written again in place, sorted: equal pictures are equal files.
     let completeness = rows.wait_for_finish().map_err(|_| "the render broke off".to_owned())?;
-    let last = header(spec, rows.fewest_samples(), completeness, have_counts);
+    let mut last = header(spec, rows.fewest_samples(), completeness, have_counts);
+    let digest = digests.finish(&last);
+    state_digest(&mut last, &digest);
     writer.seek(SeekFrom::Start(PREAMBLE_BYTES)).map_err(|error| error.to_string())?;
     writer.write_all(&sorted_bytes(&last).map_err(|error| error.to_string())?).map_err(|error| error.to_string())?;
     writer.flush().map_err(|error| error.to_string())
+}
+
+fn state_digest(header: &mut Header, digest: &str) {
+    header.own_attributes.other.insert(Text::from(DIGEST_KEY), AttributeValue::Text(Text::from(digest)));
 }
 
 /// The header as it stands in a file, its attributes in the order of their names.
@@ -62,7 +72,10 @@ fn sorted_bytes(header: &Header) -> Result<Vec<u8>, Error> {
     Ok(bytes)
 }
 
-fn write_blocks<W: Write + Seek>(meta: &MetaData, chunks: &mut ChunkWriter<W>, rows: (&mut Rows, &[Channel])) -> UnitResult {
+/// What blocks are made of, and what is summed up of them.
+type BlockSource<'a> = (&'a mut Rows, &'a [Channel], &'a mut LineDigests);
+
+fn write_blocks<W: Write + Seek>(meta: &MetaData, chunks: &mut ChunkWriter<W>, rows: BlockSource<'_>) -> UnitResult {
     let threads = available_parallelism().map_or(1, usize::from).min(COMPRESSING_THREADS);
     let pool = || rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     if let Some(mut compressor) = ParallelBlocksCompressor::new_with_thread_pool(meta, chunks, pool) {
@@ -104,8 +117,8 @@ fn channels(spec: &PictureSpec, have_counts: bool) -> Vec<Channel> {
         PART.into_iter().enumerate().filter(|(_, name)| !is_layer(name)).map(of_part).collect()
     } else {
         let of_colour = |(place, name)| Channel { name, sample_type: colour, content: Content::Colour(place) };
-        let count = LayerChannel { name: COUNT, source: LayerSource::Count };
-        let counts = (have_counts && !is_layer(COUNT)).then_some(count).map(of_layer);
+        let count = LayerChannel { name: SAMPLE_COUNT, source: LayerSource::Count };
+        let counts = (have_counts && !is_layer(SAMPLE_COUNT)).then_some(count).map(of_layer);
         COLOURS.into_iter().enumerate().map(of_colour).chain(counts).collect()
     };
     channels.extend(spec.layers.iter().cloned().map(of_layer));
@@ -116,7 +129,7 @@ fn channels(spec: &PictureSpec, have_counts: bool) -> Vec<Channel> {
 /// Packs the rows as the file wants them, block by block from the top.
 fn for_each_block(
     meta: &MetaData,
-    (rows, channels): (&mut Rows, &[Channel]),
+    (rows, channels, digests): BlockSource<'_>,
     mut write: impl FnMut(usize, UncompressedBlock) -> UnitResult,
 ) -> UnitResult {
     let bytes_per_pixel = meta.headers[0].channels.bytes_per_pixel;
@@ -132,9 +145,22 @@ fn for_each_block(
                 pack(channel, &row, (&layers, &of_part), &mut data);
             }
         }
-        write(index_in_file, UncompressedBlock { index, data })?;
+        let block = UncompressedBlock { index, data };
+        let header = &meta.headers[0];
+        if loses_something(header) {
+            // What the file holds is what comes out of it.
+            let chunk = block.clone().compress_to_chunk(&meta.headers)?;
+            digests.add(header, &UncompressedBlock::decompress_chunk(chunk, meta, false)?);
+        } else {
+            digests.add(header, &block);
+        }
+        write(index_in_file, block)?;
     }
     rows.wait_for_finish().map_err(|_| Error::Aborted).map(|_| ())
+}
+
+fn loses_something(header: &Header) -> bool {
+    header.compression == Compression::PXR24 && header.channels.list.iter().any(|channel| channel.sample_type == SampleType::F32)
 }
 
 /// A row of each picture that layers come from, by its address.

@@ -14,16 +14,16 @@ use super::rows::Completeness;
 use super::spec::{PartSpec, PictureSpec};
 use super::{exr_file, hdr_file, jpeg_file, png_file};
 use crate::input;
-use crate::picture_file::open_exr;
+use crate::picture_file::open_exr::{self, DIGEST_KEY};
 
 /// Entries of headers that do not decide what a picture shows.
-const INCIDENTAL: [&str; 5] = ["gpt:version", "gpt:scene", "gpt:device", SAMPLES_KEY, COMPLETE_KEY];
+const INCIDENTAL: [&str; 6] = ["gpt:version", "gpt:scene", "gpt:device", SAMPLES_KEY, COMPLETE_KEY, DIGEST_KEY];
 
 /// Within so many bytes stands the line that says how a preview was made.
 const LONGEST_START: u64 = 70_000;
 
-/// Whether a readable picture stands there that was made of the same scene with the same settings, and whose render did not break off. The
-/// device does not matter.
+/// Whether a readable picture stands there that was made of the same scene with the same settings, whose render did not break off, and which holds what
+/// was written, numbers all. The device does not matter.
 pub fn is_finished_picture(path: &Path, format: PictureFormat, spec: &PictureSpec) -> bool {
     let size = [spec.width, spec.height];
     // In an EXR file, a part lies where it belongs in the whole picture.
@@ -33,12 +33,13 @@ pub fn is_finished_picture(path: &Path, format: PictureFormat, spec: &PictureSpe
     };
     let fits = |picture: ReadPicture| {
         let ReadPicture { image, notes, covered } = picture;
-        [image.width, image.height] == shown && covered == [origin[0], origin[1], size[0], size[1]] && notes.is_empty()
+        let is_in_place = [image.width, image.height] == shown && covered == [origin[0], origin[1], size[0], size[1]];
+        is_in_place && notes.is_empty() && image.pixels.as_flattened().iter().all(|value| value.is_finite())
     };
     input::is_file(path)
         && is_finished(path)
         && match format {
-            PictureFormat::Exr => exr_agrees(path, spec),
+            PictureFormat::Exr => exr_agrees(path, spec) && holds_what_was_written(path),
             PictureFormat::Png => png_agrees(path, spec),
             PictureFormat::Jpeg | PictureFormat::Hdr => text_agrees(path, format, spec),
         }
@@ -64,6 +65,10 @@ fn exr_agrees(path: &Path, spec: &PictureSpec) -> bool {
     let is_known = |name: &Text| INCIDENTAL.iter().any(|key| name.eq(key)) || entries.iter().any(|(key, _)| name.eq(key));
     // An entry that this render has not, such as an error to reach, decides something too.
     entries.iter().all(has) && found.iter().all(|(name, _)| !name.to_string().starts_with("gpt:") || is_known(name))
+}
+
+fn holds_what_was_written(path: &Path) -> bool {
+    input::open_to_decode(path).is_ok_and(|file| open_exr::check_digest(file) == Ok(true))
 }
 
 fn png_agrees(path: &Path, spec: &PictureSpec) -> bool {

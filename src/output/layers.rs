@@ -4,7 +4,11 @@ use std::fs::File;
 use std::io::{Read, Result, Seek, SeekFrom, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::temporary::{in_temporary_folder, temporary_file};
 use crate::film::{KernelLayer, Layer};
+
+/// The channel of the numbers of samples that pixels have.
+pub const SAMPLE_COUNT: &str = "SampleCount";
 
 /// Three numbers a pixel, row by row.
 #[derive(Debug)]
@@ -19,8 +23,8 @@ impl LayerPicture {
     /// # Errors
     /// What the file system says.
     pub fn new([width, height]: [u32; 2]) -> Result<Self> {
-        let file = tempfile::tempfile()?;
-        file.set_len(u64::from(width) * u64::from(height) * size_of::<[f32; 3]>() as u64)?;
+        let file = temporary_file()?;
+        file.set_len(u64::from(width) * u64::from(height) * size_of::<[f32; 3]>() as u64).map_err(in_temporary_folder)?;
         Ok(Self { width: width as usize, file: Mutex::new(file) })
     }
 
@@ -30,7 +34,7 @@ impl LayerPicture {
     /// What the file system says.
     pub fn write_rows(&self, first_row: u32, pixels: &[[f32; 3]]) -> Result<()> {
         let mut file = self.at_row(first_row)?;
-        file.write_all(bytemuck::cast_slice(pixels))
+        file.write_all(bytemuck::cast_slice(pixels)).map_err(in_temporary_folder)
     }
 
     /// A row.
@@ -85,7 +89,7 @@ impl LayerSource {
 impl LayerChannel {
     /// The channels of a layer whose numbers a picture holds; where none does, the number of samples is meant.
     pub fn of(layer: Layer, picture: Option<&Arc<LayerPicture>>) -> Vec<Self> {
-        let Some(picture) = picture else { return vec![Self { name: "SampleCount", source: LayerSource::Count }] };
+        let Some(picture) = picture else { return vec![Self { name: SAMPLE_COUNT, source: LayerSource::Count }] };
         let of_picture = |names: &[&'static str], source: &dyn Fn(usize) -> LayerSource| -> Vec<Self> {
             names.iter().enumerate().map(|(place, name)| Self { name, source: source(place) }).collect()
         };

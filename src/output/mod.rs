@@ -19,6 +19,7 @@ mod provenance;
 mod read;
 mod rows;
 mod spec;
+mod temporary;
 
 pub use crate::file_identity::{FileIdentity, follow_links};
 pub use crate::input::{as_own, protect_inputs};
@@ -29,8 +30,8 @@ pub use error::OutputError;
 pub use exr_file::part_channels;
 pub use finished::is_finished_picture;
 pub use format::{PICTURE_ENDINGS, PictureFormat};
-pub use layers::{LayerChannel, LayerPicture, LayerSource, sample_variance};
+pub use layers::{LayerChannel, LayerPicture, LayerSource, SAMPLE_COUNT, sample_variance};
 pub use picture::{PictureFile, STDOUT};
 pub use provenance::{CROP_KEY, LAYERS_KEY, Provenance};
-pub use read::{Image, PictureKind, ReadError, ReadPicture, cut, read_image, read_picture};
+pub use read::{Image, PictureKind, ReadError, ReadPicture, cut, read_image, read_picture, read_undamaged_picture};
 pub use spec::{ExrCompression, ExrOptions, PartSpec, PictureSpec};

@@ -17,6 +17,7 @@ use super::format::PictureFormat;
 use super::provenance::BROKEN_OFF_KEY;
 use super::rows::{Completeness, Message, Rows};
 use super::spec::PictureSpec;
+use super::temporary::temporary_file;
 use super::{exr_file, hdr_file, jpeg_file, png_file};
 use crate::file_identity::follow_links;
 use crate::film::Band;
@@ -60,7 +61,7 @@ impl PictureFile {
     pub fn create(path: &Path, format: PictureFormat, spec: &PictureSpec) -> Result<Self, OutputError> {
         let failure = |source| OutputError::Write { path: path.to_owned(), source };
         let place = if path == Path::new(STDOUT) {
-            Place::Stdout(tempfile::tempfile().map_err(failure)?)
+            Place::Stdout(temporary_file().map_err(failure)?)
         } else {
             Place::File(AtomicFile::create(path)?)
         };
@@ -116,7 +117,10 @@ impl PictureFile {
     pub fn finish(mut self) -> Result<(), OutputError> {
         self.encode_rest(Completeness::Finished)?;
         match self.place {
-            Place::File(file) => file.commit(),
+            Place::File(file) => {
+                let target = file.target().to_owned();
+                file.commit_or_keep(&target)
+            }
             Place::Stdout(file) => write_to_stdout(file),
         }
     }
@@ -135,7 +139,7 @@ impl PictureFile {
                 // As the person would name it, unless a link leads elsewhere.
                 let named = file.path().with_file_name(place.file_name().unwrap_or_default());
                 let named = if follow_links(&named).is_ok_and(|meant| meant == place) { named } else { place.clone() };
-                file.commit_as(&place).map(|()| named)
+                file.commit_or_keep(&place).map(|()| named)
             }
         }
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use image::ImageFormat;
 
 use crate::input::{self, AnyFile};
-use crate::picture_file::{Format, PictureFile};
+use crate::picture_file::{Format, PictureFile, open_exr};
 use crate::scene::settings::{MAX_PIXELS, MAX_SIDE};
 
 /// A picture in memory, linear.
@@ -74,6 +74,23 @@ impl ReadPicture {
 /// A file that is missing, broken, of an unknown format, too large, or without colour channels.
 pub fn read_picture(path: &Path) -> Result<ReadPicture, ReadError> {
     read_or_say(path).map_err(|what| ReadError { path: path.to_owned(), what })
+}
+
+/// As [`read_picture`], and an OpenEXR file that states a digest must hold what was written.
+///
+/// # Errors
+/// As there, and a file that was damaged or changed.
+pub fn read_undamaged_picture(path: &Path) -> Result<ReadPicture, ReadError> {
+    let check = || {
+        let mut file = open(path)?;
+        match Format::of(&mut file, path) {
+            Ok(Some(Format::OpenExr)) => open_exr::check_digest(file).map(drop),
+            // Other formats have none; what cannot be read, reading says.
+            _ => Ok(()),
+        }
+    };
+    check().map_err(|what| ReadError { path: path.to_owned(), what })?;
+    read_picture(path)
 }
 
 /// The pixels of [`read_picture`].

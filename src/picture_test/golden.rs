@@ -8,12 +8,11 @@ use super::replications::Replications;
 use crate::film::Band;
 use crate::output::{
     Channels, ExrOptions, Image, LayerChannel, LayerPicture, LayerSource, OutputError, PictureFile, PictureFormat, PictureSpec,
-    Provenance, ReadError, as_own, read_picture,
+    Provenance, ReadError, SAMPLE_COUNT, as_own, read_undamaged_picture,
 };
 
-/// Channels of the variance of a sample, and of the number of samples.
+/// Channels of the variance of a sample.
 const VARIANCE: [&str; 3] = ["Variance.R", "Variance.G", "Variance.B"];
-const COUNT: &str = "SampleCount";
 /// Key in the header: of how many renders with random numbers of their own the picture is the mean.
 const REPLICATIONS_KEY: &str = "gpt:replications";
 /// Key in the header: ꟻLIP that the noise of a single one of these renders makes.
@@ -91,14 +90,22 @@ impl Golden {
         if file.colours(["R", "G", "B"]).is_none() {
             return Err(lacking("the channels R, G and B"));
         }
-        let picture = as_own(path, || read_picture(path))?;
+        let picture = as_own(path, || read_undamaged_picture(path))?;
         if picture.covered != [0, 0, file.width, file.height] {
             return Err(lacking("every pixel of its picture, and not a part of them"));
         }
         let variances = file.colours(VARIANCE).ok_or_else(|| lacking("the channels Variance.R, Variance.G and Variance.B"))?;
-        let counts = file.channel(COUNT).ok_or_else(|| lacking("the channel SampleCount"))?;
+        let counts = file.channel(SAMPLE_COUNT).ok_or_else(|| lacking("the channel SampleCount"))?;
+        for name in ["R", "G", "B", SAMPLE_COUNT].into_iter().chain(VARIANCE) {
+            let mut numbers = file.channel(name).unwrap_or_default().iter();
+            if let Some(place) = numbers.position(|number| !number.is_finite()) {
+                let [column, row] = [place as u32 % file.width, place as u32 / file.width];
+                let what = format!("finite numbers, and its channel {name} holds another at {column}, {row}");
+                return Err(lacking(&what));
+            }
+        }
         let fewest = counts.iter().copied().fold(f32::INFINITY, f32::min);
-        if fewest.is_nan() || fewest < 2.0 {
+        if fewest < 2.0 {
             return Err(lacking("two samples of each pixel at least"));
         }
         let number = |key: &str| file.attribute(key).and_then(|text| text.parse::<u32>().ok()).filter(|number| *number >= 2);
@@ -127,7 +134,7 @@ impl Golden {
             let source = LayerSource::Component(variances.clone(), place);
             LayerChannel { name, source }
         });
-        let count = LayerChannel { name: COUNT, source: LayerSource::Count };
+        let count = LayerChannel { name: SAMPLE_COUNT, source: LayerSource::Count };
         let replications = self.replications.map(|count| (REPLICATIONS_KEY.to_owned(), count.to_string()));
         let flip = self.flip_of_noise.map(|flip| (FLIP_KEY.to_owned(), format!("{flip:.5}")));
         let mut provenance = provenance;
@@ -165,10 +172,10 @@ impl Candidate {
     /// # Errors
     /// A file that cannot be read.
     pub fn read(path: &Path) -> Result<Self, ReadError> {
-        let picture = read_picture(path)?;
+        let picture = read_undamaged_picture(path)?;
         let (warnings, mean) = (picture.warnings(path), picture.image);
         let noise = Channels::read(path).ok().and_then(|file| {
-            let counts = file.channel(COUNT)?;
+            let counts = file.channel(SAMPLE_COUNT)?;
             let of_mean = |variance: f32, count: f32| variance / count.max(1.0);
             let pixels = file.colours(VARIANCE)?.into_iter().zip(counts);
             let variances: Vec<[f32; 3]> = pixels.map(|(pixel, count)| pixel.map(|variance| of_mean(variance, *count))).collect();

@@ -33,7 +33,7 @@ pub struct RenderOptions {
     pub seed: Option<u32>,
     /// No work begins that would end later than this after the render's start. The picture is whole, with fewer samples.
     pub time_limit: Option<Duration>,
-    /// The render ends once the picture's relative mean squared error is below this with 95 % confidence.
+    /// The render ends once the picture's relative mean squared error, as what was sampled shows it and with a margin for chance, is below this.
     pub target_error: Option<f64>,
     /// Noisy pixels get more samples and calm ones fewer, the given number on average. The estimate stays unbiased.
     pub adaptive: bool,

@@ -38,11 +38,14 @@ pub struct Stats {
     /// `samples`, `time_limit`, `target_error` or `interrupted`.
     pub stopped_by: &'static str,
     pub adaptive: bool,
-    /// The relative mean squared error that was to be reached, how large it is expected to be, and what it is below with 95 %
-    /// confidence.
+    /// The relative mean squared error that was to be reached, its estimate by what was sampled, and that with a margin for chance.
     pub target_error: Option<f64>,
     pub expected_error: Option<f64>,
     pub error_bound: Option<f64>,
+    /// The estimate is rough and mostly too low, for few bright paths or few pixels make most of it.
+    pub tails_decide: Option<bool>,
+    /// Lamps shine through glass or by mirrors: light that no path has found is not in the estimate.
+    pub light_by_chance: Option<bool>,
     pub first_sample: u32,
     pub seconds: Seconds,
     /// Samples finished, over all pixels; those of the render that this one went on from are among them.
@@ -107,6 +110,8 @@ impl Stats {
             target_error: options.target_error,
             expected_error: outcome.error.map(|error| error.mean),
             error_bound: outcome.error.map(|error| error.upper),
+            tails_decide: outcome.error.map(|error| error.tails_decide()),
+            light_by_chance: outcome.error.map(|_| scene.has_light_by_chance()),
             first_sample: options.first_sample,
             seconds: Seconds {
                 build: report.build_seconds,

@@ -19,7 +19,7 @@ pub trait Observer: Sync {
         drop(rows);
     }
 
-    /// The relative mean squared error that the picture has now: what is expected, and what it is below with 95 % confidence. Known of renders
+    /// The relative mean squared error that the picture has now: what is expected, and that with a margin for chance. Known of renders
     /// with an error to reach.
     fn error_so_far(&self, expected: f64, upper: f64) {
         let _ = (expected, upper);

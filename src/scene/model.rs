@@ -8,7 +8,7 @@ use super::animation::Animation;
 use super::camera::Camera;
 use super::import_report::ImportReport;
 use super::instance::{Group, Instances};
-use super::light::Light;
+use super::light::{Environment, EnvironmentRadiance, Light};
 use super::material::{Attenuation, Material, MaterialId, MaterialKind};
 use super::settings::{FilmSettings, RenderSettings};
 use super::shape::Shape;
@@ -75,6 +75,18 @@ impl Scene {
         }
         let emitting = self.materials_that(|part| part.emission.is_some());
         self.shapes.iter().any(|shape| shape.materials().any(|id| emitting[id]))
+    }
+
+    /// Lamps or pictures around the scene shine through glass or by mirrors onto what else there is: paths meet such light by chance, and where few do,
+    /// what they have seen says little of what there is.
+    #[doc(hidden)]
+    pub fn has_light_by_chance(&self) -> bool {
+        let [gathering, emitting] = [Material::gathers_light as fn(&Material) -> bool, |material| material.emission.is_some()]
+            .map(|wanted| self.materials_that(wanted));
+        let shapes = || self.shapes.iter().chain(self.groups.iter().flat_map(|group| &group.shapes));
+        let is_shown = |which: &[bool]| shapes().any(|shape| shape.materials().any(|id| which[id]));
+        let is_map = |light: &Light| matches!(light, Light::Environment(Environment { radiance: EnvironmentRadiance::Map(_), .. }));
+        is_shown(&gathering) && (is_shown(&emitting) || self.lights.iter().any(is_map))
     }
 
     /// Of each material: whether it, or one of those that it blends at any depth, is as `wanted`. From those that are, up to all that are made

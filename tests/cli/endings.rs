@@ -75,8 +75,16 @@ fn parts_of_strata_are_refused() {
 #[test]
 fn a_time_limit_that_is_not_reached_changes_no_bit() {
     let place = Workplace::new();
-    place.expect(0, "render scene.toml --device cpu --spp 40 -q -o a.exr");
-    place.expect(0, "render scene.toml --device cpu --spp 40 --time-limit 1e6 -q -o b.exr");
-    let [a, b] = ["a.exr", "b.exr"].map(|name| fs::read(place.path(name)).expect("the picture"));
-    assert!(a == b, "the files differ");
+    for device in devices() {
+        for goal in ["", "--adaptive", "--target-error 2e-3", "--adaptive --target-error 2e-3", "--target-error 1e-9"] {
+            let render = format!("render scene.toml --device {device} --spp 300 {goal} -q");
+            place.expect(0, &format!("{render} -o a.exr"));
+            place.expect(0, &format!("{render} --time-limit 1e6 -o b.exr"));
+            let [a, b] = ["a.exr", "b.exr"].map(|name| fs::read(place.path(name)).expect("the picture"));
+            assert!(a == b, "{device} {goal}: the files differ");
+        }
+    }
+    // The control: a limit that is reached does.
+    place.expect(0, "render scene.toml --device cpu --spp 100000000 --adaptive --time-limit 0.3 -q -o b.exr");
+    assert!(place.image("a.exr") != place.image("b.exr"));
 }

@@ -6,6 +6,7 @@ mod common;
 mod bench;
 mod checkpoints;
 mod continuous_integration;
+mod damage;
 mod denoising;
 mod documents;
 mod endings;

@@ -369,3 +369,43 @@ fn tev_receives_the_picture() {
     assert!(said.contains("is tev running"), "{said}");
     assert_eq!(place.files(), ["a.exr", "scene.toml"]);
 }
+
+/// It is asked to end while the viewer stands still, and ends as soon as any render.
+#[test]
+fn a_tev_that_takes_nothing_does_not_hold_the_end() {
+    let place = Workplace::new();
+    let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
+    let port = listener.local_addr().expect("its address").port();
+    // More than the system keeps for a connection that nobody reads.
+    let mut command = place.command(&format!(
+        "render scene.toml --device cpu --size 2048x1536 --spp 100000000 --max-depth 1 --display 127.0.0.1:{port} -o a.exr"
+    ));
+    let mut child = command.stderr(Stdio::piped()).spawn().expect("a process");
+    let (mut connection, _) = listener.accept().expect("a connection");
+    // A picture has begun.
+    connection.read_exact(&mut [0; 100_000]).expect("a part of a picture");
+    std::thread::sleep(Duration::from_millis(500));
+    let asked = Instant::now();
+    // The system's own constant for SIGTERM.
+    assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().expect("kill").success());
+    let mut said = String::new();
+    child.stderr.take().expect("its stderr").read_to_string(&mut said).expect("text");
+    let status = child.wait().expect("it ends");
+    assert!(asked.elapsed() < Duration::from_secs(10), "{:?} {said}", asked.elapsed());
+    assert!(status.code() != Some(0) && said.contains("did not take the last picture"), "{status} {said}");
+}
+
+/// Connections that never send the secret make room for the page.
+#[test]
+fn strangers_do_not_keep_the_page_out() {
+    let place = Workplace::new();
+    let viewed = Viewed::start(&place, "render scene.toml --device cpu --view --spp 100000000 -o a.exr");
+    for _ in 0..3 {
+        let idle: Vec<TcpStream> = (0..40).map(|_| TcpStream::connect(&viewed.address).expect("a connection")).collect();
+        let asked = Instant::now();
+        assert_eq!(viewed.get("state").status, 200);
+        assert!(asked.elapsed() < Duration::from_secs(3), "{:?}", asked.elapsed());
+        drop(idle);
+    }
+    viewed.interrupt();
+}

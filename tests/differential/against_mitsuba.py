@@ -46,6 +46,8 @@ from programs import ROOT, Gpt
 MODULES = (bsdfs, textures, emitters, shapes, sensors, documents)
 # Numbers for a scene at first, and where something is in doubt: renders of Mitsuba's, samples of a pixel in each, and ours in all.
 STAGES = ((16, 16, 256), (32, 48, 1536))
+# Passes of one render have seeds that follow each other, and must not be those of the next render.
+SEEDS_APART = 10_000
 # Differences that no chance explains are not rendered again.
 PLAIN = 100.0
 # More light than a test may overlook.
@@ -88,7 +90,7 @@ class Mitsuba:
         loaded = self.mitsuba.load_file(str(scene), **dict(definitions))
         pictures = []
         for seed in range(renders):
-            picture = numpy.array(self.mitsuba.render(loaded, spp=samples, seed=seed + 1000 * stage), numpy.float64)
+            picture = numpy.array(self.mitsuba.render(loaded, spp=samples, seed=SEEDS_APART * seed + stage), numpy.float64)
             pictures.append(picture[:, :, :3])
         pictures = numpy.array(pictures)
         unfinished = kept.with_suffix(f".{os.getpid()}.npy")

@@ -81,7 +81,7 @@ fn excess(size: usize, work: impl Fn(usize) + Sync) -> Option<String> {
     (!in_time || !in_memory).then_some(report)
 }
 
-fn assert_linear(what: &str, size: usize, work: impl Fn(usize) + Sync) {
+pub fn assert_linear(what: &str, size: usize, work: impl Fn(usize) + Sync) {
     // A busy machine lengthens one measurement now and then, and quadratic work all of them.
     let reports: Vec<String> = (0..4).map_while(|_| excess(size, &work)).collect();
     assert!(reports.len() < 4, "{what}: {reports:?}");

@@ -6,6 +6,7 @@ mod common;
 mod random;
 
 mod counting;
+mod growing_imports;
 mod growth;
 mod hostile;
 mod hostile_files;

@@ -17,8 +17,11 @@ mod random_scenes;
 mod range;
 mod scale;
 mod self_intersection;
+mod stated_errors;
 mod support;
 
+use common::effort::{announce, in_full};
+use statrs::distribution::{Binomial, DiscreteCDF};
 use support::{Effort, assert_all};
 
 #[test]
@@ -80,4 +83,21 @@ fn what_is_wrong_is_noticed() {
     for (shown, finding) in controls::complaints() {
         assert!(finding.complaint.is_some(), "{shown} went unnoticed: {finding:?}");
     }
+}
+
+/// With 500 seeds in the long form: a fair bound of 95 % is exceeded in 42 of 500 renders or more once in a thousand times.
+#[test]
+fn stated_errors_hold() {
+    let seeds = if in_full("500 seeds of stated errors instead of 30") { 500 } else { 30 };
+    let rows = stated_errors::measure_all(seeds);
+    announce(&stated_errors::table(&rows));
+    let most = Binomial::new(0.05, seeds.into()).expect("a distribution").inverse_cdf(0.999) as u32;
+    for row in &rows {
+        assert!(row.unwarned <= most, "{}: {} of {} bounds are exceeded without a warning", row.name, row.unwarned, row.renders);
+        assert!(row.light_is_rare || row.bias.abs() < 0.02, "{}: the mean is off by {}", row.name, row.bias);
+    }
+    // The control: where light is rare, bounds do not hold, and this test can tell.
+    assert!(rows.iter().any(|row| row.light_is_rare && row.exceeded > most));
+    // Where it is not, most renders come without a warning.
+    assert!(rows.iter().filter(|row| !row.light_is_rare).map(|row| row.warned).sum::<u32>() < seeds);
 }

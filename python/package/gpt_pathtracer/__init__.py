@@ -161,7 +161,8 @@ class Scene:
 
 @dataclass(frozen=True)
 class Comparison:
-    """How far a picture is from its reference, over all channels; `details` has all that `gpt compare --json` says."""
+    """How far a picture is from its reference, over all channels; `details` has all that `gpt compare --json` says. Pixels that are no finite numbers
+    are left out; where none is left, errors are NaN."""
 
     mse: float
     #: Relative mean squared error: (a - b)^2 / (b^2 + 0.01).
@@ -201,8 +202,11 @@ def _picture(of: Any) -> _native.Picture:
 def compare(picture: Union[Picture, Pixels, Path], reference: Union[Picture, Pixels, Path]) -> Comparison:
     """Measures how far a picture is from its reference; each is a picture, an array or a file."""
     details = json.loads(_native.compare(_picture(picture), _picture(reference)))
-    mse, relmse, mae, psnr = (details[name]["all"] for name in ("mse", "relmse", "mae", "psnr"))
-    return Comparison(mse, relmse, mae, float("inf") if psnr is None else psnr, details["largest"]["difference"], details)
+    # JSON has neither of these numbers: no two pixels are compared, or they are all equal.
+    no_number, infinite = float("nan"), float("inf")
+    mse, relmse, mae = (no_number if details[name]["all"] is None else details[name]["all"] for name in ("mse", "relmse", "mae"))
+    psnr = infinite if mse == 0.0 else details["psnr"]["all"]
+    return Comparison(mse, relmse, mae, no_number if psnr is None else psnr, details["largest"]["difference"], details)
 
 
 def verify(

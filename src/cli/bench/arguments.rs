@@ -9,6 +9,7 @@ use gpt::bench::setting::Axes;
 use gpt::renderer::DeviceChoice;
 use gpt::scene::settings::MOST_SAMPLES;
 
+use crate::cli::arguments::FileArguments;
 use crate::cli::choice::by_name;
 use crate::cli::film::FilmArguments;
 use crate::cli::setting_flags::SettingAxes;
@@ -20,6 +21,8 @@ pub struct BenchArguments {
     /// Take a device for lost (exit code 5) that does not finish a submission, or a kernel's compilation, in this time [default: 60; 300 on software devices]
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, global = true)]
     pub device_timeout: Option<Duration>,
+    #[command(flatten)]
+    pub files: FileArguments,
     #[command(subcommand)]
     pub bench: Bench,
 }

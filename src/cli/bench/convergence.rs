@@ -7,7 +7,7 @@ use gpt::bench::report::{convergence_csv, convergence_page, convergence_text};
 use gpt::bench::schedule::SampleSchedule;
 use gpt::bench::setting::Axes;
 use gpt::bench::subject::{BenchError, Devices};
-use gpt::load;
+use gpt::load::{self, LoadOptions};
 use gpt::plan::PlanOptions;
 use gpt::scene::Scene;
 use gpt::verify;
@@ -31,8 +31,8 @@ struct File<'a> {
 }
 
 /// Measures scene after scene and writes the results.
-pub fn run(arguments: &ConvergenceArguments, plan: &PlanOptions) -> Result<Exit, Failure> {
-    let scenes = load(arguments)?;
+pub fn run(arguments: &ConvergenceArguments, plan: &PlanOptions, access: &LoadOptions) -> Result<Exit, Failure> {
+    let scenes = load(arguments, access)?;
     let axes = Axes::from(&arguments.axes);
     let settings = axes.variants(&scenes[0].render).len();
     if settings > MOST_SETTINGS {
@@ -68,17 +68,17 @@ pub fn run(arguments: &ConvergenceArguments, plan: &PlanOptions) -> Result<Exit,
 }
 
 /// All scenes, so that a mistyped name shows before the first is measured.
-fn load(arguments: &ConvergenceArguments) -> Result<Vec<Scene>, Failure> {
+fn load(arguments: &ConvergenceArguments, access: &LoadOptions) -> Result<Vec<Scene>, Failure> {
     let default = ["cornell".to_owned()];
     let names = if arguments.scenes.is_empty() { &default[..] } else { &arguments.scenes };
     if arguments.reference.is_some() && names.len() > 1 {
         return Err(Failure::usage("--reference is a picture of one scene, and several are named"));
     }
-    names.iter().map(|name| load_one(name, arguments)).collect()
+    names.iter().map(|name| load_one(name, arguments, access)).collect()
 }
 
-fn load_one(name: &str, arguments: &ConvergenceArguments) -> Result<Scene, Failure> {
-    let mut scene = load::load(Some(name))?;
+fn load_one(name: &str, arguments: &ConvergenceArguments, access: &LoadOptions) -> Result<Scene, Failure> {
+    let mut scene = load::load_with(Some(name.as_ref()), access)?;
     for warning in &scene.warnings {
         terminal::warn(warning);
     }

@@ -17,9 +17,10 @@ use super::traversal::TraversalArguments;
 /// Does the measurement that was asked for.
 pub fn run(arguments: &BenchArguments) -> Result<Exit, Failure> {
     let plan = PlanOptions { device_timeout: arguments.device_timeout, ..TraversalArguments::default().options() };
+    let access = arguments.files.options(false);
     match &arguments.bench {
-        Bench::Convergence(arguments) => convergence::run(arguments, &plan),
-        Bench::Speed(arguments) => speed::run(arguments, plan),
+        Bench::Convergence(arguments) => convergence::run(arguments, &plan, &access),
+        Bench::Speed(arguments) => speed::run(arguments, plan, &access),
         Bench::Features(arguments) => features::run(arguments, &plan),
     }
 }

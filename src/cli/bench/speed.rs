@@ -5,7 +5,7 @@ use gpt::bench::machine::Machine;
 use gpt::bench::report::{speed_csv, speed_page, speed_text};
 use gpt::bench::speed::{SpeedOptions, SpeedTable, measure};
 use gpt::bench::subject::{BenchError, Devices};
-use gpt::load;
+use gpt::load::{self, LoadOptions};
 use gpt::plan::{PlanOptions, StageMode};
 use gpt::scene::Scene;
 use serde::Serialize;
@@ -23,10 +23,10 @@ struct File<'a> {
 }
 
 /// Measures table after table and writes the results.
-pub fn run(arguments: &SpeedArguments, plan: PlanOptions) -> Result<Exit, Failure> {
+pub fn run(arguments: &SpeedArguments, plan: PlanOptions, access: &LoadOptions) -> Result<Exit, Failure> {
     let default = ["cornell", "spheres", "veach-mis"].map(str::to_owned);
     let names = if arguments.scenes.is_empty() { &default[..] } else { &arguments.scenes };
-    let scenes: Result<Vec<Scene>, Failure> = names.iter().map(|name| Ok(load::load(Some(name))?)).collect();
+    let scenes: Result<Vec<Scene>, Failure> = names.iter().map(|name| Ok(load::load_with(Some(name.as_ref()), access)?)).collect();
     let scenes = scenes?;
     for warning in scenes.iter().flat_map(|scene| &scene.warnings) {
         terminal::warn(warning);

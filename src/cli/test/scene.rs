@@ -7,7 +7,7 @@ use std::time::Instant;
 use gpt::RenderOptions;
 use gpt::Scene;
 use gpt::compare::flip::{PIXELS_PER_DEGREE, flip};
-use gpt::load::{LoadOptions, SceneSource};
+use gpt::load::SceneSource;
 use gpt::output::{OutputError, PICTURE_ENDINGS, PictureFormat};
 use gpt::picture_test::bless::{Blessed, bless};
 use gpt::picture_test::candidate::judge_candidate;
@@ -72,7 +72,7 @@ fn test_into(job: &Job, arguments: &TestArguments, settings: &TestSettings, repo
         return test_candidate(job, folder, (arguments, settings), report);
     }
     let source = SceneSource::parse(Some(job.file.as_os_str()))?;
-    let scene = source.load(&LoadOptions::default())?;
+    let scene = source.load(&arguments.files.options(false))?;
     for warning in &scene.warnings {
         terminal::warn(&format!("{}: {warning}", job.name));
     }

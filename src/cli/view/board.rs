@@ -44,7 +44,7 @@ pub struct Status {
     pub total: u64,
     /// Since the render began, until it was over.
     pub seconds: f64,
-    /// Relative mean squared error that is expected, and what it is below with 95 % confidence, where there is one to reach.
+    /// Relative mean squared error that is expected, and that with a margin for chance, where there is one to reach.
     pub error: Option<[f64; 2]>,
     /// How often the scene was rendered.
     pub round: u32,

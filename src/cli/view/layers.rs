@@ -54,6 +54,8 @@ impl LayerImage {
 
 #[cfg(test)]
 mod tests {
+    use gpt::output::SAMPLE_COUNT;
+
     use super::*;
 
     #[test]
@@ -61,7 +63,7 @@ mod tests {
         let picture = Arc::new(LayerPicture::new([2, 1]).expect("a temporary file"));
         picture.write_rows(0, &[[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]).expect("it is written");
         let component = |name, place| LayerChannel { name, source: LayerSource::Component(picture.clone(), place) };
-        let count = LayerChannel { name: "SampleCount", source: LayerSource::Count };
+        let count = LayerChannel { name: SAMPLE_COUNT, source: LayerSource::Count };
         let channels =
             [component("N.X", 0), component("N.Y", 1), component("N.Z", 2), count, component("Z", 0), component("A", 1)];
         let layers = layer_images(&channels, [2, 1]);

@@ -1,11 +1,12 @@
 //! The page's server: on this machine's own address alone, each request in a thread of its own, so that neither a slow browser nor a render waits for
 //! the other.
 
+use std::collections::VecDeque;
 use std::hash::{BuildHasher, RandomState};
 use std::io;
-use std::net::{Ipv4Addr, TcpListener, TcpStream};
-use std::sync::Arc;
+use std::net::{Ipv4Addr, Shutdown, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -33,8 +34,9 @@ const PAGE: &str = concat!(
 const PATIENCE: Duration = Duration::from_secs(10);
 /// Longest time that a request for news waits for some.
 const LONGEST_WAIT: Duration = Duration::from_secs(8);
-/// Requests that are answered at a time.
+/// Requests with the secret that are answered at a time, and connections that have not shown it yet.
 const MOST_REQUESTS: usize = 32;
+const MOST_STRANGERS: usize = 32;
 
 /// A server that is running; it ends with the program.
 pub struct Server {
@@ -65,31 +67,71 @@ fn secret() -> String {
 }
 
 fn serve(listener: &TcpListener, door: &Arc<Door>, board: &Arc<Board>) {
-    let open = Arc::new(AtomicUsize::new(0));
+    let (open, strangers) = (Arc::new(AtomicUsize::new(0)), Arc::new(Strangers::default()));
     loop {
         let Ok((connection, _)) = listener.accept() else {
             // Out of file handles, say: some will come back.
             thread::sleep(Duration::from_millis(50));
             continue;
         };
-        if open.fetch_add(1, Ordering::SeqCst) >= MOST_REQUESTS {
-            open.fetch_sub(1, Ordering::SeqCst);
-            continue;
-        }
-        let counted = Counted(open.clone());
-        let (door, board) = (door.clone(), board.clone());
+        let connection = Arc::new(connection);
+        let stranger = Strangers::enter(&strangers, &connection);
+        let (door, board, open) = (door.clone(), board.clone(), open.clone());
         // Without a thread the connection is closed, and the browser asks again. A browser that goes away is no failure.
         let _ = thread::Builder::new().name("view request".to_owned()).spawn(move || {
-            let _ = converse(&connection, &door, &board);
-            drop(counted);
+            let _ = converse(&connection, stranger, (&door, &board, &open));
         });
     }
 }
 
-/// A request under way.
-struct Counted(Arc<AtomicUsize>);
+/// Connections that have not shown the secret yet, the oldest first. It makes room for a new one: who holds many open keeps nobody out, for a browser
+/// sends its request at once.
+#[derive(Default)]
+struct Strangers {
+    next: AtomicUsize,
+    waiting: Mutex<VecDeque<(usize, Arc<TcpStream>)>>,
+}
 
-impl Drop for Counted {
+/// A connection among them, as long as it is one.
+struct Stranger(Arc<Strangers>, usize);
+
+impl Strangers {
+    fn enter(strangers: &Arc<Self>, connection: &Arc<TcpStream>) -> Stranger {
+        let number = strangers.next.fetch_add(1, Ordering::Relaxed);
+        let mut waiting = strangers.waiting();
+        waiting.push_back((number, connection.clone()));
+        if waiting.len() > MOST_STRANGERS
+            && let Some((_, oldest)) = waiting.pop_front()
+        {
+            // Its thread finds that it is closed.
+            let _ = oldest.shutdown(Shutdown::Both);
+        }
+        Stranger(strangers.clone(), number)
+    }
+
+    fn waiting(&self) -> MutexGuard<'_, VecDeque<(usize, Arc<TcpStream>)>> {
+        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Drop for Stranger {
+    fn drop(&mut self) {
+        self.0.waiting().retain(|(number, _)| *number != self.1);
+    }
+}
+
+/// A request under way.
+struct Counted<'a>(&'a AtomicUsize);
+
+impl<'a> Counted<'a> {
+    /// None: there are too many.
+    fn begin(open: &'a AtomicUsize) -> Option<Self> {
+        let counted = Self(open);
+        (open.fetch_add(1, Ordering::SeqCst) < MOST_REQUESTS).then_some(counted)
+    }
+}
+
+impl Drop for Counted<'_> {
     fn drop(&mut self) {
         self.0.fetch_sub(1, Ordering::SeqCst);
     }
@@ -109,7 +151,7 @@ impl io::Read for Until<'_> {
     }
 }
 
-fn converse(connection: &TcpStream, door: &Door, board: &Board) -> io::Result<()> {
+fn converse(connection: &TcpStream, stranger: Stranger, (door, board, open): (&Door, &Board, &AtomicUsize)) -> io::Result<()> {
     connection.set_nodelay(true)?;
     connection.set_write_timeout(Some(PATIENCE))?;
     let request = match Request::read(Until(connection, Instant::now() + PATIENCE)) {
@@ -123,6 +165,10 @@ fn converse(connection: &TcpStream, door: &Door, board: &Board) -> io::Result<()
     let Some(path) = door.admit(&request) else {
         let words = b"The address that gpt printed has a secret in it, and this one has not.\n";
         return answer(connection, "403 Forbidden", TEXT, words, with_body);
+    };
+    drop(stranger);
+    let Some(_counted) = Counted::begin(open) else {
+        return answer(connection, "503 Service Unavailable", TEXT, b"There are too many requests at a time.\n", with_body);
     };
     if request.method != "GET" && request.method != "HEAD" {
         return answer(connection, "405 Method Not Allowed", TEXT, b"There is only something to get.\n", true);

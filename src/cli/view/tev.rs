@@ -3,15 +3,20 @@
 use std::io::{self, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::sync::Arc;
+use std::sync::mpsc::channel;
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::super::terminal;
 use super::board::{Board, Picture};
 
-/// How long a connection may take to come about, and a packet to be taken.
+/// How long a connection may take to come about, with the search for its address, and a packet to be taken.
 const CONNECT: Duration = Duration::from_secs(3);
 const PATIENCE: Duration = Duration::from_secs(30);
+/// How long the last picture may take when the render is over: a viewer that takes no more does not hold the program.
+const LAST_PICTURE: Duration = Duration::from_secs(3);
+/// Between two looks at whether it was taken.
+const LOOK: Duration = Duration::from_millis(2);
 /// Pixels of a packet, in whole rows.
 const PIXELS_AT_ONCE: u32 = 1 << 16;
 
@@ -26,27 +31,47 @@ const UPDATE_IMAGE: u8 = 6;
 /// # Errors
 /// There is nobody from the beginning.
 pub fn start(address: &str, board: Arc<Board>) -> io::Result<Sender> {
-    let connection = connect(address)?;
+    let connection = connect_in_time(address)?;
     board.receivers(1);
-    let address = address.to_owned();
+    let (address, of_thread) = (address.to_owned(), address.to_owned());
     let thread = thread::Builder::new().name("tev".to_owned()).spawn(move || {
         if let Err(error) = send_pictures(&connection, &board) {
-            terminal::warn(&format!("--display {address} takes no more pictures: {error}; the render goes on"));
+            terminal::warn(&format!("--display {of_thread} takes no more pictures: {error}; the render goes on"));
         }
         board.receivers(-1);
     })?;
-    Ok(Sender(thread))
+    Ok(Sender { address, thread })
 }
 
 /// Sends pictures until the board is closed.
-pub struct Sender(thread::JoinHandle<()>);
+pub struct Sender {
+    address: String,
+    thread: thread::JoinHandle<()>,
+}
 
 impl Sender {
-    /// Waits until the last picture is sent. The board is closed.
+    /// Waits a while for the last picture to be sent. The board is closed.
     pub fn join(self) {
-        // It panics nowhere, and if it did nothing would be lost but a picture.
-        let _ = self.0.join();
+        let closed = Instant::now();
+        while !self.thread.is_finished() && closed.elapsed() < LAST_PICTURE {
+            thread::sleep(LOOK);
+        }
+        if !self.thread.is_finished() {
+            let (address, seconds) = (self.address, LAST_PICTURE.as_secs());
+            terminal::warn(&format!("--display {address} did not take the last picture within {seconds} s, and may show an earlier one"));
+        }
     }
+}
+
+/// As [`connect`], however long a name takes to be found.
+fn connect_in_time(address: &str) -> io::Result<TcpStream> {
+    let (sender, receiver) = channel();
+    let of_thread = address.to_owned();
+    thread::Builder::new().name("tev address".to_owned()).spawn(move || {
+        // Nobody waits any more, perhaps.
+        let _ = sender.send(connect(&of_thread));
+    })?;
+    receiver.recv_timeout(CONNECT).unwrap_or_else(|_| Err(io::ErrorKind::TimedOut.into()))
 }
 
 fn connect(address: &str) -> io::Result<TcpStream> {

@@ -1,6 +1,7 @@
 //! Buffers, what they are packed by, and accessors into them.
 
 use std::borrow::Cow;
+use std::cell::Cell;
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -13,8 +14,10 @@ use crate::load::files::{Files, MOST_MODEL_BYTES};
 
 /// Bytes to which buffers are padded.
 const PADDING: u64 = 4;
-/// Most elements of an accessor without a buffer, whose elements are 0.
-const MOST_ZEROS: u64 = 1 << 24;
+/// Most elements of accessors without a buffer, whose elements are 0, and most bytes that are decoded of all accessors, each time that one is asked for:
+/// for each byte of the files, and beside a first amount. An accessor takes a line, and may say that it has any number of elements.
+const MOST_ZEROS: (u64, u64) = (16, 1 << 22);
+const MOST_DECODED: (u64, u64) = (256, 1 << 30);
 /// Most bytes that packed views take once they are unpacked, for each byte of the files and beside a first amount.
 const MOST_UNPACKED: (u64, u64) = (256, 1 << 20);
 
@@ -24,6 +27,9 @@ pub struct Buffers<'r> {
     buffers: Vec<Vec<u8>>,
     /// Views that meshopt packed, by their index.
     unpacked: HashMap<usize, Vec<u8>>,
+    /// How much of [`MOST_ZEROS`] and of [`MOST_DECODED`] is left.
+    zeros_left: Cell<u64>,
+    bytes_left: Cell<u64>,
 }
 
 impl<'r> Buffers<'r> {
@@ -47,7 +53,10 @@ impl<'r> Buffers<'r> {
             }
             buffers.push(bytes);
         }
-        let mut loaded = Self { root, buffers, unpacked: HashMap::new() };
+        let there: u64 = buffers.iter().map(|bytes| bytes.len() as u64).sum();
+        let most = |(factor, first): (u64, u64)| Cell::new(there.saturating_mul(factor).saturating_add(first));
+        let [zeros_left, bytes_left] = [MOST_ZEROS, MOST_DECODED].map(most);
+        let mut loaded = Self { root, buffers, unpacked: HashMap::new(), zeros_left, bytes_left };
         loaded.unpack()?;
         Ok(loaded)
     }
@@ -135,8 +144,15 @@ impl<'r> Buffers<'r> {
         decode: impl Fn(&[u8]) -> T,
     ) -> Result<Vec<T>, String> {
         let size = kind.size() * width;
+        let take = |left: &Cell<u64>, count: u64| left.get().checked_sub(count).map(|rest| left.set(rest));
+        if accessor.buffer_view.is_none() && take(&self.zeros_left, accessor.count).is_none() {
+            return Err(format!("it has {} elements and no buffer, which is more than a file of this size has use for", accessor.count));
+        }
+        if take(&self.bytes_left, accessor.count.saturating_mul(size as u64)).is_none() {
+            let what = "accessors are read over and over, or overlap: it is the one with which they are more than a file of this size has use for";
+            return Err(what.to_owned());
+        }
         let mut elements = match accessor.buffer_view {
-            None if accessor.count > MOST_ZEROS => return Err(format!("it has {} elements and no buffer", accessor.count)),
             None => vec![T::default(); accessor.count as usize * width],
             Some(view) => {
                 let stride = self.root.buffer_views.get(view).and_then(|view| view.byte_stride).unwrap_or(size as u64);

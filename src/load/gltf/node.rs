@@ -16,6 +16,10 @@ use crate::scene::Mesh;
 
 /// Bytes that a triangle takes once it is packed, with its share of the hierarchy.
 const TRIANGLE_BYTES: u64 = 200;
+/// Bytes that a copy of a mesh takes while it is read and in the scene.
+const COPY_BYTES: u64 = 512;
+/// Copies from which on it is asked whether there is memory for them.
+const MANY_COPIES: u64 = 1 << 18;
 /// Most shapes of a scene.
 const MOST_SHAPES: usize = 1 << 20;
 /// Degrees that a scene's camera may have.
@@ -54,11 +58,20 @@ impl Importer<'_> {
         placed.iter().for_each(|placed| world[placed.node] = Some(placed.map));
         // Of each mesh that keeps its form: the nodes that show it, and where.
         let mut copies: BTreeMap<usize, Vec<Placed>> = BTreeMap::new();
+        let mut count = 0;
         for &Placed { node: index, map, .. } in placed.iter().filter(|placed| placed.is_visible) {
             let node = &self.root.nodes[index];
             // What moves or is bent by itself is a shape of its own.
             let Some(mesh) = node.mesh.filter(|_| self.has_mesh_of_others(index, &moving)) else { continue };
             let maps = self.instances(node).map_err(|message| format!("nodes[{index}]: {message}"))?;
+            count += maps.len() as u64;
+            if count > MANY_COPIES && count * COPY_BYTES > memory::available() / 2 {
+                let (needed, available) = ((count * COPY_BYTES) >> 20, memory::available() >> 20);
+                return Err(format!(
+                    "the scene does not fit: up to nodes[{index}] meshes stand in {count} places, which take about {needed} MiB; {available} MiB \
+                     are free"
+                ));
+            }
             copies.entry(mesh).or_default().extend(maps.into_iter().map(|own| Placed {
                 node: index,
                 map: map * own,

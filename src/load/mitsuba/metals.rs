@@ -124,7 +124,7 @@ struct Measured {
     k: [f64; 3],
 }
 
-const MEASURED: [Measured; 12] = [
+const MEASURED: [Measured; 11] = [
     // Amorphous carbon: Arakawa, Dolfini, Ashley and Williams 1985, Phys. Rev. B 31, 8097.
     Measured { name: "a-c", n: [2.4532, 2.3467, 2.1706], k: [0.7287, 0.8434, 0.8950] },
     // Inagaki, Arakawa and Williams 1981, Phys. Rev. B 23, 5246.
@@ -135,7 +135,6 @@ const MEASURED: [Measured; 12] = [
     // Rasigni and Rasigni 1977, J. Opt. Soc. Am. 67, 54.
     Measured { name: "li", n: [0.2207, 0.2059, 0.2420], k: [2.9781, 2.4330, 1.8542] },
     // Weaver, Lynch and Olson 1973, Phys. Rev. B 7, 4311; Weaver, Olson and Lynch 1975, Phys. Rev. B 12, 1293, and 1977, Phys. Rev. B 15, 4115.
-    Measured { name: "nb", n: [2.9108, 2.9091, 2.6209], k: [2.8305, 2.8863, 2.8116] },
     Measured { name: "rh", n: [2.1595, 1.9600, 1.7220], k: [5.6800, 4.9553, 4.3900] },
     Measured { name: "w", n: [3.6349, 3.4933, 3.3129], k: [2.9225, 2.7468, 2.5046] },
     // Pflüger, Fink, Weber, Bohnen and Crecelius 1984, Phys. Rev. B 30, 1155.
@@ -152,8 +151,9 @@ struct Told {
     k: [f64; 3],
 }
 
-/// By Palik 1998, Handbook of Optical Constants of Solids, but for diamond (Phillip and Taft 1964) and vanadium (Johnson and Christy 1974).
-const TOLD: [Told; 20] = [
+/// By Palik 1998, Handbook of Optical Constants of Solids, but for diamond (Phillip and Taft 1964), vanadium (Johnson and Christy 1974) and niobium
+/// (Weaver, Lynch and Olson 1973, Phys. Rev. B 7, 4311).
+const TOLD: [Told; 21] = [
     Told { name: "alas", n: [3.6053, 3.2329, 2.2163], k: [0.0007, 0.0, 0.0075] },
     Told { name: "alsb", n: [0.0, 4.1394, 4.6693], k: [0.0, 0.0940, 1.3006] },
     Told { name: "cr", n: [4.3697, 2.9165, 1.6549], k: [5.2065, 4.2313, 3.7547] },
@@ -165,6 +165,7 @@ const TOLD: [Told; 20] = [
     Told { name: "ir", n: [3.0863, 2.0822, 1.6179], k: [5.5922, 4.0671, 3.2673] },
     Told { name: "mgo", n: [2.0896, 1.6507, 1.5949], k: [0.0; 3] },
     Told { name: "mo", n: [4.4840, 3.5251, 2.7763], k: [4.1114, 3.4208, 3.1506] },
+    Told { name: "nb", n: [3.4201, 2.7901, 2.3956], k: [3.4414, 2.7377, 2.5798] },
     Told { name: "ni", n: [2.3673, 1.6634, 1.4671], k: [4.4988, 3.0502, 2.3454] },
     Told { name: "se", n: [4.0583, 2.8429, 2.8209], k: [0.7540, 0.6384, 0.5218] },
     Told { name: "sic", n: [3.1723, 2.5260, 2.4794], k: [0.0; 3] },

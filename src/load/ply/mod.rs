@@ -8,13 +8,13 @@ mod elements;
 mod header;
 
 use std::collections::HashSet;
-use std::io::{BufRead, BufReader, Cursor, Read};
+use std::io::{BufRead, BufReader, Cursor, Read, SeekFrom};
 use std::path::Path;
 
 use flate2::bufread::MultiGzDecoder;
 use glam::{DVec3, Vec2, Vec3};
 
-use crate::input;
+use crate::input::{self, AnyFile};
 use crate::load::encoding;
 use crate::load::error::{SceneError, show};
 use crate::load::files::{Files, MOST_MODEL_BYTES};
@@ -47,12 +47,29 @@ fn open(files: &Files, path: &Path, with_rest: bool) -> Result<ModelFile, SceneE
     let mut file = files.open(path).map_err(cannot_be_read)?;
     let packed = file.fill_buf().map_err(cannot_be_read)?.starts_with(&[0x1f, 0x8b]);
     let mut model = if packed {
-        read(&name, &mut BufReader::new(MultiGzDecoder::new(file).take(MOST_MODEL_BYTES)), with_rest)?
+        let most = most_unpacked(&mut file).map_err(cannot_be_read)?;
+        // One byte more tells a file that is too large from one that ends there.
+        let mut unpacked = BufReader::new(MultiGzDecoder::new(file).take(most + 1));
+        let model = read(&name, &mut unpacked, with_rest);
+        if unpacked.get_ref().limit() == 0 {
+            let what = format!("unpacked, it is more than the {} MiB that are read of a file of its size", most >> 20);
+            return Err(SceneError::in_file(&name, what));
+        }
+        model?
     } else {
         read(&name, &mut file, with_rest)?
     };
     model.substitutes.iter_mut().for_each(|(file, _)| path.clone_into(file));
     Ok(model)
+}
+
+/// Most bytes of a packed file once it is unpacked: so many for each of its own, and a first amount. Models take a tenth packed, and zeros a thousandth.
+fn most_unpacked(file: &mut AnyFile) -> std::io::Result<u64> {
+    const FACTOR: u64 = 128;
+    const FIRST: u64 = 1 << 24;
+    let length = file.seek(SeekFrom::End(0))?;
+    file.rewind()?;
+    Ok(length.saturating_mul(FACTOR).saturating_add(FIRST).min(MOST_MODEL_BYTES))
 }
 
 /// What is read so far.

@@ -1,5 +1,6 @@
 //! Pictures of all formats, finished, broken off, and beside others.
 
+use exr::io::PeekRead;
 use exr::meta::MetaData;
 use exr::meta::attribute::AttributeValue;
 use exr::prelude::{Text, Vec2};
@@ -64,6 +65,40 @@ fn an_exr_comes_back_bit_by_bit_with_its_attributes() {
     assert_eq!(attribute("gpt:firstSample"), AttributeValue::I32(128));
     assert_eq!(attribute("gpt:samples"), AttributeValue::I32(64));
     assert_eq!(attribute("gpt:complete"), AttributeValue::I32(1));
+}
+
+/// Whatever the compression and the channels; and where a bit is another, it is not.
+#[test]
+fn the_digest_of_a_file_is_that_of_what_it_holds() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.exr");
+    let check = || crate::picture_file::open_exr::check_digest(crate::input::open_to_decode(&path).unwrap());
+    let counts: Vec<u32> = (0..37 * 20).map(|pixel| if pixel < 100 { 7 } else { 3 }).collect();
+    for compression in ExrCompression::ALL {
+        for (half, is_part) in [(false, false), (true, false), (false, true)] {
+            let part = is_part.then_some(crate::output::PartSpec { film: [100, 50], origin: [11, 7] });
+            let spec = PictureSpec { exr: ExrOptions { half, compression }, part, ..spec(37, 20, 1) };
+            let mut file = PictureFile::create(&path, PictureFormat::Exr, &spec).unwrap();
+            let band = Band { counts: Some(counts.clone()), ..Band::clone(&band(0, 20, 37, 3)) };
+            file.write_band(&Arc::new(band)).unwrap();
+            file.finish().unwrap();
+            assert_eq!(check(), Ok(true), "{compression:?} {half} {is_part}");
+            let (bytes, whole) = (std::fs::read(&path).unwrap(), read_image(&path).unwrap());
+            // Blocks begin where the table of offsets says.
+            let mut reader = std::io::Cursor::new(&bytes);
+            let meta = MetaData::read_from_buffered(&mut reader, true).unwrap();
+            let tables = MetaData::read_offset_tables(&mut PeekRead::new(&mut reader), &meta.headers).unwrap();
+            let start = tables[0].iter().copied().min().unwrap() as usize;
+            for index in (start..bytes.len()).step_by(((bytes.len() - start) / 60).max(1)) {
+                let mut bad = bytes.clone();
+                bad[index] ^= 1 << (index % 8);
+                std::fs::write(&path, bad).unwrap();
+                // A bit that no decoder looks at does no harm.
+                let is_harmless = || read_image(&path).is_ok_and(|image| image == whole);
+                assert!(check() != Ok(true) || is_harmless(), "{compression:?} {half} {is_part}: byte {index}");
+            }
+        }
+    }
 }
 
 #[test]

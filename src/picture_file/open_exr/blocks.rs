@@ -33,18 +33,13 @@ pub fn read_lines(mut file: AnyFile, part: usize, wanted: &[usize], mut take: im
         return subsampled_lines(file, &meta, part, wanted, &mut take);
     }
     file.rewind().map_err(|error| error.to_string())?;
-    let reader = exr::block::read(file, false).map_err(|error| error.to_string())?;
-    let header = reader.headers().get(part).ok_or("it has no such part")?.clone();
-    let windows = Windows::of(&header);
-    let reader = reader
-        .filter_chunks(false, |_, _, block: BlockIndex| {
-            let size = [block.pixel_size.width(), block.pixel_size.height()];
-            let start = [block.pixel_position.x(), block.pixel_position.y()];
-            block.layer == part && block.level == Vec2(0, 0) && windows.show(start, size)
-        })
-        .map_err(|error| error.to_string())?;
     let mut numbers = Vec::new();
-    let insert = |_: &_, block: UncompressedBlock| {
+    let is_shown = |windows: Windows, block: &BlockIndex| {
+        let size = [block.pixel_size.width(), block.pixel_size.height()];
+        windows.show([block.pixel_position.x(), block.pixel_position.y()], size)
+    };
+    let windows = meta.headers.get(part).map(Windows::of).ok_or("it has no such part")?;
+    let take_block = |header: &Header, block: UncompressedBlock| {
         for line in block.lines(&header.channels) {
             let channel = line.location.channel;
             if wanted.contains(&channel) {
@@ -52,6 +47,26 @@ pub fn read_lines(mut file: AnyFile, part: usize, wanted: &[usize], mut take: im
                 take((channel, [line.location.position.x(), line.location.position.y()], &numbers));
             }
         }
+    };
+    for_each_block(file, part, |block| is_shown(windows, block), take_block).map(|_| ())
+}
+
+/// Reads the blocks of a part at full resolution that are asked for, in any order, and answers the part's header.
+pub fn for_each_block(
+    file: AnyFile,
+    part: usize,
+    is_wanted: impl Fn(&BlockIndex) -> bool,
+    mut take: impl FnMut(&Header, UncompressedBlock),
+) -> Result<Header, String> {
+    let reader = exr::block::read(file, false).map_err(|error| error.to_string())?;
+    let header = reader.headers().get(part).ok_or("it has no such part")?.clone();
+    let reader = reader
+        .filter_chunks(false, |_, _, block: BlockIndex| {
+            block.layer == part && block.level == Vec2(0, 0) && is_wanted(&block)
+        })
+        .map_err(|error| error.to_string())?;
+    let insert = |_: &_, block: UncompressedBlock| {
+        take(&header, block);
         Ok(())
     };
     let read = if header.layer_size.area() < WORTH_THREADS {
@@ -59,7 +74,8 @@ pub fn read_lines(mut file: AnyFile, part: usize, wanted: &[usize], mut take: im
     } else {
         reader.decompress_parallel(false, insert)
     };
-    read.map_err(|error| error.to_string())
+    read.map_err(|error| error.to_string())?;
+    Ok(header)
 }
 
 /// True where some channel has fewer numbers than pixels.
@@ -68,7 +84,7 @@ pub fn is_subsampled(header: &Header) -> bool {
 }
 
 /// Numbers as they stand in memory, in single precision.
-fn numbers_of(kind: SampleType, bytes: &[u8], numbers: &mut Vec<f32>) {
+pub fn numbers_of(kind: SampleType, bytes: &[u8], numbers: &mut Vec<f32>) {
     numbers.clear();
     match kind {
         SampleType::F16 => numbers.extend(bytes.as_chunks().0.iter().map(|bytes| f16::from_ne_bytes(*bytes).to_f32())),

@@ -4,6 +4,7 @@ mod attributes;
 mod blocks;
 mod chroma;
 mod colours;
+mod digest;
 mod windows;
 
 use exr::meta::MetaData;
@@ -12,7 +13,8 @@ use exr::prelude::Compression;
 use glam::{DMat3, DVec3};
 
 use blocks::RESAVE;
-pub use blocks::read_lines;
+pub use blocks::{Line, read_lines};
+pub use digest::{DIGEST_KEY, LineDigests, check_digest, placeholder, read_checked_lines};
 pub use windows::Windows;
 
 use super::pixels::{Hints, Sink, linear};

@@ -13,7 +13,7 @@ use crate::output::{AtomicFile, OutputError};
 use crate::patience::Watched;
 
 const MAGIC: &[u8; 16] = b"gpt checkpoint\n\0";
-const DIGEST_BYTES: usize = 32;
+pub const DIGEST_BYTES: usize = 32;
 /// A header is no longer: identities and positions take a few thousand bytes.
 const MOST_HEADER_BYTES: u64 = 1 << 20;
 

@@ -9,7 +9,7 @@ use crate::film::KernelLayer;
 use crate::output::Provenance;
 
 /// Number of the files' layout.
-const LAYOUT: &str = "2";
+const LAYOUT: &str = "3";
 const VERSION: &str = "version";
 const SCENE: &str = "scene";
 const BYTES: &str = "byte order";

@@ -121,7 +121,8 @@ impl Checkpoint {
                 path,
                 what: format!("its finished rows are not in {name}: {error}"),
             };
-            self.rows = Some(RowsFile::resume(&self.path, name, *bytes).map_err(unreadable)?);
+            let rows = RowsFile::resume(&self.path, name, *bytes).and_then(|mut rows| rows.check().map(|()| rows));
+            self.rows = Some(rows.map_err(unreadable)?);
         }
         self.seconds_before = saved.seconds;
         let before = saved.steps.as_ref().map_or(0, |steps| steps.tally.samples);

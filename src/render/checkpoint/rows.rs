@@ -1,10 +1,13 @@
-//! Finished rows of pictures that are rendered in bands: a file beside the checkpoint that only grows.
+//! Finished rows of pictures that are rendered in bands: a file beside the checkpoint that only grows, each band with a digest behind it.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use sha2::{Digest, Sha256};
+
+use super::file::{DAMAGED, DIGEST_BYTES};
 use crate::film::Band;
 use crate::patience;
 
@@ -61,6 +64,8 @@ impl RowsFile {
         bytes.extend_from_slice(bytemuck::cast_slice(&band.mean));
         bytes.extend_from_slice(bytemuck::cast_slice(&band.remainder));
         bytes.extend_from_slice(bytemuck::cast_slice(&band.second_moment));
+        let digest = Sha256::digest(&bytes);
+        bytes.extend_from_slice(&digest);
         let (mut file, length) = (self.file.try_clone()?, bytes.len() as u64);
         patience::within(move || file.write_all(&bytes))?;
         self.bytes += length;
@@ -74,29 +79,50 @@ impl RowsFile {
         Ok((self.name.clone(), self.bytes))
     }
 
+    /// Checks that all bands are what was written.
+    ///
+    /// # Errors
+    /// As [`RowsFile::read`].
+    pub fn check(&mut self) -> io::Result<()> {
+        self.read(&mut |_| Ok(()))
+    }
+
     /// Hands over all bands.
+    ///
+    /// # Errors
+    /// A file that cannot be read, bands that are not what was written, and what `on_band` says.
     pub fn read(&mut self, on_band: &mut dyn FnMut(Band) -> io::Result<()>) -> io::Result<()> {
         self.file.rewind()?;
         let mut left = self.bytes;
         while left > 0 {
+            let mut hash = Sha256::new();
             let [first_row, width, rows, samples, has_counts, means, remainders, squares] = {
                 let mut bytes = [0; 32];
                 self.file.read_exact(&mut bytes)?;
+                hash.update(bytes);
                 bytemuck::pod_read_unaligned::<[u32; 8]>(&bytes)
             };
             let counts = if has_counts == 1 { means } else { 0 };
             let length = 4 * u64::from(counts) + 12 * (u64::from(means) + u64::from(remainders)) + 4 * u64::from(squares);
-            left = left.checked_sub(32 + length).ok_or(io::ErrorKind::InvalidData)?;
-            let counts = (has_counts == 1).then(|| self.items(counts)).transpose()?;
-            let (mean, remainder, second_moment) = (self.items(means)?, self.items(remainders)?, self.items(squares)?);
+            let damaged = || io::Error::new(io::ErrorKind::InvalidData, DAMAGED);
+            left = left.checked_sub(32 + length + DIGEST_BYTES as u64).ok_or_else(damaged)?;
+            let counts = (has_counts == 1).then(|| self.items(counts, &mut hash)).transpose()?;
+            let [mean, remainder] = [self.items(means, &mut hash)?, self.items(remainders, &mut hash)?];
+            let second_moment = self.items(squares, &mut hash)?;
+            let mut digest = [0; DIGEST_BYTES];
+            self.file.read_exact(&mut digest)?;
+            if hash.finalize().as_slice() != digest {
+                return Err(damaged());
+            }
             on_band(Band { first_row, width, rows, samples, counts, mean, remainder, second_moment })?;
         }
         self.file.seek(SeekFrom::Start(self.bytes)).map(|_| ())
     }
 
-    fn items<T: bytemuck::Pod>(&mut self, count: u32) -> io::Result<Vec<T>> {
+    fn items<T: bytemuck::Pod>(&mut self, count: u32, hash: &mut Sha256) -> io::Result<Vec<T>> {
         let mut bytes = vec![0; count as usize * size_of::<T>()];
         self.file.read_exact(&mut bytes)?;
+        hash.update(&bytes);
         Ok(bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect())
     }
 }
@@ -169,6 +195,19 @@ mod tests {
         assert_eq!(resumed.name, name);
         assert!(RowsFile::resume(&checkpoint, &name, bytes + 1000).is_err());
         assert!(RowsFile::resume(&checkpoint, "../elsewhere", 0).is_err());
+        // Each byte counts.
+        drop(resumed);
+        let path = checkpoint.with_file_name(&name);
+        let whole = fs::read(&path).expect("the file");
+        for index in 0..whole.len() {
+            let mut bad = whole.clone();
+            bad[index] ^= 0x04;
+            fs::write(&path, bad).expect("the file");
+            assert!(RowsFile::resume(&checkpoint, &name, bytes).and_then(|mut file| file.check()).is_err(), "byte {index}");
+        }
+        fs::write(&path, &whole).expect("the file");
+        let mut resumed = RowsFile::resume(&checkpoint, &name, bytes).expect("the file");
+        assert!(resumed.check().is_ok(), "the control");
         drop(copy);
         remove_all(&checkpoint);
         assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 1, "what is open stays");

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::file::{self, Content, DAMAGED};
 use super::identity::Identity;
 use crate::output::OutputError;
+use crate::render::progressive::error::ErrorEstimate;
 use crate::renderer::state::{BatchState, FilmState, MOST_SAMPLES_PER_SWEEP, Tally};
 
 /// How far a render is.
@@ -37,9 +38,9 @@ pub struct StepsState {
     pub row_samples: Vec<f64>,
     /// Of each stream: the sums of the pixels that are looked at.
     pub streams: Vec<Vec<[f64; 4]>>,
-    /// Times that the error was looked at, and the last estimate with its bound.
+    /// Times that the error was looked at, and the last estimate.
     pub looks: u32,
-    pub error: Option<(f64, f64)>,
+    pub error: Option<ErrorEstimate>,
     /// Mean luminances of the doublings, and how often each pixel's share was doubled before the stage.
     pub doublings: Vec<Vec<f32>>,
     pub levels: Vec<u8>,
@@ -86,7 +87,7 @@ struct StepsHeader {
     rows: usize,
     streams: Vec<usize>,
     looks: u32,
-    error: Option<(f64, f64)>,
+    error: Option<ErrorEstimate>,
     doublings: Vec<usize>,
     levels: usize,
 }
@@ -243,7 +244,7 @@ mod tests {
                 row_samples: vec![1.0, 2.0, 3.0],
                 streams: vec![vec![[1.0; 4]; 2], vec![[2.0; 4]; 2]],
                 looks: 7,
-                error: Some((0.1, 0.2)),
+                error: Some(ErrorEstimate { mean: 0.1, upper: 0.2, by_one: 0.3, effective_pixels: 0.4 }),
                 doublings: vec![vec![1.0; 6], vec![2.0; 6]],
                 levels: vec![1; 6],
             };

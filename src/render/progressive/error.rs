@@ -6,7 +6,11 @@
 //!
 //! The relative error divides by the truth, which is not known. Where one stream holds a rare bright path, the mean holds it too, and dividing
 //! by that would call the pixel's error small. So each stream's deviation is divided by the mean of the *other* streams.
+//!
+//! All of this is of light that samples have found. What none has found is in no variance, and a bound that is made of variances holds where light is
+//! not rare; docs/strategies.md has measurements. Where what was found shows that few paths decide, [`ErrorEstimate::tails_decide`].
 
+use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::compare::RELATIVE_EPSILON;
@@ -15,16 +19,32 @@ use crate::sampling::hash::mix;
 
 /// Pixels that are looked at, at most; of larger pictures an even sample of them.
 const MOST_PIXELS: u64 = 1 << 18;
+/// Tails decide where one stream of each pixel has more than this of the estimate, or fewer pixels than these have it.
+const MOST_BY_ONE: f64 = 0.7;
+const FEWEST_PIXELS: f64 = 12.0;
 /// Probability that a picture called good enough is not, over all looks together.
 const DOUBT: f64 = 0.05;
 
 /// An estimate of the relative mean squared error of a picture.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ErrorEstimate {
     /// Expected relative mean squared error.
     pub mean: f64,
-    /// The error is below this with 95 % confidence, however often one looked.
+    /// The estimate with a margin for chance: where errors of many pixels add up and light is not rare, the error is below this in 95 % of all renders,
+    /// however often one looked.
     pub upper: f64,
+    /// The share of the estimate that is, in each pixel, by the one stream or part that is farthest from the mean. Of 8 that vary as a normal distribution
+    /// does it is about a half; where a single bright path in one of them makes it, nearly all.
+    pub by_one: f64,
+    /// Of how many equal pixels the estimate would vary as much as it does: (Σe)²/Σe² over the pixels' squared errors e.
+    pub effective_pixels: f64,
+}
+
+impl ErrorEstimate {
+    /// Whether few bright paths, or few pixels, make most of the estimate. Then it varies by more than its bound allows for, and mostly it is too small.
+    pub fn tails_decide(&self) -> bool {
+        self.by_one > MOST_BY_ONE || self.effective_pixels < FEWEST_PIXELS
+    }
 }
 
 /// What the streams say of the pixels that are looked at.
@@ -87,12 +107,14 @@ impl ErrorEstimator {
         self.looks += 1;
         let streams = self.sums.len();
         let count = self.pixels.len() as f64;
-        let (mut sum, mut sum_of_squares) = (0.0, 0.0);
+        let (mut sum, mut sum_of_squares, mut by_one) = (0.0, 0.0, 0.0);
         for pixel in 0..self.pixels.len() {
             let mut error = 0.0;
             for channel in 0..3 {
                 let values = (0..streams).map(|stream| self.sums[stream][pixel][channel] / self.sums[stream][pixel][3]);
-                error += squared_error_of_mean(values) / 3.0;
+                let (of_channel, of_one) = squared_error_of_mean(values);
+                error += of_channel / 3.0;
+                by_one += of_one / 3.0;
             }
             sum += error;
             sum_of_squares += error * error;
@@ -105,7 +127,9 @@ impl ErrorEstimator {
         let unseen = 1.0 - count / self.total_pixels as f64;
         let of_choice = unseen * (mean_square - mean * mean).max(0.0) / count;
         let deviation = (of_error + of_estimate + of_choice).sqrt();
-        ErrorEstimate { mean, upper: mean + standard_deviations(self.looks) * deviation }
+        let by_one = if sum > 0.0 { by_one / sum } else { 0.0 };
+        let effective_pixels = if sum > 0.0 { sum * sum / sum_of_squares } else { count };
+        ErrorEstimate { mean, upper: mean + standard_deviations(self.looks) * deviation, by_one, effective_pixels }
     }
 }
 
@@ -116,8 +140,8 @@ pub fn standard_deviations(look: u32) -> f64 {
 }
 
 /// Estimated squared relative error of the mean of independent values: their variance over their number, each deviation relative to
-/// the mean of the others.
-fn squared_error_of_mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
+/// the mean of the others. And what of it is by the one value that adds most.
+fn squared_error_of_mean(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
     let count = values.clone().count() as f64;
     let total: f64 = values.clone().sum();
     let mean = total / count;
@@ -125,7 +149,9 @@ fn squared_error_of_mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
         let others = (total - value) / (count - 1.0);
         (value - mean).powi(2) / (others * others + RELATIVE_EPSILON)
     };
-    values.map(relative).sum::<f64>() / (count * (count - 1.0))
+    let (sum, largest) = values.map(relative).fold((0.0, 0.0), |(sum, largest): (f64, f64), one| (sum + one, largest.max(one)));
+    let scale = 1.0 / (count * (count - 1.0));
+    (scale * sum, scale * largest)
 }
 
 #[cfg(test)]
@@ -141,12 +167,12 @@ mod tests {
 
     #[test]
     fn equal_values_have_no_error_and_a_rare_bright_one_is_not_its_own_excuse() {
-        assert!(squared_error_of_mean([0.7; 8].into_iter()) < 1e-30);
+        assert!(squared_error_of_mean([0.7; 8].into_iter()).0 < 1e-30);
         let mut values = [1.0; 8];
         values[3] = 101.0;
         // The mean is 13.5: 12.5 too much if the others are right.
-        let error = squared_error_of_mean(values.into_iter());
-        assert!(error > 100.0, "{error}");
+        let (error, by_one) = squared_error_of_mean(values.into_iter());
+        assert!(error > 100.0 && by_one > 0.95 * error, "{error} {by_one}");
         // Relative to the common mean, the control, it would be below 1.
         let variance = (87.5_f64.powi(2) + 7.0 * 12.5 * 12.5) / 56.0;
         assert!(variance / (13.5 * 13.5) < 1.0);

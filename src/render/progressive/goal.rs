@@ -18,7 +18,7 @@ pub struct Goal {
     pub region: Option<[u32; 4]>,
     /// No step begins that would end later.
     pub deadline: Option<Instant>,
-    /// Relative mean squared error (as `gpt compare` measures it) that the picture shall have at most, with 95 % confidence.
+    /// Relative mean squared error (as `gpt compare` measures it) that the picture shall have at most, by the estimate with a margin for chance.
     pub target_error: Option<f64>,
     /// More samples where the picture is noisier; the renderer must have been made for it.
     pub adaptive: bool,

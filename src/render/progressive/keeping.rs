@@ -3,7 +3,7 @@
 use std::io;
 
 use super::doublings::Doublings;
-use super::error::ErrorEstimator;
+use super::error::{ErrorEstimate, ErrorEstimator};
 use super::picture::Picture;
 use super::watching::Watch;
 use crate::film::Band;
@@ -50,7 +50,7 @@ pub struct StepBatch<'a> {
     pub watch: Watch<'a>,
     pub picture: &'a mut Picture,
     pub estimator: Option<&'a mut ErrorEstimator>,
-    pub error: Option<(f64, f64)>,
+    pub error: Option<ErrorEstimate>,
     pub doublings: Option<&'a mut Doublings>,
     pub levels: &'a [u8],
     pub place: Place,

@@ -12,7 +12,7 @@ const SHORTEST_STEP: Duration = Duration::from_millis(200);
 /// A step must be expected to end within this part of the time left.
 const CAUTION: f64 = 0.95;
 
-/// Where a render may end before its last sample, its first stage has at least so many samples per pixel, all streams together.
+/// The first stage has at least so many samples per pixel, all streams together.
 const FEWEST_SAMPLES: u32 = 16;
 /// Halves of what all pixels get, in each stream, need a sample each; and half of all samples goes where the noise is.
 const FEWEST_ADAPTIVE_SAMPLES: u32 = 4;
@@ -26,17 +26,17 @@ pub struct Stage {
     pub budget: u32,
 }
 
-/// The stages of `samples` samples per pixel in each of `streams` that follow the noise. One, unless the render may end earlier: then each has twice the
-/// samples of the one before, so that what is spent is always distributed by about the best that is known. None where samples are too few. They
-/// depend on numbers of samples alone, never on what was seen.
-pub fn stages(samples: u32, streams: u32, may_end_early: bool) -> Vec<Stage> {
+/// The stages of `samples` samples per pixel in each of `streams` that follow the noise. Each has twice the samples of the one before, so that whenever
+/// the render ends, what is spent is distributed by about the best that is known. None where samples are too few. They depend on numbers of samples
+/// alone, never on what was seen, and not on what may end the render: a limit that is not reached changes nothing.
+pub fn stages(samples: u32, streams: u32) -> Vec<Stage> {
     if samples < FEWEST_ADAPTIVE_SAMPLES {
         return Vec::new();
     }
     // Of every pixel's samples, a half, in the last stage.
     let half = samples / FEWEST_ADAPTIVE_SAMPLES;
     let mut doublings = 0;
-    while may_end_early && (2 * (half >> (doublings + 1))).saturating_mul(streams) >= FEWEST_SAMPLES {
+    while (2 * (half >> (doublings + 1))).saturating_mul(streams) >= FEWEST_SAMPLES {
         doublings += 1;
     }
     let stage = |number: u32| {
@@ -46,7 +46,8 @@ pub fn stages(samples: u32, streams: u32, may_end_early: bool) -> Vec<Stage> {
     (0..=doublings).map(stage).collect()
 }
 
-/// Keeps steps within the time.
+/// Keeps steps within the time, where a step goes over one part of the film after the other: cut off, it would leave the last of them without samples.
+/// Elsewhere the renderer ends a step where it is, and there is no clock.
 #[derive(Debug)]
 pub struct Clock {
     deadline: Option<Instant>,
@@ -57,6 +58,11 @@ pub struct Clock {
 impl Clock {
     pub fn new(deadline: Option<Instant>) -> Self {
         Self { deadline, rate: None }
+    }
+
+    /// Whether steps are to be kept within some time.
+    pub fn runs(&self) -> bool {
+        self.deadline.is_some()
     }
 
     /// Learns from a step of so many samples per pixel.
@@ -80,20 +86,19 @@ impl Clock {
 mod tests {
     use super::*;
 
-    fn numbers(samples: u32, streams: u32, may_end_early: bool) -> Vec<(u32, u32)> {
-        stages(samples, streams, may_end_early).iter().map(|stage| (stage.floor, stage.budget)).collect()
+    fn numbers(samples: u32, streams: u32) -> Vec<(u32, u32)> {
+        stages(samples, streams).iter().map(|stage| (stage.floor, stage.budget)).collect()
     }
 
     #[test]
     fn stages_double_and_end_with_all_samples() {
-        assert_eq!(numbers(3, 1, true), []);
-        assert_eq!(numbers(4, 1, true), [(2, 4)]);
-        assert_eq!(numbers(100, 1, false), [(50, 100)]);
-        assert_eq!(numbers(256, 1, true), [(16, 32), (32, 64), (64, 128), (128, 256)]);
-        assert_eq!(numbers(35, 8, true), [(2, 4), (4, 8), (8, 16), (16, 35)]);
+        assert_eq!(numbers(3, 1), []);
+        assert_eq!(numbers(4, 1), [(2, 4)]);
+        assert_eq!(numbers(256, 1), [(16, 32), (32, 64), (64, 128), (128, 256)]);
+        assert_eq!(numbers(35, 8), [(2, 4), (4, 8), (8, 16), (16, 35)]);
         for samples in FEWEST_ADAPTIVE_SAMPLES..5_000 {
-            for (streams, may_end_early) in [(1, false), (1, true), (8, true)] {
-                let stages = stages(samples, streams, may_end_early);
+            for streams in [1, 8] {
+                let stages = stages(samples, streams);
                 assert!(stages.windows(2).all(|pair| pair[1].floor == 2 * pair[0].floor && pair[0].budget <= pair[1].floor));
                 assert!(stages.iter().all(|stage| stage.floor >= 2 && stage.floor % 2 == 0 && stage.budget >= 2 * stage.floor));
                 assert_eq!(stages.last().map(|stage| stage.budget), Some(samples));

@@ -63,6 +63,7 @@ impl<'a> Work<'a> {
     /// Nothing is rendered yet.
     pub fn new(renderer: &'a mut dyn Renderer, size: [u32; 2], seed: u32, goal: &'a Goal, observer: &'a dyn Observer) -> Self {
         let streams = if goal.target_error.is_some() { STREAMS } else { 1 };
+        let clock = Clock::new(goal.deadline.filter(|_| !renderer.holds_whole_film()));
         Self {
             renderer,
             observer,
@@ -70,7 +71,7 @@ impl<'a> Work<'a> {
             size,
             seed,
             streams,
-            clock: Clock::new(goal.deadline),
+            clock,
             picture: Picture::new(size),
             estimator: goal.target_error.map(|_| ErrorEstimator::new(size, streams)),
             error: None,
@@ -109,7 +110,7 @@ impl<'a> Work<'a> {
             Some(estimator) => Some(estimator.with_sums(streams, looks)?),
             None => None,
         };
-        self.error = error.map(|(mean, upper)| ErrorEstimate { mean, upper });
+        self.error = error;
         self.report.rays = tally.rays;
         self.report.samples = tally.samples;
         self.report.non_finite_samples = tally.non_finite_samples;
@@ -131,8 +132,7 @@ impl<'a> Work<'a> {
     /// What the renderer reports.
     pub fn run(&mut self) -> Result<Stop, RenderError> {
         let per_stream = (self.goal.samples.len() as u32 / self.streams).max(1);
-        let may_end_early = self.goal.deadline.is_some() || self.goal.target_error.is_some();
-        let stages = if self.goal.adaptive { stages(per_stream, self.streams, may_end_early) } else { Vec::new() };
+        let stages = if self.goal.adaptive { stages(per_stream, self.streams) } else { Vec::new() };
         if self.resume.as_ref().is_some_and(|resume| resume.doublings.is_none() != stages.is_empty()) {
             return Err(RenderError::Internal("the checkpoint does not fit the render's stages".to_owned()));
         }
@@ -281,7 +281,7 @@ impl<'a> Work<'a> {
             watch: Watch { observer: &observer, batch: &batch, width: self.size[0], region: None },
             picture: &mut self.picture,
             estimator: self.estimator.as_mut(),
-            error: self.error.map(|error| (error.mean, error.upper)),
+            error: self.error,
             doublings: doublings.as_mut().map(|(doublings, _)| &mut **doublings),
             levels: &self.levels,
             place: self.place,
@@ -313,12 +313,13 @@ impl<'a> Work<'a> {
         Ok(ended)
     }
 
-    /// Requests of the next step if there is time enough: many enough that looking costs little, few enough not to overshoot.
+    /// Requests of the next step if there is time enough: many enough that looking costs little, few enough not to overshoot. They depend on samples
+    /// and what they showed alone, unless the clock runs.
     fn wanted_requests(&self, samples_per_request: f64) -> u32 {
         let done = self.picture.samples();
         let growth = match (&self.error, self.goal.target_error) {
             (Some(error), Some(target)) => (error.upper / target).clamp(schedule::LEAST_GROWTH, 2.0) - 1.0,
-            _ if self.goal.deadline.is_some() => schedule::GROWTH,
+            _ if self.clock.runs() => schedule::GROWTH,
             // Nothing is to be looked at before the part is over.
             _ => f64::INFINITY,
         };

@@ -43,6 +43,17 @@ pub struct Emission {
 }
 
 impl Material {
+    /// The material itself, not those it blends, sends light that comes from one direction into one direction or nearly, or through a body: no light
+    /// sample of a surface beyond finds the lamp that it comes from.
+    pub fn gathers_light(&self) -> bool {
+        match &self.kind {
+            MaterialKind::Mirror { .. } | MaterialKind::Glass { .. } | MaterialKind::RoughGlass { .. } => true,
+            MaterialKind::Conductor { facets, .. } => facets.are_smooth(),
+            MaterialKind::Principled(principled) => principled.transmission != ColorInput::grey(0.0),
+            _ => false,
+        }
+    }
+
     /// Made of other materials.
     pub fn is_blend(&self) -> bool {
         matches!(self.kind, MaterialKind::Blend { .. })

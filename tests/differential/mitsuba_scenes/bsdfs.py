@@ -64,7 +64,7 @@ def numbers():
     for name, parameter, made, rig, all_forms in slots:
         for form, written in values.of_number(parameter):
             if all_forms or form in values.SHORT_NUMBERS:
-                yield Case("bsdf", name, parameter, form, rig(made(written)), rig(made(number(parameter, 0.45))))
+                yield Case("bsdf", name, parameter, form, rig(made(written)), rig(made(number(parameter, 0.95))))
         yield Case("bsdf", name, parameter, "not given", rig(made("")), rig(made(number(parameter, 0.77))))
 
 
@@ -151,7 +151,7 @@ def plastics():
     yield Case("bsdf", "roughplastic", "alpha", "not given", rough(), rough(number("alpha", 0.5)))
     for distribution in ("beckmann", "ggx"):
         for alpha in (0.05, 0.3, 0.6):
-            yield Case("bsdf", "roughplastic", "distribution", f"{distribution}, alpha {alpha}", rough(string("distribution", distribution), number("alpha", alpha)), rough(number("alpha", 0.15)))
+            yield Case("bsdf", "roughplastic", "distribution", f"{distribution}, alpha {alpha}", rough(string("distribution", distribution), number("alpha", alpha)), rough(number("alpha", 0.95)))
     yield Case("bsdf", "roughplastic", "sample_visible", "false", rough(number("alpha", 0.3), flag("sample_visible", False)), None)
 
 

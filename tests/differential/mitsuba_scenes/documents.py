@@ -162,7 +162,8 @@ def old():
         "cutoffAngle and beamWidth": shape("sphere", diffuse(0.2, 0.5, 0.7)) + words("emitter", element("float", name="cutoffAngle", value=20), element("float", name="beamWidth", value=8), element("rgb", name="intensity", value=30), element("transform", element("lookat", origin="-2, 1, 4", target="0, 0, 0"), name="toWorld"), type_="spot"),
     }
     for form, parts in cases_.items():
-        yield Case("old version", "scene", "spelling", form, old_scene(parts), plain)
+        other = old_scene(shape("sphere", diffuse(0.9, 0.1, 0.1))) if form == "diffuse without a reflectance" else plain
+        yield Case("old version", "scene", "spelling", form, old_scene(parts), other)
     for axis in ("x", "y", "smaller"):
         yield Case("old version", "sensor", "fovAxis", axis, old_scene(shape("sphere", diffuse(0.2, 0.5, 0.7)), fov=element("float", name="fov", value=33) + element("string", name="fovAxis", value=axis)), old_scene(shape("sphere", diffuse(0.2, 0.5, 0.7))))
     yield Case("old version", "sensor", "focalLength", "35mm", old_scene(shape("sphere", diffuse(0.2, 0.5, 0.7)), fov=element("string", name="focalLength", value="35mm")), old_scene(shape("sphere", diffuse(0.2, 0.5, 0.7))))

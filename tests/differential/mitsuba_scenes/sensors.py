@@ -173,7 +173,7 @@ def integrators():
         more = (integer("bsdf_samples", 1),) if parameter == "emitter_samples" else (integer("emitter_samples", 1),) if parameter == "bsdf_samples" else ()
         yield Case("integrator", "direct", parameter, "2", deep("direct", integer(parameter, 2), *more), None)
     yield Case("integrator", "direct", "emitter_samples", "0", deep("direct", integer("emitter_samples", 0), integer("bsdf_samples", 1)), None)
-    yield Case("integrator", "direct", "bsdf_samples", "0", deep("direct", integer("emitter_samples", 1), integer("bsdf_samples", 0)), deep("direct"))
+    yield Case("integrator", "direct", "bsdf_samples", "0", deep("direct", integer("emitter_samples", 1), integer("bsdf_samples", 0)), None)
     for name in ("volpath", "volpathmis", "ptracer"):
         yield Case("integrator", name, "max_depth", "3", deep(name, integer("max_depth", 3)), deep("path", integer("max_depth", 2)))
     yield Case("integrator", "depth", "plugin", "as it is", deep("depth"), deep("path"))
