@@ -145,6 +145,8 @@ fn a_lost_device_leaves_the_picture_so_far() {
         ("", "vkQueueSubmit:100@4:lost"),
         ("", "vkQueueSubmit:100@4:never"),
         ("--time-limit 600", "vkWaitSemaphores:150@4:lost"),
+        // Memory that was enough to begin, and then is not, may be enough another time.
+        ("", "vkQueueSubmit:100@4:memory"),
         ("--adaptive --time-limit 600", "vkQueueSubmit:200@4:lost"),
     ] {
         fs::write(place.path("a.exr"), "what was there before").expect("a file");

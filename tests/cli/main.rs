@@ -30,6 +30,7 @@ mod part_layers;
 mod parts;
 mod picture_files;
 mod picture_tests;
+mod tight_limits;
 mod traversal;
 mod verify;
 mod view;

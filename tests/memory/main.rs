@@ -11,6 +11,8 @@ mod growth;
 mod hostile;
 mod hostile_files;
 mod hostile_imports;
+mod import_budgets;
 mod large_pictures;
 mod many_files;
+mod repeated_renders;
 mod seeds;

@@ -2,8 +2,9 @@
 
 use std::borrow::Cow;
 use std::cell::Cell;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
+use std::rc::Rc;
 
 use base64::Engine as _;
 
@@ -24,7 +25,8 @@ const MOST_UNPACKED: (u64, u64) = (256, 1 << 20);
 /// What the file's buffers hold. Errors are sentences without the file's name.
 pub struct Buffers<'r> {
     root: &'r Root,
-    buffers: Vec<Vec<u8>>,
+    /// Buffers of one file share its bytes.
+    buffers: Vec<Rc<[u8]>>,
     /// Views that meshopt packed, by their index.
     unpacked: HashMap<usize, Vec<u8>>,
     /// How much of [`MOST_ZEROS`] and of [`MOST_DECODED`] is left.
@@ -34,16 +36,24 @@ pub struct Buffers<'r> {
 
 impl<'r> Buffers<'r> {
     pub fn load(files: &Files, folder: &Path, root: &'r Root, mut binary: Option<Vec<u8>>) -> Result<Self, String> {
-        let mut buffers = Vec::new();
+        let mut buffers: Vec<Rc<[u8]>> = Vec::new();
+        let mut of_uris: HashMap<&str, Rc<[u8]>> = HashMap::new();
         for (index, buffer) in root.buffers.iter().enumerate() {
             let of_buffer = |message: String| format!("buffers[{index}]: {message}");
             let is_stand_in = ["EXT_meshopt_compression", "KHR_meshopt_compression"].iter().any(|name| {
                 buffer.extensions.get(*name).and_then(|value| value.get("fallback")).and_then(|f| f.as_bool()) == Some(true)
             });
-            let bytes = match &buffer.uri {
-                Some(uri) => read_uri(files, folder, uri).map_err(of_buffer)?.1,
-                None if is_stand_in => Vec::new(),
-                None if index == 0 && binary.is_some() => binary.take().unwrap_or_default(),
+            let bytes: Rc<[u8]> = match &buffer.uri {
+                Some(uri) => match of_uris.get(uri.as_str()) {
+                    Some(known) => known.clone(),
+                    None => {
+                        let bytes: Rc<[u8]> = read_uri(files, folder, uri).map_err(of_buffer)?.1.into();
+                        of_uris.insert(uri, bytes.clone());
+                        bytes
+                    }
+                },
+                None if is_stand_in => Rc::default(),
+                None if index == 0 && binary.is_some() => binary.take().unwrap_or_default().into(),
                 None => return Err(of_buffer("it names no file, and the file brings no data for it".to_owned())),
             };
             // Missing bytes of a padding are not needed.
@@ -53,7 +63,7 @@ impl<'r> Buffers<'r> {
             }
             buffers.push(bytes);
         }
-        let there: u64 = buffers.iter().map(|bytes| bytes.len() as u64).sum();
+        let there = bytes_of(&buffers);
         let most = |(factor, first): (u64, u64)| Cell::new(there.saturating_mul(factor).saturating_add(first));
         let [zeros_left, bytes_left] = [MOST_ZEROS, MOST_DECODED].map(most);
         let mut loaded = Self { root, buffers, unpacked: HashMap::new(), zeros_left, bytes_left };
@@ -62,7 +72,7 @@ impl<'r> Buffers<'r> {
     }
 
     fn unpack(&mut self) -> Result<(), String> {
-        let there: u64 = self.buffers.iter().map(|bytes| bytes.len() as u64).sum();
+        let there = bytes_of(&self.buffers);
         let mut left = there.saturating_mul(MOST_UNPACKED.0) + MOST_UNPACKED.1;
         for (index, view) in self.root.buffer_views.iter().enumerate() {
             let of_view = |message: String| format!("bufferViews[{index}]: {message}");
@@ -197,6 +207,12 @@ impl<'r> Buffers<'r> {
             _ => Err(format!("its {count} elements do not fit into bufferViews[{view}]")),
         }
     }
+}
+
+/// Bytes of all buffers, each file's once.
+fn bytes_of(buffers: &[Rc<[u8]>]) -> u64 {
+    let mut seen = HashSet::new();
+    buffers.iter().filter(|bytes| seen.insert(Rc::as_ptr(bytes).cast::<u8>())).map(|bytes| bytes.len() as u64).sum()
 }
 
 /// Numbers of an element; None of a type that is not known.

@@ -10,16 +10,22 @@ use super::nesting::check_depth;
 use super::parameters::Parameters;
 use super::plugin::{Plugin, Within, error_at};
 use super::references::{Draft, Part, References, Target};
+use super::shape::{MOST_SHAPES, too_many_shapes};
 use super::versions::{modern_kind, modern_name, old_texture_coordinates};
 use crate::load::encoding;
 use crate::load::error::{SceneError, show};
 use crate::load::files::{Files, MOST_SCENE_BYTES};
 use crate::load::import::{ImportReport, Place};
+use crate::load::memory;
 
 /// Most files that include each other.
 const DEEPEST_INCLUDE: usize = 16;
 /// Most files in all.
 const MOST_INCLUDES: usize = 1000;
+/// Bytes that a plugin or a property takes once it is read, and how many of them there are before it is asked whether there is memory for them: files
+/// that are included over and over have more than their bytes say.
+const ELEMENT_BYTES: u64 = 1 << 10;
+const MANY_ELEMENTS: u64 = 1 << 20;
 
 /// Elements that are plugins.
 const PLUGINS: [&str; 17] = [
@@ -51,6 +57,8 @@ pub struct Reader<'a> {
     references: References,
     pub report: ImportReport,
     included: usize,
+    elements: u64,
+    shapes: usize,
 }
 
 /// What the elements of one file have in common.
@@ -77,6 +85,8 @@ impl<'a> Reader<'a> {
             references: References::default(),
             report: ImportReport::default(),
             included: 0,
+            elements: 0,
+            shapes: 0,
         }
     }
 
@@ -145,6 +155,21 @@ impl<'a> Reader<'a> {
     fn element(&mut self, source: Source, node: Node, around: &mut Draft, depth: usize) -> Result<(), SceneError> {
         let tag = node.tag_name().name();
         let place = source.place(node);
+        self.elements += 1;
+        let needed = self.elements * ELEMENT_BYTES;
+        if self.elements.is_multiple_of(MANY_ELEMENTS) && needed > memory::available() {
+            let message = format!(
+                "the scene does not fit: up to here it has {} elements, included files counted, which take about {} MiB; {} MiB are free",
+                self.elements,
+                needed >> 20,
+                memory::available() >> 20
+            );
+            return Err(error_at(&place, message));
+        }
+        self.shapes += usize::from(tag == "shape");
+        if self.shapes > MOST_SHAPES {
+            return Err(too_many_shapes(&place));
+        }
         match tag {
             "default" => {
                 let (name, value) = (self.needed(source, node, "name")?, self.needed(source, node, "value")?);

@@ -17,6 +17,8 @@ use crate::load::import::{Blocks, Keys, is_uniform, smooth_by_index};
 use crate::load::{obj, ply};
 use crate::scene::Mesh;
 
+const WITHOUT_AREA: &str = "mesh without a face that has area";
+
 impl Converter<'_> {
     pub fn mesh_shape(
         &mut self,
@@ -53,6 +55,11 @@ impl Converter<'_> {
             self.attributes = self.attributes_of_meshes.get(&key).cloned();
             return self.mesh_keys(plugin, file, map).map(Some);
         }
+        // It is not read again to find that it has none.
+        if self.meshes_without_area.contains(&key) {
+            self.drop(plugin, WITHOUT_AREA, "it is left out");
+            return Ok(None);
+        }
         let file: MeshKey = (path.clone(), plugin.name.clone(), index.to_bits());
         let ReadMesh { mut mesh, mends } = match self.read_meshes.remove(&file) {
             Some(known) => known,
@@ -64,7 +71,8 @@ impl Converter<'_> {
             self.approximate(plugin, &format!("`{}`", show(&path)), line + &mend.what);
         }
         if mesh.drop_degenerate_faces() > 0 && mesh.faces.is_empty() {
-            self.drop(plugin, "mesh without a face that has area", "it is left out");
+            self.drop(plugin, WITHOUT_AREA, "it is left out");
+            self.meshes_without_area.insert(key);
             return Ok(None);
         }
         let lacks_normals = flat || mesh.normals.is_empty();

@@ -28,7 +28,7 @@ mod texture;
 mod transform;
 mod versions;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 use std::rc::Rc;
 
@@ -71,6 +71,7 @@ pub fn load(files: &Files, path: &Path, options: &Options) -> Result<Description
         attributes: None,
         attributes_of_meshes: HashMap::new(),
         meshes: HashMap::new(),
+        meshes_without_area: HashSet::new(),
         read_meshes: HashMap::new(),
         triangles: 0,
         copies: HashMap::new(),

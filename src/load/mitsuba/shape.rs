@@ -6,10 +6,10 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::converter::{Converter, StoredGroup};
 use super::emitter;
-use super::plugin::Plugin;
+use super::plugin::{Plugin, error_at};
 use crate::load::error::SceneError;
 use crate::load::import::{
-    Entry, FileReference, Keys, cylinder, disk, grid_sphere, is_uniform, pays_as_instances, square, unit_cube,
+    Entry, FileReference, Keys, Place, cylinder, disk, grid_sphere, is_uniform, pays_as_instances, square, unit_cube,
 };
 use crate::load::memory;
 use crate::scene::Mesh;
@@ -19,7 +19,12 @@ const TRIANGLE_BYTES: u64 = 200;
 /// Most groups within each other.
 const DEEPEST_GROUP: usize = 8;
 /// Most shapes of a scene.
-const MOST_SHAPES: usize = 1 << 20;
+pub const MOST_SHAPES: usize = 1 << 20;
+
+/// What is said where there are more.
+pub fn too_many_shapes(place: &Place) -> SceneError {
+    error_at(place, format!("the scene has more than {MOST_SHAPES} shapes, instances counted"))
+}
 
 impl Converter<'_> {
     pub fn shape(&mut self, plugin: &Rc<Plugin>) -> Result<(), SceneError> {
@@ -133,7 +138,7 @@ impl Converter<'_> {
         let material = material?;
         let keys = self.placed(&map, keys.with("material", material));
         if self.scene.shapes.len() >= MOST_SHAPES {
-            return Err(plugin.error(format!("the scene has more than {MOST_SHAPES} shapes, instances counted")));
+            return Err(too_many_shapes(&plugin.place));
         }
         self.scene.shapes.push(Entry { place: plugin.place.clone(), keys });
         Ok(())
