@@ -8,7 +8,6 @@ use clap::{Args, Parser, Subcommand};
 use gpt::compare::Metric;
 use gpt::film::Layer;
 use gpt::load::LoadOptions;
-use gpt::patience;
 use gpt::plan::Fault;
 use gpt::renderer::DeviceChoice;
 use gpt::scene::settings::MOST_SAMPLES;
@@ -17,6 +16,7 @@ use super::bench::BenchArguments;
 use super::choice::by_name;
 use super::denoise::DenoiseArguments;
 use super::exit::Exit;
+use super::file_arguments::FileArguments;
 use super::film::FilmArguments;
 use super::frames::{FrameArguments, FrameList, parse_frame};
 use super::installing_arguments::{CompletionsArguments, ManArguments};
@@ -162,25 +162,6 @@ const REPORT: &str = "What is said";
 pub struct ScenesArguments {
     /// The scene to print, as a scene file; none: all are listed
     pub name: Option<String>,
-}
-
-/// Which files a scene may name, and how long they are waited for.
-#[derive(Debug, Default, Args)]
-pub struct FileArguments {
-    /// Refuse files that the scene names outside of this folder, wherever links lead
-    #[arg(long, value_name = "DIR", help_heading = SCENE, global = true)]
-    pub assets_root: Option<PathBuf>,
-    /// Give up files whose file system does not answer for so long, when they are read and when they are written
-    #[arg(long, value_name = "SECONDS", default_value = "120", value_parser = parse_seconds, help_heading = SCENE, global = true)]
-    pub file_timeout: Duration,
-}
-
-impl FileArguments {
-    /// What reading a scene may do. From now on, files are waited for as long as that is asked for.
-    pub fn options(&self, strict: bool) -> LoadOptions {
-        patience::set_limit(self.file_timeout);
-        LoadOptions { assets_root: self.assets_root.clone(), strict, ..LoadOptions::default() }
-    }
 }
 
 /// Which files a scene may name, and what is shown of one that holds several things.

@@ -12,6 +12,7 @@ mod devices;
 mod difference_page;
 mod exit;
 mod export;
+mod file_arguments;
 mod film;
 mod first_look;
 mod frames;

@@ -236,7 +236,8 @@ fn check_inputs(outputs: &[(PathBuf, PictureFormat)], arguments: &RenderArgument
 fn needs(arguments: &RenderArguments, scene: &Scene, options: &RenderOptions) -> Needs {
     let [width, height] = options.crop.map_or(scene.film.size, |[_, _, width, height]| [width, height]);
     let film = scene.film.size.map(u64::from).iter().product::<u64>();
-    let film_bytes = film.min(DeviceLimits::default().film_pixels) * FILM_BYTES;
+    let kept = film.min(DeviceLimits::default().film_pixels).min(options.most_film_pixels().unwrap_or(u64::MAX));
+    let film_bytes = kept * FILM_BYTES;
     let of_host = HostNeeds {
         pixels: u64::from(width) * u64::from(height),
         on_cpu: options.device == DeviceChoice::Cpu,

@@ -8,7 +8,7 @@ use gpt::picture_test::TestSettings;
 use gpt::renderer::DeviceChoice;
 use gpt::scene::settings::MOST_SAMPLES;
 
-use crate::cli::arguments::FileArguments;
+use crate::cli::file_arguments::FileArguments;
 use crate::cli::values::{parse_device, parse_seconds};
 
 /// Groups of `gpt test --help`.

@@ -89,7 +89,11 @@ impl std::fmt::Display for Bias {
             return Ok(());
         }
         let (count, most) = (self.undecided_tiles, 100.0 * self.largest_undecided);
-        write!(out, "; in {count} the change is above {:.0} % ({most:+.1} % at most), and noise too large to tell whether that is bias", 100.0 * NOTABLE)
+        write!(
+            out,
+            "; in {count} the change is above {:.0} % ({most:+.1} % at most), and noise too large to tell whether that is bias",
+            100.0 * NOTABLE
+        )
     }
 }
 

@@ -347,7 +347,8 @@ mod tests {
             file.handle().unwrap().write_all(b"hours of work").unwrap();
             file
         };
-        let spoils: [(fn(&Path) -> io::Result<()>, bool); 2] =
+        type Spoil = fn(&Path) -> io::Result<()>;
+        let spoils: [(Spoil, bool); 2] =
             [(|path| fs::create_dir(path), true), (|path| fs::remove_dir_all(folder_of(path)), false)];
         for (name, (spoil, is_beside)) in ["a", "b"].into_iter().zip(spoils) {
             let path = below.join(name).with_extension("exr");

@@ -15,5 +15,8 @@ pub fn temporary_file() -> io::Result<File> {
 /// An error of a temporary file, with the name of the folder and of the variable that chooses it.
 pub fn in_temporary_folder(error: io::Error) -> io::Error {
     let variable = if cfg!(windows) { "TMP" } else { "TMPDIR" };
-    io::Error::new(error.kind(), format!("a temporary file in {} ({variable} names another folder): {error}", temp_dir().display()))
+    io::Error::new(
+        error.kind(),
+        format!("a temporary file in {} ({variable} names another folder): {error}", temp_dir().display()),
+    )
 }

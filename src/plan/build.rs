@@ -76,7 +76,9 @@ impl Plan {
         let uniform_primitives = prefers_uniform && fits_uniform(size_of_val(&packed.primitives[..]));
         let uniform_tables = prefers_uniform && 16 * tables.len() as u64 <= uniform_limit;
         let uniform_nodes = limits.software && !ray_queries && fits_uniform(packed.hierarchy.uniform_node_bytes());
-        let band_rows = limits.band_rows(scene.film.size, film, options.pixel_list);
+        let most_rows = limits.band_rows(scene.film.size, film, options.pixel_list);
+        let wanted_rows = options.most_film_pixels.map_or(u64::MAX, |pixels| (pixels / u64::from(scene.film.size[0])).max(1));
+        let band_rows = most_rows.min(u32::try_from(wanted_rows).unwrap_or(u32::MAX));
         let mut plan = Self {
             geometry,
             traversal,

@@ -32,6 +32,8 @@ pub struct PlanOptions {
     pub film: Option<FilmStorage>,
     /// Let a batch leave pixels out ([`crate::renderer::Batch::selection`]).
     pub pixel_list: bool,
+    /// Most pixels of the film that are kept at a time, where fewer than there is memory for will do: a region takes those of its whole rows.
+    pub most_film_pixels: Option<u64>,
     /// Write down what happens along a path, for [`crate::gpu::GpuRenderer::trace`]; one kernel then traces whole paths.
     pub trace: bool,
     /// What is made in place of the picture, from a scene that is [made ready for it](crate::reference::layer::layer_scene).

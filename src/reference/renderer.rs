@@ -131,7 +131,7 @@ impl ReferenceRenderer {
     /// With a film of so many pixels at a time: those of larger pictures are rendered band by band.
     #[must_use]
     pub fn with_film_pixels(self, pixels: u64) -> Self {
-        Self { pixels_in_memory: pixels, ..self }
+        Self { pixels_in_memory: pixels.min(PIXELS_IN_MEMORY), ..self }
     }
 
     /// What was decided, where the settings leave it open.

@@ -66,5 +66,9 @@ fn no_adapter_notice(why: &str) -> String {
 }
 
 fn on_the_cpu(scene: &Scene, options: &PlanOptions) -> Result<Box<dyn Renderer>, RenderError> {
-    Ok(Box::new(ReferenceRenderer::of_layer(scene, options.layer)?))
+    let renderer = ReferenceRenderer::of_layer(scene, options.layer)?;
+    Ok(Box::new(match options.most_film_pixels {
+        Some(pixels) => renderer.with_film_pixels(pixels),
+        None => renderer,
+    }))
 }

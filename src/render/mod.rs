@@ -9,6 +9,7 @@
 pub mod checkpoint;
 pub mod choice;
 pub mod cryptomatte;
+mod free_memory;
 pub mod image;
 pub mod layers;
 pub mod options;

@@ -46,7 +46,16 @@ impl RenderOptions {
     /// What the plan is told.
     pub(super) fn plan_options(&self) -> PlanOptions {
         // A region of some columns leaves pixels out.
-        PlanOptions { pixel_list: self.adaptive || self.crop.is_some(), ..self.plan.clone() }
+        let pixel_list = self.adaptive || self.crop.is_some();
+        PlanOptions { pixel_list, most_film_pixels: self.most_film_pixels(), ..self.plan.clone() }
+    }
+
+    /// How many pixels of the film are kept at a time, where that is bounded: of a region about as many as it has, or so few that they do not matter. A
+    /// narrow one is rendered in bands, lest whole rows of a wide film be kept for it.
+    #[doc(hidden)]
+    pub fn most_film_pixels(&self) -> Option<u64> {
+        const FEW: u64 = 1 << 20;
+        self.crop.map(|[_, _, width, height]| (u64::from(width) * u64::from(height)).max(FEW))
     }
 
     /// The scene as these options want it.

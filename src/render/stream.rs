@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::checkpoint::{Checkpoint, Identity};
 use super::choice::{Choice, ChosenRenderer};
+use super::free_memory::FreeMemory;
 use super::image::Image;
 use super::options::RenderOptions;
 use super::progressive::{self, Goal, Outcome};
@@ -36,6 +37,8 @@ pub struct Renderer {
     size: [u32; 2],
     provenance: Provenance,
     bulk: BulkDigest,
+    /// Dropped behind the renderer.
+    memory: FreeMemory,
 }
 
 impl Renderer {
@@ -66,7 +69,7 @@ impl Renderer {
         let provenance = Self::provenance_with(&bulk, scene, options, renderer.device());
         let film = scene.film.size;
         let size = options.crop.map_or(film, |[_, _, width, height]| [width, height]);
-        Ok(Self { renderer, notice, options: options.clone(), film, size, provenance, bulk })
+        Ok(Self { renderer, notice, options: options.clone(), film, size, provenance, bulk, memory: FreeMemory })
     }
 
     /// Goes on to another frame of the scene, on the same device and with all that does not change. Both are [`Scene::at_frame`] of one scene, with
@@ -76,13 +79,13 @@ impl Renderer {
     /// As [`Renderer::new`]. There is no renderer any more then.
     #[doc(hidden)]
     pub fn at_frame(self, before: &Scene, scene: &Scene) -> Result<Self, RenderError> {
-        let Self { renderer, notice, options, film, size, bulk, .. } = self;
+        let Self { renderer, notice, options, film, size, bulk, memory, .. } = self;
         let same_meshes = scene.has_meshes_of(before);
         let bulk = if same_meshes { bulk } else { BulkDigest::of(scene) };
         let change = if same_meshes && scene.shapes_stand_as_in(before) { Change::Camera } else { Change::Shapes };
         let renderer = renderer.with_scene(scene, &options.plan_options(), change)?;
         let provenance = Self::provenance_with(&bulk, scene, &options, renderer.device());
-        Ok(Self { renderer, notice, options, film, size, provenance, bulk })
+        Ok(Self { renderer, notice, options, film, size, provenance, bulk, memory })
     }
 
     /// Goes on to another scene, on the same device and with the kernels whose text is the same. `before`: the scene that it had; where they
@@ -92,7 +95,7 @@ impl Renderer {
     /// As [`Renderer::new`]. There is no renderer any more then.
     #[doc(hidden)]
     pub fn with_scene(self, before: &Scene, scene: &Scene) -> Result<Self, RenderError> {
-        let Self { renderer, notice, options, film, provenance: earlier, .. } = self;
+        let Self { renderer, notice, options, film, provenance: earlier, memory, .. } = self;
         let bulk = BulkDigest::of(scene);
         let as_before = Scene { camera: before.camera.clone(), exposure: before.exposure.clone(), ..scene.clone() };
         let same_settings = earlier.settings == scene.render && earlier.filter == scene.film.filter && film == scene.film.size;
@@ -106,7 +109,7 @@ impl Renderer {
         let provenance = Self::provenance_with(&bulk, scene, &options, renderer.device());
         let film = scene.film.size;
         let size = options.crop.map_or(film, |[_, _, width, height]| [width, height]);
-        Ok(Self { renderer, notice, options, film, size, provenance, bulk })
+        Ok(Self { renderer, notice, options, film, size, provenance, bulk, memory })
     }
 
     /// A fingerprint of the scene's meshes and pictures, which all of its frames share but those in which meshes are bent.

@@ -85,7 +85,8 @@ impl Scene {
             .map(|wanted| self.materials_that(wanted));
         let shapes = || self.shapes.iter().chain(self.groups.iter().flat_map(|group| &group.shapes));
         let is_shown = |which: &[bool]| shapes().any(|shape| shape.materials().any(|id| which[id]));
-        let is_map = |light: &Light| matches!(light, Light::Environment(Environment { radiance: EnvironmentRadiance::Map(_), .. }));
+        let is_map =
+            |light: &Light| matches!(light, Light::Environment(Environment { radiance: EnvironmentRadiance::Map(_), .. }));
         is_shown(&gathering) && (is_shown(&emitting) || self.lights.iter().any(is_map))
     }
 

@@ -31,6 +31,8 @@ fn memory_is_what_was_stated() {
             "scene.toml --spp 1 --size 1200x1200 --max-depth 1",
             "scene.toml --spp 16 --size 400x400 --max-depth 1 --adaptive --checkpoint 0.1",
             "grid.obj --spp 1 --size 32x32",
+            // A narrow region does not take the whole width.
+            "scene.toml --spp 1 --size 6000x6000 --max-depth 1 --crop 3000,0,16,6000",
         ] {
             place.expect(0, &format!("render {arguments} --device {device} -q -o a.exr --stats s.json"));
             let stats = place.stats("s.json");

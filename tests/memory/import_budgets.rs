@@ -93,8 +93,10 @@ fn accessors_that_share_their_bytes() {
         root["bufferViews"][0]["byteLength"] = json!(positions.len());
         root["accessors"][0]["count"] = json!(count);
         // Of points, nothing is made.
-        root["meshes"][0]["primitives"] = (0..100_000).map(|_| json!({ "attributes": { "POSITION": 0 }, "indices": 1 })).collect();
-        root["accessors"] = json!([root["accessors"][0], { "bufferView": 0, "componentType": 5121, "count": 3, "type": "SCALAR" }]);
+        root["meshes"][0]["primitives"] =
+            (0..100_000).map(|_| json!({ "attributes": { "POSITION": 0 }, "indices": 1 })).collect();
+        root["accessors"] =
+            json!([root["accessors"][0], { "bufferView": 0, "componentType": 5121, "count": 3, "type": "SCALAR" }]);
     });
     refused(&[("shared.gltf", &shared), ("a.bin", &positions)], "over and over");
 }

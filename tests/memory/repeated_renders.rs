@@ -5,6 +5,8 @@ use gpt::{DeviceChoice, RenderOptions, Renderer, Silent};
 
 use crate::counting::{Peak, take_turn};
 
+const RENDERS: u64 = 60;
+
 const SCENE: &str = "[film]\nsize = [32, 32]\n[render]\nspp = 1\nmax_depth = 2\n[camera]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\nvfov = 40\n\
     [[material]]\nname = \"m\"\ntype = \"diffuse\"\nreflectance = 0.5\n[[shape]]\ntype = \"sphere\"\nmaterial = \"m\"\nradius = 1\ncenter = [0, 0, 0]\n\
     [[light]]\ntype = \"point\"\nposition = [3, 4, 5]\nintensity = 40\n";
@@ -30,11 +32,10 @@ fn renders_give_back_what_they_take() {
     // What is made once is made now.
     (0..20).for_each(|_| render());
     let (peak, before) = (Peak::from_now(), resident());
-    let count = std::env::var("GPT_LOOPS").map_or(40, |n| n.parse().unwrap());
-    for i in 0..count {
-        render();
-        if i % 10 == 9 {
-            println!("{i}: heap {} resident {:?}", peak.bytes_now(), resident().map(|r| r - before.unwrap()));
-        }
+    (0..RENDERS).for_each(|_| render());
+    assert!(peak.bytes_now() < RENDERS as usize * 1024, "{} bytes are kept", peak.bytes_now());
+    if let (Some(before), Some(after)) = (before, resident()) {
+        let growth = after.saturating_sub(before);
+        assert!(growth < RENDERS * 50, "{growth} KiB in {RENDERS} renders");
     }
 }

@@ -99,5 +99,5 @@ fn stated_errors_hold() {
     // The control: where light is rare, bounds do not hold, and this test can tell.
     assert!(rows.iter().any(|row| row.light_is_rare && row.exceeded > most));
     // Where it is not, most renders come without a warning.
-    assert!(rows.iter().filter(|row| !row.light_is_rare).map(|row| row.warned).sum::<u32>() < seeds);
+    assert!(rows.iter().filter(|row| !row.light_is_rare).all(|row| row.warned < seeds / 2));
 }

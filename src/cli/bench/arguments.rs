@@ -9,8 +9,8 @@ use gpt::bench::setting::Axes;
 use gpt::renderer::DeviceChoice;
 use gpt::scene::settings::MOST_SAMPLES;
 
-use crate::cli::arguments::FileArguments;
 use crate::cli::choice::by_name;
+use crate::cli::file_arguments::FileArguments;
 use crate::cli::film::FilmArguments;
 use crate::cli::setting_flags::SettingAxes;
 use crate::cli::traversal::TraversalArguments;

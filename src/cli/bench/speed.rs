@@ -26,7 +26,8 @@ struct File<'a> {
 pub fn run(arguments: &SpeedArguments, plan: PlanOptions, access: &LoadOptions) -> Result<Exit, Failure> {
     let default = ["cornell", "spheres", "veach-mis"].map(str::to_owned);
     let names = if arguments.scenes.is_empty() { &default[..] } else { &arguments.scenes };
-    let scenes: Result<Vec<Scene>, Failure> = names.iter().map(|name| Ok(load::load_with(Some(name.as_ref()), access)?)).collect();
+    let scenes: Result<Vec<Scene>, Failure> =
+        names.iter().map(|name| Ok(load::load_with(Some(name.as_ref()), access)?)).collect();
     let scenes = scenes?;
     for warning in scenes.iter().flat_map(|scene| &scene.warnings) {
         terminal::warn(warning);

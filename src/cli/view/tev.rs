@@ -58,7 +58,9 @@ impl Sender {
         }
         if !self.thread.is_finished() {
             let (address, seconds) = (self.address, LAST_PICTURE.as_secs());
-            terminal::warn(&format!("--display {address} did not take the last picture within {seconds} s, and may show an earlier one"));
+            terminal::warn(&format!(
+                "--display {address} did not take the last picture within {seconds} s, and may show an earlier one"
+            ));
         }
     }
 }

@@ -156,17 +156,21 @@ impl<'r> Buffers<'r> {
         let size = kind.size() * width;
         let take = |left: &Cell<u64>, count: u64| left.get().checked_sub(count).map(|rest| left.set(rest));
         if accessor.buffer_view.is_none() && take(&self.zeros_left, accessor.count).is_none() {
-            return Err(format!("it has {} elements and no buffer, which is more than a file of this size has use for", accessor.count));
+            return Err(format!(
+                "it has {} elements and no buffer, which is more than a file of this size has use for",
+                accessor.count
+            ));
         }
-        if take(&self.bytes_left, accessor.count.saturating_mul(size as u64)).is_none() {
+        let decodes = || {
             let what = "accessors are read over and over, or overlap: it is the one with which they are more than a file of this size has use for";
-            return Err(what.to_owned());
-        }
+            take(&self.bytes_left, accessor.count.saturating_mul(size as u64)).ok_or(what)
+        };
         let mut elements = match accessor.buffer_view {
             None => vec![T::default(); accessor.count as usize * width],
             Some(view) => {
                 let stride = self.root.buffer_views.get(view).and_then(|view| view.byte_stride).unwrap_or(size as u64);
                 let bytes = self.strided(view, accessor.byte_offset, accessor.count, stride, size)?;
+                decodes()?;
                 let mut elements = Vec::with_capacity(accessor.count as usize * width);
                 for element in 0..accessor.count as usize {
                     let start = element * stride as usize;

@@ -6,11 +6,11 @@ use std::rc::Rc;
 
 use roxmltree::{Document, Node, ParsingOptions};
 
+use super::limits::{MOST_SHAPES, too_many_shapes};
 use super::nesting::check_depth;
 use super::parameters::Parameters;
 use super::plugin::{Plugin, Within, error_at};
 use super::references::{Draft, Part, References, Target};
-use super::shape::{MOST_SHAPES, too_many_shapes};
 use super::versions::{modern_kind, modern_name, old_texture_coordinates};
 use crate::load::encoding;
 use crate::load::error::{SceneError, show};

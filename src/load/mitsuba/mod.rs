@@ -12,6 +12,7 @@ mod document;
 mod emitter;
 mod handedness;
 mod input;
+mod limits;
 mod mesh_file;
 mod metals;
 mod nesting;

@@ -6,10 +6,11 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::converter::{Converter, StoredGroup};
 use super::emitter;
-use super::plugin::{Plugin, error_at};
+use super::limits::{MOST_SHAPES, too_many_shapes};
+use super::plugin::Plugin;
 use crate::load::error::SceneError;
 use crate::load::import::{
-    Entry, FileReference, Keys, Place, cylinder, disk, grid_sphere, is_uniform, pays_as_instances, square, unit_cube,
+    Entry, FileReference, Keys, cylinder, disk, grid_sphere, is_uniform, pays_as_instances, square, unit_cube,
 };
 use crate::load::memory;
 use crate::scene::Mesh;
@@ -18,13 +19,6 @@ use crate::scene::Mesh;
 const TRIANGLE_BYTES: u64 = 200;
 /// Most groups within each other.
 const DEEPEST_GROUP: usize = 8;
-/// Most shapes of a scene.
-pub const MOST_SHAPES: usize = 1 << 20;
-
-/// What is said where there are more.
-pub fn too_many_shapes(place: &Place) -> SceneError {
-    error_at(place, format!("the scene has more than {MOST_SHAPES} shapes, instances counted"))
-}
 
 impl Converter<'_> {
     pub fn shape(&mut self, plugin: &Rc<Plugin>) -> Result<(), SceneError> {

@@ -61,9 +61,7 @@ pub fn for_each_block(
     let reader = exr::block::read(file, false).map_err(|error| error.to_string())?;
     let header = reader.headers().get(part).ok_or("it has no such part")?.clone();
     let reader = reader
-        .filter_chunks(false, |_, _, block: BlockIndex| {
-            block.layer == part && block.level == Vec2(0, 0) && is_wanted(&block)
-        })
+        .filter_chunks(false, |_, _, block: BlockIndex| block.layer == part && block.level == Vec2(0, 0) && is_wanted(&block))
         .map_err(|error| error.to_string())?;
     let insert = |_: &_, block: UncompressedBlock| {
         take(&header, block);

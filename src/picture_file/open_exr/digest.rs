@@ -6,12 +6,12 @@
 use std::borrow::Cow;
 
 use exr::block::UncompressedBlock;
+use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, SampleType, Text};
 use exr::meta::header::Header;
 use sha2::{Digest, Sha256};
 
-use super::blocks::{for_each_block, numbers_of};
-use super::{Line, headers};
+use super::blocks::{Line, for_each_block, numbers_of};
 use crate::input::AnyFile;
 
 /// Key of the digest in a header.
@@ -124,17 +124,23 @@ pub fn read_checked_lines(file: AnyFile, wanted: &[usize], mut take: impl FnMut(
 /// # Errors
 /// A file that is damaged, and one that cannot be read.
 pub fn check_digest(mut file: AnyFile) -> Result<bool, String> {
-    let headers = headers(&mut file)?;
-    let has_digest = headers[0].own_attributes.other.keys().any(states_digest);
-    if has_digest { check_blocks(file, |_, _| {}) } else { Ok(false) }
+    let meta = MetaData::read_from_buffered(&mut file, false).map_err(|error| format!("it is not a valid EXR: {error}"))?;
+    file.rewind().map_err(|error| format!("it cannot be read: {error}"))?;
+    let states = |header: &Header| header.own_attributes.other.keys().any(states_digest);
+    if meta.headers.first().is_some_and(states) { check_blocks(file, |_, _| {}) } else { Ok(false) }
 }
 
 fn check_blocks(file: AnyFile, mut take: impl FnMut(&Header, &UncompressedBlock)) -> Result<bool, String> {
     let mut digests = LineDigests::default();
-    let header = for_each_block(file, 0, |_| true, |header, block| {
-        digests.add(header, &block);
-        take(header, &block);
-    })?;
+    let header = for_each_block(
+        file,
+        0,
+        |_| true,
+        |header, block| {
+            digests.add(header, &block);
+            take(header, &block);
+        },
+    )?;
     digests.check(&header)
 }
 

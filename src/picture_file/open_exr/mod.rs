@@ -13,7 +13,7 @@ use exr::prelude::Compression;
 use glam::{DMat3, DVec3};
 
 use blocks::RESAVE;
-pub use blocks::{Line, read_lines};
+pub use blocks::read_lines;
 pub use digest::{DIGEST_KEY, LineDigests, check_digest, placeholder, read_checked_lines};
 pub use windows::Windows;
 

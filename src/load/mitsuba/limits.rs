@@ -1,0 +1,13 @@
+//! Limits of a scene that are asked for while it is read and while it is converted.
+
+use super::plugin::error_at;
+use crate::load::error::SceneError;
+use crate::load::import::Place;
+
+/// Most shapes of a scene.
+pub const MOST_SHAPES: usize = 1 << 20;
+
+/// What is said where there are more.
+pub fn too_many_shapes(place: &Place) -> SceneError {
+    error_at(place, format!("the scene has more than {MOST_SHAPES} shapes, instances counted"))
+}
