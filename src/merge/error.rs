@@ -9,7 +9,8 @@
 //! by chance the quotient is anything.
 
 use crate::compare::RELATIVE_EPSILON;
-use crate::render::progressive::error::{ErrorEstimate, standard_deviations};
+use crate::render::error_estimate::ErrorEstimate;
+use crate::render::progressive::error::standard_deviations;
 use crate::sampling::hash::mix;
 
 /// Values of pixels that are kept, at most: parts times pixels.
@@ -125,5 +126,28 @@ mod tests {
         let mut single = PartsError::new(16, 1);
         single.add(0, |_| ([1.0; 3], 4.0), 16);
         assert!(single.estimate().is_none(), "one part says nothing of its error");
+    }
+
+    /// A long part beside a short one whose only sample is dark in most pixels, as where light is rare: the error is that of the long part.
+    #[test]
+    fn a_short_dark_part_does_not_make_the_error_large() {
+        let (long, short) = (255.0, 1.0);
+        let mut error = PartsError::new(4096, 2);
+        // Of 64 samples one brings 64: the mean is 1, the variance 63.
+        let sample = |index: u32| if mix(index).is_multiple_of(64) { 64.0_f32 } else { 0.0 };
+        let mean_of_long = |pixel: usize| (0..255).map(|s| sample(pixel as u32 * 256 + s)).sum::<f32>() / 255.0;
+        error.add(0, |pixel| ([mean_of_long(pixel); 3], long), 4096);
+        error.add(0, |pixel| ([sample(pixel as u32 * 256 + 255); 3], short), 4096);
+        let estimate = error.estimate().expect("there are two parts");
+        let truth = 63.0 / 256.0;
+        assert!((0.3..3.0).contains(&(estimate.mean / truth)), "{} instead of {truth}", estimate.mean);
+        // Relative to the other part, the control, the long one's share alone would be far more.
+        let relative_to_other = |pixel: usize| {
+            let (a, b) = (f64::from(mean_of_long(pixel)), f64::from(sample(pixel as u32 * 256 + 255)));
+            let mean = (255.0 * a + b) / 256.0;
+            255.0 * (a - mean).powi(2) / (b * b + RELATIVE_EPSILON) / 256.0
+        };
+        let control = (0..4096).map(relative_to_other).sum::<f64>() / 4096.0;
+        assert!(control > 0.0 && (estimate.mean - truth).abs() < (control - truth).abs(), "{control}");
     }
 }

@@ -9,7 +9,7 @@ use super::layers::LayerSums;
 use super::part::{MergeError, PartHeader};
 use crate::film::{Band, Layer};
 use crate::output::{LayerChannel, Provenance};
-use crate::render::progressive::error::ErrorEstimate;
+use crate::render::error_estimate::ErrorEstimate;
 
 /// Rows of a band.
 const BAND_ROWS: usize = 64;

@@ -4,11 +4,12 @@
 //! - [`checkpoint`]: states of a render in a file, from which another goes on.
 //! - [`choice`]: which device renders. [`layers`]: what is rendered beside the picture. [`cryptomatte`]: mattes of objects and materials.
 //! - [`stats`]: what a render did, for other programs.
-//! - [`progressive`]: renders that end by a time or an error, and samples that follow the noise.
+//! - [`progressive`]: renders that end by a time or an error, and samples that follow the noise. [`error_estimate`]: how far a picture is from the truth.
 
 pub mod checkpoint;
 pub mod choice;
 pub mod cryptomatte;
+pub mod error_estimate;
 mod free_memory;
 pub mod image;
 pub mod layers;

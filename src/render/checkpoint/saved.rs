@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::file::{self, Content, DAMAGED};
 use super::identity::Identity;
 use crate::output::OutputError;
-use crate::render::progressive::error::ErrorEstimate;
+use crate::render::error_estimate::ErrorEstimate;
 use crate::renderer::state::{BatchState, FilmState, MOST_SAMPLES_PER_SWEEP, Tally};
 
 /// How far a render is.

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::time::Instant;
 
-use super::error::ErrorEstimate;
+use crate::render::error_estimate::ErrorEstimate;
 use crate::renderer::RenderReport;
 
 /// Independent renderings whose mean is the picture, where its error must be known.

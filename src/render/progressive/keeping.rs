@@ -3,12 +3,13 @@
 use std::io;
 
 use super::doublings::Doublings;
-use super::error::{ErrorEstimate, ErrorEstimator};
+use super::error::ErrorEstimator;
 use super::picture::Picture;
 use super::watching::Watch;
 use crate::film::Band;
 use crate::render::checkpoint::Checkpoint;
 use crate::render::checkpoint::saved::{Place, StepsState};
+use crate::render::error_estimate::ErrorEstimate;
 use crate::renderer::sink::Sink;
 use crate::renderer::state::{BatchState, Tally};
 

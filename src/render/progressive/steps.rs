@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use super::allocation::{MOST_DOUBLINGS, allocate};
 use super::doublings::Doublings;
-use super::error::{ErrorEstimate, ErrorEstimator};
+use super::error::ErrorEstimator;
 use super::goal::{Goal, Outcome, STREAMS, Stop, stop_of};
 use super::keeping::StepBatch;
 use super::picture::Picture;
@@ -15,6 +15,7 @@ use super::watching::Watch;
 use crate::film::Band;
 use crate::render::checkpoint::Checkpoint;
 use crate::render::checkpoint::saved::{Place, Saved, StepsState};
+use crate::render::error_estimate::ErrorEstimate;
 use crate::renderer::sink::keep_between;
 use crate::renderer::state::{BatchState, Tally};
 use crate::renderer::{Batch, Observer, RenderError, RenderReport, RenderRequest, Renderer};
