@@ -14,8 +14,18 @@ const FOLDERS: [&str; 9] = ["src/", "shaders/", "tests/", "scripts/", "benches/"
 /// What was, not what is: only their links are checked.
 const HISTORY: [&str; 2] = ["docs/notes/", "CHANGELOG.md"];
 /// Flags of cargo and of openjd that documents use.
-const FLAGS_OF_OTHERS: [&str; 9] =
-    ["--release", "--locked", "--path", "--bench", "--example", "--test", "--bin", "--step", "--run-dependencies"];
+const FLAGS_OF_OTHERS: [&str; 10] = [
+    "--release",
+    "--locked",
+    "--path",
+    "--bench",
+    "--example",
+    "--test",
+    "--bin",
+    "--step",
+    "--run-dependencies",
+    "--eraseattrib",
+];
 
 /// The flags of each command of the program, from its help.
 struct Help(BTreeMap<String, BTreeSet<String>>);
