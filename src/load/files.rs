@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::fs;
 use std::io::{self, Cursor, ErrorKind};
 use std::path::{Component, Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::builtin::embedded;
 use super::error::{SceneError, show};
@@ -20,6 +20,8 @@ pub const MOST_SCENE_BYTES: u64 = 1 << 29;
 pub const MOST_MODEL_BYTES: u64 = 1 << 32;
 /// Most bytes of a material library.
 pub const MOST_LIBRARY_BYTES: u64 = 1 << 28;
+/// Most bytes that are read for one scene, those of files that are read again counted again: for each byte of the files, and beside a first amount.
+const MOST_READ: (u64, u64) = (64, 1 << 28);
 
 /// Where files may lie.
 #[derive(Debug, Clone, Default)]
@@ -29,6 +31,36 @@ pub struct Files {
     /// What imported files brought along, by the paths at which it is looked for.
     held: Arc<Held>,
     progress: ReadingProgress,
+    account: Arc<Mutex<Account>>,
+}
+
+/// What was read so far for a scene, by all that have these files.
+#[derive(Debug, Default)]
+struct Account {
+    /// Bytes of each file, and of all of them.
+    files: HashMap<PathBuf, u64>,
+    bytes: u64,
+    /// Bytes that were read.
+    read: u64,
+}
+
+impl Account {
+    /// # Errors
+    /// Files are read over and over.
+    fn add(&mut self, path: &Path, bytes: u64) -> io::Result<()> {
+        if self.files.insert(path.to_owned(), bytes).is_none() {
+            self.bytes = self.bytes.saturating_add(bytes);
+        }
+        self.read = self.read.saturating_add(bytes);
+        let (factor, first) = MOST_READ;
+        if self.read <= self.bytes.saturating_mul(factor).saturating_add(first) {
+            return Ok(());
+        }
+        let (read, there) = (self.read >> 20, self.bytes >> 20);
+        Err(io::Error::other(format!(
+            "the scene reads its files over and over: with this one it is {read} MiB, of files that have {there} MiB"
+        )))
+    }
 }
 
 /// Contents that stand in no file of their own.
@@ -102,7 +134,11 @@ impl Files {
         }
         match embedded(path) {
             Some(content) => Ok(Cow::Borrowed(content)),
-            None => input::read(self.allowed(path)?, most).map(Cow::Owned),
+            None => {
+                let bytes = input::read(self.allowed(path)?, most)?;
+                self.account().add(path, bytes.len() as u64)?;
+                Ok(Cow::Owned(bytes))
+            }
         }
     }
 
@@ -112,8 +148,17 @@ impl Files {
         }
         match embedded(path) {
             Some(content) => Ok(Box::new(Cursor::new(content))),
-            None => Ok(Box::new(input::open(self.allowed(path)?)?)),
+            None => {
+                let file = input::open(self.allowed(path)?)?;
+                self.account().add(path, file.length())?;
+                Ok(Box::new(file))
+            }
         }
+    }
+
+    fn account(&self) -> MutexGuard<'_, Account> {
+        // Its numbers are whole whoever panicked.
+        self.account.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn allowed<'p>(&self, path: &'p Path) -> io::Result<&'p Path> {

@@ -3,6 +3,9 @@
 //! Unlike the device's arrays, which the plan sizes, these are estimates by what was measured (`docs/large-jobs.md`): readers, hierarchies in the
 //! making and drivers take what they take. The peak of a render's resident memory is within [`HOST_FACTOR`] of it either way.
 
+use std::collections::HashSet;
+use std::ptr;
+
 use super::memory::Memory;
 use crate::scene::{ImageData, Light, Scene, SceneSummary, TextureKind};
 
@@ -53,12 +56,15 @@ pub fn host_memory(scene: &Scene, needs: &HostNeeds) -> Memory {
     let way = usize::from(!on_cpu);
     let summary = SceneSummary::of(scene);
     let triangles = (summary.triangles + summary.group_triangles) as u64;
-    let bytes = |image: &ImageData| image.texels.as_bytes().len();
-    let of_textures = scene.textures.iter().map(|texture| match &texture.kind {
-        TextureKind::Image(texture) => bytes(&texture.image),
-        _ => 0,
+    let of_textures = scene.textures.iter().filter_map(|texture| match &texture.kind {
+        TextureKind::Image(texture) => Some(&*texture.image),
+        _ => None,
     });
-    let pictures: usize = of_textures.chain(scene.lights.iter().filter_map(Light::image).map(bytes)).sum();
+    // Many textures may show one picture.
+    let mut seen = HashSet::new();
+    let images =
+        of_textures.chain(scene.lights.iter().filter_map(Light::image)).filter(|image| seen.insert(ptr::from_ref(*image)));
+    let pictures: usize = images.map(|image: &ImageData| image.texels.as_bytes().len()).sum();
     let film = pixels.min(FILM_PIXELS);
     let of = |is_so: bool, bytes: u64| if is_so { bytes } else { 0 };
     let steps = of(adaptive, ADAPTIVE_BYTES * pixels) + of(target_error, TARGET_BYTES * pixels);

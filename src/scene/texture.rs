@@ -1,5 +1,6 @@
 //! Colours that vary over a surface, and the images they are read from.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::{DMat2, DVec2, DVec3};
@@ -155,14 +156,27 @@ pub(crate) fn mean_of_channel(textures: &[Texture], id: TextureId, channel: Chan
     textures[id].kind.mean_of(channel) * by
 }
 
-/// The smallest and the largest value of a texture's channels, or of one of them: of a product, bounds.
-pub(crate) fn range_of_texture(textures: &[Texture], id: TextureId, channel: Option<Channel>) -> (f64, f64) {
-    let range = |id: TextureId| {
+/// Ranges of pictures that were looked through: many textures may show one.
+#[derive(Debug, Default)]
+pub(crate) struct KnownRanges(HashMap<(*const ImageData, Option<Channel>), (f64, f64)>);
+
+/// The smallest and the largest value of a texture's channels, or of one of them: of a product, bounds. `known`: of pictures of these textures.
+pub(crate) fn range_of_texture(
+    textures: &[Texture],
+    id: TextureId,
+    channel: Option<Channel>,
+    known: &mut KnownRanges,
+) -> (f64, f64) {
+    let mut range = |id: TextureId| {
         let kind = &textures[id].kind;
-        channel.map_or_else(|| kind.range(), |channel| kind.range_of(channel))
+        let look = || channel.map_or_else(|| kind.range(), |channel| kind.range_of(channel));
+        match kind {
+            TextureKind::Image(texture) => *known.0.entry((Arc::as_ptr(&texture.image), channel)).or_insert_with(look),
+            _ => look(),
+        }
     };
     let own = range(id);
-    let Some((low, high)) = textures[id].times.map(range) else { return own };
+    let Some((low, high)) = textures[id].times.map(&mut range) else { return own };
     let ends = [own.0 * low, own.0 * high, own.1 * low, own.1 * high];
     (ends.into_iter().fold(f64::INFINITY, f64::min), ends.into_iter().fold(f64::NEG_INFINITY, f64::max))
 }

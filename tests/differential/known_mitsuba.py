@@ -5,6 +5,8 @@ A row is a pattern of names of scenes, the verdict that they have unless they ag
 
 KNOWN = [
     (r"^shape cylinder: (normal|bump) map: |^shape sphere: (bump map: turn|(bump|normal) map: mirrored in x)$", "tests nothing", "on this part of the shape Mitsuba's picture hardly shows the map"),
+    (r"^bsdf bumpmap: texture: not raw$", "tests nothing", "decoded or not, these heights bend normals alike but for noise"),
+    (r"^shape obj: filename: without normals and coordinates, plain, face_normals$", "tests nothing", "Mitsuba's picture hardly shows whether this body is smooth"),
     # Mitsuba does not read it.
     (r"rgb in hexadecimal$|rgb: value: hexadecimal in capitals", "refused there", "Mitsuba 3 reads no hexadecimal colours; 0.6 did"),
     (r"spectrum of three values$", "refused there", "Mitsuba 3 reads no colour in `<spectrum>`; 0.6 did"),

@@ -101,6 +101,52 @@ fn accessors_that_share_their_bytes() {
     refused(&[("shared.gltf", &shared), ("a.bin", &positions)], "over and over");
 }
 
+/// Of one picture, by different samplers.
+#[test]
+fn textures_of_one_picture_are_looked_through_once() {
+    let _turn = take_turn();
+    let mut picture = std::io::Cursor::new(Vec::new());
+    image::RgbImage::from_fn(1500, 1500, |x, y| image::Rgb([x as u8, y as u8, 7]))
+        .write_to(&mut picture, image::ImageFormat::Png)
+        .expect("memory");
+    let scene = gltf(|root| {
+        let count = 300;
+        root["nodes"] = (0..count).map(|mesh| json!({ "mesh": mesh })).collect();
+        root["scenes"] = json!([{ "nodes": (0..count).collect::<Vec<_>>() }]);
+        root["images"] = (0..count).map(|_| json!({ "uri": "a.png" })).collect();
+        root["textures"] = (0..count).map(|index| json!({ "source": index, "sampler": index })).collect();
+        let wraps = [10_497, 33_071, 33_648];
+        root["samplers"] = (0..count).map(|index| json!({ "wrapS": wraps[index % 3] })).collect();
+        let look = |index: usize| json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": index } } });
+        root["materials"] = (0..count).map(look).collect();
+        let mesh =
+            |index: usize| json!({ "primitives": [{ "attributes": { "POSITION": 0, "TEXCOORD_0": 1 }, "material": index }] });
+        root["meshes"] = (0..count).map(mesh).collect();
+        root["accessors"] = json!([root["accessors"][0], { "componentType": 5126, "count": 3, "type": "VEC2" }]);
+    });
+    let folder = folder_with(&[("scene.gltf", &scene), ("a.png", picture.get_ref())]);
+    let start = Instant::now();
+    let scene = load::load(folder.path().join("scene.gltf").to_str()).unwrap_or_else(|error| panic!("{error}"));
+    assert!(start.elapsed() < MOST_TIME && scene.textures.len() == 300, "{:?}", start.elapsed());
+}
+
+#[test]
+fn scenes_that_are_imported_over_and_over() {
+    let _turn = take_turn();
+    let count = 100_000;
+    let positions: Vec<u8> = (0..3 * count).flat_map(|index| ((index * 37 % 1000) as f32).to_le_bytes()).collect();
+    let imported = gltf(|root| {
+        root["buffers"] = json!([{ "uri": "a.bin", "byteLength": positions.len() }]);
+        root["bufferViews"][0]["byteLength"] = json!(positions.len());
+        root["accessors"][0]["count"] = json!(count);
+    });
+    let scene =
+        "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvfov = 40\n[[light]]\ntype = \"environment\"\nradiance = 1\n"
+            .to_owned()
+            + &"[[import]]\nfile = \"a.gltf\"\n".repeat(2000);
+    refused(&[("scene.toml", scene.as_bytes()), ("a.gltf", &imported), ("a.bin", &positions)], "over and over");
+}
+
 #[test]
 fn buffers_that_are_one_file() {
     let _turn = take_turn();

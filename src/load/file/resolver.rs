@@ -1,5 +1,6 @@
 //! A scene in the making: what is known of a scene file while its tables are read one after the other.
 
+use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -18,7 +19,7 @@ use crate::load::image_file::{Picture, Pictures};
 use crate::load::model::Substitute;
 use crate::picture_file::Hints;
 use crate::scene::animation::Deformation;
-use crate::scene::texture::range_of_texture;
+use crate::scene::texture::{KnownRanges, range_of_texture};
 use crate::scene::{Channel, ChannelInput, ColorInput, ColorSpace, ImageData, Material, MaterialId, Mesh, Scene, TextureId};
 
 /// Images by file and by how their values are read, so that each is decoded once.
@@ -72,6 +73,7 @@ pub struct Resolver<'a> {
     pub(super) mesh_files: HashMap<MeshFileKey, LoadedMesh>,
     /// Of the materials so far, as far as it was asked: they or a part of them look up a texture.
     textured: Vec<bool>,
+    ranges: RefCell<KnownRanges>,
     /// What bends the mesh that was read last.
     pub(super) deformation: Option<Deformation>,
     /// The material of faces that name none.
@@ -94,6 +96,7 @@ impl<'a> Resolver<'a> {
             linear_textures: Vec::new(),
             mesh_files: HashMap::new(),
             textured: Vec::new(),
+            ranges: RefCell::default(),
             deformation: None,
             unnamed_material: None,
         }
@@ -259,7 +262,7 @@ impl<'a> Resolver<'a> {
         factor: DVec3,
     ) -> Result<ColorInput, SceneError> {
         let texture = self.texture_id(name)?;
-        let (low, high) = range_of_texture(&self.scene.textures, texture, channel);
+        let (low, high) = range_of_texture(&self.scene.textures, texture, channel, &mut self.ranges.borrow_mut());
         let input = match channel {
             Some(channel) => ColorInput::Channel(ChannelInput { texture, channel, factor, is_squared: false }),
             None if factor == DVec3::ONE => ColorInput::Texture(texture),

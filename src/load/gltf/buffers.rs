@@ -18,7 +18,7 @@ const PADDING: u64 = 4;
 /// Most elements of accessors without a buffer, whose elements are 0, and most bytes that are decoded of all accessors, each time that one is asked for:
 /// for each byte of the files, and beside a first amount. An accessor takes a line, and may say that it has any number of elements.
 const MOST_ZEROS: (u64, u64) = (16, 1 << 22);
-const MOST_DECODED: (u64, u64) = (256, 1 << 30);
+const MOST_DECODED: (u64, u64) = (256, 1 << 28);
 /// Most bytes that packed views take once they are unpacked, for each byte of the files and beside a first amount.
 const MOST_UNPACKED: (u64, u64) = (256, 1 << 20);
 
