@@ -88,8 +88,8 @@ fn what_is_wrong_is_noticed() {
 /// With 500 seeds in the long form: a fair bound of 95 % is exceeded in 42 of 500 renders or more once in a thousand times.
 #[test]
 fn stated_errors_hold() {
-    let seeds = if in_full("500 seeds of stated errors instead of 12") { 500 } else { 12 };
-    let rows = stated_errors::measure_all(seeds);
+    let (seeds, truth_samples) = if in_full("500 seeds of stated errors instead of 12") { (500, 1 << 15) } else { (12, 1 << 12) };
+    let rows = stated_errors::measure_all(seeds, truth_samples);
     announce(&stated_errors::table(&rows));
     let most = Binomial::new(0.05, seeds.into()).expect("a distribution").inverse_cdf(0.999) as u32;
     for row in &rows {

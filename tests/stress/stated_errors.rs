@@ -11,8 +11,6 @@ use gpt::renderer::Silent;
 use gpt::scene::Scene;
 
 const SIDE: u32 = 20;
-/// Samples per pixel of the pictures that stand for the truth.
-const TRUTH: u32 = 1 << 15;
 const MOST: u32 = 1024;
 
 /// A scene, the error that its renders are to reach, and whether some of its light is rare: found by few paths, which carry much of it.
@@ -102,11 +100,11 @@ fn render(renderer: &mut ReferenceRenderer, seed: u32, goal: &Goal) -> (Vec<[f64
     (pixels, outcome.expect("it renders"))
 }
 
-fn measure(case: &Case, seeds: u32) -> Coverage {
+fn measure(case: &Case, seeds: u32, truth_samples: u32) -> Coverage {
     let scene = scene(case);
     let mut renderer = ReferenceRenderer::new(&scene).expect("the scene fits");
     let goal = |samples, target_error| Goal { samples: 0..samples, region: None, deadline: None, target_error, adaptive: false };
-    let (truth, _) = render(&mut renderer, 1, &goal(TRUTH, None));
+    let (truth, _) = render(&mut renderer, 1, &goal(truth_samples, None));
     let mean = |pixels: &[[f64; 3]]| pixels.as_flattened().iter().sum::<f64>();
     let (mut exceeded, mut unwarned, mut missed, mut warned, mut bias) = (0, 0, 0, 0, 0.0);
     for seed in 0..seeds {
@@ -125,9 +123,9 @@ fn measure(case: &Case, seeds: u32) -> Coverage {
     Coverage { name: case.name, light_is_rare: case.light_is_rare, renders: seeds, exceeded, unwarned, missed, warned, bias }
 }
 
-/// All scenes, with so many seeds each.
-pub fn measure_all(seeds: u32) -> Vec<Coverage> {
-    CASES.iter().map(|case| measure(case, seeds)).collect()
+/// All scenes, with so many seeds each, against pictures of so many samples per pixel.
+pub fn measure_all(seeds: u32, truth_samples: u32) -> Vec<Coverage> {
+    CASES.iter().map(|case| measure(case, seeds, truth_samples)).collect()
 }
 
 /// The rows of the table in docs/strategies.md.
