@@ -2,8 +2,12 @@
 
 use std::alloc::{GlobalAlloc, Layout, System};
 
-/// No device that the scene fits: as [`Exit::Device`](crate::cli).
-const EXIT_CODE: i32 = 4;
+use gpt::render::checkpoint::is_kept;
+
+/// No device that the scene fits, as [`Exit::Device`](crate::cli): it would fail again.
+const DOES_NOT_FIT: i32 = 4;
+/// What was rendered is saved, as [`Exit::DeviceLost`](crate::cli): another process may go on.
+const BROKE_OFF: i32 = 5;
 
 struct OrExit;
 
@@ -44,9 +48,14 @@ unsafe impl GlobalAlloc for OrExit {
 fn out_of_memory(size: usize) -> ! {
     let mut digits = [0; 20];
     let message: [&[u8]; 3] =
-        [b"Error: there is not enough memory: ", decimal(size as u64 >> 20, &mut digits), b" MiB more are needed at once\n"];
+        [b"Error: there is not enough memory: ", decimal(size as u64 >> 20, &mut digits), b" MiB more are needed at once"];
     message.iter().for_each(|part| write_to_stderr(part));
-    quit()
+    if is_kept() {
+        write_to_stderr(b"; the state of the render is saved, and --resume goes on from it\n");
+        quit(BROKE_OFF)
+    }
+    write_to_stderr(b"\n");
+    quit(DOES_NOT_FIT)
 }
 
 #[cfg(unix)]
@@ -56,9 +65,9 @@ fn write_to_stderr(bytes: &[u8]) {
 }
 
 #[cfg(unix)]
-fn quit() -> ! {
+fn quit(code: i32) -> ! {
     // SAFETY: it does not return.
-    unsafe { libc::_exit(EXIT_CODE) }
+    unsafe { libc::_exit(code) }
 }
 
 #[cfg(not(unix))]
@@ -67,8 +76,8 @@ fn write_to_stderr(bytes: &[u8]) {
 }
 
 #[cfg(not(unix))]
-fn quit() -> ! {
-    std::process::exit(EXIT_CODE)
+fn quit(code: i32) -> ! {
+    std::process::exit(code)
 }
 
 /// The number's digits, at the end of the buffer.

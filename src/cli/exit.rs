@@ -24,6 +24,7 @@ pub enum Exit {
     Input = 3,
     /// No usable device, or the scene does not fit it.
     Device = 4,
+    /// The device was lost, or memory ran out once the render had begun: another try may go on.
     DeviceLost = 5,
     /// Samples that are not finite, with `--strict`.
     NonFinite = 6,
@@ -53,7 +54,7 @@ impl Exit {
             Self::Usage => "the command line is wrong",
             Self::Input => "the scene or another input file is wrong",
             Self::Device => "there is no usable device, or the scene does not fit it",
-            Self::DeviceLost => "the device was lost",
+            Self::DeviceLost => "the device was lost, or memory ran out midway; what was rendered is saved as far as it could be",
             Self::NonFinite => "samples were not finite, with --strict",
             Self::Difference => "compare, test or verify found a difference",
             Self::Interrupted => "interrupted; what was rendered is saved",

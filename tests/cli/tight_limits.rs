@@ -31,6 +31,35 @@ fn little_memory_for_threads_is_no_panic() {
     assert!(finished > 10, "{finished}");
 }
 
+/// Where a state is in its place, it is not the end: another try may have more.
+#[cfg(target_os = "linux")]
+#[test]
+fn memory_that_runs_out_midway_is_told_from_a_scene_that_does_not_fit() {
+    let place = Workplace::new();
+    let render = "render scene.toml --device cpu -q --size 1024x1024 --spp 1000000 --max-depth 1";
+    let mut child = place.command(&format!("{render} --checkpoint 0.1 -o a.exr")).spawn().expect("a process");
+    while !place.path("a.exr.checkpoint").exists() {
+        assert!(child.try_wait().expect("its state").is_none(), "it ended");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    child.kill().expect("it ends");
+    child.wait().expect("it ends");
+    let mut codes = std::collections::BTreeSet::new();
+    for most in (40_000..240_000).step_by(10_000) {
+        let output = run_within(&place, most, &format!("{render} --resume --time-limit 0.1 -o b.exr"));
+        // The control: without a state, what does not fit does not fit.
+        assert_ne!(output.status.code(), Some(5), "{most}: {}", text(&output.stderr));
+        let output = run_within(&place, most, &format!("{render} --resume --time-limit 0.1 -o a.exr"));
+        let said = text(&output.stderr);
+        assert!(output.status.code() != Some(5) || said.contains("--resume goes on"), "{said}");
+        codes.insert(output.status.code());
+        if output.status.success() {
+            break;
+        }
+    }
+    assert!(codes.contains(&Some(4)) && codes.contains(&Some(5)), "{codes:?}");
+}
+
 #[test]
 fn a_folder_of_temporary_files_that_is_not_there_is_named() {
     let place = Workplace::new();

@@ -3,6 +3,7 @@
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
@@ -43,8 +44,17 @@ pub fn path_of_layer(picture: &Path, layer: KernelLayer) -> PathBuf {
     name.into()
 }
 
+/// A state of the render under way is in its place.
+static IS_KEPT: AtomicBool = AtomicBool::new(false);
+
+/// Whether a state of the render under way is in its place, so that a process that ends now loses little. It takes no memory and no lock.
+pub fn is_kept() -> bool {
+    IS_KEPT.load(Ordering::SeqCst)
+}
+
 /// Removes a state, if there is one.
 pub fn remove_state(path: &Path) {
+    IS_KEPT.store(false, Ordering::SeqCst);
     // Nothing is left to be done about a file that cannot be removed.
     let _ = fs::remove_file(path);
     rows::remove_all(path);
@@ -128,6 +138,7 @@ impl Checkpoint {
         let before = saved.steps.as_ref().map_or(0, |steps| steps.tally.samples);
         let found = (saved.device.clone(), before + saved.batch.tally.samples);
         self.is_there = true;
+        IS_KEPT.store(true, Ordering::SeqCst);
         self.saved = Some(saved);
         Ok(Some(found))
     }
@@ -174,13 +185,16 @@ impl Checkpoint {
         let write = {
             let saved = saved.clone();
             let (path, identity) = (path.clone(), identity.clone());
-            move || saved.write(&path, &identity)
+            move || saved.write(&path, &identity).inspect(|()| IS_KEPT.store(true, Ordering::SeqCst))
         };
         match thread::Builder::new().name("checkpoint".to_owned()).spawn(write) {
             Ok(writer) => self.writer = Some(writer),
             // Without a thread to spare, the render waits.
             Err(_) => match saved.write(&path, &identity) {
-                Ok(()) => self.is_there = true,
+                Ok(()) => {
+                    self.is_there = true;
+                    IS_KEPT.store(true, Ordering::SeqCst);
+                }
                 Err(failure) => self.failures.push(failure),
             },
         }

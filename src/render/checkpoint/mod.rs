@@ -11,4 +11,4 @@ mod rows;
 pub(super) mod saved;
 
 pub use identity::Identity;
-pub use keeper::{Checkpoint, CheckpointError, DEFAULT_INTERVAL, path_beside, path_of_layer, remove_state};
+pub use keeper::{Checkpoint, CheckpointError, DEFAULT_INTERVAL, is_kept, path_beside, path_of_layer, remove_state};
