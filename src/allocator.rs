@@ -6,7 +6,7 @@ use gpt::render::checkpoint::is_kept;
 
 /// No device that the scene fits, as [`Exit::Device`](crate::cli): it would fail again.
 const DOES_NOT_FIT: i32 = 4;
-/// What was rendered is saved, as [`Exit::DeviceLost`](crate::cli): another process may go on.
+/// The rendered samples are saved, as [`Exit::DeviceLost`](crate::cli): another process may go on.
 const BROKE_OFF: i32 = 5;
 
 struct OrExit;

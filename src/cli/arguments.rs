@@ -181,7 +181,7 @@ pub struct AccessArguments {
 }
 
 impl AccessArguments {
-    /// As [`FileArguments::options`].
+    /// Does the work of [`FileArguments::options`], with what is shown.
     pub fn options(&self, strict: bool) -> LoadOptions {
         LoadOptions {
             definitions: self.definitions.clone(),

@@ -21,7 +21,7 @@ pub struct FileArguments {
 }
 
 impl FileArguments {
-    /// What reading a scene may do. From now on, files are waited for as long as that is asked for.
+    /// The options of reading a scene. From now on, files are waited for as long as that is asked for.
     pub fn options(&self, strict: bool) -> LoadOptions {
         patience::set_limit(self.file_timeout);
         LoadOptions { assets_root: self.assets_root.clone(), strict, ..LoadOptions::default() }

@@ -239,7 +239,7 @@ fn needs(arguments: &RenderArguments, scene: &Scene, options: &RenderOptions) ->
     let kept = film.min(DeviceLimits::default().film_pixels).min(options.most_film_pixels().unwrap_or(u64::MAX));
     let film_bytes = kept * FILM_BYTES;
     let of_host = HostNeeds {
-        // Of a region, whole rows of the film are kept.
+        // A region keeps whole rows of the film.
         pixels: options.most_film_pixels().map_or(u64::from(width) * u64::from(height), |most| most.min(film)),
         on_cpu: options.device == DeviceChoice::Cpu,
         adaptive: options.adaptive,

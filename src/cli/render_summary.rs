@@ -32,10 +32,10 @@ pub fn in_words(ErrorEstimate { mean, upper, .. }: ErrorEstimate) -> String {
     format!("{mean:.3e} by what was sampled, below {upper:.3e} with a margin for chance (95 %)")
 }
 
-/// What is said where what was sampled shows that an estimate is worth little.
+/// The warning where the samples show that an estimate is worth little.
 pub const FEW_PATHS_DECIDE: &str =
     "few bright paths, or few pixels, make most of the estimated error: it is rough, and mostly too low; more samples tell more";
-/// What is said where the scene shows it.
+/// The warning where the scene shows it.
 const LIGHT_BY_CHANCE: &str = "lamps shine through glass or by mirrors in this scene, which paths find by chance: light that none has found is not in the \
     estimate, and the error may be far larger";
 

@@ -122,7 +122,7 @@ mod tests {
         let (mut raw, denoised) = pictures(1.0, true);
         let lamp = [20 * SIDE as usize + 20, 20 * SIDE as usize + 21];
         for pixel in lamp {
-            // Of 16 samples one met it, as one in 16 does: the deviation of the mean is what the mean is.
+            // One of 16 samples met it, so the deviation of the mean is as large as the mean.
             raw.picture.pixels[pixel] = [500.0; 3];
             raw.variances.as_mut().expect("they are there")[pixel] = [500.0 * 500.0; 3];
         }

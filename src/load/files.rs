@@ -34,7 +34,7 @@ pub struct Files {
     account: Arc<Mutex<Account>>,
 }
 
-/// What was read so far for a scene, by all that have these files.
+/// The bytes that were read so far for a scene, by all that have these files.
 #[derive(Debug, Default)]
 struct Account {
     /// Bytes of each file, and of all of them.

@@ -68,11 +68,11 @@ impl PartsError {
     }
 }
 
-/// What the parts say of a pixel.
+/// The parts' evidence on a pixel.
 struct PixelError {
     /// Estimated squared relative error of its mean, averaged over the channels.
     squared: f64,
-    /// What of it is by the part that adds most.
+    /// Its share by the part that adds most.
     by_one: f64,
     /// Degrees of freedom.
     freedom: f64,
@@ -133,7 +133,7 @@ mod tests {
     fn a_short_dark_part_does_not_make_the_error_large() {
         let (long, short) = (255.0, 1.0);
         let mut error = PartsError::new(4096, 2);
-        // Of 64 samples one brings 64: the mean is 1, the variance 63.
+        // One of 64 samples brings 64: the mean is 1, the variance 63.
         let sample = |index: u32| if mix(index).is_multiple_of(64) { 64.0_f32 } else { 0.0 };
         let mean_of_long = |pixel: usize| (0..255).map(|s| sample(pixel as u32 * 256 + s)).sum::<f32>() / 255.0;
         error.add(0, |pixel| ([mean_of_long(pixel); 3], long), 4096);

@@ -327,7 +327,7 @@ mod tests {
             let said = check(wrong).expect_err("it is refused");
             assert!(said.contains("SampleCount holds") && said.contains("at 1, 0") && said.contains("4 samples"), "{said}");
         }
-        // What a time limit left of more samples, where the header does not say how many were wanted.
+        // A time limit may leave more samples, where the header does not say how many were wanted.
         assert!(check(4.0).is_ok() && check(6.0).is_ok(), "the control");
     }
 

@@ -87,11 +87,11 @@ impl AtomicFile {
         self.put(target)
     }
 
-    /// As [`AtomicFile::commit_as`], for what took long to make: where it cannot be put there, it goes to another name in the folder, or else into the
+    /// Does the work of [`AtomicFile::commit_as`] for what took long to make: where it cannot be put there, it goes to another name in the folder, or else into the
     /// system's folder of temporary files.
     ///
     /// # Errors
-    /// As [`AtomicFile::commit`]; [`OutputError::Kept`] where it is kept elsewhere.
+    /// The errors of [`AtomicFile::commit`]; [`OutputError::Kept`] where it is kept elsewhere.
     pub fn commit_or_keep(mut self, target: &Path) -> Result<(), OutputError> {
         self.put(target).map_err(|error| match self.keep(target) {
             Some(place) => OutputError::Kept { error: Box::new(error), place },
@@ -336,7 +336,7 @@ mod tests {
         assert_eq!(left, [".gpt-notes", "a.exr", "b.exr"]);
     }
 
-    /// As a folder of its name would be, or a folder that is gone.
+    /// A folder takes its name, or its folder is gone.
     #[test]
     fn what_has_no_place_any_more_is_kept_elsewhere() {
         let folder = tempfile::tempdir().unwrap();

@@ -15,7 +15,7 @@ pub enum OutputError {
     Input { path: PathBuf },
     #[error("cannot write {}: {source}", path.display())]
     Write { path: PathBuf, source: io::Error },
-    /// What is wrong with its place, and where the whole file is instead.
+    /// The fault of its place, and where the whole file is instead.
     #[error("{error}; what was to go there is kept in {}", place.display())]
     Kept { error: Box<OutputError>, place: PathBuf },
     #[error("cannot write {}: {what}", path.display())]

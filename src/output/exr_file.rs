@@ -72,7 +72,7 @@ fn sorted_bytes(header: &Header) -> Result<Vec<u8>, Error> {
     Ok(bytes)
 }
 
-/// What blocks are made of, and what is summed up of them.
+/// The source of blocks, and the sum of what is hashed of them.
 type BlockSource<'a> = (&'a mut Rows, &'a [Channel], &'a mut LineDigests);
 
 fn write_blocks<W: Write + Seek>(meta: &MetaData, chunks: &mut ChunkWriter<W>, rows: BlockSource<'_>) -> UnitResult {
@@ -148,7 +148,7 @@ fn for_each_block(
         let block = UncompressedBlock { index, data };
         let header = &meta.headers[0];
         if loses_something(header) {
-            // What the file holds is what comes out of it.
+            // The digest is of what comes out of the file.
             let chunk = block.clone().compress_to_chunk(&meta.headers)?;
             digests.add(header, &UncompressedBlock::decompress_chunk(chunk, meta, false)?);
         } else {

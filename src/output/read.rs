@@ -76,10 +76,10 @@ pub fn read_picture(path: &Path) -> Result<ReadPicture, ReadError> {
     read_or_say(path).map_err(|what| ReadError { path: path.to_owned(), what })
 }
 
-/// As [`read_picture`], and an OpenEXR file that states a digest must hold what was written.
+/// Reads as [`read_picture`] does; an OpenEXR file that states a digest must hold what was written.
 ///
 /// # Errors
-/// As there, and a file that was damaged or changed.
+/// The errors of reading, and a file that was damaged or changed.
 pub fn read_undamaged_picture(path: &Path) -> Result<ReadPicture, ReadError> {
     let check = || {
         let mut file = open(path)?;

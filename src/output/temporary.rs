@@ -7,7 +7,7 @@ use std::io;
 /// A new file, which is gone once it is closed.
 ///
 /// # Errors
-/// What the file system says, with the name of the folder.
+/// The file system's error, with the name of the folder.
 pub fn temporary_file() -> io::Result<File> {
     tempfile::tempfile().map_err(in_temporary_folder)
 }

@@ -1,4 +1,4 @@
-//! What is known of the error of a picture, and what that is worth.
+//! The estimated error of a picture, and what the estimate is worth.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +16,7 @@ pub struct ErrorEstimate {
     /// The share of the estimate that is, in each pixel, by the one stream or part that is farthest from the mean. Of 8 that vary as a normal distribution
     /// does it is about a half; where a single bright path in one of them makes it, nearly all.
     pub by_one: f64,
-    /// Of how many equal pixels the estimate would vary as much as it does: (Σe)²/Σe² over the pixels' squared errors e.
+    /// The number of equal pixels whose estimate would vary as much as this one does: (Σe)²/Σe² over the pixels' squared errors e.
     pub effective_pixels: f64,
 }
 

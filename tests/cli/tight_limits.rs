@@ -31,7 +31,7 @@ fn little_memory_for_threads_is_no_panic() {
     assert!(finished > 10, "{finished}");
 }
 
-/// Where a state is in its place, it is not the end: another try may have more.
+/// A state in its place makes it not the end: another try may have more.
 #[cfg(target_os = "linux")]
 #[test]
 fn memory_that_runs_out_midway_is_told_from_a_scene_that_does_not_fit() {

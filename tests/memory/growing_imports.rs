@@ -29,7 +29,7 @@ fn mitsuba_scenes_of_many_things() {
     let _turn = take_turn();
     let png = png_bytes([90, 120, 150]);
     let ball = "<shape type=\"sphere\"><bsdf type=\"diffuse\"/></shape>";
-    // What stands in the scene so many times, and by what it is used.
+    // The lines that stand in the scene so many times, and those that use them.
     type Lines = fn(usize) -> String;
     let nothing: Lines = |_| String::new();
     let rows: [(&str, usize, Lines, Lines); 15] = [

@@ -1,4 +1,4 @@
-//! What an import may cost: small files that say that they are large, or that name others over and over, are refused in a sentence, within 20 seconds and
+//! The cost of imports: small files that say that they are large, or that name others over and over, are refused in a sentence, within 20 seconds and
 //! in little memory.
 
 use std::io::Write;
@@ -12,7 +12,7 @@ use crate::common::files::folder_with;
 use crate::counting::{Peak, take_turn};
 use gpt::load;
 
-/// What a refused scene may take.
+/// Limits for a scene that is refused.
 const MOST_BYTES: usize = 1 << 30;
 const MOST_TIME: Duration = Duration::from_secs(20);
 
@@ -82,7 +82,7 @@ fn accessors_without_a_buffer() {
     refused(&[("primitives.gltf", &primitives)], "no buffer");
 }
 
-/// What many accessors share is not there many times.
+/// Bytes that many accessors share are not there many times.
 #[test]
 fn accessors_that_share_their_bytes() {
     let _turn = take_turn();
@@ -92,7 +92,7 @@ fn accessors_that_share_their_bytes() {
         root["buffers"] = json!([{ "uri": "a.bin", "byteLength": positions.len() }]);
         root["bufferViews"][0]["byteLength"] = json!(positions.len());
         root["accessors"][0]["count"] = json!(count);
-        // Of points, nothing is made.
+        // Nothing is made of points.
         root["meshes"][0]["primitives"] =
             (0..100_000).map(|_| json!({ "attributes": { "POSITION": 0 }, "indices": 1 })).collect();
         root["accessors"] =
@@ -101,7 +101,7 @@ fn accessors_that_share_their_bytes() {
     refused(&[("shared.gltf", &shared), ("a.bin", &positions)], "over and over");
 }
 
-/// Of one picture, by different samplers.
+/// Many textures show one picture, by different samplers.
 #[test]
 fn textures_of_one_picture_are_looked_through_once() {
     let _turn = take_turn();

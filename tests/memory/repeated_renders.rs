@@ -29,7 +29,7 @@ fn renders_give_back_what_they_take() {
     let render = || {
         Renderer::new(&scene, &options).and_then(|mut renderer| renderer.image(&Silent)).expect("it renders");
     };
-    // What is made once is made now.
+    // Everything that is made once is made now.
     (0..20).for_each(|_| render());
     let (peak, before) = (Peak::from_now(), resident());
     (0..RENDERS).for_each(|_| render());

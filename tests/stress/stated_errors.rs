@@ -62,15 +62,15 @@ const SKY: &str = "[film]\nsize = [20, 20]\n[camera]\nposition = [0, 1, 4]\nlook
     [[shape]]\ntype = \"rectangle\"\nmaterial = \"white\"\ncorner = [-3, 0, 3]\nedge_u = [6, 0, 0]\nedge_v = [0, 0, -6]\n\
     [[light]]\ntype = \"sky\"\nzenith = [0.4, 0.6, 1.0]\nhorizon = 0.5\nground = 0.2\n";
 
-/// What the renders of a scene came to.
+/// The outcome of a scene's renders.
 pub struct Coverage {
     pub name: &'static str,
     pub light_is_rare: bool,
     pub renders: u32,
-    /// Those whose error is above the bound that was stated, and those among them that came without a warning.
+    /// Renders whose error is above the bound that was stated, and those among them that came without a warning.
     pub exceeded: u32,
     pub unwarned: u32,
-    /// Those whose error is above the target, though they ended by it.
+    /// Renders whose error is above the target, though they ended by it.
     pub missed: u32,
     pub warned: u32,
     /// Mean of all renders against the truth, less 1.

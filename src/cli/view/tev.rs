@@ -65,7 +65,7 @@ impl Sender {
     }
 }
 
-/// As [`connect`], however long a name takes to be found.
+/// Does the work of [`connect`], however long a name takes to be found.
 fn connect_in_time(address: &str) -> io::Result<TcpStream> {
     let (sender, receiver) = channel();
     let of_thread = address.to_owned();

@@ -49,7 +49,7 @@ pub struct Converter<'a> {
     /// Those of every mesh that was read with them, by its key.
     pub attributes_of_meshes: HashMap<String, (usize, Rc<HashMap<String, Input>>)>,
     pub meshes: HashMap<String, FileReference>,
-    /// Those of which nothing is left.
+    /// Keys of meshes of which nothing is left.
     pub meshes_without_area: HashSet<String>,
     /// Files of meshes as they stand.
     pub read_meshes: HashMap<MeshKey, Result<ReadMesh, SceneError>>,

@@ -7,7 +7,7 @@ use crate::load::import::Place;
 /// Most shapes of a scene.
 pub const MOST_SHAPES: usize = 1 << 20;
 
-/// What is said where there are more.
+/// The error where there are more.
 pub fn too_many_shapes(place: &Place) -> SceneError {
     error_at(place, format!("the scene has more than {MOST_SHAPES} shapes, instances counted"))
 }

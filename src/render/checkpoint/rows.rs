@@ -82,7 +82,7 @@ impl RowsFile {
     /// Checks that all bands are what was written.
     ///
     /// # Errors
-    /// As [`RowsFile::read`].
+    /// The errors of [`RowsFile::read`].
     pub fn check(&mut self) -> io::Result<()> {
         self.read(&mut |_| Ok(()))
     }
