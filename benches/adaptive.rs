@@ -5,8 +5,12 @@
 //! relative mean squared error against a long render, less that render's own. Time times error is what equal error costs; its ratio, pair
 //! by pair, is the table of docs/performance.md.
 
+#[path = "../tests/common/caustic.rs"]
+mod caustic;
+
 use std::time::Instant;
 
+use caustic::CAUSTIC;
 use gpt::compare::RELATIVE_EPSILON;
 use gpt::gpu::{Device, GpuRenderer};
 use gpt::load;
@@ -24,15 +28,6 @@ const SCENES: [&str; 5] = ["cornell", "veach-mis", "spheres", "caustic", "behind
 const MODELS: [&str; 2] = ["ogre-area", "bunny-area"];
 /// Pairs after one that is thrown away.
 const PAIRS: u32 = 5;
-
-/// A glass ball under a small lamp: its caustic is found by paths that meet the lamp by chance.
-const CAUSTIC: &str = "[film]\nsize = [128, 128]\n[camera]\nposition = [0, 4, 7]\nlook_at = [0, 0.4, 0]\nvfov = 40\n\
-    [[material]]\nname = \"white\"\ntype = \"diffuse\"\nreflectance = 0.7\n\
-    [[material]]\nname = \"glass\"\ntype = \"glass\"\nior = 1.5\n\
-    [[material]]\nname = \"lamp\"\ntype = \"emissive\"\nradiance = 60\n\
-    [[shape]]\ntype = \"rectangle\"\nmaterial = \"white\"\ncorner = [-6, 0, 6]\nedge_u = [12, 0, 0]\nedge_v = [0, 0, -12]\n\
-    [[shape]]\ntype = \"sphere\"\nmaterial = \"glass\"\ncenter = [0, 1, 0]\nradius = 1\n\
-    [[shape]]\ntype = \"sphere\"\nmaterial = \"lamp\"\ncenter = [-3, 5, -1]\nradius = 0.4\n[render]\nmax_depth = 8\n";
 
 /// A lit room of which most is seen calmly, and a corner of it through rough glass.
 const BEHIND_GLASS: &str = "[film]\nsize = [128, 128]\n[camera]\nposition = [0, 1.5, 7]\nlook_at = [0, 1, 0]\nvfov = 40\n\

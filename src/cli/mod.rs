@@ -72,7 +72,7 @@ fn start_threads() {
     let _ = builder.build_global();
 }
 
-/// Whether the system starts so many threads at a time. They are over when this returns.
+/// True where the system starts so many threads at a time. They are over when this returns.
 fn can_start(threads: usize) -> bool {
     let started: Vec<_> = (0..threads).map_while(|_| thread::Builder::new().spawn(thread::park).ok()).collect();
     let can = started.len() == threads;

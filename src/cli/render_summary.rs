@@ -12,7 +12,7 @@ use super::exit::Failure;
 use super::pictures::{PictureSummary, is_stdout};
 use super::terminal;
 
-/// Whether the picture is as good as was asked for, and what the answer is worth.
+/// Says how good the picture is where that was asked for, and what the answer is worth.
 pub fn tell_of_error(arguments: &RenderArguments, scene: &Scene, error: Option<ErrorEstimate>, stop: Stop) {
     let (Some(target), Some(error)) = (arguments.goal.target_error, error) else { return };
     if stop != Stop::TargetError {

@@ -9,8 +9,7 @@
 //! by chance the quotient is anything.
 
 use crate::compare::RELATIVE_EPSILON;
-use crate::render::error_estimate::ErrorEstimate;
-use crate::render::progressive::error::standard_deviations;
+use crate::render::error_estimate::{ErrorEstimate, PixelErrors};
 use crate::sampling::hash::mix;
 
 /// Values of pixels that are kept, at most: parts times pixels.
@@ -48,23 +47,14 @@ impl PartsError {
 
     /// The relative mean squared error of the mean of all parts; None where too few pixels are in several parts.
     pub fn estimate(&self) -> Option<ErrorEstimate> {
-        let errors: Vec<PixelError> = self.values.iter().filter_map(|values| squared_error(values)).collect();
-        let count = errors.len() as f64;
-        if errors.is_empty() || errors.len() * 2 < self.pixels.len() {
+        let found: Vec<PixelError> = self.values.iter().filter_map(|values| squared_error(values)).collect();
+        if found.is_empty() || found.len() * 2 < self.pixels.len() {
             return None;
         }
-        let mean = errors.iter().map(|error| error.squared).sum::<f64>() / count;
-        let mean_square = errors.iter().map(|error| error.squared * error.squared).sum::<f64>() / count;
-        let freedom = errors.iter().map(|error| error.freedom).sum::<f64>() / count;
-        // As for streams: what the error itself, its estimate, and the choice of pixels vary by.
-        let of_error = 2.0 * mean_square / self.total_pixels as f64;
-        let of_estimate = 2.0 * mean_square / (count * freedom);
-        let unseen = 1.0 - count / self.total_pixels as f64;
-        let of_choice = unseen * (mean_square - mean * mean).max(0.0) / count;
-        let deviation = (of_error + of_estimate + of_choice).sqrt();
-        let by_one = if mean > 0.0 { errors.iter().map(|error| error.by_one).sum::<f64>() / (count * mean) } else { 0.0 };
-        let effective_pixels = if mean > 0.0 { count * mean * mean / mean_square } else { count };
-        Some(ErrorEstimate { mean, upper: mean + standard_deviations(1) * deviation, by_one, effective_pixels })
+        let mut errors = PixelErrors::default();
+        found.iter().for_each(|error| errors.add(error.squared, error.by_one));
+        let freedom = found.iter().map(|error| error.freedom).sum::<f64>() / errors.count;
+        Some(errors.estimate(self.total_pixels, freedom, 1))
     }
 }
 

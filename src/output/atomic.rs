@@ -123,10 +123,7 @@ impl AtomicFile {
     /// Puts the file anywhere else: beside its place, or where temporary files are. None: nowhere.
     fn keep(&mut self, target: &Path) -> Option<PathBuf> {
         let mut temporary = self.temporary.take()?;
-        let [stem, ending] = [target.file_stem(), target.extension()].map(|part| part.unwrap_or_default().to_string_lossy());
-        let (stem, ending) = (stem.into_owned(), ending.into_owned());
-        let names = (1..100).map(move |number| format!("{stem}.kept-{number}.{ending}"));
-        let places: Vec<PathBuf> = names.map(|name| target.with_file_name(name)).collect();
+        let places: Vec<PathBuf> = names_beside(target, "kept").take(MOST_BESIDE).collect();
         let suffix = format!(".{}", target.extension().unwrap_or_default().to_string_lossy());
         let kept = patience::within(move || {
             for place in places.into_iter().filter(|place| !place.exists()) {
@@ -172,6 +169,20 @@ impl Drop for AtomicFile {
         }
         unfinished().retain(|path| *path != self.temporary_path);
     }
+}
+
+/// How many names beside a file are tried.
+pub(super) const MOST_BESIDE: usize = 1000;
+
+/// Names that tell a file from the one in its place: `name.WORD.ending`, and then with a number, from `name.WORD-2.ending` on.
+pub(super) fn names_beside(target: &Path, word: &str) -> impl Iterator<Item = PathBuf> {
+    let [stem, ending] = [target.file_stem(), target.extension()].map(|part| part.unwrap_or_default().to_os_string());
+    (1..).map(move |number| {
+        let mut name = stem.clone();
+        name.push(if number == 1 { format!(".{word}.") } else { format!(".{word}-{number}.") });
+        name.push(&ending);
+        target.with_file_name(name)
+    })
 }
 
 /// Checks that a file could be put at `path`: its folder exists and nothing but an ordinary file is in its place, one that was not read. Asked before a
@@ -356,7 +367,7 @@ mod tests {
             spoil(&path).unwrap();
             let Err(OutputError::Kept { place, .. }) = file.commit_or_keep(&path) else { panic!("it is kept") };
             assert_eq!(fs::read(&place).unwrap(), b"hours of work");
-            assert_eq!(place == below.join("a.kept-1.exr"), is_beside, "{}", place.display());
+            assert_eq!(place == below.join("a.kept.exr"), is_beside, "{}", place.display());
             fs::remove_file(place).unwrap();
         }
         // The control.

@@ -22,7 +22,7 @@ const INCIDENTAL: [&str; 6] = ["gpt:version", "gpt:scene", "gpt:device", SAMPLES
 /// Within so many bytes stands the line that says how a preview was made.
 const LONGEST_START: u64 = 70_000;
 
-/// Whether a readable picture stands there that was made of the same scene with the same settings, whose render did not break off, and which holds what
+/// True where a readable picture stands there that was made of the same scene with the same settings, whose render did not break off, and which holds what
 /// was written, numbers all. The device does not matter.
 pub fn is_finished_picture(path: &Path, format: PictureFormat, spec: &PictureSpec) -> bool {
     let size = [spec.width, spec.height];

@@ -1,6 +1,5 @@
 //! One picture file in the making: a thread encodes and writes while the render goes on.
 
-use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{BufWriter, Error, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -11,7 +10,7 @@ use std::thread::{self, JoinHandle};
 use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, Text};
 
-use super::atomic::AtomicFile;
+use super::atomic::{AtomicFile, MOST_BESIDE, names_beside};
 use super::error::OutputError;
 use super::format::PictureFormat;
 use super::provenance::BROKEN_OFF_KEY;
@@ -30,8 +29,6 @@ const WAITING_BANDS: usize = 1;
 pub const STDOUT: &str = "-";
 /// The last bytes of a preview, in which the note stands that its render broke off.
 const BYTES_OF_NOTE: u64 = 64;
-/// Unfinished pictures that are kept beside a finished one.
-const MOST_BESIDE: usize = 1000;
 
 /// A file that takes bands and appears, whole, at [`PictureFile::finish`]. Dropped before that, it leaves nothing.
 pub struct PictureFile {
@@ -198,19 +195,7 @@ fn write_to_stdout(mut file: File) -> Result<(), OutputError> {
 
 /// Where a picture may go that is not finished: its own place, or beside what is there and finished, as `name.incomplete.exr`.
 fn beside_finished(target: &Path) -> PathBuf {
-    let part = |part: Option<&OsStr>| part.unwrap_or_default().to_os_string();
-    let [stem, ending] = [part(target.file_stem()), part(target.extension())];
-    let candidates = (0..).map(|number| {
-        let mut name = stem.clone();
-        match number {
-            0 => {}
-            1 => name.push(".incomplete"),
-            _ => name.push(format!(".incomplete-{number}")),
-        }
-        name.push(".");
-        name.push(&ending);
-        target.with_file_name(name)
-    });
+    let candidates = std::iter::once(target.to_owned()).chain(names_beside(target, "incomplete"));
     let mut free = candidates.take(MOST_BESIDE).filter(|path| !is_finished(path));
     free.next().unwrap_or_else(|| target.to_owned())
 }

@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use crate::common::files::{folder_with, png_bytes};
 use crate::counting::take_turn;
 use crate::growth::assert_linear;
+use crate::triangle_gltf::gltf;
 use gpt::load;
 
 /// Reads a scene of files, the first of which is the scene.
@@ -145,20 +146,6 @@ fn mitsuba_scenes_of_many_things() {
             read(&[("scene.xml", xml.as_bytes()), ("a.png", &png)]);
         });
     }
-}
-
-/// A triangle, as the accessor 0; what is added is merged over it.
-fn gltf(fill: impl FnOnce(&mut Value)) -> Vec<u8> {
-    let positions = "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
-    let mut root = json!({
-        "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }],
-        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
-        "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3" }],
-        "bufferViews": [{ "buffer": 0, "byteLength": 36 }],
-        "buffers": [{ "byteLength": 36, "uri": positions }],
-    });
-    fill(&mut root);
-    serde_json::to_vec(&root).expect("JSON")
 }
 
 fn list(count: usize, item: impl Fn(usize) -> Value) -> Value {

@@ -6,10 +6,11 @@ use std::time::{Duration, Instant};
 
 use flate2::Compression;
 use flate2::write::{GzEncoder, ZlibEncoder};
-use serde_json::{Value, json};
+use serde_json::json;
 
 use crate::common::files::folder_with;
 use crate::counting::{Peak, take_turn};
+use crate::triangle_gltf::gltf;
 use gpt::load;
 
 /// Limits for a scene that is refused.
@@ -51,19 +52,6 @@ fn files_that_are_included_over_and_over() {
     let spheres = scene(&"<shape type=\"sphere\"/>".repeat(3000));
     let included = scene(&"<include filename=\"spheres.xml\"/>".repeat(900));
     refused(&[("scene.xml", included.as_bytes()), ("spheres.xml", spheres.as_bytes())], "shapes");
-}
-
-/// A triangle by the accessor 0.
-fn gltf(fill: impl FnOnce(&mut Value)) -> Vec<u8> {
-    let mut root = json!({
-        "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }],
-        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
-        "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3" }],
-        "bufferViews": [{ "buffer": 0, "byteLength": 36 }],
-        "buffers": [{ "byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" }],
-    });
-    fill(&mut root);
-    serde_json::to_vec(&root).expect("JSON")
 }
 
 #[test]

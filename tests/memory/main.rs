@@ -16,3 +16,4 @@ mod large_pictures;
 mod many_files;
 mod repeated_renders;
 mod seeds;
+mod triangle_gltf;

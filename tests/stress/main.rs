@@ -2,6 +2,8 @@
 //!
 //! `cargo bench --bench stress` runs the same cases at full length and writes docs/stress.md.
 
+#[path = "../common/caustic.rs"]
+mod caustic;
 #[path = "../common/mod.rs"]
 mod common;
 #[path = "../statistics/mod.rs"]
@@ -98,6 +100,6 @@ fn stated_errors_hold() {
     }
     // The control: where light is rare, bounds do not hold, and this test can tell.
     assert!(rows.iter().any(|row| row.light_is_rare && row.exceeded > most));
-    // Where it is not, most renders come without a warning.
+    // Most renders of the other scenes come without a warning.
     assert!(rows.iter().filter(|row| !row.light_is_rare).all(|row| row.warned < seeds / 2));
 }

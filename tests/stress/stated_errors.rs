@@ -1,4 +1,4 @@
-//! Whether stated errors hold: pictures of small scenes that end by their error, once for each of many seeds, against a long render.
+//! Stated errors and whether they hold: pictures of small scenes that end by their error, once for each of many seeds, against a long render.
 //!
 //! A bound at 95 % is exceeded in 5 % of all renders at most. Where light is rare, no bound that is made of what samples have seen can promise that: what
 //! none of them has found is in no variance. So a render that exceeds its bound must have come with a warning.
@@ -9,6 +9,8 @@ use gpt::reference::ReferenceRenderer;
 use gpt::render::progressive::{self, Goal, Outcome, Stop};
 use gpt::renderer::Silent;
 use gpt::scene::Scene;
+
+use super::caustic::CAUSTIC;
 
 const SIDE: u32 = 20;
 const MOST: u32 = 1024;
@@ -46,15 +48,6 @@ const BEHIND_GLASS: &str = "[film]\nsize = [20, 20]\n[camera]\nposition = [0, 1.
     [[shape]]\ntype = \"sphere\"\nmaterial = \"lamp\"\ncenter = [0, 2.5, 0]\nradius = 0.03\n\
     [[light]]\ntype = \"environment\"\nradiance = 0.3\n";
 
-/// A ball of glass under a small lamp, whose caustic paths find by chance.
-const CAUSTIC: &str = "[film]\nsize = [20, 20]\n[camera]\nposition = [0, 4, 7]\nlook_at = [0, 0.4, 0]\nvfov = 40\n[render]\nmax_depth = 8\n\
-    [[material]]\nname = \"white\"\ntype = \"diffuse\"\nreflectance = 0.7\n\
-    [[material]]\nname = \"glass\"\ntype = \"glass\"\nior = 1.5\n\
-    [[material]]\nname = \"lamp\"\ntype = \"emissive\"\nradiance = 60\n\
-    [[shape]]\ntype = \"rectangle\"\nmaterial = \"white\"\ncorner = [-6, 0, 6]\nedge_u = [12, 0, 0]\nedge_v = [0, 0, -12]\n\
-    [[shape]]\ntype = \"sphere\"\nmaterial = \"glass\"\ncenter = [0, 1, 0]\nradius = 1\n\
-    [[shape]]\ntype = \"sphere\"\nmaterial = \"lamp\"\ncenter = [-3, 5, -1]\nradius = 0.4\n";
-
 /// A ball and a floor under the sky.
 const SKY: &str = "[film]\nsize = [20, 20]\n[camera]\nposition = [0, 1, 4]\nlook_at = [0, 0.5, 0]\nvfov = 50\n\
     [[material]]\nname = \"white\"\ntype = \"diffuse\"\nreflectance = 0.6\n\
@@ -78,17 +71,16 @@ pub struct Coverage {
 }
 
 fn scene(case: &Case) -> Scene {
-    let text = match case.name {
-        "under-sky" => SKY,
-        "behind glass" => BEHIND_GLASS,
-        "caustic" => CAUSTIC,
-        name => {
-            let mut scene = load::load(Some(name)).expect("a built-in scene");
-            scene.film.size = [SIDE, SIDE];
-            return scene;
-        }
-    };
-    load::load_toml_str(text, case.name, std::path::Path::new("")).expect("a scene")
+    let from_text = |text: &str| load::load_toml_str(text, case.name, std::path::Path::new(""));
+    let mut scene = match case.name {
+        "under-sky" => from_text(SKY),
+        "behind glass" => from_text(BEHIND_GLASS),
+        "caustic" => from_text(CAUSTIC),
+        name => load::load(Some(name)),
+    }
+    .expect("a scene");
+    scene.film.size = [SIDE, SIDE];
+    scene
 }
 
 fn render(renderer: &mut ReferenceRenderer, seed: u32, goal: &Goal) -> (Vec<[f64; 3]>, Outcome) {

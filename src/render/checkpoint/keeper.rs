@@ -47,7 +47,7 @@ pub fn path_of_layer(picture: &Path, layer: KernelLayer) -> PathBuf {
 /// A state of the render under way is in its place.
 static IS_KEPT: AtomicBool = AtomicBool::new(false);
 
-/// Whether a state of the render under way is in its place, so that a process that ends now loses little. It takes no memory and no lock.
+/// True while a state of the render under way is in its place, so that a process that ends now loses little. It takes no memory and no lock.
 pub fn is_kept() -> bool {
     IS_KEPT.load(Ordering::SeqCst)
 }

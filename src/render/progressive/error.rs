@@ -10,17 +10,13 @@
 //! All of this is of light that samples have found. What none has found is in no variance, and a bound that is made of variances holds where light is
 //! not rare; docs/strategies.md has measurements. Where what was found shows that few paths decide, [`ErrorEstimate::tails_decide`].
 
-use statrs::distribution::{ContinuousCDF, Normal};
-
 use crate::compare::RELATIVE_EPSILON;
 use crate::film::Band;
-use crate::render::error_estimate::ErrorEstimate;
+use crate::render::error_estimate::{ErrorEstimate, PixelErrors};
 use crate::sampling::hash::mix;
 
 /// Pixels that are looked at, at most; of larger pictures an even sample of them.
 const MOST_PIXELS: u64 = 1 << 18;
-/// Probability that a picture called good enough is not, over all looks together.
-const DOUBT: f64 = 0.05;
 
 /// What the streams say of the pixels that are looked at.
 pub struct ErrorEstimator {
@@ -81,37 +77,19 @@ impl ErrorEstimator {
     pub fn look(&mut self) -> ErrorEstimate {
         self.looks += 1;
         let streams = self.sums.len();
-        let count = self.pixels.len() as f64;
-        let (mut sum, mut sum_of_squares, mut by_one) = (0.0, 0.0, 0.0);
+        let mut errors = PixelErrors::default();
         for pixel in 0..self.pixels.len() {
-            let mut error = 0.0;
+            let (mut squared, mut by_one) = (0.0, 0.0);
             for channel in 0..3 {
                 let values = (0..streams).map(|stream| self.sums[stream][pixel][channel] / self.sums[stream][pixel][3]);
                 let (of_channel, of_one) = squared_error_of_mean(values);
-                error += of_channel / 3.0;
+                squared += of_channel / 3.0;
                 by_one += of_one / 3.0;
             }
-            sum += error;
-            sum_of_squares += error * error;
+            errors.add(squared, by_one);
         }
-        let (mean, mean_square) = (sum / count, sum_of_squares / count);
-        // A pixel's squared error is about e·χ²(1), with variance 2e², and its estimate e·χ²(R−1)/(R−1) with 2e²/(R−1). Pixels are
-        // independent of each other, because each has random numbers of its own.
-        let of_error = 2.0 * mean_square / self.total_pixels as f64;
-        let of_estimate = 2.0 * mean_square / (count * (streams as f64 - 1.0));
-        let unseen = 1.0 - count / self.total_pixels as f64;
-        let of_choice = unseen * (mean_square - mean * mean).max(0.0) / count;
-        let deviation = (of_error + of_estimate + of_choice).sqrt();
-        let by_one = if sum > 0.0 { by_one / sum } else { 0.0 };
-        let effective_pixels = if sum > 0.0 { sum * sum / sum_of_squares } else { count };
-        ErrorEstimate { mean, upper: mean + standard_deviations(self.looks) * deviation, by_one, effective_pixels }
+        errors.estimate(self.total_pixels, streams as f64 - 1.0, self.looks)
     }
-}
-
-/// Standard deviations that make up for the doubt granted to a look: DOUBT / (k (k + 1)) to the k-th, which add up to DOUBT.
-pub fn standard_deviations(look: u32) -> f64 {
-    let look = f64::from(look);
-    Normal::standard().inverse_cdf(1.0 - DOUBT / (look * (look + 1.0)))
 }
 
 /// Estimated squared relative error of the mean of independent values: their variance over their number, each deviation relative to
@@ -132,13 +110,6 @@ fn squared_error_of_mean(values: impl Iterator<Item = f64> + Clone) -> (f64, f64
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn looks_share_the_doubt() {
-        let doubt = |look| 1.0 - Normal::standard().cdf(standard_deviations(look));
-        let total: f64 = (1..10_000).map(doubt).sum();
-        assert!((total - DOUBT).abs() < 1e-4, "{total}");
-    }
 
     #[test]
     fn equal_values_have_no_error_and_a_rare_bright_one_is_not_its_own_excuse() {

@@ -60,7 +60,7 @@ impl Clock {
         Self { deadline, rate: None }
     }
 
-    /// Whether steps are to be kept within some time.
+    /// True where steps are to be kept within some time.
     pub fn runs(&self) -> bool {
         self.deadline.is_some()
     }
