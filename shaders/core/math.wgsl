@@ -1,5 +1,6 @@
 // Small mathematics that every kernel shares.
 #import core/layout.wgsl
+#export core/spectrum.wgsl
 
 const PI: f32 = 3.14159265358979323846;
 const INVERSE_PI: f32 = 0.31830988618379067154;
@@ -9,11 +10,7 @@ const INFINITY_DISTANCE: f32 = 3.0e38;
 // Relative size of the error of a computed surface point: some 16 rounding errors of f32 (2^-24 each).
 const POINT_ERROR: f32 = 1.0e-6;
 
-fn luminance(color: vec3<f32>) -> f32 {
-    return dot(color, vec3<f32>(0.2126, 0.7152, 0.0722));
-}
-
-fn max_component(v: vec3<f32>) -> f32 {
+fn max_coordinate(v: vec3<f32>) -> f32 {
     return max(v.x, max(v.y, v.z));
 }
 

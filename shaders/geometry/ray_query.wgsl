@@ -6,13 +6,11 @@
 enable wgpu_ray_query;
 #import core/math.wgsl
 #import geometry/constants.wgsl
-#if TRANSPARENT_SHADOWS
-#import shading/transmittance.wgsl
-#endif
 #import geometry/prepared_ray.wgsl
 #import geometry/records.wgsl
 #import geometry/shapes.wgsl
 #import geometry/stored.wgsl
+#import shading/shadow.wgsl
 
 // Instances: triangles, opaque, and boxes. An instance's custom data is its first primitive.
 @group(0) @binding(BINDING_ACCELERATION) var acceleration: acceleration_structure;
@@ -103,26 +101,20 @@ fn closest_hit(traced: Ray, t_max: f32) -> Hit {
     return hit_by_query(ray, hit, &after, RAY_FLAG_NONE);
 }
 
-// What share of the light comes through all that lies between the origin and t_max; 0 where something opaque does.
-fn transmittance(traced: Ray, t_max: f32) -> f32 {
+// The share of light that comes through all that lies between the origin and t_max.
+fn shadow_transmittance(traced: Ray, t_max: f32) -> Spectrum {
     let ray = prepare_ray(traced);
-    if any_of_constants(ray, t_max) {
-        return 0.0;
-    }
+    var shadow = begin_shadow(t_max);
+    var blocked = is_blocked_by_constants(&shadow, ray);
+    // Transparent surfaces are met one after the other, nearest first, because the device's own order may come to one twice.
+    let flags = select(RAY_FLAG_TERMINATE_ON_FIRST_HIT, RAY_FLAG_NONE, HAS_TRANSPARENT_SHADOWS);
     var after = 0.0;
-#if TRANSPARENT_SHADOWS
-    // One surface after the other, nearest first: the device's own order may come to a primitive twice.
-    var through = transmittance_of_constants(ray, t_max);
-    while through > 0.0 {
-        let hit = hit_by_query(ray, no_hit(t_max), &after, RAY_FLAG_NONE);
+    while !blocked {
+        let hit = hit_by_query(ray, no_hit(t_max), &after, flags);
         if hit.primitive == NONE {
             break;
         }
-        through *= hit_transmittance(traced, hit, t_max);
+        blocked = is_blocked_by(&shadow, traced, hit);
     }
-    return through;
-#else
-    let hit = hit_by_query(ray, no_hit(t_max), &after, RAY_FLAG_TERMINATE_ON_FIRST_HIT);
-    return select(0.0, 1.0, hit.primitive == NONE);
-#endif
+    return light_through(shadow, blocked);
 }

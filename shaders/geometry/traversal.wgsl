@@ -9,9 +9,7 @@
 #import geometry/records.wgsl
 #import geometry/stored.wgsl
 #import geometry/constants.wgsl
-#if TRANSPARENT_SHADOWS
-#import shading/transmittance.wgsl
-#endif
+#import shading/shadow.wgsl
 
 alias StackEntry = u32;
 
@@ -42,11 +40,8 @@ struct Traversal {
     inverse_direction: vec3<f32>,
     hit: Hit,
     pending: Pending,
-#if TRANSPARENT_SHADOWS
-    // Of a shadow ray: where it ends, and what share of the light comes through the surfaces met so far.
-    limit: f32,
-    transmittance: f32,
-#endif
+    // What a shadow ray has met.
+    shadow: Shadow,
 #if INSTANCES
     // The ray in the world; `ray` may be in an instance.
     world: Ray,
@@ -62,10 +57,7 @@ fn safe_inverse(direction: vec3<f32>) -> vec3<f32> {
 
 fn begin_traversal(traced: Ray, t_max: f32) -> Traversal {
     return Traversal(
-        prepare_ray(traced), safe_inverse(traced.direction), no_hit(t_max), pending_root()
-#if TRANSPARENT_SHADOWS
-        , t_max, 1.0
-#endif
+        prepare_ray(traced), safe_inverse(traced.direction), no_hit(t_max), pending_root(), begin_shadow(t_max)
 #if INSTANCES
         , traced
 #endif
@@ -187,24 +179,28 @@ fn step_closest(traversal: ptr<function, Traversal>, stack: ptr<function, array<
     }
 }
 
-// As step_closest, for a ray that only asks whether it meets anything: it is finished at the first primitive met.
+// The traversal's ray as it was begun.
+fn ray_in_world(traversal: ptr<function, Traversal>) -> Ray {
+#if INSTANCES
+    return (*traversal).world;
+#else
+    return Ray((*traversal).ray.origin, (*traversal).ray.direction);
+#endif
+}
+
+// One step of a shadow ray's traversal, which ends at the first surface that leaves no light.
 fn step_any(traversal: ptr<function, Traversal>, stack: ptr<function, array<StackEntry, STACK_SIZE>>) {
     step_closest(traversal, stack);
     if (*traversal).hit.primitive != NONE {
-#if TRANSPARENT_SHADOWS
-        // What lets light through is behind the ray then, which goes on to its end.
-#if INSTANCES
-        let ray = (*traversal).world;
-#else
-        let ray = Ray((*traversal).ray.origin, (*traversal).ray.direction);
-#endif
-        (*traversal).transmittance *= hit_transmittance(ray, (*traversal).hit, (*traversal).limit);
-        if (*traversal).transmittance > 0.0 {
-            (*traversal).hit = no_hit((*traversal).limit);
-            return;
+        var shadow = (*traversal).shadow;
+        let blocked = is_blocked_by(&shadow, ray_in_world(traversal), (*traversal).hit);
+        (*traversal).shadow = shadow;
+        if blocked {
+            (*traversal).pending = nothing_pending();
+        } else {
+            // A transparent surface is behind the ray then, which goes on to its end.
+            (*traversal).hit = no_hit(shadow.limit);
         }
-#endif
-        (*traversal).pending = nothing_pending();
     }
 }
 
@@ -219,18 +215,12 @@ fn begin_closest(traced: Ray, t_max: f32) -> Traversal {
 
 fn begin_any(traced: Ray, t_max: f32) -> Traversal {
     var traversal = begin_traversal(traced, t_max);
-    if any_of_constants(traversal.ray, t_max) {
+    var shadow = traversal.shadow;
+    if is_blocked_by_constants(&shadow, traversal.ray) {
         traversal.hit.primitive = 0u;
         traversal.pending = nothing_pending();
-#if TRANSPARENT_SHADOWS
-    } else {
-        traversal.transmittance = transmittance_of_constants(traversal.ray, t_max);
-        if traversal.transmittance <= 0.0 {
-            traversal.hit.primitive = 0u;
-            traversal.pending = nothing_pending();
-        }
-#endif
     }
+    traversal.shadow = shadow;
     return traversal;
 }
 
@@ -243,22 +233,17 @@ fn closest_hit(traced: Ray, t_max: f32) -> Hit {
     return traversal.hit;
 }
 
-// What share of the light comes through all that lies between the origin and t_max; 0 where something opaque does.
-fn transmittance(traced: Ray, t_max: f32) -> f32 {
+// The share of light that comes through all that lies between the origin and t_max.
+fn shadow_transmittance(traced: Ray, t_max: f32) -> Spectrum {
     var stack: array<StackEntry, STACK_SIZE>;
     var traversal = begin_any(traced, t_max);
     while !is_finished(traversal) {
         step_any(&traversal, &stack);
     }
-    return light_through(traversal);
+    return traversed_light(traversal);
 }
 
-// The same of a shadow ray that is traced to its end.
-fn light_through(traversal: Traversal) -> f32 {
-#if TRANSPARENT_SHADOWS
-    let through = traversal.transmittance;
-#else
-    let through = 1.0;
-#endif
-    return select(0.0, through, traversal.hit.primitive == NONE);
+// The share of light that comes to the end of a shadow ray whose traversal is finished.
+fn traversed_light(traversal: Traversal) -> Spectrum {
+    return light_through(traversal.shadow, traversal.hit.primitive != NONE);
 }

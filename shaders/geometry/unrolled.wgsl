@@ -2,6 +2,7 @@
 #import core/math.wgsl
 #import geometry/constants.wgsl
 #import geometry/prepared_ray.wgsl
+#import shading/shadow.wgsl
 
 fn closest_hit(traced: Ray, t_max: f32) -> Hit {
     var hit = no_hit(t_max);
@@ -9,14 +10,9 @@ fn closest_hit(traced: Ray, t_max: f32) -> Hit {
     return hit;
 }
 
-// What share of the light comes through all that lies between the origin and t_max; 0 where something opaque does.
-fn transmittance(traced: Ray, t_max: f32) -> f32 {
-    let ray = prepare_ray(traced);
-    var through = select(1.0, 0.0, any_of_constants(ray, t_max));
-#if TRANSPARENT_SHADOWS
-    if through > 0.0 {
-        through = transmittance_of_constants(ray, t_max);
-    }
-#endif
-    return through;
+// The share of light that comes through all that lies between the origin and t_max.
+fn shadow_transmittance(traced: Ray, t_max: f32) -> Spectrum {
+    var shadow = begin_shadow(t_max);
+    let blocked = is_blocked_by_constants(&shadow, prepare_ray(traced));
+    return light_through(shadow, blocked);
 }

@@ -64,7 +64,7 @@ fn load_bsdf(surface: Surface, wo: vec3<f32>, choice: f32) -> Bsdf {
 
 #if !BLENDS
 // Radiance that a material sends out towards where it is seen from.
-fn material_emission(material: u32, seen: Seen, uv: TextureCoordinates) -> vec3<f32> {
+fn material_emission(material: u32, seen: Seen, uv: TextureCoordinates) -> Spectrum {
     return own_emission(material, seen.front, uv);
 }
 #endif

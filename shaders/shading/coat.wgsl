@@ -113,5 +113,5 @@ fn coat_reflection(coat: Coat, base: Frame, wo: vec3<f32>, wi: vec3<f32>) -> vec
 
 // The share of light from wo that it reflects.
 fn coat_reflectance(coat: Coat, surface: Surface, wo: vec3<f32>) -> f32 {
-    return coat.strength * schlick(coat_cosine(coat, surface, wo), vec3<f32>(COAT_REFLECTANCE)).x;
+    return coat.strength * schlick(coat_cosine(coat, surface, wo), Spectrum(COAT_REFLECTANCE)).x;
 }

@@ -4,7 +4,7 @@
 #import core/sampler.wgsl
 #import shading/environment_sample.wgsl
 
-fn constant_radiance(wi: vec3<f32>) -> vec3<f32> {
+fn constant_radiance(wi: vec3<f32>) -> Spectrum {
     return view.environment[0].xyz;
 }
 

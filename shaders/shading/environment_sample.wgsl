@@ -2,7 +2,7 @@
 
 struct EnvironmentSample {
     wi: vec3<f32>,
-    radiance: vec3<f32>,
+    radiance: Spectrum,
     // Per steradian.
     pdf_solid_angle: f32,
 }

@@ -32,7 +32,7 @@ fn fresnel_dielectric(cosine: f32, eta: f32) -> Fresnel {
 }
 
 // Schlick's approximation, of what is reflected at normal incidence.
-fn schlick(cosine: f32, normal_incidence: vec3<f32>) -> vec3<f32> {
+fn schlick(cosine: f32, normal_incidence: Spectrum) -> Spectrum {
     let away = 1.0 - cosine;
     let away2 = away * away;
     return normal_incidence + (1.0 - normal_incidence) * (away2 * away2 * away);

@@ -15,7 +15,7 @@ fn gives_light(material: u32) -> bool {
 fn path_behind(incoming: Path, surface: Surface) -> Path {
     var straight_on = no_sample();
     straight_on.wi = incoming.ray.direction;
-    straight_on.weight = vec3<f32>(1.0);
+    straight_on.weight = WHITE;
     straight_on.pdf_solid_angle = -1.0;
     straight_on.is_null = true;
     trace_sample(straight_on.wi, straight_on.pdf_solid_angle, straight_on.weight, 1.0, true);

@@ -45,7 +45,7 @@ fn half_floats(bits: vec3<u32>) -> vec3<f32> {
 
 // A colour; or a grey, where one channel counts. Whatever the format, what it leads to is loaded at the end by the same code: drivers copy
 // what is called to wherever it is called.
-fn texel(image: Image, x: i32, y: i32) -> vec3<f32> {
+fn texel(image: Image, x: i32, y: i32) -> Spectrum {
     let index = u32(y * image.size.x + x);
     // Which of a texel's values: red, green, blue or alpha.
     var numbers = vec3<u32>(0u, 1u, 2u);
@@ -101,7 +101,7 @@ fn texel_halves(image: Image, index: u32, numbers: vec3<u32>) -> vec3<u32> {
 }
 
 // v = 0 is the bottom row.
-fn image_color(image: Image, st: vec2<f32>) -> vec3<f32> {
+fn image_color(image: Image, st: vec2<f32>) -> Spectrum {
     let size = image.size;
     let wrap = (vec2<u32>(image.flags) >> vec2<u32>(WRAP_SHIFT, WRAP_V_SHIFT)) & vec2<u32>(3u);
     let position = vec2<f32>(st.x, 1.0 - st.y) * vec2<f32>(size);

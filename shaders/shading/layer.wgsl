@@ -1,7 +1,7 @@
 // Layers of light: which light the layer holds that a render makes in place of the picture. src/reference/layer.rs is the same.
 
 // Light that reaches the camera over so many edges, as far as the layer holds it: all of it where the picture itself is made.
-fn in_layer(radiance: vec3<f32>, edges: u32) -> vec3<f32> {
+fn in_layer(radiance: Spectrum, edges: u32) -> Spectrum {
 #if LAYER_OF_LIGHT
 #if LAYER_EMISSION
     let is_held = edges == 1u;
@@ -12,7 +12,7 @@ fn in_layer(radiance: vec3<f32>, edges: u32) -> vec3<f32> {
 #if LAYER_INDIRECT
     let is_held = edges > 2u;
 #endif
-    return select(vec3<f32>(0.0), radiance, is_held);
+    return select(BLACK, radiance, is_held);
 #else
     return radiance;
 #endif

@@ -47,7 +47,7 @@
 
 #if VARYING_LIGHTS
 // Σ wᵢ Leᵢ towards `wo` at a point of a light: what a ray that met it would see.
-fn varying_radiance(light: u32, point: ShapePoint, wo: vec3<f32>) -> vec3<f32> {
+fn varying_radiance(light: u32, point: ShapePoint, wo: vec3<f32>) -> Spectrum {
     let front = dot(wo, point.normal) > 0.0;
     let kind = bitcast<u32>(light_word(light, 0u).x) & 255u;
     let material = bitcast<u32>(light_word(light, 4u).w);
@@ -82,7 +82,7 @@ fn shown_sphere_sample(light: u32, kind_flags: u32, reference: vec3<f32>, two_si
     let band = sphere_band(light, drawn.place.y);
     point.normal = sphere_normal_at(bitcast<u32>(light_word(light, 3u).w), drawn.place.x, band.below);
     let area = 2.0 * TWO_PI * l1.w * l1.w;
-    var light_sample = sphere_sample_of_point(reference, l1.xyz, l1.w, point.normal, vec3<f32>(1.0), two_sided, pmf, area);
+    var light_sample = sphere_sample_of_point(reference, l1.xyz, l1.w, point.normal, WHITE, two_sided, pmf, area);
     light_sample.radiance *= varying_radiance(light, point, -light_sample.wi);
     light_sample.pdf_solid_angle *= drawn.density / band.area;
     return light_sample;
@@ -92,7 +92,7 @@ fn shown_sphere_sample(light: u32, kind_flags: u32, reference: vec3<f32>, two_si
 #if SPHERE_LIGHTS
 fn varying_sphere_sample(light: u32, reference: vec3<f32>, two_sided: bool, pmf: f32, u: f32, v: f32) -> LightSample {
     let l1 = light_word(light, 1u);
-    var light_sample = sphere_light_sample(reference, l1.xyz, l1.w, vec3<f32>(1.0), two_sided, pmf, u, v);
+    var light_sample = sphere_light_sample(reference, l1.xyz, l1.w, WHITE, two_sided, pmf, u, v);
     let to_center = l1.xyz - reference;
     let along = dot(to_center, light_sample.wi);
     let across = to_center - along * light_sample.wi;
@@ -124,7 +124,7 @@ fn varying_sphere_sample(light: u32, reference: vec3<f32>, two_sided: bool, pmf:
 
 #if AREA_LIGHTS
 // A point on a light, seen from `reference`: density by area turned into density by solid angle.
-fn area_light_sample(reference: vec3<f32>, point: ShapePoint, area: f32, error: f32, radiance: vec3<f32>, two_sided: bool, pmf: f32) -> LightSample {
+fn area_light_sample(reference: vec3<f32>, point: ShapePoint, area: f32, error: f32, radiance: Spectrum, two_sided: bool, pmf: f32) -> LightSample {
     let to_light = point.position - reference;
     let distance2 = dot(to_light, to_light);
     let distance = sqrt(distance2);
@@ -167,7 +167,7 @@ fn sample_area_light(light: u32, kind_flags: u32, reference: vec3<f32>, pmf: f32
     let two_sided = (kind_flags & LIGHT_TWO_SIDED) != 0u;
 #if VARYING_LIGHTS
     if (kind_flags & LIGHT_VARIES) != 0u {
-        var light_sample = area_light_sample(reference, point, l1.w, error, vec3<f32>(1.0), two_sided, pmf);
+        var light_sample = area_light_sample(reference, point, l1.w, error, WHITE, two_sided, pmf);
         light_sample.radiance *= varying_radiance(light, point, -light_sample.wi);
 #if AREA_LIGHTS_BY_PICTURE
         light_sample.pdf_solid_angle *= density;

@@ -5,7 +5,7 @@ struct LightSample {
     // Distance at which the shadow ray ends, just before the light.
     distance: f32,
     // 0 where the light does not reach the point.
-    radiance: vec3<f32>,
+    radiance: Spectrum,
     // Density of wi, the choice of the light included; negative for a delta light.
     pdf_solid_angle: f32,
 }
@@ -17,5 +17,5 @@ const SHADOW_SHORTENING: f32 = 0.999999;
 const DIRECTION_ERROR: f32 = 2.5e-7;
 
 fn no_light() -> LightSample {
-    return LightSample(vec3<f32>(0.0, 0.0, 1.0), 0.0, vec3<f32>(0.0), 1.0);
+    return LightSample(vec3<f32>(0.0, 0.0, 1.0), 0.0, BLACK, 1.0);
 }

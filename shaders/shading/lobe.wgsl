@@ -10,8 +10,8 @@
 struct Lobe {
     // The kind, and above it the form.
     kind: u32,
-    color0: vec3<f32>,
-    color1: vec3<f32>,
+    color0: Spectrum,
+    color1: Spectrum,
     ior: f32,
     roughness: f32,
 #if FURTHER_PARAMETERS
@@ -71,7 +71,7 @@ fn lobe_width_across(lobe: Lobe) -> f32 {
 }
 #endif
 
-fn material_color(constant: vec3<f32>, texture: f32, uv: TextureCoordinates) -> vec3<f32> {
+fn material_color(constant: Spectrum, texture: f32, uv: TextureCoordinates) -> Spectrum {
 #if TEXTURES
     let index = bitcast<u32>(texture);
     if index != NONE {
@@ -103,8 +103,8 @@ fn load_lobe(material: u32, uv: TextureCoordinates) -> Lobe {
         let texture = select(select(textures.x, textures.z, slot == 1u), textures.w, slot == 2u);
         if texture != NONE {
             let color = texture_color(texture, uv);
-            lobe.color0 *= select(vec3<f32>(1.0), color, slot == 0u);
-            lobe.color1 *= select(vec3<f32>(1.0), color, slot == 1u);
+            lobe.color0 *= select(WHITE, color, slot == 0u);
+            lobe.color1 *= select(WHITE, color, slot == 1u);
             lobe.roughness *= select(1.0, color.x, slot == 2u);
         }
     }
@@ -136,12 +136,12 @@ fn no_lobe() -> Lobe {
 #endif
 
 // Radiance that the front, or the back, of a material that is no blend sends out.
-fn own_emission(material: u32, front: bool, uv: TextureCoordinates) -> vec3<f32> {
+fn own_emission(material: u32, front: bool, uv: TextureCoordinates) -> Spectrum {
     let word = material * MATERIAL_WORDS;
     let m2 = tables[word + 2u];
     let flags = bitcast<u32>(m2.w);
     if (flags & EMITS) == 0u || (!front && (flags & EMITS_TWO_SIDED) == 0u) {
-        return vec3<f32>(0.0);
+        return BLACK;
     }
 #if TEXTURES
     return material_color(m2.xyz, tables[word + 3u].y, uv);

@@ -14,7 +14,7 @@ struct Bsdf {
     run: PartRun,
     seen: Seen,
     // Σ wᵢ ρᵢ over the diffuse lobes.
-    diffuse: vec3<f32>,
+    diffuse: Spectrum,
     // The sum of all lobes' sampling weights: the denominator of their probabilities.
     total: f32,
     non_delta_lobe: bool,

@@ -36,9 +36,9 @@ fn emission_weight(pdf_solid_angle: f32, pdf_light: f32) -> f32 {
 }
 
 // Radiance that a path gains where its ray, of this depth, leaves the scene.
-fn escaped_radiance(path: Path, depth: u32) -> vec3<f32> {
+fn escaped_radiance(path: Path, depth: u32) -> Spectrum {
     if !HAS_ENVIRONMENT || (HAS_HIDDEN_EMITTERS && depth == 1u) {
-        return vec3<f32>(0.0);
+        return BLACK;
     }
     var radiance = path.throughput * outside_radiance(path.ray.direction);
     var weight = 1.0;
@@ -55,8 +55,8 @@ fn escaped_radiance(path: Path, depth: u32) -> vec3<f32> {
 }
 
 // Radiance that a path gains from the emission of a surface that its ray, of this depth, met.
-fn emitted_radiance(path: Path, surface: Surface, depth: u32) -> vec3<f32> {
-    var radiance = vec3<f32>(0.0);
+fn emitted_radiance(path: Path, surface: Surface, depth: u32) -> Spectrum {
+    var radiance = BLACK;
     if HAS_EMISSION {
         let emitted = material_emission(surface.material, seen_along(surface, -path.ray.direction), surface.uv);
         if max_component(emitted) > 0.0 {

@@ -12,7 +12,7 @@
 
 struct Path {
     ray: Ray,
-    throughput: vec3<f32>,
+    throughput: Spectrum,
     // Density of the ray's direction by solid angle; negative after the camera or a delta lobe.
     pdf_solid_angle: f32,
     // What Russian roulette multiplies throughputs by: the squared index ratios of all refractions so far. Of guided paths one over what they were
@@ -33,7 +33,7 @@ struct Path {
 #endif
 #if ATTENUATION
     // Of what the ray goes through.
-    extinction: vec3<f32>,
+    extinction: Spectrum,
 #endif
 }
 
@@ -41,7 +41,7 @@ struct ShadowRay {
     ray: Ray,
     distance: f32,
     // What the path gains if nothing is in the way; all 0: there is no shadow ray.
-    radiance: vec3<f32>,
+    radiance: Spectrum,
 }
 
 // What light samples of a vertex start from.
@@ -58,7 +58,7 @@ struct Shading {
     // The path goes on along its new ray.
     alive: bool,
     // Radiance found at this vertex, already times throughput and weight.
-    radiance: vec3<f32>,
+    radiance: Spectrum,
     // How many light samples are taken here; the first one's shadow ray; what further_shadow_ray makes the others of.
     light_samples: u32,
     shadow: ShadowRay,
@@ -68,7 +68,7 @@ struct Shading {
 // A path on its first edge.
 fn new_path(ray: Ray, pixel: u32, sample_in_pass: u32) -> Path {
     return Path(
-        ray, vec3<f32>(1.0), -1.0, select(1.0, 0.0, HAS_GUIDE), pixel, sample_in_pass, 0u
+        ray, WHITE, -1.0, select(1.0, 0.0, HAS_GUIDE), pixel, sample_in_pass, 0u
 #if LIGHT_CELLS
         , 0u
 #endif
@@ -76,7 +76,7 @@ fn new_path(ray: Ray, pixel: u32, sample_in_pass: u32) -> Path {
         , ray.origin
 #endif
 #if ATTENUATION
-        , vec3<f32>(0.0)
+        , BLACK
 #endif
     );
 }
@@ -110,12 +110,12 @@ fn facing_of_lit_vertex(path: Path) -> u32 {
 }
 
 fn no_shadow_ray() -> ShadowRay {
-    return ShadowRay(Ray(vec3<f32>(0.0), vec3<f32>(0.0, 0.0, 1.0)), 0.0, vec3<f32>(0.0));
+    return ShadowRay(Ray(vec3<f32>(0.0), vec3<f32>(0.0, 0.0, 1.0)), 0.0, BLACK);
 }
 
 // Whether the path may gain anything from it.
 fn is_needed(shadow: ShadowRay) -> bool {
-    return any(shadow.radiance != vec3<f32>(0.0));
+    return any(shadow.radiance != BLACK);
 }
 
 fn no_shading() -> Shading {
@@ -135,7 +135,7 @@ fn light_samples_at(depth: u32) -> u32 {
 }
 
 // The path's throughput at the end of its ray, of this length.
-fn arriving_throughput(path: Path, ray_length: f32) -> vec3<f32> {
+fn arriving_throughput(path: Path, ray_length: f32) -> Spectrum {
 #if ATTENUATION
     return path.throughput * volume_transmittance(path.extinction, ray_length);
 #else
@@ -144,16 +144,16 @@ fn arriving_throughput(path: Path, ray_length: f32) -> vec3<f32> {
 }
 
 // What is left of light that comes to a surface of the path from a light in direction `wi`.
-fn volume_share(path: Path, surface: Surface, wi: vec3<f32>, ray_length: f32) -> vec3<f32> {
+fn volume_share(path: Path, surface: Surface, wi: vec3<f32>, ray_length: f32) -> Spectrum {
 #if ATTENUATION
     return volume_transmittance(extinction_towards(surface, wi, path.extinction), ray_length);
 #else
-    return vec3<f32>(1.0);
+    return WHITE;
 #endif
 }
 
 // The path along the ray that was drawn where it met a surface.
-fn extended_path(incoming: Path, surface: Surface, drawn: BsdfSample, throughput: vec3<f32>, roulette_scale: f32) -> Path {
+fn extended_path(incoming: Path, surface: Surface, drawn: BsdfSample, throughput: Spectrum, roulette_scale: f32) -> Path {
     var path = incoming;
     path.ray = Ray(offset_origin(surface, drawn.wi), drawn.wi);
     path.throughput = throughput;

@@ -15,13 +15,13 @@ fn plastic_weight(lobe: Lobe) -> f32 {
 
 // f of the base, given what the boundary lets through at either angle: ρ / (π η²) To Ti / (1 - R), or 1 - ρR below where it is nonlinear.
 // The first further parameter is R, the share of light from within that the boundary sends back.
-fn plastic_base(lobe: Lobe, transmitted_o: f32, transmitted_i: f32) -> vec3<f32> {
+fn plastic_base(lobe: Lobe, transmitted_o: f32, transmitted_i: f32) -> Spectrum {
 #if FURTHER_PARAMETERS
     let internal = further_parameter(lobe, 0u, vec3<f32>(0.0)).x;
 #else
     let internal = 0.0;
 #endif
-    let kept = internal * select(vec3<f32>(1.0), lobe.color0, (lobe.kind & NONLINEAR_BASE) != 0u);
+    let kept = internal * select(WHITE, lobe.color0, (lobe.kind & NONLINEAR_BASE) != 0u);
     return lobe.color0 / (1.0 - kept) * (INVERSE_PI * transmitted_o * transmitted_i / (lobe.ior * lobe.ior));
 }
 

@@ -15,7 +15,7 @@ fn sample_portal(light: u32, reference: vec3<f32>, u: f32, v: f32) -> vec3<f32> 
     let kind = bitcast<u32>(light_word(light, 0u).x) >> PORTAL_SHIFT;
 #if SPHERE_LIGHTS
     if kind == KIND_SPHERE {
-        return sphere_cone_sample(reference, l1.xyz, l1.w, vec3<f32>(1.0), true, 1.0, u, v).wi;
+        return sphere_cone_sample(reference, l1.xyz, l1.w, WHITE, true, 1.0, u, v).wi;
     }
 #endif
     let to_point = sample_shape(kind, l1.xyz, light_word(light, 2u).xyz, light_word(light, 3u).xyz, u, v).position - reference;

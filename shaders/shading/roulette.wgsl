@@ -15,7 +15,7 @@ struct Roulette {
 }
 
 // At a surface where `incoming` arrived, and from which it would go on with this throughput; `eta_scale` is that of the refraction.
-fn roulette_at(incoming: Path, scatterer: Scatterer, throughput: vec3<f32>, eta_scale: f32, depth: u32) -> Roulette {
+fn roulette_at(incoming: Path, scatterer: Scatterer, throughput: Spectrum, eta_scale: f32, depth: u32) -> Roulette {
     // Past depth 64 even a lossless path ends some day.
     let largest = select(1.0, 0.999, depth >= 64u);
 #if GUIDE
@@ -23,7 +23,7 @@ fn roulette_at(incoming: Path, scatterer: Scatterer, throughput: vec3<f32>, eta_
         return Roulette(largest, incoming.roulette_scale);
     }
     let is_first = incoming.roulette_scale == 0.0;
-    let expected = dot(incoming.throughput, vec3<f32>(1.0)) * guide_sent_on(scatterer.guide, is_first);
+    let expected = dot(incoming.throughput, WHITE) * guide_sent_on(scatterer.guide, is_first);
     if is_first {
         return Roulette(largest, select(0.0, 1.0 / expected, expected > 0.0));
     }

@@ -4,7 +4,7 @@ struct BsdfSample {
     // Zero weight: no direction was found.
     wi: vec3<f32>,
     // f |cos| / pdf
-    weight: vec3<f32>,
+    weight: Spectrum,
     // Negative for a delta lobe.
     pdf_solid_angle: f32,
     // Squared ratio of refractive indices crossed by a refraction, else 1.
@@ -15,16 +15,16 @@ struct BsdfSample {
 
 struct BsdfValue {
     // f |cos|
-    value: vec3<f32>,
+    value: Spectrum,
     pdf_solid_angle: f32,
 }
 
 fn no_sample() -> BsdfSample {
-    return BsdfSample(vec3<f32>(0.0, 0.0, 1.0), vec3<f32>(0.0), -1.0, 1.0, false);
+    return BsdfSample(vec3<f32>(0.0, 0.0, 1.0), BLACK, -1.0, 1.0, false);
 }
 
 fn no_value() -> BsdfValue {
-    return BsdfValue(vec3<f32>(0.0), 0.0);
+    return BsdfValue(BLACK, 0.0);
 }
 
 fn from_value(wi: vec3<f32>, value: BsdfValue, eta_scale: f32) -> BsdfSample {

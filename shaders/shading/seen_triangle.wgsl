@@ -35,7 +35,7 @@ fn see_triangle(point: vec3<f32>, corner: vec3<f32>, edge_u: vec3<f32>, edge_v: 
     seen.distances = vec3<f32>(length(seen.to_corner), length(to_b), length(seen.to_corner + edge_v));
     let a = seen.to_corner / seen.distances.x;
     let height = abs(dot(a, cross(edge_u, edge_v)));
-    let least = LEAST_TRIANGLE_SHARE * max_component(seen.distances) * length(edge_u) * length(edge_v);
+    let least = LEAST_TRIANGLE_SHARE * max_coordinate(seen.distances) * length(edge_u) * length(edge_v);
     if !(seen.distances.x * height > least) {
         return seen;
     }

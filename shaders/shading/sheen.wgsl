@@ -4,7 +4,7 @@
 #import shading/albedo.wgsl
 
 struct Sheen {
-    color: vec3<f32>,
+    color: Spectrum,
     // Not below the smallest that is resolved.
     roughness: f32,
 }
@@ -25,7 +25,7 @@ fn sheen_lambda(alpha: f32, cosine: f32) -> f32 {
 }
 
 // f cosθi, of directions in the surface's frame.
-fn sheen_value(sheen: Sheen, o: vec3<f32>, i: vec3<f32>) -> vec3<f32> {
+fn sheen_value(sheen: Sheen, o: vec3<f32>, i: vec3<f32>) -> Spectrum {
     let alpha = sheen.roughness * sheen.roughness;
     let m = normalize(o + i);
     let shadowing = 1.0 + sheen_lambda(alpha, o.z) + sheen_lambda(alpha, i.z);

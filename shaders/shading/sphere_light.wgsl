@@ -4,12 +4,12 @@
 
 // From outside, uniform over the cone of directions that meet the sphere; from inside, over all directions.
 fn sphere_cone_sample(
-    reference: vec3<f32>, center: vec3<f32>, radius: f32, radiance: vec3<f32>, two_sided: bool, pmf: f32, u: f32, v: f32
+    reference: vec3<f32>, center: vec3<f32>, radius: f32, radiance: Spectrum, two_sided: bool, pmf: f32, u: f32, v: f32
 ) -> LightSample {
     let to_center = center - reference;
     let center_distance2 = dot(to_center, to_center);
     let circle = sin_cos_turns(v);
-    let error = POINT_ERROR * (max_component(abs(center)) + radius);
+    let error = POINT_ERROR * (max_coordinate(abs(center)) + radius);
     if center_distance2 <= radius * radius {
         // From inside, light comes from everywhere.
         if !two_sided {
@@ -53,7 +53,7 @@ fn sphere_cone_pdf(reference: vec3<f32>, center: vec3<f32>, radius: f32) -> f32 
 #if SPHERE_POINTS
 // To the point with this normal, of which so large an area was drawn from evenly. From outside, the sphere hides its own far side.
 fn sphere_sample_of_point(
-    reference: vec3<f32>, center: vec3<f32>, radius: f32, normal: vec3<f32>, radiance: vec3<f32>, two_sided: bool, pmf: f32, area: f32
+    reference: vec3<f32>, center: vec3<f32>, radius: f32, normal: vec3<f32>, radiance: Spectrum, two_sided: bool, pmf: f32, area: f32
 ) -> LightSample {
     let to_reference = reference - center;
     let outside = dot(to_reference, to_reference) > radius * radius;
@@ -65,7 +65,7 @@ fn sphere_sample_of_point(
     if distance2 == 0.0 || cosine == 0.0 || (outside && cosine < 0.0) || (!outside && !two_sided) {
         return no_light();
     }
-    let error = POINT_ERROR * (max_component(abs(center)) + radius);
+    let error = POINT_ERROR * (max_coordinate(abs(center)) + radius);
     let early = min(error / abs(cosine), 0.5 * distance);
     return LightSample(wi, (distance - early) * SHADOW_SHORTENING, radiance, pmf * distance2 / (abs(cosine) * area));
 }
@@ -83,7 +83,7 @@ fn sphere_sampled_area(radius: f32, outside: bool) -> f32 {
 
 // Uniform over that area.
 fn sphere_point_sample(
-    reference: vec3<f32>, center: vec3<f32>, radius: f32, radiance: vec3<f32>, two_sided: bool, pmf: f32, u: f32, v: f32
+    reference: vec3<f32>, center: vec3<f32>, radius: f32, radiance: Spectrum, two_sided: bool, pmf: f32, u: f32, v: f32
 ) -> LightSample {
     let to_reference = reference - center;
     let reference_distance2 = dot(to_reference, to_reference);
@@ -104,7 +104,7 @@ fn sphere_point_sample(
 #endif
 
 fn sphere_light_sample(
-    reference: vec3<f32>, center: vec3<f32>, radius: f32, radiance: vec3<f32>, two_sided: bool, pmf: f32, u: f32, v: f32
+    reference: vec3<f32>, center: vec3<f32>, radius: f32, radiance: Spectrum, two_sided: bool, pmf: f32, u: f32, v: f32
 ) -> LightSample {
 #if SPHERE_LIGHTS_BY_POINT
     return sphere_point_sample(reference, center, radius, radiance, two_sided, pmf, u, v);

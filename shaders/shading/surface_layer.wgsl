@@ -25,7 +25,7 @@ fn is_followed(drawn: BsdfSample) -> bool {
 }
 
 // Of a surface that a path of this throughput met and that is not followed further.
-fn surface_value(throughput: vec3<f32>, surface: Surface, drawn: BsdfSample) -> vec3<f32> {
+fn surface_value(throughput: Spectrum, surface: Surface, drawn: BsdfSample) -> vec3<f32> {
 #if LAYER_ALBEDO
     return throughput * drawn.weight;
 #endif

@@ -52,10 +52,10 @@ fn texture_place(texture: u32, coordinates: TextureCoordinates) -> vec2<f32> {
 }
 
 // `texture` counts from the scene's first texture.
-fn texture_color(texture: u32, uv: TextureCoordinates) -> vec3<f32> {
+fn texture_color(texture: u32, uv: TextureCoordinates) -> Spectrum {
 #if TEXTURE_PRODUCTS
     // One call for both: software drivers copy what is called to wherever it is called.
-    var color = vec3<f32>(1.0);
+    var color = WHITE;
     var next = texture + 1u;
     for (var factors = 0u; factors < 2u && next != 0u; factors++) {
         color *= texture_color_at(next - 1u, texture_place(next - 1u, uv));
@@ -67,7 +67,7 @@ fn texture_color(texture: u32, uv: TextureCoordinates) -> vec3<f32> {
 #endif
 }
 
-fn texture_color_at(texture: u32, st: vec2<f32>) -> vec3<f32> {
+fn texture_color_at(texture: u32, st: vec2<f32>) -> Spectrum {
     let t0 = bitcast<vec4<u32>>(texture_word(texture, 0u));
     var share = 0.0;
     switch t0.x & 255u {
@@ -97,7 +97,7 @@ fn texture_color_at(texture: u32, st: vec2<f32>) -> vec3<f32> {
 #if PROCEDURAL_TEXTURES
     return mix(texture_word(texture, 2u).xyz, texture_word(texture, 3u).xyz, share);
 #else
-    return vec3<f32>(share);
+    return Spectrum(share);
 #endif
 }
 

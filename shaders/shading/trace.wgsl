@@ -17,7 +17,7 @@ fn trace_note(note: u32) {
     traced[3].w = bitcast<f32>(bitcast<u32>(traced[3].w) | note);
 }
 
-fn trace_arrival(direction: vec3<f32>, pdf: f32, throughput: vec3<f32>, primitive: u32) {
+fn trace_arrival(direction: vec3<f32>, pdf: f32, throughput: Spectrum, primitive: u32) {
     traced = array<vec4<f32>, TRACE_WORDS>();
     traced[0].w = bitcast<f32>(primitive);
     traced[2] = vec4<f32>(direction, pdf);
@@ -29,13 +29,13 @@ fn trace_surface(position: vec3<f32>, normal: vec3<f32>, material: u32) {
     traced[1] = vec4<f32>(normal, bitcast<f32>(material));
 }
 
-fn trace_found(contribution: vec3<f32>, weight: f32) {
+fn trace_found(contribution: Spectrum, weight: f32) {
     traced[4] = vec4<f32>(contribution, weight);
     trace_note(TRACED_FOUND);
 }
 
-fn trace_light(wi: vec3<f32>, pdf: f32, contribution: vec3<f32>, weight: f32, light: u32, bsdf_pdf: f32) {
-    if all(contribution == vec3<f32>(0.0)) {
+fn trace_light(wi: vec3<f32>, pdf: f32, contribution: Spectrum, weight: f32, light: u32, bsdf_pdf: f32) {
+    if all(contribution == BLACK) {
         return;
     }
     traced[5] = vec4<f32>(wi, pdf);
@@ -46,7 +46,7 @@ fn trace_light(wi: vec3<f32>, pdf: f32, contribution: vec3<f32>, weight: f32, li
     trace_note(TRACED_LIGHT);
 }
 
-fn trace_sample(wi: vec3<f32>, pdf: f32, weight: vec3<f32>, eta_scale: f32, is_null: bool) {
+fn trace_sample(wi: vec3<f32>, pdf: f32, weight: Spectrum, eta_scale: f32, is_null: bool) {
     traced[8] = vec4<f32>(wi, pdf);
     traced[9] = vec4<f32>(weight, eta_scale);
     trace_note(TRACED_SAMPLE | select(0u, TRACED_NULL, is_null));
@@ -72,17 +72,17 @@ fn store_trace(vertex: u32) {
     }
 }
 #else
-fn trace_arrival(direction: vec3<f32>, pdf: f32, throughput: vec3<f32>, primitive: u32) {}
+fn trace_arrival(direction: vec3<f32>, pdf: f32, throughput: Spectrum, primitive: u32) {}
 
 fn trace_surface(position: vec3<f32>, normal: vec3<f32>, material: u32) {}
 
-fn trace_found(contribution: vec3<f32>, weight: f32) {}
+fn trace_found(contribution: Spectrum, weight: f32) {}
 
-fn trace_light(wi: vec3<f32>, pdf: f32, contribution: vec3<f32>, weight: f32, light: u32, bsdf_pdf: f32) {}
+fn trace_light(wi: vec3<f32>, pdf: f32, contribution: Spectrum, weight: f32, light: u32, bsdf_pdf: f32) {}
 
 fn trace_light_seen(share: f32) {}
 
-fn trace_sample(wi: vec3<f32>, pdf: f32, weight: vec3<f32>, eta_scale: f32, is_null: bool) {}
+fn trace_sample(wi: vec3<f32>, pdf: f32, weight: Spectrum, eta_scale: f32, is_null: bool) {}
 
 fn trace_roulette(survival: f32) {}
 

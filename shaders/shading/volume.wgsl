@@ -7,19 +7,19 @@
 const FARTHEST: f32 = 1.0e20;
 
 // Share of light that is left after a distance within a volume.
-fn volume_transmittance(extinction: vec3<f32>, distance: f32) -> vec3<f32> {
-    return exp(-min(extinction * min(distance, FARTHEST), vec3<f32>(87.0)));
+fn volume_transmittance(extinction: Spectrum, distance: f32) -> Spectrum {
+    return exp(-min(extinction * min(distance, FARTHEST), Spectrum(87.0)));
 }
 
 // Extinction on the side of a surface that `toward` points to, given that on wo's side.
-fn extinction_towards(surface: Surface, toward: vec3<f32>, here: vec3<f32>) -> vec3<f32> {
+fn extinction_towards(surface: Surface, toward: vec3<f32>, here: Spectrum) -> Spectrum {
     let word = surface.material * MATERIAL_WORDS;
     let encloses = (bitcast<u32>(tables[word + 2u].w) & ENCLOSES_VOLUME) != 0u;
     if !encloses || dot(toward, surface.facing_normal) > 0.0 {
         return here;
     }
     if !surface.front {
-        return vec3<f32>(0.0);
+        return BLACK;
     }
 #if BLENDS
     if (bitcast<u32>(tables[word].w) & 255u) == BLEND {

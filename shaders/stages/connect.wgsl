@@ -24,8 +24,8 @@ fn connect(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
     loop {
         if is_finished(traversal) {
             if traced < rays {
-                let share = light_through(traversal);
-                if share > 0.0 {
+                let share = traversed_light(traversal);
+                if max_component(share) > 0.0 {
                     add_light(index, traced, share);
                 }
                 traced++;
@@ -57,8 +57,8 @@ fn connect(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
         let rays = shadow_ray_count(next);
         for (var number = 0u; number < rays; number++) {
             let s0 = shadow_rays[SHADOW_ORIGIN + shadow_ray_index(next, number)];
-            let share = transmittance(Ray(s0.xyz, shadow_rays[SHADOW_DIRECTION + shadow_ray_index(next, number)].xyz), s0.w);
-            if share > 0.0 {
+            let share = shadow_transmittance(Ray(s0.xyz, shadow_rays[SHADOW_DIRECTION + shadow_ray_index(next, number)].xyz), s0.w);
+            if max_component(share) > 0.0 {
                 add_light(next, number, share);
             }
         }
@@ -76,14 +76,10 @@ fn shadow_ray_count(index: u32) -> u32 {
 }
 
 // Adds the share that comes through of what shadow ray `number` of the path with this index in the queue carries.
-fn add_light(index: u32, number: u32, share: f32) {
+fn add_light(index: u32, number: u32, share: Spectrum) {
     let at = shadow_ray_index(index, number);
     let slot = bitcast<u32>(shadow_rays[SHADOW_DIRECTION + at].w);
-#if TRANSPARENT_SHADOWS
     let gained = share * shadow_rays[SHADOW_RADIANCE + at].xyz;
-#else
-    let gained = shadow_rays[SHADOW_RADIANCE + at].xyz;
-#endif
     // The fourth word holds bits, not a number: it is copied, never added to.
     let before = path_state[PLANE_RADIANCE + slot];
     path_state[PLANE_RADIANCE + slot] = vec4<f32>(before.xyz + gained, before.w);

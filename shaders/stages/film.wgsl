@@ -58,7 +58,7 @@ fn count_in(word: f32) -> u32 {
 
 // A pixel of the film on its way through registers.
 struct FilmPixel {
-    sum: vec3<f32>,
+    sum: Spectrum,
     count: u32,
     compensation: vec4<f32>,
     // Refused samples since it was loaded.
@@ -92,7 +92,7 @@ fn opaque_number(x: f32) -> f32 {
 
 #if CLAMP
 // The sample, its brightest channel no brighter than the setting `clamp` allows, in its own colour. One that is not finite is left as it is.
-fn clamped(pixel: ptr<function, FilmPixel>, sample: vec3<f32>) -> vec3<f32> {
+fn clamped(pixel: ptr<function, FilmPixel>, sample: Spectrum) -> Spectrum {
     let limit = bitcast<f32>(CLAMP_BITS);
     let brightest = max_component(sample);
     if !(brightest > limit) || !is_finite(max_component(abs(sample))) {
@@ -104,7 +104,7 @@ fn clamped(pixel: ptr<function, FilmPixel>, sample: vec3<f32>) -> vec3<f32> {
     return darkened;
 }
 #else
-fn clamped(pixel: ptr<function, FilmPixel>, sample: vec3<f32>) -> vec3<f32> {
+fn clamped(pixel: ptr<function, FilmPixel>, sample: Spectrum) -> Spectrum {
     return sample;
 }
 #endif
@@ -130,7 +130,7 @@ fn with_square(sum: f32, square: f32, number: u32) -> f32 {
 // Compensated summation (Kahan 1965), sample by sample: the relative error does not grow with the number of samples, and the sum does
 // not depend on how samples were cut into passes. `opaque` keeps compilers from cancelling (sum + y) - sum.
 // A sample that is not finite is refused: it counts as 0, and is counted.
-fn add_sample(pixel: ptr<function, FilmPixel>, found: vec3<f32>) {
+fn add_sample(pixel: ptr<function, FilmPixel>, found: Spectrum) {
     let sample = clamped(pixel, found);
 #if LAYER_SQUARES
     // What variances are made of.

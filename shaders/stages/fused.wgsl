@@ -13,7 +13,7 @@ fn render_pixel(index: u32) -> u32 {
     var film_pixel = load_film_pixel(pixel.in_band);
     var rays = 0u;
     var vertex = 1u;
-    var radiance = vec3<f32>(0.0);
+    var radiance = BLACK;
     var path = start_path(pixel.pixel, 0u);
     loop {
         let alive = trace_vertex(&path, vertex, true, &radiance, &rays);
@@ -24,7 +24,7 @@ fn render_pixel(index: u32) -> u32 {
             if next_sample >= pass_parameters.sample_count {
                 break;
             }
-            radiance = vec3<f32>(0.0);
+            radiance = BLACK;
             vertex = 1u;
             path = start_path(pixel.pixel, next_sample);
         }

@@ -10,9 +10,9 @@
 #import stages/statistics.wgsl
 
 // What whole paths bring, of the lanes that have one, all on the same vertex at a time; counts their rays. All lanes take part.
-fn path_radiance(first: Path, exists: bool, rays: ptr<function, u32>) -> vec3<f32> {
+fn path_radiance(first: Path, exists: bool, rays: ptr<function, u32>) -> Spectrum {
     var path = first;
-    var radiance = vec3<f32>(0.0);
+    var radiance = BLACK;
     var vertex = 1u;
     var alive = exists;
     loop {

@@ -31,38 +31,34 @@ fn nearest(ray: Ray, has_ray: bool) -> Hit {
 #endif
 }
 
-// What share of the light comes along the shadow ray, of the lanes that have one; 0 of the others.
-fn light_share(shadow: ShadowRay, has_ray: bool) -> f32 {
+// The share of light that comes along the shadow ray, for the lanes that have one; 0 for the others.
+fn light_share(shadow: ShadowRay, has_ray: bool) -> Spectrum {
 #if PACKETS
-    return select(0.0, transmittance_together(shadow.ray, select(-1.0, shadow.distance, has_ray)), has_ray);
+    return select(BLACK, shadow_transmittance_together(shadow.ray, select(-1.0, shadow.distance, has_ray)), has_ray);
 #else
-    var share = 0.0;
+    var share = BLACK;
     if has_ray {
-        share = transmittance(shadow.ray, shadow.distance);
+        share = shadow_transmittance(shadow.ray, shadow.distance);
     }
     return share;
 #endif
 }
 
 // Adds what a path gains by a shadow ray, of the lanes that have one, to `radiance`, and counts it. All lanes take part.
-fn trace_shadow_ray(shadow: ShadowRay, radiance: ptr<function, vec3<f32>>, rays: ptr<function, u32>) {
+fn trace_shadow_ray(shadow: ShadowRay, radiance: ptr<function, Spectrum>, rays: ptr<function, u32>) {
     let has_ray = is_needed(shadow);
     *rays += select(0u, 1u, has_ray);
     let share = light_share(shadow, has_ray);
-    if share > 0.0 {
-        trace_light_seen(share);
-#if TRANSPARENT_SHADOWS
+    if max_component(share) > 0.0 {
+        trace_light_seen(max_component(share));
         *radiance += share * shadow.radiance;
-#else
-        *radiance += shadow.radiance;
-#endif
     }
 }
 
 // Traces the ray of a path, of the lanes whose path is alive, to its vertex number `vertex`; adds what the path gains there to `radiance`,
 // and counts rays. Whether the path goes on. All lanes take part.
 fn trace_vertex(
-    path: ptr<function, Path>, vertex: u32, alive: bool, radiance: ptr<function, vec3<f32>>, rays: ptr<function, u32>
+    path: ptr<function, Path>, vertex: u32, alive: bool, radiance: ptr<function, Spectrum>, rays: ptr<function, u32>
 ) -> bool {
     let hit = nearest((*path).ray, alive);
     var shading = no_shading();

@@ -36,7 +36,7 @@ fn shade(
         let radiance = path_state[PLANE_RADIANCE + slot].xyz + shading.radiance;
         path_state[PLANE_RADIANCE + slot] = vec4<f32>(radiance, bitcast<f32>(path.null_vertices | path.lit_facing << 28u));
 #else
-        if HAS_NULL_SURFACES || any(shading.radiance != vec3<f32>(0.0)) {
+        if HAS_NULL_SURFACES || any(shading.radiance != BLACK) {
             let radiance = path_state[PLANE_RADIANCE + slot].xyz + shading.radiance;
             path_state[PLANE_RADIANCE + slot] = vec4<f32>(radiance, bitcast<f32>(path.null_vertices));
         }

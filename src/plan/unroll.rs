@@ -11,8 +11,9 @@ use crate::packed::PackedScene;
 use crate::packed::primitive::Primitive;
 use crate::packed::shape::PrimitiveKind;
 
-/// WGSL with `closest_of_constants` and `any_of_constants` for the primitives from `first` on. Where shadow rays go through surfaces, those
-/// that let light through are left out of the second, and stand in `transmittance_of_constants`.
+/// WGSL with `closest_of_constants` and `any_of_constants` for the primitives from `first` on. With `shadows_are_transparent`, surfaces that
+/// let light through are left out of the second and stand in `next_of_transparent_constants`, which finds them one after the other:
+/// nearest first, and equally near ones by their number.
 pub fn constants(packed: &PackedScene, first: usize, shadows_are_transparent: bool) -> String {
     let mut closest = String::new();
     let mut any = String::new();
@@ -39,32 +40,14 @@ pub fn constants(packed: &PackedScene, first: usize, shadows_are_transparent: bo
         }
         let _ = writeln!(any, "    blocked = blocked || ({}).x > 0.0;", test_for(primitive, "t_max"));
     }
-    let through = format!("\n#if TRANSPARENT_SHADOWS\n{}#endif\n", transmittance(&next));
     format!(
-        "#import core/math.wgsl\n#import geometry/prepared_ray.wgsl\n#import geometry/shapes.wgsl\n\n\
+        "#import core/layout.wgsl\n#import core/math.wgsl\n#import geometry/prepared_ray.wgsl\n#import geometry/shapes.wgsl\n\n\
          fn closest_of_constants(ray: PreparedRay, hit: ptr<function, Hit>) {{\n    \
          var best = *hit;\n{closest}    *hit = best;\n}}\n\n\
          fn any_of_constants(ray: PreparedRay, t_max: f32) -> bool {{\n    \
-         var blocked = false;\n{any}    return blocked;\n}}\n{through}"
-    )
-}
-
-/// WGSL with `transmittance_of_constants`: the product over all that the ray meets, one surface after the other, so that the code of what a
-/// surface lets through stands there once. `next` holds the tests, nearest first and of equally near ones by their number.
-fn transmittance(next: &str) -> String {
-    if next.is_empty() {
-        return "fn transmittance_of_constants(ray: PreparedRay, t_max: f32) -> f32 {\n    return 1.0;\n}\n".to_owned();
-    }
-    format!(
-        "#import core/layout.wgsl\n#import shading/transmittance.wgsl\n\n\
+         var blocked = false;\n{any}    return blocked;\n}}\n\n#if TRANSPARENT_SHADOWS\n\
          fn next_of_transparent_constants(ray: PreparedRay, after: Hit, t_max: f32) -> Hit {{\n    \
-         var next = no_hit(t_max);\n{next}    return next;\n}}\n\n\
-         fn transmittance_of_constants(ray: PreparedRay, t_max: f32) -> f32 {{\n    \
-         var through = 1.0;\n    var hit = world_hit(0.0, 0u, 0.0, 0.0);\n    \
-         loop {{\n        hit = next_of_transparent_constants(ray, hit, t_max);\n        \
-         if hit.primitive == NONE {{\n            break;\n        }}\n        \
-         through *= hit_transmittance(Ray(ray.origin, ray.direction), hit, t_max);\n        \
-         if through <= 0.0 {{\n            break;\n        }}\n    }}\n    return through;\n}}\n"
+         var next = no_hit(t_max);\n{next}    return next;\n}}\n#endif\n"
     )
 }
 

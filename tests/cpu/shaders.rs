@@ -26,7 +26,7 @@ fn shippable(wanted: &BTreeSet<&'static str>) -> Switches {
     let geometry = "#import core/math.wgsl\n#import geometry/prepared_ray.wgsl\n\
                     fn closest_of_constants(ray: PreparedRay, hit: ptr<function, Hit>) {}\n\
                     fn any_of_constants(ray: PreparedRay, t_max: f32) -> bool { return false; }\n\
-                    fn transmittance_of_constants(ray: PreparedRay, t_max: f32) -> f32 { return 1.0; }\n";
+                    fn next_of_transparent_constants(ray: PreparedRay, after: Hit, t_max: f32) -> Hit { return after; }\n";
     // Three chunks, the last of half the size.
     let chunks =
         |array: RecordArray| (array.file, Chunks::new(array, 2500 * array.record_bytes(), 1000 * array.record_bytes()).wgsl());

@@ -19,9 +19,7 @@
 #import geometry/software/packet_stack.wgsl
 #import geometry/stored.wgsl
 #import geometry/traversal.wgsl
-#if TRANSPARENT_SHADOWS
-#import shading/transmittance.wgsl
-#endif
+#import shading/shadow.wgsl
 
 // The key of a child that no ray meets: the bits of INFINITY_DISTANCE but for the last two.
 const MISSED: u32 = 0x7f61b1e4u;
@@ -83,10 +81,9 @@ fn descend_together(ray: PreparedRay, inverse_direction: vec3<f32>, t_max: f32, 
     go_on(stack, subgroupShuffle(entry, nearest & 3u), subgroupShuffle(entry, sorted_four(key) & 3u), count);
 }
 
-// Goes through the hierarchy. With `any_hit`, each ray is done with its first hit that takes all of its light, and the packet when all are;
-// `through` then is the share of it that is left.
+// Goes through the hierarchy. With `any_hit`, each ray is a shadow ray, done with the first surface that leaves no light, and the packet is done when all are.
 fn traverse_together(
-    world_ray: PreparedRay, world_inverse: vec3<f32>, first_hit: Hit, any_hit: bool, through: ptr<function, f32>
+    world_ray: PreparedRay, world_inverse: vec3<f32>, first_hit: Hit, any_hit: bool, shadow: ptr<function, Shadow>
 ) -> Hit {
     var hit = first_hit;
 #if INSTANCES
@@ -123,16 +120,12 @@ fn traverse_together(
             if candidate.primitive == primitive && exists {
                 hit = candidate;
             }
-#if TRANSPARENT_SHADOWS
             if any_hit && hit.primitive != NONE && hit.t > 0.0 {
-                *through *= hit_transmittance(Ray(world_ray.origin, world_ray.direction), hit, first_hit.t);
-                if *through > 0.0 {
+                if is_blocked_by(shadow, Ray(world_ray.origin, world_ray.direction), hit) {
+                    hit.t = -1.0;
+                } else {
                     hit = first_hit;
                 }
-            }
-#endif
-            if any_hit && hit.primitive != NONE {
-                hit.t = -1.0;
             }
 #if INSTANCES
             let enters = exists && is_instance(words);
@@ -179,27 +172,24 @@ fn traverse_together(
     return hit;
 }
 
-// As closest_hit, for all lanes.
+// What closest_hit finds, for the rays of all lanes.
 fn closest_hit_together(traced: Ray, t_max: f32) -> Hit {
     let ray = prepare_ray(traced);
     var hit = no_hit(t_max);
     closest_of_constants(ray, &hit);
-    var through = 1.0;
-    return traverse_together(ray, safe_inverse(traced.direction), hit, false, &through);
+    var shadow = begin_shadow(t_max);
+    return traverse_together(ray, safe_inverse(traced.direction), hit, false, &shadow);
 }
 
-// As transmittance, for all lanes.
-fn transmittance_together(traced: Ray, t_max: f32) -> f32 {
+// What shadow_transmittance finds, for the rays of all lanes.
+fn shadow_transmittance_together(traced: Ray, t_max: f32) -> Spectrum {
     let ray = prepare_ray(traced);
-    var through = 1.0;
-    var blocked = any_of_constants(ray, t_max);
-#if TRANSPARENT_SHADOWS
-    if !blocked && t_max > 0.0 {
-        through = transmittance_of_constants(ray, t_max);
-        blocked = through <= 0.0;
+    var shadow = begin_shadow(t_max);
+    var blocked = false;
+    if t_max > 0.0 {
+        blocked = is_blocked_by_constants(&shadow, ray);
     }
-#endif
     let hit = world_hit(select(t_max, -1.0, blocked), select(NONE, 0u, blocked), 0.0, 0.0);
-    let found = traverse_together(ray, safe_inverse(traced.direction), hit, true, &through);
-    return select(0.0, through, found.primitive == NONE);
+    let found = traverse_together(ray, safe_inverse(traced.direction), hit, true, &shadow);
+    return light_through(shadow, found.primitive != NONE);
 }

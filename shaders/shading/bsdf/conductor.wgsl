@@ -16,16 +16,16 @@ fn conductor_sampling_weight(lobe: Lobe) -> f32 {
 }
 
 // What a microfacet reflects.
-fn conductor_reflectance(lobe: Lobe, cosine: f32) -> vec3<f32> {
+fn conductor_reflectance(lobe: Lobe, cosine: f32) -> Spectrum {
 #if FURTHER_PARAMETERS
-    return conductor_fresnel(lobe, cosine) * further_parameter(lobe, 1u, vec3<f32>(1.0));
+    return conductor_fresnel(lobe, cosine) * further_parameter(lobe, 1u, WHITE);
 #else
     return conductor_fresnel(lobe, cosine);
 #endif
 }
 
 // Reflectance of a metal: the exact equations for a complex index of refraction, or Schlick's approximation.
-fn conductor_fresnel(lobe: Lobe, cosine: f32) -> vec3<f32> {
+fn conductor_fresnel(lobe: Lobe, cosine: f32) -> Spectrum {
     let c2 = cosine * cosine;
     if (lobe.kind & COMPLEX_FRESNEL) == 0u {
         let away = 1.0 - cosine;
@@ -38,7 +38,7 @@ fn conductor_fresnel(lobe: Lobe, cosine: f32) -> vec3<f32> {
     let t0 = eta2 - k2 - s2;
     let a2_plus_b2 = sqrt(t0 * t0 + 4.0 * eta2 * k2);
     let t1 = a2_plus_b2 + c2;
-    let a = sqrt(max(0.5 * (a2_plus_b2 + t0), vec3<f32>(0.0)));
+    let a = sqrt(max(0.5 * (a2_plus_b2 + t0), BLACK));
     let t2 = 2.0 * cosine * a;
     let perpendicular = (t1 - t2) / (t1 + t2);
     let t3 = c2 * a2_plus_b2 + s2 * s2;

@@ -23,7 +23,7 @@ fn sample_diffuse(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f
 }
 
 // A mixture's diffuse lobes together are one.
-fn evaluate_lambert(reflectance: vec3<f32>, surface: Surface, wi: vec3<f32>) -> BsdfValue {
+fn evaluate_lambert(reflectance: Spectrum, surface: Surface, wi: vec3<f32>) -> BsdfValue {
     if !on_wo_side(surface, wi) {
         return no_value();
     }
@@ -31,7 +31,7 @@ fn evaluate_lambert(reflectance: vec3<f32>, surface: Surface, wi: vec3<f32>) -> 
     return BsdfValue(reflectance * (cosine * INVERSE_PI), hemisphere_pdf(cosine));
 }
 
-fn sample_lambert(reflectance: vec3<f32>, surface: Surface, u: f32, v: f32) -> BsdfSample {
+fn sample_lambert(reflectance: Spectrum, surface: Surface, u: f32, v: f32) -> BsdfSample {
     let direction = sample_hemisphere(surface, u, v);
     let wi = direction.xyz;
     let cosine = direction.w;

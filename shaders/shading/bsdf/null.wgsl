@@ -8,5 +8,5 @@ fn null_sampling_weight(lobe: Lobe) -> f32 {
 }
 
 fn sample_null(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u: f32, v: f32) -> BsdfSample {
-    return BsdfSample(-wo, vec3<f32>(1.0), -1.0, 1.0, true);
+    return BsdfSample(-wo, WHITE, -1.0, 1.0, true);
 }

@@ -27,9 +27,9 @@ const LEAST_REFLECTED: f32 = 0.02;
 const SHEEN_WEIGHT: f32 = 0.1;
 
 struct Principled {
-    base: vec3<f32>,
+    base: Spectrum,
     // Of the dielectric, at normal incidence.
-    normal_incidence: vec3<f32>,
+    normal_incidence: Spectrum,
     metallic: f32,
     specular: f32,
     transmission: f32,
@@ -64,7 +64,7 @@ fn principled_of(lobe: Lobe, front: bool) -> Principled {
     var p: Principled;
     p.base = lobe.color0;
     let r = (lobe.ior - 1.0) / (lobe.ior + 1.0);
-    p.normal_incidence = min(r * r * lobe.color1, vec3<f32>(1.0));
+    p.normal_incidence = min(r * r * lobe.color1, WHITE);
     p.metallic = principled_parameter(lobe, 0u).x;
     p.specular = principled_parameter(lobe, 1u).x;
     p.eta = 1.0;
@@ -126,7 +126,7 @@ fn principled_frame(lobe: Lobe, facets: Facets, surface: Surface) -> Frame {
 }
 
 struct PrincipledSplit {
-    reflected: vec3<f32>,
+    reflected: Spectrum,
     // Share that goes on to the dielectric's base.
     passed: f32,
 }
@@ -137,7 +137,7 @@ fn principled_split(p: Principled, cosine: f32) -> PrincipledSplit {
     if p.eta < 1.0 {
         let cosine2 = transmitted_cosine2(cosine, p.eta);
         if cosine2 <= 0.0 {
-            return PrincipledSplit(vec3<f32>(1.0), 0.0);
+            return PrincipledSplit(WHITE, 0.0);
         }
         outside = min(sqrt(cosine2), 1.0);
     }
@@ -148,9 +148,9 @@ fn principled_split(p: Principled, cosine: f32) -> PrincipledSplit {
 
 #if COMPENSATION
 // What microfacets send to each other leaves as what they reflect once does: 1 + F0 (1 - E) / E, E the share of light that white ones reflect.
-fn principled_compensation(p: Principled, cosine: f32) -> vec3<f32> {
+fn principled_compensation(p: Principled, cosine: f32) -> Spectrum {
     if (p.facets.flags & COMPENSATED) == 0u || p.eta != 1.0 {
-        return vec3<f32>(1.0);
+        return WHITE;
     }
 #if ANISOTROPY
     let alpha = min(p.facets.alpha, p.facets.alpha_v);
@@ -324,7 +324,7 @@ fn sample_principled(lobe: Lobe, surface: Surface, wo: vec3<f32>, choice: f32, u
         if is_coat {
             wi = coat_mirrored(p.coat, surface, wo);
         }
-        var weight = vec3<f32>((1.0 - shares.below_coat) / shares.coat);
+        var weight = Spectrum((1.0 - shares.below_coat) / shares.coat);
         let split = principled_split(p, cosine);
         if is_reflection {
             weight = split.reflected * (shares.below_coat / shares.reflection);

@@ -10,12 +10,12 @@ fn map_coordinates(wi: vec3<f32>) -> vec2<f32> {
     return vec2<f32>(fract(atan2_turns(wi.x, -wi.z) + view.environment[0].w), 2.0 * atan2_turns(length(wi.xz), wi.y));
 }
 
-fn map_texel(x: i32, y: i32) -> vec3<f32> {
+fn map_texel(x: i32, y: i32) -> Spectrum {
     let width = i32(ENVIRONMENT_WIDTH);
     let column = select(select(x, x - width, x >= width), x + width, x < 0);
     let row = clamp(y, 0, i32(ENVIRONMENT_HEIGHT) - 1);
     let index = ENVIRONMENT_FIRST_TEXEL + 3u * u32(row * width + column);
-    return vec3<f32>(texel_float(index), texel_float(index + 1u), texel_float(index + 2u));
+    return Spectrum(texel_float(index), texel_float(index + 1u), texel_float(index + 2u));
 }
 
 // The first and the last row lie half a row from the poles, or on them.
@@ -27,7 +27,7 @@ fn map_row(v: f32) -> f32 {
 }
 
 // Bilinear; the map goes round at its sides and ends at the poles.
-fn map_radiance(uv: vec2<f32>) -> vec3<f32> {
+fn map_radiance(uv: vec2<f32>) -> Spectrum {
     let position = vec2<f32>(uv.x * f32(ENVIRONMENT_WIDTH) - 0.5, map_row(uv.y));
     let corner = floor(position);
     let blend = position - corner;
@@ -38,7 +38,7 @@ fn map_radiance(uv: vec2<f32>) -> vec3<f32> {
     return mix(upper, lower, blend.y);
 }
 
-fn environment_radiance(wi: vec3<f32>) -> vec3<f32> {
+fn environment_radiance(wi: vec3<f32>) -> Spectrum {
     return map_radiance(map_coordinates(wi));
 }
 

@@ -4,12 +4,12 @@
 #import core/sampler.wgsl
 #import shading/environment_sample.wgsl
 
-fn sky_radiance(wi: vec3<f32>) -> vec3<f32> {
+fn sky_radiance(wi: vec3<f32>) -> Spectrum {
     return select(view.environment[2].xyz, mix(view.environment[0].xyz, view.environment[1].xyz, wi.y), wi.y >= 0.0);
 }
 
 // Density of sample_sky where it is this bright, per steradian.
-fn sky_density(radiance: vec3<f32>) -> f32 {
+fn sky_density(radiance: Spectrum) -> f32 {
     return luminance(radiance) * view.environment[2].w;
 }
 

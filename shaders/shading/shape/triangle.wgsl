@@ -7,7 +7,7 @@
 // What a triangle's width adds to the error of its points: a ray that starts in its plane finds it again at a distance of rounding size,
 // and that grows with the triangle. A wide floor at height 0 has no other error to keep rays off it.
 fn triangle_error(edge_u: vec3<f32>, edge_v: vec3<f32>) -> f32 {
-    return 0.125 * POINT_ERROR * max_component(abs(edge_u) + abs(edge_v));
+    return 0.125 * POINT_ERROR * max_coordinate(abs(edge_u) + abs(edge_v));
 }
 
 fn triangle_point(ray: Ray, hit: Hit, p0: vec3<f32>, p1: vec3<f32>, p2: vec3<f32>) -> ShapePoint {
