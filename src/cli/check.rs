@@ -2,11 +2,11 @@
 
 use gpt::binary_tree::parts::KeptTrees;
 use gpt::gpu::{prepare, select_adapter};
+use gpt::learn::trial::Settled;
 use gpt::load::{self, SceneError, printable};
 use gpt::plan::host::{HostNeeds, host_memory};
 use gpt::plan::{Decision, DeviceLimits, Memory, Plan, PlanError, PlanOptions};
 use gpt::reference::Integrator;
-use gpt::reference::pilot::Settled;
 use gpt::renderer::{DeviceChoice, RenderError};
 use gpt::scene::{Guiding, ImportReport, LightChoice, ReportItem, Scene, SceneSummary};
 use gpt::verify;

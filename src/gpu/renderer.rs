@@ -16,6 +16,8 @@ use super::profile::{self, Profile};
 use super::trace::{self, GpuPathTrace};
 use crate::binary_tree::parts::KeptTrees;
 use crate::film::Band;
+use crate::learn::guide;
+use crate::learn::trial::{self, Settled};
 use crate::packed::environment::PackedEnvironment;
 use crate::packed::hierarchy::Traversal;
 use crate::packed::view::View;
@@ -23,8 +25,6 @@ use crate::packed::{PackError, PackedScene};
 use crate::plan::bindings::Binding;
 use crate::plan::counters::{CLAMPED_COUNTER, CLAMPED_UNITS_COUNTER, COUNTER_WORDS, RAYS_COUNTER, REFUSED_COUNTER};
 use crate::plan::{Plan, PlanOptions, StageMode};
-use crate::reference::pilot::{self, Settled};
-use crate::reference::training;
 use crate::renderer::sink::Sink;
 use crate::renderer::state::{BatchState, Tally};
 use crate::renderer::{Batch, Change, DeviceChoice, Ending, Observer, RenderError, RenderReport, Renderer, Stopping};
@@ -43,10 +43,10 @@ pub fn prepare<'a>(
     kept: &mut KeptTrees,
 ) -> Result<(Settled<'a>, PackedScene), RenderError> {
     scene.validate()?;
-    let mut settled = pilot::settle(scene)?;
+    let mut settled = trial::settle(scene)?;
     // Before it is packed, so that the scene is not held in both forms.
     let light_cells = settled.integrator.as_ref().and_then(|integrator| integrator.light_cells().cloned());
-    let learned = training::learn_for_device(&settled.scene, settled.integrator.take())?;
+    let learned = guide::learn_for_device(&settled.scene, settled.integrator.take())?;
     let does_not_fit = |error: PackError| RenderError::DoesNotFit(error.to_string());
     let mut packed = PackedScene::for_frame(&settled.scene, traversal, kept).map_err(does_not_fit)?;
     if let Some(light_cells) = &light_cells {

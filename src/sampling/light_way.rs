@@ -20,7 +20,7 @@ pub enum LightWay {
 }
 
 impl LightWay {
-    /// Of these lights. `auto` is the tree of many lights and power of few where nothing was [tried](crate::reference::light_cells::settle).
+    /// Of these lights. `auto` is the tree of many lights and power of few where nothing was [tried](crate::learn::light_cells::settle).
     pub fn of(choice: LightChoice, lights: &LightSampler) -> Self {
         let local = lights.local_count();
         let can_be = |fewest: usize, way| if (fewest..=MOST_LIGHTS).contains(&local) { way } else { Self::Power };

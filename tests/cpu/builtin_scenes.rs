@@ -5,11 +5,11 @@ use std::path::Path;
 
 use crate::common::scenes::{ELSEWHERE, ENOUGH};
 use gpt::film::KernelLayer;
+use gpt::learn::guide::learn_for_device;
 use gpt::load;
 use gpt::packed::PackedScene;
 use gpt::packed::hierarchy::Traversal;
 use gpt::plan::{DeviceLimits, GeometryPlacement, Plan, PlanOptions, RayQueryLimits, StageMode, TraversalChoice};
-use gpt::reference::training::learn_for_device;
 use gpt::scene::Scene;
 use gpt::shader::switches::SWITCHES;
 

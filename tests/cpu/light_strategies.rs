@@ -5,10 +5,10 @@ use std::sync::Arc;
 use crate::common::effort::in_full;
 use glam::Vec3;
 use gpt::compare::image_tests::{Picture, TileSettings, compare_replications};
+use gpt::cpu::ReferenceRenderer;
 use gpt::film::Band;
+use gpt::learn::trial::settle;
 use gpt::load;
-use gpt::reference::ReferenceRenderer;
-use gpt::reference::pilot::settle;
 use gpt::renderer::{RenderRequest, Renderer, Silent};
 use gpt::scene::{
     Estimator, ImageData, ImageTexture, LightChoice, LightSampling, Scene, TextureFilter, TextureKind, TextureWrap,

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use crate::common::effort::in_full;
+use gpt::cpu::ReferenceRenderer;
+use gpt::learn::guide::learn_for_device;
+use gpt::learn::trial::settle;
 use gpt::load;
-use gpt::reference::ReferenceRenderer;
-use gpt::reference::pilot::settle;
-use gpt::reference::training::learn_for_device;
 use gpt::scene::{Estimator, Guiding, LightChoice, LightSampling, NumberOrAuto, RenderSettings, Scene};
 
 const SIZE: [u32; 2] = [256, 256];

@@ -11,9 +11,10 @@ use std::time::Duration;
 use crate::common::effort::in_full;
 use crate::common::files::folder_with;
 use crate::counting::{bytes_ever, take_turn};
+use gpt::cpu::ReferenceRenderer;
 use gpt::load;
 use gpt::packed::PackedScene;
-use gpt::reference::{Integrator, ReferenceRenderer};
+use gpt::reference::Integrator;
 use gpt::scene::Scene;
 
 const HEAD: &str = "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvfov = 40\n[[light]]\ntype = \"environment\"\nradiance = 1\n\

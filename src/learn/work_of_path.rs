@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::integrator::Integrator;
-use super::spread::{follow, pixel_of};
-use super::trace::PathVisitor;
-use super::work;
+use super::paths::{follow, pixel_of};
+use crate::reference::integrator::Integrator;
+use crate::reference::trace::PathVisitor;
+use crate::reference::work;
 use crate::sampling::Sampling;
 use crate::sampling::hash::mix;
 use crate::scene::{PixelSampler, SamplerKind};

@@ -10,13 +10,14 @@ use std::sync::Arc;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::bsdf::{BsdfSample, Density, View};
-use super::integrator::Integrator;
-use super::intersect::Surface;
-use super::pilot;
-use super::spread::{follow, pixel_of};
-use super::trace::{LightConnection, PathVisitor};
-use super::{work, work_of_path};
+use super::paths::{follow, pixel_of};
+use super::trial;
+use super::work_of_path;
+use crate::reference::bsdf::{BsdfSample, Density, View};
+use crate::reference::integrator::Integrator;
+use crate::reference::intersect::Surface;
+use crate::reference::trace::{LightConnection, PathVisitor};
+use crate::reference::work;
 use crate::sampling::Sampling;
 use crate::sampling::guide::{Arrival, Guide, learn};
 use crate::sampling::hash::mix;
@@ -72,12 +73,12 @@ pub fn train(integrator: &mut Integrator) -> Learned {
         return not_at_all("paths have no bounce that light depends on".to_owned());
     }
     let has_to_pay = guiding == Guiding::Auto;
-    if let Some(because) = pilot::why_no_guide(integrator.scene()).filter(|_| has_to_pay) {
+    if let Some(because) = trial::why_no_guide(integrator.scene()).filter(|_| has_to_pay) {
         return not_at_all(because.to_owned());
     }
     let of_path = work_of_path::of_path(integrator);
     let Some(rounds) = affordable(rounds(integrator.scene()), of_path, has_to_pay) else {
-        return not_at_all(pilot::too_much_work("learning", of_path));
+        return not_at_all(trial::too_much_work("learning", of_path));
     };
     let Trained { guide, paths, loss } = trained(integrator, rounds, has_to_pay);
     if let Some(loss) = loss.filter(|loss| *loss > MOST_LOSS) {
@@ -154,7 +155,7 @@ fn trained(integrator: &mut Integrator, rounds: [u32; ROUNDS], has_to_pay: bool)
         integrator.set_guide(trained.guide.clone());
         let look = MOST_LOSSES.iter().find(|(rounds, _)| has_to_pay && trained.guide.is_some() && *rounds == round + 1);
         if let Some((_, most)) = look {
-            let loss = pilot::loss_with_guide(integrator);
+            let loss = trial::loss_with_guide(integrator);
             trained.loss = Some(loss);
             if loss > *most {
                 break;

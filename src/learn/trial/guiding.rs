@@ -36,13 +36,13 @@ mod tests {
 
     use glam::DVec3;
 
+    use super::super::super::guide;
+    use super::super::super::paths::{follow, pixel_of};
     use super::super::unguided::{Tale, UnguidedRecord};
     use super::super::watched::{Record, Watched};
     use super::*;
     use crate::compare::Moments;
     use crate::load;
-    use crate::reference::spread::{follow, pixel_of};
-    use crate::reference::training;
     use crate::sampling::Sampling;
     use crate::scene::{Estimator, Guiding, MisHeuristic, NumberOrAuto, RenderSettings, SamplerKind};
 
@@ -72,7 +72,7 @@ mod tests {
             load::load_toml_str(&ROOM.replace("WIDTH", width), "room", Path::new("")).unwrap_or_else(|error| panic!("{error}"));
         change(&mut scene.render);
         let mut integrator = Integrator::new(&scene).expect("the reference renders it");
-        assert!(training::train(&mut integrator).guide.is_some());
+        assert!(guide::train(&mut integrator).guide.is_some());
         integrator
     }
 
@@ -123,7 +123,7 @@ mod tests {
         let mut cornell = load::load(Some("cornell")).expect("it is built in");
         (cornell.film.size, cornell.render.guiding) = ([32, 32], Guiding::On);
         let mut cornell = Integrator::new(&cornell).expect("the reference renders it");
-        assert!(training::train(&mut cornell).guide.is_some());
+        assert!(guide::train(&mut cornell).guide.is_some());
         let cornell = loss_with_guide(&mut cornell);
         assert!(behind_a_wall < 0.7 && cornell > 1.0, "{behind_a_wall} and {cornell}");
     }

@@ -17,11 +17,12 @@ mod watched;
 
 use std::borrow::Cow;
 
-use super::integrator::Integrator;
-use super::intersect::Outline;
 use super::light_cells::{self, LightsSettled};
-use super::{work, work_of_path};
+use super::work_of_path;
 use crate::plan::UNROLL_LIMIT;
+use crate::reference::integrator::Integrator;
+use crate::reference::intersect::Outline;
+use crate::reference::work;
 use crate::renderer::RenderError;
 use crate::sampling::light_way::LightWay;
 use crate::scene::settings::MOST_LIGHT_SAMPLES;

@@ -7,18 +7,18 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::clamp::Clamp;
-use super::coverage::FirstOwners;
 use super::film::{BAND_ROWS, BandSums, BatchSamples, Group, PixelSum, are_even};
-use super::integrator::Integrator;
-use super::intersect::Ray;
-use super::layer::LayerVisitor;
-use super::pilot::{self, Reasons};
-use super::rounding::Rounding;
-use super::trace::{PathTrace, PathVisitor, RayCounter};
-use super::training;
 use crate::film::KernelLayer;
+use crate::learn::guide;
+use crate::learn::trial::{self, Reasons};
 use crate::math::luminance;
 use crate::plan::{Decision, PlanOptions};
+use crate::reference::coverage::FirstOwners;
+use crate::reference::integrator::Integrator;
+use crate::reference::intersect::Ray;
+use crate::reference::layer::LayerVisitor;
+use crate::reference::rounding::Rounding;
+use crate::reference::trace::{PathTrace, PathVisitor, RayCounter};
 use crate::renderer::sink::{Sink, keep_between};
 use crate::renderer::state::{BatchState, MOST_SAMPLES_PER_SWEEP, Tally};
 use crate::renderer::{Batch, Change, Ending, Observer, RenderError, RenderReport, RenderRequest, Renderer, Stopping};
@@ -108,13 +108,13 @@ impl ReferenceRenderer {
         Self::of_layer(scene, None)
     }
 
-    /// As [`ReferenceRenderer::new`], to make a layer in place of the picture, of a scene that is [made ready](super::layer::layer_scene) for it.
+    /// As [`ReferenceRenderer::new`], to make a layer in place of the picture, of a scene that is [made ready](crate::reference::layer::layer_scene) for it.
     pub fn of_layer(scene: &Scene, layer: Option<KernelLayer>) -> Result<Self, RenderError> {
         let start = Instant::now();
         scene.validate()?;
-        let settled = pilot::settle(scene)?;
+        let settled = trial::settle(scene)?;
         let mut integrator = settled.integrator.map_or_else(|| Integrator::new(scene), Ok)?;
-        let guiding = training::train(&mut integrator).because;
+        let guiding = guide::train(&mut integrator).because;
         Ok(Self {
             depends_on_view: settled.is_piloted || guiding.is_some() || integrator.light_cells().is_some(),
             integrator,
@@ -154,7 +154,7 @@ impl ReferenceRenderer {
     }
 
     /// Shape and material, by their numbers in the scene, of what stops a pixel's samples, with the share of a sample that each stops. Null
-    /// surfaces let a part through. The scene is that of a layer of first surfaces ([`super::layer::layer_scene`]).
+    /// surfaces let a part through. The scene is that of a layer of first surfaces ([`crate::reference::layer::layer_scene`]).
     pub fn owners(&self, x: u32, y: u32, points: &[SequencePoint]) -> Vec<([usize; 2], f64)> {
         let Scene { film, render, .. } = self.integrator.scene();
         let (sampling, pixel) = (Sampling::from(render), y.wrapping_mul(film.size[0]).wrapping_add(x));

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::super::paths::pixel_of;
 use super::rays::Rays;
 use super::roulette::{Effects, PathRecord, ROULETTE_DEPTHS};
 use super::sum::Sum;
@@ -10,7 +11,6 @@ use super::unguided::{Tale, UnguidedRecord};
 use super::watched::{Record, Watched};
 use crate::compare::metrics::relative_weight;
 use crate::reference::integrator::Integrator;
-use crate::reference::spread::pixel_of;
 use crate::reference::work;
 use crate::sampling::hash::mix;
 use crate::sampling::{PathSampler, Sampling, SequencePoint};
