@@ -4,8 +4,14 @@
 //! light comes from. What is learned depends on the scene, its settings and the size of its film alone. So every device, every
 //! part of a picture and every render that goes on has the same.
 
-pub mod guide;
-pub mod light_cells;
+mod extent;
+mod guide;
+mod light_cells;
 mod paths;
+mod reasons;
+mod settle;
 pub mod trial;
 pub mod work_of_path;
+
+pub use reasons::Reasons;
+pub use settle::{Settled, settle};

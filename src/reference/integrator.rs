@@ -24,7 +24,7 @@ use crate::math::luminance;
 use crate::renderer::RenderError;
 use crate::sampling::light_way::LightWay;
 use crate::sampling::{CameraDimension, Dimension, Guide, LightCells, LitPoint, PathSampler, VertexDimension};
-use crate::scene::{ColorInput, Emission, Emitters, Estimator, LightChoice, MaterialId, NumberOrAuto, RenderSettings, Scene};
+use crate::scene::{ColorInput, Emission, Emitters, Estimator, LightChoice, MaterialId, RenderSettings, Scene};
 
 /// A scene made ready for tracing paths.
 #[derive(Debug, Clone)]
@@ -195,11 +195,6 @@ impl Integrator {
     /// How lights are chosen.
     pub fn light_way(&self) -> LightWay {
         self.lights.way()
-    }
-
-    /// Lets roulette end paths from this depth on.
-    pub fn set_roulette_depth(&mut self, depth: NumberOrAuto) {
-        self.scene.render.roulette_depth = depth;
     }
 
     /// Lets paths have so many edges; returns how many they had.

@@ -4,7 +4,7 @@ use super::light_sampler::LightSampler;
 use super::light_tree::MOST_LIGHTS;
 use crate::scene::LightChoice;
 
-/// Lights inside a scene from which on there are many: `auto` tries cells of lights, and takes a tree where these hold too little. Of fewer, a pilot compares
+/// Lights inside a scene from which on there are many: `auto` tries cells of lights, and takes a tree where these hold too little. Of fewer, a trial run compares
 /// cells with a choice by power. A guess, not a measurement.
 pub const MANY_LIGHTS: usize = 24;
 

@@ -1,15 +1,14 @@
-//! How lights are drawn from, and where Russian roulette begins, where nobody says so: a pilot renders some pixels and compares error times cost.
+//! Settings for drawing from lights, where the scene leaves them open: a trial run renders some pixels and compares error times cost.
 //!
-//! It decides whether few lights are chosen by cells, how many light samples the first surfaces take, and whether points on rectangles and triangles are
-//! drawn by solid angle ([`LightSampling::Auto`]): all ways are tried with the same paths, so they differ by the noise of direct light alone. Then it decides from which depth on
-//! roulette ends paths, by what that would do to the paths of the best way. Random numbers are not those of the picture. Cost is counted, in rays, and not timed. So what is chosen depends on the scene, its settings and the size of its
-//! film: not on the seed, the number of samples, the device or the machine.
+//! A trial run decides whether few lights are chosen by cells, how many light samples the first surfaces take, and whether points
+//! on rectangles and triangles are drawn by solid angle ([`LightSampling::Auto`]). All ways are tried with the same paths, so they
+//! differ by the noise of direct light alone. Random numbers are not those of the picture. Cost is counted, in rays, and not timed.
+//! So the choice depends on the scene, its settings and the size of its film: not on the seed, the number of samples, the device
+//! or the machine. Parts of a picture that are rendered on different devices therefore share one choice.
 
 mod cost;
-mod extent;
 mod guiding;
 mod rays;
-mod roulette;
 mod sum;
 mod tried;
 mod unguided;
@@ -17,67 +16,56 @@ mod watched;
 
 use std::borrow::Cow;
 
+use super::extent::{has_few_pixels, has_many_triangles, pixel_count};
 use super::light_cells::{self, LightsSettled};
+use super::reasons::Reasons;
 use super::work_of_path;
-use crate::plan::UNROLL_LIMIT;
-use crate::reference::integrator::Integrator;
+use crate::reference::Integrator;
 use crate::reference::intersect::Outline;
 use crate::reference::work;
 use crate::renderer::RenderError;
 use crate::sampling::light_way::LightWay;
 use crate::scene::settings::MOST_LIGHT_SAMPLES;
-use crate::scene::{Estimator, Guiding, LightChoice, LightSampling, NumberOrAuto, RenderSettings, Scene};
-use cost::{SIMPLE, TRAVERSED};
-use extent::{has_few_pixels, has_many_triangles, tried_pixels};
+use crate::scene::{Estimator, FEW_PRIMITIVES, LightChoice, LightSampling, NumberOrAuto, RenderSettings, Scene};
+use cost::costs;
 pub use guiding::{loss_with_guide, why_no_guide};
 use rays::Rays;
-use roulette::{Effects, ROULETTE_DEPTHS};
-use tried::{Found, InView, losses_of_roulette};
+use tried::{Found, InView};
 
-/// What is chosen in place of something simpler has to be so much better: less is noise of the pilot.
+/// Gain that a way needs over a simpler one to be chosen: less is noise of the trial run.
 const LEAST_GAIN: f64 = 1.06;
 /// First surfaces of a path at which several light samples are tried.
 const MOST_DEPTH: u32 = 2;
 /// Numbers, each twice the one before, that are tried after the best one.
 const MOST_IN_VAIN: u32 = 2;
-/// Edges of a path at most where one that no roulette ends is considered.
-const MOST_EDGES_WITHOUT_ROULETTE: u32 = 16;
+/// One of so many pixels is tried, within these numbers.
+const ONE_OF_PIXELS: u64 = 1 << 10;
+const TRIED_PIXELS: [u64; 2] = [1 << 8, 1 << 10];
 
-/// Work of the first way that is tried, at most, and work after which no further way is: so that a pilot takes seconds, whatever the scene.
+/// Work of the first way that is tried, at most, and work after which no further way is: so that a trial run takes seconds,
+/// whatever the scene.
 const MOST_WORK_OF_WAY: f64 = 8.0 * work::SECOND as f64;
 const MOST_WORK: u64 = 32 * work::SECOND;
 
-/// A scene whose settings say how lights are drawn from and where roulette begins.
-pub struct Settled<'a> {
+/// A scene whose settings say how lights are drawn from.
+pub struct Chosen<'a> {
+    /// The scene with complete settings.
     pub scene: Cow<'a, Scene>,
+    /// Reasons for the settings that were open.
     pub because: Reasons,
     /// Paths were traced to find out.
-    pub is_piloted: bool,
+    pub was_tried: bool,
     /// The scene made ready, where that was needed to find out.
     pub integrator: Option<Integrator>,
 }
 
-/// Why settings are what they are; None where the scene says what they are.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Reasons {
-    /// How lights are chosen; None where nothing was tried to find out.
-    pub light_choice: Option<String>,
-    /// How many light samples there are.
-    pub light_samples: Option<String>,
-    /// Where roulette begins.
-    pub roulette: Option<String>,
-    /// Why nothing was tried, where paths take too much work.
-    pub left_out: Option<String>,
-}
-
-/// What settings leave open.
+/// Settings that the scene leaves open.
 #[derive(Clone, Copy, PartialEq)]
 struct Open {
-    /// Whether lights are chosen by cells, which were learned.
+    /// Cells of lights were learned, and whether lights are chosen by them is open.
     light_choice: bool,
     light_samples: bool,
     light_sampling: bool,
-    roulette: bool,
 }
 
 impl Open {
@@ -86,76 +74,68 @@ impl Open {
             light_choice,
             light_samples: settings.light_samples == NumberOrAuto::Auto,
             light_sampling: settings.light_sampling == LightSampling::Auto,
-            // Guided paths are ended by other means, which a pilot does not know.
-            roulette: settings.roulette_depth == NumberOrAuto::Auto && settings.guiding == Guiding::Off,
         }
     }
 
-    fn draws_from_lights(self) -> bool {
+    fn is_any(self) -> bool {
         self.light_choice || self.light_samples || self.light_sampling
     }
 
-    /// The same reason for each of them.
+    /// One reason for all open settings.
     fn reasons(self, because: &str) -> Reasons {
         let because = |is_open: bool| is_open.then(|| because.to_owned());
-        Reasons {
-            light_choice: because(self.light_choice),
-            light_samples: because(self.light_samples),
-            roulette: because(self.roulette),
-            left_out: None,
-        }
+        Reasons { light_choice: because(self.light_choice), light_samples: because(self.light_samples), ..Reasons::default() }
     }
 }
 
-/// Chooses what the scene's settings leave open. A scene whose settings are complete is as it was.
+/// Chooses what the scene's settings leave open. A scene whose settings are complete stays as it is.
 ///
 /// # Errors
-/// What the reference cannot render.
-pub fn settle(scene: &Scene) -> Result<Settled<'_>, RenderError> {
+/// [`RenderError`] for a scene that the reference cannot render.
+pub fn choose(scene: &Scene) -> Result<Chosen<'_>, RenderError> {
     let LightsSettled { scene, integrator, because, is_undecided } = light_cells::settle(scene)?;
-    let mut settled = match scene {
-        Cow::Borrowed(scene) => settle_the_rest(scene, integrator, is_undecided)?,
+    let mut chosen = match scene {
+        Cow::Borrowed(scene) => choose_the_rest(scene, integrator, is_undecided)?,
         Cow::Owned(scene) => {
-            let settled = settle_the_rest(&scene, integrator, is_undecided)?;
-            Settled { scene: Cow::Owned(settled.scene.into_owned()), ..settled }
+            let chosen = choose_the_rest(&scene, integrator, is_undecided)?;
+            Chosen { scene: Cow::Owned(chosen.scene.into_owned()), ..chosen }
         }
     };
-    settled.is_piloted |= because.is_some();
-    settled.because.light_choice = settled.because.light_choice.or(because);
-    Ok(settled)
+    chosen.was_tried |= because.is_some();
+    chosen.because.light_choice = chosen.because.light_choice.or(because);
+    Ok(chosen)
 }
 
-/// As [`settle`], after lights were tried; `has_cells`: cells of lights were learned and may be chosen.
-fn settle_the_rest(scene: &Scene, integrator: Option<Integrator>, has_cells: bool) -> Result<Settled<'_>, RenderError> {
+/// Chooses what is open after lights were tried; `has_cells`: cells of lights were learned and may be chosen.
+fn choose_the_rest(scene: &Scene, integrator: Option<Integrator>, has_cells: bool) -> Result<Chosen<'_>, RenderError> {
     let mut open = Open::of(&scene.render, has_cells);
-    let as_it_is = |integrator, because| Settled { scene: Cow::Borrowed(scene), because, is_piloted: false, integrator };
-    if !open.draws_from_lights() && !open.roulette {
+    let as_it_is = |integrator, because| Chosen { scene: Cow::Borrowed(scene), because, was_tried: false, integrator };
+    if !open.is_any() {
         return Ok(as_it_is(integrator, Reasons::default()));
     }
-    // What nobody has chosen is one light sample, the area of flat lights, and the default of roulette.
-    if let Some(because) = not_worth_trying(scene, open) {
+    // Settings that stay open mean one light sample, and the area of flat lights.
+    if let Some(because) = not_worth_trying(scene) {
         return Ok(as_it_is(integrator, open.reasons(because)));
     }
-    let mut pilot = Pilot::new(scene, integrator)?;
-    let of_path = work_of_path::of_path(&pilot.integrator);
-    if of_path * Found::paths(pilot.pixels) > MOST_WORK_OF_WAY {
-        let because = too_much_work("a pilot", of_path);
+    let mut trial = TrialRun::new(scene, integrator)?;
+    let of_path = work_of_path::of_path(&trial.integrator);
+    if of_path * Found::paths(trial.pixels) > MOST_WORK_OF_WAY {
+        let because = too_much_work("a trial run", of_path);
         let reasons = Reasons { left_out: Some(because.clone()), ..open.reasons(&because) };
-        return Ok(as_it_is(Some(pilot.integrator), reasons));
+        return Ok(as_it_is(Some(trial.integrator), reasons));
     }
-    open.light_sampling &= pilot.costliest_outline.is_some();
-    if !open.draws_from_lights() && !open.roulette {
-        return Ok(as_it_is(Some(pilot.integrator), Reasons::default()));
+    open.light_sampling &= trial.costliest_outline.is_some();
+    if !open.is_any() {
+        return Ok(as_it_is(Some(trial.integrator), Reasons::default()));
     }
-    let because = choose(&mut pilot, open);
-    pilot.integrator.set_light_choice(pilot.settings.light_choice);
-    pilot.integrator.set_light_sampling(&pilot.settings);
-    pilot.integrator.set_roulette_depth(pilot.settings.roulette_depth);
-    Ok(Settled {
-        scene: Cow::Owned(Scene { render: pilot.settings, ..scene.clone() }),
+    let because = try_ways(&mut trial, open);
+    trial.integrator.set_light_choice(trial.settings.light_choice);
+    trial.integrator.set_light_sampling(&trial.settings);
+    Ok(Chosen {
+        scene: Cow::Owned(Scene { render: trial.settings, ..scene.clone() }),
         because,
-        is_piloted: true,
-        integrator: Some(pilot.integrator),
+        was_tried: true,
+        integrator: Some(trial.integrator),
     })
 }
 
@@ -165,8 +145,8 @@ pub fn too_much_work(what: &str, of_path: f64) -> String {
 }
 
 /// Why nothing is tried, if so.
-fn not_worth_trying(scene: &Scene, open: Open) -> Option<&'static str> {
-    if scene.render.estimator == Estimator::Bsdf && !open.roulette {
+fn not_worth_trying(scene: &Scene) -> Option<&'static str> {
+    if scene.render.estimator == Estimator::Bsdf {
         return Some("no light is sampled");
     }
     if !scene.has_light() {
@@ -176,79 +156,62 @@ fn not_worth_trying(scene: &Scene, open: Open) -> Option<&'static str> {
         return Some("paths have no second edge");
     }
     if has_few_pixels(scene) {
-        return Some("a pilot takes too long for so few pixels");
+        return Some("a trial run takes too long for so few pixels");
     }
-    has_many_triangles(scene).then_some("a pilot takes too long for so many triangles")
+    has_many_triangles(scene).then_some("a trial run takes too long for so many triangles")
 }
 
-/// Chooses what the settings leave open, and leaves it in the pilot's: how lights are drawn from, then where roulette begins. Returns why.
-fn choose(pilot: &mut Pilot<'_>, open: Open) -> Reasons {
-    let light_choice = if open.light_choice { LightChoice::Power } else { pilot.settings.light_choice };
-    let first = Tried { light_choice, sampling: pilot.settings.light_sampling, samples: [1, 1], loss: 1.0 };
-    let (simplest, effects) = pilot.try_with_roulette(first);
+/// How many pixels are tried.
+fn tried_pixels(scene: &Scene) -> u32 {
+    let [fewest, most] = TRIED_PIXELS;
+    (pixel_count(scene) / ONE_OF_PIXELS).clamp(fewest, most) as u32
+}
+
+/// Tries ways to draw from lights, and leaves the best one in the settings of the trial run. Returns the reasons.
+fn try_ways(trial: &mut TrialRun<'_>, open: Open) -> Reasons {
+    let light_choice = if open.light_choice { LightChoice::Power } else { trial.settings.light_choice };
+    let first = Tried { light_choice, sampling: trial.settings.light_sampling, samples: [1, 1], loss: 1.0 };
+    let simplest = trial.try_way(first);
     if !simplest.has_noise() {
-        pilot.settings = pilot.way(first);
-        if open.roulette {
-            pilot.settings.roulette_depth = ROULETTE_DEPTHS[0].into();
-        }
-        return open.reasons("a pilot found no noise");
+        trial.settings = trial.way(first);
+        return open.reasons("a trial run found no noise");
     }
-    let in_view = InView::new(&mut pilot.integrator, pilot.pixels);
+    let in_view = InView::new(&mut trial.integrator, trial.pixels);
     let (mut chosen, mut best, mut loss_by_cells) = (first, first, 1.0);
     // An environment of one colour is no light that is sampled.
     let samples_lights = simplest.rays().shadow > 0.0;
-    if open.draws_from_lights() && samples_lights {
-        if open.light_choice && pilot.spent <= MOST_WORK {
+    if samples_lights {
+        if open.light_choice && trial.spent <= MOST_WORK {
             let by_cells = Tried { light_choice: LightChoice::Cells, ..first };
-            loss_by_cells = pilot.try_way(by_cells).loss_of_outliers_over(&simplest, &in_view);
+            loss_by_cells = trial.try_way(by_cells).loss_of_outliers_over(&simplest, &in_view);
             if loss_by_cells * LEAST_GAIN < first.loss {
                 chosen = Tried { loss: loss_by_cells, ..by_cells };
             }
         }
-        best = best_way(pilot, chosen, open, (&simplest, &in_view));
+        best = best_way(trial, chosen, open, (&simplest, &in_view));
     }
-    let found = |what: String| if samples_lights { format!("a pilot found {what}") } else { "no light is sampled".to_owned() };
+    trial.settings = trial.way(best);
+    let found =
+        |what: String| if samples_lights { format!("a trial run found {what}") } else { "no light is sampled".to_owned() };
     let of_choice = || found(format!("that cells of lights have {loss_by_cells:.2} of the error × cost of power"));
     let of_samples = || found(format!("{:.2} of the error × cost of one light sample", best.loss / chosen.loss));
-    let mut reasons = Reasons {
+    Reasons {
         light_choice: open.light_choice.then(of_choice),
         light_samples: open.light_samples.then(of_samples),
-        roulette: None,
-        left_out: None,
-    };
-    pilot.settings = pilot.way(best);
-    if open.roulette && best != first && pilot.spent > MOST_WORK {
-        reasons.roulette = Some("a pilot had no time left to try it".to_owned());
-    } else if open.roulette {
-        let (found, effects) = if best == first { (simplest, effects) } else { pilot.try_with_roulette(best) };
-        let losses = losses_of_roulette(&found, &effects, &in_view, |rays| pilot.cost_of_roulette(rays));
-        let (depth, because) = best_roulette(losses, pilot.settings.max_depth);
-        pilot.settings.roulette_depth = depth.into();
-        reasons.roulette = Some(because);
+        ..Reasons::default()
     }
-    reasons
-}
-
-/// The depth with the least error times cost, if that is clearly less than by default, and why.
-fn best_roulette(losses: [f64; ROULETTE_DEPTHS.len()], max_depth: u32) -> (u32, String) {
-    let by_default = (ROULETTE_DEPTHS[0], 1.0);
-    let can_be = |depth: u32| depth > 0 || (1..=MOST_EDGES_WITHOUT_ROULETTE).contains(&max_depth);
-    let candidates = ROULETTE_DEPTHS.into_iter().zip(losses).filter(|&(depth, _)| can_be(depth));
-    let best = candidates.fold(by_default, |best, other| if other.1 < best.1 { other } else { best });
-    let (depth, loss) = if best.1 * LEAST_GAIN < 1.0 { best } else { by_default };
-    (depth, format!("a pilot found {loss:.2} of the error × cost of depth {}", by_default.0))
 }
 
 /// The best way to draw from lights, from a simple one on.
-fn best_way(pilot: &mut Pilot<'_>, simple: Tried, open: Open, beside: (&Found, &InView)) -> Tried {
+fn best_way(trial: &mut TrialRun<'_>, simple: Tried, open: Open, beside: (&Found, &InView)) -> Tried {
     let mut best = simple;
     if open.light_sampling {
-        best = pilot.better(best, Tried { sampling: LightSampling::Cone, ..best }, beside);
+        best = trial.better(best, Tried { sampling: LightSampling::Cone, ..best }, beside);
     }
-    for depth in (1..=most_depth(&pilot.settings)).filter(|_| open.light_samples) {
+    for depth in (1..=most_depth(&trial.settings)).filter(|_| open.light_samples) {
         let (mut in_vain, fewest) = (0, best.samples[0]);
         for count in [2, 4, 8, MOST_LIGHT_SAMPLES].into_iter().filter(|&count| count >= fewest) {
-            let better = pilot.better(best, Tried { samples: [count, depth], ..best }, beside);
+            let better = trial.better(best, Tried { samples: [count, depth], ..best }, beside);
             in_vain = if better == best { in_vain + 1 } else { 0 };
             best = better;
             if in_vain == MOST_IN_VAIN {
@@ -275,7 +238,7 @@ struct Tried {
     loss: f64,
 }
 
-struct Pilot<'a> {
+struct TrialRun<'a> {
     integrator: Integrator,
     scene: &'a Scene,
     /// The scene's, with what was chosen so far.
@@ -292,10 +255,10 @@ struct Pilot<'a> {
     spent: u64,
 }
 
-impl<'a> Pilot<'a> {
+impl<'a> TrialRun<'a> {
     fn new(scene: &'a Scene, integrator: Option<Integrator>) -> Result<Self, RenderError> {
         let integrator = integrator.map_or_else(|| Integrator::new(scene), Ok)?;
-        let is_simple = integrator.primitive_count() <= UNROLL_LIMIT;
+        let is_simple = integrator.primitive_count() <= FEW_PRIMITIVES;
         let costliest_outline = integrator.costliest_outline();
         let pixels = tried_pixels(scene);
         let settings = scene.render.clone();
@@ -331,20 +294,11 @@ impl<'a> Pilot<'a> {
         let settings = self.set_way(tried);
         let mut found = Found::new(&self.integrator, self.pixels);
         self.spent += found.work;
-        found.cost = self.cost(found.rays(), &settings);
-        found
-    }
-
-    /// As [`Pilot::try_way`], with what roulette would do to its paths. The first way is tried so.
-    fn try_with_roulette(&mut self, tried: Tried) -> (Found, Vec<Effects>) {
-        let settings = self.set_way(tried);
-        let (mut found, effects) = Found::with_roulette(&self.integrator, self.pixels);
-        self.spent += found.work;
         if self.shadow_rays == 0.0 {
             self.shadow_rays = found.rays().shadow;
         }
         found.cost = self.cost(found.rays(), &settings);
-        (found, effects)
+        found
     }
 
     /// What rays take, in rays of paths, by what kernels take on software devices, where lanes wait for each other.
@@ -355,15 +309,10 @@ impl<'a> Pilot<'a> {
         rays.path + self.cost_of_light_sample(settings) * light_samples
     }
 
-    /// The same of rays that another roulette leaves.
-    fn cost_of_roulette(&self, rays: Rays) -> f64 {
-        rays.path + self.cost_of_light_sample(&self.settings) * rays.shadow
-    }
-
     fn cost_of_light_sample(&self, settings: &RenderSettings) -> f64 {
         let by_solid_angle =
             settings.light_sampling == LightSampling::Cone && self.scene.render.light_sampling == LightSampling::Auto;
-        let costs = if self.is_simple { SIMPLE } else { TRAVERSED };
+        let costs = costs(self.is_simple);
         let of_point = match self.costliest_outline.filter(|_| by_solid_angle) {
             None => 0.0,
             Some(Outline::Rectangle) => costs.of_rectangle,
